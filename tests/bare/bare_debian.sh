@@ -118,7 +118,7 @@ use_mars='
   if mars --help | grep -q doctor; then mars doctor; fi'
 
 read_manuals='
-  for page in mars mars-render mars-host mars-node mars-ranks mars-threads mars-nx nx csend _gdsum; do
+  for page in mars mars-render mars-host mars-node mars-ranks mars-threads mars-simulated mars-nx nx csend _gdsum; do
     MANWIDTH=80 man --warnings "$page" >page.txt 2>troubles.txt
     grep -q NAME page.txt
     [ ! -s troubles.txt ] || { cat troubles.txt; false; }

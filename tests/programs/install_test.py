@@ -17,7 +17,7 @@ import harness
 from harness import HAVE_MPI, ProgramTest, main, needs
 
 BUILD = harness.PROGRAMS.parent
-STARTERS = ["mars", "mars-threads", "mars-nx"] + ["mars-host", "mars-ranks"] * HAVE_MPI  # nodes take no arguments
+STARTERS = ["mars", "mars-threads", "mars-simulated", "mars-nx"] + ["mars-host", "mars-ranks"] * HAVE_MPI  # nodes take no arguments
 
 COMPLETE = """
 set -u

@@ -55,4 +55,4 @@ _mars() {
     _mars_values "$value" "$current")
 }
 
-complete -F _mars mars mars-host mars-ranks mars-threads mars-nx
+complete -F _mars mars mars-host mars-ranks mars-threads mars-simulated mars-nx

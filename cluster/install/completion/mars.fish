@@ -72,6 +72,6 @@ function __mars
     end
 end
 
-for program in mars mars-host mars-ranks mars-threads mars-nx
+for program in mars mars-host mars-ranks mars-threads mars-simulated mars-nx
     complete -c $program -f -a '(__mars)'
 end

@@ -1,0 +1,159 @@
+"""`mars bench scaling` and `compare` on a small film: runs, table, report; and planted slowdowns, which they find.
+
+Started as: benchmark_test.py BUILD_FOLDER."""
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from xml.etree import ElementTree
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.append(os.path.join(HERE, "..", ".."))
+import cases  # noqa: E402
+import runs  # noqa: E402
+import scaling  # noqa: E402
+import study  # noqa: E402
+
+if scaling.PLOTTED:
+    import findings
+    import results
+
+BUILD = os.path.abspath(sys.argv[1])
+TEAPOT = os.path.join(HERE, "..", "..", "..", "examples", "teapot.json")
+SMALL = ["--size", "160x90", "--backend", "threads"]
+WHOLE = ["--", "--frames", "0-4", "--no-coherence"]  # every frame is a keyframe
+NAMESPACES = {"http://www.w3.org/2000/svg", "http://www.w3.org/1999/xlink"}  # of SVG: names, which nothing loads
+needs_matplotlib = unittest.skipUnless(scaling.PLOTTED, "Matplotlib is not installed")
+
+
+class Study(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="mars-test-")
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def path(self, *names):
+        return os.path.join(self.folder, *names)
+
+    def bench(self, *words, code=0):
+        done = subprocess.run([os.path.join(BUILD, "bin", "mars"), "bench", *words], capture_output=True, text=True,
+                              cwd=self.folder)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done.stdout + done.stderr
+
+    def runs(self, folder):
+        with open(self.path(folder, "runs.jsonl")) as file:
+            header, *lines = map(json.loads, file)
+        return header, lines
+
+
+class Command(Study):
+    @needs_matplotlib
+    def test_a_study_and_its_report(self):
+        told = self.bench("scaling", TEAPOT, *SMALL, "--nodes", "1,2", "--mapping", "cost,greedy", "--dice", "4",
+                          "--repeats", "2", "-o", "study", *WHOLE)
+        header, runs = self.runs("study")
+        self.assertEqual((header["repeats"], header["seed"]), (2, 1))
+        self.assertIn("--mapping cost,greedy", header["command"])
+        self.assertEqual(len(runs), 3 * 2 * 2 * 2)
+        self.assertEqual([run["repeat"] for run in runs], sorted(run["repeat"] for run in runs))
+        for run in runs:
+            self.check(run)
+        for title in ("teapot, strong, mapping cost\n", "teapot, weak, mapping greedy\n"):
+            self.assertIn(title, told)
+        self.check_page(self.page("study"))
+        self.bench("scaling", "--read", "study/runs.jsonl", "-o", "again")
+        self.assertEqual(self.page("again"), self.page("study"))
+        pictures = [name for name in os.listdir(self.path("study")) if name.endswith(".svg")]
+        self.assertEqual(len(pictures), 4)
+        for picture in pictures:
+            ElementTree.parse(self.path("study", picture))
+
+    def page(self, folder):
+        with open(self.path(folder, "report.html")) as file:
+            return file.read()
+
+    def check(self, run):
+        self.assertEqual(len(run["per_node"]), run["nodes"])
+        self.assertEqual(run["frames"], {"keyframe": 5, "inbetween": 0})
+        self.assertEqual(run["size"], [226, 127] if run["series"]["kind"] == "weak" and run["nodes"] == 2 else [160, 90])
+        self.assertEqual(sum(node["keyframe"]["work"]["patches"] for node in run["per_node"]), 5 * 32)
+        computed = max(sum(node["keyframe"]["seconds"].values()) for node in run["per_node"])
+        self.assertLessEqual(computed, run["seconds"])
+        self.assertTrue(run["environment"]["cpu"] and run["environment"]["mars"]["version"])
+
+    def check_page(self, page):
+        self.assertEqual(set(re.findall(r"\w+://[^\s\"'<>]*", page)), NAMESPACES)
+        self.assertEqual(page.count("<svg"), 4)
+        for part in ("What it shows", "teapot, strong scaling", "To repeat it", "Environment", "mars bench scaling"):
+            self.assertIn(part, page)
+
+    def test_a_film_for_each_number_of_nodes(self):
+        shutil.copy(TEAPOT, self.path("one.json"))
+        shutil.copy(TEAPOT, self.path("two.json"))
+        self.bench("scaling", "2:two.json", "1:one.json", *SMALL, "--repeats", "1", "--warm-up", "0", *WHOLE)
+        _, runs = self.runs("scaling")
+        self.assertEqual({(run["film"], run["nodes"]) for run in runs}, {("one.json", 1), ("two.json", 2)})
+        self.assertEqual({run["series"]["kind"] for run in runs}, {"weak"})
+
+    def test_what_cannot_be_done(self):
+        one = ["--nodes", "1", "--repeats", "1", "--warm-up", "0", "--study", "strong"]
+        self.assertIn("no run succeeded", self.bench("scaling", "missing.json", *one, "-o", "failed", code=1))
+        self.assertIn("missing.json", self.runs("failed")[1][0]["failure"])
+        self.assertIn("has a study already", self.bench("scaling", TEAPOT, *one, "-o", "failed", code=1))
+        self.assertIn("leave --nodes out", self.bench("scaling", "1:" + TEAPOT, *one, code=1))
+        self.assertIn("960x540", self.bench("scaling", TEAPOT, *one, "--size", "large", code=1))
+        self.assertIn("no file of a scaling study", self.bench("compare", TEAPOT, TEAPOT, code=2))
+
+
+@needs_matplotlib
+class Planted(Study):
+    """Slowdowns in copies of mars-threads that no option could make."""
+
+    def planted(self, name):
+        """A build's folder with a slow program in it."""
+        binaries = self.path(name, "bin")
+        os.makedirs(binaries)
+        shutil.copy(os.path.join(BUILD, "bin", "mars"), binaries)
+        shutil.copy(os.path.join(BUILD, "bench", "scaling", name, "bin", "mars-threads"), binaries)
+        return self.path(name)
+
+    def measure(self, builds, nodes, repeats):
+        """A study's file for each build. Builds take turns: what else the machine does meets all alike."""
+        configurations = list(study.strong([TEAPOT], nodes, {"backend": ["threads"], "size": ["160x90"]}))
+        runners = {build: runs.Runner(build, self.folder, options=WHOLE[1:]) for build in builds}
+        lines = {build: [] for build in builds}
+        for configuration, repeat in study.turns(configurations, 0, repeats, seed=1):
+            for build, runner in runners.items():
+                lines[build].append(json.dumps(runner.run(configuration, repeat)))
+        header = json.dumps({"format": runs.FORMAT})
+        return [self.write(f"{k}.jsonl", [header, *own]) for k, own in enumerate(lines.values())]
+
+    def write(self, name, lines):
+        with open(self.path(name), "w") as file:
+            file.write("\n".join(lines))
+        return file.name
+
+    def test_a_sleep_in_a_phase_is_found_and_named(self):
+        phases = ("dice", "exchange")
+        before, *after = self.measure([BUILD, *(self.planted(f"slow-{phase}") for phase in phases)], [1, 2], 6)
+        self.assertIn("no change of the film's time beyond noise", self.bench("compare", before, before))
+        for phase, slow in zip(phases, after):
+            # On a busy machine the film's time, and so the exit code, may hide in noise.
+            told = subprocess.run([os.path.join(BUILD, "bin", "mars"), "bench", "compare", before, slow], capture_output=True,
+                                  text=True)
+            self.assertIn(f"Step: {phase}, slower", told.stdout, told.stderr)
+
+    @unittest.skipUnless(len(os.sched_getaffinity(0)) > 1, "one processor, which nodes share")
+    def test_a_slow_node_is_named_by_the_report(self):
+        path, = self.measure([self.planted("slow-node")], [2], 12)
+        told = " ".join(findings.all_of(results.Results([runs.read(path)])))
+        self.assertRegex(told, r"node 1 on \S+ is slow: it takes \d+\.\d\d times as long")
+        self.assertNotIn("node 0 on", told)
+
+
+if __name__ == "__main__":
+    cases.main()

@@ -1,0 +1,115 @@
+"""One run: `mars render --report` of a configuration, and what of its report a study keeps. Files of runs are JSON
+lines: a header, then one line a run, which says all of its own environment."""
+import json
+import os
+import subprocess
+import time
+
+import environment
+from study import Trouble
+
+FORMAT = "mars-scaling 1"
+PHASES = ("dice", "sum", "map", "exchange", "fill", "scanline", "depth", "credit")
+PEAKS = ("memory", "passes")  # of the work counts; all others are sums
+KINDS = ("keyframe", "inbetween")
+
+
+class Runner:
+    """Renders configurations with the programs of `build`. Its files lie in `folder`, which the film's machine sees."""
+
+    def __init__(self, build, folder, hostfile=None, options=()):
+        self.mars = os.path.join(build, "bin", "mars")
+        self.folder, self.hostfile, self.options = folder, hostfile, list(options)
+        self.environment = environment.environment(build, hostfile)
+
+    def command(self, configuration, report):
+        words = [self.mars, "render", self.film(configuration), "--nodes", str(configuration.nodes)]
+        if configuration.size:
+            words += ["--size", "x".join(map(str, configuration.size))]
+        for axis, value in configuration.series.settings:
+            words += [] if axis in ("size", "dice") else [f"--{axis}", str(value)]
+        words += ["--hostfile", self.hostfile] if self.hostfile else []
+        frames_are_kept = any(word.startswith(("-o", "--output", "--sink")) for word in self.options)
+        return words + ([] if frames_are_kept else ["--sink", "none"]) + ["--quiet", "--report", report, *self.options]
+
+    def film(self, configuration):
+        """The file to render; where dicing is varied, a copy that says how."""
+        dice = configuration.setting("dice")
+        return configuration.film if dice is None else diced(configuration.film, dice, self.folder)
+
+    def run(self, configuration, repeat):
+        """A run's line. One that fails is a line too, with the reason."""
+        report = os.path.join(self.folder, "run.json")
+        command = self.command(configuration, report)
+        line = {"series": {"film": configuration.series.film, "kind": configuration.series.kind,
+                           "settings": dict(configuration.series.settings)},
+                "film": configuration.film, "nodes": configuration.nodes, "repeat": repeat, "command": command,
+                "began": time.strftime("%Y-%m-%dT%H:%M:%S%z"), "load_average": environment.load_average()}
+        begin = time.monotonic()
+        done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        line["wall_seconds"] = time.monotonic() - begin
+        if done.returncode != 0:
+            line["failure"] = done.stderr.strip() or f"ended with {done.returncode}"
+        else:
+            with open(report) as file:
+                line.update(condensed(json.load(file)))
+            os.remove(report)
+        return {**line, "environment": self.environment}
+
+
+def diced(film, dice, folder):
+    """A copy of the film in `folder` with another dicing; its models are found as before."""
+    try:
+        with open(film) as file:
+            content = json.load(file)
+    except ValueError:
+        raise Trouble(f"{film} is no JSON film: its dicing cannot be varied") from None
+    here = os.path.dirname(os.path.abspath(film))
+    models = content.get("models", {})
+    content["models"] = {name: os.path.join(here, model) if isinstance(model, str) else model
+                         for name, model in models.items()}
+    content["dice"] = dice if dice == "adaptive" else int(dice)
+    path = os.path.join(folder, f"{os.path.splitext(os.path.basename(film))[0]}-dice-{dice}.json")
+    with open(path, "w") as file:
+        json.dump(content, file)
+    return path
+
+
+def condensed(report):
+    """What a study keeps of a report: sums over frames, for each node and kind of frame."""
+    nodes = [{"node": node["node"], "host": node["host"], "binding": node["binding"], "simd": node["simd"]}
+             for node in report["nodes"]]
+    frames = report["frames"]
+    for node in nodes:
+        node.update({kind: sums_of([part for frame in frames if frame["kind"] == kind for part in frame["nodes"]
+                                    if part["node"] == node["node"]]) for kind in KINDS})
+    own = lambda frame: max(sum(part["seconds"].values()) for part in frame["nodes"])
+    times = {kind: [own(frame) for frame in frames if frame["kind"] == kind and frame["nodes"]] for kind in KINDS}
+    load = [frame["load_ratio"] for frame in frames if frame["kind"] == "keyframe"]
+    return {"backend": report["backend"], "checksum": report["checksum"], "size": [report["width"], report["height"]],
+            "seconds": report["render_seconds"], "load_seconds": report["load_seconds"],
+            "total_seconds": report["total_seconds"], "frames": {kind: len(times[kind]) for kind in KINDS},
+            "frame_seconds": {kind: sum(times[kind]) / len(times[kind]) if times[kind] else None for kind in KINDS},
+            "load_ratio": sum(load) / len(load) if load else None, "per_node": nodes}
+
+
+def sums_of(parts):
+    """Of a node's parts of frames."""
+    seconds = {phase: sum(part["seconds"][phase] for part in parts) for phase in PHASES}
+    work = {}
+    for part in parts:
+        for name, count in part["work"].items():
+            work[name] = max(work.get(name, 0), count) if name in PEAKS else work.get(name, 0) + count
+    return {"frames": len(parts), "seconds": seconds, "work": work}
+
+
+def read(path):
+    """The header and the runs of a file."""
+    try:
+        with open(path) as file:
+            header, *lines = [json.loads(line) for line in file if line.strip()]
+    except (OSError, ValueError) as error:
+        raise Trouble(f"{path} is no file of a scaling study ({error})") from None
+    if header.get("format") != FORMAT:
+        raise Trouble(f"{path} is no file of a scaling study of this version ({FORMAT})")
+    return header, lines

@@ -1,0 +1,125 @@
+"""The tables as Markdown and as one HTML page, from the cells of any number of sources."""
+import html
+
+import cells
+
+PREDICTS = "simulated-thesis"  # sources of this name show by how much they miss the thesis
+NEAR = 0.05
+STYLE = """body{font:15px/1.45 system-ui,sans-serif;max-width:70rem;margin:2rem auto;padding:0 1rem;color:#222}
+table{border-collapse:collapse;margin:.6rem 0 1.6rem}td,th{padding:.15rem .6rem}
+td,th{text-align:right;border-bottom:1px solid #ddd}
+.name{text-align:left}tr.first td{border-top:2px solid #999}small{color:#777}
+figure{margin:1rem 0}svg{max-width:100%;height:auto}"""
+
+
+def number(value):
+    """Three digits or all before the point; words as they are."""
+    if value is None:
+        return ""
+    if isinstance(value, (str, int)):
+        return str(value)
+    return f"{value:.0f}" if abs(value) >= 100 else f"{value:.1f}" if abs(value) >= 10 else \
+        f"{value:.2f}" if abs(value) >= 0.1 else f"{value:.3f}"
+
+
+def cell_text(table, source, row, kind, nodes):
+    ms = table.ms(source, row, kind, nodes)
+    missed = table.deviations(source, kind).get((row, nodes)) if source.startswith(PREDICTS) else None
+    return number(ms) + (f" ({100 * missed:+.0f} %)" if missed is not None else "")
+
+
+def sheet_of(table, kind):
+    """A table of the thesis with a line for each row and source."""
+    nodes = table.nodes(kind)
+    rows = []
+    for row in table.rows(kind):
+        sources = [source for source in table.sources if table.best_nodes(source, row, kind)]
+        for place, source in enumerate(sources):
+            rows.append([row if place == 0 else "", source] + [cell_text(table, source, row, kind, n) for n in nodes] +
+                        [table.best_nodes(source, row, kind)])
+    return {"title": f"Table {table.table}: {cells.TITLES[table.table]}; {kind}s, ms a frame",
+            "note": summary(table, kind), "picture": f"table-{table.table}-{kind}s",
+            "header": [cells.ROWS[table.table], "source"] + [f"P = {n}" for n in nodes] + ["best P"], "rows": rows}
+
+
+def summary(table, kind):
+    """One sentence for each source beside the thesis."""
+    said = []
+    for source in table.sources:
+        deviations = table.deviations(source, kind)
+        if source == "thesis" or not deviations:
+            continue
+        if source.startswith(PREDICTS):
+            (row, nodes), worst = max(deviations.items(), key=lambda item: abs(item[1]))
+            regrets = table.regrets(source, kind).values()
+            near = sum(regret <= NEAR for regret in regrets)
+            said.append(f"{source}: median error {100 * table.median_error(source, kind):.0f} %, at most "
+                        f"{100 * worst:+.0f} % (row {row}, P = {nodes}); its best P takes within {100 * NEAR:.0f} % of "
+                        f"the thesis's least time in {near} of {len(regrets)} rows.")
+        else:
+            factors = sorted(1 / (1 + deviation) for deviation in deviations.values())
+            said.append(f"{source}: {number(factors[0])} to {number(factors[-1])} times as fast as the thesis.")
+    return " ".join(said)
+
+
+def sheets_of(parts):
+    """All tables that any source but the thesis has."""
+    tables = cells.beside_thesis(parts)
+    sheets = [sheet_of(cells.Cells(table, parts), kind) for table in tables for kind in cells.KINDS[table]]
+    if "4.3" in tables:
+        sheets.append({"title": "Figure 4.12: nodes, polygons and milliseconds", "note": "Table 4.3, drawn.",
+                       "picture": "figure-4.12", "header": [], "rows": []})
+    return sheets
+
+
+def parameters_of(parts):
+    """What simulations were fitted with, once for each source."""
+    rows = {(part["source"], name): value for part in parts for name, value in part.get("parameters", {}).items()}
+    return [{"title": "Parameters", "note": "", "header": ["source", "parameter", "value"],
+             "rows": [[source, name, value if isinstance(value, (int, float)) else str(value)]
+                      for (source, name), value in rows.items()]}] if rows else []
+
+
+def is_text(sheet, column):
+    """Whether a column has words, which stand at the left."""
+    values = [row[column] for row in sheet["rows"] if row[column] not in ("", None)]
+    return bool(values) and isinstance(values[0], str) and not values[0][0].isdigit()
+
+
+def markdown(intro, sheets, pictures):
+    """`pictures`: by name."""
+    text = intro + "\n\n"
+    for sheet in sheets:
+        text += f"### {sheet['title']}\n\n" + (sheet["note"] + "\n\n" if sheet["note"] else "")
+        if sheet.get("picture") in pictures:
+            text += f"![{sheet['title']}]({sheet['picture']}.svg)\n\n"
+        if sheet["rows"]:
+            sides = [":--" if is_text(sheet, column) else "--:" for column in range(len(sheet["header"]))]
+            lines = [[number(value) for value in row] for row in [sheet["header"], sides, *sheet["rows"]]]
+            text += "".join("| " + " | ".join(line) + " |\n" for line in lines) + "\n"
+    return text.rstrip() + "\n"
+
+
+def html_table(sheet):
+    sides = [" class=\"name\"" if is_text(sheet, column) else "" for column in range(len(sheet["header"]))]
+
+    def row_text(row, tag):
+        first = ' class="first"' if tag == "td" and row[0] != "" else ""
+        fields = [f"<{tag}{side}>{html.escape(number(value))}</{tag}>" for side, value in zip(sides, row)]
+        return f"<tr{first}>{''.join(fields)}</tr>\n"
+    rows = row_text(sheet["header"], "th") + "".join(row_text(row, "td") for row in sheet["rows"])
+    return f"<table>\n{rows}</table>\n"
+
+
+def page(intro, sheets, pictures):
+    """One HTML file with everything. `pictures`: the SVG of each name."""
+    text = ""
+    for sheet in sheets:
+        text += f"<h2>{html.escape(sheet['title'])}</h2>\n"
+        text += f"<p>{html.escape(sheet['note'])}</p>\n" if sheet["note"] else ""
+        if sheet.get("picture") in pictures:
+            text += f"<figure>{pictures[sheet['picture']]}</figure>\n"
+        text += html_table(sheet) if sheet["rows"] else ""
+    return ("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>1992's tables</title>\n"
+            f"<style>{STYLE}</style></head>\n<body>\n<h1>1992's tables</h1>\n<p>{html.escape(intro)}</p>\n{text}"
+            "</body></html>\n")
