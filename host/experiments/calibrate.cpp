@@ -219,7 +219,7 @@ std::string platform_text(const Calibration& calibration, const MessageCosts& me
   for (std::size_t kind = 0; kind < calibration.work.size(); ++kind)
     work[std::string(wire::kWorkNames[kind])] = rounded(calibration.work[kind]);
   const nlohmann::ordered_json platform = {
-      {"name", "here"},
+      {"name", machine.name},
       {"about", machine.about},
       {"computers", {{"nodes", kAllNodes}, {"processors", machine.processors}, {"memory", machine.memory}}},
       {"host", {{"apart", false}}},

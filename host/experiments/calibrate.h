@@ -42,6 +42,7 @@ Calibration calibrate(const CalibrationTask& task);
 
 // Where and when it was measured.
 struct CalibratedMachine {
+  std::string name;  // of the platform
   std::string about;
   int processors;
   std::uint64_t memory;  // bytes a node may use

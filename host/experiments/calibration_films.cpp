@@ -14,7 +14,7 @@ struct Bodies {
   const char* shape;
   int side;  // so many rows of so many bodies
   double size;
-  int dice;
+  int dice;  // 0: adaptive
   const char* reflection;
   const char* interpolation;
   int lights;
@@ -23,23 +23,23 @@ struct Bodies {
 };
 
 constexpr Bodies kBodies[] = {
-    {"cube", "box", 1, 6, 1, "phong", "phong", 1, 1, "1280x720"},
-    {"cubes", "box", 3, 2, 1, "blinn-phong", "phong", 3, 4, "960x540"},
-    {"boxes", "box", 24, 0.2, 1, "phong", "phong", 2, 1, "320x180"},
-    {"still", "sphere", 12, 0.5, 4, "phong", "phong", 2, 1, "640x360"},
-    {"balls", "sphere", 4, 1.7, 16, "blinn-phong", "phong", 3, 1, "1280x720"},
+    {"cube", "box", 1, 6, 0, "phong", "phong", 1, 1, "1280x720"},
+    {"cubes", "box", 3, 2, 0, "blinn-phong", "phong", 3, 4, "960x540"},
+    {"boxes", "box", 24, 0.2, 0, "phong", "phong", 2, 1, "320x180"},
+    {"still", "sphere", 12, 0.5, 0, "phong", "phong", 2, 1, "640x360"},
+    {"balls", "sphere", 4, 1.7, 0, "blinn-phong", "phong", 3, 1, "1280x720"},
     {"fine", "sphere", 2, 3.4, 64, "phong", "phong", 1, 1, "640x360"},
-    {"small", "teapot", 3, 1.6, 8, "phong", "phong", 3, 4, "320x180"},
-    {"teapots", "teapot", 3, 1.6, 16, "metallic-roughness", "phong", 2, 4, "640x360"},
-    {"teapot", "teapot", 1, 6, 32, "cook-torrance", "phong", 3, 1, "960x540"},
-    {"smooth", "teapot", 1, 6, 16, "cook-torrance", "phong", 2, 16, "480x270"},
-    {"lit", "teapot", 1, 6, 16, "blinn-phong", "phong", 4, 4, "960x540"},
-    {"many", "sphere", 20, 0.3, 6, "phong", "phong", 1, 4, "480x270"},
+    {"small", "teapot", 3, 1.6, 0, "phong", "phong", 3, 4, "320x180"},
+    {"teapots", "teapot", 3, 1.6, 0, "metallic-roughness", "phong", 2, 4, "640x360"},
+    {"teapot", "teapot", 1, 6, 0, "cook-torrance", "phong", 3, 1, "960x540"},
+    {"smooth", "teapot", 1, 6, 0, "cook-torrance", "phong", 2, 16, "480x270"},
+    {"lit", "teapot", 1, 6, 0, "blinn-phong", "phong", 4, 4, "960x540"},
+    {"many", "sphere", 20, 0.3, 0, "phong", "phong", 1, 4, "480x270"},
     {"grains", "sphere", 6, 0.6, 32, "phong", "phong", 1, 16, "320x180"},
-    {"colored", "teapot", 2, 2.5, 24, "blinn-phong", "gouraud", 4, 1, "640x360"},
-    {"sheet", "sheet", 1, 6, 4, "phong", "phong", 2, 4, "640x360"},
-    {"sheets", "sheet", 4, 1.5, 2, "blinn-phong", "phong", 3, 1, "480x270"},
-    {"cloth", "sheet", 2, 3, 12, "metallic-roughness", "phong", 3, 1, "1280x720"},
+    {"colored", "teapot", 2, 2.5, 0, "blinn-phong", "gouraud", 4, 1, "640x360"},
+    {"sheet", "sheet", 1, 6, 0, "phong", "phong", 2, 4, "640x360"},
+    {"sheets", "sheet", 4, 1.5, 0, "blinn-phong", "phong", 3, 1, "480x270"},
+    {"cloth", "sheet", 2, 3, 0, "metallic-roughness", "phong", 3, 1, "1280x720"},
     {"hills", "hills", 2, 3, 1, "phong", "phong", 2, 1, "960x540"},
     {"dunes", "hills", 8, 0.8, 1, "cook-torrance", "phong", 1, 4, "640x360"},
     {"stones", "stone", 16, 0.4, 1, "cook-torrance", "phong", 3, 1, "640x360"},
@@ -118,7 +118,7 @@ std::string film_text(const Bodies& bodies) {
   const json ambient = {{"sky", {0.8, 0.9, 1}}, {"ground", {0.5, 0.45, 0.4}}};
   return json({{"frames", 8},
                {"ambient", ambient},
-               {"dice", bodies.dice},
+               {"dice", bodies.dice == 0 ? json("adaptive") : json(bodies.dice)},
                {"camera", {{"eye", {0, -14, 4}}, {"at", {0, 0, 0}}, {"fov", 34}}},
                {"lights", lights(bodies.lights)},
                {"materials", {{"skin", material}}},

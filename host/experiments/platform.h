@@ -12,10 +12,13 @@ namespace mars::experiments {
 
 struct Platform {
   std::string name;
-  std::string about;         // what it is, and where its numbers come from
-  std::uint64_t memory = 0;  // bytes that a node may use for its frames
+  std::string about;              // what it is, and where its numbers come from
+  std::uint64_t memory = 0;       // bytes that a node may use for its frames
   std::uint64_t host_memory = 0;  // bytes that the host may use
   simulated::Machine machine;
+
+  // For the host and its sinks.
+  int host_processors() const { return machine.host_apart ? machine.host_processors : machine.processors; }
 };
 
 // `name`: a file, or the name of one in `folder` without its ending, or two of these, A:B: A with B's costs of work.

@@ -12,6 +12,7 @@
 #include "hal/threads/run_threads.h"
 #include "host/child/standard_streams.h"
 #include "host/experiments/message_costs.h"
+#include "host/programs/node_counter.h"
 #include "host/programs/node_job.h"
 #include "host/programs/surface_frames.h"
 #include "host/shell/commands/animate_command.h"
@@ -22,6 +23,7 @@
 #include "host/shell/commands/import_command.h"
 #include "host/shell/commands/info_command.h"
 #include "host/shell/commands/model_command.h"
+#include "host/shell/commands/plan_command.h"
 #include "host/shell/commands/plot_command.h"
 #include "host/shell/commands/preview_command.h"
 #include "host/shell/commands/render_command.h"
@@ -43,6 +45,7 @@ Commands:
   mars render FILM -o DIR          render a film to PNG or EXR files
   mars compile FILM -o FILM.mars   compute all its motion once
   mars info FILM                   print what a film holds
+  mars plan FILM                   forecast its time, memory and bytes
   mars preview FILM                play a film or a model in the terminal, before it is rendered
   mars play DIR                    play rendered frames in the terminal
   mars verify DIR                  check that all frames are there and whole
@@ -82,6 +85,7 @@ int run(int argc, char** argv) {
   commands::add_render(app);
   commands::add_compile(app);
   commands::add_info(app);
+  commands::add_plan(app, make_node_counter);
   commands::add_verify(app, code);
   commands::add_import(app);
   commands::add_preview(app, [](const film::CompiledFilm& film) { return std::make_unique<SurfaceFrames>(film); });

@@ -1,6 +1,7 @@
 // mars-host: the rank of an MPI job that reads the film, gives out the work and writes the frames.
 #include "hal/mpi/start.h"
-#include "host/shell/job/render_job.h"
+#include "host/programs/foresight.h"
+#include "host/shell/options/render_options.h"
 
 int main(int argc, char** argv) {
   using namespace mars;
@@ -11,7 +12,7 @@ int main(int argc, char** argv) {
     return *code;
   }
   return mpi::run_mpi(argc, argv, mpi::Role::host, [&](int, char**) {
-    session::run_session(job::job_of(options, "mpi"));
+    programs::render_here(options, "mpi");
     return 0;
   });
 }

@@ -1,8 +1,9 @@
 // mars-ranks: host and nodes as one program, for starters that want only one: rank 0 is the host.
 #include "hal/mpi/start.h"
 #include "hal/nx/nx_messages.h"
+#include "host/programs/foresight.h"
 #include "host/programs/node_job.h"
-#include "host/shell/job/render_job.h"
+#include "host/shell/options/render_options.h"
 
 int main(int argc, char** argv) {
   using namespace mars;
@@ -14,7 +15,7 @@ int main(int argc, char** argv) {
   }
   return mpi::run_mpi(argc, argv, mpi::Role::by_rank, [&](int, char**) {
     if (mynode() == myhost())
-      session::run_session(job::job_of(options, "mpi"));
+      programs::render_here(options, "mpi");
     else
       programs::run_node_job();
     return 0;

@@ -12,6 +12,7 @@
 #include "hal/simulated/run_simulated.h"
 #include "host/child/standard_streams.h"
 #include "host/experiments/platform.h"
+#include "host/programs/foresight.h"
 #include "host/render/sinks/served_sinks.h"
 #include "host/shell/job/render_job.h"
 #include "host/shell/options/command_line.h"
@@ -38,13 +39,14 @@ double serve_files(simulated::World& world, images::PictureFormat format, std::u
 void run(const options::RenderOptions& options, const experiments::Platform& platform) {
   const auto host = [&](simulated::World& world) {
     session::RenderJob job = job::job_of(options, "simulated");
-    job.host = {platform.host_memory, platform.machine.host_processors};
+    job.host = {platform.host_memory, platform.host_processors()};
     const auto serve = [&world, files = !job.folder.empty(), format = job.format](std::uint64_t bytes) {
       return files ? serve_files(world, format, bytes) : world.clock(world.nodes());
     };
     job.make_sinks = [serve](sinks::Sink& sink, const sinks::SinkPool::Shape& shape) {
       return std::make_unique<sinks::ServedSinks>(sink, shape, serve);
     };
+    foresee_on(platform, job);
     session::run_session(job);
   };
   const auto node = [&] {

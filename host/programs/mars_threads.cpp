@@ -5,8 +5,9 @@
 #include "hal/failure/explain.h"
 #include "hal/threads/run_threads.h"
 #include "host/child/standard_streams.h"
+#include "host/programs/foresight.h"
 #include "host/programs/node_job.h"
-#include "host/shell/job/render_job.h"
+#include "host/shell/options/render_options.h"
 #include "host/shell/options/command_line.h"
 #include "topology/machine.h"
 
@@ -23,7 +24,7 @@ int main(int argc, char** argv) {
     if (options.nodes == 0) options.nodes = static_cast<std::uint32_t>(topology::Machine::here().processors());
     programs::check_memory_limit(options.nodes);
     threads::run_threads(
-        static_cast<int>(options.nodes), [&] { session::run_session(job::job_of(options, "threads")); },
+        static_cast<int>(options.nodes), [&] { programs::render_here(options, "threads"); },
         [&] { programs::run_node_job(options.nodes); });
     return 0;
   } catch (const std::exception& failure) {

@@ -31,11 +31,14 @@ json to_json(const Booted& booted) {
 }
 
 json to_json(const Progress& progress) {
-  return {{"event", "progress"},
-          {"interval", progress.interval},
-          {"intervals", progress.intervals},
-          {"keyframes", kind_json(progress.keyframes)},
-          {"inbetweens", kind_json(progress.inbetweens)}};
+  json to = {{"event", "progress"},
+             {"interval", progress.interval},
+             {"intervals", progress.intervals},
+             {"keyframes", kind_json(progress.keyframes)},
+             {"inbetweens", kind_json(progress.inbetweens)}};
+  if (progress.forecast)
+    to["left"] = {{"keyframes", progress.forecast->keyframes}, {"inbetweens", progress.forecast->inbetweens}};
+  return to;
 }
 
 json to_json(const FrameTaken& frame) {
@@ -73,7 +76,11 @@ Booted read_booted(const json& from) {
 }
 
 Progress read_progress(const json& from) {
-  return {from.at("interval"), from.at("intervals"), read_kind(from.at("keyframes")), read_kind(from.at("inbetweens"))};
+  Progress progress{from.at("interval"), from.at("intervals"), read_kind(from.at("keyframes")),
+                    read_kind(from.at("inbetweens")), std::nullopt};
+  if (from.contains("left"))
+    progress.forecast = {from["left"].at("keyframes").get<double>(), from["left"].at("inbetweens").get<double>()};
+  return progress;
 }
 
 FrameTaken read_frame(const json& from) {

@@ -20,6 +20,7 @@ void Progress::count(FrameKind kind, std::uint32_t of_interval, double at_second
 }
 
 std::optional<Progress::Left> Progress::left() const {
+  if (forecast) return forecast;
   if (done() == 0) return std::nullopt;
   return Left{left_of(keyframes, inbetweens), left_of(inbetweens, keyframes)};
 }

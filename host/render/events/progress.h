@@ -32,11 +32,15 @@ struct Progress {
   // A frame of `kind` came, `at_seconds` after the start.
   void count(FrameKind kind, std::uint32_t of_interval, double at_seconds);
 
-  // Seconds that the rest of each kind will take; none before anything is known.
+  // Seconds that the rest of each kind will take: as forecast, else as long as those that came; none before anything
+  // is known.
   struct Left {
     double keyframes;
     double inbetweens;
+
+    bool operator==(const Left&) const = default;
   };
+  std::optional<Left> forecast;  // course.h
   std::optional<Left> left() const;
 
   bool operator==(const Progress&) const = default;

@@ -38,6 +38,11 @@ std::vector<events::Warning> warnings_of(std::span<const wire::Hello> hellos) {
 
 void EventReporter::report(const events::Event& event) const { std::cout << events::line_of(event) << std::flush; }
 
+void EventReporter::report_progress(double seconds) {
+  progress_.forecast = course_.left(progress_.done(), seconds);
+  report(progress_);
+}
+
 farm::FarmListener EventReporter::listener(std::size_t intervals) {
   progress_.intervals = static_cast<std::uint32_t>(intervals);
   farm::FarmListener listener;
@@ -46,13 +51,13 @@ farm::FarmListener EventReporter::listener(std::size_t intervals) {
     progress_.inbetweens.of = inbetweens;
     report(booted_event(hellos, backend_));
     for (const events::Warning& warning : warnings_of(hellos)) report(warning);
-    report(progress_);
+    report_progress(0);
   };
   listener.warned = [this](const std::string& text) { report(events::Warning{text}); };
   listener.finished = [this](const farm::FinishedFrame& frame) {
     report(events::FrameTaken{frame.number, frame.interval, frame.kind});
     progress_.count(frame.kind, frame.interval, frame.seconds);
-    report(progress_);
+    report_progress(frame.seconds);
   };
   return listener;
 }

@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 
+#include "host/render/events/course.h"
 #include "host/render/events/events.h"
 #include "host/render/farm/farm.h"
 
@@ -16,9 +18,14 @@ class EventReporter {
   void report(const events::Event& event) const;
   // A listener for render_film, of a film with this number of intervals. The reporter must outlive it.
   farm::FarmListener listener(std::size_t intervals);
+  // By which it says how long the rest takes.
+  void expect(events::Course course) { course_ = std::move(course); }
 
  private:
+  void report_progress(double seconds);
+
   const std::string backend_;
+  events::Course course_;
   events::Progress progress_;
 };
 

@@ -57,18 +57,6 @@ class Destination {
   std::unique_ptr<sinks::Sink> sink_;
 };
 
-HostMachine host_machine(HostMachine host) {
-  const topology::Machine here = topology::Machine::here();
-  if (host.memory == 0) host.memory = topology::memory_share(here.memory(), topology::memory_limit(), 1);
-  if (host.processors == 0) host.processors = here.processors();
-  return host;
-}
-
-// Sinks work while nodes wait for credit, so they may have every processor.
-std::uint32_t sink_threads(const HostMachine& host) {
-  return static_cast<std::uint32_t>(std::clamp(host.processors, 2, kMostSinks));
-}
-
 farm::HostMemory memory_for(const HostMachine& host, const wire::FilmSettings& film, wire::PixelFormat format,
                             const farm::Plan& plan) {
   return farm::share_host_memory(host.memory, film, format, static_cast<std::uint32_t>(numnodes()),
@@ -76,9 +64,9 @@ farm::HostMemory memory_for(const HostMachine& host, const wire::FilmSettings& f
 }
 
 // New buffers show the first interval's background.
-sinks::SinkPool::Shape pool_shape(const HostMachine& machine, const wire::FilmView& film, const RenderJob& job,
+sinks::SinkPool::Shape pool_shape(const HostMachine& host, const wire::FilmView& film, const RenderJob& job,
                                   std::uint32_t frames) {
-  const std::uint32_t threads = std::min(sink_threads(machine), frames);
+  const std::uint32_t threads = std::min(sink_threads(host), frames);
   const wire::PixelFormat format = images::facts_of(job.format).pixels;
   const std::uint64_t background = farm::background_pixel(film, film.intervals().front(), format);
   return {film.settings().width, film.settings().height, job.block, frames, threads, background, format};
@@ -113,21 +101,32 @@ film::CompiledFilm load_film(const RenderJob& job, const EventReporter& reporter
   return film;
 }
 
+// By what is foreseen of it, unless the person says how many groups.
+farm::Plan plan_of(const wire::FilmView& film, const RenderJob& job, EventReporter& reporter) {
+  const auto nodes = static_cast<int>(numnodes());
+  farm::PlanRequest request{job.frames.of_film(film.settings().frames), job.coherence, job.groups};
+  if (job.foresee) {
+    Foresight foresight = job.foresee(film, request, nodes);
+    if (request.groups == 0) request.groups = foresight.groups;
+    reporter.expect(std::move(foresight.course));
+  }
+  return farm::make_plan(film, request, nodes);
+}
+
 void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace) {
   double load_seconds = 0;
   const film::CompiledFilm film = load_film(job, reporter, load_seconds);
   const wire::FilmView view = film.view();
   const wire::FilmSettings& settings = view.settings();
-  const farm::PlanRequest request{job.frames.of_film(settings.frames), job.coherence, job.groups};
-  const farm::Plan plan = farm::make_plan(view, request, static_cast<int>(numnodes()));
-  const HostMachine machine = host_machine(job.host);
-  const farm::HostMemory memory = memory_for(machine, settings, images::facts_of(job.format).pixels, plan);
+  const farm::Plan plan = plan_of(view, job, reporter);
+  const HostMachine host = host_machine(job.host);
+  const farm::HostMemory memory = memory_for(host, settings, images::facts_of(job.format).pixels, plan);
 
   if (!job.report.empty()) document::check_can_write(job.report);  // early too
-  Destination destination(job, film, request.frames);
+  Destination destination(job, film, job.frames.of_film(settings.frames));
   // Only now: before, the host may have waited for its turn in the folder, and not for nodes.
   reporter.report(events::Loaded{load_seconds});
-  const auto pool = make_sinks(job, destination.sink(), pool_shape(machine, view, job, memory.frames));
+  const auto pool = make_sinks(job, destination.sink(), pool_shape(host, view, job, memory.frames));
   const farm::FarmReport report = farm::render_film(film.block(), plan, farm_options(job, memory, trace), *pool,
                                                     reporter.listener(view.intervals().size()));
   destination.finish();
@@ -165,6 +164,17 @@ void write_failed_trace(const std::string& reason, const RenderJob& job, const E
 }
 
 }  // namespace
+
+HostMachine host_machine(HostMachine asked) {
+  const topology::Machine here = topology::Machine::here();
+  if (asked.memory == 0) asked.memory = topology::memory_share(here.memory(), topology::memory_limit(), 1);
+  if (asked.processors == 0) asked.processors = here.processors();
+  return asked;
+}
+
+std::uint32_t sink_threads(const HostMachine& host) {
+  return static_cast<std::uint32_t>(std::clamp(host.processors, 2, kMostSinks));
+}
 
 void run_session(const RenderJob& job) {
   EventReporter reporter(job.backend);

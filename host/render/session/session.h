@@ -12,6 +12,8 @@
 #include "host/content/film/compile.h"
 #include "host/content/film/frame_set.h"
 #include "host/images/picture_format.h"
+#include "host/render/events/course.h"
+#include "host/render/farm/plan.h"
 #include "host/render/sinks/sink_pool.h"
 #include "node/wire/protocol.h"
 
@@ -20,6 +22,12 @@ namespace mars::session {
 struct HostMachine {
   std::uint64_t memory = 0;  // bytes; 0: of this machine as much as it may use
   int processors = 0;        // 0: this machine's
+};
+
+// What is known of a rendering before it begins.
+struct Foresight {
+  std::uint32_t groups = 0;  // that make it shortest; 0: as make_groups says
+  events::Course course;     // of its frames
 };
 
 struct RenderJob {
@@ -37,12 +45,19 @@ struct RenderJob {
   std::string trace;                   // file for a picture of the run; "": none
   std::string backend;                 // its name: mpi, threads or simulated
   std::vector<std::string> arguments;  // all this, as it was given to the host
-  HostMachine host;  // that the host has
+  HostMachine host;                    // that the host has
   // Makes the pool of sinks; none: threads take frames.
   std::function<std::unique_ptr<sinks::SinkPool>(sinks::Sink& sink, const sinks::SinkPool::Shape& shape)> make_sinks;
+  // Asked once, before the film goes to nodes; none, or 0 groups and no course: nothing is foreseen.
+  std::function<Foresight(const wire::FilmView& film, const farm::PlanRequest& request, int nodes)> foresee;
   // The command that renders again, all frames or one, with this number of nodes.
   std::function<std::string(std::uint32_t nodes, std::optional<std::uint32_t> frame)> replay;
 };
+
+// This machine's where `asked` says nothing.
+HostMachine host_machine(HostMachine asked);
+// Sinks work while nodes wait for credit, so they may have every processor.
+std::uint32_t sink_threads(const HostMachine& host);
 
 // The calling HAL process is the host. Reports events on standard output. A failure is reported as a fault event, and
 // thrown for the caller, which ends the run.

@@ -58,7 +58,7 @@ fs::path renderer() {
   return *program;
 }
 
-experiments::CalibratedMachine this_machine() {
+experiments::CalibratedMachine this_machine(const fs::path& file) {
   char name[256] = {};
   gethostname(name, sizeof name - 1);
   char day[32] = {};
@@ -66,7 +66,8 @@ experiments::CalibratedMachine this_machine() {
   std::strftime(day, sizeof day, "%F", std::localtime(&now));
   const topology::Machine machine = topology::Machine::here();
   const int processors = machine.processors();
-  return {std::string(name) + ", measured by mars calibrate of MARS " MARS_VERSION " on " + day + ".", processors,
+  return {file.stem().string(),
+          std::string(name) + ", measured by mars calibrate of MARS " MARS_VERSION " on " + day + ".", processors,
           topology::memory_share(machine.memory(), topology::memory_limit(), processors)};
 }
 
@@ -86,7 +87,7 @@ void calibrate(const Words& words, const MeasureMessages& measure_messages) {
   if (calibration.spread > experiments::kMostSpread)
     std::cout << "\nThe machine was too busy: repeats took " << static_cast<int>(100 * calibration.spread)
               << " % longer than the shortest. Calibrate again when nothing else runs.\n";
-  document::write_whole_file(file, experiments::platform_text(calibration, messages, this_machine()));
+  document::write_whole_file(file, experiments::platform_text(calibration, messages, this_machine(file)));
   std::cout << "\nwritten to " << file.string() << '\n';
 }
 

@@ -172,8 +172,10 @@ std::vector<Entry> table() {
   constexpr auto bit = [](Program program) { return static_cast<unsigned>(program); };
   constexpr unsigned all =
       bit(Program::mars) | bit(Program::host) | bit(Program::ranks) | bit(Program::threads) | bit(Program::simulated);
-  constexpr unsigned compiles = all | bit(Program::compile);
-  constexpr unsigned counts_nodes = bit(Program::mars) | bit(Program::threads) | bit(Program::simulated);
+  constexpr unsigned plans = all | bit(Program::plan);
+  constexpr unsigned compiles = plans | bit(Program::compile);
+  constexpr unsigned counts_nodes =
+      bit(Program::mars) | bit(Program::threads) | bit(Program::simulated) | bit(Program::plan);
   constexpr unsigned simulates = bit(Program::mars) | bit(Program::simulated);
   constexpr unsigned person = bit(Program::mars);
   constexpr std::uint32_t many = 1 << 20;
@@ -190,9 +192,12 @@ std::vector<Entry> table() {
       option(simulates, "--platform", "NAME|FILE", &RenderOptions::platform,
              "Machines that --backend simulated simulates: ipsc2, fat-tree, dragonfly, ethernet, or a file. Example: "
              "--platform fat-tree"),
+      option(bit(Program::plan), "--platform", "here|NAME|FILE", &RenderOptions::platform,
+             "Machines that would render: here, as mars calibrate measured them, which is the default; ipsc2, "
+             "fat-tree, dragonfly, ethernet; or a file. Example: --platform fat-tree"),
       option(person, "--hostfile", "FILE", &RenderOptions::hostfile,
              "Machines to use, one per line as for mpirun: n1 slots=4. Example: --hostfile hosts"),
-      option(all, "--frames", "SET", &RenderOptions::frames,
+      option(plans, "--frames", "SET", &RenderOptions::frames,
              "Frames to render, counted from 0; default: all. Example: --frames 0-9,24,30-"),
       option(compiles, "--size", "WxH", &RenderOptions::size,
              "Picture size in pixels; default: the film's. Example: --size 960x540"),
@@ -200,23 +205,23 @@ std::vector<Entry> table() {
           compiles, "--samples", "1|2|4|8|16", &RenderOptions::samples,
           "Samples of a pixel; default: the film's. More make smoother edges and take longer. Example: --samples 16"),
       option(
-          all, "--mapping", "greedy|optimal|cost", &RenderOptions::mapping,
+          plans, "--mapping", "greedy|optimal|cost", &RenderOptions::mapping,
           "How scanlines are divided among nodes: by edge boxes with the thesis's heuristic, exactly by edge boxes, or "
           "exactly by edge boxes and the samples that they cover; default: cost. Example: --mapping greedy"),
       option(compiles, "--intervals", "auto|keyframes", &RenderOptions::intervals,
              "Where render intervals are cut: where it saves work, or at the animator's keyframes. "
              "Example: --intervals keyframes"),
-      flag(all, "--no-coherence", &RenderOptions::no_coherence,
+      flag(plans, "--no-coherence", &RenderOptions::no_coherence,
            "Render every frame from scratch: same pictures, slower. Example: --no-coherence"),
       number(all, "--block", {&RenderOptions::block, false, wire::kMaxSide},
              "Side of the compositor's blocks in pixels: same pictures. Example: --block 32"),
-      number(all, "--groups", {&RenderOptions::groups, true, many},
+      number(plans, "--groups", {&RenderOptions::groups, true, many},
              "Groups of nodes, each rendering its own interval; 1: all nodes share one, as in the thesis. Example: "
              "--groups 1"),
-      option(all, "--format", "png|png16|exr", &RenderOptions::format,
+      option(plans, "--format", "png|png16|exr", &RenderOptions::format,
              "Files of the frames: PNG of 8 or 16 bits, or EXR: half floats of light before exposure and curve; "
              "default: png. Example: --format exr"),
-      option(all, "--sink", "files|none", &RenderOptions::sink,
+      option(plans, "--sink", "files|none", &RenderOptions::sink,
              "Where frames go; none writes no files, to measure rendering. Example: --sink none"),
       option(all, "--report", "FILE", &RenderOptions::report,
              "Write each node's times and work per frame as JSON. Example: --report report.json"),
@@ -265,7 +270,7 @@ void add_render_options(CLI::App& app, RenderOptions& options, Program program) 
   for (const Entry& entry : table()) {
     if (takes(program, entry)) entry.add(app, options);
   }
-  if (program == Program::compile) return;
+  if (program == Program::compile || program == Program::plan) return;
   refuse_former_names(app);
   app.parse_complete_callback([&app, &options] {
     if (app.remaining_size() > 0) return;  // unknown words are reported first

@@ -81,7 +81,8 @@ TEST_F(Platforms, AreWhatACalibrationWrites) {
   calibration.work.assign(wire::kWorkNames.size(), 1.23456e-9);
   calibration.copy_rate = 1e10;
   const MessageCosts messages{1e-6, 2e9, 3e-7};
-  document::write_whole_file(folder_ / "here.json", platform_text(calibration, messages, {"made up", 6, 1 << 30}));
+  document::write_whole_file(folder_ / "here.json",
+                             platform_text(calibration, messages, {"here", "made up", 6, 1 << 30}));
   const Platform named = read_platform((folder_ / "here.json").string(), folder_.path());
   EXPECT_EQ(named.machine.processors, 6);
   EXPECT_EQ(named.about, "made up");

@@ -1,0 +1,37 @@
+// A run that is played through by counted time: what happens, in the order of its times.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <queue>
+#include <vector>
+
+namespace mars::forecast {
+
+class Clockwork {
+ public:
+  using Action = std::function<void()>;
+
+  double now() const { return now_; }
+  // Actions of one time happen in the order in which they were given.
+  void at(double time, Action action) { events_.push({time, events_given_++, std::move(action)}); }
+  // Until nothing is left to happen.
+  void run();
+
+ private:
+  struct Event {
+    double time;
+    std::uint64_t number;
+    Action action;
+
+    bool operator<(const Event& other) const {
+      return time != other.time ? time > other.time : number > other.number;  // the queue's top is the greatest
+    }
+  };
+
+  std::priority_queue<Event> events_;
+  std::uint64_t events_given_ = 0;
+  double now_ = 0;
+};
+
+}  // namespace mars::forecast

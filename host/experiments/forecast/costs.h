@@ -1,0 +1,38 @@
+// What work and messages cost on a platform, as its simulation charges them.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "host/experiments/platform.h"
+#include "node/wire/frame_counts.h"
+
+namespace mars::forecast {
+
+class Costs {
+ public:
+  explicit Costs(const experiments::Platform& platform) : machine_(platform.machine) {}
+
+  // Seconds of so much work.
+  double of(wire::Work kind, double units) const { return machine_.work[static_cast<std::size_t>(kind)] * units; }
+  double of(const wire::UnitCounts& units) const;
+
+  // Seconds that a message of so many bytes takes a node's processor, or the host's.
+  double to_send(double bytes) const { return end(machine_.network.send, bytes); }
+  double to_receive(double bytes) const { return end(machine_.network.receive, bytes); }
+  double host_to_send(double bytes) const { return host_end(machine_.network.send, bytes); }
+  double host_to_receive(double bytes) const { return host_end(machine_.network.receive, bytes); }
+
+  // Seconds on the way between two nodes, where nothing else is.
+  double on_the_way(double bytes, bool same_computer) const;
+
+ private:
+  double end(const std::vector<simulated::EndCost>& costs, double bytes) const;
+  double host_end(const std::vector<simulated::EndCost>& costs, double bytes) const {
+    return end(machine_.network.host_end.empty() ? costs : machine_.network.host_end, bytes);
+  }
+
+  const simulated::Machine& machine_;
+};
+
+}  // namespace mars::forecast

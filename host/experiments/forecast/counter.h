@@ -1,0 +1,24 @@
+// Who counts frames for a forecast: nodes' code, which only programs link.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+#include "host/render/farm/plan.h"
+#include "node/wire/frame_counts.h"
+
+namespace mars::forecast {
+
+class Counter {
+ public:
+  virtual ~Counter() = default;
+
+  virtual wire::FrameCounts count_keyframe(const farm::Task& task) = 0;
+  // Of the task whose keyframe was counted last.
+  virtual wire::FrameCounts count_inbetween(std::uint32_t frame) = 0;
+};
+
+using MakeCounter = std::function<std::unique_ptr<Counter>(const wire::FilmView& film)>;
+
+}  // namespace mars::forecast

@@ -1,0 +1,211 @@
+#include "host/experiments/forecast/film_counts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mars::forecast {
+namespace {
+
+// Seconds that counting takes, about.
+double counting_seconds(const FrameTotals& frame) {
+  using wire::Work;
+  const wire::UnitCounts& made = frame.made;
+  return 5e-4 + (made[Work::patch] + made[Work::meshlet]) * 1e-6 + made[Work::vertex] * 8e-9 +
+         made[Work::mesh_vertex] * 4e-9 + made[Work::triangle_tested] * 5e-9 + made[Work::triangle] * 2e-8 +
+         made[Work::edge_box_made] * 4e-9;
+}
+
+// Inbetweens of a task that were counted.
+struct Known {
+  std::size_t place;  // among the task's inbetweens
+  FrameTotals totals;
+};
+
+// At `place`, from the known ones on either side of it.
+FrameTotals between(const std::vector<Known>& known, double place) {
+  const auto after = std::ranges::find_if(known, [&](const Known& k) { return static_cast<double>(k.place) >= place; });
+  if (after == known.begin()) return after->totals;
+  if (after == known.end()) return known.back().totals;
+  const Known& before = *(after - 1);
+  const double part = (place - static_cast<double>(before.place)) / static_cast<double>(after->place - before.place);
+  return before.totals * (1 - part) + after->totals * part;
+}
+
+class FilmCount {
+ public:
+  FilmCount(const wire::FilmView& film, std::span<const farm::Task> tasks, Counter& counter)
+      : film_(film), tasks_(tasks), counter_(counter), known_(tasks.size()) {}
+
+  FilmCounts count(const Budget& budget);
+
+ private:
+  double count_first(const Budget& budget);
+  static std::size_t inbetweens_of(const farm::Task& task) { return task.frames.size() - 1; }
+  void count_keyframe(std::size_t task);
+  void count_inbetween(std::size_t task, std::size_t place);
+  void count_inbetweens(std::size_t task, std::size_t count);
+  void estimate(std::size_t task);
+  double moving_patches(const farm::Task& task) const;
+
+  const wire::FilmView& film_;
+  const std::span<const farm::Task> tasks_;
+  Counter& counter_;
+  FilmCounts counts_;
+  std::size_t first_ = 0;                   // task that was counted first
+  double keyframe_seconds_ = 0;             // that counting one takes
+  double inbetween_seconds_ = 0;            // likewise
+  std::vector<std::size_t> counted_tasks_;  // by keyframe
+  std::vector<std::vector<Known>> known_;   // by task, in order
+};
+
+FilmCounts FilmCount::count(const Budget& budget) {
+  const auto fit = [](double seconds, double each) { return static_cast<std::size_t>(std::max(1.0, seconds / each)); };
+  const double left = count_first(budget);
+  const std::size_t keyframes = std::min(tasks_.size(), fit(left / 2, keyframe_seconds_));
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = 0; i < keyframes; ++i)
+    chosen.push_back((first_ + i * tasks_.size() / keyframes) % tasks_.size());
+  double inbetweens = 0;
+  for (const std::size_t task : chosen) inbetweens += static_cast<double>(inbetweens_of(tasks_[task]));
+  for (const std::size_t task : chosen) {
+    if (task != first_) count_keyframe(task);
+    const std::size_t all = inbetweens_of(tasks_[task]);
+    if (all == 0) continue;
+    const double part = static_cast<double>(all) / inbetweens;
+    count_inbetweens(task, std::min(all, fit(left / 2 * part, inbetween_seconds_)));
+  }
+  for (std::size_t task = 0; task < tasks_.size(); ++task) estimate(task);
+  return std::move(counts_);
+}
+
+// The first task with inbetweens tells what counting takes. The seconds that are left for it.
+double FilmCount::count_first(const Budget& budget) {
+  while (first_ + 1 < tasks_.size() && inbetweens_of(tasks_[first_]) == 0) ++first_;
+  if (inbetweens_of(tasks_[first_]) == 0) first_ = 0;
+  count_keyframe(first_);
+  keyframe_seconds_ = counting_seconds(totals_of(counts_.keyframes.front()));
+  inbetween_seconds_ = keyframe_seconds_;
+  const std::size_t all = inbetweens_of(tasks_[first_]);
+  if (all > 0) {
+    count_inbetween(first_, all / 2);
+    inbetween_seconds_ = counting_seconds(known_[first_].front().totals);
+  }
+  double whole = 0;
+  for (const farm::Task& task : tasks_)
+    whole += keyframe_seconds_ + static_cast<double>(inbetweens_of(task)) * inbetween_seconds_;
+  return std::min(budget.seconds, budget.part * whole);
+}
+
+void FilmCount::count_keyframe(std::size_t task) {
+  counts_.keyframes.push_back(counter_.count_keyframe(tasks_[task]));
+  counted_tasks_.push_back(task);
+  ++counts_.counted;
+}
+
+void FilmCount::count_inbetween(std::size_t task, std::size_t place) {
+  known_[task].push_back({place, totals_of(counter_.count_inbetween(tasks_[task].frames[place + 1]))});
+  ++counts_.counted;
+}
+
+// The first, the last and some between, or the one in the middle.
+void FilmCount::count_inbetweens(std::size_t task, std::size_t count) {
+  const std::size_t all = inbetweens_of(tasks_[task]);
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < count; ++i) places.push_back(count == 1 ? all / 2 : i * (all - 1) / (count - 1));
+  for (const std::size_t place : places)
+    if (std::ranges::find(known_[task], place, &Known::place) == known_[task].end()) count_inbetween(task, place);
+  std::ranges::sort(known_[task], {}, &Known::place);
+}
+
+double FilmCount::moving_patches(const farm::Task& task) const {
+  double patches = 1;
+  for (const std::uint32_t segment : film_.moving(film_.intervals()[task.interval]))
+    patches += film_.shapes()[film_.segments()[segment].shape].size();
+  return patches;
+}
+
+// As in the nearest task whose frames of this kind were counted; of inbetweens as much as its moving parts are.
+void FilmCount::estimate(std::size_t task) {
+  const auto nearest = [&](const auto& is_known) {
+    std::size_t best = 0;
+    for (std::size_t i = 0; i < counted_tasks_.size(); ++i) {
+      const auto away = [&](std::size_t k) {
+        const std::size_t other = counted_tasks_[k];
+        return is_known(other) ? std::max(task, other) - std::min(task, other) : tasks_.size();
+      };
+      if (away(i) < away(best)) best = i;
+    }
+    return best;
+  };
+  TaskCounts counts{nearest([](std::size_t) { return true; }), {}};
+  const std::size_t like = counted_tasks_[nearest([&](std::size_t other) { return !known_[other].empty(); })];
+  const std::size_t all = inbetweens_of(tasks_[task]), there = inbetweens_of(tasks_[like]);
+  const double scale = moving_patches(tasks_[task]) / moving_patches(tasks_[like]);
+  for (std::size_t i = 0; i < all; ++i) {
+    const double place = static_cast<double>(i) * static_cast<double>(there) / static_cast<double>(all);
+    counts.inbetweens.push_back(between(known_[like], place) * scale);
+  }
+  counts_.tasks.push_back(std::move(counts));
+}
+
+}  // namespace
+
+wire::UnitCounts operator+(wire::UnitCounts a, const wire::UnitCounts& b) {
+  for (std::size_t kind = 0; kind < a.units.size(); ++kind) a.units[kind] += b.units[kind];
+  return a;
+}
+
+wire::UnitCounts operator*(wire::UnitCounts a, double part) {
+  for (double& units : a.units) units *= part;
+  return a;
+}
+
+wire::LineCounts operator+(const wire::LineCounts& a, const wire::LineCounts& b) {
+  wire::LineCounts both{a.edge_boxes + b.edge_boxes,
+                        a.samples + b.samples,
+                        a.moving_edge_boxes + b.moving_edge_boxes,
+                        a.moving_samples + b.moving_samples,
+                        a.moving_width + b.moving_width,
+                        a.constant,
+                        a.moving};
+  both.constant += b.constant;
+  both.moving += b.moving;
+  return both;
+}
+
+FrameTotals operator+(FrameTotals a, const FrameTotals& b) {
+  return {a.made + b.made, a.drawn + b.drawn, a.lines + b.lines};
+}
+
+FrameTotals operator*(FrameTotals a, double part) {
+  wire::LineCounts& drawn = a.drawn;
+  for (double* number : {&drawn.edge_boxes, &drawn.samples, &drawn.moving_edge_boxes, &drawn.moving_samples,
+                         &drawn.moving_width, &a.lines})
+    *number *= part;
+  drawn.constant = drawn.constant * part;
+  drawn.moving = drawn.moving * part;
+  a.made = a.made * part;
+  return a;
+}
+
+FrameTotals totals_on(const wire::FrameCounts& counts, std::uint32_t first_line, std::uint32_t last_line) {
+  FrameTotals totals;
+  for (std::uint32_t line = first_line; line < last_line; ++line) {
+    totals.drawn = totals.drawn + counts.lines[line];
+    totals.lines += counts.lines[line].moving_edge_boxes > 0 ? 1 : 0;
+  }
+  return totals;
+}
+
+FrameTotals totals_of(const wire::FrameCounts& counts) {
+  FrameTotals totals = totals_on(counts, 0, static_cast<std::uint32_t>(counts.lines.size()));
+  for (const wire::UnitCounts& share : counts.shares) totals.made = totals.made + share;
+  return totals;
+}
+
+FilmCounts count_film(const wire::FilmView& film, std::span<const farm::Task> tasks, Counter& counter,
+                      const Budget& budget) {
+  return FilmCount(film, tasks, counter).count(budget);
+}
+
+}  // namespace mars::forecast

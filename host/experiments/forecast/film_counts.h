@@ -1,0 +1,50 @@
+// What a film's frames have to be drawn: some of them are counted, the others estimated from these.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "host/experiments/forecast/counter.h"
+
+namespace mars::forecast {
+
+// Of a frame, or of a node's part of it.
+struct FrameTotals {
+  wire::UnitCounts made;
+  wire::LineCounts drawn;  // on all lines
+  double lines = 0;        // with moving parts
+
+  double pixels() const { return drawn.constant.pixels + drawn.moving.pixels; }
+  double runs() const { return drawn.constant.runs + drawn.moving.runs; }
+};
+
+FrameTotals totals_of(const wire::FrameCounts& counts);
+FrameTotals totals_on(const wire::FrameCounts& counts, std::uint32_t first_line, std::uint32_t last_line);
+FrameTotals operator+(FrameTotals a, const FrameTotals& b);
+FrameTotals operator*(FrameTotals a, double part);
+wire::UnitCounts operator+(wire::UnitCounts a, const wire::UnitCounts& b);
+wire::UnitCounts operator*(wire::UnitCounts a, double part);
+
+struct TaskCounts {
+  std::size_t keyframe;                 // in FilmCounts::keyframes
+  std::vector<FrameTotals> inbetweens;  // of each
+};
+
+struct FilmCounts {
+  std::vector<wire::FrameCounts> keyframes;  // that were counted
+  std::vector<TaskCounts> tasks;
+  std::size_t counted = 0;  // frames
+};
+
+// What counting may take, by the work that it does: so that the same frames are counted every time.
+struct Budget {
+  double seconds;   // on a processor of today, about
+  double part = 1;  // of what it would take to count all frames
+};
+
+// Of one task at least, the keyframe and one inbetween are counted.
+FilmCounts count_film(const wire::FilmView& film, std::span<const farm::Task> tasks, Counter& counter,
+                      const Budget& budget);
+
+}  // namespace mars::forecast

@@ -1,0 +1,30 @@
+// A forecast of a rendering: its seconds, memory and bytes on a platform, and how many groups of nodes make it
+// shortest. It follows from counted frames and the platform's costs alone, so that it is the same every time.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "host/experiments/forecast/film_counts.h"
+#include "host/experiments/forecast/rehearsal.h"
+#include "host/experiments/forecast/setting.h"
+
+namespace mars::forecast {
+
+struct Forecast {
+  int nodes = 1;
+  std::uint32_t groups = 1;
+  Rehearsed run;
+
+  double node_hours() const { return nodes * run.seconds / 3600; }
+};
+
+// `groups`: 0: those that make the rendering shortest.
+Forecast forecast(const FilmCounts& counts, const std::vector<farm::Task>& tasks, const Setting& setting, int nodes,
+                  std::uint32_t groups);
+
+// By numbers of nodes: powers of two below `most`, and `most`; `groups` of it, where they are given.
+std::vector<Forecast> forecasts_up_to(const FilmCounts& counts, const std::vector<farm::Task>& tasks,
+                                      const Setting& setting, int most, std::uint32_t groups);
+
+}  // namespace mars::forecast

@@ -1,0 +1,356 @@
+#include "host/experiments/forecast/frame_costs.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+#include <span>
+
+#include "node/group/mapping.h"
+
+namespace mars::forecast {
+namespace {
+
+using wire::Work;
+
+// As nodes have them in memory and send them (node/geometry/triangle.h, node/raster/edge_box.h).
+constexpr double kTriangleBytes = 64, kUnsortedBoxBytes = 12, kBoxBytes = 8;
+constexpr double kFullStrip = 512 << 10;  // node/raster/strip_buffer.cpp
+constexpr double kShortSum = 64 << 10;    // hal/collectives/reduction.cpp
+
+// What each of `nodes` nodes makes: whole shares where these divide evenly, else equal parts of several.
+std::vector<wire::UnitCounts> made_by(const std::vector<wire::UnitCounts>& shares, int nodes) {
+  std::vector<wire::UnitCounts> made(static_cast<std::size_t>(nodes));
+  // Numbers that are `share` modulo so many shares are on nodes that are the same modulo `step`.
+  const std::size_t step = std::gcd(shares.size(), made.size());
+  const double part = static_cast<double>(step) / static_cast<double>(nodes);
+  for (std::size_t node = 0; node < made.size(); ++node)
+    for (std::size_t share = node % step; share < shares.size(); share += step)
+      made[node] = made[node] + shares[share] * part;
+  return made;
+}
+
+// Patches are not divided: a node that makes any of them makes whole ones.
+wire::UnitCounts in_whole_patches(const wire::UnitCounts& made) {
+  const double patches = made[Work::patch] + made[Work::meshlet];
+  return patches > 0 ? made * (std::ceil(patches - 1e-6) / patches) : made;
+}
+
+}  // namespace
+
+// The lines of each node of a group, and what is on them.
+struct FrameCosts::Homes {
+  Homes(const wire::FrameCounts& counts, int nodes, wire::Mapping mapping, std::uint32_t samples)
+      : ranges(static_cast<std::size_t>(nodes)) {
+    const FrameTotals all = totals_of(counts);
+    std::vector<std::uint64_t> weights{0};
+    for (const wire::LineCounts& line : counts.lines) {
+      const raster::LineLoad load(static_cast<std::uint64_t>(line.edge_boxes),
+                                  static_cast<std::uint64_t>(line.samples));
+      weights.push_back(weights.back() + (mapping == wire::Mapping::cost ? group::line_cost(load) : load.boxes()));
+    }
+    group::map_lines(mapping, weights, ranges);
+    edge_boxes = all.drawn.edge_boxes;
+    const double rows =
+        all.made[Work::triangle] > 0 ? edge_boxes / all.made[Work::triangle] : 1;  // of samples, of a triangle
+    const double taller = std::max(0.0, rows / samples - 1);                       // in lines
+    for (const geometry::LineRange& range : ranges) {
+      totals.push_back(totals_on(counts, range.first, range.last));
+      const double boxes = totals.back().drawn.edge_boxes;
+      triangles.push_back(std::min(boxes, boxes / rows * (1 + taller / std::max(1u, range.count()))));
+    }
+  }
+
+  std::vector<geometry::LineRange> ranges;
+  std::vector<FrameTotals> totals;
+  std::vector<double> triangles;  // with an edge box there
+  double edge_boxes;              // on all
+};
+
+GroupKeyframe FrameCosts::keyframe(const wire::FrameCounts& counts, int nodes, std::size_t inbetweens) const {
+  GroupKeyframe keyframe;
+  keyframe.nodes.resize(static_cast<std::size_t>(nodes));
+  const auto made = made_by(counts.shares, nodes);
+  const Homes homes(counts, nodes, setting_.mapping, setting_.film.settings().samples);
+  add_dicing(keyframe, homes, made);
+  if (nodes > 1) add_sum(keyframe, nodes);
+  if (nodes > nodes_on_a_computer(nodes)) add_exchange(keyframe, homes, made);
+  for (std::size_t n = 0; n < made.size(); ++n) {
+    NodePart& node = keyframe.nodes[n];
+    node.memory = std::min(node.memory, arena_bytes());
+    node.strips = strips(homes.totals[n], keyframe_drawing(homes.totals[n], counts, homes.ranges[n]));
+    if (inbetweens > 0) node.strips.pasting += saving(homes.totals[n]);
+  }
+  if (inbetweens > 0) add_still(keyframe, homes, counts, inbetweens);
+  return keyframe;
+}
+
+NodePart FrameCosts::inbetween(const FrameTotals& totals, const wire::FrameCounts& keyframe, int nodes) const {
+  const FrameTotals again = drawn_again(keyframe, nodes);
+  const wire::UnitCounts made = totals.made + again.made;
+  wire::UnitCounts units = drawn_units(totals + again);
+  units[Work::line] = totals.lines + again.lines;
+  units[Work::still_byte] = totals.drawn.moving_width * setting_.film.settings().samples * sizeof(float);
+  NodePart part;
+  part.dice = dicing(made) + setting_up(made) + costs_.of(Work::edge_box_filled, made[Work::edge_box_made]);
+  part.exchange = costs_.of(Work::line_mapped, height());
+  part.strips = strips(totals, costs_.of(units));
+  part.strips.pasting += costs_.of(Work::host_restored, totals.drawn.moving.block_pixels * pixel_bytes());
+  part.memory = std::min(arena_bytes(), made_bytes(made));
+  return part;
+}
+
+double FrameCosts::background(const wire::FrameCounts& keyframe) const {
+  const wire::SeenCounts seen = totals_of(keyframe).drawn.constant;
+  return costs_.of(Work::host_restored, (seen.pixels + seen.block_pixels / 2) * pixel_bytes());
+}
+
+// CFB goes into the saved background too, whose blocks are plain before.
+double FrameCosts::saving(const FrameTotals& totals) const {
+  const wire::SeenCounts& seen = totals.drawn.constant;
+  return costs_.of(Work::host_run, seen.runs) + costs_.of(Work::host_byte, seen.pixels * pixel_bytes()) +
+         costs_.of(Work::host_restored, (seen.pixels + seen.block_pixels / 2) * pixel_bytes());
+}
+
+FrameTotals FrameCosts::drawn_again(const wire::FrameCounts& keyframe, int nodes) const {
+  const wire::StillPlan plan = still_plan(nodes);
+  FrameTotals again;
+  double still_boxes = 0, moving_boxes = 0;
+  for (std::uint32_t i = 0; i < keyframe.lines.size(); ++i) {
+    const wire::LineCounts& line = keyframe.lines[i];
+    const double still = line.edge_boxes - line.moving_edge_boxes;
+    still_boxes += still;
+    moving_boxes += line.moving_edge_boxes;
+    const bool needed = keyframe.first_still_line <= i && i < keyframe.last_still_line;
+    if (!needed || is_kept(keyframe, i, plan)) continue;
+    again.drawn.edge_boxes += still;
+    again.drawn.samples += line.samples - line.moving_samples;
+    again.drawn.constant.shaded += line.constant.shaded;
+    again.drawn.constant.highlights += line.constant.highlights;
+    again.drawn.constant.facets += line.constant.facets;
+    again.lines += 1;
+  }
+  if (again.drawn.edge_boxes == 0) return {};
+  again.made = totals_of(keyframe).made * (still_boxes / (still_boxes + moving_boxes));
+  again.made[Work::triangle] *= again.drawn.edge_boxes / still_boxes;
+  again.made[Work::edge_box_made] = again.drawn.edge_boxes;
+  return again;
+}
+
+// A line is kept where it has memory for its groups (node/raster/still_lines.h).
+bool FrameCosts::is_kept(const wire::FrameCounts& keyframe, std::uint32_t line, const wire::StillPlan& plan) const {
+  const wire::FilmSettings& film = setting_.film.settings();
+  if (film.samples == 1) return true;
+  return line - keyframe.first_still_line < plan.lines &&
+         keyframe.lines[line].constant.shaded <= static_cast<double>(film.width) * plan.groups_per_column;
+}
+
+farm::NodeMemory FrameCosts::memory() const {
+  return farm::share_node_memory(setting_.platform.memory, std::nullopt, setting_.film.settings());
+}
+
+wire::StillPlan FrameCosts::still_plan(int nodes) const {
+  const wire::FilmSettings& film = setting_.film.settings();
+  return wire::plan_still_lines(film.width, film.height, film.samples,
+                                memory().still * static_cast<std::uint64_t>(nodes_on_a_computer(nodes)));
+}
+
+// Of one frame; where nodes share a computer, two frames' take turns (node/group/frame_memory.h).
+double FrameCosts::arena_bytes() const {
+  return static_cast<double>(memory().frames) / (setting_.platform.machine.nodes > 1 ? 2 : 1);
+}
+
+// What is done again in each pass.
+double FrameCosts::dicing(const wire::UnitCounts& made) const {
+  wire::UnitCounts again = made;
+  again[Work::triangle] = again[Work::edge_box_made] = 0;
+  return costs_.of(Work::frame, 1) + costs_.of(Work::segment, static_cast<double>(setting_.film.segments().size())) +
+         costs_.of(again);
+}
+
+double FrameCosts::setting_up(const wire::UnitCounts& made) const {
+  return costs_.of(Work::triangle, made[Work::triangle]) + costs_.of(Work::edge_box_made, made[Work::edge_box_made]);
+}
+
+wire::UnitCounts FrameCosts::drawn_units(const FrameTotals& totals) const {
+  const auto lights = static_cast<double>(setting_.film.light_tracks().size());
+  wire::SeenCounts seen = totals.drawn.constant;
+  seen += totals.drawn.moving;
+  wire::UnitCounts units;
+  units[Work::edge_box] = totals.drawn.edge_boxes;
+  units[Work::sample] = totals.drawn.samples;
+  units[Work::shaded] = seen.shaded;
+  units[Work::light] = seen.highlights * lights;
+  units[Work::facet_light] = seen.facets * lights;
+  units[Work::pixel] = seen.pixels;
+  return units;
+}
+
+double FrameCosts::keyframe_drawing(const FrameTotals& totals, const wire::FrameCounts& counts,
+                                    const geometry::LineRange& lines) const {
+  const wire::FilmSettings& film = setting_.film.settings();
+  wire::UnitCounts units = drawn_units(totals);
+  for (std::uint32_t i = lines.first; i < lines.last; ++i) {
+    const wire::LineCounts& line = counts.lines[i];
+    const bool needed = counts.first_still_line <= i && i < counts.last_still_line;
+    units[Work::line] += needed || line.edge_boxes > 0 ? 1 : 0;
+    if (!needed) continue;
+    units[Work::still_byte] += static_cast<double>(film.width) * film.samples * sizeof(float);
+    if (film.samples > 1) units[Work::still_byte] += line.constant.shaded * sizeof(wire::StillGroup);
+  }
+  return costs_.of(units);
+}
+
+StripCosts FrameCosts::strips(const FrameTotals& totals, double seconds) const {
+  StripCosts strips{seconds, 0, 0, 1};
+  const double content = totals.pixels() * pixel_bytes() + totals.runs() * sizeof(wire::Run);
+  strips.count = 1 + static_cast<std::uint32_t>(content / kFullStrip);
+  strips.bytes = content + strips.count * static_cast<double>(sizeof(wire::Strip));
+  strips.pasting =
+      costs_.of(Work::host_run, totals.runs()) + costs_.of(Work::host_byte, totals.pixels() * pixel_bytes());
+  return strips;
+}
+
+// Triangles with their edge boxes, once as made and once in their lines.
+double FrameCosts::made_bytes(const wire::UnitCounts& made) const {
+  return made[Work::triangle] * kTriangleBytes + made[Work::edge_box_made] * (kUnsortedBoxBytes + kBoxBytes) +
+         3 * 8 * height();
+}
+
+// As node/group/passes.h bounds them.
+double FrameCosts::passes(const wire::UnitCounts& made, double home_boxes, bool travels) const {
+  const double a_box = kTriangleBytes + kUnsortedBoxBytes;
+  const double bound =
+      made_bytes(made) + (travels ? made[Work::edge_box_made] * a_box + home_boxes * (a_box + kBoxBytes) : 0);
+  double passes = 1;
+  while (bound / passes > arena_bytes() && passes < height()) passes *= 2;
+  return passes;
+}
+
+void FrameCosts::add_dicing(GroupKeyframe& keyframe, const Homes& homes,
+                            const std::vector<wire::UnitCounts>& made) const {
+  const auto nodes = static_cast<int>(made.size());
+  const bool travels = nodes > nodes_on_a_computer(nodes);
+  double& most = keyframe.passes;
+  for (std::size_t n = 0; n < made.size(); ++n)
+    most = std::max(most, passes(made[n], homes.totals[n].drawn.edge_boxes, travels));
+  for (std::size_t n = 0; n < made.size(); ++n) {
+    const wire::UnitCounts whole = in_whole_patches(made[n]);
+    const double once = setting_up(whole);
+    const double filled = costs_.of(Work::edge_box_filled, whole[Work::edge_box_made]);
+    keyframe.nodes[n].dice = dicing(whole) + once + filled;
+    if (most > 1) keyframe.nodes[n].dice += most * dicing(whole) + once;
+    keyframe.nodes[n].exchange = costs_.of(Work::line_mapped, height());
+    keyframe.nodes[n].memory = made_bytes(made[n]);
+  }
+}
+
+// Across each dimension of the group's hypercube (hal/collectives/reduction.cpp).
+void FrameCosts::add_sum(GroupKeyframe& keyframe, int nodes) const {
+  const double bytes = 8 * (height() + 2);
+  const int corners = static_cast<int>(std::bit_floor(static_cast<unsigned>(nodes)));
+  const bool halves = bytes >= kShortSum && corners >= 4;
+  double sent = 0;
+  const auto exchange = [&](double so_many, bool same_computer) {
+    keyframe.sum += costs_.to_send(so_many) + costs_.on_the_way(so_many, same_computer) + costs_.to_receive(so_many);
+    sent += so_many;
+  };
+  double part = bytes;
+  for (int bit = 1; bit < corners; bit *= 2) {
+    const bool near = 2 * bit <= nodes_on_a_computer(nodes);
+    if (halves) part /= 2, exchange(part, near);
+    exchange(halves ? part : bytes, near);
+  }
+  if (corners < nodes)
+    for (int way = 0; way < 2; ++way) exchange(bytes, false);
+  for (NodePart& node : keyframe.nodes) node.bytes_to_nodes += sent;
+}
+
+// To homes on other computers. Each node has a part of what is on any home.
+void FrameCosts::add_exchange(GroupKeyframe& keyframe, const Homes& homes,
+                              const std::vector<wire::UnitCounts>& made) const {
+  const auto nodes = made.size();
+  const double far = 1 - static_cast<double>(nodes_on_a_computer(static_cast<int>(nodes))) / static_cast<double>(nodes);
+  double home_messages = 0, home_bytes = 0;  // that one node sends, if it has an equal part of all
+  std::vector<double> parcels(nodes), bytes(nodes);
+  for (std::size_t h = 0; h < nodes; ++h) {
+    const double each = 1 / static_cast<double>(nodes);
+    parcels[h] = 1 - std::exp(-homes.triangles[h] * each);
+    bytes[h] = each * (homes.totals[h].drawn.edge_boxes * kUnsortedBoxBytes + homes.triangles[h] * kTriangleBytes) +
+               parcels[h] * 96;
+    home_messages += parcels[h] * far;
+    home_bytes += bytes[h] * far;
+  }
+  for (std::size_t n = 0; n < nodes; ++n) {
+    NodePart& node = keyframe.nodes[n];
+    const double part =
+        homes.edge_boxes > 0 ? made[n][Work::edge_box_made] / homes.edge_boxes * static_cast<double>(nodes) : 0;
+    const double out = home_bytes * part, messages_out = home_messages;
+    const double in = bytes[n] * static_cast<double>(nodes) * far;
+    const double messages_in = parcels[n] * static_cast<double>(nodes) * far;
+    const double boxes_in = homes.totals[n].drawn.edge_boxes * far;
+    const auto ends = [&](double messages, double all, const auto& cost) {
+      return messages > 0 ? messages * cost(all / messages) : 0;
+    };
+    node.exchange += ends(messages_out, out, [&](double b) { return costs_.to_send(b); }) +
+                     ends(messages_in, in, [&](double b) { return costs_.to_receive(b); }) +
+                     costs_.of(Work::edge_box_filled, boxes_in);
+    node.exchange_wait = costs_.on_the_way(std::max(in, out), false);
+    node.bytes_to_nodes += out;
+    const double travelling = made[n][Work::edge_box_made] * far * (kUnsortedBoxBytes + kTriangleBytes) + in;
+    const double in_pass = (node.memory + travelling + boxes_in * kBoxBytes) / keyframe.passes;
+    node.memory = std::max(keyframe.passes > 1 ? std::min(arena_bytes(), node.memory) : 0, in_pass);
+  }
+}
+
+// CZB, and with several samples shaded groups, of the lines that inbetweens may touch: to all other computers that
+// draw some. All send to the first of these first.
+void FrameCosts::add_still(GroupKeyframe& keyframe, const Homes& homes, const wire::FrameCounts& counts,
+                           std::size_t inbetweens) const {
+  const auto nodes = keyframe.nodes.size();
+  const auto near = static_cast<std::size_t>(nodes_on_a_computer(static_cast<int>(nodes)));
+  const std::size_t computers = (nodes + near - 1) / near, collecting = std::min(computers, inbetweens);
+  if (computers == 1) return;
+  double all_bytes = 0, all_messages = 0;
+  std::vector<StillLines> still(nodes);
+  for (std::size_t n = 0; n < nodes; ++n) {
+    still[n] = still_lines(homes.ranges[n], counts);
+    all_bytes += still[n].bytes, all_messages += still[n].messages;
+  }
+  const double out_each = all_bytes / static_cast<double>(nodes);
+  for (std::size_t n = 0; n < nodes; ++n) {
+    NodePart& node = keyframe.nodes[n];
+    const std::size_t computer = n / near;
+    const auto receivers = static_cast<double>(collecting - (computer < collecting ? 1 : 0));
+    const auto& [bytes, messages] = still[n];
+    if (messages > 0) node.still += receivers * messages * costs_.to_send(bytes / messages);
+    node.bytes_to_nodes += receivers * bytes;
+    if (computer >= collecting || n % near != 0 || all_messages <= messages) continue;
+    const double in = all_bytes - bytes, messages_in = all_messages - messages;
+    node.still += messages_in * costs_.to_receive(in / messages_in);
+    node.still_wait = costs_.on_the_way(in + out_each * static_cast<double>(computer), false);
+  }
+}
+
+// Of those on `home`, what a node sends to one computer.
+FrameCosts::StillLines FrameCosts::still_lines(const geometry::LineRange& home, const wire::FrameCounts& counts) const {
+  const wire::FilmSettings& film = setting_.film.settings();
+  const wire::StillPlan plan = still_plan(1);
+  const geometry::LineRange lines = geometry::overlap(home, {counts.first_still_line, counts.last_still_line});
+  const double depths = static_cast<double>(film.width) * film.samples * sizeof(float);
+  StillLines still;
+  still.messages = film.samples > 1 ? lines.count() : std::min(1u, lines.count());
+  for (std::uint32_t line = lines.first; line < lines.last; ++line) {
+    if (!is_kept(counts, line, plan)) continue;
+    still.bytes += depths;
+    if (film.samples > 1)
+      still.bytes += wire::kStillHeadBytes + static_cast<double>(film.width * sizeof(std::uint32_t)) +
+                     counts.lines[line].constant.shaded * sizeof(wire::StillGroup);
+  }
+  return still;
+}
+
+// Of a group of so many nodes.
+int FrameCosts::nodes_on_a_computer(int nodes) const { return std::min(nodes, setting_.platform.machine.nodes); }
+
+}  // namespace mars::forecast

@@ -1,0 +1,88 @@
+// What a node does for a frame, in seconds of its processor and in bytes: its part of a keyframe in a group of nodes,
+// or an inbetween.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "host/experiments/forecast/costs.h"
+#include "host/experiments/forecast/film_counts.h"
+#include "host/experiments/forecast/setting.h"
+#include "node/geometry/line_range.h"
+
+namespace mars::forecast {
+
+// The pixels of a node's part of a frame, on their way to the host.
+struct StripCosts {
+  double seconds = 0;  // of drawing, all strips
+  double bytes = 0;
+  double pasting = 0;  // seconds of the host
+  std::uint32_t count = 1;
+};
+
+struct NodePart {
+  double dice = 0;           // until the group's sum
+  double exchange = 0;       // mapping, messages and filling
+  double exchange_wait = 0;  // for the network, beyond
+  StripCosts strips;
+  double still = 0;       // lines for inbetweens, sent and received
+  double still_wait = 0;  // for the network, beyond
+  double bytes_to_nodes = 0;
+  double memory = 0;  // bytes of its arena
+};
+
+struct GroupKeyframe {
+  std::vector<NodePart> nodes;
+  double sum = 0;     // seconds of the group's sum, once all have come to it
+  double passes = 1;  // over its lines
+};
+
+class FrameCosts {
+ public:
+  explicit FrameCosts(const Setting& setting) : setting_(setting), costs_(setting.platform) {}
+
+  // Of a group of so many nodes, which then draw so many inbetweens.
+  GroupKeyframe keyframe(const wire::FrameCounts& counts, int nodes, std::size_t inbetweens) const;
+  // After such a keyframe, on a node of a group of so many.
+  NodePart inbetween(const FrameTotals& totals, const wire::FrameCounts& keyframe, int nodes) const;
+  // Seconds of the host, of a buffer that shows the keyframe's background for the first time.
+  double background(const wire::FrameCounts& keyframe) const;
+  const Costs& costs() const { return costs_; }
+
+ private:
+  struct Homes;
+
+  struct StillLines {
+    double bytes = 0;
+    double messages = 0;
+  };
+  StillLines still_lines(const geometry::LineRange& home, const wire::FrameCounts& counts) const;
+  double dicing(const wire::UnitCounts& made) const;
+  double setting_up(const wire::UnitCounts& made) const;
+  wire::UnitCounts drawn_units(const FrameTotals& totals) const;
+  double keyframe_drawing(const FrameTotals& totals, const wire::FrameCounts& counts,
+                          const geometry::LineRange& lines) const;
+  StripCosts strips(const FrameTotals& totals, double seconds) const;
+  double saving(const FrameTotals& totals) const;
+  // Stationary parts on lines that are not kept for inbetweens.
+  FrameTotals drawn_again(const wire::FrameCounts& keyframe, int nodes) const;
+  bool is_kept(const wire::FrameCounts& keyframe, std::uint32_t line, const wire::StillPlan& plan) const;
+  wire::StillPlan still_plan(int nodes) const;
+  farm::NodeMemory memory() const;
+  double made_bytes(const wire::UnitCounts& made) const;
+  double arena_bytes() const;
+  double passes(const wire::UnitCounts& made, double home_boxes, bool travels) const;
+  void add_dicing(GroupKeyframe& keyframe, const Homes& homes, const std::vector<wire::UnitCounts>& made) const;
+  void add_sum(GroupKeyframe& keyframe, int nodes) const;
+  void add_exchange(GroupKeyframe& keyframe, const Homes& homes, const std::vector<wire::UnitCounts>& made) const;
+  void add_still(GroupKeyframe& keyframe, const Homes& homes, const wire::FrameCounts& counts,
+                 std::size_t inbetweens) const;
+  int nodes_on_a_computer(int nodes) const;
+  double pixel_bytes() const { return static_cast<double>(wire::pixel_bytes(setting_.pixels())); }
+  double height() const { return setting_.film.settings().height; }
+
+  const Setting setting_;
+  const Costs costs_;
+};
+
+}  // namespace mars::forecast

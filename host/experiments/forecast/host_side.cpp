@@ -1,0 +1,192 @@
+#include "host/experiments/forecast/host_side.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace mars::forecast {
+namespace {
+
+using wire::Work;
+
+constexpr std::size_t kTasksAhead = 2;  // host/render/farm/farm.cpp
+constexpr std::size_t kNothing = static_cast<std::size_t>(-1);
+
+Work sink_byte(images::PictureFormat picture) {
+  switch (picture) {
+    case images::PictureFormat::png: break;
+    case images::PictureFormat::png16: return Work::sink_png16_byte;
+    case images::PictureFormat::exr: return Work::sink_exr_byte;
+  }
+  return Work::sink_byte;
+}
+
+}  // namespace
+
+HostSide::HostSide(Clockwork& clockwork, Computers& computers, const farm::Plan& plan, const Setting& setting,
+                   const farm::HostMemory& memory, int nodes, Outward outward)
+    : clockwork_(clockwork),
+      computers_(computers),
+      plan_(plan),
+      setting_(setting),
+      costs_(setting.platform),
+      self_(nodes),
+      outward_(std::move(outward)),
+      frame_bytes_(static_cast<double>(memory.frame_bytes)),
+      buffers_(memory.frames),
+      free_buffers_(memory.frames, kNothing),
+      groups_(plan.groups.size()),
+      tasks_(plan.tasks.size()) {}
+
+void HostSide::begin() {
+  idle_ = false;
+  give_tasks();
+}
+
+void HostSide::arrive(const StripSent& strip) {
+  arrived_.push_back(strip);
+  wake();
+}
+
+void HostSide::wake() {
+  if (!std::exchange(idle_, false)) return;
+  go_on();
+}
+
+void HostSide::busy(double seconds, Clockwork::Action then) {
+  clockwork_.at(computers_.work(self_, clockwork_.now(), seconds), std::move(then));
+}
+
+// Every group gets its first before any gets one ahead.
+void HostSide::give_tasks() {
+  for (std::size_t ahead = 1; ahead <= kTasksAhead; ++ahead)
+    for (std::size_t group = 0; group < groups_.size(); ++group)
+      if (groups_[group].tasks.size() < ahead && next_task_ < tasks_.size())
+        return busy(give(group), [this] { give_tasks(); });
+  go_on();
+}
+
+// The seconds that it takes.
+double HostSide::give(std::size_t group) {
+  const std::size_t number = next_task_++;
+  TaskState& task = tasks_[number];
+  const auto& frames = plan_.tasks[number].frames;
+  const int nodes = plan_.groups[group].count;
+  task.group = group;
+  task.left = frames.size();
+  for (std::size_t frame = 0; frame < frames.size(); ++frame)
+    task.frames.push_back({frame == 0 ? nodes : 1, false, 0, {}, {}});
+  groups_[group].tasks.push_back(number);
+  outward_.task(group, number);
+  return nodes * costs_.host_to_send(static_cast<double>(sizeof(wire::Render) + frames.size() * sizeof(std::uint32_t)));
+}
+
+void HostSide::go_on() {
+  if (take_back() || compose_one()) return;
+  if (arrived_.empty()) {
+    idle_ = true;
+    return;
+  }
+  const StripSent strip = arrived_.front();
+  arrived_.pop_front();
+  busy(costs_.host_to_receive(strip.bytes) + costs_.of(Work::host_strip, 1), [this, strip] {
+    note(strip);
+    go_on();
+  });
+}
+
+void HostSide::note(const StripSent& strip) {
+  TaskState& task = tasks_[strip.task];
+  Frame& frame = task.frames[strip.frame];
+  if (strip.last) {
+    --frame.contributors_left;
+    frame.held.push_back(strip.node);
+  }
+  if (frame.strips.empty()) task.waiting.push_back(strip.frame);
+  frame.strips.push_back(strip);
+}
+
+// Of a frame that a sink has taken; whether there was one.
+bool HostSide::take_back() {
+  if (taken_.empty()) return false;
+  const Taken taken = std::move(taken_.front());
+  taken_.pop_front();
+  free_buffers_.push_back(taken.task);
+  credit_all(taken.held);
+  return true;
+}
+
+void HostSide::credit_all(const std::vector<int>& nodes) {
+  for (const int node : nodes) outward_.credit(node);
+  busy(static_cast<double>(nodes.size()) * costs_.host_to_send(sizeof(wire::Credit)), [this] { go_on(); });
+}
+
+bool HostSide::compose_one() {
+  for (std::size_t group = 0; group < groups_.size(); ++group) {
+    if (groups_[group].tasks.empty()) continue;
+    const std::size_t number = groups_[group].tasks.front();
+    TaskState& task = tasks_[number];
+    for (std::size_t i = 0; i < task.waiting.size(); ++i) {
+      const std::size_t frame = task.waiting[i];
+      if (frame != 0 && !task.background_there) continue;
+      if (!begin_frame(number, frame)) continue;
+      task.waiting.erase(task.waiting.begin() + static_cast<std::ptrdiff_t>(i));
+      return compose(group, number, frame);
+    }
+  }
+  return false;
+}
+
+// As sinks::SinkPool gives buffers to frames that are whole, and earlier to others.
+bool HostSide::begin_frame(std::size_t task, std::size_t number) {
+  Frame& frame = tasks_[task].frames[number];
+  if (frame.has_picture) return true;
+  const std::size_t left = frame.contributors_left == 0 ? 0 : std::max<std::size_t>(1, buffers_ / 2);
+  if (free_buffers_.size() <= left) return false;
+  auto buffer = std::ranges::find(free_buffers_.rbegin(), free_buffers_.rend(), task);
+  if (buffer == free_buffers_.rend()) buffer = free_buffers_.rbegin();
+  if (*buffer != task && number > 0) frame.begun = backgrounds_[task];
+  free_buffers_.erase(std::next(buffer).base());
+  return frame.has_picture = true;
+}
+
+bool HostSide::compose(std::size_t group, std::size_t number, std::size_t place) {
+  TaskState& task = tasks_[number];
+  Frame& frame = task.frames[place];
+  double seconds = std::exchange(frame.begun, 0);
+  std::vector<int> free;
+  for (const StripSent& strip : std::exchange(frame.strips, {})) {
+    seconds += strip.pasting;
+    if (!strip.last) free.push_back(strip.node);
+  }
+  seconds += static_cast<double>(free.size()) * costs_.host_to_send(sizeof(wire::Credit));
+  const bool whole = frame.contributors_left == 0;
+  if (whole) {
+    seconds += costs_.of(Work::host_frame, 1);
+    task.background_there |= place == 0;
+    if (--task.left == 0) groups_[group].tasks.pop_front();
+  }
+  busy(seconds, [this, free, whole, number, place] {
+    for (const int node : free) outward_.credit(node);
+    if (whole) return submit(number, place);
+    go_on();
+  });
+  return true;
+}
+
+double HostSide::sink_seconds() const {
+  return costs_.of(Work::sink_frame, 1) + costs_.of(sink_byte(setting_.picture), frame_bytes_);
+}
+
+void HostSide::submit(std::size_t task, std::size_t place) {
+  const double now = clockwork_.now();
+  composed_.push_back({now, place == 0 ? wire::FrameKind::keyframe : wire::FrameKind::inbetween});
+  const double end = setting_.files ? computers_.reserve(self_, now, sink_seconds()) : now;
+  ended_ = std::max(ended_, end);
+  clockwork_.at(end, [this, task, held = std::move(tasks_[task].frames[place].held)] {
+    taken_.push_back({task, held});
+    wake();
+  });
+  give_tasks();
+}
+
+}  // namespace mars::forecast

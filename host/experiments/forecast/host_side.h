@@ -1,0 +1,105 @@
+// The host while a rendering is played through: as host/render/farm does it, it gives tasks, takes strips one by one,
+// composes frames where they may be, hands them to sinks and gives credit back.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <vector>
+
+#include "host/experiments/forecast/clockwork.h"
+#include "host/experiments/forecast/computers.h"
+#include "host/experiments/forecast/costs.h"
+#include "host/experiments/forecast/rehearsal.h"
+
+namespace mars::forecast {
+
+struct StripSent {
+  int node;
+  std::size_t task;
+  std::size_t frame;  // of the task
+  double bytes;       // of its message
+  double pasting;     // seconds
+  bool last;          // of the node's for this frame
+};
+
+class HostSide {
+ public:
+  // What reaches nodes: a task for all of a group, a credit for one.
+  struct Outward {
+    std::function<void(std::size_t group, std::size_t task)> task;
+    std::function<void(int node)> credit;
+  };
+
+  HostSide(Clockwork& clockwork, Computers& computers, const farm::Plan& plan, const Setting& setting,
+           const farm::HostMemory& memory, int nodes, Outward outward);
+
+  // Of each task in order: seconds to show its background in a buffer that shows another.
+  void add_background(double seconds) { backgrounds_.push_back(seconds); }
+  void begin();
+  void arrive(const StripSent& strip);
+
+  std::vector<ForecastFrame>& frames() { return composed_; }
+  // When the sinks had taken the last frame.
+  double ended() const { return ended_; }
+
+ private:
+  struct Frame {
+    int contributors_left;
+    bool has_picture = false;
+    double begun = 0;               // seconds that this took
+    std::vector<StripSent> strips;  // that wait
+    std::vector<int> held;          // nodes of last strips
+  };
+  struct GroupState {
+    std::deque<std::size_t> tasks;
+  };
+  struct TaskState {
+    std::size_t group = 0;
+    bool background_there = false;
+    std::size_t left = 0;  // frames
+    std::vector<Frame> frames;
+    std::vector<std::size_t> waiting;  // with strips
+  };
+
+  void wake();
+  void go_on();
+  void give_tasks();
+  double give(std::size_t group);
+  bool take_back();
+  bool compose_one();
+  bool begin_frame(std::size_t task, std::size_t number);
+  bool compose(std::size_t group, std::size_t task, std::size_t number);
+  double sink_seconds() const;
+  void submit(std::size_t task, std::size_t number);
+  void busy(double seconds, Clockwork::Action then);
+  void credit_all(const std::vector<int>& nodes);
+  void note(const StripSent& strip);
+
+  Clockwork& clockwork_;
+  Computers& computers_;
+  const farm::Plan& plan_;
+  const Setting setting_;
+  const Costs costs_;
+  const int self_;
+  const Outward outward_;
+  const double frame_bytes_;
+  const std::size_t buffers_;
+  std::vector<std::size_t> free_buffers_;  // the tasks whose background they show; the one given back last is last
+  std::vector<double> backgrounds_;        // by task
+  std::vector<GroupState> groups_;
+  std::vector<TaskState> tasks_;
+  std::size_t next_task_ = 0;
+  std::deque<StripSent> arrived_;
+  struct Taken {
+    std::size_t task;
+    std::vector<int> held;  // nodes whose slots its strips have
+  };
+  std::deque<Taken> taken_;  // frames, by sinks
+  bool idle_ = true;
+  std::vector<ForecastFrame> composed_;
+  double ended_ = 0;
+};
+
+}  // namespace mars::forecast

@@ -1,0 +1,30 @@
+// Plays a rendering through by counted time: groups of nodes with their tasks, credits and strips, the host that takes
+// them one by one, and its sinks.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "host/experiments/forecast/film_counts.h"
+#include "host/experiments/forecast/setting.h"
+#include "host/render/farm/plan.h"
+
+namespace mars::forecast {
+
+struct ForecastFrame {
+  double seconds;  // from the first command until it was composed
+  wire::FrameKind kind;
+};
+
+struct Rehearsed {
+  double seconds = 0;                 // until the sinks have taken all frames
+  std::vector<ForecastFrame> frames;  // as they are composed
+  double bytes_to_nodes = 0;
+  double bytes_to_host = 0;
+  double node_memory = 0;  // bytes of a node's arena, at most
+  farm::HostMemory host_memory;
+};
+
+Rehearsed rehearse(const FilmCounts& counts, const farm::Plan& plan, const Setting& setting, int nodes);
+
+}  // namespace mars::forecast

@@ -1,0 +1,27 @@
+// What a forecast is made for, beside what the film's frames hold.
+#pragma once
+
+#include <cstdint>
+
+#include "host/experiments/platform.h"
+#include "host/images/picture_format.h"
+#include "host/render/farm/host_memory.h"
+#include "host/render/farm/node_memory.h"
+#include "node/wire/film.h"
+#include "node/wire/protocol.h"
+
+namespace mars::forecast {
+
+struct Setting {
+  const wire::FilmView& film;
+  const experiments::Platform& platform;
+  wire::Mapping mapping = wire::Mapping::cost;
+  images::PictureFormat picture = images::PictureFormat::png;
+  bool files = true;  // else frames go nowhere
+  std::uint32_t sink_threads = 2;
+  std::uint64_t host_budget = std::uint64_t{1} << 30;  // bytes, as share_host_memory wants it
+
+  wire::PixelFormat pixels() const { return images::facts_of(picture).pixels; }
+};
+
+}  // namespace mars::forecast

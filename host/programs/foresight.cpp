@@ -1,0 +1,90 @@
+#include "host/programs/foresight.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "host/child/programs.h"
+#include "host/experiments/forecast/forecast.h"
+#include "host/programs/node_counter.h"
+#include "host/shell/job/render_job.h"
+#include "topology/machine.h"
+
+namespace mars::programs {
+namespace {
+
+constexpr double kMostCounting = 0.5;  // seconds
+constexpr double kCountedPart = 0.1;   // of counting all frames, of what each node would do of it
+constexpr double kSoon = 1.0;          // seconds, about: not worth a forecast
+
+forecast::Setting setting_of(const session::RenderJob& job, const wire::FilmView& film,
+                             const experiments::Platform& platform) {
+  forecast::Setting setting{film, platform, job.mapping, job.format, !job.folder.empty()};
+  const session::HostMachine host = session::host_machine(job.host);
+  setting.host_budget = host.memory;
+  setting.sink_threads = session::sink_threads(host);
+  return setting;
+}
+
+session::Foresight foresee(const session::RenderJob& job, const experiments::Platform& platform,
+                           const wire::FilmView& film, const farm::PlanRequest& request, int nodes) {
+  const std::vector<farm::Task> tasks = farm::make_tasks(film, request.frames, request.coherence);
+  const forecast::FilmCounts counts =
+      forecast::count_film(film, tasks, *make_node_counter(film), {kMostCounting, kCountedPart / nodes});
+  const forecast::Forecast best =
+      forecast::forecast(counts, tasks, setting_of(job, film, platform), nodes, request.groups);
+  std::vector<events::ExpectedFrame> frames;
+  for (const forecast::ForecastFrame& frame : best.run.frames) frames.push_back({frame.seconds, frame.kind});
+  return {best.groups, events::Course(std::move(frames))};
+}
+
+// The nodes of a rendering as they are on this machine.
+experiments::Platform placed_here(experiments::Platform platform, int nodes) {
+  platform.machine.nodes = nodes;
+  platform.machine.processors = topology::Machine::here().processors();
+  platform.machine.host_apart = false;
+  return platform;
+}
+
+// Seconds that nodes work, very roughly.
+double rough_seconds(const wire::FilmView& film, const std::vector<farm::Task>& tasks) {
+  constexpr double kPatch = 1e-5, kSample = 2e-9;
+  const wire::FilmSettings& settings = film.settings();
+  const double samples = double{1} * settings.width * settings.height * settings.samples;
+  double seconds = 0;
+  for (const farm::Task& task : tasks) {
+    double moving = 0;
+    for (const std::uint32_t segment : film.moving(film.intervals()[task.interval]))
+      moving += static_cast<double>(film.shapes()[film.segments()[segment].shape].size());
+    const auto frames = static_cast<double>(task.frames.size());
+    seconds += static_cast<double>(film.patch_instances()) * kPatch + (frames - 1) * moving * kPatch +
+               frames * samples * kSample;
+  }
+  return seconds;
+}
+
+}  // namespace
+
+void foresee_on(const experiments::Platform& platform, session::RenderJob& job) {
+  job.foresee = [platform, job](const wire::FilmView& film, const farm::PlanRequest& request, int nodes) {
+    return foresee(job, platform, film, request, nodes);
+  };
+}
+
+void render_here(const options::RenderOptions& options, const std::string& backend) {
+  session::RenderJob job = job::job_of(options, backend);
+  job.foresee = [job](const wire::FilmView& film, const farm::PlanRequest& request, int nodes) {
+    const std::vector<farm::Task> tasks = farm::make_tasks(film, request.frames, request.coherence);
+    if (rough_seconds(film, tasks) / nodes < kSoon) return session::Foresight();
+    const std::filesystem::path folder = experiments::platforms_folder(child::own_file());
+    const bool calibrated = std::filesystem::exists(experiments::calibrated_platform());
+    farm::PlanRequest known = request;
+    if (!calibrated && request.groups == 0)
+      known.groups = static_cast<std::uint32_t>(farm::make_groups(nodes, 0, tasks.size()).size());
+    const experiments::Platform platform = experiments::read_platform(calibrated ? "here" : "reference", folder);
+    return foresee(job, placed_here(platform, nodes), film, known, nodes);
+  };
+  session::run_session(job);
+}
+
+}  // namespace mars::programs

@@ -1,0 +1,19 @@
+// What is foreseen of a rendering, by a forecast of its frames as nodes' code counts them.
+#pragma once
+
+#include <string>
+
+#include "host/experiments/platform.h"
+#include "host/render/session/session.h"
+#include "host/shell/options/render_options.h"
+
+namespace mars::programs {
+
+// On simulated machines.
+void foresee_on(const experiments::Platform& platform, session::RenderJob& job);
+
+// Renders on this machine, as its host. What is foreseen follows from what mars calibrate measured; else from what work
+// costs on a typical machine, and groups are not chosen by that. Nothing is foreseen of renderings that soon end.
+void render_here(const options::RenderOptions& options, const std::string& backend);
+
+}  // namespace mars::programs

@@ -1,0 +1,10 @@
+// Nodes' code counts frames for forecasts.
+#pragma once
+
+#include "host/experiments/forecast/counter.h"
+
+namespace mars::programs {
+
+std::unique_ptr<forecast::Counter> make_node_counter(const wire::FilmView& film);
+
+}  // namespace mars::programs

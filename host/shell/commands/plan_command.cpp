@@ -1,0 +1,129 @@
+#include "host/shell/commands/plan_command.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "host/child/programs.h"
+#include "host/content/document/text.h"
+#include "host/experiments/forecast/forecast.h"
+#include "host/images/picture_format.h"
+#include "host/render/session/session.h"
+#include "host/shell/job/film_of.h"
+#include "host/shell/options/render_options.h"
+#include "topology/machine.h"
+
+namespace mars::commands {
+namespace {
+
+constexpr double kCounting = 0.5;  // seconds, about
+constexpr double kWorthIt = 1.05;  // times the shortest: more nodes than that takes are not worth it
+
+struct Words {
+  options::RenderOptions options;
+  bool json = false;
+};
+
+struct Planned {
+  std::string platform;
+  std::size_t counted;  // frames
+  std::size_t frames;
+  std::vector<forecast::Forecast> by_nodes;  // ascending; the last has the nodes that were asked for
+  double slots;                              // bytes of a node's strips
+
+  const forecast::Forecast& asked() const { return by_nodes.back(); }
+  // The fewest nodes that take hardly longer than the shortest.
+  const forecast::Forecast& best() const {
+    const auto seconds = [](const forecast::Forecast& each) { return each.run.seconds; };
+    const double shortest = seconds(*std::ranges::min_element(by_nodes, {}, seconds));
+    return *std::ranges::find_if(by_nodes, [&](const auto& each) { return seconds(each) <= kWorthIt * shortest; });
+  }
+};
+
+Planned plan(const options::RenderOptions& options, const forecast::MakeCounter& make_counter) {
+  const film::CompiledFilm film =
+      job::load_film_of(options, [](const std::string& line) { std::cerr << "mars: warning: " << line << '\n'; });
+  const wire::FilmView view = film.view();
+  const experiments::Platform platform = experiments::read_platform(
+      options.platform.empty() ? "here" : options.platform, experiments::platforms_folder(child::own_file()));
+  const auto frames = options.frames.of_film(view.settings().frames);
+  const std::vector<farm::Task> tasks = farm::make_tasks(view, frames, !options.no_coherence);
+  const forecast::FilmCounts counts = forecast::count_film(view, tasks, *make_counter(view), {kCounting});
+  forecast::Setting setting{view, platform, options.mapping, options.format, options.sink == options::SinkKind::files};
+  setting.sink_threads = session::sink_threads({platform.host_memory, platform.host_processors()});
+  setting.host_budget = platform.host_memory;
+  const int nodes = options.nodes == 0 ? topology::Machine::here().processors() : static_cast<int>(options.nodes);
+  Planned planned{platform.name, counts.counted, frames.size(),
+                  forecast::forecasts_up_to(counts, tasks, setting, nodes, options.groups), 0};
+  planned.slots = planned.asked().run.host_memory.credits * static_cast<double>(wire::kSlotBytes);
+  return planned;
+}
+
+std::string megabytes(double bytes) { return document::formatted("%.1f MB", bytes / 1e6); }
+
+std::string in_groups(const forecast::Forecast& forecast) {
+  return document::counted(static_cast<std::size_t>(forecast.nodes), "node") + " in " +
+         document::counted(forecast.groups, "group");
+}
+
+std::string text_of(const Planned& planned) {
+  const forecast::Forecast &asked = planned.asked(), &best = planned.best();
+  const forecast::Rehearsed& run = asked.run;
+  std::string text = "platform    " + planned.platform + "\n";
+  text += "nodes       " + in_groups(asked) + "\n";
+  text += document::formatted("seconds     %.4g\n", run.seconds);
+  text += document::formatted("node hours  %.3g\n", asked.node_hours());
+  text += "a node      " + megabytes(run.node_memory) + " for a frame, " + megabytes(planned.slots) + " for strips\n";
+  text += "the host    " + megabytes(static_cast<double>(run.host_memory.most_bytes())) + " at most\n";
+  text += "messages    " + megabytes(run.bytes_to_nodes) + " between nodes, " + megabytes(run.bytes_to_host) +
+          " to the host\n";
+  text += document::formatted("counted     %zu of %zu frames\n", planned.counted, planned.frames);
+  text += "best        " + in_groups(best) + document::formatted(", %.4g seconds\n", best.run.seconds);
+  text += "  nodes   groups      seconds   speed-up   node hours\n";
+  for (const forecast::Forecast& each : planned.by_nodes)
+    text += document::formatted("%7d %8u %12.4g %10.2f %12.3g\n", each.nodes, each.groups, each.run.seconds,
+                                planned.by_nodes.front().run.seconds / each.run.seconds, each.node_hours());
+  return text;
+}
+
+nlohmann::ordered_json json_of(const forecast::Forecast& forecast) {
+  return {{"nodes", forecast.nodes},
+          {"groups", forecast.groups},
+          {"seconds", forecast.run.seconds},
+          {"node_hours", forecast.node_hours()},
+          {"node_memory", std::llround(forecast.run.node_memory)},
+          {"host_memory", forecast.run.host_memory.most_bytes()},
+          {"bytes_to_nodes", std::llround(forecast.run.bytes_to_nodes)},
+          {"bytes_to_host", std::llround(forecast.run.bytes_to_host)}};
+}
+
+std::string json_text(const Planned& planned) {
+  nlohmann::ordered_json all = json_of(planned.asked());
+  all["platform"] = planned.platform;
+  all["counted"] = planned.counted;
+  all["frames"] = planned.frames;
+  all["slots"] = std::llround(planned.slots);
+  all["best"] = json_of(planned.best());
+  for (const forecast::Forecast& each : planned.by_nodes) all["by_nodes"].push_back(json_of(each));
+  return all.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+void add_plan(CLI::App& app, const forecast::MakeCounter& make_counter) {
+  const auto words = std::make_shared<Words>();
+  CLI::App* command = app.add_subcommand("plan", "Forecast a rendering's time, memory and bytes");
+  options::add_render_options(*command, words->options, options::Program::plan);
+  command->add_flag("--json", words->json, "Print one JSON object, for programs. Example: --json");
+  command->callback([words, make_counter] {
+    const Planned planned = plan(words->options, make_counter);
+    std::cout << (words->json ? json_text(planned) : text_of(planned));
+  });
+}
+
+}  // namespace mars::commands

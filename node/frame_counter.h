@@ -1,0 +1,74 @@
+// Counts what a frame has to be drawn, as forecasts need it: makes its triangles as nodes do, forgets them share by
+// share, and decides on some of its lines what is seen. It shades nothing and sends nothing.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "hal/messages/private_memory.h"
+#include "node/geometry/scene.h"
+#include "node/raster/kernels.h"
+#include "node/raster/line_load.h"
+#include "node/tessellator.h"
+#include "node/wire/frame_counts.h"
+
+namespace mars::node {
+
+class FrameCounter {
+ public:
+  // The film's block outlives it.
+  FrameCounter(const wire::FilmView& film, simd::InstructionSet set);
+
+  // Of frames of one interval, ascending, the first: what a group's nodes have together.
+  wire::FrameCounts count_keyframe(std::uint32_t interval, std::span<const std::uint32_t> frames);
+  // Of a frame of the interval whose keyframe was counted last.
+  wire::FrameCounts count_inbetween(std::uint32_t frame);
+
+ private:
+  // On one of the lines where visibility is decided.
+  struct SampledLine {
+    std::vector<raster::EdgeBox> stationary, moving;
+    std::vector<float> constant_depth;  // CZB of the interval, row by row of the pattern
+  };
+  struct Columns {
+    std::uint32_t first = 0xffffffff;
+    std::uint32_t last = 0;
+
+    void add(std::uint32_t from, std::uint32_t to) { first = std::min(first, from), last = std::max(last, to); }
+    double width() const { return first < last ? last - first : 0; }
+  };
+
+  wire::FrameCounts count(wire::FrameKind kind, std::uint32_t frame);
+  wire::UnitCounts count_share(std::uint32_t share, bool keyframe);
+  void keep_sampled(std::span<const raster::UnsortedEdgeBox> boxes, const geometry::Triangle* triangles, bool moving);
+  wire::UnitCounts units_of(const Tessellation& made, const wire::WorkCounts& work) const;
+  void spread(const std::vector<wire::SeenCounts>& seen, std::vector<wire::LineCounts>& lines,
+              wire::SeenCounts wire::LineCounts::*to, double (*samples_of)(const wire::LineCounts&)) const;
+  void estimate_seen(std::vector<wire::LineCounts>& lines, bool keyframe);
+  wire::SeenCounts draw(std::span<const raster::EdgeBox> boxes, std::uint32_t line, std::vector<float>& depths);
+
+  void count_groups(std::uint32_t column, wire::SeenCounts& seen) const;
+
+  std::uint32_t line_of(std::size_t sampled) const;
+
+  geometry::Scene scene_;
+  Tessellator tessellator_;
+  const raster::RasterKernels& kernels_;
+  const std::uint32_t step_;    // every so many lines one is sampled
+  const std::uint32_t stride_;  // of a row of samples, with what kernels need behind it
+  messages::PrivateMemory memory_;
+  std::vector<std::uint8_t> all_lines_;
+  std::vector<raster::LineLoad> share_loads_;
+  std::vector<raster::LineLoad> loads_;  // of all shares
+  std::vector<Columns> moving_columns_;
+  std::vector<raster::LineLoad> moving_loads_;  // of these, moving parts'
+  std::vector<geometry::Triangle> triangles_;   // of the sampled lines
+  std::vector<SampledLine> sampled_;
+  std::vector<std::uint32_t> ids_;
+  std::vector<float> depths_;
+};
+
+}  // namespace mars::node

@@ -1,0 +1,66 @@
+// What a frame has to be drawn, counted without drawing it (node/frame_counter.h): what the host forecasts a rendering
+// from.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "node/wire/protocol.h"
+#include "node/wire/work.h"
+
+namespace mars::wire {
+
+// Patches and meshlets of a frame are counted in so many shares, by their number modulo it: a node of a group of 1, 2,
+// 4 ... makes the triangles of whole shares.
+inline constexpr std::uint32_t kCountedShares = 64;
+
+// Units of a node's work by kind.
+struct UnitCounts {
+  std::array<double, kNodeKinds> units{};
+
+  double& operator[](Work kind) { return units[static_cast<std::size_t>(kind)]; }
+  double operator[](Work kind) const { return units[static_cast<std::size_t>(kind)]; }
+};
+
+// Of stationary parts (CFB), or of moving ones (MFB), on one line of pixels.
+struct SeenCounts {
+  double pixels = 0;
+  double runs = 0;          // of neighbouring pixels
+  double shaded = 0;        // groups of a pixel's samples that show the same triangle
+  double highlights = 0;    // of these, lit by models of highlights
+  double facets = 0;        // and of rough surfaces
+  double block_pixels = 0;  // of the compositor's blocks on this line, where the pixels do not fill them
+
+  SeenCounts& operator+=(const SeenCounts& more) {
+    pixels += more.pixels, runs += more.runs, shaded += more.shaded, highlights += more.highlights;
+    facets += more.facets, block_pixels += more.block_pixels;
+    return *this;
+  }
+  SeenCounts operator*(double part) const {
+    return {pixels * part, runs * part, shaded * part, highlights * part, facets * part, block_pixels * part};
+  }
+};
+
+// What is seen is decided on some lines, and estimated from these on the others.
+struct LineCounts {
+  double edge_boxes = 0;
+  double samples = 0;            // that these cover
+  double moving_edge_boxes = 0;  // of these, moving parts'
+  double moving_samples = 0;
+  double moving_width = 0;  // in pixels, from the first edge box of moving parts to the last
+  SeenCounts constant;
+  SeenCounts moving;
+};
+
+struct FrameCounts {
+  FrameKind kind = FrameKind::keyframe;
+  std::uint32_t frame = 0;
+  std::vector<UnitCounts> shares;      // kCountedShares: what triangles take; an inbetween's of moving parts only
+  std::vector<LineCounts> lines;       // of the picture, likewise
+  std::uint32_t first_still_line = 0;  // of those that inbetweens may touch (keyframes)
+  std::uint32_t last_still_line = 0;
+};
+
+}  // namespace mars::wire
