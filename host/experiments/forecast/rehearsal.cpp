@@ -66,7 +66,7 @@ class Rehearsal {
   }
   double way_from_host(int n, double bytes) {
     return routes_.arrival(computers_.of(static_cast<int>(nodes_.size())), computers_.of(n),
-                           static_cast<std::size_t>(bytes), clockwork_.now());
+                           static_cast<std::size_t>(bytes), clockwork_.now(), clockwork_.now());
   }
 
   const FilmCounts& counts_;
@@ -250,7 +250,7 @@ void Rehearsal::send_strip(int n) {
   const double sent = computers_.work(n, clockwork_.now(), costs_.costs().to_send(bytes));
   clockwork_.at(sent, [this, strip, host] {
     const double arrival = routes_.arrival(computers_.of(strip.node), computers_.of(host),
-                                           static_cast<std::size_t>(strip.bytes), clockwork_.now());
+                                           static_cast<std::size_t>(strip.bytes), clockwork_.now(), clockwork_.now());
     clockwork_.at(arrival, [this, strip] { host_.arrive(strip); });
   });
   later(n, sent, strip.last ? &Rehearsal::end_frame : &Rehearsal::draw_strip);
