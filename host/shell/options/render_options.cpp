@@ -188,7 +188,9 @@ std::vector<Entry> table() {
              "MPI processes, or threads of one process; auto uses MPI where it is installed; simulated: nodes of "
              "--platform, whose times are counted, not measured. Example: --backend threads"),
       option(simulates, "--platform", "NAME|FILE", &RenderOptions::platform,
-             "Machines that --backend simulated simulates: ipsc2, fat-tree, dragonfly, ethernet, or a file. Example: "
+             "Machines that --backend simulated simulates: ipsc2, fat-tree, dragonfly, ethernet, here (mars "
+             "calibrate), or a "
+             "file. Example: "
              "--platform fat-tree"),
       option(person, "--hostfile", "FILE", &RenderOptions::hostfile,
              "Machines to use, one per line as for mpirun: n1 slots=4. Example: --hostfile hosts"),
