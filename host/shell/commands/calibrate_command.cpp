@@ -18,6 +18,7 @@
 #include "host/experiments/calibrate.h"
 #include "host/experiments/platform.h"
 #include "host/shell/launch/command.h"
+#include "host/shell/launch/mpi_messages.h"
 #include "topology/machine.h"
 #include "topology/memory_limit.h"
 
@@ -79,7 +80,8 @@ void calibrate(const Words& words, const MeasureMessages& measure_messages) {
   const fs::path file = words.file.empty() ? experiments::calibrated_platform() : fs::path(words.file);
   if (words.file.empty()) fs::create_directories(file.parent_path());
   document::check_can_write(file);
-  const experiments::MessageCosts messages = measure_messages();
+  const auto over_mpi = launch::mpi_message_costs(child::own_file());
+  const experiments::MessageCosts messages = over_mpi ? *over_mpi : measure_messages();
   const WorkFolder folder;
   const experiments::Calibration calibration =
       experiments::calibrate({renderer(), folder.path(), words.repeats, show_progress});

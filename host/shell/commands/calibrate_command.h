@@ -11,7 +11,7 @@ class App;
 
 namespace mars::commands {
 
-// Measures messages between two nodes on this machine.
+// Measures messages between two nodes on this machine, where there is no MPI.
 using MeasureMessages = std::function<experiments::MessageCosts()>;
 
 void add_calibrate(CLI::App& app, const MeasureMessages& measure_messages);

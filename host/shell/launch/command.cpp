@@ -131,7 +131,8 @@ Programs find_programs(const fs::path& self, const std::string& path) {
           find_ours("mars-threads", self, path),
           find_ours("mars-simulated", self, path),
           our_mpi(),
-          find_loopback(self)};
+          find_loopback(self),
+          find_ours("mars-messages", self, path)};
 }
 
 Surroundings look_around(const std::string& path, Ask ask) {

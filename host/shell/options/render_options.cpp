@@ -190,7 +190,9 @@ std::vector<Entry> table() {
              "MPI processes, or threads of one process; auto uses MPI where it is installed; simulated: nodes of "
              "--platform, whose times are counted, not measured. Example: --backend threads"),
       option(simulates, "--platform", "NAME|FILE", &RenderOptions::platform,
-             "Machines that --backend simulated simulates: ipsc2, fat-tree, dragonfly, ethernet, or a file. Example: "
+             "Machines that --backend simulated simulates: ipsc2, fat-tree, dragonfly, ethernet, here (mars "
+             "calibrate), or a "
+             "file. Example: "
              "--platform fat-tree"),
       option(bit(Program::plan), "--platform", "here|NAME|FILE", &RenderOptions::platform,
              "Machines that would render: here, as mars calibrate measured them, which is the default; ipsc2, "

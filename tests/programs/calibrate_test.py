@@ -1,0 +1,45 @@
+"""mars calibrate: a platform that the simulator takes, by file and by name; simulated times are the same twice."""
+
+import json
+
+from harness import ENVIRONMENT, EXAMPLES, ProgramTest, main
+
+FEW = ["--sink", "none", "--size", "64x36", "--frames", "0-5"]
+
+
+class Calibrations(ProgramTest):
+    def simulate(self, platform, **more):
+        self.succeed("mars", "render", EXAMPLES / "teapot.json", *FEW, "--backend", "simulated", "--nodes", 3,
+                     "--platform", platform, "--report", "report.json", **more)
+        return json.loads((self.folder / "report.json").read_text())
+
+    def test_a_calibration_is_a_platform(self):
+        home = dict(ENVIRONMENT, HOME=str(self.folder), XDG_DATA_HOME="")
+        missing = self.mars("render", EXAMPLES / "teapot.json", *FEW, "--backend", "simulated", "--platform", "here",
+                            env=home)
+        self.assertEqual(missing.returncode, 1)
+        self.assertIn("run mars calibrate", missing.stderr)
+        printed = self.succeed("mars", "calibrate", "--repeats", 1, env=home)
+        for word in ["edge_box", "nanoseconds", "scanline", "middle error"]:
+            self.assertIn(word, printed)
+        file = self.folder / ".local/share/mars/here.json"
+        costs = json.loads(file.read_text())["work"]
+        for kind in ["patch", "edge_box", "light", "sink_byte"]:
+            self.assertGreater(costs[kind] + costs["first_frame"], 0)
+        calibrated = self.simulate("here", env=home)
+        self.assertEqual(calibrated["total_seconds"], self.simulate(file)["total_seconds"])
+        self.assertNotEqual(calibrated["total_seconds"], self.simulate("fat-tree:here", env=home)["total_seconds"])
+
+    def test_simulated_digits_are_the_same_twice(self):
+        first, second = self.simulate("fat-tree"), self.simulate("fat-tree")
+        self.assertEqual(first["frames"], second["frames"])
+        self.assertEqual(first["total_seconds"], second["total_seconds"])
+
+    def test_nothing_is_measured_where_nothing_can_be_written(self):
+        refused = self.mars("calibrate", "-o", "no/such/folder.json")
+        self.assertEqual(refused.returncode, 1)
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+
+if __name__ == "__main__":
+    main()
