@@ -45,32 +45,41 @@ const Phase kNodePhases[] = {{"dice",
                               {"scanline"},
                               {Work::first_frame, Work::frame, Work::line, Work::edge_box, Work::sample, Work::shaded,
                                Work::light, Work::facet_light, Work::pixel, Work::still_byte}}};
-const Phase kHostPhase{
-    "host", {"busy"}, {Work::host_strip, Work::host_run, Work::host_byte, Work::host_restored, Work::host_frame}};
+const Phase kHostPhase{"host",
+                       {"busy_seconds"},
+                       {Work::host_strip, Work::host_run, Work::host_byte, Work::host_restored, Work::host_frame}};
 
 // Times below are the clock's and the scheduler's.
 constexpr double kSoft = 1e-4;
 
-// What was seen of one thing, a frame or a run, in all repeats.
+// A frame on its node, or a rendering on its host, as a report has it.
 struct Seen {
-  std::map<std::string, std::vector<double>> seconds;
-  json charged;
-
-  void add(const std::string& name, double value) { seconds[name].push_back(value); }
+  const json& seconds;
+  const json& charged;
 };
 
-double sum_of_least(const Seen& seen, const Phase& phase) {
-  double sum = 0;
-  for (const char* name : phase.times)
-    if (const auto found = seen.seconds.find(name); found != seen.seconds.end()) sum += std::ranges::min(found->second);
-  return sum;
-}
-
 Measurement measurement_of(const Seen& seen, const Phase& phase) {
-  Measurement measured{{}, sum_of_least(seen, phase)};
+  Measurement measured{{}, 0};
+  for (const char* name : phase.times) measured.seconds += seen.seconds.at(name).get<double>();
   for (const Work kind : phase.kinds)
     measured.units.push_back(seen.charged.value(std::string(wire::kWorkNames[static_cast<std::size_t>(kind)]), 0.0));
   return measured;
+}
+
+const json& node_of(const json& frame) { return frame.at("nodes").front(); }
+
+// Of its node, in all phases of all frames.
+double node_seconds(const json& report) {
+  double sum = 0;
+  for (const json& frame : report.at("frames"))
+    for (const Phase& phase : kNodePhases)
+      for (const char* name : phase.times) sum += node_of(frame).at("seconds").at(name).get<double>();
+  return sum;
+}
+
+double median(std::vector<double> values) {
+  std::ranges::sort(values);
+  return values[values.size() / 2];
 }
 
 class Measuring {
@@ -84,8 +93,8 @@ class Measuring {
       for (const char* format : {"png", "png16", "exr"}) render_files(format);
     }
     calibration_.work.assign(wire::kWorkNames.size(), 0);
-    for (const Phase& phase : kNodePhases) fit(phase, frames_);
-    fit(kHostPhase, runs_);
+    for (const Phase& phase : kNodePhases) fit(phase, frames());
+    fit(kHostPhase, runs());
     set_file_costs();
     calibration_.spread = spread();
     return std::move(calibration_);
@@ -110,17 +119,13 @@ class Measuring {
     return json::parse(file);
   }
 
+  // Keeps the repeat that took least. Not the least of each frame: what frames do to each other's caches belongs to
+  // their times.
   void render(const CalibrationFilm& film) {
-    const json report = report_of(film, {"--sink", "none"});
-    Seen& run = runs_[film.name];
-    run.charged = report["host"]["charged"];
-    run.add("busy", report["host"]["busy_seconds"]);
-    for (const json& frame : report["frames"]) {
-      const json& node = frame["nodes"].front();
-      Seen& seen = frames_[film.name + " " + std::to_string(frame["frame"].get<int>())];
-      seen.charged = node["work"]["charged"];
-      for (const auto& [name, seconds] : node["seconds"].items()) seen.add(name, seconds);
-    }
+    json report = report_of(film, {"--sink", "none"});
+    std::vector<double>& seconds = seconds_[film.name];
+    seconds.push_back(node_seconds(report));
+    if (seconds.back() == std::ranges::min(seconds)) reports_[film.name] = std::move(report);
   }
 
   const CalibrationFilm& file_film() const { return *std::ranges::find(films_, "balls", &CalibrationFilm::name); }
@@ -135,9 +140,23 @@ class Measuring {
     file_seconds_[format].push_back(report["host"]["sink_seconds"].get<double>() / frames);
   }
 
-  void fit(const Phase& phase, const std::map<std::string, Seen>& all) {
+  std::vector<Seen> frames() const {
+    std::vector<Seen> all;
+    for (const auto& [name, report] : reports_)
+      for (const json& frame : report.at("frames"))
+        all.push_back({node_of(frame).at("seconds"), node_of(frame).at("work").at("charged")});
+    return all;
+  }
+
+  std::vector<Seen> runs() const {
+    std::vector<Seen> all;
+    for (const auto& [name, report] : reports_) all.push_back({report.at("host"), report.at("host").at("charged")});
+    return all;
+  }
+
+  void fit(const Phase& phase, const std::vector<Seen>& all) {
     std::vector<Measurement> measurements;
-    for (const auto& [name, seen] : all) measurements.push_back(measurement_of(seen, phase));
+    for (const Seen& seen : all) measurements.push_back(measurement_of(seen, phase));
     const Fit found = fit_costs(measurements, kSoft);
     for (std::size_t i = 0; i < phase.kinds.size(); ++i)
       calibration_.work[static_cast<std::size_t>(phase.kinds[i])] += found.costs[i];
@@ -152,23 +171,16 @@ class Measuring {
           std::ranges::min(file_seconds_[format]) / (file_pixels_ * pixel_bytes);
   }
 
-  // Of the long phases, where the clock does not matter.
   double spread() const {
-    constexpr double kLong = 1e-3;
     std::vector<double> spreads;
-    for (const auto& [name, seen] : frames_) {
-      std::vector<double> times = seen.seconds.at("scanline");
-      std::ranges::sort(times);
-      if (times.front() > kLong) spreads.push_back(times[times.size() / 2] / times.front() - 1);
-    }
-    std::ranges::sort(spreads);
-    return spreads.empty() ? 0 : spreads[spreads.size() / 2];
+    for (const auto& [name, seconds] : seconds_) spreads.push_back(median(seconds) / std::ranges::min(seconds) - 1);
+    return median(spreads);
   }
 
   const CalibrationTask& task_;
   const std::vector<CalibrationFilm> films_;
-  std::map<std::string, Seen> frames_;
-  std::map<std::string, Seen> runs_;
+  std::map<std::string, json> reports_;                 // of each film's shortest rendering
+  std::map<std::string, std::vector<double>> seconds_;  // of all
   std::map<std::string, std::vector<double>> file_seconds_;
   double file_pixels_ = 0;
   int done_ = 0;

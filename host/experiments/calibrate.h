@@ -1,5 +1,5 @@
-// What work costs on this machine: small films (calibration_films.h) are rendered by one node, several times, and the
-// least times of their frames are explained by what was counted.
+// What work costs on this machine: small films (calibration_films.h) are rendered by one node, several times, and what
+// was counted explains the times of each film's shortest rendering.
 #pragma once
 
 #include <filesystem>

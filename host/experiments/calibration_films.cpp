@@ -1,13 +1,20 @@
 #include "host/experiments/calibration_films.h"
 
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <string_view>
 
 namespace mars::experiments {
 namespace {
 
 using nlohmann::json;
+
+// Bodies differ from their neighbours, as the parts of figures do.
+constexpr const char* kMixed = "mixed";
+constexpr std::array kShapes{"sphere", "cylinder", "cone", "box"};
+constexpr std::array kReflections{"phong", "blinn-phong", "cook-torrance"};
 
 struct Bodies {
   const char* name;
@@ -25,6 +32,10 @@ struct Bodies {
 constexpr Bodies kBodies[] = {
     {"cube", "box", 1, 6, 0, "phong", "phong", 1, 1, "1280x720"},
     {"cubes", "box", 3, 2, 0, "blinn-phong", "phong", 3, 4, "960x540"},
+    {"crowd", kMixed, 12, 0.7, 0, kMixed, "phong", 3, 4, "480x270"},
+    {"figures", kMixed, 7, 1.2, 0, kMixed, "phong", 3, 1, "960x540"},
+    {"people", kMixed, 16, 0.6, 0, kMixed, "phong", 2, 1, "640x360"},
+    {"group", kMixed, 5, 1.8, 0, kMixed, "phong", 3, 4, "960x540"},
     {"boxes", "box", 24, 0.2, 0, "phong", "phong", 2, 1, "320x180"},
     {"still", "sphere", 12, 0.5, 0, "phong", "phong", 2, 1, "640x360"},
     {"balls", "sphere", 4, 1.7, 0, "blinn-phong", "phong", 3, 1, "1280x720"},
@@ -93,12 +104,14 @@ json lights(int count) {
 }
 
 // Every second one turns.
-json actors(const Bodies& bodies) {
+json actors(const Bodies& bodies, std::size_t models) {
   json all = json::array();
   for (int i = 0; i < bodies.side * bodies.side; ++i) {
     const double step = 6.5 / bodies.side;
     const double x = (i % bodies.side + 0.5) * step - 3.25, z = (static_cast<double>(i) / bodies.side) * step - 3.0;
-    json actor = {{"name", "a" + std::to_string(i)}, {"model", "body"}, {"place", {x, 0, z}}};
+    json actor = {{"name", "a" + std::to_string(i)},
+                  {"model", "body" + std::to_string(static_cast<std::size_t>(i) % models)},
+                  {"place", {x, 0, z}}};
     if (i % 2 == 1 || bodies.side == 1)
       actor["keys"] = {{{"frame", 0}, {"turn", {0, 0, 0}}}, {{"frame", 8}, {"turn", {0, 0, 160}}}};
     all.push_back(actor);
@@ -106,24 +119,35 @@ json actors(const Bodies& bodies) {
   return all;
 }
 
-std::string film_text(const Bodies& bodies) {
+json model(const Bodies& bodies, const std::string& shape, const std::string& reflection) {
   const double half = bodies.size / 2;
-  const json segment = {
-      {"shape", bodies.shape}, {"sbb", {{-half, -half, -half}, {half, half, half}}}, {"material", "skin"}};
+  const json segment = {{"shape", shape}, {"sbb", {{-half, -half, -half}, {half, half, half}}}, {"material", "skin"}};
   json model = {{"joints", {{{"name", "body"}, {"segment", segment}}}}};
   const json shapes = own_shapes();
-  if (shapes.contains(bodies.shape)) model["shapes"] = {{bodies.shape, shapes[bodies.shape]}};
-  const json material = {
-      {"color", {0.7, 0.5, 0.3}}, {"reflection", bodies.reflection}, {"interpolation", bodies.interpolation}};
+  if (shapes.contains(shape)) model["shapes"] = {{shape, shapes[shape]}};
+  model["materials"]["skin"] = {
+      {"color", {0.7, 0.5, 0.3}}, {"reflection", reflection}, {"interpolation", bodies.interpolation}};
+  return model;
+}
+
+json models(const Bodies& bodies) {
+  if (std::string_view(bodies.shape) != kMixed) return {{"body0", model(bodies, bodies.shape, bodies.reflection)}};
+  json all;
+  for (std::size_t i = 0; i < kShapes.size() * kReflections.size(); ++i)
+    all["body" + std::to_string(i)] = model(bodies, kShapes[i % kShapes.size()], kReflections[i % kReflections.size()]);
+  return all;
+}
+
+std::string film_text(const Bodies& bodies) {
   const json ambient = {{"sky", {0.8, 0.9, 1}}, {"ground", {0.5, 0.45, 0.4}}};
+  const json all_models = models(bodies);
   return json({{"frames", 8},
                {"ambient", ambient},
                {"dice", bodies.dice == 0 ? json("adaptive") : json(bodies.dice)},
                {"camera", {{"eye", {0, -14, 4}}, {"at", {0, 0, 0}}, {"fov", 34}}},
                {"lights", lights(bodies.lights)},
-               {"materials", {{"skin", material}}},
-               {"models", {{"body", model}}},
-               {"actors", actors(bodies)}})
+               {"models", all_models},
+               {"actors", actors(bodies, all_models.size())}})
       .dump(1);
 }
 
