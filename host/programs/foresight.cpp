@@ -31,11 +31,8 @@ session::Foresight foresee(const session::RenderJob& job, const experiments::Pla
   const std::vector<farm::Task> tasks = farm::make_tasks(film, request.frames, request.coherence);
   const forecast::FilmCounts counts =
       forecast::count_film(film, tasks, *make_node_counter(film), {kMostCounting, kCountedPart / nodes});
-  const forecast::Forecast best =
-      forecast::forecast(counts, tasks, setting_of(job, film, platform), nodes, request.groups);
-  std::vector<events::ExpectedFrame> frames;
-  for (const forecast::ForecastFrame& frame : best.run.frames) frames.push_back({frame.seconds, frame.kind});
-  return {best.groups, events::Course(std::move(frames))};
+  forecast::Forecast best = forecast::forecast(counts, tasks, setting_of(job, film, platform), nodes, request.groups);
+  return {best.groups, events::Course(std::move(best.run.frames))};
 }
 
 // The nodes of a rendering as they are on this machine.

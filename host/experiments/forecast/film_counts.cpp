@@ -52,48 +52,43 @@ class FilmCount {
   Counter& counter_;
   FilmCounts counts_;
   std::size_t first_ = 0;                   // task that was counted first
-  double keyframe_seconds_ = 0;             // that counting one takes
-  double inbetween_seconds_ = 0;            // likewise
   std::vector<std::size_t> counted_tasks_;  // by keyframe
   std::vector<std::vector<Known>> known_;   // by task, in order
 };
 
 FilmCounts FilmCount::count(const Budget& budget) {
-  const auto fit = [](double seconds, double each) { return static_cast<std::size_t>(std::max(1.0, seconds / each)); };
-  const double left = count_first(budget);
-  const std::size_t keyframes = std::min(tasks_.size(), fit(left / 2, keyframe_seconds_));
+  const double part = count_first(budget);
+  const auto part_of = [part](double all) { return static_cast<std::size_t>(std::max(1.0, std::floor(all * part))); };
+  const std::size_t keyframes = part_of(static_cast<double>(tasks_.size()));
   std::vector<std::size_t> chosen;
   for (std::size_t i = 0; i < keyframes; ++i)
     chosen.push_back((first_ + i * tasks_.size() / keyframes) % tasks_.size());
-  double inbetweens = 0;
-  for (const std::size_t task : chosen) inbetweens += static_cast<double>(inbetweens_of(tasks_[task]));
+  double there = 0, inbetweens = 0;
+  for (const farm::Task& task : tasks_) inbetweens += static_cast<double>(inbetweens_of(task));
+  for (const std::size_t task : chosen) there += static_cast<double>(inbetweens_of(tasks_[task]));
   for (const std::size_t task : chosen) {
     if (task != first_) count_keyframe(task);
     const std::size_t all = inbetweens_of(tasks_[task]);
-    if (all == 0) continue;
-    const double part = static_cast<double>(all) / inbetweens;
-    count_inbetweens(task, std::min(all, fit(left / 2 * part, inbetween_seconds_)));
+    if (all > 0) count_inbetweens(task, std::min(all, part_of(inbetweens * static_cast<double>(all) / there)));
   }
   for (std::size_t task = 0; task < tasks_.size(); ++task) estimate(task);
   return std::move(counts_);
 }
 
-// The first task with inbetweens tells what counting takes. The seconds that are left for it.
+// The first task with inbetweens tells what counting takes. The part of all frames that may be counted.
 double FilmCount::count_first(const Budget& budget) {
   while (first_ + 1 < tasks_.size() && inbetweens_of(tasks_[first_]) == 0) ++first_;
   if (inbetweens_of(tasks_[first_]) == 0) first_ = 0;
   count_keyframe(first_);
-  keyframe_seconds_ = counting_seconds(totals_of(counts_.keyframes.front()));
-  inbetween_seconds_ = keyframe_seconds_;
+  const double keyframe = counting_seconds(totals_of(counts_.keyframes.front()));
+  double inbetween = keyframe, whole = 0;
   const std::size_t all = inbetweens_of(tasks_[first_]);
   if (all > 0) {
     count_inbetween(first_, all / 2);
-    inbetween_seconds_ = counting_seconds(known_[first_].front().totals);
+    inbetween = counting_seconds(known_[first_].front().totals);
   }
-  double whole = 0;
-  for (const farm::Task& task : tasks_)
-    whole += keyframe_seconds_ + static_cast<double>(inbetweens_of(task)) * inbetween_seconds_;
-  return std::min(budget.seconds, budget.part * whole);
+  for (const farm::Task& task : tasks_) whole += keyframe + static_cast<double>(inbetweens_of(task)) * inbetween;
+  return std::min(budget.part, budget.seconds / whole);
 }
 
 void FilmCount::count_keyframe(std::size_t task) {

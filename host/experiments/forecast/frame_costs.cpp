@@ -6,8 +6,6 @@
 #include <numeric>
 #include <span>
 
-#include "node/group/mapping.h"
-
 namespace mars::forecast {
 namespace {
 

@@ -8,7 +8,7 @@
 #include "host/experiments/forecast/costs.h"
 #include "host/experiments/forecast/film_counts.h"
 #include "host/experiments/forecast/setting.h"
-#include "node/geometry/line_range.h"
+#include "node/group/mapping.h"
 
 namespace mars::forecast {
 

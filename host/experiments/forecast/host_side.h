@@ -11,7 +11,9 @@
 #include "host/experiments/forecast/clockwork.h"
 #include "host/experiments/forecast/computers.h"
 #include "host/experiments/forecast/costs.h"
-#include "host/experiments/forecast/rehearsal.h"
+#include "host/experiments/forecast/setting.h"
+#include "host/render/events/course.h"
+#include "host/render/farm/plan.h"
 
 namespace mars::forecast {
 
@@ -40,7 +42,7 @@ class HostSide {
   void begin();
   void arrive(const StripSent& strip);
 
-  std::vector<ForecastFrame>& frames() { return composed_; }
+  std::vector<events::ExpectedFrame>& frames() { return composed_; }
   // When the sinks had taken the last frame.
   double ended() const { return ended_; }
 
@@ -98,7 +100,7 @@ class HostSide {
   };
   std::deque<Taken> taken_;  // frames, by sinks
   bool idle_ = true;
-  std::vector<ForecastFrame> composed_;
+  std::vector<events::ExpectedFrame> composed_;
   double ended_ = 0;
 };
 

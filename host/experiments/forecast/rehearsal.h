@@ -7,18 +7,14 @@
 
 #include "host/experiments/forecast/film_counts.h"
 #include "host/experiments/forecast/setting.h"
+#include "host/render/events/course.h"
 #include "host/render/farm/plan.h"
 
 namespace mars::forecast {
 
-struct ForecastFrame {
-  double seconds;  // from the first command until it was composed
-  wire::FrameKind kind;
-};
-
 struct Rehearsed {
-  double seconds = 0;                 // until the sinks have taken all frames
-  std::vector<ForecastFrame> frames;  // as they are composed
+  double seconds = 0;                         // until the sinks have taken all frames
+  std::vector<events::ExpectedFrame> frames;  // as they are composed, after the first command
   double bytes_to_nodes = 0;
   double bytes_to_host = 0;
   double node_memory = 0;  // bytes of a node's arena, at most

@@ -44,7 +44,7 @@ std::string clock_text(double seconds) {
 
 std::string progress_text(const events::Progress& progress) {
   std::string text = "frame " + std::to_string(progress.done()) + " of " + std::to_string(progress.of());
-  if (progress.done() == 0) return text;
+  if (progress.done() == 0) return text + left_text(progress);
   text += ", interval " + std::to_string(progress.interval + 1) + " of " + std::to_string(progress.intervals);
   if (progress.seconds() > 0) text += ", " + one_decimal(progress.done() / progress.seconds()) + " frames/s";
   return text + left_text(progress);

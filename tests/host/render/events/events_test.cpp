@@ -11,12 +11,15 @@ std::vector<Event> one_of_each() {
   progress.keyframes = {1, 4, 0.5};
   progress.inbetweens = {7, 20, 0.125};
   progress.interval = 2;
+  Progress foreseen = progress;
+  foreseen.forecast = {1.5, 2.25};
   return {
       Loading{"film.json"},
       Loaded{23.5},
       Warning{"film.json: actor 'anna', joint \"knee\""},
       Booted{"mpi", 2, {{0, "ada", 2, "core 0", "avx2"}, {1, "bob", 1, "", "sse2"}}},
       progress,
+      foreseen,
       FrameTaken{12, 2, FrameKind::inbetween},
       FrameTaken{0, 0, FrameKind::keyframe},
       Fault{"a \"problem\"\nof two lines", "film.json:3", "mend it", {}, {}, ""},
@@ -75,6 +78,13 @@ TEST(Progress, AKindNotSeenYetIsExpectedToTakeAsTheOther) {
   progress.keyframes = {1, 2, 4.0};
   progress.inbetweens = {0, 10, 0};
   EXPECT_DOUBLE_EQ(progress.left()->inbetweens, 40.0);
+}
+
+TEST(Progress, AForecastCountsMoreThanWhatCame) {
+  Progress progress;
+  progress.keyframes = {1, 2, 4.0};
+  progress.forecast = {1, 2};
+  EXPECT_EQ(progress.left(), (Progress::Left{1, 2}));
 }
 
 }  // namespace

@@ -38,6 +38,8 @@ TEST(Display, ProgressBeforeTheFirstFrame) {
   events::Progress progress = some_progress();
   progress.keyframes.done = progress.inbetweens.done = 0;
   EXPECT_EQ(progress_text(progress), "frame 0 of 22");
+  progress.forecast = {3, 60};
+  EXPECT_EQ(progress_text(progress), "frame 0 of 22, 1:03 left (keyframes 0:03, inbetweens 1:00)");
 }
 
 TEST(Display, PlainLinesAreWholeAndNotTooMany) {

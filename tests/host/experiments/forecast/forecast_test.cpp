@@ -1,0 +1,126 @@
+#include "host/experiments/forecast/forecast.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "host/programs/node_counter.h"
+#include "tests/host/experiments/forecast/simulated_film.h"
+
+namespace mars::forecast {
+namespace {
+
+constexpr double kWithin = 0.15;
+
+void expect_near(double forecast, double measured, double within, const std::string& what) {
+  EXPECT_NEAR(forecast, measured, within * measured) << what;
+}
+
+double sum_of(const farm::FarmReport& report, std::uint64_t wire::WorkCounts::*count) {
+  double sum = 0;
+  for (const wire::Strip& strip : report.strips)
+    if (strip.last == 1) sum += static_cast<double>(strip.work.*count);
+  return sum;
+}
+
+double most_of(const farm::FarmReport& report, std::uint64_t wire::WorkCounts::*count) {
+  std::uint64_t most = 0;
+  for (const wire::Strip& strip : report.strips) most = std::max(most, strip.work.*count);
+  return static_cast<double>(most);
+}
+
+struct Case {
+  const char* film;
+  const char* frames;
+};
+
+// By GoogleTest, in messages and names.
+void PrintTo(const Case& one, std::ostream* out) { *out << one.film; }
+
+class Forecasts : public testing::TestWithParam<Case> {};
+
+TEST_P(Forecasts, AreAsSimulated) {
+  const SimulatedFilm film(GetParam().film, GetParam().frames, "fat-tree");
+  for (const int nodes : {1, 2, 4, 16}) {
+    const Rehearsed forecast = film.forecast(nodes, 1).run;
+    const farm::FarmReport report = film.render(nodes, 1);
+    const std::string where = " on " + std::to_string(nodes) + " nodes";
+    expect_near(forecast.seconds, report.total_seconds, kWithin, "seconds" + where);
+    expect_near(forecast.bytes_to_host, sum_of(report, &wire::WorkCounts::bytes_to_host), kWithin, "to host" + where);
+    expect_near(forecast.bytes_to_nodes, sum_of(report, &wire::WorkCounts::bytes_to_nodes), kWithin,
+                "to nodes" + where);
+    expect_near(forecast.node_memory, most_of(report, &wire::WorkCounts::memory), kWithin, "memory" + where);
+    EXPECT_EQ(forecast.frames.size(), report.frames.size());
+  }
+}
+
+// What is made is counted; what is seen is estimated from some lines.
+TEST_P(Forecasts, CountWhatNodesDraw) {
+  const SimulatedFilm film(GetParam().film, GetParam().frames, "fat-tree");
+  const farm::FarmReport report = film.render(1, 1);
+  for (const wire::Strip& strip : report.strips) {
+    if (strip.last == 0) continue;
+    const auto is_here = [&](const wire::FrameCounts& counts) { return counts.frame == strip.frame; };
+    const auto keyframe = std::ranges::find_if(film.counts().keyframes, is_here);
+    if (keyframe == film.counts().keyframes.end()) continue;
+    const FrameTotals totals = totals_of(*keyframe);
+    EXPECT_EQ(totals.made[wire::Work::triangle], static_cast<double>(strip.work.triangles));
+    EXPECT_EQ(totals.made[wire::Work::edge_box_made], static_cast<double>(strip.work.edge_boxes_diced));
+    EXPECT_EQ(totals.drawn.edge_boxes, static_cast<double>(strip.edge_box_total));
+    EXPECT_EQ(totals.drawn.samples, static_cast<double>(strip.work.samples));
+    expect_near(totals.pixels(), static_cast<double>(strip.work.pixels), 0.05, "pixels");
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Examples, Forecasts,
+                         testing::Values(Case{"demo", "0-7"}, Case{"visit", "100-109"}, Case{"s3", "0-11"},
+                                         Case{"robot-arm", "10-40"}, Case{"bodies", "5-12"}, Case{"stones", "0-15"},
+                                         Case{"caterpillar", "0-9"}, Case{"teapot", "0-11"}),
+                         [](const auto& each) {
+                           std::string name = each.param.film;
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+// Of all numbers of groups, the one chosen takes hardly longer than the best.
+void expect_best_groups(const SimulatedFilm& film, int nodes) {
+  const auto most = std::min(static_cast<std::uint32_t>(nodes), static_cast<std::uint32_t>(film.tasks().size()));
+  const std::uint32_t chosen = film.forecast(nodes, 0).groups;
+  double best = 1e30, own = 0;
+  for (std::uint32_t groups = 1; groups <= most; ++groups) {
+    const double seconds = film.render(nodes, groups).total_seconds;
+    best = std::min(best, seconds);
+    if (groups == chosen) own = seconds;
+  }
+  EXPECT_LE(own, 1.05 * best) << chosen << " groups of " << nodes << " nodes on " << film.platform().name;
+  EXPECT_GT(own, 0);
+}
+
+TEST(Groups, AreChosenAsBySearch) {
+  for (const char* platform : {"fat-tree", "ethernet"}) {
+    expect_best_groups(SimulatedFilm("robot-arm", "10-45", platform), 4);
+    expect_best_groups(SimulatedFilm("cubes", "40-60", platform), 2);
+  }
+  expect_best_groups(SimulatedFilm("bodies", "6-27", "ethernet"), 4);
+}
+
+TEST(Groups, AreTheSameEveryTime) {
+  const Forecast first = SimulatedFilm("robot-arm", "0-60", "ethernet").forecast(8, 0);
+  const Forecast second = SimulatedFilm("robot-arm", "0-60", "ethernet").forecast(8, 0);
+  EXPECT_EQ(first.groups, second.groups);
+  EXPECT_EQ(first.run.seconds, second.run.seconds);
+}
+
+TEST(Forecast, OfFewFramesCountedIsCloseToThatOfAll) {
+  const SimulatedFilm film("caterpillar", "0-47", "fat-tree");
+  const wire::FilmView view = film.view();
+  Setting setting{view, film.platform()};
+  setting.files = false;
+  const FilmCounts few = count_film(view, film.tasks(), *programs::make_node_counter(view), {10, 0.05});
+  EXPECT_LT(few.counted, 10u);
+  EXPECT_NEAR(forecast(few, film.tasks(), setting, 4, 1).run.seconds, film.forecast(4, 1).run.seconds,
+              0.1 * film.forecast(4, 1).run.seconds);
+}
+
+}  // namespace
+}  // namespace mars::forecast

@@ -1,0 +1,34 @@
+// A film of examples/, counted and forecast, and rendered on simulated machines to compare.
+#pragma once
+
+#include <string>
+
+#include "host/content/film/compile.h"
+#include "host/experiments/forecast/forecast.h"
+#include "host/render/farm/farm.h"
+
+namespace mars::forecast {
+
+class SimulatedFilm {
+ public:
+  // Pictures of 160 x 90, of some frames.
+  SimulatedFilm(const std::string& name, const std::string& frames, const std::string& platform);
+
+  wire::FilmView view() const { return film_.view(); }
+  const std::vector<farm::Task>& tasks() const { return tasks_; }
+  const FilmCounts& counts() const { return counts_; }
+  const experiments::Platform& platform() const { return platform_; }
+
+  Forecast forecast(int nodes, std::uint32_t groups) const;
+  farm::FarmReport render(int nodes, std::uint32_t groups) const;
+
+ private:
+  Setting setting(const wire::FilmView& film) const;
+
+  film::CompiledFilm film_;
+  experiments::Platform platform_;
+  std::vector<farm::Task> tasks_;
+  FilmCounts counts_;
+};
+
+}  // namespace mars::forecast

@@ -1,0 +1,61 @@
+"""mars plan says what a rendering takes, soon and without rendering; mars render shows the time that is left by it."""
+
+import json
+import re
+import time
+
+from harness import EXAMPLES, ProgramTest, main
+
+CUBES = EXAMPLES / "cubes.json"
+
+
+class Plans(ProgramTest):
+    def test_a_plan_names_time_memory_bytes_and_nodes(self):
+        printed = self.succeed("mars", "plan", CUBES, "--nodes", 4, "--platform", "fat-tree")
+        for line in [r"platform +fat-tree", r"nodes +4 nodes in \d groups?", r"seconds +[\d.e-]+", r"node hours +[\d.e-]+",
+                     r"a node +[\d.]+ MB for a frame, [\d.]+ MB for strips", r"the host +[\d.]+ MB at most",
+                     r"messages +[\d.]+ MB between nodes, [\d.]+ MB to the host", r"counted +\d+ of 96 frames",
+                     r"best +\d nodes? in \d groups?, [\d.e-]+ seconds", r" +4 +\d +[\d.e-]+ +[\d.]+ +[\d.e-]+"]:
+            self.assertRegex(printed, re.compile(f"^{line}$", re.MULTILINE))
+
+    def test_programs_read_it_as_json(self):
+        plan = json.loads(self.succeed("mars", "plan", CUBES, "--nodes", 4, "--platform", "fat-tree", "--json"))
+        self.assertEqual([each["nodes"] for each in plan["by_nodes"]], [1, 2, 4])
+        self.assertEqual(plan["seconds"], plan["by_nodes"][-1]["seconds"])
+        self.assertLessEqual(plan["best"]["seconds"], 1.05 * min(each["seconds"] for each in plan["by_nodes"]))
+        self.assertAlmostEqual(plan["node_hours"], 4 * plan["seconds"] / 3600)
+
+    def test_it_is_the_same_every_time(self):
+        plans = {self.succeed("mars", "plan", CUBES, "--nodes", 6, "--platform", "ethernet", "--json")
+                 for _ in range(2)}
+        self.assertEqual(len(plans), 1)
+
+    def test_it_foresees_what_the_simulation_then_takes(self):
+        words = [CUBES, "--frames", "40-60", "--size", "160x90", "--nodes", 2, "--platform", "fat-tree", "--sink", "none"]
+        plan = json.loads(self.succeed("mars", "plan", *words, "--json"))
+        self.succeed("mars", "render", *words, "--backend", "simulated", "--report", self.folder / "report.json")
+        report = json.loads((self.folder / "report.json").read_text())
+        self.assertAlmostEqual(plan["seconds"] / report["total_seconds"], 1, delta=0.15)
+        groups = {(node["first_line"], node["last_line"]) for node in report["frames"][0]["nodes"]}
+        self.assertEqual(len(groups), 2 // plan["groups"], "nodes of a group share the first frame's lines")
+
+    def test_it_takes_little_time(self):
+        begun = time.monotonic()
+        self.succeed("mars", "plan", EXAMPLES / "demo.json", "--nodes", 256, "--platform", "dragonfly")
+        self.assertLess(time.monotonic() - begun, 8, "2 seconds and what loading takes, on a busy machine")
+
+    def test_films_and_platforms_that_are_not_there(self):
+        self.fail_clearly(2, "plan", says="FILM is required")
+        self.fail_clearly(1, "plan", "no.json", "--platform", "fat-tree", says="no.json")
+        self.fail_clearly(1, "plan", CUBES, "--platform", "cray", says="there is no platform 'cray'")
+
+    def test_the_time_left_is_known_before_the_first_frame(self):
+        printed = self.succeed("mars-simulated", CUBES, "--sink", "none", "--nodes", 2, "--platform", "fat-tree",
+                               "--frames", "0-9", "--size", "64x36")
+        first = next(event for event in map(json.loads, printed.splitlines()) if event["event"] == "progress")
+        self.assertEqual(first["inbetweens"]["done"], 0)
+        self.assertGreater(first["left"]["inbetweens"], 0)
+
+
+if __name__ == "__main__":
+    main()
