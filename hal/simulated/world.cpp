@@ -76,7 +76,8 @@ void World::send(int from, int to, int type, const void* data, std::size_t lengt
   work(from, end_seconds(from, machine_.network.send, length));
   let_earlier_run(from);
   const double now = clock(from);
-  const double arrival = from == to ? now : routes_.arrival(computer_of(from), computer_of(to), length, now, floor_at(now));
+  const double arrival =
+      from == to ? now : routes_.arrival(computer_of(from), computer_of(to), length, now, floor_at(now));
   Rank& receiver = *ranks_[to];
   receiver.coming.push_back({arrival, messages_++, pool_.copy({from, type, length}, data)});
   std::ranges::push_heap(receiver.coming, Later());

@@ -47,8 +47,8 @@ void run(const options::RenderOptions& options, const experiments::Platform& pla
   simulated::run_simulated(platform.machine, static_cast<int>(options.nodes), host, node);
 }
 
-// One rank runs at a time and gives its memory back: large pages would keep more of it than is used, and a heap for each
-// thread as much as its ranks ever used.
+// One rank runs at a time and gives its memory back: large pages would keep more of it than is used, and a heap for
+// each thread as much as its ranks ever used.
 void spare_memory() {
   prctl(PR_SET_THP_DISABLE, 1, 0, 0, 0);
   mallopt(M_ARENA_MAX, 1);
