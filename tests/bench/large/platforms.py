@@ -10,7 +10,7 @@ def write_variant(build, name, writer, path):
     if writer == "nodes":
         work = platform["work"]
         work["node_frame"], work["node_frame_byte"] = work["sink_frame"], work["sink_byte"]
-        for name_of_work in ("sink_frame", "sink_byte", "host_byte"):
+        for name_of_work in ("sink_frame", "sink_byte", "host_byte", "host_frame"):
             work[name_of_work] = 0
         platform["network"]["host_rate"] = FREE
     path.write_text(json.dumps(platform, indent=2) + "\n")
