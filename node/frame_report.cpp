@@ -20,6 +20,11 @@ void FrameReport::begin(wire::FrameKind kind, std::uint32_t frame, std::uint32_t
   strip_.node = static_cast<std::int32_t>(mynode());
 }
 
+void FrameReport::charge(wire::Work kind, std::uint64_t units) {
+  messages::charge(static_cast<int>(kind), units);
+  strip_.work.charged[static_cast<std::size_t>(kind)] += units;
+}
+
 void FrameReport::clock(wire::Phase phase) {
   const double now = dclock();
   strip_.times.*kPhaseTimes[static_cast<std::size_t>(phase)] += now - clock_;

@@ -18,6 +18,8 @@ class FrameReport {
  public:
   // A new frame. Its clock starts.
   void begin(wire::FrameKind kind, std::uint32_t frame, std::uint32_t interval);
+  // The node did so many units of a kind of work, in the phase that is clocked next.
+  void charge(wire::Work kind, std::uint64_t units);
   // Adds the time since the last call to `phase`, and records it as a span.
   void clock(wire::Phase phase);
   // Leaves the time since the last call out: it belongs to no phase.

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <functional>
 #include <numeric>
+#include <utility>
 
 #include "hal/failure/failure.h"
 #include "hal/messages/process.h"
 #include "hal/nx/nx_messages.h"
-#include "node/charge.h"
 #include "node/group/mapping.h"
 #include "node/shading/shading_of.h"
 
@@ -75,8 +75,9 @@ void Renderer::draw_frame(wire::FrameKind kind, std::uint32_t interval, std::uin
   group_ = group;
   report_.begin(kind, frame, interval);
   scene_.set_frame(frame);
-  charge(wire::Work::frame, 1);
-  charge(wire::Work::segment, scene_.film().segments().size());
+  report_.charge(wire::Work::first_frame, std::exchange(is_first_, false) ? 1 : 0);
+  report_.charge(wire::Work::frame, 1);
+  report_.charge(wire::Work::segment, scene_.film().segments().size());
   Tessellation own = tessellate_all();
   group::Pass pass{0, map_to_homes(own.made)};
   for (; pass.number < pass.count; ++pass.number) {
@@ -124,16 +125,23 @@ Tessellation Renderer::tessellate() {
   std::transform_inclusive_scan(line_loads_.begin(), line_loads_.end(), line_totals_.begin() + 1, std::plus<>(),
                                 [](const raster::LineLoad& load) { return load.boxes(); });
   charge_tessellation(own);
+  report_.charge(wire::Work::fresh_byte, memory_.arena().take_fresh());
   report_.clock(wire::Phase::dice);
   return own;
 }
 
-void Renderer::charge_tessellation(const Tessellation& own) const {
-  charge(wire::Work::patch, report_.strip().work.patches);
-  charge(wire::Work::vertex, report_.strip().work.vertices);
+void Renderer::charge_tessellation(const Tessellation& own) {
+  const auto charge = [&](wire::Work kind, std::uint64_t units) { report_.charge(kind, units); };
+  charge(wire::Work::patch, own.surfaces.patches);
+  charge(wire::Work::meshlet, own.surfaces.meshlets);
+  charge(wire::Work::vertex, own.surfaces.vertices);
+  charge(wire::Work::mesh_vertex, own.surfaces.mesh_vertices);
   charge(wire::Work::triangle_tested, report_.strip().work.triangles_tested);
+  charge(wire::Work::row_tested,
+         report_.strip().work.triangles_tested * static_cast<std::uint64_t>(scene_.pattern().count));
   charge(wire::Work::triangle, own.made.triangles);
   charge(wire::Work::edge_box_made, own.made.edge_boxes);
+  charge(wire::Work::vertex_light, own.surfaces.colored * scene_.lights().size());
 }
 
 // Those of the pass on which an inbetween needs stationary parts; none where all are kept.
@@ -160,7 +168,7 @@ void Renderer::fill_own_lines(const raster::Polygons& own) {
   filler.add(own);
   parts_.assign(1, filler.finish());
   memory_.publish(parts_.front());
-  charge(wire::Work::edge_box_filled, line_totals_.back());
+  report_.charge(wire::Work::edge_box_filled, line_totals_.back());
   report_.clock(wire::Phase::fill);
 }
 
@@ -177,7 +185,7 @@ std::uint32_t Renderer::map_to_homes(const group::MadeCounts& made) {
       {group_, sums_.ebc(), homes(), sums_.large(), line_loads_, made.triangles, triangles_travel()},
       memory_.frame_bytes());
   report_.strip().work.passes = passes;
-  charge(wire::Work::line_mapped, line_loads_.size());
+  report_.charge(wire::Work::line_mapped, line_loads_.size());
   report_.clock(wire::Phase::map);
   return passes;
 }
@@ -215,7 +223,7 @@ void Renderer::receive_triangles(const geometry::LineRange& lines) {
     check(came > 0 && came <= left, "as many edge boxes come as EBC counts");
     left -= came;
     filler.add(others);
-    charge(wire::Work::edge_box_filled, came);
+    report_.charge(wire::Work::edge_box_filled, came);
     report_.clock(wire::Phase::fill);
   }
   parts_.push_back(filler.finish());
@@ -237,21 +245,27 @@ void Renderer::draw_lines(const geometry::LineRange& lines, const group::Pass& p
   } while (strip.last < lines.last);
 }
 
-void Renderer::charge_strip(const geometry::LineRange& lines, const raster::StripBuffer& strip) const {
-  const std::uint64_t pixels = strip.pixel_count();
+void Renderer::charge_strip(const geometry::LineRange& lines, const raster::StripBuffer& strip) {
+  const auto charge = [&](wire::Work kind, std::uint64_t units) { report_.charge(kind, units); };
   std::uint64_t boxes = 0;
   for (const raster::LineBoxes& part : parts_) boxes += part.count(lines);
+  const raster::DrawnCounts drawn = z_buffer_.take_counts();
+  charge(wire::Work::line, drawn.lines);
   charge(wire::Work::edge_box, boxes);
   charge(wire::Work::sample, sums_.samples_on(lines));
-  charge(wire::Work::pixel, pixels);
-  charge(wire::Work::light, pixels * scene_.lights().size());
+  charge(wire::Work::shaded, drawn.shaded.samples);
+  charge(wire::Work::light, drawn.shaded.highlights * scene_.lights().size());
+  charge(wire::Work::facet_light, drawn.shaded.facets * scene_.lights().size());
+  charge(wire::Work::pixel, strip.pixel_count());
+  charge(wire::Work::still_byte, drawn.still_bytes);
 }
 
 // Its own lines of a keyframe, an inbetween whole.
 void Renderer::charge_frame() {
   const std::uint64_t lines = homes()[member()].count();
-  charge(wire::Work::node_frame, 1);
-  charge(wire::Work::node_frame_byte, lines * scene_.film().settings().width * wire::pixel_bytes(pixel_format_));
+  const std::uint64_t bytes = lines * scene_.film().settings().width * wire::pixel_bytes(pixel_format_);
+  messages::charge(static_cast<int>(wire::Work::node_frame), 1);
+  messages::charge(static_cast<int>(wire::Work::node_frame_byte), bytes);
 }
 
 std::uint32_t Renderer::draw_strip(const geometry::LineRange& lines, const shading::Shading& shading,

@@ -54,8 +54,8 @@ class Renderer {
   Tessellation tessellate_part(const group::Pass& pass);
   Tessellation tessellate();
   // What was done, for machines that are simulated (wire/work.h).
-  void charge_tessellation(const Tessellation& own) const;
-  void charge_strip(const geometry::LineRange& lines, const raster::StripBuffer& strip) const;
+  void charge_tessellation(const Tessellation& own);
+  void charge_strip(const geometry::LineRange& lines, const raster::StripBuffer& strip);
   void charge_frame();
   std::span<const std::uint8_t> unkept_lines();
   // Whether own triangles are all there and can be put into their lines. Else several passes follow, or a Failure where
@@ -97,6 +97,8 @@ class Renderer {
 
   // Of the current interval.
   std::vector<std::uint8_t> contributes_;  // 1: the node draws inbetweens; by nodes of the group
+
+  bool is_first_ = true;  // of all frames
 
   // Of the current frame.
   collectives::Group group_;                      // that draws it

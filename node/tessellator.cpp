@@ -14,6 +14,19 @@ struct Tessellator::Output {
   wire::WorkCounts& work;
   shading::Shading shading;
   shading::ColoredSurface& colored;
+  SurfaceCounts counts{};
+
+  void add_patch(const shape::Surface& surface, const raster::PatchIdentity& identity) {
+    ++counts.patches;
+    counts.vertices += static_cast<std::uint64_t>(surface.vertex_count());
+    add(surface, identity);
+  }
+
+  void add_meshlet(const shape::Surface& surface, const raster::PatchIdentity& identity) {
+    ++counts.meshlets;
+    counts.mesh_vertices += static_cast<std::uint64_t>(surface.vertex_count());
+    add(surface, identity);
+  }
 
   void add(const shape::Surface& surface, const raster::PatchIdentity& identity) {
     ++work.patches;
@@ -23,8 +36,11 @@ struct Tessellator::Output {
                                      !identity.one_sided || identity.mirrored};
     switch (shading.materials[identity.material].interpolation) {
       case wire::Interpolation::phong: return set_up.add(surface, identity, out);
-      case wire::Interpolation::gouraud: return set_up.add(colored.by_vertices(surface, coloring), identity, out);
+      case wire::Interpolation::gouraud:
+        counts.colored += static_cast<std::uint64_t>(surface.vertex_count()) * (coloring.outside + coloring.inside);
+        return set_up.add(colored.by_vertices(surface, coloring), identity, out);
       case wire::Interpolation::flat:
+        counts.colored += surface.triangles().count;
         for (std::uint32_t first = 0; first < surface.triangles().count; first += colored.kFlatTriangles)
           set_up.add(colored.by_triangles(surface, first, coloring), identity, out);
     }
@@ -38,25 +54,25 @@ Tessellation Tessellator::tessellate(const geometry::Scene& scene, const Scatter
   std::ranges::fill(lines.loads, raster::LineLoad());
   work.patches = work.vertices = work.triangles_tested = 0;
   raster::SetUps out(space.arena.rest(), space.first, scene.pattern(), lines.loads);
-  out.want(lines.wanted_still);
-  if (!lines.wanted_still.empty()) add(scene, false, scatter, out, work);
-  const std::size_t stationary = out.boxes().size();
-  out.want(lines.wanted);
-  add(scene, true, scatter, out, work);
-  const auto boxes = out.boxes();
-  space.arena.take_ends(out.triangles().size_bytes(), boxes.size_bytes());
-  return {{out.first, boxes.last(stationary), boxes.first(boxes.size() - stationary)},
-          {out.touching, out.edge_boxes},
-          out.all_stored()};
-}
-
-void Tessellator::add(const geometry::Scene& scene, bool moving, const Scatter& scatter, raster::SetUps& out,
-                      wire::WorkCounts& work) {
   Output output{{instruction_set_, scene.projection(), scene.width(), scene.height(), scene.pattern()},
                 out,
                 work,
                 shading::shading_of(scene),
                 colored_};
+  out.want(lines.wanted_still);
+  if (!lines.wanted_still.empty()) add(scene, false, scatter, output);
+  const std::size_t stationary = out.boxes().size();
+  out.want(lines.wanted);
+  add(scene, true, scatter, output);
+  const auto boxes = out.boxes();
+  space.arena.take_ends(out.triangles().size_bytes(), boxes.size_bytes());
+  return {{out.first, boxes.last(stationary), boxes.first(boxes.size() - stationary)},
+          output.counts,
+          {out.touching, out.edge_boxes},
+          out.all_stored()};
+}
+
+void Tessellator::add(const geometry::Scene& scene, bool moving, const Scatter& scatter, Output& output) {
   for (std::size_t s = 0; s < scene.film().segments().size(); ++s)
     if (scene.moves(s) == moving) add_segment(scene, s, scatter, output);
 }
@@ -90,7 +106,7 @@ void Tessellator::add_patch(const geometry::Scene& scene, const shape::EyeMatrix
   const auto width = static_cast<float>(scene.width()), height = static_cast<float>(scene.height());
   if (shape::unseen(eye_patch, scene.projection(), width, height)) return;
   dicer_.dice(eye_patch, scene.projection(), static_cast<int>(scene.film().settings().dice));
-  output.add(dicer_, identity);
+  output.add_patch(dicer_, identity);
 }
 
 void Tessellator::add_meshlet(const geometry::Scene& scene, const shape::EyeMatrix& matrix, const shape::EyeMap& map,
@@ -98,7 +114,7 @@ void Tessellator::add_meshlet(const geometry::Scene& scene, const shape::EyeMatr
   const auto width = static_cast<float>(scene.width()), height = static_cast<float>(scene.height());
   if (geometry::unseen(matrix, meshlet, scene.projection(), width, height)) return;
   placer_.place(map, scene.film(), meshlet, scene.projection());
-  output.add(placer_, identity);
+  output.add_meshlet(placer_, identity);
 }
 
 }  // namespace mars::node

@@ -37,8 +37,18 @@ struct TriangleSpace {
   geometry::Triangle* first;
 };
 
+// Surfaces that triangles were made of.
+struct SurfaceCounts {
+  std::uint64_t patches = 0;
+  std::uint64_t meshlets = 0;
+  std::uint64_t vertices = 0;       // of patches
+  std::uint64_t mesh_vertices = 0;  // of meshlets
+  std::uint64_t colored = 0;        // vertices and flat triangles that were shaded
+};
+
 struct Tessellation {
   raster::Polygons polygons;
+  SurfaceCounts surfaces;
   group::MadeCounts made;  // on wanted lines, whether stored or not
   bool all_stored;         // else memory was short
 };
@@ -55,8 +65,7 @@ class Tessellator {
  private:
   struct Output;
 
-  void add(const geometry::Scene& scene, bool moving, const Scatter& scatter, raster::SetUps& out,
-           wire::WorkCounts& work);
+  void add(const geometry::Scene& scene, bool moving, const Scatter& scatter, Output& output);
   void add_segment(const geometry::Scene& scene, std::size_t segment, const Scatter& scatter, Output& output);
   void add_patch(const geometry::Scene& scene, const shape::EyeMatrix& matrix, const wire::Patch& patch,
                  const raster::PatchIdentity& identity, Output& output);

@@ -6,19 +6,23 @@
 #include <vector>
 
 #include "hal/failure/failure.h"
+#include "host/child/environment.h"
 #include "host/content/document/fields.h"
 #include "node/wire/work.h"
 
 namespace mars::experiments {
 namespace {
 
+namespace fs = std::filesystem;
+
 using document::Fields;
 using document::Keys;
 using std::string_view;
 
+constexpr string_view kHere = "here";
 constexpr string_view kPlatformNames[] = {"name", "about", "computers", "host", "network", "work"};
 constexpr string_view kComputerNames[] = {"nodes", "processors", "memory"};
-constexpr string_view kHostNames[] = {"apart", "processors", "memory"};
+constexpr string_view kHostNames[] = {"apart", "processors", "memory", "files"};
 constexpr string_view kNetworkNames[] = {"topology",  "latency",    "hop",           "rate",        "uplink",
                                          "leaf",      "send",       "receive",       "host_end",    "copy_rate",
                                          "host_rate", "local_rate", "local_latency", "host_latency"};
@@ -76,14 +80,41 @@ simulated::Network read_network(const document::Element& element) {
   return network;
 }
 
-std::vector<double> read_work(const document::Element& element) {
+std::vector<double> read_costs_of_work(const document::Element& element) {
   const Fields fields(element, kWorkKeys);
   std::vector<double> work;
   for (const string_view name : wire::kWorkNames) work.push_back(fields.number(name, 0, kSeconds));
   return work;
 }
 
-Platform read(const document::Element& root) {
+// Those that there are, for messages.
+std::string names_in(const fs::path& folder) {
+  std::vector<std::string> names{std::string(kHere)};
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+    if (entry.path().extension() == ".json") names.push_back(entry.path().stem());
+  std::ranges::sort(names);
+  return document::joined(names, " or ");
+}
+
+fs::path file_of(const std::string& name, const fs::path& folder) {
+  if (name.find('/') != std::string::npos || name.ends_with(".json")) return name;
+  const fs::path file = name == kHere ? calibrated_platform() : folder / (name + ".json");
+  if (fs::exists(file)) return file;
+  if (name == kHere) throw Failure("this machine is not calibrated", file.string(), "run mars calibrate");
+  throw Failure("there is no platform '" + name + "'", "", "use " + names_in(folder) + ", or a file NAME.json");
+}
+
+// Those that `element` gives, or those of the platform that it names, which gives them itself.
+std::vector<double> read_work(const document::Element& element, const fs::path& folder) {
+  if (element.kind() != document::Kind::text) return read_costs_of_work(element);
+  const document::Document other = document::read_document(file_of(document::read_text(element), folder));
+  const document::Element work = Fields(other.root(), kPlatformKeys).required("work");
+  if (work.kind() == document::Kind::text) work.refuse("is work of work", "name a platform that has costs of its own");
+  return read_costs_of_work(work);
+}
+
+Platform read(const document::Element& root, const fs::path& folder) {
   const Fields fields(root, kPlatformKeys);
   Platform platform;
   platform.name = document::read_text(fields.required("name"));
@@ -96,34 +127,36 @@ Platform read(const document::Element& root) {
   platform.machine.host_apart = host.find("apart") && host.find("apart")->boolean();
   platform.machine.host_processors = static_cast<int>(host.count("processors", 1, 1, kMany));
   platform.host_memory = static_cast<std::uint64_t>(host.number("memory", 1ull << 36, {1 << 20, 1e15}));
+  platform.charges_files = host.find("files") && host.find("files")->boolean();
   platform.machine.network = read_network(fields.required("network"));
-  platform.machine.work = read_work(fields.required("work"));
+  platform.machine.work = read_work(fields.required("work"), folder);
   return platform;
 }
 
-// Those that there are, for messages.
-std::string names_in(const std::filesystem::path& folder) {
-  std::vector<std::string> names;
-  std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
-    if (entry.path().extension() == ".json") names.push_back(entry.path().stem());
-  std::ranges::sort(names);
-  return document::joined(names, " or ");
+Platform read_one(const std::string& name, const fs::path& folder) {
+  const document::Document document = document::read_document(file_of(name, folder));
+  return read(document.root(), folder);
 }
 
 }  // namespace
 
-Platform read_platform(const std::string& name, const std::filesystem::path& folder) {
-  const bool is_file = name.find('/') != std::string::npos || name.ends_with(".json");
-  const std::filesystem::path file = is_file ? std::filesystem::path(name) : folder / (name + ".json");
-  if (!is_file && !std::filesystem::exists(file))
-    throw Failure("there is no platform '" + name + "'", "", "use " + names_in(folder) + ", or a file NAME.json");
-  const document::Document document = document::read_document(file);
-  return read(document.root());
+Platform read_platform(const std::string& name, const fs::path& folder) {
+  const std::size_t colon = name.rfind(':');
+  if (colon == std::string::npos || fs::exists(name)) return read_one(name, folder);
+  Platform platform = read_one(name.substr(0, colon), folder);
+  platform.machine.work = read_one(name.substr(colon + 1), folder).machine.work;
+  return platform;
 }
 
-std::filesystem::path platforms_folder(const std::filesystem::path& self) {
+fs::path platforms_folder(const fs::path& self) {
   return self.parent_path().parent_path() / "share" / "mars" / "platforms";
+}
+
+fs::path calibrated_platform() {
+  const child::Environment environment = child::own_environment();
+  const fs::path home = environment.value("HOME").value_or("");
+  const fs::path data = environment.value("XDG_DATA_HOME").value_or("");
+  return (data.empty() ? home / ".local" / "share" : data) / "mars" / "here.json";
 }
 
 }  // namespace mars::experiments

@@ -1,5 +1,5 @@
 // Platforms: machines on which a rendering is simulated or forecast, one JSON file each. A named one lies in
-// share/mars/platforms.
+// share/mars/platforms; `here` is what mars calibrate measured.
 #pragma once
 
 #include <cstdint>
@@ -12,16 +12,21 @@ namespace mars::experiments {
 
 struct Platform {
   std::string name;
-  std::string about;         // what it is, and where its numbers come from
-  std::uint64_t memory = 0;  // bytes that a node may use for its frames
+  std::string about;              // what it is, and where its numbers come from
+  std::uint64_t memory = 0;       // bytes that a node may use for its frames
   std::uint64_t host_memory = 0;  // bytes that the host may use
+  bool charges_files = false;     // of frames that go nowhere too
   simulated::Machine machine;
 };
 
-// `name`: a file, or the name of one in `folder` without its ending. Throws Failure.
+// `name`: a file, or the name of one in `folder` without its ending, or two of these, A:B: A with B's costs of work.
+// Throws Failure.
 Platform read_platform(const std::string& name, const std::filesystem::path& folder);
 
 // Beside `self`, a program of MARS.
 std::filesystem::path platforms_folder(const std::filesystem::path& self);
+
+// Where `here` is: the user's, whether it is there or not.
+std::filesystem::path calibrated_platform();
 
 }  // namespace mars::experiments

@@ -9,11 +9,14 @@
 #include <vector>
 
 #include "hal/failure/explain.h"
+#include "hal/threads/run_threads.h"
 #include "host/child/standard_streams.h"
+#include "host/experiments/message_costs.h"
 #include "host/programs/node_job.h"
 #include "host/programs/surface_frames.h"
 #include "host/shell/commands/animate_command.h"
 #include "host/shell/commands/bench_command.h"
+#include "host/shell/commands/calibrate_command.h"
 #include "host/shell/commands/compile_command.h"
 #include "host/shell/commands/doctor_command.h"
 #include "host/shell/commands/import_command.h"
@@ -48,10 +51,18 @@ Commands:
   mars import FILE -o MODEL.json   a model from a mesh or patch file
   mars model new MODEL.json        a model of your own, step by step
   mars doctor                      check this machine, with remedies
+  mars calibrate                   measure this machine, for simulated renderings
   mars bench NAME                  measure, where MARS was built from its sources
 
 A film is a JSON file: docs/film-format.md says how to write one.
 )";
+
+experiments::MessageCosts measure_messages() {
+  experiments::MessageCosts costs;
+  threads::run_threads(
+      2, [&] { costs = experiments::receive_costs(); }, experiments::exchange_messages);
+  return costs;
+}
 
 // "mars help render" is "mars render --help".
 std::vector<const char*> help_as_option(int argc, char** argv) {
@@ -79,6 +90,7 @@ int run(int argc, char** argv) {
   commands::add_plot(app);
   commands::add_model(app);
   commands::add_doctor(app, {.reserved_cores = kCoresForHost, .version = MARS_VERSION}, code);
+  commands::add_calibrate(app, measure_messages);
   commands::add_bench(app, words);
   // Last, or each command would have it.
   app.footer(std::string("mars COMMAND --help prints every option with an example.\n") + options::kExitCodes);

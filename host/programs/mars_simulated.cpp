@@ -21,10 +21,15 @@
 namespace mars::programs {
 namespace {
 
-// Sinks are work on processors of the host's machine; it is woken when a frame is done.
-double serve_sink(simulated::World& world, std::uint64_t bytes) {
+wire::Work sink_byte(images::PictureFormat format) {
+  constexpr wire::Work kBytes[] = {wire::Work::sink_byte, wire::Work::sink_png16_byte, wire::Work::sink_exr_byte};
+  return kBytes[static_cast<std::size_t>(format)];
+}
+
+// Files are work on processors of the host's machine; it is woken when a frame is done.
+double serve_files(simulated::World& world, images::PictureFormat format, std::uint64_t bytes) {
   const auto cost = [&](wire::Work kind) { return world.machine().work[static_cast<std::size_t>(kind)]; };
-  const double seconds = cost(wire::Work::sink_frame) + cost(wire::Work::sink_byte) * static_cast<double>(bytes);
+  const double seconds = cost(wire::Work::sink_frame) + cost(sink_byte(format)) * static_cast<double>(bytes);
   const double end = world.reserve(world.nodes(), seconds);
   world.set_alarm(world.nodes(), end);
   return end;
@@ -34,9 +39,12 @@ void run(const options::RenderOptions& options, const experiments::Platform& pla
   const auto host = [&](simulated::World& world) {
     session::RenderJob job = job::job_of(options, "simulated");
     job.host = {platform.host_memory, platform.machine.host_processors};
-    job.make_sinks = [&world](sinks::Sink& sink, const sinks::SinkPool::Shape& shape) {
-      return std::make_unique<sinks::ServedSinks>(sink, shape,
-                                                  [&world](std::uint64_t bytes) { return serve_sink(world, bytes); });
+    const auto serve = [&world, files = platform.charges_files || !job.folder.empty(),
+                        format = job.format](std::uint64_t bytes) {
+      return files ? serve_files(world, format, bytes) : world.clock(world.nodes());
+    };
+    job.make_sinks = [serve](sinks::Sink& sink, const sinks::SinkPool::Shape& shape) {
+      return std::make_unique<sinks::ServedSinks>(sink, shape, serve);
     };
     session::run_session(job);
   };

@@ -2,8 +2,10 @@
 // both ends and taken back whole. Nothing is allocated while frames are drawn.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
+#include <utility>
 
 namespace mars::raster {
 
@@ -28,6 +30,11 @@ class Arena {
   std::span<std::byte> all() const { return block_; }
   std::size_t size() const { return block_.size(); }
   std::size_t peak() const { return peak_; }  // most bytes in use since clear()
+  // Bytes that were in use for the first time ever since it was asked last.
+  std::size_t take_fresh() {
+    const std::size_t before = std::exchange(touched_, std::max(touched_, peak_));
+    return touched_ - before;
+  }
 
  private:
   // Items begin on multiples of this: a cache line.
@@ -40,6 +47,7 @@ class Arena {
   std::size_t front_ = 0;
   std::size_t back_ = 0;
   std::size_t peak_ = 0;
+  std::size_t touched_ = 0;
 };
 
 }  // namespace mars::raster

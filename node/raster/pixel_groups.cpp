@@ -20,12 +20,12 @@ PixelGroups::PixelGroups(simd::InstructionSet set, std::size_t width, std::uint3
   for (auto& channel : light_) channel.resize(fragments_.size());
 }
 
-void PixelGroups::shade(const shading::Shading& shading, const LineSamples& seen, std::uint32_t line,
-                        const shading::Extent& extent) {
+shading::ShadedCounts PixelGroups::shade(const shading::Shading& shading, const LineSamples& seen, std::uint32_t line,
+                                         const shading::Extent& extent) {
   counts_ = {0, 0};
-  if (extent.first >= extent.last) return;
+  if (extent.first >= extent.last) return {};
   counts_ = kernels_.group(shading.pattern, seen, extent, groups());
-  shading_kernels_.shade_fragments(shading, fragments_.data(), count(), line, light().channel);
+  return shading_kernels_.shade_fragments(shading, fragments_.data(), count(), line, light().channel);
 }
 
 void PixelGroups::copy_to(const StillGroups& still) const {

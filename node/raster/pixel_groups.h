@@ -22,9 +22,9 @@ class PixelGroups {
  public:
   PixelGroups(simd::InstructionSet set, std::size_t width, std::uint32_t samples);
 
-  // Groups and shades what is seen on columns `extent` of line `line`.
-  void shade(const shading::Shading& shading, const LineSamples& seen, std::uint32_t line,
-             const shading::Extent& extent);
+  // Groups and shades what is seen on columns `extent` of line `line`; says how many groups.
+  shading::ShadedCounts shade(const shading::Shading& shading, const LineSamples& seen, std::uint32_t line,
+                              const shading::Extent& extent);
   std::uint32_t count() const { return counts_.pixels + counts_.others; }
 
   // Copies the groups, of a whole line.

@@ -63,9 +63,10 @@ void ZBuffer::draw_keyframe(LineParts parts, const geometry::LineRange& lines, c
 // MZB starts as CZB: nearer than it is nearer than both, and of equals what stands still was there first.
 void ZBuffer::draw_line(LineParts parts, const shading::Shading& shading, std::uint32_t line, StillLines& still,
                         StripBuffer& out) {
+  ++counts_.lines;
   const shading::Extent extent = draw(parts, &LineBoxes::stationary, shading, line);
   const bool moves = any_boxes(parts, &LineBoxes::moving, line);
-  if (several()) groups_.shade(shading, samples(), line, extent);
+  if (several()) shade_groups(shading, line, extent);
   const StillGroups groups = keep(line, still);
   if (several()) {
     if (moves || still.lines().has(line)) groups_.copy_to(groups);
@@ -85,6 +86,7 @@ std::uint32_t ZBuffer::draw_inbetween(LineParts parts, const geometry::LineRange
     if (is_empty(extent)) continue;
     check(still.lines().has(line), "moving parts stay on the lines that were foreseen");
     const bool kept = still.keeps(line);
+    ++counts_.lines;
     drawn_again += kept ? 0 : 1;
     if (kept)
       take_depths(line, extent, still);
@@ -98,7 +100,7 @@ std::uint32_t ZBuffer::draw_inbetween(LineParts parts, const geometry::LineRange
 
 shading::Extent ZBuffer::draw_still_again(LineParts parts, const shading::Shading& shading, std::uint32_t line) {
   const shading::Extent extent = draw(parts, &LineBoxes::stationary, shading, line);
-  groups_.shade(shading, samples(), line, extent);
+  shade_groups(shading, line, extent);
   groups_.copy_to(own_still());
   forget_ids(extent);
   return extent;
@@ -108,7 +110,7 @@ shading::Extent ZBuffer::draw_moving(LineParts parts, const shading::Shading& sh
                                      const StillGroups& still, StripBuffer& out) {
   const shading::Extent extent = draw(parts, &LineBoxes::moving, shading, line);
   if (several()) {
-    groups_.shade(shading, samples(), line, extent);
+    shade_groups(shading, line, extent);
     groups_.resolve_over(still, shading, line, out.moving());
     forget_ids(extent);
   } else {
@@ -137,20 +139,29 @@ StillGroups ZBuffer::keep(std::uint32_t line, StillLines& still) {
   for (std::uint32_t s = 0; s < samples_a_pixel(); ++s) {
     const auto kept = still.depth(line, s);
     std::copy_n(depth(s), kept.size(), kept.data());
+    counts_.still_bytes += kept.size_bytes();
   }
+  counts_.still_bytes += groups_.count() * sizeof(StillGroup);
   return several() ? still.groups(line) : own_still();
 }
 
 void ZBuffer::take_depths(std::uint32_t line, const shading::Extent& extent, StillLines& still) {
   for (std::uint32_t s = 0; s < samples_a_pixel(); ++s)
     std::copy_n(still.depth(line, s).data() + extent.first, extent.last - extent.first, depth(s) + extent.first);
+  counts_.still_bytes += std::uint64_t{extent.last - extent.first} * samples_a_pixel() * sizeof(float);
+}
+
+void ZBuffer::shade_groups(const shading::Shading& shading, std::uint32_t line, const shading::Extent& extent) {
+  counts_.shaded += groups_.shade(shading, samples(), line, extent);
 }
 
 // With one sample a pixel: shades what is seen, and forgets it.
 void ZBuffer::put_samples(const shading::Shading& shading, std::uint32_t line, const shading::Extent& extent,
                           StripBuffer::Layer& out) {
   if (is_empty(extent)) return;
-  out.added(shading_kernels_.shade(shading, ids(0), line, extent, out.next_run(), out.next_pixel()));
+  const auto shaded = shading_kernels_.shade(shading, ids(0), line, extent, out.next_run(), out.next_pixel());
+  counts_.shaded += shaded.counts;
+  out.added(shaded);
   forget_ids(extent);
 }
 

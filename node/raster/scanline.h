@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "node/geometry/line_range.h"
@@ -15,6 +16,13 @@
 #include "node/shading/kernels.h"
 
 namespace mars::raster {
+
+// What was done since it was asked last.
+struct DrawnCounts {
+  std::uint64_t lines = 0;
+  std::uint64_t still_bytes = 0;
+  shading::ShadedCounts shaded{};
+};
 
 // The z-buffer of the line that is being drawn, small enough for a core's caches.
 class ZBuffer {
@@ -28,6 +36,8 @@ class ZBuffer {
   // stands still too; says on how many this was drawn again.
   std::uint32_t draw_inbetween(LineParts parts, const geometry::LineRange& lines, const shading::Shading& shading,
                                StillLines& still, StripBuffer& out);
+
+  DrawnCounts take_counts() { return std::exchange(counts_, {}); }
 
  private:
   // Samples, as many as kernels take at a time.
@@ -54,6 +64,7 @@ class ZBuffer {
   StillGroups keep(std::uint32_t line, StillLines& still);
   StillGroups own_still() { return {still_end_.data(), still_groups_.data()}; }
   void take_depths(std::uint32_t line, const shading::Extent& extent, StillLines& still);
+  void shade_groups(const shading::Shading& shading, std::uint32_t line, const shading::Extent& extent);
   void put_samples(const shading::Shading& shading, std::uint32_t line, const shading::Extent& extent,
                    StripBuffer::Layer& out);
   void forget_depths(const shading::Extent& extent);
@@ -73,6 +84,7 @@ class ZBuffer {
   // The line's still groups, where inbetweens do not need them or they are not kept.
   std::vector<std::uint32_t> still_end_;
   std::vector<StillGroup> still_groups_;
+  DrawnCounts counts_;
 };
 
 }  // namespace mars::raster

@@ -19,8 +19,8 @@ struct ShadingKernels {
                   void* pixels);
   // The light that `count` fragments of line `line`, in any order, send to the eye, before exposure: red, green and
   // blue to light[0..2], which have kVectorSlack to spare.
-  void (*shade_fragments)(const Shading& shading, const Fragment* fragments, std::uint32_t count, std::uint32_t line,
-                          float* const* light);
+  ShadedCounts (*shade_fragments)(const Shading& shading, const Fragment* fragments, std::uint32_t count,
+                                  std::uint32_t line, float* const* light);
   // The light that `count` vertices, all of one material, send to the eye, without fog. `side`: 1 as seen from outside,
   // -1 from inside.
   void (*shade_vertices)(const Shading& shading, std::uint32_t material, float side, const shape::Vertices& vertices,

@@ -41,10 +41,25 @@ struct Extent {
   std::uint32_t last;
 };
 
+// Samples shaded; of these, those lit by models of highlights and of rough surfaces. Others had their colours.
+struct ShadedCounts {
+  std::uint64_t samples = 0;
+  std::uint64_t highlights = 0;
+  std::uint64_t facets = 0;
+
+  ShadedCounts& operator+=(const ShadedCounts& more) {
+    samples += more.samples;
+    highlights += more.highlights;
+    facets += more.facets;
+    return *this;
+  }
+};
+
 // How much shading a line wrote.
 struct Shaded {
   std::uint32_t runs;
   std::uint32_t pixels;
+  ShadedCounts counts{};
 };
 
 // The id of a sample that shows nothing.

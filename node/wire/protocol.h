@@ -24,6 +24,7 @@
 #include "node/wire/pixel_format.h"
 #include "node/wire/run.h"
 #include "node/wire/stamp.h"
+#include "node/wire/work.h"
 
 namespace mars::wire {
 
@@ -155,6 +156,7 @@ struct WorkCounts {
   std::uint64_t memory;          // bytes of the frame's arena in use at the peak
   std::uint32_t passes;          // over line ranges; 1 unless memory was short
   std::uint32_t credits_waited;  // strips that had to wait for credit
+  NodeUnits charged;             // by kind
 };
 
 enum class FrameKind : std::uint32_t { keyframe, inbetween };

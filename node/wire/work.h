@@ -3,38 +3,66 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <string_view>
 
 namespace mars::wire {
 
 enum class Work : int {
-  frame,            // a node begins
+  // Of a node.
+  first_frame,      // of a node: code and buffers are not in its caches yet
+  fresh_byte,       // of frames' memory, used for the first time
+  frame,            // begun
   segment,          // placed, in a frame
-  patch,            // diced, and meshlets placed
-  vertex,           // of these
-  triangle_tested,  // of these
+  patch,            // diced
+  meshlet,          // placed
+  vertex,           // of patches
+  mesh_vertex,      // of meshlets
+  triangle_tested,  // of all these
+  row_tested,       // likewise, times a pixel's samples
   triangle,         // set up: it touches a sample
   edge_box_made,    // of these
+  vertex_light,     // for each vertex, or flat triangle, that is shaded
   edge_box_filled,  // put into its line
   line_mapped,      // to its home
+  line,             // drawn
   edge_box,         // drawn on its line
   sample,           // that these cover
-  pixel,            // shaded
-  light,            // for each pixel shaded
-  still_byte,       // kept for inbetweens
-  host_strip,       // that the host takes
-  host_byte,        // of pixels that it pastes
-  host_frame,       // that it begins and finishes
-  sink_frame,       // that a sink takes
-  sink_byte,        // of these
-  node_frame,       // that a node would write itself, were frames written by nodes
-  node_frame_byte,  // of these
+  shaded,           // samples, or groups of a pixel's that show the same triangle
+  light,            // for each of them
+  facet_light,      // likewise, of rough surfaces
+  pixel,            // sent
+  still_byte,       // kept for inbetweens, or taken from what is kept
+  // Of the host.
+  host_strip,     // that the host takes
+  host_run,       // of pixels
+  host_byte,      // of pixels that it pastes
+  host_restored,  // bytes of the background
+  host_frame,     // that it begins and finishes
+  // Of its sinks.
+  sink_frame,       // taken to a file
+  sink_byte,        // of these, as PNG
+  sink_png16_byte,  // likewise of 16 bits
+  sink_exr_byte,    // as EXR
+  // Of a node that would write its frames' files itself.
+  node_frame,
+  node_frame_byte,
 };
 
 // As platform files name them.
-inline constexpr std::array<std::string_view, 21> kWorkNames{
-    "frame",           "segment",     "patch",      "vertex",     "triangle_tested", "triangle", "edge_box_made",
-    "edge_box_filled", "line_mapped", "edge_box",   "sample",     "pixel",           "light",    "still_byte",
-    "host_strip",      "host_byte",   "host_frame", "sink_frame", "sink_byte", "node_frame", "node_frame_byte"};
+inline constexpr std::array<std::string_view, 34> kWorkNames{
+    "first_frame",     "fresh_byte",      "frame",           "segment",        "patch",      "meshlet",
+    "vertex",          "mesh_vertex",     "triangle_tested", "row_tested",     "triangle",   "edge_box_made",
+    "vertex_light",    "edge_box_filled", "line_mapped",     "line",           "edge_box",   "sample",
+    "shaded",          "light",           "facet_light",     "pixel",          "still_byte", "host_strip",
+    "host_run",        "host_byte",       "host_restored",   "host_frame",     "sink_frame", "sink_byte",
+    "sink_png16_byte", "sink_exr_byte",   "node_frame",      "node_frame_byte"};
+
+// Units by kind: those of a node come first, then those of the host's own.
+inline constexpr std::size_t kNodeKinds = static_cast<std::size_t>(Work::host_strip);
+inline constexpr std::size_t kHostKinds = static_cast<std::size_t>(Work::sink_frame) - kNodeKinds;
+using NodeUnits = std::array<std::uint64_t, kNodeKinds>;
+using HostUnits = std::array<std::uint64_t, kHostKinds>;
 
 }  // namespace mars::wire

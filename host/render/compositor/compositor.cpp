@@ -110,6 +110,8 @@ void Compositor::paste_constant(std::span<const wire::Run> runs, std::span<const
   check(keyframe == nullptr || keyframe->background == name_, "a keyframe has all CFB so far");
   if (runs.empty()) return;
   name_ = new_name();
+  count_pasted(runs, pixels);
+  if (keyframe != nullptr) count_pasted(runs, pixels);
   if (!saved_) saved_ = std::make_unique_for_overwrite<std::uint32_t[]>(pixel_words_ * width_ * height_);
   const Extent extent{width_, height_, pixel_words_};
   const std::uint32_t* source = pixels.data();
@@ -136,6 +138,7 @@ void Compositor::extend_background(std::uint32_t row, std::span<const wire::Run>
       for_lines({width_, height_, pixel_words_}, constant_.block(), row, from, to,
                 [&](std::size_t at, std::size_t count) {
                   fill_pixels({&saved_[at], count}, plain_, pixel_words_);
+                  counts_.restored += count * sizeof(std::uint32_t);
                 });
     });
   });
@@ -202,11 +205,12 @@ void Compositor::count_filled_lines(std::span<const wire::Run> runs) {
 }
 
 // These blocks of a row show the background.
-void Compositor::write_back(Frame& frame, std::uint32_t row, std::uint32_t first, std::uint32_t last) const {
+void Compositor::write_back(Frame& frame, std::uint32_t row, std::uint32_t first, std::uint32_t last) {
   std::uint32_t* pixels = frame.pixels.data();
   constant_.for_parts(row, first, last, [&](std::uint32_t from, std::uint32_t to, bool drawn) {
     for_lines({width_, height_, pixel_words_}, constant_.block(), row, from, to,
               [&](std::size_t at, std::size_t count) {
+                counts_.restored += count * sizeof(std::uint32_t);
                 if (drawn)
                   std::copy_n(&saved_[at], count, pixels + at);
                 else
@@ -217,6 +221,7 @@ void Compositor::write_back(Frame& frame, std::uint32_t row, std::uint32_t first
 
 void Compositor::paste_moving(Frame& frame, std::span<const wire::Run> runs, std::span<const std::uint32_t> pixels) {
   check_runs(runs, pixels.size());
+  count_pasted(runs, pixels);
   const Extent extent{width_, height_, pixel_words_};
   const std::uint32_t* source = pixels.data();
   for_rows(runs, constant_.block(), [&](std::uint32_t row, std::span<const wire::Run> part) {
@@ -241,6 +246,11 @@ void Compositor::finish_frame(Frame& frame, std::uint32_t number) {
   }
   last_overwritten_ = frame.overwritten;
   last_number_ = number;
+}
+
+void Compositor::count_pasted(std::span<const wire::Run> runs, std::span<const std::uint32_t> pixels) {
+  counts_.runs += runs.size();
+  counts_.bytes += pixels.size_bytes();
 }
 
 void Compositor::check_runs(std::span<const wire::Run> runs, std::size_t words) const {

@@ -19,12 +19,20 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "host/render/compositor/frame.h"
 #include "node/wire/protocol.h"
 
 namespace mars::compositor {
+
+// What was done since it was asked last.
+struct PastedCounts {
+  std::uint64_t runs = 0;
+  std::uint64_t bytes = 0;     // of their pixels; into the saved background and a frame: twice
+  std::uint64_t restored = 0;  // bytes of background
+};
 
 class Compositor {
  public:
@@ -49,12 +57,15 @@ class Compositor {
   // Names the saved background, 0 while no CFB pixel was pasted: a frame with the same name costs least.
   std::uint64_t background_name() const { return name_; }
 
+  PastedCounts take_counts() { return std::exchange(counts_, {}); }
+
  private:
+  void count_pasted(std::span<const wire::Run> runs, std::span<const std::uint32_t> pixels);
   void check_runs(std::span<const wire::Run> runs, std::size_t words) const;
   void extend_background(std::uint32_t row, std::span<const wire::Run> runs);
   void refresh(Frame& frame, std::uint32_t row, std::span<const wire::Run> runs);
   void count_filled_lines(std::span<const wire::Run> runs);
-  void write_back(Frame& frame, std::uint32_t row, std::uint32_t first, std::uint32_t last) const;
+  void write_back(Frame& frame, std::uint32_t row, std::uint32_t first, std::uint32_t last);
 
   std::uint32_t width_;
   std::uint32_t height_;
@@ -70,6 +81,7 @@ class Compositor {
   std::optional<std::uint32_t> last_number_;  // none: no frame of this interval yet
   BlockFlags fresh_;                          // extend_background's; empty between calls
   std::vector<std::uint32_t> filled_lines_;   // of each block of a row: count_filled_lines'
+  PastedCounts counts_;
 };
 
 }  // namespace mars::compositor

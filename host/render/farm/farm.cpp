@@ -17,8 +17,6 @@
 namespace mars::farm {
 namespace {
 
-void charge(wire::Work kind, std::uint64_t units) { messages::charge(static_cast<int>(kind), units); }
-
 constexpr std::size_t kTasksAhead = 2;  // given to a group at a time, so that it never waits for the host
 
 class Farm {
@@ -33,6 +31,7 @@ class Farm {
   bool load_film();
   NodeMemory node_memory() const;
   void render();
+  bool work_once();
   void stop_nodes();
 
   void give_tasks();
@@ -44,6 +43,7 @@ class Farm {
   bool compose_one();
   void submit(const GroupWork::Composed& composed);
   void note_taken();
+  void charge(wire::Work kind, std::uint64_t units);
   bool cancelled() const { return options_.cancellation != nullptr && options_.cancellation->cancelled(); }
 
   std::span<const std::byte> film_block_;
@@ -129,10 +129,10 @@ void Farm::render() {
     give_tasks();
     note_taken();
     tracing_->drain();
-    if (compose_one()) continue;
-    if (iprobe(wire::any_of(wire::kStrip, wire::kFault, wire::kTrace)))
-      receive();
-    else if (!prepare_one())
+    const double begun = dclock();
+    if (work_once())
+      report_.busy_seconds += dclock() - begun;
+    else
       flick();
   }
   report_.render_seconds = dclock() - start_;
@@ -141,6 +141,19 @@ void Farm::render() {
   sinks_.finish();
   note_taken();
   report_.total_seconds = dclock() - start_;
+}
+
+// Whether there was something to do.
+bool Farm::work_once() {
+  if (compose_one()) return true;
+  if (!iprobe(wire::any_of(wire::kStrip, wire::kFault, wire::kTrace))) return prepare_one();
+  receive();
+  return true;
+}
+
+void Farm::charge(wire::Work kind, std::uint64_t units) {
+  messages::charge(static_cast<int>(kind), units);
+  report_.charged[static_cast<std::size_t>(kind) - wire::kNodeKinds] += units;
 }
 
 // Nodes that still draw then send no more strips, and end when the keyframes they were given are drawn.
@@ -194,7 +207,6 @@ void Farm::receive_strip() {
   StripMessage strip = inbox_.receive_strip(store_);
   const wire::Strip& header = strip.header();
   charge(wire::Work::host_strip, 1);
-  charge(wire::Work::host_byte, header.pixels * wire::pixel_bytes(sinks_.shape().format));
   span.set_value(header.frame);
   const auto wanting =
       std::find_if(groups_.begin(), groups_.end(), [&](const auto& group) { return group.wants(header); });
@@ -219,6 +231,9 @@ bool Farm::compose_one() {
     const auto composed = group.compose(sinks_, store_);
     if (!composed) continue;
     span.set_value(composed->pasted.number);
+    charge(wire::Work::host_run, composed->counts.runs);
+    charge(wire::Work::host_byte, composed->counts.bytes);
+    charge(wire::Work::host_restored, composed->counts.restored);
     for (const NodeSlot& slot : composed->pasted.free) slots_.give(slot);
     if (composed->pasted.whole != nullptr) submit(*composed);
     return true;
@@ -240,6 +255,7 @@ void Farm::submit(const GroupWork::Composed& composed) {
 void Farm::note_taken() {
   for (const sinks::SinkPool::Taken& taken : sinks_.taken()) {
     tracing_->taken(taken);
+    report_.sink_seconds += taken.ended - taken.begun;
     const auto found = with_sinks_.find(taken.number);
     for (const NodeSlot& slot : found->second.held) slots_.give(slot);
     if (listener_.finished) listener_.finished(found->second.frame);

@@ -60,6 +60,9 @@ struct FarmReport {
   double load_seconds = 0;    // from the last node's Hello until all have the film
   double render_seconds = 0;  // from the first command until the last frame was composed
   double total_seconds = 0;   // until the sinks had taken it
+  double busy_seconds = 0;    // of these, the host took and composed strips
+  double sink_seconds = 0;    // of all threads that hand frames to the sink
+  wire::HostUnits charged{};  // what the host did, by kind
   bool cancelled = false;     // before all frames were composed
 };
 

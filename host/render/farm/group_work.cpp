@@ -32,7 +32,7 @@ std::optional<GroupWork::Composed> GroupWork::compose(sinks::SinkPool& sinks, St
   auto& [assembly, background, given] = tasks_.front();
   std::optional<Assembly::Pasted> pasted = assembly.paste(compositor_, sinks, store);
   if (!pasted) return std::nullopt;
-  Composed composed{std::move(*pasted), assembly.interval(), given};
+  Composed composed{std::move(*pasted), assembly.interval(), given, compositor_.take_counts()};
   if (assembly.done()) {
     tasks_.pop_front();
     if (!tasks_.empty()) begin_interval();

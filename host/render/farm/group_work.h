@@ -33,6 +33,7 @@ class GroupWork {
     Assembly::Pasted pasted;
     std::uint32_t interval;
     double given;  // when its task was
+    compositor::PastedCounts counts;
   };
   std::optional<Composed> compose(sinks::SinkPool& sinks, StripStore& store);
 

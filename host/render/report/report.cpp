@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "topology/placement.h"
 
@@ -46,6 +47,20 @@ ordered_json seconds_json(const wire::PhaseTimes& times) {
           {"fill", times.fill}, {"scanline", times.scanline}, {"depth", times.depth}, {"credit", times.credit}};
 }
 
+// What was done at all.
+ordered_json charged_json(std::span<const std::uint64_t> charged, std::size_t first_kind) {
+  ordered_json units = ordered_json::object();
+  for (std::size_t i = 0; i < charged.size(); ++i)
+    if (charged[i] > 0) units[std::string(wire::kWorkNames[first_kind + i])] = charged[i];
+  return units;
+}
+
+ordered_json host_json(const farm::FarmReport& report) {
+  return {{"busy_seconds", report.busy_seconds},
+          {"sink_seconds", report.sink_seconds},
+          {"charged", charged_json(report.charged, wire::kNodeKinds)}};
+}
+
 ordered_json work_json(const wire::WorkCounts& work) {
   return {{"patches", work.patches},
           {"vertices", work.vertices},
@@ -60,7 +75,8 @@ ordered_json work_json(const wire::WorkCounts& work) {
           {"bytes_to_host", work.bytes_to_host},
           {"memory", work.memory},
           {"passes", work.passes},
-          {"credits_waited", work.credits_waited}};
+          {"credits_waited", work.credits_waited},
+          {"charged", charged_json(work.charged, 0)}};
 }
 
 // A strip that is a node's last of a frame: it has all the node's counts.
@@ -115,6 +131,7 @@ std::string report_text(const ReportHead& head, const farm::FarmReport& report) 
                             {"load_seconds", report.load_seconds},
                             {"render_seconds", report.render_seconds},
                             {"total_seconds", report.total_seconds},
+                            {"host", host_json(report)},
                             {"nodes", nodes},
                             {"dimensions", dimensions_json(report.nodes)},
                             {"frames", frames_json(report)}};

@@ -11,8 +11,8 @@ namespace mars::shading::MARS_SET {
 Shaded shade(const Shading& shading, const std::uint32_t* ids, std::uint32_t line, Extent extent, wire::Run* runs,
              void* pixels);
 
-void shade_fragments(const Shading& shading, const Fragment* fragments, std::uint32_t count, std::uint32_t line,
-                     float* const* light);
+ShadedCounts shade_fragments(const Shading& shading, const Fragment* fragments, std::uint32_t count, std::uint32_t line,
+                             float* const* light);
 
 void shade_vertices(const Shading& shading, std::uint32_t material, float side, const shape::Vertices& vertices,
                     std::uint32_t count, const shape::VertexColors& out);

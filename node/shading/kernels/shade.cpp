@@ -150,6 +150,14 @@ void add_vertices(const shape::Vertices& v, std::uint32_t first, std::uint32_t l
   }
 }
 
+ShadedCounts counts_of(const Shading& shading, const Block& block) {
+  const wire::Material& model = block.model(shading.materials);
+  const bool highlight =
+      model.reflection == wire::Reflection::phong || model.reflection == wire::Reflection::blinn_phong;
+  if (is_colored(model)) return {block.count, 0, 0};
+  return {block.count, highlight ? block.count : 0, highlight ? 0 : block.count};
+}
+
 }  // namespace
 
 Shaded shade(const Shading& shading, const std::uint32_t* ids, std::uint32_t line, Extent extent, wire::Run* runs,
@@ -162,6 +170,7 @@ Shaded shade(const Shading& shading, const std::uint32_t* ids, std::uint32_t lin
     if (block.count == 0) return;
     shade_to_pixels(shading, block, static_cast<std::byte*>(pixels) + done.pixels * pixel_bytes);
     done.pixels += block.count;
+    done.counts += counts_of(shading, block);
     block.clear();
   };
   const std::uint32_t last = extent.last;
@@ -181,17 +190,20 @@ Shaded shade(const Shading& shading, const std::uint32_t* ids, std::uint32_t lin
   return done;
 }
 
-void shade_fragments(const Shading& shading, const Fragment* fragments, std::uint32_t count, std::uint32_t line,
-                     float* const* light) {
+ShadedCounts shade_fragments(const Shading& shading, const Fragment* fragments, std::uint32_t count, std::uint32_t line,
+                             float* const* light) {
+  ShadedCounts counts;
   Block block;
   for (std::uint32_t done = 0; done < count; done += block.count) {
     block.clear();
     add_fragments(shading, fragments + done, count - done, line, block);
     shade_to_light(shading, block);
+    counts += counts_of(shading, block);
     for (int c = 0; c < 3; ++c)
       for (std::uint32_t k = 0; k < block.count; k += kLanes)
         hn::StoreU(hn::Load(kFloats, block.color[c] + k), kFloats, light[c] + done + k);
   }
+  return counts;
 }
 
 void shade_vertices(const Shading& shading, std::uint32_t material, float side, const shape::Vertices& vertices,

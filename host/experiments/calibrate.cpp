@@ -1,0 +1,265 @@
+#include "host/experiments/calibrate.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <cstdio>
+#include <fstream>
+#include <iomanip>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <sstream>
+#include <tuple>
+
+#include "hal/failure/failure.h"
+#include "host/child/child.h"
+#include "host/content/document/whole_file.h"
+#include "host/experiments/calibration_films.h"
+#include "host/experiments/fit.h"
+#include "node/wire/work.h"
+
+namespace mars::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using wire::Work;
+
+// Times of one phase and the kinds of work that explain them. What a frame costs beside its triangles and pixels is
+// spread over phases, and charged when it begins.
+struct Phase {
+  const char* name;
+  std::vector<const char*> times;  // as reports name them
+  std::vector<Work> kinds;
+};
+
+const Phase kNodePhases[] = {{"dice",
+                              {"dice"},
+                              {Work::first_frame, Work::fresh_byte, Work::frame, Work::segment, Work::patch,
+                               Work::meshlet, Work::vertex, Work::mesh_vertex, Work::triangle_tested, Work::row_tested,
+                               Work::triangle, Work::edge_box_made, Work::vertex_light}},
+                             {"fill", {"fill"}, {Work::fresh_byte, Work::edge_box_filled}},
+                             {"map", {"sum", "map"}, {Work::line_mapped}},
+                             {"scanline",
+                              {"scanline"},
+                              {Work::first_frame, Work::frame, Work::line, Work::edge_box, Work::sample, Work::shaded,
+                               Work::light, Work::facet_light, Work::pixel, Work::still_byte}}};
+const Phase kHostPhase{"host",
+                       {"busy_seconds"},
+                       {Work::host_strip, Work::host_run, Work::host_byte, Work::host_restored, Work::host_frame}};
+
+// Times below are the clock's and the scheduler's.
+constexpr double kSoft = 1e-4;
+
+// A frame on its node, or a rendering on its host, as a report has it.
+struct Seen {
+  const json& seconds;
+  const json& charged;
+};
+
+Measurement measurement_of(const Seen& seen, const Phase& phase) {
+  Measurement measured{{}, 0};
+  for (const char* name : phase.times) measured.seconds += seen.seconds.at(name).get<double>();
+  for (const Work kind : phase.kinds)
+    measured.units.push_back(seen.charged.value(std::string(wire::kWorkNames[static_cast<std::size_t>(kind)]), 0.0));
+  return measured;
+}
+
+const json& node_of(const json& frame) { return frame.at("nodes").front(); }
+
+// Of its node, in all phases of all frames.
+double node_seconds(const json& report) {
+  double sum = 0;
+  for (const json& frame : report.at("frames"))
+    for (const Phase& phase : kNodePhases)
+      for (const char* name : phase.times) sum += node_of(frame).at("seconds").at(name).get<double>();
+  return sum;
+}
+
+double median(std::vector<double> values) {
+  std::ranges::sort(values);
+  return values[values.size() / 2];
+}
+
+class Measuring {
+ public:
+  explicit Measuring(const CalibrationTask& task) : task_(task), films_(calibration_films()) {}
+
+  Calibration run() {
+    for (const CalibrationFilm& film : films_) document::write_whole_file(film_file(film), film.text);
+    for (int repeat = 0; repeat < task_.repeats; ++repeat) {
+      for (const CalibrationFilm& film : films_) render(film);
+      for (const char* format : {"png", "png16", "exr"}) render_files(format);
+    }
+    calibration_.work.assign(wire::kWorkNames.size(), 0);
+    for (const Phase& phase : kNodePhases) fit(phase, frames());
+    fit(kHostPhase, runs());
+    set_file_costs();
+    calibration_.spread = spread();
+    return std::move(calibration_);
+  }
+
+ private:
+  fs::path film_file(const CalibrationFilm& film) const { return task_.folder / (film.name + ".json"); }
+
+  json report_of(const CalibrationFilm& film, std::vector<std::string> words) {
+    const fs::path report = task_.folder / "report";
+    words.insert(words.begin(), {task_.renderer.string(), film_file(film).string(), "--nodes", "1"});
+    words.insert(words.end(), {"--report", report.string()});
+    words.insert(words.end(), film.words.begin(), film.words.end());
+    child::Child child({{}, words});
+    std::string trouble;
+    const child::Ending ending =
+        child.wait({[](const std::string&) {}, [&](const std::string& line) { trouble = line; }, [] {}});
+    child::fail_if_stopped(child);
+    if (!ending.well()) throw Failure("a rendering for the calibration failed", film.name, trouble);
+    if (task_.progress) task_.progress(++done_, task_.repeats * static_cast<int>(films_.size() + 3));
+    std::ifstream file(report);
+    return json::parse(file);
+  }
+
+  // Keeps the repeat that took least. Not the least of each frame: what frames do to each other's caches belongs to
+  // their times.
+  void render(const CalibrationFilm& film) {
+    json report = report_of(film, {"--sink", "none"});
+    std::vector<double>& seconds = seconds_[film.name];
+    seconds.push_back(node_seconds(report));
+    if (seconds.back() == std::ranges::min(seconds)) reports_[film.name] = std::move(report);
+  }
+
+  const CalibrationFilm& file_film() const { return *std::ranges::find(films_, "balls", &CalibrationFilm::name); }
+
+  // The frames of one film as files.
+  void render_files(const std::string& format) {
+    const fs::path folder = task_.folder / ("frames-" + format);
+    const json report = report_of(file_film(), {"-o", folder.string(), "--format", format});
+    fs::remove_all(folder);
+    file_pixels_ = report["width"].get<double>() * report["height"].get<double>();
+    const auto frames = static_cast<double>(report["frames"].size());
+    file_seconds_[format].push_back(report["host"]["sink_seconds"].get<double>() / frames);
+  }
+
+  std::vector<Seen> frames() const {
+    std::vector<Seen> all;
+    for (const auto& [name, report] : reports_)
+      for (const json& frame : report.at("frames"))
+        all.push_back({node_of(frame).at("seconds"), node_of(frame).at("work").at("charged")});
+    return all;
+  }
+
+  std::vector<Seen> runs() const {
+    std::vector<Seen> all;
+    for (const auto& [name, report] : reports_) all.push_back({report.at("host"), report.at("host").at("charged")});
+    return all;
+  }
+
+  void fit(const Phase& phase, const std::vector<Seen>& all) {
+    std::vector<Measurement> measurements;
+    for (const Seen& seen : all) measurements.push_back(measurement_of(seen, phase));
+    const Fit found = fit_costs(measurements, kSoft);
+    for (std::size_t i = 0; i < phase.kinds.size(); ++i)
+      calibration_.work[static_cast<std::size_t>(phase.kinds[i])] += found.costs[i];
+    calibration_.phases.push_back({phase.name, measurements.size(), found.median_error, found.high_error});
+  }
+
+  void set_file_costs() {
+    const std::tuple<const char*, Work, double> kFiles[] = {
+        {"png", Work::sink_byte, 4}, {"png16", Work::sink_png16_byte, 8}, {"exr", Work::sink_exr_byte, 8}};
+    for (const auto& [format, kind, pixel_bytes] : kFiles)
+      calibration_.work[static_cast<std::size_t>(kind)] =
+          std::ranges::min(file_seconds_[format]) / (file_pixels_ * pixel_bytes);
+  }
+
+  double spread() const {
+    std::vector<double> spreads;
+    for (const auto& [name, seconds] : seconds_) spreads.push_back(median(seconds) / std::ranges::min(seconds) - 1);
+    return median(spreads);
+  }
+
+  const CalibrationTask& task_;
+  const std::vector<CalibrationFilm> films_;
+  std::map<std::string, json> reports_;                 // of each film's shortest rendering
+  std::map<std::string, std::vector<double>> seconds_;  // of all
+  std::map<std::string, std::vector<double>> file_seconds_;
+  double file_pixels_ = 0;
+  int done_ = 0;
+  Calibration calibration_;
+};
+
+// Bytes a second, of one processor, beyond its caches.
+double copy_rate() {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::size_t kBytes = 64 << 20;
+  constexpr int kRepeats = 5;
+  const std::vector<char> from(kBytes, 1);
+  std::vector<char> to(kBytes);
+  double least = 1e9;
+  for (int i = 0; i < kRepeats; ++i) {
+    const auto begun = Clock::now();
+    std::memcpy(to.data(), from.data(), kBytes);
+    least = std::min(least, std::chrono::duration<double>(Clock::now() - begun).count());
+  }
+  return kBytes / least;
+}
+
+// What a person can read, and three digits are as many as are known.
+double rounded(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", number);
+  return std::stod(text);
+}
+
+// What is left of a long message's time beside the copies that both ends are charged for.
+double wire_rate(double rate, double copy_rate) {
+  constexpr double kFastest = 1e12;
+  return 1 / std::max(1 / rate - 2 / copy_rate, 1 / kFastest);
+}
+
+}  // namespace
+
+Calibration calibrate(const CalibrationTask& task) {
+  Calibration calibration = Measuring(task).run();
+  calibration.copy_rate = copy_rate();
+  return calibration;
+}
+
+std::string platform_text(const Calibration& calibration, const MessageCosts& messages,
+                          const CalibratedMachine& machine) {
+  constexpr int kAllNodes = 1 << 20;  // however many there are: they share its processors
+  nlohmann::ordered_json work;
+  for (std::size_t kind = 0; kind < calibration.work.size(); ++kind)
+    work[std::string(wire::kWorkNames[kind])] = rounded(calibration.work[kind]);
+  const nlohmann::ordered_json platform = {
+      {"name", machine.name},
+      {"about", machine.about},
+      {"computers", {{"nodes", kAllNodes}, {"processors", machine.processors}, {"memory", machine.memory}}},
+      {"host", {{"apart", false}}},
+      {"network",
+       {{"topology", "switch"},
+        {"local_latency", rounded(messages.latency)},
+        {"local_rate", rounded(wire_rate(messages.rate, calibration.copy_rate))},
+        {"copy_rate", rounded(calibration.copy_rate)},
+        {"send", rounded(messages.end)},
+        {"receive", rounded(messages.end)}}},
+      {"work", work}};
+  return platform.dump(2) + "\n";
+}
+
+std::string table_text(const Calibration& calibration) {
+  std::ostringstream text;
+  text << std::left << std::setw(18) << "work" << std::right << std::setw(14) << "nanoseconds" << '\n' << std::fixed;
+  for (std::size_t kind = 0; kind < calibration.work.size(); ++kind)
+    text << std::left << std::setw(18) << wire::kWorkNames[kind] << std::right << std::setw(14) << std::setprecision(3)
+         << 1e9 * calibration.work[kind] << '\n';
+  text << '\n'
+       << std::left << std::setw(18) << "phase" << std::right << std::setw(14) << "measured" << std::setw(16)
+       << "middle error" << std::setw(16) << "9 of 10 below" << '\n'
+       << std::setprecision(0);
+  for (const PhaseFit& phase : calibration.phases)
+    text << std::left << std::setw(18) << phase.phase << std::right << std::setw(14) << phase.measured << std::setw(14)
+         << 100 * phase.median_error << " %" << std::setw(14) << 100 * phase.high_error << " %\n";
+  return text.str();
+}
+
+}  // namespace mars::experiments

@@ -1,0 +1,165 @@
+#include "host/experiments/calibration_films.h"
+
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <string_view>
+
+namespace mars::experiments {
+namespace {
+
+using nlohmann::json;
+
+// Bodies differ from their neighbours, as the parts of figures do.
+constexpr const char* kMixed = "mixed";
+constexpr std::array kShapes{"sphere", "cylinder", "cone", "box"};
+constexpr std::array kReflections{"phong", "blinn-phong", "cook-torrance"};
+
+struct Bodies {
+  const char* name;
+  const char* shape;
+  int side;  // so many rows of so many bodies
+  double size;
+  int dice;  // 0: adaptive
+  const char* reflection;
+  const char* interpolation;
+  int lights;
+  int samples;
+  const char* extent;
+};
+
+constexpr Bodies kBodies[] = {
+    {"cube", "box", 1, 6, 0, "phong", "phong", 1, 1, "1280x720"},
+    {"cubes", "box", 3, 2, 0, "blinn-phong", "phong", 3, 4, "960x540"},
+    {"crowd", kMixed, 12, 0.7, 0, kMixed, "phong", 3, 4, "480x270"},
+    {"figures", kMixed, 7, 1.2, 0, kMixed, "phong", 3, 1, "960x540"},
+    {"people", kMixed, 16, 0.6, 0, kMixed, "phong", 2, 1, "640x360"},
+    {"group", kMixed, 5, 1.8, 0, kMixed, "phong", 3, 4, "960x540"},
+    {"boxes", "box", 24, 0.2, 0, "phong", "phong", 2, 1, "320x180"},
+    {"still", "sphere", 12, 0.5, 0, "phong", "phong", 2, 1, "640x360"},
+    {"balls", "sphere", 4, 1.7, 0, "blinn-phong", "phong", 3, 1, "1280x720"},
+    {"fine", "sphere", 2, 3.4, 64, "phong", "phong", 1, 1, "640x360"},
+    {"small", "teapot", 3, 1.6, 0, "phong", "phong", 3, 4, "320x180"},
+    {"teapots", "teapot", 3, 1.6, 0, "metallic-roughness", "phong", 2, 4, "640x360"},
+    {"teapot", "teapot", 1, 6, 0, "cook-torrance", "phong", 3, 1, "960x540"},
+    {"smooth", "teapot", 1, 6, 0, "cook-torrance", "phong", 2, 16, "480x270"},
+    {"lit", "teapot", 1, 6, 0, "blinn-phong", "phong", 4, 4, "960x540"},
+    {"many", "sphere", 20, 0.3, 0, "phong", "phong", 1, 4, "480x270"},
+    {"grains", "sphere", 6, 0.6, 32, "phong", "phong", 1, 16, "320x180"},
+    {"colored", "teapot", 2, 2.5, 0, "blinn-phong", "gouraud", 4, 1, "640x360"},
+    {"sheet", "sheet", 1, 6, 0, "phong", "phong", 2, 4, "640x360"},
+    {"sheets", "sheet", 4, 1.5, 0, "blinn-phong", "phong", 3, 1, "480x270"},
+    {"cloth", "sheet", 2, 3, 0, "metallic-roughness", "phong", 3, 1, "1280x720"},
+    {"hills", "hills", 2, 3, 1, "phong", "phong", 2, 1, "960x540"},
+    {"dunes", "hills", 8, 0.8, 1, "cook-torrance", "phong", 1, 4, "640x360"},
+    {"stones", "stone", 16, 0.4, 1, "cook-torrance", "phong", 3, 1, "640x360"},
+    {"rubble", "stone", 10, 0.6, 1, "phong", "phong", 2, 16, "320x180"},
+    {"facets", "hills", 4, 1.6, 1, "blinn-phong", "flat", 3, 4, "480x270"},
+};
+
+double wave(double x, double y) {
+  return 0.5 + 0.4 * std::sin(4 * std::numbers::pi * x) * std::cos(6 * std::numbers::pi * y);
+}
+
+// A wavy mesh of `side` times `side` squares, within 0 to 1.
+json mesh(int side) {
+  json vertices = json::array(), faces = json::array();
+  for (int i = 0; i <= side; ++i)
+    for (int j = 0; j <= side; ++j) {
+      const double x = static_cast<double>(i) / side, y = static_cast<double>(j) / side;
+      vertices.push_back({x, y, wave(x, y)});
+    }
+  for (int i = 0; i < side; ++i)
+    for (int j = 0; j < side; ++j) {
+      const int at = i * (side + 1) + j;
+      faces.push_back({at, at + side + 1, at + side + 2, at + 1});
+    }
+  return {{"mesh", {{"vertices", vertices}, {"faces", faces}, {"crease", 180}}}};
+}
+
+// Many patches.
+json sheet() {
+  constexpr int kSide = 15;
+  json rows = json::array();
+  for (int i = 0; i <= kSide; ++i) {
+    json row = json::array();
+    for (int j = 0; j <= kSide; ++j) {
+      const double x = static_cast<double>(i) / kSide, y = static_cast<double>(j) / kSide;
+      row.push_back({x, y, wave(x, y)});
+    }
+    rows.push_back(row);
+  }
+  return {{"bspline", {{"points", rows}}}};
+}
+
+json own_shapes() { return {{"hills", mesh(48)}, {"stone", mesh(3)}, {"sheet", sheet()}}; }
+
+json lights(int count) {
+  const json all[] = {{{"direction", {-0.4, -0.7, 0.8}}},
+                      {{"direction", {0.9, -0.2, 0.3}}, {"intensity", 0.5}},
+                      {{"place", {4, -6, 5}}, {"intensity", 0.7}, {"reach", 12}},
+                      {{"place", {-5, -4, 3}}, {"intensity", 0.4}, {"reach", 10}}};
+  return json(std::vector<json>(all, all + count));
+}
+
+// Every second one turns.
+json actors(const Bodies& bodies, std::size_t models) {
+  json all = json::array();
+  for (int i = 0; i < bodies.side * bodies.side; ++i) {
+    const double step = 6.5 / bodies.side;
+    const double x = (i % bodies.side + 0.5) * step - 3.25, z = (static_cast<double>(i) / bodies.side) * step - 3.0;
+    json actor = {{"name", "a" + std::to_string(i)},
+                  {"model", "body" + std::to_string(static_cast<std::size_t>(i) % models)},
+                  {"place", {x, 0, z}}};
+    if (i % 2 == 1 || bodies.side == 1)
+      actor["keys"] = {{{"frame", 0}, {"turn", {0, 0, 0}}}, {{"frame", 8}, {"turn", {0, 0, 160}}}};
+    all.push_back(actor);
+  }
+  return all;
+}
+
+json model(const Bodies& bodies, const std::string& shape, const std::string& reflection) {
+  const double half = bodies.size / 2;
+  const json segment = {{"shape", shape}, {"sbb", {{-half, -half, -half}, {half, half, half}}}, {"material", "skin"}};
+  json model = {{"joints", {{{"name", "body"}, {"segment", segment}}}}};
+  const json shapes = own_shapes();
+  if (shapes.contains(shape)) model["shapes"] = {{shape, shapes[shape]}};
+  model["materials"]["skin"] = {
+      {"color", {0.7, 0.5, 0.3}}, {"reflection", reflection}, {"interpolation", bodies.interpolation}};
+  return model;
+}
+
+json models(const Bodies& bodies) {
+  if (std::string_view(bodies.shape) != kMixed) return {{"body0", model(bodies, bodies.shape, bodies.reflection)}};
+  json all;
+  for (std::size_t i = 0; i < kShapes.size() * kReflections.size(); ++i)
+    all["body" + std::to_string(i)] = model(bodies, kShapes[i % kShapes.size()], kReflections[i % kReflections.size()]);
+  return all;
+}
+
+std::string film_text(const Bodies& bodies) {
+  const json ambient = {{"sky", {0.8, 0.9, 1}}, {"ground", {0.5, 0.45, 0.4}}};
+  const json all_models = models(bodies);
+  return json({{"frames", 8},
+               {"ambient", ambient},
+               {"dice", bodies.dice == 0 ? json("adaptive") : json(bodies.dice)},
+               {"camera", {{"eye", {0, -14, 4}}, {"at", {0, 0, 0}}, {"fov", 34}}},
+               {"lights", lights(bodies.lights)},
+               {"models", all_models},
+               {"actors", actors(bodies, all_models.size())}})
+      .dump(1);
+}
+
+}  // namespace
+
+std::vector<CalibrationFilm> calibration_films() {
+  std::vector<CalibrationFilm> films;
+  for (const Bodies& bodies : kBodies)
+    films.push_back({bodies.name,
+                     film_text(bodies),
+                     {"--samples", std::to_string(bodies.samples), "--size", bodies.extent, "--frames", "0-3"}});
+  return films;
+}
+
+}  // namespace mars::experiments

@@ -1,0 +1,97 @@
+#include "host/experiments/platform.h"
+
+#include <gtest/gtest.h>
+
+#include "host/content/document/whole_file.h"
+#include "host/experiments/calibrate.h"
+#include "node/wire/work.h"
+#include "tests/host/content/document/failure_of.h"
+#include "tests/host/render/sinks/temporary_folder.h"
+
+namespace mars::experiments {
+namespace {
+
+using document::failure_of;
+using document::holds;
+
+constexpr const char* kSmall = R"({
+  "name": "small",
+  "computers": {"nodes": 2, "processors": 4, "memory": 2097152},
+  "host": {"apart": true, "processors": 3},
+  "network": {"topology": "fat tree", "leaf": 8, "rate": 1e9, "send": [[0, 1e-6], [100, 2e-6]]},
+  "work": WORK
+})";
+
+class Platforms : public testing::Test {
+ protected:
+  void add(const std::string& name, const std::string& work) {
+    std::string text = kSmall;
+    text.replace(text.find("WORK"), 4, work);
+    document::write_whole_file(folder_ / (name + ".json"), text);
+  }
+  Platform read(const std::string& name) const { return read_platform(name, folder_.path()); }
+  static double cost(const Platform& platform, wire::Work kind) {
+    return platform.machine.work.at(static_cast<std::size_t>(kind));
+  }
+
+  sinks::TemporaryFolder folder_;
+};
+
+TEST_F(Platforms, SayWhatMachinesAre) {
+  add("small", R"({"pixel": 2e-9})");
+  const Platform platform = read("small");
+  EXPECT_EQ(platform.memory, 2097152u);
+  EXPECT_EQ(platform.machine.nodes, 2);
+  EXPECT_EQ(platform.machine.processors, 4);
+  EXPECT_TRUE(platform.machine.host_apart);
+  EXPECT_EQ(platform.machine.network.topology, simulated::Topology::fat_tree);
+  EXPECT_DOUBLE_EQ(platform.machine.network.byte, 1e-9);
+  ASSERT_EQ(platform.machine.network.send.size(), 2u);
+  EXPECT_EQ(platform.machine.network.send[1].from, 100u);
+  EXPECT_DOUBLE_EQ(cost(platform, wire::Work::pixel), 2e-9);
+  EXPECT_EQ(cost(platform, wire::Work::patch), 0);
+}
+
+TEST_F(Platforms, TakeCostsOfWorkFromAnother) {
+  add("measured", R"({"pixel": 5e-9})");
+  add("small", R"("measured")");
+  add("slow", R"({"pixel": 7e-9})");
+  EXPECT_DOUBLE_EQ(cost(read("small"), wire::Work::pixel), 5e-9);
+  EXPECT_DOUBLE_EQ(cost(read("small:slow"), wire::Work::pixel), 7e-9);
+  EXPECT_EQ(read("small:slow").machine.network.leaf, 8);
+}
+
+TEST_F(Platforms, RefuseWhatTheyDoNotKnow) {
+  add("small", R"({"pixels": 2e-9})");
+  const std::string text = failure_of([&] { read("small"); });
+  EXPECT_TRUE(holds(text, "pixels") && holds(text, "small.json:6") && holds(text, "did you mean 'pixel'?")) << text;
+  const std::string unknown = failure_of([&] { read("smal"); });
+  EXPECT_TRUE(holds(unknown, "no platform 'smal'") && holds(unknown, "small")) << unknown;
+}
+
+TEST_F(Platforms, ThatNameEachOtherAreRefused) {
+  add("a", R"("b")");
+  add("b", R"("a")");
+  const std::string text = failure_of([&] { read("a"); });
+  EXPECT_TRUE(holds(text, "work of work")) << text;
+}
+
+TEST_F(Platforms, AreWhatACalibrationWrites) {
+  Calibration calibration;
+  calibration.work.assign(wire::kWorkNames.size(), 1.23456e-9);
+  calibration.copy_rate = 1e10;
+  const MessageCosts messages{1e-6, 2e9, 3e-7};
+  document::write_whole_file(folder_ / "here.json",
+                             platform_text(calibration, messages, {"here", "made up", 6, 1 << 30}));
+  const Platform named = read_platform((folder_ / "here.json").string(), folder_.path());
+  EXPECT_EQ(named.machine.processors, 6);
+  EXPECT_EQ(named.about, "made up");
+  EXPECT_FALSE(named.machine.host_apart);
+  EXPECT_DOUBLE_EQ(cost(named, wire::Work::facet_light), 1.23e-9);
+  EXPECT_DOUBLE_EQ(named.machine.network.send.front().seconds, 3e-7);
+  // Both ends copy; the rest of a byte's time is the network's.
+  EXPECT_NEAR(named.machine.network.local_byte + 2 * named.machine.network.copy_byte, 1 / 2e9, 1e-12);
+}
+
+}  // namespace
+}  // namespace mars::experiments
