@@ -26,7 +26,7 @@ Renderer::Renderer(const wire::FilmView& film, const wire::Load& load, std::span
       sums_(film.settings().height),
       triangle_exchange_(group_size(), film.settings().height),
       still_exchange_(neighbours_, film.settings().samples, film.settings().height),
-      outbox_(film.settings().width, load.pixel_format, load.credits),
+      outbox_(film.settings().width, load.pixel_format, load.credits, neighbours_.group()),
       contributes_(group_size()),
       line_loads_(film.settings().height),
       line_totals_(film.settings().height + 1),
@@ -34,19 +34,20 @@ Renderer::Renderer(const wire::FilmView& film, const wire::Load& load, std::span
       wanted_still_lines_(film.settings().height),
       homes_(group_size()),
       pass_homes_(group_size()) {
-  messages::keep_to(neighbours_.group().first, neighbours_.group().count);
   parts_.reserve(neighbours_.nodes().size() + 1);
   if (load.traced == 1) tracer_.emplace();
 }
 
 void Renderer::render(const wire::Render& command, std::span<const std::uint32_t> frames) {
   const auto inbetweens = frames.subspan(1);
+  messages::keep_to(command.group_first, command.group_count);
   begin_interval(command, inbetweens);
   draw_frame(wire::FrameKind::keyframe, command.interval, frames.front(), {command.group_first, command.group_count});
   const int self = static_cast<int>(mynode());
   for (std::size_t k = 0; k < inbetweens.size() && !outbox_.stopped(); ++k)
     if (command.group_first + wire::contributor_of_inbetween(command.first_inbetween + k, command.group_count) == self)
       draw_frame(wire::FrameKind::inbetween, command.interval, inbetweens[k], {self, 1});
+  messages::keep_to_nobody();
 }
 
 void Renderer::send_trace() {
@@ -262,8 +263,9 @@ void Renderer::charge_strip(const geometry::LineRange& lines, const raster::Stri
 // Its own lines of a keyframe, an inbetween whole.
 void Renderer::charge_frame() {
   const std::uint64_t lines = homes()[member()].count();
-  report_.charge(wire::Work::file_frame, 1);
-  report_.charge(wire::Work::file_byte, lines * scene_.film().settings().width * wire::pixel_bytes(pixel_format_));
+  const std::uint64_t bytes = lines * scene_.film().settings().width * wire::pixel_bytes(pixel_format_);
+  messages::charge(static_cast<int>(wire::Work::node_frame), 1);
+  messages::charge(static_cast<int>(wire::Work::node_frame_byte), bytes);
 }
 
 std::uint32_t Renderer::draw_strip(const geometry::LineRange& lines, const shading::Shading& shading,

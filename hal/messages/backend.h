@@ -92,8 +92,8 @@ class Backend {
   // The rank has just done so many units of work of a kind, by the program's own numbers: where ranks live by another
   // clock, it goes on by what they cost.
   virtual void charge(int /*kind*/, std::uint64_t /*units*/) {}
-  // From now on the rank exchanges messages with ranks [first, first + count), itself among them, and with the host
-  // alone: what others do in the meantime does not matter to it.
+  // From now on the rank waits for messages of ranks [first, first + count) alone, itself among them: what others do
+  // in the meantime, the host too, does not matter to it. All nodes: it waits for anybody's.
   virtual void keep_to(int /*first*/, int /*count*/) {}
   // Nobody will read these bytes before they are written again: the machine may have their pages back.
   virtual void discard(std::span<std::byte> /*bytes*/) {}

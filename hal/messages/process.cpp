@@ -33,6 +33,8 @@ void charge(int kind, std::uint64_t units) { process().backend().charge(kind, un
 
 void keep_to(int first, int count) { process().backend().keep_to(first, count); }
 
+void keep_to_nobody() { keep_to(0, process().backend().nodes()); }
+
 void discard(std::span<std::byte> bytes) { process().backend().discard(bytes); }
 
 const Traffic& traffic() { return process().traffic(); }

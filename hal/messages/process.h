@@ -123,6 +123,7 @@ void charge(int kind, std::uint64_t units);
 
 // As the Backend's of these names.
 void keep_to(int first, int count);
+void keep_to_nobody();
 void discard(std::span<std::byte> bytes);
 
 // The messages that the calling process has sent so far.

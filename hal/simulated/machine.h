@@ -29,8 +29,8 @@ struct Network {
   int leaf = 0;              // computers
   double local_latency = 0;  // between ranks of one computer
   double local_byte = 0;
-  double host_latency = 0;  // beside the hypercube's node 0; else the host has a port like others
-  double host_byte = 0;          // of its link, or of its port where that is not as the others
+  double host_latency = 0;                 // beside the hypercube's node 0; else the host has a port like others
+  double host_byte = 0;                    // of its link, or of its port where that is not as the others
   double copy_byte = 0;                    // of the processor, at each end
   std::vector<EndCost> send{}, receive{};  // ascending
   std::vector<EndCost> host_end{};         // of the host, whether it sends or receives; empty: as the nodes'

@@ -21,8 +21,8 @@ double Routes::arrival(int from, int to, std::size_t bytes, double time, double 
   } else {
     find_way(from, to);
     const bool with_host = host_ == computers_ && (from == host_ || to == host_);
-    latency = network_.latency + network_.hop * static_cast<double>(way_.size()) +
-              (with_host ? network_.host_latency : 0);
+    latency =
+        network_.latency + network_.hop * static_cast<double>(way_.size()) + (with_host ? network_.host_latency : 0);
   }
   const bool circuit = network_.topology == Topology::hypercube && from != to;
   const double end = circuit ? through_channels(bytes, time) : through_ports(bytes, time, floor);

@@ -29,7 +29,7 @@ class SimulatedBackend : public messages::Backend {
   void idle(int turn, std::chrono::microseconds longest) override;
   double seconds() const override { return world_.clock(rank_); }
   void charge(int kind, std::uint64_t units) override;
-  void keep_to(int first, int) override { world_.keep_to(rank_, first); }
+  void keep_to(int first, int count) override { world_.keep_to(rank_, first, count); }
   void discard(std::span<std::byte> bytes) override { messages::give_pages_back(bytes); }
   messages::MessagePool* pool() override { return &world_.pool(); }
   messages::Neighbourhood neighbourhood() override;

@@ -22,6 +22,7 @@ World::World(const Machine& machine, int nodes)
   const int computers = computers_of(machine, nodes);
   processors_.assign(static_cast<std::size_t>(computers), std::vector<double>(machine.processors));
   if (machine.host_apart) processors_.emplace_back(machine.host_processors);
+  ordered_ = must_be_ordered();
   for (int rank = 0; rank <= nodes; ++rank) {
     ranks_.push_back(std::make_unique<Rank>());
     if (rank < nodes) queue_.emplace(0, rank);
@@ -34,6 +35,14 @@ int World::computer_of(int rank) const {
 }
 
 int World::nodes_on(int computer) const { return std::clamp(nodes_ - computer * machine_.nodes, 0, machine_.nodes); }
+
+// Processors that ranks share, and channels that a message holds all at once, must be used in the order of time.
+bool World::must_be_ordered() const {
+  bool shared = machine_.network.topology == Topology::hypercube;
+  for (std::size_t computer = 0; computer < processors_.size(); ++computer)
+    shared |= workers_on(static_cast<int>(computer)) > processors_[computer].size();
+  return shared;
+}
 
 std::size_t World::workers_on(int computer) const {
   return static_cast<std::size_t>(nodes_on(computer)) + (computer_of(nodes_) == computer ? 1 : 0);
@@ -76,7 +85,8 @@ void World::send(int from, int to, int type, const void* data, std::size_t lengt
   work(from, end_seconds(from, machine_.network.send, length));
   let_earlier_run(from);
   const double now = clock(from);
-  const double arrival = from == to ? now : routes_.arrival(computer_of(from), computer_of(to), length, now, floor_at(now));
+  const double arrival =
+      from == to ? now : routes_.arrival(computer_of(from), computer_of(to), length, now, floor_at(now));
   Rank& receiver = *ranks_[to];
   receiver.coming.push_back({arrival, messages_++, pool_.copy({from, type, length}, data)});
   std::ranges::push_heap(receiver.coming, Later());
@@ -186,11 +196,8 @@ int World::first_after(const Rank& last) const {
 // Nothing that begins now will have been given an earlier time.
 double World::floor_at(double now) const { return queue_.empty() ? now : std::min(now, queue_.begin()->first); }
 
-// Ranks that share processors, or channels that a message holds all at once, must keep the order of time.
-void World::keep_to(int rank, int first) {
-  for (int computer = 0; computer < computers_of(machine_, nodes_); ++computer)
-    if (workers_on(computer) > processors_[computer].size()) return;
-  if (machine_.network.topology != Topology::hypercube) ranks_[rank]->community = &communities_[first];
+void World::keep_to(int rank, int first, int count) {
+  ranks_[rank]->community = ordered_ || count == nodes_ ? nullptr : &communities_[first];
 }
 
 void World::end(int rank) {

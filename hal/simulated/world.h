@@ -3,9 +3,9 @@
 // behind catch up first, so that everything that ranks have in common happens in the order of simulated time, and every
 // run of a program gives the same times. Among equal times the lower rank is first.
 //
-// Ranks that keep to themselves (keep_to) are a community: it runs ahead of others until its ranks all wait, so that
-// few communities hold the memory of work in hand. Others meet it at the host, which waits until all have come to its
-// time, and in the network, where a message takes the first free stretch whenever it is given.
+// Ranks that wait for each other alone (keep_to) are a community: it runs ahead of others until its ranks all wait, so
+// that few communities hold the memory of work in hand. Others meet it at the host, which waits until all have come to
+// its time, and in the network, where a message takes the first free stretch whenever it is given.
 #pragma once
 
 #include <cstddef>
@@ -43,8 +43,7 @@ class World {
   // Of the running rank.
 
   double clock(int rank) const { return ranks_[rank]->clock; }
-  // With others of the same `first`.
-  void keep_to(int rank, int first);
+  void keep_to(int rank, int first, int count);
   // Work on one of the computer's processors, when one is free.
   void work(int rank, double seconds);
   void send(int from, int to, int type, const void* data, std::size_t length);
@@ -116,6 +115,7 @@ class World {
     std::weak_ptr<std::byte> bytes;  // when all have
   };
 
+  bool must_be_ordered() const;
   std::size_t workers_on(int computer) const;
   static void note_arrivals(Rank& self);
   const Queue& others_of(const Rank& self) const { return self.community == nullptr ? queue_ : *self.community; }
@@ -136,6 +136,7 @@ class World {
   std::vector<std::unique_ptr<Rank>> ranks_;
   Queue queue_;                                  // all that neither run nor wait for ever
   std::map<int, Queue> communities_;             // of these, by their first rank
+  bool ordered_;                                 // ranks share what they must use in the order of time
   std::vector<std::vector<double>> processors_;  // by computer: busy until
   std::uint64_t messages_ = 0;                   // sent so far
   int finished_ = 0;

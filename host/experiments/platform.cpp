@@ -22,7 +22,7 @@ using std::string_view;
 constexpr string_view kHere = "here";
 constexpr string_view kPlatformNames[] = {"name", "about", "computers", "host", "network", "work"};
 constexpr string_view kComputerNames[] = {"nodes", "processors", "memory"};
-constexpr string_view kHostNames[] = {"apart", "processors", "memory"};
+constexpr string_view kHostNames[] = {"apart", "processors", "memory", "files"};
 constexpr string_view kNetworkNames[] = {"topology",  "latency",    "hop",           "rate",        "uplink",
                                          "leaf",      "send",       "receive",       "host_end",    "copy_rate",
                                          "host_rate", "local_rate", "local_latency", "host_latency"};
@@ -127,6 +127,7 @@ Platform read(const document::Element& root, const fs::path& folder) {
   platform.machine.host_apart = host.find("apart") && host.find("apart")->boolean();
   platform.machine.host_processors = static_cast<int>(host.count("processors", 1, 1, kMany));
   platform.host_memory = static_cast<std::uint64_t>(host.number("memory", 1ull << 36, {1 << 20, 1e15}));
+  platform.charges_files = host.find("files") && host.find("files")->boolean();
   platform.machine.network = read_network(fields.required("network"));
   platform.machine.work = read_work(fields.required("work"), folder);
   return platform;

@@ -15,6 +15,7 @@ struct Platform {
   std::string about;              // what it is, and where its numbers come from
   std::uint64_t memory = 0;       // bytes that a node may use for its frames
   std::uint64_t host_memory = 0;  // bytes that the host may use
+  bool charges_files = false;     // of frames that go nowhere too
   simulated::Machine machine;
 
   // For the host and its sinks.

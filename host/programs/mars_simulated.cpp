@@ -40,7 +40,8 @@ void run(const options::RenderOptions& options, const experiments::Platform& pla
   const auto host = [&](simulated::World& world) {
     session::RenderJob job = job::job_of(options, "simulated");
     job.host = {platform.host_memory, platform.host_processors()};
-    const auto serve = [&world, files = !job.folder.empty(), format = job.format](std::uint64_t bytes) {
+    const auto serve = [&world, files = platform.charges_files || !job.folder.empty(),
+                        format = job.format](std::uint64_t bytes) {
       return files ? serve_files(world, format, bytes) : world.clock(world.nodes());
     };
     job.make_sinks = [serve](sinks::Sink& sink, const sinks::SinkPool::Shape& shape) {

@@ -8,10 +8,11 @@
 
 namespace mars::group {
 
-Outbox::Outbox(std::size_t width, wire::PixelFormat format, int slots)
+Outbox::Outbox(std::size_t width, wire::PixelFormat format, int slots, const collectives::Group& group)
     : memory_(static_cast<std::size_t>(slots) * wire::kSlotBytes),
       strip_(width, format),
-      slots_(static_cast<std::size_t>(slots)) {
+      slots_(static_cast<std::size_t>(slots)),
+      group_(group) {
   memory_.prefer_large_pages();
 }
 
@@ -38,11 +39,14 @@ void Outbox::send(wire::Strip& header) {
 void Outbox::take_commands(wire::WorkCounts& work) {
   constexpr long kCommands = wire::any_of(wire::kCredit, wire::kStop);
   while (!stopped_ && iprobe(kCommands)) take_command();
-  if (owned_ == 0) ++work.credits_waited;
+  if (stopped_ || owned_ != 0) return;
+  ++work.credits_waited;
+  messages::keep_to_nobody();
   while (!stopped_ && owned_ == 0) {
     cprobe(kCommands);
     take_command();
   }
+  messages::keep_to(group_.first, group_.count);
 }
 
 // Stop is not received here: the firmware does that.

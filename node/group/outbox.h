@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "hal/collectives/group.h"
 #include "hal/messages/offered_memory.h"
 #include "node/raster/strip_buffer.h"
 
@@ -15,7 +16,8 @@ namespace mars::group {
 class Outbox {
  public:
   // `width`: of the picture, whose pixels have this format. All slots are the host's at first.
-  Outbox(std::size_t width, wire::PixelFormat format, int slots);
+  // `group`: the caller's.
+  Outbox(std::size_t width, wire::PixelFormat format, int slots, const collectives::Group& group);
 
   const messages::MemoryName& slots() const { return memory_.name(); }
 
@@ -48,6 +50,7 @@ class Outbox {
   messages::OfferedMemory memory_;
   raster::StripBuffer strip_;  // in the making
   std::vector<Slot> slots_;
+  const collectives::Group group_;
   std::uint32_t owned_ = 0;  // a bit for each slot that is the node's
   std::size_t current_ = 0;
   bool stopped_ = false;

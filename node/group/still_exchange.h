@@ -49,7 +49,7 @@ class StillExchange {
   bool one_each_;  // a message has one line
   PendingMessages pending_;
   std::vector<std::uint8_t> collectors_;  // Plan's
-  std::vector<std::byte> line_;  // that was received
+  std::vector<std::byte> line_;           // that was received
 };
 
 }  // namespace mars::group

@@ -9,7 +9,7 @@ namespace mars::raster {
 Neighbours::Neighbours(std::span<const std::int32_t> machines, int groups) {
   const auto nodes = static_cast<int>(machines.size()), self = static_cast<int>(mynode());
   const auto machine_of = [&](int node) { return static_cast<std::size_t>(machines[static_cast<std::size_t>(node)]); };
-  std::vector<int> heads(machines.size(), -1);  // of the group in hand, by machine
+  std::vector<int> heads(machines.size(), -1);       // of the group in hand, by machine
   std::vector<std::size_t> counts(machines.size());  // of a head's neighbours
   for (int number = 0; number < groups; ++number) {
     const collectives::Group group = collectives::group_of(nodes, groups, number);

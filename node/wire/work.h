@@ -34,8 +34,6 @@ enum class Work : int {
   facet_light,      // likewise, of rough surfaces
   pixel,            // sent
   still_byte,       // kept for inbetweens, or taken from what is kept
-  file_frame,       // that a node would write, were frames written by nodes
-  file_byte,        // of these
   // Of the host.
   host_strip,     // that the host takes
   host_run,       // of pixels
@@ -47,16 +45,19 @@ enum class Work : int {
   sink_byte,        // of these, as PNG
   sink_png16_byte,  // likewise of 16 bits
   sink_exr_byte,    // as EXR
+  // Of a node that would write its frames' files itself.
+  node_frame,
+  node_frame_byte,
 };
 
 // As platform files name them.
 inline constexpr std::array<std::string_view, 34> kWorkNames{
-    "first_frame",  "fresh_byte",      "frame",           "segment",      "patch",         "meshlet",
-    "vertex",       "mesh_vertex",     "triangle_tested", "row_tested",   "triangle",      "edge_box_made",
-    "vertex_light", "edge_box_filled", "line_mapped",     "line",         "edge_box",      "sample",
-    "shaded",       "light",           "facet_light",     "pixel",        "still_byte",    "file_frame",
-    "file_byte",    "host_strip",      "host_run",        "host_byte",    "host_restored", "host_frame",
-    "sink_frame",   "sink_byte",       "sink_png16_byte", "sink_exr_byte"};
+    "first_frame",     "fresh_byte",      "frame",           "segment",        "patch",      "meshlet",
+    "vertex",          "mesh_vertex",     "triangle_tested", "row_tested",     "triangle",   "edge_box_made",
+    "vertex_light",    "edge_box_filled", "line_mapped",     "line",           "edge_box",   "sample",
+    "shaded",          "light",           "facet_light",     "pixel",          "still_byte", "host_strip",
+    "host_run",        "host_byte",       "host_restored",   "host_frame",     "sink_frame", "sink_byte",
+    "sink_png16_byte", "sink_exr_byte",   "node_frame",      "node_frame_byte"};
 
 // Units by kind: those of a node come first, then those of the host's own.
 inline constexpr std::size_t kNodeKinds = static_cast<std::size_t>(Work::host_strip);

@@ -5,8 +5,12 @@ foreach(program rules times)
   target_link_options(smpi_${program} PRIVATE -Wl,--no-undefined)
 endforeach()
 target_link_libraries(smpi_rules PRIVATE mars_nx_rules)
+target_sources(smpi_times PRIVATE times.cpp)
+mars_program(simulated_times simulated_times.cpp LINKS mars_nx_calls mars_hal_simulated)
+target_sources(simulated_times PRIVATE times.cpp)
 
 add_test(NAME smpi_test
          COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/smpi_test.py
-                 ${PROJECT_SOURCE_DIR}/cluster/platforms/simulate $<TARGET_FILE:smpi_rules> $<TARGET_FILE:smpi_times>)
+                 ${PROJECT_SOURCE_DIR}/cluster/platforms/simulate $<TARGET_FILE:smpi_rules> $<TARGET_FILE:smpi_times>
+                 $<TARGET_FILE:simulated_times>)
 set_tests_properties(smpi_test PROPERTIES TIMEOUT 120)

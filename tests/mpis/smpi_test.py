@@ -1,5 +1,6 @@
 """The rules of NX over simulated ranks, and simulated times against those that the platform's figures make.
-Takes: cluster/platforms/simulate, and the programs of the rules and of the times."""
+Takes: cluster/platforms/simulate, the programs of the rules and of the times, and the one of the times over
+hal/simulated."""
 
 import pathlib
 import subprocess
@@ -9,7 +10,7 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent))
 from cases import main  # noqa: E402
 
-SIMULATE, RULES, TIMES = sys.argv[1:4]
+SIMULATE, RULES, TIMES, OWN_TIMES = sys.argv[1:5]
 # What simulate says of an iPSC/2, in microseconds, with what MPI adds to a message.
 SHORT, LONG, HOP, ENVELOPE = 2 * 175, 2 * 330, 30, 16
 BYTE = 1 / 2.8
@@ -21,6 +22,15 @@ def simulate(nodes, program):
     return done.stdout
 
 
+def times_in(told):
+    """By what was measured and its bytes, in microseconds."""
+    times = {}
+    for line in told.splitlines():
+        what, bytes_, microseconds = line.rsplit(None, 2)
+        times[what, int(bytes_)] = float(microseconds)
+    return times
+
+
 class Simulated(unittest.TestCase):
     def test_the_rules_hold(self):
         for nodes in [1, 3, 8]:
@@ -29,10 +39,7 @@ class Simulated(unittest.TestCase):
 
     def test_times(self):
         told = simulate(8, TIMES)
-        times = {}
-        for line in told.splitlines():
-            what, bytes_, microseconds = line.rsplit(None, 2)
-            times[what, int(bytes_)] = float(microseconds)
+        times = times_in(told)
         for what, hops, length, ends in [("to a neighbour", 1, 0, SHORT), ("to a neighbour", 1, 100, SHORT),
                                          ("to a neighbour", 1, 101, LONG), ("to a neighbour", 1, 10000, LONG),
                                          ("across the cube", 3, 0, SHORT)]:
@@ -42,6 +49,14 @@ class Simulated(unittest.TestCase):
                 self.assertLess(times[what, length], 1.1 * least)
         self.assertGreater(times["gsync", 0], 3 * times["to a neighbour", 0] * 0.9)  # a message a dimension
         self.assertEqual(simulate(8, TIMES), told)  # to the last digit
+
+    def test_both_simulators_agree(self):
+        own = subprocess.run([OWN_TIMES, "8"], capture_output=True, text=True, timeout=20, check=True).stdout
+        simgrid, own = times_in(simulate(8, TIMES)), times_in(own)
+        self.assertEqual(simgrid.keys(), own.keys())
+        for key in simgrid:
+            with self.subTest(measured=key):
+                self.assertLess(abs(own[key] / simgrid[key] - 1), 0.08)
 
 
 if __name__ == "__main__":

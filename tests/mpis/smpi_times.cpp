@@ -1,57 +1,15 @@
-// What messages and collectives take on simulated nodes: a line each, of what, bytes and simulated microseconds.
-#include <algorithm>
-#include <cstdio>
-#include <functional>
-#include <vector>
-
+// The times of messages and collectives on nodes that SimGrid simulates.
 #include "hal/mpi/start.h"
-#include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
+#include "tests/mpis/times.h"
 
 namespace {
 
-constexpr int kRounds = 3;
-
-// The longest that a node takes for one of several in a row; all nodes call.
-void measure(const char* what, long bytes, double part, const std::function<void()>& once) {
-  gsync();
-  once();  // those who talk to each other leave it together
-  const double begin = dclock();
-  for (int round = 0; round < kRounds; ++round) once();
-  double longest = (dclock() - begin) / kRounds * part, work = 0;
-  gdhigh(&longest, 1, &work);
-  if (mynode() != 0) return;
-  std::printf("%-20s %8ld %14.1f\n", what, bytes, 1e6 * longest);
-  std::fflush(stdout);
-}
-
-void ping_pong(const char* what, long other, long bytes) {
-  std::vector<char> data(static_cast<std::size_t>(bytes));
-  // Node 0's view: its peer begins before it.
-  measure(what, bytes, mynode() == 0 ? 0.5 : 0, [&] {
-    if (mynode() != 0 && mynode() != other) return;
-    const long peer = mynode() == 0 ? other : 0;
-    if (mynode() == 0) csend(1, data.data(), bytes, peer, 0);
-    crecv(1, data.data(), bytes);
-    if (mynode() != 0) csend(1, data.data(), bytes, peer, 0);
-  });
-}
-
-void sum(long n) {
-  std::vector<double> x(static_cast<std::size_t>(n)), work(x);
-  measure("gdsum", n * 8, 1, [&] { gdsum(x.data(), n, work.data()); });
-}
-
-int measure_all(int, char**) {
-  if (mynode() == myhost()) return 0;
-  for (const long bytes : {0, 100, 101, 10000})
-    if (numnodes() > 1) ping_pong("to a neighbour", 1, bytes);
-  if (numnodes() > 2) ping_pong("across the cube", numnodes() - 1, 0);
-  measure("gsync", 0, 1, gsync);
-  for (const long n : {1, 1000}) sum(n);
+int measure(int, char**) {
+  if (mynode() != myhost()) mars::times::measure_all();
   return 0;
 }
 
 }  // namespace
 
-int main(int argc, char** argv) { return mars::mpi::run_mpi(argc, argv, mars::mpi::Role::by_rank, measure_all); }
+int main(int argc, char** argv) { return mars::mpi::run_mpi(argc, argv, mars::mpi::Role::by_rank, measure); }

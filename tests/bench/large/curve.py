@@ -5,7 +5,7 @@ def best_runs(runs):
     """The quickest groups of each platform, writer and number of nodes."""
     best = {}
     for run in runs:
-        key = (run["platform"], run["writer"], run["frames"], run["small"], run["nodes"])
+        key = (run["platform"], run["writer"], run["frames"], run["size"], run["nodes"])
         if key not in best or run["film_seconds"] < best[key]["film_seconds"]:
             best[key] = run
     return [best[key] for key in sorted(best, key=str_then_nodes)]
@@ -27,17 +27,17 @@ def with_efficiency(runs):
     """(run, its efficiency against the fewest nodes of its curve)."""
     first = {}
     for run in runs:
-        base = first.setdefault((run["platform"], run["writer"], run["frames"], run["small"]), run)
+        base = first.setdefault((run["platform"], run["writer"], run["frames"], run["size"]), run)
         seconds = base["film_seconds"] * base["nodes"] / run["nodes"]
         yield run, seconds / run["film_seconds"]
 
 
 def table(runs):
-    lines = ["| platform | frames written by | nodes | groups | film (s) | efficiency | ideal (s) | film / ideal | "
-             "ideal's wall | load (s) | keyframe (ms) | inbetweens a second |", "|" + "---|" * 12]
+    lines = ["| film | platform | frames written by | nodes | groups | film (s) | efficiency | ideal (s) | film / ideal | "
+             "ideal's wall | load (s) | keyframe (ms) | inbetweens a second |", "|" + "---|" * 13]
     for run, efficiency in with_efficiency(runs):
         lines.append(
-            f"| {run['platform']} | {run['writer']} | {run['nodes']} | {run['groups']} | {run['film_seconds']:.3g} | "
+            f"| {run['size']} | {run['platform']} | {run['writer']} | {run['nodes']} | {run['groups']} | {run['film_seconds']:.3g} | "
             f"{efficiency:.0%} | {ideal(run):.3g} | {run['film_seconds'] / ideal(run):.2f} | {wall(run)} | "
             f"{run['load_seconds']:.2g} | {1e3 * run['keyframe_seconds']:.3g} | {run['inbetweens_a_second']:.0f} |")
     return "\n".join(lines) + "\n"

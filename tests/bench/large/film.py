@@ -21,7 +21,10 @@ class Size:
 
 
 WHOLE = Size(40, 27, 12, [3840, 2160], 2000, 60)
+HALF = Size(40, 27, 6, [1920, 1080], 2000, 60)  # a quarter of the polygons and pixels
 SMALL = Size(20, 11, 3, [384, 216], 60, 12)
+
+SIZES = {"whole": WHOLE, "half": HALF, "small": SMALL}
 
 
 def part_of(column, row):

@@ -27,7 +27,8 @@ def arguments():
     parser.add_argument("--platforms", default="fat-tree,dragonfly,ethernet", help="default: %(default)s")
     parser.add_argument("--groups", help="numbers to try (default: some for each number of nodes)")
     parser.add_argument("--writers", default="host,nodes", help="who writes the frames (default: %(default)s)")
-    parser.add_argument("--small", action="store_true", help="a film of 126720 polygons and 60 frames")
+    parser.add_argument("--size", choices=film.SIZES, default="whole",
+                        help="of the film; half has a quarter of polygons and pixels (default: %(default)s)")
     parser.add_argument("--frames", help="only these, as for mars render")
     parser.add_argument("-o", "--output", type=pathlib.Path, default=pathlib.Path("large"),
                         help="folder for runs.jsonl, curve.svg and table.md (default: %(default)s)")
@@ -62,10 +63,10 @@ def known_runs(path):
 
 def main():
     options = arguments()
-    size = film.SMALL if options.small else film.WHOLE
+    size = film.SIZES[options.size]
     options.output.mkdir(parents=True, exist_ok=True)
     runs_file = options.output / "runs.jsonl"
-    film_file = options.output / "film.json"
+    film_file = options.output / f"{options.size}.json"
     film.write_film(film_file, size)
     runs = known_runs(runs_file)
     for name in options.platforms.split(","):
@@ -76,7 +77,7 @@ def main():
                 tries = map(int, options.groups.split(",")) if options.groups else groups_to_try(nodes, size.intervals)
                 for groups in tries:
                     key = {"platform": name, "writer": writer, "nodes": nodes, "groups": groups,
-                           "frames": options.frames or "all", "small": options.small, "costs": platform}
+                           "frames": options.frames or "all", "size": options.size, "costs": platform}
                     if any(all(run[part] == key[part] for part in key) for run in runs):
                         continue
                     report, cost = simulate(options.build / "bin", film_file, platform_file, nodes, groups,

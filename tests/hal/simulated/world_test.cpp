@@ -55,9 +55,8 @@ TEST(World, MessagesAreTakenInTheOrderOfSimulatedTime) {
 }
 
 TEST(World, ItsEndIsThatOfTheLastRank) {
-  EXPECT_DOUBLE_EQ(run_simulated(machine(), 3, nothing,
-                                 [] { messages::charge(kKind, static_cast<std::uint64_t>(mynode())); }),
-                   2);
+  EXPECT_DOUBLE_EQ(
+      run_simulated(machine(), 3, nothing, [] { messages::charge(kKind, static_cast<std::uint64_t>(mynode())); }), 2);
 }
 
 TEST(World, RanksOfAComputerShareItsProcessors) {
