@@ -25,7 +25,7 @@ def floors_of(report, platform, nodes, size):
     frames, work = report["frames"], platform["work"]
     picture = report["width"] * report["height"] * 4
     written = len(frames) * (work.get("sink_frame", 0) + work.get("sink_byte", 0) * picture)
-    by_nodes = len(frames) * (work.get("file_frame", 0) + work.get("file_byte", 0) * picture)
+    by_nodes = len(frames) * (work.get("node_frame", 0) + work.get("node_frame_byte", 0) * picture)
     bytes_to_host = work_of(frames, "bytes_to_host")
     network = platform["network"]
     host_strips = sum(len(frame["nodes"]) for frame in frames)
