@@ -33,7 +33,7 @@ struct Programs {
   std::optional<std::filesystem::path> threads;
   std::optional<std::filesystem::path> simulated;
   Mpi mpi = our_mpi();
-  std::optional<std::filesystem::path> loopback;  // loopback.cpp, for mpirun to load
+  std::optional<std::filesystem::path> loopback;    // loopback.cpp, for mpirun to load
   std::optional<std::filesystem::path> messages{};  // mars-messages
 };
 
