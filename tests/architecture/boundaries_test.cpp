@@ -93,6 +93,7 @@ TEST(Boundaries, HalRunsOneWay) {
       {"hal/mpi/", messages},
       {"hal/processes/", messages},
       {"hal/threads/", messages},
+      {"hal/simulated/", messages},
       {"hal/template/", messages},
       // What makes other people's programs ranks stands above the transports.
       {"hal/program/", {"hal/failure/", "hal/messages/", "hal/nx/", "hal/mpi/", "hal/processes/"}},
