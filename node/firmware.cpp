@@ -52,7 +52,8 @@ class Firmware {
   std::optional<wire::FilmView> film_;
   std::optional<Renderer> renderer_;
   int groups_ = 1;
-  std::vector<std::byte> command_;  // the one being obeyed
+  std::vector<std::byte> command_;     // the one being obeyed
+  std::vector<std::uint32_t> frames_;  // that it asks for, where it does not list them
 };
 
 Firmware::Firmware(const NodeIdentity& identity)
@@ -109,6 +110,7 @@ void Firmware::load() {
   renderer_.emplace(*film_, load, machines, instruction_set_);
   groups_ = load.groups;
   command_.reserve(sizeof(wire::Render) + film_->settings().frames * sizeof(std::uint32_t));
+  frames_.reserve(film_->settings().frames);
   wire::Loaded loaded{renderer_->outbox().slots(), {}};
   copy_text(renderer_->refusal(), loaded.apart);
   csend(wire::kLoaded, &loaded, sizeof loaded, myhost(), 0);
@@ -117,7 +119,7 @@ void Firmware::load() {
 void Firmware::render() {
   Renderer& renderer = this->renderer();
   const auto [command, frames] = wire::read_render(receive(wire::kRender), *film_, static_cast<int>(mynode()),
-                                                   static_cast<int>(numnodes()), groups_);
+                                                   static_cast<int>(numnodes()), groups_, frames_);
   renderer.render(command, frames);
 }
 

@@ -42,11 +42,12 @@ void Renderer::render(const wire::Render& command, std::span<const std::uint32_t
   const auto inbetweens = frames.subspan(1);
   messages::keep_to(command.group_first, command.group_count);
   begin_interval(command, inbetweens);
-  draw_frame(wire::FrameKind::keyframe, command.interval, frames.front(), {command.group_first, command.group_count});
+  draw_frame(wire::FrameKind::keyframe, command.interval, frames.front(), {command.group_first, command.group_count},
+             command.contributors);
   const int self = static_cast<int>(mynode());
   for (std::size_t k = 0; k < inbetweens.size() && !outbox_.stopped(); ++k)
     if (command.group_first + wire::contributor_of_inbetween(command.first_inbetween + k, command.group_count) == self)
-      draw_frame(wire::FrameKind::inbetween, command.interval, inbetweens[k], {self, 1});
+      draw_frame(wire::FrameKind::inbetween, command.interval, inbetweens[k], {self, 1}, 1);
   messages::keep_to_nobody();
 }
 
@@ -71,8 +72,9 @@ void Renderer::begin_interval(const wire::Render& command, std::span<const std::
 // The thesis's four steps: triangles, homes for the scanlines, triangles to their homes, scanlines. An inbetween takes
 // them with moving parts only, by one node, which is the home of all lines.
 void Renderer::draw_frame(wire::FrameKind kind, std::uint32_t interval, std::uint32_t frame,
-                          const collectives::Group& group) {
+                          const collectives::Group& group, std::int32_t contributors) {
   group_ = group;
+  contributors_ = static_cast<std::size_t>(contributors);
   report_.begin(kind, frame, interval);
   scene_.set_frame(frame);
   report_.charge(wire::Work::first_frame, std::exchange(is_first_, false) ? 1 : 0);
@@ -118,7 +120,7 @@ Tessellation Renderer::tessellate_part(const group::Pass& pass) {
 }
 
 Tessellation Renderer::tessellate() {
-  const Scatter scatter{static_cast<std::uint32_t>(member()), static_cast<std::uint32_t>(group_.count)};
+  const Scatter scatter{static_cast<std::uint32_t>(member()), static_cast<std::uint32_t>(contributors_)};
   const LineTable lines{wanted_lines_, report_.is_keyframe() ? wanted_lines_ : unkept_lines(), line_loads_};
   const Tessellation own = tessellator_.tessellate(scene_, scatter, lines, {memory_.arena(), memory_.first_triangle()},
                                                    report_.strip().work);
@@ -178,8 +180,11 @@ std::uint32_t Renderer::map_to_homes(const group::MadeCounts& made) {
   report_.strip().edge_box_total = sums_.ebc().back();
   report_.clock(wire::Phase::sum);
   const auto weights = sums_.weights(mapping_);
-  group::map_lines(mapping_, weights, homes());
-  report_.strip().load_ratio = group::load_ratio(weights, homes());
+  const auto drawing = homes().first(contributors_);
+  group::map_lines(mapping_, weights, drawing);
+  const auto height = static_cast<std::uint32_t>(line_loads_.size());
+  std::ranges::fill(homes().subspan(contributors_), geometry::LineRange{height, height});
+  report_.strip().load_ratio = group::load_ratio(weights, drawing);
   report_.strip().work.samples = sums_.samples_on(homes()[member()]);
   const std::uint32_t passes = group::agree_on_passes(
       {group_, sums_.ebc(), homes(), sums_.large(), line_loads_, made.triangles, triangles_travel()},
@@ -230,6 +235,7 @@ void Renderer::receive_triangles(const geometry::LineRange& lines) {
 }
 
 void Renderer::draw_lines(const geometry::LineRange& lines, const group::Pass& pass) {
+  if (!contributes()) return finish_exchange(pass);
   const shading::Shading shading = this->shading();
   const bool constant = report_.is_keyframe() && raster::any_stationary(parts_, lines);
   geometry::LineRange strip{lines.first, lines.first};

@@ -48,7 +48,9 @@ class Renderer {
 
  private:
   void begin_interval(const wire::Render& command, std::span<const std::uint32_t> inbetweens);
-  void draw_frame(wire::FrameKind kind, std::uint32_t interval, std::uint32_t frame, const collectives::Group& group);
+  // By the first `contributors` nodes of the group; the others take part in what all do together.
+  void draw_frame(wire::FrameKind kind, std::uint32_t interval, std::uint32_t frame, const collectives::Group& group,
+                  std::int32_t contributors);
 
   Tessellation tessellate_all();
   Tessellation tessellate_part(const group::Pass& pass);
@@ -77,6 +79,7 @@ class Renderer {
 
   std::size_t member() const;  // the caller's index in the group
   std::size_t group_size() const;
+  bool contributes() const { return member() < contributors_; }
   std::span<geometry::LineRange> homes() { return std::span(homes_).first(static_cast<std::size_t>(group_.count)); }
   bool triangles_travel() const;  // to nodes of the group that cannot read the caller's memory
   shading::Shading shading() const;
@@ -102,6 +105,7 @@ class Renderer {
 
   // Of the current frame.
   collectives::Group group_;                      // that draws it
+  std::size_t contributors_ = 1;                  // of it
   std::vector<raster::LineLoad> line_loads_;      // of own triangles
   std::vector<std::uint64_t> line_totals_;        // of their edge boxes, before each line and at the end
   std::vector<raster::LineBoxes> parts_;          // edge boxes of the lines to be drawn; own ones first

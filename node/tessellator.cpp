@@ -60,10 +60,11 @@ Tessellation Tessellator::tessellate(const geometry::Scene& scene, const Scatter
                 shading::shading_of(scene),
                 colored_};
   out.want(lines.wanted_still);
-  if (!lines.wanted_still.empty()) add(scene, false, scatter, output);
+  const bool takes_part = scatter.index < scatter.count;
+  if (takes_part && !lines.wanted_still.empty()) add(scene, false, scatter, output);
   const std::size_t stationary = out.boxes().size();
   out.want(lines.wanted);
-  add(scene, true, scatter, output);
+  if (takes_part) add(scene, true, scatter, output);
   const auto boxes = out.boxes();
   space.arena.take_ends(out.triangles().size_bytes(), boxes.size_bytes());
   return {{out.first, boxes.last(stationary), boxes.first(boxes.size() - stationary)},

@@ -18,7 +18,7 @@
 
 namespace mars::node {
 
-// Patches and meshlets whose number is `index` modulo `count`.
+// Patches and meshlets whose number is `index` modulo `count`; none where that is no remainder.
 struct Scatter {
   std::uint32_t index = 0;
   std::uint32_t count = 1;

@@ -163,12 +163,12 @@ class Measuring {
     calibration_.phases.push_back({phase.name, measurements.size(), found.median_error, found.high_error});
   }
 
+  // In the middle: files are written while a node draws.
   void set_file_costs() {
     const std::tuple<const char*, Work, double> kFiles[] = {
         {"png", Work::sink_byte, 4}, {"png16", Work::sink_png16_byte, 8}, {"exr", Work::sink_exr_byte, 8}};
     for (const auto& [format, kind, pixel_bytes] : kFiles)
-      calibration_.work[static_cast<std::size_t>(kind)] =
-          std::ranges::min(file_seconds_[format]) / (file_pixels_ * pixel_bytes);
+      calibration_.work[static_cast<std::size_t>(kind)] = median(file_seconds_[format]) / (file_pixels_ * pixel_bytes);
   }
 
   double spread() const {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <functional>
+#include <numeric>
+#include <utility>
 
 #include "hal/collectives/group.h"
 #include "hal/failure/failure.h"
@@ -64,16 +66,25 @@ LoadCommand read_load(std::span<const std::byte> message, int nodes, const std::
   return {load, machines};
 }
 
-RenderCommand read_render(std::span<const std::byte> message, const FilmView& film, int node, int nodes, int groups) {
+RenderCommand read_render(std::span<const std::byte> message, const FilmView& film, int node, int nodes, int groups,
+                          std::vector<std::uint32_t>& frames) {
   constexpr auto kName = "Render";
   require(message.size() >= sizeof(Render), kName, "its size");
   const auto& render = *reinterpret_cast<const Render*>(message.data());
-  require(has_size(message, sizeof render, render.frame_count, sizeof(std::uint32_t)), kName, "its size");
-  const auto frames = items_behind<std::uint32_t>(message, sizeof render);
+  require(render.listed <= 1, kName, "whether frames are listed");
+  const std::size_t listed = render.listed == 1 ? render.frame_count : 0;
+  require(has_size(message, sizeof render, listed, sizeof(std::uint32_t)), kName, "its size");
   require(render.interval < film.intervals().size(), kName, "the interval");
   require(is_group_of(render, node, nodes, groups), kName, "the group");
-  require(!frames.empty() && ascend_within(frames, film.intervals()[render.interval]), kName, "the frames");
-  return {render, frames};
+  require(render.contributors >= 1 && render.contributors <= render.group_count, kName, "the contributors");
+  const Interval& interval = film.intervals()[render.interval];
+  require(render.frame_count >= 1 && render.frame_count <= interval.frame_count, kName, "the frames");
+  frames.resize(render.frame_count);
+  std::iota(frames.begin(), frames.end(), render.first_frame);
+  const auto all =
+      render.listed == 1 ? items_behind<std::uint32_t>(message, sizeof render) : std::span(std::as_const(frames));
+  require(ascend_within(all, interval), kName, "the frames");
+  return {render, all};
 }
 
 const Credit& read_credit(std::span<const std::byte> message, std::uint32_t owned, std::size_t slots) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "node/wire/film.h"
 #include "node/wire/protocol.h"
@@ -19,14 +20,15 @@ struct LoadCommand {
 
 struct RenderCommand {
   const Render& render;
-  std::span<const std::uint32_t> frames;
+  std::span<const std::uint32_t> frames;  // in the message, or in `frames` of read_render
 };
 
 // For one of `nodes` nodes; `receiver` names it in a failure: "n3 (node 17)".
 LoadCommand read_load(std::span<const std::byte> message, int nodes, const std::string& receiver);
 
-// For node `node` of `nodes`, which form `groups` groups.
-RenderCommand read_render(std::span<const std::byte> message, const FilmView& film, int node, int nodes, int groups);
+// For node `node` of `nodes`, which form `groups` groups. Frames that are not listed are put into `frames`.
+RenderCommand read_render(std::span<const std::byte> message, const FilmView& film, int node, int nodes, int groups,
+                          std::vector<std::uint32_t>& frames);
 
 // For a node that has the slots of `owned`, a bit for each, of `slots` in all.
 const Credit& read_credit(std::span<const std::byte> message, std::uint32_t owned, std::size_t slots);

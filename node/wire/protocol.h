@@ -12,7 +12,8 @@
 //   host -> node   Load (+ film block to the first node, in pieces), Credit ..., Render ..., Stop
 //   node -> host   Hello, Loaded, Strip ..., Fault (its last message)
 //   both ways      Clock, when the run is traced; then also node -> host Trace ...
-//   node -> node   film block to one node a machine; counts a line; Triangles and StillLines, in any order of the senders: those of two keyframes, or of
+//   node -> node   film block to one node a machine; counts a line; Triangles and StillLines, in any order of the
+//   senders: those of two keyframes, or of
 //                  two passes of one, cannot mix, for all nodes of the group meet between them
 #pragma once
 
@@ -103,14 +104,18 @@ struct Loaded {
   std::array<char, 256> apart;  // why it does not read the triangles of nodes with which it shares memory; "": it does
 };
 
-// Frames of one interval for one group: the first is rendered by all its nodes as the keyframe, the others go
-// whole to single nodes (contributor_of_inbetween). Followed by frame_count frame numbers (uint32), ascending.
+// Frames of one interval for one group: the first is the keyframe, rendered by the group's first `contributors` nodes,
+// the others go whole to single nodes (contributor_of_inbetween). They follow each other from first_frame on; or, where
+// `listed` is 1, their numbers (uint32), ascending, follow the struct.
 struct Render {
   std::uint32_t interval;
   std::int32_t group_first;
   std::int32_t group_count;
+  std::int32_t contributors;  // 1..group_count
   std::uint32_t frame_count;
+  std::uint32_t first_frame;
   std::uint64_t first_inbetween;  // number in the film of the first inbetween here
+  std::uint64_t listed;
 };
 
 // The node of a group of `group_count` that draws an inbetween, counted from the group's first: in turns over the whole

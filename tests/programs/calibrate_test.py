@@ -4,6 +4,8 @@ import json
 
 from harness import ENVIRONMENT, EXAMPLES, ProgramTest, main
 
+KINDS = ["patch", "meshlet", "vertex", "mesh_vertex", "triangle_tested", "triangle", "edge_box_made", "edge_box",
+         "sample", "shaded", "facet_light", "pixel"]  # whose units do not depend on the number of nodes
 FEW = ["--sink", "none", "--size", "64x36", "--frames", "0-5"]
 
 
@@ -34,6 +36,19 @@ class Calibrations(ProgramTest):
         first, second = self.simulate("fat-tree"), self.simulate("fat-tree")
         self.assertEqual(first["frames"], second["frames"])
         self.assertEqual(first["total_seconds"], second["total_seconds"])
+
+    def test_nodes_together_count_what_one_counts(self):
+        def charged(nodes):
+            self.succeed("mars", "render", EXAMPLES / "stones.json", *FEW, "--backend", "threads", "--nodes", nodes,
+                         "--report", "report.json")
+            report = json.loads((self.folder / "report.json").read_text())
+            parts = [node["work"]["charged"] for frame in report["frames"] for node in frame["nodes"]]
+            return [{kind: sum(part.get(kind, 0) for part in parts) for kind in KINDS}, report["host"]["charged"]]
+
+        one, three = charged(1), charged(3)
+        self.assertEqual(one[0], three[0])
+        self.assertGreater(min(one[0].values()), 0)
+        self.assertEqual(one[1]["host_frame"], three[1]["host_frame"])
 
     def test_nothing_is_measured_where_nothing_can_be_written(self):
         refused = self.mars("calibrate", "-o", "no/such/folder.json")

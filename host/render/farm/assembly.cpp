@@ -14,14 +14,14 @@ compositor::Frame* begun(compositor::Frame* frame, const compositor::Compositor&
 
 }  // namespace
 
-Assembly::Assembly(const Task& task, const collectives::Group& group)
+Assembly::Assembly(const Task& task, const collectives::Group& group, std::int32_t contributors)
     : group_(group),
       interval_(task.interval),
       keyframe_(task.frames.front()),
       alone_(task.frames.size() == 1),
-      drew_keyframe_(static_cast<std::size_t>(group.count)),
+      drew_keyframe_(static_cast<std::size_t>(contributors)),
       not_begun_(task.frames.size()) {
-  parts_[keyframe_].contributors_left = group.count;
+  parts_[keyframe_].contributors_left = contributors;
   for (std::size_t k = 1; k < task.frames.size(); ++k) {
     Parts& parts = parts_[task.frames[k]];
     parts.contributors_left = 1;
@@ -39,8 +39,8 @@ bool Assembly::wants(const wire::Strip& strip) const {
 // And its last strip has not come.
 bool Assembly::is_contributor(const Parts& parts, std::int32_t node) const {
   if (parts.contributor != kAll) return parts.contributor == node && parts.contributors_left > 0;
-  const std::int32_t index = node - group_.first;
-  return index >= 0 && index < group_.count && !drew_keyframe_[static_cast<std::size_t>(index)];
+  const auto index = static_cast<std::size_t>(node - group_.first);
+  return node >= group_.first && index < drew_keyframe_.size() && !drew_keyframe_[index];
 }
 
 void Assembly::receive(StripMessage strip) {

@@ -19,8 +19,8 @@ namespace mars::farm {
 
 class Assembly {
  public:
-  // `group` draws the task.
-  Assembly(const Task& task, const collectives::Group& group);
+  // `group` draws the task, its first `contributors` nodes the keyframe.
+  Assembly(const Task& task, const collectives::Group& group, std::int32_t contributors);
 
   std::uint32_t interval() const { return interval_; }
   // Whether it is a strip that is still to come: of a frame of the task, from a node that draws it.
@@ -48,7 +48,7 @@ class Assembly {
   bool done() const { return parts_.empty(); }
 
  private:
-  static constexpr std::int32_t kAll = -1;  // all nodes of the group draw a frame
+  static constexpr std::int32_t kAll = -1;  // all that draw keyframes
 
   // What is there of a frame.
   struct Parts {
@@ -68,7 +68,7 @@ class Assembly {
   std::uint32_t interval_;
   std::uint32_t keyframe_;
   bool alone_;                             // the keyframe has no inbetweens: nobody needs its saved background
-  std::vector<bool> drew_keyframe_;        // by node of the group: its last strip has come
+  std::vector<bool> drew_keyframe_;        // by contributor: its last strip has come
   std::map<std::uint32_t, Parts> parts_;   // of frames that are not finished
   std::deque<std::uint32_t> waiting_;      // those with strips to be pasted, as they came
   std::size_t not_begun_;                  // those without a picture

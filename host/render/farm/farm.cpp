@@ -80,7 +80,8 @@ Farm::Farm(std::span<const std::byte> film_block, const Plan& plan, const FarmOp
       slots_(static_cast<int>(numnodes()), options.credits),
       inbox_(sinks.shape().width, sinks.shape().height, sinks.shape().format, slots_, options.cancellation),
       frames_left_(plan.frames()) {
-  for (const collectives::Group& group : plan.groups) groups_.emplace_back(group, sinks.shape());
+  for (const collectives::Group& group : plan.groups)
+    groups_.emplace_back(group, plan.contributors_of(group), sinks.shape());
 }
 
 FarmReport Farm::run() {
@@ -184,11 +185,7 @@ void Farm::give(GroupWork& to) {
   const Task& task = plan_.tasks[next_task_++];
   const ScopedSpan span(trace::HostSpan::give, task.interval);
   const collectives::Group& group = to.group();
-  const auto frames = static_cast<std::uint32_t>(task.frames.size());
-  const wire::Render command{task.interval, group.first, group.count, frames, task.first_inbetween};
-  std::vector<std::byte> message(sizeof command + frames * sizeof(std::uint32_t));
-  std::memcpy(message.data(), &command, sizeof command);
-  std::memcpy(message.data() + sizeof command, task.frames.data(), frames * sizeof(std::uint32_t));
+  const std::vector<std::byte> message = render_command(task, group, to.contributors());
   for (int node = group.first; node < group.first + group.count; ++node)
     csend(wire::kRender, message.data(), static_cast<long>(message.size()), node, 0);
   to.give(task, background_pixel(film_, film_.intervals()[task.interval], sinks_.shape().format), given);

@@ -5,11 +5,11 @@
 
 namespace mars::farm {
 
-GroupWork::GroupWork(const collectives::Group& group, const sinks::SinkPool::Shape& sinks)
-    : group_(group), compositor_(sinks.width, sinks.height, sinks.block, sinks.format) {}
+GroupWork::GroupWork(const collectives::Group& group, std::int32_t contributors, const sinks::SinkPool::Shape& sinks)
+    : group_(group), contributors_(contributors), compositor_(sinks.width, sinks.height, sinks.block, sinks.format) {}
 
 void GroupWork::give(const Task& task, std::uint64_t background, double now) {
-  tasks_.push_back({Assembly(task, group_), background, now});
+  tasks_.push_back({Assembly(task, group_, contributors_), background, now});
   if (tasks_.size() == 1) begin_interval();
 }
 

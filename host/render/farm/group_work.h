@@ -15,9 +15,10 @@ namespace mars::farm {
 class GroupWork {
  public:
   // For pictures that go to `sinks`.
-  GroupWork(const collectives::Group& group, const sinks::SinkPool::Shape& sinks);
+  GroupWork(const collectives::Group& group, std::int32_t contributors, const sinks::SinkPool::Shape& sinks);
 
   const collectives::Group& group() const { return group_; }
+  std::int32_t contributors() const { return contributors_; }  // to keyframes
   // Tasks given and not done.
   std::size_t tasks() const { return tasks_.size(); }
   // `background`: the pixel where nothing is drawn. `now`: in seconds since the first task was given to any group.
@@ -47,6 +48,7 @@ class GroupWork {
   void begin_interval() { compositor_.begin_interval(tasks_.front().background); }
 
   collectives::Group group_;
+  std::int32_t contributors_;
   compositor::Compositor compositor_;  // the first task's
   std::deque<Given> tasks_;
 };

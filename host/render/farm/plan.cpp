@@ -1,6 +1,7 @@
 #include "host/render/farm/plan.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace mars::farm {
 namespace {
@@ -15,10 +16,26 @@ std::uint32_t Plan::inbetweens() const {
   return static_cast<std::uint32_t>(count);
 }
 
+std::int32_t Plan::contributors_of(const collectives::Group& group) const {
+  return contributors == 0 ? group.count : std::min(contributors, group.count);
+}
+
 Plan make_plan(const wire::FilmView& film, const PlanRequest& request, int nodes) {
-  Plan plan{make_tasks(film, request.frames, request.coherence), {}};
+  Plan plan{make_tasks(film, request.frames, request.coherence), {}, 0};
   plan.groups = make_groups(nodes, static_cast<int>(request.groups), plan.tasks.size());
+  plan.contributors = request.contributors;
   return plan;
+}
+
+std::vector<std::byte> render_command(const Task& task, const collectives::Group& group, std::int32_t contributors) {
+  const auto count = static_cast<std::uint32_t>(task.frames.size());
+  const bool listed = task.frames.back() - task.frames.front() + 1 != count;
+  const wire::Render command{task.interval, group.first,         group.count,          contributors,
+                             count,         task.frames.front(), task.first_inbetween, listed ? 1u : 0u};
+  std::vector<std::byte> message(sizeof command + (listed ? count * sizeof(std::uint32_t) : 0));
+  std::memcpy(message.data(), &command, sizeof command);
+  if (listed) std::memcpy(message.data() + sizeof command, task.frames.data(), message.size() - sizeof command);
+  return message;
 }
 
 std::vector<Task> make_tasks(const wire::FilmView& film, std::span<const std::uint32_t> frames, bool coherence) {

@@ -3,12 +3,14 @@
 // its group a task determines which node draws which frame (contributor_of_inbetween).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "hal/collectives/group.h"
 #include "node/wire/film.h"
+#include "node/wire/protocol.h"
 
 namespace mars::farm {
 
@@ -24,11 +26,15 @@ struct PlanRequest {
   std::vector<std::uint32_t> frames;  // ascending, within the film
   bool coherence = true;              // no: every frame is a task of its own
   std::uint32_t groups = 0;           // that work side by side; 0: see make_groups
+  std::int32_t contributors = 0;      // as in Plan
 };
 
 struct Plan {
   std::vector<Task> tasks;
   std::vector<collectives::Group> groups;
+  std::int32_t contributors = 0;  // nodes of a group that draw its keyframes, at most; 0: all
+
+  std::int32_t contributors_of(const collectives::Group& group) const;
 
   std::uint32_t keyframes() const { return static_cast<std::uint32_t>(tasks.size()); }
   std::uint32_t inbetweens() const;
@@ -36,6 +42,9 @@ struct Plan {
 };
 
 Plan make_plan(const wire::FilmView& film, const PlanRequest& request, int nodes);
+
+// The task as a Render message: short where its frames follow each other.
+std::vector<std::byte> render_command(const Task& task, const collectives::Group& group, std::int32_t contributors);
 
 std::vector<Task> make_tasks(const wire::FilmView& film, std::span<const std::uint32_t> frames, bool coherence);
 

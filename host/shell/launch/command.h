@@ -33,8 +33,8 @@ struct Programs {
   std::optional<std::filesystem::path> threads;
   std::optional<std::filesystem::path> simulated;
   Mpi mpi = our_mpi();
-  std::optional<std::filesystem::path> loopback;  // loopback.cpp, for mpirun to load
-  std::optional<std::filesystem::path> messages;  // mars-messages
+  std::optional<std::filesystem::path> loopback;    // loopback.cpp, for mpirun to load
+  std::optional<std::filesystem::path> messages{};  // mars-messages
 };
 
 // The first mpirun in `path`; a folder that has those of several MPIs distinguishes them by their names.

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <functional>
 #include <span>
@@ -110,42 +111,59 @@ class RenderCommands : public testing::Test {
   }
   FilmView film() const { return {std::as_bytes(std::span(words_)).first(block_.size()), "film"}; }
   bool refused(const Render& render, const std::vector<std::uint32_t>& frames) const {
-    return !refusal([&] { read_render(message(render, frames), film(), 1, 5, 2); }).empty();
+    return !refusal([&] { read_render(message(render, frames), film(), 1, 5, 2, frames_); }).empty();
   }
 
   std::vector<std::byte> block_;
   std::vector<std::uint64_t> words_;
-  const Render sound_{0, 0, 2, 2, 7};
+  const Render sound_{0, 0, 2, 2, 2, 0, 7, 1};
+  mutable std::vector<std::uint32_t> frames_;
 };
 
 TEST_F(RenderCommands, SoundOnesAreTaken) {
   const Bytes bytes = message(sound_, std::vector<std::uint32_t>{0, 1});
-  const RenderCommand command = read_render(bytes, film(), 1, 5, 2);
+  const RenderCommand command = read_render(bytes, film(), 1, 5, 2, frames_);
   EXPECT_EQ(command.render.first_inbetween, 7u);
   EXPECT_EQ(command.frames[1], 1u);
-  EXPECT_FALSE(refused({1, 0, 2, 1, 0}, {2}));
+  EXPECT_FALSE(refused({1, 0, 2, 1, 1, 0, 0, 1}, {2}));
+}
+
+TEST_F(RenderCommands, FramesThatFollowEachOtherNeedNoList) {
+  const Bytes bytes = message(Render{0, 0, 2, 2, 2, 0, 7, 0}, std::vector<std::uint32_t>{});
+  EXPECT_TRUE(std::ranges::equal(read_render(bytes, film(), 1, 5, 2, frames_).frames, std::vector{0u, 1u}));
+  EXPECT_TRUE(refused({0, 0, 2, 2, 3, 0, 7, 0}, {})) << "beyond the interval";
+  EXPECT_TRUE(refused({0, 0, 2, 2, 0xffffffff, 0, 7, 0}, {}));
+  EXPECT_TRUE(refused({0, 0, 2, 2, 2, 0xffffffff, 7, 0}, {}));
+  EXPECT_TRUE(refused({0, 0, 2, 2, 2, 0, 7, 0}, {0, 1})) << "a list, too";
+  EXPECT_TRUE(refused({0, 0, 2, 2, 2, 0, 7, 2}, {0, 1}));
+}
+
+TEST_F(RenderCommands, OfNoSuchContributors) {
+  EXPECT_TRUE(refused({0, 0, 2, 0, 2, 0, 7, 1}, {0, 1}));
+  EXPECT_TRUE(refused({0, 0, 2, 3, 2, 0, 7, 1}, {0, 1}));
+  EXPECT_FALSE(refused({0, 0, 2, 1, 2, 0, 7, 1}, {0, 1}));
 }
 
 TEST_F(RenderCommands, OfAnotherSize) {
   EXPECT_TRUE(refused(sound_, {0}));
   EXPECT_TRUE(refused(sound_, {0, 1, 1}));
-  EXPECT_TRUE(refused({0, 0, 2, 0, 0}, {}));
-  EXPECT_TRUE(refused({0, 0, 2, 0xffffffff, 0}, {0, 1}));
-  EXPECT_FALSE(refusal([this] { read_render({}, film(), 1, 5, 2); }).empty());
+  EXPECT_TRUE(refused({0, 0, 2, 1, 0, 0, 0, 1}, {}));
+  EXPECT_TRUE(refused({0, 0, 2, 1, 0xffffffff, 0, 0, 1}, {0, 1}));
+  EXPECT_FALSE(refusal([this] { read_render({}, film(), 1, 5, 2, frames_); }).empty());
   Bytes bytes = message(sound_, std::vector<std::uint32_t>{0, 1});
   bytes.push_back({});
-  EXPECT_FALSE(refusal([&] { read_render(bytes, film(), 1, 5, 2); }).empty());
+  EXPECT_FALSE(refusal([&] { read_render(bytes, film(), 1, 5, 2, frames_); }).empty());
 }
 
 TEST_F(RenderCommands, ForOthersOrOfNoSuchFrames) {
-  EXPECT_TRUE(refused({2, 0, 2, 1, 0}, {2})) << "no such interval";
-  EXPECT_TRUE(refused({0, 2, 3, 2, 0}, {0, 1})) << "another group's";
-  EXPECT_TRUE(refused({0, 0, 3, 2, 0}, {0, 1})) << "no group";
-  EXPECT_TRUE(refused({0, -1, 3, 2, 0}, {0, 1}));
+  EXPECT_TRUE(refused({2, 0, 2, 1, 1, 0, 0, 1}, {2})) << "no such interval";
+  EXPECT_TRUE(refused({0, 2, 3, 1, 2, 0, 0, 1}, {0, 1})) << "another group's";
+  EXPECT_TRUE(refused({0, 0, 3, 1, 2, 0, 0, 1}, {0, 1})) << "no group";
+  EXPECT_TRUE(refused({0, -1, 3, 1, 2, 0, 0, 1}, {0, 1}));
   EXPECT_TRUE(refused(sound_, {1, 0}));
   EXPECT_TRUE(refused(sound_, {1, 1}));
   EXPECT_TRUE(refused(sound_, {1, 2})) << "beyond the interval";
-  EXPECT_TRUE(refused({1, 0, 2, 1, 0}, {1})) << "before the interval";
+  EXPECT_TRUE(refused({1, 0, 2, 1, 1, 0, 0, 1}, {1})) << "before the interval";
 }
 
 // Slot 1 of three is the node's.

@@ -337,5 +337,26 @@ TEST(Compositor, WrongStripsAreFailuresAndLeaveThePictureAlone) {
   EXPECT_EQ(frame.pixels, Pixels(50, 0));
 }
 
+TEST(Compositor, CountsWhatItPastedAndRestored) {
+  constexpr std::uint32_t kWidth = 32, kHeight = 16, kBlock = 8;
+  Compositor compositor(kWidth, kHeight, kBlock);
+  Frame frame(kWidth, kHeight, kBlock);
+  const std::vector<wire::Run> one{{0, 3, 5}};
+  const std::vector<std::uint32_t> pixels(5, 7);
+  compositor.begin_interval(0);
+  compositor.begin_frame(frame);
+  compositor.paste_moving(frame, one, pixels);
+  compositor.finish_frame(frame, 0);
+  const PastedCounts first = compositor.take_counts();
+  EXPECT_EQ(first.runs, 1u);
+  EXPECT_EQ(first.bytes, 5 * sizeof(std::uint32_t));
+  EXPECT_EQ(first.restored, 0u);
+  compositor.begin_frame(frame);
+  compositor.finish_frame(frame, 1);
+  const PastedCounts second = compositor.take_counts();
+  EXPECT_EQ(second.runs, 0u);
+  EXPECT_EQ(second.restored, kBlock * kBlock * sizeof(std::uint32_t));  // the block under the run
+}
+
 }  // namespace
 }  // namespace mars::compositor

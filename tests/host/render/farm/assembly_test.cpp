@@ -109,7 +109,7 @@ void expect_put_together(unsigned seed) {
     while (task.frames.size() < frames) task.frames.push_back(next++);
     Drawn drawn = draw(random, task, nodes, store);
     expected.merge(drawn.pictures);
-    Assembly assembly(task, {0, nodes});
+    Assembly assembly(task, {0, nodes}, nodes);
     compositor.begin_interval(kPlain);
     EXPECT_EQ(assembly.interval(), number);
     std::size_t not_pasted = 0;  // strips that are not a node's last of their frame
@@ -143,7 +143,7 @@ TEST(Assembly, PutsFramesTogetherFromStripsInAnyOrder) {
 
 struct OneTask {
   OneTask(std::vector<std::uint32_t> frames, std::uint32_t buffers, int nodes)
-      : pool(sink, {kWidth, kHeight, kBlock, buffers, 1, kPlain}), assembly({0, std::move(frames), 0}, {0, nodes}) {
+      : pool(sink, {kWidth, kHeight, kBlock, buffers, 1, kPlain}), assembly({0, std::move(frames), 0}, {0, nodes}, nodes) {
     compositor.begin_interval(kPlain);
   }
 

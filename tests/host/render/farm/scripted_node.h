@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -96,9 +97,11 @@ class ScriptedNode {
     const std::vector<std::byte> message = receive(wire::kRender);
     Command command;
     std::memcpy(&command.render, message.data(), sizeof command.render);
-    command.frames.resize((message.size() - sizeof command.render) / sizeof(std::uint32_t));
-    std::memcpy(command.frames.data(), message.data() + sizeof command.render,
-                command.frames.size() * sizeof(std::uint32_t));
+    command.frames.resize(command.render.frame_count);
+    std::iota(command.frames.begin(), command.frames.end(), command.render.first_frame);
+    if (command.render.listed == 1)
+      std::memcpy(command.frames.data(), message.data() + sizeof command.render,
+                  command.frames.size() * sizeof(std::uint32_t));
     return command;
   }
 

@@ -14,8 +14,8 @@ namespace {
 namespace fs = std::filesystem;
 
 Programs all_programs() {
-  return {"/usr/bin/mpirun",   "/opt/mars-host", "/opt/mars-node",
-          "/opt/mars-threads", Mpi::open_mpi,    "/opt/mars-loopback.so"};
+  return {"/usr/bin/mpirun",     "/opt/mars-host", "/opt/mars-node",       "/opt/mars-threads",
+          "/opt/mars-simulated", Mpi::open_mpi,    "/opt/mars-loopback.so"};
 }
 
 options::RenderOptions film(std::uint32_t nodes) {
