@@ -23,6 +23,7 @@ namespace mars::session {
 struct Foresight {
   std::uint32_t groups = 0;  // that make it shortest; 0: as make_groups says
   events::Course course;     // of its frames
+  std::string warning;       // why nothing is foreseen; "": none
 };
 
 struct RenderJob {
