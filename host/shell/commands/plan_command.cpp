@@ -54,8 +54,7 @@ Planned plan(const options::RenderOptions& options, const forecast::MakeCounter&
   const auto frames = options.frames.of_film(view.settings().frames);
   const std::vector<farm::Task> tasks = farm::make_tasks(view, frames, !options.no_coherence);
   const forecast::FilmCounts counts = forecast::count_film(view, tasks, *make_counter(view), {kCounting});
-  forecast::Setting setting{view, platform, options.mapping, options.format,
-                            options.sink == options::SinkKind::files};
+  forecast::Setting setting{view, platform, options.mapping, options.format, options.sink == options::SinkKind::files};
   setting.sink_threads = session::sink_threads();
   setting.host_budget = session::host_budget();
   const int nodes = options.nodes == 0 ? topology::Machine::here().processors() : static_cast<int>(options.nodes);
