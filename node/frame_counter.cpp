@@ -8,7 +8,7 @@ namespace mars::node {
 namespace {
 
 constexpr std::uint32_t kSampledLines = 64;
-constexpr std::size_t kShareBytes = std::size_t{64} << 20;  // what does not fit is counted, and taken for unseen
+constexpr std::size_t kShareBytes = std::size_t{16} << 20;  // what does not fit is counted, and taken for unseen
 
 constexpr std::uint32_t kBlock = 16;  // side of the compositor's blocks, by default
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "hal/failure/failure.h"
 #include "host/child/programs.h"
 #include "host/experiments/forecast/forecast.h"
 #include "host/programs/node_counter.h"
@@ -35,19 +36,31 @@ session::Foresight foresee(const session::RenderJob& job, const experiments::Pla
   return {best.groups, events::Course(std::move(best.run.frames))};
 }
 
-// The nodes of a rendering as they are on this machine.
-experiments::Platform placed_here(experiments::Platform platform, int nodes) {
-  platform.machine.nodes = nodes;
-  platform.machine.processors = topology::Machine::here().processors();
+// Machines like this one, each with as many nodes as processors.
+experiments::Platform like_here(const std::string& name) {
+  experiments::Platform platform = experiments::read_platform(name, experiments::platforms_folder(child::own_file()));
+  platform.machine.nodes = platform.machine.processors = topology::Machine::here().processors();
   platform.machine.host_apart = false;
   return platform;
+}
+
+// Of a rendering on this machine, and perhaps on others: then it is not known how these are joined.
+session::Foresight foresee_here(const session::RenderJob& job, const wire::FilmView& film,
+                                const farm::PlanRequest& request, int nodes) {
+  const bool calibrated = std::filesystem::exists(experiments::calibrated_platform());
+  const experiments::Platform platform = like_here(calibrated ? "here" : "reference");
+  farm::PlanRequest known = request;
+  const std::size_t tasks = farm::make_tasks(film, request.frames, request.coherence).size();
+  if (request.groups == 0 && (!calibrated || nodes > platform.machine.processors))
+    known.groups = static_cast<std::uint32_t>(farm::make_groups(nodes, 0, tasks).size());
+  return foresee(job, platform, film, known, nodes);
 }
 
 // Seconds that nodes work, very roughly.
 double rough_seconds(const wire::FilmView& film, const std::vector<farm::Task>& tasks) {
   constexpr double kPatch = 1e-5, kSample = 2e-9;
   const wire::FilmSettings& settings = film.settings();
-  const double samples = double{1} * settings.width * settings.height * settings.samples;
+  const double samples = static_cast<double>(settings.width) * settings.height * settings.samples;
   double seconds = 0;
   for (const farm::Task& task : tasks) {
     double moving = 0;
@@ -73,13 +86,11 @@ void render_here(const options::RenderOptions& options, const std::string& backe
   job.foresee = [job](const wire::FilmView& film, const farm::PlanRequest& request, int nodes) {
     const std::vector<farm::Task> tasks = farm::make_tasks(film, request.frames, request.coherence);
     if (rough_seconds(film, tasks) / nodes < kSoon) return session::Foresight();
-    const std::filesystem::path folder = experiments::platforms_folder(child::own_file());
-    const bool calibrated = std::filesystem::exists(experiments::calibrated_platform());
-    farm::PlanRequest known = request;
-    if (!calibrated && request.groups == 0)
-      known.groups = static_cast<std::uint32_t>(farm::make_groups(nodes, 0, tasks.size()).size());
-    const experiments::Platform platform = experiments::read_platform(calibrated ? "here" : "reference", folder);
-    return foresee(job, placed_here(platform, nodes), film, known, nodes);
+    try {
+      return foresee_here(job, film, request, nodes);
+    } catch (const Failure& failure) {  // of a platform's file: the rendering needs no forecast
+      return session::Foresight{0, {}, failure.what()};
+    }
   };
   session::run_session(job);
 }

@@ -1,15 +1,22 @@
 #include "host/experiments/forecast/clockwork.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace mars::forecast {
 
+void Clockwork::at(double time, Action action) {
+  events_.push_back({time, events_given_++, std::move(action)});
+  std::push_heap(events_.begin(), events_.end());
+}
+
 void Clockwork::run() {
   while (!events_.empty()) {
-    const Action action = std::move(const_cast<Event&>(events_.top()).action);
-    now_ = events_.top().time;
-    events_.pop();
-    action();
+    std::pop_heap(events_.begin(), events_.end());
+    const Event event = std::move(events_.back());
+    events_.pop_back();
+    now_ = event.time;
+    event.action();
   }
 }
 

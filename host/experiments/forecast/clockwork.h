@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <queue>
 #include <vector>
 
 namespace mars::forecast {
@@ -14,7 +13,7 @@ class Clockwork {
 
   double now() const { return now_; }
   // Actions of one time happen in the order in which they were given.
-  void at(double time, Action action) { events_.push({time, events_given_++, std::move(action)}); }
+  void at(double time, Action action);
   // Until nothing is left to happen.
   void run();
 
@@ -25,11 +24,11 @@ class Clockwork {
     Action action;
 
     bool operator<(const Event& other) const {
-      return time != other.time ? time > other.time : number > other.number;  // the queue's top is the greatest
+      return time != other.time ? time > other.time : number > other.number;  // a heap's top is the greatest
     }
   };
 
-  std::priority_queue<Event> events_;
+  std::vector<Event> events_;  // a heap
   std::uint64_t events_given_ = 0;
   double now_ = 0;
 };

@@ -39,7 +39,7 @@ class FilmCount {
   FilmCounts count(const Budget& budget);
 
  private:
-  double count_first(const Budget& budget);
+  void count_first();
   static std::size_t inbetweens_of(const farm::Task& task) { return task.frames.size() - 1; }
   void count_keyframe(std::size_t task);
   void count_inbetween(std::size_t task, std::size_t place);
@@ -51,44 +51,47 @@ class FilmCount {
   const std::span<const farm::Task> tasks_;
   Counter& counter_;
   FilmCounts counts_;
-  std::size_t first_ = 0;                   // task that was counted first
+  std::size_t first_ = 0;        // task that was counted first
+  double keyframe_seconds_ = 0;  // that counting one takes
+  double inbetween_seconds_ = 0;
   std::vector<std::size_t> counted_tasks_;  // by keyframe
   std::vector<std::vector<Known>> known_;   // by task, in order
 };
 
 FilmCounts FilmCount::count(const Budget& budget) {
-  const double part = count_first(budget);
-  const auto part_of = [part](double all) { return static_cast<std::size_t>(std::max(1.0, std::floor(all * part))); };
-  const std::size_t keyframes = part_of(static_cast<double>(tasks_.size()));
+  count_first();
+  const auto at_least_one = [](double count) { return static_cast<std::size_t>(std::max(1.0, std::floor(count))); };
+  const auto tasks = static_cast<double>(tasks_.size());
+  double all_inbetweens = 0, inbetweens = 0;  // inbetweens: of the chosen tasks
+  for (const farm::Task& task : tasks_) all_inbetweens += static_cast<double>(inbetweens_of(task));
+  const double whole = tasks * keyframe_seconds_ + all_inbetweens * inbetween_seconds_;
+  const double part = std::min(budget.part, budget.seconds / whole);
+  // Intervals differ more than their frames: for one frame of each there is half of what may be counted.
+  const double keyframes = std::min(tasks, std::max(tasks * part, part * whole / 2 / keyframe_seconds_));
+  const std::size_t count = at_least_one(keyframes);
   std::vector<std::size_t> chosen;
-  for (std::size_t i = 0; i < keyframes; ++i)
-    chosen.push_back((first_ + i * tasks_.size() / keyframes) % tasks_.size());
-  double there = 0, inbetweens = 0;
-  for (const farm::Task& task : tasks_) inbetweens += static_cast<double>(inbetweens_of(task));
-  for (const std::size_t task : chosen) there += static_cast<double>(inbetweens_of(tasks_[task]));
+  for (std::size_t i = 0; i < count; ++i) chosen.push_back((first_ + i * tasks_.size() / count) % tasks_.size());
+  for (const std::size_t task : chosen) inbetweens += static_cast<double>(inbetweens_of(tasks_[task]));
+  const double of_each = (part * whole - keyframes * keyframe_seconds_) / inbetween_seconds_ / inbetweens;
   for (const std::size_t task : chosen) {
     if (task != first_) count_keyframe(task);
     const std::size_t all = inbetweens_of(tasks_[task]);
-    if (all > 0) count_inbetweens(task, std::min(all, part_of(inbetweens * static_cast<double>(all) / there)));
+    if (all > 0) count_inbetweens(task, std::min(all, at_least_one(static_cast<double>(all) * of_each + 0.5)));
   }
   for (std::size_t task = 0; task < tasks_.size(); ++task) estimate(task);
   return std::move(counts_);
 }
 
-// The first task with inbetweens tells what counting takes. The part of all frames that may be counted.
-double FilmCount::count_first(const Budget& budget) {
+// The first task with inbetweens tells what counting takes.
+void FilmCount::count_first() {
   while (first_ + 1 < tasks_.size() && inbetweens_of(tasks_[first_]) == 0) ++first_;
   if (inbetweens_of(tasks_[first_]) == 0) first_ = 0;
   count_keyframe(first_);
-  const double keyframe = counting_seconds(totals_of(counts_.keyframes.front()));
-  double inbetween = keyframe, whole = 0;
+  keyframe_seconds_ = inbetween_seconds_ = counting_seconds(totals_of(counts_.keyframes.front()));
   const std::size_t all = inbetweens_of(tasks_[first_]);
-  if (all > 0) {
-    count_inbetween(first_, all / 2);
-    inbetween = counting_seconds(known_[first_].front().totals);
-  }
-  for (const farm::Task& task : tasks_) whole += keyframe + static_cast<double>(inbetweens_of(task)) * inbetween;
-  return std::min(budget.part, budget.seconds / whole);
+  if (all == 0) return;
+  count_inbetween(first_, all / 2);
+  inbetween_seconds_ = counting_seconds(known_[first_].front().totals);
 }
 
 void FilmCount::count_keyframe(std::size_t task) {

@@ -6,10 +6,10 @@
 namespace mars::forecast {
 namespace {
 
-// All of the first few, then half as many more each time.
+// All of the first few, then twice as many each time.
 std::vector<int> numbers_of_groups(int most) {
   std::vector<int> numbers;
-  for (int groups = 1; groups < most; groups += std::max(1, groups / 2)) numbers.push_back(groups);
+  for (int groups = 1; groups < most; groups = groups < 4 ? groups + 1 : 2 * groups) numbers.push_back(groups);
   numbers.push_back(most);
   return numbers;
 }
@@ -25,12 +25,17 @@ Forecast with_groups(const FilmCounts& counts, const std::vector<farm::Task>& ta
 Forecast forecast(const FilmCounts& counts, const std::vector<farm::Task>& tasks, const Setting& setting, int nodes,
                   std::uint32_t groups) {
   if (groups > 0) return with_groups(counts, tasks, setting, nodes, static_cast<int>(groups));
+  const int most = std::min(nodes, static_cast<int>(tasks.size()));
   Forecast best;
   best.nodes = 0;
-  for (const int some : numbers_of_groups(std::min(nodes, static_cast<int>(tasks.size())))) {
+  const auto try_groups = [&](int some) {
     Forecast next = with_groups(counts, tasks, setting, nodes, some);
     if (best.nodes == 0 || next.run.seconds < best.run.seconds) best = std::move(next);
-  }
+  };
+  for (const int some : numbers_of_groups(most)) try_groups(some);
+  const auto coarse = static_cast<int>(best.groups);
+  if (coarse > 4)
+    for (const int some : {coarse * 3 / 4, std::min(most, coarse * 3 / 2)}) try_groups(some);
   return best;
 }
 

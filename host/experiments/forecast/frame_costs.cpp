@@ -94,7 +94,7 @@ NodePart FrameCosts::inbetween(const FrameTotals& totals, const wire::FrameCount
   part.exchange = costs_.of(Work::line_mapped, height());
   part.strips = strips(totals, costs_.of(units));
   part.strips.pasting += costs_.of(Work::host_restored, totals.drawn.moving.block_pixels * pixel_bytes());
-  part.memory = std::min(arena_bytes(), made_bytes(made));
+  part.memory = part.made_memory = std::min(arena_bytes(), made_bytes(made));
   return part;
 }
 
@@ -240,6 +240,7 @@ void FrameCosts::add_dicing(GroupKeyframe& keyframe, const Homes& homes,
     if (most > 1) keyframe.nodes[n].dice += most * dicing(whole) + once;
     keyframe.nodes[n].exchange = costs_.of(Work::line_mapped, height());
     keyframe.nodes[n].memory = made_bytes(made[n]);
+    keyframe.nodes[n].made_memory = std::min(arena_bytes(), made_bytes(made[n]));
   }
 }
 

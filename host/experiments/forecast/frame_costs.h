@@ -28,7 +28,8 @@ struct NodePart {
   double still = 0;       // lines for inbetweens, sent and received
   double still_wait = 0;  // for the network, beyond
   double bytes_to_nodes = 0;
-  double memory = 0;  // bytes of its arena
+  double memory = 0;       // bytes of its arena
+  double made_memory = 0;  // of these, of what it makes itself
 };
 
 struct GroupKeyframe {

@@ -145,7 +145,7 @@ const NodePart& Rehearsal::part_of(const Node& node) {
 
 // Of a frame that the node begins: its first, or one that takes more memory than any before.
 double Rehearsal::fresh_seconds(Node& node) {
-  const double memory = part_of(node).memory;
+  const double memory = part_of(node).made_memory;
   const double first = node.memory == 0 ? costs_.costs().of(wire::Work::first_frame, 1) : 0;
   const double before = std::exchange(node.memory, std::max(node.memory, memory));
   return first + costs_.costs().of(wire::Work::fresh_byte, node.memory - before);

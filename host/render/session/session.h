@@ -28,6 +28,7 @@ struct HostMachine {
 struct Foresight {
   std::uint32_t groups = 0;  // that make it shortest; 0: as make_groups says
   events::Course course;     // of its frames
+  std::string warning;       // why nothing is foreseen; "": none
 };
 
 struct RenderJob {

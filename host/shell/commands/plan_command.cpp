@@ -21,7 +21,7 @@
 namespace mars::commands {
 namespace {
 
-constexpr double kCounting = 0.5;  // seconds, about
+constexpr double kCounting = 0.7;  // seconds, about
 constexpr double kWorthIt = 1.05;  // times the shortest: more nodes than that takes are not worth it
 
 struct Words {
