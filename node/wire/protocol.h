@@ -12,7 +12,8 @@
 //   host -> node   Load (+ film block to the first node, in pieces), Credit ..., Render ..., Stop
 //   node -> host   Hello, Loaded, Strip ..., Fault (its last message)
 //   both ways      Clock, when the run is traced; then also node -> host Trace ...
-//   node -> node   film block to one node a machine; counts a line; Triangles and StillLines, in any order of the senders: those of two keyframes, or of
+//   node -> node   film block to one node a machine; counts a line; Triangles and StillLines, in any order of the
+//   senders: those of two keyframes, or of
 //                  two passes of one, cannot mix, for all nodes of the group meet between them
 #pragma once
 

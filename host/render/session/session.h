@@ -37,7 +37,7 @@ struct RenderJob {
   std::string trace;                   // file for a picture of the run; "": none
   std::string backend;                 // its name: mpi, threads or simulated
   std::vector<std::string> arguments;  // all this, as it was given to the host
-  HostMachine host;  // that the host has
+  HostMachine host;                    // that the host has
   // Makes the pool of sinks; none: threads take frames.
   std::function<std::unique_ptr<sinks::SinkPool>(sinks::Sink& sink, const sinks::SinkPool::Shape& shape)> make_sinks;
   // The command that renders again, all frames or one, with this number of nodes.
