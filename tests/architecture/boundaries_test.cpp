@@ -136,7 +136,8 @@ TEST(Boundaries, HostAndNodeShareTheWire) {
       EXPECT_TRUE(!begins(include, "node/") || begins(include, "node/wire/") || begins(include, "node/shape/") ||
                   include == "node/color/encoding.h")
           << source.path << " includes " << include;
-      EXPECT_FALSE(is_transport(include) && include != "hal/simulated/machine.h") << source.path << " includes " << include;
+      EXPECT_FALSE(is_transport(include) && include != "hal/simulated/machine.h")
+          << source.path << " includes " << include;
     }
   }
 }
