@@ -87,7 +87,6 @@ void Renderer::draw_frame(wire::FrameKind kind, std::uint32_t interval, std::uin
     draw_lines(exchange_triangles(own.polygons, pass), pass);
     if (!pass.is_last()) send_trace();
   }
-  charge_frame();
   report_.end();
   memory_.end_frame();
   outbox_.discard_sent();
@@ -247,6 +246,7 @@ void Renderer::draw_lines(const geometry::LineRange& lines, const group::Pass& p
     report_.clock(wire::Phase::scanline);
     const bool drawn = strip.last == lines.last;
     if (drawn) finish_exchange(pass);
+    if (drawn && pass.is_last()) charge_file();
     send_strip(strip, drawn && pass.is_last());
   } while (strip.last < lines.last);
 }
@@ -267,7 +267,7 @@ void Renderer::charge_strip(const geometry::LineRange& lines, const raster::Stri
 }
 
 // Its own lines of a keyframe, an inbetween whole.
-void Renderer::charge_frame() {
+void Renderer::charge_file() {
   const std::uint64_t lines = homes()[member()].count();
   const std::uint64_t bytes = lines * scene_.film().settings().width * wire::pixel_bytes(pixel_format_);
   messages::charge(static_cast<int>(wire::Work::node_frame), 1);

@@ -58,7 +58,7 @@ class Renderer {
   // What was done, for machines that are simulated (wire/work.h).
   void charge_tessellation(const Tessellation& own);
   void charge_strip(const geometry::LineRange& lines, const raster::StripBuffer& strip);
-  void charge_frame();
+  void charge_file();
   std::span<const std::uint8_t> unkept_lines();
   // Whether own triangles are all there and can be put into their lines. Else several passes follow, or a Failure where
   // a line has more than can be counted.

@@ -138,6 +138,26 @@ TEST(World, EveryRunGivesTheSameTimes) { EXPECT_EQ(times_of_groups(true), times_
 
 TEST(World, GroupsThatRunAheadChangeNoTime) { EXPECT_EQ(times_of_groups(true), times_of_groups(false)); }
 
+TEST(World, WhoWaitsForAnybodyDoesNotRunAhead) {
+  double heard = 0;
+  const auto host = [](World& world) {
+    world.work(world.nodes(), 1);
+    csend(2, nullptr, 0, 1, 0);
+  };
+  run_simulated(machine(), 4, host, [&] {
+    if (mynode() == 0) {
+      messages::keep_to(0, 2);
+      messages::charge(kKind, 5);
+      csend(1, nullptr, 0, 1, 0);
+    } else if (mynode() == 1) {
+      crecv(2, nullptr, 0);
+      heard = dclock();
+      crecv(1, nullptr, 0);
+    }
+  });
+  EXPECT_DOUBLE_EQ(heard, 1 + kSend + kLatency + kReceive);
+}
+
 TEST(World, AGroupRunsAheadUntilAllItsRanksWait) {
   std::vector<long> order;
   run_simulated(machine(), 4, nothing, [&] {

@@ -32,8 +32,8 @@ TEST(SharedHostMemory, BuffersTakeAGiBOrAnEighthAtMost) {
 }
 
 TEST(SharedHostMemory, PixelsOfEightBytesTakeTwice) {
-  const HostMemory narrow = share_host_memory(64 * kGiB, picture(8192, 8192), wire::PixelFormat::rgb8, 1, 1, 16);
-  const HostMemory wide = share_host_memory(64 * kGiB, picture(8192, 8192), wire::PixelFormat::half, 1, 1, 16);
+  const HostMemory narrow = share_host_memory(8 * kGiB, picture(8192, 8192), wire::PixelFormat::rgb8, 1, 1, 16);
+  const HostMemory wide = share_host_memory(8 * kGiB, picture(8192, 8192), wire::PixelFormat::half, 1, 1, 16);
   EXPECT_EQ(wide.frame_bytes, 2 * narrow.frame_bytes);
   EXPECT_EQ(wide.frames, narrow.frames / 2);
   EXPECT_EQ(wide.strip_bytes(), narrow.strip_bytes());
