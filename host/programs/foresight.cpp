@@ -33,7 +33,7 @@ session::Foresight foresee(const session::RenderJob& job, const experiments::Pla
   const forecast::FilmCounts counts =
       forecast::count_film(film, tasks, *make_node_counter(film), {kMostCounting, kCountedPart / nodes});
   forecast::Forecast best = forecast::forecast(counts, tasks, setting_of(job, film, platform), nodes, request.groups);
-  return {best.groups, events::Course(std::move(best.run.frames))};
+  return {best.groups, best.contributors, events::Course(std::move(best.run.frames))};
 }
 
 // Machines like this one, each with as many nodes as processors.
@@ -51,9 +51,12 @@ session::Foresight foresee_here(const session::RenderJob& job, const wire::FilmV
   const experiments::Platform platform = like_here(calibrated ? "here" : "reference");
   farm::PlanRequest known = request;
   const std::size_t tasks = farm::make_tasks(film, request.frames, request.coherence).size();
-  if (request.groups == 0 && (!calibrated || nodes > platform.machine.processors))
+  const bool chooses = calibrated && nodes <= platform.machine.processors;
+  if (request.groups == 0 && !chooses)
     known.groups = static_cast<std::uint32_t>(farm::make_groups(nodes, 0, tasks).size());
-  return foresee(job, platform, film, known, nodes);
+  session::Foresight foresight = foresee(job, platform, film, known, nodes);
+  if (!chooses) foresight.contributors = 0;
+  return foresight;
 }
 
 // Seconds that nodes work, very roughly.
@@ -89,7 +92,7 @@ void render_here(const options::RenderOptions& options, const std::string& backe
     try {
       return foresee_here(job, film, request, nodes);
     } catch (const Failure& failure) {  // of a platform's file: the rendering needs no forecast
-      return session::Foresight{0, {}, failure.what()};
+      return session::Foresight{.warning = failure.what()};
     }
   };
   session::run_session(job);

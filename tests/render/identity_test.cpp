@@ -114,6 +114,16 @@ TEST_P(Identity, AnyMappingAndGroups) {
   }
 }
 
+TEST_P(Identity, AnyContributorsToKeyframes) {
+  for (const auto& [groups, contributors] : {std::pair{1u, 1}, {1u, 3}, {2u, 2}}) {
+    RunOptions options;
+    options.nodes = 5;
+    options.work.groups = groups;
+    options.work.contributors = contributors;
+    expect_as_from_scratch(options, std::to_string(groups) + "-groups-contributors-" + std::to_string(contributors));
+  }
+}
+
 TEST_P(Identity, AnyMachines) {
   for (const auto& [nodes, nodes_each, groups] : {std::tuple{4, 1, 1u}, {5, 2, 1u}, {7, 3, 2u}}) {
     messages::Machines machines(nodes_each);
@@ -121,6 +131,7 @@ TEST_P(Identity, AnyMachines) {
     RunOptions options;
     options.nodes = nodes;
     options.work.groups = groups;
+    options.work.contributors = nodes == 4 ? 0 : 2;
     options.wrap = [&](messages::Backend& inner) {
       return std::make_unique<messages::MachinesBackend>(inner, counts, machines);
     };

@@ -1,5 +1,6 @@
-// A forecast of a rendering: its seconds, memory and bytes on a platform, and how many groups of nodes make it
-// shortest. It follows from counted frames and the platform's costs alone, so that it is the same every time.
+// A forecast of a rendering: its seconds, memory and bytes on a platform, and with how many groups of nodes, and how
+// many nodes that draw a keyframe, it is shortest. It follows from counted frames and the platform's costs alone, so
+// that it is the same every time.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +15,7 @@ namespace mars::forecast {
 struct Forecast {
   int nodes = 1;
   std::uint32_t groups = 1;
+  std::int32_t contributors = 0;  // to a keyframe, as in farm::Plan
   Rehearsed run;
 
   double node_hours() const { return nodes * run.seconds / 3600; }

@@ -38,8 +38,8 @@ wire::UnitCounts in_whole_patches(const wire::UnitCounts& made) {
 
 // The lines of each node of a group, and what is on them.
 struct FrameCosts::Homes {
-  Homes(const wire::FrameCounts& counts, int nodes, wire::Mapping mapping, std::uint32_t samples)
-      : ranges(static_cast<std::size_t>(nodes)) {
+  Homes(const wire::FrameCounts& counts, int nodes, int contributors, wire::Mapping mapping, std::uint32_t samples)
+      : ranges(static_cast<std::size_t>(nodes), geometry::LineRange{0, 0}) {
     const FrameTotals all = totals_of(counts);
     std::vector<std::uint64_t> weights{0};
     for (const wire::LineCounts& line : counts.lines) {
@@ -47,7 +47,7 @@ struct FrameCosts::Homes {
                                   static_cast<std::uint64_t>(line.samples));
       weights.push_back(weights.back() + (mapping == wire::Mapping::cost ? group::line_cost(load) : load.boxes()));
     }
-    group::map_lines(mapping, weights, ranges);
+    group::map_lines(mapping, weights, std::span(ranges).first(static_cast<std::size_t>(contributors)));
     edge_boxes = all.drawn.edge_boxes;
     const double rows =
         all.made[Work::triangle] > 0 ? edge_boxes / all.made[Work::triangle] : 1;  // of samples, of a triangle
@@ -65,19 +65,22 @@ struct FrameCosts::Homes {
   double edge_boxes;              // on all
 };
 
-GroupKeyframe FrameCosts::keyframe(const wire::FrameCounts& counts, int nodes, std::size_t inbetweens) const {
+GroupKeyframe FrameCosts::keyframe(const wire::FrameCounts& counts, int nodes, int contributors,
+                                   std::size_t inbetweens) const {
   GroupKeyframe keyframe;
   keyframe.nodes.resize(static_cast<std::size_t>(nodes));
-  const auto made = made_by(counts.shares, nodes);
-  const Homes homes(counts, nodes, setting_.mapping, setting_.film.settings().samples);
+  auto made = made_by(counts.shares, contributors);
+  made.resize(keyframe.nodes.size());
+  const Homes homes(counts, nodes, contributors, setting_.mapping, setting_.film.settings().samples);
   add_dicing(keyframe, homes, made);
   if (nodes > 1) add_sum(keyframe, nodes);
-  if (nodes > nodes_on_a_computer(nodes)) add_exchange(keyframe, homes, made);
+  if (contributors > nodes_on_a_computer(nodes)) add_exchange(keyframe, homes, made, contributors);
   for (std::size_t n = 0; n < made.size(); ++n) {
     NodePart& node = keyframe.nodes[n];
     node.memory = std::min(node.memory, arena_bytes());
     node.strips = strips(homes.totals[n], keyframe_drawing(homes.totals[n], counts, homes.ranges[n]));
     if (inbetweens > 0) node.strips.pasting += saving(homes.totals[n]);
+    if (n >= static_cast<std::size_t>(contributors)) node.strips = {0, 0, 0, 0};
   }
   if (inbetweens > 0) add_still(keyframe, homes, counts, inbetweens);
   return keyframe;
@@ -266,10 +269,11 @@ void FrameCosts::add_sum(GroupKeyframe& keyframe, int nodes) const {
 }
 
 // To homes on other computers. Each node has a part of what is on any home.
-void FrameCosts::add_exchange(GroupKeyframe& keyframe, const Homes& homes,
-                              const std::vector<wire::UnitCounts>& made) const {
-  const auto nodes = made.size();
-  const double far = 1 - static_cast<double>(nodes_on_a_computer(static_cast<int>(nodes))) / static_cast<double>(nodes);
+void FrameCosts::add_exchange(GroupKeyframe& keyframe, const Homes& homes, const std::vector<wire::UnitCounts>& made,
+                              int contributors) const {
+  const auto nodes = static_cast<std::size_t>(contributors);
+  const double far =
+      1 - static_cast<double>(nodes_on_a_computer(static_cast<int>(made.size()))) / static_cast<double>(nodes);
   double home_messages = 0, home_bytes = 0;  // that one node sends, if it has an equal part of all
   std::vector<double> parcels(nodes), bytes(nodes);
   for (std::size_t h = 0; h < nodes; ++h) {

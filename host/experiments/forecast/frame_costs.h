@@ -42,8 +42,8 @@ class FrameCosts {
  public:
   explicit FrameCosts(const Setting& setting) : setting_(setting), costs_(setting.platform) {}
 
-  // Of a group of so many nodes, which then draw so many inbetweens.
-  GroupKeyframe keyframe(const wire::FrameCounts& counts, int nodes, std::size_t inbetweens) const;
+  // Of a group of so many nodes, of which so many contribute, and which then draw so many inbetweens.
+  GroupKeyframe keyframe(const wire::FrameCounts& counts, int nodes, int contributors, std::size_t inbetweens) const;
   // After such a keyframe, on a node of a group of so many.
   NodePart inbetween(const FrameTotals& totals, const wire::FrameCounts& keyframe, int nodes) const;
   // Seconds of the host, of a buffer that shows the keyframe's background for the first time.
@@ -75,7 +75,8 @@ class FrameCosts {
   double passes(const wire::UnitCounts& made, double home_boxes, bool travels) const;
   void add_dicing(GroupKeyframe& keyframe, const Homes& homes, const std::vector<wire::UnitCounts>& made) const;
   void add_sum(GroupKeyframe& keyframe, int nodes) const;
-  void add_exchange(GroupKeyframe& keyframe, const Homes& homes, const std::vector<wire::UnitCounts>& made) const;
+  void add_exchange(GroupKeyframe& keyframe, const Homes& homes, const std::vector<wire::UnitCounts>& made,
+                    int contributors) const;
   void add_still(GroupKeyframe& keyframe, const Homes& homes, const wire::FrameCounts& counts,
                  std::size_t inbetweens) const;
   int nodes_on_a_computer(int nodes) const;

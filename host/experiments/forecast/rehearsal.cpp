@@ -43,7 +43,7 @@ class Rehearsal {
     int come = 0;  // of its nodes, to where they meet
   };
 
-  const GroupKeyframe& keyframe_of(std::size_t task, int nodes);
+  const GroupKeyframe& keyframe_of(std::size_t task, const collectives::Group& group);
   const NodePart& part_of(const Node& node);
   double fresh_seconds(Node& node);
   void receive_task(std::size_t group, std::size_t task);
@@ -129,12 +129,13 @@ Rehearsed Rehearsal::run() {
   return std::move(result_);
 }
 
-const GroupKeyframe& Rehearsal::keyframe_of(std::size_t task, int nodes) {
+const GroupKeyframe& Rehearsal::keyframe_of(std::size_t task, const collectives::Group& group) {
   const std::size_t number = counts_.tasks[task].keyframe;
-  const auto size = static_cast<std::size_t>(nodes);
+  const auto size = static_cast<std::size_t>(group.count);
   const std::size_t inbetweens = std::min(size, counts_.tasks[task].inbetweens.size());
   const auto [found, fresh] = keyframes_.try_emplace({number, size, inbetweens});
-  if (fresh) found->second = costs_.keyframe(counts_.keyframes[number], nodes, inbetweens);
+  if (fresh)
+    found->second = costs_.keyframe(counts_.keyframes[number], group.count, plan_.contributors_of(group), inbetweens);
   return found->second;
 }
 
@@ -153,8 +154,7 @@ double Rehearsal::fresh_seconds(Node& node) {
 
 void Rehearsal::receive_task(std::size_t group, std::size_t task) {
   const collectives::Group& nodes = groups_[group].nodes;
-  const double bytes =
-      static_cast<double>(sizeof(wire::Render) + plan_.tasks[task].frames.size() * sizeof(std::uint32_t));
+  const auto bytes = static_cast<double>(farm::render_command(plan_.tasks[task], nodes, 1).size());
   const double each = costs_.costs().host_to_send(bytes);
   for (int member = 0; member < nodes.count; ++member) {
     const int n = nodes.first + member;
@@ -179,7 +179,7 @@ void Rehearsal::begin_task(int n) {
   node.task = node.tasks.front();
   node.tasks.pop_front();
   node.frame = 0;
-  node.keyframe = &keyframe_of(node.task, groups_[node.group].nodes.count);
+  node.keyframe = &keyframe_of(node.task, groups_[node.group].nodes);
   work(n, part_of(node).dice + fresh_seconds(node), &Rehearsal::sum);
 }
 
@@ -217,6 +217,7 @@ void Rehearsal::begin_strips(int n) {
 
 void Rehearsal::draw_strip(int n) {
   Node& node = nodes_[static_cast<std::size_t>(n)];
+  if (node.strips_left == 0) return finish_strip(n);
   if (node.slots == 0) {
     node.waits_for_slot = true;
     return;
@@ -242,6 +243,7 @@ void Rehearsal::meet_for_still(int n) {
 
 void Rehearsal::send_strip(int n) {
   Node& node = nodes_[static_cast<std::size_t>(n)];
+  if (node.strips_left == 0) return end_frame(n);  // it does not contribute
   const StripCosts& strips = part_of(node).strips;
   const auto host = static_cast<int>(nodes_.size());
   const bool same_computer = computers_.of(n) == computers_.of(host);

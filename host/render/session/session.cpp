@@ -108,6 +108,7 @@ farm::Plan plan_of(const wire::FilmView& film, const RenderJob& job, EventReport
   if (job.foresee) {
     Foresight foresight = job.foresee(film, request, nodes);
     if (request.groups == 0) request.groups = foresight.groups;
+    request.contributors = foresight.contributors;
     if (!foresight.warning.empty()) reporter.report(events::Warning{foresight.warning});
     reporter.expect(std::move(foresight.course));
   }

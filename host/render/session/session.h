@@ -26,9 +26,10 @@ struct HostMachine {
 
 // What is known of a rendering before it begins.
 struct Foresight {
-  std::uint32_t groups = 0;  // that make it shortest; 0: as make_groups says
-  events::Course course;     // of its frames
-  std::string warning;       // why nothing is foreseen; "": none
+  std::uint32_t groups = 0;       // that make it shortest; 0: as make_groups says
+  std::int32_t contributors = 0;  // to keyframes, with these groups, as in farm::Plan
+  events::Course course;          // of its frames
+  std::string warning;            // why nothing is foreseen; "": none
 };
 
 struct RenderJob {

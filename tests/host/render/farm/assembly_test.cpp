@@ -143,7 +143,8 @@ TEST(Assembly, PutsFramesTogetherFromStripsInAnyOrder) {
 
 struct OneTask {
   OneTask(std::vector<std::uint32_t> frames, std::uint32_t buffers, int nodes)
-      : pool(sink, {kWidth, kHeight, kBlock, buffers, 1, kPlain}), assembly({0, std::move(frames), 0}, {0, nodes}, nodes) {
+      : pool(sink, {kWidth, kHeight, kBlock, buffers, 1, kPlain}),
+        assembly({0, std::move(frames), 0}, {0, nodes}, nodes) {
     compositor.begin_interval(kPlain);
   }
 
