@@ -270,9 +270,9 @@ TEST_P(Division, InbetweensSendNothingToNodesAndDrawNothingStationary) {
 
 TEST_P(Division, BytesReportedAreBytesSent) {
   const int nodes = GetParam().nodes;
-  Counted loading;  // groups of one node give each other nothing but what loading the film takes
-  run_counted(film_, {nodes, 1, static_cast<std::uint32_t>(nodes)}, loading, {0});
   for (const int nodes_each : {1, 2, nodes}) {
+    Counted loading;  // groups of one node give each other nothing but what loading the film takes
+    run_counted(film_, {nodes, nodes_each, static_cast<std::uint32_t>(nodes)}, loading, {0});
     Counted counted;
     run_counted(film_, {nodes, nodes_each}, counted);
     for (int from = 0; from < nodes; ++from) {

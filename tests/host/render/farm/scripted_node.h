@@ -67,9 +67,17 @@ class ScriptedNode {
     }
     const std::vector<std::byte> message = receive(wire::kLoad);
     std::memcpy(&load, message.data(), sizeof load);
-    for (std::uint64_t at = 0; at < load.film_bytes; at += film_pieces.back().size())
+    for (std::uint64_t at = 0; at < load.film_bytes; at += film_pieces.back().size()) {
       film_pieces.push_back(receive(wire::kFilmBlock));
+      pass_on(film_pieces.back());
+    }
     return true;
+  }
+
+  // A piece of the film: each node leads its machine.
+  static void pass_on(const std::vector<std::byte>& piece) {
+    for (long to = 2 * mynode() + 1; to <= 2 * mynode() + 2 && to < numnodes(); ++to)
+      csend(wire::kFilmBlock, piece.data(), static_cast<long>(piece.size()), to, 0);
   }
 
   static std::vector<std::byte> receive(long type) {

@@ -20,8 +20,13 @@ constexpr std::uint64_t kGiB = 1024 * kMiB;
 Facts sound() {
   Facts facts;
   facts.host = "ada";
-  facts.programs = {"/usr/bin/mpirun",        "/opt/mars/mars-host", "/opt/mars/mars-node",
-                    "/opt/mars/mars-threads", "/opt/mars/mars-simulated", launch::Mpi::open_mpi, {}};
+  facts.programs = {"/usr/bin/mpirun",
+                    "/opt/mars/mars-host",
+                    "/opt/mars/mars-node",
+                    "/opt/mars/mars-threads",
+                    "/opt/mars/mars-simulated",
+                    launch::Mpi::open_mpi,
+                    {}};
   facts.surroundings = {8, 8, 0, false, false, false, {}};
   facts.mpirun_version = "mpirun (Open MPI) 4.1.4\n\nReport bugs to http://www.open-mpi.org/community/help/\n";
   facts.processors = facts.machine_processors = 8;
@@ -98,7 +103,13 @@ TEST(Checks, Programs) {
     f.programs.node.reset();
   });
   expect(State::note, "programs", "mars-host, mars-node", "MPI is installed", [](Facts& f) {
-    f.programs = {std::nullopt, std::nullopt, std::nullopt, "/opt/mars/mars-threads", "/opt/mars/mars-simulated", launch::Mpi::open_mpi, {}};
+    f.programs = {std::nullopt,
+                  std::nullopt,
+                  std::nullopt,
+                  "/opt/mars/mars-threads",
+                  "/opt/mars/mars-simulated",
+                  launch::Mpi::open_mpi,
+                  {}};
   });
   expect(State::note, "programs", "/usr/bin/mars-node", "different versions",
          [](Facts& f) { f.programs.node = "/usr/bin/mars-node"; });
