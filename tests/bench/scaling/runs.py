@@ -99,6 +99,8 @@ def sums_of(parts):
     work = {}
     for part in parts:
         for name, count in part["work"].items():
+            if name == "charged":  # by kind, for forecasts
+                continue
             work[name] = max(work.get(name, 0), count) if name in PEAKS else work.get(name, 0) + count
     return {"frames": len(parts), "seconds": seconds, "work": work}
 
