@@ -144,7 +144,9 @@ Platform read_platform(const std::string& name, const fs::path& folder) {
   const std::size_t colon = name.rfind(':');
   if (colon == std::string::npos || fs::exists(name)) return read_one(name, folder);
   Platform platform = read_one(name.substr(0, colon), folder);
-  platform.machine.work = read_one(name.substr(colon + 1), folder).machine.work;
+  const Platform costs = read_one(name.substr(colon + 1), folder);
+  platform.name += ":" + costs.name;
+  platform.machine.work = costs.machine.work;
   return platform;
 }
 

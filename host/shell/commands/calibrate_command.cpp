@@ -109,7 +109,7 @@ void add_calibrate(CLI::App& app, const MeasureMessages& measure_messages) {
       ->check(CLI::Range(1, 1000).description(""))
       ->type_name("N");
   command->footer(
-      "It takes about a minute, in which nothing else should run. Then:\n"
+      "It takes 10 to 30 seconds, in which nothing else should run. Then:\n"
       "  mars render FILM --sink none --backend simulated --platform here --nodes 4\n"
       "  mars render FILM --sink none --backend simulated --platform fat-tree:here ...\n");
   command->callback([words, measure_messages] { calibrate(*words, measure_messages); });

@@ -19,6 +19,11 @@ constexpr const char* kClearLine = "\r\x1b[K";
 
 std::string one_decimal(double value) { return document::formatted("%.1f", value); }
 
+// Simulated films may take milliseconds.
+std::string seconds_text(double seconds) {
+  return seconds < 1 ? document::formatted("%.2g", seconds) : one_decimal(seconds);
+}
+
 // A line that wraps could not be written over.
 std::string fitting(const std::string& text) {
   winsize size{};
@@ -63,7 +68,7 @@ std::string booted_text(const events::Booted& booted) {
 std::string done_text(const events::Done& done) {
   std::string text = document::counted(done.frames, "frame");
   if (!done.folder.empty()) text += " in " + done.folder;
-  text += ", " + one_decimal(done.seconds) + " seconds";
+  text += ", " + seconds_text(done.seconds) + " seconds";
   if (done.seconds > 0) text += ", " + one_decimal(done.frames / done.seconds) + " frames/s";
   if (done.trace_lacks > 0)
     text += "\nthe trace was full: it lacks " + document::counted(done.trace_lacks, "later event");

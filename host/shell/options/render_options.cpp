@@ -191,9 +191,7 @@ std::vector<Entry> table() {
              "--platform, whose times are counted, not measured. Example: --backend threads"),
       option(simulates, "--platform", "NAME|FILE", &RenderOptions::platform,
              "Machines that --backend simulated simulates: ipsc2, fat-tree, dragonfly, ethernet, here (mars "
-             "calibrate), or a "
-             "file. Example: "
-             "--platform fat-tree"),
+             "calibrate), or a file; default: fat-tree. Example: --platform fat-tree:here"),
       option(bit(Program::plan), "--platform", "here|NAME|FILE", &RenderOptions::platform,
              "Machines that would render: here, as mars calibrate measured them, which is the default; ipsc2, "
              "fat-tree, dragonfly, ethernet; or a file. Example: --platform fat-tree"),

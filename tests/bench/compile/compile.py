@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
-"""How long a film of very many moving segments takes to be read and compiled, and how much memory. Every joint of
-every figure turns all the time, keyed every 100 frames, and every figure walks, so that each segment has a T-matrix
-of its own in each frame. Printed: seconds and gigabytes of `mars info`, which compiles and writes nothing."""
+"""How long a film of very many moving segments takes to be read and compiled, and
+how much memory. Every joint of every figure turns all the time, keyed every 100
+frames, and every figure walks, so that each segment has a T-matrix of its own
+in each frame. Printed: seconds and gigabytes of `mars info`, which compiles and
+writes nothing."""
 import argparse
 import math
 import os

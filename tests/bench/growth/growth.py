@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Whether a frame's time grows as its work does and no faster: s2 with 1, 4 and 16 times its triangles, and at
-heights from 540 to 4320 lines. Printed: the best frame's time in the node's steps, the straight line through all
-(t = a + b x, of least relative squares), and how far the times lie off it."""
+"""Whether a frame's time grows as its work does and no faster: s2 with 1, 4 and 16
+times its triangles, and at heights from 540 to 4320 lines. Printed: the best
+frame's time in the node's steps, the straight line through all (t = a + b x, of
+least relative squares), and how far the times lie off it."""
 import argparse
 import json
 import os

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""What NX's calls cost beside MPI's own: csend and crecv against MPI_Send and MPI_Recv, gdsum against MPI_Allreduce,
-best and middle of 200 rounds in turn, in one run each; and the share of a core that a waiting host uses."""
+"""What NX's calls cost beside MPI's own: csend and crecv against MPI_Send and
+MPI_Recv, gdsum against MPI_Allreduce, best and middle of 200 rounds in turn, in
+one run each; and the share of a core that a waiting host uses."""
 import argparse
 import os
 import subprocess

@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
-"""How near pictures of 1, 2, 4, 8 and 16 samples a pixel come to a reference, and whether edges crawl.
+"""How near pictures of 1, 2, 4, 8 and 16 samples a pixel come to a reference, and
+whether edges crawl.
 
-The reference has 16 samples in each of 4 x 4 pixels for one, averaged as light. Printed is the root of the mean square
-difference of the encoded levels, of 255, at the first, the middle and the last frame, beside Embree's where the film is
-a measuring scene. The fan turns by a fraction of a pixel a frame: printed is by how much its mean light varies over all
-frames. README.md beside this program tells more. It fails if the demo at 16 samples is too far from its reference."""
+The reference has 16 samples in each of 4 x 4 pixels for one, averaged as light.
+Printed is the root of the mean square difference of the encoded levels, of 255,
+at the first, the middle and the last frame, beside Embree's where the film is a
+measuring scene. The fan turns by a fraction of a pixel a frame: printed is by
+how much its mean light varies over all frames. README.md beside this program
+tells more. It fails if the demo at 16 samples is too far from its reference."""
 import argparse
 import json
 import os

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""What changed beyond noise between two scaling studies, files runs.jsonl of mars bench scaling: the time of each
-configuration, the time by step, and the machines.
+"""What changed beyond noise between two studies of mars bench scaling (folders, or
+their files runs.jsonl): the time of each configuration, the time by step, and
+the machines.
 
-Exit code: 0 nothing became slower; 1 something did; 2 the files cannot be compared."""
+Exit code: 0 nothing became slower; 1 something did; 2 the files cannot be
+compared."""
 import argparse
 import sys
 

@@ -12,7 +12,7 @@ def nodes_text(count):
 
 
 def all_of(results):
-    return [finding for kind in (failures, slow, outcomes, laws, oversubscription, noise, busy) for finding in kind(results)]
+    return [finding for kind in (failures, busy, noise, oversubscription, slow, outcomes, laws) for finding in kind(results)]
 
 
 def failures(results):

@@ -94,8 +94,15 @@ def scaling(lines):
     left.yaxis.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{value:g}"))
     right.yaxis.set_major_formatter(ticker.PercentFormatter(1, decimals=0, symbol=" %"))
     right.set_ylim(0, max(1.1, right.get_ylim()[1]))
-    left.legend(loc="upper left")
+    legend_above(figure, left)
     return svg(figure)
+
+
+def legend_above(figure, *of):
+    """Above all axes, where no line runs through it."""
+    handles, labels = (sum(parts, []) for parts in zip(*(axes.get_legend_handles_labels() for axes in of)))
+    figure.legend(handles, labels, loc="lower left", bbox_to_anchor=(figure.subplotpars.left, 0.97), ncol=4,
+                  borderaxespad=0, borderpad=0, columnspacing=1.5)
 
 
 def draw_amdahl(axes, line, colour):
@@ -148,9 +155,8 @@ def balance(lines):
                        marker="o", markersize=4)
     left.set_ylim(1, max(1.1, left.get_ylim()[1]))
     left.yaxis.set_major_locator(ticker.MaxNLocator(6, steps=[1, 2, 5, 10]))
-    left.legend(loc="upper left")
     right.set_ylim(bottom=0)
     for to, style in (("to other nodes", "-"), ("to the host", (0, (4, 2)))):
         right.plot([], [], color="#3b4048", linestyle=style, label=to)
-    right.legend(loc="upper left")
+    legend_above(figure, left, right)
     return svg(figure)

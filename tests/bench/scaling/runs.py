@@ -2,6 +2,7 @@
 lines: a header, then one line a run, which says all of its own environment."""
 import json
 import os
+import pathlib
 import subprocess
 import time
 
@@ -106,12 +107,14 @@ def sums_of(parts):
 
 
 def read(path):
-    """The header and the runs of a file."""
+    """The header and the runs of a file, or of a study's folder."""
+    path = pathlib.Path(path)
+    path = path / "runs.jsonl" if path.is_dir() else path
     try:
         with open(path) as file:
             header, *lines = [json.loads(line) for line in file if line.strip()]
     except (OSError, ValueError) as error:
-        raise Trouble(f"{path} is no file of a scaling study ({error})") from None
+        raise Trouble(f"{path} is no file of a scaling study ({getattr(error, 'strerror', None) or error})") from None
     if header.get("format") != FORMAT:
         raise Trouble(f"{path} is no file of a scaling study of this version ({FORMAT})")
     return header, lines

@@ -1,9 +1,12 @@
 #!/usr/bin/env python3
-"""How fast a film renders on more and more nodes: a strong and weak scaling study on this machine, on the machines of a
-hostfile, or in a Slurm job. Every run becomes a line of DIR/runs.jsonl, at once. Then a table is printed, and a
-report with pictures is made: DIR/report.html (this takes Matplotlib). docs/experiments.md says what it shows.
+"""How fast a film renders on more and more nodes: a strong and weak scaling study
+on this machine, on the machines of a hostfile, or in a Slurm job. Every run
+becomes a line of DIR/runs.jsonl, at once. Then a table is printed, and a report
+with pictures is made: DIR/report.html (this takes Matplotlib).
+docs/experiments.md says what it shows.
 
-Words after -- are options of mars render, for every run: -- --frames 0-9 --no-coherence"""
+Words after -- are options of mars render, for every run:
+  mars bench scaling FILM -- --frames 0-9 --no-coherence"""
 import argparse
 import importlib.util
 import json

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""The tables and figures of 1992's thesis (chapter 4), measured on this machine, beside the thesis's own numbers and
-those of other sources. It writes tables.md, tables.html, results.json (what was measured) and pictures into a folder.
+"""The tables and figures of 1992's thesis (chapter 4), measured on this machine,
+beside the thesis's own numbers and those of other sources. It writes tables.md,
+tables.html, results.json (what was measured) and pictures into a folder.
 
-With more nodes than cores, times on the wall say little about a machine with so many cores: "own work" says what the
-slowest node computes, without waiting and messages. README.md beside this program tells more."""
+With more nodes than cores, times on the wall say little about a machine with so
+many cores: "own work" says what the slowest node computes, without waiting and
+messages. README.md beside this program tells more."""
 import argparse
 import os
 import platform

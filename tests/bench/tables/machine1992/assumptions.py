@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""What else the 1992 program may have done, fitted on table 4.1: mars bench machine1992-assumptions. Prints, for each
-assumption, the fitted parameters and the median errors of keyframes and inbetweens (replayed, not simulated)."""
+"""What else the 1992 program may have done, fitted on table 4.1: mars bench
+machine1992-assumptions. Prints, for each assumption, the fitted parameters and
+the median errors of keyframes and inbetweens (replayed, not simulated)."""
 import argparse
 import copy
 import statistics

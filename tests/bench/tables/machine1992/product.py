@@ -1,9 +1,12 @@
 #!/usr/bin/env python3
-"""MARS itself on the machine that simulate.py has fitted: mars bench machine1992-product SIMULATED FILE.
+"""MARS itself on the machine that simulate.py has fitted: mars bench
+machine1992-product SIMULATED FILE.
 
-Renders the same films with `mars render --backend simulated`, in pictures of the same size, and writes FILE with the
-cells' times (source simulated-product). Inbetweens: of 20 a node. What work costs are the clocks of costs.py for MARS's
-own algorithms; the network, the host's link and cost a message are those of SIMULATED, which simulate.py wrote."""
+Renders the same films with `mars render --backend simulated`, in pictures of
+the same size, and writes FILE with the cells' times (source simulated-product).
+Inbetweens: of 20 a node. What work costs are the clocks of costs.py for MARS's
+own algorithms; the network, the host's link and cost a message are those of
+SIMULATED, which simulate.py wrote."""
 import argparse
 import json
 import os

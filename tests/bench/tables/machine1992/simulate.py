@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""The tables of 1992 on a simulated iPSC/2, by the thesis's algorithms: mars bench machine1992 FILE.
+"""The tables of 1992 on a simulated iPSC/2, by the thesis's algorithms: mars bench
+machine1992 FILE.
 
-Writes FILE, with all cells, the fitted parameters and their uncertainty, and prints how far the cells are from the
-thesis's. README.md says what is fitted on what."""
+Writes FILE, with all cells, the fitted parameters and their uncertainty, and
+prints how far the cells are from the thesis's. README.md says what is fitted on
+what."""
 import argparse
 import concurrent.futures
 import json

@@ -76,6 +76,7 @@ TEST(Display, OtherLines) {
             "2 nodes on 1 machine (mpi), avx2");
   EXPECT_EQ(done_text({30, 2.0, "out"}), "30 frames in out, 2.0 seconds, 15.0 frames/s");
   EXPECT_EQ(done_text({1, 2.0, ""}), "1 frame, 2.0 seconds, 0.5 frames/s");
+  EXPECT_EQ(done_text({96, 0.012, ""}), "96 frames, 0.012 seconds, 8000.0 frames/s");
   EXPECT_EQ(done_text({1, 2.0, "", 3}),
             "1 frame, 2.0 seconds, 0.5 frames/s\nthe trace was full: it lacks 3 later events");
 }
