@@ -6,8 +6,6 @@
 namespace mars::forecast {
 namespace {
 
-constexpr double kGain = 0.99;  // of the time, that fewer contributors must bring
-
 // All of the first few, then twice as many each time.
 std::vector<int> numbers_of_groups(int most) {
   std::vector<int> numbers;
@@ -16,7 +14,8 @@ std::vector<int> numbers_of_groups(int most) {
   return numbers;
 }
 
-// Keyframes by all nodes of a group, or by half as many, a quarter ... as long as that makes it shorter.
+// Keyframes by all nodes of a group, or by half as many, a quarter ..., whichever takes least time. A keyframe may be a
+// small part of its interval, so that even little of the film's time counts.
 Forecast with_groups(const FilmCounts& counts, const std::vector<farm::Task>& tasks, const Setting& setting, int nodes,
                      int groups) {
   farm::Plan plan{tasks, farm::make_groups(nodes, groups, tasks.size()), 0};
@@ -28,8 +27,7 @@ Forecast with_groups(const FilmCounts& counts, const std::vector<farm::Task>& ta
   Forecast best = rehearsed(0);
   for (std::int32_t fewer = plan.groups.front().count / 2; fewer >= 1; fewer /= 2) {
     Forecast next = rehearsed(fewer);
-    if (next.run.seconds >= kGain * best.run.seconds) break;
-    best = std::move(next);
+    if (next.run.seconds < best.run.seconds) best = std::move(next);
   }
   return best;
 }

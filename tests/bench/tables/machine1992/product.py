@@ -18,38 +18,56 @@ import replay
 import simulate
 
 INBETWEENS_A_NODE = 20
+# Of node/wire/work.h. What is missing costs nothing: NX gives memory that is not cleared (fresh_byte), the 80386 is charged
+# without waits for memory (first_frame), and a strip costs the host what its message does (host_strip).
 OPERATIONS = {
+    "frame": {"move": 4 * 480, "step": 480},  # counts of its lines to nothing
     "segment": {"multiply": 36, "add": 27, "load": 36, "store": 12},
     "patch": {"multiply": 72, "add": 72, "load": 24, "compare": 12},  # eight corners of its box
+    "meshlet": {"multiply": 72, "add": 72, "load": 24, "compare": 12},
     "vertex": costs.OPERATIONS["vertex"],
+    "mesh_vertex": costs.OPERATIONS["vertex"],
     "triangle_tested": costs.OPERATIONS["polygon"],
+    "row_tested": {"move": 6, "step": 2},  # first and last row between its corners, as integers
     # Planes of 4 values: two steps each, by one division.
     "triangle": {"multiply": 22, "add": 21, "divide": 1, "load": 20, "store": 12, "move": 8},
     "edge_box_made": {"add": 2, "load": 2, "store": 2, "integer": 2, "move": 6, "step": 2},  # columns alone
+    # As `light`, with the normal and the way to the eye made units.
+    "vertex_light": {"multiply": 28, "add": 16, "root": 2, "divide": 2, "compare": 2, "load": 14, "store": 11},
     "edge_box_filled": {"move": 6, "step": 2},
     "line_mapped": costs.OPERATIONS["line"],
+    "line": {"move": 512},  # depths and triangles of half a line to nothing, by REP STOS
     "edge_box": {"multiply": 2, "add": 2, "load": 4, "store": 2, "move": 6, "step": 2},
     "sample": {"multiply": 1, "add": 1, "load": 1, "store": 1, "compare": 1, "step": 1},  # depth alone
     # The normal from its planes and the place from the depth, both made units; bytes.
-    "pixel": {"multiply": 23, "add": 15, "root": 2, "divide": 2, "integer": 3, "compare": 3, "load": 12, "store": 10,
-              "move": 8, "step": 1},
+    "shaded": {"multiply": 23, "add": 15, "root": 2, "divide": 2, "integer": 3, "compare": 3, "load": 12, "store": 10,
+               "move": 8, "step": 1},
     "light": {"multiply": 16, "add": 10, "compare": 2, "load": 8, "store": 5},
+    # Cook and Torrance: the half-way vector, distribution, shadowing, and Fresnel's reflection of three colours.
+    "facet_light": {"multiply": 40, "add": 28, "root": 2, "divide": 4, "compare": 4, "load": 20, "store": 14},
+    "pixel": {"move": 2, "step": 1},
     "still_byte": {"move": 0.5, "step": 0.25},
+    "host_run": {"move": 12, "step": 2},
     "host_byte": {"move": 0.5, "step": 0.25},
+    "host_restored": {"move": 0.5, "step": 0.25},
     "host_frame": {"move": 960, "step": 960},  # flags of its blocks
 }
 
 
 def platform_of(parameters):
-    """The iPSC/2 with fitted costs, as a platform file has it. As for the 1992 program, a message of up to 100 bytes costs
+    """The iPSC/2 with fitted costs, as its platform file has it. As for the 1992 program, a message of up to 100 bytes costs
     the host nothing."""
     with open(replay.IPSC2) as file:
         platform = json.load(file)
     platform["network"] |= {"host_rate": 1 / parameters["host_byte"],
                             "host_end": [[0, 0], [101, parameters["host_message"]]]}
-    platform["work"] = {work: parameters["speed"] / costs.HERTZ * sum(costs.CLOCKS[name] * n for name, n in of.items())
-                        for work, of in OPERATIONS.items()}
+    platform["work"] |= {work: seconds_of(operations, parameters["speed"]) for work, operations in OPERATIONS.items()}
     return platform
+
+
+def seconds_of(operations, speed):
+    clocks = sum(costs.CLOCKS[name] * count for name, count in operations.items())
+    return float(f"{speed * clocks / costs.HERTZ:.4g}")
 
 
 class Product:
