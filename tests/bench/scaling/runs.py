@@ -14,7 +14,7 @@ PEAKS = ("memory", "passes")  # of the work counts; all others are sums
 KINDS = ("keyframe", "inbetween")
 
 EVERY_RUN = {"series", "nodes", "repeat", "environment", "load_average"}
-REPORTED = {"film", "size", "seconds", "frames", "frame_seconds", "per_node"}  # of a run that did not fail
+REPORTED = {"film", "size", "checksum", "seconds", "frames", "frame_seconds", "per_node"}  # of a run that did not fail
 
 
 class Runner:
