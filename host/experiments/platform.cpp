@@ -43,6 +43,12 @@ double byte_seconds(const Fields& fields, string_view key) {
   return rate ? 1 / document::read_number(*rate, kRates) : 0;
 }
 
+bool read_flag(const Fields& fields, string_view key) {
+  const auto flag = fields.find(key);
+  if (flag) document::require_kind(*flag, document::Kind::boolean);
+  return flag && flag->boolean();
+}
+
 // [bytes, seconds] pairs, or one number for messages of any length.
 std::vector<simulated::EndCost> read_costs(const Fields& fields, string_view key) {
   std::vector<simulated::EndCost> costs;
@@ -105,10 +111,20 @@ fs::path file_of(const std::string& name, const fs::path& folder) {
   throw Failure("there is no platform '" + name + "'", "", "use " + names_in(folder) + ", or a file NAME.json");
 }
 
+// Of the platform that `element` names.
+fs::path file_named(const document::Element& element, const fs::path& folder) {
+  const std::string name = document::read_text(element);
+  try {
+    return file_of(name, folder);
+  } catch (const Failure& failure) {
+    element.refuse(failure.problem, failure.remedy);
+  }
+}
+
 // Those that `element` gives, or those of the platform that it names, which gives them itself.
 std::vector<double> read_work(const document::Element& element, const fs::path& folder) {
   if (element.kind() != document::Kind::text) return read_costs_of_work(element);
-  const document::Document other = document::read_document(file_of(document::read_text(element), folder));
+  const document::Document other = document::read_document(file_named(element, folder));
   const document::Element work = Fields(other.root(), kPlatformKeys).required("work");
   if (work.kind() == document::Kind::text) work.refuse("is work of work", "name a platform that has costs of its own");
   return read_costs_of_work(work);
@@ -124,10 +140,10 @@ Platform read(const document::Element& root, const fs::path& folder) {
   platform.machine.nodes = static_cast<int>(computers.count("nodes", 1, 1, kMany));
   platform.machine.processors = static_cast<int>(computers.count("processors", 1, 1, kMany));
   const Fields host(fields.required("host"), kHostKeys);
-  platform.machine.host_apart = host.find("apart") && host.find("apart")->boolean();
+  platform.machine.host_apart = read_flag(host, "apart");
   platform.machine.host_processors = static_cast<int>(host.count("processors", 1, 1, kMany));
   platform.host_memory = static_cast<std::uint64_t>(host.number("memory", 1ull << 36, {1 << 20, 1e15}));
-  platform.charges_files = host.find("files") && host.find("files")->boolean();
+  platform.charges_files = read_flag(host, "files");
   platform.machine.network = read_network(fields.required("network"));
   platform.machine.work = read_work(fields.required("work"), folder);
   return platform;

@@ -102,6 +102,7 @@ void add_calibrate(CLI::App& app, const MeasureMessages& measure_messages) {
   command
       ->add_option("-o", words->file,
                    "Write the platform to FILE; default: your own, which --platform here reads. Example: -o lab.json")
+      ->check([](const std::string& file) { return std::string(file.empty() ? "names no file" : ""); }, "")
       ->type_name("FILE");
   command
       ->add_option("--repeats", words->repeats,

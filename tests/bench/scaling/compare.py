@@ -8,11 +8,16 @@ compared."""
 import argparse
 import sys
 
-import changes
-import results
 import runs
 import study
-from table import fraction_text, seconds_text
+
+try:
+    import changes
+    import results
+    from table import fraction_text, seconds_text
+except ModuleNotFoundError as missing:  # exit code 1 would say that something became slower
+    print(f"mars bench compare: {missing} (Debian: python3-numpy)", file=sys.stderr)
+    sys.exit(2)
 
 
 def read_command_line():

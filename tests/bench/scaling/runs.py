@@ -14,6 +14,9 @@ PHASES = ("dice", "sum", "map", "exchange", "fill", "scanline", "depth", "credit
 PEAKS = ("memory", "passes")  # of the work counts; all others are sums
 KINDS = ("keyframe", "inbetween")
 
+EVERY_RUN = {"series", "nodes", "repeat", "environment", "load_average"}
+REPORTED = {"film", "size", "checksum", "seconds", "frames", "frame_seconds", "per_node"}  # of a run that did not fail
+
 
 class Runner:
     """Renders configurations with the programs of `build`. Its files lie in `folder`, which the film's machine sees."""
@@ -112,9 +115,34 @@ def read(path):
     path = path / "runs.jsonl" if path.is_dir() else path
     try:
         with open(path) as file:
-            header, *lines = [json.loads(line) for line in file if line.strip()]
+            text = file.read()
     except (OSError, ValueError) as error:
         raise Trouble(f"{path} is no file of a scaling study ({getattr(error, 'strerror', None) or error})") from None
-    if header.get("format") != FORMAT:
+    header, *lines = parsed(path, text) or [{}]
+    if not isinstance(header, dict) or header.get("format") != FORMAT:
         raise Trouble(f"{path} is no file of a scaling study of this version ({FORMAT})")
     return header, lines
+
+
+def parsed(path, text):
+    """The file's lines. Of a study that was killed the last one may be cut short: it is left out."""
+    lines = []
+    for number, line in enumerate(text.splitlines(keepends=True), 1):
+        try:
+            lines += [json.loads(line)] if line.strip() else []
+        except ValueError as error:
+            if line.endswith("\n"):
+                raise Trouble(f"{path}:{number} is no line of a scaling study ({error})") from None
+        else:
+            if len(lines) > 1 and not is_run(lines[-1]):
+                raise Trouble(f"{path}:{number} is no run of a scaling study: leave this line out")
+    return lines
+
+
+def is_run(line):
+    """Whether it says all that is reported of a run; one that took no time has no speed-up."""
+    if not isinstance(line, dict) or not EVERY_RUN <= line.keys():
+        return False
+    seconds = line.get("seconds")
+    took_time = isinstance(seconds, (int, float)) and seconds > 0
+    return "failure" in line or (REPORTED <= line.keys() and took_time and bool(line["per_node"]))

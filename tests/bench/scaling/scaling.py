@@ -158,3 +158,5 @@ if __name__ == "__main__":
         sys.exit(main())
     except Trouble as trouble:
         sys.exit(f"mars bench scaling: {trouble}")
+    except KeyboardInterrupt:
+        sys.exit("mars bench scaling: stopped; --read reports the runs until now")

@@ -103,6 +103,26 @@ def compared(before, after):
     return changes.Comparison(results.Results([before]), results.Results([after]))
 
 
+class Files(unittest.TestCase):
+    def read(self, *lines, end="\n"):
+        with tempfile.NamedTemporaryFile("w", suffix=".jsonl") as file:
+            file.write("\n".join([json.dumps({"format": runs.FORMAT}), *lines]) + end)
+            file.flush()
+            return runs.read(file.name)
+
+    def test_a_study_that_was_killed_is_read(self):
+        first, second, *_ = map(json.dumps, measured.study(1)[1])
+        self.assertEqual(len(self.read(first, second)[1]), 2)
+        self.assertEqual(len(self.read(first, second[:-9], end="")[1]), 1)
+
+    def test_a_broken_line_is_named(self):
+        run = measured.study(1)[1][0]
+        without = {key: run[key] for key in run if key != "per_node"}
+        for broken in ("{", "[1]", json.dumps(without), json.dumps({**run, "seconds": 0})):
+            with self.assertRaisesRegex(study.Trouble, ":3 is no"):
+                self.read(json.dumps(run), broken)
+
+
 class Changes(unittest.TestCase):
     def test_a_tenth_more_is_found_and_its_phase_named(self):
         slower = compared(measured.study(1), measured.study(2, times=lambda host, phase: 4 / 3 if phase == "dice" else 1))

@@ -69,6 +69,21 @@ TEST_F(Platforms, RefuseWhatTheyDoNotKnow) {
   EXPECT_TRUE(holds(unknown, "no platform 'smal'") && holds(unknown, "small")) << unknown;
 }
 
+TEST_F(Platforms, RefuseWhatIsNeitherTrueNorFalse) {
+  std::string text = kSmall;
+  text.replace(text.find("WORK"), 4, "{}");
+  text.replace(text.find("true"), 4, "1");
+  document::write_whole_file(folder_ / "small.json", text);
+  const std::string told = failure_of([&] { read("small"); });
+  EXPECT_TRUE(holds(told, "small.json:4: host.apart: is a number")) << told;
+}
+
+TEST_F(Platforms, TellWhereTheyNameOneThatIsNot) {
+  add("small", R"("missing")");
+  const std::string text = failure_of([&] { read("small"); });
+  EXPECT_TRUE(holds(text, "small.json:6: work") && holds(text, "no platform 'missing'")) << text;
+}
+
 TEST_F(Platforms, ThatNameEachOtherAreRefused) {
   add("a", R"("b")");
   add("b", R"("a")");
