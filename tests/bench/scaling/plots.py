@@ -101,7 +101,7 @@ def scaling(lines):
 def legend_above(figure, *of):
     """Above all axes, where no line runs through it."""
     handles, labels = (sum(parts, []) for parts in zip(*(axes.get_legend_handles_labels() for axes in of)))
-    figure.legend(handles, labels, loc="lower left", bbox_to_anchor=(figure.subplotpars.left, 0.97), ncol=4,
+    figure.legend(handles, labels, loc="lower left", bbox_to_anchor=(figure.subplotpars.left, 0.99), ncol=4,
                   borderaxespad=0, borderpad=0, columnspacing=1.5)
 
 
