@@ -2,6 +2,7 @@
 simulated, and simulated times are the same again.
 
 Started as: simulate_test.py BUILD_FOLDER."""
+import json
 import os
 import sys
 import tempfile
@@ -79,6 +80,11 @@ class Simulating(unittest.TestCase):
         measured = [(2600, kind, 4, 1.0) for kind in ("keyframe", "inbetween")]
         for kind, then in zip(("keyframe", "inbetween"), self.simulator.times("4.1", measured, {**TRUE, "scale": 1.0})):
             self.assertLess(1000 * seconds[kind], then, kind)
+
+    def test_the_platform_file_is_the_fitted_machine(self):
+        parts = simulate.tables.load(os.path.join(HERE, "../../../../docs/1992/simulated.json"))
+        with open(replay.IPSC2) as file:
+            self.assertEqual(json.load(file), product.platform_of(parts[0]["parameters"]))
 
     def test_films_at_rest_have_the_first_pose(self):
         film = simulate.still(scenes.all_films(scenes.Cut(2, 32))["4.3-5200"])
