@@ -132,7 +132,8 @@ def parsed(path, text):
             lines += [json.loads(line)] if line.strip() else []
         except ValueError as error:
             if line.endswith("\n"):
-                raise Trouble(f"{path}:{number} is no line of a scaling study ({error})") from None
+                what = f"{path} is no file" if number == 1 else f"{path}:{number} is no line"
+                raise Trouble(f"{what} of a scaling study ({error})") from None
         else:
             if len(lines) > 1 and not is_run(lines[-1]):
                 raise Trouble(f"{path}:{number} is no run of a scaling study: leave this line out")
