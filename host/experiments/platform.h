@@ -7,6 +7,8 @@
 #include <string>
 
 #include "hal/simulated/machine.h"
+#include "host/images/picture_format.h"
+#include "node/wire/work.h"
 
 namespace mars::experiments {
 
@@ -31,5 +33,15 @@ std::filesystem::path platforms_folder(const std::filesystem::path& self);
 
 // Where `here` is: the user's, whether it is there or not.
 std::filesystem::path calibrated_platform();
+
+// What writing a byte of such files is.
+constexpr wire::Work sink_byte(images::PictureFormat format) {
+  switch (format) {
+    case images::PictureFormat::png: break;
+    case images::PictureFormat::png16: return wire::Work::sink_png16_byte;
+    case images::PictureFormat::exr: return wire::Work::sink_exr_byte;
+  }
+  return wire::Work::sink_byte;
+}
 
 }  // namespace mars::experiments

@@ -22,15 +22,11 @@
 namespace mars::programs {
 namespace {
 
-wire::Work sink_byte(images::PictureFormat format) {
-  constexpr wire::Work kBytes[] = {wire::Work::sink_byte, wire::Work::sink_png16_byte, wire::Work::sink_exr_byte};
-  return kBytes[static_cast<std::size_t>(format)];
-}
-
 // Files are work on processors of the host's machine; it is woken when a frame is done.
 double serve_files(simulated::World& world, images::PictureFormat format, std::uint64_t bytes) {
   const auto cost = [&](wire::Work kind) { return world.machine().work[static_cast<std::size_t>(kind)]; };
-  const double seconds = cost(wire::Work::sink_frame) + cost(sink_byte(format)) * static_cast<double>(bytes);
+  const double seconds =
+      cost(wire::Work::sink_frame) + cost(experiments::sink_byte(format)) * static_cast<double>(bytes);
   const double end = world.reserve(world.nodes(), seconds);
   world.set_alarm(world.nodes(), end);
   return end;

@@ -8,17 +8,7 @@ namespace {
 
 using wire::Work;
 
-constexpr std::size_t kTasksAhead = 2;  // host/render/farm/farm.cpp
 constexpr std::size_t kNothing = static_cast<std::size_t>(-1);
-
-Work sink_byte(images::PictureFormat picture) {
-  switch (picture) {
-    case images::PictureFormat::png: break;
-    case images::PictureFormat::png16: return Work::sink_png16_byte;
-    case images::PictureFormat::exr: return Work::sink_exr_byte;
-  }
-  return Work::sink_byte;
-}
 
 }  // namespace
 
@@ -58,7 +48,7 @@ void HostSide::busy(double seconds, Clockwork::Action then) {
 
 // Every group gets its first before any gets one ahead.
 void HostSide::give_tasks() {
-  for (std::size_t ahead = 1; ahead <= kTasksAhead; ++ahead)
+  for (std::size_t ahead = 1; ahead <= farm::kTasksAhead; ++ahead)
     for (std::size_t group = 0; group < groups_.size(); ++group)
       if (groups_[group].tasks.size() < ahead && next_task_ < tasks_.size())
         return busy(give(group), [this] { give_tasks(); });
@@ -175,7 +165,7 @@ bool HostSide::compose(std::size_t group, std::size_t number, std::size_t place)
 }
 
 double HostSide::sink_seconds() const {
-  return costs_.of(Work::sink_frame, 1) + costs_.of(sink_byte(setting_.picture), frame_bytes_);
+  return costs_.of(Work::sink_frame, 1) + costs_.of(experiments::sink_byte(setting_.picture), frame_bytes_);
 }
 
 void HostSide::submit(std::size_t task, std::size_t place) {

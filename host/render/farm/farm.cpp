@@ -17,8 +17,6 @@
 namespace mars::farm {
 namespace {
 
-constexpr std::size_t kTasksAhead = 2;  // given to a group at a time, so that it never waits for the host
-
 class Farm {
  public:
   Farm(std::span<const std::byte> film_block, const Plan& plan, const FarmOptions& options, sinks::SinkPool& sinks,

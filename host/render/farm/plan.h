@@ -21,6 +21,9 @@ struct Task {
   std::uint64_t first_inbetween;      // inbetweens in all tasks before: turns go over the whole film
 };
 
+// Given to a group at a time, so that it never waits for the host.
+inline constexpr std::size_t kTasksAhead = 2;
+
 // What is asked of a plan.
 struct PlanRequest {
   std::vector<std::uint32_t> frames;  // ascending, within the film

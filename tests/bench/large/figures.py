@@ -28,13 +28,11 @@ def floors_of(report, platform, nodes, size):
     by_nodes = len(frames) * (work.get("node_frame", 0) + work.get("node_frame_byte", 0) * picture)
     bytes_to_host = work_of(frames, "bytes_to_host")
     network = platform["network"]
-    host_strips = sum(len(frame["nodes"]) for frame in frames)
     return {
         "compute": (node_seconds(frames, NODE_PHASES) + by_nodes) / nodes,
         "link": bytes_to_host / network.get("host_rate", network["rate"]),
         "sinks": written / platform["host"]["processors"],
-        "host": host_strips * work.get("host_strip", 0) + bytes_to_host * work.get("host_byte", 0) +
-                len(frames) * work.get("host_frame", 0),
+        "host": sum(units * work.get(kind, 0) for kind, units in report["host"]["charged"].items()),
     }
 
 
