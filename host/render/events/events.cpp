@@ -18,6 +18,10 @@ json to_json(const Loaded& loaded) { return {{"event", "loaded"}, {"seconds", lo
 
 json to_json(const Warning& warning) { return {{"event", "warning"}, {"text", warning.text}}; }
 
+json to_json(const Resumed& resumed) {
+  return {{"event", "resumed"}, {"there", resumed.there}, {"of", resumed.of}, {"changed", resumed.changed}};
+}
+
 json to_json(const Booted& booted) {
   json nodes = json::array();
   for (const Booted::Node& node : booted.nodes) {
@@ -46,6 +50,24 @@ json to_json(const FrameTaken& frame) {
           {"number", frame.number},
           {"interval", frame.interval},
           {"kind", frame.kind == FrameKind::keyframe ? "keyframe" : "inbetween"}};
+}
+
+json to_json(const Beat& beat) {
+  json silent = json::array();
+  for (const Beat::Node& node : beat.silent) {
+    silent.push_back({{"node", node.node},
+                      {"host", node.host},
+                      {"frame", node.frame},
+                      {"doing", node.doing},
+                      {"silent", node.silent}});
+  }
+  return {{"event", "beat"}, {"doing", beat.doing}, {"silent", silent}};
+}
+
+json to_json(const Drawing& drawing) {
+  json nodes = json::array();
+  for (const Drawing::Node& node : drawing.nodes) nodes.push_back({{"node", node.node}, {"frame", node.frame}});
+  return {{"event", "drawing"}, {"nodes", nodes}};
 }
 
 json to_json(const Fault& fault) {
@@ -88,6 +110,20 @@ FrameTaken read_frame(const json& from) {
   return {from.at("number"), from.at("interval"), keyframe ? FrameKind::keyframe : FrameKind::inbetween};
 }
 
+Beat read_beat(const json& from) {
+  Beat beat{from.at("doing"), {}};
+  for (const json& node : from.at("silent")) {
+    beat.silent.push_back({node.at("node"), node.at("host"), node.at("frame"), node.at("doing"), node.at("silent")});
+  }
+  return beat;
+}
+
+Drawing read_drawing(const json& from) {
+  Drawing drawing;
+  for (const json& node : from.at("nodes")) drawing.nodes.push_back({node.at("node"), node.at("frame")});
+  return drawing;
+}
+
 Fault read_fault(const json& from) {
   Fault fault{from.at("problem"), from.at("where"), from.at("remedy"), {}, {}, from.at("replay")};
   if (from.contains("node")) fault.node = from["node"].get<std::int32_t>();
@@ -104,9 +140,12 @@ std::optional<Event> read_known(const json& from) {
   if (name == "loading") return Loading{from.at("film")};
   if (name == "loaded") return Loaded{from.at("seconds")};
   if (name == "warning") return Warning{from.at("text")};
+  if (name == "resumed") return Resumed{from.at("there"), from.at("of"), from.at("changed")};
   if (name == "booted") return read_booted(from);
   if (name == "progress") return read_progress(from);
   if (name == "frame") return read_frame(from);
+  if (name == "beat") return read_beat(from);
+  if (name == "drawing") return read_drawing(from);
   if (name == "fault") return read_fault(from);
   if (name == "done") return read_done(from);
   return std::nullopt;

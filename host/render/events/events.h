@@ -1,6 +1,7 @@
 // What the host reports while it renders: one JSON object a line on its standard output, read by `mars render` and by
-// programs that supervise a run. Its key "event" names the event: loading, warning, loaded, booted, progress, frame,
-// fault or done; readers pass over events they do not know. Seconds count from the first command to the nodes.
+// programs that supervise a run. Its key "event" names the event: loading, warning, loaded, resumed, booted, progress,
+// frame, beat, drawing, fault or done; readers pass over events they do not know. Seconds count from the first command
+// to the nodes.
 #pragma once
 
 #include <cstdint>
@@ -36,6 +37,15 @@ struct Warning {
   bool operator==(const Warning&) const = default;
 };
 
+// The folder has frames of this film already; only the others are rendered.
+struct Resumed {
+  std::uint32_t there = 0;  // of those asked for
+  std::uint32_t of = 0;
+  std::string changed;  // which frames are rendered again since the film was edited, as a line; "": it was not
+
+  bool operator==(const Resumed&) const = default;
+};
+
 // All nodes are there.
 struct Booted {
   struct Node {
@@ -64,6 +74,39 @@ struct FrameTaken {
   bool operator==(const FrameTaken&) const = default;
 };
 
+// Every two seconds at least, from the start on: the host lives, whatever it waits for.
+struct Beat {
+  // A node from which the host has heard nothing for some seconds.
+  struct Node {
+    std::int32_t node = 0;
+    std::string host;
+    std::int32_t frame = -1;  // -1: none
+    std::string doing;        // its phase, as it said last: "scanline"
+    double silent = 0;        // seconds
+
+    bool operator==(const Node&) const = default;
+  };
+
+  std::string doing;  // the host: "loading", "waiting for nodes", "rendering", "waiting for storage", "ending"
+  std::vector<Node> silent;
+
+  bool operator==(const Beat&) const = default;
+};
+
+// The host was told to end before its last frame: the frame that each node was drawing then.
+struct Drawing {
+  struct Node {
+    std::int32_t node = 0;
+    std::int32_t frame = 0;
+
+    bool operator==(const Node&) const = default;
+  };
+
+  std::vector<Node> nodes;  // those that were drawing
+
+  bool operator==(const Drawing&) const = default;
+};
+
 // The run fails, and why.
 struct Fault {
   std::string problem;
@@ -86,7 +129,7 @@ struct Done {
   bool operator==(const Done&) const = default;
 };
 
-using Event = std::variant<Loading, Warning, Loaded, Booted, Progress, FrameTaken, Fault, Done>;
+using Event = std::variant<Loading, Warning, Loaded, Resumed, Booted, Progress, FrameTaken, Beat, Drawing, Fault, Done>;
 
 // One line, with its end.
 std::string line_of(const Event& event);
