@@ -8,6 +8,7 @@
 #include "host/child/child.h"
 #include "host/child/environment.h"
 #include "host/render/events/events.h"
+#include "host/render/resume/resume.h"
 #include "host/render/sinks/frame_folder.h"
 #include "host/shell/launch/background_text.h"
 #include "host/shell/launch/command.h"
@@ -76,6 +77,7 @@ class Run {
     if (const auto* loaded = std::get_if<events::Loaded>(&*event)) end_loading(*loaded);
     if (const auto* warning = std::get_if<events::Warning>(&*event))
       std::cerr << "mars: warning: " << warning->text << '\n';
+    if (const auto* resumed = std::get_if<events::Resumed>(&*event)) display_.print(resumed_text(*resumed));
     if (const auto* booted = std::get_if<events::Booted>(&*event)) {
       display_.print(booted_text(*booted));
       remains_.booted = *booted;
@@ -119,12 +121,21 @@ class Run {
   Remains remains_;
 };
 
+// The number of frames, where nothing is left to render; of a measurement the host says so.
+std::optional<std::uint32_t> frames_there(const options::RenderOptions& options) {
+  const bool measures = !options.report.empty() || !options.trace.empty();
+  if (options.sink == options::SinkKind::none || measures) return std::nullopt;
+  return resume::count_if_complete({options.folder, options.film, options::film_arguments(options), options.format,
+                                    options.frames, options.overwrite});
+}
+
 }  // namespace
 
 void launch_render(options::RenderOptions options, const std::filesystem::path& self, const Adviser& adviser) {
   Display display(kind_of_output(options.quiet), std::cout);
   for (const std::string& line : messages::unknown_settings()) display.print(line);
   messages::read_settings();  // wrong settings fail before anything is started
+  if (const auto there = frames_there(options)) return display.print(resumed_text({*there, *there, ""}));
   const child::Command command = command_for(options, self);
   display.print(shell_text(command));
   const Advice advice = [&] { return adviser.after_a_failed_start(options); };
@@ -145,7 +156,7 @@ void launch_render(options::RenderOptions options, const std::filesystem::path& 
     if (!options.folder.empty()) sinks::clear_ended_runs(options.folder);
     throw failure;
   }
-  display.print(done_text(run.done()));
+  if (run.done().frames > 0) display.print(done_text(run.done()));
 }
 
 Trial try_start(options::RenderOptions options, const std::filesystem::path& self) {
