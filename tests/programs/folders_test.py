@@ -7,7 +7,7 @@ import signal
 import subprocess
 import time
 
-from harness import ENVIRONMENT, PROGRAMS, SECONDS, ProgramTest, family, main, spinning_teapot, wait_until
+from harness import ENVIRONMENT, OWN_MPIRUN, PROGRAMS, SECONDS, ProgramTest, family, main, spinning_teapot, wait_until
 
 LONG = 30000  # frames: more than are rendered while a test looks on
 SMALL = ["--nodes", 1, "--backend", "threads", "--quiet"]
@@ -144,6 +144,121 @@ class Folders(ProgramTest):
         self.assertEqual(self.missing(), "3-4,8")
         self.assertEqual(self.render(self.film, self.missing(), "--overwrite").returncode, 0)
         self.assertEqual(self.verified_hash("out"), expected)
+
+
+class GoingOn(ProgramTest):
+    """The command that started a rendering also goes on with it."""
+
+    def setUp(self):
+        super().setUp()
+        self.out = self.folder / "out"
+        self.film = self.write("film.json", spinning_teapot(24, [64, 36]))
+
+    def render(self, *more, code=0, film=None):
+        done = self.mars("render", film or self.film, "-o", "out", "--nodes", 2, "--backend", "threads", *more)
+        self.assertEqual(done.returncode, code, done.stderr)
+        return done.stderr if code else done.stdout
+
+    def times(self):
+        return {path.name: path.stat().st_mtime_ns for path in self.out.glob("*.png")}
+
+    def edit(self, **changes):
+        self.write("film.json", {**json.loads(self.film.read_text()), **changes})
+
+    def test_a_complete_folder_needs_no_job(self):
+        self.render()
+        before = self.times()
+        self.assertEqual(self.render(), "24 of 24 frames are there already: nothing is left to render\n")
+        self.assertEqual(self.mars("render", self.film, "-o", "out", "-q", env={"PATH": ""}).returncode, 0)
+        self.out.chmod(0o555)
+        self.render("--frames", "3-5")
+        self.out.chmod(0o755)
+        self.assertEqual(self.times(), before)
+
+    def test_the_host_sees_it_by_itself_too(self):
+        expected = self.render() and self.verified_hash("out")
+        for words in self.hosts():
+            with self.subTest(words=words[0]):
+                events = [json.loads(line) for line in self.succeed(*words).splitlines()]
+                self.assertEqual([event["event"] for event in events], ["loading", "resumed", "loaded", "done"])
+                self.assertEqual((events[1]["there"], events[1]["of"], events[3]["frames"]), (24, 24, 0))
+        self.assertEqual(self.verified_hash("out"), expected)
+
+    def hosts(self):
+        words = [self.film, "-o", "out"]
+        hosts = [["mars-threads", *words, "--nodes", 3], ["mars-simulated", *words, "--nodes", 3]]
+        if "mpi" in self.backends():
+            hosts += [[*OWN_MPIRUN, "-n", 4, PROGRAMS / "mars-ranks", *words],
+                      [*OWN_MPIRUN, "-n", 1, PROGRAMS / "mars-host", *words, ":", "-n", 3, PROGRAMS / "mars-node"]]
+        return hosts
+
+    def test_only_what_is_missing_is_rendered(self):
+        self.render()
+        expected, before = self.verified_hash("out"), self.times()
+        for name in ["frame-0003.png", "frame-0017.png"]:
+            (self.out / name).unlink()
+        self.assertIn("22 of 24 frames are there already\n", self.render())
+        self.assertEqual(self.verified_hash("out"), expected)
+        changed = {name for name, time in self.times().items() if before[name] != time}
+        self.assertEqual(changed, {"frame-0003.png", "frame-0017.png"})
+
+    def test_a_measurement_of_nothing_is_none(self):
+        self.render()
+        printed = self.mars("render", self.film, "-o", "out", "--backend", "threads", "--report", "report.json")
+        self.assertEqual(printed.returncode, 0)
+        self.assertIn("nothing is left to render, so report.json is not written (--overwrite", printed.stderr)
+        self.assertFalse((self.folder / "report.json").exists())
+        self.render("--overwrite", "--report", "report.json")
+        self.assertEqual(len(json.loads((self.folder / "report.json").read_text())["frames"]), 24)
+
+    def test_an_edited_film(self):
+        self.render("--intervals", "keyframes")
+        edited = json.loads(self.film.read_text())
+        edited["actors"][0]["keys"][-1]["turn"] = [0, 0, 5]
+        self.edit(**edited)
+        printed = self.render("--intervals", "keyframes")
+        self.assertRegex(printed, r"film.json has changed: \S.* to be rendered again \(interval\S* \S+ of \d+\)\n")
+        seen = self.verified_hash("out")
+        self.render("--intervals", "keyframes", "--overwrite")
+        self.assertEqual(self.verified_hash("out"), seen)
+
+    def test_what_cannot_be_mixed_is_refused(self):
+        self.render()
+        before = self.times()
+        other = self.write("other.json", {**spinning_teapot(24, [64, 36]), "background": [0.5, 0, 0]})
+        for film, more in [(other, []), (self.film, ["--size", "32x18"]), (self.film, ["--samples", 1]),
+                           (self.film, ["--format", "exr"])]:
+            self.assertClear(self.render(*more, film=film, code=1), "replace them with --overwrite")
+            self.assertEqual(self.times(), before)
+        self.render("--overwrite", film=other)
+        self.assertIn("24 of 24", self.render(film=other))
+
+    def test_repair(self):
+        self.render()
+        expected, whole = self.verified_hash("out"), (self.out / "frame-0005.png").read_bytes()
+        (self.out / "frame-0003.png").unlink()
+        (self.out / "frame-0004.png").write_bytes(whole)
+        (self.out / "frame-0008.png").write_bytes(whole[:100])
+        self.edit(background=[1, 0, 0])  # what is rendered is the film that the folder keeps
+        printed = self.succeed("mars", "verify", "out", "--repair", "--backend", "threads", "--nodes", 2)
+        self.assertIn("3 of 24 frames are missing or wrong\n", printed)
+        self.assertTrue(printed.splitlines()[-1].endswith(expected), printed)
+        self.assertEqual(self.verified_hash("out"), expected)
+        self.assertIn("24 frames, all there", self.succeed("mars", "verify", "out", "--repair"))
+        (self.out / "frame-0003.png").unlink()
+        (self.out / "film.mars").unlink()
+        self.assertClear(self.mars("verify", "out", "--repair").stderr, "has no film.mars of its frames")
+        self.assertIn("--repair", self.mars("verify", "out", "--nodes", 2).stderr)
+
+    def test_pieces_that_start_at_once(self):
+        runs = [subprocess.Popen([PROGRAMS / "mars-threads", self.film, "-o", "out", "--nodes", "1", "--frames",
+                                  f"{6 * piece}-{6 * piece + 5}"], stdout=subprocess.DEVNULL, env=ENVIRONMENT,
+                                 cwd=self.folder) for piece in range(4)]
+        for run in runs:
+            self.addCleanup(self.end, run)
+            self.assertEqual(run.wait(timeout=SECONDS), 0)
+        self.assertIn("24 frames, all there and whole", self.succeed("mars", "verify", "out"))
+        self.assertIn("24 of 24", self.render())
 
 
 if __name__ == "__main__":

@@ -53,8 +53,8 @@ wire::Material material(wire::Reflection reflection, std::array<float, 3> color)
   return made;
 }
 
-// Four frames in two intervals: a ground, a ball that moves, a mesh that gets another material in frame 3, and a ball
-// turned inside out. Camera and light change where the second interval begins.
+// Four frames in two intervals: a ground, a ball that moves, a mesh that gets another material in frame 3, and half
+// a ball, whose inside shows. Camera and light change where the second interval begins.
 FilmData base() {
   FilmMaker maker(40, 30, 4);
   maker.add_material(material(wire::Reflection::cook_torrance, {0.8f, 0.4f, 0.2f}));
@@ -63,12 +63,16 @@ FilmData base() {
   maker.add_material(material(wire::Reflection::blinn_phong, {0.9f, 0.3f, 0.4f}));
   const std::uint32_t box = maker.add_shape(modeler::make_box()), ball = maker.add_shape(modeler::make_sphere());
   const std::uint32_t mesh = maker.add_shape(modeler::cut_meshlets(mesh_ball(5, 180)));
+  wire::Shape half = maker.film.shapes[ball];
+  half.patch_count /= 2;
+  maker.film.shapes.push_back(half);
+  const std::uint32_t bowl = mesh + 1;
   maker.add_segment(box, kPhong, {placed({-6, -6, -12}, 12)});
   std::vector<wire::Matrix> motion;
   for (int f = 0; f < 4; ++f) motion.push_back(placed({-3 + 0.3 * f, -2, 0.5}, 2));
   maker.add_segment(ball, kCook, motion);
   maker.add_segment(mesh, kMetal, {placed({-0.5, -3, 0.2}, 2)});
-  maker.add_segment(ball, kPhong, {placed({3.5, -1, 2.2}, -2)});
+  maker.add_segment(bowl, kPhong, {placed({1.5, -2, 0.2}, 2.5)});
   maker.add_light({wire::LightKind::directional, {-0.36f, -0.48f, 0.8f}, {0.5f, 0.5f, 0.5f}});
   maker.add_light({wire::LightKind::point, {3, -4, 5}, {0.6f, 0.6f, 0.9f}, {}, 1, 1, 8});
   maker.add_light({wire::LightKind::spot, {-4, -6, 6}, {0.9f, 0.9f, 0.5f}, {0.5f, 0.5f, -0.7f}, 0.95f, 0.8f, 0});
@@ -136,7 +140,11 @@ std::vector<Edit> edits_of_settings() {
 
 std::vector<Edit> edits_of_shapes() {
   return {
-      {"patch", [](FilmData& f) { f.patches[f.shapes[1].first_patch].points[5][2] += 0.2f; }, kAll},
+      {"patch",
+       [](FilmData& f) {
+         for (wire::Patch& patch : f.patches) patch.points[5][2] += 0.2f;
+       },
+       kAll},
       {"place",
        [](FilmData& f) {
          f.meshlets[0].high[2] += 0.3f;
@@ -158,7 +166,8 @@ std::vector<Edit> edits_of_shapes() {
       {"meshlet_count", [](FilmData& f) { f.shapes[2].meshlet_count = 0; }, kAll},
       {"triangle_count", [](FilmData& f) { f.meshlets[0].triangle_count = 40; }, kAll},
       {"segment.shape", [](FilmData& f) { f.segments[kBallMotion].shape = 0; }, kAll},
-      {"a segment more", [](FilmData& f) { f.segments.push_back(f.segments[0]), f.segments.back().shape = 1; }, kAll},
+      {"a segment more",
+       [](FilmData& f) { f.segments.push_back(f.segments[kMeshMaterial]), f.segments.back().shape = 0; }, kAll},
       {"segment.name", [](FilmData& f) { f.segments[0].name = 1; }, kNone},
       {"names", [](FilmData& f) { f.names[0] = 'x'; }, kNone},
   };

@@ -57,7 +57,8 @@ class RegularFile {
     return static_cast<std::uintmax_t>(status.st_size);
   }
 
-  std::string read_first(std::size_t bytes) const {
+  // The next bytes; fewer at its end.
+  std::string read_next(std::size_t bytes) const {
     std::string content(bytes, '\0');
     std::size_t used = 0;
     while (used < bytes) {
@@ -87,7 +88,7 @@ std::optional<std::string> read_file_if_there(const fs::path& path, std::uintmax
   if (size > largest)
     throw Failure("has " + std::to_string(size) + " bytes, too many to read", path.string(),
                   "at most " + std::to_string(largest) + " bytes can be read");
-  return file.read_first(size);
+  return file.read_next(size);
 }
 
 std::string read_file(const fs::path& path, std::uintmax_t largest) {
@@ -96,10 +97,20 @@ std::string read_file(const fs::path& path, std::uintmax_t largest) {
   return std::move(*content);
 }
 
+bool read_pieces(const fs::path& path, const std::function<void(std::string_view piece)>& take) {
+  constexpr std::size_t kPiece = std::size_t{1} << 20;
+  RecordedReads::record(path);
+  const RegularFile file(path);
+  if (file.is_missing()) return false;
+  file.size();  // refuses what is no regular file
+  for (std::string piece = file.read_next(kPiece); !piece.empty(); piece = file.read_next(kPiece)) take(piece);
+  return true;
+}
+
 std::string read_start(const fs::path& path, std::size_t bytes) try {
   RecordedReads::record(path);
   const RegularFile file(path);
-  return file.read_first(std::min<std::uintmax_t>(file.size(), bytes));
+  return file.read_next(std::min<std::uintmax_t>(file.size(), bytes));
 } catch (const Failure&) {
   return "";
 }

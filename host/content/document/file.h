@@ -5,8 +5,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace mars::document {
 
@@ -16,6 +18,9 @@ inline constexpr std::uintmax_t kLargestFileRead = std::uintmax_t{1} << 34;  // 
 std::string read_file(const std::filesystem::path& path, std::uintmax_t largest = kLargestFileRead);
 // Likewise; none where it is missing.
 std::optional<std::string> read_file_if_there(const std::filesystem::path& path, std::uintmax_t largest);
+
+// Likewise piece by piece, of a file of any size; false where it is missing.
+bool read_pieces(const std::filesystem::path& path, const std::function<void(std::string_view piece)>& take);
 
 // The first bytes of a regular file: fewer where it is shorter, none where it cannot be read.
 std::string read_start(const std::filesystem::path& path, std::size_t bytes);

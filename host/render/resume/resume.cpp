@@ -20,12 +20,12 @@ using sinks::Manifest;
 // Another run has changed the folder since it was looked at: look again.
 struct FolderChanged {};
 
-fs::path kept_film(const Wish& wish) { return fs::path(wish.folder) / sinks::kFilmName; }
+fs::path kept_film(const std::string& folder) { return fs::path(folder) / sinks::kFilmName; }
 
 // Whether the film asked for is the one that the folder keeps, by its name there.
 bool asks_for_kept_film(const Wish& wish) {
   std::error_code none;
-  return fs::equivalent(wish.film, kept_film(wish), none);
+  return fs::equivalent(wish.film, kept_film(wish.folder), none);
 }
 
 // Whether the film of the folder is the one asked for, as far as can be told without compiling it.
@@ -36,8 +36,8 @@ bool is_made_of_the_same(const Manifest& there, const Wish& wish) {
 }
 
 // The film that the folder keeps, if it is the one that its manifest names.
-std::optional<film::CompiledFilm> load_kept_film(const Wish& wish, const Manifest& there) try {
-  film::CompiledFilm film = film::load_compiled_film(kept_film(wish));
+std::optional<film::CompiledFilm> load_kept_film(const std::string& folder, const Manifest& there) try {
+  film::CompiledFilm film = film::load_compiled_film(kept_film(folder));
   if (document::checksum_of(film.block()) != there.checksum) return std::nullopt;
   return film;
 } catch (const Failure&) {
@@ -92,7 +92,7 @@ class Opening {
     kept_.reset();
     edit_.reset();
     refusal_.reset();
-    if (seen_ && !wish_.overwrite && is_made_of_the_same(*seen_, wish_)) kept_ = load_kept_film(wish_, *seen_);
+    if (seen_ && !wish_.overwrite && is_made_of_the_same(*seen_, wish_)) kept_ = load_kept_film(wish_.folder, *seen_);
     if (kept_) return;
     compile();
     if (seen_ && document::checksum_of(compiled_->block()) != seen_->checksum) compare();
@@ -100,7 +100,8 @@ class Opening {
 
   // With what the folder's frames show.
   void compare() try {
-    const auto before = load_kept_film(wish_, *seen_);
+    if (std::ranges::all_of(seen_->pixel_hashes, &std::string::empty)) return;  // nothing is there
+    const auto before = load_kept_film(wish_.folder, *seen_);
     if (!before) refuse_unknown_film(*seen_, wish_);
     refuse_other_format(*seen_, wish_);
     edit_ = edit_of(*before, *compiled_, wish_.folder);
@@ -197,6 +198,11 @@ std::optional<std::uint32_t> count_if_complete(const Wish& wish) try {
   return static_cast<std::uint32_t>(asked.size());
 } catch (const Failure&) {  // the host says what is wrong
   return std::nullopt;
+}
+
+bool keeps_its_film(const std::string& folder) {
+  const std::optional<Manifest> there = sinks::read_frames_json(folder);
+  return there && load_kept_film(folder, *there);
 }
 
 Opened open(const Wish& wish, const std::function<film::CompiledFilm()>& compile, const sinks::Warn& warn) {

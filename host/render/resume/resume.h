@@ -32,6 +32,9 @@ struct Wish {
 // without compiling the film, or from this machine.
 std::optional<std::uint32_t> count_if_complete(const Wish& wish);
 
+// Whether the folder keeps the film that its frames show.
+bool keeps_its_film(const std::string& folder);
+
 struct Opened {
   film::CompiledFilm film;
   std::unique_ptr<sinks::FrameFolder> folder;  // none where nothing is left to render

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <optional>
 #include <span>
+#include <string_view>
 #include <utility>
 
 #include "hal/failure/failure.h"
@@ -17,8 +17,10 @@ constexpr std::size_t kMostBytes = std::size_t{1} << 20;  // of paths and checks
 
 // "" where there is no such file.
 std::string checksum_of_file(const std::string& path) {
-  const std::optional<std::string> content = document::read_file_if_there(path, document::kLargestFileRead);
-  return content ? document::checksum_of(std::as_bytes(std::span(*content))) : "";
+  document::Checksum checksum;
+  const bool there = document::read_pieces(
+      path, [&](std::string_view piece) { checksum.add(std::as_bytes(std::span(piece.data(), piece.size()))); });
+  return there ? checksum.digits() : "";
 }
 
 }  // namespace

@@ -74,10 +74,6 @@ void settle_ended_runs(const fs::path& folder, const RunsFolder& runs, const Fol
   }
 }
 
-void remove_frame(const fs::path& file) {
-  if (unlink(file.c_str()) != 0 && errno != ENOENT) document::fail_file("remove", file, errno);
-}
-
 std::set<std::string> names_in(const fs::path& folder) {
   std::set<std::string> names;
   std::error_code error;
@@ -116,6 +112,10 @@ std::vector<std::uint32_t> missing_frames(const fs::path& folder, const Manifest
   for (const std::uint32_t frame : frames)
     if (hash_of(manifest, frame).empty() || !names.contains(frame_file_name(manifest, frame))) missing.push_back(frame);
   return missing;
+}
+
+void remove_frame(const fs::path& file) {
+  if (unlink(file.c_str()) != 0 && errno != ENOENT) document::fail_file("remove", file, errno);
 }
 
 Continue keep_same_film(const Manifest& wanted) {

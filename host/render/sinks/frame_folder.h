@@ -104,6 +104,9 @@ std::optional<Manifest> read_frames_json(const std::filesystem::path& folder);
 std::vector<std::uint32_t> missing_frames(const std::filesystem::path& folder, const Manifest& manifest,
                                           const std::vector<std::uint32_t>& frames);
 
+// Where it is there.
+void remove_frame(const std::filesystem::path& file);
+
 // Writes every frame as a file of the folder.
 class FileSink : public Sink {
  public:

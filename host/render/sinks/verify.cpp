@@ -58,4 +58,10 @@ Verdict verify_folder(const fs::path& folder) {
   return verdict;
 }
 
+void remove_wrong_files(const fs::path& folder, const Verdict& verdict) {
+  const Manifest manifest = read_manifest(folder);
+  for (const Verdict::Trouble& trouble : verdict.troubles)
+    remove_frame(folder / frame_file_name(manifest, trouble.frame));
+}
+
 }  // namespace mars::sinks

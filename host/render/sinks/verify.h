@@ -25,4 +25,7 @@ struct Verdict {
 // Throws Failure where there is no folder or no manifest.
 Verdict verify_folder(const std::filesystem::path& folder);
 
+// The files of frames in which it found trouble.
+void remove_wrong_files(const std::filesystem::path& folder, const Verdict& verdict);
+
 }  // namespace mars::sinks

@@ -2,28 +2,40 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "hal/failure/failure.h"
+#include "host/child/programs.h"
 #include "host/content/film/frame_set.h"
+#include "host/render/resume/resume.h"
 #include "host/render/sinks/verify.h"
+#include "host/shell/doctor/doctor.h"
+#include "host/shell/launch/launch.h"
 #include "host/shell/options/command_line.h"
+#include "host/shell/options/render_options.h"
 
 namespace mars::commands {
 namespace {
 
 struct Words {
-  std::string folder;
+  options::RenderOptions render;  // of --repair, in the folder to verify
   bool missing = false;
+  bool repair = false;
 };
+
+film::FrameSet frames_of(const sinks::Verdict& verdict) {
+  std::vector<std::uint32_t> frames;
+  for (const sinks::Verdict::Trouble& trouble : verdict.troubles) frames.push_back(trouble.frame);
+  return film::FrameSet(frames);
+}
 
 // Exit code 0 in any case; prints nothing if no frame is missing.
 void print_missing(const sinks::Verdict& verdict) {
-  std::vector<std::uint32_t> frames;
-  for (const sinks::Verdict::Trouble& trouble : verdict.troubles) frames.push_back(trouble.frame);
-  if (!frames.empty()) std::cout << film::FrameSet(frames).text() << '\n';
+  if (!verdict.troubles.empty()) std::cout << frames_of(verdict).text() << '\n';
 }
 
 // Returns the exit code.
@@ -40,25 +52,46 @@ int print_verdict(const sinks::Verdict& verdict) {
   return 0;
 }
 
+// Renders frames that are missing or wrong from the film that the folder keeps.
+void repair(const sinks::Verdict& verdict, options::RenderOptions render) {
+  render.frames = frames_of(verdict);
+  const std::string& folder = render.folder;
+  if (!resume::keeps_its_film(folder))
+    throw Failure("has no film.mars of its frames, from which they can be rendered again", folder,
+                  "render them with: mars render FILM -o DIR --overwrite --frames " + render.frames.text());
+  render.film = std::filesystem::path(folder) / sinks::kFilmName;
+  render.format = sinks::read_manifest(folder).format;
+  sinks::remove_wrong_files(folder, verdict);
+  if (!render.quiet)
+    std::cout << verdict.troubles.size() << " of " << verdict.expected << " frames are missing or wrong" << std::endl;
+  launch::launch_render(render, child::own_file(), doctor::adviser(child::own_file()));
+}
+
 }  // namespace
 
 void add_verify(CLI::App& app, int& code) {
   const auto words = std::make_shared<Words>();
   CLI::App* command = app.add_subcommand("verify", "Check every frame of a folder; print one hash of all pixels");
-  command->add_option("DIR", words->folder, "The folder given to mars render with -o. Example: build/demo")->required();
-  command->add_flag("--missing", words->missing,
-                    "Print only the missing or wrong frames, in the form of --frames; nothing if there are none. "
-                    "Example: --missing");
-  command->footer(
-      "To render the missing frames:\n"
-      "  missing=$(mars verify DIR --missing)\n"
-      "  [ -z \"$missing\" ] || mars render FILM -o DIR --frames \"$missing\"\n");
+  command->add_option("DIR", words->render.folder, "The folder given to mars render with -o. Example: build/demo")
+      ->required();
+  CLI::Option* missing = command->add_flag(
+      "--missing", words->missing,
+      "Print only the missing or wrong frames, in the form of --frames; nothing if there are none. Example: --missing");
+  CLI::Option* repairs = command->add_flag(
+      "--repair", words->repair,
+      "Remove wrong frames and render what is missing, from DIR/film.mars; then check again. Example: --repair");
+  repairs->excludes(missing);
+  const std::size_t own = command->get_options().size();
+  options::add_render_options(*command, words->render, options::Program::repair);
+  for (std::size_t i = own; i < command->get_options().size(); ++i) command->get_options()[i]->needs(repairs);
   command->callback([words, &code] {
-    const sinks::Verdict verdict = sinks::verify_folder(words->folder);
-    if (words->missing)
-      print_missing(verdict);
-    else
-      code = print_verdict(verdict);
+    sinks::Verdict verdict = sinks::verify_folder(words->render.folder);
+    if (words->missing) return print_missing(verdict);
+    if (words->repair && !verdict.troubles.empty()) {
+      repair(verdict, words->render);
+      verdict = sinks::verify_folder(words->render.folder);
+    }
+    code = print_verdict(verdict);
   });
 }
 

@@ -175,9 +175,10 @@ std::vector<Entry> table() {
   constexpr unsigned plans = all | bit(Program::plan);
   constexpr unsigned compiles = plans | bit(Program::compile);
   constexpr unsigned counts_nodes =
-      bit(Program::mars) | bit(Program::threads) | bit(Program::simulated) | bit(Program::plan);
+      bit(Program::mars) | bit(Program::threads) | bit(Program::simulated) | bit(Program::plan) | bit(Program::repair);
   constexpr unsigned simulates = bit(Program::mars) | bit(Program::simulated);
   constexpr unsigned person = bit(Program::mars);
+  constexpr unsigned starts = person | bit(Program::repair);
   constexpr std::uint32_t many = 1 << 20;
   return {
       film(compiles),
@@ -188,7 +189,7 @@ std::vector<Entry> table() {
       number(counts_nodes, "--nodes", {&RenderOptions::nodes, false, many},
              "Nodes that render; default: one per processor, or the slots of the batch job or hostfile less one "
              "for the host. Example: --nodes 4"),
-      option(person, "--backend", "auto|mpi|threads|simulated", &RenderOptions::backend,
+      option(starts, "--backend", "auto|mpi|threads|simulated", &RenderOptions::backend,
              "MPI processes, or threads of one process; auto uses MPI where it is installed; simulated: nodes of "
              "--platform, whose times are counted, not measured. Example: --backend threads"),
       option(simulates, "--platform", "NAME|FILE", &RenderOptions::platform,
@@ -197,7 +198,7 @@ std::vector<Entry> table() {
       option(bit(Program::plan), "--platform", "here|NAME|FILE", &RenderOptions::platform,
              "Machines that would render: here, as mars calibrate measured them, which is the default; ipsc2, "
              "fat-tree, dragonfly, ethernet; or a file. Example: --platform fat-tree"),
-      option(person, "--hostfile", "FILE", &RenderOptions::hostfile,
+      option(starts, "--hostfile", "FILE", &RenderOptions::hostfile,
              "Machines to use, one per line as for mpirun: n1 slots=4. Example: --hostfile hosts"),
       option(plans, "--frames", "SET", &RenderOptions::frames,
              "Frames to render, counted from 0; default: all. Example: --frames 0-9,24,30-"),
@@ -229,7 +230,7 @@ std::vector<Entry> table() {
              "Write each node's times and work per frame as JSON. Example: --report report.json"),
       option(all, "--trace", "FILE", &RenderOptions::trace,
              "Write a timeline of all ranks, for ui.perfetto.dev or chrome://tracing. Example: --trace trace.json"),
-      flag(person, "-q,--quiet", &RenderOptions::quiet, "Print only errors. Example: --quiet"),
+      flag(starts, "-q,--quiet", &RenderOptions::quiet, "Print only errors. Example: --quiet"),
   };
 }
 

@@ -52,7 +52,16 @@ struct RenderOptions {
 };
 
 // The programs that read the options: each takes those that concern it.
-enum class Program : unsigned { mars = 1, host = 2, ranks = 4, threads = 8, simulated = 16, compile = 32, plan = 64 };
+enum class Program : unsigned {
+  mars = 1,
+  host = 2,
+  ranks = 4,
+  threads = 8,
+  simulated = 16,
+  compile = 32,
+  plan = 64,
+  repair = 128,  // mars verify --repair: which machines render
+};
 
 // Adds the options `program` takes to its command line, which is then checked as a whole too; `options` must
 // outlive the parsing.

@@ -15,13 +15,19 @@ namespace {
 
 TEST(RecordedReads, HoldWhatIsReadWhileTheyLiveAlsoInVain) {
   const sinks::TemporaryFolder folder;
-  for (const char* name : {"before", "read", "start", "exists", "inner"}) write_whole_file(folder / name, name);
+  for (const char* name : {"before", "read", "start", "exists", "inner", "pieces"})
+    write_whole_file(folder / name, name);
   read_file(folder / "before");
   RecordedReads reads;
   EXPECT_EQ(read_file(folder / "read"), "read");
   EXPECT_EQ(read_start(folder / "start", 3), "sta");
   EXPECT_EQ(read_start(folder / "start", 30), "start");
   EXPECT_EQ(read_start(folder / "none", 3), "");
+  std::string pieces;
+  EXPECT_TRUE(read_pieces(folder / "pieces", [&](std::string_view piece) { pieces += piece; }));
+  EXPECT_EQ(pieces, "pieces");
+  EXPECT_FALSE(read_pieces(folder / "no pieces", [](std::string_view) {}));
+  EXPECT_NE(failure_of([&] { read_pieces(folder.path(), [](std::string_view) {}); }), "");
   EXPECT_TRUE(file_exists(folder / "exists"));
   EXPECT_NE(failure_of([&] { read_file(folder / "no/file"); }), "");
   {
@@ -31,8 +37,9 @@ TEST(RecordedReads, HoldWhatIsReadWhileTheyLiveAlsoInVain) {
   }
   std::thread([&] { read_file(folder / "inner"); }).join();
   FileStamps expected;
-  for (const char* name : {"read", "start", "none", "exists", "no/file"})
+  for (const char* name : {"read", "start", "none", "exists", "no/file", "pieces", "no pieces"})
     expected.emplace(folder / name, stamp_of(folder / name));
+  expected.emplace(folder.path(), stamp_of(folder.path()));
   EXPECT_EQ(reads.stamps(), expected);
   EXPECT_FALSE(expected.at(folder / "none").exists);
   EXPECT_TRUE(expected.at(folder / "read").exists);

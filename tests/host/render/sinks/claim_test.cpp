@@ -14,7 +14,7 @@ namespace mars::sinks {
 namespace {
 
 Manifest film(const char* name, char checksum, std::vector<std::uint32_t> frames) {
-  return {name, std::string(32, checksum), 6, 4, images::PictureFormat::png, 24, 400, std::move(frames), {}};
+  return {name, std::string(32, checksum), 6, 4, images::PictureFormat::png, 24, 400, std::move(frames), {}, {}, {}};
 }
 
 // A run that claims `manifest`, by its files.

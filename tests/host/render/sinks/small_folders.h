@@ -13,7 +13,7 @@
 namespace mars::sinks {
 
 inline Manifest small_manifest() {
-  return {"a film.json", std::string(32, 'a'), 6, 4, images::PictureFormat::png, 24, 12, {0, 1, 2, 5, 11}, {}};
+  return {"a film.json", std::string(32, 'a'), 6, 4, images::PictureFormat::png, 24, 12, {0, 1, 2, 5, 11}, {}, {}, {}};
 }
 
 inline Manifest in_format(images::PictureFormat format) {

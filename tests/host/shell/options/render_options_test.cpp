@@ -49,6 +49,7 @@ RenderOptions unusual() {
   options.no_coherence = true;
   options.block = 5;
   options.groups = 3;
+  options.overwrite = true;
   options.sink = SinkKind::none;
   options.format = images::PictureFormat::exr;
   options.report = "report.json";
