@@ -1,8 +1,13 @@
 #include "host/render/session/session.h"
 
 #include <algorithm>
+#include <chrono>
+#include <future>
 #include <memory>
 #include <optional>
+#include <system_error>
+#include <thread>
+#include <utility>
 
 #include "hal/failure/explain.h"
 #include "hal/failure/failure.h"
@@ -24,25 +29,29 @@ namespace mars::session {
 namespace {
 
 constexpr int kMostSinks = 64;
+constexpr std::chrono::seconds kLongestEnd{10};  // of a run that fails, for what it has written
 
 // Where the frames go: a folder with its sink, or nowhere.
 class Destination {
  public:
-  Destination(const RenderJob& job, const film::CompiledFilm& film, const std::vector<std::uint32_t>& frames) {
+  Destination(const RenderJob& job, const film::CompiledFilm& film, const std::vector<std::uint32_t>& frames,
+              const sinks::Patience::Bounds& bounds) {
     if (job.folder.empty()) {
       sink_ = std::make_unique<sinks::NullSink>();
       return;
     }
     const wire::FilmSettings& settings = film.view().settings();
-    folder_.emplace(job.folder, sinks::Manifest{job.film,
-                                                document::checksum_of(film.block()),
-                                                settings.width,
-                                                settings.height,
-                                                job.format,
-                                                settings.rate,
-                                                settings.frames,
-                                                frames,
-                                                {}});
+    folder_.emplace(job.folder,
+                    sinks::Manifest{job.film,
+                                    document::checksum_of(film.block()),
+                                    settings.width,
+                                    settings.height,
+                                    job.format,
+                                    settings.rate,
+                                    settings.frames,
+                                    frames,
+                                    {}},
+                    sinks::this_process(), bounds);
     sink_ = std::make_unique<sinks::FileSink>(*folder_);
   }
 
@@ -56,6 +65,27 @@ class Destination {
   std::optional<sinks::FrameFolder> folder_;
   std::unique_ptr<sinks::Sink> sink_;
 };
+
+// What writes frames, and ends in this order: the threads, then the folder.
+struct Output {
+  std::optional<Destination> destination;
+  std::unique_ptr<sinks::SinkPool> pool;
+};
+
+// On a thread of its own: where storage does not answer, that takes until it does, and nobody waits for it.
+void end_output(std::unique_ptr<Output> output) try {
+  const auto ended = std::make_shared<std::promise<void>>();
+  std::thread([ended, output = std::move(output)]() mutable {
+    output.reset();
+    ended->set_value();
+  }).detach();
+  ended->get_future().wait_for(kLongestEnd);
+} catch (const std::system_error&) {  // no thread: it has ended already
+}
+
+sinks::Patience::Bounds bounds_of(const EventReporter& reporter) {
+  return {.warn = [&reporter](const std::string& line) { reporter.report(events::Warning{line}); }};
+}
 
 farm::HostMemory memory_for(const HostMachine& host, const wire::FilmSettings& film, wire::PixelFormat format,
                             const farm::Plan& plan) {
@@ -115,7 +145,16 @@ farm::Plan plan_of(const wire::FilmView& film, const RenderJob& job, EventReport
   return farm::make_plan(film, request, nodes);
 }
 
-void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace) {
+void write_report(const RenderJob& job, const film::CompiledFilm& film, const farm::HostMemory& memory,
+                  const farm::FarmReport& report) {
+  const wire::FilmSettings& settings = film.view().settings();
+  const report::ReportHead head{
+      job.film, document::checksum_of(film.block()), job.backend, job.arguments, settings.width, settings.height,
+      memory};
+  document::write_whole_file(job.report, report::report_text(head, report));
+}
+
+void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace, Output& output) {
   double load_seconds = 0;
   const film::CompiledFilm film = load_film(job, reporter, load_seconds);
   const wire::FilmView view = film.view();
@@ -125,20 +164,16 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace) 
   const farm::HostMemory memory = memory_for(host, settings, images::facts_of(job.format).pixels, plan);
 
   if (!job.report.empty()) document::check_can_write(job.report);  // early too
-  Destination destination(job, film, job.frames.of_film(settings.frames));
+  output.destination.emplace(job, film, job.frames.of_film(settings.frames), bounds_of(reporter));
   // Only now: before, the host may have waited for its turn in the folder, and not for nodes.
   reporter.report(events::Loaded{load_seconds});
-  const auto pool = make_sinks(job, destination.sink(), pool_shape(host, view, job, memory.frames));
-  const farm::FarmReport report = farm::render_film(film.block(), plan, farm_options(job, memory, trace), *pool,
+  output.pool = make_sinks(job, output.destination->sink(), pool_shape(host, view, job, memory.frames));
+  const farm::FarmReport report = farm::render_film(film.block(), plan, farm_options(job, memory, trace), *output.pool,
                                                     reporter.listener(view.intervals().size()));
-  destination.finish();
-  if (!job.report.empty()) {
-    const report::ReportHead head{
-        job.film, document::checksum_of(film.block()), job.backend, job.arguments, settings.width, settings.height,
-        memory};
-    document::write_whole_file(job.report, report::report_text(head, report));
-  }
-  if (trace) trace::write_trace(job.trace, {job.film, job.backend}, *trace);
+  output.destination->finish();
+  sinks::Patience patience(bounds_of(reporter));
+  if (!job.report.empty()) patience.write(job.report, [&] { write_report(job, film, memory, report); });
+  if (trace) patience.write(job.trace, [&] { trace::write_trace(job.trace, {job.film, job.backend}, *trace); });
   reporter.report(events::Done{plan.frames(), report.total_seconds, job.folder, trace ? trace->left_out() : 0});
 }
 
@@ -181,12 +216,14 @@ std::uint32_t sink_threads(const HostMachine& host) {
 void run_session(const RenderJob& job) {
   EventReporter reporter(job.backend);
   std::unique_ptr<trace::Trace> trace;
+  auto output = std::make_unique<Output>();
   try {
     trace = begin_trace(job);
-    render(job, reporter, trace.get());
+    render(job, reporter, trace.get(), *output);
   } catch (const std::exception& reason) {
     reporter.report(fault_of(reason, job));
     if (trace && trace->begun()) write_failed_trace(reason_of(reason), job, reporter, *trace);
+    end_output(std::move(output));
     throw;
   }
 }

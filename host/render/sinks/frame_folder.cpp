@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <nlohmann/json.hpp>
 #include <system_error>
+#include <utility>
 
 #include "hal/failure/failure.h"
 #include "host/content/document/file.h"
@@ -54,7 +55,9 @@ std::optional<Manifest> manifest_for(const Manifest& wanted, const fs::path& fol
 
 void write_manifest(const Manifest& manifest, const fs::path& folder, const RunsFolder& runs) {
   const std::string text = to_json(manifest).dump(2, ' ', false, json::error_handler_t::replace) + "\n";
-  document::replace_file(folder / kManifestName, runs.own_file(".frames.json.part"), std::as_bytes(std::span(text)));
+  const fs::path part = runs.own_file(".frames.json.part");
+  unlink(part.c_str());  // of a try before that could not remove it
+  document::replace_file(folder / kManifestName, part, std::as_bytes(std::span(text)));
 }
 
 // False, and nothing is added, where the manifest is of another film or format.
@@ -91,6 +94,14 @@ void settle_ended_runs(const fs::path& folder, const RunsFolder& runs, const Fol
   }
 }
 
+// Why nothing can be written there any more, if that is so.
+void refuse_gone(const fs::path& folder) {
+  std::error_code none;
+  if (fs::status(folder, none).type() == fs::file_type::not_found)
+    throw Failure("the folder was removed or renamed while frames were rendered into it", folder.string(),
+                  "the same command renders into a new one, or goes on once the folder has its name again");
+}
+
 void remove_frame(const fs::path& file) {
   if (unlink(file.c_str()) != 0 && errno != ENOENT) document::fail_file("remove", file, errno);
 }
@@ -105,17 +116,25 @@ void sync_folder(const fs::path& folder) {
 
 }  // namespace
 
-FrameFolder::FrameFolder(fs::path path, const Manifest& manifest, const ProcessName& self)
-    : path_(std::move(path)), rendered_(manifest), runs_(path_, self) {
+FrameFolder::FrameFolder(fs::path path, const Manifest& manifest, const ProcessName& self, Patience::Bounds bounds)
+    : path_(std::move(path)), patience_(std::move(bounds)), rendered_(manifest), runs_(path_, self) {
   rendered_.pixel_hashes.assign(rendered_.frames.size(), "");
-  create_folder(path_);
-  const FolderTurn turn(runs_);
-  try {
-    claim(turn, manifest);
-  } catch (...) {
-    runs_.remove_own_files();
-    throw;
-  }
+  patience_.begin(path_, [&] {
+    create_folder(path_);
+    const FolderTurn turn(runs_);
+    try {
+      claim(turn, manifest);
+    } catch (...) {
+      give_back_claim();
+      throw;
+    }
+  });
+}
+
+void FrameFolder::give_back_claim() {
+  hashes_.reset();
+  lease_.reset();
+  runs_.remove_own_files();
 }
 
 void FrameFolder::claim(const FolderTurn& turn, const Manifest& manifest) {
@@ -137,17 +156,22 @@ void FrameFolder::claim(const FolderTurn& turn, const Manifest& manifest) {
 }
 
 FrameFolder::~FrameFolder() {
+  if (finished_) return;
   try {
     finish_within(kShortPatience);
   } catch (const std::exception&) {
   }
 }
 
-void FrameFolder::finish() { finish_within(FolderTurn::kPatience); }
+void FrameFolder::finish() try {
+  if (std::exchange(finished_, true)) return;
+  patience_.finish(path_ / kManifestName, [this] { finish_within(FolderTurn::kPatience); });
+} catch (const Failure&) {
+  refuse_gone(path_);
+  throw;
+}
 
 void FrameFolder::finish_within(std::chrono::milliseconds patience) {
-  if (finished_) return;
-  finished_ = true;
   const FolderTurn turn(runs_, patience);
   lease_->confirm();
   hashes_.reset();
@@ -164,12 +188,20 @@ fs::path FrameFolder::file_of(std::uint32_t frame) const { return path_ / frame_
 
 // The hash first: should the run be killed between the two, a frame without a file is missing, but a file without a
 // hash would say nothing.
-void FrameFolder::put(std::uint32_t frame, const std::string& pixel_hash, std::span<const std::byte> file) {
-  lease_->check();
-  hashes_->add(frame, pixel_hash);
-  record(frame, pixel_hash);
-  const std::string part = "." + frame_file_name(rendered_, frame) + std::string(document::kPartSuffix);
-  document::replace_file(file_of(frame), runs_.own_file(part), file);
+void FrameFolder::put(std::uint32_t frame, const std::string& pixel_hash, std::span<const std::byte> file) try {
+  const fs::path part = runs_.own_file("." + frame_file_name(rendered_, frame) + std::string(document::kPartSuffix));
+  bool recorded = false;
+  patience_.write(file_of(frame), [&] {
+    lease_->check();
+    if (recorded) unlink(part.c_str());  // which the last try could not remove, if nothing could be changed
+    if (!recorded) hashes_->add(frame, pixel_hash);
+    if (!recorded) record(frame, pixel_hash);
+    recorded = true;
+    document::replace_file(file_of(frame), part, file);
+  });
+} catch (const Failure&) {
+  refuse_gone(path_);
+  throw;
 }
 
 // In memory too: at its end a run depends on nothing that it would have to read again.

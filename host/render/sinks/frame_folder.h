@@ -16,6 +16,7 @@
 #include "host/render/sinks/folder_turn.h"
 #include "host/render/sinks/lease.h"
 #include "host/render/sinks/manifest.h"
+#include "host/render/sinks/patience.h"
 #include "host/render/sinks/process_name.h"
 #include "host/render/sinks/runs_folder.h"
 #include "host/render/sinks/sink.h"
@@ -27,8 +28,9 @@ class FrameFolder {
   // Creates the folder where it is missing, adds to its manifest what ended runs have rendered and clears away what
   // else they left, claims the frames, and writes the manifest; where there is one of the same compiled film in
   // the same format, its frames belong there too. Throws Failure, and has changed nothing of others', where another
-  // run's claim is in the way.
-  FrameFolder(std::filesystem::path path, const Manifest& manifest, const ProcessName& self = this_process());
+  // run's claim is in the way. What cannot be written for a while is waited for as `bounds` say, here and later.
+  FrameFolder(std::filesystem::path path, const Manifest& manifest, const ProcessName& self = this_process(),
+              Patience::Bounds bounds = {});
   // As finish(), but waits less for its turn; what then is not written, the next run or clear_ended_runs finds.
   ~FrameFolder();
   FrameFolder(const FrameFolder&) = delete;
@@ -38,19 +40,26 @@ class FrameFolder {
   images::PictureFormat format() const { return rendered_.format; }
   std::filesystem::path file_of(std::uint32_t frame) const;
 
-  // Writes a frame's file; from several threads at once. Throws Failure where it cannot, or the claim is lost.
+  // Writes a frame's file; from several threads at once. Throws Failure where it cannot, the claim is lost, or the
+  // folder is gone.
   void put(std::uint32_t frame, const std::string& pixel_hash, std::span<const std::byte> file);
 
   // Writes the frames' hashes to the manifest and gives up the claim. Throws Failure where it cannot, and then leaves
   // its files in .runs.
   void finish();
 
+  // As Patience says.
+  void check() { patience_.check(); }
+  void give_up() { patience_.give_up(); }
+
  private:
   void claim(const FolderTurn& turn, const Manifest& manifest);
+  void give_back_claim();
   void finish_within(std::chrono::milliseconds patience);
   void record(std::uint32_t frame, const std::string& pixel_hash);
 
   std::filesystem::path path_;
+  Patience patience_;
   std::mutex mutex_;  // guards the hashes of rendered_
   Manifest rendered_;
   RunsFolder runs_;
@@ -72,6 +81,8 @@ class FileSink : public Sink {
   // `folder` must outlive the sink.
   explicit FileSink(FrameFolder& folder) : folder_(folder) {}
   void take(const compositor::Frame& frame) override;
+  void check() override { folder_.check(); }
+  void give_up() override { folder_.give_up(); }
 
  private:
   FrameFolder& folder_;
