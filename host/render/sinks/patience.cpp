@@ -56,11 +56,11 @@ void Patience::repeat(const Try& task, const Write& write) {
   while (true) {
     try {
       write();
-      return end(place, true);
+      end(place, true);
+      return;
     } catch (const document::FileFailure& failure) {
       if (waits_after(failure, *place)) continue;
-      const Try ended = *place;
-      end(place, false);
+      const Try ended = end(place, false);
       if (!ended.begun && !ended.failed) throw;
       throw with_way_on(failure, ended.waited);
     } catch (...) {
@@ -89,11 +89,12 @@ bool Patience::waits_after(const document::FileFailure& failure, Try& failed) {
   return true;
 }
 
-void Patience::end(Place place, bool written) {
+Patience::Try Patience::end(Place place, bool written) {
   const std::lock_guard lock(mutex_);
-  const Try ended = std::move(*place);
+  Try ended = std::move(*place);
   tries_.erase(place);
   if (written && ended.failed && !any_failed()) warn(ended.file.string() + " is written: the run goes on");
+  return ended;
 }
 
 bool Patience::any_failed() const { return std::ranges::any_of(tries_, &Try::failed); }
@@ -113,12 +114,14 @@ void Patience::look() {
     longest = std::max(longest, each.silent);
   }
   overdue_ = longest >= bounds_.longest;
-  const bool silent = longest >= bounds_.silence;
-  if (silent && silent_.empty())
-    warn(slowest.string() + ": storage has given no answer for " + text_of(longest) +
+  if (longest < bounds_.silence) {
+    if (!silent_.empty() && !any_failed()) warn("storage answers again: the run goes on");
+    silent_.clear();
+  } else if (silent_.empty() && !any_failed()) {
+    silent_ = slowest;
+    warn(silent_.string() + ": storage has given no answer for " + text_of(longest) +
          "; the run goes on by itself once it does");
-  if (!silent && !silent_.empty()) warn("storage answers again: the run goes on");
-  silent_ = silent ? slowest : "";
+  }
 }
 
 void Patience::check() {

@@ -65,7 +65,7 @@ class Patience {
   void repeat(const Try& task, const Write& write);
   Place add(const Try& task);
   bool waits_after(const document::FileFailure& failure, Try& failed);
-  void end(Place place, bool written);
+  Try end(Place place, bool written);
   bool any_failed() const;
   void watch();
   void look();

@@ -21,13 +21,22 @@ using document::holds;
 class PatienceOf : public testing::Test {
  protected:
   Patience::Bounds bounds(Patience::Duration longest, Patience::Duration silence = 1h) {
-    return {.warn = [this](const std::string& line) { said_.push_back(line); },
+    return {.warn =
+                [this](const std::string& line) {
+                  said_.push_back(line);
+                  ++lines_;
+                },
             .longest = longest,
             .pause = 2ms,
             .silence = silence};
   }
 
+  void wait_for_lines(int lines) const {
+    while (lines_ < lines) std::this_thread::sleep_for(1ms);
+  }
+
   std::vector<std::string> said_;  // to be read when nothing waits any more
+  std::atomic<int> lines_ = 0;
 };
 
 TEST_F(PatienceOf, WhatPassesIsWaitedForAndSaidOnce) {
@@ -122,12 +131,11 @@ TEST_F(PatienceOf, StorageWithoutAnAnswerIsSaidAndGoesOn) {
       while (hangs) std::this_thread::sleep_for(1ms);
     });
   });
-  std::this_thread::sleep_for(100ms);
+  wait_for_lines(1);
   patience.check();
   hangs = false;
   writes.join();
-  std::this_thread::sleep_for(100ms);
-  patience.give_up();
+  wait_for_lines(2);
   ASSERT_EQ(said_.size(), 2u);
   EXPECT_EQ(said_[0], "f: storage has given no answer for 1 second; the run goes on by itself once it does");
   EXPECT_EQ(said_[1], "storage answers again: the run goes on");
@@ -145,6 +153,17 @@ TEST_F(PatienceOf, WithoutAnAnswerForLongItIsAFailure) {
   while (failure.empty()) failure = document::failure_of([&] { patience.check(); });
   EXPECT_TRUE(holds(failure, "f: storage has given no answer for 1 second (see whether")) << failure;
   hangs = false;
+}
+
+TEST_F(PatienceOf, OfFailuresThatTakeLongOnlyTheFirstIsSaid) {
+  Patience patience(bounds(1h, 10ms));
+  int tries = 0;
+  patience.write("f", [&] {
+    if (++tries > 1) std::this_thread::sleep_for(30ms);
+    if (tries < 4) fail(EIO);
+  });
+  patience.give_up();
+  EXPECT_EQ(said_.size(), 2u);
 }
 
 TEST_F(PatienceOf, WhoWaitsForOtherRunsIsNotCalledSilent) {
