@@ -4,18 +4,12 @@ import os
 import re
 import resource
 import shutil
-import subprocess
 import unittest
 
 from harness import (ENVIRONMENT, EXAMPLES, MPICH, OWN_MPIRUN, PROGRAMS, ProgramTest, main, needs_mpi,
                      spinning_teapot)
 
 TEAPOT = EXAMPLES / "teapot.json"
-
-
-def may_mount():
-    return subprocess.run(["unshare", "--mount", "mount", "-t", "tmpfs", "none", "/tmp"],
-                          capture_output=True).returncode == 0
 
 
 class CommandLine(ProgramTest):
@@ -188,18 +182,6 @@ class Folders(ProgramTest):
         done = self.run_program(*bounds, PROGRAMS / "mars", "render", TEAPOT, "-o", "out")
         self.assertEqual(done.returncode, 1)
         self.assertClear(done.stderr, "Permission denied")
-
-    @unittest.skipUnless(may_mount(), "may not mount a small disk")
-    def test_full_disk(self):
-        (self.folder / "disk").mkdir()
-        for backend in self.backends():
-            done = self.run_program(
-                "unshare", "--mount", "sh", "-c", 'mount -t tmpfs -o size=256k none disk; '
-                '"$0" render "$1" -o disk/out --backend "$2"; code=$?; cp -r disk/out "out-$2"; exit $code',
-                PROGRAMS / "mars", EXAMPLES / "demo.json", backend)
-            self.assertEqual(done.returncode, 1)
-            self.assertClear(done.stderr, "No space left on device")
-            self.assertNothingTorn(self.folder / f"out-{backend}")
 
     def test_file_size_limit(self):
         def limit():

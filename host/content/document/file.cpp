@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "hal/failure/failure.h"
+#include "host/content/document/file_failure.h"
 #include "host/content/document/recorded_reads.h"
 
 namespace mars::document {
@@ -31,7 +32,7 @@ const char* remedy_for(int error) {
 }
 
 [[noreturn]] void fail_to_read(const fs::path& path, int error) {
-  throw Failure("cannot be read: " + reason(error), path.string(), remedy_for(error));
+  throw FileFailure("cannot be read: " + reason(error), path.string(), remedy_for(error), error);
 }
 
 // Opened so that neither opening nor reading waits: a pipe has perhaps nobody at its other end.

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "hal/failure/failure.h"
+#include "host/content/document/file_failure.h"
 
 namespace mars::document {
 
@@ -212,7 +213,8 @@ void refuse_same_file(const std::filesystem::path& from, const std::filesystem::
 }
 
 void fail_file(const char* act, const std::filesystem::path& path, int error) {
-  throw Failure(std::string("cannot ") + act + ": " + std::strerror(error), path.string(), remedy_for(error));
+  throw FileFailure(std::string("cannot ") + act + ": " + std::strerror(error), path.string(), remedy_for(error),
+                    error);
 }
 
 }  // namespace mars::document

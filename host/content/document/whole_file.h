@@ -44,7 +44,7 @@ void refuse_same_file(const std::filesystem::path& from, const std::filesystem::
 // 16 hexadecimal digits that no other process comes to, nor can foresee.
 std::string unique_word();
 
-// Throws Failure("cannot <act>: <the system's reason>", path, what to do about it) for `error`, an errno.
+// Throws FileFailure("cannot <act>: <the system's reason>", path, what to do about it) for `error`, an errno.
 [[noreturn]] void fail_file(const char* act, const std::filesystem::path& path, int error);
 
 }  // namespace mars::document

@@ -71,8 +71,8 @@ void refuse_unknown_film(const Manifest& there, const Wish& wish) {
 
 class Opening {
  public:
-  Opening(const Wish& wish, const std::function<film::CompiledFilm()>& compile, const sinks::Warn& warn)
-      : wish_(wish), compile_(compile), warn_(warn) {}
+  Opening(const Wish& wish, const std::function<film::CompiledFilm()>& compile, const sinks::Patience::Bounds& bounds)
+      : wish_(wish), compile_(compile), bounds_(bounds) {}
 
   Opened open() {
     for (;;) {
@@ -152,7 +152,7 @@ class Opening {
     if (kept_ && sinks::missing_frames(wish_.folder, *seen_, wanted.frames).empty())
       return {std::move(*kept_), nullptr, asked, {}, ""};
     auto folder = std::make_unique<sinks::FrameFolder>(
-        wish_.folder, wanted, [&](const std::optional<Manifest>& there) { return go_on(there, wanted); }, warn_);
+        wish_.folder, wanted, [&](const std::optional<Manifest>& there) { return go_on(there, wanted); }, bounds_);
     std::vector<std::uint32_t> frames = folder->frames();
     if (frames.empty()) folder.reset();
     std::string changed = edit_ && !wish_.overwrite ? edit_text(*seen_, *edit_, film(), wish_.film) : "";
@@ -179,7 +179,7 @@ class Opening {
 
   const Wish& wish_;
   const std::function<film::CompiledFilm()>& compile_;
-  const sinks::Warn& warn_;
+  const sinks::Patience::Bounds& bounds_;
   std::optional<Manifest> seen_;
   std::optional<film::CompiledFilm> kept_, compiled_;
   std::optional<Edit> edit_;            // from the folder's film to compiled_; none: they are the same, or all goes
@@ -205,8 +205,9 @@ bool keeps_its_film(const std::string& folder) {
   return there && load_kept_film(folder, *there);
 }
 
-Opened open(const Wish& wish, const std::function<film::CompiledFilm()>& compile, const sinks::Warn& warn) {
-  return Opening(wish, compile, warn).open();
+Opened open(const Wish& wish, const std::function<film::CompiledFilm()>& compile,
+            const sinks::Patience::Bounds& bounds) {
+  return Opening(wish, compile, bounds).open();
 }
 
 }  // namespace mars::resume

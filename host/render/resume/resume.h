@@ -46,7 +46,8 @@ struct Opened {
 // Enters the folder with the film that it keeps, or, where that is not the one asked for, the one that `compile` gives.
 // Throws Failure, and changes nothing, where the frames that are there are not of this film, size and format, and are
 // not to be overwritten. Another film is one in another file of which no frame is as before.
-// `warn` takes a line about what is waited for.
-Opened open(const Wish& wish, const std::function<film::CompiledFilm()>& compile, const sinks::Warn& warn = {});
+// What is waited for is waited for as `bounds` say.
+Opened open(const Wish& wish, const std::function<film::CompiledFilm()>& compile,
+            const sinks::Patience::Bounds& bounds = {});
 
 }  // namespace mars::resume

@@ -36,7 +36,11 @@ std::vector<events::Warning> warnings_of(std::span<const wire::Hello> hellos) {
 
 }  // namespace
 
-void EventReporter::report(const events::Event& event) const { std::cout << events::line_of(event) << std::flush; }
+void EventReporter::report(const events::Event& event) const {
+  const std::string line = events::line_of(event);
+  const std::lock_guard lock(mutex_);
+  std::cout << line << std::flush;
+}
 
 void EventReporter::report_progress(double seconds) {
   progress_.forecast = course_.left(progress_.done(), seconds);

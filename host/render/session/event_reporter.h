@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -15,6 +16,7 @@ class EventReporter {
  public:
   explicit EventReporter(std::string backend) : backend_(std::move(backend)) {}
 
+  // From several threads at once.
   void report(const events::Event& event) const;
   // A listener for render_film, of a film with this number of intervals. The reporter must outlive it.
   farm::FarmListener listener(std::size_t intervals);
@@ -25,6 +27,7 @@ class EventReporter {
   void report_progress(double seconds);
 
   const std::string backend_;
+  mutable std::mutex mutex_;  // one line at a time
   events::Course course_;
   events::Progress progress_;
 };

@@ -1,8 +1,13 @@
 #include "host/render/session/session.h"
 
 #include <algorithm>
+#include <chrono>
+#include <future>
 #include <memory>
 #include <optional>
+#include <system_error>
+#include <thread>
+#include <utility>
 
 #include "hal/failure/explain.h"
 #include "hal/failure/failure.h"
@@ -25,11 +30,34 @@ namespace mars::session {
 namespace {
 
 constexpr int kMostSinks = 64;
+constexpr std::chrono::seconds kLongestEnd{10};  // of a run that fails, for what it has written
 
 // To nowhere where there is no folder.
 std::unique_ptr<sinks::Sink> make_sink(sinks::FrameFolder* folder) {
   if (folder == nullptr) return std::make_unique<sinks::NullSink>();
   return std::make_unique<sinks::FileSink>(*folder);
+}
+
+// What writes frames, and ends in this order: the threads, then the folder.
+struct Output {
+  std::unique_ptr<sinks::FrameFolder> folder;  // none: frames go nowhere
+  std::unique_ptr<sinks::Sink> sink;
+  std::unique_ptr<sinks::SinkPool> pool;
+};
+
+// On a thread of its own: where storage does not answer, that takes until it does, and nobody waits for it.
+void end_output(std::unique_ptr<Output> output) try {
+  const auto ended = std::make_shared<std::promise<void>>();
+  std::thread([ended, output = std::move(output)]() mutable {
+    output.reset();
+    ended->set_value();
+  }).detach();
+  ended->get_future().wait_for(kLongestEnd);
+} catch (const std::system_error&) {  // no thread: it has ended already
+}
+
+sinks::Patience::Bounds bounds_of(const EventReporter& reporter) {
+  return {.warn = [&reporter](const std::string& line) { reporter.report(events::Warning{line}); }};
 }
 
 farm::HostMemory memory_for(const HostMachine& host, const wire::FilmSettings& film, wire::PixelFormat format,
@@ -70,10 +98,11 @@ std::unique_ptr<trace::Trace> begin_trace(const RenderJob& job) {
 
 // The film, and which of its frames are to be rendered.
 resume::Opened open_film(const RenderJob& job, const EventReporter& reporter) {
-  const auto warn = [&](const std::string& line) { reporter.report(events::Warning{line}); };
-  const auto compile = [&] { return job.load_film(warn); };
+  const sinks::Patience::Bounds bounds = bounds_of(reporter);
+  const auto compile = [&] { return job.load_film(bounds.warn); };
   if (!job.folder.empty())
-    return resume::open({job.folder, job.film, job.film_options, job.format, job.frames, job.overwrite}, compile, warn);
+    return resume::open({job.folder, job.film, job.film_options, job.format, job.frames, job.overwrite}, compile,
+                        bounds);
   film::CompiledFilm film = compile();
   std::vector<std::uint32_t> frames = job.frames.of_film(film.view().settings().frames);
   const auto asked = static_cast<std::uint32_t>(frames.size());
@@ -117,9 +146,18 @@ void render_nothing(const RenderJob& job, const EventReporter& reporter, double 
   reporter.report(events::Done{0, 0, job.folder});
 }
 
-void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace) {
+void write_report(const RenderJob& job, const film::CompiledFilm& film, const farm::HostMemory& memory,
+                  const farm::FarmReport& report) {
+  const wire::FilmSettings& settings = film.view().settings();
+  const report::ReportHead head{
+      job.film, document::checksum_of(film.block()), job.backend, job.arguments, settings.width, settings.height,
+      memory};
+  document::write_whole_file(job.report, report::report_text(head, report));
+}
+
+void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace, Output& output) {
   double load_seconds = 0;
-  const resume::Opened opened = load_film(job, reporter, load_seconds);
+  resume::Opened opened = load_film(job, reporter, load_seconds);
   if (opened.frames.empty()) return render_nothing(job, reporter, load_seconds);
   const film::CompiledFilm& film = opened.film;
   const wire::FilmView view = film.view();
@@ -129,20 +167,17 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace) 
   const farm::HostMemory memory = memory_for(host, settings, images::facts_of(job.format).pixels, plan);
 
   if (!job.report.empty()) document::check_can_write(job.report);  // early too
-  const std::unique_ptr<sinks::Sink> sink = make_sink(opened.folder.get());
+  output.folder = std::move(opened.folder);
+  output.sink = make_sink(output.folder.get());
   // Only now: before, the host may have waited for its turn in the folder, and not for nodes.
   reporter.report(events::Loaded{load_seconds});
-  const auto pool = make_sinks(job, *sink, pool_shape(host, view, job, memory.frames));
-  const farm::FarmReport report = farm::render_film(film.block(), plan, farm_options(job, memory, trace), *pool,
+  output.pool = make_sinks(job, *output.sink, pool_shape(host, view, job, memory.frames));
+  const farm::FarmReport report = farm::render_film(film.block(), plan, farm_options(job, memory, trace), *output.pool,
                                                     reporter.listener(view.intervals().size()));
-  if (opened.folder) opened.folder->finish();
-  if (!job.report.empty()) {
-    const report::ReportHead head{
-        job.film, document::checksum_of(film.block()), job.backend, job.arguments, settings.width, settings.height,
-        memory};
-    document::write_whole_file(job.report, report::report_text(head, report));
-  }
-  if (trace) trace::write_trace(job.trace, {job.film, job.backend}, *trace);
+  if (output.folder) output.folder->finish();
+  sinks::Patience patience(bounds_of(reporter));
+  if (!job.report.empty()) patience.write(job.report, [&] { write_report(job, film, memory, report); });
+  if (trace) patience.write(job.trace, [&] { trace::write_trace(job.trace, {job.film, job.backend}, *trace); });
   reporter.report(events::Done{plan.frames(), report.total_seconds, job.folder, trace ? trace->left_out() : 0});
 }
 
@@ -185,12 +220,14 @@ std::uint32_t sink_threads(const HostMachine& host) {
 void run_session(const RenderJob& job) {
   EventReporter reporter(job.backend);
   std::unique_ptr<trace::Trace> trace;
+  auto output = std::make_unique<Output>();
   try {
     trace = begin_trace(job);
-    render(job, reporter, trace.get());
+    render(job, reporter, trace.get(), *output);
   } catch (const std::exception& reason) {
     reporter.report(fault_of(reason, job));
     if (trace && trace->begun()) write_failed_trace(reason_of(reason), job, reporter, *trace);
+    end_output(std::move(output));
     throw;
   }
 }

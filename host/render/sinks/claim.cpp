@@ -126,8 +126,18 @@ HashLog::~HashLog() { close(number_); }
 void HashLog::add(std::uint32_t frame, const std::string& hash) {
   const std::string line = std::to_string(frame) + " " + hash + "\n";
   const std::lock_guard lock(mutex_);
-  const ssize_t written = write(number_, line.data(), line.size());
-  if (written != static_cast<ssize_t>(line.size())) document::fail_file("write", file_, written < 0 ? errno : ENOSPC);
+  write_rest();
+  rest_ = line;
+  write_rest();
+}
+
+void HashLog::write_rest() {
+  while (!rest_.empty()) {
+    const ssize_t written = write(number_, rest_.data(), rest_.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) document::fail_file("write", file_, errno);
+    rest_.erase(0, static_cast<std::size_t>(written));
+  }
 }
 
 std::optional<Failure> conflict_with(const RunFiles& run, const Manifest& wanted, const fs::path& folder) {

@@ -42,13 +42,17 @@ class HashLog {
   HashLog(const HashLog&) = delete;
   HashLog& operator=(const HashLog&) = delete;
 
-  // From several threads at once.
+  // From several threads at once. Where it throws, it may be called again. A line that is not whole is ended before
+  // another begins, so that half a line is only ever the last; a line may be there twice.
   void add(std::uint32_t frame, const std::string& hash);
 
  private:
+  void write_rest();
+
   const std::filesystem::path file_;
   const int number_;
-  std::mutex mutex_;  // one line at a time
+  std::mutex mutex_;  // one line at a time; guards:
+  std::string rest_;  // of a line that is not whole in the file
 };
 
 // Where the run's claim and `wanted` would be mixed: names the run and what it renders.

@@ -9,6 +9,7 @@
 #include <set>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 #include "hal/failure/failure.h"
 #include "host/content/document/file.h"
@@ -37,7 +38,9 @@ void create_folder(const fs::path& path) {
 
 void write_manifest(const Manifest& manifest, const fs::path& folder, const RunsFolder& runs) {
   const std::string text = to_json(manifest).dump(2, ' ', false, json::error_handler_t::replace) + "\n";
-  document::replace_file(folder / kManifestName, runs.own_file(".frames.json.part"), std::as_bytes(std::span(text)));
+  const fs::path part = runs.own_file(".frames.json.part");
+  unlink(part.c_str());  // of a try before that could not remove it
+  document::replace_file(folder / kManifestName, part, std::as_bytes(std::span(text)));
 }
 
 // False, and nothing is added, where the manifest is of another film or format.
@@ -83,6 +86,14 @@ std::set<std::string> names_in(const fs::path& folder) {
   return names;
 }
 
+// Why nothing can be written there any more, if that is so.
+void refuse_gone(const fs::path& folder) {
+  std::error_code none;
+  if (fs::status(folder, none).type() == fs::file_type::not_found)
+    throw Failure("the folder was removed or renamed while frames were rendered into it", folder.string(),
+                  "the same command renders into a new one, or goes on once the folder has its name again");
+}
+
 // Names that were made in the folder are on the disk too; not every file system can do that.
 void sync_folder(const fs::path& folder) {
   const int opened = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -124,20 +135,30 @@ Continue keep_same_film(const Manifest& wanted) {
   };
 }
 
-FrameFolder::FrameFolder(fs::path path, const Manifest& wanted, const Continue& go_on, const Warn& warn,
+FrameFolder::FrameFolder(fs::path path, const Manifest& wanted, const Continue& go_on, Patience::Bounds bounds,
                          const ProcessName& self)
-    : path_(std::move(path)), rendered_(wanted), runs_(path_, self) {
-  create_folder(path_);
-  UnseenRivals unseen(warn);
-  for (;; std::this_thread::sleep_for(std::chrono::seconds(1))) {
-    const FolderTurn turn(runs_);
-    try {
-      if (enter(turn, wanted, go_on, unseen)) return;
-    } catch (...) {
-      runs_.remove_own_files();
-      throw;
-    }
+    : path_(std::move(path)), patience_(bounds), rendered_(wanted), runs_(path_, self) {
+  UnseenRivals unseen(bounds.warn);
+  patience_.begin(path_, [&] {
+    create_folder(path_);
+    while (!try_to_enter(wanted, go_on, unseen)) std::this_thread::sleep_for(std::chrono::seconds(1));
+  });
+}
+
+bool FrameFolder::try_to_enter(const Manifest& wanted, const Continue& go_on, UnseenRivals& unseen) {
+  const FolderTurn turn(runs_);
+  try {
+    return enter(turn, wanted, go_on, unseen);
+  } catch (...) {
+    give_back_claim();
+    throw;
   }
+}
+
+void FrameFolder::give_back_claim() {
+  hashes_.reset();
+  lease_.reset();
+  runs_.remove_own_files();
 }
 
 // False, and nothing is claimed, where it depends on a run that may have ended.
@@ -207,17 +228,22 @@ void FrameFolder::remove_frames(const std::vector<std::uint32_t>& frames) const 
 }
 
 FrameFolder::~FrameFolder() {
+  if (finished_) return;
   try {
     finish_within(kShortPatience);
   } catch (const std::exception&) {
   }
 }
 
-void FrameFolder::finish() { finish_within(FolderTurn::kPatience); }
+void FrameFolder::finish() try {
+  if (std::exchange(finished_, true)) return;
+  patience_.finish(path_ / kManifestName, [this] { finish_within(FolderTurn::kPatience); });
+} catch (const Failure&) {
+  refuse_gone(path_);
+  throw;
+}
 
 void FrameFolder::finish_within(std::chrono::milliseconds patience) {
-  if (finished_) return;
-  finished_ = true;
   const FolderTurn turn(runs_, patience);
   lease_->confirm();
   hashes_.reset();
@@ -234,12 +260,20 @@ fs::path FrameFolder::file_of(std::uint32_t frame) const { return path_ / frame_
 
 // The hash first: should the run be killed between the two, a frame without a file is missing, but a file without a
 // hash would say nothing.
-void FrameFolder::put(std::uint32_t frame, const std::string& pixel_hash, std::span<const std::byte> file) {
-  lease_->check();
-  hashes_->add(frame, pixel_hash);
-  record(frame, pixel_hash);
-  const std::string part = "." + frame_file_name(rendered_, frame) + std::string(document::kPartSuffix);
-  document::replace_file(file_of(frame), runs_.own_file(part), file);
+void FrameFolder::put(std::uint32_t frame, const std::string& pixel_hash, std::span<const std::byte> file) try {
+  const fs::path part = runs_.own_file("." + frame_file_name(rendered_, frame) + std::string(document::kPartSuffix));
+  bool recorded = false;
+  patience_.write(file_of(frame), [&] {
+    lease_->check();
+    if (recorded) unlink(part.c_str());  // which the last try could not remove, if nothing could be changed
+    if (!recorded) hashes_->add(frame, pixel_hash);
+    if (!recorded) record(frame, pixel_hash);
+    recorded = true;
+    document::replace_file(file_of(frame), part, file);
+  });
+} catch (const Failure&) {
+  refuse_gone(path_);
+  throw;
 }
 
 // In memory too: at its end a run depends on nothing that it would have to read again.

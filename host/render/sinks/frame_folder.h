@@ -21,6 +21,7 @@
 #include "host/render/sinks/folder_turn.h"
 #include "host/render/sinks/lease.h"
 #include "host/render/sinks/manifest.h"
+#include "host/render/sinks/patience.h"
 #include "host/render/sinks/process_name.h"
 #include "host/render/sinks/runs_folder.h"
 #include "host/render/sinks/sink.h"
@@ -49,11 +50,13 @@ class FrameFolder {
   // Creates the folder where it is missing, adds to its manifest what ended runs have rendered and clears away what
   // else they left, decides by `go_on` which frames stay, claims those of `wanted` that are not there, removes files
   // under their names, and writes the manifest and film.mars. Throws Failure, and has changed nothing of others', where
-  // another run's claim is in the way; `warn` learns that it is waited for whether a run still lives.
-  FrameFolder(std::filesystem::path path, const Manifest& wanted, const Continue& go_on, const Warn& warn = {},
+  // another run's claim is in the way. What cannot be written for a while is waited for as `bounds` say, here and
+  // later, which are told too that it is waited for whether a run still lives.
+  FrameFolder(std::filesystem::path path, const Manifest& wanted, const Continue& go_on, Patience::Bounds bounds = {},
               const ProcessName& self = this_process());
-  FrameFolder(std::filesystem::path path, const Manifest& wanted, const ProcessName& self = this_process())
-      : FrameFolder(std::move(path), wanted, keep_same_film(wanted), {}, self) {}
+  FrameFolder(std::filesystem::path path, const Manifest& wanted, const ProcessName& self = this_process(),
+              Patience::Bounds bounds = {})
+      : FrameFolder(std::move(path), wanted, keep_same_film(wanted), std::move(bounds), self) {}
   // As finish(), but waits less for its turn; what then is not written, the next run or clear_ended_runs finds.
   ~FrameFolder();
   FrameFolder(const FrameFolder&) = delete;
@@ -65,23 +68,31 @@ class FrameFolder {
   // Those asked for that are not there: this run is to write them.
   const std::vector<std::uint32_t>& frames() const { return rendered_.frames; }
 
-  // Writes a frame's file; from several threads at once. Throws Failure where it cannot, or the claim is lost.
+  // Writes a frame's file; from several threads at once. Throws Failure where it cannot, the claim is lost, or the
+  // folder is gone.
   void put(std::uint32_t frame, const std::string& pixel_hash, std::span<const std::byte> file);
 
   // Writes the frames' hashes to the manifest and gives up the claim. Throws Failure where it cannot, and then leaves
   // its files in .runs.
   void finish();
 
+  // As Patience says.
+  void check() { patience_.check(); }
+  void give_up() { patience_.give_up(); }
+
  private:
+  bool try_to_enter(const Manifest& wanted, const Continue& go_on, UnseenRivals& unseen);
   bool enter(const FolderTurn& turn, const Manifest& wanted, const Continue& go_on, UnseenRivals& unseen);
   bool must_wait(const FolderTurn& turn, bool another_film, UnseenRivals& unseen) const;
   void write_film(const film::CompiledFilm& film, const FolderTurn& turn) const;
   void claim();
+  void give_back_claim();
   void remove_frames(const std::vector<std::uint32_t>& frames) const;
   void finish_within(std::chrono::milliseconds patience);
   void record(std::uint32_t frame, const std::string& pixel_hash);
 
   std::filesystem::path path_;
+  Patience patience_;
   std::mutex mutex_;  // guards the hashes of rendered_
   Manifest rendered_;
   RunsFolder runs_;
@@ -113,6 +124,8 @@ class FileSink : public Sink {
   // `folder` must outlive the sink.
   explicit FileSink(FrameFolder& folder) : folder_(folder) {}
   void take(const compositor::Frame& frame) override;
+  void check() override { folder_.check(); }
+  void give_up() override { folder_.give_up(); }
 
  private:
   FrameFolder& folder_;

@@ -5,8 +5,10 @@
 #include <time.h>
 
 #include <cerrno>
+#include <system_error>
 
 #include "hal/failure/failure.h"
+#include "host/content/document/file_failure.h"
 
 namespace mars::sinks {
 
@@ -43,10 +45,9 @@ void Lease::renew_until_stopped() {
 
 void Lease::renew() {
   const double begun = clock_();
-  if (utimensat(AT_FDCWD, file_.c_str(), nullptr, AT_SYMLINK_NOFOLLOW) == 0)
-    renewed_ = begun;
-  else if (errno == ENOENT || errno == ENOTDIR)
-    gone_ = true;
+  error_ = utimensat(AT_FDCWD, file_.c_str(), nullptr, AT_SYMLINK_NOFOLLOW) == 0 ? 0 : errno;
+  if (error_ == 0) renewed_ = begun;
+  if (error_ == ENOENT || error_ == ENOTDIR) gone_ = true;
 }
 
 void Lease::check() {
@@ -64,8 +65,9 @@ void Lease::confirm() {
     throw Failure("this run's claim to the folder is gone: another run took this one for ended, or somebody removed it",
                   file_.string(), "see that no other run writes there, and render what mars verify --missing prints");
   if (clock_() - renewed_ >= kTrusted)
-    throw Failure("this run's claim to the folder cannot be renewed", file_.string(),
-                  "see whether its disk can still be written");
+    throw document::FileFailure("this run's claim to the folder cannot be renewed: " +
+                                    std::generic_category().message(error_),
+                                file_.string(), "see whether its disk can still be written", error_);
 }
 
 }  // namespace mars::sinks

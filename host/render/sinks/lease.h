@@ -26,8 +26,8 @@ class Lease {
   Lease(const Lease&) = delete;
   Lease& operator=(const Lease&) = delete;
 
-  // Renews it. Throws Failure where the file is gone, or could not be renewed for half the time after which others give
-  // it up.
+  // Renews it. Throws Failure where the file is gone, and FileFailure where it could not be renewed for half the time
+  // after which others give it up: once it can be, and still is there, all is well again.
   void confirm();
   // Likewise, but looks only where the last renewal is as long ago as that.
   void check();
@@ -42,6 +42,7 @@ class Lease {
   std::mutex mutex_;  // guards what follows
   std::condition_variable stopping_;
   double renewed_;
+  int error_ = 0;  // of the last renewal, an errno
   bool gone_ = false;
   bool stop_ = false;
   std::thread thread_;

@@ -11,6 +11,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/document/file.h"
+#include "host/content/document/file_failure.h"
 #include "host/content/document/whole_file.h"
 #include "host/render/sinks/record.h"
 
@@ -90,8 +91,8 @@ std::vector<RunFiles> RunsFolder::runs() const {
     found[run_of(entry->path())].files.push_back(entry->path());
   }
   if (error && error != std::errc::no_such_file_or_directory)  // the last run has removed it
-    throw Failure("cannot be listed, so other runs in this folder are unknown: " + error.message(), path_.string(),
-                  "change its permissions, or give another folder");
+    throw document::FileFailure("cannot be listed, so other runs in this folder are unknown: " + error.message(),
+                                path_.string(), "change its permissions, or give another folder", error.value());
   std::vector<RunFiles> runs;
   for (auto& [name, run] : found) runs.push_back({name, std::move(run.files)});
   return runs;

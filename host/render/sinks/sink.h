@@ -11,6 +11,10 @@ class Sink {
   // Called from several threads at once, each with a frame of its own, in any order of frames. Throws
   // Failure where the frame could not be taken.
   virtual void take(const compositor::Frame& frame) = 0;
+  // Called now and then from another thread. Throws Failure where the sink has had frames for longer than it may.
+  virtual void check() {}
+  // Its frames are not wanted any more: those that wait within take() end as failures.
+  virtual void give_up() {}
 };
 
 // Takes frames to nowhere, to measure what comes before.

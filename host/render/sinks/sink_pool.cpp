@@ -1,12 +1,19 @@
 #include "host/render/sinks/sink_pool.h"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "hal/failure/failure.h"
 #include "hal/nx/nx_messages.h"
 
 namespace mars::sinks {
+
+namespace {
+
+constexpr std::chrono::milliseconds kLook{200};  // how often the sink is asked whether it still answers
+
+}  // namespace
 
 SinkPool::SinkPool(Sink& sink, const Shape& shape) : SinkPool(sink, shape, NoThreads()) { start_threads(); }
 
@@ -32,6 +39,7 @@ SinkPool::~SinkPool() {
     waiting_.clear();
   }
   submitted_.notify_all();
+  sink_.give_up();
   for (std::thread& thread : threads_) thread.join();
 }
 
@@ -83,6 +91,7 @@ void SinkPool::submit(compositor::Frame* frame) {
 }
 
 std::vector<SinkPool::Taken> SinkPool::taken() {
+  sink_.check();
   const std::lock_guard lock(mutex_);
   throw_failure();
   return std::exchange(taken_, {});
@@ -90,7 +99,7 @@ std::vector<SinkPool::Taken> SinkPool::taken() {
 
 void SinkPool::finish() {
   std::unique_lock lock(mutex_);
-  idle_.wait(lock, [this] { return failure_ || (waiting_.empty() && busy_ == 0); });
+  while (!idle_.wait_for(lock, kLook, [this] { return failure_ || (waiting_.empty() && busy_ == 0); })) sink_.check();
   throw_failure();
 }
 

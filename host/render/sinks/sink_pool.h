@@ -31,7 +31,7 @@ class SinkPool {
 
   // `sink` must outlive the pool.
   SinkPool(Sink& sink, const Shape& shape);
-  // Waits for frames that a thread has begun; those still queued are dropped.
+  // Waits for frames that a thread has begun, which then wait for storage no longer; those still queued are dropped.
   virtual ~SinkPool();
   SinkPool(const SinkPool&) = delete;
   SinkPool& operator=(const SinkPool&) = delete;

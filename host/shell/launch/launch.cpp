@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <chrono>
 #include <iostream>
+#include <thread>
 
 #include "hal/messages/settings.h"
 #include "host/child/child.h"
+#include "host/child/descriptor.h"
 #include "host/child/environment.h"
+#include "host/child/process.h"
 #include "host/render/events/events.h"
 #include "host/render/resume/resume.h"
 #include "host/render/sinks/frame_folder.h"
@@ -24,6 +27,8 @@ constexpr std::size_t kLongestWords = 4096;     // bytes of such a line
 constexpr std::chrono::seconds kSlowStart{20};  // of waiting for nodes, until a person learns that none has answered
 constexpr std::chrono::seconds kSlowLoad{3};    // of compiling the film, until a person learns what takes so long
 constexpr std::chrono::seconds kLongestTrial{30};
+constexpr std::chrono::seconds kLongestClearing{3};  // after a run that failed
+constexpr std::chrono::milliseconds kClearingLook{5};
 
 child::Command command_for(options::RenderOptions& options, const std::filesystem::path& self) {
   const std::string path = child::program_path(child::own_environment());
@@ -34,6 +39,18 @@ child::Command command_for(options::RenderOptions& options, const std::filesyste
   if (options.backend == options::Backend::threads) return threads_command(options, programs);
   if (options.backend == options::Backend::simulated) return simulated_command(options, programs);
   return mpi_command(options, programs, surroundings);
+}
+
+// By a process of its own: where storage does not answer, this one ends nevertheless.
+void clear_ended_runs(const std::string& folder) {
+  const child::Descriptor nothing = child::null_device();
+  const auto work = [&folder] {
+    sinks::clear_ended_runs(folder);
+    return 0;
+  };
+  child::Process clears(work, {.streams = {{1, nothing.number()}, {2, nothing.number()}}});
+  const auto last = std::chrono::steady_clock::now() + kLongestClearing;
+  while (!clears.poll() && std::chrono::steady_clock::now() < last) std::this_thread::sleep_for(kClearingLook);
 }
 
 // Follows one run from its events to its end.
@@ -153,7 +170,7 @@ void launch_render(options::RenderOptions options, const std::filesystem::path& 
   display.settle();
   if (!run.well()) {
     const Failure failure = diagnose(run.remains(), options, advice);
-    if (!options.folder.empty()) sinks::clear_ended_runs(options.folder);
+    if (!options.folder.empty()) clear_ended_runs(options.folder);
     throw failure;
   }
   if (run.done().frames > 0) display.print(done_text(run.done()));

@@ -1,8 +1,12 @@
 #include "host/render/sinks/claim.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
 #include <time.h>
+#include <unistd.h>
 
+#include <csignal>
 #include <nlohmann/json.hpp>
 
 #include "host/content/document/file.h"
@@ -127,6 +131,37 @@ TEST(Claim, WhatWasRenderedIsKnownUpToWhereTheRunWasKilled) {
   EXPECT_NE(document::failure_of([&] { HashLog(claim.hashes()); }), "") << "it is one run's own";
   document::write_whole_file(claim.hashes(), document::read_file(claim.hashes()) + "2 777");
   EXPECT_EQ(rendered_by(claim.run())->pixel_hashes, (std::vector<std::string>{"", hash, "", hash}));
+}
+
+// A process of its own, whose files may not grow beyond some bytes for a while.
+TEST(Claim, ALineThatDidNotFitIsEndedBeforeAnotherBegins) {
+  const ClaimOf claim(film("a.json", 'a', {0, 1, 2, 9}));
+  const std::string hash(32, '7');
+  const auto add_within_limits = [&] {
+    std::signal(SIGXFSZ, SIG_IGN);
+    HashLog log(claim.hashes());
+    const auto limit_to = [](rlim_t bytes) {
+      const rlimit limit{bytes, RLIM_INFINITY};
+      setrlimit(RLIMIT_FSIZE, &limit);
+    };
+    log.add(9, hash);
+    bool failed = true;
+    for (const rlim_t bytes : {40, 60, 69}) {  // within the second line, which begins at 35
+      limit_to(bytes);
+      failed = failed && document::holds(document::failure_of([&] { log.add(1, hash); }), "File too large");
+    }
+    limit_to(RLIM_INFINITY);
+    log.add(0, hash);
+    log.add(1, hash);
+    return failed;
+  };
+  const pid_t child = fork();
+  if (child == 0) _exit(add_within_limits() ? 0 : 1);
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+  const std::string one = "1 " + hash + "\n";
+  EXPECT_EQ(document::read_file(claim.hashes()), "9 " + hash + "\n" + one + "0 " + hash + "\n" + one);
 }
 
 }  // namespace

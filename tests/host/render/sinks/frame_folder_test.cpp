@@ -258,6 +258,22 @@ TEST(FrameFolder, WhoHasLostItsClaimWritesNoMore) {
   EXPECT_TRUE(document::holds(document::failure_of([&] { frames.finish(); }), "claim to the folder is gone"));
 }
 
+TEST(FrameFolder, WhoseFolderIsRemovedOrRenamedSaysSoAtOnce) {
+  for (const bool renamed : {false, true}) {
+    const TemporaryFolder folder;
+    FrameFolder frames(folder / "out", of_frames({1, 2}));
+    put_frames(frames, of_frames({1}), 7);
+    if (renamed)
+      fs::rename(folder / "out", folder / "elsewhere");
+    else
+      fs::remove_all(folder / "out");
+    const std::string says = (folder / "out").string() + ": the folder was removed or renamed while frames";
+    EXPECT_TRUE(document::holds(document::failure_of([&] { put_frames(frames, of_frames({2}), 7); }), says));
+    EXPECT_TRUE(document::holds(document::failure_of([&] { frames.finish(); }), says));
+    EXPECT_FALSE(fs::exists(folder / "out")) << "it is not made again";
+  }
+}
+
 TEST(FrameFolder, OfRunsThatStartAtOnceOneGetsAFrameTwoWant) {
   constexpr int kRuns = 12;
   for (int round = 0; round < 5; ++round) {

@@ -55,5 +55,21 @@ TEST_F(LeaseOfAFile, WhoWasStoppedForLongLearnsThatItIsGone) {
   EXPECT_NE(document::failure_of([&] { lease_.check(); }), "") << "another's under its name is not its own";
 }
 
+TEST(Lease, OnceItCanBeRenewedAgainAllIsWell) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "below");
+  document::create_file(folder / "below/file", "");
+  std::atomic<double> now = 1000;
+  Lease lease(folder / "below/file", [&] { return now.load(); });
+  fs::rename(folder / "below", folder / "kept");
+  fs::create_symlink("below", folder / "below");
+  now = 1031;
+  const std::string failure = document::failure_of([&] { lease.check(); });
+  EXPECT_TRUE(document::holds(failure, "cannot be renewed: Too many levels of symbolic links")) << failure;
+  fs::remove(folder / "below");
+  fs::rename(folder / "kept", folder / "below");
+  EXPECT_EQ(document::failure_of([&] { lease.check(); }), "");
+}
+
 }  // namespace
 }  // namespace mars::sinks

@@ -147,6 +147,39 @@ TEST(SinkPool, AFailureReachesTheLoop) {
   EXPECT_EQ(document::failure_of([&] { pool.taken(); }), failure);
 }
 
+// Waits within take() until it is told to give up, and says on demand that this takes too long.
+class WaitingSink : public Sink {
+ public:
+  void take(const compositor::Frame&) override {
+    while (!given_up_) std::this_thread::sleep_for(1ms);
+    throw Failure("no room", "", "");
+  }
+  void check() override {
+    if (overdue) throw Failure("no answer", "", "");
+  }
+  void give_up() override { given_up_ = true; }
+
+  std::atomic<bool> overdue = false;
+
+ private:
+  std::atomic<bool> given_up_ = false;
+};
+
+TEST(SinkPool, WhatTakesTooLongIsAFailureAndItsEndIsNotWaitedFor) {
+  WaitingSink sink;
+  SinkPool pool(sink, {8, 8, 4, 2, 1});
+  compositor::Frame* frame = pool.free_frame();
+  compose(*frame, 0);
+  pool.submit(frame);
+  EXPECT_TRUE(pool.taken().empty());
+  std::jthread later([&] {
+    std::this_thread::sleep_for(20ms);
+    sink.overdue = true;
+  });
+  EXPECT_EQ(document::failure_of([&] { pool.finish(); }), "no answer");
+  EXPECT_EQ(document::failure_of([&] { pool.taken(); }), "no answer");
+}
+
 TEST(SinkPool, EndsWithFramesStillWaiting) {
   TestSink sink;
   sink.held = true;

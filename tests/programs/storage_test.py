@@ -1,0 +1,248 @@
+"""Storage that takes no files for a while: a rendering waits, says so, and goes on by itself; a signal ends it meanwhile."""
+
+import os
+import resource
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+from harness import (ENVIRONMENT, PROGRAMS, SECONDS, ProgramTest, family, living, main, needs, spinning_teapot,
+                     wait_until)
+
+SOON = 15  # seconds from a signal to the end
+FRAMES = 40
+NOBODY = ["setpriv", "--reuid", "65534", "--regid", "65534", "--clear-groups"]
+WITHIN_RIGHTS = ["setpriv", "--bounding-set=-dac_override"] if os.geteuid() == 0 else []
+
+
+def runs(*words):
+    return subprocess.run(words, capture_output=True, timeout=SECONDS).returncode == 0
+
+
+def may_mount(*options):
+    return runs("unshare", "--mount", "mount", "-t", "tmpfs", *options, "none", "/mnt")
+
+
+QUOTA = ("-o", "usrquota,usrquota_block_hardlimit=512k")
+needs_mounts = unittest.skipUnless(may_mount(), "may not mount a small disk")
+needs_quota = unittest.skipUnless(may_mount(*QUOTA), "may not mount a disk with a quota")
+
+
+class Mounts:
+    """Mounts that only programs started here see, and that are gone with the last of them."""
+
+    def __init__(self):
+        self.holder = subprocess.Popen(["unshare", "--mount", "sh", "-c", "echo; exec sleep 200"], stdout=subprocess.PIPE)
+        self.holder.stdout.readline()
+        self.enter = ["nsenter", f"--mount=/proc/{self.holder.pid}/ns/mnt", f"--wdns={os.getcwd()}"]
+
+    def run(self, *words):
+        subprocess.run([*self.enter, *map(str, words)], check=True, timeout=SECONDS)
+
+    def runs(self, *words):
+        return runs(*self.enter, *map(str, words))
+
+    def end(self):
+        self.holder.kill()
+        self.holder.communicate()
+
+
+class Storage(ProgramTest):
+    FOLDERS = "/tmp"
+
+    def setUp(self):
+        super().setUp()
+        self.folder.chmod(0o755)
+        self.film = self.write("film.json", spinning_teapot(FRAMES, [160, 90]))
+        self.disk = self.folder / "disk"
+        self.disk.mkdir()
+        self.out = self.disk / "out"
+        self.before = []
+
+    def mount(self, *words):
+        self.mounts = Mounts()
+        self.addCleanup(self.mounts.end)
+        self.mounts.run("mount", *words, self.disk)
+        self.before = self.mounts.enter
+
+    def inside(self, script):
+        """A line of shell where the mounts are, in the folder of the disk."""
+        line = ["sh", "-c", f'cd "$0" && {script}', str(self.disk)]
+        return subprocess.run([*self.before, *line], capture_output=True, text=True, timeout=SECONDS, check=True).stdout
+
+    def start(self, *more, backend="threads", before=(), out=None):
+        self.said = open(self.folder / "said.txt", "w+", encoding="utf-8")
+        self.addCleanup(self.said.close)
+        words = [PROGRAMS / "mars", "render", self.film, "-o", out or self.out, "--nodes", 2, "--backend", backend, *more]
+        process = subprocess.Popen([*self.before, *before, *map(str, words)], stdout=subprocess.DEVNULL, stderr=self.said,
+                                   env=ENVIRONMENT, cwd=self.folder)
+        self.addCleanup(self.end, process)
+        return process
+
+    def words(self):
+        self.said.seek(0)
+        return self.said.read()
+
+    def hears(self, process, what, seconds=SECONDS):
+        wait_until(lambda: what in self.words() or process.poll() is not None, seconds, f"it says nothing of {what}")
+        self.assertIn(what, self.words())
+        self.assertIsNone(process.poll(), self.words())
+
+    def assertGoesOnToItsEnd(self, process, lines=2):
+        process.wait(timeout=SECONDS)
+        words = self.words()
+        self.assertEqual(process.returncode, 0, words)
+        self.assertGreaterEqual(len(words.splitlines()), lines, words)
+        self.assertTrue(words.splitlines()[-1].endswith("the run goes on"), words)
+        printed = self.inside(f'"{PROGRAMS}/mars" verify out')
+        self.assertIn(f"{FRAMES} frames, all there and whole", printed)
+        self.succeed("mars", "render", self.film, "-o", "undisturbed", "--backend", "threads", "--nodes", 1)
+        self.assertEqual(printed.split()[-1], self.verified_hash("undisturbed"))
+        shutil.rmtree(self.folder / "undisturbed")
+        self.assertEqual(self.inside("ls -A out | grep -v frame || true"), "", "what is not of the film is left")
+
+    def assertStops(self, process):
+        kin = family(process.pid)
+        process.send_signal(signal.SIGTERM)
+        began = time.monotonic()
+        process.wait(timeout=SECONDS)
+        self.assertLess(time.monotonic() - began, SOON)
+        self.assertEqual(process.returncode, 1)
+        self.assertIn("stopped by Terminated", self.words().splitlines()[-1])
+        return kin
+
+    @needs_mounts
+    def test_a_full_disk(self):
+        self.mount("-t", "tmpfs", "-o", "size=512k", "none")
+        for backend in self.backends():
+            with self.subTest(backend=backend):
+                self.inside("rm -rf out; head -c 300000 /dev/zero > ballast")
+                process = self.start(backend=backend)
+                self.hears(process, "No space left on device; waiting up to 10 minutes: the run goes on by itself, and "
+                                    "the same command goes on later")
+                time.sleep(1.5)
+                self.assertEqual(len(self.words().splitlines()), 1, self.words())
+                self.inside("mount -o remount,size=4M . && rm ballast")
+                self.assertGoesOnToItsEnd(process)
+                self.inside("rm -r out; mount -o remount,size=512k .")
+
+    @needs_mounts
+    def test_a_disk_that_is_full_from_the_start(self):
+        self.mount("-t", "tmpfs", "-o", "size=4M", "none")
+        self.inside("head -c 5000000 /dev/zero > ballast || true")
+        process = self.start()
+        self.hears(process, "No space left on device; waiting")
+        self.inside("rm ballast")
+        self.assertGoesOnToItsEnd(process)
+
+    @needs_mounts
+    def test_signals_while_it_waits(self):
+        self.mount("-t", "tmpfs", "-o", "size=256k", "none")
+        for backend in self.backends():
+            with self.subTest(backend=backend):
+                process = self.start(backend=backend)
+                self.hears(process, "No space left on device; waiting")
+                kin = self.assertStops(process)
+                self.assertEqual(living(kin), [])
+                self.inside("rm -r out")
+
+    @needs_quota
+    @needs("setpriv")
+    def test_a_quota(self):
+        self.mount("-t", "tmpfs", *QUOTA, "none")
+        self.inside("chmod 777 . && setpriv --reuid 65534 head -c 300000 /dev/zero > ballast; chown 65534 ballast")
+        process = self.start(before=NOBODY)
+        self.hears(process, "Disk quota exceeded; waiting")
+        self.inside("chown -R 0 ballast out/*.png")
+        self.assertGoesOnToItsEnd(process)
+
+    @needs_mounts
+    def test_a_disk_that_cannot_be_written_for_a_while(self):
+        self.mount("-t", "tmpfs", "-o", "size=4M", "none")
+        self.film = self.write("film.json", spinning_teapot(3000, [160, 90]))
+        process = self.start()
+        wait_until(lambda: "frame-0003.png" in self.inside("ls out 2>/dev/null || true"), SECONDS, "no frame")
+        self.inside("mount --bind out out && mount -o remount,ro,bind out")
+        self.hears(process, "Read-only file system; waiting")
+        self.inside("umount out")
+        self.hears(process, "the run goes on\n")
+        self.assertStops(process)
+
+    @needs("setpriv")
+    def test_permissions_that_are_lacking_for_a_while(self):
+        self.film = self.write("film.json", spinning_teapot(3000, [160, 90]))
+        process = self.start(before=WITHIN_RIGHTS)
+        wait_until(lambda: len(list(self.out.glob("*.png"))) > 3, SECONDS, "no frame")
+        (self.out / ".runs").chmod(0o500)
+        self.hears(process, "Permission denied; waiting")
+        (self.out / ".runs").chmod(0o700)
+        self.hears(process, "the run goes on\n")
+        self.assertStops(process)
+        self.assertNothingTorn(self.out)
+
+    def test_a_folder_that_is_removed(self):
+        self.film = self.write("film.json", spinning_teapot(100000, [160, 90]))
+        for backend in self.backends():
+            with self.subTest(backend=backend):
+                process = self.start(backend=backend)
+                wait_until(lambda: len(list(self.out.glob("*.png"))) > 3, SECONDS, "no frame")
+                self.out.rename(self.disk / "removed")
+                shutil.rmtree(self.disk / "removed")
+                self.assertEqual(process.wait(timeout=SOON), 1)
+                self.assertClear(self.words(), f"{self.out}: the folder was removed or renamed while frames were rendered "
+                                               "into it (the same command renders into a new one")
+                self.assertFalse(self.out.exists())
+
+    @needs_mounts
+    def test_a_report_and_a_trace_wait_too(self):
+        self.mount("-t", "tmpfs", "-o", "size=8M", "none")
+        self.inside("head -c 9000000 /dev/zero > ballast || true; touch report.json trace.json")
+        for option in ["report", "trace"]:
+            with self.subTest(option=option):
+                file = self.disk / f"{option}.json"
+                process = self.start(f"--{option}", file, out=self.folder / "frames")
+                self.hears(process, f"{file}: cannot write: No space left on device; waiting")
+                self.inside("rm ballast")
+                self.assertEqual(process.wait(timeout=SECONDS), 0, self.words())
+                self.assertIn(f"{file} is written: the run goes on", self.words())
+                self.inside("head -c 9000000 /dev/zero > ballast || true")
+
+    @needs_mounts
+    @needs("mkfs.ext4", "fsfreeze", "losetup")
+    def test_a_disk_that_does_not_answer(self):
+        """Frozen, it holds whoever writes within the kernel, where no signal ends it."""
+        image = self.folder / "image"
+        with open(image, "wb") as file:
+            file.truncate(16 << 20)
+        subprocess.run(["mkfs.ext4", "-q", image], check=True, timeout=SECONDS)
+        self.mounts = Mounts()
+        self.addCleanup(self.mounts.end)
+        if not self.mounts.runs("mount", "-o", "loop", image, self.disk):
+            self.skipTest("may not mount a disk image")
+        self.before = self.mounts.enter
+        self.film = self.write("film.json", spinning_teapot(100000, [160, 90]))
+        self.addCleanup(self.mounts.runs, "fsfreeze", "-u", self.disk)
+        process = self.start()
+        wait_until(lambda: "frame-00003.png" in self.inside("ls out 2>/dev/null || true"), SECONDS, "no frame")
+        self.mounts.run("fsfreeze", "-f", self.disk)
+        self.hears(process, "storage has given no answer for 10 seconds")
+        self.mounts.run("fsfreeze", "-u", self.disk)
+        self.hears(process, "storage answers again: the run goes on")
+        self.mounts.run("fsfreeze", "-f", self.disk)
+        time.sleep(1)
+        kin = self.assertStops(process)
+        self.mounts.run("fsfreeze", "-u", self.disk)
+        wait_until(lambda: not living(kin), SECONDS, "what the kernel held lives on")
+
+    def test_files_that_may_not_grow(self):
+        def limit():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (8000, 8000))
+        self.fail_clearly(1, "render", self.film, "-o", "out", "--backend", "threads", preexec_fn=limit,
+                          says="raise ulimit -f, which says how large files may grow; the same command then goes on where")
+        self.assertNothingTorn(self.folder / "out")
+
+
+if __name__ == "__main__":
+    main()
