@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
+#include <utility>
 
 #include "hal/failure/failure.h"
 #include "host/content/document/whole_file.h"
