@@ -53,11 +53,10 @@ class Patience {
  private:
   struct Try {
     std::filesystem::path file;
-    bool begun = true;   // the same place could be written before
-    bool prompt = true;  // waits for nothing but storage
+    bool begun = true;  // the same place could be written before
     bool pausing = false;
     bool failed = false;  // before
-    Duration silent{0};   // since it was begun, or tried again
+    Duration silent{0};   // since it was begun, tried again, or answered
     Duration waited{0};   // before that
   };
   using Place = std::list<Try>::iterator;
