@@ -227,7 +227,7 @@ class Storage(ProgramTest):
         process = self.start()
         wait_until(lambda: "frame-00003.png" in self.inside("ls out 2>/dev/null || true"), SECONDS, "no frame")
         self.mounts.run("fsfreeze", "-f", self.disk)
-        self.hears(process, "storage has given no answer for 10 seconds")
+        self.hears(process, "storage has given no answer for 10 seconds, or is slow; the run goes on by itself")
         self.mounts.run("fsfreeze", "-u", self.disk)
         self.hears(process, "storage answers again: the run goes on")
         self.mounts.run("fsfreeze", "-f", self.disk)

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
+#include <utility>
 
 #include "hal/failure/failure.h"
 #include "host/content/document/whole_file.h"
@@ -37,8 +38,9 @@ bool touch(const fs::path& file) { return utimensat(AT_FDCWD, file.c_str(), null
 
 }  // namespace
 
-FolderTurn::FolderTurn(const RunsFolder& runs, std::chrono::milliseconds patience)
+FolderTurn::FolderTurn(const RunsFolder& runs, std::chrono::milliseconds patience, std::function<void()> looked)
     : runs_(runs),
+      looked_(std::move(looked)),
       file_(runs.add_own_file(kWaitsEnding, to_json(runs.self()).dump())),
       deadline_(Clock::now() + patience) {
   try {
@@ -90,6 +92,7 @@ std::vector<RunFiles> FolderTurn::rivals() const {
     const bool asks = std::ranges::any_of(run.files, [](const fs::path& f) { return f.extension() == kTurnEnding; });
     return run.run == runs_.own_name() || !asks || has_ended(run);
   });
+  looked_();
   return all;
 }
 

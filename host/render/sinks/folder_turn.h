@@ -12,6 +12,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 #include "host/render/sinks/growing_pauses.h"
@@ -25,8 +26,9 @@ class FolderTurn {
   static constexpr std::chrono::milliseconds kPatience{90000};
 
   // Waits for it. `runs` must outlive the turn. Throws Failure where it does not come in time, as another run that has
-  // it does not go on, or where the folder cannot be written.
-  explicit FolderTurn(const RunsFolder& runs, std::chrono::milliseconds patience = kPatience);
+  // it does not go on, or where the folder cannot be written. `looked` is called after each look at the folder.
+  explicit FolderTurn(
+      const RunsFolder& runs, std::chrono::milliseconds patience = kPatience, std::function<void()> looked = [] {});
   ~FolderTurn();
   FolderTurn(const FolderTurn&) = delete;
   FolderTurn& operator=(const FolderTurn&) = delete;
@@ -58,6 +60,7 @@ class FolderTurn {
   [[noreturn]] void fail(const char* act, int error) const;
 
   const RunsFolder& runs_;
+  const std::function<void()> looked_;
   std::filesystem::path file_;
   Clock::time_point deadline_;
   GrowingPauses pauses_;

@@ -146,7 +146,7 @@ FrameFolder::FrameFolder(fs::path path, const Manifest& wanted, const Continue& 
 }
 
 bool FrameFolder::try_to_enter(const Manifest& wanted, const Continue& go_on, UnseenRivals& unseen) {
-  const FolderTurn turn(runs_);
+  const FolderTurn turn(runs_, FolderTurn::kPatience, [this] { patience_.note_answer(); });
   try {
     return enter(turn, wanted, go_on, unseen);
   } catch (...) {
@@ -237,14 +237,14 @@ FrameFolder::~FrameFolder() {
 
 void FrameFolder::finish() try {
   if (std::exchange(finished_, true)) return;
-  patience_.finish(path_ / kManifestName, [this] { finish_within(FolderTurn::kPatience); });
+  patience_.write(path_ / kManifestName, [this] { finish_within(FolderTurn::kPatience); });
 } catch (const Failure&) {
   refuse_gone(path_);
   throw;
 }
 
 void FrameFolder::finish_within(std::chrono::milliseconds patience) {
-  const FolderTurn turn(runs_, patience);
+  const FolderTurn turn(runs_, patience, [this] { patience_.note_answer(); });
   lease_->confirm();
   hashes_.reset();
   if (!add_to_manifest(rendered_, path_, runs_, turn))

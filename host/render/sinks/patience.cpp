@@ -108,7 +108,7 @@ void Patience::look() {
   Duration longest{0};
   std::filesystem::path slowest;
   for (Try& each : tries_) {
-    if (!each.prompt || each.pausing) continue;
+    if (each.pausing) continue;
     each.silent += bounds_.pause;
     if (each.silent > longest) slowest = each.file;
     longest = std::max(longest, each.silent);
@@ -120,8 +120,13 @@ void Patience::look() {
   } else if (silent_.empty() && !any_failed()) {
     silent_ = slowest;
     warn(silent_.string() + ": storage has given no answer for " + text_of(longest) +
-         "; the run goes on by itself once it does");
+         ", or is slow; the run goes on by itself");
   }
+}
+
+void Patience::note_answer() {
+  const std::lock_guard lock(mutex_);
+  for (Try& each : tries_) each.silent = Duration(0);
 }
 
 void Patience::check() {

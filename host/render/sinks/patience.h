@@ -40,10 +40,10 @@ class Patience {
   // as the bounds say. Then throws it, with how to go on. `file`: what is written, for people.
   void write(const std::filesystem::path& file, const Write& write) { repeat({file}, write); }
   // Likewise where nothing has been written yet: permissions that are lacking then are no reason to wait, but likely to
-  // be the wrong folder's. `write` may itself wait for other runs.
-  void begin(const std::filesystem::path& file, const Write& write) { repeat({file, false, false}, write); }
-  // As write(), but `write` may itself wait for other runs.
-  void finish(const std::filesystem::path& file, const Write& write) { repeat({file, true, false}, write); }
+  // be the wrong folder's.
+  void begin(const std::filesystem::path& file, const Write& write) { repeat({file, false}, write); }
+  // Where what is written waits for something else than storage.
+  void note_answer();
 
   // Throws Failure where the system has given no answer for as long as the bounds say.
   void check();
@@ -53,11 +53,10 @@ class Patience {
  private:
   struct Try {
     std::filesystem::path file;
-    bool begun = true;   // the same place could be written before
-    bool prompt = true;  // waits for nothing but storage
+    bool begun = true;  // the same place could be written before
     bool pausing = false;
     bool failed = false;  // before
-    Duration silent{0};   // since it was begun, or tried again
+    Duration silent{0};   // since it was begun, tried again, or answered
     Duration waited{0};   // before that
   };
   using Place = std::list<Try>::iterator;
