@@ -1,11 +1,15 @@
 #include "host/render/session/session.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "hal/failure/explain.h"
 #include "hal/failure/failure.h"
+#include "hal/messages/process.h"
 #include "hal/nx/nx_messages.h"
 #include "host/content/document/checksum.h"
 #include "host/content/document/whole_file.h"
@@ -14,9 +18,11 @@
 #include "host/render/farm/node_inbox.h"
 #include "host/render/report/report.h"
 #include "host/render/session/event_reporter.h"
+#include "host/render/session/termination.h"
 #include "host/render/sinks/frame_folder.h"
 #include "host/render/sinks/sink_pool.h"
 #include "host/render/trace/trace_file.h"
+#include "topology/debugger.h"
 #include "topology/machine.h"
 #include "topology/memory_limit.h"
 
@@ -77,12 +83,14 @@ std::unique_ptr<sinks::SinkPool> make_sinks(const RenderJob& job, sinks::Sink& s
   return job.make_sinks ? job.make_sinks(sink, shape) : std::make_unique<sinks::SinkPool>(sink, shape);
 }
 
-farm::FarmOptions farm_options(const RenderJob& job, const farm::HostMemory& memory, trace::Trace* trace) {
+farm::FarmOptions farm_options(const RenderJob& job, const farm::HostMemory& memory, trace::Trace* trace,
+                               farm::Heartbeats& heartbeats) {
   farm::FarmOptions farm;
   farm.mapping = job.mapping;
   farm.credits = memory.credits;
   farm.each_frame = !job.report.empty();
   farm.trace = trace;
+  farm.heartbeats = &heartbeats;
   return farm;
 }
 
@@ -93,20 +101,38 @@ std::unique_ptr<trace::Trace> begin_trace(const RenderJob& job) {
   return std::make_unique<trace::Trace>();
 }
 
-film::CompiledFilm load_film(const RenderJob& job, const EventReporter& reporter, double& seconds) {
+film::CompiledFilm load_film(const RenderJob& job, const EventReporter& reporter, farm::Heartbeats& heartbeats,
+                             double& seconds) {
   reporter.report(events::Loading{job.film});
   const double started = dclock();
-  film::CompiledFilm film = job.load_film([&](const std::string& line) { reporter.report(events::Warning{line}); });
+  std::optional<film::CompiledFilm> film;
+  heartbeats.during("loading", [&] {
+    film.emplace(job.load_film([&](const std::string& line) { reporter.report(events::Warning{line}); }));
+  });
   seconds = dclock() - started;
-  return film;
+  return std::move(*film);
+}
+
+farm::HeartbeatListener listen(const EventReporter& reporter, Termination& termination) {
+  farm::HeartbeatListener listener;
+  listener.beat = [&](const std::string& doing, const auto& silent) { reporter.report_beat(doing, silent); };
+  listener.told_to_end = [&] { return termination.asked(); };
+  listener.end = [&](const std::vector<farm::NodeFrame>& drawing) {
+    reporter.report_drawing(drawing);
+    termination.end();
+  };
+  listener.is_traced = [](std::int32_t process) { return topology::is_traced(process); };
+  return listener;
 }
 
 // By what is foreseen of it, unless the person says how many groups.
-farm::Plan plan_of(const wire::FilmView& film, const RenderJob& job, EventReporter& reporter) {
+farm::Plan plan_of(const wire::FilmView& film, const RenderJob& job, EventReporter& reporter,
+                   farm::Heartbeats& heartbeats) {
   const auto nodes = static_cast<int>(numnodes());
   farm::PlanRequest request{job.frames.of_film(film.settings().frames), job.coherence, job.groups};
   if (job.foresee) {
-    Foresight foresight = job.foresee(film, request, nodes);
+    Foresight foresight;
+    heartbeats.during("loading", [&] { foresight = job.foresee(film, request, nodes); });
     if (request.groups == 0) request.groups = foresight.groups;
     request.contributors = foresight.contributors;
     if (!foresight.warning.empty()) reporter.report(events::Warning{foresight.warning});
@@ -115,30 +141,41 @@ farm::Plan plan_of(const wire::FilmView& film, const RenderJob& job, EventReport
   return farm::make_plan(film, request, nodes);
 }
 
+std::string host_name() {
+  char name[sizeof wire::Beat::host] = {};
+  gethostname(name, sizeof name - 1);
+  return name;
+}
+
 void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace) {
+  Termination termination(messages::process().backend().has_machine_clock());
+  farm::Heartbeats heartbeats(host_name(), getpid(), listen(reporter, termination));
   double load_seconds = 0;
-  const film::CompiledFilm film = load_film(job, reporter, load_seconds);
+  const film::CompiledFilm film = load_film(job, reporter, heartbeats, load_seconds);
   const wire::FilmView view = film.view();
   const wire::FilmSettings& settings = view.settings();
-  const farm::Plan plan = plan_of(view, job, reporter);
+  const farm::Plan plan = plan_of(view, job, reporter, heartbeats);
   const HostMachine host = host_machine(job.host);
   const farm::HostMemory memory = memory_for(host, settings, images::facts_of(job.format).pixels, plan);
 
   if (!job.report.empty()) document::check_can_write(job.report);  // early too
-  Destination destination(job, film, job.frames.of_film(settings.frames));
+  std::optional<Destination> destination;
+  heartbeats.during("loading", [&] { destination.emplace(job, film, job.frames.of_film(settings.frames)); });
   // Only now: before, the host may have waited for its turn in the folder, and not for nodes.
   reporter.report(events::Loaded{load_seconds});
-  const auto pool = make_sinks(job, destination.sink(), pool_shape(host, view, job, memory.frames));
-  const farm::FarmReport report = farm::render_film(film.block(), plan, farm_options(job, memory, trace), *pool,
-                                                    reporter.listener(view.intervals().size()));
-  destination.finish();
-  if (!job.report.empty()) {
-    const report::ReportHead head{
-        job.film, document::checksum_of(film.block()), job.backend, job.arguments, settings.width, settings.height,
-        memory};
-    document::write_whole_file(job.report, report::report_text(head, report));
-  }
-  if (trace) trace::write_trace(job.trace, {job.film, job.backend}, *trace);
+  const auto pool = make_sinks(job, destination->sink(), pool_shape(host, view, job, memory.frames));
+  const farm::FarmReport report = farm::render_film(film.block(), plan, farm_options(job, memory, trace, heartbeats),
+                                                    *pool, reporter.listener(view.intervals().size()));
+  heartbeats.during("ending", [&] {
+    destination->finish();
+    if (!job.report.empty()) {
+      const report::ReportHead head{
+          job.film, document::checksum_of(film.block()), job.backend, job.arguments, settings.width, settings.height,
+          memory};
+      document::write_whole_file(job.report, report::report_text(head, report));
+    }
+    if (trace) trace::write_trace(job.trace, {job.film, job.backend}, *trace);
+  });
   reporter.report(events::Done{plan.frames(), report.total_seconds, job.folder, trace ? trace->left_out() : 0});
 }
 
