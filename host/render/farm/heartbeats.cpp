@@ -19,10 +19,10 @@ constexpr double kNamed = 5.0;   // a node that is silent for so long is reporte
 
 constexpr std::chrono::milliseconds kPause{20};  // of the host's thread while another works
 
-std::string doing_of(const wire::Beat& beat) {
+std::string doing_of(const wire::Beat& beat, bool debugged) {
   const std::string what =
       beat.frame < 0 ? "waiting for work" : wire::kPhaseNames[static_cast<std::size_t>(beat.phase)];
-  return what + (beat.traced == 1 ? ", in a debugger" : "");
+  return what + (debugged ? ", in a debugger" : "");
 }
 
 }  // namespace
@@ -115,8 +115,16 @@ void Heartbeats::report() {
 }
 
 SilentNode Heartbeats::silent(int node) const {
-  const wire::Beat& beat = watch_->beat(node);
-  return {node, hellos_[static_cast<std::size_t>(node)].host.data(), beat.frame, doing_of(beat), watch_->silence(node)};
+  return {node, hellos_[static_cast<std::size_t>(node)].host.data(), frame_of(node),
+          doing_of(watch_->beat(node), is_debugged(node)), watch_->silence(node)};
+}
+
+// Its beat may be a second old; what it was given and has not drawn is known exactly.
+int Heartbeats::frame_of(int node) const {
+  if (drawing_)
+    for (const NodeFrame& drawn : drawing_())
+      if (drawn.node == node) return static_cast<int>(drawn.frame);
+  return watch_->beat(node).frame;
 }
 
 void Heartbeats::check_nodes() const {

@@ -75,6 +75,7 @@ class Heartbeats {
   void report();
   void check_nodes() const;
   SilentNode silent(int node) const;
+  int frame_of(int node) const;
   bool is_debugged(int node) const;
   std::string name_of(int node) const;
 
