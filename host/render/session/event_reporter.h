@@ -5,6 +5,7 @@
 #include <mutex>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "host/render/events/course.h"
 #include "host/render/events/events.h"
@@ -16,8 +17,11 @@ class EventReporter {
  public:
   explicit EventReporter(std::string backend) : backend_(std::move(backend)) {}
 
-  // From several threads at once.
+  // From any thread.
   void report(const events::Event& event) const;
+  // Throws where standard output takes no more.
+  void report_beat(const std::string& doing, const std::vector<farm::SilentNode>& silent) const;
+  void report_drawing(const std::vector<farm::NodeFrame>& drawing) const;
   // A listener for render_film, of a film with this number of intervals. The reporter must outlive it.
   farm::FarmListener listener(std::size_t intervals);
   // By which it says how long the rest takes.
