@@ -13,6 +13,7 @@
 
 #include "host/render/farm/cancellation.h"
 #include "host/render/farm/node_memory.h"
+#include "host/render/farm/node_rates.h"
 #include "host/render/farm/plan.h"
 #include "host/render/sinks/sink_pool.h"
 #include "host/render/trace/trace.h"
@@ -27,6 +28,7 @@ struct FarmOptions {
   std::optional<std::uint64_t> still_memory;   // of these, as in NodeMemory; none: as share_node_memory says
   std::int32_t credits = wire::kMaxCredits;    // strips a node may have on the way
   bool each_frame = false;                     // report what is known of each frame, which grows with the film
+  bool adapts = false;                         // slow nodes get fewer inbetweens; long tasks are given in portions
   trace::Trace* trace = nullptr;               // to be filled; none: nothing is recorded
   const Cancellation* cancellation = nullptr;  // none: nobody cancels
 };
@@ -63,6 +65,7 @@ struct FarmReport {
   double busy_seconds = 0;    // of these, the host took and composed strips
   double sink_seconds = 0;    // of all threads that hand frames to the sink
   wire::HostUnits charged{};  // what the host did, by kind
+  std::vector<SlowTime> slow_times;  // since the first command; of runs that adapt
   bool cancelled = false;     // before all frames were composed
 };
 

@@ -82,6 +82,7 @@ farm::FarmOptions farm_options(const RenderJob& job, const farm::HostMemory& mem
   farm.mapping = job.mapping;
   farm.credits = memory.credits;
   farm.each_frame = !job.report.empty();
+  farm.adapts = job.adapts;
   farm.trace = trace;
   return farm;
 }

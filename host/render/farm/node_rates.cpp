@@ -1,0 +1,90 @@
+#include "host/render/farm/node_rates.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace mars::farm {
+namespace {
+
+// Of these a pace is taken, so that neither single inbetweens nor what else a machine does for a moment decide it.
+constexpr int kInbetweens = 4;
+constexpr double kSeconds = 2;
+
+constexpr double kSlow = 1.5;   // from here on a node may be slow
+constexpr double kUsual = 1.25;  // up to here it no longer is
+constexpr int kPassedOver = 32;  // portions
+
+}  // namespace
+
+void NodeRates::ready(int node, double now) { of(node).since = std::max(of(node).since, now); }
+
+void NodeRates::came(int number, double now, double seconds, double work) {
+  Node& node = of(number);
+  ++node.inbetweens;
+  node.seconds += std::max(now - node.since, seconds);
+  node.work += work;
+  node.since = now;
+  node.passed_over = 0;
+  if (node.inbetweens >= kInbetweens && node.seconds >= kSeconds) judge(number, now);
+}
+
+void NodeRates::given(int number, bool some) {
+  Node& node = of(number);
+  node.passed_over = some ? 0 : node.passed_over + 1;
+}
+
+bool NodeRates::is_forgotten(int node) const { return of(node).slowness > 1 && of(node).passed_over >= kPassedOver; }
+
+std::vector<int> NodeRates::take_changed() { return std::exchange(changed_, {}); }
+
+// The median; of two nodes the faster one's.
+double NodeRates::usual_pace() const {
+  std::vector<double> paces;
+  for (const Node& node : nodes_)
+    if (node.pace) paces.push_back(*node.pace);
+  const auto median = paces.begin() + static_cast<std::ptrdiff_t>((paces.size() - 1) / 2);
+  std::nth_element(paces.begin(), median, paces.end());
+  return *median;
+}
+
+void NodeRates::judge(int number, double now) {
+  Node& node = of(number);
+  node.pace = node.seconds / node.work;
+  node.inbetweens = 0;
+  node.seconds = node.work = 0;
+  const double slowness = *node.pace / usual_pace();
+  const std::optional<double> doubt = std::exchange(node.doubt, std::nullopt);
+  if (node.slowness > 1 && slowness <= kUsual) return end_slow(number, now);
+  if (node.slowness > 1) {
+    node.slowness = open_time(number).slowness = (node.slowness + slowness) / 2;
+  } else if (slowness >= kSlow && doubt) {
+    begin_slow(number, (*doubt + slowness) / 2, now);
+  } else if (slowness >= kSlow) {
+    node.doubt = slowness;
+  }
+}
+
+void NodeRates::begin_slow(int node, double slowness, double now) {
+  of(node).slowness = slowness;
+  slow_times_.push_back({node, slowness, now});
+  changed_.push_back(node);
+}
+
+SlowTime& NodeRates::open_time(int node) {
+  return *std::ranges::find_if(slow_times_, [&](const SlowTime& time) { return time.node == node && !time.end; });
+}
+
+void NodeRates::end_slow(int node, double now) {
+  of(node).slowness = 1;
+  open_time(node).end = now;
+  changed_.push_back(node);
+}
+
+double work_of(const wire::WorkCounts& counts) {
+  const auto units = [](double each, std::uint64_t count) { return each * static_cast<double>(count); };
+  return 40'000 + units(900, counts.patches) + units(6, counts.vertices) + units(1.2, counts.triangles_tested) +
+         units(12, counts.triangles) + units(6, counts.edge_boxes_diced) + units(8.5, counts.edge_boxes) +
+         units(0.2, counts.samples) + units(15, counts.pixels);
+}
+
+}  // namespace mars::farm
