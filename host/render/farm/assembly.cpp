@@ -29,8 +29,7 @@ Assembly::Assembly(const Task& task, const collectives::Group& group, std::int32
 
 void Assembly::give(const Task& task, const Portion& portion) {
   for (std::size_t k = portion.first; k < portion.first + portion.count; ++k) {
-    const std::int32_t member =
-        wire::contributor_of_inbetween(task.first_inbetween + k, group_.count, portion.cycle);
+    const std::int32_t member = wire::contributor_of_inbetween(task.first_inbetween + k, group_.count, portion.cycle);
     parts_.at(task.frames[1 + k]).contributor = group_.first + member;
     ++waiting_for_[static_cast<std::size_t>(member)];
   }
@@ -45,6 +44,7 @@ bool Assembly::wants(const wire::Strip& strip) const {
 
 // And its last strip has not come.
 bool Assembly::is_contributor(const Parts& parts, std::int32_t node) const {
+  if (parts.contributor == kNobody) return false;
   if (parts.contributor != kAll) return parts.contributor == node && parts.contributors_left > 0;
   const auto index = static_cast<std::size_t>(node - group_.first);
   return node >= group_.first && index < drew_keyframe_.size() && !drew_keyframe_[index];

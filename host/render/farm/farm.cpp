@@ -30,7 +30,8 @@ std::string slow_text(const std::string& node, double slowness) {
   std::array<char, 16> times{};
   std::snprintf(times.data(), times.size(), "%.1f", slowness);
   return node + " takes " + times.data() +
-         " times as long as others for an inbetween and gets fewer: its processor or its link is slow, or busy otherwise";
+         " times as long as others for an inbetween and gets fewer: its processor or its link is slow, or busy "
+         "otherwise";
 }
 
 class Farm {
@@ -213,7 +214,8 @@ void Farm::give_portion(GroupWork& to) {
   const ScopedSpan span(trace::HostSpan::give, task.interval);
   const collectives::Group& group = to.group();
   const std::vector<Standing> before = to.standings(rates_);
-  const Portion portion = to.give_portion(before, options_.adapts ? kTurnsInPortion * before.size() : task.frames.size());
+  const Portion portion =
+      to.give_portion(before, options_.adapts ? kTurnsInPortion * before.size() : task.frames.size());
   const std::vector<std::byte> message = render_command(task, portion, group, to.contributors());
   for (int node = group.first; node < group.first + group.count; ++node)
     csend(wire::kRender, message.data(), static_cast<long>(message.size()), node, 0);
@@ -226,7 +228,8 @@ void Farm::note_given(const collectives::Group& group, const std::vector<Standin
   for (std::size_t member = 0; member < before.size(); ++member) {
     const int node = group.first + static_cast<int>(member);
     if (before[member].waiting == 0) rates_.ready(node, now);
-    if (!portion.cycle.empty()) rates_.given(node, std::ranges::count(portion.cycle, static_cast<std::int32_t>(member)) > 0);
+    if (!portion.cycle.empty())
+      rates_.given(node, std::ranges::count(portion.cycle, static_cast<std::int32_t>(member)) > 0);
   }
 }
 

@@ -59,14 +59,14 @@ struct FarmReport {
   std::vector<FinishedFrame> frames;
   std::uint64_t film_bytes = 0;
   NodeMemory node_memory;
-  double load_seconds = 0;    // from the last node's Hello until all have the film
-  double render_seconds = 0;  // from the first command until the last frame was composed
-  double total_seconds = 0;   // until the sinks had taken it
-  double busy_seconds = 0;    // of these, the host took and composed strips
-  double sink_seconds = 0;    // of all threads that hand frames to the sink
-  wire::HostUnits charged{};  // what the host did, by kind
+  double load_seconds = 0;           // from the last node's Hello until all have the film
+  double render_seconds = 0;         // from the first command until the last frame was composed
+  double total_seconds = 0;          // until the sinks had taken it
+  double busy_seconds = 0;           // of these, the host took and composed strips
+  double sink_seconds = 0;           // of all threads that hand frames to the sink
+  wire::HostUnits charged{};         // what the host did, by kind
   std::vector<SlowTime> slow_times;  // since the first command; of runs that adapt
-  bool cancelled = false;     // before all frames were composed
+  bool cancelled = false;            // before all frames were composed
 };
 
 // The calling HAL process is the host. When all frames are with the sinks, or when it is cancelled, Stop has been sent

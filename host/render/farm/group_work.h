@@ -65,7 +65,7 @@ class GroupWork {
   std::int32_t contributors_;
   compositor::Compositor compositor_;  // the first task's
   std::deque<Given> tasks_;
-  const Task* open_ = nullptr;    // the last of them, while portions are left
+  const Task* open_ = nullptr;      // the last of them, while portions are left
   std::size_t next_inbetween_ = 0;  // of it
 };
 

@@ -1,18 +1,21 @@
 #include "host/render/farm/node_rates.h"
 
 #include <algorithm>
+#include <numeric>
+#include <numeric>
 #include <utility>
 
 namespace mars::farm {
 namespace {
 
 // Of these a pace is taken, so that neither single inbetweens nor what else a machine does for a moment decide it.
-constexpr int kInbetweens = 4;
+constexpr int kInbetweens = 2;
 constexpr double kSeconds = 2;
 
-constexpr double kSlow = 1.5;   // from here on a node may be slow
-constexpr double kUsual = 1.25;  // up to here it no longer is
-constexpr int kPassedOver = 32;  // portions
+constexpr double kSlow = 1.5;       // from here on a node may be slow
+constexpr std::size_t kDoubts = 3;  // and is, after so many times
+constexpr double kUsual = 1.25;     // up to here it no longer is
+constexpr int kPassedOver = 32;     // portions
 
 }  // namespace
 
@@ -25,7 +28,7 @@ void NodeRates::came(int number, double now, double seconds, double work) {
   node.work += work;
   node.since = now;
   node.passed_over = 0;
-  if (node.inbetweens >= kInbetweens && node.seconds >= kSeconds) judge(number, now);
+  if (node.inbetweens >= kInbetweens && node.seconds >= kSeconds) take_pace(number, now);
 }
 
 void NodeRates::given(int number, bool some) {
@@ -47,37 +50,39 @@ double NodeRates::usual_pace() const {
   return *median;
 }
 
-void NodeRates::judge(int number, double now) {
+void NodeRates::take_pace(int number, double now) {
   Node& node = of(number);
   node.pace = node.seconds / node.work;
   node.inbetweens = 0;
   node.seconds = node.work = 0;
   const double slowness = *node.pace / usual_pace();
-  const std::optional<double> doubt = std::exchange(node.doubt, std::nullopt);
-  if (node.slowness > 1 && slowness <= kUsual) return end_slow(number, now);
-  if (node.slowness > 1) {
-    node.slowness = open_time(number).slowness = (node.slowness + slowness) / 2;
-  } else if (slowness >= kSlow && doubt) {
-    begin_slow(number, (*doubt + slowness) / 2, now);
-  } else if (slowness >= kSlow) {
-    node.doubt = slowness;
-  }
+  if (node.slowness > 1)
+    smooth(number, slowness, now);
+  else
+    doubt(number, slowness, now);
 }
 
-void NodeRates::begin_slow(int node, double slowness, double now) {
-  of(node).slowness = slowness;
-  slow_times_.push_back({node, slowness, now});
-  changed_.push_back(node);
+void NodeRates::doubt(int number, double slowness, double now) {
+  Node& node = of(number);
+  if (slowness < kSlow) return node.doubts.clear();
+  node.doubts.push_back(slowness);
+  if (node.doubts.size() < kDoubts) return;
+  node.slowness = std::accumulate(node.doubts.begin(), node.doubts.end(), 0.0) / kDoubts;
+  node.doubts.clear();
+  slow_times_.push_back({number, node.slowness, now});
+  changed_.push_back(number);
 }
 
-SlowTime& NodeRates::open_time(int node) {
-  return *std::ranges::find_if(slow_times_, [&](const SlowTime& time) { return time.node == node && !time.end; });
-}
-
-void NodeRates::end_slow(int node, double now) {
-  of(node).slowness = 1;
-  open_time(node).end = now;
-  changed_.push_back(node);
+// Of a slow node.
+void NodeRates::smooth(int number, double slowness, double now) {
+  Node& node = of(number);
+  SlowTime& time = *std::ranges::find_if(slow_times_, [&](const SlowTime& t) { return t.node == number && !t.end; });
+  node.slowness = (node.slowness + slowness) / 2;
+  time.slowness = std::max(time.slowness, node.slowness);
+  if (node.slowness > kUsual) return;
+  node.slowness = 1;
+  time.end = now;
+  changed_.push_back(number);
 }
 
 double work_of(const wire::WorkCounts& counts) {

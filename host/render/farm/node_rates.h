@@ -1,7 +1,7 @@
 // How fast each node draws inbetweens, as the host sees it: by when they come, so that a slow link counts as well as a
 // slow processor. A node's pace is taken over some seconds at a time, and compared with that of the others. It is slow
-// when it was much slower twice running, and no longer when it was about as fast once; what all nodes have in common,
-// or what lasts less than seconds, makes none slow.
+// when it was much slower three times running, and no longer when it has been about as fast for some such times; what
+// all nodes have in common, or what lasts for a moment, makes none slow.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace mars::farm {
 // A time in which a node was slow.
 struct SlowTime {
   std::int32_t node;
-  double slowness;              // as NodeRates has it, at the end
+  double slowness;              // how many times as long it took, at most
   double begin;                 // in the seconds that NodeRates was told
   std::optional<double> end{};  // none: it was slow until the last frame
 };
@@ -50,8 +50,8 @@ class NodeRates {
     double seconds = 0;
     double work = 0;
     // What was.
-    std::optional<double> pace;   // seconds for a unit of work
-    std::optional<double> doubt;  // its slowness, where the last one was large
+    std::optional<double> pace;  // seconds for a unit of work
+    std::vector<double> doubts;  // how slow it was the last times, as long as it was so without a break
     double slowness = 1;
     int passed_over = 0;
   };
@@ -59,10 +59,9 @@ class NodeRates {
   Node& of(int node) { return nodes_.at(static_cast<std::size_t>(node)); }
   const Node& of(int node) const { return nodes_.at(static_cast<std::size_t>(node)); }
   double usual_pace() const;
-  void judge(int node, double now);
-  SlowTime& open_time(int node);
-  void begin_slow(int node, double slowness, double now);
-  void end_slow(int node, double now);
+  void take_pace(int node, double now);
+  void doubt(int node, double slowness, double now);
+  void smooth(int node, double slowness, double now);
 
   std::vector<Node> nodes_;
   std::vector<SlowTime> slow_times_;

@@ -12,7 +12,7 @@ namespace {
 // When the node is done with one more, in times that an inbetween usually takes.
 double end_of_next(const Standing& node) { return static_cast<double>(node.waiting + 1) * node.slowness; }
 
-bool keeps_up(const Standing& node) { return node.slowness <= 1 && node.waiting <= 2 * kTurnsInPortion; }
+bool keeps_up(const Standing& node) { return node.slowness <= 1 && node.waiting <= kMostBehind; }
 
 // Those that are done at the same time come in turns.
 class NextDone {

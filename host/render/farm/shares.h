@@ -1,5 +1,5 @@
-// Which nodes of a group draw its next inbetweens: in turns, as long as all keep up. Where a node is slow, or far behind,
-// each goes to the node that would be done with it first.
+// Which nodes of a group draw its next inbetweens: in turns, as long as all keep up. Where a node is slow, or far
+// behind, each goes to the node that would be done with it first.
 #pragma once
 
 #include <cstddef>
@@ -19,6 +19,8 @@ struct Standing {
 // Inbetweens that are given to a group at a time, for each of its nodes. A task of more is given in portions, so that
 // what nodes have drawn by then decides who draws the next.
 inline constexpr std::size_t kTurnsInPortion = 8;
+// A node that has more left when the next portion is due is far behind.
+inline constexpr std::size_t kMostBehind = 12;
 
 // Whether a node has so little left that the next portion is due.
 bool runs_short(std::span<const Standing> nodes);
