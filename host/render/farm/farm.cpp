@@ -20,8 +20,9 @@
 namespace mars::farm {
 namespace {
 
-double seconds_of(const wire::PhaseTimes& times) {
-  return times.dice + times.sum + times.map + times.exchange + times.fill + times.scanline + times.depth + times.credit;
+// That a node took itself, without waiting for the host.
+double own_seconds(const wire::PhaseTimes& times) {
+  return times.dice + times.sum + times.map + times.exchange + times.fill + times.scanline + times.depth;
 }
 
 // `slowness` 1: no longer.
@@ -243,8 +244,10 @@ void Farm::receive() {
 
 void Farm::receive_strip() {
   ScopedSpan span(trace::HostSpan::strip);
+  const double begun = dclock();
   StripMessage strip = inbox_.receive_strip(store_);
   const wire::Strip header = strip.header();
+  rates_.received(header.node, dclock() - begun);
   charge(wire::Work::host_strip, 1);
   span.set_value(header.frame);
   const auto wanting =
@@ -264,7 +267,7 @@ void Farm::adapt(const wire::Strip& last, GroupWork& by) {
     for (int node = group.first; node < group.first + group.count; ++node) rates_.ready(node, now);
     return;
   }
-  rates_.came(last.node, now, seconds_of(last.times), work_of(last.work));
+  rates_.came(last.node, now, own_seconds(last.times), work_of(last.work));
   report_slow_nodes();
   if (by.is_open() && runs_short(by.standings(rates_))) give_portion(by);
 }

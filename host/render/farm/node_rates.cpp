@@ -19,14 +19,23 @@ constexpr int kPassedOver = 32;     // portions
 
 }  // namespace
 
-void NodeRates::ready(int node, double now) { of(node).since = std::max(of(node).since, now); }
+void NodeRates::ready(int number, double now) {
+  Node& node = of(number);
+  node.since = std::max(node.since, now - receiving_);
+  node.receiving = 0;
+}
+
+void NodeRates::received(int node, double seconds) {
+  of(node).receiving += seconds;
+  receiving_ += seconds;
+}
 
 void NodeRates::came(int number, double now, double seconds, double work) {
   Node& node = of(number);
   ++node.inbetweens;
-  node.seconds += std::max(now - node.since, seconds);
+  node.seconds += std::max(now - receiving_ - node.since, seconds) + std::exchange(node.receiving, 0);
   node.work += work;
-  node.since = now;
+  node.since = now - receiving_;
   node.passed_over = 0;
   if (node.inbetweens >= kInbetweens && node.seconds >= kSeconds) take_pace(number, now);
 }
@@ -40,11 +49,17 @@ bool NodeRates::is_forgotten(int node) const { return of(node).slowness > 1 && o
 
 std::vector<int> NodeRates::take_changed() { return std::exchange(changed_, {}); }
 
+// As it was taken last; before, as it is so far.
+std::optional<double> NodeRates::pace_of(const Node& node) {
+  if (node.pace || node.inbetweens < kInbetweens) return node.pace;
+  return node.seconds / node.work;
+}
+
 // The median; of two nodes the faster one's.
 double NodeRates::usual_pace() const {
   std::vector<double> paces;
   for (const Node& node : nodes_)
-    if (node.pace) paces.push_back(*node.pace);
+    if (const auto pace = pace_of(node)) paces.push_back(*pace);
   const auto median = paces.begin() + static_cast<std::ptrdiff_t>((paces.size() - 1) / 2);
   std::nth_element(paces.begin(), median, paces.end());
   return *median;

@@ -27,7 +27,10 @@ class NodeRates {
 
   // The node cannot have begun its next inbetween before `now`.
   void ready(int node, double now);
-  // An inbetween came whole. `seconds`: of the node's own clock; its link took more if it came later.
+  // The host was busy for so long with receiving a strip of the node: its link took as long, and meanwhile nothing of
+  // other nodes could come.
+  void received(int node, double seconds);
+  // An inbetween came whole. `seconds`: that it took by the node's own clock, without waiting for the host.
   void came(int node, double now, double seconds, double work);
   // A portion was given to the node's group, and it got inbetweens of it or not.
   void given(int node, bool some);
@@ -44,7 +47,8 @@ class NodeRates {
 
  private:
   struct Node {
-    double since = 0;  // it has drawn its next inbetween
+    double since = 0;      // it has drawn its next inbetween; without `receiving_`
+    double receiving = 0;  // of its strips since then
     // What is being measured.
     int inbetweens = 0;
     double seconds = 0;
@@ -58,12 +62,14 @@ class NodeRates {
 
   Node& of(int node) { return nodes_.at(static_cast<std::size_t>(node)); }
   const Node& of(int node) const { return nodes_.at(static_cast<std::size_t>(node)); }
+  static std::optional<double> pace_of(const Node& node);
   double usual_pace() const;
   void take_pace(int node, double now);
   void doubt(int node, double slowness, double now);
   void smooth(int node, double slowness, double now);
 
   std::vector<Node> nodes_;
+  double receiving_ = 0;  // seconds so far, for all nodes
   std::vector<SlowTime> slow_times_;
   std::vector<int> changed_;
 };
