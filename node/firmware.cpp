@@ -56,6 +56,7 @@ class Firmware {
   int groups_ = 1;
   std::vector<std::byte> command_;     // the one being obeyed
   std::vector<std::uint32_t> frames_;  // that it asks for, where it does not list them
+  std::vector<std::uint32_t> left_;    // inbetweens of its interval that are drawn later
 };
 
 Firmware::Firmware(const NodeIdentity& identity)
@@ -113,8 +114,10 @@ void Firmware::load() {
   film_.emplace(block, "film", true);
   renderer_.emplace(*film_, load, machines, instruction_set_, heartbeat_);
   groups_ = load.groups;
-  command_.reserve(sizeof(wire::Render) + film_->settings().frames * sizeof(std::uint32_t));
-  frames_.reserve(film_->settings().frames);
+  const std::size_t most = film_->settings().frames;
+  command_.reserve(sizeof(wire::Render) + (most + std::min(most, wire::kMostCycle)) * sizeof(std::uint32_t));
+  frames_.reserve(most);
+  left_.reserve(most);
   wire::Loaded loaded{renderer_->outbox().slots(), {}};
   copy_text(renderer_->refusal(), loaded.apart);
   csend(wire::kLoaded, &loaded, sizeof loaded, myhost(), 0);
@@ -122,9 +125,13 @@ void Firmware::load() {
 
 void Firmware::render() {
   Renderer& renderer = this->renderer();
-  const auto [command, frames] = wire::read_render(receive(wire::kRender), *film_, static_cast<int>(mynode()),
-                                                   static_cast<int>(numnodes()), groups_, frames_);
-  renderer.render(command, frames);
+  const wire::RenderReceiver self{static_cast<int>(mynode()), static_cast<int>(numnodes()), groups_, left_};
+  const wire::RenderCommand command = wire::read_render(receive(wire::kRender), *film_, self, frames_);
+  if (command.render.goes_on == 1)
+    left_.erase(left_.begin(), left_.begin() + command.render.drawn);
+  else
+    left_.assign(command.left().begin(), command.left().end());
+  renderer.render(command);
 }
 
 void Firmware::send_time() {

@@ -45,17 +45,24 @@ Renderer::Renderer(const wire::FilmView& film, const wire::Load& load, std::span
   if (load.traced == 1) tracer_.emplace();
 }
 
-void Renderer::render(const wire::Render& command, std::span<const std::uint32_t> frames) {
-  const auto inbetweens = frames.subspan(1);
-  messages::keep_to(command.group_first, command.group_count);
-  begin_interval(command, inbetweens);
-  draw_frame(wire::FrameKind::keyframe, command.interval, frames.front(), {command.group_first, command.group_count},
-             command.contributors);
+void Renderer::render(const wire::RenderCommand& command) {
+  const wire::Render& render = command.render;
+  messages::keep_to(render.group_first, render.group_count);
+  if (render.goes_on == 0) {
+    begin_interval(command);
+    draw_frame(wire::FrameKind::keyframe, render.interval, command.frames.front(),
+               {render.group_first, render.group_count}, render.contributors);
+  }
+  draw_inbetweens(command);
+  messages::keep_to_nobody();
+}
+
+void Renderer::draw_inbetweens(const wire::RenderCommand& command) {
+  const auto inbetweens = command.inbetweens();
   const int self = static_cast<int>(mynode());
   for (std::size_t k = 0; k < inbetweens.size() && !outbox_.stopped(); ++k)
-    if (command.group_first + wire::contributor_of_inbetween(command.first_inbetween + k, command.group_count) == self)
-      draw_frame(wire::FrameKind::inbetween, command.interval, inbetweens[k], {self, 1}, 1);
-  messages::keep_to_nobody();
+    if (command.render.group_first + command.contributor(k) == self)
+      draw_frame(wire::FrameKind::inbetween, command.render.interval, inbetweens[k], {self, 1}, 1);
 }
 
 void Renderer::send_trace() {
@@ -67,13 +74,13 @@ void Renderer::finish() {
   if (tracer_) tracer_->finish();
 }
 
-void Renderer::begin_interval(const wire::Render& command, std::span<const std::uint32_t> inbetweens) {
-  scene_.set_interval(command.interval);
-  still_.begin_interval(command.interval, scene_.moving_line_bounds(inbetweens));
-  std::ranges::fill(contributes_, std::uint8_t{0});
-  for (std::size_t k = 0; k < inbetweens.size(); ++k)
-    contributes_[static_cast<std::size_t>(
-        wire::contributor_of_inbetween(command.first_inbetween + k, command.group_count))] = 1;
+// Those that are left may come to any node.
+void Renderer::begin_interval(const wire::RenderCommand& command) {
+  scene_.set_interval(command.render.interval);
+  still_.begin_interval(command.render.interval, scene_.moving_line_bounds(command.frames.subspan(1)));
+  std::ranges::fill(contributes_, static_cast<std::uint8_t>(command.left().empty() ? 0 : 1));
+  for (std::size_t k = 0; k < command.inbetweens().size(); ++k)
+    contributes_[static_cast<std::size_t>(command.contributor(k))] = 1;
 }
 
 // The thesis's four steps: triangles, homes for the scanlines, triangles to their homes, scanlines. An inbetween takes

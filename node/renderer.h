@@ -24,6 +24,7 @@
 #include "node/raster/still_lines.h"
 #include "node/tessellator.h"
 #include "node/tracer.h"
+#include "node/wire/commands.h"
 
 namespace mars::node {
 
@@ -34,8 +35,8 @@ class Renderer {
   Renderer(const wire::FilmView& film, const wire::Load& load, std::span<const std::int32_t> machines,
            simd::InstructionSet set, Heartbeat& heartbeat);
 
-  // Draws the caller's share of `frames` (see Render) and sends it.
-  void render(const wire::Render& command, std::span<const std::uint32_t> frames);
+  // Draws the caller's share of the frames (see Render) and sends it.
+  void render(const wire::RenderCommand& command);
 
   // Sends what was recorded so far, where the run is traced.
   void send_trace();
@@ -49,7 +50,8 @@ class Renderer {
   std::uint32_t frame() const { return report_.strip().frame; }
 
  private:
-  void begin_interval(const wire::Render& command, std::span<const std::uint32_t> inbetweens);
+  void begin_interval(const wire::RenderCommand& command);
+  void draw_inbetweens(const wire::RenderCommand& command);
   // By the first `contributors` nodes of the group; the others take part in what all do together.
   void draw_frame(wire::FrameKind kind, std::uint32_t interval, std::uint32_t frame, const collectives::Group& group,
                   std::int32_t contributors);

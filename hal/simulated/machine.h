@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace mars::simulated {
@@ -42,6 +43,8 @@ struct Machine {
   bool host_apart = false;     // the host has a computer of its own; else it is on the first node's
   int host_processors = 1;     // of that
   std::vector<double> work{};  // by kind, seconds a unit (Backend::charge)
+  // How many times as long work takes on a computer that begins it at a time; none: all are as fast.
+  std::function<double(int computer, double now)> slowness{};
   Network network{};
 };
 

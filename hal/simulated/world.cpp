@@ -53,6 +53,7 @@ void World::work(int rank, double seconds) {
   Rank& self = *ranks_[rank];
   const int computer = computer_of(rank);
   std::vector<double>& processors = processors_[computer];
+  if (machine_.slowness) seconds *= machine_.slowness(computer, self.clock);
   if (workers_on(computer) <= processors.size()) {
     self.clock += seconds;
     return;

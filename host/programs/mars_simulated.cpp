@@ -35,6 +35,7 @@ double serve_files(simulated::World& world, images::PictureFormat format, std::u
 void run(const options::RenderOptions& options, const experiments::Platform& platform) {
   const auto host = [&](simulated::World& world) {
     session::RenderJob job = job::job_of(options, "simulated");
+    job.adapts = false;  // a platform's computers are all as fast
     job.host = {platform.host_memory, platform.host_processors()};
     const auto serve = [&world, files = platform.charges_files || !job.folder.empty(),
                         format = job.format](std::uint64_t bytes) {

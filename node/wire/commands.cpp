@@ -38,6 +38,10 @@ bool is_group_of(const Render& render, int node, int nodes, int groups) {
   return false;
 }
 
+bool are_next(std::span<const std::uint32_t> frames, std::span<const std::uint32_t> left) {
+  return frames.size() <= left.size() && std::ranges::equal(frames, left.first(frames.size()));
+}
+
 bool ascend_within(std::span<const std::uint32_t> frames, const Interval& interval) {
   const bool ascend = std::adjacent_find(frames.begin(), frames.end(), std::greater_equal<>()) == frames.end();
   return ascend && frames.front() >= interval.first_frame &&
@@ -66,25 +70,32 @@ LoadCommand read_load(std::span<const std::byte> message, int nodes, const std::
   return {load, machines};
 }
 
-RenderCommand read_render(std::span<const std::byte> message, const FilmView& film, int node, int nodes, int groups,
+RenderCommand read_render(std::span<const std::byte> message, const FilmView& film, const RenderReceiver& receiver,
                           std::vector<std::uint32_t>& frames) {
   constexpr auto kName = "Render";
   require(message.size() >= sizeof(Render), kName, "its size");
   const auto& render = *reinterpret_cast<const Render*>(message.data());
   require(render.listed <= 1, kName, "whether frames are listed");
+  require(render.goes_on <= 1, kName, "whether it goes on");
   const std::size_t listed = render.listed == 1 ? render.frame_count : 0;
-  require(has_size(message, sizeof render, listed, sizeof(std::uint32_t)), kName, "its size");
+  require(has_size(message, sizeof render, listed + render.cycle, sizeof(std::uint32_t)), kName, "its size");
   require(render.interval < film.intervals().size(), kName, "the interval");
-  require(is_group_of(render, node, nodes, groups), kName, "the group");
+  require(is_group_of(render, receiver.node, receiver.nodes, receiver.groups), kName, "the group");
   require(render.contributors >= 1 && render.contributors <= render.group_count, kName, "the contributors");
   const Interval& interval = film.intervals()[render.interval];
   require(render.frame_count >= 1 && render.frame_count <= interval.frame_count, kName, "the frames");
   frames.resize(render.frame_count);
   std::iota(frames.begin(), frames.end(), render.first_frame);
-  const auto all =
-      render.listed == 1 ? items_behind<std::uint32_t>(message, sizeof render) : std::span(std::as_const(frames));
+  const auto all = render.listed == 1 ? items_behind<std::uint32_t>(message, sizeof render).first(listed)
+                                      : std::span(std::as_const(frames));
   require(ascend_within(all, interval), kName, "the frames");
-  return {render, all};
+  require(render.drawn >= 1 && render.drawn <= render.frame_count, kName, "the frames that are drawn");
+  require(render.goes_on == 0 || (render.drawn == render.frame_count && are_next(all, receiver.left)), kName,
+          "with which frames it goes on");
+  const auto cycle = items_behind<std::int32_t>(message, sizeof render + listed * sizeof(std::uint32_t));
+  require(std::ranges::all_of(cycle, [&](auto node) { return node >= 0 && node < render.group_count; }), kName,
+          "the cycle");
+  return {render, all, cycle};
 }
 
 const Credit& read_credit(std::span<const std::byte> message, std::uint32_t owned, std::size_t slots) {

@@ -21,13 +21,32 @@ struct LoadCommand {
 struct RenderCommand {
   const Render& render;
   std::span<const std::uint32_t> frames;  // in the message, or in `frames` of read_render
+  std::span<const std::int32_t> cycle;
+
+  // Of the frames, the inbetweens that are drawn now, and those that are left.
+  std::span<const std::uint32_t> inbetweens() const {
+    return frames.first(render.drawn).subspan(render.goes_on == 1 ? 0 : 1);
+  }
+  std::span<const std::uint32_t> left() const { return frames.subspan(render.drawn); }
+  // That draws the k-th of these, counted from the group's first.
+  std::int32_t contributor(std::size_t k) const {
+    return contributor_of_inbetween(render.first_inbetween + k, render.group_count, cycle);
+  }
 };
 
 // For one of `nodes` nodes; `receiver` names it in a failure: "n3 (node 17)".
 LoadCommand read_load(std::span<const std::byte> message, int nodes, const std::string& receiver);
 
-// For node `node` of `nodes`, which form `groups` groups. Frames that are not listed are put into `frames`.
-RenderCommand read_render(std::span<const std::byte> message, const FilmView& film, int node, int nodes, int groups,
+// What a node knows of itself when a Render comes.
+struct RenderReceiver {
+  int node;
+  int nodes;
+  int groups;                           // that they form
+  std::span<const std::uint32_t> left;  // inbetweens that Renders may go on with
+};
+
+// Frames that are not listed are put into `frames`.
+RenderCommand read_render(std::span<const std::byte> message, const FilmView& film, const RenderReceiver& receiver,
                           std::vector<std::uint32_t>& frames);
 
 // For a node that has the slots of `owned`, a bit for each, of `slots` in all.

@@ -22,6 +22,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "hal/messages/offer.h"
 #include "node/wire/pixel_format.h"
@@ -109,7 +110,11 @@ struct Loaded {
 
 // Frames of one interval for one group: the first is the keyframe, rendered by the group's first `contributors` nodes,
 // the others go whole to single nodes (contributor_of_inbetween). They follow each other from first_frame on; or, where
-// `listed` is 1, their numbers (uint32), ascending, follow the struct.
+// `listed` is 1, their numbers (uint32), ascending, follow the struct. Then follows the cycle of `cycle` nodes (int32,
+// counted from the group's first).
+//
+// Only the first `drawn` frames are drawn now. The others are in Renders that go on: these have inbetweens alone, the
+// next of those left, and draw all of them.
 struct Render {
   std::uint32_t interval;
   std::int32_t group_first;
@@ -118,12 +123,21 @@ struct Render {
   std::uint32_t frame_count;
   std::uint32_t first_frame;
   std::uint64_t first_inbetween;  // number in the film of the first inbetween here
-  std::uint64_t listed;
+  std::uint32_t drawn;            // 1..frame_count
+  std::uint16_t cycle;            // 0: turns
+  std::uint8_t listed;
+  std::uint8_t goes_on;
 };
 
-// The node of a group of `group_count` that draws an inbetween, counted from the group's first: in turns over the whole
-// film. `inbetween` is the inbetween's number in the film (Render::first_inbetween and on).
-constexpr std::int32_t contributor_of_inbetween(std::uint64_t inbetween, std::int32_t group_count) {
+// Nodes in a cycle, at most.
+inline constexpr std::size_t kMostCycle = 0xffff;
+
+// The node of a group of `group_count` that draws an inbetween, counted from the group's first: by the cycle over the
+// whole film, or in turns where there is none. `inbetween` is the inbetween's number in the film
+// (Render::first_inbetween and on).
+constexpr std::int32_t contributor_of_inbetween(std::uint64_t inbetween, std::int32_t group_count,
+                                                std::span<const std::int32_t> cycle = {}) {
+  if (!cycle.empty()) return cycle[inbetween % cycle.size()];
   return static_cast<std::int32_t>(inbetween % static_cast<std::uint64_t>(group_count));
 }
 

@@ -20,12 +20,18 @@ Assembly::Assembly(const Task& task, const collectives::Group& group, std::int32
       keyframe_(task.frames.front()),
       alone_(task.frames.size() == 1),
       drew_keyframe_(static_cast<std::size_t>(contributors)),
+      waiting_for_(static_cast<std::size_t>(group.count)),
       not_begun_(task.frames.size()) {
+  parts_[keyframe_].contributor = kAll;
   parts_[keyframe_].contributors_left = contributors;
-  for (std::size_t k = 1; k < task.frames.size(); ++k) {
-    Parts& parts = parts_[task.frames[k]];
-    parts.contributors_left = 1;
-    parts.contributor = group.first + wire::contributor_of_inbetween(task.first_inbetween + k - 1, group.count);
+  for (std::size_t k = 1; k < task.frames.size(); ++k) parts_[task.frames[k]].contributors_left = 1;
+}
+
+void Assembly::give(const Task& task, const Portion& portion) {
+  for (std::size_t k = portion.first; k < portion.first + portion.count; ++k) {
+    const std::int32_t member = wire::contributor_of_inbetween(task.first_inbetween + k, group_.count, portion.cycle);
+    parts_.at(task.frames[1 + k]).contributor = group_.first + member;
+    ++waiting_for_[static_cast<std::size_t>(member)];
   }
 }
 
@@ -38,6 +44,7 @@ bool Assembly::wants(const wire::Strip& strip) const {
 
 // And its last strip has not come.
 bool Assembly::is_contributor(const Parts& parts, std::int32_t node) const {
+  if (parts.contributor == kNobody) return false;
   if (parts.contributor != kAll) return parts.contributor == node && parts.contributors_left > 0;
   const auto index = static_cast<std::size_t>(node - group_.first);
   return node >= group_.first && index < drew_keyframe_.size() && !drew_keyframe_[index];
@@ -55,7 +62,11 @@ void Assembly::receive(StripMessage strip) {
   if (header.last == 1) {
     --parts.contributors_left;
     parts.held.push_back(strip.slot());
-    if (header.frame == keyframe_) drew_keyframe_[static_cast<std::size_t>(header.node - group_.first)] = true;
+    const auto member = static_cast<std::size_t>(header.node - group_.first);
+    if (header.frame == keyframe_)
+      drew_keyframe_[member] = true;
+    else
+      --waiting_for_[member];
   }
   if (parts.strips.empty()) waiting_.push_back(header.frame);
   parts.strips.push_back(std::move(strip));

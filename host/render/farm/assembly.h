@@ -7,6 +7,7 @@
 #include <deque>
 #include <map>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "host/render/compositor/compositor.h"
@@ -23,6 +24,11 @@ class Assembly {
   Assembly(const Task& task, const collectives::Group& group, std::int32_t contributors);
 
   std::uint32_t interval() const { return interval_; }
+  // These inbetweens are given to nodes.
+  void give(const Task& task, const Portion& portion);
+  // Inbetweens that are given and have not come, of each of the group's nodes.
+  std::span<const std::size_t> waiting() const { return waiting_for_; }
+
   // Whether it is a strip that is still to come: of a frame of the task, from a node that draws it.
   bool wants(const wire::Strip& strip) const;
   // A strip it wants.
@@ -51,11 +57,12 @@ class Assembly {
   bool done() const { return parts_.empty(); }
 
  private:
-  static constexpr std::int32_t kAll = -1;  // all that draw keyframes
+  static constexpr std::int32_t kAll = -1;     // all that draw keyframes
+  static constexpr std::int32_t kNobody = -2;  // yet
 
   // What is there of a frame.
   struct Parts {
-    std::int32_t contributor = kAll;  // the only node that draws it
+    std::int32_t contributor = kNobody;  // the only node that draws it
     std::int32_t contributors_left = 0;
     std::vector<NodeSlot> held;            // of the last strips that have come
     std::vector<StripMessage> strips;      // to be pasted
@@ -72,6 +79,7 @@ class Assembly {
   std::uint32_t keyframe_;
   bool alone_;                             // the keyframe has no inbetweens: nobody needs its saved background
   std::vector<bool> drew_keyframe_;        // by contributor: its last strip has come
+  std::vector<std::size_t> waiting_for_;   // by node of the group
   std::map<std::uint32_t, Parts> parts_;   // of frames that are not finished
   std::deque<std::uint32_t> waiting_;      // those with strips to be pasted, as they came
   std::size_t not_begun_;                  // those without a picture

@@ -1,6 +1,8 @@
 #include "host/render/farm/farm.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <cstring>
 #include <optional>
 #include <unordered_map>
@@ -10,12 +12,28 @@
 #include "host/render/farm/film_loading.h"
 #include "host/render/farm/group_work.h"
 #include "host/render/farm/node_inbox.h"
+#include "host/render/farm/shares.h"
 #include "host/render/farm/tracing.h"
 #include "node/color/encoding.h"
 #include "node/wire/work.h"
 
 namespace mars::farm {
 namespace {
+
+// That a node took itself, without waiting for the host.
+double own_seconds(const wire::PhaseTimes& times) {
+  return times.dice + times.sum + times.map + times.exchange + times.fill + times.scanline + times.depth;
+}
+
+// `slowness` 1: no longer.
+std::string slow_text(const std::string& node, double slowness) {
+  if (slowness <= 1) return node + " is about as fast as the others again";
+  std::array<char, 16> times{};
+  std::snprintf(times.data(), times.size(), "%.1f", slowness);
+  return node + " takes " + times.data() +
+         " times as long as others for an inbetween and gets fewer: its processor or its link is slow, or busy "
+         "otherwise";
+}
 
 class Farm {
  public:
@@ -35,6 +53,10 @@ class Farm {
   void give_tasks();
   void give_when_asked();
   void give(GroupWork& to);
+  void give_portion(GroupWork& to);
+  void note_given(const collectives::Group& group, const std::vector<Standing>& before, const Portion& portion);
+  void adapt(const wire::Strip& last, GroupWork& by);
+  void report_slow_nodes();
   void receive();
   void receive_strip();
   bool prepare_one();
@@ -59,6 +81,7 @@ class Farm {
   FarmReport report_;
 
   std::vector<GroupWork> groups_;
+  NodeRates rates_;
   std::size_t next_task_ = 0;
   struct WithSink {
     FinishedFrame frame;
@@ -80,6 +103,7 @@ Farm::Farm(std::span<const std::byte> film_block, const Plan& plan, const FarmOp
       listener_(listener),
       slots_(static_cast<int>(numnodes()), options.credits),
       inbox_(sinks.shape().width, sinks.shape().height, sinks.shape().format, slots_, options.cancellation),
+      rates_(static_cast<std::size_t>(numnodes())),
       frames_left_(plan.frames()) {
   for (const collectives::Group& group : plan.groups)
     groups_.emplace_back(group, plan.contributors_of(group), sinks.shape());
@@ -144,6 +168,7 @@ void Farm::render() {
       flick();
   }
   report_.render_seconds = dclock() - start_;
+  report_.slow_times = rates_.slow_times();
   if (frames_left_ > 0) return;
   const ScopedSpan span(trace::HostSpan::finish);
   finish_sinks();
@@ -194,7 +219,7 @@ void Farm::give_tasks() {
   // Every group gets its first before any gets one ahead: there may be few.
   for (std::size_t ahead = 1; ahead <= kTasksAhead; ++ahead)
     for (GroupWork& group : groups_)
-      if (group.tasks() < ahead && next_task_ < plan_.tasks.size()) give(group);
+      if (!group.is_open() && group.tasks() < ahead && next_task_ < plan_.tasks.size()) give(group);
 }
 
 void Farm::give_when_asked() {
@@ -208,12 +233,32 @@ void Farm::give_when_asked() {
 void Farm::give(GroupWork& to) {
   const double given = dclock() - start_;
   const Task& task = plan_.tasks[next_task_++];
+  to.give(task, background_pixel(film_, film_.intervals()[task.interval], sinks_.shape().format), given);
+  give_portion(to);
+}
+
+void Farm::give_portion(GroupWork& to) {
+  const Task& task = to.open_task();
   const ScopedSpan span(trace::HostSpan::give, task.interval);
   const collectives::Group& group = to.group();
-  const std::vector<std::byte> message = render_command(task, group, to.contributors());
+  const std::vector<Standing> before = to.standings(rates_);
+  const Portion portion =
+      to.give_portion(before, options_.adapts ? kTurnsInPortion * before.size() : task.frames.size());
+  const std::vector<std::byte> message = render_command(task, portion, group, to.contributors());
   for (int node = group.first; node < group.first + group.count; ++node)
     csend(wire::kRender, message.data(), static_cast<long>(message.size()), node, 0);
-  to.give(task, background_pixel(film_, film_.intervals()[task.interval], sinks_.shape().format), given);
+  note_given(group, before, portion);
+}
+
+// Nodes that had nothing left were idle until now.
+void Farm::note_given(const collectives::Group& group, const std::vector<Standing>& before, const Portion& portion) {
+  const double now = dclock() - start_;
+  for (std::size_t member = 0; member < before.size(); ++member) {
+    const int node = group.first + static_cast<int>(member);
+    if (before[member].waiting == 0) rates_.ready(node, now);
+    if (!portion.cycle.empty())
+      rates_.given(node, std::ranges::count(portion.cycle, static_cast<std::int32_t>(member)) > 0);
+  }
 }
 
 void Farm::receive() {
@@ -226,8 +271,10 @@ void Farm::receive() {
 
 void Farm::receive_strip() {
   ScopedSpan span(trace::HostSpan::strip);
+  const double begun = dclock();
   StripMessage strip = inbox_.receive_strip(store_);
-  const wire::Strip& header = strip.header();
+  const wire::Strip header = strip.header();
+  rates_.received(header.node, dclock() - begun);
   charge(wire::Work::host_strip, 1);
   span.set_value(header.frame);
   const auto wanting =
@@ -237,6 +284,27 @@ void Farm::receive_strip() {
   if (options_.each_frame && header.last == 1) report_.strips.push_back(header);
   if (options_.heartbeats != nullptr) options_.heartbeats->hear(header);
   wanting->receive(std::move(strip));
+  if (options_.adapts && header.last == 1) adapt(header, *wanting);
+}
+
+// To a node's last strip of a frame. Nodes begin with inbetweens when the keyframe is there.
+void Farm::adapt(const wire::Strip& last, GroupWork& by) {
+  const double now = dclock() - start_;
+  if (last.kind == wire::FrameKind::keyframe) {
+    const collectives::Group& group = by.group();
+    for (int node = group.first; node < group.first + group.count; ++node) rates_.ready(node, now);
+    return;
+  }
+  rates_.came(last.node, now, own_seconds(last.times), work_of(last.work));
+  report_slow_nodes();
+  if (by.is_open() && runs_short(by.standings(rates_))) give_portion(by);
+}
+
+void Farm::report_slow_nodes() {
+  for (const int node : rates_.take_changed()) {
+    const double slowness = rates_.slowness(node);
+    if (listener_.warned) listener_.warned(slow_text(inbox_.name_of(node), slowness));
+  }
 }
 
 // While nothing comes: a buffer for a frame that is being drawn; whether there was one to prepare.

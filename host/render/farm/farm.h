@@ -14,6 +14,7 @@
 #include "host/render/farm/cancellation.h"
 #include "host/render/farm/heartbeats.h"
 #include "host/render/farm/node_memory.h"
+#include "host/render/farm/node_rates.h"
 #include "host/render/farm/plan.h"
 #include "host/render/sinks/sink_pool.h"
 #include "host/render/trace/trace.h"
@@ -28,6 +29,7 @@ struct FarmOptions {
   std::optional<std::uint64_t> still_memory;   // of these, as in NodeMemory; none: as share_node_memory says
   std::int32_t credits = wire::kMaxCredits;    // strips a node may have on the way
   bool each_frame = false;                     // report what is known of each frame, which grows with the film
+  bool adapts = false;                         // slow nodes get fewer inbetweens; long tasks are given in portions
   trace::Trace* trace = nullptr;               // to be filled; none: nothing is recorded
   const Cancellation* cancellation = nullptr;  // none: nobody cancels
   Heartbeats* heartbeats = nullptr;            // none: nobody looks whether nodes live
@@ -59,13 +61,14 @@ struct FarmReport {
   std::vector<FinishedFrame> frames;
   std::uint64_t film_bytes = 0;
   NodeMemory node_memory;
-  double load_seconds = 0;    // from the last node's Hello until all have the film
-  double render_seconds = 0;  // from the first command until the last frame was composed
-  double total_seconds = 0;   // until the sinks had taken it
-  double busy_seconds = 0;    // of these, the host took and composed strips
-  double sink_seconds = 0;    // of all threads that hand frames to the sink
-  wire::HostUnits charged{};  // what the host did, by kind
-  bool cancelled = false;     // before all frames were composed
+  double load_seconds = 0;           // from the last node's Hello until all have the film
+  double render_seconds = 0;         // from the first command until the last frame was composed
+  double total_seconds = 0;          // until the sinks had taken it
+  double busy_seconds = 0;           // of these, the host took and composed strips
+  double sink_seconds = 0;           // of all threads that hand frames to the sink
+  wire::HostUnits charged{};         // what the host did, by kind
+  std::vector<SlowTime> slow_times;  // since the first command; of runs that adapt
+  bool cancelled = false;            // before all frames were composed
 };
 
 // The calling HAL process is the host. When all frames are with the sinks, or when it is cancelled, Stop has been sent

@@ -10,6 +10,8 @@ GroupWork::GroupWork(const collectives::Group& group, std::int32_t contributors,
 
 void GroupWork::give(const Task& task, std::uint64_t background, double now) {
   tasks_.push_back({Assembly(task, group_, contributors_), background, now});
+  open_ = &task;
+  next_inbetween_ = 0;
   if (tasks_.size() == 1) begin_interval();
 }
 
@@ -17,6 +19,24 @@ std::optional<std::uint32_t> GroupWork::drawn_by(std::int32_t node) const {
   for (const Given& task : tasks_)
     if (const auto frame = task.assembly.drawn_by(node)) return frame;
   return std::nullopt;
+}
+
+std::vector<Standing> GroupWork::standings(const NodeRates& rates) const {
+  std::vector<Standing> standings;
+  for (const std::size_t waiting : tasks_.back().assembly.waiting()) {
+    const int node = group_.first + static_cast<int>(standings.size());
+    standings.push_back({waiting, rates.slowness(node), rates.is_forgotten(node)});
+  }
+  return standings;
+}
+
+Portion GroupWork::give_portion(const std::vector<Standing>& standings, std::size_t most) {
+  Portion portion{next_inbetween_, std::min(most, open_->frames.size() - 1 - next_inbetween_)};
+  portion.cycle = share_out(standings, open_->first_inbetween + portion.first, portion.count);
+  tasks_.back().assembly.give(*open_, portion);
+  next_inbetween_ += portion.count;
+  if (next_inbetween_ + 1 == open_->frames.size()) open_ = nullptr;
+  return portion;
 }
 
 bool GroupWork::wants(const wire::Strip& strip) const {

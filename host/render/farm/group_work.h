@@ -5,10 +5,13 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <vector>
 
 #include "hal/collectives/group.h"
 #include "host/render/compositor/compositor.h"
 #include "host/render/farm/assembly.h"
+#include "host/render/farm/node_rates.h"
+#include "host/render/farm/shares.h"
 
 namespace mars::farm {
 
@@ -21,11 +24,22 @@ class GroupWork {
   std::int32_t contributors() const { return contributors_; }  // to keyframes
   // Tasks given and not done.
   std::size_t tasks() const { return tasks_.size(); }
-  // `background`: the pixel where nothing is drawn. `now`: in seconds since the first task was given to any group.
+  // Once all of the task before is given. `background`: the pixel where nothing is drawn. `now`: in seconds since the
+  // first task was given to any group. The task, which outlives it, has portions to be given then.
   void give(const Task& task, std::uint64_t background, double now);
 
   // As Assembly's.
   std::optional<std::uint32_t> drawn_by(std::int32_t node) const;
+
+  // Of the task that was given last.
+
+  // Whether portions of it are left.
+  bool is_open() const { return open_ != nullptr; }
+  const Task& open_task() const { return *open_; }
+  // How its nodes are getting on; `rates` are of all nodes.
+  std::vector<Standing> standings(const NodeRates& rates) const;
+  // The next `most` inbetweens, or as many as are left, are its nodes' from now on.
+  Portion give_portion(const std::vector<Standing>& standings, std::size_t most);
 
   // Whether it is a strip that is still to come.
   bool wants(const wire::Strip& strip) const;
@@ -54,6 +68,8 @@ class GroupWork {
   std::int32_t contributors_;
   compositor::Compositor compositor_;  // the first task's
   std::deque<Given> tasks_;
+  const Task* open_ = nullptr;      // the last of them, while portions are left
+  std::size_t next_inbetween_ = 0;  // of it
 };
 
 }  // namespace mars::farm

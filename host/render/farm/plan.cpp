@@ -27,15 +27,37 @@ Plan make_plan(const wire::FilmView& film, const PlanRequest& request, int nodes
   return plan;
 }
 
-std::vector<std::byte> render_command(const Task& task, const collectives::Group& group, std::int32_t contributors) {
-  const auto count = static_cast<std::uint32_t>(task.frames.size());
-  const bool listed = task.frames.back() - task.frames.front() + 1 != count;
-  const wire::Render command{task.interval, group.first,         group.count,          contributors,
-                             count,         task.frames.front(), task.first_inbetween, listed ? 1u : 0u};
-  std::vector<std::byte> message(sizeof command + (listed ? count * sizeof(std::uint32_t) : 0));
+Portion whole(const Task& task) { return {0, task.frames.size() - 1}; }
+
+std::vector<std::byte> render_command(const Task& task, const Portion& portion, const collectives::Group& group,
+                                      std::int32_t contributors) {
+  const bool goes_on = portion.first > 0;
+  const std::span<const std::uint32_t> all(task.frames);
+  const auto frames = goes_on ? all.subspan(1 + portion.first, portion.count) : all;
+  const bool listed = frames.back() - frames.front() + 1 != frames.size();
+  wire::Render command{};
+  command.interval = task.interval;
+  command.group_first = group.first;
+  command.group_count = group.count;
+  command.contributors = contributors;
+  command.frame_count = static_cast<std::uint32_t>(frames.size());
+  command.first_frame = frames.front();
+  command.first_inbetween = task.first_inbetween + portion.first;
+  command.drawn = static_cast<std::uint32_t>(portion.count + (goes_on ? 0 : 1));
+  command.cycle = static_cast<std::uint16_t>(portion.cycle.size());
+  command.listed = listed ? 1 : 0;
+  command.goes_on = goes_on ? 1 : 0;
+  const std::size_t list_bytes = listed ? frames.size_bytes() : 0;
+  const auto cycle = std::as_bytes(std::span(portion.cycle));
+  std::vector<std::byte> message(sizeof command + list_bytes + cycle.size());
   std::memcpy(message.data(), &command, sizeof command);
-  if (listed) std::memcpy(message.data() + sizeof command, task.frames.data(), message.size() - sizeof command);
+  if (listed) std::memcpy(message.data() + sizeof command, frames.data(), list_bytes);
+  std::ranges::copy(cycle, message.begin() + static_cast<std::ptrdiff_t>(sizeof command + list_bytes));
   return message;
+}
+
+std::vector<std::byte> render_command(const Task& task, const collectives::Group& group, std::int32_t contributors) {
+  return render_command(task, whole(task), group, contributors);
 }
 
 std::vector<Task> make_tasks(const wire::FilmView& film, std::span<const std::uint32_t> frames, bool coherence) {

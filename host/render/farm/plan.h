@@ -21,6 +21,16 @@ struct Task {
   std::uint64_t first_inbetween;      // inbetweens in all tasks before: turns go over the whole film
 };
 
+// Some of a task's inbetweens, that are given to its group together; the first such portion has the keyframe, too.
+struct Portion {
+  std::size_t first = 0;  // among the task's inbetweens
+  std::size_t count = 0;
+  std::vector<std::int32_t> cycle{};  // of the nodes that draw them (wire::Render); empty: in turns
+};
+
+// All of a task at once, in turns.
+Portion whole(const Task& task);
+
 // Given to a group at a time, so that it never waits for the host.
 inline constexpr std::size_t kTasksAhead = 2;
 
@@ -46,7 +56,9 @@ struct Plan {
 
 Plan make_plan(const wire::FilmView& film, const PlanRequest& request, int nodes);
 
-// The task as a Render message: short where its frames follow each other.
+// A portion of the task, or all of it, as a Render message: short where its frames follow each other.
+std::vector<std::byte> render_command(const Task& task, const Portion& portion, const collectives::Group& group,
+                                      std::int32_t contributors);
 std::vector<std::byte> render_command(const Task& task, const collectives::Group& group, std::int32_t contributors);
 
 std::vector<Task> make_tasks(const wire::FilmView& film, std::span<const std::uint32_t> frames, bool coherence);

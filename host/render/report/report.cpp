@@ -55,6 +55,19 @@ ordered_json charged_json(std::span<const std::uint64_t> charged, std::size_t fi
   return units;
 }
 
+// `end`: null where it was slow until the last frame.
+ordered_json slow_json(const farm::FarmReport& report) {
+  ordered_json times = ordered_json::array();
+  for (const farm::SlowTime& time : report.slow_times) {
+    times.push_back({{"node", time.node},
+                     {"host", report.nodes.at(static_cast<std::size_t>(time.node)).host.data()},
+                     {"times", time.slowness},
+                     {"begin", time.begin},
+                     {"end", time.end ? ordered_json(*time.end) : ordered_json()}});
+  }
+  return times;
+}
+
 ordered_json host_json(const farm::FarmReport& report) {
   return {{"busy_seconds", report.busy_seconds},
           {"sink_seconds", report.sink_seconds},
@@ -134,6 +147,7 @@ std::string report_text(const ReportHead& head, const farm::FarmReport& report) 
                             {"host", host_json(report)},
                             {"nodes", nodes},
                             {"dimensions", dimensions_json(report.nodes)},
+                            {"slow", slow_json(report)},
                             {"frames", frames_json(report)}};
   return all.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }

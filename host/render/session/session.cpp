@@ -91,6 +91,7 @@ farm::FarmOptions farm_options(const RenderJob& job, const farm::HostMemory& mem
   farm.mapping = job.mapping;
   farm.credits = memory.credits;
   farm.each_frame = !job.report.empty();
+  farm.adapts = job.adapts;
   farm.trace = trace;
   farm.heartbeats = &heartbeats;
   return farm;

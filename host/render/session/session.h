@@ -44,6 +44,7 @@ struct RenderJob {
   film::FrameSet frames;
   wire::Mapping mapping = wire::Mapping::cost;
   bool coherence = true;
+  bool adapts = true;                  // as in farm::FarmOptions
   std::uint32_t block = 16;            // side of the compositor's blocks, pixels
   std::uint32_t groups = 0;            // as in PlanRequest
   std::string report;                  // file for the measurements; "": none

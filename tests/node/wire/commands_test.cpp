@@ -110,60 +110,105 @@ class RenderCommands : public testing::Test {
     std::memcpy(words_.data(), block_.data(), block_.size());
   }
   FilmView film() const { return {std::as_bytes(std::span(words_)).first(block_.size()), "film"}; }
-  bool refused(const Render& render, const std::vector<std::uint32_t>& frames) const {
-    return !refusal([&] { read_render(message(render, frames), film(), 1, 5, 2, frames_); }).empty();
+  RenderCommand read(const Bytes& bytes) const { return read_render(bytes, film(), {1, 5, 2, left_}, frames_); }
+  bool refused(const Render& render, const std::vector<std::uint32_t>& list) const {
+    return !refusal([&] { read(message(render, list)); }).empty();
   }
 
   std::vector<std::byte> block_;
   std::vector<std::uint64_t> words_;
-  const Render sound_{0, 0, 2, 2, 2, 0, 7, 1};
+  const Render sound_{0, 0, 2, 2, 2, 0, 7, 2, 0, 1, 0};
+  std::vector<std::uint32_t> left_;  // for Renders that go on
   mutable std::vector<std::uint32_t> frames_;
 };
 
 TEST_F(RenderCommands, SoundOnesAreTaken) {
   const Bytes bytes = message(sound_, std::vector<std::uint32_t>{0, 1});
-  const RenderCommand command = read_render(bytes, film(), 1, 5, 2, frames_);
+  const RenderCommand command = read(bytes);
   EXPECT_EQ(command.render.first_inbetween, 7u);
   EXPECT_EQ(command.frames[1], 1u);
-  EXPECT_FALSE(refused({1, 0, 2, 1, 1, 0, 0, 1}, {2}));
+  EXPECT_FALSE(refused({1, 0, 2, 1, 1, 0, 0, 1, 0, 1, 0}, {2}));
 }
 
 TEST_F(RenderCommands, FramesThatFollowEachOtherNeedNoList) {
-  const Bytes bytes = message(Render{0, 0, 2, 2, 2, 0, 7, 0}, std::vector<std::uint32_t>{});
-  EXPECT_TRUE(std::ranges::equal(read_render(bytes, film(), 1, 5, 2, frames_).frames, std::vector{0u, 1u}));
-  EXPECT_TRUE(refused({0, 0, 2, 2, 3, 0, 7, 0}, {})) << "beyond the interval";
-  EXPECT_TRUE(refused({0, 0, 2, 2, 0xffffffff, 0, 7, 0}, {}));
-  EXPECT_TRUE(refused({0, 0, 2, 2, 2, 0xffffffff, 7, 0}, {}));
-  EXPECT_TRUE(refused({0, 0, 2, 2, 2, 0, 7, 0}, {0, 1})) << "a list, too";
-  EXPECT_TRUE(refused({0, 0, 2, 2, 2, 0, 7, 2}, {0, 1}));
+  const Bytes bytes = message(Render{0, 0, 2, 2, 2, 0, 7, 2, 0, 0, 0}, std::vector<std::uint32_t>{});
+  EXPECT_TRUE(std::ranges::equal(read(bytes).frames, std::vector{0u, 1u}));
+  EXPECT_TRUE(refused({0, 0, 2, 2, 3, 0, 7, 3, 0, 0, 0}, {})) << "beyond the interval";
+  EXPECT_TRUE(refused({0, 0, 2, 2, 0xffffffff, 0, 7, 0xffffffff, 0, 0, 0}, {}));
+  EXPECT_TRUE(refused({0, 0, 2, 2, 2, 0xffffffff, 7, 2, 0, 0, 0}, {}));
+  EXPECT_TRUE(refused({0, 0, 2, 2, 2, 0, 7, 2, 0, 0, 0}, {0, 1})) << "a list, too";
+  EXPECT_TRUE(refused({0, 0, 2, 2, 2, 0, 7, 2, 0, 2, 0}, {0, 1}));
+}
+
+TEST_F(RenderCommands, ACycleFollowsTheFrames) {
+  Render render = sound_;
+  render.cycle = 3;
+  const Bytes bytes = message(render, std::vector<std::uint32_t>{0, 1, 1, 1, 0});
+  const RenderCommand command = read(bytes);
+  EXPECT_TRUE(std::ranges::equal(command.frames, std::vector{0u, 1u}));
+  EXPECT_TRUE(std::ranges::equal(command.cycle, std::vector{1, 1, 0}));
+  EXPECT_EQ(command.contributor(0), 1) << "inbetween 7 of the film";
+  EXPECT_EQ(command.contributor(1), 0);
+  EXPECT_TRUE(refused(render, {0, 1, 1, 1, 2})) << "of two nodes";
+  EXPECT_TRUE(refused(render, {0, 1, 1, 1, 0xffffffff}));
+  EXPECT_TRUE(refused(render, {0, 1, 1, 1}));
+  EXPECT_TRUE(refused(render, {0, 1, 1, 1, 0, 0}));
+}
+
+TEST_F(RenderCommands, SomeFramesMayBeLeftForLater) {
+  Render render = sound_;
+  render.drawn = 1;
+  const Bytes bytes = message(render, std::vector<std::uint32_t>{0, 1});
+  EXPECT_TRUE(read(bytes).inbetweens().empty());
+  EXPECT_TRUE(std::ranges::equal(read(bytes).left(), std::vector{1u}));
+  for (const std::uint32_t drawn : {0u, 3u, 0xffffffffu}) {
+    render.drawn = drawn;
+    EXPECT_TRUE(refused(render, {0, 1})) << drawn;
+  }
+}
+
+TEST_F(RenderCommands, ThatGoOnHaveTheNextOfThoseLeft) {
+  Render render{0, 0, 2, 2, 1, 1, 7, 1, 0, 0, 1};
+  EXPECT_TRUE(refused(render, {})) << "nothing is left";
+  left_ = {1};
+  const Bytes bytes = message(render, std::vector<std::uint32_t>{});
+  EXPECT_TRUE(std::ranges::equal(read(bytes).inbetweens(), std::vector{1u}));
+  EXPECT_TRUE(read(bytes).left().empty());
+  left_ = {0, 1};
+  EXPECT_TRUE(refused(render, {})) << "not the next";
+  left_ = {1};
+  EXPECT_TRUE(refused({0, 0, 2, 2, 2, 0, 7, 2, 0, 0, 1}, {})) << "more than are left";
+  EXPECT_TRUE(refused({0, 0, 2, 2, 1, 1, 7, 1, 0, 0, 2}, {}));
+  left_ = {0, 1};
+  EXPECT_TRUE(refused({0, 0, 2, 2, 2, 0, 7, 1, 0, 0, 1}, {})) << "it draws them all";
 }
 
 TEST_F(RenderCommands, OfNoSuchContributors) {
-  EXPECT_TRUE(refused({0, 0, 2, 0, 2, 0, 7, 1}, {0, 1}));
-  EXPECT_TRUE(refused({0, 0, 2, 3, 2, 0, 7, 1}, {0, 1}));
-  EXPECT_FALSE(refused({0, 0, 2, 1, 2, 0, 7, 1}, {0, 1}));
+  EXPECT_TRUE(refused({0, 0, 2, 0, 2, 0, 7, 2, 0, 1, 0}, {0, 1}));
+  EXPECT_TRUE(refused({0, 0, 2, 3, 2, 0, 7, 2, 0, 1, 0}, {0, 1}));
+  EXPECT_FALSE(refused({0, 0, 2, 1, 2, 0, 7, 2, 0, 1, 0}, {0, 1}));
 }
 
 TEST_F(RenderCommands, OfAnotherSize) {
   EXPECT_TRUE(refused(sound_, {0}));
   EXPECT_TRUE(refused(sound_, {0, 1, 1}));
-  EXPECT_TRUE(refused({0, 0, 2, 1, 0, 0, 0, 1}, {}));
-  EXPECT_TRUE(refused({0, 0, 2, 1, 0xffffffff, 0, 0, 1}, {0, 1}));
-  EXPECT_FALSE(refusal([this] { read_render({}, film(), 1, 5, 2, frames_); }).empty());
+  EXPECT_TRUE(refused({0, 0, 2, 1, 0, 0, 0, 0, 0, 1, 0}, {}));
+  EXPECT_TRUE(refused({0, 0, 2, 1, 0xffffffff, 0, 0, 0xffffffff, 0, 1, 0}, {0, 1}));
+  EXPECT_FALSE(refusal([this] { read({}); }).empty());
   Bytes bytes = message(sound_, std::vector<std::uint32_t>{0, 1});
   bytes.push_back({});
-  EXPECT_FALSE(refusal([&] { read_render(bytes, film(), 1, 5, 2, frames_); }).empty());
+  EXPECT_FALSE(refusal([&] { read(bytes); }).empty());
 }
 
 TEST_F(RenderCommands, ForOthersOrOfNoSuchFrames) {
-  EXPECT_TRUE(refused({2, 0, 2, 1, 1, 0, 0, 1}, {2})) << "no such interval";
-  EXPECT_TRUE(refused({0, 2, 3, 1, 2, 0, 0, 1}, {0, 1})) << "another group's";
-  EXPECT_TRUE(refused({0, 0, 3, 1, 2, 0, 0, 1}, {0, 1})) << "no group";
-  EXPECT_TRUE(refused({0, -1, 3, 1, 2, 0, 0, 1}, {0, 1}));
+  EXPECT_TRUE(refused({2, 0, 2, 1, 1, 0, 0, 1, 0, 1, 0}, {2})) << "no such interval";
+  EXPECT_TRUE(refused({0, 2, 3, 1, 2, 0, 0, 2, 0, 1, 0}, {0, 1})) << "another group's";
+  EXPECT_TRUE(refused({0, 0, 3, 1, 2, 0, 0, 2, 0, 1, 0}, {0, 1})) << "no group";
+  EXPECT_TRUE(refused({0, -1, 3, 1, 2, 0, 0, 2, 0, 1, 0}, {0, 1}));
   EXPECT_TRUE(refused(sound_, {1, 0}));
   EXPECT_TRUE(refused(sound_, {1, 1}));
   EXPECT_TRUE(refused(sound_, {1, 2})) << "beyond the interval";
-  EXPECT_TRUE(refused({1, 0, 2, 1, 1, 0, 0, 1}, {1})) << "before the interval";
+  EXPECT_TRUE(refused({1, 0, 2, 1, 1, 0, 0, 1, 0, 1, 0}, {1})) << "before the interval";
 }
 
 // Slot 1 of three is the node's.

@@ -27,5 +27,12 @@ TEST(Contributors, GoOnWhereTheIntervalBeforeEnded) {
             (std::vector<std::int32_t>{1}));
 }
 
+TEST(Contributors, GoByTheCycleOverTheWholeFilm) {
+  const std::vector<std::int32_t> cycle{2, 0, 2};
+  EXPECT_EQ(contributor_of_inbetween(0, 3, cycle), 2);
+  EXPECT_EQ(contributor_of_inbetween(4, 3, cycle), 0);
+  EXPECT_EQ(contributor_of_inbetween(1'000'000'000'001, 3, cycle), 2);
+}
+
 }  // namespace
 }  // namespace mars::wire

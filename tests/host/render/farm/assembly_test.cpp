@@ -110,6 +110,7 @@ void expect_put_together(unsigned seed) {
     Drawn drawn = draw(random, task, nodes, store);
     expected.merge(drawn.pictures);
     Assembly assembly(task, {0, nodes}, nodes);
+    assembly.give(task, whole(task));
     compositor.begin_interval(kPlain);
     EXPECT_EQ(assembly.interval(), number);
     std::size_t not_pasted = 0;  // strips that are not a node's last of their frame
@@ -144,7 +145,9 @@ TEST(Assembly, PutsFramesTogetherFromStripsInAnyOrder) {
 struct OneTask {
   OneTask(std::vector<std::uint32_t> frames, std::uint32_t buffers, int nodes)
       : pool(sink, {kWidth, kHeight, kBlock, buffers, 1, kPlain}),
-        assembly({0, std::move(frames), 0}, {0, nodes}, nodes) {
+        task{0, std::move(frames), 0},
+        assembly(task, {0, nodes}, nodes) {
+    assembly.give(task, whole(task));
     compositor.begin_interval(kPlain);
   }
 
@@ -164,6 +167,7 @@ struct OneTask {
   sinks::SinkPool pool;
   compositor::Compositor compositor{kWidth, kHeight, kBlock};
   StripStore store;
+  Task task;
   Assembly assembly;
 };
 
@@ -252,6 +256,26 @@ TEST(Assembly, KnowsWhatANodeDraws) {
   task.receive(6, 1);
   EXPECT_EQ(drawn_by(1), std::nullopt);
   EXPECT_EQ(drawn_by(0), 4u);
+}
+
+TEST(Assembly, WantsInbetweensOnceTheyAreGivenFromWhomTheyAreGiven) {
+  const Task task{0, {4, 5, 6, 7}, 0};
+  Assembly assembly(task, {2, 2}, 2);
+  const auto wants = [&](std::uint32_t frame, std::int32_t node) {
+    wire::Strip strip{};
+    strip.frame = frame;
+    strip.node = node;
+    strip.kind = wire::FrameKind::inbetween;
+    return assembly.wants(strip);
+  };
+  assembly.give(task, {0, 2, {1}});
+  EXPECT_TRUE(wants(5, 3));
+  EXPECT_TRUE(wants(6, 3));
+  EXPECT_FALSE(wants(5, 2));
+  for (const int node : {-2, -1, 2, 3}) EXPECT_FALSE(wants(7, node)) << node;
+  EXPECT_TRUE(std::ranges::equal(assembly.waiting(), std::vector<std::size_t>{0, 2}));
+  assembly.give(task, {2, 1});
+  EXPECT_TRUE(wants(7, 2));
 }
 
 TEST(Assembly, WithoutABufferStripsWait) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <numeric>
 
 #include "node/wire/protocol.h"
@@ -63,6 +64,39 @@ TEST(Plan, WithoutAWishAGroupForEveryFourTasks) {
   EXPECT_EQ(make_groups(8, 0, 7).size(), 1u);
   EXPECT_EQ(make_groups(8, 0, 8).size(), 2u);
   EXPECT_EQ(make_groups(8, 0, 1000).size(), 8u);
+}
+
+wire::Render head_of(const std::vector<std::byte>& message) {
+  wire::Render render;
+  std::memcpy(&render, message.data(), sizeof render);
+  return render;
+}
+
+TEST(Plan, ATasksFirstPortionNamesAllFramesAndLaterOnesTheirOwn) {
+  const Task task{3, {10, 11, 12, 14, 15, 16}, 100};
+  const auto first = render_command(task, {0, 2}, {4, 3}, 2), then = render_command(task, {2, 1, {2}}, {4, 3}, 2),
+             last = render_command(task, {3, 2}, {4, 3}, 2);
+  EXPECT_EQ(head_of(first).frame_count, 6u);
+  EXPECT_EQ(head_of(first).drawn, 3u) << "and the keyframe";
+  EXPECT_EQ(head_of(first).goes_on, 0);
+  EXPECT_EQ(head_of(first).listed, 1);
+  EXPECT_EQ(first.size(), sizeof(wire::Render) + 6 * sizeof(std::uint32_t));
+  EXPECT_EQ(head_of(then).first_frame, 14u);
+  EXPECT_EQ(head_of(then).first_inbetween, 102u);
+  EXPECT_EQ(head_of(then).goes_on, 1);
+  EXPECT_EQ(head_of(then).cycle, 1);
+  EXPECT_EQ(then.size(), sizeof(wire::Render) + sizeof(std::int32_t));
+  EXPECT_EQ(head_of(last).frame_count, 2u);
+  EXPECT_EQ(head_of(last).drawn, 2u);
+  EXPECT_EQ(last.size(), sizeof(wire::Render)) << "its frames follow each other";
+}
+
+TEST(Plan, AWholeTaskIsTold) {
+  const Task task{3, {10, 11, 12}, 100};
+  const auto all = render_command(task, {4, 3}, 2);
+  EXPECT_EQ(all.size(), 40u) << "as long as ever: simulated times count it";
+  EXPECT_EQ(head_of(all).drawn, 3u);
+  EXPECT_EQ(head_of(all).cycle, 0);
 }
 
 TEST(Plan, InbetweensGoRoundTheGroup) {

@@ -18,6 +18,7 @@
 #include "host/render/farm/farm.h"
 #include "tests/host/render/farm/empty_film.h"
 #include "tests/host/render/farm/strips.h"
+#include "node/wire/commands.h"
 #include "node/wire/greeting.h"
 
 namespace mars::farm {
@@ -91,6 +92,7 @@ class ScriptedNode {
   struct Command {
     wire::Render render;
     std::vector<std::uint32_t> frames;
+    std::vector<std::int32_t> cycle{};
   };
   std::optional<Command> next_command() {
     while (true) {
@@ -107,9 +109,12 @@ class ScriptedNode {
     std::memcpy(&command.render, message.data(), sizeof command.render);
     command.frames.resize(command.render.frame_count);
     std::iota(command.frames.begin(), command.frames.end(), command.render.first_frame);
-    if (command.render.listed == 1)
-      std::memcpy(command.frames.data(), message.data() + sizeof command.render,
-                  command.frames.size() * sizeof(std::uint32_t));
+    const std::size_t list_bytes = command.render.listed == 1 ? command.frames.size() * sizeof(std::uint32_t) : 0;
+    if (list_bytes > 0) std::memcpy(command.frames.data(), message.data() + sizeof command.render, list_bytes);
+    command.cycle.resize(command.render.cycle);
+    if (!command.cycle.empty())
+      std::memcpy(command.cycle.data(), message.data() + sizeof command.render + list_bytes,
+                  command.cycle.size() * sizeof(std::int32_t));
     return command;
   }
 
@@ -136,7 +141,8 @@ class ScriptedNode {
     wire::Strip strip{};
     strip.frame = frame;
     strip.interval = command.render.interval;
-    strip.kind = frame == command.frames.front() ? wire::FrameKind::keyframe : wire::FrameKind::inbetween;
+    const bool keyframe = command.render.goes_on == 0 && frame == command.frames.front();
+    strip.kind = keyframe ? wire::FrameKind::keyframe : wire::FrameKind::inbetween;
     strip.node = static_cast<std::int32_t>(mynode());
     strip.last = 1;
     strip.last_line = 8;
@@ -158,12 +164,11 @@ class ScriptedNode {
 
   // This node's frames of a task: the keyframe and its inbetweens.
   static std::vector<std::uint32_t> own_frames(const Command& command) {
-    std::vector<std::uint32_t> own{command.frames.front()};
-    const wire::Render& render = command.render;
-    for (std::size_t k = 1; k < command.frames.size(); ++k)
-      if (render.group_first + wire::contributor_of_inbetween(render.first_inbetween + k - 1, render.group_count) ==
-          mynode())
-        own.push_back(command.frames[k]);
+    const wire::RenderCommand read{command.render, command.frames, command.cycle};
+    std::vector<std::uint32_t> own;
+    if (command.render.goes_on == 0) own.push_back(command.frames.front());
+    for (std::size_t k = 0; k < read.inbetweens().size(); ++k)
+      if (command.render.group_first + read.contributor(k) == mynode()) own.push_back(read.inbetweens()[k]);
     return own;
   }
 
