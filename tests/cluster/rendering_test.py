@@ -54,7 +54,7 @@ class Rendering(ClusterTest):
         run = lambda *more: self.on("n1", "mars", "render", self.film, "-o", "out", "--hostfile", self.hostfile,
                                     *more).stdout
         self.assertShown(run(), 7)
-        self.assertShown(run("--nodes", 16), 16)
+        self.assertShown(run("--nodes", 16, "--overwrite"), 16)
 
     def test_sbatch_with_mpirun(self):
         self.assertRendered(self.submit("mpirun.sbatch", "--ntasks=8"), 7)
@@ -72,7 +72,7 @@ class Rendering(ClusterTest):
         run = lambda *more: self.on("n0", "salloc", "--quiet", "--nodes=4", "--ntasks=8", "mars", "render",
                                     self.film, "-o", "out", *more).stdout
         self.assertShown(run(), 7)
-        self.assertShown(run("--nodes", 16), 16)
+        self.assertShown(run("--nodes", 16, "--overwrite"), 16)
 
     def test_the_doctor_sees_every_machine(self):
         look = lambda code: self.on("n0", "salloc", "--quiet", "--nodes=4", "--ntasks=8", "mars", "doctor",

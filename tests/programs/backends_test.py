@@ -12,7 +12,7 @@ class Backends(ProgramTest):
         cls.hashes = {}
 
     def hash_of(self, *options):
-        self.succeed("mars", "render", FILM, "-o", "out", "-q", *FEW, *options)
+        self.succeed("mars", "render", FILM, "-o", "out", "--overwrite", "-q", *FEW, *options)
         return self.verified_hash(self.folder / "out")
 
     def expected(self):

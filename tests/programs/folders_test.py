@@ -37,7 +37,7 @@ class Folders(ProgramTest):
         process.communicate()
 
     def assertOnlyFrames(self):
-        self.assertEqual({path.suffix for path in self.out.iterdir()}, {".png", ".json"})
+        self.assertEqual({path.suffix for path in self.out.iterdir()}, {".png", ".json", ".mars"})
         self.assertNothingTorn(self.out)
 
     def test_short_runs_do_no_harm_to_a_long_one(self):
@@ -66,7 +66,8 @@ class Folders(ProgramTest):
         long.terminate()
         long.communicate(timeout=SECONDS)
         self.assertOnlyFrames()
-        self.assertEqual(self.render(self.other, "0-3").returncode, 0, "nobody is there any more")
+        self.assertClear(self.render(self.other, "0-3").stderr, "or replace them with --overwrite")
+        self.assertEqual(self.render(self.other, "0-3", "--overwrite").returncode, 0, "nobody is there any more")
         self.assertIn("4 frames, all there", self.succeed("mars", "verify", "out"))
 
     def test_of_runs_started_at_once_one_goes_on(self):
@@ -141,7 +142,7 @@ class Folders(ProgramTest):
         self.assertEqual(printed.returncode, 1)
         self.assertIn("frame 4: other pixels than were rendered\n", printed.stdout)
         self.assertEqual(self.missing(), "3-4,8")
-        self.assertEqual(self.render(self.film, self.missing()).returncode, 0)
+        self.assertEqual(self.render(self.film, self.missing(), "--overwrite").returncode, 0)
         self.assertEqual(self.verified_hash("out"), expected)
 
 

@@ -144,7 +144,7 @@ class Formats(ProgramTest):
         printed = self.mars("verify", out).stdout
         self.assertIn("frame 1: not a whole EXR picture", printed)
         self.assertEqual(self.succeed("mars", "verify", out, "--missing").strip(), "1,3")
-        self.render("out", "exr", "--frames", "1,3", "--backend", "threads")
+        self.render("out", "exr", "--frames", "1,3", "--overwrite", "--backend", "threads")
         self.assertEqual(self.verified_hash(out), expected)
 
     def test_play_shows_png_and_refuses_exr(self):

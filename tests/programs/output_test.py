@@ -19,7 +19,8 @@ class Output(ProgramTest):
     def test_the_line_shown_can_be_pasted(self):
         film = self.write("it's a film.json", TEAPOT.read_text())
         for backend in self.backends():
-            printed = self.succeed("mars", "render", film, "-o", "a b", "--backend", backend, "--nodes", 2)
+            printed = self.succeed("mars", "render", film, "-o", "a b", "--backend", backend, "--nodes", 2,
+                                   "--overwrite")
             expected = self.verified_hash("a b")
             (self.folder / "a b/frame-0000.png").unlink()
             events = self.succeed("sh", "-c", printed.splitlines()[0])

@@ -23,7 +23,8 @@ def processor_seconds(process):
 @unittest.skipIf(MPICH, "MPICH spins while it starts, for seconds where ranks share processors")
 class Oversubscription(ProgramTest):
     def pixels(self, film, nodes, *more):
-        self.succeed("mars", "render", film, "-o", "out", "--nodes", nodes, "--backend", "mpi", "--quiet", *more)
+        self.succeed("mars", "render", film, "-o", "out", "--overwrite", "--nodes", nodes, "--backend", "mpi", "--quiet",
+                     *more)
         return self.verified_hash("out")
 
     def test_every_number_of_nodes(self):

@@ -23,7 +23,7 @@ class Traces(ProgramTest):
         for backend in self.backends():
             with self.subTest(backend=backend):
                 self.succeed("mars", "render", ARM, "-o", "out", "--size", "64x36", "--frames", "0-9", "--nodes", 2,
-                             "--backend", backend, "--trace", "trace.json", "--report", "report.json")
+                             "--overwrite", "--backend", backend, "--trace", "trace.json", "--report", "report.json")
                 trace = self.trace()
                 self.assertEqual(trace["otherData"]["backend"], backend)
                 self.assertEqual(trace["otherData"]["events_beyond_bound"], 0)

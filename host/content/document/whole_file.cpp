@@ -170,8 +170,14 @@ void write_whole_file(const std::filesystem::path& path, const std::function<voi
 
 void replace_file(const std::filesystem::path& path, const std::filesystem::path& part,
                   std::span<const std::byte> bytes) {
+  const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  replace_file(path, part, [all](const Write& write) { write(all); });
+}
+
+void replace_file(const std::filesystem::path& path, const std::filesystem::path& part,
+                  const std::function<void(const Write&)>& produce) {
   Part file(path, path, part);
-  file.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  produce([&file](std::string_view piece) { file.write(piece); });
   file.rename_to_target();
 }
 

@@ -28,6 +28,8 @@ void write_whole_file(const std::filesystem::path& path, const std::function<voi
 // write where it leads. `part` is the temporary file, on the same file system.
 void replace_file(const std::filesystem::path& path, const std::filesystem::path& part,
                   std::span<const std::byte> bytes);
+void replace_file(const std::filesystem::path& path, const std::filesystem::path& part,
+                  const std::function<void(const Write&)>& produce);
 
 // A new file, which readers may see before it is whole; removed again where writing fails. False where its folder is
 // not there. Throws Failure also where there is something of that name.

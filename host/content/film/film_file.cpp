@@ -40,18 +40,24 @@ std::array<char, 32> checksum_over(const Header& header, std::span<const std::by
   throw Failure("is no sound compiled film: " + what, path.string(), "compile the film again with `mars compile`");
 }
 
-}  // namespace
-
-void save_film(const CompiledFilm& film, const std::filesystem::path& path) {
+void write_film(const CompiledFilm& film, const document::Write& write) {
   Header header{kMagic, wire::kFilmVersion, film.actors, film.joints, 0, film.block().size(), {}};
   header.checksum = checksum_over(header, film.block());
   const auto text_of = [](const void* bytes, std::size_t count) {
     return std::string_view(static_cast<const char*>(bytes), count);
   };
-  document::write_whole_file(path, [&](const document::Write& write) {
-    write(text_of(&header, sizeof header));
-    write(text_of(film.block().data(), film.block().size()));
-  });
+  write(text_of(&header, sizeof header));
+  write(text_of(film.block().data(), film.block().size()));
+}
+
+}  // namespace
+
+void save_film(const CompiledFilm& film, const std::filesystem::path& path) {
+  document::write_whole_file(path, [&](const document::Write& write) { write_film(film, write); });
+}
+
+void save_film(const CompiledFilm& film, const std::filesystem::path& path, const std::filesystem::path& part) {
+  document::replace_file(path, part, [&](const document::Write& write) { write_film(film, write); });
 }
 
 bool is_compiled_film(const std::filesystem::path& path) {

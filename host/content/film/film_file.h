@@ -9,6 +9,8 @@
 namespace mars::film {
 
 void save_film(const CompiledFilm& film, const std::filesystem::path& path);
+// For a folder that MARS keeps: `part` is the temporary file (document::replace_file).
+void save_film(const CompiledFilm& film, const std::filesystem::path& path, const std::filesystem::path& part);
 
 // Whether the file begins as a .mars file; false if it cannot be read.
 bool is_compiled_film(const std::filesystem::path& path);

@@ -271,4 +271,10 @@ FarmReport render_film(std::span<const std::byte> film_block, const Plan& plan, 
   return Farm(film_block, plan, options, sinks, listener).run();
 }
 
+void dismiss_nodes() {
+  NodeSlots slots(static_cast<int>(numnodes()), 1);
+  NodeInbox(1, 1, wire::PixelFormat::rgb8, slots, nullptr).receive_hellos();
+  for (long node = 0; node < numnodes(); ++node) csend(wire::kStop, nullptr, 0, node, 0);
+}
+
 }  // namespace mars::farm

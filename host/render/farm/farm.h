@@ -72,6 +72,9 @@ struct FarmReport {
 FarmReport render_film(std::span<const std::byte> film_block, const Plan& plan, const FarmOptions& options,
                        sinks::SinkPool& sinks, const FarmListener& listener);
 
+// Where there is nothing to draw: once all nodes are there, they are stopped without a film.
+void dismiss_nodes();
+
 // The pixel of the film's frames where nothing is drawn, in this interval.
 std::uint64_t background_pixel(const wire::FilmView& film, const wire::Interval& interval, wire::PixelFormat format);
 

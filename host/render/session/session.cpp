@@ -13,6 +13,7 @@
 #include "host/render/farm/host_memory.h"
 #include "host/render/farm/node_inbox.h"
 #include "host/render/report/report.h"
+#include "host/render/resume/resume.h"
 #include "host/render/session/event_reporter.h"
 #include "host/render/sinks/frame_folder.h"
 #include "host/render/sinks/sink_pool.h"
@@ -25,37 +26,11 @@ namespace {
 
 constexpr int kMostSinks = 64;
 
-// Where the frames go: a folder with its sink, or nowhere.
-class Destination {
- public:
-  Destination(const RenderJob& job, const film::CompiledFilm& film, const std::vector<std::uint32_t>& frames) {
-    if (job.folder.empty()) {
-      sink_ = std::make_unique<sinks::NullSink>();
-      return;
-    }
-    const wire::FilmSettings& settings = film.view().settings();
-    folder_.emplace(job.folder, sinks::Manifest{job.film,
-                                                document::checksum_of(film.block()),
-                                                settings.width,
-                                                settings.height,
-                                                job.format,
-                                                settings.rate,
-                                                settings.frames,
-                                                frames,
-                                                {}});
-    sink_ = std::make_unique<sinks::FileSink>(*folder_);
-  }
-
-  sinks::Sink& sink() { return *sink_; }
-  // Once it has taken all frames.
-  void finish() {
-    if (folder_) folder_->finish();
-  }
-
- private:
-  std::optional<sinks::FrameFolder> folder_;
-  std::unique_ptr<sinks::Sink> sink_;
-};
+// To nowhere where there is no folder.
+std::unique_ptr<sinks::Sink> make_sink(sinks::FrameFolder* folder) {
+  if (folder == nullptr) return std::make_unique<sinks::NullSink>();
+  return std::make_unique<sinks::FileSink>(*folder);
+}
 
 farm::HostMemory memory_for(const HostMachine& host, const wire::FilmSettings& film, wire::PixelFormat format,
                             const farm::Plan& plan) {
@@ -93,18 +68,34 @@ std::unique_ptr<trace::Trace> begin_trace(const RenderJob& job) {
   return std::make_unique<trace::Trace>();
 }
 
-film::CompiledFilm load_film(const RenderJob& job, const EventReporter& reporter, double& seconds) {
+// The film, and which of its frames are to be rendered.
+resume::Opened open_film(const RenderJob& job, const EventReporter& reporter) {
+  const auto warn = [&](const std::string& line) { reporter.report(events::Warning{line}); };
+  const auto compile = [&] { return job.load_film(warn); };
+  if (!job.folder.empty())
+    return resume::open({job.folder, job.film, job.film_options, job.format, job.frames, job.overwrite}, compile, warn);
+  film::CompiledFilm film = compile();
+  std::vector<std::uint32_t> frames = job.frames.of_film(film.view().settings().frames);
+  const auto asked = static_cast<std::uint32_t>(frames.size());
+  return {std::move(film), nullptr, asked, std::move(frames), ""};
+}
+
+resume::Opened load_film(const RenderJob& job, const EventReporter& reporter, double& seconds) {
   reporter.report(events::Loading{job.film});
   const double started = dclock();
-  film::CompiledFilm film = job.load_film([&](const std::string& line) { reporter.report(events::Warning{line}); });
+  resume::Opened opened = open_film(job, reporter);
   seconds = dclock() - started;
-  return film;
+  const auto left = static_cast<std::uint32_t>(opened.frames.size());
+  if (left < opened.asked || !opened.changed.empty())
+    reporter.report(events::Resumed{opened.asked - left, opened.asked, opened.changed});
+  return opened;
 }
 
 // By what is foreseen of it, unless the person says how many groups.
-farm::Plan plan_of(const wire::FilmView& film, const RenderJob& job, EventReporter& reporter) {
+farm::Plan plan_of(const wire::FilmView& film, const std::vector<std::uint32_t>& frames, const RenderJob& job,
+                   EventReporter& reporter) {
   const auto nodes = static_cast<int>(numnodes());
-  farm::PlanRequest request{job.frames.of_film(film.settings().frames), job.coherence, job.groups};
+  farm::PlanRequest request{frames, job.coherence, job.groups};
   if (job.foresee) {
     Foresight foresight = job.foresee(film, request, nodes);
     if (request.groups == 0) request.groups = foresight.groups;
@@ -115,23 +106,36 @@ farm::Plan plan_of(const wire::FilmView& film, const RenderJob& job, EventReport
   return farm::make_plan(film, request, nodes);
 }
 
+// A measurement of nothing would pass as one of the film.
+void render_nothing(const RenderJob& job, const EventReporter& reporter, double load_seconds) {
+  for (const std::string& file : {job.report, job.trace})
+    if (!file.empty())
+      reporter.report(events::Warning{"nothing is left to render, so " + file +
+                                      " is not written (--overwrite renders all again, --sink none only measures)"});
+  reporter.report(events::Loaded{load_seconds});
+  farm::dismiss_nodes();
+  reporter.report(events::Done{0, 0, job.folder});
+}
+
 void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace) {
   double load_seconds = 0;
-  const film::CompiledFilm film = load_film(job, reporter, load_seconds);
+  const resume::Opened opened = load_film(job, reporter, load_seconds);
+  if (opened.frames.empty()) return render_nothing(job, reporter, load_seconds);
+  const film::CompiledFilm& film = opened.film;
   const wire::FilmView view = film.view();
   const wire::FilmSettings& settings = view.settings();
-  const farm::Plan plan = plan_of(view, job, reporter);
+  const farm::Plan plan = plan_of(view, opened.frames, job, reporter);
   const HostMachine host = host_machine(job.host);
   const farm::HostMemory memory = memory_for(host, settings, images::facts_of(job.format).pixels, plan);
 
   if (!job.report.empty()) document::check_can_write(job.report);  // early too
-  Destination destination(job, film, job.frames.of_film(settings.frames));
+  const std::unique_ptr<sinks::Sink> sink = make_sink(opened.folder.get());
   // Only now: before, the host may have waited for its turn in the folder, and not for nodes.
   reporter.report(events::Loaded{load_seconds});
-  const auto pool = make_sinks(job, destination.sink(), pool_shape(host, view, job, memory.frames));
+  const auto pool = make_sinks(job, *sink, pool_shape(host, view, job, memory.frames));
   const farm::FarmReport report = farm::render_film(film.block(), plan, farm_options(job, memory, trace), *pool,
                                                     reporter.listener(view.intervals().size()));
-  destination.finish();
+  if (opened.folder) opened.folder->finish();
   if (!job.report.empty()) {
     const report::ReportHead head{
         job.film, document::checksum_of(film.block()), job.backend, job.arguments, settings.width, settings.height,

@@ -36,7 +36,10 @@ struct RenderJob {
   std::string film;  // its file, as the person gave it
   // Reads and compiles it, which may take long; `warn` takes one line about a probable mistake.
   std::function<film::CompiledFilm(const std::function<void(const std::string&)>& warn)> load_film;
-  std::string folder;  // for the frames; "": they go nowhere
+  // With which it is compiled, as on a command line: a folder's frames are those of one film with the same options.
+  std::vector<std::string> film_options;
+  std::string folder;      // for the frames; "": they go nowhere
+  bool overwrite = false;  // frames that the folder has already
   images::PictureFormat format = images::PictureFormat::png;
   film::FrameSet frames;
   wire::Mapping mapping = wire::Mapping::cost;

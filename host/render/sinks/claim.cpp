@@ -130,21 +130,21 @@ void HashLog::add(std::uint32_t frame, const std::string& hash) {
   if (written != static_cast<ssize_t>(line.size())) document::fail_file("write", file_, written < 0 ? errno : ENOSPC);
 }
 
-void refuse_rival(const RunFiles& run, const Manifest& wanted, const fs::path& folder) {
+std::optional<Failure> conflict_with(const RunFiles& run, const Manifest& wanted, const fs::path& folder) {
   const std::optional<Claim> rival = claim_of(run);
   if (!rival)
-    throw Failure("another run renders into this folder, and its claim cannot be read",
-                  file_of(run, kClaimEnding)->string(), "give another folder with -o, or wait");
+    return Failure("another run renders into this folder, and its claim cannot be read",
+                   file_of(run, kClaimEnding)->string(), "give another folder with -o, or wait");
   const Manifest& theirs = rival->manifest;
   if (!are_of_one_folder(theirs, wanted)) {
     const std::string which = theirs.film == wanted.film ? "another version, size or format of " : "";
-    throw Failure(description(*rival, which), folder.string(), "give another folder with -o, or wait");
+    return Failure(description(*rival, which), folder.string(), "give another folder with -o, or wait");
   }
   std::vector<std::uint32_t> both;
   std::ranges::set_intersection(theirs.frames, wanted.frames, std::back_inserter(both));
-  if (both.empty()) return;
-  throw Failure(description(*rival), folder.string(),
-                "give other frames with --frames, another folder with -o, or wait");
+  if (both.empty()) return std::nullopt;
+  return Failure(description(*rival), folder.string(),
+                 "give other frames with --frames, another folder with -o, or wait");
 }
 
 }  // namespace mars::sinks

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "hal/failure/failure.h"
 #include "host/render/sinks/manifest.h"
 #include "host/render/sinks/process_name.h"
 #include "host/render/sinks/runs_folder.h"
@@ -50,7 +51,7 @@ class HashLog {
   std::mutex mutex_;  // one line at a time
 };
 
-// Throws Failure, which names the run and what it renders, where its claim and `wanted` would be mixed.
-void refuse_rival(const RunFiles& run, const Manifest& wanted, const std::filesystem::path& folder);
+// Where the run's claim and `wanted` would be mixed: names the run and what it renders.
+std::optional<Failure> conflict_with(const RunFiles& run, const Manifest& wanted, const std::filesystem::path& folder);
 
 }  // namespace mars::sinks

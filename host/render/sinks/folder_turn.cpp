@@ -119,13 +119,22 @@ void FolderTurn::fail(const char* act, int error) const {
                 "start it again");
 }
 
+bool FolderTurn::sees(const RunFiles& run) const {
+  return is_running(process_of(run), runs_.self()) != Running::unknown;
+}
+
+double FolderTurn::last_sign_of(const RunFiles& run) {
+  double last = 0;
+  for (const fs::path& file : run.files) last = std::max(last, time_of(file).value_or(0));
+  return last;
+}
+
 bool FolderTurn::has_ended(const RunFiles& run) const {
   const Running running = is_running(process_of(run), runs_.self());
   if (running != Running::unknown) return running == Running::no;
   touch(file_);
   const std::optional<double> now = time_of(file_);
-  double last = 0;
-  for (const fs::path& file : run.files) last = std::max(last, time_of(file).value_or(0));
+  const double last = last_sign_of(run);
   return now && last > 0 && *now - last > kLongestSilence;  // 0: its files are renamed or gone meanwhile
 }
 

@@ -40,6 +40,10 @@ class FolderTurn {
   // Whether a run has ended: its process is gone; or, where that cannot be seen from here, none of its files was made
   // or renewed in the last minute, by the clock of the machine that keeps the files.
   bool has_ended(const RunFiles& run) const;
+  // Whether its process can be looked up from here.
+  bool sees(const RunFiles& run) const;
+  // When one of its files was made or renewed last, in seconds by that clock; 0: none is there any more.
+  static double last_sign_of(const RunFiles& run);
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -6,11 +6,14 @@
 
 #include <cerrno>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <system_error>
+#include <thread>
 
 #include "hal/failure/failure.h"
 #include "host/content/document/file.h"
 #include "host/content/document/whole_file.h"
+#include "host/content/film/film_file.h"
 #include "host/images/picture_file.h"
 #include "host/render/sinks/claim.h"
 #include "host/render/sinks/record.h"
@@ -30,26 +33,6 @@ void create_folder(const fs::path& path) {
   fs::create_directories(path, error);
   if (error) document::fail_file("create the folder", path, error.value());
   if (!fs::is_directory(path, error)) document::fail_file("create the folder", path, ENOTDIR);
-}
-
-// What frames.json says; none where there is none. Throws Failure where it cannot be read or says nothing sound: then
-// it is unknown which frames belong into the folder, and no run may decide that none do.
-std::optional<Manifest> read_frames_json(const fs::path& folder) {
-  const fs::path path = folder / kManifestName;
-  const std::optional<std::string> text = document::read_file_if_there(path, kLargestRecord);
-  if (!text) return std::nullopt;
-  try {
-    return manifest_of(parse_record(*text));
-  } catch (const Failure& failure) {
-    throw Failure("not a manifest of frames: " + failure.problem, path.string(),
-                  "remove it, and render all frames of the folder again");
-  }
-}
-
-// The folder's manifest, if these frames belong there too.
-std::optional<Manifest> manifest_for(const Manifest& wanted, const fs::path& folder) {
-  std::optional<Manifest> old = read_frames_json(folder);
-  return old && are_of_one_folder(*old, wanted) ? old : std::nullopt;
 }
 
 void write_manifest(const Manifest& manifest, const fs::path& folder, const RunsFolder& runs) {
@@ -95,6 +78,15 @@ void remove_frame(const fs::path& file) {
   if (unlink(file.c_str()) != 0 && errno != ENOENT) document::fail_file("remove", file, errno);
 }
 
+std::set<std::string> names_in(const fs::path& folder) {
+  std::set<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; entry != end; entry.increment(error))
+    names.insert(entry->path().filename().string());
+  if (error) document::fail_file("list the folder", folder, error.value());
+  return names;
+}
+
 // Names that were made in the folder are on the disk too; not every file system can do that.
 void sync_folder(const fs::path& folder) {
   const int opened = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -105,35 +97,113 @@ void sync_folder(const fs::path& folder) {
 
 }  // namespace
 
-FrameFolder::FrameFolder(fs::path path, const Manifest& manifest, const ProcessName& self)
-    : path_(std::move(path)), rendered_(manifest), runs_(path_, self) {
-  rendered_.pixel_hashes.assign(rendered_.frames.size(), "");
-  create_folder(path_);
-  const FolderTurn turn(runs_);
+std::optional<Manifest> read_frames_json(const fs::path& folder) {
+  const fs::path path = folder / kManifestName;
+  const std::optional<std::string> text = document::read_file_if_there(path, kLargestRecord);
+  if (!text) return std::nullopt;
   try {
-    claim(turn, manifest);
-  } catch (...) {
-    runs_.remove_own_files();
-    throw;
+    return manifest_of(parse_record(*text));
+  } catch (const Failure& failure) {
+    throw Failure("not a manifest of frames: " + failure.problem, path.string(),
+                  "remove it, and render all frames of the folder again");
   }
 }
 
-void FrameFolder::claim(const FolderTurn& turn, const Manifest& manifest) {
-  for (const RunFiles& run : runs_.runs())
-    if (has_claim(run) && !turn.has_ended(run)) refuse_rival(run, manifest, path_);
+std::vector<std::uint32_t> missing_frames(const fs::path& folder, const Manifest& manifest,
+                                          const std::vector<std::uint32_t>& frames) {
+  const std::set<std::string> names = names_in(folder);
+  std::vector<std::uint32_t> missing;
+  for (const std::uint32_t frame : frames)
+    if (hash_of(manifest, frame).empty() || !names.contains(frame_file_name(manifest, frame))) missing.push_back(frame);
+  return missing;
+}
+
+Continue keep_same_film(const Manifest& wanted) {
+  return [wanted](const std::optional<Manifest>& there) {
+    return Continuation{there && are_of_one_folder(*there, wanted) ? *there : wanted};
+  };
+}
+
+FrameFolder::FrameFolder(fs::path path, const Manifest& wanted, const Continue& go_on, const Warn& warn,
+                         const ProcessName& self)
+    : path_(std::move(path)), rendered_(wanted), runs_(path_, self) {
+  create_folder(path_);
+  UnseenRivals unseen(warn);
+  for (;; std::this_thread::sleep_for(std::chrono::seconds(1))) {
+    const FolderTurn turn(runs_);
+    try {
+      if (enter(turn, wanted, go_on, unseen)) return;
+    } catch (...) {
+      runs_.remove_own_files();
+      throw;
+    }
+  }
+}
+
+// False, and nothing is claimed, where it depends on a run that may have ended.
+bool FrameFolder::enter(const FolderTurn& turn, const Manifest& wanted, const Continue& go_on, UnseenRivals& unseen) {
   settle_ended_runs(path_, runs_, turn);
   turn.confirm();
-  std::optional<Manifest> all = manifest_for(manifest, path_);
-  if (!all) {  // other frames under the names to come would pass as this one's if the run were interrupted
-    for (const std::uint32_t frame : manifest.frames) remove_frame(file_of(frame));
-    all = manifest;
+  const std::optional<Manifest> there = read_frames_json(path_);
+  auto [all, new_film, refusal] = go_on(there);
+  add_frames(all, wanted);
+  rendered_ = all;
+  rendered_.frames = missing_frames(path_, all, wanted.frames);
+  rendered_.pixel_hashes.assign(rendered_.frames.size(), "");
+  if (must_wait(turn, !there || !are_of_one_folder(*there, all), unseen)) return false;
+  if (refusal) throw *refusal;
+  if (rendered_.frames.empty())
+    finished_ = true;
+  else
+    claim();
+  if (there != all) write_manifest(all, path_, runs_);
+  if (new_film != nullptr) write_film(*new_film, turn);
+  return true;
+}
+
+// Whether a run in the way may have ended. Throws Failure where one is that lives. Where this run renders nothing, and
+// the folder's frames stay those of one film, others do not mind it.
+bool FrameFolder::must_wait(const FolderTurn& turn, bool another_film, UnseenRivals& unseen) const {
+  bool wait = false;
+  if (rendered_.frames.empty() && !another_film) return false;
+  for (const RunFiles& run : runs_.runs()) {
+    if (!has_claim(run) || turn.has_ended(run)) continue;
+    const std::optional<Failure> conflict = conflict_with(run, rendered_, path_);
+    if (!conflict) continue;
+    if (!unseen.may_have_ended(run, turn, conflict->problem)) throw *conflict;
+    wait = true;
   }
-  add_frames(*all, manifest);
-  const std::string text = text_of(Claim{runs_.self(), time(nullptr), manifest});
+  return wait;
+}
+
+// That may take long: the turn stays this run's meanwhile.
+void FrameFolder::write_film(const film::CompiledFilm& film, const FolderTurn& turn) const {
+  const Lease held(turn.file());
+  film::save_film(film, path_ / kFilmName, runs_.own_file(".film.mars.part"));
+  sync_folder(path_);
+}
+
+void FrameFolder::claim() {
+  Manifest claimed = rendered_;
+  claimed.pixel_hashes.clear();
+  const std::string text = text_of(Claim{runs_.self(), time(nullptr), claimed});
   document::replace_file(runs_.own_file(kClaimEnding), runs_.own_file(".claim.part"), std::as_bytes(std::span(text)));
   lease_.emplace(runs_.own_file(kClaimEnding));
   hashes_.emplace(runs_.own_file(kHashesEnding));
-  write_manifest(*all, path_, runs_);
+  remove_frames(rendered_.frames);
+}
+
+// What other runs left under the names to come would pass as this one's if it were interrupted between a frame's hash
+// and its file; also where the machine loses its power then.
+void FrameFolder::remove_frames(const std::vector<std::uint32_t>& frames) const {
+  const std::set<std::string> names = names_in(path_);
+  bool removed = false;
+  for (const std::uint32_t frame : frames) {
+    if (!names.contains(frame_file_name(rendered_, frame))) continue;
+    remove_frame(file_of(frame));
+    removed = true;
+  }
+  if (removed) sync_folder(path_);
 }
 
 FrameFolder::~FrameFolder() {

@@ -19,8 +19,8 @@ using nlohmann::json;
 namespace {
 
 constexpr std::size_t kLongestFilm = 3 * 4096;  // bytes: of a path, of which each may be written as three
-constexpr auto kKeys = std::to_array<std::string_view>(
-    {"film", "checksum", "width", "height", "format", "rate", "film_frames", "frames", "pixel_hashes"});
+constexpr auto kKeys = std::to_array<std::string_view>({"film", "checksum", "width", "height", "format", "rate",
+                                                        "film_frames", "frames", "pixel_hashes", "sources", "options"});
 
 // Unbroken stretches as [first, last] pairs, so that a long film's manifest stays short.
 json stretches_of(const std::vector<std::uint32_t>& frames) {
@@ -77,6 +77,33 @@ std::vector<std::string> hashes_of(const json& list, std::size_t frames) {
   return hashes;
 }
 
+json sources_json(const std::vector<Source>& sources) {
+  json list = json::array();
+  for (const Source& source : sources)
+    list.push_back({source.path, source.checksum.empty() ? json() : json(source.checksum)});
+  return list;
+}
+
+std::vector<Source> sources_of(const json& list) {
+  std::vector<Source> sources;
+  for (const json& source : list) {
+    const bool pair = source.is_array() && source.size() == 2 && source[0].is_string() &&
+                      (source[1].is_null() || is_checksum(source[1]));
+    if (!pair) refuse_value("sources", source, "[path, checksum]");
+    sources.push_back({source[0].get<std::string>(), source[1].is_null() ? "" : source[1].get<std::string>()});
+  }
+  return sources;
+}
+
+std::vector<std::string> words_of(const json& list) {
+  std::vector<std::string> words;
+  for (const json& word : list) {
+    if (!word.is_string()) refuse_value("options", word, "a word");
+    words.push_back(word.get<std::string>());
+  }
+  return words;
+}
+
 }  // namespace
 
 bool are_of_one_folder(const Manifest& a, const Manifest& b) {
@@ -114,6 +141,13 @@ void set_hash(Manifest& manifest, std::uint32_t frame, const std::string& hash) 
     manifest.pixel_hashes[static_cast<std::size_t>(place - manifest.frames.begin())] = hash;
 }
 
+std::string hash_of(const Manifest& manifest, std::uint32_t frame) {
+  const auto place = std::ranges::lower_bound(manifest.frames, frame);
+  const auto at = static_cast<std::size_t>(place - manifest.frames.begin());
+  const bool has_it = place != manifest.frames.end() && *place == frame && at < manifest.pixel_hashes.size();
+  return has_it ? manifest.pixel_hashes[at] : "";
+}
+
 json to_json(const Manifest& manifest) {
   json text = {{"film", manifest.film},
                {"checksum", manifest.checksum},
@@ -124,6 +158,8 @@ json to_json(const Manifest& manifest) {
                {"film_frames", manifest.film_frames},
                {"frames", stretches_of(manifest.frames)}};
   if (!manifest.pixel_hashes.empty()) text["pixel_hashes"] = hashes_json(manifest.pixel_hashes);
+  if (!manifest.sources.empty()) text["sources"] = sources_json(manifest.sources);
+  if (!manifest.options.empty()) text["options"] = manifest.options;
   return text;
 }
 
@@ -141,6 +177,8 @@ Manifest manifest_of(const json& from) {
   manifest.frames = frames_of(record.list("frames"), manifest.film_frames);
   if (from.contains("pixel_hashes"))
     manifest.pixel_hashes = hashes_of(record.list("pixel_hashes"), manifest.frames.size());
+  if (from.contains("sources")) manifest.sources = sources_of(record.list("sources"));
+  if (from.contains("options")) manifest.options = words_of(record.list("options"));
   return manifest;
 }
 

@@ -11,6 +11,14 @@
 
 namespace mars::sinks {
 
+// A file that was read to compile a film.
+struct Source {
+  std::string path;      // absolute
+  std::string checksum;  // of its content: 32 hexadecimal digits; "" where there was no such file
+
+  bool operator==(const Source&) const = default;
+};
+
 struct Manifest {
   std::string film;      // its file's name, as the person gave it
   std::string checksum;  // of the compiled film: 32 hexadecimal digits (checksum.h)
@@ -22,6 +30,9 @@ struct Manifest {
   std::vector<std::uint32_t> frames;  // asked for, by one run or several, ascending
   // Of each of `frames`, "" where it is not known to have been rendered; none at all: nobody has recorded any.
   std::vector<std::string> pixel_hashes;
+  // What the film was compiled from, the film's own file first; none: that is not known.
+  std::vector<Source> sources;
+  std::vector<std::string> options;  // with which it was compiled, as on a command line: "--size", "640x360"
 
   bool operator==(const Manifest&) const = default;
 };
@@ -38,6 +49,9 @@ void add_frames(Manifest& manifest, const Manifest& more);
 
 // Where the frame is one of the manifest's, which has as many hashes as frames.
 void set_hash(Manifest& manifest, std::uint32_t frame, const std::string& hash);
+
+// The hash of one of the manifest's frames; "" where it has none, or is none of them.
+std::string hash_of(const Manifest& manifest, std::uint32_t frame);
 
 nlohmann::json to_json(const Manifest& manifest);
 // Throws Failure, without a place, where it is none, or has keys of another kind.

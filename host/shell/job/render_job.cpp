@@ -23,6 +23,8 @@ session::RenderJob job_of(const options::RenderOptions& options, const std::stri
   session::RenderJob job;
   job.film = options.film;
   job.load_film = [options](const auto& warn) { return load_film_of(options, warn); };
+  job.film_options = options::film_arguments(options);
+  job.overwrite = options.overwrite;
   job.folder = options.sink == options::SinkKind::files ? options.folder : "";
   job.format = options.format;
   job.frames = options.frames;

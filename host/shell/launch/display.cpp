@@ -55,6 +55,13 @@ std::string progress_text(const events::Progress& progress) {
   return text + left_text(progress);
 }
 
+std::string resumed_text(const events::Resumed& resumed) {
+  const bool all = resumed.there == resumed.of;
+  const std::string changed = resumed.changed.empty() ? "" : resumed.changed + "\n";
+  return changed + std::to_string(resumed.there) + " of " + document::counted(resumed.of, "frame") +
+         " are there already" + (all ? ": nothing is left to render" : "");
+}
+
 std::string booted_text(const events::Booted& booted) {
   std::string text = document::counted(booted.nodes.size(), "node") + " on " +
                      document::counted(booted.machines, "machine") + " (" + booted.backend + ")";

@@ -16,6 +16,8 @@ std::string clock_text(double seconds);
 // "frame 12 of 72, interval 2 of 5, 8.3 frames/s, 0:07 left (keyframes 0:03, inbetweens 0:04)"
 std::string progress_text(const events::Progress& progress);
 
+// "12 of 72 frames are there already"
+std::string resumed_text(const events::Resumed& resumed);
 std::string booted_text(const events::Booted& booted);
 std::string done_text(const events::Done& done);
 

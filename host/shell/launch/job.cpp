@@ -55,7 +55,10 @@ void Job::take(const events::Event& event) {
   if (const auto* loaded = std::get_if<events::Loaded>(&event)) end_loading(*loaded);
   if (const auto* warning = std::get_if<events::Warning>(&event))
     std::cerr << "mars: warning: " << warning->text << '\n';
-  if (const auto* resumed = std::get_if<events::Resumed>(&event)) remains_.resumed = *resumed;
+  if (const auto* resumed = std::get_if<events::Resumed>(&event)) {
+    display_.print(resumed_text(*resumed));
+    remains_.resumed = *resumed;
+  }
   if (const auto* booted = std::get_if<events::Booted>(&event)) {
     display_.print(booted_text(*booted));
     remains_.booted = *booted;

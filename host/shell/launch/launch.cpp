@@ -8,6 +8,7 @@
 #include "host/child/child.h"
 #include "host/child/environment.h"
 #include "host/render/events/events.h"
+#include "host/render/resume/resume.h"
 #include "host/render/sinks/frame_folder.h"
 #include "host/content/document/text.h"
 #include "host/shell/launch/background_text.h"
@@ -109,6 +110,14 @@ std::string account_of(const Supervisor& supervisor, double seconds) {
   return done_text(done) + ", with " + document::counted(supervisor.restarts(), "restart");
 }
 
+// The number of frames, where nothing is left to render; of a measurement the host says so.
+std::optional<std::uint32_t> frames_there(const options::RenderOptions& options) {
+  const bool measures = !options.report.empty() || !options.trace.empty();
+  if (options.sink == options::SinkKind::none || measures) return std::nullopt;
+  return resume::count_if_complete({options.folder, options.film, options::film_arguments(options), options.format,
+                                    options.frames, options.overwrite});
+}
+
 }  // namespace
 
 void launch_render(options::RenderOptions options, const std::filesystem::path& self, const Adviser& adviser) {
@@ -116,12 +125,13 @@ void launch_render(options::RenderOptions options, const std::filesystem::path& 
   Display display(kind_of_output(options.quiet), std::cout);
   for (const std::string& line : messages::unknown_settings()) display.print(line);
   messages::read_settings();  // wrong settings fail before anything is started
+  if (const auto there = frames_there(options)) return display.print(resumed_text({*there, *there, ""}));
   const Starting starting = prepare(options, self);
   Supervisor supervisor(options, world_of(options, starting, display, adviser));
   supervisor.render();
   if (!supervisor.last().ended_for.empty())
     std::cerr << "mars: warning: all frames are there, but " << supervisor.last().ended_for << '\n';
-  display.print(account_of(supervisor, seconds_since(started)));
+  if (supervisor.rendered()) display.print(account_of(supervisor, seconds_since(started)));
 }
 
 Trial try_start(options::RenderOptions options, const std::filesystem::path& self) {

@@ -29,12 +29,14 @@ Supervisor::Supervisor(options::RenderOptions options, World world)
 
 void Supervisor::render() {
   run_job(options_);
+  count_frames();
   while (!all_there()) {
     if (!may_help() && !a_machine_is_gone()) throw failure();
     look_for_deadly_frame();
     if (all_there()) break;
     start_again();
     run_job(next_options());
+    count_frames();
   }
   for (const std::uint32_t frame : std::set(frames_.aside())) try_alone(frame);
   if (!frames_.aside().empty())
@@ -45,24 +47,22 @@ void Supervisor::render() {
 void Supervisor::run_job(const options::RenderOptions& options) {
   last_ = world_.run_job(options, chosen_.left_out.empty() ? std::vector<Slots>() : chosen_.use);
   booted_ = booted_ || last_.booted;
-  count_frames();
+  rendered_ = rendered_ || !last_.taken.empty();
   if (!last_.well()) world_.clear();
 }
 
+// A job that did not come so far as to look into the folder says nothing.
 void Supervisor::count_frames() {
-  if (last_.resumed) {
-    frames_.set_count(last_.resumed->of);
-    frames_.add_earlier(last_.resumed->there);
-  } else if (last_.booted) {
-    frames_.set_count(last_.progress.of());
-  }
-  new_frames_ = false;
-  for (const std::uint32_t frame : last_.taken) new_frames_ = frames_.take(frame) || new_frames_;
+  if (!last_.resumed && !last_.booted) return;
+  const std::uint32_t there = last_.resumed ? last_.resumed->there : 0;
+  frames_.set_count(last_.resumed ? last_.resumed->of : last_.progress.of());
+  if (there < frames_.there())
+    world_.print("only " + std::to_string(there) + " of " + std::to_string(frames_.there()) +
+                 " frames are there still: do all machines see the folder " + options_.folder + "?");
+  frames_.count(there, static_cast<std::uint32_t>(last_.taken.size()));
 }
 
-bool Supervisor::all_there() const {
-  return last_.well() || (frames_.counted() && frames_.there() + frames_.aside().size() >= frames_.of());
-}
+bool Supervisor::all_there() const { return last_.well() || frames_.complete(); }
 
 // Not where a person stopped it, and not where the film, the folder or the command line is the reason. A job whose like
 // has never begun would end as it did.
@@ -100,11 +100,11 @@ void Supervisor::look_for_deadly_frame() {
 
 void Supervisor::start_again() {
   const Diagnosis diagnosis = diagnose(last_, options_, {});
-  const auto pause = restarts_.again(new_frames_);
+  const auto pause = restarts_.again(!last_.taken.empty());
   if (!pause)
     throw failure("; gave up after " + document::counted(restarts_.most(), "restart") + " without a new frame");
   if (!machines_) machines_.emplace(world_.machines(), options_.nodes);
-  machines_->blame(diagnosis.machine, diagnosis.machine_lost, new_frames_);
+  machines_->blame(diagnosis.machine, diagnosis.machine_lost, !last_.taken.empty());
   world_.print(what_happened(diagnosis));
   choose_machines(*pause);
   print_choice();
@@ -129,20 +129,21 @@ void Supervisor::print_choice() const {
                      std::to_string(restarts_.most()) + ") with " + document::counted(chosen_.nodes, "node");
   if (!chosen_.use.empty()) line += " on " + document::counted(chosen_.use.size(), "machine");
   if (!chosen_.left_out.empty()) line += ", without " + document::joined(chosen_.left_out);
-  world_.print(line + (frames_.counted() ? "; " + account() : ""));
+  world_.print(line + (frames_.of() > 0 ? "; " + account() : ""));
 }
 
 options::RenderOptions Supervisor::next_options() const {
   options::RenderOptions next = options_;
   next.nodes = chosen_.nodes;
   next.frames = frames_.next();
+  next.overwrite = options_.overwrite && !booted_;  // what the first job brought is not what was there before
   return next;
 }
 
 // In jobs of its own: where several nodes died at this frame by chance, it is there then.
 void Supervisor::try_alone(std::uint32_t frame) {
   for (int tries = 0; tries < kTriesAlone && (tries == 0 || may_help()); ++tries) {
-    const auto pause = restarts_.again(new_frames_);
+    const auto pause = restarts_.again(!last_.taken.empty());
     if (!pause) return;
     world_.print("frame " + std::to_string(frame) + " is tried by itself");
     choose_machines(*pause);

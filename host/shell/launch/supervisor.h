@@ -43,6 +43,7 @@ class Supervisor {
   void render();
 
   std::uint32_t restarts() const { return restarts_.all(); }
+  bool rendered() const { return rendered_; }  // not all was there before
   const WantedFrames& frames() const { return frames_; }
   const Remains& last() const { return last_; }  // job's
 

@@ -1,6 +1,6 @@
 #include "host/shell/launch/wanted_frames.h"
 
-#include <algorithm>
+#include <vector>
 
 namespace mars::launch {
 
@@ -8,12 +8,16 @@ void WantedFrames::set_count(std::uint32_t frames) {
   if (!count_) count_ = frames;
 }
 
-std::vector<std::uint32_t> WantedFrames::missing() const {
-  std::vector<std::uint32_t> frames = asked_.first_frames(of());
-  std::erase_if(frames, [&](std::uint32_t frame) { return there_.contains(frame) || aside_.contains(frame); });
-  return frames;
+void WantedFrames::take_back(std::uint32_t frame) {
+  aside_.erase(frame);
+  ++there_;
 }
 
-film::FrameSet WantedFrames::next() const { return count_ ? film::FrameSet(missing()) : asked_; }
+film::FrameSet WantedFrames::next() const {
+  if (aside_.empty()) return asked_;
+  std::vector<std::uint32_t> frames = asked_.first_frames(of());
+  std::erase_if(frames, [&](std::uint32_t frame) { return aside_.contains(frame); });
+  return film::FrameSet(frames);
+}
 
 }  // namespace mars::launch

@@ -184,6 +184,8 @@ std::vector<Entry> table() {
       film(compiles),
       option(all, "-o,--output", "DIR", &RenderOptions::folder,
              "Folder for the frames; created if it is missing. Example: -o build/demo"),
+      flag(all, "--overwrite", &RenderOptions::overwrite,
+           "Render all frames, also those that the folder has already, of whichever film. Example: --overwrite"),
       number(counts_nodes, "--nodes", {&RenderOptions::nodes, false, many},
              "Nodes that render; default: one per processor, or the slots of the batch job or hostfile less one "
              "for the host. Example: --nodes 4"),
@@ -287,6 +289,12 @@ std::optional<int> read_render_options(Program program, const char* name, const 
   CLI::App app(purpose, name);
   add_render_options(app, options, program);
   return read_command_line(app, argc, argv);
+}
+
+std::vector<std::string> film_arguments(const RenderOptions& options) {
+  Arguments arguments = arguments_for(Program::compile, options);
+  arguments.erase(arguments.begin());  // FILM
+  return arguments;
 }
 
 std::vector<std::string> arguments_for(Program program, const RenderOptions& options) {

@@ -41,6 +41,7 @@ struct RenderOptions {
   bool no_coherence = false;  // every frame from scratch
   std::uint32_t block = 16;   // side of the compositor's blocks, pixels
   std::uint32_t groups = 0;   // intervals rendered at a time; 0: chosen by the plan
+  bool overwrite = false;     // render frames that the folder has already, too
   SinkKind sink = SinkKind::files;
   images::PictureFormat format = images::PictureFormat::png;  // of the files
   std::string report;                                         // file for the measurements; "": none
@@ -66,6 +67,9 @@ std::optional<int> read_render_options(Program program, const char* name, const 
 // A file's name as a word of a command line: one that begins with a dash would be taken for an option, and mpirun takes
 // a colon for the end of a program's arguments.
 std::string word_of_file(const std::string& name);
+
+// The options that change the compiled film, as arguments.
+std::vector<std::string> film_arguments(const RenderOptions& options);
 
 // The arguments that make `program` read these options again, those it takes; defaults are left out.
 std::vector<std::string> arguments_for(Program program, const RenderOptions& options);

@@ -76,7 +76,7 @@ class Gallery:
         path, folder = os.path.join(self.folder, name + ".json"), os.path.join(self.folder, name)
         films.save(film, path)
         quality.run([os.path.join(self.build, "bin", "mars"), "render", path, "--backend", "threads", "--quiet",
-                     "--samples", "16", "--frames", str(frame), "-o", folder])
+                     "--samples", "16", "--frames", str(frame), "-o", folder, "--overwrite"])
         return os.path.join(folder, f"frame-{frame:04}.png")
 
     def models(self):

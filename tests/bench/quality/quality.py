@@ -59,7 +59,8 @@ class Film:
         folder = os.path.join(self.folder, f"{self.name}-{samples}-{finer}")
         width, height = (side * finer for side in self.size)
         run([os.path.join(self.build, "bin", "mars"), "render", self.path, "--backend", "threads", "--quiet", "-o", folder,
-             "--samples", str(samples), "--size", f"{width}x{height}", "--frames", ",".join(map(str, frames))])
+             "--samples", str(samples), "--size", f"{width}x{height}", "--frames", ",".join(map(str, frames)),
+             "--overwrite"])
         return [os.path.join(folder, f"frame-{frame:04}.png") for frame in frames]
 
     def references(self, frames):

@@ -34,7 +34,8 @@ class Runner:
             words += [] if axis in ("size", "dice") else [f"--{axis}", str(value)]
         words += ["--hostfile", self.hostfile] if self.hostfile else []
         frames_are_kept = any(word.startswith(("-o", "--output", "--sink")) for word in self.options)
-        return words + ([] if frames_are_kept else ["--sink", "none"]) + ["--quiet", "--report", report, *self.options]
+        words += ["--overwrite"] if frames_are_kept else ["--sink", "none"]
+        return words + ["--quiet", "--report", report, *self.options]
 
     def film(self, configuration):
         """The file to render; where dicing is varied, a copy that says how."""

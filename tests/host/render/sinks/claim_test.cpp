@@ -29,7 +29,9 @@ class ClaimOf {
   RunFiles run() const { return {"n1", {folder_ / "n1.claim", folder_ / "n1.hashes"}}; }
   std::filesystem::path hashes() const { return folder_ / "n1.hashes"; }
   std::string refuses(const Manifest& wanted) const {
-    return document::failure_of([&] { refuse_rival(run(), wanted, "out"); });
+    return document::failure_of([&] {
+      if (const auto conflict = conflict_with(run(), wanted, "out")) throw *conflict;
+    });
   }
 
  private:

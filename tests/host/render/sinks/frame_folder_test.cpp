@@ -219,11 +219,35 @@ TEST(FrameFolder, OfARunOnAnotherMachineTheClaimCountsForAMinute) {
       fs::last_write_time(entry.path(), entry.last_write_time() - by);
   };
   age(50s);
-  EXPECT_TRUE(document::holds(failure_to_claim(folder.path(), of_frames({2})), "another run"));
   clear_ended_runs(folder.path());
   EXPECT_TRUE(fs::exists(folder / ".runs"));
   age(15s);
   EXPECT_EQ(failure_to_claim(folder.path(), of_frames({2})), "");
+}
+
+TEST(FrameFolder, ARunOnAnotherMachineIsRefusedToOnceItIsSeenToLive) {
+  const TemporaryFolder folder;
+  ProcessName elsewhere = this_process();
+  elsewhere.boot = "another";
+  run_and_kill(folder.path(), of_frames({1, 2}), {1}, elsewhere);
+  std::vector<std::string> warnings;
+  const auto warn = [&](const std::string& line) { warnings.push_back(line); };
+  const auto enter = [&] { FrameFolder(folder.path(), of_frames({2}), keep_same_film(of_frames({2})), warn); };
+  const fs::path claim = file_of_run(folder.path(), ".claim");
+  {
+    const Lease renewing(claim, seconds_since_boot, 300ms);
+    const auto began = std::chrono::steady_clock::now();
+    EXPECT_TRUE(document::holds(document::failure_of(enter), "renders frames 1-2 of a film.json"));
+    EXPECT_LT(std::chrono::steady_clock::now() - began, 20s);
+  }
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_TRUE(document::holds(warnings[0], "renders frames 1-2 of a film.json into this folder")) << warnings[0];
+  EXPECT_TRUE(document::holds(warnings[0], "cannot be seen from here")) << warnings[0];
+  EXPECT_EQ(failure_to_claim(folder.path(), of_frames({3})), "") << "it is in nobody's way";
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder / ".runs"))
+    fs::last_write_time(entry.path(), fs::last_write_time(claim) - 58s);
+  EXPECT_EQ(document::failure_of(enter), "") << "it grows old while it is waited for";
+  EXPECT_EQ(warnings.size(), 2u);
 }
 
 // A run that was stopped so long that another machine took its claim away does not write over that one's frames.

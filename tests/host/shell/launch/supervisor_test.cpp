@@ -12,25 +12,27 @@ namespace {
 
 const events::Booted kBooted{"mpi", 2, {{0, "n1", 1, "", "sse2"}, {1, "n2", 2, "", "sse2"}}};
 
-Remains booted(std::vector<std::uint32_t> taken, std::uint32_t of) {
+// A job that finds `there` of the frames and brings `taken`.
+Remains booted(std::vector<std::uint32_t> taken, std::uint32_t of, std::uint32_t there) {
   Remains remains;
+  if (there > 0) remains.resumed = events::Resumed{there, of, ""};
   remains.program = "mpirun";
   remains.booted = kBooted;
   remains.taken = std::move(taken);
-  remains.progress.keyframes = {static_cast<std::uint32_t>(remains.taken.size()), of, 1};
+  remains.progress.keyframes = {static_cast<std::uint32_t>(remains.taken.size()), of - there, 1};
   return remains;
 }
 
-Remains done(std::vector<std::uint32_t> taken, std::uint32_t of) {
-  Remains remains = booted(std::move(taken), of);
+Remains done(std::vector<std::uint32_t> taken, std::uint32_t of, std::uint32_t there = 0) {
+  Remains remains = booted(std::move(taken), of, there);
   remains.done = events::Done{of, 1, "out", 0};
   return remains;
 }
 
 // A node is killed while it draws `frame`; none: what it drew is not known.
-Remains killed(std::int32_t node, std::optional<std::int32_t> frame, std::vector<std::uint32_t> taken,
-               std::uint32_t of) {
-  Remains remains = booted(std::move(taken), of);
+Remains killed(std::int32_t node, std::optional<std::int32_t> frame, std::vector<std::uint32_t> taken, std::uint32_t of,
+               std::uint32_t there = 0) {
+  Remains remains = booted(std::move(taken), of, there);
   remains.ending.code = 137;
   const std::string machine = node == 0 ? "n1" : "n2";
   remains.last_words = {"mpirun noticed that process rank " + std::to_string(node + 1) + " with PID 7 on node " +
@@ -53,6 +55,7 @@ class SupervisorOf : public testing::Test {
     std::string frames;
     std::uint32_t nodes;
     std::vector<Slots> machines;
+    bool overwrite;
   };
 
   Supervisor supervise(std::deque<Remains> jobs) {
@@ -60,19 +63,19 @@ class SupervisorOf : public testing::Test {
     options_.folder = "out";
     options_.nodes = 8;
     options_.backend = options::Backend::mpi;
-    return Supervisor(options_, {[this](const options::RenderOptions& options, const std::vector<Slots>& machines) {
-                                   starts_.push_back({options.frames.text(), options.nodes, machines});
-                                   const Remains next = jobs_.front();
-                                   jobs_.pop_front();
-                                   return next;
-                                 },
-                                 [this] { ++cleared_; }, [this] { return machines_; },
-                                 [this](std::chrono::seconds pause, const std::vector<std::string>&) {
-                                   pauses_.push_back(pause.count());
-                                   return answering_;
-                                 },
-                                 [this](const std::string& line) { printed_ += line + "\n"; },
-                                 [] { return std::string("advice"); }});
+    return Supervisor(
+        options_, {[this](const options::RenderOptions& options, const std::vector<Slots>& machines) {
+                     starts_.push_back({options.frames.text(), options.nodes, machines, options.overwrite});
+                     const Remains next = jobs_.front();
+                     jobs_.pop_front();
+                     return next;
+                   },
+                   [this] { ++cleared_; }, [this] { return machines_; },
+                   [this](std::chrono::seconds pause, const std::vector<std::string>&) {
+                     pauses_.push_back(pause.count());
+                     return answering_;
+                   },
+                   [this](const std::string& line) { printed_ += line + "\n"; }, [] { return std::string("advice"); }});
   }
 
   options::RenderOptions options_;
@@ -94,10 +97,10 @@ TEST_F(SupervisorOf, AJobThatEndsWellIsStartedOnce) {
 }
 
 TEST_F(SupervisorOf, AJobThatDiesIsStartedAgainWithWhatIsMissing) {
-  Supervisor supervisor = supervise({killed(1, {}, {0, 2}, 5), done({1, 3, 4}, 3)});
+  Supervisor supervisor = supervise({killed(1, {}, {0, 2}, 5), done({1, 3, 4}, 5, 2)});
   supervisor.render();
   ASSERT_EQ(starts_.size(), 2u);
-  EXPECT_EQ(starts_[1].frames, "1,3-4");
+  EXPECT_EQ(starts_[1].frames, "0-");
   EXPECT_EQ(starts_[1].nodes, 8u);
   EXPECT_EQ(cleared_, 1);
   EXPECT_EQ(printed_,
@@ -113,15 +116,15 @@ TEST_F(SupervisorOf, AJobThatDiesAfterItsLastFrameIsNotStartedAgain) {
 
 TEST_F(SupervisorOf, ManyJobsWithFramesAreFollowedByAnother) {
   std::deque<Remains> jobs;
-  for (std::uint32_t frame = 0; frame < 20; ++frame) jobs.push_back(killed(1, {}, {frame}, 21));
-  jobs.push_back(done({20}, 1));
+  for (std::uint32_t frame = 0; frame < 20; ++frame) jobs.push_back(killed(1, {}, {frame}, 21, frame));
+  jobs.push_back(done({20}, 21, 20));
   supervise(jobs).render();
   EXPECT_EQ(pauses_, std::vector<long>(20, 1));
 }
 
 TEST_F(SupervisorOf, WithoutNewFramesItGivesUp) {
   options_.restarts = 2;
-  Supervisor supervisor = supervise({killed(1, {}, {0}, 5), killed(0, {}, {}, 4), killed(1, {}, {}, 4)});
+  Supervisor supervisor = supervise({killed(1, {}, {0}, 5), killed(0, {}, {}, 5, 1), killed(1, {}, {}, 5, 1)});
   EXPECT_TRUE(document::holds(
       document::failure_of([&] { supervisor.render(); }),
       "machine n2: node 1 was killed by signal 9 (Killed); gave up after 2 restarts without a new frame; "
@@ -137,7 +140,7 @@ TEST_F(SupervisorOf, WhatStartingAgainCannotHelpIsReportedAtOnce) {
   Remains stopped = killed(1, {}, {}, 5);
   stopped.passed_on = SIGTERM;
   ends_with(stopped, "stopped by Terminated");
-  Remains full = booted({0}, 5);
+  Remains full = booted({0}, 5, 0);
   full.fault = events::Fault{"No space left on device", "out", "", {}, {}, ""};
   ends_with(full, "No space left");
   ends_with(never_began(), "mpirun ended with exit code 1");
@@ -149,16 +152,16 @@ TEST_F(SupervisorOf, WhatStartingAgainCannotHelpIsReportedAtOnce) {
 }
 
 TEST_F(SupervisorOf, ANodesFailureIsNoReasonToGiveUp) {
-  Remains failed = booted({0}, 2);
+  Remains failed = booted({0}, 2, 0);
   failed.fault = events::Fault{"hangs", "node 1 on n2", "", 1, 1, ""};
-  supervise({failed, done({1}, 1)}).render();
+  supervise({failed, done({1}, 2, 1)}).render();
   EXPECT_EQ(starts_.size(), 2u);
 }
 
 TEST_F(SupervisorOf, MachinesThatDoNotAnswerAreLeftOutUntilTheyDo) {
   machines_ = {{"n1", 2}, {"n2", 2}, {"n3", 2}, {"n4", 2}};
   answering_ = {"n1", "n3", "n4"};
-  supervise({killed(1, {}, {0}, 3), done({1, 2}, 2)}).render();
+  supervise({killed(1, {}, {0}, 3), done({1, 2}, 3, 1)}).render();
   EXPECT_EQ(starts_[1].nodes, 6u);
   EXPECT_EQ(starts_[1].machines, (std::vector<Slots>{{"n1", 2}, {"n3", 2}, {"n4", 2}}));
   EXPECT_TRUE(document::holds(printed_, "with 6 nodes on 3 machines, without n2; 1 of 3 frames are there"));
@@ -167,8 +170,20 @@ TEST_F(SupervisorOf, MachinesThatDoNotAnswerAreLeftOutUntilTheyDo) {
 TEST_F(SupervisorOf, TheHostMovesWhereItsMachineIsGone) {
   machines_ = {{"n1", 2}, {"n2", 2}};
   answering_ = {"n2"};
-  supervise({killed(0, {}, {0}, 3), done({1, 2}, 2)}).render();
+  supervise({killed(0, {}, {0}, 3), done({1, 2}, 3, 1)}).render();
   EXPECT_TRUE(document::holds(printed_, "the host runs on n2 now, no more on n1: both must see the folder out"));
+}
+
+TEST_F(SupervisorOf, AFolderThatTheNextHostDoesNotSeeIsNamed) {
+  supervise({killed(0, {}, {0}, 3), done({0, 1, 2}, 3)}).render();
+  EXPECT_TRUE(document::holds(printed_, "only 0 of 1 frames are there still: do all machines see the folder out?"));
+}
+
+TEST_F(SupervisorOf, OnlyTheFirstJobOverwrites) {
+  options_.overwrite = true;
+  supervise({killed(1, {}, {0}, 3), done({1, 2}, 3, 1)}).render();
+  EXPECT_TRUE(starts_[0].overwrite);
+  EXPECT_FALSE(starts_[1].overwrite);
 }
 
 TEST_F(SupervisorOf, WithoutAnyMachineItEnds) {
@@ -188,18 +203,18 @@ TEST_F(SupervisorOf, AJobThatNeverBeganIsStartedWithoutTheMachineThatIsGone) {
 
 TEST_F(SupervisorOf, AFrameThatKillsTwoNodesIsSetAsideAndTriedByItself) {
   Supervisor supervisor =
-      supervise({killed(1, 1, {0}, 4), killed(0, 1, {}, 3), done({2, 3}, 2), killed(0, 1, {}, 1), done({1}, 1)});
+      supervise({killed(1, 1, {0}, 4), killed(0, 1, {}, 4, 1), done({2, 3}, 3, 1), killed(0, 1, {}, 1), done({1}, 1)});
   supervisor.render();
-  EXPECT_EQ(starts_[1].frames, "1-3");
-  EXPECT_EQ(starts_[2].frames, "2-3");
+  EXPECT_EQ(starts_[1].frames, "0-");
+  EXPECT_EQ(starts_[2].frames, "0,2-3");
   EXPECT_EQ(starts_[3].frames, "1");
   EXPECT_EQ(starts_[4].frames, "1");
   EXPECT_EQ(supervisor.frames().there(), 4u);
 }
 
 TEST_F(SupervisorOf, AFrameThatKillsByItselfIsReportedWhenTheRestIsThere) {
-  Supervisor supervisor =
-      supervise({killed(1, 1, {0}, 4), killed(0, 1, {}, 3), done({2, 3}, 2), killed(0, 1, {}, 1), killed(1, 1, {}, 1)});
+  Supervisor supervisor = supervise(
+      {killed(1, 1, {0}, 4), killed(0, 1, {}, 4, 1), done({2, 3}, 3, 1), killed(0, 1, {}, 1), killed(1, 1, {}, 1)});
   EXPECT_TRUE(document::holds(document::failure_of([&] { supervisor.render(); }),
                               "out: the nodes that drew frame 1 were killed each time; 3 of 4 frames are there"));
 }

@@ -5,32 +5,27 @@
 namespace mars::launch {
 namespace {
 
-TEST(WantedFrames, AreAsAskedUntilTheyAreCounted) {
-  WantedFrames frames(film::FrameSet("3-"));
-  EXPECT_EQ(frames.next(), film::FrameSet("3-"));
-  frames.set_count(4);
-  EXPECT_EQ(frames.next(), film::FrameSet("3-6"));
-}
-
-TEST(WantedFrames, WhatIsThereOrAsideIsLeftOut) {
+TEST(WantedFrames, AreAsAskedButForThoseAside) {
   WantedFrames frames(film::FrameSet("20-,3,0-5"));
+  EXPECT_EQ(frames.next(), film::FrameSet("20-,3,0-5"));
   frames.set_count(10);
-  EXPECT_EQ(frames.next(), film::FrameSet("0-5,20-23"));
-  EXPECT_TRUE(frames.take(4));
-  EXPECT_FALSE(frames.take(4));
   frames.set_aside(23);
-  EXPECT_EQ(frames.next(), film::FrameSet("0-3,5,20-22"));
-  EXPECT_EQ(frames.there(), 1u);
+  EXPECT_EQ(frames.next(), film::FrameSet("0-5,20-22"));
   frames.take_back(23);
-  EXPECT_EQ(frames.next(), film::FrameSet("0-3,5,20-23"));
+  EXPECT_EQ(frames.next(), film::FrameSet("20-,3,0-5"));
 }
 
-TEST(WantedFrames, EarlierRunsCount) {
+TEST(WantedFrames, AreCompleteWithThoseAside) {
   WantedFrames frames{film::FrameSet()};
+  EXPECT_FALSE(frames.complete()) << "nobody knows how many";
   frames.set_count(10);
-  frames.add_earlier(6);
-  frames.take(9);
-  EXPECT_EQ(frames.there(), 7u);
+  frames.count(6, 3);
+  EXPECT_EQ(frames.there(), 9u);
+  EXPECT_FALSE(frames.complete());
+  frames.set_aside(4);
+  EXPECT_TRUE(frames.complete());
+  frames.take_back(4);
+  EXPECT_EQ(frames.there(), 10u);
 }
 
 }  // namespace

@@ -1,0 +1,158 @@
+#include "host/content/film/changed_frames.h"
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <span>
+#include <type_traits>
+#include <utility>
+
+namespace mars::film {
+namespace {
+
+using wire::FilmView;
+
+// Of structs without padding, bit by bit: 0 and -0 are not the same.
+template <typename T>
+bool same_bits(std::span<const T> a, std::span<const T> b) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
+}
+
+template <typename T>
+bool same_bits(const T& a, const T& b) {
+  return same_bits(std::span(&a, 1), std::span(&b, 1));
+}
+
+// All numbers of a struct are 4 or 8 bytes: its size says whether there is padding.
+static_assert(sizeof(wire::Camera) == sizeof(wire::Matrix) + 4 * sizeof(double));
+static_assert(sizeof(wire::Light) == 13 * sizeof(float));
+static_assert(sizeof(wire::Material) == 13 * sizeof(float));
+static_assert(sizeof(wire::FilmSettings) == 24 * sizeof(float));
+static_assert(sizeof(wire::AmbientLight) == 6 * sizeof(float) && sizeof(wire::Fog) == 5 * sizeof(float));
+
+// Without what decides no pixel.
+wire::FilmSettings shown_settings(wire::FilmSettings settings) {
+  settings.frames = 0;
+  settings.rate = 0;
+  settings.camera = {};
+  return settings;
+}
+
+bool same_meshlet(const FilmView& a, const wire::Meshlet& in_a, const FilmView& b, const wire::Meshlet& in_b) {
+  return same_bits(in_a.low, in_b.low) && same_bits(in_a.high, in_b.high) &&
+         same_bits(a.mesh_places().subspan(in_a.first_vertex, in_a.vertex_count),
+                   b.mesh_places().subspan(in_b.first_vertex, in_b.vertex_count)) &&
+         same_bits(a.mesh_normals().subspan(in_a.first_vertex, in_a.vertex_count),
+                   b.mesh_normals().subspan(in_b.first_vertex, in_b.vertex_count)) &&
+         same_bits(a.mesh_triangles().subspan(in_a.first_triangle, in_a.triangle_count),
+                   b.mesh_triangles().subspan(in_b.first_triangle, in_b.triangle_count));
+}
+
+bool same_shape(const FilmView& a, const wire::Shape& in_a, const FilmView& b, const wire::Shape& in_b) {
+  if (in_a.meshlet_count != in_b.meshlet_count) return false;
+  for (std::uint32_t i = 0; i < in_a.meshlet_count; ++i)
+    if (!same_meshlet(a, a.meshlets()[in_a.first_meshlet + i], b, b.meshlets()[in_b.first_meshlet + i])) return false;
+  return same_bits(a.patches().subspan(in_a.first_patch, in_a.patch_count),
+                   b.patches().subspan(in_b.first_patch, in_b.patch_count));
+}
+
+class Comparison {
+ public:
+  Comparison(const FilmView& before, const FilmView& now)
+      : before_(before),
+        now_(now),
+        frames_(std::min(before.settings().frames, now.settings().frames)),
+        differences_(std::size_t{frames_} + 1, 0) {}
+
+  std::vector<std::uint32_t> changed() {
+    if (!have_same_parts())
+      mark(0, frames_);
+    else
+      compare_values();
+    std::vector<std::uint32_t> frames;
+    std::int64_t reasons = 0;
+    for (std::uint32_t frame = 0; frame < now_.settings().frames; ++frame) {
+      if (frame < frames_) reasons += differences_[frame];
+      if (frame >= frames_ || reasons > 0) frames.push_back(frame);
+    }
+    return frames;
+  }
+
+ private:
+  // What holds throughout the film.
+  bool have_same_parts() {
+    const auto a = before_.segments(), b = now_.segments();
+    if (!same_bits(shown_settings(before_.settings()), shown_settings(now_.settings())) || a.size() != b.size() ||
+        before_.light_tracks().size() != now_.light_tracks().size())
+      return false;
+    for (std::size_t i = 0; i < a.size(); ++i)
+      if (!have_same_shape(a[i].shape, b[i].shape)) return false;
+    return true;
+  }
+
+  bool have_same_shape(std::uint32_t before, std::uint32_t now) {
+    const auto [known, is_new] = same_shapes_.try_emplace({before, now}, false);
+    if (is_new) known->second = same_shape(before_, before_.shapes()[before], now_, now_.shapes()[now]);
+    return known->second;
+  }
+
+  void compare_values() {
+    compare(before_.settings().camera, before_.cameras(), now_.settings().camera, now_.cameras());
+    for (std::size_t i = 0; i < now_.light_tracks().size(); ++i)
+      compare(before_.light_tracks()[i], before_.lights(), now_.light_tracks()[i], now_.lights());
+    for (std::size_t i = 0; i < now_.segments().size(); ++i) {
+      const wire::Segment &a = before_.segments()[i], &b = now_.segments()[i];
+      compare(a.motion, before_.matrices(), b.motion, now_.matrices());
+      compare(a.material, before_.materials(), b.material, now_.materials());
+    }
+    compare_movers();
+  }
+
+  // Goes through the changes of both tracks together: between two of them neither value changes.
+  template <typename Value>
+  void compare(const wire::Track& a, std::span<const Value> of_a, const wire::Track& b, std::span<const Value> of_b) {
+    const auto in_a = before_.changes().subspan(a.first, a.count), in_b = now_.changes().subspan(b.first, b.count);
+    const auto end_of = [this](std::span<const wire::Change> changes, std::size_t at) {
+      return at + 1 < changes.size() ? std::min(changes[at + 1].frame, frames_) : frames_;
+    };
+    for (std::size_t i = 0, j = 0, frame = 0; frame < frames_;) {
+      const std::uint32_t end_a = end_of(in_a, i), end_b = end_of(in_b, j), end = std::min(end_a, end_b);
+      if (!same_bits(of_a[in_a[i].value], of_b[in_b[j].value])) mark(static_cast<std::uint32_t>(frame), end);
+      i += end_a == end;
+      j += end_b == end;
+      frame = end;
+    }
+  }
+
+  // Likewise through the intervals.
+  void compare_movers() {
+    const auto end_of = [](const wire::Interval& interval) { return interval.first_frame + interval.frame_count; };
+    for (std::size_t i = 0, j = 0, frame = 0; frame < frames_;) {
+      const wire::Interval &a = before_.intervals()[i], &b = now_.intervals()[j];
+      const std::uint32_t end = std::min({end_of(a), end_of(b), frames_});
+      if (!same_bits(before_.moving(a), now_.moving(b))) mark(static_cast<std::uint32_t>(frame), end);
+      i += end_of(a) == end;
+      j += end_of(b) == end;
+      frame = end;
+    }
+  }
+
+  void mark(std::uint32_t first, std::uint32_t end) {
+    ++differences_[first];
+    --differences_[end];
+  }
+
+  const FilmView &before_, &now_;
+  const std::uint32_t frames_;             // that both have
+  std::vector<std::int64_t> differences_;  // of each frame, reasons why it has changed, less those of the frame before
+  std::map<std::pair<std::uint32_t, std::uint32_t>, bool> same_shapes_;
+};
+
+}  // namespace
+
+std::vector<std::uint32_t> changed_frames(const FilmView& before, const FilmView& now) {
+  return Comparison(before, now).changed();
+}
+
+}  // namespace mars::film

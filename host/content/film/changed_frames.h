@@ -1,0 +1,18 @@
+// Which frames of an edited film show something else than before. A frame's pixels are decided by the film's settings
+// but its length and rate; by the camera and all lights at this frame; by each segment's shape, matrix and material at
+// this frame; and by which segments move in its interval (docs/exactness.md). These are compared bit by bit. What only
+// says where they lie in the film, names of segments, and where intervals begin and end decide nothing.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "node/wire/film.h"
+
+namespace mars::film {
+
+// Frames of `now`, ascending, that `before` does not have, or not the same. A number that the frame's light does not
+// use, such as a direction of a point light, counts too.
+std::vector<std::uint32_t> changed_frames(const wire::FilmView& before, const wire::FilmView& now);
+
+}  // namespace mars::film

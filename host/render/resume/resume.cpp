@@ -1,0 +1,206 @@
+#include "host/render/resume/resume.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "hal/failure/failure.h"
+#include "host/content/document/checksum.h"
+#include "host/content/film/film_file.h"
+#include "host/render/resume/edit.h"
+#include "host/render/resume/sources.h"
+
+namespace mars::resume {
+namespace {
+
+namespace fs = std::filesystem;
+using sinks::Manifest;
+
+// Another run has changed the folder since it was looked at: look again.
+struct FolderChanged {};
+
+fs::path kept_film(const Wish& wish) { return fs::path(wish.folder) / sinks::kFilmName; }
+
+// Whether the film asked for is the one that the folder keeps, by its name there.
+bool asks_for_kept_film(const Wish& wish) {
+  std::error_code none;
+  return fs::equivalent(wish.film, kept_film(wish), none);
+}
+
+// Whether the film of the folder is the one asked for, as far as can be told without compiling it.
+bool is_made_of_the_same(const Manifest& there, const Wish& wish) {
+  if (asks_for_kept_film(wish)) return wish.options.empty();
+  return there.options == wish.options && !there.sources.empty() &&
+         there.sources.front().path == source_path(wish.film) && are_unchanged(there.sources);
+}
+
+// The film that the folder keeps, if it is the one that its manifest names.
+std::optional<film::CompiledFilm> load_kept_film(const Wish& wish, const Manifest& there) try {
+  film::CompiledFilm film = film::load_compiled_film(kept_film(wish));
+  if (document::checksum_of(film.block()) != there.checksum) return std::nullopt;
+  return film;
+} catch (const Failure&) {
+  return std::nullopt;
+}
+
+bool are_of_one_folder(const std::optional<Manifest>& a, const std::optional<Manifest>& b) {
+  return a.has_value() == b.has_value() && (!a || sinks::are_of_one_folder(*a, *b));
+}
+
+std::string format_name(images::PictureFormat format) { return images::facts_of(format).name; }
+
+void refuse_other_format(const Manifest& there, const Wish& wish) {
+  if (there.format == wish.format) return;
+  throw Failure(
+      "the frames in this folder are " + format_name(there.format) + ", not " + format_name(wish.format), wish.folder,
+      "add --format " + format_name(there.format) + ", give another folder with -o, or replace them with --overwrite");
+}
+
+void refuse_other_film(const Manifest& there, const Wish& wish) {
+  throw Failure("the frames in this folder are of another film, " + there.film, wish.folder,
+                "give another folder with -o, or replace them with --overwrite");
+}
+
+// It cannot be compared.
+void refuse_unknown_film(const Manifest& there, const Wish& wish) {
+  throw Failure("the frames in this folder are of another film, or of another version of it, " + there.film +
+                    ", and film.mars, which would tell, is not there or not sound",
+                wish.folder, "give another folder with -o, or replace them with --overwrite");
+}
+
+class Opening {
+ public:
+  Opening(const Wish& wish, const std::function<film::CompiledFilm()>& compile, const sinks::Warn& warn)
+      : wish_(wish), compile_(compile), warn_(warn) {}
+
+  Opened open() {
+    for (;;) {
+      look();
+      try {
+        return enter();
+      } catch (const FolderChanged&) {
+      }
+    }
+  }
+
+ private:
+  // At the folder as it is now; and takes the film that it keeps, or compiles it.
+  void look() {
+    seen_ = sinks::read_frames_json(wish_.folder);
+    if (seen_ && !wish_.overwrite) refuse_other_format(*seen_, wish_);
+    kept_.reset();
+    edit_.reset();
+    refusal_.reset();
+    if (seen_ && !wish_.overwrite && is_made_of_the_same(*seen_, wish_)) kept_ = load_kept_film(wish_, *seen_);
+    if (kept_) return;
+    compile();
+    if (seen_ && document::checksum_of(compiled_->block()) != seen_->checksum) compare();
+  }
+
+  // With what the folder's frames show.
+  void compare() try {
+    const auto before = load_kept_film(wish_, *seen_);
+    if (!before) refuse_unknown_film(*seen_, wish_);
+    refuse_other_format(*seen_, wish_);
+    edit_ = edit_of(*before, *compiled_, wish_.folder);
+    const bool same_file = !seen_->sources.empty() && seen_->sources.front().path == source_path(wish_.film);
+    if (edit_->keeps_none && !same_file) refuse_other_film(*seen_, wish_);
+  } catch (const Failure& failure) {
+    edit_.reset();
+    if (!wish_.overwrite) refusal_ = failure;
+  }
+
+  void compile() {
+    if (compiled_) return;
+    document::RecordedReads reads;
+    compiled_ = compile_();
+    sources_ = sources_of(wish_.film, reads.stamps());
+  }
+
+  const film::CompiledFilm& film() const { return kept_ ? *kept_ : *compiled_; }
+
+  // Of all frames asked for.
+  Manifest wanted() const {
+    const wire::FilmView view = film().view();
+    const wire::FilmSettings& settings = view.settings();
+    Manifest manifest{wish_.film,
+                      document::checksum_of(film().block()),
+                      settings.width,
+                      settings.height,
+                      wish_.format,
+                      settings.rate,
+                      settings.frames,
+                      wish_.frames.of_film(settings.frames),
+                      {},
+                      sources_,
+                      wish_.options};
+    const bool known = seen_ && (kept_ || asks_for_kept_film(wish_));
+    if (known) {
+      manifest.film = seen_->film;
+      manifest.sources = seen_->sources;
+      manifest.options = seen_->options;
+    }
+    return manifest;
+  }
+
+  Opened enter() {
+    const Manifest wanted = this->wanted();
+    const auto asked = static_cast<std::uint32_t>(wanted.frames.size());
+    // Needs no right to write there.
+    if (kept_ && sinks::missing_frames(wish_.folder, *seen_, wanted.frames).empty())
+      return {std::move(*kept_), nullptr, asked, {}, ""};
+    auto folder = std::make_unique<sinks::FrameFolder>(
+        wish_.folder, wanted, [&](const std::optional<Manifest>& there) { return go_on(there, wanted); }, warn_);
+    std::vector<std::uint32_t> frames = folder->frames();
+    if (frames.empty()) folder.reset();
+    std::string changed = edit_ && !wish_.overwrite ? edit_text(*seen_, *edit_, film(), wish_.film) : "";
+    return {std::move(kept_ ? *kept_ : *compiled_), std::move(folder), asked, std::move(frames), std::move(changed)};
+  }
+
+  sinks::Continuation go_on(const std::optional<Manifest>& there, const Manifest& wanted) const {
+    if (!are_of_one_folder(there, seen_)) throw FolderChanged();
+    Manifest all = wanted;
+    all.pixel_hashes.assign(all.frames.size(), "");
+    if (there) keep_frames(*there, all);
+    return {std::move(all), kept_ ? nullptr : &film(), refusal_};
+  }
+
+  void keep_frames(const Manifest& there, Manifest& all) const {
+    const bool same = sinks::are_of_one_folder(there, all);
+    if (!same && !edit_) return;
+    Manifest kept = there;
+    kept.pixel_hashes.resize(kept.frames.size());
+    if (wish_.overwrite)
+      for (const std::uint32_t frame : all.frames) sinks::set_hash(kept, frame, "");
+    add_kept_frames(kept, same ? Edit() : *edit_, all);
+  }
+
+  const Wish& wish_;
+  const std::function<film::CompiledFilm()>& compile_;
+  const sinks::Warn& warn_;
+  std::optional<Manifest> seen_;
+  std::optional<film::CompiledFilm> kept_, compiled_;
+  std::optional<Edit> edit_;            // from the folder's film to compiled_; none: they are the same, or all goes
+  std::optional<Failure> refusal_;      // why the folder may not become compiled_'s
+  std::vector<sinks::Source> sources_;  // of compiled_
+};
+
+}  // namespace
+
+std::optional<std::uint32_t> count_if_complete(const Wish& wish) try {
+  if (wish.overwrite || !sinks::read_frames_json(wish.folder)) return std::nullopt;
+  const Manifest there = sinks::read_manifest(wish.folder);
+  if (there.format != wish.format || !is_made_of_the_same(there, wish)) return std::nullopt;
+  const std::vector<std::uint32_t> asked = wish.frames.of_film(there.film_frames);
+  if (!sinks::missing_frames(wish.folder, there, asked).empty()) return std::nullopt;
+  return static_cast<std::uint32_t>(asked.size());
+} catch (const Failure&) {  // the host says what is wrong
+  return std::nullopt;
+}
+
+Opened open(const Wish& wish, const std::function<film::CompiledFilm()>& compile, const sinks::Warn& warn) {
+  return Opening(wish, compile, warn).open();
+}
+
+}  // namespace mars::resume
