@@ -13,6 +13,7 @@
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
 #include "node/film_receiver.h"
+#include "node/heartbeat.h"
 #include "node/renderer.h"
 #include "node/simd/instruction_set.h"
 #include "node/wire/commands.h"
@@ -48,6 +49,7 @@ class Firmware {
 
   simd::InstructionSet instruction_set_;
   const std::string name_;  // as in failures
+  Heartbeat heartbeat_;
   std::optional<messages::SharedMemory> film_block_;
   std::optional<wire::FilmView> film_;
   std::optional<Renderer> renderer_;
@@ -58,7 +60,8 @@ class Firmware {
 
 Firmware::Firmware(const NodeIdentity& identity)
     : instruction_set_(simd::best_instruction_set(identity.simd)),
-      name_(identity.host + " (node " + std::to_string(mynode()) + ")") {
+      name_(identity.host + " (node " + std::to_string(mynode()) + ")"),
+      heartbeat_(identity) {
   wire::Hello hello{};
   hello.stamp = wire::own_stamp();
   hello.node = static_cast<std::int32_t>(mynode());
@@ -77,6 +80,7 @@ Firmware::Firmware(const NodeIdentity& identity)
 void Firmware::obey() {
   for (;;) {
     led(0);
+    heartbeat_.rest();
     cprobe(wire::any_of(wire::kLoad, wire::kRender, wire::kCredit, wire::kStop, wire::kClock));
     led(1);
     switch (infotype()) {
@@ -107,7 +111,7 @@ void Firmware::load() {
   if (messages::neighbourhood().index == 0) receive_film(block, machines);
   gsync();
   film_.emplace(block, "film", true);
-  renderer_.emplace(*film_, load, machines, instruction_set_);
+  renderer_.emplace(*film_, load, machines, instruction_set_, heartbeat_);
   groups_ = load.groups;
   command_.reserve(sizeof(wire::Render) + film_->settings().frames * sizeof(std::uint32_t));
   frames_.reserve(film_->settings().frames);
@@ -149,6 +153,8 @@ void run_node(const NodeIdentity& identity) {
   Firmware firmware(identity);
   try {
     firmware.obey();
+  } catch (const HostLost&) {
+    throw;
   } catch (const std::exception& failure) {
     firmware.report_fault(reason_of(failure));
     crecv(wire::kStop, nullptr, 0);  // the host ends the run; leaving first would take the reason with it

@@ -12,13 +12,20 @@
 #include "node/shading/shading_of.h"
 
 namespace mars::node {
+namespace {
+
+// Between looks at the clock: few, for a line may have millions of samples.
+constexpr std::uint32_t kLinesABeat = 4;
+
+}  // namespace
 
 Renderer::Renderer(const wire::FilmView& film, const wire::Load& load, std::span<const std::int32_t> machines,
-                   simd::InstructionSet set)
-    : scene_(film),
+                   simd::InstructionSet set, Heartbeat& heartbeat)
+    : heartbeat_(heartbeat),
+      scene_(film),
       mapping_(load.mapping),
       pixel_format_(load.pixel_format),
-      tessellator_(set),
+      tessellator_(set, &heartbeat),
       z_buffer_(set, film.settings().width, scene_.pattern()),
       neighbours_(machines, load.groups),
       still_(neighbours_, film.settings().width, film.settings().height, scene_.pattern(), load.still_memory),
@@ -76,6 +83,7 @@ void Renderer::draw_frame(wire::FrameKind kind, std::uint32_t interval, std::uin
   group_ = group;
   contributors_ = static_cast<std::size_t>(contributors);
   report_.begin(kind, frame, interval);
+  heartbeat_.begin_frame(frame);
   scene_.set_frame(frame);
   report_.charge(wire::Work::first_frame, std::exchange(is_first_, false) ? 1 : 0);
   report_.charge(wire::Work::frame, 1);
@@ -113,12 +121,14 @@ Tessellation Renderer::tessellate_part(const group::Pass& pass) {
   const Tessellation own = tessellate();
   check(own.all_stored, "a pass's triangles fit the memory planned for it");
   fill_own_lines(own.polygons);
+  heartbeat_.enter(wire::Phase::sum);
   group::wait_for_all(group_);
   report_.clock(wire::Phase::sum);
   return own;
 }
 
 Tessellation Renderer::tessellate() {
+  heartbeat_.enter(wire::Phase::dice);
   const Scatter scatter{static_cast<std::uint32_t>(member()), static_cast<std::uint32_t>(contributors_)};
   const LineTable lines{wanted_lines_, report_.is_keyframe() ? wanted_lines_ : unkept_lines(), line_loads_};
   const Tessellation own = tessellator_.tessellate(scene_, scatter, lines, {memory_.arena(), memory_.first_triangle()},
@@ -164,6 +174,7 @@ bool Renderer::can_fill(const Tessellation& own) const {
 }
 
 void Renderer::fill_own_lines(const raster::Polygons& own) {
+  heartbeat_.enter(wire::Phase::fill);
   raster::LineFiller filler({0, static_cast<std::uint32_t>(line_loads_.size())}, line_totals_, memory_.first_triangle(),
                             memory_.arena());
   filler.add(own);
@@ -175,9 +186,11 @@ void Renderer::fill_own_lines(const raster::Polygons& own) {
 
 std::uint32_t Renderer::map_to_homes(const group::MadeCounts& made) {
   const bool large = group::is_large(group::own_bytes(made, triangles_travel()), memory_.frame_bytes());
+  heartbeat_.enter(wire::Phase::sum);
   sums_.add_up(group_, {line_loads_, made.edge_boxes, large});
   report_.strip().edge_box_total = sums_.ebc().back();
   report_.clock(wire::Phase::sum);
+  heartbeat_.enter(wire::Phase::map);
   const auto weights = sums_.weights(mapping_);
   const auto drawing = homes().first(contributors_);
   group::map_lines(mapping_, weights, drawing);
@@ -196,6 +209,7 @@ std::uint32_t Renderer::map_to_homes(const group::MadeCounts& made) {
 
 // Neighbours read each other's edge boxes where they lie; the others' are sent.
 geometry::LineRange Renderer::exchange_triangles(const raster::Polygons& own, const group::Pass& pass) {
+  heartbeat_.enter(wire::Phase::exchange);
   const auto homes_now = std::span(pass_homes_).first(homes().size());
   std::ranges::transform(homes(), homes_now.begin(),
                          [&](const geometry::LineRange& home) { return group::part_of(home, pass); });
@@ -223,6 +237,7 @@ void Renderer::receive_triangles(const geometry::LineRange& lines) {
   for (std::uint64_t left = totals.back(); left > 0;) {
     const raster::Polygons others = triangle_exchange_.receive_triangles(memory_);
     report_.clock(wire::Phase::exchange);
+    heartbeat_.look();
     const std::uint64_t came = others.stationary.size() + others.moving.size();
     check(came > 0 && came <= left, "as many edge boxes come as EBC counts");
     left -= came;
@@ -239,8 +254,10 @@ void Renderer::draw_lines(const geometry::LineRange& lines, const group::Pass& p
   const bool constant = report_.is_keyframe() && raster::any_stationary(parts_, lines);
   geometry::LineRange strip{lines.first, lines.first};
   do {
+    heartbeat_.enter(wire::Phase::credit);
     raster::StripBuffer& buffer = outbox_.begin(constant, report_.strip().work);
     report_.clock(wire::Phase::credit);
+    heartbeat_.enter(wire::Phase::scanline);
     strip = {strip.last, draw_strip({strip.last, lines.last}, shading, buffer)};
     charge_strip(strip, buffer);
     report_.clock(wire::Phase::scanline);
@@ -278,7 +295,8 @@ std::uint32_t Renderer::draw_strip(const geometry::LineRange& lines, const shadi
                                    raster::StripBuffer& out) {
   std::uint32_t line = lines.first;
   while (line < lines.last && out.lines_that_fit() > 0) {
-    const geometry::LineRange some{line, std::min(line + out.lines_that_fit(), lines.last)};
+    heartbeat_.look();
+    const geometry::LineRange some{line, std::min(line + std::min(out.lines_that_fit(), kLinesABeat), lines.last)};
     if (report_.is_keyframe())
       z_buffer_.draw_keyframe(parts_, some, shading, still_, out);
     else
@@ -289,9 +307,11 @@ std::uint32_t Renderer::draw_strip(const geometry::LineRange& lines, const shadi
 }
 
 void Renderer::finish_exchange(const group::Pass& pass) {
+  heartbeat_.enter(wire::Phase::exchange);
   triangle_exchange_.finish();
   report_.clock(wire::Phase::exchange);
   if (!pass.is_last() || !report_.is_keyframe() || group_.count == 1) return;
+  heartbeat_.enter(wire::Phase::depth);
   still_exchange_.complete({group_, homes(), contributes_}, still_);
   report_.clock(wire::Phase::depth);
 }

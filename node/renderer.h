@@ -18,6 +18,7 @@
 #include "node/group/group_sums.h"
 #include "node/group/outbox.h"
 #include "node/group/passes.h"
+#include "node/heartbeat.h"
 #include "node/raster/neighbours.h"
 #include "node/raster/scanline.h"
 #include "node/raster/still_lines.h"
@@ -28,9 +29,10 @@ namespace mars::node {
 
 class Renderer {
  public:
-  // `machines`: each node's machine, as in Load. The film's block outlives it. Collective over a machine's nodes.
+  // `machines`: each node's machine, as in Load. The film's block and `heartbeat` outlive it. Collective over a
+  // machine's nodes.
   Renderer(const wire::FilmView& film, const wire::Load& load, std::span<const std::int32_t> machines,
-           simd::InstructionSet set);
+           simd::InstructionSet set, Heartbeat& heartbeat);
 
   // Draws the caller's share of `frames` (see Render) and sends it.
   void render(const wire::Render& command, std::span<const std::uint32_t> frames);
@@ -84,6 +86,7 @@ class Renderer {
   bool triangles_travel() const;  // to nodes of the group that cannot read the caller's memory
   shading::Shading shading() const;
 
+  Heartbeat& heartbeat_;
   std::optional<Tracer> tracer_;
   geometry::Scene scene_;
   wire::Mapping mapping_;

@@ -47,7 +47,8 @@ struct Tessellator::Output {
   }
 };
 
-Tessellator::Tessellator(simd::InstructionSet set) : instruction_set_(set), dicer_(set), placer_(set), colored_(set) {}
+Tessellator::Tessellator(simd::InstructionSet set, Heartbeat* heartbeat)
+    : instruction_set_(set), heartbeat_(heartbeat), dicer_(set), placer_(set), colored_(set) {}
 
 Tessellation Tessellator::tessellate(const geometry::Scene& scene, const Scatter& scatter, const LineTable& lines,
                                      const TriangleSpace& space, wire::WorkCounts& work) {
@@ -90,12 +91,14 @@ void Tessellator::add_segment(const geometry::Scene& scene, std::size_t segment,
   raster::PatchIdentity identity{0, material, shape::mirrors(matrix), film.materials()[material].sides == 1,
                                  scene.moves(segment)};
   for (; i < shape.patch_count; i += scatter.count) {
+    look_now_and_then();
     identity.patch = first + static_cast<std::uint32_t>(i);
     add_patch(scene, matrix, film.patches()[shape.first_patch + i], identity, output);
   }
   if (i >= shape.size()) return;
   const shape::EyeMap map = geometry::eye_map(matrix);
   for (; i < shape.size(); i += scatter.count) {
+    look_now_and_then();
     identity.patch = first + static_cast<std::uint32_t>(i);
     add_meshlet(scene, matrix, map, film.meshlets()[shape.first_meshlet + i - shape.patch_count], identity, output);
   }

@@ -9,6 +9,7 @@
 #include "node/geometry/meshlets.h"
 #include "node/geometry/scene.h"
 #include "node/group/passes.h"
+#include "node/heartbeat.h"
 #include "node/raster/arena.h"
 #include "node/raster/scanline.h"
 #include "node/raster/setup.h"
@@ -55,7 +56,8 @@ struct Tessellation {
 
 class Tessellator {
  public:
-  explicit Tessellator(simd::InstructionSet set);
+  // `heartbeat` is looked after now and then; nullptr: there is none.
+  explicit Tessellator(simd::InstructionSet set, Heartbeat* heartbeat = nullptr);
 
   // Triangles of the scatter's patches and meshlets at the scene's frame, in the order of polygon numbers. They lie in
   // `space`. Sets `lines.loads`, and the patches and vertices of `work`.
@@ -72,7 +74,12 @@ class Tessellator {
   void add_meshlet(const geometry::Scene& scene, const shape::EyeMatrix& matrix, const shape::EyeMap& map,
                    const wire::Meshlet& meshlet, const raster::PatchIdentity& identity, Output& output);
 
+  void look_now_and_then() {
+    if (heartbeat_ != nullptr) heartbeat_->look_now_and_then();
+  }
+
   simd::InstructionSet instruction_set_;
+  Heartbeat* heartbeat_;
   shape::Dicer dicer_;
   geometry::MeshletPlacer placer_;
   shading::ColoredSurface colored_;

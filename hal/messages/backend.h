@@ -7,10 +7,12 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "hal/messages/neighbourhood.h"
 #include "hal/messages/offer.h"
@@ -89,6 +91,8 @@ class Backend {
 
   // Since some fixed point: by the machine's clock, unless ranks live by another.
   virtual double seconds() const { return machine_seconds(); }
+  // Whether it is that of the machine.
+  virtual bool has_machine_clock() const { return true; }
   // The rank has just done so many units of work of a kind, by the program's own numbers: where ranks live by another
   // clock, it goes on by what they cost.
   virtual void charge(int /*kind*/, std::uint64_t /*units*/) {}
@@ -117,8 +121,14 @@ class Backend {
   // have come here, and no message is on its way to or from this one. Nothing is sent after the first call.
   virtual bool finish() = 0;
 
+  // `call` is called now and then where a call of the backend itself, such as share, waits for other ranks.
+  void while_waiting(std::function<void()> call) { while_waiting_ = std::move(call); }
+
   // Ends all ranks at once and prints `reason`. Never waits for any of them.
   [[noreturn]] virtual void abort(const std::string& reason) = 0;
+
+ protected:
+  std::function<void()> while_waiting_;  // none: nothing is called
 };
 
 }  // namespace mars::messages

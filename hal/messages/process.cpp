@@ -45,7 +45,10 @@ Process::Process(Backend& backend) : Progress(backend) {
   bound_process = this;
 }
 
-Process::~Process() { bound_process = nullptr; }
+Process::~Process() {
+  while_waiting({});
+  bound_process = nullptr;
+}
 
 void Process::serve_this_thread() { bound_process = this; }
 
@@ -250,7 +253,7 @@ bool Process::masktrap(bool masked) {
 
 void Process::flick() {
   attend();
-  backend_.idle(quiet_turns_++, kFlick);
+  let_pass(quiet_turns_++, kFlick);
 }
 
 // Only strict ranks compare their counts. Messages of the program before are counted as its own.

@@ -60,6 +60,13 @@ class Process : public Progress {
   // The calling thread's NX calls are this process's too, from now on: progress_thread.h.
   void serve_this_thread();
 
+  // `call` is called now and then, several times a second, while a call of this process waits: for a message, until its
+  // own is gone, for other nodes (global operations, shared memory), or in flick. It may do what a handler may: send,
+  // receive what is there, and throw, which ends the call that waits. It must not wait, nor set another. What the
+  // waiting call's info* say does not change by it. It is not called in finish, after which nobody receives; nor from
+  // within itself; nor on machines whose clock is not the machine's, which are simulated. An empty one: none.
+  using Progress::while_waiting;
+
   // Sends of more than 100 bytes are done only when received: rendezvous.h. Before the first message.
   void set_strict(std::chrono::milliseconds patience) { rendezvous_.set_strict(patience); }
 

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "hal/messages/call_failure.h"
 
@@ -12,6 +13,9 @@ namespace {
 
 // At most: a message ends it.
 constexpr std::chrono::microseconds kSleep{10000};
+
+// From one call of what is called while waiting to the next: the longest pauses add up to a sixth of a second.
+constexpr unsigned kPausesACall = 16;
 
 void describe(const Envelope& envelope, long* info) {
   if (info == nullptr) return;
@@ -148,8 +152,34 @@ bool Progress::pass(int& turn) {
   if (moved)
     turn = 0;
   else
-    backend_.idle(turn++, kSleep);
+    let_pass(turn++, kSleep);
   return moved;
+}
+
+void Progress::while_waiting(std::function<void()> call) {
+  if (!backend_.has_machine_clock()) return;
+  while_waiting_ = std::move(call);
+  backend_.while_waiting(while_waiting_ ? [this] { call_while_waiting(); } : std::function<void()>());
+}
+
+void Progress::let_pass(int turn, std::chrono::microseconds longest) {
+  backend_.idle(turn, longest);
+  if (while_waiting_) call_while_waiting();
+}
+
+void Progress::call_while_waiting() {
+  if (is_calling_ || pauses_to_call_-- > 0) return;
+  pauses_to_call_ = kPausesACall - 1;
+  const Envelope before = info_;
+  is_calling_ = true;
+  try {
+    while_waiting_();
+  } catch (...) {
+    is_calling_ = false;
+    throw;
+  }
+  is_calling_ = false;
+  info_ = before;
 }
 
 // Ends a done request and those merged with it. Its info is that of its first receive.
@@ -251,7 +281,7 @@ void Progress::probe(const char* call, const Selection& selection, long* info) {
   int turn = 0;
   while (!look(selection)) {
     if (handlers_.any() && call_handlers()) continue;
-    backend_.idle(turn++, kSleep);
+    let_pass(turn++, kSleep);
     if (rendezvous_.strict()) rendezvous_.report_silence(*this, waiting);
   }
   if (turn > 0) ledger_.waited(info_, begin);

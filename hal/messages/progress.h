@@ -2,7 +2,9 @@
 // queue, handlers when they are due.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 
 #include "hal/messages/arguments.h"
@@ -20,6 +22,9 @@ namespace mars::messages {
 class Progress : public Caller {
  public:
   explicit Progress(Backend& backend);
+
+  // As Process's.
+  void while_waiting(std::function<void()> call);
 
   // Calls the handlers that are due; what else has arrived goes where it belongs.
   void attend();
@@ -46,6 +51,8 @@ class Progress : public Caller {
   void wait(Request& head);
   void wait_or_cancel(Request& request);
   bool pass(int& turn);
+  void let_pass(int turn, std::chrono::microseconds longest);
+  void call_while_waiting();
   void conclude(Request& head);
   void cancel(Request& head);
   void give_back(const Request& request);
@@ -81,6 +88,10 @@ class Progress : public Caller {
   Ledger ledger_;
   bool overtaken_ = false;  // messages may wait that came before one that was received
   int quiet_turns_ = 0;     // flicks since anything arrived
+
+  std::function<void()> while_waiting_;
+  bool is_calling_ = false;      // it
+  unsigned pauses_to_call_ = 0;  // of waiting, until it is called again
 };
 
 }  // namespace mars::messages

@@ -142,6 +142,8 @@ MpiBackend::~MpiBackend() {
 
 double MpiBackend::seconds() const { return mpi_waits_well() ? MPI_Wtime() : messages::machine_seconds(); }
 
+bool MpiBackend::has_machine_clock() const { return !mpi_waits_well(); }
+
 messages::Neighbourhood MpiBackend::neighbourhood() {
   check(rank_ != host(), "the host is not one of a machine's nodes");
   return neighbourhood_;
@@ -154,12 +156,12 @@ std::shared_ptr<std::byte> MpiBackend::share_offered(std::size_t bytes, std::str
   if (leads) offer = messages::offer_file(rank_, bytes, refusal);
   MPI_Request request = MPI_REQUEST_NULL;
   succeed(MPI_Ibcast(&offer.name, sizeof offer.name, MPI_BYTE, 0, machine_, &request), "MPI_Ibcast");
-  wait(request);
+  wait_for_others(request);
   if (!leads) offer.block = messages::attach_file(neighbourhood_.machine, offer.name, bytes, refusal);
   const int mine = offer.block != nullptr;
   int all = 0;
   succeed(MPI_Iallreduce(&mine, &all, 1, MPI_INT, MPI_MIN, machine_, &request), "MPI_Iallreduce");
-  wait(request);
+  wait_for_others(request);
   return all != 0 ? offer.block : nullptr;
 }
 

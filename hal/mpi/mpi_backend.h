@@ -43,6 +43,7 @@ class MpiBackend : public messages::Backend {
   std::optional<messages::Ticket> start_reduce(const messages::Reduction& reduction, void* x, std::size_t n) override;
   void idle(int turn, std::chrono::microseconds longest) override;
   double seconds() const override;
+  bool has_machine_clock() const override;
   messages::Neighbourhood neighbourhood() override;
   std::shared_ptr<std::byte> share(std::size_t bytes) override;
   messages::Offer offer(std::size_t bytes) override;
@@ -86,6 +87,7 @@ class MpiBackend : public messages::Backend {
   bool give_up(MPI_Request& request, MPI_Status& status);
   bool all_sent();
   void wait(MPI_Request& request, MPI_Status* status = MPI_STATUS_IGNORE);
+  void wait_for_others(MPI_Request& request);
   std::shared_ptr<std::byte> share_offered(std::size_t bytes, std::string& refusal);
 
   int tag(int type) const;

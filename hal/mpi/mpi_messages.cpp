@@ -95,6 +95,15 @@ void MpiBackend::wait(MPI_Request& request, MPI_Status* status) {
   for (int turn = 0; !test(request, status); ++turn) MpiBackend::idle(turn, kLongestBlindSleep);
 }
 
+// Of a collective call: between looks the rank may send and receive messages.
+void MpiBackend::wait_for_others(MPI_Request& request) {
+  if (mpi_waits_well() || !while_waiting_) return wait(request);
+  for (int turn = 0; !test(request); ++turn) {
+    idle(turn, kLongestBlindSleep);
+    while_waiting_();
+  }
+}
+
 void MpiBackend::send(int to, int type, const void* data, std::size_t length) {
   if (tag(type) != wide_tag_ || !plain(data, length))
     return send_copy(to, type, pool_.copy({rank_, type, length}, data));

@@ -28,6 +28,7 @@ class SimulatedBackend : public messages::Backend {
   void take(void* buffer) override { world_.take(rank_, buffer); }
   void idle(int turn, std::chrono::microseconds longest) override;
   double seconds() const override { return world_.clock(rank_); }
+  bool has_machine_clock() const override { return false; }
   void charge(int kind, std::uint64_t units) override;
   void keep_to(int first, int count) override { world_.keep_to(rank_, first, count); }
   void discard(std::span<std::byte> bytes) override { messages::give_pages_back(bytes); }

@@ -10,6 +10,7 @@
 #include "hal/messages/settings.h"
 #include "hal/messages/shared_memory.h"
 #include "node/firmware.h"
+#include "topology/debugger.h"
 #include "topology/machine.h"
 #include "topology/memory_limit.h"
 
@@ -52,7 +53,8 @@ void run_node_job(std::uint32_t threads) {
       topology::memory_share(machine.memory(), topology::memory_limit(), here.count, static_cast<int>(threads)));
   bind(machine, here);
   const topology::Binding binding = topology::Machine::binding();
-  node::run_node({host_name(), binding.cores, binding.seat, memory, settings.simd});
+  const auto is_traced = [](std::int32_t process) { return topology::is_traced(process); };
+  node::run_node({host_name(), binding.cores, binding.seat, memory, settings.simd, getpid(), is_traced});
 }
 
 }  // namespace mars::programs

@@ -96,6 +96,15 @@ const Credit& read_credit(std::span<const std::byte> message, std::uint32_t owne
   return credit;
 }
 
+const Beat& read_beat(std::span<const std::byte> message) {
+  constexpr auto kName = "Beat";
+  require(message.size() == sizeof(Beat), kName, "its size");
+  const auto& beat = *reinterpret_cast<const Beat*>(message.data());
+  require(beat.host.back() == '\0', kName, "the name of its machine");
+  require(beat.traced <= 1, kName, "whether it is debugged");
+  return beat;
+}
+
 void check_size(const char* command, std::size_t bytes, std::size_t expected) {
   require(bytes == expected, command, "its size");
 }

@@ -33,6 +33,9 @@ RenderCommand read_render(std::span<const std::byte> message, const FilmView& fi
 // For a node that has the slots of `owned`, a bit for each, of `slots` in all.
 const Credit& read_credit(std::span<const std::byte> message, std::uint32_t owned, std::size_t slots);
 
+// The host's.
+const Beat& read_beat(std::span<const std::byte> message);
+
 // For commands of a fixed size, such as Stop and Clock, which are empty.
 void check_size(const char* command, std::size_t bytes, std::size_t expected);
 

@@ -7,11 +7,13 @@
 //
 // A node makes its strips in slots of its own memory. A slot is the node's from the Credit that gives it until the
 // Strip that was made in it, and the host's from then until the next such Credit. On one machine the host reads pixels
-// and runs where they lie; elsewhere they travel in the Strip. The host reads no slot after Stop.
+// and runs where they lie; elsewhere they travel in the Strip. The host reads no slot after Stop, nor once it has
+// declared a node lost: then the run ends.
 //
 //   host -> node   Load (+ film block to the first node, in pieces), Credit ..., Render ..., Stop
 //   node -> host   Hello, Loaded, Strip ..., Fault (its last message)
 //   both ways      Clock, when the run is traced; then also node -> host Trace ...
+//   both ways      Beat, at any time
 //   node -> node   film block to one node a machine; counts a line; Triangles and StillLines, in any order of the
 //   senders: those of two keyframes, or of
 //                  two passes of one, cannot mix, for all nodes of the group meet between them
@@ -45,6 +47,7 @@ enum MessageType : long {
   kTriangles,   // TriangleHead, edge boxes, triangles, each from a cache line on
   kStillLines,  // what inbetweens need of home lines (raster/still_lines.h); empty within a machine, once they are
                 // written
+  kBeat,
 };
 
 // Of triangles and their edge boxes on the receiver's lines.
@@ -144,6 +147,20 @@ struct PhaseTimes {
 
 // The spans of a trace: these steps, and the frame around them, whose value is its interval.
 enum class Phase : std::int32_t { dice, sum, map, exchange, fill, scanline, depth, credit, keyframe, inbetween };
+inline constexpr std::array kPhaseNames{"dice",     "sum",   "map",    "exchange", "fill",
+                                        "scanline", "depth", "credit", "keyframe", "inbetween"};
+
+// Says that its sender lives. The host beats every few seconds from its start until its end. A node that has heard a
+// beat sends its own, one a second at most, while it works and while it waits; and ends when it hears none for long. A
+// host whose machine is simulated does not beat, and so nobody does.
+struct Beat {
+  std::array<char, 64> host{};  // name of the sender's machine, zero-ended
+  std::int32_t process = 0;     // its number there
+  std::uint32_t traced = 0;     // 1: a debugger has it
+  std::int32_t frame = -1;      // that a node draws; -1: none
+  Phase phase = Phase::dice;    // of this frame, a step
+  std::uint32_t waits = 0;      // 1: for a message or for other nodes
+};
 
 // Work of one node for one frame so far; the frame's last strip has it all.
 struct WorkCounts {

@@ -43,6 +43,12 @@ bool Assembly::is_contributor(const Parts& parts, std::int32_t node) const {
   return node >= group_.first && index < drew_keyframe_.size() && !drew_keyframe_[index];
 }
 
+std::optional<std::uint32_t> Assembly::drawn_by(std::int32_t node) const {
+  for (const auto& [number, parts] : parts_)
+    if (is_contributor(parts, node)) return number;
+  return std::nullopt;
+}
+
 void Assembly::receive(StripMessage strip) {
   const wire::Strip& header = strip.header();
   Parts& parts = parts_.at(header.frame);

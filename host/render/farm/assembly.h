@@ -45,6 +45,9 @@ class Assembly {
   // goes to `store`.
   std::optional<Pasted> paste(compositor::Compositor& compositor, sinks::SinkPool& sinks, StripStore& store);
 
+  // The first frame of which this node's last strip is still to come; none: it draws no more of them.
+  std::optional<std::uint32_t> drawn_by(std::int32_t node) const;
+
   bool done() const { return parts_.empty(); }
 
  private:

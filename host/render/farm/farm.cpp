@@ -42,6 +42,9 @@ class Farm {
   void submit(const GroupWork::Composed& composed);
   void note_taken();
   void charge(wire::Work kind, std::uint64_t units);
+  std::vector<NodeFrame> drawing() const;
+  void look();
+  void finish_sinks();
   bool cancelled() const { return options_.cancellation != nullptr && options_.cancellation->cancelled(); }
 
   std::span<const std::byte> film_block_;
@@ -83,15 +86,19 @@ Farm::Farm(std::span<const std::byte> film_block, const Plan& plan, const FarmOp
 }
 
 FarmReport Farm::run() {
+  if (options_.heartbeats != nullptr) options_.heartbeats->ask_for_drawing([this] { return drawing(); });
   if (greet_nodes() && load_film()) render();
   stop_nodes();
+  if (options_.heartbeats != nullptr) options_.heartbeats->ask_for_drawing({});
   report_.cancelled = frames_left_ > 0;
   return std::move(report_);
 }
 
 bool Farm::greet_nodes() {
+  if (options_.heartbeats != nullptr) options_.heartbeats->set_doing("waiting for nodes");
   if (!inbox_.receive_hellos()) return false;
   report_.nodes = inbox_.hellos();
+  if (options_.heartbeats != nullptr) options_.heartbeats->watch(report_.nodes);
   if (listener_.booted) listener_.booted(report_.nodes, plan_.keyframes(), plan_.inbetweens());
   return true;
 }
@@ -124,7 +131,9 @@ NodeMemory Farm::node_memory() const {
 
 void Farm::render() {
   start_ = dclock();
+  if (options_.heartbeats != nullptr) options_.heartbeats->set_doing("rendering");
   while (frames_left_ > 0 && !cancelled()) {
+    look();
     give_tasks();
     note_taken();
     tracing_->drain();
@@ -137,9 +146,26 @@ void Farm::render() {
   report_.render_seconds = dclock() - start_;
   if (frames_left_ > 0) return;
   const ScopedSpan span(trace::HostSpan::finish);
-  sinks_.finish();
+  finish_sinks();
   note_taken();
   report_.total_seconds = dclock() - start_;
+}
+
+void Farm::look() {
+  if (options_.heartbeats != nullptr) options_.heartbeats->look();
+}
+
+void Farm::finish_sinks() {
+  if (options_.heartbeats == nullptr) return sinks_.finish();
+  options_.heartbeats->during("waiting for storage", [this] { sinks_.finish(); });
+}
+
+std::vector<NodeFrame> Farm::drawing() const {
+  std::vector<NodeFrame> drawing;
+  for (const GroupWork& work : groups_)
+    for (int node = work.group().first; node < work.group().first + work.group().count; ++node)
+      if (const auto frame = work.drawn_by(node)) drawing.push_back({node, *frame});
+  return drawing;
 }
 
 // Whether there was something to do.
@@ -158,6 +184,7 @@ void Farm::charge(wire::Work kind, std::uint64_t units) {
 // Nodes that still draw then send no more strips, and end when the keyframes they were given are drawn.
 void Farm::stop_nodes() {
   if (tracing_ && frames_left_ == 0) tracing_->read_clocks_again();
+  if (options_.heartbeats != nullptr) options_.heartbeats->forget_nodes();
   for (long node = 0; node < numnodes(); ++node) csend(wire::kStop, nullptr, 0, node, 0);
   if (tracing_) tracing_->finish();
 }
@@ -208,6 +235,7 @@ void Farm::receive_strip() {
   if (wanting == groups_.end())
     inbox_.refuse(header.node, "a strip of frame " + std::to_string(header.frame) + " that it was not asked for");
   if (options_.each_frame && header.last == 1) report_.strips.push_back(header);
+  if (options_.heartbeats != nullptr) options_.heartbeats->hear(header);
   wanting->receive(std::move(strip));
 }
 

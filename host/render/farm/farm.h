@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "host/render/farm/cancellation.h"
+#include "host/render/farm/heartbeats.h"
 #include "host/render/farm/node_memory.h"
 #include "host/render/farm/plan.h"
 #include "host/render/sinks/sink_pool.h"
@@ -29,6 +30,7 @@ struct FarmOptions {
   bool each_frame = false;                     // report what is known of each frame, which grows with the film
   trace::Trace* trace = nullptr;               // to be filled; none: nothing is recorded
   const Cancellation* cancellation = nullptr;  // none: nobody cancels
+  Heartbeats* heartbeats = nullptr;            // none: nobody looks whether nodes live
 };
 
 struct FinishedFrame {

@@ -13,6 +13,12 @@ void GroupWork::give(const Task& task, std::uint64_t background, double now) {
   if (tasks_.size() == 1) begin_interval();
 }
 
+std::optional<std::uint32_t> GroupWork::drawn_by(std::int32_t node) const {
+  for (const Given& task : tasks_)
+    if (const auto frame = task.assembly.drawn_by(node)) return frame;
+  return std::nullopt;
+}
+
 bool GroupWork::wants(const wire::Strip& strip) const {
   return std::any_of(tasks_.begin(), tasks_.end(), [&](const Given& task) { return task.assembly.wants(strip); });
 }

@@ -24,6 +24,9 @@ class GroupWork {
   // `background`: the pixel where nothing is drawn. `now`: in seconds since the first task was given to any group.
   void give(const Task& task, std::uint64_t background, double now);
 
+  // As Assembly's.
+  std::optional<std::uint32_t> drawn_by(std::int32_t node) const;
+
   // Whether it is a strip that is still to come.
   bool wants(const wire::Strip& strip) const;
   void receive(StripMessage strip);

@@ -42,11 +42,20 @@ std::string machine_in(std::span<const std::byte> hello) {
   return is_text(name) ? name.data() : "";
 }
 
+}  // namespace
+
 std::string with_machine(const std::string& machine, int node) {
   return machine.empty() ? node_name(node) : machine + " (" + node_name(node) + ")";
 }
 
-}  // namespace
+std::optional<wire::Beat> read_beat(std::span<const std::byte> message) {
+  wire::Beat beat;
+  if (message.size() != sizeof beat) return std::nullopt;
+  std::memcpy(&beat, message.data(), sizeof beat);
+  const bool sound = is_text(beat.host) && beat.traced <= 1 && beat.waits <= 1 && beat.frame >= -1 &&
+                     beat.phase >= wire::Phase::dice && beat.phase <= wire::Phase::credit;
+  return sound ? std::optional(beat) : std::nullopt;
+}
 
 NodeFailure::NodeFailure(const std::string& reason, int node, int frame)
     : Failure(reason, node_name(node) + (frame < 0 ? "" : ", frame " + std::to_string(frame)), ""),
@@ -55,6 +64,13 @@ NodeFailure::NodeFailure(const std::string& reason, int node, int frame)
 
 NodeFailure::NodeFailure(const std::string& reason, const std::string& where, int node)
     : Failure(reason, where, "please report it"), node(node), frame(-1) {}
+
+NodeFailure NodeFailure::hangs(const std::string& where, const std::string& doing, int seconds, int node, int frame) {
+  const std::string of_frame = frame < 0 ? "" : " of frame " + std::to_string(frame);
+  return {Failure("hangs: it has said nothing for " + std::to_string(seconds) + " s; it said last: " + doing + of_frame,
+                  where, "see whether its machine answers, and start the rendering again"),
+          node, frame};
+}
 
 NodeInbox::NodeInbox(std::uint32_t width, std::uint32_t height, wire::PixelFormat format, NodeSlots& slots,
                      const Cancellation* cancellation)

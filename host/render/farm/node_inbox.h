@@ -3,6 +3,7 @@
 // machine.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -26,10 +27,21 @@ class NodeFailure : public Failure {
   NodeFailure(const std::string& reason, int node, int frame);
   // `where` names the node and its machine.
   NodeFailure(const std::string& reason, const std::string& where, int node);
+  // It has said nothing for `seconds`; `doing` is what it did, as it said last.
+  static NodeFailure hangs(const std::string& where, const std::string& doing, int seconds, int node, int frame);
 
   int node;
   int frame;
+
+ private:
+  NodeFailure(const Failure& failure, int node, int frame) : Failure(failure), node(node), frame(frame) {}
 };
+
+// "n3 (node 17)"; `machine` "": it is not known.
+std::string with_machine(const std::string& machine, int node);
+
+// A node's beat; none: it makes no sense.
+std::optional<wire::Beat> read_beat(std::span<const std::byte> message);
 
 class NodeInbox {
  public:

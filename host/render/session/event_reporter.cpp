@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "hal/failure/failure.h"
+
 namespace mars::session {
 namespace {
 
@@ -36,7 +38,25 @@ std::vector<events::Warning> warnings_of(std::span<const wire::Hello> hellos) {
 
 }  // namespace
 
-void EventReporter::report(const events::Event& event) const { std::cout << events::line_of(event) << std::flush; }
+void EventReporter::report(const events::Event& event) const {
+  const std::lock_guard lock(mutex_);
+  std::cout << events::line_of(event) << std::flush;
+}
+
+// Where nobody takes it any more, there is nobody to render for.
+void EventReporter::report_beat(const std::string& doing, const std::vector<farm::SilentNode>& silent) const {
+  events::Beat beat{doing, {}};
+  for (const farm::SilentNode& node : silent)
+    beat.silent.push_back({node.node, node.host, node.frame, node.doing, node.seconds});
+  report(beat);
+  if (!std::cout) throw Failure("nobody reads what the host reports", "standard output", "");
+}
+
+void EventReporter::report_drawing(const std::vector<farm::NodeFrame>& drawing) const {
+  events::Drawing event;
+  for (const auto& [node, frame] : drawing) event.nodes.push_back({node, static_cast<std::int32_t>(frame)});
+  report(event);
+}
 
 void EventReporter::report_progress(double seconds) {
   progress_.forecast = course_.left(progress_.done(), seconds);

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <mutex>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "host/render/events/course.h"
 #include "host/render/events/events.h"
@@ -15,7 +17,11 @@ class EventReporter {
  public:
   explicit EventReporter(std::string backend) : backend_(std::move(backend)) {}
 
+  // From any thread.
   void report(const events::Event& event) const;
+  // Throws where standard output takes no more.
+  void report_beat(const std::string& doing, const std::vector<farm::SilentNode>& silent) const;
+  void report_drawing(const std::vector<farm::NodeFrame>& drawing) const;
   // A listener for render_film, of a film with this number of intervals. The reporter must outlive it.
   farm::FarmListener listener(std::size_t intervals);
   // By which it says how long the rest takes.
@@ -25,6 +31,7 @@ class EventReporter {
   void report_progress(double seconds);
 
   const std::string backend_;
+  mutable std::mutex mutex_;  // one line at a time
   events::Course course_;
   events::Progress progress_;
 };

@@ -1,11 +1,15 @@
 #include "host/render/session/session.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "hal/failure/explain.h"
 #include "hal/failure/failure.h"
+#include "hal/messages/process.h"
 #include "hal/nx/nx_messages.h"
 #include "host/content/document/checksum.h"
 #include "host/content/document/whole_file.h"
@@ -15,9 +19,11 @@
 #include "host/render/report/report.h"
 #include "host/render/resume/resume.h"
 #include "host/render/session/event_reporter.h"
+#include "host/render/session/termination.h"
 #include "host/render/sinks/frame_folder.h"
 #include "host/render/sinks/sink_pool.h"
 #include "host/render/trace/trace_file.h"
+#include "topology/debugger.h"
 #include "topology/machine.h"
 #include "topology/memory_limit.h"
 
@@ -52,12 +58,14 @@ std::unique_ptr<sinks::SinkPool> make_sinks(const RenderJob& job, sinks::Sink& s
   return job.make_sinks ? job.make_sinks(sink, shape) : std::make_unique<sinks::SinkPool>(sink, shape);
 }
 
-farm::FarmOptions farm_options(const RenderJob& job, const farm::HostMemory& memory, trace::Trace* trace) {
+farm::FarmOptions farm_options(const RenderJob& job, const farm::HostMemory& memory, trace::Trace* trace,
+                               farm::Heartbeats& heartbeats) {
   farm::FarmOptions farm;
   farm.mapping = job.mapping;
   farm.credits = memory.credits;
   farm.each_frame = !job.report.empty();
   farm.trace = trace;
+  farm.heartbeats = &heartbeats;
   return farm;
 }
 
@@ -80,10 +88,13 @@ resume::Opened open_film(const RenderJob& job, const EventReporter& reporter) {
   return {std::move(film), nullptr, asked, std::move(frames), ""};
 }
 
-resume::Opened load_film(const RenderJob& job, const EventReporter& reporter, double& seconds) {
+resume::Opened load_film(const RenderJob& job, const EventReporter& reporter, farm::Heartbeats& heartbeats,
+                         double& seconds) {
   reporter.report(events::Loading{job.film});
   const double started = dclock();
-  resume::Opened opened = open_film(job, reporter);
+  std::optional<resume::Opened> loaded;
+  heartbeats.during("loading", [&] { loaded.emplace(open_film(job, reporter)); });
+  resume::Opened opened = std::move(*loaded);
   seconds = dclock() - started;
   const auto left = static_cast<std::uint32_t>(opened.frames.size());
   if (left < opened.asked || !opened.changed.empty())
@@ -91,13 +102,26 @@ resume::Opened load_film(const RenderJob& job, const EventReporter& reporter, do
   return opened;
 }
 
+farm::HeartbeatListener listen(const EventReporter& reporter, Termination& termination) {
+  farm::HeartbeatListener listener;
+  listener.beat = [&](const std::string& doing, const auto& silent) { reporter.report_beat(doing, silent); };
+  listener.told_to_end = [&] { return termination.asked(); };
+  listener.end = [&](const std::vector<farm::NodeFrame>& drawing) {
+    reporter.report_drawing(drawing);
+    termination.end();
+  };
+  listener.is_traced = [](std::int32_t process) { return topology::is_traced(process); };
+  return listener;
+}
+
 // By what is foreseen of it, unless the person says how many groups.
 farm::Plan plan_of(const wire::FilmView& film, const std::vector<std::uint32_t>& frames, const RenderJob& job,
-                   EventReporter& reporter) {
+                   EventReporter& reporter, farm::Heartbeats& heartbeats) {
   const auto nodes = static_cast<int>(numnodes());
   farm::PlanRequest request{frames, job.coherence, job.groups};
   if (job.foresee) {
-    Foresight foresight = job.foresee(film, request, nodes);
+    Foresight foresight;
+    heartbeats.during("loading", [&] { foresight = job.foresee(film, request, nodes); });
     if (request.groups == 0) request.groups = foresight.groups;
     request.contributors = foresight.contributors;
     if (!foresight.warning.empty()) reporter.report(events::Warning{foresight.warning});
@@ -117,14 +141,22 @@ void render_nothing(const RenderJob& job, const EventReporter& reporter, double 
   reporter.report(events::Done{0, 0, job.folder});
 }
 
+std::string host_name() {
+  char name[sizeof wire::Beat::host] = {};
+  gethostname(name, sizeof name - 1);
+  return name;
+}
+
 void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace) {
+  Termination termination(messages::process().backend().has_machine_clock());
+  farm::Heartbeats heartbeats(host_name(), getpid(), listen(reporter, termination));
   double load_seconds = 0;
-  const resume::Opened opened = load_film(job, reporter, load_seconds);
+  const resume::Opened opened = load_film(job, reporter, heartbeats, load_seconds);
   if (opened.frames.empty()) return render_nothing(job, reporter, load_seconds);
   const film::CompiledFilm& film = opened.film;
   const wire::FilmView view = film.view();
   const wire::FilmSettings& settings = view.settings();
-  const farm::Plan plan = plan_of(view, opened.frames, job, reporter);
+  const farm::Plan plan = plan_of(view, opened.frames, job, reporter, heartbeats);
   const HostMachine host = host_machine(job.host);
   const farm::HostMemory memory = memory_for(host, settings, images::facts_of(job.format).pixels, plan);
 
@@ -133,16 +165,18 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace) 
   // Only now: before, the host may have waited for its turn in the folder, and not for nodes.
   reporter.report(events::Loaded{load_seconds});
   const auto pool = make_sinks(job, *sink, pool_shape(host, view, job, memory.frames));
-  const farm::FarmReport report = farm::render_film(film.block(), plan, farm_options(job, memory, trace), *pool,
-                                                    reporter.listener(view.intervals().size()));
-  if (opened.folder) opened.folder->finish();
-  if (!job.report.empty()) {
-    const report::ReportHead head{
-        job.film, document::checksum_of(film.block()), job.backend, job.arguments, settings.width, settings.height,
-        memory};
-    document::write_whole_file(job.report, report::report_text(head, report));
-  }
-  if (trace) trace::write_trace(job.trace, {job.film, job.backend}, *trace);
+  const farm::FarmReport report = farm::render_film(film.block(), plan, farm_options(job, memory, trace, heartbeats),
+                                                    *pool, reporter.listener(view.intervals().size()));
+  heartbeats.during("ending", [&] {
+    if (opened.folder) opened.folder->finish();
+    if (!job.report.empty()) {
+      const report::ReportHead head{
+          job.film, document::checksum_of(film.block()), job.backend, job.arguments, settings.width, settings.height,
+          memory};
+      document::write_whole_file(job.report, report::report_text(head, report));
+    }
+    if (trace) trace::write_trace(job.trace, {job.film, job.backend}, *trace);
+  });
   reporter.report(events::Done{plan.frames(), report.total_seconds, job.folder, trace ? trace->left_out() : 0});
 }
 

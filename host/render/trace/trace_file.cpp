@@ -20,11 +20,9 @@ constexpr int kMainThread = 1;  // thread ids of 0 mean "idle" to some viewers
 constexpr int kFirstSinkThread = 2;
 constexpr std::size_t kBlock = 1 << 20;  // bytes written at a time
 
-constexpr std::array kPhaseNames{"dice",     "sum",   "map",    "exchange", "fill",
-                                 "scanline", "depth", "credit", "keyframe", "inbetween"};
 constexpr std::array kHostSpanNames{"load film", "give", "strip", "prepare", "compose", "wait for sinks", "write"};
-constexpr std::array kMessageNames{"",      "Hello", "Load", "film",  "Loaded", "Render",    "Credit",
-                                   "Strip", "Fault", "Stop", "Clock", "Trace",  "triangles", "CZB"};
+constexpr std::array kMessageNames{"",      "Hello", "Load",  "film",  "Loaded",    "Render", "Credit", "Strip",
+                                   "Fault", "Stop",  "Clock", "Trace", "triangles", "CZB",    "Beat"};
 constexpr std::array kCounterNames{"credits", "strips on the way", "frames with the sinks"};
 
 // Names contain what people typed, which need not be UTF-8.
@@ -132,7 +130,7 @@ std::string Writer::slice_name(const Trace::Record& record) const {
   const auto what = static_cast<std::size_t>(event.what);
   if (record.rank == trace_.host()) return kHostSpanNames.at(what);
   const bool frame = what >= static_cast<std::size_t>(wire::Phase::keyframe);
-  return kPhaseNames.at(what) + (frame ? " " + std::to_string(event.frame) : std::string());
+  return wire::kPhaseNames.at(what) + (frame ? " " + std::to_string(event.frame) : std::string());
 }
 
 std::string Writer::slice_arguments(const Trace::Record& record) const {

@@ -101,13 +101,11 @@ Supervisor::World world_of(const options::RenderOptions& options, const Starting
           [&] { return adviser.after_a_failed_start(options); }};
 }
 
-// Of all its jobs together.
-std::string account_of(const Supervisor& supervisor, double seconds) {
-  if (supervisor.restarts() == 0) return done_text(*supervisor.last().done);
-  events::Done done = supervisor.last().done.value_or(events::Done());
-  done.frames = supervisor.frames().there();
-  done.seconds = seconds;
-  return done_text(done) + ", with " + document::counted(supervisor.restarts(), "restart");
+// Of all its jobs together, where there were several or the only one died after its last frame.
+std::string account_of(const Supervisor& supervisor, const std::string& folder, double seconds) {
+  if (supervisor.restarts() == 0 && supervisor.last().done) return done_text(*supervisor.last().done);
+  return document::counted(supervisor.frames().there(), "frame") + " in " + folder + ", " +
+         document::formatted("%.1f", seconds) + " seconds, with " + document::counted(supervisor.restarts(), "restart");
 }
 
 // The number of frames, where nothing is left to render; of a measurement the host says so.
@@ -131,7 +129,9 @@ void launch_render(options::RenderOptions options, const std::filesystem::path& 
   supervisor.render();
   if (!supervisor.last().ended_for.empty())
     std::cerr << "mars: warning: all frames are there, but " << supervisor.last().ended_for << '\n';
-  if (supervisor.rendered()) display.print(account_of(supervisor, seconds_since(started)));
+  if (supervisor.restarts() > 0 && !(options.report + options.trace).empty())
+    std::cerr << "mars: warning: the report and the trace are of the last job alone\n";
+  if (supervisor.rendered()) display.print(account_of(supervisor, options.folder, seconds_since(started)));
 }
 
 Trial try_start(options::RenderOptions options, const std::filesystem::path& self) {

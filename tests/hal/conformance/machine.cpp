@@ -2,7 +2,10 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <functional>
 #include <numeric>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "hal/collectives/group_sum.h"
@@ -141,6 +144,88 @@ RULE(traffic_is_counted, "traffic() counts messages and bytes to nodes and to th
   crecv(90, bytes, 100);
   if (is_host()) crecv(90, bytes, 100);
   expect_equal(messages::traffic().to_nodes.bytes, before.to_nodes.bytes);
+}
+
+// While each rank but node 0 is in `wait`, it sends node 0 what it is called for; only then node 0 does `release`. A
+// simulated rank is not called.
+void expect_called(const std::function<void()>& wait, const std::function<void()>& release) {
+  constexpr long kCalled = 96;
+  const bool is_called = messages::process().backend().has_machine_clock();
+  if (mynode() == 0) {
+    for (long rank = is_called ? numnodes() : 0; rank > 0; --rank) receive_empty(kCalled);
+    return release();
+  }
+  int calls = 0;
+  messages::process().while_waiting([&] {
+    if (calls++ > 0) return;
+    send_empty(97, is_host() ? myhost() : mynode());
+    while (iprobe(97) == 0) {
+    }
+    receive_empty(97);
+    send_empty(kCalled, 0);
+  });
+  wait();
+  messages::process().while_waiting({});
+  expect_equal(calls > 0, is_called);
+  expect(infotype() != 97, "info* are not of the message that was received meanwhile");
+}
+
+RULE(called_while_waiting, "while_waiting is called in a call that waits, and may send and receive",
+     "no simulated rank is called; the waiting call's info* stay") {
+  constexpr long kGo = 95;
+  const auto all_go = [] {
+    send_empty(kGo, -1);
+    send_empty(kGo, myhost());
+  };
+  const auto receive = [] { receive_empty(kGo); };
+  expect_called(receive, all_go);
+  expect_called([] { msgwait(irecv(kGo, nullptr, 0)); }, all_go);
+  expect_called(
+      [&] {
+        cprobe(kGo);
+        expect_equal(infotype(), kGo);
+        receive();
+      },
+      all_go);
+  expect_called(
+      [&] {
+        while (iprobe(kGo) == 0) flick();
+        receive();
+      },
+      all_go);
+  const auto sum = [] {
+    double x = 1, work = 0;
+    if (!is_host()) gdsum(&x, 1, &work);
+  };
+  const auto wait_in = [&](const std::function<void()>& call) {
+    expect_called([&] { is_host() ? receive() : call(); },
+                  [&] {
+                    if (mynode() == 0) send_empty(kGo, myhost());
+                    call();
+                  });
+  };
+  wait_in(sum);
+  wait_in(gsync);
+}
+
+RULE(called_while_waiting_may_throw, "what while_waiting throws ends the call that waits",
+     "the call can be made again") {
+  if (mynode() == 0) {
+    for (long rank = numnodes(); rank > 0; --rank) receive_empty(96);
+    send_empty(95, -1);
+    return send_empty(95, myhost());
+  }
+  messages::process().while_waiting([] { throw std::runtime_error("waits too long"); });
+  bool thrown = !messages::process().backend().has_machine_clock();
+  try {
+    if (!thrown) crecv(95, nullptr, 0);
+  } catch (const std::runtime_error& failure) {
+    thrown = failure.what() == std::string("waits too long");
+  }
+  messages::process().while_waiting({});
+  expect(thrown, "the call ended by what was thrown");
+  send_empty(96, 0);
+  receive_empty(95);
 }
 
 }  // namespace

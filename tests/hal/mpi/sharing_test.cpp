@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <optional>
+#include <utility>
 
 #include <gtest/gtest.h>
 
 #include "hal/failure/failure.h"
+#include "hal/messages/process.h"
 #include "hal/messages/shared_memory.h"
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
@@ -45,6 +47,24 @@ TEST(Sharing, ANodeMayKeepItsBlock) {
   if (memory) {
     EXPECT_EQ(memory->bytes()[5], std::byte{5});
   }
+}
+
+// The last node comes when all others have said, from within, that they wait.
+TEST(Sharing, WhoWaitsForTheOthersIsCalled) {
+  if (!is_node()) return;
+  constexpr long kWaits = 7;
+  const long last = numnodes() - 1;
+  bool said = false;
+  process().while_waiting([&] {
+    if (!std::exchange(said, true)) csend(kWaits, nullptr, 0, last, 0);
+  });
+  if (mynode() == last)
+    for (long i = 0; i < last; ++i) crecv(kWaits, nullptr, 0);
+  const SharedMemory memory(kMiB);
+  process().while_waiting({});
+  EXPECT_TRUE(said || mynode() == last);
+  gsync();
+  while (iprobe(kWaits) == 1) crecv(kWaits, nullptr, 0);
 }
 
 TEST(Sharing, WhatOneNodeCannotHaveNoneHas) {

@@ -239,6 +239,21 @@ TEST(Assembly, WantsEachStripFromItsContributorAlone) {
   EXPECT_TRUE(wants(4, 1));
 }
 
+TEST(Assembly, KnowsWhatANodeDraws) {
+  OneTask task({4, 5, 6}, 3, 2);
+  const auto drawn_by = [&](std::int32_t node) { return task.assembly.drawn_by(node); };
+  EXPECT_EQ(drawn_by(0), 4u);
+  EXPECT_EQ(drawn_by(1), 4u);
+  EXPECT_EQ(drawn_by(2), std::nullopt) << "it is not of the group";
+  task.receive(4, 1, false);
+  EXPECT_EQ(drawn_by(1), 4u);
+  task.receive(4, 1);
+  EXPECT_EQ(drawn_by(1), 6u);
+  task.receive(6, 1);
+  EXPECT_EQ(drawn_by(1), std::nullopt);
+  EXPECT_EQ(drawn_by(0), 4u);
+}
+
 TEST(Assembly, WithoutABufferStripsWait) {
   OneTask task({0, 1}, 1, 1);
   task.receive(0, 0);
