@@ -70,8 +70,8 @@ class Supervisor {
   std::optional<Machines> machines_;  // once a job has died
   Machines::Choice chosen_;           // for the next job
   Remains last_;
-  bool new_frames_ = false;  // the last job brought some
-  bool booted_ = false;      // some job came so far
+  bool booted_ = false;    // some job came so far
+  bool rendered_ = false;  // some job brought a frame
 };
 
 }  // namespace mars::launch
