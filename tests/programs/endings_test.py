@@ -1,4 +1,5 @@
-"""A rendering that is stopped or loses a process: one message, soon, nothing left running, nothing torn."""
+"""A rendering that is stopped, or loses a process and is not started again: one message, soon, nothing left running,
+nothing torn."""
 
 import os
 import shutil
@@ -14,7 +15,7 @@ class Endings(ProgramTest):
     def start(self, backend):
         shutil.rmtree(self.folder / "out", ignore_errors=True)
         film = self.write("film.json", spinning_teapot(100000, [160, 90]))
-        self.process = self.start_mars("render", film, "-o", "out", "--nodes", 3, "--backend", backend)
+        self.process = self.start_mars("render", film, "-o", "out", "--nodes", 3, "--backend", backend, "--restarts", 0)
         self.family = family(self.process.pid)
 
     def kin(self, program):

@@ -54,6 +54,7 @@ class SlowStart(ProgramTest):
         time.sleep(HINT_AFTER + 1)
         for process, sent in zip(stopped, [signal.SIGTERM, signal.SIGINT]):
             self.assertIn("open files: a process may have 30", self.assertStopped(process, sent, "the hint is there"))
+        unended = self.start("unended", '"$real" "$@"; sleep 60', "--frames", "0-3")
         printed = {}
         for name, process in runs.items():
             printed[name], complaint = process.communicate(timeout=60)
@@ -63,6 +64,9 @@ class SlowStart(ProgramTest):
         self.assertIn("no node has answered for 20 seconds", printed["late"])
         self.assertIn("for more run mars doctor", printed["late"])
         self.assertNotIn("no node has answered", printed["compiling"])
+        _, complaint = unended.communicate(timeout=60)
+        self.assertEqual(unended.returncode, 0, complaint)
+        self.assertClear(complaint, "warning: all frames are there, but the job has not ended 10 seconds after its last word")
         self.assertIn("loading long.json ...\nloaded in 0:22", printed["compiling"])
 
     def test_a_signal_ends_it_at_any_moment(self):

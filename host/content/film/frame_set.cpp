@@ -1,6 +1,8 @@
 #include "host/content/film/frame_set.h"
 
+#include <algorithm>
 #include <charconv>
+#include <set>
 #include <string_view>
 
 #include "hal/failure/failure.h"
@@ -83,6 +85,17 @@ std::vector<std::uint32_t> FrameSet::of_film(std::uint32_t film_frames) const {
     if (wanted[frame]) frames.push_back(frame);
   }
   return frames;
+}
+
+std::vector<std::uint32_t> FrameSet::first_frames(std::uint32_t count) const {
+  std::set<std::uint32_t> frames;
+  for (const Stretch& stretch : stretches_) {
+    const std::uint32_t most = stretch.last ? std::min(count, *stretch.last - stretch.first + 1) : count;
+    for (std::uint32_t i = 0; i < most; ++i) frames.insert(stretch.first + i);
+  }
+  std::vector<std::uint32_t> first(frames.begin(), frames.end());
+  first.resize(std::min<std::size_t>(first.size(), count));
+  return first;
 }
 
 }  // namespace mars::film

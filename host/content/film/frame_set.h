@@ -32,6 +32,9 @@ class FrameSet {
   // The frames of a film of `film_frames`, ascending, each once. Throws Failure where the film is too short.
   std::vector<std::uint32_t> of_film(std::uint32_t film_frames) const;
 
+  // The first `count` of its frames, ascending; all, where it has fewer.
+  std::vector<std::uint32_t> first_frames(std::uint32_t count) const;
+
   bool operator==(const FrameSet&) const = default;
 
  private:

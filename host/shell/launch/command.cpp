@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <numeric>
 #include <span>
 #include <string_view>
 #include <system_error>
@@ -27,6 +28,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr std::uint32_t kMostMachines = 1 << 20;
 constexpr const char* kLoopback = "mars-loopback.so";
 
 std::optional<fs::path> find_ours(const std::string& name, const fs::path& self, const std::string& path) {
@@ -138,10 +140,10 @@ Programs find_programs(const fs::path& self, const std::string& path) {
 Surroundings look_around(const std::string& path, Ask ask) {
   const bool remote_shell = child::find_program("ssh", path) || child::find_program("rsh", path);
   const topology::Machine machine = topology::Machine::here();
-  const std::string tasks = child::own_environment().value("SLURM_TASKS_PER_NODE").value_or("");
+  const auto tasks = tasks_of_machines(child::own_environment().value("SLURM_TASKS_PER_NODE").value_or(""));
   return {static_cast<std::uint32_t>(machine.cores()),
           static_cast<std::uint32_t>(machine.processors()),
-          task_count(tasks),
+          std::accumulate(tasks.begin(), tasks.end(), 0u),
           geteuid() == 0,
           ask == Ask::programs && !may_copy(),
           !remote_shell,
@@ -150,15 +152,16 @@ Surroundings look_around(const std::string& path, Ask ask) {
           child::own_environment()};
 }
 
-std::uint32_t task_count(const std::string& tasks_per_node) {
-  std::uint32_t sum = 0;
+std::vector<std::uint32_t> tasks_of_machines(const std::string& tasks_per_node) {
+  std::vector<std::uint32_t> tasks;
   TextReader words(tasks_per_node);
   do {
-    const std::uint32_t tasks = words.number().value_or(0);
-    sum += tasks * (words.skip("(x") ? words.number().value_or(0) : 1);
+    const std::uint32_t each = words.number().value_or(0);
+    const std::uint32_t machines = words.skip("(x") ? words.number().value_or(0) : 1;
+    if (each > 0) tasks.insert(tasks.end(), std::min(machines, kMostMachines), each);
     words.skip(")");
   } while (words.skip(","));
-  return sum;
+  return tasks;
 }
 
 namespace {
@@ -243,6 +246,14 @@ namespace {
 // Open MPI's processes need some 200 MB of addresses before they begin; with less they end in many ways, or hang.
 constexpr std::uint64_t kLeastForMpi = std::uint64_t{400} << 20;
 
+// "n1:4,n2:4"
+std::string host_list(const std::vector<Slots>& machines) {
+  std::string hosts;
+  for (const Slots& slots : machines)
+    hosts += (hosts.empty() ? "" : ",") + slots.host + ":" + std::to_string(slots.count);
+  return hosts;
+}
+
 // Takes over the environment, goes round over the hosts by itself, and finds a batch system's hosts.
 child::Command mpich_start(const options::RenderOptions& options, const Programs& programs,
                            const Surroundings& surroundings) {
@@ -251,11 +262,10 @@ child::Command mpich_start(const options::RenderOptions& options, const Programs
     add_settings(command, {{"UCX_TLS", "sm,self"}}, surroundings);
     add_loopback(command, programs, surroundings);
   }
-  if (options.hostfile.empty()) return command;
-  std::string hosts;
-  for (const Slots& slots : read_hostfile(options.hostfile))
-    hosts += (hosts.empty() ? "" : ",") + slots.host + ":" + std::to_string(slots.count);
-  command.words.insert(command.words.end(), {"-hosts", hosts});
+  if (!surroundings.machines.empty())
+    command.words.insert(command.words.end(), {"-hosts", host_list(surroundings.machines)});
+  else if (!options.hostfile.empty())
+    command.words.insert(command.words.end(), {"-hosts", host_list(read_hostfile(options.hostfile))});
   return command;
 }
 
@@ -282,11 +292,14 @@ child::Command open_mpi_start(const options::RenderOptions& options, const Progr
     add(kKeepalive);
   }
   command.words = {programs.mpirun->string(), "--bind-to", "none"};
-  if (!options.hostfile.empty())
+  const bool named = !surroundings.machines.empty();
+  if (named)
+    command.words.insert(command.words.end(), {"--host", host_list(surroundings.machines)});
+  else if (!options.hostfile.empty())
     command.words.insert(command.words.end(), {"--hostfile", options::word_of_file(options.hostfile)});
   const std::uint32_t slots = surroundings.tasks != 0 ? surroundings.tasks : surroundings.cores;
-  // A hostfile has its own slots; what is more than these goes round over its hosts.
-  if (!options.hostfile.empty() || options.nodes + 1 > slots) command.words.emplace_back("--oversubscribe");
+  // Machines that are named have their own slots; what is more than these goes round over them.
+  if (named || !options.hostfile.empty() || options.nodes + 1 > slots) command.words.emplace_back("--oversubscribe");
   for (const std::string& name : surroundings.settings) command.words.insert(command.words.end(), {"-x", name});
   return command;
 }

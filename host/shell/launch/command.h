@@ -10,6 +10,7 @@
 
 #include "host/child/command.h"
 #include "host/child/environment.h"
+#include "host/shell/launch/slots.h"
 #include "host/shell/options/render_options.h"
 
 namespace mars::launch {
@@ -57,6 +58,7 @@ struct Surroundings {
   std::vector<std::string> settings;   // MARS_* variables that are set, for nodes on other machines
   std::uint64_t address_limit = 0;     // bytes of addresses that a process may have: ulimit -v; 0: no limit
   child::Environment environment{{}};  // what it sets of MPI's settings counts
+  std::vector<Slots> machines{};       // to use, the host's first; none: those of the hostfile or the batch system
 };
 
 // Whether programs and processes are started to find facts: none may be while a job is waited for (Child).
@@ -65,15 +67,11 @@ enum class Ask { programs, no_programs };
 // `path` as for find_programs. Whether copies are forbidden is found by a process: false without.
 Surroundings look_around(const std::string& path, Ask ask = Ask::programs);
 
-// The sum of Slurm's list of tasks a host, "2(x3),1"; 0 for what is none.
-std::uint32_t task_count(const std::string& tasks_per_node);
+// Slurm's list of tasks a host, "2(x3),1", as 2 2 2 1; none for what is none.
+std::vector<std::uint32_t> tasks_of_machines(const std::string& tasks_per_node);
 
 // A hostfile's hosts with their slots, 1 for a line that names none. Throws Failure where it cannot be read or
 // names no host.
-struct Slots {
-  std::string host;
-  std::uint32_t count;
-};
 std::vector<Slots> read_hostfile(const std::filesystem::path& hostfile);
 
 // How many nodes render where a person does not say: the slots of the hostfile or the batch system beside

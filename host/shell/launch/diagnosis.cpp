@@ -49,36 +49,45 @@ Failure failure_from(const events::Fault& fault) {
 }
 
 // Rank 0 is the host, as we start it; which node another is shows once they have booted.
+std::optional<std::int32_t> node_of_rank(int rank, const std::optional<events::Booted>& booted) {
+  if (!booted) return std::nullopt;
+  for (const events::Booted::Node& node : booted->nodes)
+    if (node.rank == rank) return node.node;
+  return std::nullopt;
+}
+
 std::string name_of_rank(int rank, const std::optional<events::Booted>& booted) {
   if (rank == 0) return "the host";
   if (!booted) return "a node";
-  for (const events::Booted::Node& node : booted->nodes)
-    if (node.rank == rank) return "node " + std::to_string(node.node);
-  return "rank " + std::to_string(rank);
+  const auto node = node_of_rank(rank, booted);
+  return node ? "node " + std::to_string(*node) : "rank " + std::to_string(rank);
 }
 
 // "mpirun noticed that process rank 2 with PID 0 on node ada exited on signal 9 (Killed)."
-std::optional<Failure> lost_rank(const std::string& line, const std::optional<events::Booted>& booted) {
+std::optional<Diagnosis> lost_rank(const std::string& line, const std::optional<events::Booted>& booted) {
   for (TextReader words(line); words.find("process rank ");) {
     const auto rank = words.number();
     if (!rank || !words.skip(" with PID ") || !words.number() || !words.skip(" on node ")) continue;
     const auto machine = words.word();
     if (!machine || !words.skip(" exited on signal ")) continue;
     const int signal = static_cast<int>(words.number().value_or(0));
-    return Failure(killed_by(name_of_rank(static_cast<int>(*rank), booted), signal), "machine " + *machine,
-                   remedy_for(signal));
+    const int number = static_cast<int>(*rank);
+    return Diagnosis{
+        Failure(killed_by(name_of_rank(number, booted), signal), "machine " + *machine, remedy_for(signal)),
+        node_of_rank(number, booted), *machine};
   }
   return std::nullopt;
 }
 
 // MPICH's mpirun: "=   PID 17078 RUNNING AT ada", and then "... EXIT STRING: Killed (signal 9)".
-std::optional<Failure> lost_process(const std::string& line) {
+std::optional<Diagnosis> lost_process(const std::string& line) {
   TextReader words(line);
   if (!words.find(" RUNNING AT ")) return std::nullopt;
   const auto machine = words.word();
   if (!machine || !words.find("EXIT STRING: ") || !words.find("(signal ")) return std::nullopt;
   const int signal = static_cast<int>(words.number().value_or(0));
-  return Failure(killed_by("the host or a node", signal), "machine " + *machine, remedy_for(signal));
+  return Diagnosis{
+      Failure(killed_by("the host or a node", signal), "machine " + *machine, remedy_for(signal)), {}, *machine};
 }
 
 // The machine's name, or the address itself where none is known.
@@ -117,11 +126,25 @@ std::optional<std::string> machine_lost(const std::string& line, const std::opti
   return std::nullopt;
 }
 
-std::optional<Failure> lost_machine(const std::string& line, const std::optional<events::Booted>& booted) {
+std::optional<Diagnosis> lost_machine(const std::string& line, const std::optional<events::Booted>& booted) {
   const std::optional<std::string> machine = machine_lost(line, booted);
   if (!machine) return std::nullopt;
-  return Failure("does not answer any more", "machine " + *machine,
-                 "check whether it still runs and can be reached; render the missing frames with --frames");
+  return Diagnosis{Failure("does not answer any more", "machine " + *machine,
+                           "check whether it still runs and can be reached; render the missing frames with --frames"),
+                   {},
+                   *machine,
+                   true};
+}
+
+std::string machine_of(std::int32_t node, const std::optional<events::Booted>& booted) {
+  if (booted)
+    for (const events::Booted::Node& each : booted->nodes)
+      if (each.node == node) return each.host;
+  return "";
+}
+
+Diagnosis reported(const events::Fault& fault, const std::optional<events::Booted>& booted) {
+  return {failure_from(fault), fault.node, fault.node ? machine_of(*fault.node, booted) : ""};
 }
 
 // "mars: ..." is how our programs report why they end.
@@ -145,6 +168,7 @@ Failure unknown(const Remains& remains) {
 
 // The reason why it did not start is likely to be seen from here, too.
 Failure with_advice(const Failure& failure, const Advice& advice) {
+  if (!advice) return failure;
   std::string remedy = failure.remedy;
   const std::string more = advice();
   if (!more.empty()) remedy += (remedy.empty() || remedy.ends_with('\n') ? "" : "\n") + more;
@@ -160,17 +184,26 @@ Failure stopped(const Remains& remains, const options::RenderOptions& options) {
                  options.folder, "");
 }
 
-Failure diagnose(const Remains& remains, const options::RenderOptions& options, const Advice& advice) {
-  if (remains.passed_on != 0) return stopped(remains, options);
-  if (remains.fault) return failure_from(*remains.fault);
+Diagnosis diagnose(const Remains& remains, const options::RenderOptions& options, const Advice& advice) {
+  if (remains.passed_on != 0) return {stopped(remains, options), {}};
+  if (remains.fault) return reported(*remains.fault, remains.booted);
   const auto advised = [&](const Failure& failure) { return remains.booted ? failure : with_advice(failure, advice); };
-  if (const auto own = own_words(remains.last_words)) return advised(*own);
+  if (!remains.ended_for.empty()) return {advised(Failure(remains.ended_for, "", "")), {}};
+  if (const auto own = own_words(remains.last_words)) return {advised(*own), {}};
   const std::string words = on_one_line(join(remains.last_words, remains.last_words.size()));
-  if (const auto lost = lost_rank(words, remains.booted)) return advised(*lost);
-  if (const auto lost = lost_process(words)) return advised(*lost);
+  for (const auto& lost : {lost_rank(words, remains.booted), lost_process(words)})
+    if (lost) return {advised(lost->failure), lost->node, lost->machine};
   if (const auto lost = lost_machine(words, remains.booted)) return *lost;
-  if (const auto known = meaning_of(words)) return *known;
-  return advised(unknown(remains));
+  if (const auto known = meaning_of(words)) return {*known, {}};
+  return {advised(unknown(remains)), {}};
+}
+
+std::optional<std::uint32_t> frame_of_death(const Remains& remains, const Diagnosis& diagnosis) {
+  if (remains.fault && remains.fault->frame) return static_cast<std::uint32_t>(*remains.fault->frame);
+  if (!remains.drawing || !diagnosis.node) return std::nullopt;
+  for (const events::Drawing::Node& each : remains.drawing->nodes)
+    if (each.node == *diagnosis.node) return static_cast<std::uint32_t>(each.frame);
+  return std::nullopt;
 }
 
 }  // namespace mars::launch

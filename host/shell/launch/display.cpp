@@ -103,6 +103,7 @@ void Display::show(const events::Progress& progress) {
 void Display::settle() {
   if (line_open_) out_ << std::endl;
   line_open_ = false;
+  shown_ = 0;
 }
 
 bool Display::due() {

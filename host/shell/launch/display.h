@@ -31,7 +31,7 @@ class Display {
   void print(const std::string& line);
   // How far it is: shown when due.
   void show(const events::Progress& progress);
-  // Leaves the terminal's progress line as it is and goes below it.
+  // After a job: leaves the terminal's progress line as it is and goes below it.
   void settle();
 
  private:

@@ -63,11 +63,11 @@ void read(const std::string& text, std::optional<std::uint32_t>& value) {
     throw Failure("'" + text + "' is not 1, 2, 4, 8 or 16", "", "");
 }
 
-// A number of at least one.
 struct Count {
   std::uint32_t RenderOptions::*member;
   bool may_be_auto;  // the word "auto" is 0
   std::uint32_t most;
+  std::uint32_t least = 1;
 };
 
 void read_count(const std::string& text, const Count& count, RenderOptions& options) {
@@ -76,10 +76,11 @@ void read_count(const std::string& text, const Count& count, RenderOptions& opti
     value = 0;
     return;
   }
-  value = document::number_in<std::uint32_t>(text).value_or(0);
-  if (value < 1 || value > count.most) {
-    throw Failure("'" + text + "' is not a number from 1 to " + std::to_string(count.most) +
-                      (count.may_be_auto ? " or auto" : ""),
+  const auto number = document::number_in<std::uint32_t>(text);
+  value = number.value_or(0);
+  if (!number || value < count.least || value > count.most) {
+    throw Failure("'" + text + "' is not a number from " + std::to_string(count.least) + " to " +
+                      std::to_string(count.most) + (count.may_be_auto ? " or auto" : ""),
                   "", "");
   }
 }
@@ -230,6 +231,9 @@ std::vector<Entry> table() {
              "Write each node's times and work per frame as JSON. Example: --report report.json"),
       option(all, "--trace", "FILE", &RenderOptions::trace,
              "Write a timeline of all ranks, for ui.perfetto.dev or chrome://tracing. Example: --trace trace.json"),
+      number(person, "--restarts", {&RenderOptions::restarts, false, 1000, 0},
+             "How often a job that dies is started again without a new frame between; 0: never; default: 5. Example: "
+             "--restarts 0"),
       flag(starts, "-q,--quiet", &RenderOptions::quiet, "Print only errors. Example: --quiet"),
   };
 }

@@ -134,11 +134,13 @@ TEST(Command, MpichHasWordsOfItsOwn) {
 }
 
 TEST(Command, SlurmsTasksAreCounted) {
-  EXPECT_EQ(task_count(""), 0u);
-  EXPECT_EQ(task_count("4"), 4u);
-  EXPECT_EQ(task_count("2(x4)"), 8u);
-  EXPECT_EQ(task_count("2(x3),1,16(x2)"), 39u);
-  EXPECT_EQ(task_count("nonsense"), 0u);
+  using Tasks = std::vector<std::uint32_t>;
+  EXPECT_EQ(tasks_of_machines(""), Tasks());
+  EXPECT_EQ(tasks_of_machines("4"), Tasks{4});
+  EXPECT_EQ(tasks_of_machines("2(x4)"), (Tasks{2, 2, 2, 2}));
+  EXPECT_EQ(tasks_of_machines("2(x3),1,16(x2)"), (Tasks{2, 2, 2, 1, 16, 16}));
+  EXPECT_EQ(tasks_of_machines("nonsense"), Tasks());
+  EXPECT_LE(tasks_of_machines("1(x4294967295)").size(), 1u << 20);
 }
 
 TEST(Command, HostfilesAreRead) {

@@ -21,7 +21,7 @@ Remains failed_with(std::deque<std::string> words) {
 std::string message(const Remains& remains) {
   options::RenderOptions options;
   options.folder = "out";
-  return diagnose(remains, options, [] { return std::string("/dev/shm is small"); }).what();
+  return diagnose(remains, options, [] { return std::string("/dev/shm is small"); }).failure.what();
 }
 
 TEST(Diagnosis, TheHostsOwnWordComesFirst) {

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <sstream>
+#include <thread>
 
 namespace mars::launch {
 namespace {
@@ -50,6 +52,16 @@ TEST(Display, PlainLinesAreWholeAndNotTooMany) {
   display.settle();
   display.print("end");
   EXPECT_EQ(out.str(), "begin\n" + progress_text(some_progress()) + "\nend\n");
+}
+
+TEST(Display, ASecondJobHasLinesOfItsOwn) {
+  std::ostringstream out;
+  Display display(Display::Kind::lines, out);
+  display.show(some_progress());
+  display.settle();
+  std::this_thread::sleep_for(std::chrono::milliseconds(2100));
+  display.show(some_progress());
+  EXPECT_EQ(out.str(), progress_text(some_progress()) + "\n" + progress_text(some_progress()) + "\n");
 }
 
 TEST(Display, ATerminalsLineIsWrittenOver) {

@@ -1,0 +1,106 @@
+#include "host/shell/launch/between_jobs.h"
+
+#include <unistd.h>
+
+#include <array>
+#include <functional>
+
+#include "host/child/child.h"
+#include "host/child/programs.h"
+#include "host/shell/launch/command.h"
+#include "host/shell/launch/text_reader.h"
+
+namespace mars::launch {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::seconds kLongestAnswer{10};
+
+// All machines at once: each answer is a line. The words: seconds of the pause, ssh, machines.
+constexpr const char* kAskBySsh = R"(sleep "$1" & ssh=$2; shift 2
+for machine; do
+  ("$ssh" -o BatchMode=yes -o ConnectTimeout=5 -- "$machine" true && echo "$machine" up) </dev/null 2>/dev/null &
+done
+wait)";
+
+// The words: seconds of the pause, sinfo, the machines between commas.
+constexpr const char* kAskSlurm = R"(sleep "$1" & "$2" --noheader --Node --nodes="$3" --format="%N %T"; wait)";
+
+// mpirun starts this machine's processes without ssh.
+bool is_here(const std::string& machine) {
+  std::array<char, 256> host{};
+  gethostname(host.data(), host.size() - 1);
+  const std::string own = host.data();
+  const auto short_name = [](const std::string& name) { return name.substr(0, name.find('.')); };
+  return machine == "localhost" || machine.starts_with("127.") || short_name(machine) == short_name(own);
+}
+
+// What it writes, line by line, until it ends or the longest time is over.
+void run_for(const std::vector<std::string>& words, Clock::duration longest,
+             const std::function<void(const std::string&)>& line) {
+  const auto deadline = Clock::now() + longest;
+  child::Child child({{}, words});
+  child.wait({line, [](const std::string&) {},
+              [&] {
+                if (Clock::now() > deadline) child.stop();
+              }});
+  child::fail_if_stopped(child);
+}
+
+std::vector<std::string> words_for(const Pause& pause, const std::string& path) {
+  const std::string seconds = std::to_string(pause.length.count());
+  const auto ssh = child::find_program("ssh", path), sinfo = child::find_program("sinfo", path);
+  if (pause.question == Question::ssh && ssh) {
+    std::vector<std::string> words{"/bin/sh", "-c", kAskBySsh, "sh", seconds, ssh->string()};
+    for (const std::string& machine : pause.machines)
+      if (!is_here(machine)) words.push_back(machine);
+    return words;
+  }
+  if (pause.question == Question::slurm && sinfo) {
+    std::string list;
+    for (const std::string& machine : pause.machines) list += (list.empty() ? "" : ",") + machine;
+    return {"/bin/sh", "-c", kAskSlurm, "sh", seconds, sinfo->string(), list};
+  }
+  return {"/bin/sleep", seconds};
+}
+
+}  // namespace
+
+std::set<std::string> wait_and_ask(const Pause& pause, const std::string& path) {
+  const std::vector<std::string> words = words_for(pause, path);
+  const bool asked = words.front() == "/bin/sh";
+  std::set<std::string> answering;
+  for (const std::string& machine : pause.machines)
+    if (!asked || is_here(machine)) answering.insert(machine);
+  run_for(words, pause.length + kLongestAnswer, [&](const std::string& line) {
+    TextReader answer(line);
+    const auto machine = answer.word();
+    answer.skip_space();
+    const auto state = answer.word();
+    if (machine && state && usable(*state)) answering.insert(*machine);
+  });
+  return answering;
+}
+
+std::vector<Slots> slurm_machines(const child::Environment& environment, const std::string& path) {
+  const auto list = environment.value("SLURM_JOB_NODELIST");
+  const auto scontrol = child::find_program("scontrol", path);
+  if (!list || !scontrol) return {};
+  const auto tasks = tasks_of_machines(environment.value("SLURM_TASKS_PER_NODE").value_or(""));
+  std::vector<Slots> machines;
+  run_for({scontrol->string(), "show", "hostnames", *list}, kLongestAnswer, [&](const std::string& name) {
+    if (machines.size() < tasks.size()) machines.push_back({name, tasks[machines.size()]});
+  });
+  return machines;
+}
+
+// "down*": it does not answer. What drains finishes the jobs that it has.
+bool usable(const std::string& slurm_state) {
+  if (slurm_state.ends_with('*')) return false;
+  for (const char* gone : {"down", "fail", "unk", "no_resp", "power", "boot", "reboot"})
+    if (slurm_state.starts_with(gone)) return false;
+  return true;
+}
+
+}  // namespace mars::launch

@@ -1,0 +1,159 @@
+#include "host/shell/launch/supervisor.h"
+
+#include <utility>
+
+#include "host/content/document/text.h"
+
+namespace mars::launch {
+namespace {
+
+constexpr int kTriesAlone = 2;  // of a frame that was set aside
+
+// "machine n2: node 3 was killed by signal 9 (Killed)"
+std::string what_happened(const Diagnosis& diagnosis) {
+  const Failure& failure = diagnosis.failure;
+  return failure.where.empty() ? failure.problem : failure.where + ": " + failure.problem;
+}
+
+std::string frames_text(const std::set<std::uint32_t>& frames) {
+  const std::vector<std::uint32_t> list(frames.begin(), frames.end());
+  return (list.size() == 1 ? "frame " : "frames ") + film::FrameSet(list).text();
+}
+
+}  // namespace
+
+Supervisor::Supervisor(options::RenderOptions options, World world)
+    : options_(std::move(options)), world_(std::move(world)), frames_(options_.frames), restarts_(options_.restarts) {
+  chosen_.nodes = options_.nodes;
+}
+
+void Supervisor::render() {
+  run_job(options_);
+  count_frames();
+  while (!all_there()) {
+    if (!may_help() && !a_machine_is_gone()) throw failure();
+    look_for_deadly_frame();
+    if (all_there()) break;
+    start_again();
+    run_job(next_options());
+    count_frames();
+  }
+  for (const std::uint32_t frame : std::set(frames_.aside())) try_alone(frame);
+  if (!frames_.aside().empty())
+    throw Failure("the nodes that drew " + frames_text(frames_.aside()) + " were killed each time; " + account(),
+                  options_.folder, "please report it with the film");
+}
+
+void Supervisor::run_job(const options::RenderOptions& options) {
+  last_ = world_.run_job(options, chosen_.left_out.empty() ? std::vector<Slots>() : chosen_.use);
+  booted_ = booted_ || last_.booted;
+  rendered_ = rendered_ || !last_.taken.empty();
+  if (!last_.well()) world_.clear();
+}
+
+// A job that did not come so far as to look into the folder says nothing.
+void Supervisor::count_frames() {
+  if (!last_.resumed && !last_.booted) return;
+  const std::uint32_t there = last_.resumed ? last_.resumed->there : 0;
+  frames_.set_count(last_.resumed ? last_.resumed->of : last_.progress.of());
+  if (there < frames_.there())
+    world_.print("only " + std::to_string(there) + " of " + std::to_string(frames_.there()) +
+                 " frames are there still: do all machines see the folder " + options_.folder + "?");
+  frames_.count(there, static_cast<std::uint32_t>(last_.taken.size()));
+}
+
+bool Supervisor::all_there() const { return last_.well() || frames_.complete(); }
+
+// Not where a person stopped it, and not where the film, the folder or the command line is the reason. A job whose like
+// has never begun would end as it did.
+bool Supervisor::may_help() const {
+  if (last_.passed_on != 0 || options_.restarts == 0 || options_.sink == options::SinkKind::none) return false;
+  if (options_.backend == options::Backend::simulated) return false;
+  if (last_.fault) return booted_ && last_.fault->node.has_value();
+  return booted_ || !last_.ended_for.empty();
+}
+
+// Then even a job that has never begun may begin without it.
+bool Supervisor::a_machine_is_gone() {
+  if (last_.passed_on != 0 || options_.restarts == 0 || last_.fault || booted_) return false;
+  const std::vector<std::string> names = Machines(world_.machines(), 1).names();
+  return !names.empty() && world_.ask(std::chrono::seconds(0), names).size() < names.size();
+}
+
+Failure Supervisor::failure(const std::string& more) const {
+  const Failure found = diagnose(last_, options_, world_.advice).failure;
+  if (last_.passed_on != 0 || restarts_.all() == 0) return found;
+  return Failure(found.problem + more + "; " + account(), found.where, found.remedy);
+}
+
+std::string Supervisor::account() const {
+  return std::to_string(frames_.there()) + " of " + std::to_string(frames_.of()) + " frames are there";
+}
+
+void Supervisor::look_for_deadly_frame() {
+  const Diagnosis diagnosis = diagnose(last_, options_, {});
+  const auto frame = frame_of_death(last_, diagnosis);
+  if (!frame || !diagnosis.node || !deadly_.count_death(*frame, *diagnosis.node)) return;
+  frames_.set_aside(*frame);
+  world_.print("frame " + std::to_string(*frame) + " killed the nodes that drew it: it is set aside");
+}
+
+void Supervisor::start_again() {
+  const Diagnosis diagnosis = diagnose(last_, options_, {});
+  const auto pause = restarts_.again(!last_.taken.empty());
+  if (!pause)
+    throw failure("; gave up after " + document::counted(restarts_.most(), "restart") + " without a new frame");
+  if (!machines_) machines_.emplace(world_.machines(), options_.nodes);
+  machines_->blame(diagnosis.machine, diagnosis.machine_lost, !last_.taken.empty());
+  world_.print(what_happened(diagnosis));
+  choose_machines(*pause);
+  print_choice();
+}
+
+void Supervisor::choose_machines(std::chrono::seconds pause) {
+  const std::vector<std::string> names = machines_ ? machines_->names() : std::vector<std::string>();
+  const std::set<std::string> answering = world_.ask(pause, names);
+  if (names.empty()) return;
+  const std::string host_before = chosen_.use.empty() ? names.front() : chosen_.use.front().host;
+  chosen_ = machines_->choose(answering);
+  if (chosen_.use.empty())
+    throw Failure("none of the machines answers: " + document::joined(names) + "; " + account(), options_.folder,
+                  "the same command goes on once they do");
+  if (const std::string& host = chosen_.use.front().host; host != host_before)
+    world_.print("the host runs on " + host + " now, no more on " + host_before + ": both must see the folder " +
+                 options_.folder);
+}
+
+void Supervisor::print_choice() const {
+  std::string line = "starting again (" + std::to_string(restarts_.number()) + " of " +
+                     std::to_string(restarts_.most()) + ") with " + document::counted(chosen_.nodes, "node");
+  if (!chosen_.use.empty()) line += " on " + document::counted(chosen_.use.size(), "machine");
+  if (!chosen_.left_out.empty()) line += ", without " + document::joined(chosen_.left_out);
+  world_.print(line + (frames_.of() > 0 ? "; " + account() : ""));
+}
+
+options::RenderOptions Supervisor::next_options() const {
+  options::RenderOptions next = options_;
+  next.nodes = chosen_.nodes;
+  next.frames = frames_.next();
+  next.overwrite = options_.overwrite && !booted_;  // what the first job brought is not what was there before
+  return next;
+}
+
+// In jobs of its own: where several nodes died at this frame by chance, it is there then.
+void Supervisor::try_alone(std::uint32_t frame) {
+  for (int tries = 0; tries < kTriesAlone && (tries == 0 || may_help()); ++tries) {
+    const auto pause = restarts_.again(!last_.taken.empty());
+    if (!pause) return;
+    world_.print("frame " + std::to_string(frame) + " is tried by itself");
+    choose_machines(*pause);
+    options::RenderOptions alone = next_options();
+    alone.frames = film::FrameSet(std::vector{frame});
+    alone.report = alone.trace = "";  // of the film, not of one frame
+    run_job(alone);
+    if (last_.passed_on != 0) throw failure();
+    if (last_.well()) return frames_.take_back(frame);
+  }
+}
+
+}  // namespace mars::launch
