@@ -108,6 +108,7 @@ SlurmctldHost=n0
 SlurmUser=root
 SlurmdUser=root
 AuthType=auth/munge
+AuthInfo=cred_expire=10
 MpiDefault=pmix
 ProctrackType=proctrack/linuxproc
 TaskPlugin=task/none
@@ -125,7 +126,11 @@ SlurmdPidFile=/run/slurmd.pid
 SlurmdSpoolDir=$dir/spool/%n
 StateSaveLocation=$dir/state
 NodeName=n[1-4] CPUs=2 RealMemory=2000 State=UNKNOWN
-PartitionName=main Nodes=n[1-4] Default=YES MaxTime=INFINITE State=UP
+SchedulerParameters=sched_interval=2,bf_interval=2,sched_min_interval=0
+PreemptType=preempt/partition_prio
+PreemptMode=REQUEUE
+PartitionName=main Nodes=n[1-4] Default=YES MaxTime=INFINITE State=UP PriorityTier=1
+PartitionName=urgent Nodes=n[1-4] MaxTime=INFINITE State=UP PriorityTier=2
 SETTINGS
 }
 
