@@ -36,7 +36,10 @@ std::vector<events::Warning> warnings_of(std::span<const wire::Hello> hellos) {
 
 }  // namespace
 
-void EventReporter::report(const events::Event& event) const { std::cout << events::line_of(event) << std::flush; }
+void EventReporter::report(const events::Event& event) const {
+  board_.note(event);
+  std::cout << events::line_of(event) << std::flush;
+}
 
 void EventReporter::report_progress(double seconds) {
   progress_.forecast = course_.left(progress_.done(), seconds);
@@ -55,6 +58,7 @@ farm::FarmListener EventReporter::listener(std::size_t intervals) {
   };
   listener.warned = [this](const std::string& text) { report(events::Warning{text}); };
   listener.finished = [this](const farm::FinishedFrame& frame) {
+    board_.note_drawn(frame);
     report(events::FrameTaken{frame.number, frame.interval, frame.kind});
     progress_.count(frame.kind, frame.interval, frame.seconds);
     report_progress(frame.seconds);

@@ -1,4 +1,4 @@
-// Reports what happens on standard output (host/render/events), and how far the rendering is.
+// Reports what happens on standard output (host/render/events) and on the status board, and how far the rendering is.
 #pragma once
 
 #include <cstddef>
@@ -8,12 +8,13 @@
 #include "host/render/events/course.h"
 #include "host/render/events/events.h"
 #include "host/render/farm/farm.h"
+#include "host/render/session/status_board.h"
 
 namespace mars::session {
 
 class EventReporter {
  public:
-  explicit EventReporter(std::string backend) : backend_(std::move(backend)) {}
+  EventReporter(std::string backend, StatusBoard& board) : backend_(std::move(backend)), board_(board) {}
 
   void report(const events::Event& event) const;
   // A listener for render_film, of a film with this number of intervals. The reporter must outlive it.
@@ -25,6 +26,7 @@ class EventReporter {
   void report_progress(double seconds);
 
   const std::string backend_;
+  StatusBoard& board_;
   events::Course course_;
   events::Progress progress_;
 };

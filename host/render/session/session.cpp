@@ -14,6 +14,7 @@
 #include "host/render/farm/node_inbox.h"
 #include "host/render/report/report.h"
 #include "host/render/session/event_reporter.h"
+#include "host/render/session/status_board.h"
 #include "host/render/sinks/frame_folder.h"
 #include "host/render/sinks/sink_pool.h"
 #include "host/render/trace/trace_file.h"
@@ -47,6 +48,10 @@ class Destination {
   }
 
   sinks::Sink& sink() { return *sink_; }
+  // Shows there how the run goes. `board` must outlive it.
+  void show(const StatusBoard& board) {
+    if (folder_) folder_->show_status([&board] { return sinks::text_of(board.status()); });
+  }
   // Once it has taken all frames.
   void finish() {
     if (folder_) folder_->finish();
@@ -115,7 +120,7 @@ farm::Plan plan_of(const wire::FilmView& film, const RenderJob& job, EventReport
   return farm::make_plan(film, request, nodes);
 }
 
-void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace) {
+void render(const RenderJob& job, EventReporter& reporter, const StatusBoard& board, trace::Trace* trace) {
   double load_seconds = 0;
   const film::CompiledFilm film = load_film(job, reporter, load_seconds);
   const wire::FilmView view = film.view();
@@ -126,6 +131,7 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace) 
 
   if (!job.report.empty()) document::check_can_write(job.report);  // early too
   Destination destination(job, film, job.frames.of_film(settings.frames));
+  destination.show(board);
   // Only now: before, the host may have waited for its turn in the folder, and not for nodes.
   reporter.report(events::Loaded{load_seconds});
   const auto pool = make_sinks(job, destination.sink(), pool_shape(host, view, job, memory.frames));
@@ -179,11 +185,12 @@ std::uint32_t sink_threads(const HostMachine& host) {
 }
 
 void run_session(const RenderJob& job) {
-  EventReporter reporter(job.backend);
+  StatusBoard board(job.film);
+  EventReporter reporter(job.backend, board);
   std::unique_ptr<trace::Trace> trace;
   try {
     trace = begin_trace(job);
-    render(job, reporter, trace.get());
+    render(job, reporter, board, trace.get());
   } catch (const std::exception& reason) {
     reporter.report(fault_of(reason, job));
     if (trace && trace->begun()) write_failed_trace(reason_of(reason), job, reporter, *trace);

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -19,6 +20,7 @@
 #include "host/render/sinks/process_name.h"
 #include "host/render/sinks/runs_folder.h"
 #include "host/render/sinks/sink.h"
+#include "host/render/sinks/status_file.h"
 
 namespace mars::sinks {
 
@@ -38,6 +40,9 @@ class FrameFolder {
   images::PictureFormat format() const { return rendered_.format; }
   std::filesystem::path file_of(std::uint32_t frame) const;
 
+  // From now on `text` is what the run's .status says (status_file.h). Until the end a thread calls it.
+  void show_status(std::function<std::string()> text);
+
   // Writes a frame's file; from several threads at once. Throws Failure where it cannot, or the claim is lost.
   void put(std::uint32_t frame, const std::string& pixel_hash, std::span<const std::byte> file);
 
@@ -56,6 +61,7 @@ class FrameFolder {
   RunsFolder runs_;
   std::optional<Lease> lease_;
   std::optional<HashLog> hashes_;
+  std::optional<StatusFile> status_;
   bool finished_ = false;
 };
 

@@ -50,8 +50,18 @@ struct RenderOptions {
   bool operator==(const RenderOptions&) const = default;
 };
 
-// The programs that read the options: each takes those that concern it.
-enum class Program : unsigned { mars = 1, host = 2, ranks = 4, threads = 8, simulated = 16, compile = 32, plan = 64 };
+// The programs that read the options: each takes those that concern it. submit is mars submit, whose job is mars
+// render.
+enum class Program : unsigned {
+  mars = 1,
+  host = 2,
+  ranks = 4,
+  threads = 8,
+  simulated = 16,
+  compile = 32,
+  plan = 64,
+  submit = 128
+};
 
 // Adds the options `program` takes to its command line, which is then checked as a whole too; `options` must
 // outlive the parsing.
