@@ -1,5 +1,7 @@
 #include "host/shell/batch/folder_state.h"
 
+#include <time.h>
+
 #include <algorithm>
 
 #include "hal/failure/failure.h"
@@ -15,6 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::int64_t kLate = 15;   // seconds; a status is written every 2
+constexpr std::int64_t kLost = 60;   // likewise; then its claim ends, too
 constexpr double kNamedSilence = 5;  // likewise
 constexpr double kSlow = 1.25;       // times as long as usual
 
@@ -25,7 +28,9 @@ std::vector<FolderState::Run> runs_in(const fs::path& folder) {
     std::optional<sinks::Claim> claim = sinks::claim_of(run);
     if (!claim) continue;
     const bool ended = sinks::is_running(claim->process, self) == sinks::Running::no;
-    runs.push_back({std::move(*claim), ended, sinks::status_of(run)});
+    std::optional<sinks::Status> status = sinks::status_of(run);
+    const std::int64_t silent = time(nullptr) - (status ? status->written : claim->since);
+    runs.push_back({std::move(*claim), ended, silent, std::move(status)});
   }
   return runs;
 }
@@ -63,14 +68,12 @@ std::string progress_of(const sinks::Status& status) {
   return text.empty() ? "begins" : text;
 }
 
-std::string run_line(const FolderState::Run& run, std::int64_t now) {
+std::string run_line(const FolderState::Run& run) {
   const sinks::ProcessName& process = run.claim.process;
   std::string text = "run on " + process.host + " (process " + std::to_string(process.number) + "): ";
   if (run.ended) return text + "has ended before its last frame";
-  if (!run.status) return text + "begins";
-  text += progress_of(*run.status);
-  const std::int64_t age = now - run.status->written;
-  if (age > kLate) text += "; has said nothing for " + launch::clock_text(static_cast<double>(age));
+  text += run.status ? progress_of(*run.status) : "begins";
+  if (run.silent > kLate) text += "; has said nothing for " + launch::clock_text(static_cast<double>(run.silent));
   return text;
 }
 
@@ -98,9 +101,9 @@ std::string machine_line(const sinks::Status::Machine& machine) {
 
 }  // namespace
 
-bool FolderState::active() const {
-  return !jobs.empty() || std::ranges::any_of(runs, [](const Run& run) { return !run.ended; });
-}
+bool FolderState::Run::lives() const { return !ended && silent < kLost; }
+
+bool FolderState::active() const { return !jobs.empty() || std::ranges::any_of(runs, &Run::lives); }
 
 FolderState look_at(const fs::path& folder) {
   FolderState state;
@@ -112,12 +115,12 @@ FolderState look_at(const fs::path& folder) {
   return state;
 }
 
-std::vector<std::string> lines_of(const FolderState& state, bool machines, std::int64_t now) {
+std::vector<std::string> lines_of(const FolderState& state, bool machines) {
   std::vector<std::string> lines{folder_line(state)};
   for (const QueuedJob& job : state.jobs) lines.push_back(text_of(job));
   if (!state.no_jobs.empty()) lines.push_back("jobs are unknown: " + state.no_jobs);
   for (const FolderState::Run& run : state.runs) {
-    lines.push_back(run_line(run, now));
+    lines.push_back(run_line(run));
     if (!machines || !run.status) continue;
     std::ranges::transform(run.status->machines, std::back_inserter(lines), machine_line);
     for (const std::string& warning : run.status->warnings) lines.push_back("  warning: " + warning);

@@ -18,7 +18,10 @@ struct FolderState {
   struct Run {
     sinks::Claim claim;
     bool ended = false;                   // seen from here: its process is gone
+    std::int64_t silent = 0;              // seconds since it has said anything, by its clock and this machine's
     std::optional<sinks::Status> status;  // none: it has none yet
+
+    bool lives() const;
   };
 
   std::string folder;
@@ -38,7 +41,7 @@ struct FolderState {
 FolderState look_at(const std::filesystem::path& folder);
 
 // A line for the folder, each job and each run; with `machines` also below each run a line for each of its machines and
-// for its last warnings. `now`: seconds since 1970.
-std::vector<std::string> lines_of(const FolderState& state, bool machines, std::int64_t now);
+// for its last warnings.
+std::vector<std::string> lines_of(const FolderState& state, bool machines);
 
 }  // namespace mars::batch

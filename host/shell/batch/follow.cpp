@@ -1,7 +1,6 @@
 #include "host/shell/batch/follow.h"
 
 #include <sys/ioctl.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -53,7 +52,7 @@ bool follow(const std::filesystem::path& folder) {
   std::optional<Clock::time_point> last_active;
   for (;;) {
     const FolderState state = look_at(folder);
-    Lines lines = lines_of(state, terminal, time(nullptr));
+    Lines lines = lines_of(state, terminal);
     terminal ? rewrite(shown, lines) : print_new(shown, lines);
     shown = std::move(lines);
     if (state.active()) last_active = Clock::now();

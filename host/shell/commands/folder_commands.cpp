@@ -1,7 +1,5 @@
 #include "host/shell/commands/folder_commands.h"
 
-#include <time.h>
-
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <iostream>
@@ -16,8 +14,7 @@ namespace mars::commands {
 namespace {
 
 void print_state(const std::string& folder) {
-  for (const std::string& line : batch::lines_of(batch::look_at(folder), true, time(nullptr)))
-    std::cout << line << '\n';
+  for (const std::string& line : batch::lines_of(batch::look_at(folder), true)) std::cout << line << '\n';
 }
 
 // Returns the exit code.

@@ -18,7 +18,6 @@ sinks::Status some_status() {
   status.of = 40;
   status.seconds = 5;
   status.left = 61;
-  status.written = 1000;
   status.machines = {{"n1", {{.node = 0, .frames = 4, .doing = ""}, {.node = 1, .frames = 6, .doing = ""}}},
                      {"n2",
                       {{.node = 2, .frames = 3, .silent = 12, .frame = 7, .doing = "scanline"},
@@ -36,19 +35,19 @@ FolderState some_state() {
   sinks::Claim claim;
   claim.process.host = "n1";
   claim.process.number = 12;
-  state.runs = {{claim, false, some_status()}};
+  state.runs = {{claim, false, 1, some_status()}};
   state.jobs = {{"7", "RUNNING", "0:05", 1, "n[1-2]", "None"}};
   return state;
 }
 
 TEST(FolderState, HasALineForTheFolderEachJobAndEachRun) {
-  EXPECT_EQ(lines_of(some_state(), false, 1001),
+  EXPECT_EQ(lines_of(some_state(), false),
             (Lines{"out: 20 of 50 frames of a film.json", "job 7: running on n[1-2] for 0:05, 1 restart",
                    "run on n1 (process 12): frame 10 of 40, 2.0 frames/s, 1:01 left"}));
 }
 
 TEST(FolderState, NamesNodesThatAreSilentOrSlow) {
-  const Lines lines = lines_of(some_state(), true, 1001);
+  const Lines lines = lines_of(some_state(), true);
   EXPECT_EQ(Lines(lines.begin() + 3, lines.end()),
             (Lines{"  n1  2 nodes, 10 frames",
                    "  n2  2 nodes, 4 frames; node 2 silent for 12 s, in scanline of frame 7; node 3 takes 2.5 times as "
@@ -60,10 +59,20 @@ TEST(FolderState, SaysWhatIsUnknown) {
   FolderState state = some_state();
   state.runs.front().ended = true;
   state.no_jobs = "squeue failed: timed out";
-  const Lines lines = lines_of(state, false, 1001);
+  const Lines lines = lines_of(state, false);
   EXPECT_EQ(lines[2], "jobs are unknown: squeue failed: timed out");
   EXPECT_EQ(lines[3], "run on n1 (process 12): has ended before its last frame");
-  EXPECT_TRUE(document::holds(lines_of(some_state(), false, 1090).back(), "; has said nothing for 1:30"));
+}
+
+TEST(FolderState, TakesARunThatSaysNothingForLost) {
+  FolderState state = some_state();
+  state.jobs.clear();
+  EXPECT_TRUE(state.active());
+  state.runs.front().silent = 20;
+  EXPECT_TRUE(state.active());
+  EXPECT_TRUE(document::holds(lines_of(state, false).back(), " left; has said nothing for 0:20"));
+  state.runs.front().silent = 90;
+  EXPECT_FALSE(state.active());
 }
 
 TEST(FolderState, IsOfWhatIsInTheFolder) {
