@@ -2,7 +2,7 @@
 # A virtual Beowulf on one machine: head n0 and hosts n1 to n4 of two processors each, with sshd and Slurm.
 # Every host has its own name, network, processes, /tmp, /run and /dev/shm. All hosts share the rest of the file
 # system, as if by NFS, and this file's checkout even if it is below /tmp. All hosts run on this machine's
-# processors, so the testbed shows behaviour, not speed.
+# processors, so the testbed shows behaviour, not speed. Slurm's jobs in the partition urgent preempt those in main.
 #
 #   testbed.sh up                   start it (ends a running one first)
 #   testbed.sh exec HOST COMMAND    run a command on a host, in this folder

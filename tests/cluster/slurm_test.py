@@ -27,8 +27,8 @@ class Jobs(ClusterTest):
     def submit(self, folder, *options, machines=2, **environment):
         """The number of the job."""
         settings = [f"{name}={value}" for name, value in environment.items()]
-        done = self.on("n0", "env", *settings, "mars", "submit", self.film, "-o", folder, *self.intervals, "--nodes", machines,
-                       "--tasks", 2 * machines, *options)
+        done = self.on("n0", "env", *settings, "mars", "submit", self.film, "-o", folder, *self.intervals,
+                       "--nodes", machines, "--tasks", 2 * machines, *options)
         job = done.stdout.split()[1].strip(",;")
         self.addCleanup(testbed, "exec", "n0", "scancel", job)
         return job
@@ -65,7 +65,8 @@ class Jobs(ClusterTest):
         preempted = self.submit("preempted")
         self.wait_for_frames("preempted")
         self.assertEqual([self.facts(job)["NodeList"] for job in (limited, preempted)], ["n[1-2]", "n[3-4]"])
-        self.on("n0", "sbatch", "--partition=urgent", "--nodelist=n3,n4", "--nodes=2", "--output=/dev/null", "--wrap=true")
+        self.on("n0", "sbatch", "--partition=urgent", "--nodelist=n3,n4", "--nodes=2", "--output=/dev/null",
+                "--wrap=true")
         self.wait_for(preempted, Restarts="1")
         self.full_speed("n3")
         self.assertCompletes("preempted")

@@ -1,5 +1,5 @@
-"""Jobs of Slurm without Slurm: mars submit, status, watch and cancel, and the batch scripts, with programs of a few lines
-in place of Slurm's."""
+"""Jobs of Slurm without Slurm: mars submit, status, watch and cancel, and the batch scripts, with programs of a few
+lines in place of Slurm's."""
 
 import signal
 import subprocess
@@ -12,7 +12,8 @@ SBATCH = """if [ -e refusal ]; then cat refusal >&2; exit 1; fi
 for word; do script=$word; done
 printf '%s\\n' "$@" >sbatch.words; cp "$script" submitted
 echo '12|RUNNING|0:20|1|n[1-4]|None|' >queue; echo 12"""
-SQUEUE = """if [ -s queue ]; then cat queue; else echo 'slurm_load_jobs error: Invalid job id specified' >&2; exit 1; fi"""
+SQUEUE = """if [ -s queue ]; then cat queue; exit; fi
+echo 'slurm_load_jobs error: Invalid job id specified' >&2; exit 1"""
 SCANCEL = """echo "$@" >scancel.words; rm queue"""
 
 
@@ -71,13 +72,15 @@ class Commands(FakeSlurm):
     def test_an_array_is_cut_where_intervals_begin(self):
         film = spinning_teapot(24, [64, 36])
         first, last = film["actors"][0]["keys"]
-        film["actors"][0]["keys"] = [dict(first, frame=0), dict(last, frame=8), dict(first, frame=16), dict(last, frame=24)]
+        film["actors"][0]["keys"] = [dict(first, frame=0), dict(last, frame=8), dict(first, frame=16),
+                                     dict(last, frame=24)]
         self.write("film.json", film)
         told = self.submit("--array", 2, "--intervals", "keyframes")
         self.assertIn("job 12, 2 tasks;", told)
         self.assertIn("\nframes=(0-7 8-23)\n", self.read("submitted"))
         self.assertIn("%A_%a.out", self.read("sbatch.words"))
-        done = self.run_program("mars", "submit", "film.json", "-o", "out", "--array", 9, "--print", env=self.environment)
+        done = self.run_program("mars", "submit", "film.json", "-o", "out", "--array", 9, "--print",
+                                env=self.environment)
         self.assertIn("too few intervals for 9 jobs: 1 job", done.stderr)
         self.refused(2, "submit", "film.json", "-o", "out", "--array", 2, "--report", "r", says="cannot share one file")
 
@@ -132,7 +135,8 @@ class Scripts(FakeSlurm):
     def setUp(self):
         super().setUp()
         for name in ["mars", "mpirun"]:
-            self.program(name, "touch begun; trap 'echo term >told; sleep 0.2; exit 1' TERM; [ -e go ] || exit $(cat code)\n"
+            self.program(name, "touch begun; trap 'echo term >told; sleep 0.2; exit 1' TERM\n"
+                         "[ -e go ] || exit $(cat code)\n"
                          "while :; do sleep 0.05; done")
         self.program("mars-host", "")
         self.program("mars-node", "")

@@ -103,7 +103,10 @@ std::string machine_line(const sinks::Status::Machine& machine) {
 
 bool FolderState::Run::lives() const { return !ended && silent < kLost; }
 
-bool FolderState::active() const { return !jobs.empty() || std::ranges::any_of(runs, &Run::lives); }
+bool FolderState::active() const {
+  const bool may_have_jobs = !jobs.empty() || (!no_jobs.empty() && !complete());
+  return may_have_jobs || std::ranges::any_of(runs, &Run::lives);
+}
 
 FolderState look_at(const fs::path& folder) {
   FolderState state;

@@ -33,7 +33,7 @@ struct FolderState {
   std::string no_jobs;  // why Slurm's are unknown
 
   bool complete() const { return of > 0 && there == of; }
-  // Whether anything renders or will.
+  // Whether anything renders or will, or may where jobs are unknown.
   bool active() const;
 };
 
