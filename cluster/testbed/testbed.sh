@@ -129,7 +129,7 @@ NodeName=n[1-4] CPUs=2 RealMemory=2000 State=UNKNOWN
 SchedulerParameters=sched_interval=2,bf_interval=2,sched_min_interval=0
 PreemptType=preempt/partition_prio
 PreemptMode=REQUEUE
-PartitionName=main Nodes=n[1-4] Default=YES MaxTime=INFINITE State=UP PriorityTier=1
+PartitionName=main Nodes=n[1-4] Default=YES MaxTime=INFINITE State=UP PriorityTier=1 GraceTime=10
 PartitionName=urgent Nodes=n[1-4] MaxTime=INFINITE State=UP PriorityTier=2
 SETTINGS
 }

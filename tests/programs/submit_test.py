@@ -135,13 +135,14 @@ class Scripts(FakeSlurm):
     def setUp(self):
         super().setUp()
         for name in ["mars", "mpirun"]:
-            self.program(name, "touch begun; trap 'echo term >told; sleep 0.2; exit 1' TERM\n"
+            self.program(name, "trap 'echo term >told; sleep 0.2; exit 1' TERM; touch begun\n"
                          "[ -e go ] || exit $(cat code)\n"
                          "while :; do sleep 0.05; done")
         self.program("mars-host", "")
         self.program("mars-node", "")
         self.program("srun", "case $* in *--multi-prog*) exec mars;; *--relative*) ;; *) exit $(cat machines);; esac")
-        self.program("scontrol", "echo \"$@\" >>requeued")
+        self.program("scontrol", "case $1 in show) cat job;; *) echo \"$@\" >>requeued;; esac")
+        self.write("job", "JobId=12 PreemptTime=None\n")
         self.write("machines", "0")
         self.job = dict(self.environment, SLURM_JOB_ID="12", SLURM_JOB_NUM_NODES="2", SLURM_NTASKS="4",
                         SLURMD_NODENAME="n1")
@@ -187,6 +188,12 @@ class Scripts(FakeSlurm):
     def test_a_lost_machine(self):
         self.write("code", "1")
         self.write("machines", "1")
+        for script in SCRIPTS:
+            self.assertEqual(self.end_of(script), (0, "requeue 12\n"), script)
+
+    def test_preemption_with_a_time_of_grace(self):
+        self.write("code", "1")
+        self.write("job", "JobId=12 PreemptTime=2026-11-22T19:07:11\n")
         for script in SCRIPTS:
             self.assertEqual(self.end_of(script), (0, "requeue 12\n"), script)
 
