@@ -2,7 +2,7 @@
 # A virtual Beowulf on one machine: head n0 and hosts n1 to n4 of two processors each, with sshd and Slurm.
 # Every host has its own name, network, processes, /tmp, /run and /dev/shm. All hosts share the rest of the file
 # system, as if by NFS, and this file's checkout even if it is below /tmp. All hosts run on this machine's
-# processors, so the testbed shows behaviour, not speed.
+# processors, so the testbed shows behaviour, not speed. Slurm's jobs in the partition urgent preempt those in main.
 #
 #   testbed.sh up                   start it (ends a running one first)
 #   testbed.sh exec HOST COMMAND    run a command on a host, in this folder
@@ -108,6 +108,7 @@ SlurmctldHost=n0
 SlurmUser=root
 SlurmdUser=root
 AuthType=auth/munge
+AuthInfo=cred_expire=5
 MpiDefault=pmix
 ProctrackType=proctrack/linuxproc
 TaskPlugin=task/none
@@ -125,7 +126,11 @@ SlurmdPidFile=/run/slurmd.pid
 SlurmdSpoolDir=$dir/spool/%n
 StateSaveLocation=$dir/state
 NodeName=n[1-4] CPUs=2 RealMemory=2000 State=UNKNOWN
-PartitionName=main Nodes=n[1-4] Default=YES MaxTime=INFINITE State=UP
+SchedulerParameters=sched_interval=2,bf_interval=2,sched_min_interval=0
+PreemptType=preempt/partition_prio
+PreemptMode=REQUEUE
+PartitionName=main Nodes=n[1-4] Default=YES MaxTime=INFINITE State=UP PriorityTier=1 GraceTime=10
+PartitionName=urgent Nodes=n[1-4] MaxTime=INFINITE State=UP PriorityTier=2
 SETTINGS
 }
 

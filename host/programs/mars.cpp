@@ -20,6 +20,7 @@
 #include "host/shell/commands/calibrate_command.h"
 #include "host/shell/commands/compile_command.h"
 #include "host/shell/commands/doctor_command.h"
+#include "host/shell/commands/folder_commands.h"
 #include "host/shell/commands/import_command.h"
 #include "host/shell/commands/info_command.h"
 #include "host/shell/commands/model_command.h"
@@ -27,6 +28,7 @@
 #include "host/shell/commands/plot_command.h"
 #include "host/shell/commands/preview_command.h"
 #include "host/shell/commands/render_command.h"
+#include "host/shell/commands/submit_command.h"
 #include "host/shell/commands/verify_command.h"
 #include "host/shell/launch/background_text.h"
 #include "host/shell/options/command_line.h"
@@ -43,6 +45,8 @@ Begin with:
 
 Commands:
   mars render FILM -o DIR          render a film to PNG or EXR files
+  mars submit FILM -o DIR          render it by a job of Slurm
+  mars status DIR                  how far it is; watch follows it, cancel ends jobs
   mars compile FILM -o FILM.mars   compute all its motion once
   mars info FILM                   print what a film holds
   mars plan FILM                   forecast its time, memory and bytes
@@ -83,6 +87,8 @@ int run(int argc, char** argv) {
   std::vector<const char*> words = help_as_option(argc, argv);
   int code = 0;
   commands::add_render(app);
+  commands::add_submit(app);
+  commands::add_folder_commands(app, code);
   commands::add_compile(app);
   commands::add_info(app);
   commands::add_plan(app, make_node_counter);

@@ -102,7 +102,14 @@ std::optional<Assembly::Pasted> Assembly::paste(compositor::Compositor& composit
   const std::uint32_t number = *ready;
   waiting_.erase(ready);
   Parts& parts = parts_.at(number);
-  Pasted pasted{number, number == keyframe_ ? wire::FrameKind::keyframe : wire::FrameKind::inbetween, nullptr, {}, {}};
+  const bool alone = parts.contributor != kAll;
+  Pasted pasted{number,
+                number == keyframe_ ? wire::FrameKind::keyframe : wire::FrameKind::inbetween,
+                nullptr,
+                {},
+                {},
+                alone ? parts.contributor : group_.first,
+                alone ? 1 : static_cast<std::int32_t>(drew_keyframe_.size())};
   for (StripMessage& strip : parts.strips) {
     paste_strip(strip, *parts.picture, compositor);
     if (strip.header().last == 0) pasted.free.push_back(strip.slot());

@@ -46,6 +46,8 @@ class Assembly {
     compositor::Frame* whole;    // the finished frame; nullptr while strips of it are to come
     std::vector<NodeSlot> free;  // slots of strips that were pasted now and were not their node's last of the frame
     std::vector<NodeSlot> held;  // those of the nodes' last strips, where it is whole
+    std::int32_t first_node;     // so many from this one on draw it
+    std::int32_t nodes;
   };
   // Pastes the strips that came of one frame, if there are any and it has a buffer or gets one; their memory
   // goes to `store`.

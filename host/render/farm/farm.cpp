@@ -335,7 +335,8 @@ bool Farm::compose_one() {
 
 void Farm::submit(const GroupWork::Composed& composed) {
   const Assembly::Pasted& frame = composed.pasted;
-  const FinishedFrame finished{frame.number, composed.interval, frame.kind, dclock() - start_, composed.given};
+  const FinishedFrame finished{frame.number,   composed.interval, frame.kind, dclock() - start_,
+                               composed.given, frame.first_node,  frame.nodes};
   if (options_.each_frame) report_.frames.push_back(finished);
   with_sinks_[frame.number] = {finished, frame.held};
   charge(wire::Work::host_frame, 1);

@@ -39,8 +39,10 @@ struct FinishedFrame {
   std::uint32_t number;
   std::uint32_t interval;
   wire::FrameKind kind;
-  double seconds;    // since the first command, when its last strip had come and it was composed
-  double given = 0;  // likewise, when its task was given to a group
+  double seconds;               // since the first command, when its last strip had come and it was composed
+  double given = 0;             // likewise, when its task was given to a group
+  std::int32_t first_node = 0;  // so many from this one on drew it
+  std::int32_t nodes = 0;
 };
 
 // Called from the thread that runs the farm.

@@ -39,6 +39,7 @@ std::vector<events::Warning> warnings_of(std::span<const wire::Hello> hellos) {
 }  // namespace
 
 void EventReporter::report(const events::Event& event) const {
+  board_.note(event);
   const std::string line = events::line_of(event);
   const std::lock_guard lock(mutex_);
   std::cout << line << std::flush;
@@ -76,6 +77,7 @@ farm::FarmListener EventReporter::listener(std::size_t intervals) {
   };
   listener.warned = [this](const std::string& text) { report(events::Warning{text}); };
   listener.finished = [this](const farm::FinishedFrame& frame) {
+    board_.note_drawn(frame);
     report(events::FrameTaken{frame.number, frame.interval, frame.kind});
     progress_.count(frame.kind, frame.interval, frame.seconds);
     report_progress(frame.seconds);

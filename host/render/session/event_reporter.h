@@ -1,4 +1,4 @@
-// Reports what happens on standard output (host/render/events), and how far the rendering is.
+// Reports what happens on standard output (host/render/events) and on the status board, and how far the rendering is.
 #pragma once
 
 #include <cstddef>
@@ -10,12 +10,13 @@
 #include "host/render/events/course.h"
 #include "host/render/events/events.h"
 #include "host/render/farm/farm.h"
+#include "host/render/session/status_board.h"
 
 namespace mars::session {
 
 class EventReporter {
  public:
-  explicit EventReporter(std::string backend) : backend_(std::move(backend)) {}
+  EventReporter(std::string backend, StatusBoard& board) : backend_(std::move(backend)), board_(board) {}
 
   // From any thread.
   void report(const events::Event& event) const;
@@ -31,6 +32,7 @@ class EventReporter {
   void report_progress(double seconds);
 
   const std::string backend_;
+  StatusBoard& board_;
   mutable std::mutex mutex_;  // one line at a time
   events::Course course_;
   events::Progress progress_;

@@ -23,6 +23,7 @@
 #include "host/render/report/report.h"
 #include "host/render/resume/resume.h"
 #include "host/render/session/event_reporter.h"
+#include "host/render/session/status_board.h"
 #include "host/render/session/termination.h"
 #include "host/render/sinks/frame_folder.h"
 #include "host/render/sinks/sink_pool.h"
@@ -43,8 +44,11 @@ std::unique_ptr<sinks::Sink> make_sink(sinks::FrameFolder* folder) {
   return std::make_unique<sinks::FileSink>(*folder);
 }
 
-// What writes frames, and ends in this order: the threads, then the folder.
+// What writes frames, and ends in this order: the threads, then the folder, then what it shows.
 struct Output {
+  explicit Output(const std::string& film) : board(film) {}
+
+  StatusBoard board;
   std::unique_ptr<sinks::FrameFolder> folder;  // none: frames go nowhere
   std::unique_ptr<sinks::Sink> sink;
   std::unique_ptr<sinks::SinkPool> pool;
@@ -199,6 +203,7 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace, 
 
   if (!job.report.empty()) document::check_can_write(job.report);  // early too
   output.folder = std::move(opened.folder);
+  if (output.folder) output.folder->show_status([&board = output.board] { return sinks::text_of(board.status()); });
   output.sink = make_sink(output.folder.get());
   // Only now: before, the host may have waited for its turn in the folder, and not for nodes.
   reporter.report(events::Loaded{load_seconds});
@@ -251,9 +256,9 @@ std::uint32_t sink_threads(const HostMachine& host) {
 }
 
 void run_session(const RenderJob& job) {
-  EventReporter reporter(job.backend);
+  auto output = std::make_unique<Output>(job.film);
+  EventReporter reporter(job.backend, output->board);
   std::unique_ptr<trace::Trace> trace;
-  auto output = std::make_unique<Output>();
   try {
     trace = begin_trace(job);
     render(job, reporter, trace.get(), *output);

@@ -247,6 +247,7 @@ void FrameFolder::finish_within(std::chrono::milliseconds patience) {
   const FolderTurn turn(runs_, patience, [this] { patience_.note_answer(); });
   lease_->confirm();
   hashes_.reset();
+  status_.reset();
   if (!add_to_manifest(rendered_, path_, runs_, turn))
     throw Failure("is no longer the manifest of the film that was rendered", (path_ / kManifestName).string(),
                   "see that nothing else writes it, and render the film again");
@@ -254,6 +255,10 @@ void FrameFolder::finish_within(std::chrono::milliseconds patience) {
     if (run.run == runs_.own_name()) remove_files(run, turn);
   lease_.reset();
   sync_folder(path_);
+}
+
+void FrameFolder::show_status(std::function<std::string()> text) {
+  status_.emplace(runs_.own_file(kStatusEnding), runs_.own_file(std::string(kStatusEnding) + ".part"), std::move(text));
 }
 
 fs::path FrameFolder::file_of(std::uint32_t frame) const { return path_ / frame_file_name(rendered_, frame); }

@@ -25,6 +25,7 @@
 #include "host/render/sinks/process_name.h"
 #include "host/render/sinks/runs_folder.h"
 #include "host/render/sinks/sink.h"
+#include "host/render/sinks/status_file.h"
 #include "host/render/sinks/unseen_rivals.h"
 
 namespace mars::sinks {
@@ -68,6 +69,9 @@ class FrameFolder {
   // Those asked for that are not there: this run is to write them.
   const std::vector<std::uint32_t>& frames() const { return rendered_.frames; }
 
+  // From now on `text` is what the run's .status says (status_file.h). Until the end a thread calls it.
+  void show_status(std::function<std::string()> text);
+
   // Writes a frame's file; from several threads at once. Throws Failure where it cannot, the claim is lost, or the
   // folder is gone.
   void put(std::uint32_t frame, const std::string& pixel_hash, std::span<const std::byte> file);
@@ -98,6 +102,7 @@ class FrameFolder {
   RunsFolder runs_;
   std::optional<Lease> lease_;
   std::optional<HashLog> hashes_;
+  std::optional<StatusFile> status_;
   bool finished_ = false;
 };
 

@@ -2,6 +2,7 @@
 // files of a run begin with its own name, which no other run ever has, so one that finds a run ended may remove them:
 //   NAME.claim     which frames of which film it renders, and which process it is (claim.h); from its start to its end
 //   NAME.hashes    a line for each frame that it has written: number and pixel hash
+//   NAME.status    how it goes (status.h)
 //   NAME.*.part    a file that is not whole yet
 //   NAME.waits, NAME.turn    it waits for its turn, or asks for it or has it (folder_turn.h)
 // The folder is there only while there is something in it.
@@ -18,6 +19,7 @@ namespace mars::sinks {
 
 inline constexpr std::string_view kClaimEnding = ".claim";
 inline constexpr std::string_view kHashesEnding = ".hashes";
+inline constexpr std::string_view kStatusEnding = ".status";
 inline constexpr std::string_view kWaitsEnding = ".waits";
 inline constexpr std::string_view kTurnEnding = ".turn";
 

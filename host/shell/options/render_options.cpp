@@ -173,17 +173,20 @@ std::vector<Entry> table() {
   constexpr auto bit = [](Program program) { return static_cast<unsigned>(program); };
   constexpr unsigned all =
       bit(Program::mars) | bit(Program::host) | bit(Program::ranks) | bit(Program::threads) | bit(Program::simulated);
-  constexpr unsigned plans = all | bit(Program::plan);
+  constexpr unsigned submits = all | bit(Program::submit);
+  constexpr unsigned plans = submits | bit(Program::plan);
+  constexpr unsigned sinks = all | bit(Program::plan);
   constexpr unsigned compiles = plans | bit(Program::compile);
   constexpr unsigned counts_nodes =
       bit(Program::mars) | bit(Program::threads) | bit(Program::simulated) | bit(Program::plan) | bit(Program::repair);
   constexpr unsigned simulates = bit(Program::mars) | bit(Program::simulated);
   constexpr unsigned person = bit(Program::mars);
-  constexpr unsigned starts = person | bit(Program::repair);
+  constexpr unsigned persons = person | bit(Program::submit);
+  constexpr unsigned starts = persons | bit(Program::repair);
   constexpr std::uint32_t many = 1 << 20;
   return {
       film(compiles),
-      option(all, "-o,--output", "DIR", &RenderOptions::folder,
+      option(submits, "-o,--output", "DIR", &RenderOptions::folder,
              "Folder for the frames; created if it is missing. Example: -o build/demo"),
       flag(all, "--overwrite", &RenderOptions::overwrite,
            "Render all frames, also those that the folder has already, of whichever film. Example: --overwrite"),
@@ -217,7 +220,7 @@ std::vector<Entry> table() {
              "Example: --intervals keyframes"),
       flag(plans, "--no-coherence", &RenderOptions::no_coherence,
            "Render every frame from scratch: same pictures, slower. Example: --no-coherence"),
-      number(all, "--block", {&RenderOptions::block, false, wire::kMaxSide},
+      number(submits, "--block", {&RenderOptions::block, false, wire::kMaxSide},
              "Side of the compositor's blocks in pixels: same pictures. Example: --block 32"),
       number(plans, "--groups", {&RenderOptions::groups, true, many},
              "Groups of nodes, each rendering its own interval; 1: all nodes share one, as in the thesis. Example: "
@@ -225,13 +228,13 @@ std::vector<Entry> table() {
       option(plans, "--format", "png|png16|exr", &RenderOptions::format,
              "Files of the frames: PNG of 8 or 16 bits, or EXR: half floats of light before exposure and curve; "
              "default: png. Example: --format exr"),
-      option(plans, "--sink", "files|none", &RenderOptions::sink,
+      option(sinks, "--sink", "files|none", &RenderOptions::sink,
              "Where frames go; none writes no files, to measure rendering. Example: --sink none"),
-      option(all, "--report", "FILE", &RenderOptions::report,
+      option(submits, "--report", "FILE", &RenderOptions::report,
              "Write each node's times and work per frame as JSON. Example: --report report.json"),
-      option(all, "--trace", "FILE", &RenderOptions::trace,
+      option(submits, "--trace", "FILE", &RenderOptions::trace,
              "Write a timeline of all ranks, for ui.perfetto.dev or chrome://tracing. Example: --trace trace.json"),
-      number(person, "--restarts", {&RenderOptions::restarts, false, 1000, 0},
+      number(persons, "--restarts", {&RenderOptions::restarts, false, 1000, 0},
              "How often a job that dies is started again without a new frame between; 0: never; default: 5. Example: "
              "--restarts 0"),
       flag(starts, "-q,--quiet", &RenderOptions::quiet, "Print only errors. Example: --quiet"),
@@ -253,9 +256,11 @@ void refuse_former_names(CLI::App& app) {
 }
 
 // Checks that concern several options.
-void check_together(const RenderOptions& options) {
+void check_together(const RenderOptions& options, Program program) {
   if (options.folder.empty() && options.sink == SinkKind::files) {
-    throw Failure("no folder to put the frames in", "", "add -o DIR, or --sink none to measure only");
+    const bool measures = program != Program::submit;
+    throw Failure("no folder to put the frames in", "",
+                  measures ? "add -o DIR, or --sink none to measure only" : "add -o DIR");
   }
   if (!options.hostfile.empty() && options.backend == Backend::threads) {
     throw Failure("threads are all on this machine", "", "leave out --hostfile, or --backend threads");
@@ -279,9 +284,9 @@ void add_render_options(CLI::App& app, RenderOptions& options, Program program) 
   }
   if (program == Program::compile || program == Program::plan) return;
   refuse_former_names(app);
-  app.parse_complete_callback([&app, &options] {
+  app.parse_complete_callback([&app, &options, program] {
     if (app.remaining_size() > 0) return;  // unknown words are reported first
-    as_usage(app.get_name(), [&] { check_together(options); });
+    as_usage(app.get_name(), [&] { check_together(options, program); });
   });
 }
 

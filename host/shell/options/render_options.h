@@ -52,7 +52,8 @@ struct RenderOptions {
   bool operator==(const RenderOptions&) const = default;
 };
 
-// The programs that read the options: each takes those that concern it.
+// The programs that read the options: each takes those that concern it. submit is mars submit, whose job is mars
+// render.
 enum class Program : unsigned {
   mars = 1,
   host = 2,
@@ -62,6 +63,7 @@ enum class Program : unsigned {
   compile = 32,
   plan = 64,
   repair = 128,  // mars verify --repair: which machines render
+  submit = 256,
 };
 
 // Adds the options `program` takes to its command line, which is then checked as a whole too; `options` must

@@ -1,0 +1,13 @@
+// `mars status`, `mars watch` and `mars cancel`: what goes on in a folder of frames.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace mars::commands {
+
+// `code` becomes the exit code: 1 where mars watch ends and frames are missing.
+void add_folder_commands(CLI::App& app, int& code);
+
+}  // namespace mars::commands

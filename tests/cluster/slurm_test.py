@@ -1,0 +1,135 @@
+"""Films that Slurm's jobs draw to their end, whatever Slurm or the machines do meanwhile."""
+
+from virtual_cluster import (HOSTS, SECONDS, ClusterTest, run_on_cluster, spinning_teapot, testbed,
+                             wait_until)
+
+OUR_PROGRAMS = "mars-host|mars-node|orted"
+
+
+class Jobs(ClusterTest):
+    def setUp(self):
+        super().setUp()
+        film = spinning_teapot(120, [320, 180])
+        actor = film["actors"][0]
+        first, last = actor["keys"]
+        actor["keys"] = [dict(first, frame=0), dict(last, frame=40), dict(first, frame=80), dict(last, frame=120)]
+        self.film = self.write("film.json", film)
+        self.intervals = ["--intervals", "keyframes"]
+
+    def crawl(self, host):
+        """Until `full_speed` no film ends whose host is on this machine."""
+        testbed("slow", host, "1mbit")
+        self.addCleanup(self.full_speed, host)
+
+    def full_speed(self, host):
+        testbed("slow", host, "full")
+
+    def submit(self, folder, *options, machines=2, **environment):
+        """The number of the job."""
+        settings = [f"{name}={value}" for name, value in environment.items()]
+        done = self.on("n0", "env", *settings, "mars", "submit", self.film, "-o", folder, *self.intervals,
+                       "--nodes", machines, "--tasks", 2 * machines, *options)
+        job = done.stdout.split()[1].strip(",;")
+        self.addCleanup(testbed, "exec", "n0", "scancel", job)
+        return job
+
+    def facts(self, job):
+        """What Slurm says of it: {"JobState": "RUNNING", "Restarts": "0", ...}."""
+        words = self.on("n0", "scontrol", "--oneliner", "show", "job", job).stdout.split()
+        return dict(word.split("=", 1) for word in words if "=" in word)
+
+    def wait_for(self, job, **facts):
+        def holds():
+            now = self.facts(job)
+            return all(now.get(name) == value for name, value in facts.items())
+        wait_until(holds, SECONDS, f"job {job} is not {facts}, but {self.facts(job)}")
+
+    def wait_for_frames(self, folder):
+        wait_until(lambda: list((self.folder / folder).glob("*.png")), SECONDS, f"no frame in {folder}")
+
+    def assertCompletes(self, folder):
+        """Its job goes on to the last frame, with the pixels that one process draws."""
+        told = self.on("n0", "mars", "watch", folder, timeout=SECONDS).stdout
+        self.assertIn("120 of 120 frames", told)
+        self.assertEqual(self.verified_hash(folder), self.pixels())
+
+    def pixels(self):
+        if not (self.folder / "alone").exists():
+            self.succeed("mars", "render", self.film, "-o", "alone", *self.intervals, "--backend", "threads", "--quiet")
+        return self.verified_hash("alone")
+
+    def test_a_time_limit_and_a_preemption(self):
+        for host in ["n1", "n3"]:
+            self.crawl(host)
+        limited = self.submit("limited", "--time", 1, SBATCH_SIGNAL="B:USR1@50")
+        preempted = self.submit("preempted")
+        self.wait_for_frames("preempted")
+        self.assertEqual([self.facts(job)["NodeList"] for job in (limited, preempted)], ["n[1-2]", "n[3-4]"])
+        self.on("n0", "sbatch", "--partition=urgent", "--nodelist=n3,n4", "--nodes=2", "--output=/dev/null",
+                "--wrap=true")
+        self.wait_for(preempted, Restarts="1")
+        self.full_speed("n3")
+        self.assertCompletes("preempted")
+        self.wait_for(limited, Restarts="1")
+        self.full_speed("n1")
+        self.assertCompletes("limited")
+        self.assertIn("queued again", (self.folder / f"limited/.slurm/{limited}.out").read_text())
+        self.assertEqual([self.facts(job)["JobState"] for job in (limited, preempted)], ["COMPLETED"] * 2)
+
+    def test_an_array_while_a_machine_is_drained(self):
+        self.crawl("n1")
+        job = self.submit("out", "--array", 2)
+        self.wait_for_frames("out")
+        self.on("n0", "scontrol", "update", "NodeName=n2", "State=DRAIN", "Reason=test")
+        self.addCleanup(testbed, "exec", "n0", "scontrol", "update", "NodeName=n2", "State=RESUME")
+        told = self.on("n0", "mars", "status", "out").stdout
+        self.assertRegex(told, rf"job {job}_0: running on n\[1-2\] for ")
+        self.assertRegex(told, r"run on n1 \(process \d+\): ")
+        self.full_speed("n1")
+        self.assertCompletes("out")
+        script = (self.folder / "out/.slurm/job.sbatch").read_text()
+        self.assertIn("frames=(0-39 40-119)", script)
+        self.assertEqual(self.facts(f"{job}_0")["Restarts"], "0")
+
+    def test_cancel(self):
+        self.crawl("n1")
+        job = self.submit("out")
+        self.wait_for_frames("out")
+        told = self.on("n0", "mars", "cancel", "out").stdout
+        self.assertIn(f"job {job} has ended\nout: ", told)
+        self.assertRegex(told, r"out: \d+ of 120 frames of ")
+        self.assertEqual(self.facts(job)["JobState"], "CANCELLED")
+        for host in HOSTS:
+            self.assertEqual(testbed("exec", host, "pgrep", "-f", OUR_PROGRAMS).stdout, "", host)
+        self.assertEqual(self.on("n0", "mars", "cancel", "out").stdout.splitlines()[0], "no job is left to cancel")
+
+    def test_y_a_lost_machine(self):
+        """The last tests by their names: their machines are gone for good."""
+        self.crawl("n1")
+        job = self.submit("out")
+        self.wait_for_frames("out")
+        testbed("kill", "n2")
+        wait_until(lambda: self.goes_on_without(job, "n2"), SECONDS, f"{job} does not go on: {self.facts(job)}")
+        self.full_speed("n1")
+        self.assertCompletes("out")
+
+    def goes_on_without(self, job, host):
+        """In its allocation, or as a job that Slurm began once more."""
+        facts = self.facts(job)
+        return facts["Restarts"] != "0" or host not in self.on("n0", "mars", "status", "out").stdout
+
+    def test_z_the_first_machine_is_lost(self):
+        for host in HOSTS:
+            self.crawl(host)
+        job = self.submit("out")
+        self.wait_for_frames("out")
+        lost = self.facts(job)["BatchHost"]
+        testbed("kill", lost)
+        self.wait_for(job, Restarts="1", JobState="RUNNING")
+        self.assertNotEqual(self.facts(job)["BatchHost"], lost)
+        self.full_speed(self.facts(job)["BatchHost"])
+        self.assertCompletes("out")
+
+
+if __name__ == "__main__":
+    run_on_cluster()

@@ -1,0 +1,212 @@
+"""Jobs of Slurm without Slurm: mars submit, status, watch and cancel, and the batch scripts, with programs of a few
+lines in place of Slurm's."""
+
+import signal
+import subprocess
+
+from harness import ENVIRONMENT, SECONDS, SOURCES, ProgramTest, main, spinning_teapot, wait_until
+
+SCRIPTS = [SOURCES / "cluster/slurm" / name for name in ("render.sbatch", "mpirun.sbatch", "srun.sbatch")]
+
+SBATCH = """if [ -e refusal ]; then cat refusal >&2; exit 1; fi
+for word; do script=$word; done
+printf '%s\\n' "$@" >sbatch.words; cp "$script" submitted
+echo '12|RUNNING|0:20|1|n[1-4]|None|' >queue; echo 12"""
+SQUEUE = """if [ -s queue ]; then cat queue; exit; fi
+echo 'slurm_load_jobs error: Invalid job id specified' >&2; exit 1"""
+SCANCEL = """echo "$@" >scancel.words; rm queue"""
+
+
+class FakeSlurm(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.environment = dict(ENVIRONMENT, PATH=f"{self.folder}/bin:{ENVIRONMENT['PATH']}")
+        (self.folder / "bin").mkdir()
+
+    def program(self, name, script):
+        path = self.write(f"bin/{name}", "#!/bin/bash\n" + script + "\n")
+        path.chmod(0o755)
+
+    def read(self, name):
+        return (self.folder / name).read_text()
+
+
+class Commands(FakeSlurm):
+    def setUp(self):
+        super().setUp()
+        for name, script in {"sbatch": SBATCH, "squeue": SQUEUE, "scancel": SCANCEL}.items():
+            self.program(name, script)
+        self.film = self.write("film.json", spinning_teapot(24, [64, 36]))
+
+    def slurm(self, *words):
+        return self.succeed("mars", *words, env=self.environment)
+
+    def refused(self, code, *words, says):
+        return self.fail_clearly(code, *words, says=says, env=self.environment)
+
+    def submit(self, *words):
+        return self.slurm("submit", "film.json", "-o", "out", *words)
+
+    def test_a_job_is_submitted_followed_and_cancelled(self):
+        told = self.submit("--nodes", 2, "--tasks", 8, "--time", "1:00:00", "--partition", "long", "--samples", 2)
+        self.assertEqual(told, "job 12; follow it with: mars watch out\n")
+        self.assertEqual(self.read("sbatch.words").split(),
+                         ["--parsable", f"--output={self.folder}/out/.slurm/%j.out", "out/.slurm/job.sbatch"])
+        script = self.read("submitted")
+        for line in ["#SBATCH --nodes=2", "#SBATCH --ntasks=8", "#SBATCH --time=1:00:00", "#SBATCH --partition=long",
+                     "#SBATCH --requeue", "set -- film.json -o out --samples 2"]:
+            self.assertIn(f"\n{line}\n", script)
+        self.assertEqual(self.slurm("status", "out"),
+                         "out: no frame yet\njob 12: running on n[1-4] for 0:20, 1 restart\n")
+        self.assertEqual(self.slurm("cancel", "out"), "job 12 has ended\nout: no frame yet\n")
+        self.assertEqual(self.read("scancel.words"), "12\n")
+        self.assertEqual(self.slurm("cancel", "out"), "no job is left to cancel\nout: no frame yet\n")
+
+    def test_the_script_is_the_one_of_the_cluster_folder(self):
+        printed = self.submit("--print")
+        self.assertFalse((self.folder / "out").exists())
+        ours = [line for line in printed.splitlines() if not line.startswith(("PATH=", "set -- "))]
+        self.assertEqual(ours, SCRIPTS[0].read_text().splitlines())
+        subprocess.run(["bash", "-n"], input=printed, text=True, check=True)
+
+    def test_an_array_is_cut_where_intervals_begin(self):
+        film = spinning_teapot(24, [64, 36])
+        first, last = film["actors"][0]["keys"]
+        film["actors"][0]["keys"] = [dict(first, frame=0), dict(last, frame=8), dict(first, frame=16),
+                                     dict(last, frame=24)]
+        self.write("film.json", film)
+        told = self.submit("--array", 2, "--intervals", "keyframes")
+        self.assertIn("job 12, 2 tasks;", told)
+        self.assertIn("\nframes=(0-7 8-23)\n", self.read("submitted"))
+        self.assertIn("%A_%a.out", self.read("sbatch.words"))
+        done = self.run_program("mars", "submit", "film.json", "-o", "out", "--array", 9, "--print",
+                                env=self.environment)
+        self.assertIn("too few intervals for 9 jobs: 1 job", done.stderr)
+        self.refused(2, "submit", "film.json", "-o", "out", "--array", 2, "--report", "r", says="cannot share one file")
+
+    def test_what_cannot_be_submitted(self):
+        submit = ["submit", "film.json", "-o", "out"]
+        self.refused(2, "submit", "film.json", says="add -o DIR")
+        self.refused(2, *submit, "--time", "1 day", says="'1 day' is not one word")
+        self.refused(2, *submit, "--tasks", 1, says="--tasks")
+        self.refused(1, "submit", "none.json", "-o", "out", says="none.json")
+        self.write("refusal", "sbatch: error: invalid partition specified: nix\n")
+        self.refused(1, *submit, says="sbatch failed: sbatch: error: invalid partition specified: nix")
+        (self.folder / "bin/sbatch").unlink()
+        self.environment["PATH"] = f"{self.folder}/bin"
+        self.refused(1, *submit, says="Slurm's sbatch was not found")
+
+    def test_a_folder_of_another_film(self):
+        render = ["render", "--backend", "threads", "--quiet", "-o", "out"]
+        self.succeed("mars", *render, "film.json")
+        self.submit()
+        self.write("other.json", spinning_teapot(23, [64, 36]))
+        self.refused(1, "submit", "other.json", "-o", "out", says="has frames of another film, film.json")
+
+    def test_a_run_without_slurm(self):
+        self.refused(1, "status", "out", says="no folder of frames")
+        self.write("film.json", spinning_teapot(100000, [64, 36]))
+        process = self.start_mars("render", "film.json", "-o", "out", "--backend", "threads", "--nodes", 2)
+        wait_until(lambda: " 2 nodes, " in self.slurm("status", "out"), SECONDS, "no status")
+        self.assertRegex(self.slurm("status", "out"), r"out: \d+ of 100000 frames of film.json\n"
+                         r"run on .* \(process \d+\): frame \d+ of 100000, .* left\n  .*  2 nodes, \d+ frames\n$")
+        self.refused(1, "cancel", "out", says="no job was submitted for this folder")
+        process.send_signal(signal.SIGTERM)
+        process.wait(SECONDS)
+        self.assertNotIn("run on", self.slurm("status", "out"))
+        done = self.run_program("mars", "watch", "out")
+        self.assertEqual(done.returncode, 1)
+        self.assertClear(done.stderr, "nothing renders here, and frames are missing")
+
+    def test_a_complete_film_is_not_waited_for(self):
+        self.succeed("mars", "render", "film.json", "-o", "out", "--backend", "threads", "--quiet")
+        self.assertEqual(self.slurm("watch", "out"), "out: 24 of 24 frames of film.json, complete\n")
+
+    def test_a_queue_that_does_not_answer(self):
+        self.submit()
+        self.program("squeue", "echo 'squeue: error: timed out' >&2; exit 1")
+        self.assertIn("jobs are unknown: squeue failed: squeue: error: timed out\n", self.slurm("status", "out"))
+        self.refused(1, "cancel", "out", says="squeue failed: squeue: error: timed out")
+
+
+class Scripts(FakeSlurm):
+    """What a batch script does with its film's end and with signals."""
+
+    def setUp(self):
+        super().setUp()
+        for name in ["mars", "mpirun"]:
+            self.program(name, "trap 'echo term >told; sleep 0.2; exit 1' TERM; touch begun\n"
+                         "[ -e go ] || exit $(cat code)\n"
+                         "while :; do sleep 0.05; done")
+        self.program("mars-host", "")
+        self.program("mars-node", "")
+        self.program("srun", "case $* in *--multi-prog*) exec mars;; *--relative*) ;; *) exit $(cat machines);; esac")
+        self.program("scontrol", "case $1 in show) cat job;; *) echo \"$@\" >>requeued;; esac")
+        self.write("job", "JobId=12 PreemptTime=None\n")
+        self.write("machines", "0")
+        self.job = dict(self.environment, SLURM_JOB_ID="12", SLURM_JOB_NUM_NODES="2", SLURM_NTASKS="4",
+                        SLURMD_NODENAME="n1")
+
+    def start(self, script):
+        for name in ["begun", "told", "requeued"]:
+            (self.folder / name).unlink(missing_ok=True)
+        process = subprocess.Popen(["bash", script, "film.json", "-o", "out"], env=self.job, cwd=self.folder,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.stderr.close)
+        self.addCleanup(process.kill)
+        wait_until((self.folder / "begun").exists, SECONDS, "it does not begin")
+        return process
+
+    def end_of(self, script):
+        """Its exit code, and what it asked of scontrol."""
+        code = self.start(script).wait(SECONDS)
+        requeued = self.folder / "requeued"
+        return code, requeued.read_text() if requeued.exists() else ""
+
+    def after(self, script, *signals):
+        self.write("go", "")
+        process = self.start(script)
+        for each in signals:
+            process.send_signal(each)
+        wait_until((self.folder / "told").exists, SECONDS, "the film is not told to end")
+        code = process.wait(SECONDS)
+        (self.folder / "go").unlink()
+        return code, self.read("requeued") if (self.folder / "requeued").exists() else ""
+
+    def test_they_share_what_they_do_at_the_end(self):
+        ends = {script.read_text().partition("# From here on")[2] for script in SCRIPTS}
+        self.assertEqual(len(ends), 1)
+        self.assertGreater(len(ends.pop()), 500)
+
+    def test_a_film_that_ends(self):
+        for script in SCRIPTS:
+            with self.subTest(script.name):
+                for code in ["0", "1", "2"]:
+                    self.write("code", code)
+                    self.assertEqual(self.end_of(script), (int(code), ""))
+
+    def test_a_lost_machine(self):
+        self.write("code", "1")
+        self.write("machines", "1")
+        for script in SCRIPTS:
+            self.assertEqual(self.end_of(script), (0, "requeue 12\n"), script)
+
+    def test_preemption_with_a_time_of_grace(self):
+        self.write("code", "1")
+        self.write("job", "JobId=12 PreemptTime=2026-11-22T19:07:11\n")
+        for script in SCRIPTS:
+            self.assertEqual(self.end_of(script), (0, "requeue 12\n"), script)
+
+    def test_the_time_limit(self):
+        for script in SCRIPTS:
+            self.assertEqual(self.after(script, signal.SIGUSR1), (0, "requeue 12\n"), script)
+        self.job.update(SLURM_ARRAY_JOB_ID="10", SLURM_ARRAY_TASK_ID="3")
+        self.assertEqual(self.after(SCRIPTS[0], signal.SIGUSR1), (0, "requeue 10_3\n"))
+
+    def test_scancel(self):
+        for script in SCRIPTS:
+            self.assertEqual(self.after(script, signal.SIGTERM), (1, ""), script)
+
+
+if __name__ == "__main__":
+    main()
