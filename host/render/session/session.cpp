@@ -118,6 +118,7 @@ void render_nothing(const RenderJob& job, const EventReporter& reporter, double 
 }
 
 void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace) {
+  if (!job.report.empty()) document::check_can_write(job.report);  // early too
   double load_seconds = 0;
   const resume::Opened opened = load_film(job, reporter, load_seconds);
   if (opened.frames.empty()) return render_nothing(job, reporter, load_seconds);
@@ -128,7 +129,6 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace) 
   const HostMachine host = host_machine(job.host);
   const farm::HostMemory memory = memory_for(host, settings, images::facts_of(job.format).pixels, plan);
 
-  if (!job.report.empty()) document::check_can_write(job.report);  // early too
   const std::unique_ptr<sinks::Sink> sink = make_sink(opened.folder.get());
   // Only now: before, the host may have waited for its turn in the folder, and not for nodes.
   reporter.report(events::Loaded{load_seconds});
