@@ -58,13 +58,13 @@ void refuse_other_format(const Manifest& there, const Wish& wish) {
 }
 
 void refuse_other_film(const Manifest& there, const Wish& wish) {
-  throw Failure("the frames in this folder are of another film, " + there.film, wish.folder,
+  throw Failure("the frames in this folder are of another film, " + film_text(there), wish.folder,
                 "give another folder with -o, or replace them with --overwrite");
 }
 
 // It cannot be compared.
 void refuse_unknown_film(const Manifest& there, const Wish& wish) {
-  throw Failure("the frames in this folder are of another film, or of another version of it, " + there.film +
+  throw Failure("the frames in this folder are of another film, or of another version of it, " + film_text(there) +
                     ", and film.mars, which would tell, is not there or not sound",
                 wish.folder, "give another folder with -o, or replace them with --overwrite");
 }

@@ -189,6 +189,7 @@ std::string host_name() {
 }
 
 void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace, Output& output) {
+  if (!job.report.empty()) document::check_can_write(job.report);  // early too
   Termination termination(messages::process().backend().has_machine_clock());
   farm::Heartbeats heartbeats(host_name(), getpid(), listen(reporter, termination));
   double load_seconds = 0;
@@ -201,7 +202,6 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace, 
   const HostMachine host = host_machine(job.host);
   const farm::HostMemory memory = memory_for(host, settings, images::facts_of(job.format).pixels, plan);
 
-  if (!job.report.empty()) document::check_can_write(job.report);  // early too
   output.folder = std::move(opened.folder);
   if (output.folder) output.folder->show_status([&board = output.board] { return sinks::text_of(board.status()); });
   output.sink = make_sink(output.folder.get());

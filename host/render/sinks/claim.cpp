@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cerrno>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -43,17 +42,6 @@ std::string frames_text(const std::vector<std::uint32_t>& frames) {
          std::to_string(frames.back());
 }
 
-// On one line of a terminal, also where another program wrote it; of a long path the end, which says more.
-std::string film_text(const std::string& film) {
-  constexpr std::size_t kLongestShown = 200;  // bytes
-  std::size_t from = film.size() - std::min(film.size(), kLongestShown);
-  while (from < film.size() && (static_cast<unsigned char>(film[from]) & 0xc0) == 0x80) ++from;  // within a letter
-  std::string text = (from > 0 ? "..." : "") + film.substr(from);
-  std::ranges::replace_if(
-      text, [](unsigned char c) { return std::iscntrl(c); }, '?');
-  return text;
-}
-
 // With the day unless it is today's.
 std::string time_text(std::int64_t when) {
   const time_t then = when, now = time(nullptr);
@@ -69,7 +57,7 @@ std::string time_text(std::int64_t when) {
 // "another run, process 4711 on host n1, renders frames 0-99 of film.json into this folder since 12:01:33"
 std::string description(const Claim& claim, const std::string& which = "") {
   return "another run, process " + std::to_string(claim.process.number) + " on host " + claim.process.host +
-         ", renders " + frames_text(claim.manifest.frames) + " of " + which + film_text(claim.manifest.film) +
+         ", renders " + frames_text(claim.manifest.frames) + " of " + which + film_text(claim.manifest) +
          " into this folder since " + time_text(claim.since);
 }
 

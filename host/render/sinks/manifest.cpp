@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string_view>
@@ -146,6 +147,17 @@ std::string hash_of(const Manifest& manifest, std::uint32_t frame) {
   const auto at = static_cast<std::size_t>(place - manifest.frames.begin());
   const bool has_it = place != manifest.frames.end() && *place == frame && at < manifest.pixel_hashes.size();
   return has_it ? manifest.pixel_hashes[at] : "";
+}
+
+std::string film_text(const Manifest& manifest) {
+  const std::string& film = manifest.film;
+  constexpr std::size_t kLongestShown = 200;  // bytes
+  std::size_t from = film.size() - std::min(film.size(), kLongestShown);
+  while (from < film.size() && (static_cast<unsigned char>(film[from]) & 0xc0) == 0x80) ++from;  // within a letter
+  std::string text = (from > 0 ? "..." : "") + film.substr(from);
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return std::iscntrl(c); }, '?');
+  return text;
 }
 
 json to_json(const Manifest& manifest) {

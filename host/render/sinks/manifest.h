@@ -53,6 +53,10 @@ void set_hash(Manifest& manifest, std::uint32_t frame, const std::string& hash);
 // The hash of one of the manifest's frames; "" where it has none, or is none of them.
 std::string hash_of(const Manifest& manifest, std::uint32_t frame);
 
+// The film's name on one line of a terminal, also where another program wrote it; of a long path the end, which says
+// more.
+std::string film_text(const Manifest& manifest);
+
 nlohmann::json to_json(const Manifest& manifest);
 // Throws Failure, without a place, where it is none, or has keys of another kind.
 Manifest manifest_of(const nlohmann::json& from);

@@ -59,7 +59,7 @@ std::string resumed_text(const events::Resumed& resumed) {
   const bool all = resumed.there == resumed.of;
   const std::string changed = resumed.changed.empty() ? "" : resumed.changed + "\n";
   return changed + std::to_string(resumed.there) + " of " + document::counted(resumed.of, "frame") +
-         " are there already" + (all ? ": nothing is left to render" : "");
+         (resumed.of == 1 ? " is" : " are") + " there already" + (all ? ": nothing is left to render" : "");
 }
 
 std::string booted_text(const events::Booted& booted) {

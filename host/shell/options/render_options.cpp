@@ -182,7 +182,7 @@ std::vector<Entry> table() {
   constexpr unsigned simulates = bit(Program::mars) | bit(Program::simulated);
   constexpr unsigned person = bit(Program::mars);
   constexpr unsigned persons = person | bit(Program::submit);
-  constexpr unsigned starts = persons | bit(Program::repair);
+  constexpr unsigned starts = person | bit(Program::repair);
   constexpr std::uint32_t many = 1 << 20;
   return {
       film(compiles),
@@ -237,7 +237,7 @@ std::vector<Entry> table() {
       number(persons, "--restarts", {&RenderOptions::restarts, false, 1000, 0},
              "How often a job that dies is started again without a new frame between; 0: never; default: 5. Example: "
              "--restarts 0"),
-      flag(starts, "-q,--quiet", &RenderOptions::quiet, "Print only errors. Example: --quiet"),
+      flag(persons | starts, "-q,--quiet", &RenderOptions::quiet, "Print only errors. Example: --quiet"),
   };
 }
 

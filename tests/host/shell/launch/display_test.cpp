@@ -83,6 +83,12 @@ TEST(Display, SilentIsSilent) {
   EXPECT_EQ(out.str(), "");
 }
 
+TEST(Display, WhatIsThereAlready) {
+  EXPECT_EQ(resumed_text({12, 72, ""}), "12 of 72 frames are there already");
+  EXPECT_EQ(resumed_text({72, 72, ""}), "72 of 72 frames are there already: nothing is left to render");
+  EXPECT_EQ(resumed_text({0, 1, "a.json has changed"}), "a.json has changed\n0 of 1 frame is there already");
+}
+
 TEST(Display, OtherLines) {
   EXPECT_EQ(booted_text({"mpi", 1, {{0, "ada", 1, "core 0", "avx2"}, {1, "ada", 2, "core 1", "avx2"}}}),
             "2 nodes on 1 machine (mpi), avx2");
