@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <future>
 #include <memory>
 #include <optional>
-#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -80,7 +80,7 @@ void end_output(std::unique_ptr<Output> output) try {
     ended->set_value();
   }).detach();
   ended->get_future().wait_for(kLongestEnd);
-} catch (const std::system_error&) {  // no thread: it has ended already
+} catch (const std::exception&) {  // no thread: it has ended already
 }
 
 sinks::Patience::Bounds bounds_of(const EventReporter& reporter) {
@@ -171,9 +171,11 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace, 
   const farm::FarmReport report = farm::render_film(film.block(), plan, farm_options(job, memory, trace), *output.pool,
                                                     reporter.listener(view.intervals().size()));
   output.destination->finish();
-  sinks::Patience patience(bounds_of(reporter));
-  if (!job.report.empty()) patience.write(job.report, [&] { write_report(job, film, memory, report); });
-  if (trace) patience.write(job.trace, [&] { trace::write_trace(job.trace, {job.film, job.backend}, *trace); });
+  const auto write = [&](const std::string& file, const std::function<void()>& whole) {
+    sinks::Patience(bounds_of(reporter)).write(file, whole);
+  };
+  if (!job.report.empty()) write(job.report, [&] { write_report(job, film, memory, report); });
+  if (trace) write(job.trace, [&] { trace::write_trace(job.trace, {job.film, job.backend}, *trace); });
   reporter.report(events::Done{plan.frames(), report.total_seconds, job.folder, trace ? trace->left_out() : 0});
 }
 
