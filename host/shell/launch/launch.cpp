@@ -26,7 +26,7 @@ constexpr std::size_t kLongestWords = 4096;     // bytes of such a line
 constexpr std::chrono::seconds kSlowStart{20};  // of waiting for nodes, until a person learns that none has answered
 constexpr std::chrono::seconds kSlowLoad{3};    // of compiling the film, until a person learns what takes so long
 constexpr std::chrono::seconds kLongestTrial{30};
-constexpr std::chrono::seconds kLongestClearing{3};  // after a run that failed
+constexpr std::chrono::milliseconds kLongestClearing{2500};  // after a run that failed
 constexpr std::chrono::milliseconds kClearingLook{5};
 
 child::Command command_for(options::RenderOptions& options, const std::filesystem::path& self) {
