@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::chrono::seconds kSlowStart{20};  // of waiting for nodes, until a person learns that none has answered
 constexpr std::chrono::seconds kLongestTrial{30};
-constexpr std::chrono::seconds kLongestClearing{3};  // after a run that failed
+constexpr std::chrono::milliseconds kLongestClearing{2500};  // after a run that failed
 constexpr std::chrono::milliseconds kClearingLook{5};
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
