@@ -123,7 +123,10 @@ void launch_render(options::RenderOptions options, const std::filesystem::path& 
   Display display(kind_of_output(options.quiet), std::cout);
   for (const std::string& line : messages::unknown_settings()) display.print(line);
   messages::read_settings();  // wrong settings fail before anything is started
-  if (const auto there = frames_there(options)) return display.print(resumed_text({*there, *there, ""}));
+  if (const auto there = frames_there(options)) {
+    sinks::clear_ended_runs(options.folder);
+    return display.print(resumed_text({*there, *there, ""}));
+  }
   const Starting starting = prepare(options, self);
   Supervisor supervisor(options, world_of(options, starting, display, adviser));
   supervisor.render();
