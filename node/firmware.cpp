@@ -99,12 +99,15 @@ std::span<const std::byte> Firmware::receive(long type) {
   return command_;
 }
 
-// The machine's first node receives the film into memory that all nodes of the machine share.
+// The machine's first node receives the film into memory that all nodes of the machine share, and checks it.
 void Firmware::load() {
   const auto [load, machines] = wire::read_load(receive(wire::kLoad), static_cast<int>(numnodes()), name_);
   film_block_.emplace(kFilmReplica, load.film_bytes);
   const auto block = film_block_->bytes();
-  if (messages::neighbourhood().index == 0) receive_film(block, machines);
+  if (messages::neighbourhood().index == 0) {
+    receive_film(block, machines);
+    wire::FilmView(block, "film");
+  }
   gsync();
   film_.emplace(block, "film", true);
   renderer_.emplace(*film_, load, machines, instruction_set_);

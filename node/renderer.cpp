@@ -30,6 +30,7 @@ Renderer::Renderer(const wire::FilmView& film, const wire::Load& load, std::span
       contributes_(group_size()),
       line_loads_(film.settings().height),
       line_totals_(film.settings().height + 1),
+      awaited_(film.settings().height),
       wanted_lines_(film.settings().height),
       wanted_still_lines_(film.settings().height),
       homes_(group_size()),
@@ -215,16 +216,21 @@ void Renderer::receive_triangles(const geometry::LineRange& lines) {
   const auto totals = memory_.arena().take<std::uint64_t>(lines.count() + 1);
   totals[0] = 0;
   for (std::uint32_t i = 0; i < lines.count(); ++i) {
-    const std::uint32_t line = lines.first + i;
-    totals[i + 1] = totals[i] + sums_.ebc()[line + 1] - sums_.ebc()[line];
-    for (const raster::LineBoxes& part : parts_) totals[i + 1] -= part.of(line).size();
+    const std::uint64_t all = sums_.ebc()[lines.first + i + 1] - sums_.ebc()[lines.first + i];
+    std::uint64_t there = 0;
+    for (const raster::LineBoxes& part : parts_) there += part.of(lines.first + i).size();
+    if (there > all) throw Failure("nodes' counts of edge boxes make no sense", "", "please report it");
+    awaited_[i] = all - there;
+    totals[i + 1] = totals[i] + awaited_[i];
   }
+  const wire::FilmView& film = scene_.film();
+  group::AwaitedTriangles awaited{lines, std::span(awaited_).first(lines.count()), film.settings().width,
+                                  film.settings().samples, film.materials().size()};
   raster::LineFiller filler(lines, totals, memory_.first_triangle(), memory_.arena());
   for (std::uint64_t left = totals.back(); left > 0;) {
-    const raster::Polygons others = triangle_exchange_.receive_triangles(memory_);
+    const raster::Polygons others = triangle_exchange_.receive_triangles(memory_, awaited);
     report_.clock(wire::Phase::exchange);
     const std::uint64_t came = others.stationary.size() + others.moving.size();
-    check(came > 0 && came <= left, "as many edge boxes come as EBC counts");
     left -= came;
     filler.add(others);
     report_.charge(wire::Work::edge_box_filled, came);

@@ -96,6 +96,11 @@ const Credit& read_credit(std::span<const std::byte> message, std::uint32_t owne
   return credit;
 }
 
+void require_sense(bool holds, int sender, const char* what) {
+  if (!holds)
+    throw Failure("node " + std::to_string(sender) + " sent " + what + " that make no sense", "", "please report it");
+}
+
 void check_size(const char* command, std::size_t bytes, std::size_t expected) {
   require(bytes == expected, command, "its size");
 }

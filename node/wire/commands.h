@@ -1,5 +1,6 @@
 // The host's commands as they arrived, checked before anything of them is used: sizes against counts, counts and ranges
-// against the film and the node's group. What does not fit is a Failure. What is returned lies within the message.
+// against the film and the node's group; and what is common to checks of other nodes' messages. What does not fit is a
+// Failure. What is returned lies within the message.
 #pragma once
 
 #include <cstddef>
@@ -32,6 +33,9 @@ RenderCommand read_render(std::span<const std::byte> message, const FilmView& fi
 
 // For a node that has the slots of `owned`, a bit for each, of `slots` in all.
 const Credit& read_credit(std::span<const std::byte> message, std::uint32_t owned, std::size_t slots);
+
+// For what node `sender` sent, "triangles".
+void require_sense(bool holds, int sender, const char* what);
 
 // For commands of a fixed size, such as Stop and Clock, which are empty.
 void check_size(const char* command, std::size_t bytes, std::size_t expected);
