@@ -4,6 +4,7 @@
 // --show prints why inputs of the corpus are refused.
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -27,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr unsigned kLongestRun = 20;  // seconds of one input
+constexpr long kLongestRun = 60;  // seconds of processor time of some inputs
 
 struct Wanted {
   double seconds = 0;
@@ -64,9 +65,14 @@ void end_by(int signal) {
 
 void catch_ends() {
   signal(SIGABRT, end_by);
-  signal(SIGALRM, end_by);
+  signal(SIGPROF, end_by);
   if (__sanitizer_set_death_callback != nullptr) return __sanitizer_set_death_callback(keep_input);
   for (const int crash : {SIGSEGV, SIGBUS, SIGFPE, SIGILL}) signal(crash, end_by);
+}
+
+void limit_time() {
+  const itimerval limit{{}, {kLongestRun, 0}};
+  setitimer(ITIMER_PROF, &limit, nullptr);
 }
 
 std::string run_one(const std::string& input) {
@@ -112,7 +118,7 @@ Wanted read_words(int argc, char** argv) {
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
-// The clock is read, and the alarm set again, only now and then.
+// The clock is read, and the time of inputs limited, only now and then.
 void mutate(const Wanted& wanted, Clock::time_point begin) {
   Mutation mutation(wanted.seed);
   const auto some_input = [&]() -> const std::string& {
@@ -120,7 +126,7 @@ void mutate(const Wanted& wanted, Clock::time_point begin) {
   };
   std::string input = some_input();
   for (std::uint64_t i = 0; i < wanted.runs || wanted.runs == 0; ++i) {
-    if (i % 16 == 0) alarm(kLongestRun);
+    if (i % 16 == 0) limit_time();
     if (wanted.seconds > 0 && i % 16 == 0 && seconds_since(begin) > wanted.seconds) break;
     if (mutation.below(8) > 0) input = some_input();  // else changed further
     input = kForm == Form::text ? mutation.of_text(input, some_input()) : mutation.of_bytes(input, some_input());
@@ -135,12 +141,11 @@ int drive(int argc, char** argv) {
   const auto begin = Clock::now();
   if (wanted.inputs.empty()) wanted.inputs.push_back({"nothing", ""});
   for (const auto& [name, text] : wanted.inputs) {
-    alarm(kLongestRun);
+    limit_time();
     const std::string refusal = run_one(text);
     if (wanted.show) std::printf("%s: %s\n", name.c_str(), refusal.empty() ? "taken" : refusal.c_str());
   }
   if (wanted.seconds > 0 || wanted.runs > 0) mutate(wanted, begin);
-  alarm(0);
   const auto all = static_cast<double>(counts().taken + counts().refused);
   std::printf("%.0f executions, %.0f a second, %.0f %% of them refused\n", all, all / seconds_since(begin),
               100 * static_cast<double>(counts().refused) / all);

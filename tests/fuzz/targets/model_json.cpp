@@ -1,5 +1,4 @@
 // Model files, with meshes, B-spline surfaces and limbs; what `mars model show` and `check` say of them.
-#include "host/content/document/file.h"
 #include "host/content/document/json_file.h"
 #include "host/content/modeler/describe.h"
 #include "host/content/modeler/edit.h"
@@ -10,10 +9,21 @@
 
 namespace mars::fuzz {
 
+namespace {
+
+// From which inputs may make models of other proportions.
+constexpr const char* kBase = R"({"joints": [
+  {"name": "hip", "place": [0, 0, 1], "segment": {"shape": "box", "material": "shirt"}},
+  {"name": "head", "parent": "hip", "place": [0, 0, 1], "segment": {"shape": "sphere"}},
+  {"name": "knee", "parent": "hip", "place": [0, 0, -0.5]}],
+  "materials": {"shirt": {"color": [1, 0, 0]}}})";
+
+}  // namespace
+
 const Form kForm = Form::text;
 
 void take(std::string_view input) {
-  static const auto human = scratch().file("human.json", document::read_file(MARS_FUZZ_MODEL));
+  static const auto base = scratch().file("base.json", kBase);
   const auto path = scratch().file("model.json", input);
   const modeler::Model model = modeler::load_own_model(path);
   modeler::doubts_about(model);
