@@ -83,6 +83,8 @@ void Renderer::draw_frame(wire::FrameKind kind, std::uint32_t interval, std::uin
   report_.charge(wire::Work::segment, scene_.film().segments().size());
   Tessellation own = tessellate_all();
   group::Pass pass{0, map_to_homes(own.made)};
+  if (pass.count == 1 && parts_.empty())
+    throw Failure("nodes' counts of large frames make no sense", "", "please report it");
   for (; pass.number < pass.count; ++pass.number) {
     if (pass.count > 1) own = tessellate_part(pass);
     draw_lines(exchange_triangles(own.polygons, pass), pass);
@@ -97,6 +99,7 @@ void Renderer::draw_frame(wire::FrameKind kind, std::uint32_t interval, std::uin
 // Every line is wanted, so that all edge boxes are counted.
 Tessellation Renderer::tessellate_all() {
   memory_.begin_frame();
+  parts_.clear();
   std::ranges::fill(wanted_lines_, std::uint8_t{1});
   const Tessellation own = tessellate();
   report_.strip().work.triangles = own.made.triangles;

@@ -66,6 +66,11 @@ LoadCommand read_load(std::span<const std::byte> message, int nodes, const std::
   return {load, machines};
 }
 
+void check_machines(std::span<const std::int32_t> machines, int node, int machine, int count) {
+  require(machines[static_cast<std::size_t>(node)] == machine && std::ranges::count(machines, machine) == count, "Load",
+          "machines");
+}
+
 RenderCommand read_render(std::span<const std::byte> message, const FilmView& film, int node, int nodes, int groups,
                           std::vector<std::uint32_t>& frames) {
   constexpr auto kName = "Render";

@@ -27,6 +27,10 @@ struct RenderCommand {
 // For one of `nodes` nodes; `receiver` names it in a failure: "n3 (node 17)".
 LoadCommand read_load(std::span<const std::byte> message, int nodes, const std::string& receiver);
 
+// Of Load's machines, for node `node`, which shares memory with `count` nodes, itself among them, that are on
+// `machine`.
+void check_machines(std::span<const std::int32_t> machines, int node, int machine, int count);
+
 // For node `node` of `nodes`, which form `groups` groups. Frames that are not listed are put into `frames`.
 RenderCommand read_render(std::span<const std::byte> message, const FilmView& film, int node, int nodes, int groups,
                           std::vector<std::uint32_t>& frames);
