@@ -79,7 +79,7 @@ def main():
     parser.add_argument("--runs", type=int, default=0, help="inputs of each target, instead")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--keep", action="store_true")
-    args = parser.parse_args()
+    args = parser.parse_intermixed_args()
     programs = sorted(p for p in (args.build / "bin/fuzz").iterdir() if p.name in args.targets or not args.targets)
     if not programs:
         parser.error(f"there is no such target in {args.build}/bin/fuzz")
