@@ -14,7 +14,7 @@ Progress::Kind read_kind(const json& from) { return {from.at("done"), from.at("o
 
 json to_json(const Loading& loading) { return {{"event", "loading"}, {"film", loading.film}}; }
 
-json to_json(const Loaded& loaded) { return {{"event", "loaded"}, {"seconds", loaded.seconds}}; }
+json to_json(const Loaded& loaded) { return {{"event", "loaded"}, {"seconds", loaded.seconds}, {"run", loaded.run}}; }
 
 json to_json(const Warning& warning) { return {{"event", "warning"}, {"text", warning.text}}; }
 
@@ -138,7 +138,7 @@ Done read_done(const json& from) {
 std::optional<Event> read_known(const json& from) {
   const std::string name = from.at("event");
   if (name == "loading") return Loading{from.at("film")};
-  if (name == "loaded") return Loaded{from.at("seconds")};
+  if (name == "loaded") return Loaded{from.at("seconds"), from.value("run", "")};
   if (name == "warning") return Warning{from.at("text")};
   if (name == "resumed") return Resumed{from.at("there"), from.at("of"), from.at("changed")};
   if (name == "booted") return read_booted(from);

@@ -26,6 +26,7 @@ struct Loading {
 // That is done; now the host waits for its nodes.
 struct Loaded {
   double seconds = 0;  // of reading and compiling
+  std::string run{};   // the name under which it has its claim in the folder; "": it has none
 
   bool operator==(const Loaded&) const = default;
 };

@@ -307,6 +307,7 @@ void Farm::report_slow_nodes() {
   for (const int node : rates_.take_changed()) {
     const double slowness = rates_.slowness(node);
     if (listener_.warned) listener_.warned(slow_text(inbox_.name_of(node), slowness));
+    if (listener_.slowed) listener_.slowed(node, slowness);
   }
 }
 

@@ -50,6 +50,8 @@ struct FarmListener {
   // All nodes are there; keyframes and inbetweens are what will be drawn.
   std::function<void(std::span<const wire::Hello>, std::uint32_t keyframes, std::uint32_t inbetweens)> booted;
   std::function<void(const std::string& text)> warned;
+  // How many times as long as others the node takes from now on; 1: it is as fast again.
+  std::function<void(int node, double slowness)> slowed;
   std::function<void(const FinishedFrame&)> finished;  // the sinks have it
   // If there is one, tasks are given to the first group alone, one at a time: it is asked when the sinks have all
   // frames given before, and may wait. False: no more frames are wanted.

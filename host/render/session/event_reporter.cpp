@@ -75,6 +75,7 @@ farm::FarmListener EventReporter::listener(std::size_t intervals) {
     for (const events::Warning& warning : warnings_of(hellos)) report(warning);
     report_progress(0);
   };
+  listener.slowed = [this](int node, double slowness) { board_.note_slow(node, slowness); };
   listener.warned = [this](const std::string& text) { report(events::Warning{text}); };
   listener.finished = [this](const farm::FinishedFrame& frame) {
     board_.note_drawn(frame);

@@ -206,7 +206,7 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace, 
   if (output.folder) output.folder->show_status([&board = output.board] { return sinks::text_of(board.status()); });
   output.sink = make_sink(output.folder.get());
   // Only now: before, the host may have waited for its turn in the folder, and not for nodes.
-  reporter.report(events::Loaded{load_seconds});
+  reporter.report(events::Loaded{load_seconds, output.folder ? output.folder->run() : ""});
   output.pool = make_sinks(job, *output.sink, pool_shape(host, view, job, memory.frames));
   const farm::FarmReport report = farm::render_film(film.block(), plan, farm_options(job, memory, trace, heartbeats),
                                                     *output.pool, reporter.listener(view.intervals().size()));

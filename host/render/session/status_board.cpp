@@ -72,6 +72,13 @@ void StatusBoard::note_drawn(const farm::FinishedFrame& frame) {
     ++drawn_[static_cast<std::size_t>(node)];
 }
 
+void StatusBoard::note_slow(int slow, double slowness) {
+  const std::lock_guard lock(mutex_);
+  for_each_node(status_, [&](sinks::Status::Node& node) {
+    if (node.node == slow) node.slow = slowness;
+  });
+}
+
 sinks::Status StatusBoard::status() const {
   const std::lock_guard lock(mutex_);
   sinks::Status now = status_;

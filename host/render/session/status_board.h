@@ -20,6 +20,7 @@ class StatusBoard {
   // From any thread.
   void note(const events::Event& event);
   void note_drawn(const farm::FinishedFrame& frame);
+  void note_slow(int node, double slowness);
   sinks::Status status() const;
 
  private:

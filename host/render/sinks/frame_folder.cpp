@@ -68,9 +68,10 @@ void remove_files(const RunFiles& run, const FolderTurn& turn) {
       if ((file.extension() == kClaimEnding) == claims && file != turn.file()) fs::remove(file, ignored);
 }
 
-void settle_ended_runs(const fs::path& folder, const RunsFolder& runs, const FolderTurn& turn) {
+void settle_ended_runs(const fs::path& folder, const RunsFolder& runs, const FolderTurn& turn,
+                       const std::string& ended = "") {
   for (const RunFiles& run : runs.runs()) {
-    if (run.run == runs.own_name() || !turn.has_ended(run)) continue;
+    if (run.run == runs.own_name() || (run.run != ended && !turn.has_ended(run))) continue;
     remove_parts(run);
     if (const std::optional<Manifest> rendered = rendered_by(run)) add_to_manifest(*rendered, folder, runs, turn);
     remove_files(run, turn);
@@ -287,11 +288,11 @@ void FrameFolder::record(std::uint32_t frame, const std::string& pixel_hash) {
   set_hash(rendered_, frame, pixel_hash);
 }
 
-void clear_ended_runs(const fs::path& folder) {
+void clear_ended_runs(const fs::path& folder, const std::string& ended) {
   const RunsFolder runs(folder, this_process());
   if (!runs.exists()) return;
   try {
-    settle_ended_runs(folder, runs, FolderTurn(runs, kShortPatience));
+    settle_ended_runs(folder, runs, FolderTurn(runs, kShortPatience), ended);
   } catch (const std::exception&) {
   }
 }

@@ -64,6 +64,8 @@ class FrameFolder {
   FrameFolder& operator=(const FrameFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
+  // The run's name, under which it has its claim.
+  const std::string& run() const { return runs_.own_name(); }
   images::PictureFormat format() const { return rendered_.format; }
   std::filesystem::path file_of(std::uint32_t frame) const;
   // Those asked for that are not there: this run is to write them.
@@ -107,8 +109,9 @@ class FrameFolder {
 };
 
 // Does for runs that have ended without it, killed, what the next run would do: their frames' hashes go to the
-// manifest, and what else they left is removed. Leaves alone what cannot be written, or not soon.
-void clear_ended_runs(const std::filesystem::path& folder);
+// manifest, and what else they left is removed. Leaves alone what cannot be written, or not soon. `ended`: a run that
+// the caller knows to have ended, on whichever machine; "": none.
+void clear_ended_runs(const std::filesystem::path& folder, const std::string& ended = "");
 
 // With what runs that are not finished have rendered so far. Throws Failure where there is none, or no sound one.
 Manifest read_manifest(const std::filesystem::path& folder);

@@ -91,7 +91,6 @@ Status status_of(const json& object) {
   status.of = count_of(from, "of");
   status.seconds = number_of(from, "seconds", 0);
   if (from.has("left")) status.left = number_of(from, "left", 0);
-  status.restarts = count_of(from, "restarts");
   for (const json& machine : from.list("machines")) status.machines.push_back(machine_of(machine));
   for (const json& warning : from.list("warnings")) status.warnings.push_back(text_of(warning));
   return status;
@@ -109,7 +108,6 @@ std::string text_of(const Status& status) {
   text["of"] = status.of;
   text["seconds"] = status.seconds;
   if (status.left) text["left"] = *status.left;
-  text["restarts"] = status.restarts;
   text["machines"] = json::array();
   for (const Status::Machine& machine : status.machines) text["machines"].push_back(to_json(machine));
   text["warnings"] = status.warnings;

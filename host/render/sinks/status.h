@@ -39,7 +39,6 @@ struct Status {
   std::uint32_t of = 0;    // it renders; 0: not known yet
   double seconds = 0;      // of rendering
   std::optional<double> left;
-  std::uint32_t restarts = 0;  // jobs that this one was started after, because they died
   std::vector<Machine> machines;
   std::vector<std::string> warnings;  // the last ones
 

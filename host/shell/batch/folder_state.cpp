@@ -64,7 +64,6 @@ std::string progress_of(const sinks::Status& status) {
   if (status.done > 0 && status.seconds > 0)
     text += document::formatted(", %.1f frames/s", status.done / status.seconds);
   if (status.left) text += ", " + launch::clock_text(*status.left) + " left";
-  if (status.restarts > 0) text += ", " + document::counted(status.restarts, "restart");
   return text.empty() ? "begins" : text;
 }
 

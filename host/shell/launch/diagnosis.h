@@ -17,6 +17,7 @@
 namespace mars::launch {
 
 struct Remains {
+  std::string run;  // the host's in the folder, if it came so far; "": it had none
   std::optional<events::Resumed> resumed;
   std::optional<events::Booted> booted;  // once all nodes were there
   std::vector<std::uint32_t> taken;      // frames, as they came

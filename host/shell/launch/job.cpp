@@ -84,6 +84,7 @@ void Job::show_slow_load() {
 
 // Nodes are waited for only from now on: the host does not listen to them before.
 void Job::end_loading(const events::Loaded& loaded) {
+  remains_.run = loaded.run;
   loading_.reset();
   waiting_since_ = Clock::now();
   if (slow_load_shown_) display_.print("loaded in " + clock_text(loaded.seconds));

@@ -35,10 +35,10 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 // By a process of its own: where storage does not answer, this one ends nevertheless.
-void clear_ended_runs(const std::string& folder) {
+void clear_ended_runs(const std::string& folder, const std::string& ended = "") {
   const child::Descriptor nothing = child::null_device();
-  const auto work = [&folder] {
-    sinks::clear_ended_runs(folder);
+  const auto work = [&] {
+    sinks::clear_ended_runs(folder, ended);
     return 0;
   };
   child::Process clears(work, {.streams = {{1, nothing.number()}, {2, nothing.number()}}});
@@ -107,8 +107,8 @@ Supervisor::World world_of(const options::RenderOptions& options, const Starting
   return {[&](const options::RenderOptions& job, const std::vector<Slots>& machines) {
             return show_job(command_for(job, starting, machines), job, display, adviser);
           },
-          [&] {
-            if (!options.folder.empty()) clear_ended_runs(options.folder);
+          [&](const std::string& run) {
+            if (!options.folder.empty()) clear_ended_runs(options.folder, run);
           },
           [&] { return machines_of(options, starting); },
           [&](std::chrono::seconds pause, const std::vector<std::string>& machines) {

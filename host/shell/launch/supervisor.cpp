@@ -48,7 +48,7 @@ void Supervisor::run_job(const options::RenderOptions& options) {
   last_ = world_.run_job(options, chosen_.left_out.empty() ? std::vector<Slots>() : chosen_.use);
   booted_ = booted_ || last_.booted;
   rendered_ = rendered_ || !last_.taken.empty();
-  if (!last_.well()) world_.clear();
+  if (!last_.well()) world_.clear(last_.run);
 }
 
 // A job that did not come so far as to look into the folder says nothing.

@@ -26,8 +26,8 @@ class Supervisor {
   struct World {
     // One job to its end. `machines`: to be used instead of the options'; none: the options'.
     std::function<Remains(const options::RenderOptions& options, const std::vector<Slots>& machines)> run_job;
-    // After a job died: clears away what it left.
-    std::function<void()> clear;
+    // After a job died, whose host had this run in the folder: clears away what it left. "": it had none.
+    std::function<void(const std::string& run)> clear;
     // The machines of the job; none where it knows only this one.
     std::function<std::vector<Slots>()> machines;
     // Waits, and gives those of the machines that answer. Throws Failure where a person stops it.

@@ -270,6 +270,20 @@ TEST(FrameFolder, ARunOnAnotherMachineIsRefusedToOnceItIsSeenToLive) {
   EXPECT_EQ(warnings.size(), 2u);
 }
 
+// Who started its job knows that it has ended, though it cannot be seen.
+TEST(FrameFolder, ARunOnAnotherMachineThatIsKnownToHaveEndedIsInNobodysWay) {
+  const TemporaryFolder folder;
+  ProcessName elsewhere = this_process();
+  elsewhere.boot = "another";
+  run_and_kill(folder.path(), of_frames({1, 2}), {1}, elsewhere);
+  clear_ended_runs(folder.path(), "another-run");
+  EXPECT_TRUE(fs::exists(folder / ".runs"));
+  clear_ended_runs(folder.path(), file_of_run(folder.path(), ".claim").stem());
+  EXPECT_FALSE(fs::exists(folder / ".runs"));
+  const FrameFolder next(folder.path(), of_frames({1, 2}));
+  EXPECT_EQ(next.frames(), std::vector<std::uint32_t>{2}) << "what it had rendered is there";
+}
+
 // A run that was stopped so long that another machine took its claim away does not write over that one's frames.
 TEST(FrameFolder, WhoHasLostItsClaimWritesNoMore) {
   const TemporaryFolder folder;

@@ -19,7 +19,6 @@ Status some_status() {
   status.of = 9;
   status.seconds = 1.5;
   status.left = 3;
-  status.restarts = 2;
   status.machines = {{"n1", {{.node = 0, .frames = 2, .doing = ""}}},
                      {"n2", {{.node = 1, .frames = 1, .silent = 7.5, .frame = 4, .doing = "scanline", .slow = 2}}}};
   status.warnings = {"node 1 is slow"};

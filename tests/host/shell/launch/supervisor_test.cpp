@@ -15,6 +15,7 @@ const events::Booted kBooted{"mpi", 2, {{0, "n1", 1, "", "sse2"}, {1, "n2", 2, "
 // A job that finds `there` of the frames and brings `taken`.
 Remains booted(std::vector<std::uint32_t> taken, std::uint32_t of, std::uint32_t there) {
   Remains remains;
+  remains.run = "run-1";
   if (there > 0) remains.resumed = events::Resumed{there, of, ""};
   remains.program = "mpirun";
   remains.booted = kBooted;
@@ -70,7 +71,7 @@ class SupervisorOf : public testing::Test {
                      jobs_.pop_front();
                      return next;
                    },
-                   [this] { ++cleared_; }, [this] { return machines_; },
+                   [this](const std::string& run) { cleared_.push_back(run); }, [this] { return machines_; },
                    [this](std::chrono::seconds pause, const std::vector<std::string>&) {
                      pauses_.push_back(pause.count());
                      return answering_;
@@ -85,7 +86,7 @@ class SupervisorOf : public testing::Test {
   std::vector<Start> starts_;
   std::vector<long> pauses_;
   std::string printed_;
-  int cleared_ = 0;
+  std::vector<std::string> cleared_;  // runs
 };
 
 TEST_F(SupervisorOf, AJobThatEndsWellIsStartedOnce) {
@@ -102,7 +103,7 @@ TEST_F(SupervisorOf, AJobThatDiesIsStartedAgainWithWhatIsMissing) {
   ASSERT_EQ(starts_.size(), 2u);
   EXPECT_EQ(starts_[1].frames, "0-");
   EXPECT_EQ(starts_[1].nodes, 8u);
-  EXPECT_EQ(cleared_, 1);
+  EXPECT_EQ(cleared_, std::vector<std::string>{"run-1"});
   EXPECT_EQ(printed_,
             "machine n2: node 1 was killed by signal 9 (Killed)\n"
             "starting again (1 of 5) with 8 nodes; 2 of 5 frames are there\n");
