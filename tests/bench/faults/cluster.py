@@ -42,10 +42,10 @@ class Process:
 
 
 def state_and_program(number):
-    """As the kernel names them; none once it has ended."""
+    """As the kernel names them, mpirun.openmpi as mpirun; none once it has ended."""
     try:
         words, _, rest = pathlib.Path(f"/proc/{number}/stat").read_text().rpartition(")")
-        return rest.split()[0], words.partition("(")[2]
+        return rest.split()[0], words.partition("(")[2].partition(".")[0]
     except OSError:
         return None
 

@@ -17,6 +17,7 @@ import tempfile
 
 import film
 import table
+import wall
 from cluster import Cluster
 from disk import Disk
 from kinds import KINDS
@@ -27,10 +28,11 @@ FRAMES, DICE = 408, 96
 MOST = 240       # seconds until a film has ended after its fault
 SETTLED = 60     # seconds until nothing runs any more
 DISK = 400       # megabytes
+WALL = "wall"    # no fault, but the wall time with one
 
 
 def arguments():
-    names = [kind.name for kind in KINDS]
+    names = [*(kind.name for kind in KINDS), WALL]
     parser = argparse.ArgumentParser(prog="mars bench faults", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", required=True, type=pathlib.Path, help=argparse.SUPPRESS)
@@ -42,6 +44,8 @@ def arguments():
     if unknown:
         parser.error(f"no such fault: {', '.join(sorted(unknown))}")
     wanted.kinds = [kind for kind in KINDS if kind.name in wanted.only.split(",")]
+    wanted.trouble = False  # a fault could not be made
+    wanted.wall = WALL in wanted.only.split(",")
     return wanted
 
 
@@ -53,13 +57,21 @@ class Bench:
         self.pixels, seconds = alone(self.programs, wanted.build, self.film, folder)
         print(f"the film: {FRAMES} frames, by threads in {seconds:.1f} s, pixels {self.pixels}", flush=True)
 
+    def scene(self, film_file, frames):
+        return Scene(self.cluster, self.disk, self.folder, self.programs, film_file, frames)
+
+    def measure_wall(self):
+        measured = wall.measure(self.scene, self.folder, DICE)
+        (self.wanted.output / "wall.json").write_text(json.dumps(measured, indent=1) + "\n")
+        print(wall.text(measured), flush=True)
+
     def measure(self, kind):
-        scene = Scene(self.cluster, self.disk, self.folder, self.programs, self.film, FRAMES)
+        scene = self.scene(self.film, FRAMES)
         scene.plan = kind.plan
         plan = self.programs / "plan"
         if kind.plan:
             plan.write_text(kind.plan + "\n")
-        scene.begin(kind.words)
+        scene.begin(kind.words, kind.batch)
         try:
             if not kind.plan:
                 scene.wait_for_frames(int(FRAMES * kind.part))
@@ -83,8 +95,8 @@ class Bench:
         self.keep_lines(kind, scene)
         return {"name": kind.name, "title": kind.title, "how": kind.how,
                 "reported": line[0] - scene.since if line else None, "line": line[1] if line else None,
-                "again": None if kind.goes_on else scene.drawing_again(), "goes_on": kind.goes_on, "lost": FRAMES - len(frames_in(scene.out)), "twice": scene.drawn_twice(),
-                "codes": [code, last], "settled": settled, "wrong": wrong}
+                "again": scene.drawing_again(), "goes_on": kind.goes_on, "lost": FRAMES - len(frames_in(scene.out)),
+                "twice": scene.drawn_twice(), "codes": [code, last], "settled": settled, "wrong": wrong}
 
     def wrong(self, kind, scene, code, last, left, line):
         if code != kind.code:
@@ -129,12 +141,19 @@ def measure_all(wanted, folder):
         bench = Bench(wanted, folder, cluster, disk)
         results = []
         for kind in wanted.kinds:
-            results.append(bench.measure(kind))
-            show(results[-1])
+            try:
+                results.append(bench.measure(kind))
+                show(results[-1])
+            except RuntimeError as trouble:
+                print(f"{kind.title}: could not be made: {trouble}", flush=True)
+                cluster.end_what_is_left()
+                wanted.trouble = True
             keep(results, wanted.output / "results.json", [each.name for each in KINDS])
             if kind.new_cluster:
                 cluster.testbed("down")
                 cluster.up()
+        if wanted.wall:
+            bench.measure_wall()
     return results
 
 
@@ -153,7 +172,7 @@ def main():
     text = table.markdown(keep(results, wanted.output / "results.json", [kind.name for kind in KINDS]))
     (wanted.output / "table.md").write_text(text + "\n")
     print("\n" + text)
-    return 1 if any(result["wrong"] for result in results) else 0
+    return 1 if wanted.trouble or any(result["wrong"] for result in results) else 0
 
 
 if __name__ == "__main__":

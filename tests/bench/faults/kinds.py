@@ -5,6 +5,8 @@ import threading
 import time
 from dataclasses import dataclass
 
+from cluster import HEAD
+
 KILL, STOP, CONT, SEGV = signal.SIGKILL, signal.SIGSTOP, signal.SIGCONT, signal.SIGSEGV
 LOST = "n3"  # the machine that faults hit; neither the first nor the last
 NO_COHERENCE = ["--nodes", 8, "--groups", 1, "--no-coherence"]
@@ -20,6 +22,7 @@ class Kind:
     code: int = 0       # mars's exit code
     again: bool = False  # it takes a person who starts the same command again
     words: tuple = ()   # of the command, in place of the usual ones
+    batch: tuple = ()   # of sbatch, for a job of Slurm's
     plan: str = ""      # what nodes do at a frame (planted/noting_node.cpp)
     part: float = 1 / 3  # of the frames that are stored before
     goes_on: bool = False  # nodes draw all the time
@@ -28,7 +31,7 @@ class Kind:
 
 def send(program, what, host=None):
     def make(scene):
-        victim = scene.processes(program, host)[0]
+        victim = scene.process(program, host)
         scene.happens()
         victim.send(what)
     return make
@@ -36,7 +39,7 @@ def send(program, what, host=None):
 
 def in_the_sum(scene):
     """While one node is held, the others come to the global sum and wait there for it; there another is stopped."""
-    held, victim = scene.node("n2"), scene.node(LOST)
+    held, victim = scene.process("mars-node", "n2"), scene.process("mars-node", LOST)
     held.send(STOP)
     time.sleep(2)
     scene.happens()
@@ -46,7 +49,7 @@ def in_the_sum(scene):
 
 def at_the_end(scene):
     """All frames are stored; the node is stopped before it can end."""
-    victims = scene.processes("mars-node", LOST)
+    victims = scene.cluster.processes("mars-node", host=LOST)
     while scene.stored() < scene.frames and scene.mars.code is None:
         time.sleep(0.001)
     scene.happens()
@@ -90,7 +93,7 @@ def slow_link(scene):
 
 def half_speed(scene):
     """Stopped for half of the time, in turns so short that it never seems to hang."""
-    victim, ended = scene.node(), threading.Event()
+    victim, ended = scene.process("mars-node", LOST), threading.Event()
 
     def pulse():
         while not ended.wait(0.04):
@@ -152,6 +155,29 @@ def power_loss(scene):
     scene.cluster.up()
 
 
+def said(pattern):
+    """Slurm does it; this waits until mars says so."""
+    def make(scene):
+        while not (line := scene.mars.first_line(pattern, 0)) and scene.mars.code is None:
+            time.sleep(0.05)
+        scene.since = line[0] if line else time.monotonic()
+    return make
+
+
+def machine_of_batch_script(scene):
+    host = scene.mars.fact("BatchHost")
+    scene.happens()
+    scene.cluster.testbed("kill", host)
+
+
+def preempt(scene):
+    """A job of a partition that comes before others takes all machines for 5 seconds."""
+    words = ("sbatch", "--partition=urgent", "--nodes=4", "--output=/dev/null", "--wrap=sleep 5")
+    scene.happens()
+    scene.cluster.testbed("exec", HEAD, *words)
+
+
+BATCH = ("--nodes=4", "--ntasks=8")
 DIED = "killed by signal"
 SILENT = r"nothing from|silent|has said nothing|hangs"
 GONE = "does not answer"
@@ -161,12 +187,14 @@ KINDS = [
     Kind("crash-node", "a node dies (SEGV)", "`kill -SEGV` of a mars-node", DIED, send("mars-node", SEGV, LOST)),
     Kind("kill-host", "the host dies", "`kill -9` of mars-host", DIED, send("mars-host", KILL)),
     Kind("kill-mpirun", "mpirun dies", "`kill -9` of mpirun", DIED, send("mpirun", KILL)),
-    Kind("kill-mars", "mars dies", "`kill -9` of mars; the same command again at once", "", send("mars", KILL), code=137,
-         again=True),
-    Kind("stop-node", "a node hangs while it draws", "`kill -STOP` of a mars-node", SILENT, send("mars-node", STOP, LOST)),
+    Kind("kill-mars", "mars dies", "`kill -9` of mars; the same command again at once", "", send("mars", KILL),
+         code=137, again=True),
+    Kind("stop-node", "a node hangs while it draws", "`kill -STOP` of a mars-node", SILENT,
+         send("mars-node", STOP, LOST)),
     Kind("stop-in-sum", "a node hangs in a global sum", "`kill -STOP` while all wait in it", SILENT, in_the_sum,
          words=tuple(NO_COHERENCE)),
-    Kind("stop-at-end", "nodes hang in MPI_Finalize", "`kill -STOP` once all frames are stored", "end|hang", at_the_end),
+    Kind("stop-at-end", "nodes hang in MPI_Finalize", "`kill -STOP` once all frames are stored", "end|hang",
+         at_the_end),
     Kind("stop-host", "the host hangs", "`kill -STOP` of mars-host", SILENT, send("mars-host", STOP)),
     Kind("suspend", "the whole job is suspended for 45 s", "STOP and CONT of all its processes", "", all_stopped),
     Kind("stop-machine", "a machine hangs", "`kill -STOP` of all on it, sshd too", SILENT, machine_stopped),
@@ -180,10 +208,18 @@ KINDS = [
     Kind("hang", "storage hangs for 30 s", "`fsfreeze`", "storage|sink|cannot write|has not answered", hangs),
     Kind("delete", "the folder is deleted", "`rm -r`; the same command again", "No such file|deleted|gone|vanished",
          deleted, code=1, again=True),
-    Kind("bad-frame", "a frame kills its nodes", "a node that dies when it begins frame 200; later the same command, with "
-         "sound nodes", "set aside|left out", planned, code=1, again=True, plan="die 200"),
+    Kind("bad-frame", "a frame kills its nodes", "a node that dies when it begins frame 200; later the same "
+         "command, with sound nodes", "set aside|left out", planned, code=1, again=True, plan="die 200"),
     Kind("noise", "a node sends noise", "a node that once sends 5000 random bytes as a strip", "strip|node", planned,
          plan="garble 200"),
-    Kind("power-loss", "all machines lose power, the folder's too", "a copy of the disk as it is without what Linux still "
-         "has to write; the same command on it", "", power_loss, code=137, again=True),
+    Kind("power-loss", "all machines lose power, the folder's too", "a copy of the disk without what "
+         "Linux has not written yet; the same command on it", "", power_loss, code=137, again=True),
+    Kind("slurm-limit", "Slurm: the time limit", "`--time=1 --signal=B:USR1@50`; counted from mars's last word",
+         "queued again", said("stopped by"), batch=(*BATCH, "--time=1", "--signal=B:USR1@50"), part=0),
+    Kind("slurm-machine", "Slurm: a machine loses power", "`testbed.sh kill`", GONE, power_cut, batch=BATCH,
+         new_cluster=True),
+    Kind("slurm-first", "Slurm: the script's machine loses power", "`testbed.sh kill`", "", machine_of_batch_script,
+         batch=BATCH, new_cluster=True),
+    Kind("slurm-preempt", "Slurm: preemption", "a job of a partition of higher `PriorityTier`", "stopped by", preempt,
+         batch=BATCH),
 ]

@@ -79,3 +79,46 @@ class Rendering:
 
     def text(self):
         return "\n".join(line for _, line in self.lines)
+
+
+class BatchJob(Rendering):
+    """A job of Slurm's, of which mars is the script's program; it has ended when Slurm knows it no more as waiting or
+    running. Its code is 0 if Slurm calls it completed."""
+
+    def __init__(self, cluster, words, folder):
+        self.began, self.lines, self.cluster = time.monotonic(), [], cluster
+        self.output = folder / "job.out"
+        self.output.write_text("")
+        submit = ["sbatch", "--parsable", f"--output={self.output}", *map(str, words)]
+        done = subprocess.run(cluster.on(clusters.HEAD, *submit), cwd=folder, env=cluster.environment, text=True,
+                              capture_output=True, check=True)
+        self.job, self.state = done.stdout.strip(), "PENDING"
+        self.reader = threading.Thread(target=self.read, daemon=True)
+        self.reader.start()
+
+    def read(self):
+        while self.code is None:
+            self.take_lines()
+            self.state = self.fact("JobState")
+            time.sleep(0.2)
+        self.take_lines()
+
+    def take_lines(self):
+        lines = self.output.read_text().splitlines()
+        self.lines += [(time.monotonic(), line) for line in lines[len(self.lines):]]
+
+    def fact(self, name):
+        """One of those that Slurm shows of the job; "" if Slurm does not answer now."""
+        done = subprocess.run(self.cluster.on(clusters.HEAD, "scontrol", "--oneliner", "show", "job", self.job),
+                              env=self.cluster.environment, capture_output=True, text=True)
+        return next((word.split("=", 1)[1] for word in done.stdout.split() if word.startswith(name + "=")), "")
+
+    @property
+    def code(self):
+        if self.state == "COMPLETED":
+            return 0
+        return 1 if self.state in ("FAILED", "CANCELLED", "TIMEOUT", "NODE_FAIL", "PREEMPTED", "BOOT_FAIL") else None
+
+    def wait(self, seconds):
+        self.reader.join(seconds)
+        return self.code

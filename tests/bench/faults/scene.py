@@ -1,5 +1,5 @@
-"""A film that is rendered on the cluster while a fault is made, and what can be seen of it from outside: what mars says,
-when frames are stored, and from its nodes' notes (planted/noting_node.cpp) when they began to draw which frame."""
+"""A film that is rendered on the cluster while a fault is made, and what can be seen of it from outside: what mars
+says, when frames are stored, and from its nodes' notes (planted/noting_node.cpp) when they began which frame."""
 import pathlib
 import shutil
 import subprocess
@@ -7,8 +7,9 @@ import time
 
 import cluster as clusters
 import film
-from rendering import FrameWatch, Rendering, frames_in
+from rendering import BatchJob, FrameWatch, Rendering, frames_in
 
+SCRIPT = clusters.TESTBED.parents[1] / "slurm" / "render.sbatch"
 PROGRAMS = ("mars", "mars-host", "mars-loopback.so")
 NODES = 8
 
@@ -62,17 +63,23 @@ class Scene:
     # ---- rendering
 
     def words(self, more=()):
-        return [self.programs / "mars", "render", self.film, "-o", self.out, "--hostfile",
-                self.cluster.folder / "hostfile", *(more or ["--nodes", NODES, "--groups", 2])]
+        words = [self.programs / "mars", "render", self.film, "-o", self.out]
+        if not self.batch:
+            words += ["--hostfile", self.cluster.folder / "hostfile"]
+        return words + list(more or ["--nodes", NODES, "--groups", 2])
 
-    def begin(self, more=()):
+    def begin(self, more=(), batch=()):
         shutil.rmtree(self.out, ignore_errors=True)
-        self.more = more
+        self.more, self.batch = more, batch
         self.notes, self.watch = Notes(self.programs), FrameWatch(self.out)
         self.files_before = self.cluster.own_files()
         self.start()
 
     def start(self):
+        if self.batch:
+            words = [*self.batch, SCRIPT, *self.words(["--groups", 2])[2:]]
+            self.renderings.append(BatchJob(self.cluster, words, self.folder))
+            return
         self.renderings.append(Rendering(self.cluster, self.words(self.more), folder=self.folder))
 
     @property
@@ -126,11 +133,12 @@ class Scene:
 
     # ---- whom a fault hits
 
-    def processes(self, program, host=None):
-        return sorted(self.cluster.processes(program, host=host), key=lambda process: process.number)
-
-    def node(self, host="n3", index=0):
-        return self.processes("mars-node", host)[index]
+    def process(self, program, host=None):
+        """The first of them."""
+        found = sorted(self.cluster.processes(program, host=host), key=lambda process: process.number)
+        if not found:
+            raise RuntimeError(f"no {program} runs on {host or 'any host'}:\n{self.mars.text()}")
+        return found[0]
 
     # ---- what is seen afterwards
 

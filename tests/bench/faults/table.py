@@ -8,7 +8,8 @@ def seconds(value):
 
 
 def row(result):
-    return (result["title"], result["how"], seconds(result["reported"]), "goes on" if result["goes_on"] else seconds(result["again"]), str(result["lost"]),
+    again = "goes on" if result["goes_on"] else seconds(result["again"])
+    return (result["title"], result["how"], seconds(result["reported"]), again, str(result["lost"]),
             str(result["twice"]))
 
 

@@ -43,7 +43,8 @@ def arguments():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", required=True, type=pathlib.Path, help=argparse.SUPPRESS)
     parser.add_argument("--minutes", type=float, default=15, help="that the film takes undisturbed; default: 15")
-    parser.add_argument("--seed", type=int, default=random.SystemRandom().randrange(10**6), help="default: chosen, printed")
+    parser.add_argument("--seed", type=int, default=random.SystemRandom().randrange(10**6),
+                        help="default: chosen, printed")
     parser.add_argument("--faults", metavar="A,B", default=",".join(KINDS), help="default: %(default)s")
     parser.add_argument("--every", type=float, default=EVERY, help="seconds between faults on average; default: 20")
     parser.add_argument("-o", dest="output", type=pathlib.Path, default=pathlib.Path("soak"),
@@ -67,19 +68,20 @@ class Soak:
         self.out = folder / "disk" / "film"
         self.samples = Samples(cluster)
         self.log = open(wanted.output / "mars.log", "w")
-        self.report = {"seed": wanted.seed, "minutes": wanted.minutes, "kinds": wanted.kinds, "faults": [], "starts": []}
+        self.report = {"seed": wanted.seed, "minutes": wanted.minutes, "kinds": wanted.kinds, "faults": [],
+                       "starts": []}
 
     def mars(self, *words):
         """A command of mars that must end well, beside the cluster."""
-        done = subprocess.run([self.cluster.mars, *map(str, words)], env=self.cluster.environment, capture_output=True, text=True,
-                              cwd=self.folder)
+        done = subprocess.run([self.cluster.mars, *map(str, words)], env=self.cluster.environment,
+                              capture_output=True, text=True, cwd=self.folder)
         if done.returncode != 0:
             raise RuntimeError(f"mars {words[0]} failed: {done.stderr.strip()}")
         return done.stdout
 
     def render_words(self, *more):
-        return [self.cluster.mars, "render", self.film, "--hostfile", self.cluster.folder / "hostfile", "--nodes", NODES,
-                "--groups", 2, *more]
+        return [self.cluster.mars, "render", self.film, "--hostfile", self.cluster.folder / "hostfile", "--nodes",
+                NODES, "--groups", 2, *more]
 
     # ---- before
 
@@ -151,10 +153,12 @@ class Soak:
         lines, code = self.rendering.text(), self.rendering.code
         began, ended = (seconds - self.began for seconds in (self.rendering.began, time.monotonic()))
         claimed = "another run" in lines and self.rendering.began - self.killed < 120
-        how = "well" if code == 0 else "killed" if self.killed >= self.rendering.began else "claimed" if claimed else "failed"
+        killed = self.killed >= self.rendering.began
+        how = "well" if code == 0 else "killed" if killed else "claimed" if claimed else "failed"
         self.report["starts"].append({"began": began, "ended": ended, "code": code, "how": how,
                                       "last": lines.splitlines()[-3:]})
-        print(f"--- start at {began:.1f} s, ended at {ended:.1f} s with {code} ({how})\n{lines}", file=self.log, flush=True)
+        print(f"--- start at {began:.1f} s, ended at {ended:.1f} s with {code} ({how})\n{lines}", file=self.log,
+              flush=True)
         say(f"mars ended with {code} ({how})" + ("" if how == "well" else ": " + " / ".join(lines.splitlines()[-1:])))
 
     # ---- faults
@@ -238,11 +242,11 @@ def summary(report):
     kinds = {}
     for fault in report["faults"]:
         kinds[fault["kind"]] = kinds.get(fault["kind"], 0) + 1
-    lines = [f"seed {report['seed']}: {report['frames']} frames in {report['seconds']:.0f} s with {len(report['faults'])} faults; "
-             f"undisturbed {report['undisturbed_seconds']:.0f} s",
+    lines = [f"seed {report['seed']}: {report['frames']} frames in {report['seconds']:.0f} s with "
+             f"{len(report['faults'])} faults; undisturbed {report['undisturbed_seconds']:.0f} s",
              "faults: " + ", ".join(f"{kind} {count}" for kind, count in sorted(kinds.items())),
-             f"mars was started {len(report['starts'])} times; everything had ended {report['settled_seconds']:.1f} s after "
-             "its end"]
+             f"mars was started {len(report['starts'])} times; everything had ended {report['settled_seconds']:.1f} s "
+             "after its end"]
     lines += [f"{program}: memory {growth['memory_kb'][0]:.0f} to {growth['memory_kb'][1]:.0f} kB, descriptors "
               f"{growth['descriptors'][0]:.0f} to {growth['descriptors'][1]:.0f}"
               for program, growth in sorted(report["growth"].items())]
