@@ -1,8 +1,7 @@
 """The disk that has the film's folder: an image of its own, which every host of a cluster sees that is started
-afterwards. It can be filled, made read-only, hung, and copied as a power cut would leave it."""
+afterwards. It can be filled, hung, and copied as a power cut would leave it."""
 import pathlib
 import subprocess
-import time
 
 
 def run(*words):
@@ -45,13 +44,6 @@ class Disk:
     def empty(self):
         self.filler.unlink(missing_ok=True)
 
-    def read_only(self):
-        """As after an error of the disk, even while files are being written."""
-        remount(self.place, "ro")
-
-    def writable(self):
-        remount(self.place, "rw")
-
     def freeze(self):
         """Whoever writes waits, as for a file server that does not answer."""
         run("fsfreeze", "--freeze", self.place)
@@ -73,15 +65,3 @@ def fill(place, filler):
                 file.write(block)
             except OSError:
                 block = block[:len(block) // 16]
-
-
-def remount(place, how, seconds=30):
-    """Linux refuses read-only while a file is open for writing: tried again."""
-    end = time.monotonic() + seconds
-    while True:
-        try:
-            return run("mount", "-o", f"remount,{how}", place)
-        except RuntimeError:
-            if time.monotonic() > end:
-                raise
-            time.sleep(0.01)

@@ -5,7 +5,7 @@ import threading
 import time
 from dataclasses import dataclass
 
-from cluster import HEAD
+from cluster import HEAD, HOSTS
 
 KILL, STOP, CONT, SEGV = signal.SIGKILL, signal.SIGSTOP, signal.SIGCONT, signal.SIGSEGV
 LOST = "n3"  # the machine that faults hit; neither the first nor the last
@@ -113,9 +113,13 @@ def disk_full(scene):
 
 
 def read_only(scene):
-    scene.disk.read_only()
+    """On every host. Files that are open stay writable, as Linux has it."""
     scene.happens()
-    scene.undo_after(20, scene.disk.writable)
+    for host in HOSTS:
+        scene.cluster.testbed("exec", host, "sh", "-ec", 'mount --bind "$0" "$0"; mount -o remount,bind,ro "$0"',
+                              str(scene.out))
+    scene.undo_after(20, lambda: [scene.cluster.testbed("exec", host, "umount", "--lazy", str(scene.out))
+                                  for host in HOSTS])
 
 
 def hangs(scene):
@@ -204,7 +208,7 @@ KINDS = [
     Kind("half-speed", "a node at half speed", "STOP and CONT 12 times a second", "slow", half_speed, part=1 / 5,
          goes_on=True),
     Kind("disk-full", "the disk is full for 20 s", "the folder's file system filled", "No space left", disk_full),
-    Kind("read-only", "the disk is read-only for 20 s", "`mount -o remount,ro`", "Read-only", read_only),
+    Kind("read-only", "the disk is read-only for 20 s", "`mount -o remount,bind,ro`", "Read-only", read_only),
     Kind("hang", "storage hangs for 30 s", "`fsfreeze`", "storage|sink|cannot write|has not answered", hangs),
     Kind("delete", "the folder is deleted", "`rm -r`; the same command again", "No such file|deleted|gone|vanished",
          deleted, code=1, again=True),
