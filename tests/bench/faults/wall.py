@@ -1,5 +1,5 @@
 """A film's wall time when one of its nodes dies at half, beside the ideal: the undisturbed time, and the start of a
-second job, from mars's command to the first frame that a node begins. Undisturbed and disturbed renderings take turns."""
+second job, from mars's command to the first frame that a node begins. Renderings of both kinds take turns."""
 import statistics
 import time
 
