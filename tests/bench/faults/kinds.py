@@ -62,7 +62,13 @@ def all_stopped(scene):
     scene.happens()
     for process in stopped:
         process.send(STOP)
-    scene.undo_after(45, lambda: [process.send(CONT) for process in stopped])
+
+    def go_on():
+        for process in stopped:
+            process.send(CONT)
+        scene.mars.go_on()
+
+    scene.undo_after(45, go_on)
 
 
 def machine_stopped(scene):
