@@ -14,6 +14,7 @@ import json
 import os
 import pathlib
 import random
+import re
 import shutil
 import signal
 import subprocess
@@ -91,7 +92,7 @@ class Soak:
         trial = Rendering(self.cluster, self.render_words("--sink", "none"), folder=self.folder)
         if trial.wait(600) != 0:
             raise RuntimeError(f"the undisturbed trial failed:\n{trial.text()}")
-        seconds = time.monotonic() - trial.began
+        seconds = float(re.findall(r"([\d.]+) seconds", trial.text())[-1])
         intervals = max(4, round(self.wanted.minutes * 60 / seconds * TRIED / film.INTERVAL))
         self.frames = intervals * film.INTERVAL
         film.write_film(self.film, self.frames, dice=DICE)
