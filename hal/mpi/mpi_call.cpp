@@ -1,11 +1,20 @@
 #include "hal/mpi/mpi_call.h"
 
+#include <unistd.h>
+
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 
 #include "hal/failure/failure.h"
 
 namespace mars::mpi {
+namespace {
+
+// MPI_Abort waits for mpirun, which may hang too, or be stopped: the alarm ends the process then.
+constexpr unsigned kLongestAbort = 5;  // seconds
+
+}  // namespace
 
 void fail_in_mpi(int code, const char* call) {
   char reason[MPI_MAX_ERROR_STRING] = "";
@@ -35,6 +44,8 @@ void abort_job(const std::string& reason) {
   // At a call of MPI_Abort MPICH's mpirun may end before it has passed on the reason; a rank that ends without a
   // word to it ends all others as well, and its own words come first.
 #ifndef MPICH_VERSION
+  std::signal(SIGALRM, SIG_DFL);
+  alarm(kLongestAbort);
   MPI_Abort(MPI_COMM_WORLD, 1);
 #endif
   std::_Exit(1);

@@ -110,9 +110,10 @@ class Folders(ProgramTest):
         long = self.start("0-25000")
         for each in family(long.pid):
             os.kill(each, signal.SIGSTOP)
-        self.assertIn("another run", self.render(self.film, "7").stderr)
+        self.assertIn("another run", self.render(self.film, "25000").stderr)
+        self.assertEqual(self.render(self.film, "0").returncode, 0, "that is there already")
         self.kill(long)
-        self.assertEqual(self.render(self.film, "7").returncode, 0)
+        self.assertEqual(self.render(self.film, "25000").returncode, 0)
         self.assertOnlyFrames()
 
     def test_after_a_kill_only_what_is_missing_is_rendered(self):

@@ -88,8 +88,8 @@ class Formats(ProgramTest):
         """Frame 2 in each format. `shown`: of a pixel's light as EXR has it, what is shown, before sRGB."""
         png, png16, exr = (self.render(f"{shape}-{backend}", shape, "--backend", backend, "--nodes", 2)
                            for shape in PIXELS)
-        self.assertEqual(sorted(path.name for path in exr.iterdir()), [f"frame-000{i}.exr" for i in range(4)] +
-                         ["frames.json"])
+        self.assertEqual(sorted(path.name for path in exr.iterdir()),
+                         ["film.mars", *(f"frame-000{i}.exr" for i in range(4)), "frames.json"])
         narrow, wide = (pixels_of(rows) for rows in (png_rows(png / "frame-0002.png", 8),
                                                      png_rows(png16 / "frame-0002.png", 16)))
         light = pixels_of(exr_rows(exr / "frame-0002.exr"))

@@ -150,12 +150,12 @@ class ProgramTest(unittest.TestCase):
             self.assertNotIn(noise, message)
 
     def assertNothingTorn(self, folder):
-        """Only whole frames and the manifest are there, if the folder is there at all."""
+        """Only whole frames, the manifest and the film are there, if the folder is there at all."""
         for path in folder.iterdir() if folder.exists() else []:
             if path.suffix == ".png":
                 self.assertTrue(intact(path), path)
             else:
-                self.assertEqual(path.name, "frames.json")
+                self.assertIn(path.name, ["frames.json", "film.mars"])
 
     def verified_hash(self, folder):
         return self.succeed("mars", "verify", folder).split()[-1]

@@ -250,12 +250,12 @@ void Farm::give_portion(GroupWork& to) {
   note_given(group, before, portion);
 }
 
-// Nodes that had nothing left were idle until now.
+// Nodes that had nothing left of a task that goes on were idle until now.
 void Farm::note_given(const collectives::Group& group, const std::vector<Standing>& before, const Portion& portion) {
   const double now = dclock() - start_;
   for (std::size_t member = 0; member < before.size(); ++member) {
     const int node = group.first + static_cast<int>(member);
-    if (before[member].waiting == 0) rates_.ready(node, now);
+    if (portion.first > 0 && before[member].waiting == 0) rates_.ready(node, now);
     if (!portion.cycle.empty())
       rates_.given(node, std::ranges::count(portion.cycle, static_cast<std::int32_t>(member)) > 0);
   }

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <future>
 #include <memory>
 #include <optional>
-#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -62,7 +62,7 @@ void end_output(std::unique_ptr<Output> output) try {
     ended->set_value();
   }).detach();
   ended->get_future().wait_for(kLongestEnd);
-} catch (const std::system_error&) {  // no thread: it has ended already
+} catch (const std::exception&) {  // no thread: it has ended already
 }
 
 sinks::Patience::Bounds bounds_of(const EventReporter& reporter) {
@@ -210,11 +210,13 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace, 
   output.pool = make_sinks(job, *output.sink, pool_shape(host, view, job, memory.frames));
   const farm::FarmReport report = farm::render_film(film.block(), plan, farm_options(job, memory, trace, heartbeats),
                                                     *output.pool, reporter.listener(view.intervals().size()));
+  const auto write = [&](const std::string& file, const std::function<void()>& whole) {
+    sinks::Patience(bounds_of(reporter)).write(file, whole);
+  };
   heartbeats.during("ending", [&] {
     if (output.folder) output.folder->finish();
-    sinks::Patience patience(bounds_of(reporter));
-    if (!job.report.empty()) patience.write(job.report, [&] { write_report(job, film, memory, report); });
-    if (trace) patience.write(job.trace, [&] { trace::write_trace(job.trace, {job.film, job.backend}, *trace); });
+    if (!job.report.empty()) write(job.report, [&] { write_report(job, film, memory, report); });
+    if (trace) write(job.trace, [&] { trace::write_trace(job.trace, {job.film, job.backend}, *trace); });
   });
   reporter.report(events::Done{plan.frames(), report.total_seconds, job.folder, trace ? trace->left_out() : 0});
 }

@@ -32,7 +32,7 @@ void Supervisor::render() {
   count_frames();
   while (!all_there()) {
     if (!may_help() && !a_machine_is_gone()) throw failure();
-    look_for_deadly_frame();
+    explain_death();
     if (all_there()) break;
     start_again();
     run_job(next_options());
@@ -90,8 +90,9 @@ std::string Supervisor::account() const {
   return std::to_string(frames_.there()) + " of " + std::to_string(frames_.of()) + " frames are there";
 }
 
-void Supervisor::look_for_deadly_frame() {
+void Supervisor::explain_death() {
   const Diagnosis diagnosis = diagnose(last_, options_, {});
+  world_.print(what_happened(diagnosis));
   const auto frame = frame_of_death(last_, diagnosis);
   if (!frame || !diagnosis.node || !deadly_.count_death(*frame, *diagnosis.node)) return;
   frames_.set_aside(*frame);
@@ -105,7 +106,6 @@ void Supervisor::start_again() {
     throw failure("; gave up after " + document::counted(restarts_.most(), "restart") + " without a new frame");
   if (!machines_) machines_.emplace(world_.machines(), options_.nodes);
   machines_->blame(diagnosis.machine, diagnosis.machine_lost, !last_.taken.empty());
-  world_.print(what_happened(diagnosis));
   choose_machines(*pause);
   print_choice();
 }

@@ -54,7 +54,7 @@ class Supervisor {
   bool may_help() const;
   bool a_machine_is_gone();
   Failure failure(const std::string& more = "") const;
-  void look_for_deadly_frame();
+  void explain_death();
   void start_again();
   void choose_machines(std::chrono::seconds pause);
   void print_choice() const;

@@ -43,6 +43,7 @@ farm::FarmReport two_nodes_two_frames() {
   film.width = 96, film.height = 54, film.samples = 4;
   report.node_memory = farm::share_node_memory(1 << 20, {}, film);
   report.total_seconds = 3;
+  report.slow_times = {{1, 2.5, 0.5, 2.0}, {0, 3, 1.0}};
   return report;
 }
 
@@ -58,6 +59,8 @@ TEST(Report, HasEveryFrameWithEveryNodeThatDrewIt) {
   EXPECT_EQ(report["film"], "film.json");
   EXPECT_EQ(report["arguments"].size(), 3u);
   EXPECT_EQ(report["nodes"][1]["binding"], "core 0");
+  EXPECT_EQ(report["slow"], json::parse(R"([{"node": 1, "host": "ada", "times": 2.5, "begin": 0.5, "end": 2.0},
+                                            {"node": 0, "host": "ada", "times": 3.0, "begin": 1.0, "end": null}])"));
   EXPECT_EQ(report["dimensions"], json({"an L3 cache"}));
   EXPECT_EQ(report["host_memory"]["budget"], 1 << 30);
   EXPECT_EQ(report["host_memory"]["frames"], 6);

@@ -49,6 +49,24 @@ void run_and_kill(const fs::path& path, const Manifest& manifest, const std::vec
   ASSERT_TRUE(WIFSIGNALED(status));
 }
 
+// Runs `act` as a person who is not root; whatever fails there fails the test.
+void as_nobody(const fs::path& folder, const std::function<bool()>& act) {
+  constexpr uid_t kNobody = 65534;
+  if (geteuid() == 0) {
+    ASSERT_EQ(chown(folder.c_str(), kNobody, kNobody), 0);
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+      ASSERT_EQ(chown(entry.path().c_str(), kNobody, kNobody), 0);
+  }
+  const pid_t child = fork();
+  if (child == 0) {
+    const bool may = geteuid() != 0 || (setgid(kNobody) == 0 && setuid(kNobody) == 0);
+    _exit(may && act() ? 0 : 1);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+}
+
 std::string failure_to_claim(const fs::path& path, const Manifest& manifest) {
   return document::failure_of([&] { FrameFolder(path, manifest); });
 }
@@ -258,6 +276,37 @@ TEST(FrameFolder, WhoHasLostItsClaimWritesNoMore) {
   EXPECT_TRUE(document::holds(document::failure_of([&] { frames.finish(); }), "claim to the folder is gone"));
 }
 
+TEST(FrameFolder, WaitsWhileItCannotWriteAndGoesOn) {
+  const TemporaryFolder folder;
+  as_nobody(folder.path(), [&] {
+    std::atomic<int> said = 0;
+    const Patience::Bounds bounds{.warn = [&](const std::string&) { ++said; }, .pause = 2ms};
+    FrameFolder frames(folder / "out", of_frames({1, 2}), this_process(), bounds);
+    put_frames(frames, of_frames({1}), 7);
+    fs::permissions(folder / "out/.runs", fs::perms::owner_read | fs::perms::owner_exec);
+    std::jthread waits([&] {
+      put_frames(frames, of_frames({2}), 7);
+      frames.finish();
+    });
+    while (said == 0) std::this_thread::sleep_for(1ms);
+    fs::permissions(folder / "out/.runs", fs::perms::owner_all);
+    waits.join();
+    return said == 2 && verify_folder(folder / "out").troubles.empty();
+  });
+}
+
+TEST(FrameFolder, WaitsNoLongerThanItMayAndSaysHowToGoOn) {
+  const TemporaryFolder folder;
+  as_nobody(folder.path(), [&] {
+    FrameFolder frames(folder / "out", of_frames({1}), this_process(), {.longest = 20ms, .pause = 2ms});
+    fs::permissions(folder / "out/.runs", fs::perms::owner_read | fs::perms::owner_exec);
+    const std::string failure = document::failure_of([&] { put_frames(frames, of_frames({1}), 7); });
+    fs::permissions(folder / "out/.runs", fs::perms::owner_all);
+    return document::holds(failure, "frame-0001.png: cannot write: Permission denied, after waiting for 1 second") &&
+           document::holds(failure, "; the same command then goes on where this run stopped)");
+  });
+}
+
 TEST(FrameFolder, WhoseFolderIsRemovedOrRenamedSaysSoAtOnce) {
   for (const bool renamed : {false, true}) {
     const TemporaryFolder folder;
@@ -446,24 +495,6 @@ TEST(FrameFolder, WhatIsNoFileAmongTheRunsIsNamedAtOnce) {
     fs::create_symlink("/dev/zero", file);
     EXPECT_EQ(failure_to_claim(folder.path(), of_frames({3})), says);
   }
-}
-
-// Runs `act` as a person who is not root; whatever fails there fails the test.
-void as_nobody(const fs::path& folder, const std::function<bool()>& act) {
-  constexpr uid_t kNobody = 65534;
-  if (geteuid() == 0) {
-    ASSERT_EQ(chown(folder.c_str(), kNobody, kNobody), 0);
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
-      ASSERT_EQ(chown(entry.path().c_str(), kNobody, kNobody), 0);
-  }
-  const pid_t child = fork();
-  if (child == 0) {
-    const bool may = geteuid() != 0 || (setgid(kNobody) == 0 && setuid(kNobody) == 0);
-    _exit(may && act() ? 0 : 1);
-  }
-  int status = 0;
-  waitpid(child, &status, 0);
-  EXPECT_EQ(status, 0);
 }
 
 TEST(FrameFolder, AManifestThatCannotBeReadIsNotReplaced) {
