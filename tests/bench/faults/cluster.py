@@ -26,6 +26,13 @@ class Process:
         except ProcessLookupError:
             pass  # it has ended
 
+    def go_on(self):
+        """After a stop. An nsenter that started it on its host has stopped itself then, and is outside of the host."""
+        parent = self.field("PPid")
+        self.send(signal.SIGCONT)
+        if (state_and_program(parent) or ("", ""))[1] == "nsenter":
+            os.kill(parent, signal.SIGCONT)
+
     def field(self, name):
         """A number of /proc/N/status; 0 once it has ended."""
         try:

@@ -62,13 +62,7 @@ def all_stopped(scene):
     scene.happens()
     for process in stopped:
         process.send(STOP)
-
-    def go_on():
-        for process in stopped:
-            process.send(CONT)
-        scene.mars.go_on()
-
-    scene.undo_after(45, go_on)
+    scene.undo_after(45, lambda: [process.go_on() for process in stopped])
 
 
 def machine_stopped(scene):
@@ -77,7 +71,7 @@ def machine_stopped(scene):
     scene.happens()
     for process in stopped:
         process.send(STOP)
-    scene.undo_at_end(lambda: [process.send(CONT) for process in stopped])
+    scene.undo_at_end(lambda: [process.go_on() for process in stopped])
 
 
 def cut(scene):
@@ -157,6 +151,7 @@ def power_loss(scene):
     scene.happens()
     for process in stopped:
         process.send(KILL)
+        process.go_on()
     scene.mars.wait(30)
     scene.cluster.testbed("down")
     scene.disk.unmount()

@@ -1,7 +1,6 @@
 """A `mars render` that runs on the cluster's first host: what it says, and when its frames appear."""
 import os
 import re
-import signal
 import subprocess
 import threading
 import time
@@ -73,10 +72,6 @@ class Rendering:
             return None
         self.reader.join(5)
         return self.process.returncode
-
-    def go_on(self):
-        """nsenter, which started mars on its host, stops itself when mars is stopped."""
-        os.killpg(self.process.pid, signal.SIGCONT)
 
     def first_line(self, pattern, since):
         """(seconds, line) of the first that matches, of those said after `since`."""
