@@ -104,12 +104,17 @@ std::span<const std::byte> Firmware::receive(long type) {
   return command_;
 }
 
-// The machine's first node receives the film into memory that all nodes of the machine share.
+// The machine's first node receives the film into memory that all nodes of the machine share, and checks it.
 void Firmware::load() {
   const auto [load, machines] = wire::read_load(receive(wire::kLoad), static_cast<int>(numnodes()), name_);
+  const messages::Neighbourhood here = messages::neighbourhood();
+  wire::check_machines(machines, static_cast<int>(mynode()), here.machine, here.count);
   film_block_.emplace(kFilmReplica, load.film_bytes);
   const auto block = film_block_->bytes();
-  if (messages::neighbourhood().index == 0) receive_film(block, machines);
+  if (here.index == 0) {
+    receive_film(block, machines);
+    wire::FilmView(block, "film");
+  }
   gsync();
   film_.emplace(block, "film", true);
   renderer_.emplace(*film_, load, machines, instruction_set_, heartbeat_);

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "hal/failure/failure.h"
-#include "node/firmware.h"
+#include "node/node_identity.h"
 #include "node/wire/protocol.h"
 
 namespace mars::node {

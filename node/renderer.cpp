@@ -37,6 +37,7 @@ Renderer::Renderer(const wire::FilmView& film, const wire::Load& load, std::span
       contributes_(group_size()),
       line_loads_(film.settings().height),
       line_totals_(film.settings().height + 1),
+      awaited_(film.settings().height),
       wanted_lines_(film.settings().height),
       wanted_still_lines_(film.settings().height),
       homes_(group_size()),
@@ -97,6 +98,8 @@ void Renderer::draw_frame(wire::FrameKind kind, std::uint32_t interval, std::uin
   report_.charge(wire::Work::segment, scene_.film().segments().size());
   Tessellation own = tessellate_all();
   group::Pass pass{0, map_to_homes(own.made)};
+  if (pass.count == 1 && parts_.empty())
+    throw Failure("nodes' counts of large frames make no sense", "", "please report it");
   for (; pass.number < pass.count; ++pass.number) {
     if (pass.count > 1) own = tessellate_part(pass);
     draw_lines(exchange_triangles(own.polygons, pass), pass);
@@ -111,6 +114,7 @@ void Renderer::draw_frame(wire::FrameKind kind, std::uint32_t interval, std::uin
 // Every line is wanted, so that all edge boxes are counted.
 Tessellation Renderer::tessellate_all() {
   memory_.begin_frame();
+  parts_.clear();
   std::ranges::fill(wanted_lines_, std::uint8_t{1});
   const Tessellation own = tessellate();
   report_.strip().work.triangles = own.made.triangles;
@@ -236,17 +240,22 @@ void Renderer::receive_triangles(const geometry::LineRange& lines) {
   const auto totals = memory_.arena().take<std::uint64_t>(lines.count() + 1);
   totals[0] = 0;
   for (std::uint32_t i = 0; i < lines.count(); ++i) {
-    const std::uint32_t line = lines.first + i;
-    totals[i + 1] = totals[i] + sums_.ebc()[line + 1] - sums_.ebc()[line];
-    for (const raster::LineBoxes& part : parts_) totals[i + 1] -= part.of(line).size();
+    const std::uint64_t all = sums_.ebc()[lines.first + i + 1] - sums_.ebc()[lines.first + i];
+    std::uint64_t there = 0;
+    for (const raster::LineBoxes& part : parts_) there += part.of(lines.first + i).size();
+    if (there > all) throw Failure("nodes' counts of edge boxes make no sense", "", "please report it");
+    awaited_[i] = all - there;
+    totals[i + 1] = totals[i] + awaited_[i];
   }
+  const wire::FilmView& film = scene_.film();
+  group::AwaitedTriangles awaited{lines, std::span(awaited_).first(lines.count()), film.settings().width,
+                                  film.settings().samples, film.materials().size()};
   raster::LineFiller filler(lines, totals, memory_.first_triangle(), memory_.arena());
   for (std::uint64_t left = totals.back(); left > 0;) {
-    const raster::Polygons others = triangle_exchange_.receive_triangles(memory_);
+    const raster::Polygons others = triangle_exchange_.receive_triangles(memory_, awaited);
     report_.clock(wire::Phase::exchange);
     heartbeat_.look();
     const std::uint64_t came = others.stationary.size() + others.moving.size();
-    check(came > 0 && came <= left, "as many edge boxes come as EBC counts");
     left -= came;
     filler.add(others);
     report_.charge(wire::Work::edge_box_filled, came);

@@ -113,6 +113,7 @@ class Renderer {
   std::size_t contributors_ = 1;                  // of it
   std::vector<raster::LineLoad> line_loads_;      // of own triangles
   std::vector<std::uint64_t> line_totals_;        // of their edge boxes, before each line and at the end
+  std::vector<std::uint64_t> awaited_;            // edge boxes of other nodes that are to come, of each line
   std::vector<raster::LineBoxes> parts_;          // edge boxes of the lines to be drawn; own ones first
   std::vector<std::uint8_t> wanted_lines_;        // in the current pass
   std::vector<std::uint8_t> wanted_still_lines_;  // likewise, of stationary parts in an inbetween

@@ -1,9 +1,21 @@
 #include "hal/failure/failure.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace mars {
 namespace {
+
+constexpr std::size_t kLongest = 8000;  // bytes
+
+// What files, people and other machines wrote is part of failures' texts: nothing in them shall act on a terminal, or
+// fill it.
+std::string shown(std::string text) {
+  if (text.size() > kLongest) text.replace(kLongest, std::string::npos, "...");
+  const auto acts = [](unsigned char c) { return (c < ' ' && c != '\n') || c == 127; };
+  std::replace_if(text.begin(), text.end(), acts, '?');
+  return text;
+}
 
 std::string one_line(const std::string& problem, const std::string& where, const std::string& remedy) {
   std::string line = where.empty() ? problem : where + ": " + problem;
@@ -13,10 +25,10 @@ std::string one_line(const std::string& problem, const std::string& where, const
 }  // namespace
 
 Failure::Failure(std::string what, std::string where, std::string remedy)
-    : std::runtime_error(one_line(what, where, remedy)),
-      problem(std::move(what)),
-      where(std::move(where)),
-      remedy(std::move(remedy)) {}
+    : std::runtime_error(one_line(shown(what), shown(where), shown(remedy))),
+      problem(shown(std::move(what))),
+      where(shown(std::move(where))),
+      remedy(shown(std::move(remedy))) {}
 
 void check(bool holds, const char* rule, std::source_location at) {
   if (holds) return;

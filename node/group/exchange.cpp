@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "hal/failure/failure.h"
 #include "hal/nx/nx_messages.h"
 
 namespace mars::group {
@@ -16,14 +15,6 @@ template <typename Visit>
 void visit_all(const raster::Polygons& polygons, const Visit& visit) {
   for (const auto& boxes : {polygons.stationary, polygons.moving})
     for (auto next = boxes.rbegin(); next != boxes.rend(); ++next) visit(*next);
-}
-
-constexpr std::size_t whole_cache_lines(std::size_t bytes) { return (bytes + 63) / 64 * 64; }
-
-// Where a message's edge boxes begin, and behind so many of them its triangles.
-constexpr std::size_t kBoxesAt = whole_cache_lines(sizeof(wire::TriangleHead));
-constexpr std::size_t triangles_at(std::size_t edge_boxes) {
-  return whole_cache_lines(kBoxesAt + edge_boxes * sizeof(raster::UnsortedEdgeBox));
 }
 
 }  // namespace
@@ -77,20 +68,12 @@ void TriangleExchange::fill_parcels(const raster::Polygons& own) {
   });
 }
 
-raster::Polygons TriangleExchange::receive_triangles(FrameMemory& memory) {
+raster::Polygons TriangleExchange::receive_triangles(FrameMemory& memory, AwaitedTriangles& awaited) {
   cprobe(wire::kTriangles);
+  const auto sender = static_cast<int>(infonode());
   const auto message = memory.arena().take<std::byte>(static_cast<std::size_t>(infocount()));
   crecv(wire::kTriangles, message.data(), static_cast<long>(message.size()));
-  check(message.size() >= kBoxesAt, "triangles have a head");
-  const auto& head = *reinterpret_cast<const wire::TriangleHead*>(message.data());
-  check(message.size() == triangles_at(head.edge_boxes) + head.triangles * sizeof(geometry::Triangle),
-        "triangles are as many as their head says");
-  const std::span boxes(reinterpret_cast<const raster::UnsortedEdgeBox*>(message.data() + kBoxesAt), head.edge_boxes);
-  const auto first_stationary = std::partition_point(
-      boxes.begin(), boxes.end(), [](const raster::UnsortedEdgeBox& box) { return box.moving == 1; });
-  const auto moving = static_cast<std::size_t>(first_stationary - boxes.begin());
-  return {reinterpret_cast<const geometry::Triangle*>(message.data() + triangles_at(head.edge_boxes)),
-          boxes.subspan(moving), boxes.first(moving)};
+  return read_triangles(message, awaited, sender);
 }
 
 void TriangleExchange::finish() { pending_.wait(); }

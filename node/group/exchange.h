@@ -12,6 +12,7 @@
 #include "node/geometry/line_range.h"
 #include "node/group/frame_memory.h"
 #include "node/group/pending_messages.h"
+#include "node/group/triangle_message.h"
 #include "node/raster/line_load.h"
 #include "node/raster/scanline.h"
 #include "node/wire/protocol.h"
@@ -29,8 +30,8 @@ class TriangleExchange {
   void send_triangles(const collectives::Group& group, const raster::Polygons& own,
                       std::span<const geometry::LineRange> homes, std::span<const raster::LineLoad> line_loads,
                       FrameMemory& memory);
-  // Receives the next node's; they lie in the arena.
-  raster::Polygons receive_triangles(FrameMemory& memory);
+  // Receives the next node's, of those awaited; they lie in the arena.
+  raster::Polygons receive_triangles(FrameMemory& memory, AwaitedTriangles& awaited);
   // Waits until all that was sent has left the arena.
   void finish();
 

@@ -111,6 +111,8 @@ std::uint32_t agree_on_passes(const FrameLoad& load, std::uint64_t memory) {
   if (one_pass_fits_all(load, memory)) return 1;
   std::uint64_t most = passes_for(load, static_cast<int>(mynode()), memory), work = 0;
   if (load.group.count > 1) collectives::group_high(load.group, {&most, 1}, {&work, 1});
+  if (most < 1 || most > 4 * load.line_loads.size())
+    throw Failure("nodes' counts of passes make no sense", "", "please report it");
   return static_cast<std::uint32_t>(most);
 }
 

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
-#include "hal/failure/failure.h"
 #include "hal/nx/nx_messages.h"
+#include "node/wire/commands.h"
 #include "node/wire/protocol.h"
 
 namespace mars::group {
@@ -25,6 +26,7 @@ class StillExchange::Plan {
   int first() const { return needs_.group.first; }
   int last() const { return needs_.group.first + needs_.group.count; }
 
+  bool has(int node) const { return node >= first() && node < last(); }
   bool contributes(int node) const { return needs_.contributes[index(node)] == 1; }
   bool share_a_machine(int a, int b) const { return neighbours_.are(a, b); }
   // Whether it is the head of a machine with contributors.
@@ -98,15 +100,20 @@ void StillExchange::receive_message(const Plan& plan, raster::StillLines& still)
   cprobe(wire::kStillLines);
   const auto bytes = static_cast<std::size_t>(infocount());
   const int from = static_cast<int>(infonode());
+  constexpr const char* kWhat = "still lines";
+  wire::require_sense(plan.has(from), from, kWhat);
   if (!one_each_ && !plan.share_a_machine(from, plan.self())) {
     const auto depths = std::as_writable_bytes(still.depths(plan.lines_of(from)));
-    check(bytes == depths.size(), "CZB comes for the lines that are needed");
+    wire::require_sense(bytes == depths.size(), from, kWhat);
     crecv(wire::kStillLines, depths.data(), infocount());
     return;
   }
   line_.resize(std::max(line_.size(), bytes));
   crecv(wire::kStillLines, line_.data(), infocount());
-  if (bytes > 0) still.unpack(std::span(line_).first(bytes));
+  if (bytes == 0) return;
+  const auto line = std::span(std::as_const(line_)).first(bytes);
+  wire::require_sense(still.is_packed(line), from, kWhat);
+  still.unpack(line);
 }
 
 void StillExchange::notify_contributors(const Plan& plan) const {

@@ -73,10 +73,23 @@ std::span<const std::byte> StillLines::packed(std::uint32_t line) const {
   return {slot(line), packed_bytes(head(line).groups)};
 }
 
+bool StillLines::is_packed(std::span<const std::byte> line) const {
+  if (samples_ == 1 || line.size() < sizeof(Head)) return false;
+  const Head& head = *reinterpret_cast<const Head*>(line.data());
+  if (head.kept != 1 || head.interval != interval_ || !lines_.has(head.line) ||
+      line.size() != packed_bytes(head.groups))
+    return false;
+  const auto* const end =
+      reinterpret_cast<const std::uint32_t*>(line.data() + sizeof head + depth_bytes(width_, samples_));
+  const std::span columns(end, width_);
+  const std::span groups(reinterpret_cast<const StillGroup*>(end + width_), head.groups);
+  return std::ranges::is_sorted(columns) && columns.back() == head.groups &&
+         std::ranges::all_of(groups, [&](const StillGroup& group) { return group.samples >> samples_ == 0; });
+}
+
 void StillLines::unpack(std::span<const std::byte> line) {
   Head head;
   std::memcpy(&head, line.data(), sizeof head);
-  check(lines_.has(head.line) && line.size() == packed_bytes(head.groups), "a kept line travels whole");
   if (!begin_line(head.line, head.groups)) return;
   std::memcpy(slot(head.line), line.data(), line.size());
 }

@@ -59,7 +59,9 @@ class StillLines {
   std::span<const std::byte> packed(std::uint32_t line) const;
   // Bytes of a line that any machine may send.
   std::size_t most_packed() const;
-  // A line that came from there; not kept where it does not fit here.
+  // Whether it is such a line, sound to the last group.
+  bool is_packed(std::span<const std::byte> line) const;
+  // A line that came from there, and is_packed(); not kept where it does not fit here.
   void unpack(std::span<const std::byte> line);
 
  private:

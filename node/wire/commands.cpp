@@ -70,6 +70,11 @@ LoadCommand read_load(std::span<const std::byte> message, int nodes, const std::
   return {load, machines};
 }
 
+void check_machines(std::span<const std::int32_t> machines, int node, int machine, int count) {
+  require(machines[static_cast<std::size_t>(node)] == machine && std::ranges::count(machines, machine) == count, "Load",
+          "machines");
+}
+
 RenderCommand read_render(std::span<const std::byte> message, const FilmView& film, const RenderReceiver& receiver,
                           std::vector<std::uint32_t>& frames) {
   constexpr auto kName = "Render";
@@ -114,6 +119,11 @@ const Beat& read_beat(std::span<const std::byte> message) {
   require(beat.host.back() == '\0', kName, "the name of its machine");
   require(beat.traced <= 1, kName, "whether it is debugged");
   return beat;
+}
+
+void require_sense(bool holds, int sender, const char* what) {
+  if (!holds)
+    throw Failure("node " + std::to_string(sender) + " sent " + what + " that make no sense", "", "please report it");
 }
 
 void check_size(const char* command, std::size_t bytes, std::size_t expected) {

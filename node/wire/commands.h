@@ -1,5 +1,6 @@
 // The host's commands as they arrived, checked before anything of them is used: sizes against counts, counts and ranges
-// against the film and the node's group. What does not fit is a Failure. What is returned lies within the message.
+// against the film and the node's group; and what is common to checks of other nodes' messages. What does not fit is a
+// Failure. What is returned lies within the message.
 #pragma once
 
 #include <cstddef>
@@ -37,6 +38,10 @@ struct RenderCommand {
 // For one of `nodes` nodes; `receiver` names it in a failure: "n3 (node 17)".
 LoadCommand read_load(std::span<const std::byte> message, int nodes, const std::string& receiver);
 
+// Of Load's machines, for node `node`, which shares memory with `count` nodes, itself among them, that are on
+// `machine`.
+void check_machines(std::span<const std::int32_t> machines, int node, int machine, int count);
+
 // What a node knows of itself when a Render comes.
 struct RenderReceiver {
   int node;
@@ -54,6 +59,9 @@ const Credit& read_credit(std::span<const std::byte> message, std::uint32_t owne
 
 // The host's.
 const Beat& read_beat(std::span<const std::byte> message);
+
+// For what node `sender` sent, "triangles".
+void require_sense(bool holds, int sender, const char* what);
 
 // For commands of a fixed size, such as Stop and Clock, which are empty.
 void check_size(const char* command, std::size_t bytes, std::size_t expected);

@@ -49,7 +49,7 @@ class Jobs(ClusterTest):
 
     def assertCompletes(self, folder):
         """Its job goes on to the last frame, with the pixels that one process draws."""
-        told = self.on("n0", "mars", "watch", folder, timeout=SECONDS).stdout
+        told = self.on("n0", "mars", "watch", folder).stdout
         self.assertIn("120 of 120 frames", told)
         self.assertEqual(self.verified_hash(folder), self.pixels())
 

@@ -113,6 +113,9 @@ class Folders(ProgramTest):
         self.assertIn("another run", self.render(self.film, "25000").stderr)
         self.assertEqual(self.render(self.film, "0").returncode, 0, "that is there already")
         self.kill(long)
+        self.assertTrue((self.out / ".runs").exists())
+        self.assertEqual(self.render(self.film, "0").returncode, 0)
+        self.assertFalse((self.out / ".runs").exists(), "it clears up also where nothing is left to render")
         self.assertEqual(self.render(self.film, "25000").returncode, 0)
         self.assertOnlyFrames()
 

@@ -70,6 +70,21 @@ class Installed(Installation):
                 for place in [BUILD, harness.SOURCES]:
                     self.assertFalse(os.fsencode(place) in content, f"{file} holds {place}")
 
+    @needs("readelf")
+    def test_programs_are_hardened(self):
+        """They lie anywhere in memory, their stack is no code, and what the loader wrote stays as it is."""
+        seen = 0
+        for file in self.prefix.rglob("*"):
+            if not file.is_file() or file.is_symlink() or file.read_bytes()[:4] != b"\x7fELF":
+                continue
+            headers = subprocess.run(["readelf", "-hldW", file], check=True, capture_output=True, text=True).stdout
+            seen += 1
+            self.assertRegex(headers, r"Type: +DYN", file)
+            self.assertIn("GNU_RELRO", headers, file)
+            self.assertRegex(headers, r"\bBIND_NOW\b|\bNOW\b", file)
+            self.assertRegex(headers, r"GNU_STACK +\S+ \S+ \S+ \S+ \S+ RW ", file)
+        self.assertGreater(seen, 5)
+
     def test_each_file_is_in_one_package(self):
         whole = sorted(path.relative_to(self.prefix) for path in self.prefix.rglob("*") if not path.is_dir())
         parts = []

@@ -47,7 +47,10 @@ std::optional<Ease> read_typed_ease(const std::string& text) {
   const auto numbers = std::count(text.begin(), text.end(), ',') + 1;
   if (!named && numbers != 4)
     throw Failure("has " + document::counted(static_cast<std::uint64_t>(numbers), "number"), "--ease", kEaseRemedy);
-  const std::string json = R"({"ease": )" + (named ? document::Json(text).dump() : "[" + text + "]") + "}";
+  const std::string json =
+      R"({"ease": )" +
+      (named ? document::Json(text).dump(-1, ' ', false, document::Json::error_handler_t::replace) : "[" + text + "]") +
+      "}";
   if ((!named && text.find_first_not_of("+-.0123456789eE, ") != text.npos) || !document::Json::accept(json))
     throw Failure("is '" + text + "'", "--ease", kEaseRemedy);
   try {

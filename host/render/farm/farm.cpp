@@ -39,6 +39,9 @@ class Farm {
  public:
   Farm(std::span<const std::byte> film_block, const Plan& plan, const FarmOptions& options, sinks::SinkPool& sinks,
        const FarmListener& listener);
+  ~Farm();
+  Farm(const Farm&) = delete;
+  Farm& operator=(const Farm&) = delete;
 
   FarmReport run();
 
@@ -65,7 +68,6 @@ class Farm {
   void note_taken();
   void charge(wire::Work kind, std::uint64_t units);
   std::vector<NodeFrame> drawing() const;
-  void look();
   void finish_sinks();
   bool cancelled() const { return options_.cancellation != nullptr && options_.cancellation->cancelled(); }
 
@@ -75,6 +77,7 @@ class Farm {
   const FarmOptions& options_;
   sinks::SinkPool& sinks_;
   const FarmListener& listener_;
+  Heartbeats* const heartbeats_;  // may be nullptr
   NodeSlots slots_;
   NodeInbox inbox_;
   std::optional<Tracing> tracing_;  // once all nodes are there
@@ -101,28 +104,32 @@ Farm::Farm(std::span<const std::byte> film_block, const Plan& plan, const FarmOp
       options_(options),
       sinks_(sinks),
       listener_(listener),
+      heartbeats_(options.heartbeats),
       slots_(static_cast<int>(numnodes()), options.credits),
       inbox_(sinks.shape().width, sinks.shape().height, sinks.shape().format, slots_, options.cancellation),
       rates_(static_cast<std::size_t>(numnodes())),
       frames_left_(plan.frames()) {
   for (const collectives::Group& group : plan.groups)
     groups_.emplace_back(group, plan.contributors_of(group), sinks.shape());
+  if (heartbeats_ != nullptr) heartbeats_->ask_for_drawing([this] { return drawing(); });
+}
+
+Farm::~Farm() {
+  if (heartbeats_ != nullptr) heartbeats_->ask_for_drawing({});
 }
 
 FarmReport Farm::run() {
-  if (options_.heartbeats != nullptr) options_.heartbeats->ask_for_drawing([this] { return drawing(); });
   if (greet_nodes() && load_film()) render();
   stop_nodes();
-  if (options_.heartbeats != nullptr) options_.heartbeats->ask_for_drawing({});
   report_.cancelled = frames_left_ > 0;
   return std::move(report_);
 }
 
 bool Farm::greet_nodes() {
-  if (options_.heartbeats != nullptr) options_.heartbeats->set_doing("waiting for nodes");
+  if (heartbeats_ != nullptr) heartbeats_->set_doing("waiting for nodes");
   if (!inbox_.receive_hellos()) return false;
   report_.nodes = inbox_.hellos();
-  if (options_.heartbeats != nullptr) options_.heartbeats->watch(report_.nodes);
+  if (heartbeats_ != nullptr) heartbeats_->watch(report_.nodes);
   if (listener_.booted) listener_.booted(report_.nodes, plan_.keyframes(), plan_.inbetweens());
   return true;
 }
@@ -155,9 +162,9 @@ NodeMemory Farm::node_memory() const {
 
 void Farm::render() {
   start_ = dclock();
-  if (options_.heartbeats != nullptr) options_.heartbeats->set_doing("rendering");
+  if (heartbeats_ != nullptr) heartbeats_->set_doing("rendering");
   while (frames_left_ > 0 && !cancelled()) {
-    look();
+    if (heartbeats_ != nullptr) heartbeats_->look();
     give_tasks();
     note_taken();
     tracing_->drain();
@@ -176,13 +183,9 @@ void Farm::render() {
   report_.total_seconds = dclock() - start_;
 }
 
-void Farm::look() {
-  if (options_.heartbeats != nullptr) options_.heartbeats->look();
-}
-
 void Farm::finish_sinks() {
-  if (options_.heartbeats == nullptr) return sinks_.finish();
-  options_.heartbeats->during("waiting for storage", [this] { sinks_.finish(); });
+  if (heartbeats_ == nullptr) return sinks_.finish();
+  heartbeats_->during("waiting for storage", [this] { sinks_.finish(); });
 }
 
 std::vector<NodeFrame> Farm::drawing() const {
@@ -209,7 +212,7 @@ void Farm::charge(wire::Work kind, std::uint64_t units) {
 // Nodes that still draw then send no more strips, and end when the keyframes they were given are drawn.
 void Farm::stop_nodes() {
   if (tracing_ && frames_left_ == 0) tracing_->read_clocks_again();
-  if (options_.heartbeats != nullptr) options_.heartbeats->forget_nodes();
+  if (heartbeats_ != nullptr) heartbeats_->forget_nodes();
   for (long node = 0; node < numnodes(); ++node) csend(wire::kStop, nullptr, 0, node, 0);
   if (tracing_) tracing_->finish();
 }
@@ -282,7 +285,7 @@ void Farm::receive_strip() {
   if (wanting == groups_.end())
     inbox_.refuse(header.node, "a strip of frame " + std::to_string(header.frame) + " that it was not asked for");
   if (options_.each_frame && header.last == 1) report_.strips.push_back(header);
-  if (options_.heartbeats != nullptr) options_.heartbeats->hear(header);
+  if (heartbeats_ != nullptr) heartbeats_->hear(header);
   wanting->receive(std::move(strip));
   if (options_.adapts && header.last == 1) adapt(header, *wanting);
 }

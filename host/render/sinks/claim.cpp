@@ -24,7 +24,6 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::size_t kHashDigits = 32;
 constexpr std::uint64_t kLastSecond = 253402300799;  // of the year 9999
 
 std::optional<fs::path> file_of(const RunFiles& run, std::string_view ending) {
@@ -97,8 +96,7 @@ std::optional<Manifest> rendered_by(const RunFiles& run) {
   std::istringstream lines(text.value_or(""));
   std::uint32_t frame = 0;
   for (std::string hash; lines >> frame >> hash;) {
-    const bool whole = hash.size() == kHashDigits;  // the last line may have been cut off
-    if (whole) set_hash(manifest, frame, hash);
+    if (is_checksum(hash)) set_hash(manifest, frame, hash);  // the last line may have been cut off
   }
   return manifest;
 }

@@ -35,6 +35,8 @@ std::string shown_key(std::string_view key) { return shown(json(std::string(key)
 
 json parse_record(const std::string& text) try { return json::parse(text); } catch (const json::parse_error& error) {
   throw Failure("byte " + std::to_string(error.byte) + " is no JSON, or the end is missing", "", "");
+} catch (const json::exception&) {
+  throw Failure("it has a number beyond all that can be stored", "", "");
 }
 
 Record::Record(const json& object) : object_(object) {

@@ -29,7 +29,8 @@ std::string trouble_with(const fs::path& file, const Manifest& manifest, const s
     if (image.width != manifest.width || image.height != manifest.height) {
       return size_text(image.width, image.height) + " pixels instead of " + size_text(manifest.width, manifest.height);
     }
-    if (expected && expected->empty()) return "its run ended before it recorded the pixels";
+    if (expected && expected->empty())
+      return "its run ended before it recorded the pixels, or the film has changed since";
     if (expected && pixel_hash(image.pixels) != *expected) return "other pixels than were rendered";
     pixels.add(std::as_bytes(std::span(image.pixels)));
     return "";

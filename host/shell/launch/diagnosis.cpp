@@ -130,7 +130,7 @@ std::optional<Diagnosis> lost_machine(const std::string& line, const std::option
   const std::optional<std::string> machine = machine_lost(line, booted);
   if (!machine) return std::nullopt;
   return Diagnosis{Failure("does not answer any more", "machine " + *machine,
-                           "check whether it still runs and can be reached; render the missing frames with --frames"),
+                           "check whether it still runs and can be reached; the same command goes on"),
                    {},
                    *machine,
                    true};

@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::chrono::seconds kSlowStart{20};  // of waiting for nodes, until a person learns that none has answered
 constexpr std::chrono::seconds kLongestTrial{30};
-constexpr std::chrono::seconds kLongestClearing{3};  // after a run that failed
+constexpr std::chrono::milliseconds kLongestClearing{2500};  // after a run that failed
 constexpr std::chrono::milliseconds kClearingLook{5};
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -140,7 +140,10 @@ void launch_render(options::RenderOptions options, const std::filesystem::path& 
   Display display(kind_of_output(options.quiet), std::cout);
   for (const std::string& line : messages::unknown_settings()) display.print(line);
   messages::read_settings();  // wrong settings fail before anything is started
-  if (const auto there = frames_there(options)) return display.print(resumed_text({*there, *there, ""}));
+  if (const auto there = frames_there(options)) {
+    clear_ended_runs(options.folder);
+    return display.print(resumed_text({*there, *there, ""}));
+  }
   const Starting starting = prepare(options, self);
   Supervisor supervisor(options, world_of(options, starting, display, adviser));
   supervisor.render();

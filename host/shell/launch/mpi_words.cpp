@@ -50,7 +50,7 @@ constexpr std::array kTable = {
     MpiWords{"unexpectedly failed after launch", "Open MPI's daemon on another machine cannot reach this one",
              kOpenPorts},
     MpiWords{"lost communication with a remote daemon", "a machine was lost",
-             "check whether it still runs; render the missing frames with --frames"},
+             "check whether it still runs; the same command goes on"},
     MpiWords{"unable to complete a TCP connection", "two machines cannot reach each other", kOpenPorts},
     MpiWords{"Read -1, expected", "the system forbids processes to copy from each other's memory",
              "export OMPI_MCA_btl_vader_single_copy_mechanism=none, or give the container "

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "hal/threads/run_threads.h"
@@ -152,6 +154,30 @@ TEST(StillLines, TravelBetweenMachinesWithMoreAndLessMemory) {
     ample.unpack(small.packed(3));
     expect_kept(ample, 3, 4);
     EXPECT_FALSE(ample.keeps(2));
+  });
+}
+
+TEST(StillLines, OfOtherMachinesAreSound) {
+  as_node([](const Neighbours& alone) {
+    StillLines still = lines_of(alone, kAmple);
+    still.begin_interval(kInterval, {1, 8});
+    write(still, 3, 5);
+    const auto sound = still.packed(3);
+    ASSERT_TRUE(still.is_packed(sound));
+    for (const std::size_t size : {std::size_t{0}, std::size_t{3}, std::size_t{64}, sound.size() - 1})
+      EXPECT_FALSE(still.is_packed(sound.first(size))) << size;
+    const auto takes = [&](std::size_t at, std::uint32_t word) {
+      std::vector<std::uint32_t> damaged(sound.size() / sizeof word);
+      std::memcpy(damaged.data(), sound.data(), sound.size());
+      damaged[at] = word;
+      return still.is_packed(std::as_bytes(std::span(damaged)));
+    };
+    for (std::size_t at = 0; at < 4; ++at) EXPECT_FALSE(takes(at, 99)) << "word " << at << " of its head";
+    const std::size_t groups = sound.size() / 4 - 5 * sizeof(StillGroup) / 4;
+    EXPECT_FALSE(takes(groups - 1, 6)) << "columns end behind the last group";
+    EXPECT_FALSE(takes(groups - kWidth, 6)) << "a column ends behind the next";
+    EXPECT_FALSE(takes(groups + 3, ~0u)) << "more samples than a pixel has";
+    EXPECT_TRUE(takes(groups, 0)) << "light of any amount";
   });
 }
 

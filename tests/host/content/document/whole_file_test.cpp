@@ -61,7 +61,9 @@ TEST(WholeFile, NothingIsWrittenThroughAPlantedPart) {
   EXPECT_FALSE(std::filesystem::is_symlink(folder / "file"));
   EXPECT_EQ(text_of(folder / "precious"), "old");
   EXPECT_TRUE(std::filesystem::is_symlink(folder / "file.part")) << "it is none of ours";
-  EXPECT_TRUE(holds(failure_of([&] { replace_file(folder / "other", folder / "file.part", {}); }), "File exists"));
+  EXPECT_TRUE(
+      holds(failure_of([&] { replace_file(folder / "other", folder / "file.part", std::span<const std::byte>()); }),
+            "File exists"));
   EXPECT_TRUE(holds(failure_of([&] { create_file(folder / "file.part", "new"); }), "File exists"));
   EXPECT_EQ(text_of(folder / "precious"), "old");
   EXPECT_EQ(folder.entries(), 3u);

@@ -250,7 +250,9 @@ TEST(FrameFolder, ARunOnAnotherMachineIsRefusedToOnceItIsSeenToLive) {
   run_and_kill(folder.path(), of_frames({1, 2}), {1}, elsewhere);
   std::vector<std::string> warnings;
   const auto warn = [&](const std::string& line) { warnings.push_back(line); };
-  const auto enter = [&] { FrameFolder(folder.path(), of_frames({2}), keep_same_film(of_frames({2})), warn); };
+  const auto enter = [&] {
+    FrameFolder(folder.path(), of_frames({2}), keep_same_film(of_frames({2})), {.warn = warn});
+  };
   const fs::path claim = file_of_run(folder.path(), ".claim");
   {
     const Lease renewing(claim, seconds_since_boot, 300ms);

@@ -57,7 +57,7 @@ TEST(Diagnosis, OfALostMachine) {
       message(failed_with({"ORTE has lost communication with a remote daemon.", "",
                            "  HNP daemon   : [[6456,0],0] on node n1", "  Remote daemon: [[6456,0],2] on node n3"})),
       "machine n3: does not answer any more (check whether it still runs and can be reached; "
-      "render the missing frames with --frames)");
+      "the same command goes on)");
 }
 
 // The ssh of a machine's daemon may end before the daemon is missed.

@@ -1,0 +1,42 @@
+// Where clang is there: libFuzzer gives the target inputs, and looks for those that reach further.
+#include <algorithm>
+#include <cstring>
+
+#include "tests/fuzz/mutation.h"
+#include "tests/fuzz/target.h"
+
+extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);
+
+namespace {
+
+std::string_view text_of(const std::uint8_t* data, std::size_t size) {
+  return {reinterpret_cast<const char*>(data), size};
+}
+
+std::size_t put(const std::string& text, std::uint8_t* to, std::size_t most) {
+  const std::size_t size = std::min(text.size(), most);
+  if (size > 0) std::memcpy(to, text.data(), size);
+  return size;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  mars::fuzz::run(text_of(data, size));
+  return 0;
+}
+
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed) {
+  mars::fuzz::Mutation mutation(seed);
+  if (mars::fuzz::kForm == mars::fuzz::Form::bytes || mutation.below(4) == 0) return LLVMFuzzerMutate(data, size, most);
+  return put(mutation.of_text(text_of(data, size), text_of(data, size)), data, most);
+}
+
+extern "C" std::size_t LLVMFuzzerCustomCrossOver(const std::uint8_t* data1, std::size_t size1,
+                                                 const std::uint8_t* data2, std::size_t size2, std::uint8_t* out,
+                                                 std::size_t most, unsigned seed) {
+  mars::fuzz::Mutation mutation(seed);
+  const auto one = text_of(data1, size1), other = text_of(data2, size2);
+  const bool text = mars::fuzz::kForm == mars::fuzz::Form::text;
+  return put(text ? mutation.of_text(one, other) : mutation.of_bytes(one, other), out, most);
+}

@@ -1,0 +1,33 @@
+// EXR files. The input changes a sound one, or is the file itself.
+#include <numeric>
+
+#include "host/images/exr_file.h"
+#include "tests/fuzz/edits.h"
+#include "tests/fuzz/target.h"
+
+namespace mars::fuzz {
+namespace {
+
+Message sound() {
+  std::vector<std::uint32_t> pixels(7 * 5 * 2);
+  std::iota(pixels.begin(), pixels.end(), 0x3c003a00u);
+  return images::encode_exr(7, 5, pixels);
+}
+
+}  // namespace
+
+const Form kForm = Form::bytes;
+
+void take(std::string_view input) {
+  static const Message file = sound();
+  if (input.starts_with("\x76\x2f\x31\x01")) {
+    images::decode_exr(std::as_bytes(std::span(input)), "frame.exr");
+    return;
+  }
+  Script script(input);
+  Message changed = file;
+  while (!script.at_end()) edit(changed, script, 8192);
+  images::decode_exr(changed, "frame.exr");
+}
+
+}  // namespace mars::fuzz

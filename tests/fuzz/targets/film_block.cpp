@@ -1,0 +1,51 @@
+// Compiled films as nodes read them: FilmView refuses a block, or all of it can be read without harm.
+#include "node/geometry/meshlets.h"
+#include "node/geometry/scene.h"
+#include "node/simd/instruction_set.h"
+#include "node/wire/film.h"
+#include "tests/fuzz/edits.h"
+#include "tests/fuzz/target.h"
+#include "tests/node/wire/small_film.h"
+
+namespace mars::fuzz {
+namespace {
+
+constexpr std::size_t kLongest = 1 << 16;
+
+void read_shapes(const wire::FilmView& film, const shape::Projection& projection, std::uint32_t last) {
+  static geometry::MeshletPlacer placer(simd::best_instruction_set(""));
+  for (const wire::Segment& segment : film.segments()) {
+    film.name(segment);
+    film.material_at(segment, last);
+    const wire::Shape& shape = film.shapes()[segment.shape];
+    for (const wire::Meshlet& meshlet : film.meshlets().subspan(shape.first_meshlet, shape.meshlet_count))
+      placer.place(geometry::eye_map(shape::EyeMatrix{}), film, meshlet, projection);
+  }
+}
+
+// As nodes do, frame by frame.
+void read_all(const wire::FilmView& film) {
+  const std::uint32_t last = film.settings().frames - 1;
+  geometry::Scene scene(film);
+  for (std::uint32_t i = 0; i < film.intervals().size(); ++i) {
+    scene.set_interval(i);
+    const std::uint32_t frame = film.intervals()[i].first_frame;
+    scene.set_frame(frame);
+    scene.moving_line_bounds({&frame, 1});
+  }
+  read_shapes(film, scene.projection(), last);
+}
+
+}  // namespace
+
+const Form kForm = Form::bytes;
+
+void take(std::string_view input) {
+  static const Message sound = wire::pack(wire::small_film());
+  Message block = sound;
+  Script script(input);
+  while (!script.at_end()) edit(block, script, kLongest);
+  read_all(wire::FilmView(block, "film"));
+}
+
+}  // namespace mars::fuzz

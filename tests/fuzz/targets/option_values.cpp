@@ -1,0 +1,54 @@
+// What people type: the input's first word names the reader, the rest is its text.
+#include <map>
+#include <string>
+
+#include "host/content/animator/frame_words.h"
+#include "host/content/film/frame_set.h"
+#include "host/images/picture_format.h"
+#include "host/images/picture_size.h"
+#include "host/shell/launch/command.h"
+#include "host/shell/launch/mpi_words.h"
+#include "host/shell/options/render_options.h"
+#include "host/shell/options/wrapped.h"
+#include "tests/fuzz/target.h"
+
+namespace mars::fuzz {
+namespace {
+
+using Reader = void (*)(const std::string&);
+
+void read_frames(const std::string& text) {
+  const film::FrameSet set(text);
+  set.of_film(500);
+  film::FrameSet(set.text());
+}
+
+const std::map<std::string, Reader, std::less<>>& readers() {
+  static const std::map<std::string, Reader, std::less<>> table{
+      {"frames", read_frames},
+      {"size", [](const std::string& text) { images::read_picture_size(text); }},
+      {"range", [](const std::string& text) { animator::read_frame_range(text); }},
+      {"frame", [](const std::string& text) { animator::read_frame(text); }},
+      {"ease", [](const std::string& text) { animator::read_typed_ease(text); }},
+      {"format", [](const std::string& text) { images::picture_format_of(text); }},
+      {"tasks", [](const std::string& text) { launch::tasks_of_machines(text); }},
+      {"words", [](const std::string& text) { launch::meaning_of(text); }},
+      {"file", [](const std::string& text) { options::word_of_file(text); }},
+      {"wrapped", [](const std::string& text) { options::wrapped(text, 8, 40); }},
+  };
+  return table;
+}
+
+}  // namespace
+
+const Form kForm = Form::text;
+
+void take(std::string_view input) {
+  const std::size_t end = std::min(input.find(' '), input.size());
+  const auto reader = readers().find(input.substr(0, end));
+  const std::string text(input.substr(std::min(end + 1, input.size())));
+  if (reader != readers().end()) return reader->second(text);
+  for (const auto& [name, read] : readers()) read(text);
+}
+
+}  // namespace mars::fuzz

@@ -1,0 +1,17 @@
+// PLY files, and the meshes made of them.
+#include "host/content/importer/mesh_file.h"
+#include "host/content/importer/model_text.h"
+#include "tests/fuzz/scratch.h"
+#include "tests/fuzz/target.h"
+
+namespace mars::fuzz {
+
+const Form kForm = Form::text;
+
+void take(std::string_view input) {
+  const auto path = scratch().file("mesh.ply", input);
+  const importer::MeshFile file = importer::read_mesh_file(path, importer::FileKind::ply, {});
+  for (const importer::MeshPart& part : file.parts) importer::shape_text(part.mesh);
+}
+
+}  // namespace mars::fuzz

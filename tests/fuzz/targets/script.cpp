@@ -1,0 +1,25 @@
+// Motion scripts, played on a film with a figure and a ball.
+#include "host/content/animator/motion/script.h"
+#include "host/content/document/json_file.h"
+#include "tests/fuzz/scratch.h"
+#include "tests/fuzz/target.h"
+
+namespace mars::fuzz {
+namespace {
+
+const std::filesystem::path& film_path() {
+  static const std::filesystem::path path = MARS_FUZZ_FILM;
+  return path;
+}
+
+}  // namespace
+
+const Form kForm = Form::text;
+
+void take(std::string_view input) {
+  static const document::Json sound = document::read_json(film_path());
+  document::Json film = sound;
+  motion::play_script(film, film_path(), std::string(input), "play.script");
+}
+
+}  // namespace mars::fuzz
