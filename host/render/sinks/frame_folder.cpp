@@ -36,10 +36,15 @@ void create_folder(const fs::path& path) {
   if (!fs::is_directory(path, error)) document::fail_file("create the folder", path, ENOTDIR);
 }
 
+// What the try before left where nothing could be changed. That it still cannot be removed is why this one fails.
+void remove_part(const fs::path& part) {
+  if (unlink(part.c_str()) != 0 && errno != ENOENT) document::fail_file("write", part, errno);
+}
+
 void write_manifest(const Manifest& manifest, const fs::path& folder, const RunsFolder& runs) {
   const std::string text = to_json(manifest).dump(2, ' ', false, json::error_handler_t::replace) + "\n";
   const fs::path part = runs.own_file(".frames.json.part");
-  unlink(part.c_str());  // of a try before that could not remove it
+  remove_part(part);
   document::replace_file(folder / kManifestName, part, std::as_bytes(std::span(text)));
 }
 
@@ -271,7 +276,7 @@ void FrameFolder::put(std::uint32_t frame, const std::string& pixel_hash, std::s
   bool recorded = false;
   patience_.write(file_of(frame), [&] {
     lease_->check();
-    if (recorded) unlink(part.c_str());  // which the last try could not remove, if nothing could be changed
+    if (recorded) remove_part(part);
     if (!recorded) hashes_->add(frame, pixel_hash);
     if (!recorded) record(frame, pixel_hash);
     recorded = true;
