@@ -63,7 +63,15 @@ bool Heartbeat::hear() {
 void Heartbeat::speak(bool waits) {
   own_.waits = waits ? 1 : 0;
   own_.traced = is_traced_ && is_traced_(own_.process) ? 1 : 0;
-  csend(wire::kBeat, &own_, sizeof own_, myhost(), 0);
+  send();
+}
+
+void Heartbeat::send() const { csend(wire::kBeat, &own_, sizeof own_, myhost(), 0); }
+
+void Heartbeat::begin_frame(std::uint32_t frame) {
+  own_.frame = static_cast<std::int32_t>(frame);
+  own_.waits = 0;
+  if (begun_) send();
 }
 
 // One that is stopped by its debugger cannot say so; where it is on this machine, it shows.

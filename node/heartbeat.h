@@ -25,8 +25,9 @@ class Heartbeat {
   Heartbeat(const Heartbeat&) = delete;
   Heartbeat& operator=(const Heartbeat&) = delete;
 
-  // What the node does, for its next beats: a frame, a step of it, or no frame.
-  void begin_frame(std::uint32_t frame) { own_.frame = static_cast<std::int32_t>(frame); }
+  // What the node does: a frame, which the host learns at once, for the node may die of it; a step of it, or no frame,
+  // for its next beats.
+  void begin_frame(std::uint32_t frame);
   void enter(wire::Phase phase) { own_.phase = phase; }
   void rest() { own_.frame = -1; }
 
@@ -43,6 +44,7 @@ class Heartbeat {
   void look(bool waits);
   bool hear();
   void speak(bool waits);
+  void send() const;
   bool host_is_debugged() const;
 
   const IsTraced is_traced_;

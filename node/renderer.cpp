@@ -90,8 +90,8 @@ void Renderer::draw_frame(wire::FrameKind kind, std::uint32_t interval, std::uin
                           const collectives::Group& group, std::int32_t contributors) {
   group_ = group;
   contributors_ = static_cast<std::size_t>(contributors);
-  report_.begin(kind, frame, interval);
   heartbeat_.begin_frame(frame);
+  report_.begin(kind, frame, interval);
   scene_.set_frame(frame);
   report_.charge(wire::Work::first_frame, std::exchange(is_first_, false) ? 1 : 0);
   report_.charge(wire::Work::frame, 1);

@@ -69,6 +69,18 @@ TEST_F(HeartbeatTest, BeatsOnceASecondWhileACallWaits) {
   EXPECT_EQ(last.waits, 1u);
 }
 
+TEST_F(HeartbeatTest, SaysAtOnceWhichFrameItBegins) {
+  Heartbeat heartbeat(identity);
+  heartbeat.begin_frame(3);
+  EXPECT_TRUE(beats().empty()) << "no host beats yet";
+  host_beats_until(backend.now + 1);
+  wait_until(backend.now + 1);
+  heartbeat.begin_frame(4);
+  heartbeat.begin_frame(7);
+  EXPECT_EQ(beats().back().frame, 7);
+  EXPECT_EQ(beats()[beats().size() - 2].frame, 4);
+}
+
 TEST_F(HeartbeatTest, BeatsWhileItWorks) {
   Heartbeat heartbeat(identity);
   for (int second = 0; second < 60; ++second) {

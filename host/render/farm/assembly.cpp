@@ -50,6 +50,11 @@ bool Assembly::is_contributor(const Parts& parts, std::int32_t node) const {
   return node >= group_.first && index < drew_keyframe_.size() && !drew_keyframe_[index];
 }
 
+bool Assembly::awaits(std::uint32_t frame, std::int32_t node) const {
+  const auto found = parts_.find(frame);
+  return found != parts_.end() && is_contributor(found->second, node);
+}
+
 std::optional<std::uint32_t> Assembly::drawn_by(std::int32_t node) const {
   for (const auto& [number, parts] : parts_)
     if (is_contributor(parts, node)) return number;

@@ -53,6 +53,8 @@ class Assembly {
   // goes to `store`.
   std::optional<Pasted> paste(compositor::Compositor& compositor, sinks::SinkPool& sinks, StripStore& store);
 
+  // Whether this node's last strip of the frame is still to come.
+  bool awaits(std::uint32_t frame, std::int32_t node) const;
   // The first frame of which this node's last strip is still to come; none: it draws no more of them.
   std::optional<std::uint32_t> drawn_by(std::int32_t node) const;
 

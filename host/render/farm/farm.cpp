@@ -67,7 +67,7 @@ class Farm {
   void submit(const GroupWork::Composed& composed);
   void note_taken();
   void charge(wire::Work kind, std::uint64_t units);
-  std::vector<NodeFrame> drawing() const;
+  std::optional<std::uint32_t> drawn_by(int node, std::int32_t begun) const;
   void finish_sinks();
   bool cancelled() const { return options_.cancellation != nullptr && options_.cancellation->cancelled(); }
 
@@ -111,7 +111,8 @@ Farm::Farm(std::span<const std::byte> film_block, const Plan& plan, const FarmOp
       frames_left_(plan.frames()) {
   for (const collectives::Group& group : plan.groups)
     groups_.emplace_back(group, plan.contributors_of(group), sinks.shape());
-  if (heartbeats_ != nullptr) heartbeats_->ask_for_drawing([this] { return drawing(); });
+  if (heartbeats_ != nullptr)
+    heartbeats_->ask_for_drawing([this](int node, std::int32_t begun) { return drawn_by(node, begun); });
 }
 
 Farm::~Farm() {
@@ -188,12 +189,12 @@ void Farm::finish_sinks() {
   heartbeats_->during("waiting for storage", [this] { sinks_.finish(); });
 }
 
-std::vector<NodeFrame> Farm::drawing() const {
-  std::vector<NodeFrame> drawing;
-  for (const GroupWork& work : groups_)
-    for (int node = work.group().first; node < work.group().first + work.group().count; ++node)
-      if (const auto frame = work.drawn_by(node)) drawing.push_back({node, *frame});
-  return drawing;
+std::optional<std::uint32_t> Farm::drawn_by(int node, std::int32_t begun) const {
+  const auto has = [node](const GroupWork& work) {
+    return node >= work.group().first && node < work.group().first + work.group().count;
+  };
+  const auto work = std::ranges::find_if(groups_, has);
+  return work == groups_.end() ? std::nullopt : work->drawn_by(node, begun);
 }
 
 // Whether there was something to do.

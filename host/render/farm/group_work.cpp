@@ -15,7 +15,9 @@ void GroupWork::give(const Task& task, std::uint64_t background, double now) {
   if (tasks_.size() == 1) begin_interval();
 }
 
-std::optional<std::uint32_t> GroupWork::drawn_by(std::int32_t node) const {
+std::optional<std::uint32_t> GroupWork::drawn_by(std::int32_t node, std::int32_t begun) const {
+  const auto frame = static_cast<std::uint32_t>(begun);
+  if (std::ranges::any_of(tasks_, [&](const Given& task) { return task.assembly.awaits(frame, node); })) return frame;
   for (const Given& task : tasks_)
     if (const auto frame = task.assembly.drawn_by(node)) return frame;
   return std::nullopt;

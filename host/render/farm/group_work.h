@@ -28,8 +28,9 @@ class GroupWork {
   // first task was given to any group. The task, which outlives it, has portions to be given then.
   void give(const Task& task, std::uint64_t background, double now);
 
-  // As Assembly's.
-  std::optional<std::uint32_t> drawn_by(std::int32_t node) const;
+  // The frame that the node draws: the one that it said last it had begun, -1 for none, if that is still to come; else
+  // the first of its frames that are.
+  std::optional<std::uint32_t> drawn_by(std::int32_t node, std::int32_t begun) const;
 
   // Of the task that was given last.
 

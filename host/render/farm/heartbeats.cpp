@@ -57,9 +57,9 @@ void Heartbeats::look() {
   const double now = dclock();
   if (now < looked_ + kLook) return;
   looked_ = now;
-  if (listener_.told_to_end()) listener_.end(drawing_ ? drawing_() : std::vector<NodeFrame>());
   if (watch_) watch_->look(now);
   receive();
+  if (listener_.told_to_end()) listener_.end(drawing());
   if (nodes_listen_ && now >= spoken_ + kSpeak) {
     spoken_ = now;
     speak();
@@ -119,12 +119,19 @@ SilentNode Heartbeats::silent(int node) const {
           doing_of(watch_->beat(node), is_debugged(node)), watch_->silence(node)};
 }
 
-// Its beat may be a second old; what it was given and has not drawn is known exactly.
+std::vector<NodeFrame> Heartbeats::drawing() const {
+  std::vector<NodeFrame> drawing;
+  if (!watch_ || !drawing_) return drawing;
+  for (int node = 0; node < static_cast<int>(hellos_.size()); ++node)
+    if (const int frame = frame_of(node); frame >= 0) drawing.push_back({node, static_cast<std::uint32_t>(frame)});
+  return drawing;
+}
+
 int Heartbeats::frame_of(int node) const {
-  if (drawing_)
-    for (const NodeFrame& drawn : drawing_())
-      if (drawn.node == node) return static_cast<int>(drawn.frame);
-  return watch_->beat(node).frame;
+  const std::int32_t begun = watch_->beat(node).frame;
+  if (!drawing_) return begun;
+  const auto frame = drawing_(node, begun);
+  return frame ? static_cast<int>(*frame) : -1;
 }
 
 void Heartbeats::check_nodes() const {

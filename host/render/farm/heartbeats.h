@@ -65,10 +65,13 @@ class Heartbeats {
   void hear(const wire::Strip& strip);
   // Nodes are told to end: they need not hear the host, nor speak.
   void forget_nodes();
-  // Who can say what nodes draw; none: they draw nothing.
-  void ask_for_drawing(std::function<std::vector<NodeFrame>()> drawing) { drawing_ = std::move(drawing); }
+  // The frame that a node draws, by those that it was given and by the one that it said last it had begun; -1: none.
+  using Drawing = std::function<std::optional<std::uint32_t>(int node, std::int32_t begun)>;
+  // Who can say that; none: nodes draw nothing.
+  void ask_for_drawing(Drawing drawing) { drawing_ = std::move(drawing); }
 
  private:
+  std::vector<NodeFrame> drawing() const;
   void speak();
   void receive();
   void receive_beat();
@@ -83,7 +86,7 @@ class Heartbeats {
   const bool has_machine_clock_;
   wire::Beat own_{};
   std::string doing_ = "loading";
-  std::function<std::vector<NodeFrame>()> drawing_;
+  Drawing drawing_;
   std::vector<wire::Hello> hellos_;  // of nodes that are watched
   std::optional<NodeWatch> watch_;
   bool nodes_listen_ = true;

@@ -249,6 +249,9 @@ TEST(Assembly, KnowsWhatANodeDraws) {
   EXPECT_EQ(drawn_by(0), 4u);
   EXPECT_EQ(drawn_by(1), 4u);
   EXPECT_EQ(drawn_by(2), std::nullopt) << "it is not of the group";
+  EXPECT_TRUE(task.assembly.awaits(6, 1)) << "it may have begun with it";
+  EXPECT_FALSE(task.assembly.awaits(5, 1));
+  EXPECT_FALSE(task.assembly.awaits(7, 1));
   task.receive(4, 1, false);
   EXPECT_EQ(drawn_by(1), 4u);
   task.receive(4, 1);

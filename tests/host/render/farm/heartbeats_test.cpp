@@ -177,11 +177,17 @@ TEST_F(HeartbeatsTest, OfABeatBeforeAllHaveGreetedNothingIsRead) {
 
 TEST_F(HeartbeatsTest, SaysWhatNodesDrawBeforeItEnds) {
   Heartbeats heartbeats("n0", 42, listener);
-  heartbeats.ask_for_drawing([] { return std::vector<NodeFrame>{{1, 8}}; });
+  heartbeats.watch(hellos);
+  let_speak({0, 1});
+  heartbeats.ask_for_drawing([](int node, std::int32_t begun) {
+    EXPECT_EQ(begun, 3);
+    return node == 1 ? std::optional<std::uint32_t>(8) : std::nullopt;
+  });
   pass(1);
   told_to_end = true;
   EXPECT_THROW(pass(1), std::runtime_error);
   ASSERT_EQ(ended_with.size(), 1u);
+  EXPECT_EQ(ended_with[0].node, 1);
   EXPECT_EQ(ended_with[0].frame, 8u);
 }
 
