@@ -206,6 +206,14 @@ class GoingOn(ProgramTest):
         changed = {name for name, time in self.times().items() if before[name] != time}
         self.assertEqual(changed, {"frame-0003.png", "frame-0017.png"})
 
+    def test_the_kept_film_in_another_size_is_another_film(self):
+        self.render()
+        expected = self.verified_hash("out")
+        self.render("--size", "32x18", "--overwrite", film=self.out / "film.mars")
+        self.assertIn("--overwrite", self.render(code=1), "its frames are not the film's")
+        self.render("--overwrite")
+        self.assertEqual(self.verified_hash("out"), expected)
+
     def test_a_measurement_of_nothing_is_none(self):
         self.render()
         printed = self.mars("render", self.film, "-o", "out", "--backend", "threads", "--report", "report.json")

@@ -136,7 +136,8 @@ class Opening {
                       {},
                       sources_,
                       wish_.options};
-    const bool known = seen_ && (kept_ || asks_for_kept_film(wish_));
+    const bool is_kept_film = seen_ && seen_->checksum == manifest.checksum;
+    const bool known = is_kept_film && (kept_ || asks_for_kept_film(wish_));  // what it was made of
     if (known) {
       manifest.film = seen_->film;
       manifest.sources = seen_->sources;
