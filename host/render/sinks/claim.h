@@ -4,6 +4,7 @@
 // frames.json.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <mutex>
@@ -43,16 +44,21 @@ class HashLog {
   HashLog& operator=(const HashLog&) = delete;
 
   // From several threads at once. Where it throws, it may be called again. A line that is not whole is ended before
-  // another begins, so that half a line is only ever the last; a line may be there twice.
+  // another begins, so that half a line is only ever the last; a line may be there twice. A loss of power takes the
+  // lines of a second or so.
   void add(std::uint32_t frame, const std::string& hash);
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   void write_rest();
+  void sync_now_and_then();
 
   const std::filesystem::path file_;
   const int number_;
   std::mutex mutex_;  // one line at a time; guards:
   std::string rest_;  // of a line that is not whole in the file
+  Clock::time_point synced_ = Clock::now();
 };
 
 // Where the run's claim and `wanted` would be mixed: names the run and what it renders.
