@@ -24,6 +24,7 @@ using nlohmann::json;
 
 namespace {
 
+constexpr std::chrono::seconds kSyncPeriod{1};
 constexpr std::uint64_t kLastSecond = 253402300799;  // of the year 9999
 
 std::optional<fs::path> file_of(const RunFiles& run, std::string_view ending) {
@@ -115,6 +116,14 @@ void HashLog::add(std::uint32_t frame, const std::string& hash) {
   write_rest();
   rest_ = line;
   write_rest();
+  sync_now_and_then();
+}
+
+// Frames whose hashes are lost are drawn again.
+void HashLog::sync_now_and_then() {
+  if (Clock::now() - synced_ < kSyncPeriod) return;
+  synced_ = Clock::now();
+  if (fdatasync(number_) != 0 && errno != EINVAL && errno != EINTR) document::fail_file("write", file_, errno);
 }
 
 void HashLog::write_rest() {
