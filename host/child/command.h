@@ -7,10 +7,13 @@
 
 namespace mars::child {
 
+// Open MPI that a command starts, whose files are to be kept apart (shell/launch/session_folders.h).
+enum class OpenMpi { none, on_this_machine, on_several };
+
 struct Command {
   std::vector<std::pair<std::string, std::string>> environment;
   std::vector<std::string> words;  // the first is the path of the program
-  bool session_folders = false;    // it starts Open MPI on this machine alone (shell/launch/session_folders.h)
+  OpenMpi open_mpi = OpenMpi::none;
 
   bool operator==(const Command&) const = default;
 };

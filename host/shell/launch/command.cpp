@@ -287,9 +287,10 @@ child::Command open_mpi_start(const options::RenderOptions& options, const Progr
     // Ranks open no sockets; and no machines that an administrator named by default.
     add({{"OMPI_MCA_pml", "ob1"}, {"OMPI_MCA_btl", "self,vader"}, {"OMPI_MCA_orte_default_hostfile", "none"}});
     add_loopback(command, programs, surroundings);
-    command.session_folders = true;
+    command.open_mpi = child::OpenMpi::on_this_machine;
   } else {
     add(kKeepalive);
+    command.open_mpi = child::OpenMpi::on_several;
   }
   command.words = {programs.mpirun->string(), "--bind-to", "none"};
   const bool named = !surroundings.machines.empty();

@@ -6,12 +6,16 @@
 #include <unistd.h>
 
 #include <array>
+#include <cstdint>
+#include <fstream>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
 
 #include "host/child/environment.h"
 #include "host/child/process.h"
+#include "host/content/document/text.h"
 
 namespace mars::launch {
 namespace {
@@ -21,6 +25,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kRandom = 6;  // letters at the name's end
 constexpr int kTries = 3;           // at a new folder that another start takes for an ended job's
 constexpr const char* kSharedMemory = "/dev/shm";
+constexpr const char* kEverywhere = "OMPI_MCA_orte_tmpdir_base";  // may not be beside one for mpirun's machine
 
 // Locks may not reach from machine to machine, so each machine handles its own folders. The name is short: paths of
 // sockets may not be long.
@@ -41,11 +46,40 @@ int open_folder(const fs::path& path, int more) {
   return open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | more);
 }
 
+// What ends the names of files that ranks of the folder's job share: "." user "." job ".".
+std::optional<std::string> segment_name(const fs::path& folder) {
+  std::error_code error;
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    if (entry->path().filename() != "contact.txt") continue;
+    std::ifstream contact(entry->path());  // begins with mpirun's own number; that of the job is the next
+    std::uint32_t number = 0;
+    if (contact >> number) return document::formatted(".%u.%x.", geteuid(), number + 1);
+  }
+  return std::nullopt;
+}
+
+// Of a job that has ended. Ranks that end well remove theirs.
+void remove_segments(const fs::path& folder) {
+  const std::optional<std::string> ours = segment_name(folder);
+  std::error_code error;
+  for (fs::directory_iterator entry(kSharedMemory, error), end; ours && !error && entry != end;
+       entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    std::error_code ignored;
+    if (name.starts_with("vader_segment.") && name.find(*ours) != std::string::npos) fs::remove(entry->path(), ignored);
+  }
+}
+
+void remove_folder(const fs::path& path) {
+  remove_segments(path);
+  std::error_code ignored;  // the next start tries again
+  fs::remove_all(path, ignored);
+}
+
 void remove_if_ended(const fs::path& path) {
   const int folder = open_folder(path, O_CLOEXEC);
   if (folder < 0) return;
-  std::error_code ignored;  // the next start tries again
-  if (lock_own(folder)) fs::remove_all(path, ignored);
+  if (lock_own(folder)) remove_folder(path);
   close(folder);
 }
 
@@ -64,8 +98,10 @@ SessionFolders::SessionFolders(child::Command& command) {
   std::error_code unknown;  // where we are: then a relative name means nothing
   const fs::path temporary = fs::absolute(child::temporary_folder(child::own_environment()), unknown);
   for (const fs::path& base : {temporary, fs::path(kSharedMemory)}) remove_ended_in(base);
-  if (!command.session_folders) return;
-  if (!unknown) add(temporary, {"OMPI_MCA_orte_tmpdir_base"}, command);
+  if (command.open_mpi == child::OpenMpi::on_several && !unknown && !child::own_environment().value(kEverywhere))
+    add(temporary, {"OMPI_MCA_orte_local_tmpdir_base"}, command);
+  if (command.open_mpi != child::OpenMpi::on_this_machine) return;
+  if (!unknown) add(temporary, {kEverywhere}, command);
   add(kSharedMemory, {"OMPI_MCA_btl_vader_backing_directory", "OMPI_MCA_osc_sm_backing_directory"}, command);
 }
 
@@ -83,8 +119,7 @@ void SessionFolders::add(const fs::path& base, std::initializer_list<const char*
 
 SessionFolders::Folder::~Folder() {
   if (lock_ < 0) return;
-  std::error_code ignored;  // the next start tries again
-  fs::remove_all(path_, ignored);
+  remove_folder(path_);
   close(lock_);
 }
 
@@ -107,8 +142,7 @@ void SessionFolders::leave_to_another() const {
     for (const Folder& folder : folders_) {
       const int ended = open_folder(folder.path(), 0);
       if (ended < 0 || flock(ended, LOCK_EX) != 0) continue;
-      std::error_code ignored;
-      fs::remove_all(folder.path(), ignored);
+      remove_folder(folder.path());
     }
   });
 }

@@ -1,5 +1,7 @@
-// Where Open MPI keeps its files while a job runs on this machine alone: a folder of the job's own among the temporary
-// files and one in shared memory, so that what a killed job left is known and goes.
+// Where Open MPI keeps its files while a job runs: a folder of the job's own among the temporary files, and, where it
+// runs on this machine alone, one in shared memory, so that what a killed job left is known and goes. On several
+// machines the folder is mpirun's machine's; what ranks share lies in /dev/shm itself then, and is found by the job's
+// number.
 //
 // A folder is locked by the process that started the job and by its mpirun. The lock ends with them, however they end,
 // and says so to everybody who sees the folder: other jobs of the user, also those in containers that share it.

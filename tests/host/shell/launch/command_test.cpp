@@ -73,11 +73,11 @@ TEST(Command, ABatchJobHasItsOwnRoom) {
 
 TEST(Command, OnlyOnThisMachineDoesItKeepToTheLoopbackInterface) {
   const std::string held = "LD_PRELOAD=/opt/mars-loopback.so";
-  EXPECT_TRUE(mpi_command(film(3), all_programs(), alone(8)).session_folders);
+  EXPECT_EQ(mpi_command(film(3), all_programs(), alone(8)).open_mpi, child::OpenMpi::on_this_machine);
   for (const Surroundings& several : {batch_job(8), alone(8, {"PBS_NODEFILE=/var/nodes"})}) {
     EXPECT_FALSE(document::holds(line(3, several), held));
     EXPECT_FALSE(document::holds(line(3, several), "OMPI_MCA_btl="));
-    EXPECT_FALSE(mpi_command(film(3), all_programs(), several).session_folders);
+    EXPECT_EQ(mpi_command(film(3), all_programs(), several).open_mpi, child::OpenMpi::on_several);
   }
   EXPECT_TRUE(document::holds(line(3, alone(8, {"LD_PRELOAD=a.so"})), held + ":a.so "));
   Programs programs = all_programs();

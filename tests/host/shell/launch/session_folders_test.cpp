@@ -15,10 +15,12 @@
 
 #include <array>
 #include <chrono>
+#include <fstream>
 #include <optional>
 #include <string>
 #include <thread>
 
+#include "host/content/document/text.h"
 #include "tests/host/render/sinks/temporary_folder.h"
 
 namespace mars::launch {
@@ -29,7 +31,7 @@ namespace fs = std::filesystem;
 constexpr const char* kTemporary = "OMPI_MCA_orte_tmpdir_base";
 constexpr std::array kShared = {"OMPI_MCA_btl_vader_backing_directory", "OMPI_MCA_osc_sm_backing_directory"};
 
-child::Command open_mpi() { return {{}, {"mpirun"}, true}; }
+child::Command open_mpi() { return {{}, {"mpirun"}, child::OpenMpi::on_this_machine}; }
 
 std::optional<fs::path> folder_for(const char* setting, const child::Command& command) {
   for (const auto& [name, value] : command.environment)
@@ -63,6 +65,33 @@ TEST_F(SessionFoldersTest, ArePartOfTheCommandAndGo) {
   }
   EXPECT_TRUE(base_is_empty());
   EXPECT_FALSE(fs::exists(*folder_for(kShared[0], command)));
+}
+
+TEST_F(SessionFoldersTest, OnSeveralMachinesMpirunsIsApartAndWhatKilledRanksSharedGoes) {
+  constexpr const char* kLocal = "OMPI_MCA_orte_local_tmpdir_base";
+  const auto segment = [](unsigned job) {
+    const std::string name = document::formatted("vader_segment.here.%u.%x.0", geteuid(), job);
+    std::ofstream(fs::path("/dev/shm") / name) << "shared";
+    return fs::path("/dev/shm") / name;
+  };
+  child::Command command{{}, {"mpirun"}, child::OpenMpi::on_several};
+  const unsigned job = 0xffff0000u ^ static_cast<unsigned>(getpid()) << 16;
+  const fs::path its = segment(job + 1), others = segment(job + 2);
+  {
+    const SessionFolders folders(command);
+    ASSERT_EQ(command.environment.size(), 1u);
+    EXPECT_EQ(folder_for(kLocal, command)->parent_path(), base_.path());
+    fs::create_directories(*folder_for(kLocal, command) / "ompi.here.0/pid.7");
+    std::ofstream(*folder_for(kLocal, command) / "ompi.here.0/pid.7/contact.txt") << job << ".0;tcp://192.0.2.1:7\n7\n";
+  }
+  EXPECT_TRUE(base_is_empty());
+  EXPECT_FALSE(fs::exists(its));
+  EXPECT_TRUE(fs::remove(others));
+  setenv(kTemporary, "/tmp", 1);
+  child::Command elsewhere{{}, {"mpirun"}, child::OpenMpi::on_several};
+  const SessionFolders none(elsewhere);
+  EXPECT_TRUE(elsewhere.environment.empty()) << "Open MPI takes no two";
+  unsetenv(kTemporary);
 }
 
 TEST_F(SessionFoldersTest, AnEmptyTmpdirIsNone) {
