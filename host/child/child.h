@@ -40,6 +40,8 @@ class Child {
   // For listeners: ends it as a SIGTERM to us would.
   void stop();
 
+  pid_t id() const { return process_->id(); }
+
   // The first signal that came to us and was passed on; 0: none.
   int passed_on() const { return relay_ ? relay_->first() : 0; }
 

@@ -23,6 +23,7 @@ void Job::follow(const child::Command& command, const Listener& listener) {
       child.wait({[&](const std::string& line) { take_output(line); },
                   [&](const std::string& line) { take_error(line); }, [&] { look_after(child, listener); }});
   remains_.passed_on = child.passed_on();
+  if (command.open_mpi == child::OpenMpi::on_several && !remains_.ending.well()) remove_session_of(child.id());
 }
 
 void Job::look_after(child::Child& child, const Listener& listener) {

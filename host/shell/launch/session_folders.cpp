@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kRandom = 6;  // letters at the name's end
 constexpr int kTries = 3;           // at a new folder that another start takes for an ended job's
 constexpr const char* kSharedMemory = "/dev/shm";
-constexpr const char* kEverywhere = "OMPI_MCA_orte_tmpdir_base";  // may not be beside one for mpirun's machine
+constexpr const char* kBase = "OMPI_MCA_orte_tmpdir_base";
 
 // Locks may not reach from machine to machine, so each machine handles its own folders. The name is short: paths of
 // sockets may not be long.
@@ -76,6 +76,12 @@ void remove_folder(const fs::path& path) {
   fs::remove_all(path, ignored);
 }
 
+// Where it is ours, and no link.
+void remove_own_folder(const fs::path& path) {
+  struct stat found {};
+  if (lstat(path.c_str(), &found) == 0 && S_ISDIR(found.st_mode) && found.st_uid == geteuid()) remove_folder(path);
+}
+
 void remove_if_ended(const fs::path& path) {
   const int folder = open_folder(path, O_CLOEXEC);
   if (folder < 0) return;
@@ -94,14 +100,21 @@ void remove_ended_in(const fs::path& base) {
 
 }  // namespace
 
+void remove_session_of(pid_t mpirun) {
+  const child::Environment environment = child::own_environment();
+  const fs::path base = environment.value(kBase).value_or(child::temporary_folder(environment));
+  const std::string name = "pid." + std::to_string(mpirun);
+  std::error_code error;
+  for (fs::directory_iterator entry(base, error), end; !error && entry != end; entry.increment(error))
+    if (entry->path().filename().string().starts_with("ompi.")) remove_own_folder(entry->path() / name);
+}
+
 SessionFolders::SessionFolders(child::Command& command) {
   std::error_code unknown;  // where we are: then a relative name means nothing
   const fs::path temporary = fs::absolute(child::temporary_folder(child::own_environment()), unknown);
   for (const fs::path& base : {temporary, fs::path(kSharedMemory)}) remove_ended_in(base);
-  if (command.open_mpi == child::OpenMpi::on_several && !unknown && !child::own_environment().value(kEverywhere))
-    add(temporary, {"OMPI_MCA_orte_local_tmpdir_base"}, command);
   if (command.open_mpi != child::OpenMpi::on_this_machine) return;
-  if (!unknown) add(temporary, {kEverywhere}, command);
+  if (!unknown) add(temporary, {kBase}, command);
   add(kSharedMemory, {"OMPI_MCA_btl_vader_backing_directory", "OMPI_MCA_osc_sm_backing_directory"}, command);
 }
 

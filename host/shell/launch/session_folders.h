@@ -1,11 +1,11 @@
-// Where Open MPI keeps its files while a job runs: a folder of the job's own among the temporary files, and, where it
-// runs on this machine alone, one in shared memory, so that what a killed job left is known and goes. On several
-// machines the folder is mpirun's machine's; what ranks share lies in /dev/shm itself then, and is found by the job's
-// number.
+// Where Open MPI keeps its files while a job runs on this machine alone: a folder of the job's own among the temporary
+// files and one in shared memory, so that what a killed job left is known and goes.
 //
 // A folder is locked by the process that started the job and by its mpirun. The lock ends with them, however they end,
 // and says so to everybody who sees the folder: other jobs of the user, also those in containers that share it.
 #pragma once
+
+#include <sys/types.h>
 
 #include <filesystem>
 #include <initializer_list>
@@ -16,6 +16,10 @@
 #include "host/child/command.h"
 
 namespace mars::launch {
+
+// Of a job on several machines, whose mpirun has ended here: what it left on this machine if it was killed, its folder
+// and the memory that its ranks shared.
+void remove_session_of(pid_t mpirun);
 
 class SessionFolders {
  public:

@@ -65,12 +65,12 @@ void Supervisor::count_frames() {
 bool Supervisor::all_there() const { return last_.well() || frames_.complete(); }
 
 // Not where a person stopped it, and not where the film, the folder or the command line is the reason. A job whose like
-// has never begun would end as it did.
+// has never begun would end as it did, unless somebody ended it.
 bool Supervisor::may_help() const {
   if (last_.passed_on != 0 || options_.restarts == 0 || options_.sink == options::SinkKind::none) return false;
   if (options_.backend == options::Backend::simulated) return false;
   if (last_.fault) return booted_ && last_.fault->node.has_value();
-  return booted_ || !last_.ended_for.empty();
+  return booted_ || !last_.ended_for.empty() || last_.ending.signal != 0;
 }
 
 // Then even a job that has never begun may begin without it.

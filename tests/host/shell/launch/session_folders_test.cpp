@@ -67,31 +67,25 @@ TEST_F(SessionFoldersTest, ArePartOfTheCommandAndGo) {
   EXPECT_FALSE(fs::exists(*folder_for(kShared[0], command)));
 }
 
-TEST_F(SessionFoldersTest, OnSeveralMachinesMpirunsIsApartAndWhatKilledRanksSharedGoes) {
-  constexpr const char* kLocal = "OMPI_MCA_orte_local_tmpdir_base";
+TEST_F(SessionFoldersTest, OnSeveralMachinesThereAreNoneAndWhatAKilledMpirunLeftGoes) {
+  child::Command command{{}, {"mpirun"}, child::OpenMpi::on_several};
+  const SessionFolders none(command);
+  EXPECT_TRUE(command.environment.empty());
   const auto segment = [](unsigned job) {
     const std::string name = document::formatted("vader_segment.here.%u.%x.0", geteuid(), job);
     std::ofstream(fs::path("/dev/shm") / name) << "shared";
     return fs::path("/dev/shm") / name;
   };
-  child::Command command{{}, {"mpirun"}, child::OpenMpi::on_several};
   const unsigned job = 0xffff0000u ^ static_cast<unsigned>(getpid()) << 16;
   const fs::path its = segment(job + 1), others = segment(job + 2);
-  {
-    const SessionFolders folders(command);
-    ASSERT_EQ(command.environment.size(), 1u);
-    EXPECT_EQ(folder_for(kLocal, command)->parent_path(), base_.path());
-    fs::create_directories(*folder_for(kLocal, command) / "ompi.here.0/pid.7");
-    std::ofstream(*folder_for(kLocal, command) / "ompi.here.0/pid.7/contact.txt") << job << ".0;tcp://192.0.2.1:7\n7\n";
-  }
-  EXPECT_TRUE(base_is_empty());
+  const fs::path sessions = base_.path() / "ompi.here.0";
+  for (const char* of : {"pid.7", "pid.8"}) fs::create_directories(sessions / of);
+  std::ofstream(sessions / "pid.7/contact.txt") << job << ".0;tcp://192.0.2.1:7\n7\n";
+  remove_session_of(7);
   EXPECT_FALSE(fs::exists(its));
+  EXPECT_FALSE(fs::exists(sessions / "pid.7"));
+  EXPECT_TRUE(fs::exists(sessions / "pid.8"));
   EXPECT_TRUE(fs::remove(others));
-  setenv(kTemporary, "/tmp", 1);
-  child::Command elsewhere{{}, {"mpirun"}, child::OpenMpi::on_several};
-  const SessionFolders none(elsewhere);
-  EXPECT_TRUE(elsewhere.environment.empty()) << "Open MPI takes no two";
-  unsetenv(kTemporary);
 }
 
 TEST_F(SessionFoldersTest, AnEmptyTmpdirIsNone) {

@@ -97,6 +97,14 @@ TEST_F(SupervisorOf, AJobThatEndsWellIsStartedOnce) {
   EXPECT_EQ(supervisor.restarts(), 0u);
 }
 
+TEST_F(SupervisorOf, AJobThatIsKilledBeforeItBeginsIsStartedAgain) {
+  Remains killed_early = never_began();
+  killed_early.ending = {0, 9};
+  Supervisor supervisor = supervise({killed_early, done({0, 1}, 2)});
+  supervisor.render();
+  EXPECT_EQ(starts_.size(), 2u);
+}
+
 TEST_F(SupervisorOf, AJobThatDiesIsStartedAgainWithWhatIsMissing) {
   Supervisor supervisor = supervise({killed(1, {}, {0, 2}, 5), done({1, 3, 4}, 5, 2)});
   supervisor.render();
