@@ -3,6 +3,7 @@
 from virtual_cluster import (HOSTS, SECONDS, ClusterTest, run_on_cluster, spinning_teapot, testbed,
                              wait_until)
 
+SLURM_SECONDS = 150  # until a job has ended and Slurm has begun it again
 OUR_PROGRAMS = "mars-host|mars-node|orted"
 
 
@@ -42,7 +43,7 @@ class Jobs(ClusterTest):
         def holds():
             now = self.facts(job)
             return all(now.get(name) == value for name, value in facts.items())
-        wait_until(holds, SECONDS, f"job {job} is not {facts}, but {self.facts(job)}")
+        wait_until(holds, SLURM_SECONDS, f"job {job} is not {facts}; it was {self.facts(job)}")
 
     def wait_for_frames(self, folder):
         wait_until(lambda: list((self.folder / folder).glob("*.png")), SECONDS, f"no frame in {folder}")
@@ -77,15 +78,17 @@ class Jobs(ClusterTest):
         self.assertEqual([self.facts(job)["JobState"] for job in (limited, preempted)], ["COMPLETED"] * 2)
 
     def test_an_array_while_a_machine_is_drained(self):
-        self.crawl("n1")
+        for host in ["n1", "n3"]:
+            self.crawl(host)
         job = self.submit("out", "--array", 2)
         self.wait_for_frames("out")
         self.on("n0", "scontrol", "update", "NodeName=n2", "State=DRAIN", "Reason=test")
         self.addCleanup(testbed, "exec", "n0", "scontrol", "update", "NodeName=n2", "State=RESUME")
         told = self.on("n0", "mars", "status", "out").stdout
-        self.assertRegex(told, rf"job {job}_0: running on n\[1-2\] for ")
-        self.assertRegex(told, r"run on n1 \(process \d+\): ")
-        self.full_speed("n1")
+        self.assertRegex(told, rf"job {job}_0: running on n\[(1-2|3-4)\] for ")
+        self.assertRegex(told, r"run on n[13] \(process \d+\): ")
+        for host in ["n1", "n3"]:
+            self.full_speed(host)
         self.assertCompletes("out")
         script = (self.folder / "out/.slurm/job.sbatch").read_text()
         self.assertIn("frames=(0-39 40-119)", script)

@@ -7,6 +7,8 @@
 #include "hal/failure/failure.h"
 #include "host/content/document/checksum.h"
 #include "host/images/picture_file.h"
+#include "host/render/sinks/claim.h"
+#include "host/render/sinks/folder_turn.h"
 #include "host/render/sinks/frame_folder.h"
 
 namespace mars::sinks {
@@ -39,6 +41,22 @@ std::string trouble_with(const fs::path& file, const Manifest& manifest, const s
   }
 }
 
+// None where nobody recorded any; "" where this frame's is not known.
+std::optional<std::string> expected_hash(const Manifest& manifest, std::uint32_t frame) {
+  return manifest.pixel_hashes.empty() ? std::nullopt : std::optional(hash_of(manifest, frame));
+}
+
+// What it writes now is not wrong.
+void refuse_living_runs(const RunsFolder& runs, const FolderTurn& turn, const fs::path& folder) {
+  for (const RunFiles& run : runs.runs()) {
+    if (!has_claim(run) || turn.has_ended(run)) continue;
+    const ProcessName process = process_of(run);
+    throw Failure("another run, process " + std::to_string(process.number) + " on host " + process.host +
+                      ", renders into this folder",
+                  folder.string(), "repair it when that run has ended");
+  }
+}
+
 }  // namespace
 
 Verdict verify_folder(const fs::path& folder) {
@@ -50,8 +68,7 @@ Verdict verify_folder(const fs::path& folder) {
   for (std::size_t i = 0; i < manifest.frames.size(); ++i) {
     const std::uint32_t frame = manifest.frames[i];
     const fs::path file = folder / frame_file_name(manifest, frame);
-    const auto expected = verdict.compared ? std::optional(manifest.pixel_hashes[i]) : std::nullopt;
-    const std::string reason = trouble_with(file, manifest, expected, pixels);
+    const std::string reason = trouble_with(file, manifest, expected_hash(manifest, frame), pixels);
     if (!reason.empty()) verdict.troubles.push_back({frame, reason});
   }
   verdict.expected = static_cast<std::uint32_t>(manifest.frames.size());
@@ -60,9 +77,15 @@ Verdict verify_folder(const fs::path& folder) {
 }
 
 void remove_wrong_files(const fs::path& folder, const Verdict& verdict) {
+  const RunsFolder runs(folder, this_process());
+  const FolderTurn turn(runs);
+  refuse_living_runs(runs, turn, folder);
   const Manifest manifest = read_manifest(folder);
-  for (const Verdict::Trouble& trouble : verdict.troubles)
-    remove_frame(folder / frame_file_name(manifest, trouble.frame));
+  document::Checksum pixels;
+  for (const Verdict::Trouble& trouble : verdict.troubles) {
+    const fs::path file = folder / frame_file_name(manifest, trouble.frame);
+    if (!trouble_with(file, manifest, expected_hash(manifest, trouble.frame), pixels).empty()) remove_frame(file);
+  }
 }
 
 }  // namespace mars::sinks

@@ -25,7 +25,8 @@ struct Verdict {
 // Throws Failure where there is no folder or no manifest.
 Verdict verify_folder(const std::filesystem::path& folder);
 
-// The files of frames in which it found trouble.
+// Removes the files of frames in which it found trouble, and in which there still is some. Throws Failure, and removes
+// none, while a run renders into the folder.
 void remove_wrong_files(const std::filesystem::path& folder, const Verdict& verdict);
 
 }  // namespace mars::sinks

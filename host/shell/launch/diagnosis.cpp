@@ -192,7 +192,7 @@ Diagnosis diagnose(const Remains& remains, const options::RenderOptions& options
   if (const auto own = own_words(remains.last_words)) return {advised(*own), {}};
   const std::string words = on_one_line(join(remains.last_words, remains.last_words.size()));
   for (const auto& lost : {lost_rank(words, remains.booted), lost_process(words)})
-    if (lost) return {advised(lost->failure), lost->node, lost->machine};
+    if (lost) return {advised(lost->failure), lost->node, lost->machine, false, true};
   if (const auto lost = lost_machine(words, remains.booted)) return *lost;
   if (const auto known = meaning_of(words)) return {*known, {}};
   return {advised(unknown(remains)), {}};

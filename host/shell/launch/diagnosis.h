@@ -46,6 +46,7 @@ struct Diagnosis {
   std::optional<std::int32_t> node;  // that died or failed
   std::string machine{};             // where it did, or which does not answer; "" where not known
   bool machine_lost = false;         // it does not answer
+  bool killed = false;               // a process was, by a signal
 };
 
 // With advice where the run never began or nothing else is known.

@@ -70,7 +70,8 @@ bool Supervisor::may_help() const {
   if (last_.passed_on != 0 || options_.restarts == 0 || options_.sink == options::SinkKind::none) return false;
   if (options_.backend == options::Backend::simulated) return false;
   if (last_.fault) return booted_ && last_.fault->node.has_value();
-  return booted_ || !last_.ended_for.empty() || last_.ending.signal != 0;
+  const bool was_ended = !last_.ended_for.empty() || last_.ending.signal != 0;
+  return booted_ || was_ended || diagnose(last_, options_, {}).killed;
 }
 
 // Then even a job that has never begun may begin without it.

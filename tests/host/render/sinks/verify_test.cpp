@@ -101,6 +101,25 @@ TEST(Verify, AFrameOfWhichNothingIsRecordedDoesNotPass) {
   EXPECT_TRUE(document::holds(verdict.troubles[0].reason, "its run ended before it recorded the pixels"));
 }
 
+TEST(Verify, RemovesWhatIsStillWrongAndNothingBesideARun) {
+  const TemporaryFolder folder;
+  fill(folder.path(), of_frames({1, 2}), 7);
+  for (const char* name : {"frame-0001.png", "frame-0002.png"}) document::write_whole_file(folder / name, "torn");
+  const Verdict verdict = verify_folder(folder.path());
+  ASSERT_EQ(verdict.troubles.size(), 2u);
+  {
+    const FrameFolder running(folder.path(), of_frames({3}));
+    EXPECT_TRUE(document::holds(document::failure_of([&] { remove_wrong_files(folder.path(), verdict); }),
+                                "renders into this folder"));
+    EXPECT_TRUE(fs::exists(folder / "frame-0001.png"));
+  }
+  fs::remove(folder / "frame-0002.png");
+  fill(folder.path(), of_frames({2}), 7);
+  remove_wrong_files(folder.path(), verdict);
+  EXPECT_FALSE(fs::exists(folder / "frame-0001.png"));
+  EXPECT_TRUE(fs::exists(folder / "frame-0002.png")) << "it has been rendered again";
+}
+
 TEST(Verify, ManifestsWithoutHashesAreReadToo) {
   const TemporaryFolder folder;
   fill(folder.path(), small_manifest(), 7);

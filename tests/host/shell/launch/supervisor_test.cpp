@@ -100,9 +100,11 @@ TEST_F(SupervisorOf, AJobThatEndsWellIsStartedOnce) {
 TEST_F(SupervisorOf, AJobThatIsKilledBeforeItBeginsIsStartedAgain) {
   Remains killed_early = never_began();
   killed_early.ending = {0, 9};
-  Supervisor supervisor = supervise({killed_early, done({0, 1}, 2)});
+  Remains lost_a_node = never_began();
+  lost_a_node.last_words = {"mpirun noticed that process rank 1 with PID 7 on node n1 exited on signal 9 (Killed)."};
+  Supervisor supervisor = supervise({killed_early, lost_a_node, done({0, 1}, 2)});
   supervisor.render();
-  EXPECT_EQ(starts_.size(), 2u);
+  EXPECT_EQ(starts_.size(), 3u);
 }
 
 TEST_F(SupervisorOf, AJobThatDiesIsStartedAgainWithWhatIsMissing) {
