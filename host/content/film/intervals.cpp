@@ -103,9 +103,10 @@ class Cutter {
   // Calls visit(segment, frame) for every change of motion or material after frame 0, segment by segment.
   template <typename Visit>
   void visit_changes(Visit visit) const {
+    const wire::Change* changes = film_.changes.data();
     for (std::uint32_t segment = 0; segment < film_.segments.size(); ++segment)
       for (const wire::Track& track : {film_.segments[segment].motion, film_.segments[segment].material})
-        for (std::uint32_t i = 1; i < track.count; ++i) visit(segment, film_.changes[track.first + i].frame);
+        for (std::uint32_t i = 1; i < track.count; ++i) visit(segment, changes[track.first + i].frame);
   }
 
   struct ByFrame {
