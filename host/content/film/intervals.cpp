@@ -45,18 +45,20 @@ class Cutter {
         last_change[segment] = now;
       }
       if (global_[now]) last_global = now;
-      best[end] = std::numeric_limits<double>::max();
+      const double *best_of = best.data(), *moved = last_moved.data();
+      double least = std::numeric_limits<double>::max();
       double moving = 0;  // patches that move between `first` and `end`
       for (std::uint32_t first = now;; --first) {
         const double inbetween = last_global > first ? all_ : moving;
-        const double cost = best[first] + all_ + exchange + (now - first) * inbetween;
-        if (cost <= best[end]) {
-          best[end] = cost;
+        const double cost = best_of[first] + all_ + exchange + (now - first) * inbetween;
+        if (cost <= least) {
+          least = cost;
           cut[end] = first;
         }
         if (first == 0 || must_begin(first) || end - first == kLongest) break;
-        moving += last_moved[first];
+        moving += moved[first];
       }
+      best[end] = least;
     }
     return starts_of(cut);
   }
