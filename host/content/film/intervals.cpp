@@ -46,19 +46,22 @@ class Cutter {
       }
       if (global_[now]) last_global = now;
       const double *best_of = best.data(), *moved = last_moved.data();
+      const char* exposed = exposed_.data();
       double least = std::numeric_limits<double>::max();
+      std::uint32_t from = now;
       double moving = 0;  // patches that move between `first` and `end`
       for (std::uint32_t first = now;; --first) {
         const double inbetween = last_global > first ? all_ : moving;
         const double cost = best_of[first] + all_ + exchange + (now - first) * inbetween;
         if (cost <= least) {
           least = cost;
-          cut[end] = first;
+          from = first;
         }
-        if (first == 0 || must_begin(first) || end - first == kLongest) break;
+        if (first == 0 || exposed[first] || end - first == kLongest) break;
         moving += moved[first];
       }
       best[end] = least;
+      cut[end] = from;
     }
     return starts_of(cut);
   }
