@@ -22,9 +22,10 @@ double srgb(double y) {
 
 std::vector<std::int32_t> levels(std::uint32_t steps, double most) {
   std::vector<std::int32_t> out(steps + 1);
+  std::int32_t* level = out.data();
   for (std::uint32_t i = 0; i <= steps; ++i) {
     const double root = static_cast<double>(i) / steps;
-    out[i] = static_cast<std::int32_t>(srgb(root * root) * most + 0.5);
+    level[i] = static_cast<std::int32_t>(srgb(root * root) * most + 0.5);
   }
   return out;
 }

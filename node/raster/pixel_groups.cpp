@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <numeric>
+#include <span>
 
 #include "node/simd/vector_slack.h"
 
@@ -29,12 +30,14 @@ shading::ShadedCounts PixelGroups::shade(const shading::Shading& shading, const 
 }
 
 void PixelGroups::copy_to(const StillGroups& still) const {
+  const std::span groups(fragments_.data(), count());
   std::fill_n(still.end, width_, 0u);
-  for (std::uint32_t group = 0; group < count(); ++group) ++still.end[fragments_[group].column];
+  for (const shading::Fragment& group : groups) ++still.end[group.column];
   std::exclusive_scan(still.end, still.end + width_, still.end, 0u);
-  for (std::uint32_t group = 0; group < count(); ++group)
-    still.groups[still.end[fragments_[group].column]++] = {{light_[0][group], light_[1][group], light_[2][group]},
-                                                           masks_[group]};
+  const float *red = light_[0].data(), *green = light_[1].data(), *blue = light_[2].data();
+  const std::uint32_t* mask = masks_.data();
+  for (const shading::Fragment& group : groups)
+    still.groups[still.end[group.column]++] = {{*red++, *green++, *blue++}, *mask++};
 }
 
 void PixelGroups::resolve(const shading::Shading& shading, std::uint32_t line, StripBuffer::Layer& out) {
@@ -64,10 +67,11 @@ void PixelGroups::put(const shading::Shading& shading, std::uint32_t line, Strip
   kernels_.add_background(masks_.data(), counts_.pixels, samples_, shading.background, light());
   color_kernels_.encode(shading.encoding, light().channel, counts_.pixels, out.next_pixel());
   wire::Run* run = out.next_run();
+  const shading::Fragment* fragments = fragments_.data();
   std::uint32_t runs = 0;
   for (std::uint32_t pixel = 0, end; pixel < counts_.pixels; pixel = end) {
-    const std::uint16_t first = fragments_[pixel].column;
-    for (end = pixel + 1; end < counts_.pixels && fragments_[end].column == first + (end - pixel);) ++end;
+    const std::uint16_t first = fragments[pixel].column;
+    for (end = pixel + 1; end < counts_.pixels && fragments[end].column == first + (end - pixel);) ++end;
     run[runs++] = {line, first, static_cast<std::uint16_t>(end - pixel)};
   }
   out.added({runs, counts_.pixels});

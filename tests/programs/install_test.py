@@ -85,6 +85,21 @@ class Installed(Installation):
             self.assertRegex(headers, r"GNU_STACK +\S+ \S+ \S+ \S+ \S+ RW ", file)
         self.assertGreater(seen, 5)
 
+    @needs("readelf")
+    def test_programs_are_checked_as_they_run(self):
+        """Their stack's end, the places of vectors that they ask for, and calls with buffers of known size."""
+        buffers = set()
+        for program in [*STARTERS, *["mars-node"] * HAVE_MPI]:
+            file = self.prefix / "bin" / program
+            if re.search(rb"__[at]san_init", file.read_bytes()):
+                self.skipTest("sanitizers check instead")
+            symbols = subprocess.run(["readelf", "--dyn-syms", "-W", file], check=True, capture_output=True,
+                                     text=True).stdout
+            self.assertIn("__stack_chk_fail", symbols, file)
+            self.assertIn("__glibcxx_assert_fail", symbols, file)
+            buffers.update(re.findall(r"__(?!stack)\w+_chk\b", symbols))
+        self.assertTrue(buffers)
+
     def test_each_file_is_in_one_package(self):
         whole = sorted(path.relative_to(self.prefix) for path in self.prefix.rglob("*") if not path.is_dir())
         parts = []

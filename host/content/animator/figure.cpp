@@ -158,14 +158,16 @@ bool Figure::move_to(std::uint32_t frame) {
   turn_keyed_joints(frame);
   const bool root_moved = move_root(frame);
   bool any = false;
+  char* moved = moved_.data();
+  modeler::Axes* frames = frames_.data();
   for (std::size_t number = 0; number < frames_.size(); ++number) {
     const modeler::Joint& joint = model_->joints[number];
     const bool rooted = joint.parent == modeler::kNone;
-    if (rooted ? root_moved : moved_[joint.parent]) moved_[number] = true;
-    if (!moved_[number]) continue;
+    if (rooted ? root_moved : moved[joint.parent]) moved[number] = true;
+    if (!moved[number]) continue;
     any = true;
-    const modeler::Axes& parent = rooted ? root_ : frames_[joint.parent];
-    frames_[number] = {parent.turn * turns_[number], parent.turn * joint.place + parent.place};
+    const modeler::Axes& parent = rooted ? root_ : frames[joint.parent];
+    frames[number] = {parent.turn * turns_[number], parent.turn * joint.place + parent.place};
   }
   return any;
 }

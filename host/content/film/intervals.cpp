@@ -45,18 +45,23 @@ class Cutter {
         last_change[segment] = now;
       }
       if (global_[now]) last_global = now;
-      best[end] = std::numeric_limits<double>::max();
+      const double *best_of = best.data(), *moved = last_moved.data();
+      const char* exposed = exposed_.data();
+      double least = std::numeric_limits<double>::max();
+      std::uint32_t from = now;
       double moving = 0;  // patches that move between `first` and `end`
       for (std::uint32_t first = now;; --first) {
         const double inbetween = last_global > first ? all_ : moving;
-        const double cost = best[first] + all_ + exchange + (now - first) * inbetween;
-        if (cost <= best[end]) {
-          best[end] = cost;
-          cut[end] = first;
+        const double cost = best_of[first] + all_ + exchange + (now - first) * inbetween;
+        if (cost <= least) {
+          least = cost;
+          from = first;
         }
-        if (first == 0 || must_begin(first) || end - first == kLongest) break;
-        moving += last_moved[first];
+        if (first == 0 || exposed[first] || end - first == kLongest) break;
+        moving += moved[first];
       }
+      best[end] = least;
+      cut[end] = from;
     }
     return starts_of(cut);
   }
@@ -103,9 +108,10 @@ class Cutter {
   // Calls visit(segment, frame) for every change of motion or material after frame 0, segment by segment.
   template <typename Visit>
   void visit_changes(Visit visit) const {
+    const wire::Change* changes = film_.changes.data();
     for (std::uint32_t segment = 0; segment < film_.segments.size(); ++segment)
       for (const wire::Track& track : {film_.segments[segment].motion, film_.segments[segment].material})
-        for (std::uint32_t i = 1; i < track.count; ++i) visit(segment, film_.changes[track.first + i].frame);
+        for (std::uint32_t i = 1; i < track.count; ++i) visit(segment, changes[track.first + i].frame);
   }
 
   struct ByFrame {
