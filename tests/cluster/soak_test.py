@@ -1,6 +1,5 @@
 """Three minutes of `mars bench soak`: a film ends with all its frames, whatever fails meanwhile."""
 
-import os
 import subprocess
 import unittest
 
@@ -13,7 +12,7 @@ class Soak(ProgramTest):
     FOLDERS = "/var/tmp"
 
     def test_three_minutes(self):
-        command = [PROGRAMS / "mars", "bench", "soak", "--minutes", "1", "--seed", str(os.getpid()), "-o", "soak"]
+        command = [PROGRAMS / "mars", "bench", "soak", "--minutes", "1", "--seed", "16", "-o", "soak"]
         done = subprocess.run(command, cwd=self.folder, env=CLUSTER, capture_output=True, text=True, timeout=MOST)
         if any(why in done.stderr for why in CANNOT):
             raise unittest.SkipTest(done.stderr.strip())
