@@ -1,5 +1,6 @@
 // What nodes send, message by message: the input says which message comes and how a sound one is changed. The host
 // refuses it, or can use it to the last byte.
+#include <algorithm>
 #include <array>
 #include <functional>
 
@@ -83,6 +84,17 @@ struct Host {
   PixelFormat format;
 };
 
+// Which has a name that ends, and a step of a frame.
+void take_beat(Host&) {
+  cprobe(wire::kBeat);
+  std::vector<std::byte> message(static_cast<std::size_t>(infocount()));
+  crecv(wire::kBeat, message.data(), static_cast<long>(message.size()));
+  const auto beat = farm::read_beat(message);
+  if (!beat) return;
+  const bool named = std::ranges::find(beat->host, '\0') != beat->host.end();
+  check(named && beat->phase <= wire::Phase::credit, "a beat makes sense");
+}
+
 struct Kind {
   int type;
   Message sound;
@@ -96,7 +108,8 @@ std::vector<Kind> kinds(PixelFormat format) {
       {wire::kStrip, sound_strip(1, format), [](Host& host) { host.take_strip(); }},
       {wire::kTrace, sound_events(), [](Host& host) { host.take_events(); }},
       {wire::kClock, message_of(1.5), [](Host& host) { host.inbox.receive_time(0); }},
-      {wire::kFault, message_of(wire::Fault{0, 3, {"it failed"}}), [](Host& host) { host.inbox.wait(wire::kClock); }}};
+      {wire::kFault, message_of(wire::Fault{0, 3, {"it failed"}}), [](Host& host) { host.inbox.wait(wire::kClock); }},
+      {wire::kBeat, message_of(wire::Beat{{"n0"}}), take_beat}};
 }
 
 // Strips that lie in a slot: the host sees it, and what is behind the header may be anything at any time.
