@@ -39,8 +39,8 @@ void count_frames(FolderState& state, const fs::path& folder) {
   const sinks::Manifest manifest = sinks::read_manifest(folder);
   state.film = manifest.film;
   state.of = static_cast<std::uint32_t>(manifest.frames.size());
-  state.there = static_cast<std::uint32_t>(
-      std::ranges::count_if(manifest.pixel_hashes, [](const std::string& hash) { return !hash.empty(); }));
+  state.there = static_cast<std::uint32_t>(manifest.frames.size() -
+                                           sinks::missing_frames(folder, manifest, manifest.frames).size());
 }
 
 // A cluster whose controller does not answer hides no frames.
