@@ -5,6 +5,7 @@ import resource
 import shutil
 import signal
 import subprocess
+import tempfile
 import time
 import unittest
 
@@ -20,17 +21,15 @@ def runs(*words):
     return subprocess.run(words, capture_output=True, timeout=SECONDS).returncode == 0
 
 
-needs_mounts = unittest.skipUnless(runs("unshare", "--mount", "mount", "-t", "tmpfs", "none", "/mnt"),
-                                   "may not mount a small disk")
-
-
 class Mounts:
     """Mounts that only programs started here see, and that are gone with the last of them."""
 
     def __init__(self):
         self.holder = subprocess.Popen(["unshare", "--mount", "sh", "-c", "echo; exec sleep 200"], stdout=subprocess.PIPE)
         self.holder.stdout.readline()
-        self.enter = ["nsenter", f"--mount=/proc/{self.holder.pid}/ns/mnt", f"--wdns={os.getcwd()}"]
+        holder = f"/proc/{self.holder.pid}"
+        # With its root: this system may be in a changed one.
+        self.enter = ["nsenter", f"--mount={holder}/ns/mnt", f"--root={holder}/root", f"--wdns={os.getcwd()}"]
 
     def run(self, *words):
         subprocess.run([*self.enter, *map(str, words)], check=True, timeout=SECONDS)
@@ -45,6 +44,18 @@ class Mounts:
     def end(self):
         self.holder.kill()
         self.holder.communicate()
+
+
+def can_mount():
+    folder, mounts = tempfile.mkdtemp(), Mounts()
+    try:
+        return mounts.runs("mount", "-t", "tmpfs", "none", folder)
+    finally:
+        mounts.end()
+        os.rmdir(folder)
+
+
+needs_mounts = unittest.skipUnless(can_mount(), "may not mount a small disk")
 
 
 class Storage(ProgramTest):
