@@ -25,6 +25,7 @@
 #include <span>
 
 #include "hal/messages/offer.h"
+#include "node/wire/film_parts.h"
 #include "node/wire/pixel_format.h"
 #include "node/wire/run.h"
 #include "node/wire/stamp.h"
@@ -49,6 +50,9 @@ enum MessageType : long {
   kStillLines,  // what inbetweens need of home lines (raster/still_lines.h); empty within a machine, once they are
                 // written
   kBeat,
+  kView,       // View, then a scene block: begins an interval of a view
+  kDraw,       // Draw, then what moved: the next inbetween of a view's interval
+  kCloseView,  // CloseView
 };
 
 // Of triangles and their edge boxes on the receiver's lines.
@@ -100,6 +104,7 @@ struct Load {
   std::uint32_t traced;  // 1: the node records what it does and sends it as Trace
   PixelFormat pixel_format;
   std::uint64_t still_memory;  // bytes that a node adds to what its machine keeps of stationary parts for inbetweens
+  std::uint64_t live;          // 1: Views and Draws follow, no Renders; another Load may come, which ends all views
 };
 
 // The node has the film and its slots.
@@ -174,6 +179,50 @@ struct Beat {
   std::int32_t frame = -1;      // that a node draws; -1: none
   Phase phase = Phase::dice;    // of this frame, a step
   std::uint32_t waits = 0;      // 1: for a message or for other nodes
+};
+
+// Live views. A studio's host loads a film with Load::live = 1 and then gives Views and Draws instead of Renders. A view
+// is a picture of its own size, seen by its own camera, of which each node keeps what inbetweens need. The film gives
+// shapes; a scene block (scene.h) gives all else. Pictures are numbered by the host over all views; in a Strip, `frame`
+// is the picture's number and `interval` its view.
+
+inline constexpr std::uint32_t kMostViews = 64;
+
+// To all nodes: makes the view, or changes its size, and begins an interval of it; what was being drawn of the view is
+// dropped. All nodes draw the picture, as a keyframe. Followed by the scene block.
+struct View {
+  std::uint32_t view;     // below kMostViews
+  std::uint32_t picture;  // 1, 2, ...
+  std::uint64_t scene_bytes;
+  std::uint64_t still_memory;  // as in Load, for this view
+};
+
+// To the node that draws it: a picture of the view's interval, an inbetween. Followed by all that differs from the
+// keyframe's scene, each kind 8-aligned: MovedSegment ..., MovedPatch ...
+struct Draw {
+  std::uint32_t view;
+  std::uint32_t picture;
+  std::uint32_t segments;
+  std::uint32_t patches;
+};
+
+// A segment of the interval's moving ones, where it is now and what it is made of.
+struct MovedSegment {
+  std::uint32_t segment;
+  std::uint32_t material;  // of the scene's
+  Matrix matrix;
+};
+
+// A patch of the scene block (not of the film), of moving segments' shapes alone.
+struct MovedPatch {
+  std::uint32_t patch;  // counted from the scene block's first
+  std::uint32_t unused = 0;
+  Patch points;
+};
+
+// To all nodes: the view is no more.
+struct CloseView {
+  std::uint32_t view;
 };
 
 // Work of one node for one frame so far; the frame's last strip has it all.
