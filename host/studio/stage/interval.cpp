@@ -47,8 +47,8 @@ bool same_segments(const wire::FilmData& one, const wire::FilmData& other) {
 }
 
 bool same_surroundings(const wire::FilmData& one, const wire::FilmData& other) {
-  return same_settings(one.settings, other.settings) && camera_of(one) == camera_of(other) &&
-         same_lights(one, other) && same_segments(one, other);
+  return same_settings(one.settings, other.settings) && camera_of(one) == camera_of(other) && same_lights(one, other) &&
+         same_segments(one, other);
 }
 
 bool same_patches(const wire::FilmData& one, const wire::FilmData& other) {

@@ -155,8 +155,7 @@ void add_diced(const wire::Patch& patch, int steps, Triangles& triangles) {
   for (std::uint32_t row = 0; row + 1 < width; ++row)
     for (std::uint32_t column = 0; column + 1 < width; ++column) {
       const std::uint32_t at = first + row * width + column;
-      triangles.corners.insert(triangles.corners.end(),
-                               {at, at + 1, at + width + 1, at, at + width + 1, at + width});
+      triangles.corners.insert(triangles.corners.end(), {at, at + 1, at + width + 1, at, at + width + 1, at + width});
     }
 }
 
