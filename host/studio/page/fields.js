@@ -6,6 +6,7 @@ import {element, newId} from "./dom.js";
 import {clamped, colorOf, hexOf, read, written} from "./numbers.js";
 
 const kSettled = 400;      // ms after the last key: a change by keys is done
+const kAllDigits = 6;
 const kPixelsPerStep = 4;  // of a drag on a number's letter
 
 // Keys make many small changes: they are one gesture until they pause.
@@ -27,8 +28,9 @@ class Settling {
   get waits() { return this.#commit !== null; }
 }
 
-// A number to write, to step with arrows, to drag by its letter. `name` is for screen readers, `letter` is shown.
-export function numberField({name, letter = "", axis = letter, unit = "", step = 0.1, least, most, digits = 4, key, preview, commit, cancel}) {
+// A number to write, to step with arrows, to drag by its letter. `name` is for screen readers, `letter` is shown. All its
+// digits show only while somebody writes it.
+export function numberField({name, letter = "", axis = letter, unit = "", step = 0.1, least, most, digits = 3, key, preview, commit, cancel}) {
   const input = element("input", {type: "text", inputmode: "decimal", role: "spinbutton", "aria-label": name, autocomplete: "off",
                                   spellcheck: "false", "data-key": key, "aria-valuemin": least, "aria-valuemax": most});
   const handle = element("span", {class: `letter axis-${axis}`, "aria-hidden": "true"}, letter);
@@ -37,7 +39,7 @@ export function numberField({name, letter = "", axis = letter, unit = "", step =
   let value = 0, held = null;
 
   const show = (number) => {
-    input.value = written(number, digits);
+    input.value = written(number, document.activeElement === input ? kAllDigits : digits);
     input.setAttribute("aria-valuenow", input.value);
   };
   const change = (number, event) => {
@@ -60,7 +62,10 @@ export function numberField({name, letter = "", axis = letter, unit = "", step =
     show(value);
   };
 
-  input.addEventListener("focus", () => input.select());
+  input.addEventListener("focus", () => {
+    show(value);
+    input.select();
+  });
   input.addEventListener("input", (event) => {
     const number = read(input.value);
     input.setAttribute("aria-invalid", String(number === null));
@@ -72,7 +77,7 @@ export function numberField({name, letter = "", axis = letter, unit = "", step =
   input.addEventListener("blur", (event) => {
     input.removeAttribute("aria-invalid");
     done(event);
-    show(value);
+    input.value = written(value, digits);
   });
   input.addEventListener("keydown", (event) => {
     const direction = {ArrowUp: 1, ArrowDown: -1}[event.key];
@@ -141,12 +146,12 @@ export function sliderField({name, letter = "", label = "", axis = letter, unit 
   const range = element("input", {type: "range", min: least, max: most, step: "any", "aria-label": name, "data-key": key});
   const settling = new Settling();
   let value = 0, byPointer = false, held = false;
+  const shareOf = (number) => (clamped(number, least, most) - least) / (most - least || 1);
 
   const show = (number) => {
     range.value = number;
     range.setAttribute("aria-valuetext", `${written(number, digits)}${unit}`);
-    range.style.setProperty("--filled", `${100 * (clamped(number, least, most) - least) / (most - least || 1)}%`);
-    range.style.setProperty("--zero", `${100 * (clamped(0, least, most) - least) / (most - least || 1)}%`);
+    fillTrack(range, shareOf(number), shareOf(0));
   };
   const number = numberField({
     name: `${name}, as a number`, letter, axis, unit, least, most, step, digits, key: `${key}.number`, cancel,
@@ -205,6 +210,12 @@ export function sliderField({name, letter = "", label = "", axis = letter, unit 
       number.set(now);
     },
   };
+}
+
+// A slider's track shows how far it is from `zero`; both are shares of its length.
+export function fillTrack(range, filled, zero = 0) {
+  range.style.setProperty("--filled", filled);
+  range.style.setProperty("--zero", zero);
 }
 
 // `options`: [value, text]; null as a value is "".

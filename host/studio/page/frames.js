@@ -1,7 +1,7 @@
 // In films: the frame that is shown, to scrub and to play.
 
 import {element} from "./dom.js";
-import {numberField} from "./fields.js";
+import {fillTrack, numberField} from "./fields.js";
 import {icon, setIcon} from "./icons.js";
 import {clamped} from "./numbers.js";
 import {keysOf} from "./shortcuts.js";
@@ -21,7 +21,7 @@ export class Frames {
     place.append(element("div", {class: "group"}, button("before", "Frame before", "stepFrame", (event) => this.step(-1, event)), this.playButton,
                          button("next", "Next frame", "stepFrame", (event) => this.step(1, event))),
                  this.range, this.number.root, this.of);
-    state.on("project poses", () => this.#show());
+    state.on("project poses workspace", () => this.#show());
   }
 
   go(frame, event) {
@@ -61,13 +61,12 @@ export class Frames {
 
   #show() {
     const {project} = this.state;
-    this.place.hidden = !this.state.isFilm();
-    if (this.place.hidden) return;
+    this.place.hidden = !this.state.isFilm() || this.state.workspace !== "scene";
+    if (!this.state.isFilm()) return;
     const last = project.frames - 1;
     this.range.max = last;
     this.range.value = project.frame;
-    this.range.style.setProperty("--filled", `${100 * project.frame / (last || 1)}%`);
-    this.range.style.setProperty("--zero", "0%");
+    fillTrack(this.range, project.frame / (last || 1));
     this.number.set(project.frame);
     this.of.textContent = `of ${last}`;
   }

@@ -52,8 +52,7 @@ function showWorkspace() {
   const rendering = state.workspace === "rendering";
   place("rendering").hidden = !rendering;
   for (const id of ["views", "tree"]) place(id).hidden = rendering;
-  for (const name of ["joint", "materials", "scene"]) tabs.available(name, !rendering);
-  tabs.available("rendering", rendering);
+  for (const name of ["joint", "materials", "scene", "rendering"]) tabs.available(name, (name === "rendering") === rendering);
   tabs.show(rendering ? "rendering" : "joint");
   document.body.dataset.workspace = state.workspace;
 }
@@ -64,7 +63,15 @@ function showProblem() {
   notices.banner("file", problem?.text ?? "", {detail, kind: "error"});
 }
 
+// The panel follows what is selected, between a joint and a film's actor.
+function showSelected() {
+  const {actor, joint} = state.selected;
+  if (joint !== null && tabs.shown === "scene") tabs.show("joint");
+  else if (state.isFilm() && joint === null && actor !== null && tabs.shown === "joint") tabs.show("scene");
+}
+
 state.on("workspace", showWorkspace);
+state.on("selected", showSelected);
 state.on("project", () => {
   tabs.rename("scene", state.isFilm() ? "Scene" : "Bodies");
   document.body.dataset.kind = state.project.kind;

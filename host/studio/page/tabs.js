@@ -19,11 +19,7 @@ export class Tabs {
 
   panel(name) { return this.tabs.find((each) => each.name === name).panel; }
   rename(name, text) { this.tabs.find((each) => each.name === name).tab.textContent = text; }
-  available(name, on) {
-    const tab = this.tabs.find((each) => each.name === name);
-    tab.tab.hidden = !on;
-    if (!on && this.shown === name) this.show(this.tabs.find((each) => !each.tab.hidden).name);
-  }
+  available(name, on) { this.tabs.find((each) => each.name === name).tab.hidden = !on; }
 
   show(name) {
     this.shown = name;

@@ -22,7 +22,7 @@ export class RenderForm {
     this.words = element("p", {class: "progress-words"});
     this.text = element("p", {class: "hint", "aria-live": "polite"});
     this.nodes = element("ul", {class: "nodes", "aria-label": "Nodes"});
-    place.append(part("Rendering", ...this.#fields(), element("div", {class: "actions"}, this.start, this.stop, this.watch)),
+    place.append(part("Job", ...this.#fields(), element("div", {class: "actions three"}, this.start, this.stop, this.watch)),
                  part("Progress", this.words, this.bar, this.text), part("Nodes", this.nodes));
     this.show({state: "none"});
   }

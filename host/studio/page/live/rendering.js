@@ -2,6 +2,7 @@
 // what (docs/studio-protocol.md, "Rendering").
 
 import {element} from "../dom.js";
+import {fillTrack} from "../fields.js";
 import {DrawnFrame} from "./drawn_frame.js";
 import {LoadTimeline} from "./load_timeline.js";
 import {RenderForm} from "./render_form.js";
@@ -45,8 +46,7 @@ export class Rendering {
     const {frame, kind, interval, seconds} = message;
     this.caption.replaceChildren(element("strong", {}, `Frame ${frame}`), ` ${kind} of interval ${interval}, ${seconds.toFixed(2)} s`);
     if (this.live.getAttribute("aria-pressed") === "true") this.scrub.value = frame;
-    this.scrub.style.setProperty("--filled", `${100 * frame / (Number(this.scrub.max) || 1)}%`);
-    this.scrub.style.setProperty("--zero", "0%");
+    fillTrack(this.scrub, this.scrub.value / (Number(this.scrub.max) || 1));
     this.frame.describe(message);
     this.timeline.add(message);
   }

@@ -177,7 +177,7 @@ export class JointPanel {
   #actions() {
     const {edits} = this;
     const action = (glyph, text, tip, act) => element("button", {title: tip, onclick: act}, icon(glyph), text);
-    const mirror = (side, other) => action("mirror", `${side} to ${other}`, `Put the ${side} limbs on the ${other}`,
+    const mirror = (side, other) => action("mirror", `${side === "left" ? "Left" : "Right"} to ${other}`, `Put the ${side} limbs on the ${other}`,
       (event) => edits.commit({mirror: side, joint: this.state.selected.joint}, event));
     return part("Joint", element("div", {class: "actions"},
       action("add", "Add below", `Add a joint below this one (${keysOf("addJoint")})`, () => edits.addJoint()),
