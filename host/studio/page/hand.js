@@ -3,6 +3,7 @@
 
 const kPerKey = 14;          // pixels of a mouse, for one press of an arrow
 const kPerLine = 16;         // of wheels that count lines
+const kStill = 3;            // pixels: a press that moves less is a click
 const kRestAfter = 160;      // ms without a wheel's or key's turn: the eye rests
 
 const keysHeld = (event) => ["shift", "ctrl", "alt"].filter((key) => event[`${key}Key`]);
@@ -10,11 +11,11 @@ const joinOrbits = (before, now) => before.how === now.how
   ? {...now, by: [before.by[0] + now.by[0], before.by[1] + now.by[1]]} : now;
 
 export class Hand {
-  #gesture = null;  // {kind: "asked" | "drag" | "orbit", how, last, moved}
+  #gesture = null;  // {kind: "asked" | "drag" | "orbit", how, empty, began, last, newest, up}
   #rest = 0;
 
-  constructor(view, {connection, pace, state}) {
-    Object.assign(this, {view, connection, pace, state});
+  constructor(view, {connection, pace, state, edits}) {
+    Object.assign(this, {view, connection, pace, state, edits});
     const picture = view.picture;
     picture.addEventListener("pointerdown", (event) => this.#down(event));
     picture.addEventListener("pointermove", (event) => this.#move(event));
@@ -32,7 +33,7 @@ export class Hand {
     const gesture = this.#gesture;
     if (gesture?.kind !== "asked") return;
     const empty = joint === null && handle === null;
-    Object.assign(gesture, {kind: empty ? "orbit" : "drag", how: "turn"});
+    Object.assign(gesture, {kind: empty ? "orbit" : "drag", how: "turn", empty});
     this.#look(empty ? "turn" : "drag");
     if (gesture.newest) this.#follow(gesture.newest);
     if (gesture.up) this.#end(gesture.up);
@@ -63,7 +64,7 @@ export class Hand {
     this.view.picture.setPointerCapture(event.pointerId);
     this.view.showTip("");
     const how = howToOrbit(event);
-    this.#gesture = {kind: how ? "orbit" : "asked", how, last: event};
+    this.#gesture = {kind: how ? "orbit" : "asked", how, began: event, last: event};
     this.#look(how ?? "");
     if (how) return;
     this.pace.now({do: "grab", view: this.view.number, ...this.view.spot(event), button: event.button, keys: keysHeld(event)}, event);
@@ -93,9 +94,10 @@ export class Hand {
   }
 
   #end(event) {
-    const {kind} = this.#gesture;
+    const {kind, empty, began} = this.#gesture;
     this.#gesture = null;
     this.#look("");
+    if (empty && isClick(began, event)) return this.edits.select(null, null);
     if (kind === "orbit") return this.#restNow(event);
     this.pace.flush("drag", true);
     this.pace.now({do: "drop"}, event);
@@ -133,6 +135,8 @@ export class Hand {
 
   #look(gesture) { this.view.picture.dataset.gesture = gesture; }
 }
+
+const isClick = (from, to) => Math.hypot(to.clientX - from.clientX, to.clientY - from.clientY) < kStill;
 
 // Null: the left button asks what is there.
 function howToOrbit({button, altKey, shiftKey}) {

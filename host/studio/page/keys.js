@@ -19,7 +19,7 @@ function where(target) {
   return {
     text,
     view: target.closest(".view .picture") !== null,
-    tree: target.closest("[role=tree]") !== null,
+    letters: target.closest("[role=tree], select") !== null,
     control: target.matches("button, input, select, a[href], [role=tab]"),
   };
 }
@@ -30,7 +30,7 @@ function holds(shortcut, keys, place) {
   if (place.text) return false;
   if (shortcut.at === "view") return place.view;
   if (shortcut.at !== "page") return false;
-  if (place.tree && (/^[A-Z0-9]$/.test(keys) || kOwnKeys.has(keys))) return false;
+  if (place.letters && (/^[A-Z0-9]$/.test(keys) || kOwnKeys.has(keys))) return false;
   return !(place.control && kOwnKeys.has(keys));
 }
 

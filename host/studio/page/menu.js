@@ -6,6 +6,7 @@ import {icon} from "./icons.js";
 
 // Items: {text, keys, act}, with `chosen` (one of a group) or `checked` (a switch) where they have a state;
 // {heading}: the next group's.
+const kGap = 4;
 let open = null;
 
 export function closeMenu() { open?.close(); }
@@ -47,11 +48,15 @@ function entry({text, keys, act, chosen, checked, disabled}) {
                  keys && element("kbd", {}, keys));
 }
 
+// Below the button, or above it, or else beside it: never over it.
 function place(root, button) {
   const at = button.getBoundingClientRect();
   const {offsetWidth: width, offsetHeight: height} = root;
-  root.style.left = `${Math.max(4, Math.min(at.left, innerWidth - width - 4))}px`;
-  root.style.top = `${at.bottom + 4 + height > innerHeight ? Math.max(4, at.top - 4 - height) : at.bottom + 4}px`;
+  const below = at.bottom + kGap, above = at.top - kGap - height;
+  const beside = below + height > innerHeight && above < 0;
+  const left = beside ? at.right + kGap : at.left;
+  root.style.left = `${Math.min(left, innerWidth - width - kGap)}px`;
+  root.style.top = `${beside ? Math.max(kGap, innerHeight - height - kGap) : below + height > innerHeight ? above : below}px`;
 }
 
 function close(root, button) {

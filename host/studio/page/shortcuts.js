@@ -1,7 +1,7 @@
 // All shortcuts, in one table: keys.js acts on it, help.js lists it, menus and tips name its keys.
 //
 // `at`: where they hold: "page" (not while text is written), "always" (also then), "view" (a view has the focus),
-// "tree". Letters at "page" leave the tree alone, where letters find joints.
+// "tree". Letters at "page" leave alone the tree and lists, where letters find an entry.
 
 export const kShortcuts = [
   {group: "Edit", keys: ["Ctrl+Z"], name: "undo", text: "Undo", at: "always"},

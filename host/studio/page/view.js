@@ -63,7 +63,7 @@ export class View {
     this.pace.send(`view ${this.number}`, message, event ?? {timeStamp: performance.now()});
   }
 
-  // After the connection began again pictures count from 1.
+  // Pictures count from 1 again.
   forgetPictures() {
     this.#picture = 0;
     this.#handles.clear();
@@ -113,7 +113,10 @@ export class View {
                           : [css.inlineSize, css.blockSize].map((side) => Math.round(side * devicePixelRatio));
     const size = pixels.map((side) => Math.min(side, kLargest));
     const hidden = size.some((side) => side === 0);
-    if (hidden && this.size[0] !== 0) this.connection.send({do: "unview", view: this.number});
+    if (hidden && this.size[0] !== 0) {
+      this.connection.send({do: "unview", view: this.number});
+      this.forgetPictures();
+    }
     if (size.join() === this.size.join()) return;
     this.size = hidden ? [0, 0] : size;
     this.ask();
