@@ -99,6 +99,7 @@ class MockStudio:
 
         self.loop.run_until_complete(serve())
         self.loop.run_forever()
+        self.loop.close()
 
     async def _file(self, path, _):
         address = urllib.parse.urlsplit(path)

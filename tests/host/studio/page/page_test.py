@@ -22,6 +22,7 @@ from mock_studio import DEFLATE, PAGE, MockStudio, bits
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3]))
 from cases import main  # noqa: E402
 
+CHROMEDRIVER = sys.argv[1]
 FLAGS = ("--headless=new", "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking",
          "--disable-component-update", "--disable-sync", "--disable-gpu")
 SIZE = {"width": 1280, "height": 720, "deviceScaleFactor": 1, "mobile": False}
@@ -34,7 +35,7 @@ def one_browser():
     for flag in FLAGS:
         options.add_argument(flag)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    browser = webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
+    browser = webdriver.Chrome(service=Service(CHROMEDRIVER), options=options)
     unittest.addModuleCleanup(browser.quit)
     browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", SIZE)
     return browser
