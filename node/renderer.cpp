@@ -33,7 +33,8 @@ Renderer::Renderer(const wire::FilmView& film, const wire::Load& load, std::span
       sums_(film.settings().height),
       triangle_exchange_(group_size(), film.settings().height),
       still_exchange_(neighbours_, film.settings().samples, film.settings().height),
-      outbox_(film.settings().width, load.pixel_format, load.credits, neighbours_.group()),
+      outbox_(film.settings().width, load.pixel_format, load.credits, neighbours_.group(),
+              load.watched == 1 ? film.settings().height : 0),
       contributes_(group_size()),
       line_loads_(film.settings().height),
       line_totals_(film.settings().height + 1),
@@ -41,7 +42,8 @@ Renderer::Renderer(const wire::FilmView& film, const wire::Load& load, std::span
       wanted_lines_(film.settings().height),
       wanted_still_lines_(film.settings().height),
       homes_(group_size()),
-      pass_homes_(group_size()) {
+      pass_homes_(group_size()),
+      watched_(load.watched == 1 ? film.settings().height : 0) {
   parts_.reserve(neighbours_.nodes().size() + 1);
   if (load.traced == 1) tracer_.emplace();
 }
@@ -335,9 +337,17 @@ void Renderer::finish_exchange(const group::Pass& pass) {
 void Renderer::send_strip(const geometry::LineRange& lines, bool last) {
   report_.note_memory(memory_.arena().peak());
   report_.set_strip(lines, last);
-  outbox_.send(report_.strip());
+  outbox_.send(report_.strip(), watched_edge_boxes(lines));
   ++report_.strip().number;
   report_.skip_clock();  // sending belongs to no phase
+}
+
+std::span<const std::uint32_t> Renderer::watched_edge_boxes(const geometry::LineRange& lines) {
+  if (watched_.empty()) return {};
+  const auto ebc = sums_.ebc().subspan(lines.first, lines.count() + 1);
+  std::transform(ebc.begin() + 1, ebc.end(), ebc.begin(), watched_.begin(),
+                 [](std::uint64_t to, std::uint64_t from) { return static_cast<std::uint32_t>(to - from); });
+  return std::span(watched_).first(lines.count());
 }
 
 std::size_t Renderer::group_size() const { return static_cast<std::size_t>(neighbours_.group().count); }

@@ -80,6 +80,8 @@ class Renderer {
   // Waits until what was sent to nodes is gone; after the last pass of a keyframe nodes give each other CZB.
   void finish_exchange(const group::Pass& pass);
   void send_strip(const geometry::LineRange& lines, bool last);
+  // EBC of each; none where nobody watches.
+  std::span<const std::uint32_t> watched_edge_boxes(const geometry::LineRange& lines);
 
   std::size_t member() const;  // the caller's index in the group
   std::size_t group_size() const;
@@ -119,6 +121,7 @@ class Renderer {
   std::vector<std::uint8_t> wanted_still_lines_;  // likewise, of stationary parts in an inbetween
   std::vector<geometry::LineRange> homes_;
   std::vector<geometry::LineRange> pass_homes_;
+  std::vector<std::uint32_t> watched_;  // watched_edge_boxes'; empty: nobody watches
   FrameReport report_;
 };
 

@@ -16,8 +16,9 @@ namespace mars::group {
 class Outbox {
  public:
   // `width`: of the picture, whose pixels have this format. All slots are the host's at first.
-  // `group`: the caller's.
-  Outbox(std::size_t width, wire::PixelFormat format, int slots, const collectives::Group& group);
+  // `group`: the caller's. `counted`: as in StripBuffer.
+  Outbox(std::size_t width, wire::PixelFormat format, int slots, const collectives::Group& group,
+         std::size_t counted = 0);
 
   const messages::MemoryName& slots() const { return memory_.name(); }
 
@@ -25,8 +26,8 @@ class Outbox {
   // it waits for none: the host then uses no slot.
   raster::StripBuffer& begin(bool constant, wire::WorkCounts& work);
   // Sends the strip that begin() gave, under `header`, to which its pixels and bytes are added. After Stop it sends
-  // nothing: the host takes no more strips.
-  void send(wire::Strip& header);
+  // nothing: the host takes no more strips. `edge_boxes`: as in StripBuffer.
+  void send(wire::Strip& header, std::span<const std::uint32_t> edge_boxes = {});
   bool stopped() const { return stopped_; }
 
   // Receives one Credit message, waiting for it.
