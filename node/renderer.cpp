@@ -27,9 +27,10 @@ Renderer::Renderer(const wire::Load& load, std::span<const std::int32_t> machine
       tessellator_(set, &heartbeat),
       neighbours_(machines, load.groups),
       memory_(neighbours_, load.memory),
-      outbox_(load.pixel_format, load.credits, neighbours_.group()),
+      outbox_(load.pixel_format, load.credits, neighbours_.group(), load.watched == 1),
       homes_(group_size()),
-      pass_homes_(group_size()) {
+      pass_homes_(group_size()),
+      is_watched_(load.watched == 1) {
   parts_.reserve(neighbours_.nodes().size() + 1);
   if (load.traced == 1) tracer_.emplace();
 }
@@ -304,9 +305,18 @@ void Renderer::finish_exchange(const group::Pass& pass) {
 void Renderer::send_strip(const geometry::LineRange& lines, bool last) {
   report_.note_memory(memory_.arena().peak());
   report_.set_strip(lines, last);
-  outbox_.send(report_.strip());
+  outbox_.send(report_.strip(), watched_edge_boxes(lines));
   ++report_.strip().number;
   report_.skip_clock();  // sending belongs to no phase
+}
+
+std::span<const std::uint32_t> Renderer::watched_edge_boxes(const geometry::LineRange& lines) {
+  if (!is_watched_) return {};
+  watched_.resize(lines.count());
+  const auto ebc = view_->sums.ebc().subspan(lines.first, lines.count() + 1);
+  std::transform(ebc.begin() + 1, ebc.end(), ebc.begin(), watched_.begin(),
+                 [](std::uint64_t to, std::uint64_t from) { return static_cast<std::uint32_t>(to - from); });
+  return watched_;
 }
 
 std::size_t Renderer::group_size() const { return static_cast<std::size_t>(neighbours_.group().count); }

@@ -86,6 +86,8 @@ class Renderer {
   // Waits until what was sent to nodes is gone; after the last pass of a keyframe nodes give each other CZB.
   void finish_exchange(const group::Pass& pass);
   void send_strip(const geometry::LineRange& lines, bool last);
+  // EBC of each; none where nobody watches.
+  std::span<const std::uint32_t> watched_edge_boxes(const geometry::LineRange& lines);
 
   geometry::Scene& scene() const { return view_->scene; }
   bool has_ended() const { return *has_ended_ && (*has_ended_)(); }
@@ -115,6 +117,8 @@ class Renderer {
   std::vector<raster::LineBoxes> parts_;  // edge boxes of the lines to be drawn; own ones first
   std::vector<geometry::LineRange> homes_;
   std::vector<geometry::LineRange> pass_homes_;
+  const bool is_watched_;
+  std::vector<std::uint32_t> watched_;  // watched_edge_boxes'
   FrameReport report_;
 };
 

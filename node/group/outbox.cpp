@@ -8,9 +8,9 @@
 
 namespace mars::group {
 
-Outbox::Outbox(wire::PixelFormat format, int slots, const collectives::Group& group)
+Outbox::Outbox(wire::PixelFormat format, int slots, const collectives::Group& group, bool watched)
     : memory_(static_cast<std::size_t>(slots) * wire::kSlotBytes),
-      strip_(format),
+      strip_(format, watched),
       slots_(static_cast<std::size_t>(slots)),
       group_(group) {
   memory_.prefer_large_pages();
@@ -25,12 +25,12 @@ raster::StripBuffer& Outbox::begin(std::size_t width, bool constant, wire::WorkC
   return strip_;
 }
 
-void Outbox::send(wire::Strip& header) {
+void Outbox::send(wire::Strip& header, std::span<const std::uint32_t> edge_boxes) {
   if (stopped_) return;
   Slot& slot = slots_[current_];
   header.slot = static_cast<std::uint32_t>(current_);
   header.by_message = slot.by_message;
-  const auto strip = strip_.finish(header);
+  const auto strip = strip_.finish(header, edge_boxes);
   const std::size_t bytes = slot.by_message == 1 ? strip.size() : sizeof header;
   slot.message = isend(wire::kStrip, strip.data(), static_cast<long>(bytes), myhost(), 0);
   owned_ &= ~(std::uint32_t{1} << current_);

@@ -15,8 +15,8 @@ namespace mars::group {
 
 class Outbox {
  public:
-  // For pixels of this format. All slots are the host's at first. `group`: the caller's.
-  Outbox(wire::PixelFormat format, int slots, const collectives::Group& group);
+  // For pixels of this format. All slots are the host's at first. `group`: the caller's. `watched`: as in Load.
+  Outbox(wire::PixelFormat format, int slots, const collectives::Group& group, bool watched = false);
 
   const messages::MemoryName& slots() const { return memory_.name(); }
 
@@ -24,8 +24,8 @@ class Outbox {
   // that in `work`. After Stop it waits for none: the host then uses no slot.
   raster::StripBuffer& begin(std::size_t width, bool constant, wire::WorkCounts& work);
   // Sends the strip that begin() gave, under `header`, to which its pixels and bytes are added. Then it
-  // sends nothing: the host takes no more strips.
-  void send(wire::Strip& header);
+  // sends nothing: the host takes no more strips. `edge_boxes`: as in StripBuffer.
+  void send(wire::Strip& header, std::span<const std::uint32_t> edge_boxes = {});
   bool stopped() const { return stopped_; }
 
   // Receives one Credit message, waiting for it.

@@ -106,7 +106,8 @@ struct Load {
   std::uint32_t traced;  // 1: the node records what it does and sends it as Trace
   PixelFormat pixel_format;
   std::uint64_t still_memory;  // bytes that a node adds to what its machine keeps of stationary parts for inbetweens
-  std::uint64_t live;          // 1: Views and Draws follow, no Renders; another Load may come, which ends all views
+  std::uint32_t live;          // 1: Views and Draws follow, no Renders; another Load may come, which ends all views
+  std::uint32_t watched;       // 1: strips say how many edge boxes each of their lines has
 };
 
 // The node has the film and its slots.
@@ -260,8 +261,8 @@ inline constexpr std::size_t kSlotBytes = 2 * kMaxStripBytes + 4096;
 
 // A part of one node's part of one frame: the pixels of its stationary parts (CFB, keyframes only) and then those of
 // its moving parts (MFB). Followed by all pixels in Load's format, then by constant_runs + moving_runs Run that say
-// where they go, in the same order. The message has all that by_message; else it ends with the struct, and the rest
-// lies behind it in the slot.
+// where they go, in the same order; in watched runs then by EBC (uint32) of each line of [first_line, last_line). The
+// message has all that by_message; else it ends with the struct, and the rest lies behind it in the slot.
 struct Strip {
   std::uint32_t frame;
   std::uint32_t interval;

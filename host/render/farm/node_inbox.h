@@ -45,9 +45,10 @@ std::optional<wire::Beat> read_beat(std::span<const std::byte> message);
 
 class NodeInbox {
  public:
-  // Of all nodes of the job, for such pictures; `slots` are the nodes'. `cancellation` may be nullptr.
+  // Of all nodes of the job, for such pictures; `slots` are the nodes'. `cancellation` may be nullptr. `watched`: as in
+  // Load.
   NodeInbox(std::uint32_t width, std::uint32_t height, wire::PixelFormat format, NodeSlots& slots,
-            const Cancellation* cancellation);
+            const Cancellation* cancellation, bool watched = false);
 
   // Waits until every node has greeted, and checks that all are of the host's own version. False: cancelled before.
   bool receive_hellos();
@@ -93,6 +94,7 @@ class NodeInbox {
   const wire::PixelFormat format_;
   NodeSlots& slots_;
   const Cancellation* const cancellation_;
+  const bool watched_;
   const int nodes_;
   std::vector<wire::Hello> hellos_;
   std::vector<bool> greeted_;

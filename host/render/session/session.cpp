@@ -90,7 +90,7 @@ std::unique_ptr<sinks::SinkPool> make_sinks(const RenderJob& job, sinks::Sink& s
 }
 
 farm::FarmOptions farm_options(const RenderJob& job, const farm::HostMemory& memory, trace::Trace* trace,
-                               farm::Heartbeats& heartbeats) {
+                               farm::Heartbeats& heartbeats, watch::Watch* watch) {
   farm::FarmOptions farm;
   farm.mapping = job.mapping;
   farm.credits = memory.credits;
@@ -98,6 +98,7 @@ farm::FarmOptions farm_options(const RenderJob& job, const farm::HostMemory& mem
   farm.adapts = job.adapts;
   farm.trace = trace;
   farm.heartbeats = &heartbeats;
+  farm.watch = watch;
   return farm;
 }
 
@@ -106,6 +107,14 @@ std::unique_ptr<trace::Trace> begin_trace(const RenderJob& job) {
   if (job.trace.empty()) return nullptr;
   document::check_can_write(job.trace);
   return std::make_unique<trace::Trace>();
+}
+
+std::unique_ptr<watch::Watch> begin_watch(const RenderJob& job, const EventReporter& reporter) {
+  if (job.watch.empty()) return nullptr;
+  auto watch = std::make_unique<watch::Watch>(job.watch);
+  if (!watch->absent().empty())
+    reporter.report(events::Warning{"nobody watches yet at " + job.watch + ": " + watch->absent()});
+  return watch;
 }
 
 // The film, and which of its frames are to be rendered.
@@ -190,8 +199,10 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace, 
   // Only now: before, the host may have waited for its turn in the folder, and not for nodes.
   reporter.report(events::Loaded{load_seconds, output.folder ? output.folder->run() : ""});
   output.pool = make_sinks(job, *output.sink, pool_shape(host, view, job, memory.frames));
-  const farm::FarmReport report = farm::render_film(film.block(), plan, farm_options(job, memory, trace, heartbeats),
-                                                    *output.pool, reporter.listener(view.intervals().size()));
+  const auto watch = begin_watch(job, reporter);
+  const farm::FarmReport report =
+      farm::render_film(film.block(), plan, farm_options(job, memory, trace, heartbeats, watch.get()), *output.pool,
+                        reporter.listener(view.intervals().size()));
   const auto write = [&](const std::string& file, const std::function<void()>& whole) {
     sinks::Patience(bounds_of(reporter)).write(file, whole);
   };

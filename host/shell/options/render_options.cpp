@@ -239,6 +239,9 @@ std::vector<Entry> table() {
              "Write each node's times and work per frame as JSON. Example: --report report.json"),
       option(submits, "--trace", "FILE", &RenderOptions::trace,
              "Write a timeline of all ranks, for ui.perfetto.dev or chrome://tracing. Example: --trace trace.json"),
+      option(all & ~bit(Program::simulated), "--watch", "SOCKET", &RenderOptions::watch,
+             "Show frames as they are drawn to the program that listens at this Unix socket; it may come and go. "
+             "Example: --watch /tmp/watcher"),
       number(persons | starts, "--restarts", {&RenderOptions::restarts, false, 1000, 0},
              "How often a job that dies is started again without a new frame between; 0: never; default: 5. Example: "
              "--restarts 0"),
@@ -281,6 +284,9 @@ void check_together(const RenderOptions& options, Program program) {
   if (!options.hostfile.empty() && options.backend == Backend::simulated) {
     throw Failure("simulated nodes are on the machines of --platform", "",
                   "leave out --hostfile, or --backend simulated");
+  }
+  if (!options.watch.empty() && options.backend == Backend::simulated) {
+    throw Failure("the time of simulated nodes is not that of who watches", "", "leave out --watch");
   }
   if (!options.platform.empty() && options.backend != Backend::simulated) {
     throw Failure("a platform is for simulated nodes", "", "add --backend simulated, or leave out --platform");

@@ -46,6 +46,7 @@ struct RenderOptions {
   images::PictureFormat format = images::PictureFormat::png;  // of the files
   std::string report;                                         // file for the measurements; "": none
   std::string trace;                                          // file for a picture of the run; "": none
+  std::string watch;                                          // socket of who watches; "": nobody does
   std::uint32_t restarts = 5;                                 // of a job that dies, without a new frame between them
   bool quiet = false;
   std::string serve;  // a studio's socket, at which its pictures are drawn; "": a film is rendered to files
