@@ -23,7 +23,7 @@ class Outbox {
   // An empty strip of a picture of `width` in a slot of the node's; waits for credit where there is none, and counts
   // that in `work`. After Stop it waits for none: the host then uses no slot.
   raster::StripBuffer& begin(std::size_t width, bool constant, wire::WorkCounts& work);
-  // Sends the strip that begin() gave, under `header`, to which its pixels and bytes are added. Then it
+  // Sends the strip that begin() gave, under `header`, to which its pixels and bytes are added. After Stop it
   // sends nothing: the host takes no more strips. `edge_boxes`: as in StripBuffer.
   void send(wire::Strip& header, std::span<const std::uint32_t> edge_boxes = {});
   bool stopped() const { return stopped_; }
