@@ -41,13 +41,12 @@ void StripBuffer::Layer::added(const shading::Shaded& shaded) {
   run_count_ += shaded.runs;
 }
 
-StripBuffer::StripBuffer(std::size_t width, wire::PixelFormat format)
-    : pixel_bytes_(wire::pixel_bytes(format)),
-      line_bytes_(most_bytes_of_line(width, pixel_bytes_)),
-      runs_(2 * kRuns * sizeof(wire::Run)) {}
+StripBuffer::StripBuffer(wire::PixelFormat format)
+    : pixel_bytes_(wire::pixel_bytes(format)), runs_(2 * kRuns * sizeof(wire::Run)) {}
 
-void StripBuffer::begin(std::span<std::byte> slot, bool constant) {
+void StripBuffer::begin(std::span<std::byte> slot, std::size_t width, bool constant) {
   check(slot.size() == wire::kSlotBytes, "a strip is made in a slot");
+  line_bytes_ = most_bytes_of_line(width, pixel_bytes_);
   slot_ = slot.data();
   std::byte* pixels = slot_ + sizeof(wire::Strip);
   auto* runs = reinterpret_cast<wire::Run*>(runs_.bytes().data());

@@ -157,15 +157,18 @@ Entry flag(unsigned programs, const char* names, bool RenderOptions::*member, co
           }};
 }
 
-Entry film(unsigned programs) {
+// Who serves a studio needs none.
+Entry film(unsigned programs, bool required) {
   return {programs,
-          [](CLI::App& app, RenderOptions& options) {
+          [required](CLI::App& app, RenderOptions& options) {
             app.add_option("FILM", options.film,
                            "The film to render: a .json file, or a .mars file made by mars compile.\n"
                            "Example: examples/demo.json")
-                ->required();
+                ->required(required);
           },
-          [](const RenderOptions& options) { return Arguments{text_of(options.film)}; }};
+          [](const RenderOptions& options) {
+            return options.serve.empty() ? Arguments{text_of(options.film)} : Arguments{};
+          }};
 }
 
 // The table: every option once, in the order of the help.
@@ -179,6 +182,7 @@ std::vector<Entry> table() {
   constexpr unsigned compiles = plans | bit(Program::compile);
   constexpr unsigned counts_nodes = bit(Program::mars) | bit(Program::threads) | bit(Program::simulated) |
                                     bit(Program::plan) | bit(Program::repair) | bit(Program::studio);
+  constexpr unsigned serves = bit(Program::host) | bit(Program::threads);
   constexpr unsigned simulates = bit(Program::mars) | bit(Program::simulated);
   constexpr unsigned person = bit(Program::mars);
   constexpr unsigned persons = person | bit(Program::submit);
@@ -186,7 +190,8 @@ std::vector<Entry> table() {
   constexpr unsigned draws = bit(Program::studio);
   constexpr std::uint32_t many = 1 << 20;
   return {
-      film(compiles),
+      film(compiles & ~serves, true),
+      film(serves, false),
       option(submits, "-o,--output", "DIR", &RenderOptions::folder,
              "Folder for the frames; created if it is missing. Example: -o build/demo"),
       flag(all, "--overwrite", &RenderOptions::overwrite,
@@ -241,6 +246,9 @@ std::vector<Entry> table() {
       number(persons | starts, "--restarts", {&RenderOptions::restarts, false, 1000, 0},
              "How often a job that dies is started again without a new frame between; 0: never; default: 5. Example: "
              "--restarts 0"),
+      option(serves, "--serve", "SOCKET", &RenderOptions::serve,
+             "Draw what a studio asks for at this local socket instead of a film; mars studio starts it so. Example: "
+             "--serve /tmp/studio/socket"),
       flag(persons | starts, "-q,--quiet", &RenderOptions::quiet, "Print only errors. Example: --quiet"),
   };
 }
@@ -261,6 +269,12 @@ void refuse_former_names(CLI::App& app) {
 
 // Checks that concern several options.
 void check_together(const RenderOptions& options, Program program) {
+  if (options.serve.empty() == options.film.empty() && program != Program::repair &&
+      program != Program::studio) {
+    if (options.film.empty()) throw Failure("FILM is required", "", "");
+    throw Failure("a studio brings its own film", "", "leave out " + options.film + ", or --serve");
+  }
+  if (!options.serve.empty()) return;
   if (options.folder.empty() && options.sink == SinkKind::files && program != Program::studio) {
     const bool measures = program != Program::submit;
     throw Failure("no folder to put the frames in", "",
