@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "hal/failure/failure.h"
-
 namespace mars::web {
 namespace {
 
@@ -31,7 +29,6 @@ std::string text_of(const Json& message) { return message.dump(-1, ' ', false, J
 
 // The rectangles of `changes` over the whole picture.
 void paste(ViewPicture& whole, ViewPicture changes) {
-  check(changes.width == whole.width && changes.height == whole.height, "a view of another size begins with all of it");
   const std::uint32_t* from = changes.pixels.data();
   for (const serve::Rect& rect : changes.rects)
     for (std::uint32_t y = 0; y < rect.height; ++y, from += rect.width)
@@ -106,7 +103,9 @@ PageOutbox::Outgoing PageOutbox::send_picture(View& view, Time now) {
   const bool whole = is_whole(picture), exact = picture.exact;
   const Encoding encoding =
       speed_.best_for(picture.pixels.size() * sizeof(std::uint32_t), whole && exact && !picture.rests);
-  if (whole && encoding != Encoding::jpeg) view.lossy.reset();
+  const bool other_size =
+      view.lossy && (view.lossy->last.width != picture.width || view.lossy->last.height != picture.height);
+  if (other_size || (whole && encoding != Encoding::jpeg)) view.lossy.reset();
   if (view.lossy && encoding != Encoding::jpeg) picture.exact = false;  // what is around its rectangles is not
   Outgoing outgoing = encode(view, picture, encoding, now, false);
   if (encoding == Encoding::jpeg) {
