@@ -180,13 +180,14 @@ std::vector<Entry> table() {
   constexpr unsigned plans = submits | bit(Program::plan);
   constexpr unsigned sinks = all | bit(Program::plan);
   constexpr unsigned compiles = plans | bit(Program::compile);
-  constexpr unsigned counts_nodes =
-      bit(Program::mars) | bit(Program::threads) | bit(Program::simulated) | bit(Program::plan) | bit(Program::repair);
+  constexpr unsigned counts_nodes = bit(Program::mars) | bit(Program::threads) | bit(Program::simulated) |
+                                    bit(Program::plan) | bit(Program::repair) | bit(Program::studio);
   constexpr unsigned serves = bit(Program::host) | bit(Program::threads);
   constexpr unsigned simulates = bit(Program::mars) | bit(Program::simulated);
   constexpr unsigned person = bit(Program::mars);
   constexpr unsigned persons = person | bit(Program::submit);
   constexpr unsigned starts = person | bit(Program::repair);
+  constexpr unsigned draws = bit(Program::studio);
   constexpr std::uint32_t many = 1 << 20;
   return {
       film(compiles & ~serves, true),
@@ -201,13 +202,16 @@ std::vector<Entry> table() {
       option(starts, "--backend", "auto|mpi|threads|simulated", &RenderOptions::backend,
              "MPI processes, or threads of one process; auto uses MPI where it is installed; simulated: nodes of "
              "--platform, whose times are counted, not measured. Example: --backend threads"),
+      option(draws, "--backend", "auto|mpi|threads", &RenderOptions::backend,
+             "MPI processes, or threads of one process; auto uses threads, and MPI with --hostfile. Example: --backend "
+             "mpi"),
       option(simulates, "--platform", "NAME|FILE", &RenderOptions::platform,
              "Machines that --backend simulated simulates: ipsc2, fat-tree, dragonfly, ethernet, here (mars "
              "calibrate), or a file; default: fat-tree. Example: --platform fat-tree:here"),
       option(bit(Program::plan), "--platform", "here|NAME|FILE", &RenderOptions::platform,
              "Machines that would render: here, as mars calibrate measured them, which is the default; ipsc2, "
              "fat-tree, dragonfly, ethernet; or a file. Example: --platform fat-tree"),
-      option(starts, "--hostfile", "FILE", &RenderOptions::hostfile,
+      option(starts | draws, "--hostfile", "FILE", &RenderOptions::hostfile,
              "Machines to use, one per line as for mpirun: n1 slots=4. Example: --hostfile hosts"),
       option(plans, "--frames", "SET", &RenderOptions::frames,
              "Frames to render, counted from 0; default: all. Example: --frames 0-9,24,30-"),
@@ -268,16 +272,19 @@ void refuse_former_names(CLI::App& app) {
 
 // Checks that concern several options.
 void check_together(const RenderOptions& options, Program program) {
-  if (options.serve.empty() == options.film.empty() && program != Program::repair) {
+  if (options.serve.empty() == options.film.empty() && program != Program::repair &&
+      program != Program::studio) {
     if (options.film.empty()) throw Failure("FILM is required", "", "");
     throw Failure("a studio brings its own film", "", "leave out " + options.film + ", or --serve");
   }
   if (!options.serve.empty()) return;
-  if (options.folder.empty() && options.sink == SinkKind::files) {
+  if (options.folder.empty() && options.sink == SinkKind::files && program != Program::studio) {
     const bool measures = program != Program::submit;
     throw Failure("no folder to put the frames in", "",
                   measures ? "add -o DIR, or --sink none to measure only" : "add -o DIR");
   }
+  if (options.backend == Backend::simulated && program == Program::studio)
+    throw Failure("simulated nodes draw nothing that can be seen", "", "leave out --backend simulated");
   if (!options.hostfile.empty() && options.backend == Backend::threads) {
     throw Failure("threads are all on this machine", "", "leave out --hostfile, or --backend threads");
   }

@@ -66,6 +66,7 @@ enum class Program : unsigned {
   plan = 64,
   repair = 128,  // mars verify --repair: which machines render
   submit = 256,
+  studio = 512,  // mars studio: which machines draw
 };
 
 // Adds the options `program` takes to its command line, which is then checked as a whole too; `options` must
