@@ -135,7 +135,7 @@ class Maker {
       for (int side = 0; side < 2; ++side) {
         glm::dvec3 part(0.5);
         part[axis] = side;
-        Handle handle{std::string("face:") + kAxes[axis] + (side == 0 ? "-" : "+"), "point", {}, kAxes[axis]};
+        Handle handle{std::string("face:") + kAxes[axis] + (side == 0 ? "-" : "+"), "box", {}, kAxes[axis]};
         handle.grip = Grip{Grip::What::face, axis, side};
         add_place(std::move(handle), at(part));
       }

@@ -102,6 +102,10 @@ bool Interval::holds(const Moved& moved) const {
   return true;
 }
 
+bool same_picture(const wire::FilmData& one, const wire::FilmData& other) {
+  return same_surroundings(one, other) && changed_segments(one, other).empty();
+}
+
 std::vector<std::uint32_t> changed_segments(const wire::FilmData& before, const wire::FilmData& now) {
   std::vector<std::uint32_t> changed;
   const bool all = before.segments.size() != now.segments.size() || !same_settings(before.settings, now.settings) ||

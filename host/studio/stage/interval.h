@@ -41,6 +41,9 @@ class Interval {
   std::vector<char> moves_;
 };
 
+// Whether both look the same.
+bool same_picture(const wire::FilmData& one, const wire::FilmData& other);
+
 // The numbers of the segments that the two show differently, ascending; of all where camera, lights or the segments
 // themselves differ.
 std::vector<std::uint32_t> changed_segments(const wire::FilmData& before, const wire::FilmData& now);

@@ -323,6 +323,7 @@ class TheStage : public Stage {
     const preview::Orbit& orbit = view.eye.orbit;
     listener_.tell(view.page, {{"is", "orbit"},
                                {"view", view.number},
+                               {"from", kFroms[static_cast<std::size_t>(view.eye.from)]},
                                {"center", json_of(orbit.center)},
                                {"turn", orbit.turn},
                                {"height", orbit.height},
@@ -506,10 +507,18 @@ class TheStage : public Stage {
       view.interval.reset();
       view.asked.reset();
     }
-    if (view.shown != now || !view.interval) return ask(view, now, rests);
+    if (view.shown != now && !looks_the_same(view, now)) return ask(view, now, rests);
     if (!rests) return;
     if (is_own(view) && !is_exact(view) && moments_.own_moving()) return ask(view, now, rests);
     if (!view.rested) send(view, {0, pages_[view.page].edit, true, is_exact(view), controls(view)}, {}, {});
+  }
+
+  // What changed may be seen in controls alone.
+  bool looks_the_same(PageView& view, const Shown& now) {
+    if (!view.interval || !same_picture(view.scene, scene_of(view, now))) return false;
+    view.shown = now;
+    if (view.rested) tell_handles(view);
+    return true;
   }
 
   // Whether it shows what `mars render` would.
