@@ -7,14 +7,22 @@ export class Edits {
     this.state = state;
   }
 
-  preview(step, event) { this.pace.send("preview", {do: "preview", step}, event); }
+  #previews = false;
+
+  preview(step, event) {
+    this.#previews = true;
+    this.pace.send("preview", {do: "preview", step}, event);
+  }
 
   commit(step, event) {
+    this.#previews = false;
     this.pace.drop("preview");
     this.pace.now({do: "commit", step}, event ?? {timeStamp: performance.now()});
   }
 
   cancel() {
+    if (!this.#previews) return;
+    this.#previews = false;
     this.pace.drop("preview");
     this.connection.send({do: "cancel"});
   }

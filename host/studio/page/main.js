@@ -52,7 +52,8 @@ function showWorkspace() {
   const rendering = state.workspace === "rendering";
   place("rendering").hidden = !rendering;
   for (const id of ["views", "tree"]) place(id).hidden = rendering;
-  for (const name of ["joint", "materials", "scene", "rendering"]) tabs.available(name, (name === "rendering") === rendering);
+  for (const name of ["joint", "scene", "rendering"]) tabs.available(name, (name === "rendering") === rendering);
+  tabs.available("materials", !rendering && !state.isFilm());
   tabs.show(rendering ? "rendering" : "joint");
   document.body.dataset.workspace = state.workspace;
 }
@@ -74,6 +75,7 @@ state.on("workspace", showWorkspace);
 state.on("selected", showSelected);
 state.on("project", () => {
   tabs.rename("scene", state.isFilm() ? "Scene" : "Bodies");
+  tabs.available("materials", state.workspace === "scene" && !state.isFilm());
   document.body.dataset.kind = state.project.kind;
   showProblem();
   edits.selectWanted();

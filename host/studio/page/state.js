@@ -34,7 +34,7 @@ export class State {
       const actor = this.actor(moved.name);
       if (!actor) continue;
       Object.assign(actor, {place: moved.place ?? actor.place, turn: moved.turn ?? actor.turn});
-      moved.joints.forEach((pose, i) => { if (actor.joints[i]) actor.joints[i].pose = pose; });
+      moved.joints?.forEach((pose, i) => { if (actor.joints[i]) actor.joints[i].pose = pose; });
     }
     this.tell("poses");
   }

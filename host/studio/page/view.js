@@ -69,7 +69,13 @@ export class View {
     this.#handles.clear();
   }
 
-  takeOrbit({center, turn, height, distance}) { this.shown.orbit = {center, turn, height, distance}; }
+  // Who turns the film's camera's view leaves it.
+  takeOrbit({center, turn, height, distance}) {
+    this.shown.orbit = {center, turn, height, distance};
+    if (this.shown.from !== "camera") return;
+    this.shown.from = "free";
+    this.#name();
+  }
 
   takeHandles({picture, shapes}) {
     if (picture > this.#picture) this.#handles.set(picture, shapes);

@@ -6,8 +6,7 @@ export const kPhases = [  // of a node's work on a frame, in order
   ["setup", "Edge boxes", "#3fb8a7"],
   ["exchange", "Exchange", "#e0a83f"],
   ["raster", "Scan and shade", "#e07b4f"],
-  ["send", "Send", "#c06bd0"],
-  ["wait", "Wait", "#8a919c"],
+  ["wait", "Wait to send", "#8a919c"],
 ];
 const kOther = "#8a919c";
 export const phaseColor = (phase) => kPhases.find(([name]) => name === phase)?.[2] ?? kOther;

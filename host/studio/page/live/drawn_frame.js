@@ -6,7 +6,7 @@ import {nodeColor} from "./colors.js";
 export const kRenderingView = 255;
 const kOverlays = [["lines", "Lines", "Who draws which lines: a colour for each node"],
                    ["ebc", "EBC", "The edge box count: how much work each line is"],
-                   ["moving", "Moving", "What stands still is dimmed"],
+                   ["moving", "Moving", "What moves, tinted, over what stands still, dimmed"],
                    ["blocks", "Blocks", "Blocks that are flagged: those that nodes send"]];
 const kBarShare = 0.25;  // of the width: the longest bar of the EBC
 
@@ -53,18 +53,20 @@ export class DrawnFrame {
     const pen = this.overlay.getContext("2d");
     pen.clearRect(0, 0, this.overlay.width, this.overlay.height);
     if (!this.#drawn) return;
-    if (this.#on.has("moving")) this.#eachBlock((x, y, side, flagged) => {
-      if (flagged) return;
-      pen.fillStyle = "rgb(12 14 18 / 0.62)";
-      pen.fillRect(x, y, side, side);
-    });
+    const {moving, still, flagged} = this.#drawn;
+    if (this.#on.has("moving")) {
+      pen.fillStyle = "rgb(12 14 18 / 0.6)";
+      this.#eachBlock(still, (x, y, side) => pen.fillRect(x, y, side, side));
+      this.#eachBlock(moving, (x, y, side) => pen.clearRect(x, y, side, side));
+      pen.fillStyle = "rgb(229 134 87 / 0.3)";
+      this.#eachBlock(moving, (x, y, side) => pen.fillRect(x, y, side, side));
+    }
     if (this.#on.has("lines")) this.#lines(pen);
     if (this.#on.has("ebc")) this.#ebc(pen);
-    if (this.#on.has("blocks")) this.#eachBlock((x, y, side, flagged) => {
-      if (!flagged) return;
+    if (this.#on.has("blocks")) {
       pen.strokeStyle = "rgb(255 255 255 / 0.75)";
-      pen.strokeRect(x + 0.5, y + 0.5, side - 1, side - 1);
-    });
+      this.#eachBlock(flagged, (x, y, side) => pen.strokeRect(x + 0.5, y + 0.5, side - 1, side - 1));
+    }
   }
 
   #lines(pen) {
@@ -90,15 +92,15 @@ export class DrawnFrame {
     });
   }
 
-  // Bits, the lowest of a byte first, block after block in rows.
-  #eachBlock(act) {
-    const {flagged = "", block = 16} = this.#drawn;
-    const bits = atob(flagged);
+  // Those whose bit is set: the lowest of a byte first, block after block in rows.
+  #eachBlock(flags = "", act) {
+    const {block} = this.#drawn;
+    const bits = atob(flags);
     const columns = Math.ceil(this.overlay.width / block), rows = Math.ceil(this.overlay.height / block);
     for (let row = 0; row < rows; ++row) {
       for (let column = 0; column < columns; ++column) {
         const bit = row * columns + column;
-        act(column * block, row * block, block, (bits.charCodeAt(bit >> 3) >> (bit & 7) & 1) === 1);
+        if (bits.charCodeAt(bit >> 3) >> (bit & 7) & 1) act(column * block, row * block, block);
       }
     }
   }

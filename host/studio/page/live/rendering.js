@@ -43,11 +43,11 @@ export class Rendering {
   }
 
   #drawn(message) {
-    const {frame, kind, interval, seconds} = message;
-    this.caption.replaceChildren(element("strong", {}, `Frame ${frame}`), ` ${kind} of interval ${interval}, ${seconds.toFixed(2)} s`);
+    const {frame, kind, interval, whole} = message;
+    this.caption.replaceChildren(element("strong", {}, `Frame ${frame}`), ` ${kind} of interval ${interval}${whole ? "" : ", being drawn"}`);
     if (this.live.getAttribute("aria-pressed") === "true") this.scrub.value = frame;
     fillTrack(this.scrub, this.scrub.value / (Number(this.scrub.max) || 1));
     this.frame.describe(message);
-    this.timeline.add(message);
+    if (message.nodes?.some(({seconds}) => seconds)) this.timeline.add(message);
   }
 }

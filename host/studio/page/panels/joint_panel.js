@@ -8,9 +8,6 @@ import {shapeLines} from "./shape_lines.js";
 
 const kAxes = ["x", "y", "z"];
 const kWhole = 180;  // degrees: limits of a free axis
-const kTrunk = ["pelvis", "spine", "chest", "neck", "head"];
-const kLimbs = ["hip", "knee", "ankle", "toes", "shoulder", "elbow", "wrist"];
-const kLimbNames = [...kTrunk, ...["left", "right"].flatMap((side) => kLimbs.map((limb) => `${side}.${limb}`))];
 
 const freeOf = (joint) => kAxes.filter((axis) => joint.free.includes(axis));
 const limitsOf = (joint, i) => joint.limits?.[i] ?? [-kWhole, kWhole];
@@ -30,14 +27,14 @@ export class JointPanel {
 
   rest(event) {
     const joint = this.state.joint();
-    if (joint) this.edits.commit(this.edits.pose(atRest(joint)), event);
+    if (joint?.pose) this.edits.commit(this.edits.pose(atRest(joint)), event);
   }
 
   #update() {
     const joint = this.state.joint();
     const {project, selected} = this.state;
     const built = joint && JSON.stringify([project.kind, selected, joint.free, joint.limits, joint.shape, Boolean(joint.sbb),
-                                           project.shapes, Object.keys(joint.options ?? {}),
+                                           Boolean(joint.pose), project.shapes, Object.keys(joint.options ?? {}),
                                            project.materials.map(({name}) => name),
                                            this.state.actor().joints.map(({name}) => name)]);
     if (built !== this.#built) {
@@ -80,7 +77,7 @@ export class JointPanel {
 
   #pose(joint, film) {
     const {edits} = this;
-    const sliders = freeOf(joint).map((axis) => {
+    const sliders = (joint.pose ? freeOf(joint) : []).map((axis) => {
       const i = kAxes.indexOf(axis);
       const [least, most] = limitsOf(joint, i);
       const posed = (angle) => edits.pose(this.state.joint().pose.map((each, at) => at === i ? angle : each));
@@ -92,7 +89,7 @@ export class JointPanel {
     });
     const rest = element("button", {class: "quiet icon", "aria-label": "Put the joint at rest", title: `At rest (${keysOf("rest")})`,
                                     onclick: (event) => this.rest(event)}, icon("reset"));
-    const made = part("Pose", sliders.length ? sliders : element("p", {class: "hint"}, "This joint cannot turn."));
+    const made = part("Pose", sliders.length ? sliders : element("p", {class: "hint"}, joint.pose ? "This joint cannot turn." : "This actor moves by matrices."));
     const summary = made.querySelector("summary");
     if (film) summary.append(this.#keyed());
     if (sliders.length) made.querySelector(".body").prepend(element("div", {class: "corner"}, rest));
@@ -159,7 +156,7 @@ export class JointPanel {
     }
     const material = choice({name: "Material", key: "material", options: [[null, "None (grey)"], ...project.materials.map(({name}) => [name, name])],
                              commit: (name, event) => this.edits.commit(this.edits.joint(name ? {material: name} : {reset: ["material"]}), event)});
-    const limb = choice({name: "Limb", key: "limb", options: [[null, "None"], ...kLimbNames.map((name) => [name, label(name)])],
+    const limb = choice({name: "Limb", key: "limb", options: [[null, "None"], ...(project.limbs ?? []).map((name) => [name, label(name)])],
                          commit: (name, event) => this.edits.commit(this.edits.joint(name ? {limb: name} : {reset: ["limb"]}), event)});
     if (joint.shape) lines.push(line("Material", this.#field(material, (now) => now.material ?? null)));
     lines.push(line("Limb", this.#field(limb, (now) => now.limb || null)));
@@ -186,8 +183,12 @@ export class JointPanel {
   }
 }
 
-const nothing = (film) => element("p", {class: "nothing"}, film ? "Select a joint of an actor, in the tree or in a view."
-                                                               : "Select a joint, in the tree or in a view.");
+const kFirstSteps = [["Click", "a limb in a view, or a joint in the tree, to select it"], ["Drag", "a limb or a ring to pose it, empty space to look around"],
+                     [keysOf("help"), "lists all keys"]];
+
+const nothing = (film) => element("div", {class: "nothing"},
+  element("p", {}, film ? "No joint of an actor is selected." : "No joint is selected."),
+  element("dl", {}, kFirstSteps.map(([key, text]) => element("div", {}, element("dt", {}, element("kbd", {}, key)), element("dd", {}, text)))));
 const label = (name) => name.replace(/[_.]/g, " ");
 const atRest = (joint) => kAxes.map((_, i) => joint.free.includes(kAxes[i]) ? Math.min(Math.max(0, limitsOf(joint, i)[0]), limitsOf(joint, i)[1]) : joint.pose[i]);
 

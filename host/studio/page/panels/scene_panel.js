@@ -34,7 +34,7 @@ export class ScenePanel {
   #bodies() {
     const bodies = this.state.project?.bodies ?? [];
     if (bodies.length === 0) return [element("p", {class: "nothing"}, "This model has no other bodies.")];
-    const button = (name) => element("button", {onclick: (event) => this.edits.commit({body: name}, event)}, name);
+    const button = ({name, what}) => element("button", {title: what, onclick: (event) => this.edits.commit({body: name}, event)}, name);
     return [part("Bodies", element("p", {class: "hint"}, "The same segments with other proportions."),
                  element("div", {class: "actions"}, bodies.map(button)))];
   }
@@ -54,8 +54,8 @@ export class ScenePanel {
 
   #film() {
     const name = this.state.selected.actor;
-    const actor = name === null
-      ? element("p", {class: "nothing"}, "Select an actor in the tree.")
+    const actor = !this.state.actor()?.place
+      ? element("p", {class: "nothing"}, name === null ? "Select an actor in the tree." : "This actor moves by matrices.")
       : part(`Actor ${name}`, this.#ofActor("Place", "place", 0.1), this.#ofActor("Turn", "turn", 5));
     return this.state.project.camera ? [actor, this.#camera()] : [actor];
   }
@@ -73,7 +73,7 @@ export class ScenePanel {
     const vector = (label, member) => line(label, this.#field(vectorField({
       name: `Camera, ${label.toLowerCase()}`, key: `camera.${member}`, step: 0.1, ...this.#gestures((value) => stepOf({[member]: value})),
     }), () => now()?.[member]));
-    const fov = numberField({name: "Field of view", unit: "°", least: 0.01, most: 179, step: 1, key: "camera.fov", ...this.#gestures((value) => stepOf({fov: value}))});
-    return part("Camera", vector("Eye", "eye"), vector("Looks at", "at"), line("Field of view", this.#field(fov, () => now()?.fov)));
+    const fov = numberField({name: "Camera, view angle", unit: "°", least: 0.01, most: 179, step: 1, key: "camera.fov", ...this.#gestures((value) => stepOf({fov: value}))});
+    return part("Camera", vector("Eye", "eye"), vector("Looks at", "at"), line("View angle", this.#field(fov, () => now()?.fov)));
   }
 }

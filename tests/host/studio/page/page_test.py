@@ -461,13 +461,15 @@ class Films(Page):
         self.studio.show(255, [(0, 0, 32, 32)], bytes((10, 20, 30, 255)) * 1024, size=(32, 32))
         self.studio.tell({"is": "drawn", "frame": 4, "kind": "inbetween", "interval": 1, "seconds": 0.5,
                           "nodes": [{"node": 0, "lines": [[0, 15]], "seconds": {"raster": 0.4}}, {"node": 1, "lines": [[16, 31]], "seconds": {"wait": 0.1}}],
-                          "ebc": [1, 2], "flagged": bits([True, False, False, True]), "block": 16})
+                          "ebc": [1, 2], "flagged": bits([True, False, False, True]), "moving": bits([True, False, False, False]),
+                          "still": bits([True, True, False, False]), "whole": True, "block": 16})
         self.until(lambda: "Frame 4" in self.find(".caption").text)
         shown = "return [...document.querySelector(arguments[0]).getContext('2d').getImageData(...arguments[1]).data]"
         self.until(lambda: self.js(shown, ".sheet canvas", [31, 31, 1, 1]), [10, 20, 30, 255])
         self.find('[data-overlay="moving"]').click()
-        alpha = [self.js(shown, ".overlay", [x, y, 1, 1])[3] > 0 for x, y in ((8, 8), (24, 8), (8, 24), (24, 24))]
-        self.assertEqual(alpha, [False, True, True, False])
+        blocks = [self.js(shown, ".overlay", [x, y, 1, 1]) for x, y in ((8, 8), (24, 8), (8, 24), (24, 24))]
+        self.assertGreater(blocks[0][0], 200)  # moves: tinted
+        self.assertEqual([block[3] > 0 for block in blocks], [True, True, False, False])
         self.js("""const slider = document.querySelector('.scrub input');
                    slider.value = 2;
                    slider.dispatchEvent(new Event("input"));""")

@@ -45,11 +45,16 @@ def materials():
     return [{"name": name, **material} for name, material in json.loads((MODELS / "human.json").read_text())["materials"].items()]
 
 
+def limbs():
+    sides = ("hip", "knee", "ankle", "toes", "shoulder", "elbow", "wrist")
+    return ["pelvis", "spine", "chest", "neck", "head", *(f"{side}.{limb}" for side in ("left", "right") for limb in sides)]
+
+
 def model():
     return {
         "kind": "model", "file": "examples/models/human.json", "frames": 1, "rate": 24, "frame": 0, "size": [960, 540],
         "actors": [{"name": "model", "model": "model", "place": [0, 0, 0], "turn": [0, 0, 0], "joints": joints()}],
-        "materials": materials(), "shapes": SHAPES, "bodies": ["tall", "child", "stout"],
+        "materials": materials(), "shapes": SHAPES, "bodies": [{"name": name, "what": f"a {name} body"} for name in ("tall", "child", "stout")], "limbs": limbs(),
         "undo": None, "redo": None, "problem": None,
     }
 
@@ -57,5 +62,6 @@ def model():
 def film():
     actors = [{"name": name, "model": "human", "place": [x, 0, 0], "turn": [0, 0, 0],
                "joints": joints(keyed=("left-thigh", "right-thigh", "head"))} for name, x in (("walker", 0), ("watcher", 2))]
-    return model() | {"kind": "film", "file": "examples/demo.json", "frames": 120, "frame": 24, "actors": actors,
+    return {key: value for key, value in model().items() if key not in ("shapes", "bodies", "limbs")} | {"kind": "film", "file": "examples/demo.json", "frames": 120, "frame": 24, "actors": actors,
+                      "materials": [{"name": each["name"], "color": each["color"]} for each in materials()],
                       "camera": {"eye": [6, -4, 3], "at": [0, 0, 2], "fov": 40}}
