@@ -26,17 +26,6 @@ glm::dvec3 outward(const Orbit& orbit) {
   return {std::cos(height) * std::cos(turn), std::cos(height) * std::sin(turn), std::sin(height)};
 }
 
-// Plain ones in place of those that a model leaves to its film.
-std::vector<animator::MaterialMotion> lent_materials(const modeler::Model& model) {
-  std::set<std::string> names;
-  for (const modeler::Joint& joint : model.joints)
-    if (joint.segment && !joint.segment->material.empty()) names.insert(joint.segment->material);
-  for (const modeler::NamedMaterial& own : model.materials) names.erase(own.name);
-  std::vector<animator::MaterialMotion> materials;
-  for (const std::string& name : names) materials.push_back(animator::still_material(name, modeler::kDefaultMaterial));
-  return materials;
-}
-
 }  // namespace
 
 Orbit orbit_from(From from, const Ball& subject, double aspect) {
@@ -76,6 +65,16 @@ wire::Camera camera_of(const Orbit& orbit) {
   camera.near = std::max(orbit.distance / 1000, kNearPlane);
   camera.far = std::min(orbit.distance * 1000, kFarPlane);
   return camera;
+}
+
+std::vector<animator::MaterialMotion> lent_materials(const modeler::Model& model) {
+  std::set<std::string> names;
+  for (const modeler::Joint& joint : model.joints)
+    if (joint.segment && !joint.segment->material.empty()) names.insert(joint.segment->material);
+  for (const modeler::NamedMaterial& own : model.materials) names.erase(own.name);
+  std::vector<animator::MaterialMotion> materials;
+  for (const std::string& name : names) materials.push_back(animator::still_material(name, modeler::kDefaultMaterial));
+  return materials;
 }
 
 animator::Film turntable(modeler::Model model, const std::string& source) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <vector>
 
 #include "host/content/film/compile.h"
 #include "host/preview/view.h"
@@ -30,6 +31,9 @@ Orbit orbit_from(From from, const Ball& subject, double aspect);
 Orbit orbit_near(const wire::Camera& camera, const Ball& subject);
 
 wire::Camera camera_of(const Orbit& orbit);
+
+// Plain materials in place of those that a model leaves to its film.
+std::vector<animator::MaterialMotion> lent_materials(const modeler::Model& model);
 
 // A model's turntable: the film, `frames` long, of a camera going once around it.
 animator::Film turntable(modeler::Model model, const std::string& source);

@@ -71,6 +71,34 @@ Ease ease_there(const Track& track, std::uint32_t frame) {
   return kLinear;
 }
 
+Remarks pose_chosen(Chosen chosen, std::span<const PartSetting> settings, std::uint32_t frame,
+                    const std::optional<Ease>& ease, Beyond beyond) {
+  const Thing& thing = chosen.thing;
+  Tracks tracks = tracks_of(*thing.json);
+  std::set<std::string> touched;
+  Remarks remarks;
+  for (const PartSetting& setting : settings) {
+    const KeyedPart& part = thing.part(setting.part);
+    Track& track = tracks[part.name];
+    if (track.empty() && frame > 0) track.push_back({0, part.value_at(0), kLinear, true});
+    document::Json value = value_after(setting, thing, part, frame, beyond, remarks);
+    if (TrackKey* key = key_at(track, frame)) {
+      // A second setting for the part keeps what the first one set.
+      for (std::size_t axis = 0; touched.contains(part.name) && axis < 3 && value.is_array(); ++axis)
+        if (!setting.numbers[axis]) value[axis] = key->value[axis];
+      key->value = std::move(value);
+    } else {
+      put_key(track, {frame, std::move(value), ease_there(track, frame), true});
+    }
+    touched.insert(part.name);
+  }
+  if (ease) set_ease(tracks, frame, *ease);
+  chosen.parts.assign(touched.begin(), touched.end());
+  const Remarks more = put(chosen, tracks);
+  remarks.insert(remarks.end(), more.begin(), more.end());
+  return remarks;
+}
+
 }  // namespace
 
 PartSetting PartSetting::read(const std::string& text, const Thing& thing) {
@@ -94,36 +122,22 @@ PartSetting PartSetting::read(const std::string& text, const Thing& thing) {
   return setting;
 }
 
+Remarks pose(document::Json& film, const Film& meaning, const std::string& name,
+             std::span<const PartSetting> settings, std::uint32_t frame, const std::optional<Ease>& ease,
+             Beyond beyond) {
+  return pose_chosen(std::move(choose(film, meaning, {false, name, {}}).front()), settings, frame, ease, beyond);
+}
+
 Remarks pose(document::Json& film, const Film& meaning, const std::string& name, std::span<const std::string> settings,
              std::uint32_t frame, const std::optional<Ease>& ease, Beyond beyond) {
   Chosen chosen = std::move(choose(film, meaning, {false, name, {}}).front());
-  const Thing& thing = chosen.thing;
-  Tracks tracks = tracks_of(*thing.json);
-  std::set<std::string> touched;
   std::set<std::pair<std::string, int>> set;
-  Remarks remarks;
+  std::vector<PartSetting> read;
   for (const std::string& text : settings) {
-    const PartSetting setting = PartSetting::read(text, thing);
-    refuse_twice(setting, text, set);
-    const KeyedPart& part = thing.part(setting.part);
-    Track& track = tracks[part.name];
-    if (track.empty() && frame > 0) track.push_back({0, part.value_at(0), kLinear, true});
-    document::Json value = value_after(setting, thing, part, frame, beyond, remarks);
-    if (TrackKey* key = key_at(track, frame)) {
-      // A second setting for the part keeps what the first one set.
-      for (std::size_t axis = 0; touched.contains(part.name) && axis < 3 && value.is_array(); ++axis)
-        if (!setting.numbers[axis]) value[axis] = key->value[axis];
-      key->value = std::move(value);
-    } else {
-      put_key(track, {frame, std::move(value), ease_there(track, frame), true});
-    }
-    touched.insert(part.name);
+    read.push_back(PartSetting::read(text, chosen.thing));
+    refuse_twice(read.back(), text, set);
   }
-  if (ease) set_ease(tracks, frame, *ease);
-  chosen.parts.assign(touched.begin(), touched.end());
-  const Remarks more = put(chosen, tracks);
-  remarks.insert(remarks.end(), more.begin(), more.end());
-  return remarks;
+  return pose_chosen(std::move(chosen), read, frame, ease, beyond);
 }
 
 }  // namespace mars::animator

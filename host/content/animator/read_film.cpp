@@ -4,6 +4,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "hal/failure/failure.h"
 #include "host/content/animator/read_keys.h"
 #include "host/content/animator/read_lights.h"
 #include "host/content/animator/read_materials.h"
@@ -93,8 +94,8 @@ CameraMotion read_camera(const document::Element& element, wire::ColorSpace colo
 // Reads the actors once the models and materials are known.
 class ActorReader {
  public:
-  ActorReader(const Film& film, std::vector<std::string> model_names)
-      : film_(film), model_names_(std::move(model_names)), joints_(film.models.size()) {
+  ActorReader(const Film& film, const std::vector<modeler::Model>& models, std::vector<std::string> model_names)
+      : film_models_(models), model_names_(std::move(model_names)), joints_(models.size()) {
     for (std::size_t i = 0; i < model_names_.size(); ++i) models_.emplace(model_names_[i], i);
     for (const MaterialMotion& material : film.materials) materials_.insert(material.name);
   }
@@ -113,7 +114,7 @@ class ActorReader {
   }
 
  private:
-  const modeler::Model& model_of(const Actor& actor) const { return film_.models[actor.model]; }
+  const modeler::Model& model_of(const Actor& actor) const { return film_models_[actor.model]; }
 
   std::size_t find_model(const document::Element& element) const {
     const std::string name = document::read_text(element);
@@ -230,7 +231,7 @@ class ActorReader {
                     "give every segment its matrix at frame 0, then only what changes");
   }
 
-  const Film& film_;
+  const std::vector<modeler::Model>& film_models_;
   std::vector<std::string> model_names_;
   std::unordered_map<std::string, std::size_t> models_;
   std::unordered_set<std::string_view> materials_;
@@ -296,11 +297,9 @@ void read_settings(const document::Fields& fields, Film& film) {
   film.cutting = static_cast<Cutting>(fields.choice("intervals", 0, cuttings));
 }
 
-}  // namespace
-
-std::span<const document::Keys> film_keys() { return kKeys; }
-
-Film read_film(const document::Element& element, const std::filesystem::path& folder) {
+// `read_models` fills `models`, which become the film's unless it throws.
+template <typename ReadModels>
+Film read_film_with(const document::Element& element, std::vector<modeler::Model>& models, ReadModels read_models) {
   if (element.find("joints") || element.find("from"))
     element.refuse("is a model, not a film",
                    "look at it with mars preview, or name it in a film: \"models\": {\"dog\": \"dog.json\"}");
@@ -312,17 +311,33 @@ Film read_film(const document::Element& element, const std::filesystem::path& fo
   read_lighting(fields, film);
   if (const auto materials = fields.find("materials")) film.materials = read_materials(*materials);
   std::vector<std::string> model_names;
-  const document::Element models = fields.required("models");
-  document::require_kind(models, document::Kind::object);
-  for (const document::Element model : models) {
-    model_names.push_back(modeler::checked_name(model, model.key()));
-    film.models.push_back(read_film_model(model, film, folder));
-  }
+  const document::Element named = fields.required("models");
+  document::require_kind(named, document::Kind::object);
+  for (const document::Element model : named) model_names.push_back(modeler::checked_name(model, model.key()));
+  read_models(named, film);
   const document::Element actors = fields.required("actors");
   document::require_kind(actors, document::Kind::list);
-  ActorReader reader(film, std::move(model_names));
+  ActorReader reader(film, models, std::move(model_names));
   for (const document::Element actor : actors) film.actors.push_back(reader.read(actor));
+  film.models = std::move(models);
   return film;
+}
+
+}  // namespace
+
+std::span<const document::Keys> film_keys() { return kKeys; }
+
+Film read_film(const document::Element& element, const std::filesystem::path& folder) {
+  std::vector<modeler::Model> models;
+  return read_film_with(element, models, [&](const document::Element& named, const Film& film) {
+    for (const document::Element model : named) models.push_back(read_film_model(model, film, folder));
+  });
+}
+
+Film read_film(const document::Element& element, std::vector<modeler::Model>& models) {
+  return read_film_with(element, models, [&](const document::Element& named, const Film&) {
+    check(named.size() == models.size(), "a film is read again with all its models");
+  });
 }
 
 Film read_film(const std::filesystem::path& path) {

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <span>
+#include <vector>
 
 #include "host/content/animator/film.h"
 #include "host/content/document/fields.h"
@@ -13,6 +14,10 @@ namespace mars::animator {
 // Model files are found beside the film file.
 Film read_film(const std::filesystem::path& path);
 Film read_film(const document::Element& element, const std::filesystem::path& folder);
+
+// A film with the same models and materials as one read before, whose `models` are not read again: they become the
+// film's, or stay where they are if it throws.
+Film read_film(const document::Element& element, std::vector<modeler::Model>& models);
 
 // What the objects of a film file may hold, as docs/schema/film.schema.json names them.
 std::span<const document::Keys> film_keys();

@@ -1,13 +1,12 @@
 #include "host/content/document/json_file.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
 
 #include "hal/failure/failure.h"
 #include "host/content/document/file.h"
+#include "host/content/document/folder_lock.h"
 #include "host/content/document/whole_file.h"
 
 namespace mars::document {
@@ -49,23 +48,6 @@ void lay_out(const Json& json, std::size_t indent, std::size_t before, std::stri
   }
   text.append(1, '\n').append(indent, ' ').append(1, json.is_array() ? ']' : '}');
 }
-
-// Holds the lock of the folder that a file is in; its end, however the process ends, gives it back.
-class FolderLock {
- public:
-  explicit FolderLock(const std::filesystem::path& file)
-      : folder_(open(file.has_parent_path() ? file.parent_path().c_str() : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-    if (folder_ >= 0) flock(folder_, LOCK_EX);
-  }
-  ~FolderLock() {
-    if (folder_ >= 0) close(folder_);
-  }
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-
- private:
-  int folder_;
-};
 
 }  // namespace
 

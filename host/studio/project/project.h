@@ -16,6 +16,7 @@
 
 #include "host/content/animator/film.h"
 #include "host/content/document/json_file.h"
+#include "host/content/modeler/edit_shapes.h"
 
 namespace mars::studio {
 
@@ -59,6 +60,11 @@ class Project {
 
   virtual void undo() = 0;  // of all pages' common history; nothing where there is nothing
   virtual void redo() = 0;
+
+  // The control points of a joint's shape ({"set": "point"}) with what a gesture has pulled; none where it has none.
+  virtual std::vector<modeler::ControlPoint> control_points(const std::string& /*joint*/) const { return {}; }
+  // For the person, about the last step: what was mirrored, clamped. Each once.
+  virtual std::vector<std::string> take_remarks() { return {}; }
 
   // Looks whether somebody else changed the files: true if something changed here (the film, or the problem).
   virtual bool look_at_files() = 0;

@@ -1,0 +1,54 @@
+#include "host/content/modeler/figure_library.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "hal/failure/failure.h"
+#include "host/content/modeler/figure_texts.h"
+#include "host/content/modeler/model_file.h"
+#include "host/content/modeler/proportions.h"
+
+namespace mars::modeler {
+namespace {
+
+constexpr LibraryFigure kFigures[] = {{"man", "5.1 units tall, 2.9 to a metre", kHumanText, ""},
+                                      {"child", "a smaller body of the man's segments", kHumanText, kChildText},
+                                      {"tall", "a tall body of the man's segments", kHumanText, kTallText},
+                                      {"stout", "a stout body of the man's segments", kHumanText, kStoutText},
+                                      {"dog", "of capsules and ellipsoids", kDogText, ""}};
+
+Model meaning_of(const document::Json& json) {
+  const document::Document document(json.dump(), "figure");
+  return read_own_model(document.root());
+}
+
+void give_proportions(document::Json& json, std::string_view text) {
+  const document::Document derived(text, "proportions");
+  scale_model(json, meaning_of(json), read_proportions(*derived.root().find("proportions")));
+  const document::Json others = document::Json::parse(text);
+  if (others.contains("materials"))
+    for (const auto& [name, material] : others["materials"].items()) json["materials"][name] = material;
+}
+
+}  // namespace
+
+std::span<const LibraryFigure> figure_library() { return kFigures; }
+
+document::Json library_figure(const std::string& name, const std::optional<double>& height) {
+  const auto figure = std::ranges::find(kFigures, std::string_view(name), &LibraryFigure::name);
+  if (figure == std::end(kFigures)) {
+    std::vector<std::string_view> names;
+    for (const LibraryFigure& each : kFigures) names.push_back(each.name);
+    throw Failure("is no figure of the library", "'" + name + "'",
+                  document::did_you_mean(name, names, "choose " + document::joined(names)));
+  }
+  document::Json json = document::Json::parse(figure->model);
+  if (!figure->proportions.empty()) give_proportions(json, figure->proportions);
+  if (!height) return json;
+  Proportions proportions;
+  proportions.height = height;
+  scale_model(json, meaning_of(json), proportions);
+  return json;
+}
+
+}  // namespace mars::modeler

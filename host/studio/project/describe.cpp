@@ -1,0 +1,204 @@
+#include "host/studio/project/describe.h"
+
+#include <algorithm>
+#include <map>
+
+#include "host/content/animator/edit.h"
+#include "host/content/animator/written.h"
+#include "host/content/modeler/edit.h"
+#include "host/content/modeler/figure_library.h"
+#include "host/content/modeler/limbs.h"
+#include "host/content/modeler/read_model.h"
+#include "host/content/modeler/shape_library.h"
+#include "host/studio/project/model_film.h"
+
+namespace mars::studio {
+namespace {
+
+using animator::written;
+
+Json shown(const glm::dvec3& vector) { return written(animator::rounded(vector)); }
+
+glm::dvec3 pose_of(const modeler::Joint& joint, const animator::Channel<glm::dvec3>& poses, std::uint32_t frame) {
+  return animator::JointMotion(joint, poses).pose_at(frame);
+}
+
+template <typename Value>
+bool has_key(const animator::Channel<Value>& channel, std::uint32_t frame) {
+  return std::ranges::binary_search(channel, frame, {}, &animator::Key<Value>::frame);
+}
+
+// "left.knee", of each joint that is a limb.
+std::map<std::size_t, std::string> limbs_of(const modeler::Model& model) {
+  std::map<std::size_t, std::string> limbs;
+  for (std::size_t part = 0; part < std::size(modeler::kTrunkNames); ++part)
+    limbs[model.limbs.trunk[part]] = modeler::kTrunkNames[part];
+  for (std::size_t side = 0; side < 2; ++side)
+    for (std::size_t limb = 0; limb < std::size(modeler::kLimbNames); ++limb)
+      limbs[model.limbs.sides[side][limb]] = (side == 0 ? "left." : "right.") + std::string(modeler::kLimbNames[limb]);
+  return limbs;
+}
+
+// What moves a joint.
+Json joint_that_moves(const modeler::Model& model, const modeler::Joint& joint) {
+  Json limits = Json::array(), free = Json::array();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    limits.push_back({written(joint.limits[axis].lower), written(joint.limits[axis].upper)});
+    if (joint.limits[axis].free()) free.push_back(std::string(1, "xyz"[axis]));
+  }
+  Json json{{"name", joint.name}};
+  if (joint.parent != modeler::kNone) json["parent"] = model.joints[joint.parent].name;
+  json["limits"] = std::move(limits);
+  json["free"] = std::move(free);
+  return json;
+}
+
+void add_limb(Json& joint, const std::map<std::size_t, std::string>& limbs, std::size_t number) {
+  if (const auto limb = limbs.find(number); limb != limbs.end()) joint["limb"] = limb->second;
+}
+
+Json segment_in(const Json& model, const std::string& joint) {
+  if (model.contains("joints"))
+    for (const Json& each : model["joints"])
+      if (each.value("name", "") == joint) return each.value("segment", Json::object());
+  return Json::object();
+}
+
+Json options_of(const Json& segment, const std::string& shape) {
+  Json options = Json::object();
+  const modeler::LibraryShape* const known = modeler::find_library_shape(shape);
+  if (!known || known->option.key.empty()) return options;
+  const std::string key(known->option.key);
+  options[key] = segment.contains(key) ? segment[key] : written(known->option.otherwise);
+  return options;
+}
+
+// All that can be changed of it.
+void add_shape(Json& json, const modeler::Model& model, const modeler::Joint& joint, const Json& file) {
+  json["place"] = shown(joint.place);
+  json["x_axis"] = shown(joint.x_axis);
+  json["y_axis"] = shown(joint.y_axis);
+  if (!joint.segment) return;
+  const std::string& shape = model.shapes[joint.segment->shape].name;
+  json["shape"] = shape;
+  json["options"] = options_of(segment_in(file, joint.name), shape);
+  json["sbb"] = {shown(joint.segment->sbb.min), shown(joint.segment->sbb.max)};
+  json["material"] = joint.segment->material;
+}
+
+Json actor_head(const animator::Film& film, std::size_t number, std::uint32_t frame) {
+  const animator::Actor& actor = film.actors[number];
+  Json json{{"name", actor.name}};
+  if (!actor.matrices.empty()) {
+    json["matrices"] = true;
+    return json;
+  }
+  json["place"] = shown(animator::value_at(actor.motion.place, frame));
+  json["turn"] = shown(pose_of(animator::free_joint(), actor.motion.turn, frame));
+  return json;
+}
+
+Json material_of(const std::string& name, const wire::Material& material) {
+  Json json{{"name", name}, {"color", shown({material.color[0], material.color[1], material.color[2]})}};
+  json["reflection"] = modeler::word_of(material.reflection);
+  json["interpolation"] = modeler::word_of(material.interpolation);
+  json["sides"] = material.sides;
+  for (const modeler::MaterialNumber& number : modeler::kMaterialNumbers)
+    if (modeler::uses(material.reflection, number))
+      json[std::string(number.key)] = document::rounded_to(material.*number.member, 6);
+  return json;
+}
+
+Json library() {
+  Json shapes = Json::array();
+  for (const modeler::LibraryShape& shape : modeler::shape_library()) {
+    Json options = Json::array();
+    const modeler::ShapeOption& option = shape.option;
+    if (!option.key.empty())
+      options.push_back({{"key", option.key},
+                         {"what", option.what},
+                         {"count", option.count},
+                         {"default", option.otherwise},
+                         {"range", {option.range.lowest, option.range.highest}}});
+    shapes.push_back({{"name", shape.name}, {"what", shape.what}, {"options", std::move(options)}});
+  }
+  return shapes;
+}
+
+Json limb_names() {
+  Json names = Json::array();
+  for (const std::string_view part : modeler::kTrunkNames) names.push_back(part);
+  for (const char* side : {"left.", "right."})
+    for (const std::string_view limb : modeler::kLimbNames) names.push_back(side + std::string(limb));
+  return names;
+}
+
+}  // namespace
+
+Json poses_of(const animator::Film& film, std::size_t actor, std::uint32_t frame) {
+  Json json = actor_head(film, actor, frame);
+  if (json.contains("matrices")) return json;
+  const modeler::Model& model = film.models[film.actors[actor].model];
+  Json poses = Json::array();
+  for (std::size_t joint = 0; joint < model.joints.size(); ++joint)
+    poses.push_back(shown(pose_of(model.joints[joint], film.actors[actor].motion.pose[joint], frame)));
+  json["joints"] = std::move(poses);
+  return json;
+}
+
+void describe_film(Json& project, const animator::Film& film, const Json& json, std::uint32_t frame) {
+  Json actors = Json::array();
+  for (std::size_t number = 0; number < film.actors.size(); ++number) {
+    const animator::Actor& actor = film.actors[number];
+    const modeler::Model& model = film.models[actor.model];
+    const auto limbs = limbs_of(model);
+    Json described = actor_head(film, number, frame), joints = Json::array();
+    described["model"] = json["actors"][number].value("model", "");
+    for (std::size_t i = 0; i < model.joints.size(); ++i) {
+      Json joint = joint_that_moves(model, model.joints[i]);
+      if (actor.matrices.empty()) {
+        joint["pose"] = shown(pose_of(model.joints[i], actor.motion.pose[i], frame));
+        if (has_key(actor.motion.pose[i], frame)) joint["keyed"] = true;
+      }
+      add_limb(joint, limbs, i);
+      joints.push_back(std::move(joint));
+    }
+    described["joints"] = std::move(joints);
+    actors.push_back(std::move(described));
+  }
+  project["actors"] = std::move(actors);
+  project["camera"] = {{"eye", shown(animator::value_at(film.camera.eye, frame))},
+                       {"at", shown(animator::value_at(film.camera.at, frame))},
+                       {"fov", written(animator::rounded(animator::value_at(film.camera.fov, frame)))}};
+  Json materials = Json::array();
+  for (const animator::MaterialMotion& material : film.materials)
+    materials.push_back({{"name", material.name}, {"color", shown(animator::value_at(material.color, frame))}});
+  project["materials"] = std::move(materials);
+}
+
+void describe_model(Json& project, const animator::Film& film, const Json& json, std::uint32_t frame) {
+  const modeler::Model& model = film.models[kModelActor];
+  const auto limbs = limbs_of(model);
+  Json actor = actor_head(film, kModelActor, frame), joints = Json::array();
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    Json joint = joint_that_moves(model, model.joints[i]);
+    joint["pose"] = shown(pose_of(model.joints[i], film.actors[kModelActor].motion.pose[i], frame));
+    add_shape(joint, model, model.joints[i], json);
+    add_limb(joint, limbs, i);
+    joints.push_back(std::move(joint));
+  }
+  actor["joints"] = std::move(joints);
+  project["actors"] = Json::array({std::move(actor)});
+  project["materials"] = Json::array();
+  for (const modeler::NamedMaterial& material : model.materials)
+    project["materials"].push_back(material_of(material.name, material.material));
+  project["shapes"] = library();
+  if (json.contains("shapes"))
+    for (const auto& [name, shape] : json["shapes"].items()) project["shapes"].push_back({{"name", name}, {"own", true}});
+  project["limbs"] = limb_names();
+  project["bodies"] = Json::array();
+  for (const modeler::LibraryFigure& figure : modeler::figure_library())
+    project["bodies"].push_back({{"name", figure.name}, {"what", figure.what}});
+}
+
+}  // namespace mars::studio

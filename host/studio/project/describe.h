@@ -1,0 +1,22 @@
+// What pages show of a film or a model, as JSON (docs/studio-protocol.md, "project"): actors with their joints, materials,
+// shapes. Of a film's joints only what moves them is said, and what is nothing is left out: it may have thousands.
+#pragma once
+
+#include <cstdint>
+
+#include "host/content/animator/film.h"
+#include "host/content/document/json_file.h"
+
+namespace mars::studio {
+
+using document::Json;
+
+// Into `project`. `json`: the file that the film is read from.
+void describe_film(Json& project, const animator::Film& film, const Json& json, std::uint32_t frame);
+// `film`: of model_film.h. `json`: the model's.
+void describe_model(Json& project, const animator::Film& film, const Json& json, std::uint32_t frame);
+
+// Where an actor stands at the frame, and the turns of all its joints ("poses").
+Json poses_of(const animator::Film& film, std::size_t actor, std::uint32_t frame);
+
+}  // namespace mars::studio

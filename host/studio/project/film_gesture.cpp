@@ -1,0 +1,115 @@
+#include "host/studio/project/film_gesture.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "hal/failure/failure.h"
+#include "host/content/animator/angles.h"
+#include "host/content/animator/rig.h"
+#include "host/content/document/fields.h"
+
+namespace mars::studio {
+namespace {
+
+template <typename Items>
+[[noreturn]] void refuse_name(const std::string& name, const char* what, const Items& items) {
+  std::vector<std::string_view> names;
+  for (const auto& item : items) names.push_back(item.name);
+  throw Failure(what, "'" + name + "'", document::did_you_mean(name, names, "choose another"));
+}
+
+// As animator::pose() sets it: a first key also makes one at frame 0, and the way's ease goes on.
+template <typename Value>
+void set_at(animator::Channel<Value>& channel, const Value& value, std::uint32_t frame, const Value& rest) {
+  if (channel.empty() && frame > 0) channel.push_back({0, rest, animator::kLinear});
+  const auto next = std::ranges::lower_bound(channel, frame, {}, &animator::Key<Value>::frame);
+  if (next != channel.end() && next->frame == frame) {
+    next->value = value;
+    return;
+  }
+  const bool on_the_way = next != channel.begin() && next != channel.end();
+  channel.insert(next, {frame, value, on_the_way ? std::prev(next)->ease : animator::kLinear});
+}
+
+}  // namespace
+
+std::size_t actor_named(const animator::Film& film, const std::string& name) {
+  if (film.actors.empty()) throw Failure("has no actors", film.source, "add one to the film");
+  const auto found = name.empty() && film.actors.size() == 1 ? film.actors.begin()
+                                                             : std::ranges::find(film.actors, name, &animator::Actor::name);
+  if (found == film.actors.end()) refuse_name(name, "is no actor of the film", film.actors);
+  if (!found->matrices.empty())
+    throw Failure("is moved by matrices, which have no keys", "actor '" + found->name + "'",
+                  "change its matrices in the tool they came from");
+  return static_cast<std::size_t>(found - film.actors.begin());
+}
+
+std::size_t joint_named(const modeler::Model& model, const std::string& name) {
+  const auto found = std::ranges::find(model.joints, name, &modeler::Joint::name);
+  if (found == model.joints.end()) refuse_name(name, "is no joint of the model", model.joints);
+  return static_cast<std::size_t>(found - model.joints.begin());
+}
+
+void FilmGesture::set(animator::Channel<glm::dvec3>& channel, const glm::dvec3& value, std::uint32_t frame,
+                      const glm::dvec3& rest) {
+  vectors_.push_back({&channel, channel});
+  set_at(channel, value, frame, rest);
+}
+
+void FilmGesture::show(animator::Film& film, bool, const PoseStep& step, std::uint32_t frame) {
+  const std::size_t number = actor_named(film, step.actor);
+  animator::Actor& actor = film.actors[number];
+  const modeler::Model& model = film.models[actor.model];
+  for (const auto& [name, pose] : step.poses) joint_named(model, name);
+  take_back(film);
+  for (const auto& [name, pose] : step.poses) {
+    const std::size_t joint = joint_named(model, name);
+    set(actor.motion.pose[joint], animator::clamped(model.joints[joint], pose), frame, model.joints[joint].rest());
+  }
+  actors_ = {number};
+  shows_ = true;
+}
+
+void FilmGesture::show(animator::Film& film, bool, const PlaceStep& step, std::uint32_t frame) {
+  const std::size_t number = actor_named(film, step.actor);
+  take_back(film);
+  animator::FigureMotion& motion = film.actors[number].motion;
+  if (step.place) set(motion.place, *step.place, frame);
+  if (step.turn) set(motion.turn, *step.turn, frame);
+  actors_ = {number};
+  shows_ = true;
+}
+
+void FilmGesture::show(animator::Film& film, bool rig_lights, const CameraStep& step, std::uint32_t frame) {
+  animator::CameraMotion& camera = film.camera;
+  take_back(film);
+  if (step.eye) set(camera.eye, *step.eye, frame);
+  if (step.at) set(camera.at, *step.at, frame);
+  if (step.fov) {
+    numbers_.push_back({&camera.fov, camera.fov});
+    set_at(camera.fov, *step.fov, frame, 0.0);
+  }
+  shows_ = true;
+  const glm::dvec3 ahead = animator::value_at(camera.at, frame) - animator::value_at(camera.eye, frame);
+  const glm::dvec3 side = glm::cross(ahead, animator::value_at(camera.up, frame));
+  if (glm::length(ahead) < 1e-9 || glm::length(side) < 1e-6 * glm::length(ahead)) {
+    take_back(film);
+    throw Failure("would see nothing", "the camera", "move its eye away from what it looks at");
+  }
+  if (!rig_lights) return;
+  lights_ = film.lights;
+  film.lights = animator::rig_lights(camera, film.color);
+}
+
+void FilmGesture::take_back(animator::Film& film) {
+  for (auto saved = vectors_.rbegin(); saved != vectors_.rend(); ++saved) *saved->channel = std::move(saved->was);
+  for (auto& saved : numbers_) *saved.channel = std::move(saved.was);
+  if (!lights_.empty()) film.lights = std::move(lights_);
+  vectors_.clear();
+  numbers_.clear();
+  lights_.clear();
+  actors_.clear();
+  shows_ = false;
+}
+
+}  // namespace mars::studio

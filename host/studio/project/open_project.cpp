@@ -1,0 +1,296 @@
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <utility>
+
+#include "hal/failure/explain.h"
+#include "host/content/document/file.h"
+#include "host/content/document/folder_lock.h"
+#include "host/content/document/whole_file.h"
+#include "host/content/film/film_file.h"
+#include "host/content/modeler/edit.h"
+#include "host/preview/watched_files.h"
+#include "host/studio/project/describe.h"
+#include "host/studio/project/film_work.h"
+#include "host/studio/project/history.h"
+#include "host/studio/project/journal.h"
+#include "host/studio/project/model_film.h"
+#include "host/studio/project/model_work.h"
+#include "host/studio/project/project.h"
+
+namespace mars::studio {
+namespace {
+
+constexpr const char* kBreaking = "what broke the file";
+
+// "film.json:12: ..." is line 12 of that file.
+Problem problem_of(const std::exception& reason, const std::filesystem::path& path) {
+  const Failure failure = explain(reason);
+  Problem problem{failure.what(), 0};
+  const std::string begin = path.string() + ":";
+  if (!failure.where.starts_with(begin)) return problem;
+  const std::string rest = failure.where.substr(begin.size());
+  problem.line = document::number_in<std::uint32_t>(rest.substr(0, rest.find_first_not_of("0123456789"))).value_or(0);
+  return problem;
+}
+
+class FileProject : public Project {
+ public:
+  FileProject(std::filesystem::path path, bool model) : path_(std::move(path)), is_model_(model), journal_(path_) {
+    if (model)
+      work_ = std::make_unique<ModelWork>(path_);
+    else
+      work_ = std::make_unique<FilmWork>(path_);
+    document::RecordedReads reads;
+    const auto text = document::read_file_if_there(path_, document::kLargestFileRead);
+    on_disk_ = text.has_value();
+    work_->prepare(text ? *text : document::laid_out(new_model()), false);
+    accept(text ? *text : document::laid_out(new_model()));
+    good_ = reads.stamps();
+    files_.set_read(good_);
+    history_ = journal_.read(text_).value_or(History());
+  }
+
+  bool is_model() const override { return is_model_; }
+  const animator::Film& film() const override { return work_->film(); }
+  std::uint64_t revision() const override { return revision_; }
+  std::uint64_t shapes_revision() const override { return work_->shapes_revision(); }
+  std::optional<Pulled> pulled() const override { return work_->pulled(); }
+  std::uint32_t frame() const override { return frame_; }
+  bool in_gesture() const override { return work_->shows(); }
+  const std::optional<Problem>& problem() const override { return problem_; }
+  std::vector<modeler::ControlPoint> control_points(const std::string& joint) const override {
+    return work_->control_points(joint);
+  }
+  std::vector<std::string> take_remarks() override { return std::exchange(remarks_, {}); }
+
+  void set_frame(std::uint32_t frame) override {
+    frame = std::min(frame, film().frames - 1);
+    if (frame == frame_) return;
+    cancel();
+    frame_ = frame;
+    ++revision_;
+  }
+
+  void preview(const Json& step) override {
+    const Step read = read_step(step);
+    ++revision_;
+    work_->show(read, frame_);
+  }
+
+  void cancel() override {
+    if (!work_->shows()) return;
+    ++revision_;
+    work_->take_back();
+  }
+
+  void commit(const Json& json) override {
+    const Step step = read_step(json);
+    cancel();
+    remarks_.clear();
+    if (work_->kept_in_memory(step)) {
+      ++revision_;
+      return;
+    }
+    const document::FolderLock lock(path_);
+    look_at_disk();
+    refuse_while_broken();
+    const std::string after = work_->text_after(step, frame_, remarks_);
+    if (after == text_ && on_disk_) return;
+    const HistoryEntry entry{time_now(), name_of(step), change_between(text_, after)};
+    replace(after, [&] { journal_.write_step(entry, text_, after); });
+    history_.add(entry);
+    journal_.shorten(history_, text_);
+    say_trouble();
+  }
+
+  void undo() override {
+    cancel();
+    const document::FolderLock lock(path_);
+    look_at_disk();
+    if (problem_) return repair();
+    if (const HistoryEntry* const entry = history_.to_undo()) {
+      const std::string before = entry->change.undone(text_).value();
+      replace(before, [&] { journal_.write_undo(text_, before); });
+      history_.undo();
+    }
+  }
+
+  void redo() override {
+    cancel();
+    const document::FolderLock lock(path_);
+    look_at_disk();
+    refuse_while_broken();
+    if (const HistoryEntry* const entry = history_.to_redo()) {
+      const std::string after = entry->change.done(text_).value();
+      replace(after, [&] { journal_.write_redo(text_, after); });
+      history_.redo();
+    }
+  }
+
+  bool look_at_files() override {
+    if (!files_.changed_and_settled()) return false;
+    const document::FolderLock lock(path_);
+    return look_at_disk();
+  }
+
+  Json describe() const override {
+    Json json{{"is", "project"},
+              {"kind", is_model_ ? "model" : "film"},
+              {"file", path_.filename().string()},
+              {"frames", film().frames},
+              {"rate", film().rate},
+              {"frame", frame_},
+              {"size", {film().width, film().height}}};
+    work_->describe(json, frame_);
+    json["undo"] = problem_ ? Json(kBreaking) : name_of(history_.to_undo());
+    json["redo"] = problem_ ? Json() : name_of(history_.to_redo());
+    json["problem"] = problem_ ? Json{{"text", problem_->text}, {"line", problem_->line}} : Json();
+    return json;
+  }
+
+  Json describe_poses() const override {
+    Json actors = Json::array();
+    if (work_->shows())
+      for (const std::size_t actor : work_->shown_actors()) actors.push_back(poses_of(film(), actor, frame_));
+    else if (is_model_)
+      actors.push_back(poses_of(film(), kModelActor, frame_));
+    else
+      for (std::size_t actor = 0; actor < film().actors.size(); ++actor)
+        actors.push_back(poses_of(film(), actor, frame_));
+    return {{"is", "poses"}, {"frame", frame_}, {"actors", std::move(actors)}};
+  }
+
+ private:
+  static Json name_of(const HistoryEntry* entry) { return entry ? Json(entry->name) : Json(); }
+  static std::string name_of(const Step& step) { return studio::name_of(step); }
+
+  // As `mars model new` begins.
+  static Json new_model() {
+    Json model = modeler::empty_model();
+    modeler::add_joint(model, "body", {});
+    return model;
+  }
+
+  void accept(const std::string& text) {
+    work_->accept();
+    text_ = text;
+    frame_ = std::min(frame_, film().frames - 1);
+    ++revision_;
+  }
+
+  // The file and what is open become this text, or stay as they are.
+  template <typename Record>
+  void replace(const std::string& text, Record record) {
+    if (on_disk_ && access(path_.c_str(), W_OK) != 0) document::fail_file("write", path_, errno);
+    work_->prepare(text, others_are_as_read());
+    try {
+      record();
+      document::write_whole_file(path_, text);
+    } catch (...) {
+      work_->reject();
+      throw;
+    }
+    on_disk_ = true;
+    accept(text);
+  }
+
+  void refuse_while_broken() const {
+    if (problem_) throw Failure("nothing is changed while the file is broken", problem_->text, "correct it, or undo");
+  }
+
+  void say_trouble() {
+    if (!journal_.trouble().empty()) remarks_.push_back("the history is not kept: " + journal_.trouble());
+  }
+
+  // The last good state, over what broke it.
+  void repair() {
+    document::write_whole_file(path_, text_);
+    problem_.reset();
+    on_disk_ = true;
+    ++revision_;
+  }
+
+  // What others did to the files. True if something changed here.
+  bool look_at_disk() {
+    document::RecordedReads reads;
+    const std::string problem = problem_ ? problem_->text : "";
+    const std::uint64_t revision = revision_;
+    try {
+      read_disk();
+      problem_.reset();
+      add_stamps(good_, reads.stamps());
+    } catch (const std::exception& reason) {
+      problem_ = problem_of(reason, path_);
+    }
+    document::FileStamps looked_at = good_;
+    add_stamps(looked_at, reads.stamps());
+    files_.set_read(std::move(looked_at));
+    return revision != revision_ || problem != (problem_ ? problem_->text : "");
+  }
+
+  static void add_stamps(document::FileStamps& stamps, const document::FileStamps& more) {
+    for (const auto& [path, stamp] : more) stamps[path] = stamp;
+  }
+
+  // The files that this one names.
+  bool others_are_as_read() const {
+    return std::ranges::all_of(
+        good_, [&](const auto& each) { return each.first == path_ || document::stamp_of(each.first) == each.second; });
+  }
+
+  void read_disk() {
+    const auto text = document::read_file_if_there(path_, document::kLargestFileRead);
+    if (!text && !on_disk_) return;
+    if (!text) throw Failure("is not there any more", path_.string(), "undo puts it back");
+    const bool others_stay = others_are_as_read();
+    if (*text == text_ && others_stay) return;
+    cancel();
+    work_->prepare(*text, others_stay);
+    if (*text != text_) add_outside_change(*text);
+    on_disk_ = true;
+    accept(*text);
+  }
+
+  // Another studio has it in the journal already.
+  void add_outside_change(const std::string& text) {
+    if (auto history = journal_.read(text)) {
+      history_ = std::move(*history);
+      return;
+    }
+    const HistoryEntry entry{time_now(), kChangedOutside, change_between(text_, text)};
+    journal_.write_step(entry, text_, text);
+    history_.add(entry);
+  }
+
+  std::filesystem::path path_;
+  bool is_model_;
+  bool on_disk_ = false;
+  std::unique_ptr<Work> work_;
+  Journal journal_;
+  History history_;
+  document::FileStamps good_;  // of the files as they were read without a problem
+  preview::WatchedFiles files_{{}};
+  std::string text_;  // the last good one of the file
+  std::uint32_t frame_ = 0;
+  std::uint64_t revision_ = 1;
+  std::optional<Problem> problem_;
+  std::vector<std::string> remarks_;
+};
+
+bool is_model(const document::Element& root) {
+  return root.kind() == document::Kind::object && (root.find("joints") || root.find("from")) && !root.find("actors");
+}
+
+}  // namespace
+
+std::unique_ptr<Project> open_project(const std::filesystem::path& file) {
+  if (!document::file_exists(file)) return std::make_unique<FileProject>(file, true);
+  if (film::is_compiled_film(file))
+    throw Failure("is compiled: it has matrices, no keys", file.string(), "name the film file that it was made from");
+  const document::Document document = document::read_document(file);
+  return std::make_unique<FileProject>(file, is_model(document.root()));
+}
+
+}  // namespace mars::studio

@@ -1,0 +1,83 @@
+// A step as a page says it (docs/studio-protocol.md), read: kinds, ranges and names of its keys are checked here, what
+// it names in a film or model is not.
+#pragma once
+
+#include <array>
+#include <glm/vec3.hpp>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "host/content/document/json_file.h"
+#include "host/content/modeler/edit.h"
+#include "host/content/modeler/edit_shapes.h"
+#include "host/content/modeler/limbs.h"
+#include "host/content/modeler/proportions.h"
+
+namespace mars::studio {
+
+using document::Json;
+
+// Joints' turns, degrees, within any limits or not.
+struct PoseStep {
+  std::string actor;
+  std::map<std::string, glm::dvec3> poses;
+};
+
+// A whole figure's.
+struct PlaceStep {
+  std::string actor;
+  std::optional<glm::dvec3> place, turn;
+};
+
+struct CameraStep {
+  std::optional<glm::dvec3> eye, at;
+  std::optional<double> fov;
+};
+
+enum class Verb { set, add, remove };
+
+struct JointStep {
+  Verb verb;
+  std::string joint;
+  modeler::JointChange change;
+  bool branch = false;  // removed with all that hangs on it
+};
+
+struct MaterialStep {
+  Verb verb;
+  std::string material;
+  modeler::MaterialChange change;
+  std::optional<std::string> name;  // a new one
+};
+
+struct PointStep {
+  std::string joint;
+  modeler::ControlPoint point;
+};
+
+struct MirrorStep {
+  modeler::Side from;
+  std::string joint;  // where the branch begins; "": all
+};
+
+struct ScaleStep {
+  modeler::Proportions proportions;
+};
+
+struct BodyStep {
+  std::string body;
+  std::optional<double> height;
+};
+
+using Step = std::variant<PoseStep, PlaceStep, CameraStep, JointStep, MaterialStep, PointStep, MirrorStep, ScaleStep,
+                          BodyStep>;
+
+// Throws Failure.
+Step read_step(const Json& json);
+
+// What it does, as people would name it in a history: "turn left-knee".
+std::string name_of(const Step& step);
+
+}  // namespace mars::studio

@@ -1,0 +1,48 @@
+// What a project makes of its file's text, in memory: a film, or a model in a film of its own. No file is read here but
+// those that the text names, none written.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "host/content/animator/film.h"
+#include "host/content/animator/within_limits.h"
+#include "host/studio/project/project.h"
+#include "host/studio/project/step.h"
+
+namespace mars::studio {
+
+class Work {
+ public:
+  virtual ~Work() = default;
+
+  virtual const animator::Film& film() const = 0;
+  virtual std::uint64_t shapes_revision() const = 0;
+  virtual std::optional<Project::Pulled> pulled() const { return std::nullopt; }
+
+  // Another text of the file, in three steps: what it means, kept aside; then that is what is open, or it is dropped.
+  // prepare() throws Failure where the text is no film or model. `models_stay`: no other file has changed.
+  virtual void prepare(const std::string& text, bool models_stay) = 0;
+  virtual void accept() = 0;
+  virtual void reject() = 0;
+
+  // The text after the step, at the frame. Throws Failure where it makes no sense.
+  virtual std::string text_after(const Step& step, std::uint32_t frame, animator::Remarks& remarks) const = 0;
+  // A step that no file has: done, and true.
+  virtual bool kept_in_memory(const Step& /*step*/) { return false; }
+
+  // Changes film() as the step would; what an earlier one showed is taken back, at the latest when it throws.
+  virtual void show(const Step& step, std::uint32_t frame) = 0;
+  virtual void take_back() = 0;
+  virtual bool shows() const = 0;
+  virtual std::set<std::size_t> shown_actors() const = 0;  // that move while it shows
+
+  virtual std::vector<modeler::ControlPoint> control_points(const std::string& /*joint*/) const { return {}; }
+  // Into the description: actors, materials, shapes.
+  virtual void describe(Json& project, std::uint32_t frame) const = 0;
+};
+
+}  // namespace mars::studio

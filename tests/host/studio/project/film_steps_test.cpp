@@ -1,0 +1,149 @@
+// Steps of films: what a gesture shows, what is written, and that commands write the same.
+#include "host/content/animator/actor_state.h"
+#include "host/content/animator/pose.h"
+#include "host/content/film/film_json.h"
+#include "tests/host/studio/project/open_files.h"
+
+namespace mars::studio {
+namespace {
+
+class FilmSteps : public OpenFiles {
+ protected:
+  // As `mars animate copy.json pose THING SETTINGS --frame FRAME --clamp`.
+  std::string by_command(const std::string& thing, const std::vector<std::string>& settings, std::uint32_t frame) const {
+    write("copy.json", text("film.json"));
+    film::change_film(path("copy.json"), [&](Json& json, const animator::Film& film) {
+      animator::pose(json, film, thing, settings, frame, std::nullopt, animator::Beyond::clamped);
+    });
+    return text("copy.json");
+  }
+};
+
+bool same(const animator::ActorState& one, const animator::ActorState& two) {
+  for (std::size_t i = 0; i < one.segments.size(); ++i)
+    if (one.segments[i].has_value() != two.segments[i].has_value() ||
+        (one.segments[i] && one.segments[i]->m != two.segments[i]->m))
+      return false;
+  return one.pose == two.pose && one.place == two.place && one.turn == two.turn;
+}
+
+struct Case {
+  const char* step;
+  std::string thing;
+  std::vector<std::string> settings;
+  std::uint32_t frame;
+};
+
+TEST_F(FilmSteps, AStepWritesWhatTheCommandWritesAndShowsItBefore) {
+  const Case cases[] = {
+      {R"({"set": "pose", "actor": "one", "joint": "head", "pose": [0, 20, 0]})", "one", {"head=0,20,0"}, 12},
+      {R"({"set": "pose", "actor": "two", "joint": "left-leg", "pose": [10.5, 90, 0]})", "two", {"left-leg=10.5,90,0"}, 12},
+      {R"({"set": "pose", "actor": "two", "joint": "left-leg", "pose": [1, 2, 0]})", "two", {"left-leg=1,2,0"}, 24},
+      {R"({"set": "pose", "actor": "two", "joint": "head", "pose": [5, 99, 5]})", "two", {"head=5,99,5"}, 0},
+      {R"({"set": "pose", "actor": "two", "joint": "head", "pose": [0, 30, 0]})", "two", {"head=0,30,0"}, 36},
+      {R"({"set": "poses", "actor": "two", "poses": {"head": [0, 1, 0], "hip": [1, 2, 3]}})", "two", {"head=0,1,0", "hip=1,2,3"}, 47},
+      {R"({"set": "place", "actor": "two", "place": [1, 2.25, 3]})", "two", {"place=1,2.25,3"}, 10},
+      {R"({"set": "turn", "actor": "one", "turn": [0, 0, 270]})", "one", {"turn=0,0,270"}, 30},
+      {R"({"set": "camera", "eye": [5, -5, 3], "at": [0, 1, 1], "fov": 30})", "camera", {"eye=5,-5,3", "at=0,1,1", "fov=30"}, 20},
+      {R"({"set": "camera", "fov": 60})", "camera", {"fov=60"}, 0}};
+  const auto project = open("film.json");
+  for (const Case& each : cases) {
+    project->set_frame(each.frame);
+    const std::string expected = by_command(each.thing, each.settings, each.frame), before = text("film.json");
+    const auto revision = project->revision();
+    project->preview(step(each.step));
+    EXPECT_TRUE(project->in_gesture());
+    EXPECT_GT(project->revision(), revision);
+    EXPECT_EQ(text("film.json"), before) << each.step;
+    const animator::Film shown = project->film();
+    project->commit(step(each.step));
+    EXPECT_FALSE(project->in_gesture());
+    EXPECT_EQ(text("film.json"), expected) << each.step;
+    for (std::size_t actor = 0; actor < 2; ++actor)
+      EXPECT_TRUE(same(animator::state_at(shown, actor, each.frame),
+                       animator::state_at(project->film(), actor, each.frame)))
+          << each.step;
+    EXPECT_EQ(animator::value_at(shown.camera.eye, each.frame),
+              animator::value_at(project->film().camera.eye, each.frame));
+    EXPECT_EQ(animator::value_at(shown.camera.fov, each.frame),
+              animator::value_at(project->film().camera.fov, each.frame));
+    ASSERT_EQ(shown.lights.size(), project->film().lights.size());
+    for (std::size_t i = 0; i < shown.lights.size(); ++i)
+      EXPECT_EQ(shown.lights[i].vector[0].value, project->film().lights[i].vector[0].value) << each.step;
+  }
+  EXPECT_EQ(project->shapes_revision(), open("film.json")->shapes_revision());
+}
+
+TEST_F(FilmSteps, ACancelledGestureLeavesNothing) {
+  const auto project = open("film.json");
+  project->set_frame(12);
+  const animator::Film before = project->film();
+  for (const char* each : {R"({"set": "pose", "actor": "one", "joint": "head", "pose": [0, 20, 0]})",
+                           R"({"set": "poses", "actor": "two", "poses": {"head": [0, 20, 0], "hip": [1, 1, 1]}})",
+                           R"({"set": "place", "actor": "two", "place": [9, 9, 9]})",
+                           R"({"set": "camera", "eye": [1, 2, 3], "fov": 12})"})
+    project->preview(step(each));
+  project->cancel();
+  EXPECT_FALSE(project->in_gesture());
+  for (std::size_t actor = 0; actor < 2; ++actor)
+    for (const std::uint32_t frame : {0u, 12u, 20u})
+      EXPECT_TRUE(same(animator::state_at(before, actor, frame), animator::state_at(project->film(), actor, frame)));
+  EXPECT_EQ(before.actors[0].motion.pose[1].size(), project->film().actors[0].motion.pose[1].size());
+  EXPECT_EQ(before.camera.eye.size(), project->film().camera.eye.size());
+  EXPECT_EQ(text("film.json"), kFilm);
+  EXPECT_EQ(project->describe()["undo"], Json());
+}
+
+TEST_F(FilmSteps, PosesStopAtLimits) {
+  const auto project = open("film.json");
+  project->preview(step(R"({"set": "pose", "actor": "one", "joint": "head", "pose": [50, 500, 50]})"));
+  EXPECT_EQ(project->describe_poses()["actors"],
+            Json::parse(R"([{"name": "one", "place": [0, 0, 0], "turn": [0, 0, 0],
+                             "joints": [[0, 0, 0], [0, 40, 0], [0, 0, 0], [0, 0, 0]]}])"));
+  project->commit(step(R"({"set": "pose", "actor": "one", "joint": "head", "pose": [50, 500, 50]})"));
+  EXPECT_TRUE(holds(text("film.json"), R"("head": [0, 40, 0])"));
+  EXPECT_FALSE(project->take_remarks().empty());
+}
+
+TEST_F(FilmSteps, WhatMakesNoSenseIsRefusedAndLeavesAllAsItWas) {
+  const auto project = open("film.json");
+  const auto refused = [&](const char* text) {
+    return refusal([&] { project->commit(step(text)); });
+  };
+  EXPECT_TRUE(holds(refused(R"({"set": "pose", "actor": "on", "joint": "head", "pose": [0, 0, 0]})"), "one"));
+  EXPECT_TRUE(holds(refused(R"({"set": "pose", "joint": "head", "pose": [0, 0, 0]})"), "no actor"));
+  EXPECT_TRUE(holds(refused(R"({"set": "pose", "actor": "one", "joint": "heat", "pose": [0, 0, 0]})"), "head"));
+  refused(R"({"set": "pose", "actor": "one", "joint": "head", "pose": [0, 0]})");
+  refused(R"({"set": "pose", "actor": "one", "joint": "head", "pose": [0, 1e9, 0]})");
+  refused(R"({"set": "pose", "actor": "one", "joint": "head", "pose": [0, 0, 0], "more": 1})");
+  refused(R"({"set": "camera", "eye": [0, 0, 1]})");
+  refused(R"({"set": "camera", "fov": 500})");
+  EXPECT_TRUE(holds(refused(R"({"set": "joint", "joint": "head", "change": {"place": [1, 2, 3]}})"), "mars studio MODEL"));
+  EXPECT_TRUE(holds(refused(R"({"body": "man"})"), "mars studio MODEL"));
+  refused(R"({"mirror": "up"})");
+  refused("[]");
+  refused("3");
+  refused(R"({"is": "set"})");
+  refusal([&] { project->preview(step(R"({"set": "camera", "eye": [0, 0, 1]})")); });
+  EXPECT_EQ(project->film().camera.eye.size(), 1u);
+  EXPECT_EQ(text("film.json"), kFilm);
+  EXPECT_EQ(project->describe()["undo"], Json());
+}
+
+TEST_F(FilmSteps, ThePageSeesActorsAndJoints) {
+  const auto project = open("film.json");
+  project->set_frame(24);
+  const Json json = project->describe();
+  EXPECT_EQ(json["kind"], "film");
+  EXPECT_EQ(json["frames"], 48);
+  EXPECT_EQ(json["frame"], 24);
+  const Json& two = json["actors"][1];
+  EXPECT_EQ(two["model"], "pip");
+  EXPECT_EQ(two["place"], Json::parse("[3, 0, 0]"));
+  EXPECT_EQ(two["joints"][2], Json::parse(R"({"name": "left-leg", "parent": "hip",
+      "limits": [[-10, 30], [0, 90], [0, 0]], "free": ["x", "y"], "pose": [10, 20, 0], "keyed": true,
+      "limb": "left.knee"})"));
+}
+
+}  // namespace
+}  // namespace mars::studio
