@@ -63,7 +63,8 @@ class Jobs(ClusterTest):
 
     def pixels(self):
         if not (self.folder / "alone").exists():
-            self.succeed("mars", "render", self.film, "-o", "alone", *self.intervals, "--backend", "threads", "--quiet")
+            self.succeed("mars", "render", self.film, "-o", "alone", *self.intervals, "--backend", "threads",
+                         "--nodes", 1, "--quiet")
         return self.verified_hash("alone")
 
     def test_a_time_limit_and_a_preemption(self):
