@@ -1,10 +1,18 @@
 """Films that Slurm's jobs draw to their end, whatever Slurm or the machines do meanwhile."""
 
+import pathlib
+
 from virtual_cluster import (HOSTS, SECONDS, ClusterTest, run_on_cluster, spinning_teapot, testbed,
                              wait_until)
 
 SLURM_SECONDS = 150  # until a job has ended and Slurm has begun it again
+PAUSE = 0.3          # between questions, which take processors from the job
 OUR_PROGRAMS = "mars-host|mars-node|orted"
+
+
+def begins_again(facts):
+    """More than once if it is ended again before anybody looks."""
+    return facts["Restarts"] != "0"
 
 
 class Jobs(ClusterTest):
@@ -39,11 +47,10 @@ class Jobs(ClusterTest):
         words = self.on("n0", "scontrol", "--oneliner", "show", "job", job).stdout.split()
         return dict(word.split("=", 1) for word in words if "=" in word)
 
-    def wait_for(self, job, **facts):
-        def holds():
-            now = self.facts(job)
-            return all(now.get(name) == value for name, value in facts.items())
-        wait_until(holds, SLURM_SECONDS, f"job {job} is not {facts}; it was {self.facts(job)}")
+    def wait_for(self, job, holds, seconds=SLURM_SECONDS):
+        """Until what Slurm says of the job holds."""
+        wait_until(lambda: holds(self.facts(job)), seconds, lambda: f"job {job} is {self.facts(job)}; it wrote:\n"
+                   + pathlib.Path(self.facts(job)["StdOut"]).read_text(), PAUSE)
 
     def wait_for_frames(self, folder):
         wait_until(lambda: list((self.folder / folder).glob("*.png")), SECONDS, f"no frame in {folder}")
@@ -56,7 +63,8 @@ class Jobs(ClusterTest):
 
     def pixels(self):
         if not (self.folder / "alone").exists():
-            self.succeed("mars", "render", self.film, "-o", "alone", *self.intervals, "--backend", "threads", "--quiet")
+            self.succeed("mars", "render", self.film, "-o", "alone", *self.intervals, "--backend", "threads",
+                         "--nodes", 1, "--quiet")
         return self.verified_hash("alone")
 
     def test_a_time_limit_and_a_preemption(self):
@@ -68,13 +76,13 @@ class Jobs(ClusterTest):
         self.assertEqual(self.facts(preempted)["NodeList"], "n[3-4]")
         self.on("n0", "sbatch", "--partition=urgent", "--nodelist=n3,n4", "--nodes=2", "--output=/dev/null",
                 "--wrap=true")
-        self.wait_for(preempted, Restarts="1")
-        self.full_speed("n3")
-        self.assertCompletes("preempted")
-        wait_until(lambda: self.facts(limited)["Restarts"] != "0", SLURM_SECONDS, "the limit has not ended it")
+        self.wait_for(limited, begins_again)
         self.on("n0", "scontrol", "update", f"JobId={limited}", "TimeLimit=30")
-        self.full_speed("n1")
-        self.assertCompletes("limited")
+        self.wait_for(preempted, begins_again)
+        for host in ["n1", "n3"]:
+            self.full_speed(host)
+        for folder in ["limited", "preempted"]:
+            self.assertCompletes(folder)
         self.assertIn("queued again", (self.folder / f"limited/.slurm/{limited}.out").read_text())
         self.assertEqual([self.facts(job)["JobState"] for job in (limited, preempted)], ["COMPLETED"] * 2)
 
@@ -113,14 +121,13 @@ class Jobs(ClusterTest):
         job = self.submit("out")
         self.wait_for_frames("out")
         testbed("kill", "n2")
-        wait_until(lambda: self.goes_on_without(job, "n2"), SECONDS, f"{job} does not go on: {self.facts(job)}")
+        self.wait_for(job, lambda facts: begins_again(facts) or self.left_out("n2"), SECONDS)
         self.full_speed("n1")
         self.assertCompletes("out")
 
-    def goes_on_without(self, job, host):
-        """In its allocation, or as a job that Slurm began once more."""
-        facts = self.facts(job)
-        return facts["Restarts"] != "0" or host not in self.on("n0", "mars", "status", "out").stdout
+    def left_out(self, host):
+        """In an allocation that goes on."""
+        return host not in self.on("n0", "mars", "status", "out").stdout
 
     def test_z_the_first_machine_is_lost(self):
         for host in HOSTS:
@@ -129,7 +136,7 @@ class Jobs(ClusterTest):
         self.wait_for_frames("out")
         lost = self.facts(job)["BatchHost"]
         testbed("kill", lost)
-        self.wait_for(job, Restarts="1", JobState="RUNNING")
+        self.wait_for(job, lambda facts: begins_again(facts) and facts["JobState"] == "RUNNING")
         self.assertNotEqual(self.facts(job)["BatchHost"], lost)
         self.full_speed(self.facts(job)["BatchHost"])
         self.assertCompletes("out")

@@ -1,5 +1,5 @@
 // Where libFuzzer is not: replays a target's corpus, then gives it inputs changed at random from those, always the same
-// with one seed. A finding leaves its input in a file, which replays it.
+// with one seed. A finding leaves its input in a file, which replays it: by default below the build's folder.
 //   TARGET [--seconds N] [--runs N] [--seed N] [--crash FILE] [--show] [CORPUS | INPUT] ...
 // --show prints why inputs of the corpus are refused.
 #include <fcntl.h>
@@ -34,7 +34,7 @@ struct Wanted {
   double seconds = 0;
   std::uint64_t runs = 0;
   std::uint64_t seed = 1;
-  std::string crash = "crash";
+  std::string crash;  // where a finding goes
   bool show = false;
   struct Input {
     std::string name;
@@ -44,7 +44,7 @@ struct Wanted {
 };
 
 const std::string* current = nullptr;  // the input that is being taken
-const char* crash_file = "crash";
+const char* crash_file = "";
 
 // As signal handlers must: by system calls alone.
 void keep_input() {
@@ -97,6 +97,7 @@ void add_corpus(const fs::path& place, std::vector<Wanted::Input>& inputs) {
 
 Wanted read_words(int argc, char** argv) {
   Wanted wanted;
+  wanted.crash = MARS_FUZZ_FINDINGS "/crash-" + fs::path(argv[0]).filename().string();
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     const auto value = [&] { return i + 1 < argc ? argv[++i] : "0"; };

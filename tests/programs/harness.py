@@ -86,12 +86,13 @@ def living(processes):
     return [p for p, before in processes.items() if (now := identity(p)) and now[1:] == before[1:]]
 
 
-def wait_until(holds, seconds, what):
+def wait_until(holds, seconds, what, pause=0.02):
+    """`what` is missing then; a function says it as it is at the end."""
     end = time.monotonic() + seconds
     while not holds():
         if time.monotonic() > end:
-            raise AssertionError(f"after {seconds} seconds: {what}")
-        time.sleep(0.02)
+            raise AssertionError(f"after {seconds} seconds: {what() if callable(what) else what}")
+        time.sleep(pause)
 
 
 class ProgramTest(unittest.TestCase):

@@ -95,6 +95,22 @@ std::vector<Slots> slurm_machines(const child::Environment& environment, const s
   return machines;
 }
 
+bool is_preempted(const child::Environment& environment, const std::string& path) {
+  const auto job = environment.value("SLURM_JOB_ID");
+  const auto scontrol = child::find_program("scontrol", path);
+  if (!job || !scontrol) return false;
+  bool preempted = false;
+  run_for({scontrol->string(), "show", "job", *job}, kLongestAnswer,
+          [&](const std::string& line) { preempted = preempted || tells_preemption(line); });
+  return preempted;
+}
+
+// "PreemptTime=2026-01-31T12:00:00"; of others None.
+bool tells_preemption(const std::string& scontrol_line) {
+  TextReader line(scontrol_line);
+  return line.find("PreemptTime=") && line.number();
+}
+
 // "down*": it does not answer. What drains finishes the jobs that it has.
 bool usable(const std::string& slurm_state) {
   if (slurm_state.ends_with('*')) return false;

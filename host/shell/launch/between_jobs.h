@@ -26,6 +26,13 @@ std::set<std::string> wait_and_ask(const Pause& pause, const std::string& path);
 // The machines of this Slurm allocation with their tasks; none where Slurm does not say.
 std::vector<Slots> slurm_machines(const child::Environment& environment, const std::string& path);
 
+// Whether Slurm takes this job's machines for another job, after a time of grace in which they still answer; false
+// where Slurm does not say.
+bool is_preempted(const child::Environment& environment, const std::string& path);
+
+// Whether a line of scontrol's about a job says so.
+bool tells_preemption(const std::string& scontrol_line);
+
 // Whether a machine in this state, as sinfo's %T or %t writes it, runs jobs and answers.
 bool usable(const std::string& slurm_state);
 

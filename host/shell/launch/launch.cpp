@@ -84,6 +84,14 @@ Question question_of(const options::RenderOptions& options, const Starting& star
   return options.hostfile.empty() ? Question::nobody : Question::ssh;
 }
 
+// Slurm ends the processes on the other machines first: what began again on this one would only keep the other job
+// waiting.
+void fail_if_preempted(const options::RenderOptions& options, const Starting& starting) {
+  if (is_preempted(starting.surroundings.environment, starting.path))
+    throw Failure("Slurm takes the machines for another job", options.folder,
+                  "the same command goes on with the missing frames");
+}
+
 // One job as a person sees it.
 Remains show_job(const child::Command& command, const options::RenderOptions& options, Display& display,
                  const Adviser& adviser) {
@@ -112,7 +120,10 @@ Supervisor::World world_of(const options::RenderOptions& options, const Starting
           },
           [&] { return machines_of(options, starting); },
           [&](std::chrono::seconds pause, const std::vector<std::string>& machines) {
-            return wait_and_ask({pause, question_of(options, starting), machines}, starting.path);
+            const Question question = question_of(options, starting);
+            const std::set<std::string> answering = wait_and_ask({pause, question, machines}, starting.path);
+            if (question == Question::slurm) fail_if_preempted(options, starting);
+            return answering;
           },
           [&](const std::string& line) { display.print(line); },
           [&] { return adviser.after_a_failed_start(options); }};

@@ -66,6 +66,13 @@ TEST(Machines, SlurmsStates) {
     EXPECT_FALSE(usable(state)) << state;
 }
 
+TEST(Machines, SlurmTellsPreemption) {
+  const std::string line = "   SuspendTime=None SecsPreSuspend=0 PreemptEligibleTime=2026-01-31T11:59:00 ";
+  EXPECT_TRUE(tells_preemption(line + "PreemptTime=2026-01-31T12:00:00"));
+  EXPECT_FALSE(tells_preemption(line + "PreemptTime=None"));
+  EXPECT_FALSE(tells_preemption(line));
+}
+
 TEST(BetweenJobs, NobodyIsAskedWhereThereIsNobody) {
   EXPECT_TRUE(wait_and_ask({std::chrono::seconds(0), Question::nobody, {}}, "/usr/bin:/bin").empty());
 }
