@@ -15,16 +15,17 @@ SECONDS = 30  # for whatever the page must show
 FLAGS = ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
          "--disable-background-networking", "--disable-component-update", "--disable-sync", "--disable-extensions"]
 BUTTONS = {"left": 1, "right": 2, "middle": 4}
-SHIFT = 8
+CTRL, SHIFT = 2, 8
 
 
 class Studio:
-    """`mars studio FILE` in the file's folder; `link` as a person gets it."""
+    """`mars studio FILE` in the file's folder; in a folder, one that begins a new model. `link` as a person gets it."""
 
     def __init__(self, programs, file, *arguments):
         file = pathlib.Path(file)
-        self.process = subprocess.Popen([pathlib.Path(programs) / "mars", "studio", file.name, "--no-browser", *arguments],
-                                        cwd=file.parent, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        opened, folder = ([], file) if file.is_dir() else ([file.name], file.parent)
+        self.process = subprocess.Popen([pathlib.Path(programs) / "mars", "studio", *opened, "--no-browser", *arguments],
+                                        cwd=folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.link = None
         for line in self.process.stdout:
             if line.startswith("Open "):
@@ -126,6 +127,21 @@ class Browser:
         return self.run("""
             const at = document.querySelector(arguments[0]).getBoundingClientRect();
             return [at.x + at.width / 2, at.y + at.height / 2];""", selector)
+
+    def find(self, view, wanted):
+        """A place of a view's picture at which the mouse finds something whose text has `wanted` in it."""
+        left, top, width, height = self.run("""
+            const at = arguments[0].getBoundingClientRect();
+            return [at.x, at.y, at.width, at.height];""", view)
+        for down in (0.5, 0.45, 0.4, 0.55, 0.35, 0.6, 0.3, 0.65, 0.25, 0.7, 0.2, 0.75):
+            for along in [0.5 + sign * step / 40 for step in range(16) for sign in (1, -1)]:
+                x, y = round(left + along * width), round(top + down * height)
+                self.move(x, y)
+                time.sleep(0.03)
+                over, text = self.run("return [arguments[0].dataset.over, arguments[0].querySelector('.tip').textContent]", view)
+                if over == "limb" and wanted in text:
+                    return x, y
+        raise AssertionError(f"nothing there has '{wanted}'")
 
     def screenshot(self, path):
         self.driver.save_screenshot(str(path))
