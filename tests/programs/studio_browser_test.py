@@ -221,7 +221,7 @@ class StudioInBrowser(ProgramTest):
     def menu(self, view, text):
         """An entry of a view's menu."""
         self.browser.click(*self.browser.center(f".title[data-view='{view}']"))
-        entry = "[...document.querySelectorAll('.menu [role^=menuitem]')].find((each) => each.textContent.startsWith('%s'))" % text
+        entry = "[...document.querySelectorAll('.menu [role^=menuitem]')].find((each) => each.textContent.startsWith(%s))" % json.dumps(text)
         self.until(text, f"{entry} !== undefined")
         spot = self.browser.run(f"const at = {entry}.getBoundingClientRect(); return [at.x + at.width / 2, at.y + at.height / 2];")
         self.browser.click(*spot)
