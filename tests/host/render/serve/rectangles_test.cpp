@@ -30,8 +30,13 @@ TEST(Rectangles, AllBlocksAreOnePicture) {
 TEST(Rectangles, CoverFlaggedBlocksOnce) {
   constexpr std::uint32_t kWidth = 70, kHeight = 45, kBlock = 8;
   BlockFlags flags(kWidth, kHeight, kBlock);
-  for (const auto& [line, first, count] : {std::array{0u, 0u, 20u}, {8u, 0u, 20u}, {16u, 8u, 1u}, {17u, 40u, 30u},
-                                           {24u, 8u, 1u}, {25u, 30u, 40u}, {44u, 69u, 1u}})
+  for (const auto& [line, first, count] : {std::array{0u, 0u, 20u},
+                                           {8u, 0u, 20u},
+                                           {16u, 8u, 1u},
+                                           {17u, 40u, 30u},
+                                           {24u, 8u, 1u},
+                                           {25u, 30u, 40u},
+                                           {44u, 69u, 1u}})
     flags.set_pixels(line, first, count);
   const std::vector<Rect> rects = mars::serve::rectangles_of(flags, kWidth, kHeight);
   const std::vector<int> times = coverage(rects, kWidth, kHeight);
