@@ -118,6 +118,7 @@ class TheStage : public Stage {
     if (picture == view->begun) view->interval.reset();
     view->asked.reset();
     view->shown.reset();
+    view->lost = true;
     serve();
   }
 
@@ -515,7 +516,7 @@ class TheStage : public Stage {
 
   // What changed may be seen in controls alone.
   bool looks_the_same(PageView& view, const Shown& now) {
-    if (!view.interval || !same_picture(view.scene, scene_of(view, now))) return false;
+    if (!view.interval || view.lost || !same_picture(view.scene, scene_of(view, now))) return false;
     view.shown = now;
     if (view.rested) tell_handles(view);
     return true;
@@ -547,6 +548,7 @@ class TheStage : public Stage {
     const bool exact = rests && is_own(view) && moments_.own_moving().has_value();
     Asked asked{++picture_, pages_[view.page].edit, rests, exact, controls(view)};
     view.shown = now;
+    view.lost = false;
     const std::uint32_t picture = picture_;
     if (const auto moved = inbetween(view, scene, exact)) {
       view.asked = std::move(asked);
