@@ -23,7 +23,9 @@ constexpr std::size_t most_bytes_of_line(std::size_t width, std::size_t pixel_by
 }
 
 static_assert(sizeof(wire::Strip) + 2 * kLayerBytes <= wire::kSlotBytes, "a slot takes a strip in the making");
-static_assert(sizeof(wire::Strip) + most_bytes_of_line(wire::kMaxSide, kMaxPixelBytes) <= wire::kMaxStripBytes,
+static_assert(sizeof(wire::Strip) + most_bytes_of_line(wire::kMaxSide, kMaxPixelBytes) +
+                      wire::kMaxSide * sizeof(std::uint32_t) <=
+                  wire::kMaxStripBytes,
               "any line fits an empty strip");
 
 // `items` to `at`, which they may overlap; returns what comes behind them.
@@ -41,13 +43,14 @@ void StripBuffer::Layer::added(const shading::Shaded& shaded) {
   run_count_ += shaded.runs;
 }
 
-StripBuffer::StripBuffer(std::size_t width, wire::PixelFormat format)
+StripBuffer::StripBuffer(wire::PixelFormat format, bool watched)
     : pixel_bytes_(wire::pixel_bytes(format)),
-      line_bytes_(most_bytes_of_line(width, pixel_bytes_)),
+      most_bytes_(wire::kMaxStripBytes - (watched ? wire::kMaxSide * sizeof(std::uint32_t) : 0)),
       runs_(2 * kRuns * sizeof(wire::Run)) {}
 
-void StripBuffer::begin(std::span<std::byte> slot, bool constant) {
+void StripBuffer::begin(std::span<std::byte> slot, std::size_t width, bool constant) {
   check(slot.size() == wire::kSlotBytes, "a strip is made in a slot");
+  line_bytes_ = most_bytes_of_line(width, pixel_bytes_);
   slot_ = slot.data();
   std::byte* pixels = slot_ + sizeof(wire::Strip);
   auto* runs = reinterpret_cast<wire::Run*>(runs_.bytes().data());
@@ -62,16 +65,16 @@ std::size_t StripBuffer::bytes() const {
 
 std::uint32_t StripBuffer::lines_that_fit() const {
   if (bytes() >= kFullBytes) return 0;
-  return static_cast<std::uint32_t>(std::min<std::size_t>(kLines, (wire::kMaxStripBytes - bytes()) / line_bytes_));
+  return static_cast<std::uint32_t>(std::min<std::size_t>(kLines, (most_bytes_ - bytes()) / line_bytes_));
 }
 
-std::span<const std::byte> StripBuffer::finish(wire::Strip& header) {
+std::span<const std::byte> StripBuffer::finish(wire::Strip& header, std::span<const std::uint32_t> edge_boxes) {
   header.constant_runs = static_cast<std::uint32_t>(constant_.runs().size());
   header.moving_runs = static_cast<std::uint32_t>(moving_.runs().size());
   header.pixels = pixel_count();
   std::byte* end = slot_ + sizeof header;
   end = put(moving_.pixels(), put(constant_.pixels(), end));
-  end = put(moving_.runs(), put(constant_.runs(), end));
+  end = put(edge_boxes, put(moving_.runs(), put(constant_.runs(), end)));
   const auto size = static_cast<std::size_t>(end - slot_);
   check(size <= wire::kMaxStripBytes, "a strip has at most so many bytes");
   header.work.pixels += header.pixels;

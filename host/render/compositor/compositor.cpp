@@ -231,6 +231,23 @@ void Compositor::paste_moving(Frame& frame, std::span<const wire::Run> runs, std
   });
 }
 
+void Compositor::read_line(const Frame& frame, std::uint32_t line, std::span<std::uint32_t> words) const {
+  const std::size_t width = pixel_words_ * width_, block = pixel_words_ * constant_.block(),
+                    row = line / constant_.block();
+  const std::size_t at = line * width;
+  std::copy_n(&frame.pixels[at], width, words.data());
+  frame.stale.for_stretches(static_cast<std::uint32_t>(row), [&](std::uint32_t first, std::uint32_t last) {
+    constant_.for_parts(static_cast<std::uint32_t>(row), first, last,
+                        [&](std::uint32_t from, std::uint32_t to, bool drawn) {
+                          const std::size_t left = from * block, count = std::min(width, to * block) - left;
+                          if (drawn)
+                            std::copy_n(&saved_[at + left], count, &words[left]);
+                          else
+                            fill_pixels(words.subspan(left, count), plain_, pixel_words_);
+                        });
+  });
+}
+
 void Compositor::finish_frame(Frame& frame, std::uint32_t number) {
   for (std::uint32_t row = 0; row < constant_.rows(); ++row)
     frame.stale.for_stretches(row,

@@ -51,6 +51,8 @@ class Compositor {
   void begin_frame(Frame& frame) const;
   // Part of the MFB goes over it.
   void paste_moving(Frame& frame, std::span<const wire::Run> runs, std::span<const std::uint32_t> pixels);
+  // A line of it as it is so far, in words of pixels: the saved background wherever nothing is pasted yet.
+  void read_line(const Frame& frame, std::uint32_t line, std::span<std::uint32_t> words) const;
   // It is frame `number`; its `changed` says which blocks differ from the frame this compositor finished before.
   void finish_frame(Frame& frame, std::uint32_t number);
 

@@ -39,7 +39,7 @@ bool Assembly::wants(const wire::Strip& strip) const {
   const auto found = parts_.find(strip.frame);
   if (found == parts_.end() || strip.interval != interval_) return false;
   const auto kind = strip.frame == keyframe_ ? wire::FrameKind::keyframe : wire::FrameKind::inbetween;
-  return strip.kind == kind && is_contributor(found->second, strip.node);
+  return strip.kind == kind && strip.cut == 0 && is_contributor(found->second, strip.node);
 }
 
 // And its last strip has not come.
@@ -98,7 +98,7 @@ bool Assembly::begin(Parts& parts, const compositor::Compositor& compositor, sin
 }
 
 std::optional<Assembly::Pasted> Assembly::paste(compositor::Compositor& compositor, sinks::SinkPool& sinks,
-                                                StripStore& store) {
+                                                StripStore& store, const PasteListener& listener) {
   const auto ready = std::find_if(waiting_.begin(), waiting_.end(), [&](std::uint32_t number) {
     Parts& parts = parts_.at(number);
     return (number == keyframe_ || background_there()) && (parts.picture != nullptr || begin(parts, compositor, sinks));
@@ -117,6 +117,7 @@ std::optional<Assembly::Pasted> Assembly::paste(compositor::Compositor& composit
                 alone ? 1 : static_cast<std::int32_t>(drew_keyframe_.size())};
   for (StripMessage& strip : parts.strips) {
     paste_strip(strip, *parts.picture, compositor);
+    if (listener) listener(strip, compositor, *parts.picture);
     if (strip.header().last == 0) pasted.free.push_back(strip.slot());
     store.give_back(strip.release());
   }

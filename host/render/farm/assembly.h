@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -17,6 +18,10 @@
 #include "host/render/sinks/sink_pool.h"
 
 namespace mars::farm {
+
+// Of a strip that is in its frame now.
+using PasteListener = std::function<void(const StripMessage& strip, const compositor::Compositor& compositor,
+                                         const compositor::Frame& frame)>;
 
 class Assembly {
  public:
@@ -50,8 +55,9 @@ class Assembly {
     std::int32_t nodes;
   };
   // Pastes the strips that came of one frame, if there are any and it has a buffer or gets one; their memory
-  // goes to `store`.
-  std::optional<Pasted> paste(compositor::Compositor& compositor, sinks::SinkPool& sinks, StripStore& store);
+  // goes to `store`. `listener` may be none.
+  std::optional<Pasted> paste(compositor::Compositor& compositor, sinks::SinkPool& sinks, StripStore& store,
+                              const PasteListener& listener = {});
 
   // Whether this node's last strip of the frame is still to come.
   bool awaits(std::uint32_t frame, std::int32_t node) const;

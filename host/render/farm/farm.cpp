@@ -14,6 +14,7 @@
 #include "host/render/farm/node_inbox.h"
 #include "host/render/farm/shares.h"
 #include "host/render/farm/tracing.h"
+#include "host/render/farm/watching.h"
 #include "node/color/encoding.h"
 #include "node/wire/work.h"
 
@@ -81,6 +82,7 @@ class Farm {
   NodeSlots slots_;
   NodeInbox inbox_;
   std::optional<Tracing> tracing_;  // once all nodes are there
+  Watching watching_;
   FarmReport report_;
 
   std::vector<GroupWork> groups_;
@@ -106,7 +108,9 @@ Farm::Farm(std::span<const std::byte> film_block, const Plan& plan, const FarmOp
       listener_(listener),
       heartbeats_(options.heartbeats),
       slots_(static_cast<int>(numnodes()), options.credits),
-      inbox_(sinks.shape().width, sinks.shape().height, sinks.shape().format, slots_, options.cancellation),
+      inbox_(sinks.shape().width, sinks.shape().height, sinks.shape().format, slots_, options.cancellation,
+             options.watch != nullptr),
+      watching_(options.watch, plan.groups),
       rates_(static_cast<std::size_t>(numnodes())),
       frames_left_(plan.frames()) {
   for (const collectives::Group& group : plan.groups)
@@ -147,6 +151,7 @@ bool Farm::load_film() {
   load.groups = static_cast<std::int32_t>(groups_.size());
   load.pixel_format = sinks_.shape().format;
   load.traced = options_.trace != nullptr ? 1 : 0;
+  load.watched = options_.watch != nullptr ? 1 : 0;
   report_.film_bytes = film_block_.size();
   const bool loaded = farm::load_film(film_block_, load, inbox_);
   if (loaded) slots_.give_all();
@@ -163,6 +168,9 @@ NodeMemory Farm::node_memory() const {
 
 void Farm::render() {
   start_ = dclock();
+  watching_.begin({film_, sinks_.shape().block, sinks_.shape().format, static_cast<std::uint32_t>(groups_.size()),
+                   static_cast<std::uint32_t>(frames_left_)},
+                  report_.nodes);
   if (heartbeats_ != nullptr) heartbeats_->set_doing("rendering");
   while (frames_left_ > 0 && !cancelled()) {
     if (heartbeats_ != nullptr) heartbeats_->look();
@@ -287,6 +295,7 @@ void Farm::receive_strip() {
     inbox_.refuse(header.node, "a strip of frame " + std::to_string(header.frame) + " that it was not asked for");
   if (options_.each_frame && header.last == 1) report_.strips.push_back(header);
   if (heartbeats_ != nullptr) heartbeats_->hear(header);
+  watching_.receive(header);
   wanting->receive(std::move(strip));
   if (options_.adapts && header.last == 1) adapt(header, *wanting);
 }
@@ -323,8 +332,9 @@ bool Farm::prepare_one() {
 // Pastes what came of one frame, if it can be; whether it did.
 bool Farm::compose_one() {
   ScopedSpan span(trace::HostSpan::compose);
+  watching_.follow(groups_);
   for (GroupWork& group : groups_) {
-    const auto composed = group.compose(sinks_, store_);
+    const auto composed = group.compose(sinks_, store_, watching_.listener());
     if (!composed) continue;
     span.set_value(composed->pasted.number);
     charge(wire::Work::host_run, composed->counts.runs);
@@ -345,6 +355,7 @@ void Farm::submit(const GroupWork::Composed& composed) {
   if (options_.each_frame) report_.frames.push_back(finished);
   with_sinks_[frame.number] = {finished, frame.held};
   charge(wire::Work::host_frame, 1);
+  watching_.compose(*frame.whole, finished);
   sinks_.submit(frame.whole);
   --frames_left_;
 }

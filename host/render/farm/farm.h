@@ -18,6 +18,7 @@
 #include "host/render/farm/plan.h"
 #include "host/render/sinks/sink_pool.h"
 #include "host/render/trace/trace.h"
+#include "host/render/watch/watch.h"
 #include "node/wire/film.h"
 #include "node/wire/protocol.h"
 
@@ -33,6 +34,7 @@ struct FarmOptions {
   trace::Trace* trace = nullptr;               // to be filled; none: nothing is recorded
   const Cancellation* cancellation = nullptr;  // none: nobody cancels
   Heartbeats* heartbeats = nullptr;            // none: nobody looks whether nodes live
+  watch::Watch* watch = nullptr;               // none: nobody watches; it ends before the film does
 };
 
 struct FinishedFrame {

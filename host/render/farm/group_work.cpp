@@ -55,10 +55,11 @@ bool GroupWork::prepare(sinks::SinkPool& sinks) {
   return !tasks_.empty() && tasks_.front().assembly.prepare(compositor_, sinks);
 }
 
-std::optional<GroupWork::Composed> GroupWork::compose(sinks::SinkPool& sinks, StripStore& store) {
+std::optional<GroupWork::Composed> GroupWork::compose(sinks::SinkPool& sinks, StripStore& store,
+                                                      const PasteListener& listener) {
   if (tasks_.empty()) return std::nullopt;
   auto& [assembly, background, given] = tasks_.front();
-  std::optional<Assembly::Pasted> pasted = assembly.paste(compositor_, sinks, store);
+  std::optional<Assembly::Pasted> pasted = assembly.paste(compositor_, sinks, store, listener);
   if (!pasted) return std::nullopt;
   Composed composed{std::move(*pasted), assembly.interval(), given, compositor_.take_counts()};
   if (assembly.done()) {

@@ -54,7 +54,7 @@ class GroupWork {
     double given;  // when its task was
     compositor::PastedCounts counts;
   };
-  std::optional<Composed> compose(sinks::SinkPool& sinks, StripStore& store);
+  std::optional<Composed> compose(sinks::SinkPool& sinks, StripStore& store, const PasteListener& listener = {});
 
  private:
   struct Given {

@@ -73,12 +73,13 @@ NodeFailure NodeFailure::hangs(const std::string& where, const std::string& doin
 }
 
 NodeInbox::NodeInbox(std::uint32_t width, std::uint32_t height, wire::PixelFormat format, NodeSlots& slots,
-                     const Cancellation* cancellation)
+                     const Cancellation* cancellation, bool watched)
     : width_(width),
       height_(height),
       format_(format),
       slots_(slots),
       cancellation_(cancellation),
+      watched_(watched),
       nodes_(static_cast<int>(numnodes())),
       hellos_(static_cast<std::size_t>(nodes_)),
       greeted_(hellos_.size()),
@@ -192,7 +193,7 @@ std::optional<StripMessage> NodeInbox::receive_by_message(int node, StripStore& 
   require(size >= sizeof(wire::Strip) && size <= wire::kMaxStripBytes, node, "a strip of an impossible size");
   StripBytes bytes = store.take(size);
   crecv(wire::kStrip, bytes.data.get(), static_cast<long>(size));
-  std::optional<StripMessage> strip = StripMessage::read(std::move(bytes), format_);
+  std::optional<StripMessage> strip = StripMessage::read(std::move(bytes), format_, watched_);
   if (strip) take_slot(strip->header(), node);
   return strip;
 }
@@ -202,7 +203,7 @@ std::optional<StripMessage> NodeInbox::receive_by_slot(int node, StripStore& sto
   require(infocount() == sizeof header, node, "a strip of an impossible size");
   crecv(wire::kStrip, &header, sizeof header);
   take_slot(header, node);
-  return StripMessage::read(header, slots_.bytes({node, header.slot}), format_, store);
+  return StripMessage::read(header, slots_.bytes({node, header.slot}), format_, store, watched_);
 }
 
 void NodeInbox::take_slot(const wire::Strip& strip, int sender) {
@@ -212,6 +213,7 @@ void NodeInbox::take_slot(const wire::Strip& strip, int sender) {
 
 void NodeInbox::check_strip(const wire::Strip& strip, std::span<const wire::Run> runs, int sender) const {
   require(strip.last <= 1, sender, "a strip that is neither the last nor another");
+  require(strip.cut <= strip.last, sender, "a strip that is cut and not the last");
   require(strip.first_line <= strip.last_line && strip.last_line <= height_, sender, "lines outside the picture");
   for (const wire::Run& run : runs) {
     require(run.line >= strip.first_line && run.line < strip.last_line, sender, "pixels outside the strip's lines");

@@ -45,13 +45,16 @@ std::optional<wire::Beat> read_beat(std::span<const std::byte> message);
 
 class NodeInbox {
  public:
-  // Of all nodes of the job, for such pictures; `slots` are the nodes'. `cancellation` may be nullptr.
+  // Of all nodes of the job, for such pictures; `slots` are the nodes'. `cancellation` may be nullptr. `watched`: as in
+  // Load.
   NodeInbox(std::uint32_t width, std::uint32_t height, wire::PixelFormat format, NodeSlots& slots,
-            const Cancellation* cancellation);
+            const Cancellation* cancellation, bool watched = false);
 
   // Waits until every node has greeted, and checks that all are of the host's own version. False: cancelled before.
   bool receive_hellos();
   const std::vector<wire::Hello>& hellos() const { return hellos_; }
+  // A film is on its way to nodes; they may have had another before, of which no strip is to come.
+  void expect_loaded() { loaded_.assign(loaded_.size(), false); }
   // Waits until every node has the film, and attaches their slots. False: cancelled before.
   bool wait_until_loaded();
   // Of the machines whose nodes do not share memory then, one text each.
@@ -91,6 +94,7 @@ class NodeInbox {
   const wire::PixelFormat format_;
   NodeSlots& slots_;
   const Cancellation* const cancellation_;
+  const bool watched_;
   const int nodes_;
   std::vector<wire::Hello> hellos_;
   std::vector<bool> greeted_;

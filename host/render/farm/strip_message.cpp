@@ -15,15 +15,23 @@ struct Parts {
   std::size_t end;
 };
 
+// Of the counts behind the runs; none where the lines make no sense.
+std::optional<std::size_t> counted_bytes(const wire::Strip& header, bool watched) {
+  if (!watched) return 0;
+  if (header.first_line > header.last_line || header.last_line > wire::kMaxSide) return std::nullopt;
+  return (header.last_line - header.first_line) * sizeof(std::uint32_t);
+}
+
 // None where the header makes no sense: what it promises is of no kind, or more than a strip has.
-std::optional<Parts> parts_of(const wire::Strip& header, wire::PixelFormat format) {
+std::optional<Parts> parts_of(const wire::Strip& header, wire::PixelFormat format, bool watched) {
   const bool inbetween = header.kind == wire::FrameKind::inbetween && header.constant_runs == 0;
   if (!inbetween && header.kind != wire::FrameKind::keyframe) return std::nullopt;
   const std::uint64_t runs = std::uint64_t{header.constant_runs} + header.moving_runs;
-  if (header.pixels > wire::kMaxStripBytes || runs > wire::kMaxStripBytes) return std::nullopt;
+  const auto counts = counted_bytes(header, watched);
+  if (!counts || header.pixels > wire::kMaxStripBytes || runs > wire::kMaxStripBytes) return std::nullopt;
   Parts parts{sizeof header, 0, 0};
   parts.runs = parts.pixels + static_cast<std::size_t>(header.pixels) * wire::pixel_bytes(format);
-  parts.end = parts.runs + static_cast<std::size_t>(runs) * sizeof(wire::Run);
+  parts.end = parts.runs + static_cast<std::size_t>(runs) * sizeof(wire::Run) + *counts;
   if (parts.end > wire::kMaxStripBytes) return std::nullopt;
   return parts;
 }
@@ -54,33 +62,35 @@ StripBytes StripStore::take(std::size_t size) {
   return bytes;
 }
 
-StripMessage::StripMessage(const wire::Strip& header, StripBytes bytes, const std::byte* runs,
+StripMessage::StripMessage(const wire::Strip& header, StripBytes bytes, std::span<const std::byte> runs,
                            std::span<const std::byte> pixels)
     : header_(header),
       bytes_(std::move(bytes)),
-      runs_(reinterpret_cast<const wire::Run*>(runs), std::size_t{header.constant_runs} + header.moving_runs),
+      runs_(reinterpret_cast<const wire::Run*>(runs.data()), std::size_t{header.constant_runs} + header.moving_runs),
+      edge_boxes_(reinterpret_cast<const std::uint32_t*>(runs.data() + runs_.size_bytes()),
+                  (runs.size() - runs_.size_bytes()) / sizeof(std::uint32_t)),
       pixels_(reinterpret_cast<const std::uint32_t*>(pixels.data()), pixels.size() / sizeof(std::uint32_t)) {}
 
-std::optional<StripMessage> StripMessage::read(StripBytes message, wire::PixelFormat format) {
+std::optional<StripMessage> StripMessage::read(StripBytes message, wire::PixelFormat format, bool watched) {
   if (message.size < sizeof(wire::Strip)) return std::nullopt;
   wire::Strip header;
   std::memcpy(&header, message.data.get(), sizeof header);
-  const auto parts = parts_of(header, format);
+  const auto parts = parts_of(header, format, watched);
   if (header.by_message != 1 || !parts || parts->end != message.size) return std::nullopt;
   const std::span<const std::byte> whole(message.data.get(), message.size);
-  StripMessage strip(header, std::move(message), whole.data() + parts->runs, pixels_in(whole, *parts));
+  StripMessage strip(header, std::move(message), whole.subspan(parts->runs), pixels_in(whole, *parts));
   if (!strip.count_pixels(format)) return std::nullopt;
   return strip;
 }
 
 std::optional<StripMessage> StripMessage::read(const wire::Strip& header, std::span<const std::byte> slot,
-                                               wire::PixelFormat format, StripStore& store) {
-  const auto parts = parts_of(header, format);
+                                               wire::PixelFormat format, StripStore& store, bool watched) {
+  const auto parts = parts_of(header, format, watched);
   if (header.by_message != 0 || !parts || parts->end > slot.size()) return std::nullopt;
   StripBytes runs = store.take(parts->end - parts->runs);
-  const std::byte* start = runs.data.get();
+  const std::span<const std::byte> own(runs.data.get(), runs.size);
   std::ranges::copy(slot.subspan(parts->runs, runs.size), runs.data.get());
-  StripMessage strip(header, std::move(runs), start, pixels_in(slot, *parts));
+  StripMessage strip(header, std::move(runs), own, pixels_in(slot, *parts));
   if (!strip.count_pixels(format)) return std::nullopt;
   return strip;
 }

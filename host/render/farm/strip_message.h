@@ -35,16 +35,18 @@ class StripStore {
 
 class StripMessage {
  public:
-  // The strip that travelled whole in `message`, of pixels in this format. None unless that is exactly what the header
-  // promises.
-  static std::optional<StripMessage> read(StripBytes message, wire::PixelFormat format);
+  // The strip that travelled whole in `message`, of pixels in this format; `watched`: as in Load. None unless that is
+  // exactly what the header promises.
+  static std::optional<StripMessage> read(StripBytes message, wire::PixelFormat format, bool watched = false);
   // The strip whose header came, and whose other parts lie behind it in `slot`. None unless they fit each other.
   static std::optional<StripMessage> read(const wire::Strip& header, std::span<const std::byte> slot,
-                                          wire::PixelFormat format, StripStore& store);
+                                          wire::PixelFormat format, StripStore& store, bool watched = false);
 
   const wire::Strip& header() const { return header_; }
   NodeSlot slot() const { return {header_.node, header_.slot}; }
   std::span<const wire::Run> runs() const { return runs_; }
+  // Of each of its lines, where the run is watched.
+  std::span<const std::uint32_t> edge_boxes() const { return edge_boxes_; }
   std::span<const wire::Run> constant_runs() const { return runs_.first(header_.constant_runs); }
   std::span<const wire::Run> moving_runs() const { return runs_.subspan(header_.constant_runs); }
   // Words of pixels.
@@ -56,13 +58,15 @@ class StripMessage {
   StripBytes release() { return std::move(bytes_); }
 
  private:
-  StripMessage(const wire::Strip& header, StripBytes bytes, const std::byte* runs, std::span<const std::byte> pixels);
+  StripMessage(const wire::Strip& header, StripBytes bytes, std::span<const std::byte> runs,
+               std::span<const std::byte> pixels);
 
   bool count_pixels(wire::PixelFormat format);
 
   wire::Strip header_;
   StripBytes bytes_;
   std::span<const wire::Run> runs_;
+  std::span<const std::uint32_t> edge_boxes_;  // behind them
   std::span<const std::uint32_t> pixels_;
   std::size_t constant_words_ = 0;
 };

@@ -23,12 +23,12 @@
 #include "host/render/report/report.h"
 #include "host/render/resume/resume.h"
 #include "host/render/session/event_reporter.h"
+#include "host/render/session/heartbeat_listener.h"
 #include "host/render/session/status_board.h"
 #include "host/render/session/termination.h"
 #include "host/render/sinks/frame_folder.h"
 #include "host/render/sinks/sink_pool.h"
 #include "host/render/trace/trace_file.h"
-#include "topology/debugger.h"
 #include "topology/machine.h"
 #include "topology/memory_limit.h"
 
@@ -90,7 +90,7 @@ std::unique_ptr<sinks::SinkPool> make_sinks(const RenderJob& job, sinks::Sink& s
 }
 
 farm::FarmOptions farm_options(const RenderJob& job, const farm::HostMemory& memory, trace::Trace* trace,
-                               farm::Heartbeats& heartbeats) {
+                               farm::Heartbeats& heartbeats, watch::Watch* watch) {
   farm::FarmOptions farm;
   farm.mapping = job.mapping;
   farm.credits = memory.credits;
@@ -98,6 +98,7 @@ farm::FarmOptions farm_options(const RenderJob& job, const farm::HostMemory& mem
   farm.adapts = job.adapts;
   farm.trace = trace;
   farm.heartbeats = &heartbeats;
+  farm.watch = watch;
   return farm;
 }
 
@@ -106,6 +107,14 @@ std::unique_ptr<trace::Trace> begin_trace(const RenderJob& job) {
   if (job.trace.empty()) return nullptr;
   document::check_can_write(job.trace);
   return std::make_unique<trace::Trace>();
+}
+
+std::unique_ptr<watch::Watch> begin_watch(const RenderJob& job, const EventReporter& reporter) {
+  if (job.watch.empty()) return nullptr;
+  auto watch = std::make_unique<watch::Watch>(job.watch);
+  if (!watch->absent().empty())
+    reporter.report(events::Warning{"nobody watches yet at " + job.watch + ": " + watch->absent()});
+  return watch;
 }
 
 // The film, and which of its frames are to be rendered.
@@ -132,18 +141,6 @@ resume::Opened load_film(const RenderJob& job, const EventReporter& reporter, fa
   if (left < opened->asked || !opened->changed.empty())
     reporter.report(events::Resumed{opened->asked - left, opened->asked, opened->changed});
   return std::move(*opened);
-}
-
-farm::HeartbeatListener listen(const EventReporter& reporter, Termination& termination) {
-  farm::HeartbeatListener listener;
-  listener.beat = [&](const std::string& doing, const auto& silent) { reporter.report_beat(doing, silent); };
-  listener.told_to_end = [&] { return termination.asked(); };
-  listener.end = [&](const std::vector<farm::NodeFrame>& drawing) {
-    reporter.report_drawing(drawing);
-    termination.end();
-  };
-  listener.is_traced = [](std::int32_t process) { return topology::is_traced(process); };
-  return listener;
 }
 
 // By what is foreseen of it, unless the person says how many groups.
@@ -182,16 +179,10 @@ void write_report(const RenderJob& job, const film::CompiledFilm& film, const fa
   document::write_whole_file(job.report, report::report_text(head, report));
 }
 
-std::string host_name() {
-  char name[sizeof wire::Beat::host] = {};
-  gethostname(name, sizeof name - 1);
-  return name;
-}
-
 void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace, Output& output) {
   if (!job.report.empty()) document::check_can_write(job.report);  // early too
   Termination termination(messages::process().backend().has_machine_clock());
-  farm::Heartbeats heartbeats(host_name(), getpid(), listen(reporter, termination));
+  farm::Heartbeats heartbeats(host_name(), getpid(), heartbeat_listener(reporter, termination));
   double load_seconds = 0;
   resume::Opened opened = load_film(job, reporter, heartbeats, load_seconds);
   if (opened.frames.empty()) return render_nothing(job, reporter, load_seconds);
@@ -208,8 +199,10 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace, 
   // Only now: before, the host may have waited for its turn in the folder, and not for nodes.
   reporter.report(events::Loaded{load_seconds, output.folder ? output.folder->run() : ""});
   output.pool = make_sinks(job, *output.sink, pool_shape(host, view, job, memory.frames));
-  const farm::FarmReport report = farm::render_film(film.block(), plan, farm_options(job, memory, trace, heartbeats),
-                                                    *output.pool, reporter.listener(view.intervals().size()));
+  const auto watch = begin_watch(job, reporter);
+  const farm::FarmReport report =
+      farm::render_film(film.block(), plan, farm_options(job, memory, trace, heartbeats, watch.get()), *output.pool,
+                        reporter.listener(view.intervals().size()));
   const auto write = [&](const std::string& file, const std::function<void()>& whole) {
     sinks::Patience(bounds_of(reporter)).write(file, whole);
   };

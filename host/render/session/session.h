@@ -49,6 +49,7 @@ struct RenderJob {
   std::uint32_t groups = 0;            // as in PlanRequest
   std::string report;                  // file for the measurements; "": none
   std::string trace;                   // file for a picture of the run; "": none
+  std::string watch;                   // socket of who watches; "": nobody does
   std::string backend;                 // its name: mpi, threads or simulated
   std::vector<std::string> arguments;  // all this, as it was given to the host
   HostMachine host;                    // that the host has

@@ -12,6 +12,7 @@ std::string replay_of(options::RenderOptions options, const std::string& backend
   options.backend = backend == "mpi"       ? options::Backend::mpi
                     : backend == "threads" ? options::Backend::threads
                                            : options::Backend::simulated;
+  options.watch.clear();
   std::string command = "mars render";
   for (const std::string& argument : options::arguments_for(options::Program::mars, options)) command += " " + argument;
   return command;
@@ -34,6 +35,7 @@ session::RenderJob job_of(const options::RenderOptions& options, const std::stri
   job.groups = options.groups;
   job.report = options.report;
   job.trace = options.trace;
+  job.watch = options.watch;
   job.backend = backend;
   job.arguments = options::arguments_for(options::Program::host, options);
   job.replay = [options, backend](std::uint32_t nodes, std::optional<std::uint32_t> frame) {

@@ -1,0 +1,199 @@
+#include "host/render/watch/watched_picture.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+namespace mars::watch {
+namespace {
+
+using compositor::BlockFlags;
+
+// Flagged blocks of a picture of this size as rectangles: stretches of a row, joined to those above that are as wide.
+std::vector<Rect> rects_of(const BlockFlags& flags, std::uint32_t width, std::uint32_t height) {
+  std::vector<Rect> rects;
+  std::size_t above = 0, end_above = 0;  // rectangles that end where the row begins
+  for (std::uint32_t row = 0; row < flags.rows(); ++row) {
+    const std::uint32_t y = row * flags.block(), lines = std::min(height - y, flags.block());
+    const std::size_t begin = rects.size();
+    std::vector<Rect> grown;
+    flags.for_stretches(row, [&](std::uint32_t first, std::uint32_t last) {
+      const std::uint32_t x = first * flags.block(), right = std::min(width, last * flags.block());
+      grown.push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y),
+                       static_cast<std::uint16_t>(right - x), static_cast<std::uint16_t>(lines)});
+    });
+    for (Rect& rect : grown) {
+      const auto same = [&](const Rect& other) { return other.x == rect.x && other.width == rect.width; };
+      const auto found = std::find_if(rects.begin() + static_cast<std::ptrdiff_t>(above),
+                                      rects.begin() + static_cast<std::ptrdiff_t>(end_above), same);
+      if (found == rects.begin() + static_cast<std::ptrdiff_t>(end_above)) continue;
+      rect.y = found->y;
+      rect.height = static_cast<std::uint16_t>(rect.height + found->height);
+      found->height = 0;
+    }
+    rects.insert(rects.end(), grown.begin(), grown.end());
+    above = begin;
+    end_above = rects.size();
+  }
+  std::erase_if(rects, [](const Rect& rect) { return rect.height == 0; });
+  return rects;
+}
+
+}  // namespace
+
+WatchedPicture::WatchedPicture(std::uint32_t width, std::uint32_t height, std::uint32_t block, wire::PixelFormat format)
+    : width_(width),
+      height_(height),
+      pixel_words_(wire::pixel_words(format)),
+      words_(std::size_t{width} * height * pixel_words_),
+      marks_(std::size_t{width} * height),
+      still_(marks_.size()),
+      lines_(height, Line{-1, 0}),
+      pending_(width, height, block),
+      line_words_(width * pixel_words_) {
+  pending_.set_all();
+}
+
+void WatchedPicture::follow(std::uint32_t group) {
+  head_.group = group;
+  head_.whole = 0;
+  inbetweens_.clear();
+  keyframe_lines_ = 0;
+  std::ranges::fill(still_, Mark::unknown);
+}
+
+void WatchedPicture::paste(const PastedStrip& strip, const compositor::Compositor& compositor,
+                           const compositor::Frame& frame, double seconds) {
+  const wire::Strip& header = strip.header;
+  if (header.kind == wire::FrameKind::inbetween) {
+    Inbetween& inbetween = inbetweens_[header.frame];
+    inbetween.moving.insert(inbetween.moving.end(), strip.moving.begin(), strip.moving.end());
+    inbetween.edge_boxes.resize(height_);
+    std::ranges::copy(strip.edge_boxes, inbetween.edge_boxes.begin() + header.first_line);
+    inbetween.lines += header.last_line - header.first_line;
+    return;
+  }
+  if (head_.whole == 1 || head_.frame != header.frame || keyframe_lines_ == 0) begin_keyframe(header);
+  head_.seconds = seconds;
+  keyframe_lines_ += header.last_line - header.first_line;
+  mark_lines(strip);
+  for (std::uint32_t line = header.first_line; line < header.last_line; ++line) {
+    compositor.read_line(frame, line, line_words_);
+    put_line(line, line_words_, std::span(line_marks_).subspan(std::size_t{line - header.first_line} * width_, width_));
+    lines_[line] = {header.node, strip.edge_boxes[line - header.first_line]};
+  }
+  news_ = begun_ = true;
+}
+
+void WatchedPicture::begin_keyframe(const wire::Strip& header) {
+  head_.frame = header.frame;
+  head_.interval = header.interval;
+  head_.kind = header.kind;
+  head_.whole = 0;
+  keyframe_lines_ = 0;
+  inbetweens_.clear();
+  std::ranges::fill(lines_, Line{-1, 0});
+}
+
+// Its lines' pixels, for put_line and for the inbetweens.
+void WatchedPicture::mark_lines(const PastedStrip& strip) {
+  const std::size_t first = std::size_t{strip.header.first_line} * width_;
+  const std::size_t count = std::size_t{strip.header.last_line - strip.header.first_line} * width_;
+  std::fill_n(still_.begin() + static_cast<std::ptrdiff_t>(first), count, Mark::nothing);
+  for (const wire::Run& run : strip.constant)
+    std::fill_n(&still_[std::size_t{run.line} * width_ + run.first], run.count, Mark::still);
+  line_marks_.assign(&still_[first], &still_[first] + count);
+  for (const wire::Run& run : strip.moving)
+    std::fill_n(&line_marks_[std::size_t{run.line} * width_ + run.first - first], run.count, Mark::moving);
+}
+
+// Only blocks that it changes are to be sent.
+void WatchedPicture::put_line(std::uint32_t line, std::span<const std::uint32_t> words, std::span<const Mark> marks) {
+  const std::size_t at = std::size_t{line} * width_;
+  for (std::uint32_t left = 0; left < width_; left += pending_.block()) {
+    const std::uint32_t count = std::min(pending_.block(), width_ - left);
+    std::uint32_t* to = &words_[(at + left) * pixel_words_];
+    const std::size_t bytes = count * pixel_words_ * sizeof *to;
+    if (std::memcmp(to, &words[left * pixel_words_], bytes) == 0 &&
+        std::memcmp(&marks_[at + left], &marks[left], count) == 0)
+      continue;
+    std::memcpy(to, &words[left * pixel_words_], bytes);
+    std::memcpy(&marks_[at + left], &marks[left], count);
+    pending_.set_pixels(line, left, count);
+  }
+}
+
+void WatchedPicture::finish(const compositor::Frame& frame, std::uint32_t interval, wire::FrameKind kind,
+                            std::int32_t first_node, double seconds) {
+  if (kind == wire::FrameKind::inbetween)
+    finish_inbetween(frame, interval, first_node);
+  else if (head_.frame != frame.number || keyframe_lines_ != height_)
+    put_whole(frame);
+  keyframe_lines_ = 0;
+  head_ = {frame.number, interval, kind, 1, head_.group, 0, seconds};
+  news_ = begun_ = true;
+}
+
+// Whether the picture is the frame before, in the compositor's order.
+bool WatchedPicture::follows(const compositor::Frame& frame, std::uint32_t interval) const {
+  return head_.whole == 1 && head_.interval == interval && frame.changed_since == head_.frame;
+}
+
+void WatchedPicture::finish_inbetween(const compositor::Frame& frame, std::uint32_t interval, std::int32_t node) {
+  const Inbetween drawn = std::move(inbetweens_[frame.number]);
+  inbetweens_.erase(frame.number);
+  if (!follows(frame, interval) || drawn.lines != height_) return put_whole(frame);
+  put_blocks(frame, frame.changed);
+  for (const wire::Run& run : drawn.moving)
+    std::fill_n(&marks_[std::size_t{run.line} * width_ + run.first], run.count, Mark::moving);
+  for (std::uint32_t line = 0; line < height_; ++line) lines_[line] = {node, drawn.edge_boxes[line]};
+}
+
+void WatchedPicture::put_blocks(const compositor::Frame& frame, const BlockFlags& blocks) {
+  for (std::uint32_t row = 0; row < blocks.rows(); ++row)
+    blocks.for_stretches(row, [&](std::uint32_t first, std::uint32_t last) {
+      const std::uint32_t left = first * blocks.block(), count = std::min(width_, last * blocks.block()) - left;
+      const std::uint32_t bottom = std::min(height_, (row + 1) * blocks.block());
+      for (std::uint32_t line = row * blocks.block(); line < bottom; ++line) {
+        const std::size_t at = std::size_t{line} * width_ + left;
+        std::memcpy(&words_[at * pixel_words_], &frame.pixels[at * pixel_words_],
+                    count * pixel_words_ * sizeof frame.pixels[0]);
+        std::memcpy(&marks_[at], &still_[at], count);
+      }
+    });
+  pending_ |= blocks;
+}
+
+// Of which not all strips were seen.
+void WatchedPicture::put_whole(const compositor::Frame& frame) {
+  std::ranges::fill(still_, Mark::unknown);
+  std::ranges::copy(frame.pixels, words_.begin());
+  std::ranges::copy(still_, marks_.begin());
+  std::ranges::fill(lines_, Line{-1, 0});
+  pending_.set_all();
+}
+
+void WatchedPicture::forget_sent() {
+  pending_.set_all();
+  news_ = begun_;
+}
+
+void WatchedPicture::take(PictureUpdate& update) {
+  update.head = head_;
+  update.rects = rects_of(pending_, width_, height_);
+  update.head.rects = static_cast<std::uint32_t>(update.rects.size());
+  update.lines = lines_;
+  update.words.clear();
+  update.marks.clear();
+  for (const Rect& rect : update.rects)
+    for (std::uint32_t line = rect.y; line < std::uint32_t{rect.y} + rect.height; ++line) {
+      const std::size_t at = std::size_t{line} * width_ + rect.x;
+      const auto* words = &words_[at * pixel_words_];
+      update.words.insert(update.words.end(), words, words + rect.width * pixel_words_);
+      update.marks.insert(update.marks.end(), &marks_[at], &marks_[at] + rect.width);
+    }
+  pending_.clear();
+  news_ = false;
+}
+
+}  // namespace mars::watch
