@@ -1,6 +1,8 @@
 // A hand in a view: mouse, pen, finger or keys become grabs, drags and orbits (docs/studio-protocol.md). A press on the
 // left waits for the studio's word on what is there: a handle or limb is dragged, empty space turns the eye.
 
+import {kNoEvent} from "./latencies.js";
+
 const kPerKey = 14;          // pixels of a mouse, for one press of an arrow
 const kPerLine = 16;         // of wheels that count lines
 const kStill = 3;            // pixels: a press that moves less is a click
@@ -130,7 +132,7 @@ export class Hand {
     clearTimeout(this.#rest);
     this.pace.flush("orbit", true);
     this.pace.now({do: "orbit", view: this.view.number, by: [0, 0], how: "turn", moving: false},
-                  event ?? {timeStamp: performance.now()});
+                  event ?? kNoEvent);
   }
 
   #look(gesture) { this.view.picture.dataset.gesture = gesture; }

@@ -329,7 +329,8 @@ class Controls(Page):
 
     def test_a_view_is_maximised_and_comes_back(self):
         before = self.studio.views[2]
-        ActionChains(self.browser).double_click(self.browser.find_elements(By.CSS_SELECTOR, ".title")[2]).perform()
+        # A real one takes both clicks within half a second, which a busy machine may not give.
+        self.js("document.querySelectorAll('.title')[2].dispatchEvent(new MouseEvent('dblclick', {bubbles: true}))")
         self.studio.wait_for("unview", view=0)
         self.until(lambda: self.studio.views.get(2, before)["width"] > 1.9 * before["width"])
         self.press("f")
@@ -433,7 +434,7 @@ class Films(Page):
         self.chord(".")
         self.studio.wait_for("frame", frame=26)
         self.chord(Keys.SPACE)
-        self.studio.wait_for("frame", frame=29)
+        self.studio.wait_for("frame", count=5)  # it plays by the clock, whatever is left out
         self.chord(Keys.SPACE)
 
     def test_steps_name_their_actor_and_keys_show(self):
