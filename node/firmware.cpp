@@ -12,8 +12,11 @@
 #include "hal/messages/shared_memory.h"
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
+#include "node/command_queue.h"
+#include "node/film_frames.h"
 #include "node/film_receiver.h"
 #include "node/heartbeat.h"
+#include "node/live_views.h"
 #include "node/renderer.h"
 #include "node/simd/instruction_set.h"
 #include "node/wire/commands.h"
@@ -41,11 +44,14 @@ class Firmware {
   void report_fault(const std::string& reason);
 
  private:
-  std::span<const std::byte> receive(long type);
   void load();
+  void forget_film();
   void render();
   void send_time();
-  Renderer& renderer();
+  Renderer& renderer() { return given(renderer_); }
+  // What there is once a film is loaded, if it is for such work.
+  template <typename T>
+  T& given(std::optional<T>& item) const;
 
   simd::InstructionSet instruction_set_;
   const std::string name_;  // as in failures
@@ -53,8 +59,10 @@ class Firmware {
   std::optional<messages::SharedMemory> film_block_;
   std::optional<wire::FilmView> film_;
   std::optional<Renderer> renderer_;
+  std::optional<FilmFrames> film_frames_;  // either
+  std::optional<LiveViews> views_;         // or
   int groups_ = 1;
-  std::vector<std::byte> command_;     // the one being obeyed
+  CommandQueue commands_;
   std::vector<std::uint32_t> frames_;  // that it asks for, where it does not list them
   std::vector<std::uint32_t> left_;    // inbetweens of its interval that are drawn later
 };
@@ -82,14 +90,17 @@ void Firmware::obey() {
   for (;;) {
     led(0);
     heartbeat_.rest();
-    cprobe(wire::any_of(wire::kLoad, wire::kRender, wire::kCredit, wire::kStop, wire::kClock));
+    const long type = commands_.wait();
     led(1);
-    switch (infotype()) {
+    switch (type) {
       case wire::kLoad: load(); break;
       case wire::kRender: render(); break;
+      case wire::kView: given(views_).begin(commands_.receive()); break;
+      case wire::kDraw: given(views_).draw(commands_.receive()); break;
+      case wire::kCloseView: given(views_).close(commands_.receive()); break;
       case wire::kCredit: renderer().outbox().receive_credit(); break;
       case wire::kStop:
-        wire::check_size("Stop", receive(wire::kStop).size(), 0);
+        wire::check_size("Stop", commands_.receive().size(), 0);
         if (renderer_) renderer_->finish();
         return;
       case wire::kClock: send_time(); break;
@@ -97,18 +108,12 @@ void Firmware::obey() {
   }
 }
 
-// Receives the command that was probed; valid until the next.
-std::span<const std::byte> Firmware::receive(long type) {
-  command_.resize(static_cast<std::size_t>(infocount()));
-  crecv(type, command_.data(), static_cast<long>(command_.size()));
-  return command_;
-}
-
 // The machine's first node receives the film into memory that all nodes of the machine share, and checks it.
 void Firmware::load() {
-  const auto [load, machines] = wire::read_load(receive(wire::kLoad), static_cast<int>(numnodes()), name_);
+  const auto [load, machines] = wire::read_load(commands_.receive(), static_cast<int>(numnodes()), name_);
   const messages::Neighbourhood here = messages::neighbourhood();
   wire::check_machines(machines, static_cast<int>(mynode()), here.machine, here.count);
+  forget_film();
   film_block_.emplace(kFilmReplica, load.film_bytes);
   const auto block = film_block_->bytes();
   if (here.index == 0) {
@@ -117,10 +122,14 @@ void Firmware::load() {
   }
   gsync();
   film_.emplace(block, "film", true);
-  renderer_.emplace(*film_, load, machines, instruction_set_, heartbeat_);
+  renderer_.emplace(load, machines, instruction_set_, heartbeat_);
+  if (load.live == 1)
+    views_.emplace(*film_, instruction_set_, *renderer_, [this](std::uint32_t view) { return commands_.ends(view); });
+  else
+    film_frames_.emplace(*film_, load, instruction_set_, *renderer_);
   groups_ = load.groups;
   const std::size_t most = film_->settings().frames;
-  command_.reserve(sizeof(wire::Render) + (most + std::min(most, wire::kMostCycle)) * sizeof(std::uint32_t));
+  commands_.reserve(sizeof(wire::Render) + (most + std::min(most, wire::kMostCycle)) * sizeof(std::uint32_t));
   frames_.reserve(most);
   left_.reserve(most);
   wire::Loaded loaded{renderer_->outbox().slots(), {}};
@@ -128,26 +137,35 @@ void Firmware::load() {
   csend(wire::kLoaded, &loaded, sizeof loaded, myhost(), 0);
 }
 
+// What was sent is in its memory until it is gone.
+void Firmware::forget_film() {
+  views_.reset();
+  film_frames_.reset();
+  if (renderer_) renderer_->finish();
+  renderer_.reset();
+}
+
 void Firmware::render() {
-  Renderer& renderer = this->renderer();
+  FilmFrames& frames = given(film_frames_);
   const wire::RenderReceiver self{static_cast<int>(mynode()), static_cast<int>(numnodes()), groups_, left_};
-  const wire::RenderCommand command = wire::read_render(receive(wire::kRender), *film_, self, frames_);
+  const wire::RenderCommand command = wire::read_render(commands_.receive(), *film_, self, frames_);
   if (command.render.goes_on == 1)
     left_.erase(left_.begin(), left_.begin() + command.render.drawn);
   else
     left_.assign(command.left().begin(), command.left().end());
-  renderer.render(command);
+  frames.render(command);
 }
 
 void Firmware::send_time() {
-  wire::check_size("Clock", receive(wire::kClock).size(), 0);
+  wire::check_size("Clock", commands_.receive().size(), 0);
   const double now = dclock();
   csend(wire::kClock, &now, sizeof now, myhost(), 0);
 }
 
-Renderer& Firmware::renderer() {
-  if (!renderer_) throw Failure("the host gives work before a film", "", "please report it");
-  return *renderer_;
+template <typename T>
+T& Firmware::given(std::optional<T>& item) const {
+  if (!item) throw Failure("the host gives work before a film", "", "please report it");
+  return *item;
 }
 
 void Firmware::report_fault(const std::string& reason) {

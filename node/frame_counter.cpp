@@ -18,6 +18,7 @@ double share_of(double part, double whole) { return whole > 0 ? part / whole : 0
 
 FrameCounter::FrameCounter(const wire::FilmView& film, simd::InstructionSet set)
     : scene_(film),
+      boxes_(film),
       tessellator_(set),
       kernels_(raster::raster_kernels(set)),
       step_(std::max(1u, film.settings().height / kSampledLines)),
@@ -35,7 +36,7 @@ FrameCounter::FrameCounter(const wire::FilmView& film, simd::InstructionSet set)
 wire::FrameCounts FrameCounter::count_keyframe(std::uint32_t interval, std::span<const std::uint32_t> frames) {
   scene_.set_interval(interval);
   wire::FrameCounts counts = count(wire::FrameKind::keyframe, frames.front());
-  const geometry::LineRange still = scene_.moving_line_bounds(frames.subspan(1));
+  const geometry::LineRange still = scene_.moving_line_bounds(frames.subspan(1), boxes_);
   counts.first_still_line = still.first;
   counts.last_still_line = still.last;
   return counts;

@@ -55,6 +55,7 @@ class FrameCounter {
   std::uint32_t line_of(std::size_t sampled) const;
 
   geometry::Scene scene_;
+  const geometry::ShapeBoxes boxes_;
   Tessellator tessellator_;
   const raster::RasterKernels& kernels_;
   const std::uint32_t step_;    // every so many lines one is sampled

@@ -14,6 +14,7 @@ void FrameReport::begin(wire::FrameKind kind, std::uint32_t frame, std::uint32_t
   messages::record_frame(static_cast<std::int32_t>(frame));
   sent_before_ = messages::traffic().to_nodes.bytes;
   strip_ = {};
+  is_cut_ = false;
   strip_.frame = frame;
   strip_.interval = interval;
   strip_.kind = kind;
@@ -38,6 +39,7 @@ void FrameReport::note_memory(std::uint64_t bytes) { strip_.work.memory = std::m
 
 void FrameReport::set_strip(const geometry::LineRange& lines, bool last) {
   strip_.last = last ? 1 : 0;
+  strip_.cut = last && is_cut_ ? 1 : 0;
   strip_.first_line = lines.first;
   strip_.last_line = lines.last;
   strip_.work.bytes_to_nodes = messages::traffic().to_nodes.bytes - sent_before_;

@@ -26,6 +26,9 @@ class FrameReport {
   void skip_clock();
   // The frame had so many bytes in use.
   void note_memory(std::uint64_t bytes);
+  // Lines of the frame are left out.
+  void cut() { is_cut_ = true; }
+  bool is_cut() const { return is_cut_; }
   // Prepares the header of the frame's next strip.
   void set_strip(const geometry::LineRange& lines, bool last);
   // Records the frame as a span.
@@ -38,6 +41,7 @@ class FrameReport {
  private:
   wire::Strip strip_{};
   std::uint64_t sent_before_ = 0;  // bytes to nodes
+  bool is_cut_ = false;
   double begin_ = 0;
   double clock_ = 0;
 };

@@ -19,53 +19,20 @@ constexpr std::uint32_t kLinesABeat = 4;
 
 }  // namespace
 
-Renderer::Renderer(const wire::FilmView& film, const wire::Load& load, std::span<const std::int32_t> machines,
-                   simd::InstructionSet set, Heartbeat& heartbeat)
+Renderer::Renderer(const wire::Load& load, std::span<const std::int32_t> machines, simd::InstructionSet set,
+                   Heartbeat& heartbeat)
     : heartbeat_(heartbeat),
-      scene_(film),
       mapping_(load.mapping),
       pixel_format_(load.pixel_format),
       tessellator_(set, &heartbeat),
-      z_buffer_(set, film.settings().width, scene_.pattern()),
       neighbours_(machines, load.groups),
-      still_(neighbours_, film.settings().width, film.settings().height, scene_.pattern(), load.still_memory),
       memory_(neighbours_, load.memory),
-      sums_(film.settings().height),
-      triangle_exchange_(group_size(), film.settings().height),
-      still_exchange_(neighbours_, film.settings().samples, film.settings().height),
-      outbox_(film.settings().width, load.pixel_format, load.credits, neighbours_.group(),
-              load.watched == 1 ? film.settings().height : 0),
-      contributes_(group_size()),
-      line_loads_(film.settings().height),
-      line_totals_(film.settings().height + 1),
-      awaited_(film.settings().height),
-      wanted_lines_(film.settings().height),
-      wanted_still_lines_(film.settings().height),
+      outbox_(load.pixel_format, load.credits, neighbours_.group(), load.watched == 1),
       homes_(group_size()),
       pass_homes_(group_size()),
-      watched_(load.watched == 1 ? film.settings().height : 0) {
+      is_watched_(load.watched == 1) {
   parts_.reserve(neighbours_.nodes().size() + 1);
   if (load.traced == 1) tracer_.emplace();
-}
-
-void Renderer::render(const wire::RenderCommand& command) {
-  const wire::Render& render = command.render;
-  messages::keep_to(render.group_first, render.group_count);
-  if (render.goes_on == 0) {
-    begin_interval(command);
-    draw_frame(wire::FrameKind::keyframe, render.interval, command.frames.front(),
-               {render.group_first, render.group_count}, render.contributors);
-  }
-  draw_inbetweens(command);
-  messages::keep_to_nobody();
-}
-
-void Renderer::draw_inbetweens(const wire::RenderCommand& command) {
-  const auto inbetweens = command.inbetweens();
-  const int self = static_cast<int>(mynode());
-  for (std::size_t k = 0; k < inbetweens.size() && !outbox_.stopped(); ++k)
-    if (command.render.group_first + command.contributor(k) == self)
-      draw_frame(wire::FrameKind::inbetween, command.render.interval, inbetweens[k], {self, 1}, 1);
 }
 
 void Renderer::send_trace() {
@@ -77,27 +44,10 @@ void Renderer::finish() {
   if (tracer_) tracer_->finish();
 }
 
-// Those that are left may come to any node.
-void Renderer::begin_interval(const wire::RenderCommand& command) {
-  scene_.set_interval(command.render.interval);
-  still_.begin_interval(command.render.interval, scene_.moving_line_bounds(command.frames.subspan(1)));
-  std::ranges::fill(contributes_, static_cast<std::uint8_t>(command.left().empty() ? 0 : 1));
-  for (std::size_t k = 0; k < command.inbetweens().size(); ++k)
-    contributes_[static_cast<std::size_t>(command.contributor(k))] = 1;
-}
-
 // The thesis's four steps: triangles, homes for the scanlines, triangles to their homes, scanlines. An inbetween takes
 // them with moving parts only, by one node, which is the home of all lines.
-void Renderer::draw_frame(wire::FrameKind kind, std::uint32_t interval, std::uint32_t frame,
-                          const collectives::Group& group, std::int32_t contributors) {
-  group_ = group;
-  contributors_ = static_cast<std::size_t>(contributors);
-  heartbeat_.begin_frame(frame);
-  report_.begin(kind, frame, interval);
-  scene_.set_frame(frame);
-  report_.charge(wire::Work::first_frame, std::exchange(is_first_, false) ? 1 : 0);
-  report_.charge(wire::Work::frame, 1);
-  report_.charge(wire::Work::segment, scene_.film().segments().size());
+void Renderer::draw(View& view, const Frame& frame, const HasEnded& has_ended) {
+  begin(view, frame, has_ended);
   Tessellation own = tessellate_all();
   group::Pass pass{0, map_to_homes(own.made)};
   if (pass.count == 1 && parts_.empty())
@@ -113,11 +63,23 @@ void Renderer::draw_frame(wire::FrameKind kind, std::uint32_t interval, std::uin
   send_trace();
 }
 
+void Renderer::begin(View& view, const Frame& frame, const HasEnded& has_ended) {
+  view_ = &view;
+  has_ended_ = &has_ended;
+  group_ = frame.group;
+  contributors_ = static_cast<std::size_t>(frame.contributors);
+  heartbeat_.begin_frame(frame.number);
+  report_.begin(frame.kind, frame.number, frame.interval);
+  report_.charge(wire::Work::first_frame, std::exchange(is_first_, false) ? 1 : 0);
+  report_.charge(wire::Work::frame, 1);
+  report_.charge(wire::Work::segment, scene().film().segments().size());
+}
+
 // Every line is wanted, so that all edge boxes are counted.
 Tessellation Renderer::tessellate_all() {
   memory_.begin_frame();
   parts_.clear();
-  std::ranges::fill(wanted_lines_, std::uint8_t{1});
+  std::ranges::fill(view_->wanted_lines, std::uint8_t{1});
   const Tessellation own = tessellate();
   report_.strip().work.triangles = own.made.triangles;
   report_.strip().work.edge_boxes_diced = own.made.edge_boxes;
@@ -130,7 +92,7 @@ Tessellation Renderer::tessellate_all() {
 Tessellation Renderer::tessellate_part(const group::Pass& pass) {
   report_.note_memory(memory_.arena().peak());
   memory_.begin_frame();
-  group::mark_lines(homes(), pass, wanted_lines_);
+  group::mark_lines(homes(), pass, view_->wanted_lines);
   const Tessellation own = tessellate();
   check(own.all_stored, "a pass's triangles fit the memory planned for it");
   fill_own_lines(own.polygons);
@@ -143,11 +105,12 @@ Tessellation Renderer::tessellate_part(const group::Pass& pass) {
 Tessellation Renderer::tessellate() {
   heartbeat_.enter(wire::Phase::dice);
   const Scatter scatter{static_cast<std::uint32_t>(member()), static_cast<std::uint32_t>(contributors_)};
-  const LineTable lines{wanted_lines_, report_.is_keyframe() ? wanted_lines_ : unkept_lines(), line_loads_};
-  const Tessellation own = tessellator_.tessellate(scene_, scatter, lines, {memory_.arena(), memory_.first_triangle()},
+  const LineTable lines{view_->wanted_lines, report_.is_keyframe() ? view_->wanted_lines : unkept_lines(),
+                        view_->line_loads};
+  const Tessellation own = tessellator_.tessellate(scene(), scatter, lines, {memory_.arena(), memory_.first_triangle()},
                                                    report_.strip().work);
-  std::transform_inclusive_scan(line_loads_.begin(), line_loads_.end(), line_totals_.begin() + 1, std::plus<>(),
-                                [](const raster::LineLoad& load) { return load.boxes(); });
+  std::transform_inclusive_scan(view_->line_loads.begin(), view_->line_loads.end(), view_->line_totals.begin() + 1,
+                                std::plus<>(), [](const raster::LineLoad& load) { return load.boxes(); });
   charge_tessellation(own);
   report_.charge(wire::Work::fresh_byte, memory_.arena().take_fresh());
   report_.clock(wire::Phase::dice);
@@ -162,60 +125,60 @@ void Renderer::charge_tessellation(const Tessellation& own) {
   charge(wire::Work::mesh_vertex, own.surfaces.mesh_vertices);
   charge(wire::Work::triangle_tested, report_.strip().work.triangles_tested);
   charge(wire::Work::row_tested,
-         report_.strip().work.triangles_tested * static_cast<std::uint64_t>(scene_.pattern().count));
+         report_.strip().work.triangles_tested * static_cast<std::uint64_t>(scene().pattern().count));
   charge(wire::Work::triangle, own.made.triangles);
   charge(wire::Work::edge_box_made, own.made.edge_boxes);
-  charge(wire::Work::vertex_light, own.surfaces.colored * scene_.lights().size());
+  charge(wire::Work::vertex_light, own.surfaces.colored * scene().lights().size());
 }
 
 // Those of the pass on which an inbetween needs stationary parts; none where all are kept.
 std::span<const std::uint8_t> Renderer::unkept_lines() {
   bool any = false;
-  const geometry::LineRange lines = still_.lines();
-  for (std::uint32_t line = 0; line < wanted_lines_.size(); ++line) {
-    const bool unkept = wanted_lines_[line] == 1 && lines.has(line) && !still_.keeps(line);
-    wanted_still_lines_[line] = unkept ? 1 : 0;
+  const geometry::LineRange lines = view_->still.lines();
+  for (std::uint32_t line = 0; line < view_->wanted_lines.size(); ++line) {
+    const bool unkept = view_->wanted_lines[line] == 1 && lines.has(line) && !view_->still.keeps(line);
+    view_->wanted_still_lines[line] = unkept ? 1 : 0;
     any |= unkept;
   }
-  return any ? wanted_still_lines_ : std::span<const std::uint8_t>();
+  return any ? view_->wanted_still_lines : std::span<const std::uint8_t>();
 }
 
 bool Renderer::can_fill(const Tessellation& own) const {
   const std::uint64_t needed = group::own_bytes(own.made, triangles_travel()) +
-                               group::fixed_bytes(line_loads_.size(), static_cast<std::size_t>(group_.count));
-  return line_totals_.back() == own.made.edge_boxes && needed <= memory_.frame_bytes();
+                               group::fixed_bytes(view_->line_loads.size(), static_cast<std::size_t>(group_.count));
+  return view_->line_totals.back() == own.made.edge_boxes && needed <= memory_.frame_bytes();
 }
 
 void Renderer::fill_own_lines(const raster::Polygons& own) {
   heartbeat_.enter(wire::Phase::fill);
-  raster::LineFiller filler({0, static_cast<std::uint32_t>(line_loads_.size())}, line_totals_, memory_.first_triangle(),
-                            memory_.arena());
+  raster::LineFiller filler({0, static_cast<std::uint32_t>(view_->line_loads.size())}, view_->line_totals,
+                            memory_.first_triangle(), memory_.arena());
   filler.add(own);
   parts_.assign(1, filler.finish());
   memory_.publish(parts_.front());
-  report_.charge(wire::Work::edge_box_filled, line_totals_.back());
+  report_.charge(wire::Work::edge_box_filled, view_->line_totals.back());
   report_.clock(wire::Phase::fill);
 }
 
 std::uint32_t Renderer::map_to_homes(const group::MadeCounts& made) {
   const bool large = group::is_large(group::own_bytes(made, triangles_travel()), memory_.frame_bytes());
   heartbeat_.enter(wire::Phase::sum);
-  sums_.add_up(group_, {line_loads_, made.edge_boxes, large});
-  report_.strip().edge_box_total = sums_.ebc().back();
+  view_->sums.add_up(group_, {view_->line_loads, made.edge_boxes, large});
+  report_.strip().edge_box_total = view_->sums.ebc().back();
   report_.clock(wire::Phase::sum);
   heartbeat_.enter(wire::Phase::map);
-  const auto weights = sums_.weights(mapping_);
+  const auto weights = view_->sums.weights(mapping_);
   const auto drawing = homes().first(contributors_);
   group::map_lines(mapping_, weights, drawing);
-  const auto height = static_cast<std::uint32_t>(line_loads_.size());
+  const auto height = static_cast<std::uint32_t>(view_->line_loads.size());
   std::ranges::fill(homes().subspan(contributors_), geometry::LineRange{height, height});
   report_.strip().load_ratio = group::load_ratio(weights, drawing);
-  report_.strip().work.samples = sums_.samples_on(homes()[member()]);
+  report_.strip().work.samples = view_->sums.samples_on(homes()[member()]);
   const std::uint32_t passes = group::agree_on_passes(
-      {group_, sums_.ebc(), homes(), sums_.large(), line_loads_, made.triangles, triangles_travel()},
+      {group_, view_->sums.ebc(), homes(), view_->sums.large(), view_->line_loads, made.triangles, triangles_travel()},
       memory_.frame_bytes());
   report_.strip().work.passes = passes;
-  report_.charge(wire::Work::line_mapped, line_loads_.size());
+  report_.charge(wire::Work::line_mapped, view_->line_loads.size());
   report_.clock(wire::Phase::map);
   return passes;
 }
@@ -228,7 +191,7 @@ geometry::LineRange Renderer::exchange_triangles(const raster::Polygons& own, co
                          [&](const geometry::LineRange& home) { return group::part_of(home, pass); });
   const geometry::LineRange lines = homes_now[member()];
   if (group_.count > 1) {
-    triangle_exchange_.send_triangles(group_, own, homes_now, line_loads_, memory_);
+    view_->triangle_exchange.send_triangles(group_, own, homes_now, view_->line_loads, memory_);
     memory_.read_published(parts_);
     report_.clock(wire::Phase::exchange);
     if (triangles_travel()) receive_triangles(lines);
@@ -242,19 +205,19 @@ void Renderer::receive_triangles(const geometry::LineRange& lines) {
   const auto totals = memory_.arena().take<std::uint64_t>(lines.count() + 1);
   totals[0] = 0;
   for (std::uint32_t i = 0; i < lines.count(); ++i) {
-    const std::uint64_t all = sums_.ebc()[lines.first + i + 1] - sums_.ebc()[lines.first + i];
+    const std::uint64_t all = view_->sums.ebc()[lines.first + i + 1] - view_->sums.ebc()[lines.first + i];
     std::uint64_t there = 0;
     for (const raster::LineBoxes& part : parts_) there += part.of(lines.first + i).size();
     if (there > all) throw Failure("nodes' counts of edge boxes make no sense", "", "please report it");
-    awaited_[i] = all - there;
-    totals[i + 1] = totals[i] + awaited_[i];
+    view_->awaited[i] = all - there;
+    totals[i + 1] = totals[i] + view_->awaited[i];
   }
-  const wire::FilmView& film = scene_.film();
-  group::AwaitedTriangles awaited{lines, std::span(awaited_).first(lines.count()), film.settings().width,
+  const wire::FilmView& film = scene().film();
+  group::AwaitedTriangles awaited{lines, std::span(view_->awaited).first(lines.count()), film.settings().width,
                                   film.settings().samples, film.materials().size()};
   raster::LineFiller filler(lines, totals, memory_.first_triangle(), memory_.arena());
   for (std::uint64_t left = totals.back(); left > 0;) {
-    const raster::Polygons others = triangle_exchange_.receive_triangles(memory_, awaited);
+    const raster::Polygons others = view_->triangle_exchange.receive_triangles(memory_, awaited);
     report_.clock(wire::Phase::exchange);
     heartbeat_.look();
     const std::uint64_t came = others.stationary.size() + others.moving.size();
@@ -271,32 +234,32 @@ void Renderer::draw_lines(const geometry::LineRange& lines, const group::Pass& p
   const shading::Shading shading = this->shading();
   const bool constant = report_.is_keyframe() && raster::any_stationary(parts_, lines);
   geometry::LineRange strip{lines.first, lines.first};
-  do {
+  for (bool drawn = false; !drawn;) {
     heartbeat_.enter(wire::Phase::credit);
-    raster::StripBuffer& buffer = outbox_.begin(constant, report_.strip().work);
+    raster::StripBuffer& buffer = outbox_.begin(scene().film().settings().width, constant, report_.strip().work);
     report_.clock(wire::Phase::credit);
     heartbeat_.enter(wire::Phase::scanline);
     strip = {strip.last, draw_strip({strip.last, lines.last}, shading, buffer)};
     charge_strip(strip, buffer);
     report_.clock(wire::Phase::scanline);
-    const bool drawn = strip.last == lines.last;
+    drawn = strip.last == lines.last || report_.is_cut();
     if (drawn) finish_exchange(pass);
     if (drawn && pass.is_last()) charge_file();
     send_strip(strip, drawn && pass.is_last());
-  } while (strip.last < lines.last);
+  }
 }
 
 void Renderer::charge_strip(const geometry::LineRange& lines, const raster::StripBuffer& strip) {
   const auto charge = [&](wire::Work kind, std::uint64_t units) { report_.charge(kind, units); };
   std::uint64_t boxes = 0;
   for (const raster::LineBoxes& part : parts_) boxes += part.count(lines);
-  const raster::DrawnCounts drawn = z_buffer_.take_counts();
+  const raster::DrawnCounts drawn = view_->z_buffer.take_counts();
   charge(wire::Work::line, drawn.lines);
   charge(wire::Work::edge_box, boxes);
-  charge(wire::Work::sample, sums_.samples_on(lines));
+  charge(wire::Work::sample, view_->sums.samples_on(lines));
   charge(wire::Work::shaded, drawn.shaded.samples);
-  charge(wire::Work::light, drawn.shaded.highlights * scene_.lights().size());
-  charge(wire::Work::facet_light, drawn.shaded.facets * scene_.lights().size());
+  charge(wire::Work::light, drawn.shaded.highlights * scene().lights().size());
+  charge(wire::Work::facet_light, drawn.shaded.facets * scene().lights().size());
   charge(wire::Work::pixel, strip.pixel_count());
   charge(wire::Work::still_byte, drawn.still_bytes);
 }
@@ -304,7 +267,7 @@ void Renderer::charge_strip(const geometry::LineRange& lines, const raster::Stri
 // Its own lines of a keyframe, an inbetween whole.
 void Renderer::charge_file() {
   const std::uint64_t lines = homes()[member()].count();
-  const std::uint64_t bytes = lines * scene_.film().settings().width * wire::pixel_bytes(pixel_format_);
+  const std::uint64_t bytes = lines * scene().film().settings().width * wire::pixel_bytes(pixel_format_);
   messages::charge(static_cast<int>(wire::Work::node_frame), 1);
   messages::charge(static_cast<int>(wire::Work::node_frame_byte), bytes);
 }
@@ -314,11 +277,16 @@ std::uint32_t Renderer::draw_strip(const geometry::LineRange& lines, const shadi
   std::uint32_t line = lines.first;
   while (line < lines.last && out.lines_that_fit() > 0) {
     heartbeat_.look();
+    if (has_ended()) {
+      report_.cut();
+      break;
+    }
     const geometry::LineRange some{line, std::min(line + std::min(out.lines_that_fit(), kLinesABeat), lines.last)};
     if (report_.is_keyframe())
-      z_buffer_.draw_keyframe(parts_, some, shading, still_, out);
+      view_->z_buffer.draw_keyframe(parts_, some, shading, view_->still, out);
     else
-      report_.strip().work.lines_drawn_again += z_buffer_.draw_inbetween(parts_, some, shading, still_, out);
+      report_.strip().work.lines_drawn_again +=
+          view_->z_buffer.draw_inbetween(parts_, some, shading, view_->still, out);
     line = some.last;
   }
   return line;
@@ -326,11 +294,11 @@ std::uint32_t Renderer::draw_strip(const geometry::LineRange& lines, const shadi
 
 void Renderer::finish_exchange(const group::Pass& pass) {
   heartbeat_.enter(wire::Phase::exchange);
-  triangle_exchange_.finish();
+  view_->triangle_exchange.finish();
   report_.clock(wire::Phase::exchange);
   if (!pass.is_last() || !report_.is_keyframe() || group_.count == 1) return;
   heartbeat_.enter(wire::Phase::depth);
-  still_exchange_.complete({group_, homes(), contributes_}, still_);
+  view_->still_exchange.complete({group_, homes(), view_->contributes}, view_->still);
   report_.clock(wire::Phase::depth);
 }
 
@@ -343,11 +311,12 @@ void Renderer::send_strip(const geometry::LineRange& lines, bool last) {
 }
 
 std::span<const std::uint32_t> Renderer::watched_edge_boxes(const geometry::LineRange& lines) {
-  if (watched_.empty()) return {};
-  const auto ebc = sums_.ebc().subspan(lines.first, lines.count() + 1);
+  if (!is_watched_) return {};
+  watched_.resize(lines.count());
+  const auto ebc = view_->sums.ebc().subspan(lines.first, lines.count() + 1);
   std::transform(ebc.begin() + 1, ebc.end(), ebc.begin(), watched_.begin(),
                  [](std::uint64_t to, std::uint64_t from) { return static_cast<std::uint32_t>(to - from); });
-  return std::span(watched_).first(lines.count());
+  return watched_;
 }
 
 std::size_t Renderer::group_size() const { return static_cast<std::size_t>(neighbours_.group().count); }
@@ -359,7 +328,7 @@ bool Renderer::triangles_travel() const {
 }
 
 shading::Shading Renderer::shading() const {
-  shading::Shading shading = shading::shading_of(scene_, pixel_format_);
+  shading::Shading shading = shading::shading_of(scene(), pixel_format_);
   shading.triangles = memory_.first_triangle();
   return shading;
 }

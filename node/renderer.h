@@ -1,9 +1,10 @@
-// One node's way through the frames of an interval: the keyframe together with the other nodes of its group
-// (thesis 4.8, four steps), inbetweens alone (4.9). All buffers are made when the film is loaded.
+// How a node draws a picture of a view: a keyframe together with the other nodes of its group (thesis 4.8, four steps),
+// an inbetween alone (4.9). What views share is here: a frame's memory, and strips on their way to the host.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,32 +12,41 @@
 
 #include "hal/collectives/group.h"
 #include "node/frame_report.h"
-#include "node/geometry/scene.h"
-#include "node/group/still_exchange.h"
-#include "node/group/exchange.h"
 #include "node/group/frame_memory.h"
-#include "node/group/group_sums.h"
 #include "node/group/outbox.h"
 #include "node/group/passes.h"
 #include "node/heartbeat.h"
 #include "node/raster/neighbours.h"
-#include "node/raster/scanline.h"
-#include "node/raster/still_lines.h"
 #include "node/tessellator.h"
 #include "node/tracer.h"
-#include "node/wire/commands.h"
+#include "node/view.h"
+#include "node/wire/protocol.h"
 
 namespace mars::node {
 
+// Of a view's picture: of a film, a frame and its interval; else the picture's number and its view's.
+struct Frame {
+  wire::FrameKind kind;
+  std::uint32_t number;
+  std::uint32_t interval;
+  collectives::Group group;   // that draws it
+  std::int32_t contributors;  // of it, the first; the others take part in what all do together
+};
+
 class Renderer {
  public:
-  // `machines`: each node's machine, as in Load. The film's block and `heartbeat` outlive it. Collective over a
-  // machine's nodes.
-  Renderer(const wire::FilmView& film, const wire::Load& load, std::span<const std::int32_t> machines,
-           simd::InstructionSet set, Heartbeat& heartbeat);
+  // Whether what is being drawn is wanted no more.
+  using HasEnded = std::function<bool()>;
 
-  // Draws the caller's share of the frames (see Render) and sends it.
-  void render(const wire::RenderCommand& command);
+  // `machines`: each node's machine, as in Load. `heartbeat` outlives it. Collective over a machine's nodes.
+  Renderer(const wire::Load& load, std::span<const std::int32_t> machines, simd::InstructionSet set,
+           Heartbeat& heartbeat);
+
+  // Draws the caller's share of the view's scene as it is now, and sends it; once it `has_ended`, sends no more of it
+  // but its last strip. Collective over the frame's group.
+  void draw(View& view, const Frame& frame, const HasEnded& has_ended = {});
+
+  const raster::Neighbours& neighbours() const { return neighbours_; }
 
   // Sends what was recorded so far, where the run is traced.
   void send_trace();
@@ -50,12 +60,7 @@ class Renderer {
   std::uint32_t frame() const { return report_.strip().frame; }
 
  private:
-  void begin_interval(const wire::RenderCommand& command);
-  void draw_inbetweens(const wire::RenderCommand& command);
-  // By the first `contributors` nodes of the group; the others take part in what all do together.
-  void draw_frame(wire::FrameKind kind, std::uint32_t interval, std::uint32_t frame, const collectives::Group& group,
-                  std::int32_t contributors);
-
+  void begin(View& view, const Frame& frame, const HasEnded& has_ended);
   Tessellation tessellate_all();
   Tessellation tessellate_part(const group::Pass& pass);
   Tessellation tessellate();
@@ -75,7 +80,8 @@ class Renderer {
   geometry::LineRange exchange_triangles(const raster::Polygons& own, const group::Pass& pass);
   void receive_triangles(const geometry::LineRange& lines);
   void draw_lines(const geometry::LineRange& lines, const group::Pass& pass);
-  // Draws `lines` from the first on until the strip is full or all are drawn; one past the last of them.
+  // Draws `lines` from the first on until the strip is full, all are drawn or the view has ended; one past the last of
+  // them.
   std::uint32_t draw_strip(const geometry::LineRange& lines, const shading::Shading& shading, raster::StripBuffer& out);
   // Waits until what was sent to nodes is gone; after the last pass of a keyframe nodes give each other CZB.
   void finish_exchange(const group::Pass& pass);
@@ -83,6 +89,8 @@ class Renderer {
   // EBC of each; none where nobody watches.
   std::span<const std::uint32_t> watched_edge_boxes(const geometry::LineRange& lines);
 
+  geometry::Scene& scene() const { return view_->scene; }
+  bool has_ended() const { return *has_ended_ && (*has_ended_)(); }
   std::size_t member() const;  // the caller's index in the group
   std::size_t group_size() const;
   bool contributes() const { return member() < contributors_; }
@@ -92,36 +100,25 @@ class Renderer {
 
   Heartbeat& heartbeat_;
   std::optional<Tracer> tracer_;
-  geometry::Scene scene_;
   wire::Mapping mapping_;
   wire::PixelFormat pixel_format_;
   Tessellator tessellator_;
-  raster::ZBuffer z_buffer_;
   raster::Neighbours neighbours_;
-  raster::StillLines still_;
   group::FrameMemory memory_;
-  group::GroupSums sums_;
-  group::TriangleExchange triangle_exchange_;
-  group::StillExchange still_exchange_;
   group::Outbox outbox_;
-
-  // Of the current interval.
-  std::vector<std::uint8_t> contributes_;  // 1: the node draws inbetweens; by nodes of the group
 
   bool is_first_ = true;  // of all frames
 
   // Of the current frame.
-  collectives::Group group_;                      // that draws it
-  std::size_t contributors_ = 1;                  // of it
-  std::vector<raster::LineLoad> line_loads_;      // of own triangles
-  std::vector<std::uint64_t> line_totals_;        // of their edge boxes, before each line and at the end
-  std::vector<std::uint64_t> awaited_;            // edge boxes of other nodes that are to come, of each line
-  std::vector<raster::LineBoxes> parts_;          // edge boxes of the lines to be drawn; own ones first
-  std::vector<std::uint8_t> wanted_lines_;        // in the current pass
-  std::vector<std::uint8_t> wanted_still_lines_;  // likewise, of stationary parts in an inbetween
+  View* view_ = nullptr;  // that it is of
+  const HasEnded* has_ended_ = nullptr;
+  collectives::Group group_;              // that draws it
+  std::size_t contributors_ = 1;          // of it
+  std::vector<raster::LineBoxes> parts_;  // edge boxes of the lines to be drawn; own ones first
   std::vector<geometry::LineRange> homes_;
   std::vector<geometry::LineRange> pass_homes_;
-  std::vector<std::uint32_t> watched_;  // watched_edge_boxes'; empty: nobody watches
+  const bool is_watched_;
+  std::vector<std::uint32_t> watched_;  // watched_edge_boxes'
   FrameReport report_;
 };
 

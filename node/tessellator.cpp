@@ -82,7 +82,8 @@ void Tessellator::add(const geometry::Scene& scene, bool moving, const Scatter& 
 void Tessellator::add_segment(const geometry::Scene& scene, std::size_t segment, const Scatter& scatter,
                               Output& output) {
   const wire::FilmView& film = scene.film();
-  const wire::Shape& shape = film.shapes()[film.segments()[segment].shape];
+  const std::uint32_t number = film.segments()[segment].shape;
+  const wire::Shape& shape = film.shape(number);
   const std::uint32_t first = scene.first_patch(segment);
   std::uint64_t i = (scatter.index + scatter.count - first % scatter.count) % scatter.count;
   if (i >= shape.size()) return;
@@ -90,17 +91,17 @@ void Tessellator::add_segment(const geometry::Scene& scene, std::size_t segment,
   const std::uint32_t material = scene.material(segment);
   raster::PatchIdentity identity{0, material, shape::mirrors(matrix), film.materials()[material].sides == 1,
                                  scene.moves(segment)};
-  for (; i < shape.patch_count; i += scatter.count) {
+  for (const auto patches = film.patches_of(number); i < shape.patch_count; i += scatter.count) {
     look_now_and_then();
     identity.patch = first + static_cast<std::uint32_t>(i);
-    add_patch(scene, matrix, film.patches()[shape.first_patch + i], identity, output);
+    add_patch(scene, matrix, patches[i], identity, output);
   }
   if (i >= shape.size()) return;
   const shape::EyeMap map = geometry::eye_map(matrix);
-  for (; i < shape.size(); i += scatter.count) {
+  for (const auto meshlets = film.meshlets_of(number); i < shape.size(); i += scatter.count) {
     look_now_and_then();
     identity.patch = first + static_cast<std::uint32_t>(i);
-    add_meshlet(scene, matrix, map, film.meshlets()[shape.first_meshlet + i - shape.patch_count], identity, output);
+    add_meshlet(scene, matrix, map, meshlets[i - shape.patch_count], identity, output);
   }
 }
 

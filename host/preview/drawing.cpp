@@ -48,8 +48,7 @@ void Drawing::look(const wire::Camera& camera) {
   near_ = static_cast<float>(camera.near);
 }
 
-void Drawing::draw(const Lines& lines, const Placing& to_world, const Color& color, const Stroke& stroke) {
-  stroke_ = stroke;
+void Drawing::place(const Placing& to_world) {
   const double scale = camera_.focal * image_.height / 2;
   for (std::size_t row = 0; row < 3; ++row) {
     const auto& eye = camera_.world_to_eye.m[row];
@@ -60,6 +59,61 @@ void Drawing::draw(const Lines& lines, const Placing& to_world, const Color& col
       to_screen_[4 * row + column] = static_cast<float>(by * sum);
     }
   }
+}
+
+void Drawing::cover(const Facets& facets, const Placing& to_world, double behind) {
+  place(to_world);
+  to_screen_[11] += static_cast<float>(behind);
+  const std::size_t points = facets.points.size() / 3;
+  places_.resize(std::max(places_.size(), points));
+  for (std::size_t i = 0; i < points; ++i) places_[i] = place_of(&facets.points[3 * i]);
+  for (std::size_t i = 0; i + 2 < facets.corners.size(); i += 3)
+    cover(places_[facets.corners[i]], places_[facets.corners[i + 1]], places_[facets.corners[i + 2]]);
+}
+
+// Cut at the near plane, which leaves up to four corners.
+void Drawing::cover(const Place& a, const Place& b, const Place& c) {
+  const Place* const corners[] = {&a, &b, &c};
+  Spot spots[4];
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Place &from = *corners[i], &to = *corners[(i + 1) % 3];
+    if (from.w >= near_) spots[count++] = project(from);
+    if ((from.w >= near_) == (to.w >= near_)) continue;
+    const float part = (near_ - from.w) / (to.w - from.w);
+    spots[count++] = project({from.x + part * (to.x - from.x), from.y + part * (to.y - from.y), near_});
+  }
+  for (std::size_t i = 2; i < count; ++i) cover(spots[0], spots[i - 1], spots[i]);
+}
+
+// At the middle of each pixel.
+void Drawing::cover(Spot a, Spot b, Spot c) {
+  if (a.y > b.y) std::swap(a, b);
+  if (b.y > c.y) std::swap(b, c);
+  if (a.y > b.y) std::swap(a, b);
+  const auto height = static_cast<float>(image_.height), width = static_cast<float>(image_.width);
+  const float first = std::ceil(std::max(a.y, 0.0f) - 0.5f), last = std::min(c.y, height) - 0.5f;
+  const auto at = [](const Spot& from, const Spot& to, float y) {
+    const float part = to.y > from.y ? (y - from.y) / (to.y - from.y) : 0;
+    return Spot{from.x + part * (to.x - from.x), y, from.closeness + part * (to.closeness - from.closeness)};
+  };
+  for (float row = std::max(first, 0.0f); row <= last; ++row) {
+    const float y = row + 0.5f;
+    Spot left = at(a, c, y), right = y < b.y ? at(a, b, y) : at(b, c, y);
+    if (left.x > right.x) std::swap(left, right);
+    const float slope = right.x > left.x ? (right.closeness - left.closeness) / (right.x - left.x) : 0;
+    const float from = std::max(std::ceil(left.x - 0.5f), 0.0f), to = std::min(right.x, width) - 0.5f;
+    float* const closest = &closest_[static_cast<std::size_t>(row) * image_.width];
+    for (float column = from; column <= to; ++column) {
+      float& nearest = closest[static_cast<std::size_t>(column)];
+      nearest = std::max(nearest, left.closeness + (column + 0.5f - left.x) * slope);
+    }
+  }
+}
+
+void Drawing::draw(const Lines& lines, const Placing& to_world, const Color& color, const Stroke& stroke) {
+  stroke_ = stroke;
+  place(to_world);
   const std::size_t points = lines.points.size() / 3;
   spots_.resize(std::max(spots_.size(), points));
   for (std::size_t i = 0; i < points; ++i) spots_[i] = project(place_of(&lines.points[3 * i]));

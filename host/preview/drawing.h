@@ -25,6 +25,9 @@ class Drawing {
   void begin(const wire::Camera& camera, const Color& background, double nearest, double farthest);
   // What follows is seen by another camera.
   void look(const wire::Camera& camera);
+  // Lines drawn from now on are hidden behind these triangles, which themselves are not seen; lines as near as
+  // `behind`, a length along the camera's axis, are not.
+  void cover(const Facets& facets, const Placing& to_world, double behind);
   void draw(const Lines& lines, const Placing& to_world, const Color& color, const Stroke& stroke = {});
 
   const images::Image& image() const { return image_; }
@@ -40,11 +43,14 @@ class Drawing {
     float x, y, w;
   };
 
+  void place(const Placing& to_world);
   Place place_of(const float* point) const;
   Spot project(const Place& place) const;
   void join(const float* from, const float* to, const Color& color);
   void draw_line(Spot from, Spot to, std::uint32_t color);
   void draw_dot(const Spot& spot, std::uint32_t color);
+  void cover(const Place& a, const Place& b, const Place& c);
+  void cover(Spot a, Spot b, Spot c);
   void plot(std::uint32_t x, std::uint32_t y, float closeness, std::uint32_t color);
   std::uint32_t dimmed(std::uint32_t color, float closeness) const;
 
@@ -52,6 +58,7 @@ class Drawing {
   Stroke stroke_;
   std::vector<float> closest_;  // of each pixel; 0: nothing there
   std::vector<Spot> spots_;
+  std::vector<Place> places_;
   Placing to_screen_{};  // of the lines being drawn: x, y before the division and w
   wire::Camera camera_{};
   float near_ = 0;

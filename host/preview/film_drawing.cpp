@@ -7,6 +7,7 @@ namespace mars::preview {
 namespace {
 
 constexpr Placing kWorld{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+constexpr double kBehind = 0.01;  // of the subject's radius: lines on a surface are before it
 constexpr Color kGround{0.30f, 0.33f, 0.38f};
 
 // 1, 2 or 5 times a power of ten, such that about ten of them make `extent`.
@@ -65,9 +66,10 @@ FilmDrawing::FilmDrawing(const View& view) : view_(view), grid_(ground_under(vie
 }
 
 void FilmDrawing::draw(Drawing& drawing, As as, std::uint32_t frame, const wire::Camera& camera, std::uint32_t pen,
-                       bool ground) const {
+                       bool ground, std::span<const Cover> covers) const {
   const double middle = distance_along(camera, view_.subject.center);
   drawing.begin(camera, kPaper, middle - view_.subject.radius, middle + view_.subject.radius);
+  for (const Cover& cover : covers) drawing.cover(*cover.facets, cover.to_world, kBehind * view_.subject.radius);
   if (ground) drawing.draw(grid_, kWorld, kGround, {pen, 1});
   const bool small = drawing.image().height < 200 * pen;  // a terminal's characters: dots would hide all else
   const Stroke sticks{pen > 1 && !small ? 2 * pen : pen, small ? pen + 1 : 3 * pen};

@@ -1,6 +1,8 @@
 // A frame of a film as lines: one of the thesis's three representations, seen from anywhere.
 #pragma once
 
+#include <span>
+
 #include "host/preview/drawing.h"
 #include "host/preview/view.h"
 
@@ -11,15 +13,22 @@ inline constexpr Color kPaper{0.07f, 0.08f, 0.10f};
 // A colour as lines of it are drawn: bright enough to be seen on kPaper.
 Color line_color(const Color& color);
 
+// What hides lines, where it stands.
+struct Cover {
+  const Facets* facets;
+  Placing to_world;
+};
+
 class FilmDrawing {
  public:
   // `view` must outlive it.
   explicit FilmDrawing(const View& view);
 
   // Not As::surface. What never moves is dim where something does. `pen`: pixels a line is wide. `ground`: a grid at
-  // height 0 beneath it all, and the world's axes in the corner (x red, y green, z blue).
-  void draw(Drawing& drawing, As as, std::uint32_t frame, const wire::Camera& camera, std::uint32_t pen,
-            bool ground) const;
+  // height 0 beneath it all, and the world's axes in the corner (x red, y green, z blue). Lines behind `covers` are
+  // left out.
+  void draw(Drawing& drawing, As as, std::uint32_t frame, const wire::Camera& camera, std::uint32_t pen, bool ground,
+            std::span<const Cover> covers = {}) const;
 
  private:
   void draw_axes(Drawing& drawing, const wire::Camera& camera, std::uint32_t pen) const;

@@ -1,4 +1,5 @@
-// Lines between points, some of them marked: a wire picture of one thing in coordinates of its own.
+// Lines between points, some of them marked: a wire picture of one thing in coordinates of its own. And what hides
+// lines.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +11,12 @@ struct Lines {
   std::vector<float> points;        // x, y, z of each
   std::vector<std::uint32_t> ends;  // two points a line
   std::uint32_t dots = 0;           // so many points, from the first, are marked: joints, control vertices
+};
+
+// Triangles between points, which hide lines behind them.
+struct Facets {
+  std::vector<float> points;
+  std::vector<std::uint32_t> corners;  // three points a triangle
 };
 
 }  // namespace mars::preview

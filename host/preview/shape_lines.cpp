@@ -5,7 +5,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <span>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -104,6 +103,12 @@ Lines control_net(const wire::FilmView& film, const wire::Shape& shape) {
   for (const wire::Meshlet& meshlet : film.meshlets().subspan(shape.first_meshlet, shape.meshlet_count))
     net.add(film.mesh_places().subspan(meshlet.first_vertex, meshlet.vertex_count),
             film.mesh_triangles().subspan(meshlet.first_triangle, meshlet.triangle_count));
+  return net.take();
+}
+
+Lines control_net(std::span<const wire::Patch> patches) {
+  Net net;
+  for (const wire::Patch& patch : patches) net.add(patch);
   return net.take();
 }
 

@@ -1,6 +1,7 @@
 // The lines of one thing in its own coordinates: a control net, a prism, a joint's sticks (thesis, figure 2.6).
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "host/content/modeler/model.h"
@@ -12,6 +13,7 @@ namespace mars::preview {
 // The control points of a shape's patches, joined along u and v, and the vertices of its meshes, joined along edges.
 // Each point and each line once; lines of no length are left out. All points are dots.
 Lines control_net(const wire::FilmView& film, const wire::Shape& shape);
+Lines control_net(std::span<const wire::Patch> patches);
 
 // The 12 edges of the unit cube, which a T-matrix makes a segment's prism.
 Lines cube_edges();

@@ -8,6 +8,7 @@
 #include "host/child/programs.h"
 #include "host/experiments/forecast/forecast.h"
 #include "host/programs/node_counter.h"
+#include "host/render/serve/server.h"
 #include "host/shell/job/render_job.h"
 #include "topology/machine.h"
 
@@ -85,6 +86,7 @@ void foresee_on(const experiments::Platform& platform, session::RenderJob& job) 
 }
 
 void render_here(const options::RenderOptions& options, const std::string& backend) {
+  if (!options.serve.empty()) return serve::serve({options.serve, backend, options.mapping, options.block});
   session::RenderJob job = job::job_of(options, backend);
   job.foresee = [job](const wire::FilmView& film, const farm::PlanRequest& request, int nodes) {
     const std::vector<farm::Task> tasks = farm::make_tasks(film, request.frames, request.coherence);

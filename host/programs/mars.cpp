@@ -28,6 +28,7 @@
 #include "host/shell/commands/plot_command.h"
 #include "host/shell/commands/preview_command.h"
 #include "host/shell/commands/render_command.h"
+#include "host/shell/commands/studio_command.h"
 #include "host/shell/commands/submit_command.h"
 #include "host/shell/commands/verify_command.h"
 #include "host/shell/launch/background_text.h"
@@ -52,6 +53,7 @@ Commands:
   mars plan FILM                   forecast its time, memory and bytes
   mars preview FILM                play a film or a model in the terminal, before it is rendered
   mars play DIR                    play rendered frames in the terminal
+  mars studio [FILM]               work on a film or a model in the browser
   mars verify DIR                  check that all frames are there and whole
   mars animate FILM list           the keys of a film; pose, key, move, time and more
   mars plot FILM -o FILE.png       joint angles over time, as a picture
@@ -96,6 +98,7 @@ int run(int argc, char** argv) {
   commands::add_import(app);
   commands::add_preview(app, [](const film::CompiledFilm& film) { return std::make_unique<SurfaceFrames>(film); });
   commands::add_play(app);
+  commands::add_studio(app);
   commands::add_animate(app, code);
   commands::add_plot(app);
   commands::add_model(app);

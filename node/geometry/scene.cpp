@@ -23,6 +23,21 @@ EyeLight to_eye(const wire::Light& light, const wire::Matrix& world_to_eye) {
   return out;
 }
 
+ShapeBoxes::Box box_of(const wire::FilmView& film, std::uint32_t shape) {
+  constexpr float kFar = std::numeric_limits<float>::max();
+  ShapeBoxes::Box box{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
+  const auto take_in = [&](const std::array<float, 3>& low, const std::array<float, 3>& high) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      box.low[axis] = std::min(box.low[axis], low[axis]);
+      box.high[axis] = std::max(box.high[axis], high[axis]);
+    }
+  };
+  for (const wire::Patch& patch : film.patches_of(shape))
+    for (const auto& point : patch.points) take_in(point, point);
+  for (const wire::Meshlet& meshlet : film.meshlets_of(shape)) take_in(meshlet.low, meshlet.high);
+  return box;
+}
+
 }  // namespace
 
 shape::Projection projection_of(const wire::Camera& camera, std::int32_t width, std::int32_t height) {
@@ -32,33 +47,21 @@ shape::Projection projection_of(const wire::Camera& camera, std::int32_t width, 
   return {scale, {x, y}, static_cast<float>(camera.near), static_cast<float>(camera.far), kGuardPixels, corner};
 }
 
+ShapeBoxes::ShapeBoxes(const wire::FilmView& film) {
+  boxes_.reserve(film.shape_count());
+  for (std::uint32_t shape = 0; shape < film.shape_count(); ++shape) boxes_.push_back(box_of(film, shape));
+}
+
 Scene::Scene(const wire::FilmView& film) : film_(film) {
   first_patch_.reserve(film.segments().size());
   std::uint32_t next = 0;
   for (const wire::Segment& segment : film.segments()) {
     first_patch_.push_back(next);
-    next += static_cast<std::uint32_t>(film.shapes()[segment.shape].size());
+    next += static_cast<std::uint32_t>(film.shape(segment.shape).size());
   }
-  bounds_.reserve(film.shapes().size());
-  for (const wire::Shape& shape : film.shapes()) bounds_.push_back(bounds_of(film, shape));
   moves_.resize(film.segments().size());
+  moved_at_.resize(film.segments().size());
   lights_.resize(film.light_tracks().size());
-}
-
-Scene::Bounds Scene::bounds_of(const wire::FilmView& film, const wire::Shape& shape) {
-  constexpr float kFar = std::numeric_limits<float>::max();
-  Bounds bounds{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
-  const auto take_in = [&](const std::array<float, 3>& low, const std::array<float, 3>& high) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      bounds.low[axis] = std::min(bounds.low[axis], low[axis]);
-      bounds.high[axis] = std::max(bounds.high[axis], high[axis]);
-    }
-  };
-  for (const wire::Patch& patch : film.patches().subspan(shape.first_patch, shape.patch_count))
-    for (const auto& point : patch.points) take_in(point, point);
-  for (const wire::Meshlet& meshlet : film.meshlets().subspan(shape.first_meshlet, shape.meshlet_count))
-    take_in(meshlet.low, meshlet.high);
-  return bounds;
 }
 
 void Scene::set_interval(std::uint32_t number) {
@@ -75,34 +78,43 @@ void Scene::set_frame(std::uint32_t frame) {
     lights_[i] = to_eye(film_.lights()[film_.value_at(film_.light_tracks()[i], frame)], camera.world_to_eye);
 }
 
+void Scene::move(std::span<const wire::MovedSegment> moved) {
+  for (const wire::MovedSegment& before : moved_) moved_at_[before.segment] = 0;
+  moved_.assign(moved.begin(), moved.end());
+  for (std::uint32_t i = 0; i < moved_.size(); ++i) moved_at_[moved_[i].segment] = i + 1;
+}
+
 std::array<float, 3> Scene::up() const {
   const auto& to_eye = camera().world_to_eye.m;
   return {static_cast<float>(to_eye[0][2]), static_cast<float>(to_eye[1][2]), static_cast<float>(to_eye[2][2])};
 }
 
 shape::EyeMatrix Scene::matrix(std::size_t segment) const {
-  return shape::eye_matrix(film_.camera_at(frame_).world_to_eye, film_.matrix_at(film_.segments()[segment], frame_));
+  const std::uint32_t moved = moved_at_[segment];
+  const wire::Matrix& matrix =
+      moved > 0 ? moved_[moved - 1].matrix : film_.matrix_at(film_.segments()[segment], frame_);
+  return shape::eye_matrix(film_.camera_at(frame_).world_to_eye, matrix);
 }
 
 std::uint32_t Scene::material(std::size_t segment) const {
-  return film_.value_at(film_.segments()[segment].material, frame_);
+  const std::uint32_t moved = moved_at_[segment];
+  return moved > 0 ? moved_[moved - 1].material : film_.value_at(film_.segments()[segment].material, frame_);
 }
 
-LineRange Scene::moving_line_bounds(std::span<const std::uint32_t> frames) const {
+LineRange Scene::moving_line_bounds(std::span<const std::uint32_t> frames, const ShapeBoxes& boxes) const {
   LineRange lines{film_.settings().height, 0};
   for (const std::uint32_t frame : frames)
     for (const std::uint32_t segment : movers_) {
-      const LineRange one = lines_of(segment, frame);
+      const LineRange one = lines_of(segment, frame, boxes.of(film_.segments()[segment].shape));
       lines = {std::min(lines.first, one.first), std::max(lines.last, one.last)};
     }
   return lines.first < lines.last ? lines : LineRange{0, 0};
 }
 
-LineRange Scene::lines_of(std::size_t segment, std::uint32_t frame) const {
+LineRange Scene::lines_of(std::size_t segment, std::uint32_t frame, const ShapeBoxes::Box& box) const {
   const wire::Camera& camera = film_.camera_at(frame);
   const shape::Projection p = projection_of(camera, width(), height());
   const shape::EyeMatrix m = shape::eye_matrix(camera.world_to_eye, film_.matrix_at(film_.segments()[segment], frame));
-  const Bounds& box = bounds_[film_.segments()[segment].shape];
   const auto all = static_cast<float>(height());
   float top = all, bottom = 0;
   for (int corner = 0; corner < 8; ++corner) {

@@ -13,8 +13,24 @@
 #include "node/shape/bezier.h"
 #include "node/shape/sample_pattern.h"
 #include "node/wire/film.h"
+#include "node/wire/protocol.h"
 
 namespace mars::geometry {
+
+// The boxes round control points and vertices of a film's shapes.
+class ShapeBoxes {
+ public:
+  struct Box {
+    float low[3];
+    float high[3];
+  };
+
+  explicit ShapeBoxes(const wire::FilmView& film);
+  const Box& of(std::uint32_t shape) const { return boxes_[shape]; }
+
+ private:
+  std::vector<Box> boxes_;
+};
 
 class Scene {
  public:
@@ -22,6 +38,8 @@ class Scene {
 
   void set_interval(std::uint32_t number);
   void set_frame(std::uint32_t frame);
+  // Until the next call these segments are as said here, whatever the frame.
+  void move(std::span<const wire::MovedSegment> moved);
 
   const wire::FilmView& film() const { return film_; }
   std::int32_t width() const { return static_cast<std::int32_t>(film_.settings().width); }
@@ -40,22 +58,17 @@ class Scene {
   std::uint32_t material(std::size_t segment) const;
 
   // Lines that the interval's moving parts can touch at any of `frames`; a bound, never too small.
-  LineRange moving_line_bounds(std::span<const std::uint32_t> frames) const;
+  LineRange moving_line_bounds(std::span<const std::uint32_t> frames, const ShapeBoxes& boxes) const;
 
  private:
-  // Corners of the box round a shape's control points and vertices.
-  struct Bounds {
-    float low[3];
-    float high[3];
-  };
-  static Bounds bounds_of(const wire::FilmView& film, const wire::Shape& shape);
-  LineRange lines_of(std::size_t segment, std::uint32_t frame) const;
+  LineRange lines_of(std::size_t segment, std::uint32_t frame, const ShapeBoxes::Box& box) const;
 
   wire::FilmView film_;
   std::vector<std::uint32_t> first_patch_;
-  std::vector<Bounds> bounds_;  // of shapes
   std::vector<std::uint8_t> moves_;
   std::span<const std::uint32_t> movers_;
+  std::vector<wire::MovedSegment> moved_;
+  std::vector<std::uint32_t> moved_at_;  // by segment: its place in moved_ and one; 0: it is not there
   std::uint32_t frame_ = 0;
   shape::Projection projection_{};
   std::vector<EyeLight> lights_;

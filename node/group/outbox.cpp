@@ -8,21 +8,20 @@
 
 namespace mars::group {
 
-Outbox::Outbox(std::size_t width, wire::PixelFormat format, int slots, const collectives::Group& group,
-               std::size_t counted)
+Outbox::Outbox(wire::PixelFormat format, int slots, const collectives::Group& group, bool watched)
     : memory_(static_cast<std::size_t>(slots) * wire::kSlotBytes),
-      strip_(width, format, counted),
+      strip_(format, watched),
       slots_(static_cast<std::size_t>(slots)),
       group_(group) {
   memory_.prefer_large_pages();
 }
 
 // Of the slots it takes always the same first: what lies there is the likeliest to be in a cache still.
-raster::StripBuffer& Outbox::begin(bool constant, wire::WorkCounts& work) {
+raster::StripBuffer& Outbox::begin(std::size_t width, bool constant, wire::WorkCounts& work) {
   take_commands(work);
   if (owned_ != 0) current_ = static_cast<std::size_t>(std::countr_zero(owned_));
   wait(slots_[current_]);
-  strip_.begin(memory_of(current_), constant);
+  strip_.begin(memory_of(current_), width, constant);
   return strip_;
 }
 
@@ -38,7 +37,7 @@ void Outbox::send(wire::Strip& header, std::span<const std::uint32_t> edge_boxes
 }
 
 void Outbox::take_commands(wire::WorkCounts& work) {
-  constexpr long kCommands = wire::any_of(wire::kCredit, wire::kStop);
+  constexpr long kCommands = wire::any_of(wire::kCredit, wire::kStop, wire::kLoad);
   while (!stopped_ && iprobe(kCommands)) take_command();
   if (stopped_ || owned_ != 0) return;
   ++work.credits_waited;
@@ -50,12 +49,12 @@ void Outbox::take_commands(wire::WorkCounts& work) {
   messages::keep_to(group_.first, group_.count);
 }
 
-// Stop is not received here: the firmware does that.
+// Stop and Load are not received here: the firmware does that.
 void Outbox::take_command() {
-  if (infotype() == wire::kStop)
-    stopped_ = true;
-  else
+  if (infotype() == wire::kCredit)
     receive_credit();
+  else
+    stopped_ = true;
 }
 
 void Outbox::receive_credit() {

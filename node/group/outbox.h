@@ -15,18 +15,16 @@ namespace mars::group {
 
 class Outbox {
  public:
-  // `width`: of the picture, whose pixels have this format. All slots are the host's at first.
-  // `group`: the caller's. `counted`: as in StripBuffer.
-  Outbox(std::size_t width, wire::PixelFormat format, int slots, const collectives::Group& group,
-         std::size_t counted = 0);
+  // For pixels of this format. All slots are the host's at first. `group`: the caller's. `watched`: as in Load.
+  Outbox(wire::PixelFormat format, int slots, const collectives::Group& group, bool watched = false);
 
   const messages::MemoryName& slots() const { return memory_.name(); }
 
-  // An empty strip in a slot of the node's; waits for credit where there is none, and counts that in `work`. After Stop
-  // it waits for none: the host then uses no slot.
-  raster::StripBuffer& begin(bool constant, wire::WorkCounts& work);
-  // Sends the strip that begin() gave, under `header`, to which its pixels and bytes are added. After Stop it sends
-  // nothing: the host takes no more strips. `edge_boxes`: as in StripBuffer.
+  // An empty strip of a picture of `width` in a slot of the node's; waits for credit where there is none, and counts
+  // that in `work`. After Stop it waits for none: the host then uses no slot.
+  raster::StripBuffer& begin(std::size_t width, bool constant, wire::WorkCounts& work);
+  // Sends the strip that begin() gave, under `header`, to which its pixels and bytes are added. After Stop it
+  // sends nothing: the host takes no more strips. `edge_boxes`: as in StripBuffer.
   void send(wire::Strip& header, std::span<const std::uint32_t> edge_boxes = {});
   bool stopped() const { return stopped_; }
 

@@ -26,6 +26,17 @@ StillLines::StillLines(const Neighbours& neighbours, std::uint32_t width, std::u
   static_assert(sizeof(Head) == wire::kStillHeadBytes);
 }
 
+void StillLines::begin_interval(std::uint32_t number, const geometry::LineRange& lines) {
+  interval_ = number;
+  lines_ = lines;
+  all_move_ = false;
+}
+
+void StillLines::begin_moving_interval(std::uint32_t number) {
+  begin_interval(number, {0, 0});
+  all_move_ = true;
+}
+
 std::byte* StillLines::slot(std::uint32_t line) const {
   return memory_.bytes().data() + (line - lines_.first) * plan_.line_bytes;
 }

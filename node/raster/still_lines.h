@@ -42,8 +42,12 @@ class StillLines {
              const shape::SamplePattern& pattern, std::uint64_t bytes_a_node);
 
   // Lines that will be written in interval `number`; those of others are kept no longer.
-  void begin_interval(std::uint32_t number, const geometry::LineRange& lines) { interval_ = number, lines_ = lines; }
+  void begin_interval(std::uint32_t number, const geometry::LineRange& lines);
+  // Of an interval in which nothing stands still, none are.
+  void begin_moving_interval(std::uint32_t number);
   const geometry::LineRange& lines() const { return lines_; }
+  // Whether moving parts may be on the line.
+  bool foresees(std::uint32_t line) const { return all_move_ || lines_.has(line); }
 
   // Writing a line: its depths, row by row of the pattern; then its groups, of which there are `count`, unless they
   // are more than fit. Whether the line is kept.
@@ -84,6 +88,7 @@ class StillLines {
   NeighboursMemory memory_;
   std::uint32_t interval_ = 0;
   geometry::LineRange lines_{0, 0};
+  bool all_move_ = false;
 };
 
 }  // namespace mars::raster

@@ -43,14 +43,14 @@ void StripBuffer::Layer::added(const shading::Shaded& shaded) {
   run_count_ += shaded.runs;
 }
 
-StripBuffer::StripBuffer(std::size_t width, wire::PixelFormat format, std::size_t counted)
+StripBuffer::StripBuffer(wire::PixelFormat format, bool watched)
     : pixel_bytes_(wire::pixel_bytes(format)),
-      line_bytes_(most_bytes_of_line(width, pixel_bytes_)),
-      most_bytes_(wire::kMaxStripBytes - counted * sizeof(std::uint32_t)),
+      most_bytes_(wire::kMaxStripBytes - (watched ? wire::kMaxSide * sizeof(std::uint32_t) : 0)),
       runs_(2 * kRuns * sizeof(wire::Run)) {}
 
-void StripBuffer::begin(std::span<std::byte> slot, bool constant) {
+void StripBuffer::begin(std::span<std::byte> slot, std::size_t width, bool constant) {
   check(slot.size() == wire::kSlotBytes, "a strip is made in a slot");
+  line_bytes_ = most_bytes_of_line(width, pixel_bytes_);
   slot_ = slot.data();
   std::byte* pixels = slot_ + sizeof(wire::Strip);
   auto* runs = reinterpret_cast<wire::Run*>(runs_.bytes().data());

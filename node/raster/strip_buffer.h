@@ -39,13 +39,13 @@ class StripBuffer {
     std::size_t run_count_ = 0;
   };
 
-  // For pictures of `width` and pixels of this format, of whose lines `counted` may have a count in one strip. Throws
-  // Failure where the machine does not give the memory.
-  StripBuffer(std::size_t width, wire::PixelFormat format, std::size_t counted = 0);
+  // For pixels of this format; `watched`: with a count of each line. Throws Failure where the machine does not give the
+  // memory.
+  explicit StripBuffer(wire::PixelFormat format, bool watched = false);
 
-  // Begins an empty one in `slot`, which has kSlotBytes and is aligned to 64. `constant`: whether stationary parts will
-  // come.
-  void begin(std::span<std::byte> slot, bool constant);
+  // Begins an empty one of a picture of `width` in `slot`, which has kSlotBytes and is aligned to 64. `constant`:
+  // whether stationary parts will come.
+  void begin(std::span<std::byte> slot, std::size_t width, bool constant);
   // How many more lines surely fit, whatever they show, a few at most; 0: the strip is full.
   std::uint32_t lines_that_fit() const;
 
@@ -61,8 +61,8 @@ class StripBuffer {
   std::size_t bytes() const;
 
   std::size_t pixel_bytes_;
-  std::size_t line_bytes_;  // that a line takes at most
-  std::size_t most_bytes_;  // of all but counts
+  std::size_t line_bytes_ = 0;  // that a line takes at most
+  std::size_t most_bytes_;      // of all but counts
   std::byte* slot_ = nullptr;
   messages::PrivateMemory runs_;  // until they are put behind the pixels
   Layer constant_;

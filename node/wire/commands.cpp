@@ -63,6 +63,7 @@ LoadCommand read_load(std::span<const std::byte> message, int nodes, const std::
   require(load.traced <= 1, kName, "whether to trace");
   require(load.watched <= 1, kName, "whether it is watched");
   require(load.pixel_format <= PixelFormat::half, kName, "the format of pixels");
+  require(load.live == 0 || (load.live == 1 && load.groups == 1 && load.traced == 0), kName, "whether views are live");
   for (std::int32_t node = 0; node < nodes; ++node) {
     const std::int32_t machine = machines[static_cast<std::size_t>(node)];
     require(machine >= 0 && machine <= node && machines[static_cast<std::size_t>(machine)] == machine, kName,
@@ -102,6 +103,48 @@ RenderCommand read_render(std::span<const std::byte> message, const FilmView& fi
   require(std::ranges::all_of(cycle, [&](auto node) { return node >= 0 && node < render.group_count; }), kName,
           "the cycle");
   return {render, all, cycle};
+}
+
+ViewCommand read_view(std::span<const std::byte> message) {
+  constexpr auto kName = "View";
+  require(message.size() >= sizeof(View), kName, "its size");
+  const auto& view = *reinterpret_cast<const View*>(message.data());
+  require(view.view < kMostViews, kName, "the view");
+  require(view.scene_bytes == message.size() - sizeof view, kName, "the scene's size");
+  return {view, message.subspan(sizeof view)};
+}
+
+DrawCommand read_draw(std::span<const std::byte> message,
+                      const std::function<const MovingParts*(std::uint32_t view)>& parts_of) {
+  constexpr auto kName = "Draw";
+  static_assert(sizeof(Draw) % 8 == 0 && sizeof(MovedSegment) % 8 == 0 && sizeof(MovedPatch) % 8 == 0);
+  require(message.size() >= sizeof(Draw), kName, "its size");
+  const auto& draw = *reinterpret_cast<const Draw*>(message.data());
+  const std::size_t segment_bytes = std::size_t{draw.segments} * sizeof(MovedSegment);
+  require(message.size() == sizeof draw + segment_bytes + std::size_t{draw.patches} * sizeof(MovedPatch), kName,
+          "its size");
+  const auto segments = items_behind<MovedSegment>(message.first(sizeof draw + segment_bytes), sizeof draw);
+  const auto patches = items_behind<MovedPatch>(message, sizeof draw + segment_bytes);
+  const MovingParts* const parts = draw.view < kMostViews ? parts_of(draw.view) : nullptr;
+  require(parts != nullptr, kName, "the view");
+  for (const MovedSegment& moved : segments) {
+    require(parts->has_segment(moved.segment), kName, "a segment that does not move");
+    require(moved.material < parts->materials(), kName, "a material");
+    require(sound(moved.matrix), kName, "a matrix");
+  }
+  for (const MovedPatch& moved : patches) {
+    require(parts->has_patch(moved.patch), kName, "a patch that does not move");
+    require(sound(moved.points), kName, "a patch");
+  }
+  return {draw, segments, patches};
+}
+
+const CloseView& read_close_view(std::span<const std::byte> message) {
+  constexpr auto kName = "CloseView";
+  require(message.size() == sizeof(CloseView), kName, "its size");
+  const auto& close = *reinterpret_cast<const CloseView*>(message.data());
+  require(close.view < kMostViews, kName, "the view");
+  return close;
 }
 
 const Credit& read_credit(std::span<const std::byte> message, std::uint32_t owned, std::size_t slots) {

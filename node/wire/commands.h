@@ -5,12 +5,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "node/wire/film.h"
 #include "node/wire/protocol.h"
+#include "node/wire/scene.h"
 
 namespace mars::wire {
 
@@ -53,6 +55,26 @@ struct RenderReceiver {
 // Frames that are not listed are put into `frames`.
 RenderCommand read_render(std::span<const std::byte> message, const FilmView& film, const RenderReceiver& receiver,
                           std::vector<std::uint32_t>& frames);
+
+// A view's, and its scene's block behind it.
+struct ViewCommand {
+  const View& view;
+  std::span<const std::byte> scene;
+};
+
+ViewCommand read_view(std::span<const std::byte> message);
+
+struct DrawCommand {
+  const Draw& draw;
+  std::span<const MovedSegment> segments;
+  std::span<const MovedPatch> patches;
+};
+
+// `parts_of` a view that the node does not have is nullptr.
+DrawCommand read_draw(std::span<const std::byte> message,
+                      const std::function<const MovingParts*(std::uint32_t view)>& parts_of);
+
+const CloseView& read_close_view(std::span<const std::byte> message);
 
 // For a node that has the slots of `owned`, a bit for each, of `slots` in all.
 const Credit& read_credit(std::span<const std::byte> message, std::uint32_t owned, std::size_t slots);

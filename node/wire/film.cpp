@@ -94,9 +94,17 @@ bool sound(const Material& m) {
          is_share(m.metallic) && m.refraction > 1 && m.refraction <= 100;
 }
 
+}  // namespace
+
 bool sound(const Matrix& matrix) {
   return std::all_of(matrix.m.begin(), matrix.m.end(), [](const auto& row) { return all_finite(row); });
 }
+
+bool sound(const Patch& patch) {
+  return std::all_of(patch.points.begin(), patch.points.end(), [](const auto& p) { return all_finite(p); });
+}
+
+namespace {
 
 bool sound(const Camera& camera) {
   return sound(camera.world_to_eye) && camera.focal > 0 && camera.focal <= 1e6 && camera.near >= 1e-9 &&
@@ -110,10 +118,6 @@ bool sound(const Light& light) {
 }
 
 bool sound(const std::array<float, 3>& vector) { return all_finite(vector); }
-
-bool sound(const Patch& patch) {
-  return std::all_of(patch.points.begin(), patch.points.end(), [](const auto& p) { return all_finite(p); });
-}
 
 template <typename T>
 bool all_sound(std::span<const T> items) {
@@ -196,6 +200,24 @@ void pack_around(const FilmData& film, std::size_t matrices,
 }
 
 FilmView::FilmView(std::span<const std::byte> block, const std::string& where, bool trusted) {
+  read(block, where);
+  if (!trusted) check_all(where);
+}
+
+FilmView::FilmView(std::span<const std::byte> block, const FilmView& base, const std::string& where)
+    : base_patches_(base.patches_), base_shapes_(base.shapes_) {
+  read(block, where);
+  require(settings_->frames == 1, where, "a scene is one moment");
+  require(mesh_places_.empty() && mesh_normals_.empty() && mesh_triangles_.empty() && meshlets_.empty(), where,
+          "a scene has no meshes");
+  check_all(where);
+  mesh_places_ = base.mesh_places_;
+  mesh_normals_ = base.mesh_normals_;
+  mesh_triangles_ = base.mesh_triangles_;
+  meshlets_ = base.meshlets_;
+}
+
+void FilmView::read(std::span<const std::byte> block, const std::string& where) {
   const Header header = read_header(block, where);
   const auto read = [&]<typename T>(Section number, std::span<const T>& items) {
     items = section<T>(block, header.place[number], where);
@@ -219,7 +241,6 @@ FilmView::FilmView(std::span<const std::byte> block, const std::string& where, b
   read(kIntervals, intervals_);
   read(kMoving, moving_);
   read(kNames, names_);
-  if (!trusted) check_all(where);
 }
 
 void FilmView::check_all(const std::string& where) const {
@@ -244,7 +265,7 @@ void FilmView::check_segments(const std::string& where) const {
     require(within(shape.first_meshlet, shape.meshlet_count, meshlets_.size()), where, "a shape has no such meshlets");
   }
   for (const Segment& segment : segments_) {
-    require(segment.shape < shapes_.size(), where, "a segment has no such shape");
+    require(segment.shape < shape_count(), where, "a segment has no such shape");
     require(segment.name < names_.size(), where, "a segment has no such name");
     require(sound(segment.motion, changes_, matrices_.size()), where, "a segment's motion is broken");
     require(sound(segment.material, changes_, materials_.size()), where, "a segment's material is broken");
@@ -320,7 +341,7 @@ const Camera& FilmView::camera_at(std::uint32_t frame) const { return cameras_[v
 
 std::uint64_t FilmView::patch_instances() const {
   std::uint64_t patches = 0;
-  for (const Segment& segment : segments_) patches += shapes_[segment.shape].size();
+  for (const Segment& segment : segments_) patches += shape(segment.shape).size();
   return patches;
 }
 

@@ -51,14 +51,21 @@ inline constexpr std::size_t kMatricesOffset = 320;
 void pack_around(const FilmData& film, std::size_t matrices,
                  const std::function<std::byte*(std::size_t bytes)>& resize);
 
+// Whether it may stand in a film: finite, and not too large.
+bool sound(const Matrix& matrix);
+bool sound(const Patch& patch);
+
 // Reads a packed film in place; the block must outlive it and be aligned to 8 bytes.
 class FilmView {
  public:
   // Checks every count, index and range, so that no later access can go wrong, and that numbers are finite;
   // throws Failure("...", where, ...) otherwise. `trusted`: the block was checked before (by the host).
   FilmView(std::span<const std::byte> block, const std::string& where, bool trusted = false);
+  // A scene block (scene.h) of `base`, whose block outlives it too. Checked likewise.
+  FilmView(std::span<const std::byte> block, const FilmView& base, const std::string& where);
 
   const FilmSettings& settings() const { return *settings_; }
+  // Of the block itself; of a scene, shape() and what follows it know the base's too.
   std::span<const Patch> patches() const { return patches_; }
   // Of places and normals, kMeshSlack more than there are may be read, whatever they are.
   std::span<const std::array<float, 3>> mesh_places() const { return mesh_places_; }
@@ -75,6 +82,20 @@ class FilmView {
   std::span<const Change> changes() const { return changes_; }
   std::span<const Interval> intervals() const { return intervals_; }
 
+  // By number, as segments have it: of a scene the base's come first.
+  std::size_t shape_count() const { return base_shapes_.size() + shapes_.size(); }
+  const Shape& shape(std::uint32_t number) const {
+    return is_base(number) ? base_shapes_[number] : shapes_[number - base_shapes_.size()];
+  }
+  std::span<const Patch> patches_of(std::uint32_t shape_number) const {
+    const Shape& of = shape(shape_number);
+    return (is_base(shape_number) ? base_patches_ : patches_).subspan(of.first_patch, of.patch_count);
+  }
+  std::span<const Meshlet> meshlets_of(std::uint32_t shape_number) const {
+    const Shape& of = shape(shape_number);
+    return meshlets_.subspan(of.first_meshlet, of.meshlet_count);
+  }
+
   std::span<const std::uint32_t> moving(const Interval& interval) const;
   std::string_view name(const Segment& segment) const;
 
@@ -88,12 +109,16 @@ class FilmView {
   std::uint64_t patch_instances() const;
 
  private:
+  void read(std::span<const std::byte> block, const std::string& where);
+  bool is_base(std::uint32_t shape_number) const { return shape_number < base_shapes_.size(); }
   void check_all(const std::string& where) const;
   void check_meshlets(const std::string& where) const;
   void check_segments(const std::string& where) const;
   void check_intervals(const std::string& where) const;
   bool exposed_evenly(const Interval& interval) const;
 
+  std::span<const Patch> base_patches_;  // of a scene
+  std::span<const Shape> base_shapes_;
   const FilmSettings* settings_ = nullptr;
   std::span<const Patch> patches_;
   std::span<const std::array<float, 3>> mesh_places_;

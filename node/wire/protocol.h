@@ -10,7 +10,9 @@
 // and runs where they lie; elsewhere they travel in the Strip. The host reads no slot after Stop, nor once it has
 // declared a node lost: then the run ends.
 //
-//   host -> node   Load (+ film block to the first node, in pieces), Credit ..., Render ..., Stop
+//   host -> node   Load (+ film block to the first node, in pieces), Credit ..., Render ..., Stop; live views have
+//   View,
+//                  Draw and CloseView ... instead of Render, and may have another Load
 //   node -> host   Hello, Loaded, Strip ..., Fault (its last message)
 //   both ways      Clock, when the run is traced; then also node -> host Trace ...
 //   both ways      Beat, at any time
@@ -182,15 +184,17 @@ struct Beat {
   std::uint32_t waits = 0;      // 1: for a message or for other nodes
 };
 
-// Live views. A studio's host loads a film with Load::live = 1 and then gives Views and Draws instead of Renders. A view
-// is a picture of its own size, seen by its own camera, of which each node keeps what inbetweens need. The film gives
-// shapes; a scene block (scene.h) gives all else. Pictures are numbered by the host over all views; in a Strip, `frame`
-// is the picture's number and `interval` its view.
+// Live views. A studio's host loads a film with Load::live = 1 and then gives Views and Draws instead of Renders, to
+// nodes that are one group. A view is a picture of its own size, seen by its own camera, of which each node keeps what
+// inbetweens need. The film gives shapes; a scene block (scene.h) gives all else. Pictures are numbered by the host
+// over all views; in a Strip, `frame` is the picture's number and `interval` its view. Another Load ends all views:
+// from then until Loaded nodes send no strips but those on their way, and the host gives no credit; slots are new.
 
 inline constexpr std::uint32_t kMostViews = 64;
 
-// To all nodes: makes the view, or changes its size, and begins an interval of it; what was being drawn of the view is
-// dropped. All nodes draw the picture, as a keyframe. Followed by the scene block.
+// To all nodes: makes the view, or changes its size, and begins an interval of it. All nodes draw the picture, as a
+// keyframe. What was asked for of the view before and is not drawn yet is cut short: each node that has to do with it
+// still sends its last strip. So does CloseView. Followed by the scene block.
 struct View {
   std::uint32_t view;     // below kMostViews
   std::uint32_t picture;  // 1, 2, ...
@@ -265,7 +269,8 @@ struct Strip {
   FrameKind kind;
   std::int32_t node;
   std::uint32_t number;      // of the strips that this node sends for this frame, from 0
-  std::uint32_t last;        // 1 if this is the last of them; a frame is whole when all nodes' last came
+  std::uint16_t last;        // 1 if this is the last of them; a frame is whole when all nodes' last came
+  std::uint16_t cut;         // 1: the last, though lines are left out, as the view or its interval has ended
   std::uint32_t first_line;  // it is of the node's home lines [first_line, last_line)
   std::uint32_t last_line;
   std::uint32_t constant_runs;

@@ -5,8 +5,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "node/wire/film.h"
@@ -16,5 +16,26 @@ namespace mars::wire {
 
 // The block of a scene; `scene.settings.frames` is 1.
 std::vector<std::byte> pack_scene(const FilmData& scene);
+
+// What a view's Draws may change: moving segments, and patches of which nothing else is made.
+class MovingParts {
+ public:
+  MovingParts() = default;
+  explicit MovingParts(const FilmView& scene);
+
+  bool has_segment(std::size_t segment) const { return segment < segments_.size() && segments_[segment] == 1; }
+  bool has_patch(std::size_t patch) const { return patch < patches_.size() && patches_[patch] == 1; }
+  // Of the scene's, which a segment may be made of.
+  std::size_t materials() const { return materials_; }
+  // Whether nothing stands still, and whether nothing moves.
+  bool are_all() const { return moving_ == segments_.size(); }
+  bool are_none() const { return moving_ == 0; }
+
+ private:
+  std::vector<std::uint8_t> segments_;
+  std::vector<std::uint8_t> patches_;  // of the block
+  std::size_t materials_ = 0;
+  std::size_t moving_ = 0;
+};
 
 }  // namespace mars::wire

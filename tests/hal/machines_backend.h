@@ -56,7 +56,7 @@ class Machines {
     std::size_t size = 0;
   };
   static constexpr std::byte kUntouched{0xff};
-  static constexpr int kCzb = 1;  // the film's block comes before
+  static constexpr int kCzb = 2;  // the film's block and frames' memory come before
 
   template <typename Count>
   std::size_t add_up(const Count& count) const {

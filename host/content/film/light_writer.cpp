@@ -9,7 +9,6 @@
 #include "hal/failure/failure.h"
 #include "host/content/animator/direction.h"
 #include "host/content/animator/read_lights.h"
-#include "host/content/film/track_writer.h"
 
 namespace mars::film {
 namespace {
@@ -37,13 +36,14 @@ float cosine_of(double angle) {
 
 class LightWriter {
  public:
-  LightWriter(const animator::Film& film, wire::FilmData& data) : film_(film), data_(data) {}
+  LightWriter(const animator::Film& film, WrittenFrames frames, wire::FilmData& data)
+      : film_(film), frames_(frames), data_(data) {}
 
   void write(const animator::LightMotion& light) {
     TrackWriter<wire::Light> track(data_.lights);
     const std::uint32_t frames =
-        frames_to_see(film_.frames, light.vector, light.color, light.intensity, light.reach, light.at, light.cone);
-    for (std::uint32_t frame = 0; frame < frames; ++frame) track.add(frame, light_at(light, frame));
+        frames_to_see(frames_.count, light.vector, light.color, light.intensity, light.reach, light.at, light.cone);
+    for (std::uint32_t frame = 0; frame < frames; ++frame) track.add(frame, light_at(light, frames_.first + frame));
     data_.light_tracks.push_back(track.write(data_.changes));
   }
 
@@ -89,6 +89,7 @@ class LightWriter {
   }
 
   const animator::Film& film_;
+  const WrittenFrames frames_;
   wire::FilmData& data_;
 };
 
@@ -116,8 +117,8 @@ void write_light_settings(const animator::Film& film, wire::FilmSettings& settin
                     static_cast<float>(film.fog->end)};
 }
 
-void write_lights(const animator::Film& film, wire::FilmData& data) {
-  LightWriter writer(film, data);
+void write_lights(const animator::Film& film, WrittenFrames frames, wire::FilmData& data) {
+  LightWriter writer(film, frames, data);
   for (const animator::LightMotion& light : film.lights) writer.write(light);
 }
 

@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 
 #include "host/content/animator/film.h"
+#include "host/content/film/track_writer.h"
 #include "node/wire/film.h"
 
 namespace mars::film {
@@ -20,6 +21,6 @@ std::array<float, 3> shown_of(const std::array<float, 3>& light, wire::ColorSpac
 void write_light_settings(const animator::Film& film, wire::FilmSettings& settings);
 
 // Adds the lights and their tracks.
-void write_lights(const animator::Film& film, wire::FilmData& data);
+void write_lights(const animator::Film& film, WrittenFrames frames, wire::FilmData& data);
 
 }  // namespace mars::film

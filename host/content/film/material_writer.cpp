@@ -4,13 +4,13 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/film/light_writer.h"
-#include "host/content/film/track_writer.h"
 
 namespace mars::film {
 
 using modeler::kMaterialNumbers;
 
-MaterialWriter::MaterialWriter(const animator::Film& film, wire::FilmData& data) : film_(film), data_(data) {
+MaterialWriter::MaterialWriter(const animator::Film& film, WrittenFrames frames, wire::FilmData& data)
+    : film_(film), frames_(frames), data_(data) {
   for (const animator::MaterialMotion& motion : film.materials) of_film_.emplace(motion.name, &motion);
 }
 
@@ -53,9 +53,9 @@ wire::Material MaterialWriter::material_at(const animator::MaterialMotion& motio
 
 wire::Track MaterialWriter::write(const animator::MaterialMotion& motion) {
   TrackWriter<wire::Material> track(data_.materials);
-  std::uint32_t frames = frames_to_see(film_.frames, motion.color);
-  for (const auto& channel : motion.numbers) frames = std::max(frames, frames_to_see(film_.frames, channel));
-  for (std::uint32_t frame = 0; frame < frames; ++frame) track.add(frame, material_at(motion, frame));
+  std::uint32_t frames = frames_to_see(frames_.count, motion.color);
+  for (const auto& channel : motion.numbers) frames = std::max(frames, frames_to_see(frames_.count, channel));
+  for (std::uint32_t frame = 0; frame < frames; ++frame) track.add(frame, material_at(motion, frames_.first + frame));
   return track.write(data_.changes);
 }
 

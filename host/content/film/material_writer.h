@@ -6,13 +6,14 @@
 #include <unordered_map>
 
 #include "host/content/animator/film.h"
+#include "host/content/film/track_writer.h"
 #include "node/wire/film.h"
 
 namespace mars::film {
 
 class MaterialWriter {
  public:
-  MaterialWriter(const animator::Film& film, wire::FilmData& data);
+  MaterialWriter(const animator::Film& film, WrittenFrames frames, wire::FilmData& data);
 
   // The track of what a segment of the actor is made of, `name` being its own material ("": none). Throws if there is
   // no such material.
@@ -29,6 +30,7 @@ class MaterialWriter {
   wire::Track shared(const std::string& key, const Material& material);
 
   const animator::Film& film_;
+  const WrittenFrames frames_;
   wire::FilmData& data_;
   std::unordered_map<std::string_view, const animator::MaterialMotion*> of_film_;
   std::unordered_map<std::string, wire::Track> tracks_;

@@ -232,20 +232,11 @@ class MotionWriter {
 
   void add(Share& share, Writing& writing, std::uint32_t frame, const wire::Matrix& matrix) {
     if (writing.count > 0 && matrix == matrices_[writing.changes[writing.count - 1].value]) return;
-    for (const auto& row : matrix.m)
-      for (const double number : row)
-        if (!(std::abs(number) <= kFarthestMatrix)) refuse_far(writing, frame);
+    check_near(matrix, film_, &data_.names[data_.segments[writing.segment].name], frame);
     check(writing.count < share.most[writing.segment - share.first_segment], "a segment moves as often as was planned");
     const std::size_t place = share.first_matrix + share.matrices++;
     matrices_[place] = matrix;
     writing.changes[writing.count++] = {frame, static_cast<std::uint32_t>(place)};
-  }
-
-  [[noreturn]] void refuse_far(const Writing& writing, std::uint32_t frame) const {
-    const std::string name = &data_.names[data_.segments[writing.segment].name];
-    throw Failure("stands farther than 1e12 from the origin",
-                  (film_.source.empty() ? "" : film_.source + ": ") + name + ", frame " + std::to_string(frame),
-                  "use smaller places and boxes");
   }
 
   // Fewer matrices than planned leave gaps. Moves all down over them; segments learn where their changes are.
@@ -281,6 +272,16 @@ class MotionWriter {
 };
 
 }  // namespace
+
+void check_near(const wire::Matrix& matrix, const animator::Film& film, const char* segment,
+                std::uint32_t frame) {
+  for (const auto& row : matrix.m)
+    for (const double number : row)
+      if (!(std::abs(number) <= kFarthestMatrix))
+        throw Failure("stands farther than 1e12 from the origin",
+                      (film.source.empty() ? "" : film.source + ": ") + segment + ", frame " + std::to_string(frame),
+                      "use smaller places and boxes");
+}
 
 std::size_t write_motion(const animator::Film& film, wire::FilmData& data, CompiledFilm::Lines& lines) {
   return MotionWriter(film, data).write(lines);

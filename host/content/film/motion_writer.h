@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "host/content/animator/film.h"
 #include "host/content/film/compiled_film.h"
@@ -15,5 +16,9 @@ namespace mars::film {
 // the block's header and the matrices. Returns the number of matrices. Throws, before any is made, where there
 // are more than memory holds; and where a segment stands too far out.
 std::size_t write_motion(const animator::Film& film, wire::FilmData& data, CompiledFilm::Lines& lines);
+
+// Throws where the segment of this name stands farther out than a compiled film may say.
+void check_near(const wire::Matrix& matrix, const animator::Film& film, const char* segment,
+                std::uint32_t frame);
 
 }  // namespace mars::film

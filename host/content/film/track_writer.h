@@ -13,6 +13,12 @@
 
 namespace mars::film {
 
+// What of a film is written: all of its frames, or the one at `first`, which is then frame 0.
+struct WrittenFrames {
+  std::uint32_t first = 0;
+  std::uint32_t count = 1;
+};
+
 // Appends to a film's values and to one track of changes.
 template <typename Value>
 class TrackWriter {

@@ -39,7 +39,7 @@ bool Assembly::wants(const wire::Strip& strip) const {
   const auto found = parts_.find(strip.frame);
   if (found == parts_.end() || strip.interval != interval_) return false;
   const auto kind = strip.frame == keyframe_ ? wire::FrameKind::keyframe : wire::FrameKind::inbetween;
-  return strip.kind == kind && is_contributor(found->second, strip.node);
+  return strip.kind == kind && strip.cut == 0 && is_contributor(found->second, strip.node);
 }
 
 // And its last strip has not come.

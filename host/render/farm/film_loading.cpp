@@ -39,6 +39,7 @@ bool load_film(std::span<const std::byte> block, wire::Load load, NodeInbox& inb
   const ScopedSpan span(trace::HostSpan::load, block.size());
   load.stamp = wire::own_stamp();
   load.film_bytes = block.size();
+  inbox.expect_loaded();
   send_load(load, inbox.hellos());
   const std::vector<long> sends = send_block(block);
   const bool loaded = inbox.wait_until_loaded();

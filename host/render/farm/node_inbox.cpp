@@ -213,6 +213,7 @@ void NodeInbox::take_slot(const wire::Strip& strip, int sender) {
 
 void NodeInbox::check_strip(const wire::Strip& strip, std::span<const wire::Run> runs, int sender) const {
   require(strip.last <= 1, sender, "a strip that is neither the last nor another");
+  require(strip.cut <= strip.last, sender, "a strip that is cut and not the last");
   require(strip.first_line <= strip.last_line && strip.last_line <= height_, sender, "lines outside the picture");
   for (const wire::Run& run : runs) {
     require(run.line >= strip.first_line && run.line < strip.last_line, sender, "pixels outside the strip's lines");

@@ -53,6 +53,8 @@ class NodeInbox {
   // Waits until every node has greeted, and checks that all are of the host's own version. False: cancelled before.
   bool receive_hellos();
   const std::vector<wire::Hello>& hellos() const { return hellos_; }
+  // A film is on its way to nodes; they may have had another before, of which no strip is to come.
+  void expect_loaded() { loaded_.assign(loaded_.size(), false); }
   // Waits until every node has the film, and attaches their slots. False: cancelled before.
   bool wait_until_loaded();
   // Of the machines whose nodes do not share memory then, one text each.

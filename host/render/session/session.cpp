@@ -23,12 +23,12 @@
 #include "host/render/report/report.h"
 #include "host/render/resume/resume.h"
 #include "host/render/session/event_reporter.h"
+#include "host/render/session/heartbeat_listener.h"
 #include "host/render/session/status_board.h"
 #include "host/render/session/termination.h"
 #include "host/render/sinks/frame_folder.h"
 #include "host/render/sinks/sink_pool.h"
 #include "host/render/trace/trace_file.h"
-#include "topology/debugger.h"
 #include "topology/machine.h"
 #include "topology/memory_limit.h"
 
@@ -143,18 +143,6 @@ resume::Opened load_film(const RenderJob& job, const EventReporter& reporter, fa
   return std::move(*opened);
 }
 
-farm::HeartbeatListener listen(const EventReporter& reporter, Termination& termination) {
-  farm::HeartbeatListener listener;
-  listener.beat = [&](const std::string& doing, const auto& silent) { reporter.report_beat(doing, silent); };
-  listener.told_to_end = [&] { return termination.asked(); };
-  listener.end = [&](const std::vector<farm::NodeFrame>& drawing) {
-    reporter.report_drawing(drawing);
-    termination.end();
-  };
-  listener.is_traced = [](std::int32_t process) { return topology::is_traced(process); };
-  return listener;
-}
-
 // By what is foreseen of it, unless the person says how many groups.
 farm::Plan plan_of(const wire::FilmView& film, const std::vector<std::uint32_t>& frames, const RenderJob& job,
                    EventReporter& reporter, farm::Heartbeats& heartbeats) {
@@ -191,16 +179,10 @@ void write_report(const RenderJob& job, const film::CompiledFilm& film, const fa
   document::write_whole_file(job.report, report::report_text(head, report));
 }
 
-std::string host_name() {
-  char name[sizeof wire::Beat::host] = {};
-  gethostname(name, sizeof name - 1);
-  return name;
-}
-
 void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace, Output& output) {
   if (!job.report.empty()) document::check_can_write(job.report);  // early too
   Termination termination(messages::process().backend().has_machine_clock());
-  farm::Heartbeats heartbeats(host_name(), getpid(), listen(reporter, termination));
+  farm::Heartbeats heartbeats(host_name(), getpid(), heartbeat_listener(reporter, termination));
   double load_seconds = 0;
   resume::Opened opened = load_film(job, reporter, heartbeats, load_seconds);
   if (opened.frames.empty()) return render_nothing(job, reporter, load_seconds);

@@ -157,15 +157,18 @@ Entry flag(unsigned programs, const char* names, bool RenderOptions::*member, co
           }};
 }
 
-Entry film(unsigned programs) {
+// Who serves a studio needs none.
+Entry film(unsigned programs, bool required) {
   return {programs,
-          [](CLI::App& app, RenderOptions& options) {
+          [required](CLI::App& app, RenderOptions& options) {
             app.add_option("FILM", options.film,
                            "The film to render: a .json file, or a .mars file made by mars compile.\n"
                            "Example: examples/demo.json")
-                ->required();
+                ->required(required);
           },
-          [](const RenderOptions& options) { return Arguments{text_of(options.film)}; }};
+          [](const RenderOptions& options) {
+            return options.serve.empty() ? Arguments{text_of(options.film)} : Arguments{};
+          }};
 }
 
 // The table: every option once, in the order of the help.
@@ -177,15 +180,18 @@ std::vector<Entry> table() {
   constexpr unsigned plans = submits | bit(Program::plan);
   constexpr unsigned sinks = all | bit(Program::plan);
   constexpr unsigned compiles = plans | bit(Program::compile);
-  constexpr unsigned counts_nodes =
-      bit(Program::mars) | bit(Program::threads) | bit(Program::simulated) | bit(Program::plan) | bit(Program::repair);
+  constexpr unsigned counts_nodes = bit(Program::mars) | bit(Program::threads) | bit(Program::simulated) |
+                                    bit(Program::plan) | bit(Program::repair) | bit(Program::studio);
+  constexpr unsigned serves = bit(Program::host) | bit(Program::threads);
   constexpr unsigned simulates = bit(Program::mars) | bit(Program::simulated);
   constexpr unsigned person = bit(Program::mars);
   constexpr unsigned persons = person | bit(Program::submit);
   constexpr unsigned starts = person | bit(Program::repair);
+  constexpr unsigned draws = bit(Program::studio);
   constexpr std::uint32_t many = 1 << 20;
   return {
-      film(compiles),
+      film(compiles & ~serves, true),
+      film(serves, false),
       option(submits, "-o,--output", "DIR", &RenderOptions::folder,
              "Folder for the frames; created if it is missing. Example: -o build/demo"),
       flag(all, "--overwrite", &RenderOptions::overwrite,
@@ -196,13 +202,16 @@ std::vector<Entry> table() {
       option(starts, "--backend", "auto|mpi|threads|simulated", &RenderOptions::backend,
              "MPI processes, or threads of one process; auto uses MPI where it is installed; simulated: nodes of "
              "--platform, whose times are counted, not measured. Example: --backend threads"),
+      option(draws, "--backend", "auto|mpi|threads", &RenderOptions::backend,
+             "MPI processes, or threads of one process; auto uses threads, and MPI with --hostfile. Example: --backend "
+             "mpi"),
       option(simulates, "--platform", "NAME|FILE", &RenderOptions::platform,
              "Machines that --backend simulated simulates: ipsc2, fat-tree, dragonfly, ethernet, here (mars "
              "calibrate), or a file; default: fat-tree. Example: --platform fat-tree:here"),
       option(bit(Program::plan), "--platform", "here|NAME|FILE", &RenderOptions::platform,
              "Machines that would render: here, as mars calibrate measured them, which is the default; ipsc2, "
              "fat-tree, dragonfly, ethernet; or a file. Example: --platform fat-tree"),
-      option(starts, "--hostfile", "FILE", &RenderOptions::hostfile,
+      option(starts | draws, "--hostfile", "FILE", &RenderOptions::hostfile,
              "Machines to use, one per line as for mpirun: n1 slots=4. Example: --hostfile hosts"),
       option(plans, "--frames", "SET", &RenderOptions::frames,
              "Frames to render, counted from 0; default: all. Example: --frames 0-9,24,30-"),
@@ -240,6 +249,9 @@ std::vector<Entry> table() {
       number(persons | starts, "--restarts", {&RenderOptions::restarts, false, 1000, 0},
              "How often a job that dies is started again without a new frame between; 0: never; default: 5. Example: "
              "--restarts 0"),
+      option(serves, "--serve", "SOCKET", &RenderOptions::serve,
+             "Draw what a studio asks for at this local socket instead of a film; mars studio starts it so. Example: "
+             "--serve /tmp/studio/socket"),
       flag(persons | starts, "-q,--quiet", &RenderOptions::quiet, "Print only errors. Example: --quiet"),
   };
 }
@@ -260,11 +272,19 @@ void refuse_former_names(CLI::App& app) {
 
 // Checks that concern several options.
 void check_together(const RenderOptions& options, Program program) {
-  if (options.folder.empty() && options.sink == SinkKind::files) {
+  if (options.serve.empty() == options.film.empty() && program != Program::repair &&
+      program != Program::studio) {
+    if (options.film.empty()) throw Failure("FILM is required", "", "");
+    throw Failure("a studio brings its own film", "", "leave out " + options.film + ", or --serve");
+  }
+  if (!options.serve.empty()) return;
+  if (options.folder.empty() && options.sink == SinkKind::files && program != Program::studio) {
     const bool measures = program != Program::submit;
     throw Failure("no folder to put the frames in", "",
                   measures ? "add -o DIR, or --sink none to measure only" : "add -o DIR");
   }
+  if (options.backend == Backend::simulated && program == Program::studio)
+    throw Failure("simulated nodes draw nothing that can be seen", "", "leave out --backend simulated");
   if (!options.hostfile.empty() && options.backend == Backend::threads) {
     throw Failure("threads are all on this machine", "", "leave out --hostfile, or --backend threads");
   }

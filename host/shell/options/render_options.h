@@ -27,7 +27,7 @@ enum class Intervals { automatic, keyframes };
 enum class SinkKind { files, none };
 
 struct RenderOptions {
-  std::string film;         // FILM.json or FILM.mars
+  std::string film;         // FILM.json or FILM.mars; "": a studio's, which is served
   std::string folder;       // for the frames; "" only without a sink
   std::uint32_t nodes = 0;  // 0: as many as the machine has processors for
   Backend backend = Backend::automatic;
@@ -49,6 +49,7 @@ struct RenderOptions {
   std::string watch;                                          // socket of who watches; "": nobody does
   std::uint32_t restarts = 5;                                 // of a job that dies, without a new frame between them
   bool quiet = false;
+  std::string serve;  // a studio's socket, at which its pictures are drawn; "": a film is rendered to files
 
   bool operator==(const RenderOptions&) const = default;
 };
@@ -65,6 +66,7 @@ enum class Program : unsigned {
   plan = 64,
   repair = 128,  // mars verify --repair: which machines render
   submit = 256,
+  studio = 512,  // mars studio: which machines draw
 };
 
 // Adds the options `program` takes to its command line, which is then checked as a whole too; `options` must

@@ -70,7 +70,8 @@ class Project {
   virtual Json describe_poses() const = 0;
 };
 
-// Throws Failure where the file cannot be read at the start, or is no film or model.
+// A file that is not there is a model of no joint yet, written with its first step. Throws Failure where the file
+// cannot be read at the start, or is no film or model.
 std::unique_ptr<Project> open_project(const std::filesystem::path& file);
 
 }  // namespace mars::studio

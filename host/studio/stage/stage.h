@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -23,8 +24,8 @@ struct ViewPicture {
   std::uint32_t picture = 0;  // 1, 2, ... of this view, without gaps
   std::uint64_t edit = 0;     // the last of the page's messages that it shows
   std::uint16_t width = 0, height = 0;
-  bool rests = true;          // false: more changes are to be expected at once (a hand moves); it may be lossy then
-  bool exact = true;          // false: not the film's own pixels (lines)
+  bool rests = true;  // false: more changes are to be expected at once (a hand moves); it may be lossy then
+  bool exact = true;  // false: not the film's own pixels (lines)
   std::vector<serve::Rect> rects;
   std::vector<std::uint32_t> pixels;  // as SurfacePicture's
   Json handles;                       // of the view, to be shown with it (docs/studio-protocol.md)
@@ -40,8 +41,9 @@ class Stage {
 
   virtual ~Stage() = default;
 
-  // A page's message that concerns views or hands: view, unview, painted, grab, drag, drop, let_go, hover, select, tool.
-  // Throws Failure where it makes no sense.
+  // A page's message that concerns views or hands: view, orbit, unview, painted, grab, drag, drop, let_go, hover,
+  // select. Of messages that the project has obeyed, such as preview, commit, undo and frame, it notes the number of
+  // the edit alone. Throws Failure where it makes no sense.
   virtual void take(PageNumber page, const Json& message) = 0;
   virtual void page_closed(PageNumber page) = 0;
 
@@ -52,5 +54,8 @@ class Stage {
   virtual void take_surface(SurfacePicture picture) = 0;
   virtual void surface_dropped(std::uint32_t view, std::uint32_t picture) = 0;
 };
+
+// All must outlive it, and it does all on the thread that calls it.
+std::unique_ptr<Stage> make_stage(Project& project, RendererLink& link, Stage::Listener listener);
 
 }  // namespace mars::studio

@@ -4,8 +4,10 @@
 
 #include "hal/collectives/group.h"
 #include "hal/failure/failure.h"
+#include "node/geometry/scene.h"
 #include "node/wire/commands.h"
 #include "node/wire/greeting.h"
+#include "node/wire/scene.h"
 #include "tests/fuzz/edits.h"
 #include "tests/fuzz/target.h"
 #include "tests/node/wire/small_film.h"
@@ -14,7 +16,7 @@ namespace mars::fuzz {
 namespace {
 
 constexpr int kNodes = 5, kGroups = 2, kNode = 3;
-constexpr std::size_t kLongest = 4096;
+constexpr std::size_t kLongest = 1 << 14;
 
 void append(Message& message, std::initializer_list<std::uint32_t> words) {
   for (const std::uint32_t word : words) {
@@ -53,11 +55,33 @@ Message sound_render(bool listed, bool goes_on) {
   return message;
 }
 
+Message sound_view() {
+  const Message block = wire::pack_scene(wire::small_scene());
+  Message message = message_of(wire::View{1, 2, block.size(), 0});
+  message.insert(message.end(), block.begin(), block.end());
+  return message;
+}
+
+Message sound_draw() {
+  Message message = message_of(wire::Draw{1, 3, 1, 2});
+  for (const Message& part :
+       {message_of(wire::MovedSegment{1, 1, wire::moved(3)}), message_of(wire::MovedPatch{0, 0, wire::flat_patch()}),
+        message_of(wire::MovedPatch{1, 0, wire::flat_patch()})})
+    message.insert(message.end(), part.begin(), part.end());
+  return message;
+}
+
 // Changed, at an address of its own to the last byte, aligned as the node's buffers are.
 std::unique_ptr<std::byte[]> exact(const Message& message) {
   auto bytes = std::make_unique<std::byte[]>(message.size());
   if (!message.empty()) std::memcpy(bytes.get(), message.data(), message.size());
   return bytes;
+}
+
+const wire::FilmView& film() {
+  static const Message block = wire::pack(wire::small_film());
+  static const wire::FilmView view(block, "film");
+  return view;
 }
 
 void read_load(std::span<const std::byte> message) {
@@ -66,14 +90,44 @@ void read_load(std::span<const std::byte> message) {
 }
 
 void read_render(std::span<const std::byte> message) {
-  static const Message block = wire::pack(wire::small_film());
-  static const wire::FilmView film(block, "film");
   static const std::vector<std::uint32_t> left{1};
   std::vector<std::uint32_t> frames;
-  const wire::RenderCommand command = wire::read_render(message, film, {kNode, kNodes, kGroups, left}, frames);
-  for (const std::uint32_t frame : command.frames) check(frame < film.settings().frames, "frames are the film's");
+  const wire::RenderCommand command = wire::read_render(message, film(), {kNode, kNodes, kGroups, left}, frames);
+  for (const std::uint32_t frame : command.frames) check(frame < film().settings().frames, "frames are the film's");
   for (const std::int32_t member : command.cycle)
     check(member >= 0 && member < command.render.group_count, "the cycle's nodes are the group's");
+}
+
+// The scene as nodes read it, who copy its block.
+void read_view(std::span<const std::byte> message) {
+  const wire::ViewCommand command = wire::read_view(message);
+  const Message block(command.scene.begin(), command.scene.end());
+  const wire::FilmView view(block, film(), "scene");
+  const wire::MovingParts moving(view);
+  geometry::Scene scene(view);
+  scene.set_interval(0);
+  scene.set_frame(0);
+  for (std::uint32_t s = 0; s < view.segments().size(); ++s) {
+    check(scene.moves(s) == moving.has_segment(s) && scene.material(s) < moving.materials(),
+          "segments are the scene's");
+    const std::uint32_t shape = view.segments()[s].shape;
+    check(view.patches_of(shape).size() + view.meshlets_of(shape).size() == view.shape(shape).size(),
+          "shapes are whole");
+    for (const wire::Patch& patch : view.patches_of(shape)) check(wire::sound(patch), "patches are sound");
+    scene.matrix(s);
+  }
+}
+
+void read_draw(std::span<const std::byte> message) {
+  static const Message block = wire::pack_scene(wire::small_scene());
+  static const wire::FilmView view(block, film(), "scene");
+  static const wire::MovingParts moving(view);
+  const wire::DrawCommand command =
+      wire::read_draw(message, [](std::uint32_t number) { return number == 1 ? &moving : nullptr; });
+  for (const wire::MovedSegment& moved : command.segments)
+    check(moved.segment == 1 && moved.material < 2 && wire::sound(moved.matrix), "the second segment moves");
+  for (const wire::MovedPatch& moved : command.patches)
+    check(moved.patch < 2 && wire::sound(moved.points), "the first patches move");
 }
 
 }  // namespace
@@ -87,7 +141,10 @@ void take(std::string_view input) {
                                   sound_render(false, false),
                                   sound_render(true, false),
                                   sound_render(false, true),
-                                  sound_render(true, true)};
+                                  sound_render(true, true),
+                                  sound_view(),
+                                  sound_draw(),
+                                  message_of(wire::CloseView{1})};
   Script script(input);
   const std::size_t which = script.below(std::size(sound));
   Message changed = sound[which];
@@ -98,6 +155,9 @@ void take(std::string_view input) {
     case 0: return read_load(message);
     case 1: check(wire::read_credit(message, 1, 4).slot < 4, "a slot is one of the node's"); return;
     case 2: check(wire::read_beat(message).host.back() == '\0', "a machine's name ends"); return;
+    case 7: return read_view(message);
+    case 8: return read_draw(message);
+    case 9: check(wire::read_close_view(message).view < wire::kMostViews, "a view is one of few"); return;
     default: read_render(message);
   }
 }

@@ -27,11 +27,12 @@ void read_shapes(const wire::FilmView& film, const shape::Projection& projection
 void read_all(const wire::FilmView& film) {
   const std::uint32_t last = film.settings().frames - 1;
   geometry::Scene scene(film);
+  const geometry::ShapeBoxes boxes(film);
   for (std::uint32_t i = 0; i < film.intervals().size(); ++i) {
     scene.set_interval(i);
     const std::uint32_t frame = film.intervals()[i].first_frame;
     scene.set_frame(frame);
-    scene.moving_line_bounds({&frame, 1});
+    scene.moving_line_bounds({&frame, 1}, boxes);
   }
   read_shapes(film, scene.projection(), last);
 }

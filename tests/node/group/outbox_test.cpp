@@ -75,7 +75,7 @@ class OutboxTest : public testing::Test {
   wire::Strip send(Outbox& outbox) {
     wire::Strip header{};
     header.number = static_cast<std::uint32_t>(host.messages.size());
-    raster::StripBuffer& strip = outbox.begin(false, header.work);
+    raster::StripBuffer& strip = outbox.begin(kWidth, false, header.work);
     const std::uint32_t pixel = 1000 + header.number;
     std::memcpy(strip.moving().next_pixel(), &pixel, sizeof pixel);
     *strip.moving().next_run() = {header.number, 0, 1};
@@ -89,7 +89,7 @@ class OutboxTest : public testing::Test {
 };
 
 TEST_F(OutboxTest, SendsAStripInEachSlotThatIsGiven) {
-  Outbox outbox(kWidth, wire::PixelFormat::rgb8, 3, {});
+  Outbox outbox(wire::PixelFormat::rgb8, 3, {});
   host.give_all(3);
   for (std::uint32_t number = 0; number < 3; ++number) {
     EXPECT_EQ(send(outbox).work.credits_waited, 0u);
@@ -103,7 +103,7 @@ TEST_F(OutboxTest, SendsAStripInEachSlotThatIsGiven) {
 }
 
 TEST_F(OutboxTest, AllSlotsAreTheHostsAtFirst) {
-  Outbox outbox(kWidth, wire::PixelFormat::rgb8, 2, {});
+  Outbox outbox(wire::PixelFormat::rgb8, 2, {});
   host.script = {[&] { host.give(1); }};
   EXPECT_EQ(send(outbox).work.credits_waited, 1u);
   EXPECT_EQ(host.messages.back().strip.slot, 1u);
@@ -111,7 +111,7 @@ TEST_F(OutboxTest, AllSlotsAreTheHostsAtFirst) {
 
 // Pixels and runs lie in the slot, which the name names; or they travel.
 TEST_F(OutboxTest, AStripGoesAsItsCreditSays) {
-  Outbox outbox(kWidth, wire::PixelFormat::rgb8, 2, {});
+  Outbox outbox(wire::PixelFormat::rgb8, 2, {});
   host.give(1);
   EXPECT_GT(send(outbox).work.bytes_to_host, sizeof(wire::Strip)) << "by slot as by message";
   const ScriptedHost::Sent by_slot = host.messages.back();
@@ -131,7 +131,7 @@ TEST_F(OutboxTest, AStripGoesAsItsCreditSays) {
 
 TEST_F(OutboxTest, WhereNoMemoryIsSharedStripsGoByMessage) {
   host.memory_is_shared = false;
-  Outbox outbox(kWidth, wire::PixelFormat::rgb8, 1, {});
+  Outbox outbox(wire::PixelFormat::rgb8, 1, {});
   EXPECT_FALSE(messages::AttachedMemory::attach(host.rank(), outbox.slots(), wire::kSlotBytes));
   host.give(0, 1);
   const wire::Strip header = send(outbox);
@@ -139,7 +139,7 @@ TEST_F(OutboxTest, WhereNoMemoryIsSharedStripsGoByMessage) {
 }
 
 TEST_F(OutboxTest, WaitsForCreditAndSaysSo) {
-  Outbox outbox(kWidth, wire::PixelFormat::rgb8, 1, {});
+  Outbox outbox(wire::PixelFormat::rgb8, 1, {});
   host.give(0);
   send(outbox);
   host.script = {[] {}, [&] { host.give(0); }};
@@ -151,7 +151,7 @@ TEST_F(OutboxTest, WaitsForCreditAndSaysSo) {
 }
 
 TEST_F(OutboxTest, TakesWhatCreditHasCome) {
-  Outbox outbox(kWidth, wire::PixelFormat::rgb8, 3, {});
+  Outbox outbox(wire::PixelFormat::rgb8, 3, {});
   host.give_all(3);
   for (int k = 0; k < 3; ++k) send(outbox);
   host.give_all(3);
@@ -161,14 +161,14 @@ TEST_F(OutboxTest, TakesWhatCreditHasCome) {
 }
 
 TEST_F(OutboxTest, RefusesASlotThatItHas) {
-  Outbox outbox(kWidth, wire::PixelFormat::rgb8, 2, {});
+  Outbox outbox(wire::PixelFormat::rgb8, 2, {});
   host.give(0);
   host.give(0);
   EXPECT_THROW(send(outbox), Failure);
 }
 
 TEST_F(OutboxTest, ReceivesCreditWhileNothingIsSent) {
-  Outbox outbox(kWidth, wire::PixelFormat::rgb8, 1, {});
+  Outbox outbox(wire::PixelFormat::rgb8, 1, {});
   host.script = {[&] { host.give(0); }};
   outbox.receive_credit();
   EXPECT_EQ(send(outbox).work.credits_waited, 0u);
@@ -177,7 +177,7 @@ TEST_F(OutboxTest, ReceivesCreditWhileNothingIsSent) {
 
 // Though there is credit: a slot is not touched before its message has left it.
 TEST_F(OutboxTest, ReusesASlotWhenItsMessageIsGone) {
-  Outbox outbox(kWidth, wire::PixelFormat::rgb8, 2, {});
+  Outbox outbox(wire::PixelFormat::rgb8, 2, {});
   host.transport_is_quick = false;
   host.give_all(2);
   send(outbox);
@@ -192,7 +192,7 @@ TEST_F(OutboxTest, ReusesASlotWhenItsMessageIsGone) {
 
 // Lines are still drawn for the others of the group, in a slot that the host no longer uses.
 TEST_F(OutboxTest, AfterStopItNeitherWaitsForCreditNorSends) {
-  Outbox outbox(kWidth, wire::PixelFormat::rgb8, 1, {});
+  Outbox outbox(wire::PixelFormat::rgb8, 1, {});
   host.give(0);
   send(outbox);
   EXPECT_FALSE(outbox.stopped());
@@ -204,7 +204,7 @@ TEST_F(OutboxTest, AfterStopItNeitherWaitsForCreditNorSends) {
 }
 
 TEST_F(OutboxTest, StopEndsTheWaitForCredit) {
-  Outbox outbox(kWidth, wire::PixelFormat::rgb8, 1, {});
+  Outbox outbox(wire::PixelFormat::rgb8, 1, {});
   host.script = {[&] { host.stop(); }};
   send(outbox);
   EXPECT_TRUE(outbox.stopped());
@@ -212,7 +212,7 @@ TEST_F(OutboxTest, StopEndsTheWaitForCredit) {
 }
 
 TEST_F(OutboxTest, FlushWaitsUntilAllIsGone) {
-  Outbox outbox(kWidth, wire::PixelFormat::rgb8, 3, {});
+  Outbox outbox(wire::PixelFormat::rgb8, 3, {});
   host.transport_is_quick = false;
   host.give_all(3);
   send(outbox);
@@ -225,7 +225,7 @@ TEST_F(OutboxTest, FlushWaitsUntilAllIsGone) {
 }
 
 TEST_F(OutboxTest, AFailureOfTheTransportComesThrough) {
-  Outbox outbox(kWidth, wire::PixelFormat::rgb8, 1, {});
+  Outbox outbox(wire::PixelFormat::rgb8, 1, {});
   host.give(0);
   send(outbox);
   host.script = {[] { throw Failure("the host is gone", "", ""); }};

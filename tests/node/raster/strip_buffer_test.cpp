@@ -37,8 +37,8 @@ struct Slot {
 
 Full fill(std::uint32_t width, std::uint32_t length, PixelFormat format) {
   const auto slot = std::make_unique_for_overwrite<Slot>();
-  StripBuffer buffer(width, format);
-  buffer.begin(slot->bytes, true);
+  StripBuffer buffer(format);
+  buffer.begin(slot->bytes, width, true);
   Full full;
   while (const std::uint32_t lines = buffer.lines_that_fit()) {
     for (std::uint32_t i = 0; i < lines; ++i, ++full.lines)
@@ -74,12 +74,12 @@ TEST(StripBuffer, IsUsedWell) {
 
 TEST(StripBuffer, BeginsEmpty) {
   const auto slot = std::make_unique_for_overwrite<Slot>(), other = std::make_unique_for_overwrite<Slot>();
-  StripBuffer buffer(64, PixelFormat::rgb8);
-  buffer.begin(slot->bytes, true);
+  StripBuffer buffer(PixelFormat::rgb8);
+  buffer.begin(slot->bytes, 64, true);
   const std::uint32_t lines = buffer.lines_that_fit();
   EXPECT_GT(lines, 0u);
   draw_line(0, 64, 64, PixelFormat::rgb8, buffer.moving());
-  buffer.begin(other->bytes, false);
+  buffer.begin(other->bytes, 64, false);
   EXPECT_TRUE(buffer.moving().runs().empty());
   EXPECT_EQ(buffer.lines_that_fit(), lines);
 }

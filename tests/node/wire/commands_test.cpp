@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <functional>
 #include <span>
@@ -95,6 +96,8 @@ TEST_F(LoadCommands, WithValuesThatMakeNoSense) {
   EXPECT_TRUE(refused([&] { load_.groups = 0; }));
   EXPECT_TRUE(refused([&] { load_.groups = 4; }));
   EXPECT_TRUE(refused([&] { load_.traced = 2; }));
+  EXPECT_TRUE(refused([&] { load_.live = 2; }));
+  EXPECT_TRUE(refused([&] { load_.live = 1; })) << "of two groups";
   EXPECT_TRUE(refused([&] { load_.mapping = static_cast<Mapping>(3); }));
   EXPECT_TRUE(refused([&] { machines_[0] = 1; }));
   EXPECT_TRUE(refused([&] { machines_[2] = -1; }));
@@ -209,6 +212,118 @@ TEST_F(RenderCommands, ForOthersOrOfNoSuchFrames) {
   EXPECT_TRUE(refused(sound_, {1, 1}));
   EXPECT_TRUE(refused(sound_, {1, 2})) << "beyond the interval";
   EXPECT_TRUE(refused({1, 0, 2, 1, 1, 0, 0, 1, 0, 1, 0}, {1})) << "before the interval";
+}
+
+TEST(ViewCommands, HaveTheirScene) {
+  const auto block = pack_scene(small_scene());
+  const auto refused = [&](const View& view, std::size_t bytes) {
+    return !refusal([&] {
+              read_view(message(view, Bytes(block.begin(), block.begin() + static_cast<long>(bytes))));
+            }).empty();
+  };
+  EXPECT_FALSE(refused({63, 1, block.size(), 0}, block.size()));
+  EXPECT_TRUE(refused({64, 1, block.size(), 0}, block.size()));
+  EXPECT_TRUE(refused({0, 1, block.size() + 1, 0}, block.size()));
+  EXPECT_TRUE(refused({0, 1, ~std::uint64_t{0}, 0}, block.size()));
+  EXPECT_TRUE(refused({0, 1, block.size(), 0}, block.size() - 1));
+  EXPECT_FALSE(refusal([] { read_view({}); }).empty());
+}
+
+TEST(CloseViewCommands, NameAView) {
+  const auto refused = [](std::uint32_t view) {
+    return !refusal([&] { read_close_view(message(CloseView{view}, Bytes())); }).empty();
+  };
+  EXPECT_FALSE(refused(63));
+  EXPECT_TRUE(refused(64));
+  EXPECT_FALSE(refusal([] { read_close_view({}); }).empty());
+}
+
+// Of view 5, in which segment 1 of three moves, with the block's first two patches.
+class DrawCommands : public testing::Test {
+ protected:
+  bool refused(const Draw& draw, const std::vector<MovedSegment>& segments,
+               const std::vector<MovedPatch>& patches = {}) {
+    Bytes bytes = message(draw, segments);
+    const Bytes more = message(draw, patches);
+    bytes.insert(bytes.end(), more.begin() + sizeof draw, more.end());
+    return !refusal([&] {
+              read_draw(bytes, [this](std::uint32_t view) { return view == 5 ? &moving_ : nullptr; });
+            }).empty();
+  }
+  bool refused(const MovedSegment& segment) { return refused({5, 1, 1, 0}, {segment}); }
+  bool refused(const MovedPatch& patch) { return refused({5, 1, 0, 1}, {}, {patch}); }
+
+  const Bytes film_block_ = pack(small_film()), scene_block_ = pack_scene(small_scene());
+  const FilmView film_{film_block_, "film"};
+  const FilmView scene_{scene_block_, film_, "scene"};
+  const MovingParts moving_{scene_};
+};
+
+TEST_F(DrawCommands, SoundOnesAreTaken) {
+  EXPECT_FALSE(refused({5, 1, 0, 0}, {}));
+  EXPECT_FALSE(refused({5, 1, 2, 1}, {{1, 0, moved(2)}, {1, 1, moved(1)}}, {{1, 0, flat_patch()}}));
+}
+
+TEST_F(DrawCommands, OfAnotherSizeOrView) {
+  EXPECT_TRUE(refused({5, 1, 1, 0}, {}));
+  EXPECT_TRUE(refused({5, 1, 0, 0}, {{1, 0, moved(2)}}));
+  EXPECT_TRUE(refused({5, 1, ~0u, ~0u}, {{1, 0, moved(2)}}));
+  EXPECT_TRUE(refused({4, 1, 0, 0}, {}));
+  EXPECT_TRUE(refused({64, 1, 0, 0}, {}));
+  EXPECT_FALSE(refusal([] { read_draw({}, [](std::uint32_t) { return nullptr; }); }).empty());
+}
+
+TEST_F(DrawCommands, OfWhatDoesNotMove) {
+  for (const std::uint32_t segment : {0u, 2u, 3u, ~0u}) EXPECT_TRUE(refused(MovedSegment{segment, 0, moved(1)}));
+  for (const std::uint32_t patch : {2u, 3u, 4u, ~0u}) EXPECT_TRUE(refused(MovedPatch{patch, 0, flat_patch()}));
+}
+
+TEST_F(DrawCommands, WithValuesThatMakeNoSense) {
+  EXPECT_TRUE(refused(MovedSegment{1, 2, moved(1)}));
+  EXPECT_TRUE(refused(MovedSegment{1, 0, moved(1e13)}));
+  EXPECT_TRUE(refused(MovedSegment{1, 0, moved(std::nan(""))}));
+  Patch patch = flat_patch();
+  patch.points[7][1] = INFINITY;
+  EXPECT_TRUE(refused(MovedPatch{1, 0, patch}));
+}
+
+TEST(Scenes, AreRefusedWhereTheyAreNone) {
+  const Bytes film_block = pack(small_film());
+  const FilmView film(film_block, "film");
+  const auto refused = [&](const auto& spoil) {
+    FilmData scene = small_scene();
+    spoil(scene);
+    const Bytes block = pack(scene);
+    return !refusal([&] { FilmView(block, film, "scene"); }).empty();
+  };
+  EXPECT_FALSE(refused([](FilmData&) {}));
+  EXPECT_TRUE(refused([](FilmData& scene) { scene.settings.frames = 2, scene.intervals[0].frame_count = 2; }));
+  EXPECT_TRUE(refused([](FilmData& scene) { scene.segments[0].shape = 4; })) << "two of the film, two of its own";
+  EXPECT_TRUE(refused([](FilmData& scene) { scene.shapes[1].patch_count = 3; }));
+  EXPECT_TRUE(refused([](FilmData& scene) { scene.shapes[1].meshlet_count = 1; })) << "the film's";
+  EXPECT_TRUE(refused([](FilmData& scene) { scene.moving = {3}; }));
+  EXPECT_TRUE(refused([](FilmData& scene) { scene.intervals.clear(); }));
+  EXPECT_TRUE(refused([](FilmData& scene) { scene.settings.width = kMaxSide + 1; }));
+  EXPECT_TRUE(refused([](FilmData& scene) {
+    scene.mesh_places = {{0, 0, 0}};
+    scene.mesh_normals = {{0, 0, 1}};
+  }));
+}
+
+// Patches that a stationary segment shows too stand still.
+TEST(Scenes, KnowWhatMoves) {
+  const Bytes film_block = pack(small_film());
+  const FilmView film(film_block, "film");
+  FilmData data = small_scene();
+  data.shapes = {{0, 3}, {2, 2}};
+  const Bytes block = pack_scene(data);
+  const FilmView scene(block, film, "scene");
+  const MovingParts moving(scene);
+  EXPECT_TRUE(moving.has_patch(0) && moving.has_patch(1));
+  EXPECT_FALSE(moving.has_patch(2) || moving.has_patch(3) || moving.has_patch(4));
+  EXPECT_EQ(scene.patches_of(1).data(), film.patches().data() + 2);
+  EXPECT_EQ(scene.patches_of(3).data(), scene.patches().data() + 2);
+  EXPECT_EQ(scene.meshlets_of(1).data(), film.meshlets().data());
 }
 
 // Slot 1 of three is the node's.

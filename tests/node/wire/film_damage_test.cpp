@@ -27,7 +27,7 @@ std::uint64_t walk(const FilmView& film) {
     scene.set_interval(i);
     for (const std::uint32_t frame : {film.intervals()[i].first_frame, last}) {
       scene.set_frame(frame);
-      sum += scene.moving_line_bounds({&frame, 1}).last;
+      sum += scene.moving_line_bounds({&frame, 1}, geometry::ShapeBoxes(film)).last;
       for (std::size_t s = 0; s < film.segments().size(); ++s) sum += scene.material(s) + scene.first_patch(s);
     }
   }

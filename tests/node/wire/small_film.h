@@ -40,4 +40,18 @@ inline FilmData small_film() {
   return film;
 }
 
+// A moment of it: the second segment, which moves, has a shape of its own of two patches; a third stands still.
+inline FilmData small_scene() {
+  FilmData scene = small_film();
+  scene.settings.frames = 1;
+  scene.patches.assign(4, flat_patch());
+  scene.mesh_places.clear(), scene.mesh_normals.clear(), scene.mesh_triangles.clear(), scene.meshlets.clear();
+  scene.shapes = {{0, 2}, {2, 2}};
+  scene.segments = {{0, 0, {0, 1}, {0, 1}}, {2, 5, {6, 1}, {0, 1}}, {3, 0, {0, 1}, {0, 1}}};
+  scene.changes.push_back({0, 1});
+  scene.intervals = {{0, 1, 0, 1}};
+  scene.moving = {1};
+  return scene;
+}
+
 }  // namespace mars::wire

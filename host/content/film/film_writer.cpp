@@ -1,0 +1,110 @@
+#include "host/content/film/film_writer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+
+#include "hal/failure/failure.h"
+#include "host/content/film/light_writer.h"
+#include "host/content/film/shape_writer.h"
+
+namespace mars::film {
+namespace {
+
+constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
+
+[[noreturn]] void fail(const animator::Film& film, const std::string& what, const std::string& element,
+                       const std::string& remedy) {
+  throw Failure(what, film.source.empty() ? element : film.source + ": " + element, remedy);
+}
+
+// Between keys a number may swing beyond what keys may give.
+double within(const document::Range& range, double number) { return std::clamp(number, range.lowest, range.highest); }
+
+}  // namespace
+
+ShapeNumbers write_shapes(const animator::Film& film, wire::FilmData& data) {
+  ShapeNumbers numbers(film.models.size());
+  ShapeWriter writer(data);
+  for (const animator::Actor& actor : film.actors) {
+    auto& own = numbers[actor.model];
+    if (own.empty())
+      for (const modeler::Shape& shape : film.models[actor.model].shapes) own.push_back(writer.add(shape));
+  }
+  return numbers;
+}
+
+wire::Camera camera_at(const animator::Film& film, std::uint32_t frame) {
+  const animator::CameraMotion& motion = film.camera;
+  const glm::dvec3 eye = animator::value_at(motion.eye, frame), ahead = animator::value_at(motion.at, frame) - eye;
+  const double distance = glm::length(ahead);
+  const glm::dvec3 up = animator::value_at(motion.up, frame);
+  const double length = glm::length(up);
+  const auto refuse = [&](const char* what, const char* remedy) {
+    fail(film, what, "camera, frame " + std::to_string(frame), remedy);
+  };
+  if (distance < 1e-9) refuse("has its eye where it looks at", "move eye or at");
+  const glm::dvec3 forward = ahead / distance;
+  const glm::dvec3 right = glm::cross(forward, up) / length;
+  if (length < 1e-9 || glm::length(right) < 1e-6) refuse("looks along its up vector", "choose another up");
+  const glm::dvec3 x = glm::normalize(right), axes[3] = {x, glm::cross(x, forward), -forward};
+  wire::Camera camera;
+  for (int row = 0; row < 3; ++row)
+    camera.world_to_eye.m[row] = {axes[row].x, axes[row].y, axes[row].z, -glm::dot(axes[row], eye)};
+  const double half = within(animator::kFieldsOfView, animator::value_at(motion.fov, frame)) * (std::numbers::pi / 360);
+  camera.focal = std::cos(half) / std::sin(half);
+  camera.near = motion.near;
+  camera.far = motion.far;
+  camera.exposure = std::exp2(within(animator::kExposures, animator::value_at(motion.exposure, frame)));
+  return camera;
+}
+
+FilmWriter::FilmWriter(const animator::Film& film, WrittenFrames frames, wire::FilmData& data)
+    : film_(film), frames_(frames), data_(data), materials_(film, frames, data) {}
+
+void FilmWriter::write_settings() {
+  data_.settings = {film_.width, film_.height, frames_.count, film_.dice, {}, float(film_.rate), {}};
+  write_light_settings(film_, data_.settings);
+  write_camera();
+  write_lights(film_, frames_, data_);
+}
+
+void FilmWriter::write_camera() {
+  const animator::CameraMotion& motion = film_.camera;
+  TrackWriter<wire::Camera> track(data_.cameras);
+  const std::uint32_t frames =
+      frames_to_see(frames_.count, motion.eye, motion.at, motion.up, motion.fov, motion.exposure);
+  for (std::uint32_t frame = 0; frame < frames; ++frame) track.add(frame, camera_at(film_, frames_.first + frame));
+  data_.settings.camera = track.write(data_.changes);
+}
+
+void FilmWriter::write_segments(const ShapeNumbers& shapes) {
+  std::uint64_t instances = 0, joints = 0;  // patches and meshlets of all segments
+  for (const animator::Actor& actor : film_.actors) {
+    const modeler::Model& model = film_.models[actor.model];
+    for (const modeler::Joint& joint : model.joints) {
+      if (!joint.segment) continue;
+      data_.segments.push_back({shapes[actor.model][joint.segment->shape],
+                                add_name(actor.name + "/" + joint.name),
+                                {},
+                                materials_.track_of(actor, joint.segment->material)});
+      const std::uint32_t shape = data_.segments.back().shape;
+      if (shape < data_.shapes.size()) instances += data_.shapes[shape].size();
+    }
+    joints += model.joints.size();
+    if (instances > kMost || joints > kMost)
+      fail(film_, "have more than 4294967295 patches and pieces of meshes", "actors", "use fewer actors");
+  }
+}
+
+std::uint32_t FilmWriter::add_name(const std::string& name) {
+  if (data_.names.size() + name.size() + 1 > kMost)
+    fail(film_, "have names of more than 4 GB", "actors", "shorten them");
+  const auto offset = static_cast<std::uint32_t>(data_.names.size());
+  data_.names.insert(data_.names.end(), name.c_str(), name.c_str() + name.size() + 1);
+  return offset;
+}
+
+}  // namespace mars::film

@@ -1,0 +1,42 @@
+#include "host/content/film/moment.h"
+
+#include <algorithm>
+
+#include "host/content/animator/actor_state.h"
+#include "host/content/film/motion_writer.h"
+
+namespace mars::film {
+
+FilmShapes shapes_of(const animator::Film& film) {
+  FilmShapes shapes;
+  shapes.numbers = write_shapes(film, shapes.parts);
+  return shapes;
+}
+
+wire::FilmData moment_of(const animator::Film& film, const ShapeNumbers& shapes, std::uint32_t frame) {
+  wire::FilmData data;
+  FilmWriter writer(film, {frame, 1}, data);
+  writer.write_settings();
+  writer.write_segments(shapes);
+  for (std::size_t actor = 0; actor < film.actors.size(); ++actor)
+    for (const auto& matrix : animator::state_at(film, actor, frame).segments) {
+      if (!matrix) continue;
+      const auto number = static_cast<std::uint32_t>(data.matrices.size());
+      wire::Segment& segment = data.segments[number];
+      check_near(*matrix, film, &data.names[segment.name], frame);
+      segment.motion = {static_cast<std::uint32_t>(data.changes.size()), 1};
+      data.changes.push_back({0, number});
+      data.matrices.push_back(*matrix);
+    }
+  data.intervals.push_back({0, 1, 0, 0});
+  return data;
+}
+
+std::span<const std::uint32_t> Cut::moving_at(std::uint32_t frame) const {
+  const auto after = std::upper_bound(intervals.begin(), intervals.end(), frame,
+                                      [](std::uint32_t f, const wire::Interval& i) { return f < i.first_frame; });
+  const wire::Interval& interval = *(after - 1);
+  return std::span(moving).subspan(interval.first_moving, interval.moving_count);
+}
+
+}  // namespace mars::film

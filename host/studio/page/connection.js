@@ -1,0 +1,73 @@
+// The page's WebSocket (docs/studio-protocol.md). It connects again by itself, with growing pauses; what listens to
+// "connected" asks for all that it needs again.
+
+const kFirstPause = 250, kLongestPause = 4000;  // ms
+
+// The link's token stays with this tab and leaves the address, which people copy.
+function takeToken() {
+  const address = new URL(location.href);
+  const given = address.searchParams.get("token");
+  if (given !== null) {
+    sessionStorage.setItem("token", given);
+    address.searchParams.delete("token");
+    history.replaceState(null, "", address);
+  }
+  return sessionStorage.getItem("token") ?? "";
+}
+
+export class Connection {
+  #listeners = new Map();
+  #socket = null;
+  #pause = kFirstPause;
+  #token = takeToken();
+
+  // `is`: of messages; "picture" (an ArrayBuffer), "connected", "gone" (the number of attempts that failed).
+  on(is, listener) {
+    if (!this.#listeners.has(is)) this.#listeners.set(is, []);
+    this.#listeners.get(is).push(listener);
+  }
+
+  failures = 0;
+
+  open() {
+    const address = new URL("ws", location.href);
+    address.protocol = location.protocol === "https:" ? "wss:" : "ws:";
+    address.search = new URLSearchParams({token: this.#token});
+    const socket = new WebSocket(address);
+    socket.binaryType = "arraybuffer";
+    socket.onopen = () => this.#opened();
+    socket.onmessage = ({data}) => this.#take(data);
+    socket.onclose = () => this.#closed();
+    this.#socket = socket;
+  }
+
+  // Whether the message left.
+  send(message) {
+    if (this.#socket?.readyState !== WebSocket.OPEN) return false;
+    this.#socket.send(JSON.stringify(message));
+    return true;
+  }
+
+  // Whether all that was sent has left this machine's buffers.
+  hasRoom() { return this.#socket?.readyState === WebSocket.OPEN && this.#socket.bufferedAmount === 0; }
+
+  #opened() {
+    this.failures = 0;
+    this.#pause = kFirstPause;
+    this.#tell("connected");
+  }
+
+  #closed() {
+    this.#tell("gone", ++this.failures);
+    setTimeout(() => this.open(), this.#pause);
+    this.#pause = Math.min(kLongestPause, this.#pause * 1.6);
+  }
+
+  #take(data) {
+    if (data instanceof ArrayBuffer) return this.#tell("picture", data);
+    const message = JSON.parse(data);
+    this.#tell(message.is, message);
+  }
+
+  #tell(is, what) { for (const listener of this.#listeners.get(is) ?? []) listener(what); }
+}

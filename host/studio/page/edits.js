@@ -1,0 +1,88 @@
+// What hands do to the project: previews while they move, a commit when they are done.
+
+export class Edits {
+  constructor(connection, pace, state) {
+    this.connection = connection;
+    this.pace = pace;
+    this.state = state;
+  }
+
+  #previews = false;
+
+  preview(step, event) {
+    this.#previews = true;
+    this.pace.send("preview", {do: "preview", step}, event);
+  }
+
+  commit(step, event) {
+    this.#previews = false;
+    this.pace.drop("preview");
+    this.pace.now({do: "commit", step}, event ?? {timeStamp: performance.now()});
+  }
+
+  cancel() {
+    if (!this.#previews) return;
+    this.#previews = false;
+    this.pace.drop("preview");
+    this.connection.send({do: "cancel"});
+  }
+
+  // Of one joint, a model's JSON.
+  joint(change, joint = this.state.selected.joint) { return {set: "joint", ...this.#actor(), joint, change}; }
+  pose(pose) { return {set: "pose", ...this.#actor(), joint: this.state.selected.joint, pose}; }
+
+  select(actor, joint) {
+    this.state.select(actor, joint);
+    this.connection.send({do: "select", actor, joint});
+  }
+
+  undo() { this.connection.send({do: "undo"}); }
+  redo() { this.connection.send({do: "redo"}); }
+
+  frame(frame, event) { this.pace.send("frame", {do: "frame", frame}, event ?? {timeStamp: performance.now()}); }
+
+  removeJoint() {
+    const {joint} = this.state.selected;
+    if (joint === null) return;
+    const parent = this.state.joint()?.parent ?? null;
+    this.commit({remove: "joint", ...this.#actor(), joint, branch: true});
+    if (parent) this.select(this.state.selected.actor, parent);
+  }
+
+  // Below the selected joint, at the end of its box.
+  addJoint() {
+    const actor = this.state.actor() ?? this.state.project?.actors[0];
+    if (!actor) return;
+    const parent = this.state.joint();
+    const name = freeName(actor.joints.map((joint) => joint.name));
+    const change = parent ? {parent: parent.name, ...placed(parent)} : {};
+    this.commit({add: "joint", ...this.state.ofActor(actor.name), joint: name, change});
+    this.wanted = {actor: actor.name, joint: name};
+  }
+
+  // A new joint is selected as soon as the studio has it.
+  selectWanted() {
+    if (!this.wanted || !this.state.joint(this.wanted.joint, this.wanted.actor)) return;
+    const {actor, joint} = this.wanted;
+    this.wanted = null;
+    this.select(actor, joint);
+  }
+
+  #actor() { return this.state.ofActor(); }
+}
+
+function freeName(names) {
+  for (let number = 1;; ++number) if (!names.includes(`joint-${number}`)) return `joint-${number}`;
+}
+
+// A child's box continues its parent's along the longest side.
+function placed({sbb, material}) {
+  if (!sbb) return {};
+  const [min, max] = sbb;
+  const sizes = min.map((low, axis) => max[axis] - low);
+  const along = sizes.indexOf(Math.max(...sizes));
+  const down = -min[along] > max[along];
+  const place = [0, 0, 0];
+  place[along] = down ? min[along] : max[along];
+  return {place, shape: "ellipsoid", sbb, ...(material ? {material} : {})};
+}

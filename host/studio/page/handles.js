@@ -1,0 +1,47 @@
+// Handles over a view's picture, where the studio says that they are (pixels of the picture).
+
+import {svg} from "./dom.js";
+
+const kDot = 4, kHead = 9;
+
+// In place of what the layer shows.
+export function showHandles(layer, shapes) { layer.replaceChildren(...shapes.map(drawn)); }
+
+function drawn(shape) {
+  const kinds = ["handle", shape.kind];
+  if (shape.axis !== undefined && shape.axis !== null) kinds.push(`axis-${axisName(shape.axis)}`);
+  if (shape.hot) kinds.push("hot");
+  if (shape.selected) kinds.push("selected");
+  return svg("g", {class: kinds.join(" "), "data-id": shape.id}, (kParts[shape.kind] ?? line)(shape));
+}
+
+const axisName = (axis) => typeof axis === "number" ? "xyz"[axis] : axis;
+
+// Lines have a wider one below them, so that they can be seen over any picture.
+const line = ({points}) => [svg("path", {class: "halo", d: pathOf(points)}), svg("path", {class: "line", d: pathOf(points)})];
+const dots = ({points}) => points.map(([x, y]) => svg("circle", {cx: x, cy: y, r: kDot}));
+const squares = ({points}) =>
+  points.map(([x, y]) => svg("rect", {x: x - kDot, y: y - kDot, width: 2 * kDot, height: 2 * kDot, rx: 1}));
+
+const kParts = {
+  ring: line,
+  limit: line,
+  arrow: (shape) => [...line(shape), svg("path", {class: "head", d: headOf(shape.points)})],
+  box: (shape) => shape.points.length === 1 ? squares(shape) : line(shape),
+  point: dots,
+  joint: dots,
+  label: ({points: [[x, y]], text}) => {
+    const label = svg("text", {x, y});
+    label.textContent = text;
+    return [label];
+  },
+};
+
+const pathOf = (points) => "M" + points.map(([x, y]) => `${x.toFixed(1)} ${y.toFixed(1)}`).join("L");
+
+function headOf(points) {
+  const [to, from] = [points.at(-1), points.at(-2) ?? points.at(-1)];
+  const angle = Math.atan2(to[1] - from[1], to[0] - from[0]);
+  const corner = (turn, reach) => [to[0] + reach * Math.cos(angle + turn), to[1] + reach * Math.sin(angle + turn)];
+  return pathOf([corner(0, kHead), corner(2.3, kHead * 0.75), corner(-2.3, kHead * 0.75)]) + "Z";
+}

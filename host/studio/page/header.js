@@ -1,0 +1,89 @@
+// The header: what is open, history, the tool, scene or rendering, theme, help.
+
+import {element} from "./dom.js";
+import {icon, logo} from "./icons.js";
+import {keysOf} from "./shortcuts.js";
+
+export const kTools = [["none", "Select", "toolNone"], ["turn", "Turn", "toolTurn"], ["move", "Move", "toolMove"],
+                       ["box", "Box", "toolBox"], ["points", "Control points", "toolPoints"]];
+const kWorkspaces = [["scene", "Scene", "scene"], ["rendering", "Rendering", "render"]];
+
+export class Header {
+  constructor(place, {state, edits}, {help, theme}) {
+    this.state = state;
+    this.file = element("span", {class: "file"});
+    this.kind = element("span", {class: "kind"});
+    this.undo = iconButton("undo", () => edits.undo());
+    this.redo = iconButton("redo", () => edits.redo());
+    this.tools = segmented("Tool", kTools.map(([tool, text, command]) => ({value: tool, text, tip: `${text} (${keysOf(command)})`, glyph: tool})),
+                           (tool) => state.set("tool", tool), false);
+    this.workspaces = segmented("Workspace", kWorkspaces.map(([value, text, glyph]) => ({value, text, glyph, tip: `${text} (${keysOf("workspace")})`})),
+                                (value) => state.set("workspace", value), true);
+    this.theme = iconButton(null, theme);
+    const sheet = iconButton("help", help);
+    name(sheet, "Keys and mouse", keysOf("help"));
+    place.append(element("div", {class: "brand"}, logo(), element("h1", {}, this.file), this.kind),
+                 element("div", {class: "group"}, this.undo, this.redo), this.tools.root, element("span", {class: "spring"}),
+                 this.workspaces.root, element("span", {class: "spring"}), element("div", {class: "group"}, this.theme, sheet));
+    state.on("project", () => this.#project());
+    state.on("tool", () => this.tools.set(state.tool));
+    state.on("workspace", () => this.#workspace());
+    this.tools.set(state.tool);
+    this.#workspace();
+    this.#history({});
+  }
+
+  #project() {
+    const {file, kind} = this.state.project;
+    this.file.textContent = file.split("/").at(-1);
+    this.file.title = file;
+    this.kind.textContent = kind;
+    document.title = `${this.file.textContent} \u2013 MARS studio`;
+    this.#history(this.state.project);
+  }
+
+  #history({undo, redo}) {
+    this.undo.disabled = !undo;
+    this.redo.disabled = !redo;
+    name(this.undo, undo ? `Undo: ${undo}` : "Nothing to undo", keysOf("undo"));
+    name(this.redo, redo ? `Redo: ${redo}` : "Nothing to redo", keysOf("redo"));
+  }
+
+  #workspace() {
+    this.workspaces.set(this.state.workspace);
+    this.tools.root.classList.toggle("away", this.state.workspace !== "scene");
+  }
+}
+
+function iconButton(glyph, act) {
+  return element("button", {class: "quiet icon", onclick: act}, glyph && icon(glyph));
+}
+
+function name(button, text, keys) {
+  button.setAttribute("aria-label", text);
+  button.title = `${text} (${keys})`;
+}
+
+// One of several, as buttons side by side (ARIA's radio group: arrows choose).
+function segmented(name, choices, choose, withText) {
+  const buttons = choices.map(({value, text, tip, glyph}) =>
+    element("button", {role: "radio", "aria-label": text, title: tip, "data-value": value, onclick: () => choose(value)},
+            icon(glyph), withText && element("span", {}, text)));
+  const root = element("div", {class: "segmented", role: "radiogroup", "aria-label": name}, buttons);
+  root.addEventListener("keydown", (event) => {
+    const by = {ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1}[event.key];
+    const at = buttons.indexOf(event.target);
+    if (by === undefined || at < 0) return;
+    event.preventDefault();
+    const next = buttons[(at + by + buttons.length) % buttons.length];
+    next.focus();
+    choose(next.dataset.value);
+  });
+  return {root, set: (value) => {
+    for (const button of buttons) {
+      const on = button.dataset.value === value;
+      button.setAttribute("aria-checked", String(on));
+      button.tabIndex = on ? 0 : -1;
+    }
+  }};
+}

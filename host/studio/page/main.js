@@ -1,0 +1,158 @@
+// Puts the page together: one state, one connection, and parts that listen to them.
+
+import {Connection} from "./connection.js";
+import {Edits} from "./edits.js";
+import {Frames} from "./frames.js";
+import {Header} from "./header.js";
+import {Help} from "./help.js";
+import {Keys} from "./keys.js";
+import {Latencies} from "./latencies.js";
+import {Rendering} from "./live/rendering.js";
+import {closeMenu} from "./menu.js";
+import {Notices} from "./notices.js";
+import {Pace} from "./pace.js";
+import {Painter} from "./painter.js";
+import {JointPanel} from "./panels/joint_panel.js";
+import {MaterialsPanel} from "./panels/materials_panel.js";
+import {ScenePanel} from "./panels/scene_panel.js";
+import {State} from "./state.js";
+import {Status} from "./status.js";
+import {Tabs} from "./tabs.js";
+import {Theme} from "./theme.js";
+import {Tree} from "./tree.js";
+import {Views} from "./views.js";
+
+const kPatience = 3;  // attempts to connect, before the banner says what a person can do
+
+const place = (id) => document.getElementById(id);
+const state = new State();
+const connection = new Connection();
+const latencies = new Latencies();
+const pace = new Pace(connection, latencies);
+const painter = new Painter(connection, latencies);
+const edits = new Edits(connection, pace, state);
+const parts = {state, connection, latencies, pace, painter, edits};
+
+const notices = new Notices();
+const help = new Help(state);
+const header = new Header(place("header"), parts, {help: () => help.toggle(), theme: () => theme.toggle()});
+const theme = new Theme(header.theme);
+const tree = new Tree(place("tree"), parts);
+const views = new Views(place("views"), parts, painter);
+const tabs = new Tabs(place("panels"), [{name: "joint", text: "Joint"}, {name: "materials", text: "Materials"},
+                                        {name: "scene", text: "Bodies"}, {name: "rendering", text: "Rendering"}]);
+const jointPanel = new JointPanel(tabs.panel("joint"), parts);
+new MaterialsPanel(tabs.panel("materials"), parts);
+new ScenePanel(tabs.panel("scene"), parts);
+new Rendering(place("rendering"), tabs.panel("rendering"), parts);
+const frames = new Frames(place("frames"), parts);
+const status = new Status(place("status"), parts);
+
+function showWorkspace() {
+  const rendering = state.workspace === "rendering";
+  place("rendering").hidden = !rendering;
+  for (const id of ["views", "tree"]) place(id).hidden = rendering;
+  for (const name of ["joint", "scene", "rendering"]) tabs.available(name, (name === "rendering") === rendering);
+  tabs.available("materials", !rendering && !state.isFilm());
+  tabs.show(rendering ? "rendering" : "joint");
+  document.body.dataset.workspace = state.workspace;
+}
+
+function showProblem() {
+  const {problem, file} = state.project;
+  const detail = problem?.line ? `${file}, line ${problem.line}. The last good state stays.` : "The last good state stays.";
+  notices.banner("file", problem?.text ?? "", {detail, kind: "error"});
+}
+
+// The panel follows what is selected, between a joint and a film's actor.
+function showSelected() {
+  const {actor, joint} = state.selected;
+  if (joint !== null && tabs.shown === "scene") tabs.show("joint");
+  else if (state.isFilm() && joint === null && actor !== null && tabs.shown === "joint") tabs.show("scene");
+}
+
+state.on("workspace", showWorkspace);
+state.on("selected", showSelected);
+state.on("project", () => {
+  tabs.rename("scene", state.isFilm() ? "Scene" : "Bodies");
+  tabs.available("materials", state.workspace === "scene" && !state.isFilm());
+  document.body.dataset.kind = state.project.kind;
+  showProblem();
+  edits.selectWanted();
+});
+
+connection.on("project", (project) => state.setProject(project));
+connection.on("poses", (poses) => state.setPoses(poses));
+connection.on("selected", ({actor, joint}) => state.select(actor ?? null, joint ?? null));
+connection.on("state", (message) => {
+  state.renderer = message;
+  state.tell("renderer");
+  notices.banner("renderer", message.renderer, {detail: "Pictures come again as soon as it is back."});
+});
+connection.on("refused", ({text, line}) => notices.toast(line ? `${text} (line ${line})` : text));
+connection.on("said", ({text}) => notices.toast(text, "info"));
+connection.on("connected", () => {
+  status.connected = true;
+  status.showRenderer();
+  notices.banner("connection", "");
+  if (state.selected.joint !== null) connection.send({do: "select", ...state.selected});
+});
+connection.on("gone", (failures) => {
+  status.connected = false;
+  status.showRenderer();
+  const detail = failures < kPatience ? "Connecting again. Nothing on this page is lost."
+    : "Connecting again. If mars studio has ended, start it again and open the link that it prints.";
+  notices.banner("connection", "The studio does not answer.", {detail});
+});
+
+const kRegions = ["header", "tree", "views", "rendering", "panels", "frames"];
+
+// The next part of the page that shows, at what it had in focus or its first control.
+function goToRegion(by) {
+  const shown = kRegions.filter((id) => !place(id).hidden);
+  const at = shown.findIndex((id) => place(id).contains(document.activeElement));
+  const region = shown[(at + by + shown.length) % shown.length];
+  if (region === "views") return views.go(state.activeView);
+  place(region).querySelector('button:not(:disabled, [tabindex="-1"], [hidden]), [tabindex="0"], input, select, summary')?.focus();
+}
+
+const kSteps = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1], "+": [0, -6], "-": [0, 6]};
+const stepsOf = (keys) => kSteps[keys.replace("Shift+", "")];
+const inModel = (act) => (keys, event) => state.project && !state.isFilm() ? act(keys, event) : false;
+
+new Keys({
+  undo: () => edits.undo(),
+  redo: () => edits.redo(),
+  letGo: () => {
+    closeMenu();
+    if (!views.letGo()) edits.cancel();
+  },
+  rename: inModel(() => { tabs.show("joint"); jointPanel.rename(); }),
+  addJoint: inModel(() => edits.addJoint()),
+  removeJoint: inModel(() => edits.removeJoint()),
+  rest: (_, event) => jointPanel.rest(event),
+  toolNone: () => state.set("tool", "none"),
+  toolTurn: () => state.set("tool", "turn"),
+  toolMove: () => state.set("tool", "move"),
+  toolBox: () => state.set("tool", "box"),
+  toolPoints: () => state.set("tool", "points"),
+  goToView: (keys) => views.go(Number(keys) - 1),
+  maximise: () => views.maximise(),
+  showAll: (_, event) => views.showAll(event),
+  nextDisplay: (_, event) => views.nextDisplay(event),
+  hidden: (_, event) => views.flip("hidden", event),
+  ground: (_, event) => views.flip("ground", event),
+  orbitBy: (keys, event) => views.orbitBy("turn", stepsOf(keys), event),
+  panBy: (keys, event) => views.orbitBy("pan", stepsOf(keys), event),
+  zoomBy: (keys, event) => views.orbitBy("zoom", stepsOf(keys), event),
+  play: () => frames.play(),
+  stepFrame: (keys, event) => frames.step(keys === "." ? 1 : -1, event),
+  endFrame: (keys, event) => frames.end(keys === "End", event),
+  nextRegion: (keys) => goToRegion(keys === "F6" ? 1 : -1),
+  workspace: () => state.set("workspace", state.workspace === "scene" ? "rendering" : "scene"),
+  theme: () => theme.toggle(),
+  help: () => help.toggle(),
+}, state);
+
+showWorkspace();
+connection.open();

@@ -1,0 +1,62 @@
+// What the page knows: the project as the studio told it, and what is selected here. Others listen to what concerns
+// them: "project", "poses", "selected", "tool", "view" (the active one), "renderer", "workspace".
+
+export class State {
+  #listeners = new Map();
+  project = null;
+  selected = {actor: null, joint: null};
+  tool = "turn";
+  activeView = 0;
+  workspace = "scene";  // or "rendering"
+  renderer = {renderer: "", nodes: 0, machines: 0};
+
+  on(what, listener) {
+    for (const each of what.split(" ")) {
+      if (!this.#listeners.has(each)) this.#listeners.set(each, []);
+      this.#listeners.get(each).push(listener);
+    }
+  }
+
+  tell(what) { for (const listener of this.#listeners.get(what) ?? []) listener(); }
+
+  setProject(project) {
+    this.project = project;
+    const {actor, joint} = this.selected;
+    if (joint !== null && !this.joint(joint, actor)) this.selected = {actor: this.actor(actor) ? actor : null, joint: null};
+    this.tell("project");
+  }
+
+  // Poses, places and turns during gestures.
+  setPoses({frame, actors}) {
+    if (!this.project) return;
+    this.project.frame = frame;
+    for (const moved of actors) {
+      const actor = this.actor(moved.name);
+      if (!actor) continue;
+      Object.assign(actor, {place: moved.place ?? actor.place, turn: moved.turn ?? actor.turn});
+      moved.joints?.forEach((pose, i) => { if (actor.joints[i]) actor.joints[i].pose = pose; });
+    }
+    this.tell("poses");
+  }
+
+  select(actor, joint) {
+    if (this.selected.actor === actor && this.selected.joint === joint) return;
+    this.selected = {actor, joint};
+    this.tell("selected");
+  }
+
+  set(what, value) {
+    if (this[what] === value) return;
+    this[what] = value;
+    this.tell(what === "activeView" ? "view" : what);
+  }
+
+  isFilm() { return this.project?.kind === "film"; }
+  actor(name = this.selected.actor) { return this.project?.actors.find((actor) => actor.name === name) ?? null; }
+  joint(name = this.selected.joint, actor = this.selected.actor) {
+    return this.actor(actor)?.joints.find((joint) => joint.name === name) ?? null;
+  }
+
+  // A step's actor: a model's steps have none.
+  ofActor(actor = this.selected.actor) { return this.isFilm() ? {actor} : {}; }
+}

@@ -1,0 +1,20 @@
+#include "host/studio/run_studio.h"
+
+#include <utility>
+
+#include "host/child/programs.h"
+#include "host/studio/link/host_link.h"
+#include "host/studio/serve_studio.h"
+
+namespace mars::studio {
+
+void run_studio(const StudioSettings& settings) {
+  serve_studio(settings, [&](const std::filesystem::path& file, boost::asio::io_context& context) {
+    const auto link = [&](RendererLink::Listener listener) {
+      return make_host_link(context, settings.renderer, child::own_file(), std::move(listener));
+    };
+    return Parts{open_project(file), link, make_stage};
+  });
+}
+
+}  // namespace mars::studio

@@ -1,0 +1,267 @@
+#include "host/studio/stage/hand.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "host/content/animator/angles.h"
+#include "host/content/modeler/edit.h"
+#include "host/content/modeler/frames.h"
+
+namespace mars::studio {
+namespace {
+
+constexpr double kFine = 0.2;          // of the mouse's way
+constexpr double kEdgeOn = 0.12;       // cosine between a ring's axis and the way to the eye: it is seen as a line
+constexpr double kLeastExtent = 1e-3;  // of a box, of its extent before
+
+const modeler::Model& model_of(const Project& project, std::size_t actor) {
+  return project.film().models[project.film().actors[actor].model];
+}
+
+Json listed(const glm::dvec3& vector) {
+  return Json::array(
+      {modeler::plain_number(vector.x), modeler::plain_number(vector.y), modeler::plain_number(vector.z)});
+}
+
+glm::dmat3 linear_of(const wire::Matrix& matrix) {
+  const auto& m = matrix.m;
+  return {m[0][0], m[1][0], m[2][0], m[0][1], m[1][1], m[2][1], m[0][2], m[1][2], m[2][2]};
+}
+
+}  // namespace
+
+Hand::Hand(const Project& project, const Selection& selection, const Screen& screen, const glm::dvec2& mouse)
+    : project_(project), selection_(selection), screen_(screen), began_(mouse), mouse_(mouse), at_(mouse) {}
+
+void Hand::take(const Grip& grip) {
+  grip_ = grip;
+  posed_ = posed(project_, selection_).value();
+  const animator::ActorState state = animator::state_at(project_.film(), *selection_.actor, project_.frame());
+  if (grip.what == Grip::What::arrow || grip.what == Grip::What::plane) {
+    const bool of_joint = project_.is_model();
+    world_ = of_joint ? posed_.center : state.place;
+    place_ = of_joint ? posed_.joint->place : state.place;
+  }
+  if (grip.what == Grip::What::face) {
+    frame_ = segment_frame_of(project_, selection_).value();
+    sbb_ = model_of(project_, *selection_.actor).joints[*selection_.joint].segment->sbb;
+    glm::dvec3 middle = 0.5 * (sbb_.min + sbb_.max);
+    middle[grip.axis] = grip.side == 0 ? sbb_.min[grip.axis] : sbb_.max[grip.axis];
+    world_ = frame_.turn * middle + frame_.place;
+  }
+  if (grip.what == Grip::What::point) {
+    matrix_ = state.segments[*selection_.joint].value();
+    const modeler::Model& model = model_of(project_, *selection_.actor);
+    const auto& patch = model.shapes[model.joints[*selection_.joint].segment->shape].patches[grip.patch];
+    const auto& point = patch.points[4 * grip.j + grip.i];
+    place_ = {point[0], point[1], point[2]};
+    world_ = linear_of(matrix_) * place_ + glm::dvec3(matrix_.m[0][3], matrix_.m[1][3], matrix_.m[2][3]);
+  }
+}
+
+bool Hand::take(const Hit& hit) {
+  const auto& joints = model_of(project_, *selection_.actor).joints;
+  std::size_t joint = *selection_.joint;
+  while (joint != modeler::kNone && joints[joint].freedoms() == 0) joint = joints[joint].parent;
+  if (joint == modeler::kNone) return false;
+  selection_.joint = joint;
+  const auto posed = studio::posed(project_, selection_);
+  if (!posed) return false;
+  posed_ = *posed;
+  pose_ = posed_.pose;
+  const glm::dmat3 turn = posed_.parent.turn * modeler::orientation(*posed_.joint, posed_.pose);
+  held_ = Held{joint, glm::transpose(turn) * (hit.place - posed_.center)};
+  return true;
+}
+
+std::optional<Json> Hand::follow(const glm::dvec2& mouse, bool shift) {
+  const bool point = grip_ && grip_->what == Grip::What::point;
+  const glm::dvec2 before = at_;
+  at_ += (shift && !point ? kFine : 1.0) * (mouse - mouse_);
+  mouse_ = mouse;
+  if (held_) return follow_limb();
+  if (!grip_) return std::nullopt;
+  switch (grip_->what) {
+    case Grip::What::ring: wound_ += turned_by(before, at_); return follow_ring();
+    case Grip::What::arrow:
+    case Grip::What::plane: return follow_place();
+    case Grip::What::face: return follow_face();
+    case Grip::What::point: return follow_point(shift);
+  }
+  return std::nullopt;
+}
+
+Json Hand::step(const char* what) const {
+  Json step = {{"set", what}};
+  if (!project_.is_model()) step["actor"] = project_.film().actors[*selection_.actor].name;
+  if (selection_.joint) step["joint"] = model_of(project_, *selection_.actor).joints[*selection_.joint].name;
+  return step;
+}
+
+Json Hand::pose_step(const glm::dvec3& pose) const {
+  Json made = step(selection_.joint ? "pose" : "turn");
+  made[selection_.joint ? "pose" : "turn"] = listed(pose);
+  return made;
+}
+
+// Degrees about the ring's axis, by the mouse's way round its center; where the ring is seen from its edge, by the way
+// along it.
+double Hand::turned_by(const glm::dvec2& before, const glm::dvec2& now) const {
+  const TurnAxis axis = posed_.axis(grip_->axis);
+  const auto center = screen_.pixel_of(axis.center);
+  if (!center) return 0;
+  const glm::dvec3 to_eye = glm::normalize(screen_.eye() - axis.center);
+  const double facing = glm::dot(axis.axis, to_eye);
+  if (std::abs(facing) < kEdgeOn) {
+    const glm::dvec2 way = screen_.motion_of(axis.center, glm::cross(axis.axis, to_eye));
+    return glm::dot(now - before, glm::normalize(way)) / ring_pixels(grip_->axis) / modeler::kDegree;
+  }
+  const glm::dvec2 from = before - *center, to = now - *center;
+  const double angle = std::atan2(from.x * to.y - from.y * to.x, glm::dot(from, to)) / modeler::kDegree;
+  return facing > 0 ? -angle : angle;  // y is down
+}
+
+std::optional<Json> Hand::follow_ring() {
+  glm::dvec3 pose = posed_.pose;
+  const modeler::Limits& limits = posed_.joint->limits[static_cast<std::size_t>(grip_->axis)];
+  pose[grip_->axis] = std::clamp(pose[grip_->axis] + wound_, limits.lower, limits.upper);
+  return pose_step(pose);
+}
+
+std::optional<Json> Hand::follow_limb() {
+  pose_ = pose_towards(posed_, held_->place, pose_, screen_, at_);
+  return pose_step(pose_);
+}
+
+// Of what stands at `from` and moves along `way` by the mouse.
+std::optional<glm::dvec3> Hand::shift_along(const glm::dvec3& from, const glm::dvec3& way) const {
+  const auto first = nearest_along(screen_.ray_through(began_), from, way);
+  const auto now = nearest_along(screen_.ray_through(at_), from, way);
+  if (!first || !now) return std::nullopt;
+  return (*now - *first) * way;
+}
+
+std::optional<glm::dvec3> Hand::shift_across(const glm::dvec3& from) const {
+  const auto first = on_plane(screen_.ray_through(began_), from, screen_.ahead());
+  const auto now = on_plane(screen_.ray_through(at_), from, screen_.ahead());
+  if (!first || !now) return std::nullopt;
+  return *now - *first;
+}
+
+std::optional<Json> Hand::follow_place() {
+  const bool of_joint = project_.is_model();
+  glm::dvec3 way(0);
+  way[grip_->axis] = 1;
+  if (of_joint) way = posed_.parent.turn * way;
+  const auto by = grip_->what == Grip::What::plane ? shift_across(world_) : shift_along(world_, way);
+  if (!by) return std::nullopt;
+  const glm::dvec3 place = place_ + (of_joint ? glm::transpose(posed_.parent.turn) * *by : *by);
+  Json made = step(of_joint ? "joint" : "place");
+  if (of_joint) {
+    made["change"] = {{"place", listed(place)}};
+  } else {
+    made.erase("joint");
+    made["place"] = listed(place);
+  }
+  return made;
+}
+
+// The face opposite stays.
+std::optional<Json> Hand::follow_face() {
+  const int axis = grip_->axis;
+  const glm::dvec3 way = frame_.turn[axis];
+  const auto by = shift_along(world_, way);
+  if (!by) return std::nullopt;
+  const double length = glm::dot(*by, way) / glm::dot(way, way);
+  const double least = kLeastExtent * (sbb_.max[axis] - sbb_.min[axis]);
+  modeler::Box sbb = sbb_;
+  if (grip_->side == 0)
+    sbb.min[axis] = std::min(sbb.min[axis] + length, sbb.max[axis] - least);
+  else
+    sbb.max[axis] = std::max(sbb.max[axis] + length, sbb.min[axis] + least);
+  Json made = step("joint");
+  made["change"] = {{"sbb", Json::array({listed(sbb.min), listed(sbb.max)})}};
+  return made;
+}
+
+// In the plane parallel to the screen, or along the surface's axis that is nearest to the mouse's way.
+std::optional<Json> Hand::follow_point(bool along_axis) {
+  const glm::dmat3 linear = linear_of(matrix_);
+  std::optional<glm::dvec3> by = shift_across(world_);
+  if (along_axis && at_ != began_) {
+    const auto likeness = [&](int axis) {
+      const glm::dvec2 way = screen_.motion_of(world_, linear[axis]);
+      const double length = glm::length(way);
+      return length > 0 ? std::abs(glm::dot(way / length, at_ - began_)) : 0;
+    };
+    int nearest = 0;
+    for (const int axis : {1, 2})
+      if (likeness(axis) > likeness(nearest)) nearest = axis;
+    by = shift_along(world_, linear[nearest]);
+  }
+  if (!by) return std::nullopt;
+  Json made = step("point");
+  made["patch"] = grip_->patch;
+  made["point"] = {grip_->i, grip_->j};
+  made["to"] = listed(place_ + glm::inverse(linear) * *by);
+  return made;
+}
+
+glm::dvec3 pose_towards(const Posed& joint, const glm::dvec3& place, const glm::dvec3& from, const Screen& screen,
+                        const glm::dvec2& pixel) {
+  constexpr int kSteps = 60;
+  constexpr double kNear = 0.01, kMostDegrees = 20;  // pixels; of one step
+  Posed posed = joint;
+  posed.pose = from;
+  const auto place_of = [&](const glm::dvec3& pose) {
+    return posed.center + posed.parent.turn * (modeler::orientation(*posed.joint, pose) * place);
+  };
+  const auto error_of = [&](const glm::dvec3& pose) -> std::optional<glm::dvec2> {
+    const auto at = screen.pixel_of(place_of(pose));
+    if (!at) return std::nullopt;
+    return pixel - *at;
+  };
+  auto error = error_of(from);
+  double damping = 1e-4;
+  for (int step = 0; step < kSteps && error && glm::length(*error) > kNear; ++step) {
+    const glm::dvec3 at = place_of(posed.pose);
+    glm::dvec2 slopes[3];  // pixels a degree
+    for (int i = 0; i < 3; ++i) {
+      const TurnAxis axis = posed.axis(i);
+      slopes[i] = modeler::kDegree * screen.motion_of(at, glm::cross(axis.axis, at - axis.center));
+      // What is at its limit and would go beyond stays.
+      const double wanted = glm::dot(slopes[i], *error);
+      const bool stops =
+          (posed.pose[i] <= axis.limits.lower && wanted < 0) || (posed.pose[i] >= axis.limits.upper && wanted > 0);
+      if (!axis.limits.free() || stops) slopes[i] = glm::dvec2(0);
+    }
+    glm::dmat3 normal(0);
+    glm::dvec3 right(0);
+    double largest = 0;
+    for (int i = 0; i < 3; ++i) {
+      for (int k = 0; k < 3; ++k) normal[k][i] = glm::dot(slopes[i], slopes[k]);
+      right[i] = glm::dot(slopes[i], *error);
+      largest = std::max(largest, normal[i][i]);
+    }
+    if (largest == 0) break;
+    for (int i = 0; i < 3; ++i) normal[i][i] += damping * largest;
+    glm::dvec3 by = glm::inverse(normal) * right;
+    const double most = std::max({std::abs(by.x), std::abs(by.y), std::abs(by.z)});
+    if (most > kMostDegrees) by *= kMostDegrees / most;
+    const glm::dvec3 next = animator::clamped(*posed.joint, posed.pose + by);
+    const auto left = error_of(next);
+    if (left && glm::length(*left) < glm::length(*error)) {
+      posed.pose = next;
+      error = left;
+      damping = std::max(damping / 4, 1e-9);
+    } else {
+      damping *= 8;
+      if (damping > 1e6) break;
+    }
+  }
+  return posed.pose;
+}
+
+}  // namespace mars::studio

@@ -1,0 +1,246 @@
+#include "host/studio/stage/handles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <set>
+
+#include "host/content/modeler/frames.h"
+
+namespace mars::studio {
+namespace {
+
+constexpr double kRingPixels[] = {84, 72, 60};  // radii of x, y, z
+constexpr double kArrowPixels = 80;
+constexpr double kTickPixels = 9;   // of a limit, each way
+constexpr double kStepDegrees = 5;  // of an arc
+constexpr double kReachPixels = 7;  // from a line
+constexpr double kNearPixels = 9;   // from a place, which is before lines
+constexpr std::size_t kMostPoints = 4000;
+constexpr const char* kAxes[] = {"x", "y", "z"};
+
+const modeler::Model& model_of(const Project& project, std::size_t actor) {
+  return project.film().models[project.film().actors[actor].model];
+}
+
+glm::dvec3 unit(int axis) {
+  glm::dvec3 vector(0);
+  vector[axis] = 1;
+  return vector;
+}
+
+std::string shown_angle(double degrees) {
+  const double rounded = std::round(degrees * 10) / 10 + 0.0;
+  return document::shown(rounded) + "\u00b0";
+}
+
+class Maker {
+ public:
+  Maker(const Project& project, const Selection& selection, const Screen& screen)
+      : project_(project), selection_(selection), screen_(screen) {}
+
+  std::vector<Handle> make(Tool tool) {
+    if (tool == Tool::none || !selection_.actor) return {};
+    add_joints();
+    const auto posed = studio::posed(project_, selection_);
+    if (tool == Tool::turn && posed) add_rings(*posed);
+    if (tool == Tool::move && posed) add_arrows(*posed);
+    if (tool == Tool::box && project_.is_model()) add_box();
+    if (tool == Tool::points && project_.is_model()) add_points();
+    return std::move(handles_);
+  }
+
+ private:
+  void add_line(Handle handle, const std::vector<glm::dvec3>& places) {
+    for (Polyline& line : screen_.polylines(places)) {
+      handle.points = std::move(line);
+      handles_.push_back(handle);
+    }
+  }
+
+  void add_place(Handle handle, const glm::dvec3& place) {
+    const auto pixel = screen_.pixel_of(place);
+    if (!pixel) return;
+    handle.points = {*pixel};
+    handles_.push_back(std::move(handle));
+  }
+
+  void add_joints() {
+    const auto& joints = model_of(project_, *selection_.actor).joints;
+    const animator::ActorState state = animator::state_at(project_.film(), *selection_.actor, project_.frame());
+    for (std::size_t joint = 0; joint < state.joints.size(); ++joint) {
+      Handle handle{"joint:" + joints[joint].name, "joint", {}};
+      handle.text = joints[joint].name;
+      handle.selected = selection_.joint == joint;
+      add_place(std::move(handle), state.joints[joint].place);
+    }
+  }
+
+  void add_rings(const Posed& posed) {
+    for (int number = 0; number < 3; ++number)
+      if (posed.joint->limits[static_cast<std::size_t>(number)].free()) add_ring(posed.axis(number), number);
+  }
+
+  void add_ring(const TurnAxis& axis, int number) {
+    const double pixel = 1 / screen_.scale_at(axis.center), radius = kRingPixels[number] * pixel;
+    const glm::dvec3 across = glm::cross(axis.axis, axis.zero);
+    const auto at = [&](double degrees, double far) {
+      const double angle = degrees * modeler::kDegree;
+      return axis.center + far * (std::cos(angle) * axis.zero + std::sin(angle) * across);
+    };
+    const bool whole = axis.limits.upper - axis.limits.lower >= 360;
+    const double from = whole ? 0 : axis.limits.lower, to = whole ? 360 : axis.limits.upper;
+    std::vector<glm::dvec3> arc;
+    const int steps = std::max(1, static_cast<int>(std::ceil((to - from) / kStepDegrees)));
+    for (int step = 0; step <= steps; ++step) arc.push_back(at(from + (to - from) * step / steps, radius));
+    const std::string name = kAxes[number], id = "ring:" + name;
+    add_line({id, "ring", {}, name, "", Grip{Grip::What::ring, number}}, arc);
+    const double tick = kTickPixels * pixel;
+    if (!whole)
+      for (const double limit : {from, to})
+        add_line({"limit:" + name, "limit", {}, name, shown_angle(limit)},
+                 {at(limit, radius - tick), at(limit, radius + tick)});
+    add_place({"label:" + name, "label", {}, name, name + " " + shown_angle(axis.angle)}, at(axis.angle, radius));
+  }
+
+  // A model's joint is moved along its parent's axes, a film's actor along the world's.
+  void add_arrows(const Posed& posed) {
+    const bool of_joint = project_.is_model();
+    if (of_joint && !selection_.joint) return;
+    const animator::ActorState state = animator::state_at(project_.film(), *selection_.actor, project_.frame());
+    const glm::dvec3 from = of_joint ? posed.center : state.place;
+    const double length = kArrowPixels / screen_.scale_at(from);
+    for (int axis = 0; axis < 3; ++axis) {
+      const glm::dvec3 way = of_joint ? posed.parent.turn[axis] : unit(axis);
+      add_line({std::string("arrow:") + kAxes[axis], "arrow", {}, kAxes[axis], "", Grip{Grip::What::arrow, axis}},
+               {from, from + length * way});
+    }
+    add_place({"plane", "point", {}, "", "", Grip{Grip::What::plane}}, from);
+  }
+
+  void add_box() {
+    const auto frame = segment_frame_of(project_, selection_);
+    if (!frame) return;
+    const modeler::Box& sbb = model_of(project_, *selection_.actor).joints[*selection_.joint].segment->sbb;
+    const auto at = [&](const glm::dvec3& part) {
+      return frame->turn * (sbb.min + part * (sbb.max - sbb.min)) + frame->place;
+    };
+    for (int corner = 0; corner < 8; ++corner)
+      for (int axis = 0; axis < 3; ++axis) {
+        if (corner >> axis & 1) continue;
+        const glm::dvec3 from(corner & 1, corner >> 1 & 1, corner >> 2);
+        add_line({"box", "box", {}}, {at(from), at(from + unit(axis))});
+      }
+    for (int axis = 0; axis < 3; ++axis)
+      for (int side = 0; side < 2; ++side) {
+        glm::dvec3 part(0.5);
+        part[axis] = side;
+        Handle handle{std::string("face:") + kAxes[axis] + (side == 0 ? "-" : "+"), "box", {}, kAxes[axis]};
+        handle.grip = Grip{Grip::What::face, axis, side};
+        add_place(std::move(handle), at(part));
+      }
+  }
+
+  // Of points of several patches that are at one place, the first.
+  void add_points() {
+    if (!selection_.joint) return;
+    const modeler::Model& model = model_of(project_, *selection_.actor);
+    const auto& segment = model.joints[*selection_.joint].segment;
+    if (!segment) return;
+    const animator::ActorState state = animator::state_at(project_.film(), *selection_.actor, project_.frame());
+    const wire::Matrix& matrix = *state.segments[*selection_.joint];
+    const auto& patches = model.shapes[segment->shape].patches;
+    std::set<std::array<float, 3>> seen;
+    for (std::size_t patch = 0; patch < patches.size() && seen.size() < kMostPoints; ++patch)
+      for (std::size_t number = 0; number < 16; ++number) {
+        const auto& point = patches[patch].points[number];
+        if (!seen.insert(point).second) continue;
+        Handle handle{"point:" + std::to_string(patch) + ":" + std::to_string(number), "point", {}};
+        handle.grip = Grip{Grip::What::point, 0, 0, patch, number % 4, number / 4};
+        glm::dvec3 place;
+        for (int row = 0; row < 3; ++row) {
+          const auto& m = matrix.m[static_cast<std::size_t>(row)];
+          place[row] = m[0] * point[0] + m[1] * point[1] + m[2] * point[2] + m[3];
+        }
+        add_place(std::move(handle), place);
+      }
+  }
+
+  const Project& project_;
+  const Selection& selection_;
+  const Screen& screen_;
+  std::vector<Handle> handles_;
+};
+
+}  // namespace
+
+TurnAxis Posed::axis(int number) const {
+  modeler::Joint before = *joint;
+  glm::dvec3 turned(0);  // by the numbers before this one
+  for (int i = 0; i < number; ++i) turned[i] = pose[i];
+  const glm::dmat3 turn = parent.turn * modeler::orientation(before, turned);
+  const glm::dvec3 z_axis = glm::normalize(glm::cross(joint->x_axis, joint->y_axis));
+  const glm::dvec3 axes[] = {joint->x_axis, joint->y_axis, z_axis};
+  const glm::dvec3 axis = turn * axes[number], next = turn * axes[(number + 1) % 3];
+  return {center, axis, glm::normalize(next - glm::dot(next, axis) * axis), pose[number],
+          joint->limits[static_cast<std::size_t>(number)]};
+}
+
+std::optional<Posed> posed(const Project& project, const Selection& selection) {
+  if (!selection.actor) return std::nullopt;
+  const animator::ActorState state = animator::state_at(project.film(), *selection.actor, project.frame());
+  if (state.joints.empty()) return std::nullopt;
+  const modeler::Axes root{modeler::orientation(animator::free_joint(), state.turn), state.place};
+  if (!selection.joint) return Posed{&animator::free_joint(), {glm::dmat3(1), {0, 0, 0}}, state.place, state.turn};
+  const modeler::Joint& joint = model_of(project, *selection.actor).joints[*selection.joint];
+  const modeler::Axes& parent = joint.parent == modeler::kNone ? root : state.joints[joint.parent];
+  return Posed{&joint, parent, state.joints[*selection.joint].place, state.pose[*selection.joint]};
+}
+
+std::optional<modeler::Axes> segment_frame_of(const Project& project, const Selection& selection) {
+  if (!selection.actor || !selection.joint) return std::nullopt;
+  const modeler::Joint& joint = model_of(project, *selection.actor).joints[*selection.joint];
+  const animator::ActorState state = animator::state_at(project.film(), *selection.actor, project.frame());
+  if (!joint.segment || state.joints.empty()) return std::nullopt;
+  return modeler::segment_frame(state.joints[*selection.joint], joint);
+}
+
+std::vector<Handle> handles_of(const Project& project, const Selection& selection, Tool tool, const Screen& screen) {
+  return Maker(project, selection, screen).make(tool);
+}
+
+double ring_pixels(int axis) { return kRingPixels[axis]; }
+
+const Handle* handle_at(const std::vector<Handle>& handles, const glm::dvec2& pixel) {
+  const Handle* nearest = nullptr;
+  double least = 1;
+  for (const Handle& handle : handles) {
+    if (!handle.grip) continue;
+    const bool place = handle.points.size() == 1;
+    const double distance = distance_to(handle.points, pixel) / (place ? kNearPixels : kReachPixels);
+    const double rank = place ? distance / 2 : (distance + 1) / 2;  // places are before lines
+    if (distance > 1 || rank > least) continue;
+    nearest = &handle;
+    least = rank;
+  }
+  return nearest;
+}
+
+Json described(const std::vector<Handle>& handles, const std::string& hot) {
+  Json shapes = Json::array();
+  const auto rounded = [](double pixel) { return std::round(pixel * 100) / 100; };
+  for (const Handle& handle : handles) {
+    Json points = Json::array();
+    for (const glm::dvec2& point : handle.points) points.push_back({rounded(point.x), rounded(point.y)});
+    shapes.push_back({{"id", handle.id},
+                      {"kind", handle.kind},
+                      {"points", std::move(points)},
+                      {"axis", handle.axis},
+                      {"hot", handle.grip && handle.id == hot},
+                      {"selected", handle.selected},
+                      {"text", handle.text}});
+  }
+  return shapes;
+}
+
+}  // namespace mars::studio

@@ -1,0 +1,85 @@
+// Controls over a picture, where the view's camera shows them: rings about a joint's free axes with its limits, arrows,
+// a box to pull, control points. The page draws them; a hand takes them (hand.h).
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/content/animator/actor_state.h"
+#include "host/studio/project/project.h"
+#include "host/studio/stage/screen.h"
+
+namespace mars::studio {
+
+enum class Tool { none, turn, move, box, points };
+inline constexpr const char* kTools[] = {"none", "turn", "move", "box", "points"};
+
+struct Selection {
+  std::optional<std::size_t> actor;
+  std::optional<std::size_t> joint;  // none: the actor as a whole
+
+  bool operator==(const Selection&) const = default;
+};
+
+// What a hand takes hold of.
+struct Grip {
+  enum class What { ring, arrow, plane, face, point } what;
+  int axis = 0;           // ring, arrow, face: x, y, z
+  int side = 0;           // face: 0 lower, 1 upper
+  std::size_t patch = 0;  // point
+  std::size_t i = 0, j = 0;
+
+  bool operator==(const Grip&) const = default;
+};
+
+// One line or place on the screen. A control may have several of the same id.
+struct Handle {
+  std::string id;
+  const char* kind;  // docs/studio-protocol.md
+  Polyline points;
+  std::string axis{};  // "x", "y", "z" or ""
+  std::string text{};
+  std::optional<Grip> grip{};  // none: only to be seen
+  bool selected = false;
+};
+
+// An axis about which a pose turns, by one of its numbers.
+struct TurnAxis {
+  glm::dvec3 center;
+  glm::dvec3 axis;  // a unit vector, as turned by the numbers before it
+  glm::dvec3 zero;  // across it: where the ring's angle is 0
+  double angle;     // degrees
+  modeler::Limits limits;
+};
+
+// A joint's, or a whole actor's, as it stands.
+struct Posed {
+  const modeler::Joint* joint;  // animator::free_joint() for an actor as a whole
+  modeler::Axes parent;         // the frame in which the joint's place and turn are
+  glm::dvec3 center;            // in the world
+  glm::dvec3 pose;
+
+  TurnAxis axis(int number) const;
+};
+
+// None: nothing is selected, or matrices move the actor.
+std::optional<Posed> posed(const Project& project, const Selection& selection);
+
+// The frame of the joint's segment, from its sbb to the world; none where it has no segment.
+std::optional<modeler::Axes> segment_frame_of(const Project& project, const Selection& selection);
+
+std::vector<Handle> handles_of(const Project& project, const Selection& selection, Tool tool, const Screen& screen);
+
+// The radius of the ring about an axis, as it is seen from before.
+double ring_pixels(int axis);
+
+// The handle under the pixel that a hand would take.
+const Handle* handle_at(const std::vector<Handle>& handles, const glm::dvec2& pixel);
+
+// As the page reads them; `hot`: the id under the mouse.
+Json described(const std::vector<Handle>& handles, const std::string& hot);
+
+}  // namespace mars::studio

@@ -1,0 +1,244 @@
+#include "host/studio/stage/line_pictures.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/content/film/light_writer.h"
+#include "host/preview/shape_lines.h"
+#include "host/studio/stage/picking.h"
+
+namespace mars::studio {
+namespace {
+
+constexpr std::uint32_t kBlock = 16;
+constexpr int kCoverSteps = 6;  // of a patch that hides lines
+
+preview::Placing placing(const wire::Matrix& matrix) {
+  preview::Placing flat;
+  for (std::size_t i = 0; i < 12; ++i) flat[i] = static_cast<float>(matrix.m[i / 4][i % 4]);
+  return flat;
+}
+
+preview::Placing placing(const modeler::Axes& frame) {
+  preview::Placing flat;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column)
+      flat[static_cast<std::size_t>(4 * row + column)] = static_cast<float>(frame.turn[column][row]);
+    flat[static_cast<std::size_t>(4 * row + 3)] = static_cast<float>(frame.place[row]);
+  }
+  return flat;
+}
+
+// What holds at the view's only frame.
+wire::Track track_of(preview::View& view, std::size_t value) {
+  view.changes.push_back({0, static_cast<std::uint32_t>(value)});
+  return {static_cast<std::uint32_t>(view.changes.size() - 1), 1};
+}
+
+preview::Facets cube_facets() {
+  preview::Facets cube;
+  for (std::uint32_t corner = 0; corner < 8; ++corner)
+    for (const std::uint32_t axis : {0u, 1u, 2u}) cube.points.push_back(static_cast<float>(corner >> axis & 1));
+  for (const std::uint32_t side : {0u, 1u})
+    for (const std::uint32_t axis : {0u, 1u, 2u}) {
+      const std::uint32_t u = 1u << (axis + 1) % 3, v = 1u << (axis + 2) % 3, at = side << axis;
+      cube.corners.insert(cube.corners.end(), {at, at + u, at + u + v, at, at + u + v, at + v});
+    }
+  return cube;
+}
+
+void add(const Triangles& triangles, preview::Facets& facets) {
+  const auto first = static_cast<std::uint32_t>(facets.points.size() / 3);
+  for (const auto& point : triangles.points) facets.points.insert(facets.points.end(), point.begin(), point.end());
+  for (const std::uint32_t corner : triangles.corners) facets.corners.push_back(first + corner);
+}
+
+preview::Facets diced(std::span<const wire::Patch> patches) {
+  preview::Facets facets;
+  for (const wire::Patch& patch : patches) {
+    Triangles triangles;
+    add_diced(patch, kCoverSteps, triangles);
+    add(triangles, facets);
+  }
+  return facets;
+}
+
+preview::Facets meshlets_of(const wire::FilmData& shapes, const wire::Shape& shape) {
+  preview::Facets facets;
+  for (std::uint32_t i = 0; i < shape.meshlet_count; ++i) {
+    const wire::Meshlet& meshlet = shapes.meshlets[shape.first_meshlet + i];
+    const auto first = static_cast<std::uint32_t>(facets.points.size() / 3);
+    for (std::uint32_t v = 0; v < meshlet.vertex_count; ++v) {
+      const auto& place = shapes.mesh_places[meshlet.first_vertex + v];
+      facets.points.insert(facets.points.end(), place.begin(), place.end());
+    }
+    for (std::uint32_t t = 0; t < meshlet.triangle_count; ++t)
+      for (const std::uint8_t corner : shapes.mesh_triangles[meshlet.first_triangle + t])
+        facets.corners.push_back(first + corner);
+  }
+  return facets;
+}
+
+}  // namespace
+
+void LinePictures::draw(const LineLook& look, const wire::Camera& camera, preview::Drawing& drawing) {
+  if (film_number_ != moments_.film_number()) {
+    film_number_ = moments_.film_number();
+    nets_.lines.clear();
+    net_numbers_.clear();
+    facets_.clear();
+  }
+  preview::View view = look.as == preview::As::vertices ? std::move(nets_) : preview::View{};
+  view.subject = moments_.subject();
+  look.as == preview::As::stick ? take_sticks(view) : take_segments(look.as, view);
+  std::vector<preview::Cover> covers;
+  if (look.hidden && look.as != preview::As::stick) covers = covers_of(look.as, view);
+  preview::FilmDrawing(view).draw(drawing, look.as, 0, camera, 1, look.ground, covers);
+  if (look.as == preview::As::vertices) nets_.lines = std::move(view.lines);
+}
+
+bool LinePictures::pulled(std::size_t segment) const {
+  return moments_.now().segments[segment].shape >= moments_.shapes().shapes.size();
+}
+
+// Parts, matrices and colours of the segments, in their order.
+void LinePictures::take_segments(preview::As as, preview::View& view) {
+  const wire::FilmData& now = moments_.now();
+  if (as == preview::As::prisms) view.lines = {preview::cube_edges()};
+  for (const wire::Material& material : now.materials)
+    view.colors.push_back(film::shown_of(material.color, now.settings.color_space));
+  std::optional<std::uint32_t> of_pulled;
+  for (std::size_t segment = 0; segment < now.segments.size(); ++segment) {
+    view.matrices.push_back(placing(moments_.matrix_of(segment)));
+    std::uint32_t lines = 0;
+    if (as == preview::As::vertices && pulled(segment)) {
+      if (!of_pulled) of_pulled = net_of(segment, view);
+      lines = *of_pulled;
+    } else if (as == preview::As::vertices) {
+      lines = net_of(segment, view);
+    }
+    const wire::Track look = track_of(view, now.changes[now.segments[segment].material.first].value);
+    view.parts[static_cast<std::size_t>(as)].push_back({lines, track_of(view, segment), look});
+  }
+}
+
+// The net of a shape that is pulled is made again each time, in its place before all others.
+std::uint32_t LinePictures::net_of(std::size_t segment, preview::View& view) {
+  if (view.lines.empty()) view.lines.emplace_back();
+  const std::uint32_t shape = moments_.now().segments[segment].shape;
+  if (!pulled(segment))
+    if (const auto known = net_numbers_.find(shape); known != net_numbers_.end()) return known->second;
+  if (pulled(segment)) {
+    view.lines[0] = preview::control_net(moments_.patches_of(segment));
+    return 0;
+  }
+  const wire::FilmView film(*moments_.film_block(), "", true);
+  view.lines.push_back(preview::control_net(film, film.shapes()[shape]));
+  return net_numbers_[shape] = static_cast<std::uint32_t>(view.lines.size() - 1);
+}
+
+void LinePictures::take_sticks(preview::View& view) {
+  const wire::FilmData& now = moments_.now();
+  const animator::Film& film = project_.film();
+  for (const wire::Material& material : now.materials)
+    view.colors.push_back(film::shown_of(material.color, now.settings.color_space));
+  view.colors.push_back({0.7f, 0.7f, 0.7f});  // of joints that no segment lends its colour
+  std::size_t segment = 0;
+  for (std::size_t number = 0; number < film.actors.size(); ++number) {
+    const modeler::Model& model = film.models[film.actors[number].model];
+    const animator::ActorState state = animator::state_at(film, number, project_.frame());
+    const std::vector<preview::Lines> sticks = preview::sticks_of(model);
+    std::vector<std::size_t> colors;
+    for (std::size_t joint = 0; joint < model.joints.size(); ++joint) {
+      const std::size_t parent = model.joints[joint].parent;
+      if (state.segments[joint]) {
+        colors.push_back(now.changes[now.segments[segment++].material.first].value);
+        view.matrices.push_back(placing(*state.segments[joint]));
+      } else {
+        colors.push_back(parent == modeler::kNone ? view.colors.size() - 1 : colors[parent]);
+        if (state.joints.empty()) continue;
+        view.matrices.push_back(placing(state.joints[joint]));
+      }
+      view.lines.push_back(sticks[joint]);
+      const wire::Track look = track_of(view, colors.back());
+      view.parts[static_cast<std::size_t>(preview::As::stick)].push_back(
+          {static_cast<std::uint32_t>(view.lines.size() - 1), track_of(view, view.matrices.size() - 1), look});
+    }
+  }
+}
+
+const preview::Facets& LinePictures::facets_of(std::size_t segment) {
+  if (pulled(segment)) return pulled_facets_ = diced(moments_.patches_of(segment));
+  const std::uint32_t number = moments_.now().segments[segment].shape;
+  if (const auto known = facets_.find(number); known != facets_.end()) return known->second;
+  preview::Facets facets = diced(moments_.patches_of(segment));
+  const preview::Facets meshes = meshlets_of(moments_.shapes(), moments_.shapes().shapes[number]);
+  const auto first = static_cast<std::uint32_t>(facets.points.size() / 3);
+  facets.points.insert(facets.points.end(), meshes.points.begin(), meshes.points.end());
+  for (const std::uint32_t corner : meshes.corners) facets.corners.push_back(first + corner);
+  return facets_[number] = std::move(facets);
+}
+
+// Prisms hide by their faces, control vertices by their surfaces.
+std::vector<preview::Cover> LinePictures::covers_of(preview::As as, const preview::View& view) {
+  static const preview::Facets cube = cube_facets();
+  std::vector<preview::Cover> covers;
+  for (std::size_t segment = 0; segment < moments_.now().segments.size(); ++segment)
+    covers.push_back({as == preview::As::prisms ? &cube : &facets_of(segment), view.matrices[segment]});
+  return covers;
+}
+
+namespace {
+
+bool differs(const images::Image& before, const images::Image& now, std::uint32_t x, std::uint32_t y) {
+  const std::uint32_t width = std::min(kBlock, now.width - x), last = std::min(y + kBlock, now.height);
+  for (std::uint32_t row = y; row < last; ++row) {
+    const std::size_t at = std::size_t{row} * now.width + x;
+    if (!std::equal(&now.pixels[at], &now.pixels[at] + width, &before.pixels[at])) return true;
+  }
+  return false;
+}
+
+serve::Rect rect(std::uint32_t x, std::uint32_t y, std::uint32_t width, std::uint32_t height) {
+  return {static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), static_cast<std::uint16_t>(width),
+          static_cast<std::uint16_t>(height)};
+}
+
+// Puts a row's rectangle below one that ends there and is as wide.
+void put(const serve::Rect& one, std::vector<serve::Rect>& rects) {
+  for (serve::Rect& above : rects)
+    if (above.x == one.x && above.width == one.width && above.y + above.height == one.y) {
+      above.height = static_cast<std::uint16_t>(above.height + one.height);
+      return;
+    }
+  rects.push_back(one);
+}
+
+}  // namespace
+
+std::vector<serve::Rect> changed_rects(const images::Image& before, const images::Image& now) {
+  if (before.width != now.width || before.height != now.height) return {rect(0, 0, now.width, now.height)};
+  std::vector<serve::Rect> rects;
+  for (std::uint32_t y = 0; y < now.height; y += kBlock) {
+    const std::uint32_t height = std::min(kBlock, now.height - y);
+    for (std::uint32_t x = 0; x < now.width;) {
+      std::uint32_t end = x;
+      while (end < now.width && differs(before, now, end, y)) end = std::min(end + kBlock, now.width);
+      if (end > x) put(rect(x, y, end - x, height), rects);
+      x = end + kBlock;
+    }
+  }
+  return rects;
+}
+
+std::vector<std::uint32_t> pixels_in(const images::Image& image, std::span<const serve::Rect> rects) {
+  std::vector<std::uint32_t> pixels;
+  for (const serve::Rect& rect : rects)
+    for (std::uint32_t row = rect.y; row < std::uint32_t{rect.y} + rect.height; ++row) {
+      const std::size_t at = std::size_t{row} * image.width + rect.x;
+      for (std::uint32_t i = 0; i < rect.width; ++i) pixels.push_back(image.pixels[at + i] | 0xff000000u);
+    }
+  return pixels;
+}
+
+}  // namespace mars::studio

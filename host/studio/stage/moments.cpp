@@ -1,0 +1,138 @@
+#include "host/studio/stage/moments.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "hal/failure/failure.h"
+
+namespace mars::studio {
+namespace {
+
+constexpr std::uint64_t kMostMatrices = 200'000;  // of a film whose intervals are cut between two pictures
+
+// Places and joints that have two keys or more.
+bool moves(const animator::Actor& actor) {
+  const auto keyed = [](const auto& channel) { return channel.size() > 1; };
+  return keyed(actor.motion.place) || keyed(actor.motion.turn) ||
+         std::any_of(actor.motion.pose.begin(), actor.motion.pose.end(), keyed) ||
+         std::any_of(actor.matrices.begin(), actor.matrices.end(), keyed);
+}
+
+}  // namespace
+
+void Moments::renew() {
+  const bool other_shapes = shapes_revision_ != project_.shapes_revision();
+  if (!other_shapes && revision_ == project_.revision() && frame_ == project_.frame()) return;
+  try {
+    if (other_shapes) load_shapes();
+    take_moment();
+    problem_.clear();
+  } catch (const Failure& failure) {
+    problem_ = failure.what();
+  }
+  shapes_revision_ = project_.shapes_revision();
+  revision_ = project_.revision();
+  frame_ = project_.frame();
+}
+
+// Nodes get the moment as their film: one frame of it, for shapes are all that counts.
+void Moments::load_shapes() {
+  film::FilmShapes shapes = film::shapes_of(project_.film());
+  wire::FilmData film = film::moment_of(project_.film(), shapes.numbers, project_.frame());
+  shapes_ = std::move(shapes);
+  const wire::FilmData& parts = shapes_.parts;
+  film.patches = parts.patches;
+  film.mesh_places = parts.mesh_places;
+  film.mesh_normals = parts.mesh_normals;
+  film.mesh_triangles = parts.mesh_triangles;
+  film.meshlets = parts.meshlets;
+  film.shapes = parts.shapes;
+  film_block_ = std::make_shared<const std::vector<std::byte>>(wire::pack(film));
+  ++film_number_;
+}
+
+void Moments::take_moment() {
+  wire::FilmData moment = film::moment_of(project_.film(), shapes_.numbers, project_.frame());
+  put_pulled(moment);
+  now_ = std::move(moment);
+  owners_.clear();
+  const animator::Film& film = project_.film();
+  for (std::size_t actor = 0; actor < film.actors.size(); ++actor) {
+    const auto& joints = film.models[film.actors[actor].model].joints;
+    for (std::size_t joint = 0; joint < joints.size(); ++joint)
+      if (joints[joint].segment) owners_.push_back({actor, joint});
+  }
+  ++number_;
+}
+
+void Moments::put_pulled(wire::FilmData& moment) const {
+  const auto pulled = project_.pulled();
+  if (!pulled) return;
+  const animator::Film& film = project_.film();
+  moment.patches = film.models[pulled->model].shapes[pulled->shape].patches;
+  moment.shapes = {{0, static_cast<std::uint32_t>(moment.patches.size())}};
+  std::size_t segment = 0;
+  for (const animator::Actor& actor : film.actors)
+    for (const modeler::Joint& joint : film.models[actor.model].joints) {
+      if (!joint.segment) continue;
+      if (actor.model == pulled->model && joint.segment->shape == pulled->shape)
+        moment.segments[segment].shape = static_cast<std::uint32_t>(shapes_.parts.shapes.size());
+      ++segment;
+    }
+}
+
+std::span<const wire::Patch> Moments::patches_of(std::size_t segment) const {
+  const std::uint32_t number = now_.segments[segment].shape;
+  const std::size_t of_film = shapes_.parts.shapes.size();
+  const bool own = number >= of_film;
+  const wire::Shape& shape = own ? now_.shapes[number - of_film] : shapes_.parts.shapes[number];
+  return std::span(own ? now_.patches : shapes_.parts.patches).subspan(shape.first_patch, shape.patch_count);
+}
+
+preview::Ball Moments::subject() const {
+  const animator::Film& film = project_.film();
+  const auto counts = [&](const Owner& owner) {
+    return project_.is_model() ? owner.actor == 0 : moves(film.actors[owner.actor]);
+  };
+  const bool any = std::any_of(owners_.begin(), owners_.end(), counts);
+  glm::dvec3 low(1e300), high(-1e300);
+  for (std::size_t segment = 0; segment < owners_.size(); ++segment) {
+    if (any && !counts(owners_[segment])) continue;
+    for (int corner = 0; corner < 8; ++corner) {
+      glm::dvec3 at;
+      for (int row = 0; row < 3; ++row) {
+        const auto& m = now_.matrices[segment].m[static_cast<std::size_t>(row)];
+        at[row] = m[3] + (corner & 1 ? m[0] : 0) + (corner & 2 ? m[1] : 0) + (corner & 4 ? m[2] : 0);
+      }
+      low = glm::min(low, at);
+      high = glm::max(high, at);
+    }
+  }
+  if (low.x > high.x) return {{0, 0, 0}, 1};
+  return {0.5 * (low + high), glm::length(high - low) / 2};
+}
+
+bool Moments::is_short() const {
+  std::uint64_t matrices = 0;
+  const animator::Film& film = project_.film();
+  for (const animator::Actor& actor : film.actors)
+    matrices += (moves(actor) ? film.frames : 1) * std::uint64_t{film.models[actor.model].joints.size()};
+  return std::max<std::uint64_t>(matrices, film.frames) <= kMostMatrices;
+}
+
+std::optional<std::span<const std::uint32_t>> Moments::own_moving() {
+  if (revision_ != cut_revision_ || !cut_) {
+    cut_.reset();
+    cut_revision_ = *revision_;
+    if (!is_short() || !problem_.empty()) return std::nullopt;
+    try {
+      cut_ = film::cut_of(project_.film(), shapes_);
+    } catch (const Failure&) {
+      return std::nullopt;  // another frame shows nothing, which is no matter here
+    }
+  }
+  return cut_->moving_at(frame_);
+}
+
+}  // namespace mars::studio

@@ -1,0 +1,73 @@
+// The project's film at the frame that is shown, as a scene for the renderer: bit for bit what the compiled film has
+// there (host/content/film/moment.h). And the film's shapes, which nodes load once.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/content/animator/actor_state.h"
+#include "host/content/film/moment.h"
+#include "host/preview/view.h"
+#include "host/studio/project/project.h"
+
+namespace mars::studio {
+
+// Whose segment it is.
+struct Owner {
+  std::size_t actor;
+  std::size_t joint;
+};
+
+class Moments {
+ public:
+  // It must outlive it.
+  explicit Moments(const Project& project) : project_(project) {}
+
+  // Follows the project. A film that shows nothing at this frame leaves what was; `problem` then says why.
+  void renew();
+  const std::string& problem() const { return problem_; }
+
+  // Goes up with each other film that nodes must load; 0: there is none yet.
+  std::uint64_t film_number() const { return film_number_; }
+  std::shared_ptr<const std::vector<std::byte>> film_block() const { return film_block_; }
+  // Goes up whenever now() changes.
+  std::uint64_t number() const { return number_; }
+
+  // With the film's own camera and size. A shape that is being pulled is the scene's own, behind the film's.
+  const wire::FilmData& now() const { return now_; }
+  const wire::FilmData& shapes() const { return shapes_.parts; }
+  const std::vector<Owner>& owners() const { return owners_; }  // of now()'s segments
+  const wire::Matrix& matrix_of(std::size_t segment) const { return now_.matrices[segment]; }
+  // The patches of a segment's shape, wherever they are.
+  std::span<const wire::Patch> patches_of(std::size_t segment) const;
+  preview::Ball subject() const;  // what moves or is a model; else everything
+
+  // What moves in the film's own interval that has the frame: only with this is a picture the film's own. None where
+  // the film is too long to know it at once.
+  std::optional<std::span<const std::uint32_t>> own_moving();
+
+ private:
+  void load_shapes();
+  void take_moment();
+  void put_pulled(wire::FilmData& moment) const;
+  bool is_short() const;
+
+  const Project& project_;
+  std::string problem_;
+  std::uint64_t film_number_ = 0, number_ = 0;
+  std::optional<std::uint64_t> shapes_revision_, revision_;
+  std::uint32_t frame_ = 0;
+  film::FilmShapes shapes_;
+  std::shared_ptr<const std::vector<std::byte>> film_block_;
+  wire::FilmData now_;
+  std::vector<Owner> owners_;
+  std::optional<film::Cut> cut_;  // of the film as it is at cut_revision_
+  std::uint64_t cut_revision_ = 0;
+};
+
+}  // namespace mars::studio

@@ -1,0 +1,629 @@
+#include "host/studio/stage/stage.h"
+
+#include <algorithm>
+#include <list>
+#include <map>
+#include <utility>
+
+#include "hal/failure/failure.h"
+#include "host/content/animator/figure.h"
+#include "host/studio/stage/hand.h"
+#include "host/studio/stage/page_message.h"
+#include "host/studio/stage/picking.h"
+#include "host/studio/stage/view.h"
+#include "node/wire/film.h"
+
+namespace mars::studio {
+namespace {
+
+constexpr double kLeastSide = 16, kMostSide = 4096;  // of a view, pixels
+constexpr double kMostViewsOfPage = 8;
+constexpr double kJointReach = 12;  // pixels from a joint that is picked where no surface is
+constexpr const char* kAs[] = {"stick", "vertices", "prisms", "surface"};
+constexpr const char* kHows[] = {"turn", "pan", "zoom"};
+constexpr double kMostEdit = 9e15;
+
+Json json_of(const glm::dvec3& vector) { return Json::array({vector.x, vector.y, vector.z}); }
+
+glm::dvec3 vector_in(const Json& message, const char* key) {
+  const auto found = message.find(key);
+  if (found == message.end() || !found->is_array() || found->size() != 3)
+    refuse("is no list of three numbers", key, "give x, y and z");
+  glm::dvec3 vector;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Json& number = (*found)[static_cast<std::size_t>(axis)];
+    if (!number.is_number() || !(std::abs(number.get<double>()) < 1e9)) refuse("is out of range", key, "below 1e9");
+    vector[axis] = number.get<double>();
+  }
+  return vector;
+}
+
+preview::Orbit orbit_in(const Json& orbit) {
+  return {vector_in(orbit, "center"), number_in(orbit, "turn", -1e6, 1e6), number_in(orbit, "height", -90, 90),
+          number_in(orbit, "distance", 1e-6, 1e9)};
+}
+
+// What a page has selected, by names, for the film may change under it.
+struct Named {
+  std::optional<std::string> actor, joint;
+
+  bool operator==(const Named&) const = default;
+};
+
+struct Page {
+  std::uint64_t edit = 0;
+  Named selected;
+};
+
+// A gesture under way.
+struct Gesture {
+  PageNumber page;
+  std::uint32_t view;
+  Hand hand;
+  std::optional<Json> step{};
+};
+
+class TheStage : public Stage {
+ public:
+  TheStage(Project& project, RendererLink& link, Listener listener)
+      : project_(project), link_(link), listener_(std::move(listener)), moments_(project), lines_(project, moments_) {}
+
+  void take(PageNumber page, const Json& message) override {
+    if (!message.is_object()) throw Failure("is no object", "the message", "see docs/studio-protocol.md");
+    Page& from = pages_[page];
+    if (message.contains("edit"))
+      from.edit = std::max(from.edit, static_cast<std::uint64_t>(number_in(message, "edit", 0, kMostEdit)));
+    moments_.renew();
+    const std::string what = word_in(message, "do");
+    static const std::map<std::string, void (TheStage::*)(PageNumber, const Json&)> deeds = {
+        {"view", &TheStage::view},       {"orbit", &TheStage::orbit}, {"unview", &TheStage::unview},
+        {"painted", &TheStage::painted}, {"hover", &TheStage::hover}, {"select", &TheStage::select},
+        {"grab", &TheStage::grab},       {"drag", &TheStage::drag},   {"drop", &TheStage::drop},
+        {"let_go", &TheStage::let_go}};
+    if (const auto deed = deeds.find(what); deed != deeds.end())
+      (this->*deed->second)(page, message);
+    else if (!message.contains("edit"))
+      throw Failure("is '" + what + "'", "the message's 'do'", "see docs/studio-protocol.md");
+    serve();
+  }
+
+  void page_closed(PageNumber page) override {
+    if (gesture_ && gesture_->page == page) end_gesture();
+    for (PageView& view : views_)
+      if (view.page == page) close(view);
+    views_.remove_if([&](const PageView& view) { return view.page == page; });
+    pages_.erase(page);
+    serve();
+  }
+
+  void project_changed() override { serve(); }
+
+  void take_surface(SurfacePicture picture) override {
+    PageView* const view = view_of_link(picture.view);
+    if (view == nullptr || !view->of_surfaces() || picture.picture < view->begun || picture.head.width != view->width ||
+        picture.head.height != view->height)
+      return;
+    const bool expected = view->asked && view->asked->picture == picture.picture;
+    Asked asked = expected ? std::move(*view->asked)
+                           : Asked{picture.picture, pages_[view->page].edit, !in_motion(*view), false, controls(*view)};
+    if (expected) view->asked.reset();
+    send(*view, asked, std::move(picture.rects), std::move(picture.pixels));
+    serve();
+  }
+
+  // An inbetween that was dropped is asked for again, as it is by then; a keyframe leaves no interval.
+  void surface_dropped(std::uint32_t link, std::uint32_t picture) override {
+    PageView* const view = view_of_link(link);
+    if (view == nullptr || !view->asked || view->asked->picture != picture) return;
+    if (picture == view->begun) view->interval.reset();
+    view->asked.reset();
+    view->shown.reset();
+    serve();
+  }
+
+ private:
+  // ---- messages
+
+  void view(PageNumber page, const Json& message) {
+    const auto number = static_cast<std::uint32_t>(number_in(message, "view", 0, kMostViewsOfPage - 1));
+    const auto width = static_cast<std::uint32_t>(number_in(message, "width", kLeastSide, kMostSide));
+    const auto height = static_cast<std::uint32_t>(number_in(message, "height", kLeastSide, kMostSide));
+    Eye eye{static_cast<From>(choice_in(message, "from", kFroms)), {}};
+    const LineLook look{static_cast<preview::As>(choice_in(message, "as", kAs)), flag_in(message, "hidden", false),
+                        flag_in(message, "ground", true)};
+    const Tool tool =
+        message.contains("handles") ? static_cast<Tool>(choice_in(message, "handles", kTools)) : Tool::none;
+    const bool chosen = !message.contains("orbit") || message["orbit"].is_null();
+    if (eye.from != From::camera)
+      eye.orbit =
+          chosen ? chosen_orbit(eye.from, moments_.subject(), double(width) / height) : orbit_in(message["orbit"]);
+    PageView& view = made(page, number);
+    const bool other_size = view.width != width || view.height != height;
+    if (other_size || view.look.as != look.as) restart(view, look.as);
+    if (view.look.hidden != look.hidden || view.look.ground != look.ground) view.shown.reset();
+    view.width = width;
+    view.height = height;
+    view.eye = eye;
+    view.look = look;
+    view.tool = tool;
+    view.orbiting = false;
+    if (chosen && eye.from != From::camera) tell_orbit(view);
+    if (view.sent > 0) tell_handles(view);
+  }
+
+  void orbit(PageNumber page, const Json& message) {
+    PageView& view = view_in(page, message);
+    const glm::dvec2 by = pair_in(message, "by");
+    const std::size_t how = choice_in(message, "how", kHows);
+    if (view.eye.from == From::camera)
+      view.eye = {From::free, preview::orbit_near(camera_of(view), moments_.subject())};
+    if (how == 0) turn(view.eye.orbit, by);
+    if (how == 1) pan(view.eye.orbit, by, view.height);
+    if (how == 2) zoom(view.eye.orbit, by);
+    view.orbiting = flag_in(message, "moving", false);
+    if (!view.orbiting) tell_orbit(view);
+  }
+
+  void unview(PageNumber page, const Json& message) {
+    PageView& view = view_in(page, message);
+    if (gesture_ && gesture_->page == page && gesture_->view == view.number) end_gesture();
+    close(view);
+    views_.remove_if([&](const PageView& each) { return &each == &view; });
+  }
+
+  void painted(PageNumber page, const Json& message) {
+    PageView& view = view_in(page, message);
+    const auto picture = static_cast<std::uint32_t>(number_in(message, "picture", 0, view.sent));
+    view.painted = std::max(view.painted, picture);
+  }
+
+  void select(PageNumber page, const Json& message) {
+    const auto name = [&](const char* key) -> std::optional<std::string> {
+      if (!message.contains(key) || message[key].is_null()) return std::nullopt;
+      return word_in(message, key);
+    };
+    Named named{name("actor"), name("joint")};
+    if (project_.is_model() && named.joint) named.actor = project_.film().actors[0].name;
+    const Selection found = selection_of(named);
+    if (named.actor && !found.actor) refuse("is no actor", "actor", "select one that there is");
+    if (named.joint && !found.joint) refuse("is no joint", "joint", "select one that there is");
+    select(page, std::move(named));
+  }
+
+  void hover(PageNumber page, const Json& message) {
+    PageView& view = view_in(page, message);
+    const glm::dvec2 pixel = pixel_in(message);
+    const auto handles = handles_of(project_, selection_of(page), view.tool, screen_of(view));
+    const Handle* const handle = handle_at(handles, pixel);
+    const Selection under = handle != nullptr ? selection_of(page) : pick(view, pixel).selection;
+    Json answer = {{"is", "hovered"}, {"view", view.number}};
+    put_names(under, answer);
+    answer["handle"] = handle != nullptr ? Json(handle->id) : Json(nullptr);
+    answer["text"] = text_of(under);
+    listener_.tell(page, answer);
+    const std::string hot = handle != nullptr ? handle->id : "";
+    if (hot == view.hot) return;
+    view.hot = hot;
+    tell_handles(view);
+  }
+
+  void grab(PageNumber page, const Json& message) {
+    PageView& view = view_in(page, message);
+    if (gesture_ && gesture_->page != page)
+      throw Failure("is being changed in another page", "the " + std::string(project_.is_model() ? "model" : "film"),
+                    "wait until the hand there rests");
+    if (gesture_) end_gesture();
+    const glm::dvec2 pixel = pixel_in(message);
+    const Screen screen = screen_of(view);
+    const auto handles = handles_of(project_, selection_of(page), view.tool, screen);
+    const Handle* const handle = handle_at(handles, pixel);
+    Json answer = {{"is", "grabbed"}, {"view", view.number}};
+    if (handle != nullptr) {
+      Hand hand(project_, selection_of(page), screen, pixel);
+      hand.take(*handle->grip);
+      gesture_.emplace(Gesture{page, view.number, std::move(hand)});
+      put_names(selection_of(page), answer);
+    } else {
+      const Picked picked = pick(view, pixel);
+      if (picked.selection.actor) select(page, names_of(picked.selection));
+      if (picked.hit) {
+        Hand hand(project_, picked.selection, screen, pixel);
+        if (hand.take(*picked.hit)) gesture_.emplace(Gesture{page, view.number, std::move(hand)});
+      }
+      put_names(picked.selection, answer);
+    }
+    answer["handle"] = handle != nullptr ? Json(handle->id) : Json(nullptr);
+    listener_.tell(page, answer);
+  }
+
+  void drag(PageNumber page, const Json& message) {
+    if (!gesture_ || gesture_->page != page) return;
+    const auto step = gesture_->hand.follow(pixel_in(message), has_key(message, "shift"));
+    if (!step || step == gesture_->step) return;
+    gesture_->step = step;
+    project_.preview(*step);
+  }
+
+  void drop(PageNumber page, const Json&) {
+    if (!gesture_ || gesture_->page != page) return;
+    const auto step = std::move(gesture_->step);
+    gesture_.reset();
+    if (step) project_.commit(*step);
+  }
+
+  void let_go(PageNumber page, const Json&) {
+    if (gesture_ && gesture_->page == page) end_gesture();
+  }
+
+  void end_gesture() {
+    const bool moved = gesture_->step.has_value();
+    gesture_.reset();
+    if (moved) project_.cancel();
+  }
+
+  // ---- views
+
+  PageView& view_in(PageNumber page, const Json& message) {
+    const auto number = static_cast<std::uint32_t>(number_in(message, "view", 0, kMostViewsOfPage - 1));
+    PageView* const view = view_of(page, number);
+    if (view == nullptr) refuse("is none that there is", "view", "make it first");
+    return *view;
+  }
+
+  PageView* view_of(PageNumber page, std::uint32_t number) {
+    const auto found = std::find_if(views_.begin(), views_.end(),
+                                    [&](const PageView& view) { return view.page == page && view.number == number; });
+    return found == views_.end() ? nullptr : &*found;
+  }
+
+  PageView* view_of_link(std::uint32_t link) {
+    const auto found =
+        std::find_if(views_.begin(), views_.end(), [&](const PageView& view) { return view.link == link; });
+    return found == views_.end() ? nullptr : &*found;
+  }
+
+  PageView& made(PageNumber page, std::uint32_t number) {
+    if (PageView* const known = view_of(page, number)) return *known;
+    std::uint32_t link = 0;
+    while (view_of_link(link) != nullptr) ++link;
+    if (link >= wire::kMostViews)
+      throw Failure("cannot have more than " + std::to_string(wire::kMostViews) + " views", "the studio",
+                    "close pages that nobody needs");
+    return views_.emplace_back(PageView{page, number, link});
+  }
+
+  void close(PageView& view) {
+    if (view.known) link_.close(view.link);
+    view.known = false;
+  }
+
+  void restart(PageView& view, preview::As as) {
+    if (as != preview::As::surface) close(view);
+    view.forget();
+  }
+
+  wire::Camera camera_of(const PageView& view) const {
+    const wire::FilmData& now = moments_.now();
+    const wire::Camera& own = now.cameras.front();
+    return view.eye.from == From::camera ? own : camera_from(view.eye, own.exposure);
+  }
+
+  Screen screen_of(const PageView& view) const { return {camera_of(view), view.width, view.height}; }
+
+  Json controls(const PageView& view) {
+    return described(handles_of(project_, selection_of(view.page), view.tool, screen_of(view)), view.hot);
+  }
+
+  void tell_handles(PageView& view) {
+    listener_.tell(view.page,
+                   {{"is", "handles"}, {"view", view.number}, {"picture", view.sent}, {"shapes", controls(view)}});
+  }
+
+  void tell_orbit(const PageView& view) {
+    const preview::Orbit& orbit = view.eye.orbit;
+    listener_.tell(view.page, {{"is", "orbit"},
+                               {"view", view.number},
+                               {"from", kFroms[static_cast<std::size_t>(view.eye.from)]},
+                               {"center", json_of(orbit.center)},
+                               {"turn", orbit.turn},
+                               {"height", orbit.height},
+                               {"distance", orbit.distance}});
+  }
+
+  // ---- selections
+
+  Selection selection_of(const Named& named) const {
+    Selection selection;
+    if (!named.actor) return selection;
+    const animator::Film& film = project_.film();
+    const auto actor = std::find_if(film.actors.begin(), film.actors.end(),
+                                    [&](const animator::Actor& each) { return each.name == named.actor; });
+    if (actor == film.actors.end()) return selection;
+    selection.actor = actor - film.actors.begin();
+    const auto& joints = film.models[actor->model].joints;
+    for (std::size_t joint = 0; joint < joints.size(); ++joint)
+      if (joints[joint].name == named.joint) selection.joint = joint;
+    return selection;
+  }
+
+  Selection selection_of(PageNumber page) const {
+    const auto found = pages_.find(page);
+    return found == pages_.end() ? Selection{} : selection_of(found->second.selected);
+  }
+
+  Named names_of(const Selection& selection) const {
+    Named named;
+    if (!selection.actor) return named;
+    const animator::Actor& actor = project_.film().actors[*selection.actor];
+    named.actor = actor.name;
+    if (selection.joint) named.joint = project_.film().models[actor.model].joints[*selection.joint].name;
+    return named;
+  }
+
+  void put_names(const Selection& selection, Json& message) const {
+    const Named named = names_of(selection);
+    message["actor"] = named.actor ? Json(*named.actor) : Json(nullptr);
+    message["joint"] = named.joint ? Json(*named.joint) : Json(nullptr);
+  }
+
+  void select(PageNumber page, Named named) {
+    if (pages_[page].selected == named) return;
+    pages_[page].selected = std::move(named);
+    Json message = {{"is", "selected"}};
+    put_names(selection_of(page), message);
+    listener_.tell(page, message);
+    for (PageView& view : views_)
+      if (view.page == page && view.sent > 0) tell_handles(view);
+  }
+
+  // "elbow 45, 0, 0"
+  std::string text_of(const Selection& selection) const {
+    const Named named = names_of(selection);
+    if (!named.joint) return named.actor.value_or("");
+    const auto posed = studio::posed(project_, selection);
+    std::string text = *named.joint;
+    for (int axis = 0; posed && axis < 3; ++axis)
+      if (posed->joint->limits[static_cast<std::size_t>(axis)].free())
+        text += std::string(" ") + "xyz"[axis] + " " + document::shown(std::round(posed->pose[axis] * 10) / 10);
+    return text;
+  }
+
+  struct Picked {
+    Selection selection;
+    std::optional<Hit> hit;
+  };
+
+  // The visible surface under the pixel; else the joint that is nearest on the screen.
+  Picked pick(const PageView& view, const glm::dvec2& pixel) {
+    const Screen screen = screen_of(view);
+    const auto& owners = moments_.owners();
+    const auto counts = [&](std::size_t segment) { return !project_.is_model() || owners[segment].actor == 0; };
+    if (const auto hit = first_hit(moments_, screen.ray_through(pixel), counts))
+      return {{owners[hit->segment].actor, owners[hit->segment].joint}, hit};
+    return {nearest_joint(screen, pixel), std::nullopt};
+  }
+
+  Selection nearest_joint(const Screen& screen, const glm::dvec2& pixel) const {
+    Selection nearest;
+    double least = kJointReach;
+    const std::size_t actors = project_.is_model() ? 1 : project_.film().actors.size();
+    for (std::size_t actor = 0; actor < actors; ++actor) {
+      const animator::ActorState state = animator::state_at(project_.film(), actor, project_.frame());
+      for (std::size_t joint = 0; joint < state.joints.size(); ++joint) {
+        const auto at = screen.pixel_of(state.joints[joint].place);
+        if (!at || glm::length(*at - pixel) > least) continue;
+        least = glm::length(*at - pixel);
+        nearest = {actor, joint};
+      }
+    }
+    return nearest;
+  }
+
+  // ---- pictures
+
+  bool in_motion(const PageView& view) const { return gesture_ || project_.in_gesture() || view.orbiting; }
+
+  bool hand_is_in(const PageView& view) const {
+    return view.orbiting || (gesture_ && gesture_->page == view.page && gesture_->view == view.number);
+  }
+
+  // Asks for all that is due and has room. Callbacks of the link may come while it does.
+  void serve() {
+    if (serving_) {
+      again_ = true;
+      return;
+    }
+    serving_ = true;
+    do {
+      again_ = false;
+      follow_film();
+      if (moments_.film_number() > 0) serve_views();
+    } while (again_);
+    serving_ = false;
+  }
+
+  void follow_film() {
+    moments_.renew();
+    if (moments_.problem() != told_problem_) {
+      told_problem_ = moments_.problem();
+      if (!told_problem_.empty()) listener_.tell(kAllPages, {{"is", "said"}, {"text", told_problem_}});
+    }
+    if (moments_.film_number() == film_number_) return;
+    film_number_ = moments_.film_number();
+    link_.set_film(moments_.film_block());
+    for (PageView& view : views_) {
+      view.known = false;
+      view.forget();
+    }
+  }
+
+  // The view under the hand first; of the others, while it moves, one at a time.
+  void serve_views() {
+    const auto hand = std::find_if(views_.begin(), views_.end(), [&](const PageView& v) { return hand_is_in(v); });
+    if (hand != views_.end()) advance(*hand);
+    for (PageView& view : views_) {
+      if (hand != views_.end() && &view == &*hand) continue;
+      if (hand != views_.end() && view.of_surfaces() && other_is_asked(*hand)) continue;
+      advance(view);
+    }
+    // Who waited longest comes first.
+    if (hand != views_.end() && views_.size() > 2) {
+      const auto first = std::find_if(views_.begin(), views_.end(),
+                                      [&](const PageView& v) { return &v != &*hand && v.asked.has_value(); });
+      if (first != views_.end()) views_.splice(views_.end(), views_, first);
+    }
+  }
+
+  bool other_is_asked(const PageView& hand) const {
+    return std::any_of(views_.begin(), views_.end(),
+                       [&](const PageView& view) { return &view != &hand && view.asked.has_value(); });
+  }
+
+  void advance(PageView& view) {
+    if (!view.has_room()) return;
+    const Shown now{moments_.number(), camera_of(view)};
+    view.of_surfaces() ? advance_surface(view, now) : advance_lines(view, now);
+  }
+
+  void advance_lines(PageView& view, const Shown& now) {
+    const bool rests = !in_motion(view);
+    if (view.shown == now && (view.rested || !rests)) return;
+    if (!view.drawing || view.drawing->image().width != view.width || view.drawing->image().height != view.height)
+      view.drawing.emplace(view.width, view.height);
+    if (view.shown != now) lines_.draw(view.look, now.camera, *view.drawing);
+    const images::Image& image = view.drawing->image();
+    std::vector<serve::Rect> rects = changed_rects(view.drawn, image);
+    std::vector<std::uint32_t> pixels = pixels_in(image, rects);
+    view.drawn = image;
+    view.shown = now;
+    send(view, {0, pages_[view.page].edit, rests, false, controls(view)}, std::move(rects), std::move(pixels));
+  }
+
+  void advance_surface(PageView& view, const Shown& now) {
+    const bool rests = !in_motion(view);
+    if (view.asked) {
+      // A hand does not wait for a picture that shows what stood still before it came.
+      if (rests || !view.asked->rests || view.shown == now) return;
+      view.interval.reset();
+      view.asked.reset();
+    }
+    if (view.shown != now && !looks_the_same(view, now)) return ask(view, now, rests);
+    if (!rests) return;
+    if (is_own(view) && !is_exact(view) && moments_.own_moving()) return ask(view, now, rests);
+    if (!view.rested) send(view, {0, pages_[view.page].edit, true, is_exact(view), controls(view)}, {}, {});
+  }
+
+  // What changed may be seen in controls alone.
+  bool looks_the_same(PageView& view, const Shown& now) {
+    if (!view.interval || !same_picture(view.scene, scene_of(view, now))) return false;
+    view.shown = now;
+    if (view.rested) tell_handles(view);
+    return true;
+  }
+
+  // Whether it shows what `mars render` would.
+  bool is_own(const PageView& view) const {
+    const wire::FilmSettings& settings = moments_.now().settings;
+    return view.eye.from == From::camera && view.width == settings.width && view.height == settings.height;
+  }
+
+  bool is_exact(const PageView& view) {
+    if (!is_own(view) || !view.interval) return false;
+    const auto own = moments_.own_moving();
+    return own && std::equal(own->begin(), own->end(), view.interval->moving().begin(), view.interval->moving().end());
+  }
+
+  wire::FilmData scene_of(const PageView& view, const Shown& now) const {
+    wire::FilmData scene = moments_.now();
+    scene.cameras = {now.camera};
+    scene.settings.width = view.width;
+    scene.settings.height = view.height;
+    return scene;
+  }
+
+  // Why a picture that rests must have the film's own interval: docs/exactness.md, "Where intervals are cut".
+  void ask(PageView& view, const Shown& now, bool rests) {
+    wire::FilmData scene = scene_of(view, now);
+    const bool exact = rests && is_own(view) && moments_.own_moving().has_value();
+    Asked asked{++picture_, pages_[view.page].edit, rests, exact, controls(view)};
+    view.shown = now;
+    const std::uint32_t picture = picture_;
+    if (const auto moved = inbetween(view, scene, exact)) {
+      view.asked = std::move(asked);
+      view.scene = std::move(scene);
+      view.moved = view.moved || !rests;
+      link_.draw(view.link, picture, moved->segments, moved->patches);
+      return;
+    }
+    scene.moving = moving_of(view, scene, exact);
+    scene.intervals = {{0, 1, 0, static_cast<std::uint32_t>(scene.moving.size())}};
+    std::vector<std::byte> block = wire::pack(scene);
+    view.scene = scene;
+    view.interval.emplace(std::move(scene));
+    view.begun = picture;
+    view.moved = !rests;
+    view.known = true;
+    view.asked = std::move(asked);
+    link_.begin(view.link, picture, std::move(block));
+  }
+
+  // What an inbetween must move; none: a new interval begins.
+  std::optional<Moved> inbetween(PageView& view, const wire::FilmData& scene, bool exact) {
+    if (!view.interval || (exact && !is_exact(view))) return std::nullopt;
+    if (view.interval->alone() && !exact) return std::nullopt;
+    auto moved = view.interval->moved_to(scene);
+    if (!moved || !view.interval->holds(*moved)) return std::nullopt;
+    return moved;
+  }
+
+  // What changes now, and what did since something is in motion.
+  std::vector<std::uint32_t> moving_of(PageView& view, const wire::FilmData& scene, bool exact) {
+    if (exact) {
+      const auto own = *moments_.own_moving();
+      return {own.begin(), own.end()};
+    }
+    if (!view.interval) return {};
+    std::vector<std::uint32_t> changed = changed_segments(view.scene, scene);
+    if (view.moved && !view.interval->alone() && view.scene.segments.size() == scene.segments.size())
+      return joined(changed, view.interval->moving());
+    return changed;
+  }
+
+  void send(PageView& view, const Asked& asked, std::vector<serve::Rect> rects, std::vector<std::uint32_t> pixels) {
+    view.rested = asked.rests;
+    ViewPicture picture;
+    picture.page = view.page;
+    picture.view = view.number;
+    picture.picture = ++view.sent;
+    picture.edit = asked.edit;
+    picture.width = static_cast<std::uint16_t>(view.width);
+    picture.height = static_cast<std::uint16_t>(view.height);
+    picture.rests = asked.rests;
+    picture.exact = asked.exact;
+    picture.rects = std::move(rects);
+    picture.pixels = std::move(pixels);
+    picture.handles = asked.handles;
+    listener_.picture(std::move(picture));
+  }
+
+  Project& project_;
+  RendererLink& link_;
+  Listener listener_;
+  Moments moments_;
+  LinePictures lines_;
+  std::map<PageNumber, Page> pages_;
+  std::list<PageView> views_;
+  std::optional<Gesture> gesture_;
+  std::uint32_t picture_ = 0;  // of all views, at the renderer
+  std::uint64_t film_number_ = 0;
+  std::string told_problem_;
+  bool serving_ = false, again_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Stage> make_stage(Project& project, RendererLink& link, Stage::Listener listener) {
+  return std::make_unique<TheStage>(project, link, std::move(listener));
+}
+
+}  // namespace mars::studio

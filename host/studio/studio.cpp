@@ -1,0 +1,127 @@
+#include "host/studio/studio.h"
+
+#include <array>
+#include <utility>
+
+#include "hal/failure/explain.h"
+
+namespace mars::studio {
+namespace {
+
+std::uint32_t frame_in(const Json& message) {
+  const Json& frame = message.at("frame");
+  if (!frame.is_number_unsigned() || frame.get<std::uint64_t>() >= wire::kMostFrames)
+    throw Failure(frame.dump() + " is no frame", "", "");
+  return frame.get<std::uint32_t>();
+}
+
+struct Step {
+  const char* name;
+  void (*take)(Project&, const Json&);
+};
+
+constexpr std::array<Step, 6> kSteps{{
+    {"preview", [](Project& project, const Json& message) { project.preview(message.at("step")); }},
+    {"commit", [](Project& project, const Json& message) { project.commit(message.at("step")); }},
+    {"cancel", [](Project& project, const Json&) { project.cancel(); }},
+    {"undo", [](Project& project, const Json&) { project.undo(); }},
+    {"redo", [](Project& project, const Json&) { project.redo(); }},
+    {"frame", [](Project& project, const Json& message) { project.set_frame(frame_in(message)); }},
+}};
+
+}  // namespace
+
+Studio::Studio(Parts parts, web::Pages& pages) : pages_(pages), project_(std::move(parts.project)) {
+  link_ = parts.make_link(link_listener());
+  stage_ = parts.make_stage(*project_, *link_,
+                            {[this](ViewPicture picture) { pages_.show(std::move(picture)); },
+                             [this](PageNumber page, const Json& message) { pages_.tell(page, message); }});
+}
+
+RendererLink::Listener Studio::link_listener() {
+  return {.picture = [this](SurfacePicture picture) { stage_->take_surface(std::move(picture)); },
+          .dropped = [this](std::uint32_t view, std::uint32_t picture) { stage_->surface_dropped(view, picture); },
+          .ready =
+              [this](std::uint32_t nodes, std::uint32_t machines) {
+                nodes_ = nodes;
+                machines_ = machines;
+                tell_state(Stage::kAllPages);
+              },
+          .state =
+              [this](const std::string& trouble) {
+                trouble_ = trouble;
+                tell_state(Stage::kAllPages);
+              }};
+}
+
+void Studio::tell_state(PageNumber page) {
+  pages_.tell(page, {{"is", "state"}, {"renderer", trouble_}, {"nodes", nodes_}, {"machines", machines_}});
+}
+
+void Studio::page_opened(PageNumber page) {
+  pages_.tell(page, project_->describe());
+  tell_state(page);
+}
+
+void Studio::page_said(PageNumber page, const Json& message) {
+  const Shown before = shown();
+  bool step_done = false;
+  try {
+    step_done = obey(page, message);
+  } catch (const Failure& failure) {
+    refuse(page, message, reason_of(failure));
+  } catch (const Json::exception&) {
+    refuse(page, message, "something is missing in it, or is of another kind: see docs/studio-protocol.md");
+  }
+  if (project_->in_gesture() && shown() != before) gesture_of_ = page;
+  announce(before, step_done);
+}
+
+// Whether the history may be another.
+bool Studio::obey(PageNumber page, const Json& message) {
+  const bool is_step = obey_step(message);
+  stage_->take(page, message);
+  return is_step && message["do"] != "preview";
+}
+
+// False: it is not for the project.
+bool Studio::obey_step(const Json& message) {
+  for (const Step& step : kSteps) {
+    if (message["do"] != step.name) continue;
+    step.take(*project_, message);
+    return true;
+  }
+  return false;
+}
+
+void Studio::refuse(PageNumber page, const Json& message, const std::string& why) {
+  pages_.tell(page, {{"is", "refused"}, {"text", why}, {"do", message["do"]}});
+}
+
+void Studio::page_closed(PageNumber page) {
+  const Shown before = shown();
+  stage_->page_closed(page);
+  if (gesture_of_ == page && project_->in_gesture()) project_->cancel();
+  announce(before, false);
+}
+
+void Studio::look_at_files() {
+  const Shown before = shown();
+  announce(before, project_->look_at_files());
+}
+
+Studio::Shown Studio::shown() const {
+  const auto& problem = project_->problem();
+  return {project_->revision(), project_->frame(), project_->in_gesture(), problem ? problem->text : ""};
+}
+
+// Gestures tell poses only; their end, and whatever else happens, tells all.
+void Studio::announce(const Shown& before, bool step_done) {
+  const Shown now = shown();
+  if (!step_done && now == before) return;
+  if (!now.in_gesture) gesture_of_.reset();
+  pages_.tell(Stage::kAllPages, now.in_gesture && !step_done ? project_->describe_poses() : project_->describe());
+  if (now.revision != before.revision || now.frame != before.frame) stage_->project_changed();
+}
+
+}  // namespace mars::studio

@@ -1,0 +1,62 @@
+// The studio: one project, seen and worked on by pages. Pages' messages become steps of the project and work of the
+// stage; what changes is told to all pages. It has no thread: whoever runs it calls it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "host/studio/web/pages.h"
+
+namespace mars::studio {
+
+// What the studio is made of; tests give others.
+struct Parts {
+  std::unique_ptr<Project> project;
+  std::function<std::unique_ptr<RendererLink>(RendererLink::Listener)> make_link;
+  std::function<std::unique_ptr<Stage>(Project&, RendererLink&, Stage::Listener)> make_stage;
+};
+
+class Studio {
+ public:
+  // `pages` must outlive it.
+  Studio(Parts parts, web::Pages& pages);
+
+  void page_opened(PageNumber page);
+  // Answers what makes no sense with `refused`.
+  void page_said(PageNumber page, const Json& message);
+  void page_closed(PageNumber page);
+  // Somebody else may have changed the files; called a few times a second.
+  void look_at_files();
+
+ private:
+  // What pages are told of when it changes.
+  struct Shown {
+    std::uint64_t revision;
+    std::uint32_t frame;
+    bool in_gesture;
+    std::string problem;
+
+    bool operator==(const Shown&) const = default;
+  };
+
+  Shown shown() const;
+  bool obey(PageNumber page, const Json& message);
+  bool obey_step(const Json& message);
+  void announce(const Shown& before, bool step_done);
+  void refuse(PageNumber page, const Json& message, const std::string& why);
+  RendererLink::Listener link_listener();
+  void tell_state(PageNumber page);
+
+  web::Pages& pages_;
+  std::unique_ptr<Project> project_;
+  std::unique_ptr<RendererLink> link_;
+  std::unique_ptr<Stage> stage_;
+  std::optional<PageNumber> gesture_of_;
+  std::string trouble_;  // the renderer's
+  std::uint32_t nodes_ = 0, machines_ = 0;
+};
+
+}  // namespace mars::studio

@@ -1,0 +1,143 @@
+#include "host/studio/web/connection.h"
+
+#include <boost/asio/ssl/stream.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket/rfc6455.hpp>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include "host/studio/web/page_files.h"
+#include "host/studio/web/streams.h"
+
+namespace mars::web {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+
+constexpr std::uint32_t kMostHeader = 8192;  // bytes
+
+std::string_view view_of(boost::beast::string_view text) { return {text.data(), text.size()}; }
+
+Request request_of(const HttpRequest& request) {
+  return {view_of(request.method_string()), view_of(request.target()), view_of(request[http::field::host]),
+          view_of(request[http::field::origin]), view_of(request[http::field::if_none_match])};
+}
+
+// Requests one after another, until one asks for a WebSocket.
+template <typename Stream>
+class Visit final : public std::enable_shared_from_this<Visit<Stream>> {
+ public:
+  Visit(Stream stream, Site& site, std::shared_ptr<void> counted)
+      : stream_(std::move(stream)), site_(site), counted_(std::move(counted)) {}
+
+  void begin() {
+    if constexpr (std::is_same_v<Stream, Tls>) {
+      beast::get_lowest_layer(stream_).expires_after(kPatience);
+      stream_.async_handshake(asio::ssl::stream_base::server, [self = this->shared_from_this()](Error error) {
+        if (!error) self->read();
+      });
+    } else {
+      read();
+    }
+  }
+
+ private:
+  void read() {
+    parser_.emplace();
+    parser_->header_limit(kMostHeader);
+    parser_->body_limit(0);
+    beast::get_lowest_layer(stream_).expires_after(kPatience);
+    http::async_read_header(stream_, buffer_, *parser_, [self = this->shared_from_this()](Error error, std::size_t) {
+      if (error == http::error::end_of_stream) return self->end();
+      if (error == http::error::header_limit) return self->refuse({431, "The request's header is too long.\n"});
+      if (error.category() == make_error_code(http::error::bad_method).category())
+        return self->refuse({400, "This is no request.\n"});
+      if (!error) self->take();
+    });
+  }
+
+  void take() {
+    const HttpRequest& request = parser_->get();
+    const Request asked = request_of(request);
+    if (const Refusal refusal = site_.gate().check(asked); refusal.status != 0) return refuse(refusal);
+    if (!parser_->is_done()) return refuse({413, "A request has no body here.\n"});
+    if (path_of(asked.target) != "/ws")
+      return write(answer_file(site_.folder(), path_of(asked.target), asked.known), request.keep_alive());
+    if (!beast::websocket::is_upgrade(request)) return refuse({426, "This is for the page's WebSocket.\n"});
+    if (const Refusal refusal = site_.gate().check_socket(asked); refusal.status != 0) return refuse(refusal);
+    if (!site_.has_room()) return refuse({503, "The studio has no room for another page.\n"});
+    serve_page(std::move(stream_), request, site_, std::move(counted_));
+  }
+
+  void refuse(const Refusal& refusal) {
+    Answer answer;
+    answer.status = refusal.status;
+    answer.body = refusal.text;
+    write(std::move(answer), false);
+  }
+
+  void write(Answer answer, bool keep_alive) {
+    const HttpRequest& request = parser_->get();
+    answer_ = {};
+    answer_.result(answer.status);
+    set_headers(answer, view_of(request[http::field::host]));
+    answer_.keep_alive(keep_alive);
+    answer_.body() = std::move(answer.body);
+    answer_.prepare_payload();
+    if (request.method() == http::verb::head) answer_.body().clear();  // its length is told
+    beast::get_lowest_layer(stream_).expires_after(kPatience);
+    http::async_write(stream_, answer_, [self = this->shared_from_this(), keep_alive](Error error, std::size_t) {
+      if (error || !keep_alive) return self->end();
+      self->read();
+    });
+  }
+
+  // The page loads nothing from elsewhere, runs no text as a program, and is in no other site's frame.
+  void set_headers(const Answer& answer, std::string_view host) {
+    answer_.set(http::field::content_type, answer.type);
+    answer_.set(http::field::cache_control, "no-cache");
+    if (!answer.tag.empty()) answer_.set(http::field::etag, answer.tag);
+    if (answer.status == 405) answer_.set(http::field::allow, "GET, HEAD");
+    if (answer.status == 426) answer_.set(http::field::upgrade, "websocket");
+    std::string sources =
+        "default-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'; "
+        "object-src 'none'";
+    if (answer.status < 400)  // then the host is ours
+      sources += std::string("; connect-src 'self' ") + site_.gate().socket_scheme() + "://" + std::string(host);
+    answer_.set("Content-Security-Policy", sources);
+    answer_.set("Cross-Origin-Opener-Policy", "same-origin");
+    answer_.set("Cross-Origin-Resource-Policy", "same-origin");
+    answer_.set("Referrer-Policy", "no-referrer");
+    answer_.set("X-Content-Type-Options", "nosniff");
+    answer_.set("X-Frame-Options", "DENY");
+  }
+
+  void end() {
+    Error ignored;
+    beast::get_lowest_layer(stream_).socket().shutdown(asio::ip::tcp::socket::shutdown_send, ignored);
+  }
+
+  Stream stream_;
+  Site& site_;
+  std::shared_ptr<void> counted_;
+  beast::flat_buffer buffer_{2 * kMostHeader};
+  std::optional<http::request_parser<http::empty_body>> parser_;
+  http::response<http::string_body> answer_;
+};
+
+}  // namespace
+
+void serve_connection(asio::ip::tcp::socket socket, asio::ssl::context* tls, Site& site,
+                      std::shared_ptr<void> counted) {
+  Plain stream(std::move(socket));
+  if (tls == nullptr)
+    std::make_shared<Visit<Plain>>(std::move(stream), site, std::move(counted))->begin();
+  else
+    std::make_shared<Visit<Tls>>(Tls(std::move(stream), *tls), site, std::move(counted))->begin();
+}
+
+}  // namespace mars::web

@@ -1,0 +1,154 @@
+#include "host/studio/web/server.h"
+
+#include <unistd.h>
+
+#include <array>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <chrono>
+#include <map>
+#include <utility>
+
+#include "hal/failure/failure.h"
+#include "host/studio/web/connection.h"
+#include "host/studio/web/tls.h"
+#include "host/studio/web/token.h"
+
+namespace mars::web {
+namespace {
+
+namespace asio = boost::asio;
+using asio::ip::tcp;
+using Error = boost::system::error_code;
+
+constexpr std::size_t kMostPages = 16;
+constexpr int kMostConnections = 64;
+constexpr std::chrono::milliseconds kNoDescriptors{200};  // until accepting is tried again
+
+std::string own_name() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "localhost";
+}
+
+asio::ip::address address_of(const std::string& text) {
+  Error problem;
+  const asio::ip::address address = asio::ip::make_address(text, problem);
+  if (problem)
+    throw Failure("'" + text + "' is no address", "", "give --listen an address of this machine, as 0.0.0.0");
+  return address;
+}
+
+tcp::acceptor listen(asio::io_context& context, const tcp::endpoint& at) {
+  tcp::acceptor acceptor(context, at.protocol());
+  acceptor.set_option(asio::socket_base::reuse_address(true));
+  acceptor.bind(at);
+  acceptor.listen();
+  return acceptor;
+}
+
+tcp::acceptor listen(asio::io_context& context, const ServerSettings& settings) {
+  const asio::ip::address address = address_of(settings.address);
+  try {
+    return listen(context, {address, settings.port});
+  } catch (const boost::system::system_error& error) {
+    const bool taken = error.code() == asio::error::address_in_use;
+    if (taken && settings.may_choose) return listen(context, {address, 0});
+    throw Failure("the studio cannot listen: " + error.code().message(),
+                  settings.address + ", port " + std::to_string(settings.port),
+                  taken ? "give another --port, or leave it out" : "give another --port or --listen");
+  }
+}
+
+class TcpServer final : public Server, private Site {
+ public:
+  TcpServer(asio::io_context& context, const ServerSettings& settings, PageListener listener)
+      : folder_(settings.folder),
+        listener_(std::move(listener)),
+        tls_(settings.certificate.empty() ? nullptr : make_tls(settings.certificate, settings.key)),
+        gate_(make_token(), tls_ != nullptr, {own_name()}),
+        acceptor_(listen(context, settings)),
+        pause_(context) {
+    accept();
+  }
+
+  std::string link() const override {
+    const tcp::endpoint at = acceptor_.local_endpoint();
+    std::string name = at.address().is_unspecified() ? own_name() : at.address().to_string();
+    if (at.address().is_v6() && !at.address().is_unspecified()) name = "[" + name + "]";
+    return std::string(gate_.scheme()) + "://" + name + ":" + std::to_string(at.port()) + "/?token=" + gate_.token();
+  }
+
+  void close() override {
+    acceptor_.close();
+    pause_.cancel();
+    for (const auto& [number, page] : pages_) page->close();
+  }
+
+  void tell(PageNumber number, const Json& message) override {
+    for (const auto& [each, page] : pages_)
+      if (each == number || number == studio::Stage::kAllPages) page->tell(message);
+  }
+
+  void show(studio::ViewPicture picture) override {
+    const auto page = pages_.find(picture.page);
+    if (page != pages_.end()) page->second->show(std::move(picture));
+  }
+
+ private:
+  const Gate& gate() const override { return gate_; }
+  const std::filesystem::path& folder() const override { return folder_; }
+  bool has_room() const override { return pages_.size() < kMostPages; }
+
+  PageNumber enter(std::shared_ptr<PageSocket> page) override {
+    const PageNumber number = ++last_page_;
+    pages_.emplace(number, std::move(page));
+    listener_.opened(number);
+    return number;
+  }
+
+  void said(PageNumber page, const Json& message) override { listener_.said(page, message); }
+
+  void left(PageNumber page) override {
+    pages_.erase(page);
+    listener_.closed(page);
+  }
+
+  void accept() {
+    acceptor_.async_accept([this](Error error, tcp::socket socket) {
+      if (!acceptor_.is_open()) return;
+      if (error) return accept_later();
+      if (connections_.use_count() <= kMostConnections) {
+        socket.set_option(tcp::no_delay(true), error);
+        serve_connection(std::move(socket), tls_.get(), *this, connections_);
+      }
+      accept();
+    });
+  }
+
+  // Descriptors ran out, most likely: others may end.
+  void accept_later() {
+    pause_.expires_after(kNoDescriptors);
+    pause_.async_wait([this](Error error) {
+      if (!error) accept();
+    });
+  }
+
+  std::filesystem::path folder_;
+  PageListener listener_;
+  std::unique_ptr<asio::ssl::context> tls_;
+  Gate gate_;
+  tcp::acceptor acceptor_;
+  asio::steady_timer pause_;
+  std::map<PageNumber, std::shared_ptr<PageSocket>> pages_;
+  PageNumber last_page_ = 0;
+  std::shared_ptr<void> connections_ = std::make_shared<int>();  // counted by those who share it
+};
+
+}  // namespace
+
+std::unique_ptr<Server> make_server(asio::io_context& context, const ServerSettings& settings, PageListener listener) {
+  return std::make_unique<TcpServer>(context, settings, std::move(listener));
+}
+
+}  // namespace mars::web

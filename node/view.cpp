@@ -1,0 +1,22 @@
+#include "node/view.h"
+
+#include <cstddef>
+
+namespace mars::node {
+
+View::View(const wire::FilmView& film, const raster::Neighbours& neighbours, std::uint64_t still_memory,
+           simd::InstructionSet set)
+    : scene(film),
+      z_buffer(set, film.settings().width, scene.pattern()),
+      still(neighbours, film.settings().width, film.settings().height, scene.pattern(), still_memory),
+      sums(film.settings().height),
+      triangle_exchange(static_cast<std::size_t>(neighbours.group().count), film.settings().height),
+      still_exchange(neighbours, film.settings().samples, film.settings().height),
+      contributes(static_cast<std::size_t>(neighbours.group().count)),
+      line_loads(film.settings().height),
+      line_totals(film.settings().height + 1),
+      awaited(film.settings().height),
+      wanted_lines(film.settings().height),
+      wanted_still_lines(film.settings().height) {}
+
+}  // namespace mars::node

@@ -1,0 +1,41 @@
+// What a node has of one view: a scene, and all that is of the size of its pictures. A film's frames are one view.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "node/geometry/scene.h"
+#include "node/group/exchange.h"
+#include "node/group/group_sums.h"
+#include "node/group/still_exchange.h"
+#include "node/raster/neighbours.h"
+#include "node/raster/scanline.h"
+#include "node/raster/still_lines.h"
+
+namespace mars::node {
+
+struct View {
+  // The film's block, or a scene's, and `neighbours` outlive it. `still_memory` as in Load. Collective over a machine's
+  // nodes.
+  View(const wire::FilmView& film, const raster::Neighbours& neighbours, std::uint64_t still_memory,
+       simd::InstructionSet set);
+
+  geometry::Scene scene;
+  raster::ZBuffer z_buffer;
+  raster::StillLines still;
+  group::GroupSums sums;
+  group::TriangleExchange triangle_exchange;
+  group::StillExchange still_exchange;
+
+  // Of the current interval.
+  std::vector<std::uint8_t> contributes;  // 1: the node draws inbetweens; by nodes of the group
+
+  // Of the current frame, by line.
+  std::vector<raster::LineLoad> line_loads;      // of own triangles
+  std::vector<std::uint64_t> line_totals;        // of their edge boxes, before each line and at the end
+  std::vector<std::uint64_t> awaited;            // edge boxes of other nodes that are to come
+  std::vector<std::uint8_t> wanted_lines;        // in the current pass
+  std::vector<std::uint8_t> wanted_still_lines;  // likewise, of stationary parts in an inbetween
+};
+
+}  // namespace mars::node

@@ -1,0 +1,141 @@
+// A project, a stage and a renderer's link that do as little as the studio can do with.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hal/failure/failure.h"
+#include "host/studio/studio.h"
+
+namespace mars::test {
+
+using studio::Json;
+using studio::PageNumber;
+
+// Steps are {"set": TEXT}; "bad" makes no sense.
+class FakeProject final : public studio::Project {
+ public:
+  bool is_model() const override { return true; }
+  const animator::Film& film() const override { return film_; }
+  std::uint64_t revision() const override { return revision_; }
+  std::uint64_t shapes_revision() const override { return 1; }
+  std::optional<Pulled> pulled() const override { return {}; }
+  std::uint32_t frame() const override { return frame_; }
+  void set_frame(std::uint32_t frame) override { frame_ = frame; }
+
+  void preview(const Json& step) override {
+    show(step);
+    in_gesture_ = true;
+  }
+  void commit(const Json& step) override {
+    show(step);
+    in_gesture_ = false;
+    written.push_back(shown_);
+  }
+  void cancel() override {
+    in_gesture_ = false;
+    shown_ = "cancelled";
+    ++revision_;
+  }
+  bool in_gesture() const override { return in_gesture_; }
+  void undo() override { show({{"set", "undone"}}); }
+  void redo() override { show({{"set", "redone"}}); }
+
+  bool look_at_files() override {
+    const bool changed = std::exchange(outside_change, false);
+    if (changed) ++revision_;
+    return changed;
+  }
+  const std::optional<studio::Problem>& problem() const override { return problem_; }
+  Json describe() const override { return {{"is", "project"}, {"shown", shown_}, {"frame", frame_}}; }
+  Json describe_poses() const override { return {{"is", "poses"}, {"shown", shown_}}; }
+
+  bool outside_change = false;
+  std::vector<std::string> written;
+
+ private:
+  void show(const Json& step) {
+    const std::string text = step.at("set").get<std::string>();
+    if (text == "bad") throw Failure("the step makes no sense", "joint 'arm'", "");
+    shown_ = text;
+    ++revision_;
+  }
+
+  animator::Film film_;
+  std::uint64_t revision_ = 1;
+  std::uint32_t frame_ = 0;
+  bool in_gesture_ = false;
+  std::string shown_ = "nothing";
+  std::optional<studio::Problem> problem_;
+};
+
+class FakeLink final : public studio::RendererLink {
+ public:
+  void set_film(std::shared_ptr<const std::vector<std::byte>>) override {}
+  void begin(std::uint32_t, std::uint32_t, std::vector<std::byte>) override {}
+  void draw(std::uint32_t, std::uint32_t, std::span<const wire::MovedSegment>,
+            std::span<const wire::MovedPatch>) override {}
+  void close(std::uint32_t) override {}
+};
+
+// A view shows a picture when it is made ("view") and whenever its eye moves ("orbit"): a pattern that its number
+// changes. "painted" is said back.
+class FakeStage final : public studio::Stage {
+ public:
+  explicit FakeStage(Listener listener) : listener_(std::move(listener)) {}
+
+  void take(PageNumber page, const Json& message) override {
+    const std::string what = message.at("do");
+    if (message.contains("step") || what == "undo" || what == "redo" || what == "frame" || what == "cancel") {
+      last_edit = message.value("edit", std::uint64_t{0});
+    } else if (what == "view") {
+      width_ = message.at("width");
+      height_ = message.at("height");
+      show(page, message, true);
+    } else if (what == "orbit") {
+      show(page, message, !message.value("moving", false));
+    } else if (what == "painted") {
+      listener_.tell(page, {{"is", "said"}, {"text", "painted " + message.at("picture").dump()}});
+    } else if (what != "unview") {
+      throw Failure("'" + what + "' is unknown", "", "");
+    }
+  }
+  void page_closed(PageNumber page) override { closed.push_back(page); }
+  void project_changed() override { ++changes; }
+  void take_surface(studio::SurfacePicture) override {}
+  void surface_dropped(std::uint32_t, std::uint32_t) override {}
+
+  std::vector<PageNumber> closed;
+  std::uint64_t last_edit = 0;
+  int changes = 0;
+
+  static std::uint32_t pixel(std::uint32_t x, std::uint32_t y, std::uint32_t picture) {
+    return 0xff000000u | ((x / 8 + picture) & 255) | ((y / 8) & 255) << 8 | 40 << 16;
+  }
+
+ private:
+  void show(PageNumber page, const Json& message, bool rests) {
+    studio::ViewPicture picture;
+    picture.page = page;
+    picture.view = message.at("view");
+    picture.picture = ++pictures_;
+    picture.edit = message.value("edit", std::uint64_t{0});
+    picture.width = width_;
+    picture.height = height_;
+    picture.rests = rests;
+    picture.rects = {{0, 0, width_, height_}};
+    for (std::uint32_t y = 0; y < height_; ++y)
+      for (std::uint32_t x = 0; x < width_; ++x) picture.pixels.push_back(pixel(x, y, picture.picture));
+    picture.handles = Json::array({{{"id", 1}, {"kind", "point"}}});
+    listener_.picture(std::move(picture));
+  }
+
+  Listener listener_;
+  std::uint16_t width_ = 0, height_ = 0;
+  std::uint32_t pictures_ = 0;
+};
+
+}  // namespace mars::test

@@ -1,0 +1,174 @@
+"""A studio for tests of the page: it serves the page's files, speaks docs/studio-protocol.md, notes what it hears, and
+answers with pictures of plain colours. It takes Debian's python3-websockets."""
+
+import asyncio
+import base64
+import http
+import json
+import mimetypes
+import pathlib
+import struct
+import threading
+import urllib.parse
+import zlib
+
+import websockets
+
+ROOT = pathlib.Path(__file__).resolve().parents[4]
+PAGE = ROOT / "host/studio/page"
+POLICY = "default-src 'self'"
+TOKEN = "open-sesame"
+RAW, DEFLATE, JPEG = 0, 1, 2
+ANSWERED_BY_PICTURES = ("orbit", "preview", "drag", "frame", "commit", "drop")
+
+
+def picture(view, number, edit, width, height, rects, pixels, encoding=RAW, flags=3):
+    """A binary message; `pixels` are those of the rectangles in turn, or an encoded picture."""
+    head = struct.pack("<IIIQHHHHI", 0x5352414D, view, number, edit, width, height, encoding, flags, len(rects))
+    body = b"".join(struct.pack("<4H", *rect) for rect in rects)
+    return head + body + (zlib.compress(pixels, 1) if encoding == DEFLATE else pixels)
+
+
+def plain(width, height, color):
+    return bytes((*color, 255)) * (width * height)
+
+
+class MockStudio:
+    def __init__(self, project, draw=None):
+        self.project = project
+        self.draw = draw or (lambda asked: plain(asked["width"], asked["height"], (40 + 30 * asked["view"], 60, 80)))
+        self.there = lambda grab: {"joint": None, "handle": None}  # what a grab finds
+        self.heard = []
+        self.views = {}
+        self.numbers = {}
+        self.sockets = set()
+        self.news = threading.Condition()
+        self.loop = asyncio.new_event_loop()
+
+    # A test's side.
+
+    def start(self, port=0):
+        started = threading.Event()
+        threading.Thread(target=self._run, args=(port, started), daemon=True).start()
+        started.wait(5)
+        return self
+
+    def stop(self):
+        async def end():
+            self.server.close()
+            await self.server.wait_closed()
+        asyncio.run_coroutine_threadsafe(end(), self.loop).result(5)
+        self.loop.call_soon_threadsafe(self.loop.stop)
+
+    @property
+    def link(self):
+        return f"http://127.0.0.1:{self.port}/?token={TOKEN}"
+
+    def forget(self):
+        with self.news:
+            self.heard.clear()
+
+    def wait_for(self, does, count=1, seconds=5, **parts):
+        """The first messages that do this and have these parts; fails where they do not come."""
+        def found():
+            return [each for each in self.heard if each.get("do") == does and parts.items() <= each.items()]
+        with self.news:
+            if not self.news.wait_for(lambda: len(found()) >= count, seconds):
+                raise AssertionError(f"no message {does} with {parts} among {self.heard[-12:]}")
+            return found()[-1]
+
+    def tell(self, message):
+        asyncio.run_coroutine_threadsafe(self._tell(message), self.loop).result(5)
+
+    # Rectangles of a view, whose picture they follow.
+    def show(self, view, rects, pixels, edit=0, encoding=RAW, size=None):
+        self.numbers[view] = self.numbers.get(view, 0) + 1
+        width, height = size or (self.views[view]["width"], self.views[view]["height"])
+        self.tell(picture(view, self.numbers[view], edit, width, height, rects, pixels, encoding))
+        return self.numbers[view]
+
+    # A studio's side.
+
+    def _run(self, port, started):
+        asyncio.set_event_loop(self.loop)
+
+        async def serve():
+            self.server = await websockets.serve(self._page, "127.0.0.1", port, process_request=self._file, compression=None)
+            self.port = self.server.sockets[0].getsockname()[1]
+            started.set()
+
+        self.loop.run_until_complete(serve())
+        self.loop.run_forever()
+        self.loop.close()
+
+    async def _file(self, path, _):
+        address = urllib.parse.urlsplit(path)
+        if address.path == "/ws":
+            right = urllib.parse.parse_qs(address.query).get("token") == [TOKEN]
+            return None if right else (http.HTTPStatus.FORBIDDEN, [], b"")
+        file = (PAGE / address.path.lstrip("/")).resolve()
+        file = file / "index.html" if file == PAGE else file
+        if PAGE not in file.parents or not file.is_file():
+            return http.HTTPStatus.NOT_FOUND, [], b""
+        kind = "text/javascript" if file.suffix == ".js" else mimetypes.guess_type(file.name)[0]
+        headers = [("Content-Type", kind), ("Content-Security-Policy", POLICY), ("Cache-Control", "no-store")]
+        return http.HTTPStatus.OK, headers, file.read_bytes()
+
+    async def _page(self, socket):
+        self.sockets.add(socket)
+        self.views.clear()
+        self.numbers.clear()
+        try:
+            await socket.send(json.dumps({"is": "project", **self.project}))
+            await socket.send(json.dumps({"is": "state", "renderer": "", "nodes": 2, "machines": 1}))
+            async for text in socket:
+                await self._take(json.loads(text))
+        except websockets.ConnectionClosed:
+            pass
+        finally:
+            self.sockets.discard(socket)
+
+    async def _take(self, message):
+        does = message["do"]
+        if does == "view":
+            self.views[message["view"]] = message
+            await self._picture(message["view"], message["edit"])
+        elif does == "unview":
+            self.views.pop(message["view"], None)
+        elif does == "grab":
+            await self._tell({"is": "grabbed", "view": message["view"], **self.there(message)})
+        if does == "commit":
+            self._commit(message["step"])
+            await self._tell({"is": "project", **self.project})
+        if does in ANSWERED_BY_PICTURES:
+            for view in list(self.views):
+                await self._picture(view, message["edit"])
+        with self.news:
+            self.heard.append(message)
+            self.news.notify_all()
+
+    def _commit(self, step):
+        self.project["undo"] = f"set {step.get('set') or step.get('add') or step.get('remove') or 'body'}"
+        for actor in self.project["actors"]:
+            for joint in actor["joints"]:
+                if step.get("set") == "pose" and joint["name"] == step["joint"]:
+                    joint["pose"] = step["pose"]
+
+    async def _picture(self, view, edit):
+        asked = self.views[view]
+        self.numbers[view] = self.numbers.get(view, 0) + 1
+        rects = [(0, 0, asked["width"], asked["height"])]
+        await self._tell(picture(view, self.numbers[view], edit, asked["width"], asked["height"], rects, self.draw(asked)))
+
+    async def _tell(self, message):
+        data = message if isinstance(message, bytes) else json.dumps(message)
+        for socket in list(self.sockets):
+            await socket.send(data)
+
+
+def bits(flags):
+    """Flags as the protocol has them: the lowest bit of a byte first, base64."""
+    data = bytearray(-(-len(flags) // 8))
+    for at, flag in enumerate(flags):
+        data[at // 8] |= flag << at % 8
+    return base64.b64encode(bytes(data)).decode()

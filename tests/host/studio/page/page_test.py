@@ -1,0 +1,497 @@
+"""The studio's page in a headless Chromium, before a studio that is played by mock_studio.py. Takes Debian's chromium,
+chromium-driver, python3-selenium and python3-websockets."""
+
+import contextlib
+import functools
+import pathlib
+import re
+import sys
+import time
+import unittest
+
+from selenium import webdriver
+from selenium.webdriver.chrome.service import Service
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.actions.wheel_input import ScrollOrigin
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+
+import projects
+from mock_studio import DEFLATE, PAGE, MockStudio, bits
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3]))
+from cases import main  # noqa: E402
+
+CHROMEDRIVER = sys.argv[1]
+FLAGS = ("--headless=new", "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking",
+         "--disable-component-update", "--disable-sync", "--disable-gpu")
+SIZE = {"width": 1280, "height": 720, "deviceScaleFactor": 1, "mobile": False}
+PATIENCE = 5  # seconds
+
+
+@functools.cache
+def one_browser():
+    options = webdriver.ChromeOptions()
+    for flag in FLAGS:
+        options.add_argument(flag)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    browser = webdriver.Chrome(service=Service(CHROMEDRIVER), options=options)
+    unittest.addModuleCleanup(browser.quit)
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", SIZE)
+    return browser
+
+
+class Page(unittest.TestCase):
+    kind = projects.model
+
+    def setUp(self):
+        self.browser = one_browser()
+        self.studio = MockStudio(type(self).kind()).start()
+        self.scheme("dark")
+        self.browser.get(self.studio.link)
+        for view in range(4):
+            self.studio.wait_for("painted", view=view)
+        self.allowed = "willReadFrequently"  # the test's own reading of canvases
+
+    def tearDown(self):
+        errors = [entry["message"] for entry in self.browser.get_log("browser")]
+        self.js("localStorage.clear(); sessionStorage.clear()")
+        self.browser.get("about:blank")
+        self.studio.stop()
+        self.assertEqual([error for error in errors if self.allowed not in error], [])
+
+    # Small words for what tests do.
+
+    def find(self, css):
+        return self.browser.find_element(By.CSS_SELECTOR, css)
+
+    def js(self, text, *arguments):
+        return self.browser.execute_script(text, *arguments)
+
+    def press(self, *keys):
+        self.browser.switch_to.active_element.send_keys(*keys)
+
+    @contextlib.contextmanager
+    def held(self, *modifiers):
+        for each in modifiers:
+            ActionChains(self.browser).key_down(each).perform()
+        yield
+        for each in modifiers:
+            ActionChains(self.browser).key_up(each).perform()
+
+    def chord(self, *keys):
+        chain = ActionChains(self.browser)
+        for key in keys:
+            chain = chain.key_down(key)
+        for key in reversed(keys):
+            chain = chain.key_up(key)
+        chain.perform()
+
+    def until(self, what, wanted=True):
+        end = time.monotonic() + PATIENCE
+        while (found := what()) != wanted:
+            self.assertLess(time.monotonic(), end, f"is {found!r}, not {wanted!r}")
+            time.sleep(0.01)
+
+    def scheme(self, scheme):
+        features = [{"name": "prefers-color-scheme", "value": scheme}]
+        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": features})
+
+    def select(self, joint):
+        self.js("document.querySelector(arguments[0]).click()", f'[data-key$="/{joint}"] > .row')
+        self.studio.wait_for("select", joint=joint)
+
+    def commit(self, **parts):
+        """The last step that was committed and has these parts."""
+        end = time.monotonic() + PATIENCE
+        while True:
+            steps = [each["step"] for each in self.studio.heard if each["do"] == "commit"]
+            found = [step for step in steps if parts.items() <= step.items()]
+            if found:
+                return found[-1]
+            self.assertLess(time.monotonic(), end, f"no commit with {parts} among {steps}")
+            time.sleep(0.01)
+
+    def canvas(self, view):
+        return self.browser.find_elements(By.CSS_SELECTOR, ".view canvas")[view]
+
+    def pixels(self, view, x, y, width, height):
+        return self.js("return [...arguments[0].getContext('2d').getImageData(...arguments[1]).data]", self.canvas(view),
+                       [x, y, width, height])
+
+    def picture(self, view=0):
+        return self.browser.find_elements(By.CSS_SELECTOR, ".picture")[view]
+
+
+class Pictures(Page):
+    def test_pictures_are_painted_pixel_for_pixel(self):
+        rects = [(3, 5, 4, 3), (20, 9, 2, 2)]
+        pixels = bytes(part for i in range(16) for part in (i * 16, 255 - i, i * 7 % 256, 255))
+        for encoding in (0, DEFLATE):
+            for view, color in ((0, (40, 60, 80)), (2, (100, 60, 80))):
+                with self.subTest(encoding=encoding, view=view):
+                    number = self.studio.show(view, rects, pixels, encoding=encoding)
+                    self.studio.wait_for("painted", view=view, picture=number)
+                    self.assertEqual(bytes(self.pixels(view, 3, 5, 4, 3) + self.pixels(view, 20, 9, 2, 2)), pixels)
+                    self.assertEqual(self.pixels(view, 0, 0, 1, 1), [*color, 255])
+
+    def test_pictures_have_the_views_pixels_and_jpeg_is_painted(self):
+        for view in range(4):
+            asked = self.studio.views[view]
+            self.assertEqual(self.js("return [arguments[0].width, arguments[0].height]", self.canvas(view)),
+                             [asked["width"], asked["height"]])
+            self.assertAlmostEqual(self.js("return arguments[0].getBoundingClientRect().width", self.canvas(view)), asked["width"], delta=1)
+        asked = self.studio.views[1]
+        jpeg = self.js("""const canvas = new OffscreenCanvas(arguments[0], arguments[1]), pen = canvas.getContext("2d");
+                          pen.fillStyle = "rgb(200 40 90)";
+                          pen.fillRect(0, 0, canvas.width, canvas.height);
+                          return canvas.convertToBlob({type: "image/jpeg", quality: 1}).then((blob) => blob.arrayBuffer())
+                            .then((buffer) => [...new Uint8Array(buffer)]);""", asked["width"], asked["height"])
+        number = self.studio.show(1, [(0, 0, asked["width"], asked["height"])], bytes(jpeg), encoding=2)
+        self.studio.wait_for("painted", view=1, picture=number)
+        for painted, meant in zip(self.pixels(1, 9, 9, 1, 1), (200, 40, 90, 255)):
+            self.assertAlmostEqual(painted, meant, delta=3)
+
+    def test_latency_is_measured_from_the_event_to_its_paint(self):
+        self.js("window.marsLatencies.length = 0")
+        self.picture().click()
+        self.picture().send_keys(Keys.ARROW_LEFT)
+        orbit = self.studio.wait_for("orbit", view=0, how="turn", moving=True)
+        self.until(lambda: self.js("return window.marsLatencies.filter(({edit}) => edit === arguments[0]).length", orbit["edit"]), 4)
+        self.assertTrue(all(0 < each["ms"] < 2000 for each in self.js("return window.marsLatencies")))
+        self.until(lambda: re.search(r"p95 \d+ ms", self.find("#status").text) is not None)
+
+    def test_handles_come_with_their_picture(self):
+        ring = {"id": "ring x", "kind": "ring", "axis": "x", "points": [[10, 10], [30, 12], [40, 30]], "hot": True}
+        label = {"id": "angle", "kind": "label", "points": [[50, 50]], "text": "30°"}
+        self.studio.tell({"is": "handles", "view": 0, "picture": self.studio.numbers[0] + 1, "shapes": [ring, label]})
+        self.assertEqual(self.js("return document.querySelectorAll('.handle').length"), 0)
+        number = self.studio.show(0, [(0, 0, 1, 1)], b"\1\2\3\xff")
+        self.studio.wait_for("painted", view=0, picture=number)
+        self.assertEqual(self.js("return [...document.querySelectorAll('.handle')].map((each) => each.getAttribute('class'))"),
+                         ["handle ring axis-x hot", "handle label"])
+        self.assertEqual(self.find(".handle text").text, "30°")
+
+
+class Hands(Page):
+    def drag(self, *moves, view=0, button=0):
+        chain = ActionChains(self.browser, duration=20).move_to_element(self.picture(view)).click_and_hold()
+        for right, down in moves:
+            chain = chain.move_by_offset(right, down)
+        chain.release().perform()
+
+    def test_a_drag_on_empty_space_orbits(self):
+        self.drag((30, 10), (20, 5))
+        self.studio.wait_for("orbit", moving=False)
+        moved = [each["by"] for each in self.studio.heard if each["do"] == "orbit"]
+        self.assertEqual([sum(way) for way in zip(*moved)], [50, 15])
+        self.assertFalse([each for each in self.studio.heard if each["do"] in ("drag", "drop")])
+
+    def test_a_drag_on_a_limb_pulls_it_and_escape_lets_go(self):
+        self.studio.there = lambda grab: {"joint": "left-thigh", "handle": None}
+        self.drag((30, 10), (20, 5))
+        grab = self.studio.wait_for("grab", view=0, button=0, keys=[])
+        drop = self.studio.wait_for("drop")
+        drag = self.studio.wait_for("drag", x=grab["x"] + 50, y=grab["y"] + 15)
+        self.assertLess(grab["edit"], drag["edit"])
+        self.assertLess(drag["edit"], drop["edit"])
+        self.studio.forget()
+        chain = ActionChains(self.browser, duration=20).move_to_element(self.picture()).click_and_hold().move_by_offset(9, 9)
+        chain.send_keys(Keys.ESCAPE).release().perform()
+        self.studio.wait_for("let_go")
+        self.assertFalse([each for each in self.studio.heard if each["do"] in ("drop", "commit")])
+
+    def test_wheel_keys_and_buttons_move_the_eye(self):
+        ActionChains(self.browser).scroll_from_origin(ScrollOrigin.from_element(self.picture(3), 20, 10), 0, 120).perform()
+        zoom = self.studio.wait_for("orbit", view=3, how="zoom", moving=True)
+        self.assertEqual(zoom["by"], [0, 120])
+        self.assertTrue({"x", "y"} <= zoom.keys())
+        self.studio.wait_for("orbit", view=3, moving=False)
+        with self.held(Keys.SHIFT):
+            self.drag((10, 0), view=3)
+            self.studio.wait_for("orbit", view=3, how="pan", moving=True)
+            self.picture(3).send_keys(Keys.ARROW_UP)
+        self.picture(3).send_keys("+")
+        self.studio.wait_for("orbit", view=3, how="zoom")
+        with self.held(Keys.ALT):
+            self.drag((10, 0), view=3)
+        self.studio.wait_for("orbit", view=3, how="turn")
+        self.assertFalse([each for each in self.studio.heard if each["do"] == "grab"])
+
+    def test_a_click_on_empty_space_selects_nothing(self):
+        self.select("head")
+        self.picture().click()
+        self.studio.wait_for("select", actor=None, joint=None)
+
+
+class Controls(Page):
+    def test_tree_by_keyboard(self):
+        tree = '[role="tree"] [tabindex="0"]'
+        self.js("document.querySelector(arguments[0]).focus()", tree)
+        self.press(Keys.ARROW_DOWN)
+        self.studio.wait_for("select", actor="model", joint="spine")
+        self.press("left-sh")
+        self.studio.wait_for("select", joint="left-shin")
+        shut = lambda: self.js("return document.activeElement.getAttribute('aria-expanded')")  # noqa: E731
+        self.assertEqual(shut(), "true")
+        self.press(Keys.ARROW_LEFT)
+        self.assertEqual(shut(), "false")
+        self.press(Keys.ARROW_RIGHT, Keys.ARROW_RIGHT)
+        self.studio.wait_for("select", joint="left-foot")
+        self.press(Keys.HOME)
+        self.studio.wait_for("select", joint="pelvis")
+        self.press(Keys.END)
+        self.studio.wait_for("select", joint="right-toe-sole")
+        self.assertEqual(len(self.browser.find_elements(By.CSS_SELECTOR, '[role="tree"] [tabindex="0"]')), 1)
+
+    def test_sliders_stop_at_limits_and_commit_once(self):
+        self.select("left-shin")
+        slider = self.find('[data-key="pose.y"]')
+        limits = [float(slider.get_attribute(end)) for end in ("min", "max")]
+        slider.send_keys(Keys.ARROW_RIGHT, Keys.ARROW_RIGHT)
+        self.assertEqual(self.commit(set="pose")["pose"], [0, 2, 0])
+        previews = [each["step"]["pose"][1] for each in self.studio.heard if each["do"] == "preview"]
+        self.assertEqual(previews[-1], 2)
+        self.assertEqual(len([each for each in self.studio.heard if each["do"] == "commit"]), 1)
+        self.studio.forget()
+        self.find('[data-key="pose.y"]').send_keys(Keys.END)
+        self.assertEqual(self.commit(set="pose", joint="left-shin")["pose"], [0, limits[1], 0])
+        self.studio.forget()
+        self.find('[data-key="pose.y"]').send_keys(Keys.HOME, Keys.ESCAPE)
+        self.studio.wait_for("cancel")
+        self.assertEqual(float(self.find('[data-key="pose.y"]').get_attribute("value")), limits[1])
+
+    def test_numbers_are_written_stepped_and_given_up(self):
+        self.select("left-thigh")
+        self.find('[data-key="place.y"]').send_keys(Keys.CONTROL, "a", Keys.NULL, "0,5", Keys.ENTER)
+        self.assertEqual(self.commit(set="joint", joint="left-thigh")["change"]["place"][1], 0.5)
+        self.studio.forget()
+        self.find('[data-key="place.z"]').send_keys(Keys.ARROW_UP, Keys.ESCAPE)
+        self.studio.wait_for("cancel")
+        self.find('[data-key="sbb.1.x"]').send_keys(Keys.SHIFT, Keys.ARROW_UP, Keys.NULL, Keys.ENTER)
+        thigh = next(joint for joint in self.studio.project["actors"][0]["joints"] if joint["name"] == "left-thigh")
+        changed = self.commit(set="joint")["change"]["sbb"]
+        self.assertAlmostEqual(changed[1][0], thigh["sbb"][1][0] + 0.2)
+        self.assertEqual(changed[0], thigh["sbb"][0])
+
+    def test_limits_shapes_materials_and_bodies(self):
+        self.select("left-shin")
+        self.js("document.querySelector('[data-key=\"free.x\"]').click()")
+        shin = next(joint for joint in self.studio.project["actors"][0]["joints"] if joint["name"] == "left-shin")
+        self.assertEqual(self.commit(set="joint")["change"],
+                         {"freedom": "fixed", "limits": {"x": [-180, 180], "y": shin["limits"][1]}})
+        self.find('[data-key="shape"]').send_keys("cap")
+        self.assertEqual(self.commit(set="joint", change={"shape": "capsule"})["joint"], "left-shin")
+        self.find('[data-key="material"]').send_keys("rub")
+        self.commit(change={"material": "rubber"})
+        self.find("[role=tab]:nth-child(2)").click()
+        self.assertEqual(self.find('[role="option"][aria-selected="true"]').text, "trousers")
+        self.find('[data-key="material.diffuse"]').send_keys(Keys.ARROW_RIGHT)
+        self.commit(set="material", material="trousers", change={"diffuse": 0.8})
+        self.js("""const color = document.querySelector('[data-key="material.color"]');
+                   color.value = "#ff0080";
+                   color.dispatchEvent(new Event("change", {bubbles: true}));""")
+        self.commit(set="material", change={"color": [1, 0, 0.502]})
+        self.find("[role=tab]:nth-child(2)").send_keys(Keys.ARROW_RIGHT)
+        self.js("[...document.querySelectorAll('.panel:not([hidden]) button')].find((each) => each.textContent === 'child').click()")
+        self.commit(body="child")
+
+    def test_joints_are_added_renamed_mirrored_and_removed_by_keys(self):
+        self.select("left-hand")
+        self.press(Keys.INSERT)
+        added = self.commit(add="joint", joint="joint-1")["change"]
+        self.assertEqual(added["parent"], "left-hand")
+        self.press(Keys.F2)
+        self.assertEqual(self.js("return document.activeElement.dataset.key"), "name")
+        self.press(Keys.CONTROL, "a", Keys.NULL, "left-paw", Keys.ENTER)
+        self.commit(set="joint", joint="left-hand", change={"name": "left-paw"})
+        self.js("[...document.querySelectorAll('.actions button')].find((each) => each.textContent === 'Left to right').click()")
+        self.commit(mirror="left", joint="left-hand")
+        self.js("document.querySelector('[aria-selected=true][role=treeitem]').focus()")
+        self.press(Keys.DELETE)
+        self.commit(remove="joint", joint="left-hand", branch=True)
+        self.studio.wait_for("select", joint="left-forearm")
+
+    def test_menu_of_a_view_by_keyboard(self):
+        self.find(".title").send_keys(Keys.ENTER)
+        self.assertEqual(self.js("return document.activeElement.textContent"), "Front")
+        self.press("p")
+        self.assertEqual(self.js("return document.activeElement.textContent"), "Prisms")
+        self.press(Keys.ENTER)
+        self.studio.wait_for("view", view=0, **{"as": "prisms"})
+        self.assertEqual(self.find(".title").text.split(), ["Front", "Prisms"])
+        self.picture(1).click()
+        for key, change in (("g", {"ground": False}), ("h", {"hidden": False}), ("s", {"as": "vertices"}), ("a", {"orbit": None})):
+            self.press(key)
+            self.studio.wait_for("view", view=1, **change)
+        self.press("r")
+        self.studio.wait_for("view", view=2, handles="box")
+
+    def test_a_view_is_maximised_and_comes_back(self):
+        before = self.studio.views[2]
+        ActionChains(self.browser).double_click(self.browser.find_elements(By.CSS_SELECTOR, ".title")[2]).perform()
+        self.studio.wait_for("unview", view=0)
+        self.until(lambda: self.studio.views.get(2, before)["width"] > 1.9 * before["width"])
+        self.press("f")
+        self.until(lambda: sorted(self.studio.views), [0, 1, 2, 3])
+        self.press("4")
+        self.assertEqual(self.js("return document.activeElement === document.querySelectorAll('.picture')[3]"), True)
+
+    def test_history_and_its_words(self):
+        self.studio.tell({"is": "project", **self.studio.project, "undo": "pose of head", "redo": "place of neck"})
+        self.until(lambda: self.find('[aria-label="Undo: pose of head"]').is_enabled())
+        self.assertTrue(self.find('[aria-label="Redo: place of neck"]').is_enabled())
+        self.chord(Keys.CONTROL, "z")
+        self.studio.wait_for("undo")
+        self.chord(Keys.CONTROL, Keys.SHIFT, "z")
+        self.studio.wait_for("redo")
+
+    def test_theme_follows_the_system_until_it_is_switched(self):
+        theme = lambda: self.js("return document.documentElement.dataset.theme")  # noqa: E731
+        self.until(theme, "dark")
+        self.scheme("light")
+        self.until(theme, "light")
+        self.js("document.body.focus()")
+        self.chord("l")
+        self.until(theme, "dark")
+        self.browser.refresh()
+        self.until(theme, "dark")
+
+    def test_help_lists_every_shortcut(self):
+        self.chord("?")
+        self.until(lambda: self.js("return document.querySelector('dialog.help')?.open ?? false"))
+        table = self.js("return import('/shortcuts.js').then(({kShortcuts, kHands}) => [...kShortcuts, ...kHands])")
+        shown = self.js("return [...document.querySelectorAll('dialog.help dd')].map((each) => each.textContent)")
+        self.assertEqual(shown, [each["text"] for group in dict.fromkeys(each["group"] for each in table)
+                                 for each in table if each["group"] == group and not each.get("film")])
+        self.press(Keys.ESCAPE)
+        self.until(lambda: self.js("return document.querySelector('dialog.help').open"), False)
+        commands = set(re.findall(r"^  (\w+): ", (PAGE / "main.js").read_text().split("new Keys({")[1], re.M))
+        self.assertEqual({each["name"] for each in table if "name" in each}, commands)
+
+    def test_every_control_has_a_name_and_the_page_does_not_scroll(self):
+        self.select("left-upper-arm")
+        for tab in range(3):
+            self.browser.find_elements(By.CSS_SELECTOR, "[role=tab]")[tab].click()
+            nodes = self.browser.execute_cdp_cmd("Accessibility.getFullAXTree", {})["nodes"]
+            roles = {"button", "slider", "spinbutton", "checkbox", "radio", "combobox", "textbox", "tab", "treeitem", "option",
+                     "application", "tree", "ColorWell"}
+            controls = [node for node in nodes if node.get("role", {}).get("value") in roles and not node["ignored"]]
+            self.assertGreater(len(controls), 50)
+            self.assertEqual([node["role"]["value"] for node in controls if not node.get("name", {}).get("value")], [])
+        self.assertEqual(self.js("""const {scrollWidth, scrollHeight} = document.documentElement;
+                                    return [scrollWidth, scrollHeight];"""), [1280, 720])
+
+
+class Trouble(Page):
+    def test_the_page_connects_again_and_asks_for_its_views(self):
+        self.allowed = "WebSocket"
+        self.select("left-hand")
+        self.picture(0).click()
+        self.press("s")
+        self.studio.wait_for("view", view=0, **{"as": "vertices"})
+        self.select("left-hand")
+        port, project = self.studio.port, self.studio.project
+        self.studio.stop()
+        self.until(lambda: "does not answer" in self.find("#banners").text)
+        self.studio = MockStudio(project).start(port)
+        self.studio.wait_for("view", view=0, **{"as": "vertices"})
+        for view in range(4):
+            self.studio.wait_for("painted", view=view)
+        self.studio.wait_for("select", joint="left-hand")
+        self.until(lambda: self.find("#banners").text, "")
+        self.assertEqual(self.find('[data-key="name"]').get_attribute("value"), "left-hand")
+
+    def test_the_token_leaves_the_address(self):
+        self.assertNotIn("token", self.browser.current_url)
+
+    def test_troubles_are_said(self):
+        self.studio.tell({"is": "project", **self.studio.project, "problem": {"text": "joints[3] is no object", "line": 17}})
+        self.until(lambda: "joints[3] is no object" in self.find("#banners .error").text)
+        self.assertIn("line 17", self.find("#banners .error").text)
+        self.studio.tell({"is": "state", "renderer": "The renderer ended.", "nodes": 0, "machines": 0})
+        self.until(lambda: "The renderer ended." in self.find("#banners").text)
+        self.studio.tell({"is": "refused", "do": "commit", "text": "is no joint"})
+        self.until(lambda: "is no joint" in self.find("#toasts").text)
+        self.studio.tell({"is": "project", **self.studio.project, "problem": None})
+        self.studio.tell({"is": "state", "renderer": "", "nodes": 2, "machines": 1})
+        self.until(lambda: self.find("#banners").text, "")
+
+    def test_what_is_no_picture_is_left_alone(self):
+        self.studio.tell(b"nonsense")
+        self.studio.show(0, [(0, 0, 1, 1)], b"\1\2\3\xff")
+        self.until(lambda: self.pixels(0, 0, 0, 1, 1), [1, 2, 3, 255])
+
+
+class Films(Page):
+    kind = projects.film
+
+    def test_frames_are_scrubbed_and_played(self):
+        self.find("#frames input[type=range]").send_keys(Keys.ARROW_RIGHT)
+        self.studio.wait_for("frame", frame=25)
+        self.js("document.activeElement.blur()")
+        self.chord(".")
+        self.studio.wait_for("frame", frame=26)
+        self.chord(Keys.SPACE)
+        self.studio.wait_for("frame", frame=29)
+        self.chord(Keys.SPACE)
+
+    def test_steps_name_their_actor_and_keys_show(self):
+        self.js("document.querySelector('[data-key=\"watcher/head\"] > .row').click()")
+        self.studio.wait_for("select", actor="watcher", joint="head")
+        self.assertEqual(self.find(".keyed-state.on").text, "Key at this frame")
+        self.find('[data-key="pose.z"]').send_keys(Keys.ARROW_RIGHT)
+        self.assertEqual(self.commit(set="pose"), {"set": "pose", "actor": "watcher", "joint": "head", "pose": [0, 0, 1]})
+        self.js("document.querySelector('[data-key=\"walker\"] > .row').click()")
+        self.until(lambda: self.find('[role="tab"][aria-selected="true"]').text, "Scene")
+        self.find('[data-key="actor.place.x"]').send_keys(Keys.ARROW_UP, Keys.ENTER)
+        self.commit(set="place", actor="walker", place=[0.1, 0, 0])
+        self.find('[data-key="camera.fov"]').send_keys(Keys.ARROW_UP, Keys.ENTER)
+        self.commit(set="camera", fov=41, eye=[6, -4, 3])
+
+    def test_a_rendering_is_started_shown_and_stopped(self):
+        self.chord(Keys.F9)
+        self.until(lambda: self.find("#rendering").is_displayed())
+        self.find('[data-key="render.nodes"]').send_keys("3")
+        self.find(".primary").click()
+        self.assertEqual(self.studio.wait_for("render")["options"], {"folder": "out", "nodes": 3})
+        self.studio.tell({"is": "rendering", "state": "running", "text": "", "done": 4, "of": 12, "fps": 2.5, "folder": "out",
+                          "nodes": [{"name": "node 0", "machine": "here", "slow": False}, {"name": "node 1", "machine": "there", "slow": True}]})
+        self.until(lambda: "4 of 12 frames, 2.5 a second" in self.find(".progress-words").text)
+        self.studio.show(255, [(0, 0, 32, 32)], bytes((10, 20, 30, 255)) * 1024, size=(32, 32))
+        self.studio.tell({"is": "drawn", "frame": 4, "kind": "inbetween", "interval": 1, "seconds": 0.5,
+                          "nodes": [{"node": 0, "lines": [[0, 15]], "seconds": {"raster": 0.4}}, {"node": 1, "lines": [[16, 31]], "seconds": {"wait": 0.1}}],
+                          "ebc": [1, 2], "flagged": bits([True, False, False, True]), "moving": bits([True, False, False, False]),
+                          "still": bits([True, True, False, False]), "whole": True, "block": 16})
+        self.until(lambda: "Frame 4" in self.find(".caption").text)
+        shown = "return [...document.querySelector(arguments[0]).getContext('2d').getImageData(...arguments[1]).data]"
+        self.until(lambda: self.js(shown, ".sheet canvas", [31, 31, 1, 1]), [10, 20, 30, 255])
+        self.find('[data-overlay="moving"]').click()
+        blocks = [self.js(shown, ".overlay", [x, y, 1, 1]) for x, y in ((8, 8), (24, 8), (8, 24), (24, 24))]
+        self.assertGreater(blocks[0][0], 200)  # moves: tinted
+        self.assertEqual([block[3] > 0 for block in blocks], [True, True, False, False])
+        self.js("""const slider = document.querySelector('.scrub input');
+                   slider.value = 2;
+                   slider.dispatchEvent(new Event("input"));""")
+        self.studio.wait_for("scrub", frame=2)
+        self.js("[...document.querySelectorAll('.actions button')].find((each) => each.textContent === 'Stop').click()")
+        self.studio.wait_for("stop")
+
+
+class Sources(unittest.TestCase):
+    def test_the_page_has_no_inline_script_or_style_and_no_far_files(self):
+        html = (PAGE / "index.html").read_text()
+        self.assertNotRegex(html, r"<style|style=|\son\w+=|<script(?! type=\"module\" src=)")
+        for file in PAGE.rglob("*"):
+            if file.suffix in (".js", ".css", ".html"):
+                self.assertNotRegex(file.read_text().replace("http://www.w3.org/2000/svg", ""), r"https?://", file.name)
+
+    def test_every_file_is_used(self):
+        texts = {file: file.read_text() for file in PAGE.rglob("*") if file.is_file()}
+        for file in texts:
+            if file.name != "index.html":
+                self.assertTrue(any(file.name in text for other, text in texts.items() if other != file), file.name)
+
+
+if __name__ == "__main__":
+    main()

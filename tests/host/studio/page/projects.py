@@ -1,0 +1,67 @@
+"""What a studio tells of a model and of a film, made from examples/models/human.json."""
+
+import json
+import pathlib
+
+MODELS = pathlib.Path(__file__).resolve().parents[4] / "examples/models"
+AXES = "xyz"
+FREE = {axis: [-180, 180] for axis in AXES}
+SHAPES = [
+    {"name": "box", "options": []},
+    {"name": "ellipsoid", "options": []},
+    {"name": "capsule", "options": [{"key": "ends", "what": "height of each end / height of the sbb", "count": 1, "default": 0.25,
+                                     "range": [0.001, 0.5]}]},
+    {"name": "rounded_box", "options": [{"key": "edge", "what": "radius / size of the sbb", "count": 3, "default": 0.1,
+                                         "range": [0.001, 0.5]}]},
+    *({"name": name, "options": []} for name in ("head", "neck", "torso", "abdomen", "pelvis", "thigh", "shin", "foot")),
+]
+
+
+def joints(keyed=()):
+    model = json.loads((MODELS / "human.json").read_text())
+    names = {joint: limb for limb, joint in model["limbs"].items() if isinstance(joint, str)}
+    for side in ("left", "right"):
+        names |= {joint: f"{side}.{limb}" for limb, joint in model["limbs"][side].items()}
+    return [told(joint, names, joint["name"] in keyed) for joint in model["joints"]]
+
+
+def told(joint, limbs, keyed):
+    limits = joint.get("limits", FREE)
+    segment = joint.get("segment", {})
+    known = {"name", "parent", "place", "x_axis", "y_axis", "limits", "segment"}
+    assert set(joint) <= known, joint
+    return {
+        "name": joint["name"], "parent": joint.get("parent"), "place": joint.get("place", [0, 0, 0]),
+        "x_axis": joint.get("x_axis", [1, 0, 0]), "y_axis": joint.get("y_axis", [0, 1, 0]),
+        "limits": [limits.get(axis, [0, 0]) for axis in AXES], "free": [axis for axis in AXES if axis in limits],
+        "pose": [0, 0, 0], "keyed": keyed, "shape": segment.get("shape"),
+        "options": {key: value for key, value in segment.items() if key not in ("shape", "sbb", "material")},
+        "sbb": segment.get("sbb", [[0, 0, 0], [1, 1, 1]]) if segment else None, "material": segment.get("material"),
+        "limb": limbs.get(joint["name"]),
+    }
+
+
+def materials():
+    return [{"name": name, **material} for name, material in json.loads((MODELS / "human.json").read_text())["materials"].items()]
+
+
+def limbs():
+    sides = ("hip", "knee", "ankle", "toes", "shoulder", "elbow", "wrist")
+    return ["pelvis", "spine", "chest", "neck", "head", *(f"{side}.{limb}" for side in ("left", "right") for limb in sides)]
+
+
+def model():
+    return {
+        "kind": "model", "file": "examples/models/human.json", "frames": 1, "rate": 24, "frame": 0, "size": [960, 540],
+        "actors": [{"name": "model", "model": "model", "place": [0, 0, 0], "turn": [0, 0, 0], "joints": joints()}],
+        "materials": materials(), "shapes": SHAPES, "bodies": [{"name": name, "what": f"a {name} body"} for name in ("tall", "child", "stout")], "limbs": limbs(),
+        "undo": None, "redo": None, "problem": None,
+    }
+
+
+def film():
+    actors = [{"name": name, "model": "human", "place": [x, 0, 0], "turn": [0, 0, 0],
+               "joints": joints(keyed=("left-thigh", "right-thigh", "head"))} for name, x in (("walker", 0), ("watcher", 2))]
+    return {key: value for key, value in model().items() if key not in ("shapes", "bodies", "limbs")} | {"kind": "film", "file": "examples/demo.json", "frames": 120, "frame": 24, "actors": actors,
+                      "materials": [{"name": each["name"], "color": each["color"]} for each in materials()],
+                      "camera": {"eye": [6, -4, 3], "at": [0, 0, 2], "fov": 40}}

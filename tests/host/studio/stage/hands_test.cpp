@@ -1,0 +1,375 @@
+// Hands: what lies under a pixel, and where things go when they are dragged.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "host/content/animator/actor_state.h"
+#include "host/content/film/moment.h"
+#include "host/preview/viewpoint.h"
+#include "host/studio/stage/eye.h"
+#include "host/studio/stage/hand.h"
+#include "host/studio/stage/handles.h"
+#include "host/studio/stage/picking.h"
+#include "tests/host/content/film/small_film.h"
+#include "tests/host/studio/stage/fakes.h"
+
+namespace mars::studio {
+namespace {
+
+constexpr int kWidth = 640, kHeight = 480;
+
+std::string xy(const glm::dvec2& pixel) {
+  return "\"x\": " + std::to_string(pixel.x) + ", \"y\": " + std::to_string(pixel.y);
+}
+
+// A model of an arm along x: `upper` is free about z and y within limits, `lower` a hinge about y.
+animator::Film arm() {
+  animator::Film film =
+      film::film_of(R"({"frames": 9, "size": [640, 480], "camera": {"eye": [1, -9, 2], "at": [1, 0, 0]},
+    "models": {"arm": {"joints": [
+      {"name": "upper", "limits": {"y": [-80, 80], "z": [-90, 60]},
+       "segment": {"shape": "box", "sbb": [[0, -0.2, -0.2], [1.5, 0.2, 0.2]]}},
+      {"name": "plate", "parent": "upper", "place": [1.5, 0, 0], "limits": {},
+       "segment": {"shape": "box", "sbb": [[0, -0.3, -0.3], [0.1, 0.3, 0.3]]}},
+      {"name": "lower", "parent": "plate", "place": [0.1, 0, 0], "limits": {"y": [-720, 720]},
+       "segment": {"shape": "box", "sbb": [[0, -0.15, -0.15], [1.5, 0.15, 0.15]]}}]}},
+    "actors": [{"name": "a", "model": "arm"}]})");
+  return film;
+}
+
+struct Scene : OnStage {
+  explicit Scene(animator::Film film, bool model = false, const std::string& from = "side")
+      : OnStage(std::move(film), model) {
+    const std::string orbit =
+        from == "camera" ? "" : R"(, "orbit": {"center": [1.5, 0, 0], "turn": -90, "height": 0, "distance": 9})";
+    view(0, kWidth, kHeight, from, "stick", orbit);
+    eye = {From::side, {{1.5, 0, 0}, -90, 0, 9}};
+    if (from == "free") eye.from = From::free;
+  }
+
+  void tool(const std::string& handles) {
+    view(0, kWidth, kHeight, eye.from == From::free ? "free" : "side", "stick",
+         R"(, "orbit": {"center": [1.5, 0, 0], "turn": )" + std::to_string(eye.orbit.turn) + R"(, "height": )" +
+             std::to_string(eye.orbit.height) + R"(, "distance": 9}, "handles": ")" + handles + "\"");
+  }
+  Screen screen() const { return {camera_from(eye, 1), kWidth, kHeight}; }
+  glm::dvec2 pixel(const glm::dvec3& place) const { return screen().pixel_of(place).value(); }
+  void grab(const glm::dvec2& at) { take(R"({"do": "grab", "view": 0, )" + xy(at) + "}"); }
+  void drag(const glm::dvec2& at, const char* keys = "[]") {
+    take(R"({"do": "drag", )" + xy(at) + R"(, "keys": )" + keys + "}");
+  }
+  void drop() { take(R"({"do": "drop"})"); }
+  animator::ActorState state() const { return animator::state_at(project.film(), 0, project.frame()); }
+  // A place of the joint's frame, in the world.
+  glm::dvec3 of_joint(std::size_t joint, const glm::dvec3& place) const {
+    const animator::ActorState now = state();
+    return now.joints[joint].turn * place + now.joints[joint].place;
+  }
+
+  Eye eye;
+};
+
+TEST(Picking, TheNearestSurfaceUnderThePixel) {
+  Scene scene(arm());
+  const auto picked = [&](const glm::dvec3& place) {
+    scene.take(R"({"do": "hover", "view": 0, )" + xy(scene.pixel(place)) + "}");
+    return scene.last("hovered")["joint"];
+  };
+  EXPECT_EQ(picked({0.7, -0.2, 0}), "upper");
+  EXPECT_EQ(picked({1.55, -0.3, 0.25}), "plate");
+  EXPECT_EQ(picked({2.4, -0.15, 0.1}), "lower");
+  EXPECT_EQ(picked({2.4, -0.15, 0.145}), "lower");
+  EXPECT_TRUE(picked({2.4, -0.15, 0.16}).is_null()) << "beside it";
+  EXPECT_TRUE(picked({2.4, 0, 2}).is_null());
+  EXPECT_EQ(scene.last("hovered")["text"], "");
+}
+
+TEST(Picking, WhereNoSurfaceIsTheNearestJoint) {
+  animator::Film film = arm();
+  film.models[0].joints[1].segment.reset();
+  Scene scene(film);
+  scene.take(R"({"do": "hover", "view": 0, )" + xy(scene.pixel({1.55, 0, 0}) + glm::dvec2(0, 9)) + "}");
+  EXPECT_FALSE(scene.last("hovered")["joint"].is_null());
+}
+
+TEST(Picking, AMillionTrianglesTakeLittleTime) {
+  wire::Patch flat;
+  Triangles diced;
+  for (std::size_t i = 0; i < 16; ++i) flat.points[i] = {float(i % 4) / 3, float(i / 4) / 3, 0.5f};
+  add_diced(flat, kPatchSteps, diced);
+  EXPECT_EQ(diced.corners.size(), 3u * 2 * kPatchSteps * kPatchSteps);
+  animator::Film film = arm();
+  modeler::Shape& shape = film.models[0].shapes[film.models[0].joints[2].segment->shape];
+  shape.patches.clear();
+  constexpr int kSide = 90;  // 8100 patches of 128 triangles
+  for (int row = 0; row < kSide; ++row)
+    for (int column = 0; column < kSide; ++column) {
+      wire::Patch patch = flat;
+      for (auto& point : patch.points)
+        point = {(point[0] + float(column)) / kSide, 0.5f, (point[1] + float(row)) / kSide};
+      shape.patches.push_back(patch);
+    }
+  FakeProject project(film);
+  Moments moments(project);
+  moments.renew();
+  const Screen screen(camera_from({From::side, {{1.5, 0, 0}, -90, 0, 9}}, 1), kWidth, kHeight);
+  double least = 1e9;
+  for (int time = 0; time < 5; ++time) {
+    const auto start = std::chrono::steady_clock::now();
+    const auto hit =
+        first_hit(moments, screen.ray_through(*screen.pixel_of({2.4, 0, 0.01})), [](std::size_t) { return true; });
+    least = std::min(least, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    ASSERT_TRUE(hit);
+    EXPECT_EQ(hit->segment, 2u);
+    EXPECT_LT(glm::length(hit->place - glm::dvec3(2.4, 0, 0.01)), 1e-3);
+  }
+  EXPECT_LT(least, 0.2) << "of 20 ms, on a machine that does other things too";
+}
+
+TEST(Hands, AHingeFollowsTheMouse) {
+  Scene scene(arm());
+  const glm::dvec3 held(1.2, -0.15, 0.05);
+  const glm::dvec3 start = scene.of_joint(2, held);
+  scene.grab(scene.pixel(start));
+  ASSERT_EQ(scene.last("grabbed")["joint"], "lower");
+  EXPECT_EQ(scene.last("selected")["joint"], "lower");
+  // On the circle of the place about its joint the mouse can be reached.
+  const glm::dvec3 center = scene.state().joints[2].place;
+  const double radius = glm::length(glm::dvec2(held.x, held.z));
+  for (const double degrees : {5.0, 30.0, 80.0, 120.0, 60.0, -50.0}) {
+    const double angle = degrees * modeler::kDegree;
+    const glm::dvec3 wanted = center + glm::dvec3(radius * std::cos(angle), held.y, radius * std::sin(angle));
+    scene.drag(scene.pixel(wanted));
+    EXPECT_LT(glm::length(scene.pixel(scene.of_joint(2, held)) - scene.pixel(wanted)), 1) << degrees;
+  }
+  EXPECT_TRUE(scene.project.commits.empty()) << "nothing is written while the hand moves";
+  scene.drop();
+  ASSERT_EQ(scene.project.commits.size(), 1u);
+  EXPECT_EQ(scene.project.commits[0]["set"], "pose");
+  EXPECT_EQ(scene.project.commits[0]["actor"], "a");
+  EXPECT_EQ(scene.project.commits[0]["joint"], "lower");
+}
+
+TEST(Hands, SeveralFreedomsFollowTheMouseToo) {
+  Scene scene(arm(), false, "free");
+  scene.eye.orbit.turn = -60;
+  scene.eye.orbit.height = 25;
+  scene.tool("none");
+  const glm::dvec3 held(1.0, -0.2, 0.1);
+  const glm::dvec2 from = scene.pixel(scene.of_joint(0, held));
+  scene.grab(from);
+  ASSERT_EQ(scene.last("grabbed")["joint"], "upper");
+  for (const glm::dvec2& by : {glm::dvec2(8, -14), {12, -40}, {-6, -60}, {-4, 30}, {10, 44}}) {
+    scene.drag(from + by);
+    EXPECT_LT(glm::length(scene.pixel(scene.of_joint(0, held)) - from - by), 1) << by.x << ", " << by.y;
+  }
+}
+
+TEST(Hands, StopAtLimits) {
+  Scene scene(arm(), false, "free");
+  scene.tool("none");
+  const glm::dvec2 from = scene.pixel(scene.of_joint(0, {1.2, -0.2, 0}));
+  scene.grab(from);
+  for (int i = 1; i <= 40; ++i) scene.drag(from + glm::dvec2(-6.0 * i, -12.0 * i));
+  const glm::dvec3 pose = scene.state().pose[0];
+  EXPECT_DOUBLE_EQ(pose.x, 0);
+  EXPECT_GE(pose.y, -80);
+  EXPECT_LE(pose.y, 80);
+  EXPECT_NEAR(std::abs(pose.y), 80, 1e-9);
+  scene.take(R"({"do": "let_go"})");
+  EXPECT_EQ(scene.project.cancels, 1);
+  EXPECT_EQ(scene.state().pose[0], glm::dvec3(0));
+}
+
+TEST(Hands, WhatCannotTurnTurnsWhatItHangsOn) {
+  Scene scene(arm());
+  scene.grab(scene.pixel({1.55, -0.3, 0.25}));
+  ASSERT_EQ(scene.last("grabbed")["joint"], "plate");
+  scene.drag(scene.pixel({1.4, -0.3, 0.7}));
+  ASSERT_FALSE(scene.project.previews.empty());
+  EXPECT_EQ(scene.project.previews.back()["joint"], "upper");
+}
+
+TEST(Hands, ShiftIsFine) {
+  Scene scene(arm());
+  const glm::dvec3 held(1.2, -0.15, 0);
+  const glm::dvec2 from = scene.pixel(scene.of_joint(2, held));
+  scene.grab(from);
+  scene.drag(from + glm::dvec2(0, -50), R"(["shift"])");
+  EXPECT_NEAR(scene.pixel(scene.of_joint(2, held)).y, from.y - 10, 1);
+}
+
+// The side view looks along y, the axis of the hinge, from -y: it faces away.
+TEST(Hands, ARingIsTurnedSeveralTimes) {
+  Scene scene(arm());
+  scene.take(R"({"do": "select", "actor": "a", "joint": "lower"})");
+  scene.tool("turn");
+  const glm::dvec2 center = scene.pixel(scene.state().joints[2].place);
+  const auto at = [&](double degrees) {
+    const double angle = degrees * modeler::kDegree;
+    return center + ring_pixels(1) * glm::dvec2(std::cos(angle), -std::sin(angle));
+  };
+  scene.grab(at(20));
+  ASSERT_EQ(scene.last("grabbed")["handle"], "ring:y");
+  for (int degrees = 20; degrees >= -480; degrees -= 20) scene.drag(at(degrees));
+  EXPECT_NEAR(scene.state().pose[2].y, 500, 1e-6);
+  for (int degrees = -480; degrees >= -1000; degrees -= 20) scene.drag(at(degrees));
+  EXPECT_NEAR(scene.state().pose[2].y, 720, 1e-9) << "its limit";
+  scene.drop();
+  EXPECT_NEAR(scene.project.commits.at(0)["pose"][1].get<double>(), 720, 1e-9);
+}
+
+TEST(Hands, RingsShowLimitsAndAngles) {
+  Scene scene(arm());
+  scene.take(R"({"do": "select", "actor": "a", "joint": "upper"})");
+  scene.tool("turn");
+  EXPECT_TRUE(scene.shapes("ring:x").empty()) << "it cannot turn about x";
+  ASSERT_EQ(scene.shapes("ring:y").size(), 1u);
+  ASSERT_EQ(scene.shapes("limit:y").size(), 2u);
+  EXPECT_EQ(scene.shapes("limit:y")[0]["text"], "-80\u00b0");
+  EXPECT_EQ(scene.shapes("label:y")[0]["text"], "y 0\u00b0");
+  EXPECT_EQ(scene.shapes("joint:upper")[0]["selected"], true);
+  EXPECT_EQ(scene.shapes("joint:lower")[0]["selected"], false);
+  const Json first = scene.shapes("ring:y")[0]["points"][0];
+  scene.take(R"({"do": "hover", "view": 0, )" + xy({first[0].get<double>(), first[1].get<double>()}) + "}");
+  EXPECT_EQ(scene.last("hovered")["handle"], "ring:y");
+  EXPECT_EQ(scene.shapes("ring:y")[0]["hot"], true);
+}
+
+TEST(Hands, ArrowsMoveActorsOfFilms) {
+  Scene scene(arm());
+  scene.project.set_frame(4);
+  scene.take(R"({"do": "select", "actor": "a", "joint": null})");
+  scene.tool("move");
+  const glm::dvec3 held(0, 0, 0.5);
+  scene.grab(scene.pixel(held));
+  ASSERT_EQ(scene.last("grabbed")["handle"], "arrow:z");
+  scene.drag(scene.pixel({0.4, 0, 0.9}));
+  EXPECT_LT(glm::length(scene.state().place - glm::dvec3(0, 0, 0.4)), 2e-3) << "x is not its own";
+  scene.drop();
+  EXPECT_EQ(scene.project.commits.at(0)["set"], "place");
+}
+
+TEST(Hands, ArrowsMoveJointsOfModels) {
+  Scene scene(arm(), true);
+  scene.take(R"({"do": "select", "joint": "lower"})");
+  scene.tool("move");
+  const glm::dvec3 from = scene.state().joints[2].place;
+  scene.grab(scene.pixel(from));
+  ASSERT_EQ(scene.last("grabbed")["handle"], "plane");
+  scene.drag(scene.pixel(from + glm::dvec3(0.3, 0, 0.2)));
+  EXPECT_LT(glm::length(scene.state().joints[2].place - from - glm::dvec3(0.3, 0, 0.2)), 1e-6);
+  scene.drop();
+  const Json& step = scene.project.commits.at(0);
+  EXPECT_EQ(step["set"], "joint");
+  EXPECT_FALSE(step.contains("actor"));
+  EXPECT_NEAR(step["change"]["place"][0].get<double>(), 0.4, 1e-6);
+}
+
+TEST(Hands, BoxesArePulledByTheirFaces) {
+  Scene scene(arm(), true);
+  scene.take(R"({"do": "select", "joint": "lower"})");
+  scene.tool("box");
+  const glm::dvec3 face = scene.of_joint(2, {1.5, 0, 0});
+  scene.grab(scene.pixel(face));
+  ASSERT_EQ(scene.last("grabbed")["handle"], "face:x+");
+  scene.drag(scene.pixel(face + glm::dvec3(0.5, 0, 0.3)));
+  const modeler::Box& sbb = scene.project.film().models[0].joints[2].segment->sbb;
+  EXPECT_NEAR(sbb.max.x, 2, 2e-3);
+  EXPECT_EQ(sbb.min, glm::dvec3(0, -0.15, -0.15)) << "the face opposite stays";
+  scene.drag(scene.pixel(face - glm::dvec3(4, 0, 0)));
+  EXPECT_GT(scene.project.film().models[0].joints[2].segment->sbb.max.x, 0) << "it keeps an inside";
+}
+
+TEST(Hands, ControlPointsFollowTheMouse) {
+  Scene scene(arm(), true);
+  scene.take(R"({"do": "select", "joint": "lower"})");
+  scene.tool("points");
+  const auto& joint = scene.project.film().models[0].joints[2];
+  const wire::Patch patch = scene.project.film().models[0].shapes[joint.segment->shape].patches[0];
+  const glm::dvec3 extent = joint.segment->sbb.max - joint.segment->sbb.min;
+  const glm::dvec3 in_cube(patch.points[5][0], patch.points[5][1], patch.points[5][2]);
+  const glm::dvec3 place = scene.of_joint(2, joint.segment->sbb.min + in_cube * extent);
+  ASSERT_EQ(scene.shapes("point:0:5").size(), 1u);
+  scene.grab(scene.pixel(place));
+  const std::string handle = scene.last("grabbed")["handle"];
+  ASSERT_EQ(handle.substr(0, 6), "point:");
+  scene.drag(scene.pixel(place + glm::dvec3(0.1, 0, 0.2)));
+  const Json step = scene.project.previews.back();
+  const Json& to = step["to"];
+  EXPECT_EQ(step["set"], "point");
+  const std::size_t number = step["point"][1].get<std::size_t>() * 4 + step["point"][0].get<std::size_t>();
+  const auto& before = scene.project.film()
+                           .models[0]
+                           .shapes[joint.segment->shape]
+                           .patches[step["patch"].get<std::size_t>()]
+                           .points[number];
+  EXPECT_NEAR(before[0], to[0].get<double>(), 1e-6);
+  EXPECT_TRUE(scene.project.pulled());
+  scene.drag(scene.pixel(place + glm::dvec3(0.02, 0, 0.2)), R"(["shift"])");
+  const Json& along = scene.project.previews.back()["to"];
+  EXPECT_NEAR(along[0].get<double>(), to[0].get<double>() - 0.1 / extent.x, 2e-3) << "along z alone";
+}
+
+TEST(Hands, OnePageAtATime) {
+  Scene scene(arm());
+  scene.grab(scene.pixel({2.4, -0.15, 0}));
+  scene.drag(scene.pixel({2.4, -0.15, 0.3}));
+  scene.stage->take(
+      2, Json::parse(R"({"do": "view", "view": 0, "width": 640, "height": 480, "from": "side", "as": "stick"})"));
+  EXPECT_ANY_THROW(scene.stage->take(2, Json::parse(R"({"do": "grab", "view": 0, "x": 320, "y": 240})")));
+  scene.stage->page_closed(1);
+  EXPECT_EQ(scene.project.cancels, 1);
+  EXPECT_NO_THROW(scene.stage->take(2, Json::parse(R"({"do": "grab", "view": 0, "x": 320, "y": 240})")));
+}
+
+TEST(Screen, LinesAreCutAtTheNearPlane) {
+  wire::Camera camera = camera_from({From::free, {{0, 0, 0}, -90, 0, 2}}, 1);
+  camera.near = 1;
+  const Screen screen(camera, 200, 100);
+  EXPECT_FALSE(screen.pixel_of({0, -1.5, 0}));
+  const auto cut = screen.polylines({{0.1, 3, 0}, {0.1, -3, 0}, {0.1, 3, 0.1}});
+  ASSERT_EQ(cut.size(), 2u);
+  for (const Polyline& line : cut) {
+    ASSERT_EQ(line.size(), 2u);
+    for (const glm::dvec2& pixel : line) EXPECT_LT(glm::length(pixel - glm::dvec2(100, 50)), 50) << "none at infinity";
+  }
+  EXPECT_LT(glm::length(cut[0].back() - *screen.pixel_of({0.1, -1, 0})), 1e-6);
+  EXPECT_TRUE(screen.polylines({{0, -3, 0}, {1, -4, 0}}).empty());
+}
+
+TEST(Screen, ProjectsAsThePreviewDraws) {
+  const wire::Camera camera = camera_from({From::front, {{1, 2, 3}, 0, 0, 5}}, 1);
+  const Screen screen(camera, 320, 200);
+  preview::Drawing drawing(320, 200);
+  drawing.begin(camera, {0, 0, 0}, 1, 200);
+  const glm::dvec3 place(1.2, 2.6, 2.5);
+  drawing.draw({{float(place.x), float(place.y), float(place.z)}, {}, 1}, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0},
+               {1, 1, 1});
+  const glm::dvec2 pixel = screen.pixel_of(place).value();
+  EXPECT_NE(drawing.image().pixels[std::size_t(pixel.y) * 320 + std::size_t(pixel.x)], 0u);
+  const Ray ray = screen.ray_through(pixel);
+  EXPECT_LT(glm::length(glm::cross(place - ray.from, glm::normalize(ray.way))), 1e-9);
+}
+
+TEST(Eyes, FrontSideAndTopAreAsGoodAsParallel) {
+  const Screen screen(camera_from({From::front, {{0, 0, 0}, 0, 0, 5}}, 1), 400, 400);
+  const double near = screen.scale_at({0.5, 0, 0}), far = screen.scale_at({-0.5, 0, 0});
+  EXPECT_NEAR(near / far, 1, 0.02);
+  const Screen free(camera_from({From::free, {{0, 0, 0}, 0, 0, 5}}, 1), 400, 400);
+  EXPECT_NEAR(free.scale_at({0, 0, 0}) / screen.scale_at({0, 0, 0}), 1, 1e-9) << "what is in the center is as large";
+}
+
+TEST(Eyes, PanningMovesTheCenterByThePixels) {
+  preview::Orbit orbit{{0, 0, 0}, -90, 20, 5};
+  const Screen before(camera_from({From::free, orbit}, 1), 400, 300);
+  const glm::dvec2 at = before.pixel_of({0, 0, 0}).value();
+  pan(orbit, {30, -20}, 300);
+  const Screen after(camera_from({From::free, orbit}, 1), 400, 300);
+  EXPECT_LT(glm::length(after.pixel_of({0, 0, 0}).value() - at - glm::dvec2(30, -20)), 0.5);
+}
+
+}  // namespace
+}  // namespace mars::studio

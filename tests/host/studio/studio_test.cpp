@@ -1,0 +1,120 @@
+// The studio between pages, project and stage.
+#include "host/studio/studio.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/host/studio/fakes.h"
+
+namespace mars::studio {
+namespace {
+
+struct Heard {
+  PageNumber page;
+  Json message;
+};
+
+class RecordingPages final : public web::Pages {
+ public:
+  void tell(PageNumber page, const Json& message) override { heard.push_back({page, message}); }
+  void show(ViewPicture) override {}
+
+  // What was said since the last time: "1 project, 0 poses".
+  std::string said() {
+    std::string all;
+    for (const Heard& each : std::exchange(heard, {}))
+      all += (all.empty() ? "" : ", ") + std::to_string(each.page) + " " + each.message["is"].get<std::string>();
+    return all;
+  }
+
+  std::vector<Heard> heard;
+};
+
+class StudioTest : public testing::Test {
+ protected:
+  StudioTest() {
+    auto project = std::make_unique<test::FakeProject>();
+    project_ = project.get();
+    const auto make_link = [this](RendererLink::Listener listener) {
+      link_ = std::move(listener);
+      return std::make_unique<test::FakeLink>();
+    };
+    const auto make_stage = [this](Project&, RendererLink&, Stage::Listener listener) {
+      auto stage = std::make_unique<test::FakeStage>(std::move(listener));
+      stage_ = stage.get();
+      return stage;
+    };
+    studio_.emplace(Parts{std::move(project), make_link, make_stage}, pages_);
+  }
+
+  void say(PageNumber page, const char* message) { studio_->page_said(page, Json::parse(message)); }
+
+  RecordingPages pages_;
+  test::FakeProject* project_ = nullptr;
+  test::FakeStage* stage_ = nullptr;
+  RendererLink::Listener link_;
+  std::optional<Studio> studio_;
+};
+
+TEST_F(StudioTest, ANewPageIsToldAll) {
+  link_.ready(4, 2);
+  link_.state("the nodes are gone");
+  pages_.heard.clear();
+  studio_->page_opened(3);
+  ASSERT_EQ(pages_.heard.size(), 2u);
+  EXPECT_EQ(pages_.heard[0].message["is"], "project");
+  EXPECT_EQ(pages_.heard[1].page, 3u);
+  EXPECT_EQ(pages_.heard[1].message.dump(), R"({"is":"state","renderer":"the nodes are gone","nodes":4,"machines":2})");
+}
+
+TEST_F(StudioTest, GesturesTellPosesAndTheirEndTellsAll) {
+  say(1, R"({"do": "preview", "edit": 7, "step": {"set": "a"}})");
+  EXPECT_EQ(pages_.said(), "0 poses");
+  EXPECT_EQ(stage_->last_edit, 7u);
+  EXPECT_EQ(stage_->changes, 1);
+  EXPECT_TRUE(project_->written.empty());
+  say(1, R"({"do": "commit", "edit": 8, "step": {"set": "b"}})");
+  EXPECT_EQ(pages_.said(), "0 project");
+  EXPECT_EQ(project_->written, std::vector<std::string>{"b"});
+  say(2, R"({"do": "undo"})");
+  say(2, R"({"do": "frame", "frame": 5})");
+  EXPECT_EQ(pages_.said(), "0 project, 0 project");
+  EXPECT_EQ(project_->frame(), 5u);
+}
+
+TEST_F(StudioTest, RefusesWhatMakesNoSense) {
+  for (const char* message :
+       {R"({"do": "commit", "step": {"set": "bad"}})", R"({"do": "commit"})", R"({"do": "commit", "step": 3})",
+        R"({"do": "preview", "step": {"set": [1]}})", R"({"do": "frame", "frame": -1})",
+        R"({"do": "frame", "frame": 1e9})", R"({"do": "view", "width": "wide"})", R"({"do": "unheard"})"}) {
+    say(2, message);
+    ASSERT_EQ(pages_.heard.size(), 1u) << message;
+    EXPECT_EQ(pages_.heard[0].page, 2u);
+    EXPECT_EQ(pages_.heard[0].message["is"], "refused");
+    EXPECT_EQ(pages_.heard[0].message["do"], Json::parse(message)["do"]);
+    pages_.heard.clear();
+  }
+  EXPECT_EQ(stage_->changes, 0);
+}
+
+TEST_F(StudioTest, AGestureEndsWithItsPage) {
+  say(1, R"({"do": "preview", "step": {"set": "a"}})");
+  studio_->page_closed(2);
+  EXPECT_TRUE(project_->in_gesture());
+  pages_.said();
+  studio_->page_closed(1);
+  EXPECT_FALSE(project_->in_gesture());
+  EXPECT_EQ(pages_.said(), "0 project");
+  EXPECT_EQ(stage_->closed, (std::vector<PageNumber>{2, 1}));
+}
+
+TEST_F(StudioTest, OutsideChangesShowAtOnce) {
+  studio_->look_at_files();
+  EXPECT_EQ(pages_.said(), "");
+  project_->outside_change = true;
+  studio_->look_at_files();
+  EXPECT_EQ(pages_.said(), "0 project");
+  EXPECT_EQ(stage_->changes, 1);
+}
+
+}  // namespace
+}  // namespace mars::studio
