@@ -124,8 +124,9 @@ TEST_F(ModelSteps, TheOtherSideIsMadeAndChangedAsInAMirror) {
       EXPECT_NEAR(a.z, b.z, 1e-12);
     }
   }
-  const std::string mirrored = text("pip.json");
   project->commit(step(R"({"mirror": "right"})"));
+  const std::string mirrored = text("pip.json");
+  project->commit(step(R"({"mirror": "left"})"));
   EXPECT_EQ(text("pip.json"), mirrored) << "a mirrored figure's mirror image is itself";
 }
 
