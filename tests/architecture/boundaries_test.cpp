@@ -174,6 +174,7 @@ TEST(Boundaries, HostsToolsStandOnOneAnother) {
   below(film, {document, modeler, animator, film});
   below(images, {document, images});
   below(preview, {child, document, modeler, animator, film, images, preview, "host/render/sinks/"});
+  below("host/studio/project/", {document, modeler, animator, film, preview, "host/studio/project/"});
   for (const Source& source : sources())
     for (const std::string& include : source.includes) {
       EXPECT_TRUE(!begins(include, "host/programs/") || begins(source.path, "host/programs/")) << source.path;
