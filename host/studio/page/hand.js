@@ -31,12 +31,13 @@ export class Hand {
   }
 
   // The studio's word on what the hand took.
-  grabbed({joint = null, handle = null}) {
+  grabbed({actor = null, joint = null, handle = null}) {
     const gesture = this.#gesture;
     if (gesture?.kind !== "asked") return;
     const empty = joint === null && handle === null;
-    Object.assign(gesture, {kind: empty ? "orbit" : "drag", how: "turn", empty});
-    this.#look(empty ? "turn" : "drag");
+    const kind = handle !== null || this.#turns(actor, joint) ? "drag" : "orbit";
+    Object.assign(gesture, {kind, how: "turn", empty});
+    this.#look(kind === "orbit" ? "turn" : "drag");
     if (gesture.newest) this.#follow(gesture.newest);
     if (gesture.up) this.#end(gesture.up);
   }
@@ -57,6 +58,12 @@ export class Hand {
   orbitBy(how, steps, event) {
     this.#orbit(how, steps.map((step) => step * kPerKey), event);
     this.#restSoon();
+  }
+
+  // What cannot turn, nor any joint above it, is like empty space: the eye moves.
+  #turns(actor, name) {
+    const joint = this.state.joint(name, actor);
+    return joint !== null && (joint.free.length > 0 || this.#turns(actor, joint.parent ?? null));
   }
 
   #down(event) {

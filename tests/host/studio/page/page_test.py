@@ -188,7 +188,7 @@ class Hands(Page):
         self.assertFalse([each for each in self.studio.heard if each["do"] in ("drag", "drop")])
 
     def test_a_drag_on_a_limb_pulls_it_and_escape_lets_go(self):
-        self.studio.there = lambda grab: {"joint": "left-thigh", "handle": None}
+        self.studio.there = lambda grab: {"actor": "model", "joint": "left-thigh", "handle": None}
         self.drag((30, 10), (20, 5))
         grab = self.studio.wait_for("grab", view=0, button=0, keys=[])
         drop = self.studio.wait_for("drop")
