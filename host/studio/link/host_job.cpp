@@ -121,7 +121,7 @@ HostJob::~HostJob() {
   };
   if (ends_within(kLongestEnd)) return;
   process_.send(SIGTERM);
-  ends_within(kLongestStop);
+  if (!ends_within(kLongestStop)) process_.give_up();  // it kills what does not end, and takes its time for it
 }
 
 }  // namespace mars::studio
