@@ -48,9 +48,9 @@ struct PictureHead {
   std::uint32_t width;
   std::uint32_t height;
   std::uint32_t rects;
-  std::uint32_t nodes;     // that drew it
-  double seconds;          // since the host began with it
-  double load_ratio;       // of a keyframe, as in wire::Strip
+  std::uint32_t nodes;  // that drew it
+  double seconds;       // since the host began with it
+  double load_ratio;    // of a keyframe, as in wire::Strip
   std::uint64_t triangles;
   std::uint64_t edge_boxes;
 };
