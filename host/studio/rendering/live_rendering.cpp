@@ -191,7 +191,8 @@ void LiveRendering::scrub(PageNumber page, const Json& message) {
     if (picture_.there()) view.due.set_all();
     return show(page, view);
   }
-  if (!frame.is_number_unsigned() || folder_.empty()) throw Failure("there is no such frame", "", "");
+  if (!frame.is_number_integer() || frame < 0 || frame >= wire::kMostFrames || folder_.empty())
+    throw Failure("there is no such frame", "", "");
   view.scrub = frame.get<std::uint32_t>();
   view.scrub_due = true;
   show(page, view);
