@@ -103,7 +103,7 @@ class Watched(ProgramTest):
 
     def test_marks_what_moves(self):
         """Where two frames of an interval differ, one of them has a moving part."""
-        _, seen = self.watch(*SMALL, "--nodes", 2, "--groups", 1, "--backend", "threads")
+        _, seen = self.watch(*SMALL, "--samples", 16, "--nodes", 1, "--backend", "threads")
         pairs = [(a, b) for a, b in zip(seen, seen[1:]) if a.whole and b.whole and a.interval == b.interval]
         self.assertTrue(pairs)
         for one, other in pairs:
