@@ -5,6 +5,7 @@ import socket
 import struct
 import threading
 import time
+import types
 import zlib
 
 BEGIN, PICTURE, DRAWN = 1, 2, 3
@@ -128,8 +129,12 @@ class Watcher:
         self.drawn[frame] = (interval, kind, group,
                              [PART.unpack_from(body, DRAWN_HEAD.size + PART.size * i) for i in range(parts)])
 
+    def copy(self):
+        """What it has now; rows of `colors` are red, green, blue."""
+        return types.SimpleNamespace(frame=self.frame, interval=self.interval, kind=self.kind, whole=self.whole,
+                                     lines=self.lines, rects=self.rects, colors=self.colors(), marks=self.marks())
+
     def colors(self):
-        """Rows of red, green, blue."""
         rows = []
         for row in self.rows:
             colors = bytearray(3 * self.width)

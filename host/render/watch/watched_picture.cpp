@@ -23,8 +23,8 @@ WatchedPicture::WatchedPicture(std::uint32_t width, std::uint32_t height, std::u
 }
 
 void WatchedPicture::follow(std::uint32_t group) {
-  head_.group = group;
-  head_.whole = 0;
+  group_ = group;
+  in_step_ = false;
   inbetweens_.clear();
   keyframe_lines_ = 0;
   std::ranges::fill(still_, Mark::unknown);
@@ -41,7 +41,7 @@ void WatchedPicture::paste(const PastedStrip& strip, const compositor::Composito
     inbetween.lines += header.last_line - header.first_line;
     return;
   }
-  if (head_.whole == 1 || head_.frame != header.frame || keyframe_lines_ == 0) begin_keyframe(header);
+  if (!in_step_ || head_.whole == 1 || head_.frame != header.frame || keyframe_lines_ == 0) begin_keyframe(header);
   head_.seconds = seconds;
   keyframe_lines_ += header.last_line - header.first_line;
   mark_lines(strip);
@@ -58,6 +58,8 @@ void WatchedPicture::begin_keyframe(const wire::Strip& header) {
   head_.interval = header.interval;
   head_.kind = header.kind;
   head_.whole = 0;
+  head_.group = group_;
+  in_step_ = true;
   keyframe_lines_ = 0;
   inbetweens_.clear();
   std::ranges::fill(lines_, Line{-1, 0});
@@ -98,13 +100,14 @@ void WatchedPicture::finish(const compositor::Frame& frame, std::uint32_t interv
   else if (head_.frame != frame.number || keyframe_lines_ != height_)
     put_whole(frame);
   keyframe_lines_ = 0;
-  head_ = {frame.number, interval, kind, 1, head_.group, 0, seconds};
+  head_ = {frame.number, interval, kind, 1, group_, 0, seconds};
+  in_step_ = true;
   news_ = begun_ = true;
 }
 
 // Whether the picture is the frame before, in the compositor's order.
 bool WatchedPicture::follows(const compositor::Frame& frame, std::uint32_t interval) const {
-  return head_.whole == 1 && head_.interval == interval && frame.changed_since == head_.frame;
+  return in_step_ && head_.whole == 1 && head_.interval == interval && frame.changed_since == head_.frame;
 }
 
 void WatchedPicture::finish_inbetween(const compositor::Frame& frame, std::uint32_t interval, std::int32_t node) {

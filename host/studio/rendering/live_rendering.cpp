@@ -17,7 +17,7 @@
 #include "host/render/watch/flagged_rects.h"
 #include "host/studio/rendering/drawn_picture.h"
 #include "host/studio/rendering/finished_frames.h"
-#include "host/studio/rendering/page_view.h"
+#include "host/studio/rendering/rendering_page.h"
 #include "host/studio/rendering/render_process.h"
 #include "host/studio/rendering/render_words.h"
 #include "host/studio/rendering/rendering.h"
@@ -89,11 +89,11 @@ class LiveRendering : public Rendering {
 
   void become(const char* state, std::string text);
   Json describe() const;
-  void show(PageNumber page, PageView& view);
-  void show_drawn(PageNumber page, PageView& view);
+  void show(PageNumber page, RenderingPage& view);
+  void show_drawn(PageNumber page, RenderingPage& view);
   void show_frame(PageNumber page, const images::Image& image);
   void show_all();
-  void send(PageNumber page, PageView& view, ViewPicture picture);
+  void send(PageNumber page, RenderingPage& view, ViewPicture picture);
   bool is_busy() const { return job_.process != nullptr; }
 
   asio::io_context& context_;
@@ -115,7 +115,7 @@ class LiveRendering : public Rendering {
   int ticks_ = 0;
   bool ticking_ = false, looking_ = false;
   DrawnPicture picture_;
-  std::map<PageNumber, PageView> pages_;
+  std::map<PageNumber, RenderingPage> pages_;
   Job job_;  // without a process: none runs
 };
 
@@ -129,7 +129,7 @@ void LiveRendering::take(PageNumber page, const Json& message) {
 }
 
 void LiveRendering::page_opened(PageNumber page) {
-  PageView& view = pages_[page];
+  RenderingPage& view = pages_[page];
   listener_.tell(page, describe());
   if (!picture_.there()) return;
   view.due = picture_.no_blocks();
@@ -184,21 +184,22 @@ void LiveRendering::watch(const Json& message) {
 }
 
 void LiveRendering::scrub(PageNumber page, const Json& message) {
-  PageView& view = pages_[page];
+  RenderingPage& view = pages_[page];
   const Json& frame = message.at("frame");
   if (frame.is_null()) {
     view.scrub.reset();
     if (picture_.there()) view.due.set_all();
     return show(page, view);
   }
-  if (!frame.is_number_unsigned() || folder_.empty()) throw Failure("there is no such frame", "", "");
+  if (!frame.is_number_integer() || frame < 0 || frame >= wire::kMostFrames || folder_.empty())
+    throw Failure("there is no such frame", "", "");
   view.scrub = frame.get<std::uint32_t>();
   view.scrub_due = true;
   show(page, view);
 }
 
 void LiveRendering::painted(PageNumber page, const Json& message) {
-  PageView& view = pages_[page];
+  RenderingPage& view = pages_[page];
   const auto picture = message.at("picture").get<std::uint32_t>();
   if (picture > view.picture) throw Failure("there was no such picture", "", "");
   view.painted = std::max(view.painted, picture);
@@ -335,7 +336,7 @@ void LiveRendering::show_all() {
   for (auto& [page, view] : pages_) show(page, view);
 }
 
-void LiveRendering::show(PageNumber page, PageView& view) {
+void LiveRendering::show(PageNumber page, RenderingPage& view) {
   if (!view.has_room()) return;
   if (view.scrub) {
     if (std::exchange(view.scrub_due, false)) read(page, *view.scrub);
@@ -344,7 +345,7 @@ void LiveRendering::show(PageNumber page, PageView& view) {
   }
 }
 
-void LiveRendering::show_drawn(PageNumber page, PageView& view) {
+void LiveRendering::show_drawn(PageNumber page, RenderingPage& view) {
   const std::vector<watch::Rect> rects = watch::flagged_rects(view.due, picture_.width(), picture_.height());
   ViewPicture picture;
   picture.width = static_cast<std::uint16_t>(picture_.width());
@@ -386,7 +387,7 @@ void LiveRendering::show_frame(PageNumber page, const images::Image& image) {
   send(page, found->second, std::move(picture));
 }
 
-void LiveRendering::send(PageNumber page, PageView& view, ViewPicture picture) {
+void LiveRendering::send(PageNumber page, RenderingPage& view, ViewPicture picture) {
   picture.page = page;
   picture.view = kRenderingView;
   picture.picture = ++view.picture;

@@ -17,7 +17,7 @@ constexpr std::array kTexts{"frames", "backend", "size", "samples", "mapping", "
 std::string text_in(const Json& options, const char* name, const std::string& otherwise) {
   const auto found = options.find(name);
   if (found == options.end() || found->is_null()) return otherwise;
-  if (found->is_number_unsigned()) return std::to_string(found->get<std::uint64_t>());
+  if (found->is_number_integer()) return found->dump();
   const bool sound = found->is_string() && found->get_ref<const std::string&>().find('\0') == std::string::npos;
   if (!sound) throw Failure(std::string(name) + " is no text", "", "");
   return found->get<std::string>();

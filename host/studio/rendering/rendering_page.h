@@ -8,7 +8,7 @@
 
 namespace mars::studio {
 
-struct PageView {
+struct RenderingPage {
   static constexpr std::uint32_t kMostUnpainted = 2;
 
   compositor::BlockFlags due;          // of what is drawn, that the page does not have
