@@ -155,9 +155,15 @@ class TheStage : public Stage {
       view.eye = {From::free, preview::orbit_near(camera_of(view), moments_.subject())};
     if (how == 0) turn(view.eye.orbit, by);
     if (how == 1) pan(view.eye.orbit, by, view.height);
-    if (how == 2) zoom(view.eye.orbit, by);
+    if (how == 2) zoom(view.eye.orbit, by, from_middle(message, view), view.height);
     view.orbiting = flag_in(message, "moving", false);
     if (!view.orbiting) tell_orbit(view);
+  }
+
+  // Of what the message names; of none: 0.
+  static glm::dvec2 from_middle(const Json& message, const PageView& view) {
+    if (!message.contains("x")) return {0, 0};
+    return pixel_in(message) - glm::dvec2(view.width, view.height) / 2.0;
   }
 
   void unview(PageNumber page, const Json& message) {
