@@ -103,12 +103,12 @@ class Watched(ProgramTest):
 
     def test_marks_what_moves(self):
         """Where two frames of an interval differ, one of them has a moving part."""
-        _, seen = self.watch(*SMALL, "--samples", 16, "--nodes", 1, "--backend", "threads")
+        _, seen = self.watch(ARM, "--size", "192x108", "--samples", 16, "--nodes", 1, "--backend", "threads")
         pairs = [(a, b) for a, b in zip(seen, seen[1:]) if a.whole and b.whole and a.interval == b.interval]
         self.assertTrue(pairs)
         for one, other in pairs:
-            for y in range(54):
-                for x in range(96):
+            for y in range(108):
+                for x in range(192):
                     if one.colors[y][3 * x:3 * x + 3] != other.colors[y][3 * x:3 * x + 3]:
                         self.assertIn(MOVING, (one.marks[y][x], other.marks[y][x]), f"{x}, {y}")
 
