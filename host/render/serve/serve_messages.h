@@ -10,6 +10,8 @@
 
 #include <cstdint>
 
+#include "host/render/compositor/rectangles.h"
+
 namespace mars::serve {
 
 enum class Kind : std::uint32_t {
@@ -55,9 +57,7 @@ struct PictureHead {
   std::uint64_t edge_boxes;
 };
 
-struct Rect {
-  std::uint16_t x, y, width, height;
-};
+using compositor::Rect;
 
 inline constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 40;  // of a body
 

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <utility>
 
-#include "host/render/watch/flagged_rects.h"
+#include "host/render/compositor/rectangles.h"
 
 namespace mars::watch {
 using compositor::BlockFlags;
@@ -151,7 +151,7 @@ void WatchedPicture::forget_sent() {
 
 void WatchedPicture::take(PictureUpdate& update) {
   update.head = head_;
-  update.rects = flagged_rects(pending_, width_, height_);
+  update.rects = compositor::rectangles_of(pending_, width_, height_);
   update.head.rects = static_cast<std::uint32_t>(update.rects.size());
   update.lines = lines_;
   update.words.clear();

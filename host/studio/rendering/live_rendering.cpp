@@ -14,7 +14,7 @@
 
 #include "hal/failure/explain.h"
 #include "hal/failure/failure.h"
-#include "host/render/watch/flagged_rects.h"
+#include "host/render/compositor/rectangles.h"
 #include "host/studio/rendering/drawn_picture.h"
 #include "host/studio/rendering/finished_frames.h"
 #include "host/studio/rendering/rendering_page.h"
@@ -346,7 +346,7 @@ void LiveRendering::show(PageNumber page, RenderingPage& view) {
 }
 
 void LiveRendering::show_drawn(PageNumber page, RenderingPage& view) {
-  const std::vector<watch::Rect> rects = watch::flagged_rects(view.due, picture_.width(), picture_.height());
+  const std::vector<watch::Rect> rects = compositor::rectangles_of(view.due, picture_.width(), picture_.height());
   ViewPicture picture;
   picture.width = static_cast<std::uint16_t>(picture_.width());
   picture.height = static_cast<std::uint16_t>(picture_.height());
