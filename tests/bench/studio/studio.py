@@ -1,0 +1,168 @@
+#!/usr/bin/env python3
+"""mars bench studio: how fast the studio answers a hand. It starts `mars studio` and a
+headless Chromium, moves the mouse by the DevTools protocol, and reads in the page how
+long it takes from an event to the paint that shows it, at 1280x720.
+
+Of each case: pictures a second; milliseconds to the paint, in the middle and at the
+95th percentile; where the time of a picture goes, in the middle (to the message's
+departure; until its picture comes; until the page's animation frame; its script; the
+paint); kB a picture; processor milliseconds that each program takes for a picture."""
+import argparse
+import os
+import pathlib
+import shutil
+import statistics
+import sys
+import tempfile
+import time
+
+HERE = pathlib.Path(__file__).resolve().parent
+SOURCES = HERE.parent.parent.parent
+sys.path.insert(0, str(SOURCES / "tests" / "programs"))
+from studio_browser import Browser, Studio, tree_of  # noqa: E402
+
+SECONDS = 4      # of each case
+MOVES = 60       # of the mouse, a second
+REACH = 60       # pixels to each side
+CASES = ["demo drag one", "demo drag four", "demo orbit one", "demo orbit four",
+         "s2 drag one", "s2 drag four", "s2 orbit one", "s2 orbit four"]
+TARGETS = {("demo", "drag"): (50, 30), ("s2", "drag"): (100, 30), ("demo", "orbit"): (None, 24), ("s2", "orbit"): (None, 12)}
+PROGRAMS = {"nodes": "/mars-threads ", "studio": "/mars studio", "page": "--type=renderer", "paint": "--type=gpu-process",
+            "browser": "chromium/chromium", "driver": "chromedriver"}  # a word of its command line
+
+
+def arguments():
+    parser = argparse.ArgumentParser(prog="mars bench studio", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("cases", nargs="*", metavar="CASE", help=f"words that cases have; all: {', '.join(CASES)}")
+    parser.add_argument("--build", required=True, type=pathlib.Path, help=argparse.SUPPRESS)
+    parser.add_argument("--seconds", type=float, default=SECONDS, help="of a case; default: %(default)s")
+    return parser.parse_args()
+
+
+def kind_of(words):
+    line = " ".join(words)
+    return next((kind for kind, word in PROGRAMS.items() if word in line), "")
+
+
+def processor_ms(*roots):
+    """By kind of program."""
+    spent = dict.fromkeys(PROGRAMS, 0.0)
+    tick = 1000 / os.sysconf("SC_CLK_TCK")
+    for root in roots:
+        for process, words in tree_of(root).items():
+            kind = kind_of(words)
+            if not kind:
+                continue
+            try:
+                stat = pathlib.Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
+            except OSError:
+                continue
+            spent[kind] += tick * (int(stat[11]) + int(stat[12]))
+    return spent
+
+
+def find_limb(browser, view):
+    """A place of the view at which a limb lies that a hand can turn."""
+    left, top, width, height = browser.run("""
+        const at = arguments[0].getBoundingClientRect();
+        return [at.x, at.y, at.width, at.height];""", view)
+    seen = []
+    for down in (0.5, 0.45, 0.4, 0.55, 0.35, 0.6, 0.65, 0.3, 0.7):
+        for along in [0.5 + sign * step / 40 for step in range(16) for sign in (1, -1)]:
+            x, y = round(left + along * width), round(top + down * height)
+            browser.move(x, y)
+            time.sleep(0.03)
+            text = browser.run("return arguments[0].querySelector('.tip').textContent", view)
+            seen.append(text)
+            if browser.run("return arguments[0].dataset.over", view) == "limb" and any(f" {axis} " in text for axis in "xyz"):
+                return (x, y), text
+    raise RuntimeError(f"no limb to turn: {set(seen)}")
+
+
+def move_for(browser, at, seconds):
+    """To and fro, MOVES times a second; how often."""
+    began, moves = time.monotonic(), 0
+    while (now := time.monotonic() - began) < seconds:
+        phase = now / 2 % 1
+        off = REACH * (4 * abs(phase - 0.5) - 1)
+        browser.move(round(at[0] + off), round(at[1] + off / 3))
+        moves += 1
+        time.sleep(max(0, began + moves / MOVES - time.monotonic()))
+    return moves
+
+
+def middle(values):
+    return statistics.median(values) if values else float("nan")
+
+
+def percentile(values, share):
+    values = sorted(values)
+    return values[min(len(values) - 1, int(share * len(values)))] if values else float("nan")
+
+
+def copied(film, folder):
+    shutil.copytree(SOURCES / "examples", folder, dirs_exist_ok=True)
+    return pathlib.Path(folder) / f"{film}.json"
+
+
+def measure(build, case, seconds):
+    film, how, views = case.split()
+    with tempfile.TemporaryDirectory() as folder, Studio(build / "bin", copied(film, folder)) as studio, \
+            Browser(script=(HERE / "probe.js").read_text()) as browser:
+        browser.open(studio.link)
+        browser.until("pictures", "document.querySelectorAll('.view .waiting[hidden]').length === 4", 120)
+        browser.run("document.querySelector('[data-key=view-3]').focus()")
+        if views == "one":
+            browser.run("document.querySelectorAll('.view .maximise')[3].click()")
+        time.sleep(1.5)
+        view = browser.run("return document.querySelector('[data-key=view-3]')")
+        at, limb = find_limb(browser, view)
+        browser.move(*at)
+        browser.press(*at, "left" if how == "drag" else "middle")
+        move_for(browser, at, 1)  # the interval has begun
+        roots = studio.process.pid, browser.driver.service.process.pid
+        browser.run("window.marsLatencies.length = 0; window.marsProbe.pictures.length = 0")
+        before, began = processor_ms(*roots), time.monotonic()
+        moves = move_for(browser, at, seconds)
+        after, lasted = processor_ms(*roots), time.monotonic() - began
+        latencies = [each["ms"] for each in browser.run("return window.marsLatencies") if each["view"] == 3]
+        pictures = browser.run("""
+            const {sent, pictures} = window.marsProbe;
+            return pictures.filter(({said}) => said).map((each) => ({...each, left: sent.get(each.edit) ?? null}));""")
+        browser.release(*at)
+        complaints = browser.console()
+    return report(case, limb, lasted, moves, latencies, pictures, {k: after[k] - before[k] for k in after}, complaints)
+
+
+def report(case, limb, lasted, moves, latencies, pictures, spent, complaints):
+    ours = [each for each in pictures if each["view"] == 3]
+    known = [each for each in ours if each["left"] is not None and each.get("frame")]
+    if not ours:
+        print(f"{case}: no pictures", complaints)
+        return
+    row = {
+        "moves/s": moves / lasted, "pict/s": len(ours) / lasted, "all/s": len(pictures) / lasted,
+        "p50": middle(latencies), "p95": percentile(latencies, 0.95),
+        "server": middle([each["came"] - each["left"] for each in known]),
+        "frame": middle([each["frame"] - each["came"] for each in known]),
+        "put": middle([each["paint"] for each in known]),
+        "script": middle([each["script"] for each in known]),
+        "paint": middle([each["said"] - each["frame"] - each["script"] for each in known]),
+        "kB": middle([each["bytes"] for each in ours]) / 1000, "rects": middle([each["rects"] for each in ours]),
+        "enc": max(each["encoding"] for each in ours),
+    }
+    row |= {f"cpu {kind}": value / len(pictures) for kind, value in spent.items()}
+    print(f"{case} ({limb})\n   " + "  ".join(f"{k} {v:.1f}" for k, v in row.items()), *complaints, flush=True)
+
+
+def main():
+    wanted = arguments()
+    cases = [case for case in CASES if all(word in case.split() for word in wanted.cases)]
+    print(f"{os.cpu_count()} processors, load {os.getloadavg()[0]:.1f}")
+    for case in cases:
+        measure(wanted.build.resolve(), case, wanted.seconds)
+
+
+if __name__ == "__main__":
+    main()

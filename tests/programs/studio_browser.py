@@ -1,0 +1,155 @@
+"""`mars studio` and a headless Chromium whose mouse and keyboard are moved by the DevTools protocol, as a person's are."""
+
+import os
+import pathlib
+import signal
+import subprocess
+import time
+
+from selenium import webdriver
+from selenium.webdriver.chrome.options import Options
+from selenium.webdriver.chrome.service import Service
+
+SECONDS = 30  # for whatever the page must show
+# Without a graphics card, Chromium's own raster is quicker than a card that the processor imitates.
+FLAGS = ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+         "--disable-background-networking", "--disable-component-update", "--disable-sync", "--disable-extensions"]
+BUTTONS = {"left": 1, "right": 2, "middle": 4}
+SHIFT = 8
+
+
+class Studio:
+    """`mars studio FILE` in the file's folder; `link` as a person gets it."""
+
+    def __init__(self, programs, file, *arguments):
+        file = pathlib.Path(file)
+        self.process = subprocess.Popen([pathlib.Path(programs) / "mars", "studio", file.name, "--no-browser", *arguments],
+                                        cwd=file.parent, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.link = None
+        for line in self.process.stdout:
+            if line.startswith("Open "):
+                self.link = line.split()[1]
+            if line.startswith("Ctrl-C"):
+                break
+        if self.link is None:
+            raise RuntimeError(f"mars studio: {self.process.communicate()[1]}")
+
+    def end(self, number=signal.SIGTERM):
+        """The exit code and what it complained of."""
+        if self.process.poll() is None:
+            self.process.send_signal(number)
+        errors = self.process.communicate(timeout=SECONDS)[1]
+        return self.process.returncode, errors
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.end(signal.SIGTERM)
+
+
+class Browser:
+    def __init__(self, width=1280, height=720, script=None, flags=()):
+        options = Options()
+        for flag in [*FLAGS, *flags]:
+            options.add_argument(flag)
+        options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+        self.driver = webdriver.Chrome(options=options, service=Service("/usr/bin/chromedriver"))
+        self.command("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+        if script:
+            self.command("Page.addScriptToEvaluateOnNewDocument", source=script)
+        self.held = ""
+        self.logged = []
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.driver.quit()
+
+    def command(self, name, **arguments):
+        return self.driver.execute_cdp_cmd(name, arguments)
+
+    def open(self, link):
+        self.driver.get(link)
+
+    def run(self, script, *arguments):
+        return self.driver.execute_script(script, *arguments)
+
+    def until(self, what, condition, seconds=SECONDS):
+        """`condition`: JavaScript, or a function; its first value that counts as true."""
+        last = time.monotonic() + seconds
+        while not (value := self.run(f"return {condition}") if isinstance(condition, str) else condition()):
+            if time.monotonic() > last:
+                raise AssertionError(f"not within {seconds} s: {what}\n" + "\n".join(self.console()))
+            time.sleep(0.02)
+        return value
+
+    def console(self):
+        """All warnings and errors until now."""
+        self.logged += [f"{entry['level']} {entry['message']}" for entry in self.driver.get_log("browser")
+                        if entry["level"] in ("WARNING", "SEVERE")]
+        return self.logged
+
+    # ---- mouse and keys
+
+    def mouse(self, kind, x, y, button="none", clicks=0, keys=0):
+        held = BUTTONS.get(self.held, 0)
+        self.command("Input.dispatchMouseEvent", type=kind, x=x, y=y, button=button, buttons=held, clickCount=clicks,
+                     modifiers=keys)
+
+    def move(self, x, y, keys=0):
+        self.mouse("mouseMoved", x, y, self.held or "none", keys=keys)
+
+    def press(self, x, y, button="left", clicks=1, keys=0):
+        self.held = button
+        self.mouse("mousePressed", x, y, button, clicks, keys)
+
+    def release(self, x, y, clicks=1, keys=0):
+        button, self.held = self.held, ""
+        self.mouse("mouseReleased", x, y, button, clicks, keys)
+
+    def click(self, x, y, clicks=1, keys=0):
+        self.move(x, y, keys)
+        for each in range(1, clicks + 1):
+            self.press(x, y, clicks=each, keys=keys)
+            self.release(x, y, clicks=each, keys=keys)
+
+    def drag(self, begin, end, steps=10, button="left", keys=0):
+        self.move(*begin)
+        self.press(*begin, button, keys=keys)
+        for step in range(1, steps + 1):
+            self.move(*(a + (b - a) * step / steps for a, b in zip(begin, end)), keys=keys)
+        self.release(*end, keys=keys)
+
+    def center(self, selector):
+        return self.run("""
+            const at = document.querySelector(arguments[0]).getBoundingClientRect();
+            return [at.x + at.width / 2, at.y + at.height / 2];""", selector)
+
+    def screenshot(self, path):
+        self.driver.save_screenshot(str(path))
+
+
+def tree_of(ancestor):
+    """Processes of a process's family, itself among them, with their command lines."""
+    parents = {}
+    for entry in os.listdir("/proc"):
+        if entry.isdigit():
+            try:
+                stat = pathlib.Path(f"/proc/{entry}/stat").read_text().rpartition(")")[2].split()
+                parents[int(entry)] = int(stat[1])
+            except OSError:
+                pass
+    found, grown = {ancestor}, True
+    while grown:
+        more = {process for process, parent in parents.items() if parent in found} - found
+        grown = bool(more)
+        found |= more
+    lines = {}
+    for process in found:
+        try:
+            lines[process] = pathlib.Path(f"/proc/{process}/cmdline").read_bytes().decode(errors="replace").split("\0")
+        except OSError:
+            pass
+    return lines
