@@ -13,8 +13,8 @@ namespace mars::programs {
 void foresee_on(const experiments::Platform& platform, session::RenderJob& job);
 
 // Renders on this machine, as its host. What is foreseen follows from what mars calibrate measured; else from what work
-// costs on a typical machine, and groups are not chosen by that. Nothing is foreseen of renderings that soon end. Or serves
-// a studio, where the options say so.
+// costs on a typical machine, and groups are not chosen by that. Nothing is foreseen of renderings that soon end. Or
+// serves a studio, where the options say so.
 void render_here(const options::RenderOptions& options, const std::string& backend);
 
 }  // namespace mars::programs

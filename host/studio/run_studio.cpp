@@ -4,6 +4,7 @@
 
 #include "host/child/programs.h"
 #include "host/studio/link/host_link.h"
+#include "host/studio/rendering/rendering.h"
 #include "host/studio/serve_studio.h"
 
 namespace mars::studio {
@@ -13,7 +14,10 @@ void run_studio(const StudioSettings& settings) {
     const auto link = [&](RendererLink::Listener listener) {
       return make_host_link(context, settings.renderer, child::own_file(), std::move(listener));
     };
-    return Parts{open_project(file), link, make_stage};
+    const auto rendering = [&context, file](Rendering::Listener listener) {
+      return make_rendering(context, {file, std::filesystem::current_path(), child::own_file()}, std::move(listener));
+    };
+    return Parts{open_project(file), link, make_stage, rendering};
   });
 }
 

@@ -36,6 +36,8 @@ Studio::Studio(Parts parts, web::Pages& pages) : pages_(pages), project_(std::mo
   stage_ = parts.make_stage(*project_, *link_,
                             {[this](ViewPicture picture) { pages_.show(std::move(picture)); },
                              [this](PageNumber page, const Json& message) { pages_.tell(page, message); }});
+  rendering_ = parts.make_rendering({[this](ViewPicture picture) { pages_.show(std::move(picture)); },
+                                     [this](PageNumber page, const Json& message) { pages_.tell(page, message); }});
 }
 
 RendererLink::Listener Studio::link_listener() {
@@ -61,6 +63,7 @@ void Studio::tell_state(PageNumber page) {
 void Studio::page_opened(PageNumber page) {
   pages_.tell(page, project_->describe());
   tell_state(page);
+  rendering_->page_opened(page);
 }
 
 void Studio::page_said(PageNumber page, const Json& message) {
@@ -79,6 +82,10 @@ void Studio::page_said(PageNumber page, const Json& message) {
 
 // Whether the history may be another.
 bool Studio::obey(PageNumber page, const Json& message) {
+  if (Rendering::is_for_it(message)) {
+    rendering_->take(page, message);
+    return false;
+  }
   const bool is_step = obey_step(message);
   stage_->take(page, message);
   return is_step && message["do"] != "preview";
@@ -101,6 +108,7 @@ void Studio::refuse(PageNumber page, const Json& message, const std::string& why
 void Studio::page_closed(PageNumber page) {
   const Shown before = shown();
   stage_->page_closed(page);
+  rendering_->page_closed(page);
   if (gesture_of_ == page && project_->in_gesture()) project_->cancel();
   announce(before, false);
 }

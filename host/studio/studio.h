@@ -1,5 +1,5 @@
-// The studio: one project, seen and worked on by pages. Pages' messages become steps of the project and work of the
-// stage; what changes is told to all pages. It has no thread: whoever runs it calls it.
+// The studio: one project, seen and worked on by pages. Pages' messages become steps of the project, work of the
+// stage and of a rendering; what changes is told to all pages. It has no thread: whoever runs it calls it.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "host/studio/rendering/rendering.h"
 #include "host/studio/web/pages.h"
 
 namespace mars::studio {
@@ -17,6 +18,7 @@ struct Parts {
   std::unique_ptr<Project> project;
   std::function<std::unique_ptr<RendererLink>(RendererLink::Listener)> make_link;
   std::function<std::unique_ptr<Stage>(Project&, RendererLink&, Stage::Listener)> make_stage;
+  std::function<std::unique_ptr<Rendering>(Rendering::Listener)> make_rendering;
 };
 
 class Studio {
@@ -54,6 +56,7 @@ class Studio {
   std::unique_ptr<Project> project_;
   std::unique_ptr<RendererLink> link_;
   std::unique_ptr<Stage> stage_;
+  std::unique_ptr<Rendering> rendering_;
   std::optional<PageNumber> gesture_of_;
   std::string trouble_;  // the renderer's
   std::uint32_t nodes_ = 0, machines_ = 0;

@@ -144,8 +144,9 @@ TEST(Boundaries, HostAndNodeShareTheWire) {
 
 // What makes frames of a film runs one way, and knows nothing of a person's command line.
 TEST(Boundaries, RenderingRunsOneWay) {
-  std::vector<std::string> before = {"host/images/", "host/content/"};
-  for (const char* part : {"compositor/", "sinks/", "resume/", "events/", "trace/", "farm/", "report/", "session/"}) {
+  std::vector<std::string> before = {"host/child/", "host/images/", "host/content/"};
+  for (const char* part :
+       {"compositor/", "sinks/", "resume/", "events/", "trace/", "watch/", "farm/", "report/", "session/", "serve/"}) {
     before.push_back(std::string("host/render/") + part);
     expect_includes(before.back(), [&](const std::string& include) {
       return !begins(include, "host/") ||
@@ -174,6 +175,7 @@ TEST(Boundaries, HostsToolsStandOnOneAnother) {
   below(film, {document, modeler, animator, film});
   below(images, {document, images});
   below(preview, {child, document, modeler, animator, film, images, preview, "host/render/sinks/"});
+  below("host/studio/project/", {document, modeler, animator, film, preview, "host/studio/project/"});
   for (const Source& source : sources())
     for (const std::string& include : source.includes) {
       EXPECT_TRUE(!begins(include, "host/programs/") || begins(source.path, "host/programs/")) << source.path;

@@ -1,16 +1,18 @@
 #!/usr/bin/env bash
 # Proves MARS on a bare Debian 12. Needs root, debootstrap and a network:
-#   tests/bare/bare_debian.sh [--base FILE.tar] [test]
+#   tests/bare/bare_debian.sh [--base FILE.tar] [--keep-build] [test]
 # In one bare system: ./bootstrap demo, test and deb. In a second: the .deb, installed by apt, used by root and
 # by an ordinary user, removed. With the word test: ./bootstrap test alone. No test may be skipped there but those
 # of tests/bare/skips.txt. What is committed is what is tested. --base keeps the bare system itself: FILE is
-# written where it is missing, and spares the next run debootstrap. Takes ten minutes and about 4 GB below TMPDIR
-# (/tmp). Ends with a line for each step; exit code 0 if all went well, 3 where no bare system can be made.
+# written where it is missing, and spares the next run debootstrap. --keep-build leaves what was built there as
+# this checkout's build folder, where it has none: a Debian 12 need not build it again. Takes ten minutes and
+# about 4 GB below TMPDIR (/tmp). Ends with a line for each step; exit code 0 if all went well, 3 where no bare
+# system can be made.
 set -euo pipefail
 
 suite=bookworm
 seconds_for_demo=120
-checkout=$(cd "$(dirname "$0")/../.." && pwd)
+checkout=$(cd "$(dirname "$0")/../.." && pwd -P)
 
 give_up() { printf 'bare_debian: %s\n' "$*" >&2; exit 3; }
 
@@ -76,8 +78,13 @@ step() {
 
 unpack_build() {
   unpack_system build
-  git -c safe.directory='*' clone -q --no-hardlinks "$checkout" "$work/build/root/mars"
+  # Where the checkout itself is: a build folder knows its place.
+  mkdir -p "$work/build${checkout%/*}"
+  git -c safe.directory='*' clone -q --no-hardlinks "$checkout" "$work/build$checkout"
+  ln -s "$checkout" "$work/build/root/mars"
 }
+
+keep_build() { [ -e "$checkout/build" ] || cp -a "$work/build$checkout/build" "$checkout/build"; }
 
 prove_tests() {
   step "./bootstrap test" build root 'mars/bootstrap test'
@@ -153,7 +160,7 @@ complete_words='
 
 prove_package() {
   unpack_system user
-  cp "$work"/build/root/mars/build/release/mars*.deb "$work/user/root/"
+  cp "$work/build$checkout"/build/release/mars*.deb "$work/user/root/"
   step "apt-get install the .deb" user root '
     apt-get update -q
     DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends ./mars_*.deb
@@ -180,8 +187,9 @@ run() {
     prove_tests
   else
     prove_bootstrap
-    if ls "$work"/build/root/mars/build/release/mars_*.deb >/dev/null 2>&1; then prove_package; fi
+    if ls "$work/build$checkout"/build/release/mars_*.deb >/dev/null 2>&1; then prove_package; fi
   fi
+  [ -z "$keep" ] || keep_build
   printf '\n==== Summary\n'
   printf '%s\n' "${summary[@]}"
   [ "$failed" = 0 ]
@@ -192,7 +200,7 @@ failed=0
 
 # The work is done in mount and process namespaces of its own: whatever ends it, nothing stays mounted or running.
 if [ "${1:-}" = --within ]; then
-  work=$2 base=$3 only=$4
+  work=$2 base=$3 only=$4 keep=$5
   exec 3>&1 4>&2
   run
   exit
@@ -204,9 +212,14 @@ if [ "${1:-}" = --base ]; then
   kept=$2
   shift 2
 fi
+keep=""
+if [ "${1:-}" = --keep-build ]; then
+  keep=yes
+  shift
+fi
 case "$#:${1:-}" in
   0: | 1:test) only=${1:-} ;;
-  *) sed -n '2,9s/^# \{0,1\}//p' "$0"; exit 2 ;;
+  *) sed -n '2,10s/^# \{0,1\}//p' "$0"; exit 2 ;;
 esac
 [ "$(id -u)" = 0 ] || give_up "needs root"
 unshare --mount --pid --fork mount -t tmpfs none /mnt || give_up "may not mount here"
@@ -216,6 +229,6 @@ trap 'rm -rf --one-file-system "$work"' EXIT
 base=$(realpath -m "${kept:-$work/base.tar}")
 chmod 755 "$work"
 # In the background: bash takes a signal only when what it waits for in the foreground has ended.
-unshare --mount --propagation private --pid --fork --kill-child "$0" --within "$work" "$base" "$only" &
+unshare --mount --propagation private --pid --fork --kill-child "$0" --within "$work" "$base" "$only" "$keep" &
 trap 'kill -KILL $!; exit 130' INT TERM HUP
 wait $!

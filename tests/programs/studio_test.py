@@ -1,8 +1,6 @@
 """mars studio's server as a network sees it: pages, strangers, and what breaks connections. What is behind it here is
 little (tests/host/studio/fake_studio.cpp)."""
 
-import os
-import pathlib
 import signal
 import socket
 import struct
@@ -11,7 +9,7 @@ import time
 import unittest
 import zlib
 
-from harness import *
+from harness import PROGRAMS, SECONDS, ProgramTest, main, needs
 from studio_page import Page, Refused, connect, request
 
 FAKE = PROGRAMS / "fake-studio"
@@ -141,7 +139,7 @@ class StudioTest(ProgramTest):
         with Page(self.link) as page:
             page.hear("state")
             for text in [b"", b"{", b"[]", b"{}", b'{"do": 1}', b'{"do": "none"}', b'{"do": "commit"}', b"[" * 60000,
-                         b'{"do": "frame", "frame": "x"}', b'{"do": "painted", "view": {}, "picture": []}', b"\0\1"]:
+                         b'{"do": "frame", "frame": "x"}', b'{"do": "view", "view": {}, "width": []}', b"\0\1"]:
                 page.send_frame(1, text)
                 self.assertEqual(page.hear()["is"], "refused", text)
             for _ in range(3000):

@@ -122,9 +122,8 @@ PartSetting PartSetting::read(const std::string& text, const Thing& thing) {
   return setting;
 }
 
-Remarks pose(document::Json& film, const Film& meaning, const std::string& name,
-             std::span<const PartSetting> settings, std::uint32_t frame, const std::optional<Ease>& ease,
-             Beyond beyond) {
+Remarks pose(document::Json& film, const Film& meaning, const std::string& name, std::span<const PartSetting> settings,
+             std::uint32_t frame, const std::optional<Ease>& ease, Beyond beyond) {
   return pose_chosen(std::move(choose(film, meaning, {false, name, {}}).front()), settings, frame, ease, beyond);
 }
 

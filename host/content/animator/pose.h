@@ -23,9 +23,8 @@ struct PartSetting {
 
 // Sets the thing `name` (an actor, or "camera") at the frame, with an ease from there if given. A part without keys
 // also gets one at frame 0, as it was, so that it moves from there.
-Remarks pose(document::Json& film, const Film& meaning, const std::string& name,
-             std::span<const PartSetting> settings, std::uint32_t frame, const std::optional<Ease>& ease,
-             Beyond beyond);
+Remarks pose(document::Json& film, const Film& meaning, const std::string& name, std::span<const PartSetting> settings,
+             std::uint32_t frame, const std::optional<Ease>& ease, Beyond beyond);
 Remarks pose(document::Json& film, const Film& meaning, const std::string& name, std::span<const std::string> settings,
              std::uint32_t frame, const std::optional<Ease>& ease, Beyond beyond);
 

@@ -65,8 +65,13 @@ FilmWriter::FilmWriter(const animator::Film& film, WrittenFrames frames, wire::F
     : film_(film), frames_(frames), data_(data), materials_(film, frames, data) {}
 
 void FilmWriter::write_settings() {
-  data_.settings = {film_.width, film_.height, frames_.count, film_.dice, {}, float(film_.rate), {}};
-  write_light_settings(film_, data_.settings);
+  wire::FilmSettings& settings = data_.settings;
+  settings.width = film_.width;
+  settings.height = film_.height;
+  settings.frames = frames_.count;
+  settings.dice = film_.dice;
+  settings.rate = float(film_.rate);
+  write_light_settings(film_, settings);
   write_camera();
   write_lights(film_, frames_, data_);
 }

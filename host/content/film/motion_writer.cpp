@@ -273,8 +273,7 @@ class MotionWriter {
 
 }  // namespace
 
-void check_near(const wire::Matrix& matrix, const animator::Film& film, const char* segment,
-                std::uint32_t frame) {
+void check_near(const wire::Matrix& matrix, const animator::Film& film, const char* segment, std::uint32_t frame) {
   for (const auto& row : matrix.m)
     for (const double number : row)
       if (!(std::abs(number) <= kFarthestMatrix))

@@ -18,7 +18,6 @@ namespace mars::film {
 std::size_t write_motion(const animator::Film& film, wire::FilmData& data, CompiledFilm::Lines& lines);
 
 // Throws where the segment of this name stands farther out than a compiled film may say.
-void check_near(const wire::Matrix& matrix, const animator::Film& film, const char* segment,
-                std::uint32_t frame);
+void check_near(const wire::Matrix& matrix, const animator::Film& film, const char* segment, std::uint32_t frame);
 
 }  // namespace mars::film

@@ -21,7 +21,8 @@ struct ControlPoint {
   glm::dvec3 place;  // in the unit cube
 };
 
-// Those of the joint's shape; none where it is a mesh, or the joint has no segment. `meaning` is what `model` is read as.
+// Those of the joint's shape; none where it is a mesh, or the joint has no segment. `meaning` is what `model` is read
+// as.
 std::vector<ControlPoint> control_points(const document::Json& model, const Model& meaning, const std::string& joint);
 
 // Moves the point to `point.place`, held within the unit cube, and with it all others of the shape that are in the same

@@ -166,11 +166,13 @@ class Mirror {
       *there = std::move(joint);
     else
       model_["joints"].push_back(std::move(joint));
-    if (const std::string limb = limb_of(model_, from); !limb.empty()) name_limb(model_, to, other_side_name(limb));
+    const std::string limb = other_side_name(limb_of(model_, from));
+    if (!limb.empty() && joint_that_is(model_, limb) != to) name_limb(model_, to, limb);
   }
 
   void mirror_segment(Json& segment) {
-    if (segment.contains("sbb")) turn_round(segment["sbb"][0][1], segment["sbb"][1][1]);
+    if (!segment.contains("sbb")) segment["sbb"] = {plain_vector(Box().min), plain_vector(Box().max)};
+    turn_round(segment["sbb"][0][1], segment["sbb"][1][1]);
     const std::string shape = segment["shape"];
     const std::string mirrored = other_side_name(shape);
     if (find_library_shape(shape)) {

@@ -16,8 +16,8 @@ struct SideWord {
   bool may_stand_anywhere;  // else only at the end, behind . _ or -
 };
 
-constexpr SideWord kWords[] = {{"left", "right", true}, {"Left", "Right", true}, {"LEFT", "RIGHT", true},
-                               {"l", "r", false},       {"L", "R", false}};
+constexpr SideWord kWords[] = {
+    {"left", "right", true}, {"Left", "Right", true}, {"LEFT", "RIGHT", true}, {"l", "r", false}, {"L", "R", false}};
 
 bool is_letter(const std::string& name, std::size_t at) {
   return at < name.size() && std::isalpha(static_cast<unsigned char>(name[at])) != 0;

@@ -355,7 +355,8 @@ void Farm::submit(const GroupWork::Composed& composed) {
   if (options_.each_frame) report_.frames.push_back(finished);
   with_sinks_[frame.number] = {finished, frame.held};
   charge(wire::Work::host_frame, 1);
-  watching_.compose(*frame.whole, finished);
+  watching_.compose(
+      {*frame.whole, finished.interval, finished.kind, 0, finished.given, finished.seconds, frame.first_node});
   sinks_.submit(frame.whole);
   --frames_left_;
 }

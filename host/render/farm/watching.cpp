@@ -38,10 +38,10 @@ void Watching::paste(const StripMessage& strip, const compositor::Compositor& co
                 dclock() - start_);
 }
 
-void Watching::compose(const compositor::Frame& picture, const FinishedFrame& frame) {
+void Watching::compose(watch::WholeFrame frame) {
   if (watch_ == nullptr) return;
-  watch_->compose(
-      {picture, frame.interval, frame.kind, group_of(frame.first_node), frame.given, frame.seconds, frame.first_node});
+  frame.group = group_of(frame.first_node);
+  watch_->compose(frame);
 }
 
 std::uint32_t Watching::group_of(std::int32_t node) const {

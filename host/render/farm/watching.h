@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <span>
 
-#include "host/render/farm/farm.h"
 #include "host/render/farm/group_work.h"
 #include "host/render/watch/watch.h"
 
@@ -23,8 +22,8 @@ class Watching {
   void follow(std::span<const GroupWork> groups);
   // For what is pasted; none where nobody watches.
   const PasteListener& listener() const { return listener_; }
-  // Before the sinks have it.
-  void compose(const compositor::Frame& picture, const FinishedFrame& frame);
+  // Before the sinks have it; its group is set here.
+  void compose(watch::WholeFrame frame);
 
  private:
   std::uint32_t group_of(std::int32_t node) const;

@@ -27,10 +27,6 @@ std::optional<int> Drawing::take_idle() {
   return std::nullopt;
 }
 
-bool Drawing::draws(std::uint32_t view) const {
-  return std::ranges::any_of(pictures_, [&](const auto& entry) { return entry.second.view == view; });
-}
-
 Drawing::Keyframes Drawing::keyframes(std::uint32_t view) const {
   Keyframes keyframes;
   for (const auto& [number, picture] : pictures_)

@@ -36,8 +36,6 @@ class Drawing {
   // The node that is idle and whose turn it is; none: all draw.
   std::optional<int> take_idle();
   bool all_idle() const { return pictures_.empty(); }
-  // Whether anything of the view is drawn, wanted or not.
-  bool draws(std::uint32_t view) const;
   // Keyframes that are being drawn: of this view, of others.
   struct Keyframes {
     std::size_t of_view = 0, others = 0;

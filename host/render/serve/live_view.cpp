@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "host/render/serve/rectangles.h"
+#include "host/render/compositor/rectangles.h"
 
 namespace mars::serve {
 namespace {
@@ -57,7 +57,7 @@ std::uint32_t LiveView::finish(compositor::Frame* picture, std::uint32_t number,
                                std::vector<std::byte>& message) {
   compositor_.finish_frame(*picture, number);
   free_.push_back(picture);
-  const std::vector<Rect> rects = rectangles_of(picture->changed, width_, height_);
+  const std::vector<Rect> rects = compositor::rectangles_of(picture->changed, width_, height_);
   const std::size_t rect_bytes = rects.size() * sizeof(Rect);
   message.resize(room + rect_bytes + pixels_in(rects) * sizeof(std::uint32_t));
   std::memcpy(message.data() + room, rects.data(), rect_bytes);

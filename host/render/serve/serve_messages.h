@@ -10,6 +10,8 @@
 
 #include <cstdint>
 
+#include "host/render/compositor/rectangles.h"
+
 namespace mars::serve {
 
 enum class Kind : std::uint32_t {
@@ -48,16 +50,14 @@ struct PictureHead {
   std::uint32_t width;
   std::uint32_t height;
   std::uint32_t rects;
-  std::uint32_t nodes;     // that drew it
-  double seconds;          // since the host began with it
-  double load_ratio;       // of a keyframe, as in wire::Strip
+  std::uint32_t nodes;  // that drew it
+  double seconds;       // since the host began with it
+  double load_ratio;    // of a keyframe, as in wire::Strip
   std::uint64_t triangles;
   std::uint64_t edge_boxes;
 };
 
-struct Rect {
-  std::uint16_t x, y, width, height;
-};
+using compositor::Rect;
 
 inline constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 40;  // of a body
 

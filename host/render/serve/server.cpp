@@ -26,7 +26,9 @@
 #include "host/render/session/heartbeat_listener.h"
 #include "host/render/session/status_board.h"
 #include "host/render/session/termination.h"
+#include "node/wire/commands.h"
 #include "node/wire/film.h"
+#include "node/wire/scene.h"
 
 namespace mars::serve {
 namespace {
@@ -62,10 +64,10 @@ struct View {
   std::optional<Request> draw;             // likewise; of that scene, if there is one
   std::vector<std::byte> block;            // the interval's scene
   std::optional<wire::FilmView> interval;  // it, read
+  wire::MovingParts moving;                // of it
   std::optional<LiveView> live;            // from its first interval on
   bool whole = false;                      // the interval's keyframe is there
   std::uint32_t newest = 0;                // of its pictures that the studio was sent: the studio's number
-  bool closed = false;                     // once nothing of it is drawn any more
 };
 
 class Server {
@@ -92,8 +94,6 @@ class Server {
   bool give_draw();
   void begin_scene(std::uint32_t number, View& view);
   void begin_draw(std::uint32_t number, View& view, int node);
-  void close_views();
-  void check_draw(const Request& request) const;
 
   bool receive_strips();
   void receive_strip();
@@ -185,7 +185,8 @@ void Server::take(Request request) {
     default:
       if (const auto view = views_.find(number); view != views_.end()) {
         drop_all(number, view->second);
-        view->second.closed = true;
+        if (view->second.live) send_to_all(wire::kCloseView, command(wire::CloseView{number}, {}));
+        views_.erase(view);
       }
   }
 }
@@ -198,20 +199,16 @@ void Server::take_film(Request request) {
 
 void Server::take_scene(View& view, Request request) {
   drop_all(request.head.view, view);
-  view.closed = false;
   view.scene = std::move(request);
 }
 
-// A view that is closed, or whose scene never came, has nothing to draw.
 void Server::take_draw(View& view, Request request) {
   drop_waiting(request.head.view, view.draw);
-  if (view.closed) return drop(request.head.view, request.head.picture);
   view.draw = std::move(request);
 }
 
 // Whether there was something to give.
 bool Server::give_work() {
-  close_views();
   if (!next_film_) return film_ && (give_scene() || give_draw());
   if (!drawing_.all_idle()) return false;
   load_film();
@@ -266,8 +263,8 @@ void Server::begin_scene(std::uint32_t number, View& view) {
   if (!view.live || !view.live->has_size(settings.width, settings.height))
     view.live.emplace(settings.width, settings.height, serving_.block);
   const wire::Interval& interval = scene.intervals().front();
-  view.live->begin_interval(farm::background_pixel(scene, interval, wire::PixelFormat::rgb8),
-                            interval.moving_count == scene.segments().size());
+  view.moving = wire::MovingParts(scene);
+  view.live->begin_interval(farm::background_pixel(scene, interval, wire::PixelFormat::rgb8), view.moving.are_all());
   view.whole = false;
 
   Picture picture{number, request.head.picture, wire::FrameKind::keyframe, view.live->begin_picture()};
@@ -293,7 +290,6 @@ bool Server::give_draw() {
 
 void Server::begin_draw(std::uint32_t number, View& view, int node) {
   const Request request = std::exchange(view.draw, std::nullopt).value();
-  check_draw(request);
   Picture picture{number, request.head.picture, wire::FrameKind::inbetween, view.live->begin_picture()};
   picture.begun = dclock();
   const std::uint32_t wired = drawing_.next_number();
@@ -301,26 +297,9 @@ void Server::begin_draw(std::uint32_t number, View& view, int node) {
   std::memcpy(&head, request.body.data(), sizeof head);
   const std::vector<std::byte> message =
       command(wire::Draw{number, wired, head.segments, head.patches}, std::span(request.body).subspan(sizeof head));
+  wire::read_draw(message, [&](std::uint32_t) { return &view.moving; });
   csend(wire::kDraw, message.data(), static_cast<long>(message.size()), node, 0);
   drawing_.give(node, wired, picture);
-}
-
-void Server::check_draw(const Request& request) const {
-  DrawHead head;
-  std::memcpy(&head, request.body.data(), sizeof head);
-  const std::uint64_t bytes = sizeof head + std::uint64_t{head.segments} * sizeof(wire::MovedSegment) +
-                              std::uint64_t{head.patches} * sizeof(wire::MovedPatch);
-  if (bytes != request.body.size()) refuse("an inbetween of an impossible size");
-}
-
-// Nodes forget views that are closed and of which nothing is drawn any more.
-void Server::close_views() {
-  std::erase_if(views_, [&](const auto& entry) {
-    const auto& [number, view] = entry;
-    if (!view.closed || drawing_.draws(number)) return false;
-    if (view.live) send_to_all(wire::kCloseView, command(wire::CloseView{number}, {}));
-    return true;
-  });
 }
 
 bool Server::receive_strips() {
@@ -340,6 +319,8 @@ void Server::receive_strip() {
   Picture* picture = drawing_.find(header.node, header.frame);
   if (picture == nullptr || picture->view != header.interval || picture->kind != header.kind)
     inbox_.refuse(header.node, "a strip of picture " + std::to_string(header.frame) + " that it was not asked for");
+  if (header.cut == 1 && picture->frame != nullptr)
+    inbox_.refuse(header.node, "a part of picture " + std::to_string(header.frame) + " without its lines");
   if (picture->frame != nullptr) views_.at(picture->view).live->paste(strip, *picture->frame);
   slots_.give(strip.slot());
   store_.give_back(strip.release());

@@ -99,7 +99,7 @@ void Watch::receive(const wire::Strip& header, double seconds) {
   load_ratio = header.load_ratio;
   auto part = std::ranges::find(parts, header.node, &Part::node);
   if (part == parts.end())
-    part = parts.insert(part, {.node = header.node, .first_line = header.first_line, .last_line = header.last_line});
+    part = parts.insert(part, {header.node, header.first_line, header.last_line, 0, 0, {}, 0, 0, 0});
   part->first_line = std::min(part->first_line, header.first_line);
   part->last_line = std::max(part->last_line, header.last_line);
   ++part->strips;

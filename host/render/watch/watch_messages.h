@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdint>
 
+#include "host/render/compositor/rectangles.h"
 #include "node/wire/protocol.h"
 
 namespace mars::watch {
@@ -53,9 +54,7 @@ struct PictureHead {
 };
 
 // Blocks that were flagged, joined to rectangles that do not overlap. Pixels are rows of rectangle after rectangle.
-struct Rect {
-  std::uint16_t x, y, width, height;
-};
+using compositor::Rect;
 
 // Of each line of the picture.
 struct Line {

@@ -4,42 +4,10 @@
 #include <cstring>
 #include <utility>
 
+#include "host/render/compositor/rectangles.h"
+
 namespace mars::watch {
-namespace {
-
 using compositor::BlockFlags;
-
-// Flagged blocks of a picture of this size as rectangles: stretches of a row, joined to those above that are as wide.
-std::vector<Rect> rects_of(const BlockFlags& flags, std::uint32_t width, std::uint32_t height) {
-  std::vector<Rect> rects;
-  std::size_t above = 0, end_above = 0;  // rectangles that end where the row begins
-  for (std::uint32_t row = 0; row < flags.rows(); ++row) {
-    const std::uint32_t y = row * flags.block(), lines = std::min(height - y, flags.block());
-    const std::size_t begin = rects.size();
-    std::vector<Rect> grown;
-    flags.for_stretches(row, [&](std::uint32_t first, std::uint32_t last) {
-      const std::uint32_t x = first * flags.block(), right = std::min(width, last * flags.block());
-      grown.push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y),
-                       static_cast<std::uint16_t>(right - x), static_cast<std::uint16_t>(lines)});
-    });
-    for (Rect& rect : grown) {
-      const auto same = [&](const Rect& other) { return other.x == rect.x && other.width == rect.width; };
-      const auto found = std::find_if(rects.begin() + static_cast<std::ptrdiff_t>(above),
-                                      rects.begin() + static_cast<std::ptrdiff_t>(end_above), same);
-      if (found == rects.begin() + static_cast<std::ptrdiff_t>(end_above)) continue;
-      rect.y = found->y;
-      rect.height = static_cast<std::uint16_t>(rect.height + found->height);
-      found->height = 0;
-    }
-    rects.insert(rects.end(), grown.begin(), grown.end());
-    above = begin;
-    end_above = rects.size();
-  }
-  std::erase_if(rects, [](const Rect& rect) { return rect.height == 0; });
-  return rects;
-}
-
-}  // namespace
 
 WatchedPicture::WatchedPicture(std::uint32_t width, std::uint32_t height, std::uint32_t block, wire::PixelFormat format)
     : width_(width),
@@ -55,8 +23,8 @@ WatchedPicture::WatchedPicture(std::uint32_t width, std::uint32_t height, std::u
 }
 
 void WatchedPicture::follow(std::uint32_t group) {
-  head_.group = group;
-  head_.whole = 0;
+  group_ = group;
+  in_step_ = false;
   inbetweens_.clear();
   keyframe_lines_ = 0;
   std::ranges::fill(still_, Mark::unknown);
@@ -73,7 +41,7 @@ void WatchedPicture::paste(const PastedStrip& strip, const compositor::Composito
     inbetween.lines += header.last_line - header.first_line;
     return;
   }
-  if (head_.whole == 1 || head_.frame != header.frame || keyframe_lines_ == 0) begin_keyframe(header);
+  if (!in_step_ || head_.whole == 1 || head_.frame != header.frame || keyframe_lines_ == 0) begin_keyframe(header);
   head_.seconds = seconds;
   keyframe_lines_ += header.last_line - header.first_line;
   mark_lines(strip);
@@ -90,6 +58,8 @@ void WatchedPicture::begin_keyframe(const wire::Strip& header) {
   head_.interval = header.interval;
   head_.kind = header.kind;
   head_.whole = 0;
+  head_.group = group_;
+  in_step_ = true;
   keyframe_lines_ = 0;
   inbetweens_.clear();
   std::ranges::fill(lines_, Line{-1, 0});
@@ -130,13 +100,14 @@ void WatchedPicture::finish(const compositor::Frame& frame, std::uint32_t interv
   else if (head_.frame != frame.number || keyframe_lines_ != height_)
     put_whole(frame);
   keyframe_lines_ = 0;
-  head_ = {frame.number, interval, kind, 1, head_.group, 0, seconds};
+  head_ = {frame.number, interval, kind, 1, group_, 0, seconds};
+  in_step_ = true;
   news_ = begun_ = true;
 }
 
 // Whether the picture is the frame before, in the compositor's order.
 bool WatchedPicture::follows(const compositor::Frame& frame, std::uint32_t interval) const {
-  return head_.whole == 1 && head_.interval == interval && frame.changed_since == head_.frame;
+  return in_step_ && head_.whole == 1 && head_.interval == interval && frame.changed_since == head_.frame;
 }
 
 void WatchedPicture::finish_inbetween(const compositor::Frame& frame, std::uint32_t interval, std::int32_t node) {
@@ -180,7 +151,7 @@ void WatchedPicture::forget_sent() {
 
 void WatchedPicture::take(PictureUpdate& update) {
   update.head = head_;
-  update.rects = rects_of(pending_, width_, height_);
+  update.rects = compositor::rectangles_of(pending_, width_, height_);
   update.head.rects = static_cast<std::uint32_t>(update.rects.size());
   update.lines = lines_;
   update.words.clear();

@@ -37,7 +37,7 @@ class WatchedPicture {
 
   // What is pasted and finished from now on is of this group.
   void follow(std::uint32_t group);
-  std::uint32_t group() const { return head_.group; }
+  std::uint32_t group() const { return group_; }
 
   // A strip that is in `frame` now. Of a keyframe its lines are shown at once, of an inbetween when it is finished.
   void paste(const PastedStrip& strip, const compositor::Compositor& compositor, const compositor::Frame& frame,
@@ -71,8 +71,10 @@ class WatchedPicture {
 
   const std::uint32_t width_, height_;
   const std::size_t pixel_words_;
+  std::uint32_t group_ = 0;  // that is followed
   PictureHead head_{};
   bool news_ = false;
+  bool in_step_ = true;               // it is of the group that is followed
   bool begun_ = false;                // it shows something
   std::uint32_t keyframe_lines_ = 0;  // that are there, of head_.frame where it is a keyframe that is not whole
   std::vector<std::uint32_t> words_;

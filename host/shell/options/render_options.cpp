@@ -272,8 +272,7 @@ void refuse_former_names(CLI::App& app) {
 
 // Checks that concern several options.
 void check_together(const RenderOptions& options, Program program) {
-  if (options.serve.empty() == options.film.empty() && program != Program::repair &&
-      program != Program::studio) {
+  if (options.serve.empty() == options.film.empty() && program != Program::repair && program != Program::studio) {
     if (options.film.empty()) throw Failure("FILM is required", "", "");
     throw Failure("a studio brings its own film", "", "leave out " + options.film + ", or --serve");
   }

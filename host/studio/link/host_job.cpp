@@ -9,7 +9,6 @@
 #include <chrono>
 #include <exception>
 #include <iostream>
-#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -38,6 +37,13 @@ std::string this_machine() {
 
 // Without a domain.
 std::string_view short_name(std::string_view machine) { return machine.substr(0, machine.find('.')); }
+
+// The slots of the machines less one for the host, as for a rendering.
+std::uint32_t default_nodes(const HostStart& start) {
+  std::uint32_t slots = 0;
+  for (const launch::Slots& machine : start.surroundings.machines) slots += machine.count;
+  return slots > 0 ? std::max(slots, 2u) - 1 : launch::default_nodes(start.options, start.surroundings);
+}
 
 // In the job's process, which has the studio's memory but none of its files.
 int watch_job(const child::Command& command, const options::RenderOptions& options) {
@@ -74,14 +80,7 @@ HostStart prepare_host(options::RenderOptions options, const std::filesystem::pa
   start.surroundings = launch::look_around(path);
   if (!start.options.hostfile.empty() && start.options.backend == options::Backend::mpi)
     start.surroundings.machines = machines_from_here(launch::read_hostfile(start.options.hostfile), this_machine());
-  if (start.options.nodes == 0) {
-    start.options.nodes = launch::default_nodes(start.options, start.surroundings);
-    if (!start.surroundings.machines.empty()) {
-      std::uint32_t slots = 0;
-      for (const launch::Slots& machine : start.surroundings.machines) slots += machine.count;
-      start.options.nodes = std::max(slots, 2u) - 1;
-    }
-  }
+  if (start.options.nodes == 0) start.options.nodes = default_nodes(start);
   return start;
 }
 
@@ -122,7 +121,7 @@ HostJob::~HostJob() {
   };
   if (ends_within(kLongestEnd)) return;
   process_.send(SIGTERM);
-  ends_within(kLongestStop);
+  if (!ends_within(kLongestStop)) process_.give_up();  // it kills what does not end, and takes its time for it
 }
 
 }  // namespace mars::studio

@@ -1,5 +1,7 @@
 // What hands do to the project: previews while they move, a commit when they are done.
 
+import {kNoEvent} from "./latencies.js";
+
 export class Edits {
   constructor(connection, pace, state) {
     this.connection = connection;
@@ -17,7 +19,7 @@ export class Edits {
   commit(step, event) {
     this.#previews = false;
     this.pace.drop("preview");
-    this.pace.now({do: "commit", step}, event ?? {timeStamp: performance.now()});
+    this.pace.now({do: "commit", step}, event ?? kNoEvent);
   }
 
   cancel() {
@@ -39,7 +41,7 @@ export class Edits {
   undo() { this.connection.send({do: "undo"}); }
   redo() { this.connection.send({do: "redo"}); }
 
-  frame(frame, event) { this.pace.send("frame", {do: "frame", frame}, event ?? {timeStamp: performance.now()}); }
+  frame(frame, event) { this.pace.send("frame", {do: "frame", frame}, event ?? kNoEvent); }
 
   removeJoint() {
     const {joint} = this.state.selected;

@@ -1,6 +1,8 @@
 // A hand in a view: mouse, pen, finger or keys become grabs, drags and orbits (docs/studio-protocol.md). A press on the
 // left waits for the studio's word on what is there: a handle or limb is dragged, empty space turns the eye.
 
+import {kNoEvent} from "./latencies.js";
+
 const kPerKey = 14;          // pixels of a mouse, for one press of an arrow
 const kPerLine = 16;         // of wheels that count lines
 const kStill = 3;            // pixels: a press that moves less is a click
@@ -29,12 +31,13 @@ export class Hand {
   }
 
   // The studio's word on what the hand took.
-  grabbed({joint = null, handle = null}) {
+  grabbed({actor = null, joint = null, handle = null}) {
     const gesture = this.#gesture;
     if (gesture?.kind !== "asked") return;
     const empty = joint === null && handle === null;
-    Object.assign(gesture, {kind: empty ? "orbit" : "drag", how: "turn", empty});
-    this.#look(empty ? "turn" : "drag");
+    const kind = handle !== null || this.#turns(actor, joint) ? "drag" : "orbit";
+    Object.assign(gesture, {kind, how: "turn", empty});
+    this.#look(kind === "orbit" ? "turn" : "drag");
     if (gesture.newest) this.#follow(gesture.newest);
     if (gesture.up) this.#end(gesture.up);
   }
@@ -55,6 +58,12 @@ export class Hand {
   orbitBy(how, steps, event) {
     this.#orbit(how, steps.map((step) => step * kPerKey), event);
     this.#restSoon();
+  }
+
+  // What cannot turn, nor any joint above it, is like empty space: the eye moves.
+  #turns(actor, name) {
+    const joint = this.state.joint(name, actor);
+    return joint !== null && (joint.free.length > 0 || this.#turns(actor, joint.parent ?? null));
   }
 
   #down(event) {
@@ -130,7 +139,7 @@ export class Hand {
     clearTimeout(this.#rest);
     this.pace.flush("orbit", true);
     this.pace.now({do: "orbit", view: this.view.number, by: [0, 0], how: "turn", moving: false},
-                  event ?? {timeStamp: performance.now()});
+                  event ?? kNoEvent);
   }
 
   #look(gesture) { this.view.picture.dataset.gesture = gesture; }

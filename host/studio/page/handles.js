@@ -2,7 +2,7 @@
 
 import {svg} from "./dom.js";
 
-const kDot = 4, kHead = 9;
+const kDot = 3.6, kJoint = 2.6, kSelected = 4.5, kHead = 9;
 
 // In place of what the layer shows.
 export function showHandles(layer, shapes) { layer.replaceChildren(...shapes.map(drawn)); }
@@ -19,7 +19,8 @@ const axisName = (axis) => typeof axis === "number" ? "xyz"[axis] : axis;
 
 // Lines have a wider one below them, so that they can be seen over any picture.
 const line = ({points}) => [svg("path", {class: "halo", d: pathOf(points)}), svg("path", {class: "line", d: pathOf(points)})];
-const dots = ({points}) => points.map(([x, y]) => svg("circle", {cx: x, cy: y, r: kDot}));
+const dots = ({kind, points, selected}) =>
+  points.map(([x, y]) => svg("circle", {cx: x, cy: y, r: selected ? kSelected : kind === "joint" ? kJoint : kDot}));
 const squares = ({points}) =>
   points.map(([x, y]) => svg("rect", {x: x - kDot, y: y - kDot, width: 2 * kDot, height: 2 * kDot, rx: 1}));
 
@@ -31,7 +32,7 @@ const kParts = {
   point: dots,
   joint: dots,
   label: ({points: [[x, y]], text}) => {
-    const label = svg("text", {x, y});
+    const label = svg("text", {x: x + kHead, y: y - kDot});
     label.textContent = text;
     return [label];
   },

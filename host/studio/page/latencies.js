@@ -3,6 +3,9 @@
 
 const kKept = 20000, kShown = 200, kUnderWay = 1000;
 
+// For messages that want a number though no event caused them: they are not measured.
+export const kNoEvent = {timeStamp: null};
+
 export class Latencies {
   #edit = 0;
   #began = new Map();    // edit -> time of its event
@@ -11,9 +14,10 @@ export class Latencies {
 
   constructor() { window.marsLatencies = []; }
 
-  // A number for a message that an event caused.
+  // A number for a message that an event caused at that time.
   begin(time) {
-    this.#began.set(++this.#edit, time);
+    ++this.#edit;
+    if (time !== null) this.#began.set(this.#edit, time);
     if (this.#began.size > kUnderWay) this.#began.delete(this.#began.keys().next().value);
     return this.#edit;
   }

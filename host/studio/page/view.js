@@ -4,6 +4,7 @@
 import {element, svg} from "./dom.js";
 import {showHandles} from "./handles.js";
 import {icon} from "./icons.js";
+import {kNoEvent} from "./latencies.js";
 import {addMenu} from "./menu.js";
 import {keysOf} from "./shortcuts.js";
 
@@ -60,7 +61,7 @@ export class View {
     const {from, orbit, as, hidden, ground, handles} = this.shown;
     const message = {do: "view", view: this.number, width, height, from, orbit, as, hidden, ground,
                      handles: handles ? this.state.tool : "none"};
-    this.pace.send(`view ${this.number}`, message, event ?? {timeStamp: performance.now()});
+    this.pace.send(`view ${this.number}`, message, event ?? kNoEvent);
   }
 
   // Pictures count from 1 again.

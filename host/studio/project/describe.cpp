@@ -194,7 +194,8 @@ void describe_model(Json& project, const animator::Film& film, const Json& json,
     project["materials"].push_back(material_of(material.name, material.material));
   project["shapes"] = library();
   if (json.contains("shapes"))
-    for (const auto& [name, shape] : json["shapes"].items()) project["shapes"].push_back({{"name", name}, {"own", true}});
+    for (const auto& [name, shape] : json["shapes"].items())
+      project["shapes"].push_back({{"name", name}, {"own", true}});
   project["limbs"] = limb_names();
   project["bodies"] = Json::array();
   for (const modeler::LibraryFigure& figure : modeler::figure_library())

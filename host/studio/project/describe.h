@@ -1,5 +1,6 @@
-// What pages show of a film or a model, as JSON (docs/studio-protocol.md, "project"): actors with their joints, materials,
-// shapes. Of a film's joints only what moves them is said, and what is nothing is left out: it may have thousands.
+// What pages show of a film or a model, as JSON (docs/studio-protocol.md, "project"): actors with their joints,
+// materials, shapes. Of a film's joints only what moves them is said, and what is nothing is left out: it may have
+// thousands.
 #pragma once
 
 #include <cstdint>

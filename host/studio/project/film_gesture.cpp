@@ -35,8 +35,9 @@ void set_at(animator::Channel<Value>& channel, const Value& value, std::uint32_t
 
 std::size_t actor_named(const animator::Film& film, const std::string& name) {
   if (film.actors.empty()) throw Failure("has no actors", film.source, "add one to the film");
-  const auto found = name.empty() && film.actors.size() == 1 ? film.actors.begin()
-                                                             : std::ranges::find(film.actors, name, &animator::Actor::name);
+  const auto found = name.empty() && film.actors.size() == 1
+                         ? film.actors.begin()
+                         : std::ranges::find(film.actors, name, &animator::Actor::name);
   if (found == film.actors.end()) refuse_name(name, "is no actor of the film", film.actors);
   if (!found->matrices.empty())
     throw Failure("is moved by matrices, which have no keys", "actor '" + found->name + "'",

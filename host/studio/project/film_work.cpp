@@ -55,8 +55,14 @@ animator::Remarks apply(Json& json, const animator::Film& film, const CameraStep
 // Two films that the same nodes' copy of shapes and segments serves.
 bool same_for_nodes(const animator::Film& one, const animator::Film& two) {
   const auto settings = [](const animator::Film& film) {
-    return std::array{film.frames, film.width, film.height, film.samples, film.dice, std::uint32_t(film.color),
-                      std::uint32_t(film.curve), std::uint32_t(film.lights.size())};
+    return std::array{film.frames,
+                      film.width,
+                      film.height,
+                      film.samples,
+                      film.dice,
+                      std::uint32_t(film.color),
+                      std::uint32_t(film.curve),
+                      std::uint32_t(film.lights.size())};
   };
   return settings(one) == settings(two) && same_shapes(one, two);
 }

@@ -18,6 +18,7 @@
 #include "host/content/document/checksum.h"
 #include "host/content/document/file.h"
 #include "host/content/document/json_file.h"
+#include "host/content/document/recorded_reads.h"
 #include "host/content/document/whole_file.h"
 
 namespace mars::studio {
@@ -25,8 +26,8 @@ namespace {
 
 using document::Json;
 
-constexpr std::size_t kLargestStart = std::size_t{4} << 20;    // a longer text is known by its checksum alone
-constexpr std::size_t kLongest = 3 * History::kMostBytes;       // bytes of a journal
+constexpr std::size_t kLargestStart = std::size_t{4} << 20;  // a longer text is known by its checksum alone
+constexpr std::size_t kLongest = 3 * History::kMostBytes;    // bytes of a journal
 constexpr int kFormat = 1;
 
 std::string checksum_of(const std::string& text) { return document::checksum_of(std::as_bytes(std::span(text))); }
@@ -61,7 +62,8 @@ std::string text_in(const Json& line, const char* key) {
 std::optional<HistoryEntry> entry_in(const Json& line) {
   const auto at = line.find("at");
   if (!line.contains("step") || at == line.end() || !at->is_number_unsigned()) return std::nullopt;
-  return HistoryEntry{text_in(line, "time"), text_in(line, "step"),
+  return HistoryEntry{text_in(line, "time"),
+                      text_in(line, "step"),
                       {at->get<std::size_t>(), text_in(line, "before"), text_in(line, "after")}};
 }
 
@@ -147,9 +149,9 @@ class Replay {
   }
 
   History history_;
-  std::string is_, was_;            // checksums: now, and before the last line
-  Way way_ = Way::none;             // of the last line
-  std::vector<HistoryEntry> cut_;   // by it
+  std::string is_, was_;             // checksums: now, and before the last line
+  Way way_ = Way::none;              // of the last line
+  std::vector<HistoryEntry> cut_;    // by it
   std::optional<std::string> text_;  // where it is known
 };
 
@@ -197,6 +199,7 @@ Journal::Journal(const std::filesystem::path& file)
 
 std::optional<History> Journal::read(const std::string& text) try {
   begin_ = true;
+  const document::RecordedReads apart;  // it is none of the files that make the film
   const std::optional<std::string> lines = document::read_file_if_there(path_, 2 * kLongest);
   if (!lines) return std::nullopt;
   Replay replay;

@@ -20,8 +20,8 @@ class Journal {
   explicit Journal(const std::filesystem::path& file);
 
   // The history of the file, which has this text. What others did to it since the journal was written is an entry
-  // "changed outside", which is in the journal then. None where the journal is missing, or knows nothing of such a file:
-  // then it begins anew with the next line.
+  // "changed outside", which is in the journal then. None where the journal is missing, or knows nothing of such a
+  // file: then it begins anew with the next line.
   std::optional<History> read(const std::string& text);
 
   // Before the file is written. Where the journal cannot be written, `trouble()` says why, and work goes on without.

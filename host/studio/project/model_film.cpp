@@ -40,7 +40,8 @@ modeler::Model ground_under(const modeler::Box& bounds) {
   joint.name = "ground";
   joint.place = 0.5 * (bounds.min + bounds.max);
   joint.place.z = bounds.min.z;
-  joint.segment = modeler::Segment{0, {{-side, -side, -2 * kThickness * radius}, {side, side, -kThickness * radius}}, "ground"};
+  joint.segment =
+      modeler::Segment{0, {{-side, -side, -2 * kThickness * radius}, {side, side, -kThickness * radius}}, "ground"};
   ground.joints.push_back(std::move(joint));
   return ground;
 }

@@ -1,5 +1,5 @@
-// The film in which a model stands alone: actor "model", lit and seen as `mars preview MODEL` begins, and actor "ground",
-// a disc under it that is seen from above only.
+// The film in which a model stands alone: actor "model", lit and seen as `mars preview MODEL` begins, and actor
+// "ground", a disc under it that is seen from above only.
 #pragma once
 
 #include "host/content/animator/film.h"

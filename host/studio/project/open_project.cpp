@@ -111,7 +111,7 @@ class FileProject : public Project {
     look_at_disk();
     if (problem_) return repair();
     if (const HistoryEntry* const entry = history_.to_undo()) {
-      const std::string before = entry->change.undone(text_).value();
+      const std::string before = fitting(entry->change.undone(text_));
       replace(before, [&] { journal_.write_undo(text_, before); });
       history_.undo();
     }
@@ -123,7 +123,7 @@ class FileProject : public Project {
     look_at_disk();
     refuse_while_broken();
     if (const HistoryEntry* const entry = history_.to_redo()) {
-      const std::string after = entry->change.done(text_).value();
+      const std::string after = fitting(entry->change.done(text_));
       replace(after, [&] { journal_.write_redo(text_, after); });
       history_.redo();
     }
@@ -163,6 +163,13 @@ class FileProject : public Project {
   }
 
  private:
+  // Of a journal that somebody has changed, what was done may not be what the file is made of.
+  std::string fitting(std::optional<std::string> text) {
+    if (text) return std::move(*text);
+    history_ = History();
+    throw Failure("does not fit the file", journal_.path().string(), "remove it; the history begins anew");
+  }
+
   static Json name_of(const HistoryEntry* entry) { return entry ? Json(entry->name) : Json(); }
   static std::string name_of(const Step& step) { return studio::name_of(step); }
 

@@ -28,10 +28,11 @@ constexpr std::string_view kPointNames[] = {"set", "actor", "joint", "patch", "p
 constexpr std::string_view kMirrorNames[] = {"mirror", "joint"};
 constexpr std::string_view kScaleNames[] = {"scale"};
 constexpr std::string_view kBodyNames[] = {"body", "height"};
-constexpr std::string_view kJointChangeNames[] = {"name",    "parent", "place",    "x_axis", "y_axis", "freedom", "limits",
-                                                  "shape",   "options", "sbb",     "material", "limb",  "reset"};
-constexpr std::string_view kMaterialChangeNames[] = {"name",       "color",     "ambient",  "diffuse",
-                                                     "specular",   "exponent",  "roughness", "metallic",
+constexpr std::string_view kJointChangeNames[] = {"name",     "parent", "place", "x_axis",  "y_axis",
+                                                  "freedom",  "limits", "shape", "options", "sbb",
+                                                  "material", "limb",   "reset"};
+constexpr std::string_view kMaterialChangeNames[] = {"name",       "color",      "ambient",       "diffuse",
+                                                     "specular",   "exponent",   "roughness",     "metallic",
                                                      "refraction", "reflection", "interpolation", "sides"};
 constexpr std::string_view kAxisNames[] = {"x", "y", "z"};
 
@@ -97,7 +98,8 @@ PlaceStep read_turn(const Element& element) {
 
 CameraStep read_camera(const Element& element) {
   const Fields fields(element, kCamera);
-  return {vector_given(fields, "eye"), vector_given(fields, "at"), number_given(fields, "fov", animator::kFieldsOfView)};
+  return {vector_given(fields, "eye"), vector_given(fields, "at"),
+          number_given(fields, "fov", animator::kFieldsOfView)};
 }
 
 modeler::Freedom read_freedom(const Fields& fields) {

@@ -71,8 +71,8 @@ struct BodyStep {
   std::optional<double> height;
 };
 
-using Step = std::variant<PoseStep, PlaceStep, CameraStep, JointStep, MaterialStep, PointStep, MirrorStep, ScaleStep,
-                          BodyStep>;
+using Step =
+    std::variant<PoseStep, PlaceStep, CameraStep, JointStep, MaterialStep, PointStep, MirrorStep, ScaleStep, BodyStep>;
 
 // Throws Failure.
 Step read_step(const Json& json);

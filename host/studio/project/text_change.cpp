@@ -31,8 +31,8 @@ TextChange change_between(std::string_view before, std::string_view after) {
   while (same > 0 && (is_inside_character(before, same) || is_inside_character(after, same))) --same;
   while (same_end < shorter - same && before[before.size() - 1 - same_end] == after[after.size() - 1 - same_end])
     ++same_end;
-  while (same_end > 0 && (is_inside_character(before, before.size() - same_end) ||
-                          is_inside_character(after, after.size() - same_end)))
+  while (same_end > 0 &&
+         (is_inside_character(before, before.size() - same_end) || is_inside_character(after, after.size() - same_end)))
     --same_end;
   return {same, std::string(before.substr(same, before.size() - same_end - same)),
           std::string(after.substr(same, after.size() - same_end - same))};

@@ -50,8 +50,10 @@ void pan(preview::Orbit& orbit, const glm::dvec2& by, double height) {
   orbit.center += length * (by.y * axis(1) - by.x * axis(0));
 }
 
-void zoom(preview::Orbit& orbit, const glm::dvec2& by) {
-  orbit.distance = std::clamp(orbit.distance * std::exp(kGrowthAPixel * by.y), 1e-6, 1e9);
+void zoom(preview::Orbit& orbit, const glm::dvec2& by, const glm::dvec2& spot, double height) {
+  const double distance = std::clamp(orbit.distance * std::exp(kGrowthAPixel * by.y), 1e-6, 1e9);
+  pan(orbit, (distance / orbit.distance - 1) * spot, height);
+  orbit.distance = distance;
 }
 
 }  // namespace mars::studio

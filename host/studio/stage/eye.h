@@ -24,9 +24,10 @@ preview::Orbit chosen_orbit(From from, const preview::Ball& subject, double aspe
 // The eye's camera, not of From::camera, with the film's exposure.
 wire::Camera camera_from(const Eye& eye, double exposure);
 
-// By pixels of a mouse in a picture of this height, right and down; zoom by a wheel's.
+// By pixels of a mouse in a picture of this height, right and down; zoom by a wheel's, about the spot so many pixels
+// from the picture's middle.
 void turn(preview::Orbit& orbit, const glm::dvec2& by);
 void pan(preview::Orbit& orbit, const glm::dvec2& by, double height);
-void zoom(preview::Orbit& orbit, const glm::dvec2& by);
+void zoom(preview::Orbit& orbit, const glm::dvec2& by, const glm::dvec2& spot, double height);
 
 }  // namespace mars::studio

@@ -1,26 +1,28 @@
 #include "host/studio/stage/stage.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <list>
 #include <map>
+#include <string_view>
 #include <utility>
 
 #include "hal/failure/failure.h"
-#include "host/content/animator/figure.h"
 #include "host/studio/stage/hand.h"
 #include "host/studio/stage/page_message.h"
-#include "host/studio/stage/picking.h"
+#include "host/studio/stage/selection.h"
 #include "host/studio/stage/view.h"
-#include "node/wire/film.h"
+#include "node/wire/scene.h"
 
 namespace mars::studio {
 namespace {
 
 constexpr double kLeastSide = 16, kMostSide = 4096;  // of a view, pixels
 constexpr double kMostViewsOfPage = 8;
-constexpr double kJointReach = 12;  // pixels from a joint that is picked where no surface is
 constexpr const char* kAs[] = {"stick", "vertices", "prisms", "surface"};
 constexpr const char* kHows[] = {"turn", "pan", "zoom"};
+constexpr std::string_view kOfProject[] = {"preview", "commit", "cancel", "undo", "redo", "frame"};
 constexpr double kMostEdit = 9e15;
 
 Json json_of(const glm::dvec3& vector) { return Json::array({vector.x, vector.y, vector.z}); }
@@ -42,13 +44,6 @@ preview::Orbit orbit_in(const Json& orbit) {
   return {vector_in(orbit, "center"), number_in(orbit, "turn", -1e6, 1e6), number_in(orbit, "height", -90, 90),
           number_in(orbit, "distance", 1e-6, 1e9)};
 }
-
-// What a page has selected, by names, for the film may change under it.
-struct Named {
-  std::optional<std::string> actor, joint;
-
-  bool operator==(const Named&) const = default;
-};
 
 struct Page {
   std::uint64_t edit = 0;
@@ -82,7 +77,7 @@ class TheStage : public Stage {
         {"let_go", &TheStage::let_go}};
     if (const auto deed = deeds.find(what); deed != deeds.end())
       (this->*deed->second)(page, message);
-    else if (!message.contains("edit"))
+    else if (std::find(std::begin(kOfProject), std::end(kOfProject), what) == std::end(kOfProject))
       throw Failure("is '" + what + "'", "the message's 'do'", "see docs/studio-protocol.md");
     serve();
   }
@@ -118,6 +113,7 @@ class TheStage : public Stage {
     if (picture == view->begun) view->interval.reset();
     view->asked.reset();
     view->shown.reset();
+    view->lost = true;
     serve();
   }
 
@@ -159,9 +155,15 @@ class TheStage : public Stage {
       view.eye = {From::free, preview::orbit_near(camera_of(view), moments_.subject())};
     if (how == 0) turn(view.eye.orbit, by);
     if (how == 1) pan(view.eye.orbit, by, view.height);
-    if (how == 2) zoom(view.eye.orbit, by);
+    if (how == 2) zoom(view.eye.orbit, by, from_middle(message, view), view.height);
     view.orbiting = flag_in(message, "moving", false);
     if (!view.orbiting) tell_orbit(view);
+  }
+
+  // Of what the message names; of none: 0.
+  static glm::dvec2 from_middle(const Json& message, const PageView& view) {
+    if (!message.contains("x")) return {0, 0};
+    return pixel_in(message) - glm::dvec2(view.width, view.height) / 2.0;
   }
 
   void unview(PageNumber page, const Json& message) {
@@ -184,7 +186,7 @@ class TheStage : public Stage {
     };
     Named named{name("actor"), name("joint")};
     if (project_.is_model() && named.joint) named.actor = project_.film().actors[0].name;
-    const Selection found = selection_of(named);
+    const Selection found = selection_of(project_, named);
     if (named.actor && !found.actor) refuse("is no actor", "actor", "select one that there is");
     if (named.joint && !found.joint) refuse("is no joint", "joint", "select one that there is");
     select(page, std::move(named));
@@ -193,13 +195,14 @@ class TheStage : public Stage {
   void hover(PageNumber page, const Json& message) {
     PageView& view = view_in(page, message);
     const glm::dvec2 pixel = pixel_in(message);
-    const auto handles = handles_of(project_, selection_of(page), view.tool, screen_of(view));
+    const auto handles = handles_of(project_, selected_by(page), view.tool, screen_of(view));
     const Handle* const handle = handle_at(handles, pixel);
-    const Selection under = handle != nullptr ? selection_of(page) : pick(view, pixel).selection;
+    const Selection under =
+        handle != nullptr ? selected_by(page) : pick(project_, moments_, screen_of(view), pixel).selection;
     Json answer = {{"is", "hovered"}, {"view", view.number}};
-    put_names(under, answer);
+    put_names(project_, under, answer);
     answer["handle"] = handle != nullptr ? Json(handle->id) : Json(nullptr);
-    answer["text"] = text_of(under);
+    answer["text"] = text_of(project_, under);
     listener_.tell(page, answer);
     const std::string hot = handle != nullptr ? handle->id : "";
     if (hot == view.hot) return;
@@ -215,22 +218,22 @@ class TheStage : public Stage {
     if (gesture_) end_gesture();
     const glm::dvec2 pixel = pixel_in(message);
     const Screen screen = screen_of(view);
-    const auto handles = handles_of(project_, selection_of(page), view.tool, screen);
+    const auto handles = handles_of(project_, selected_by(page), view.tool, screen);
     const Handle* const handle = handle_at(handles, pixel);
     Json answer = {{"is", "grabbed"}, {"view", view.number}};
     if (handle != nullptr) {
-      Hand hand(project_, selection_of(page), screen, pixel);
+      Hand hand(project_, selected_by(page), screen, pixel);
       hand.take(*handle->grip);
       gesture_.emplace(Gesture{page, view.number, std::move(hand)});
-      put_names(selection_of(page), answer);
+      put_names(project_, selected_by(page), answer);
     } else {
-      const Picked picked = pick(view, pixel);
-      if (picked.selection.actor) select(page, names_of(picked.selection));
+      const Picked picked = pick(project_, moments_, screen_of(view), pixel);
+      if (picked.selection.actor) select(page, names_of(project_, picked.selection));
       if (picked.hit) {
         Hand hand(project_, picked.selection, screen, pixel);
         if (hand.take(*picked.hit)) gesture_.emplace(Gesture{page, view.number, std::move(hand)});
       }
-      put_names(picked.selection, answer);
+      put_names(project_, picked.selection, answer);
     }
     answer["handle"] = handle != nullptr ? Json(handle->id) : Json(nullptr);
     listener_.tell(page, answer);
@@ -240,8 +243,8 @@ class TheStage : public Stage {
     if (!gesture_ || gesture_->page != page) return;
     const auto step = gesture_->hand.follow(pixel_in(message), has_key(message, "shift"));
     if (!step || step == gesture_->step) return;
-    gesture_->step = step;
     project_.preview(*step);
+    gesture_->step = step;
   }
 
   void drop(PageNumber page, const Json&) {
@@ -311,7 +314,7 @@ class TheStage : public Stage {
   Screen screen_of(const PageView& view) const { return {camera_of(view), view.width, view.height}; }
 
   Json controls(const PageView& view) {
-    return described(handles_of(project_, selection_of(view.page), view.tool, screen_of(view)), view.hot);
+    return described(handles_of(project_, selected_by(view.page), view.tool, screen_of(view)), view.hot);
   }
 
   void tell_handles(PageView& view) {
@@ -332,91 +335,19 @@ class TheStage : public Stage {
 
   // ---- selections
 
-  Selection selection_of(const Named& named) const {
-    Selection selection;
-    if (!named.actor) return selection;
-    const animator::Film& film = project_.film();
-    const auto actor = std::find_if(film.actors.begin(), film.actors.end(),
-                                    [&](const animator::Actor& each) { return each.name == named.actor; });
-    if (actor == film.actors.end()) return selection;
-    selection.actor = actor - film.actors.begin();
-    const auto& joints = film.models[actor->model].joints;
-    for (std::size_t joint = 0; joint < joints.size(); ++joint)
-      if (joints[joint].name == named.joint) selection.joint = joint;
-    return selection;
-  }
-
-  Selection selection_of(PageNumber page) const {
+  Selection selected_by(PageNumber page) const {
     const auto found = pages_.find(page);
-    return found == pages_.end() ? Selection{} : selection_of(found->second.selected);
-  }
-
-  Named names_of(const Selection& selection) const {
-    Named named;
-    if (!selection.actor) return named;
-    const animator::Actor& actor = project_.film().actors[*selection.actor];
-    named.actor = actor.name;
-    if (selection.joint) named.joint = project_.film().models[actor.model].joints[*selection.joint].name;
-    return named;
-  }
-
-  void put_names(const Selection& selection, Json& message) const {
-    const Named named = names_of(selection);
-    message["actor"] = named.actor ? Json(*named.actor) : Json(nullptr);
-    message["joint"] = named.joint ? Json(*named.joint) : Json(nullptr);
+    return found == pages_.end() ? Selection{} : selection_of(project_, found->second.selected);
   }
 
   void select(PageNumber page, Named named) {
     if (pages_[page].selected == named) return;
     pages_[page].selected = std::move(named);
     Json message = {{"is", "selected"}};
-    put_names(selection_of(page), message);
+    put_names(project_, selected_by(page), message);
     listener_.tell(page, message);
     for (PageView& view : views_)
       if (view.page == page && view.sent > 0) tell_handles(view);
-  }
-
-  // "elbow 45, 0, 0"
-  std::string text_of(const Selection& selection) const {
-    const Named named = names_of(selection);
-    if (!named.joint) return named.actor.value_or("");
-    const auto posed = studio::posed(project_, selection);
-    std::string text = *named.joint;
-    for (int axis = 0; posed && axis < 3; ++axis)
-      if (posed->joint->limits[static_cast<std::size_t>(axis)].free())
-        text += std::string(" ") + "xyz"[axis] + " " + document::shown(std::round(posed->pose[axis] * 10) / 10);
-    return text;
-  }
-
-  struct Picked {
-    Selection selection;
-    std::optional<Hit> hit;
-  };
-
-  // The visible surface under the pixel; else the joint that is nearest on the screen.
-  Picked pick(const PageView& view, const glm::dvec2& pixel) {
-    const Screen screen = screen_of(view);
-    const auto& owners = moments_.owners();
-    const auto counts = [&](std::size_t segment) { return !project_.is_model() || owners[segment].actor == 0; };
-    if (const auto hit = first_hit(moments_, screen.ray_through(pixel), counts))
-      return {{owners[hit->segment].actor, owners[hit->segment].joint}, hit};
-    return {nearest_joint(screen, pixel), std::nullopt};
-  }
-
-  Selection nearest_joint(const Screen& screen, const glm::dvec2& pixel) const {
-    Selection nearest;
-    double least = kJointReach;
-    const std::size_t actors = project_.is_model() ? 1 : project_.film().actors.size();
-    for (std::size_t actor = 0; actor < actors; ++actor) {
-      const animator::ActorState state = animator::state_at(project_.film(), actor, project_.frame());
-      for (std::size_t joint = 0; joint < state.joints.size(); ++joint) {
-        const auto at = screen.pixel_of(state.joints[joint].place);
-        if (!at || glm::length(*at - pixel) > least) continue;
-        least = glm::length(*at - pixel);
-        nearest = {actor, joint};
-      }
-    }
-    return nearest;
   }
 
   // ---- pictures
@@ -515,7 +446,7 @@ class TheStage : public Stage {
 
   // What changed may be seen in controls alone.
   bool looks_the_same(PageView& view, const Shown& now) {
-    if (!view.interval || !same_picture(view.scene, scene_of(view, now))) return false;
+    if (!view.interval || view.lost || !same_picture(view.scene, scene_of(view, now))) return false;
     view.shown = now;
     if (view.rested) tell_handles(view);
     return true;
@@ -547,6 +478,7 @@ class TheStage : public Stage {
     const bool exact = rests && is_own(view) && moments_.own_moving().has_value();
     Asked asked{++picture_, pages_[view.page].edit, rests, exact, controls(view)};
     view.shown = now;
+    view.lost = false;
     const std::uint32_t picture = picture_;
     if (const auto moved = inbetween(view, scene, exact)) {
       view.asked = std::move(asked);
@@ -557,7 +489,7 @@ class TheStage : public Stage {
     }
     scene.moving = moving_of(view, scene, exact);
     scene.intervals = {{0, 1, 0, static_cast<std::uint32_t>(scene.moving.size())}};
-    std::vector<std::byte> block = wire::pack(scene);
+    std::vector<std::byte> block = wire::pack_scene(scene);
     view.scene = scene;
     view.interval.emplace(std::move(scene));
     view.begun = picture;

@@ -50,6 +50,7 @@ struct PageView {
   bool known = false;  // it has the view
   std::optional<Interval> interval{};
   wire::FilmData scene{};   // asked for last
+  bool lost = false;        // and dropped
   bool moved = false;       // since the interval began something was in motion
   std::uint32_t begun = 0;  // the picture with which the interval begins: older ones are nothing any more
   std::optional<Asked> asked{};

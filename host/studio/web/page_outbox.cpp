@@ -21,8 +21,9 @@ bool replaces(const std::string& kind) { return kind == "project" || kind == "po
 
 std::optional<std::uint32_t> number_in(const Json& message, const char* name) {
   const auto found = message.find(name);
-  if (found == message.end() || !found->is_number_unsigned() || found->get<std::uint64_t>() > UINT32_MAX) return {};
-  return found->get<std::uint32_t>();
+  if (found == message.end() || !found->is_number_integer()) return {};
+  const auto number = found->get<std::int64_t>();
+  return number >= 0 && number <= UINT32_MAX ? std::optional(static_cast<std::uint32_t>(number)) : std::nullopt;
 }
 
 std::string text_of(const Json& message) { return message.dump(-1, ' ', false, Json::error_handler_t::replace); }

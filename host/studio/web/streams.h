@@ -10,7 +10,7 @@
 #include <chrono>
 #include <memory>
 
-#include "host/studio/web/connection.h"
+#include "host/studio/web/site.h"
 
 namespace mars::web {
 

@@ -16,7 +16,8 @@ studio::Parts make_parts(const std::filesystem::path&, boost::asio::io_context&)
           [](studio::RendererLink::Listener) { return std::make_unique<test::FakeLink>(); },
           [](studio::Project&, studio::RendererLink&, studio::Stage::Listener listener) {
             return std::make_unique<test::FakeStage>(std::move(listener));
-          }};
+          },
+          [](studio::Rendering::Listener) { return std::make_unique<test::FakeRendering>(); }};
 }
 
 }  // namespace

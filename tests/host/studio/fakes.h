@@ -138,4 +138,13 @@ class FakeStage final : public studio::Stage {
   std::uint32_t pictures_ = 0;
 };
 
+class FakeRendering final : public studio::Rendering {
+ public:
+  void take(PageNumber, const Json& message) override { heard.push_back(message.at("do")); }
+  void page_opened(PageNumber) override { heard.push_back("opened"); }
+  void page_closed(PageNumber) override { heard.push_back("closed"); }
+
+  std::vector<std::string> heard;
+};
+
 }  // namespace mars::test

@@ -43,7 +43,12 @@ class StudioTest : public testing::Test {
       stage_ = stage.get();
       return stage;
     };
-    studio_.emplace(Parts{std::move(project), make_link, make_stage}, pages_);
+    const auto make_rendering = [this](Rendering::Listener) {
+      auto rendering = std::make_unique<test::FakeRendering>();
+      rendering_ = rendering.get();
+      return rendering;
+    };
+    studio_.emplace(Parts{std::move(project), make_link, make_stage, make_rendering}, pages_);
   }
 
   void say(PageNumber page, const char* message) { studio_->page_said(page, Json::parse(message)); }
@@ -51,6 +56,7 @@ class StudioTest : public testing::Test {
   RecordingPages pages_;
   test::FakeProject* project_ = nullptr;
   test::FakeStage* stage_ = nullptr;
+  test::FakeRendering* rendering_ = nullptr;
   RendererLink::Listener link_;
   std::optional<Studio> studio_;
 };
@@ -79,6 +85,15 @@ TEST_F(StudioTest, GesturesTellPosesAndTheirEndTellsAll) {
   say(2, R"({"do": "frame", "frame": 5})");
   EXPECT_EQ(pages_.said(), "0 project, 0 project");
   EXPECT_EQ(project_->frame(), 5u);
+}
+
+TEST_F(StudioTest, RenderingsHearWhatIsForThem) {
+  studio_->page_opened(2);
+  say(2, R"({"do": "render", "options": {"folder": "out"}})");
+  say(2, R"({"do": "painted", "view": 255, "picture": 1})");
+  say(2, R"({"do": "undo"})");
+  studio_->page_closed(2);
+  EXPECT_EQ(rendering_->heard, (std::vector<std::string>{"opened", "render", "painted", "closed"}));
 }
 
 TEST_F(StudioTest, RefusesWhatMakesNoSense) {

@@ -5,7 +5,7 @@ import {choice, line, part, textField} from "../fields.js";
 import {icon} from "../icons.js";
 import {nodeColor} from "./colors.js";
 
-const kBackends = [[null, "Chosen by MARS"], ["mpi", "MPI"], ["processes", "Processes"], ["threads", "Threads"]];
+const kBackends = [[null, "Chosen by MARS"], ["mpi", "MPI"], ["threads", "Threads"]];
 const kWords = {none: "No rendering", starting: "Starting", running: "Rendering", done: "Done", failed: "Failed", stopped: "Stopped"};
 const kFields = [["folder", "Folder", "out"], ["frames", "Frames", "all"], ["nodes", "Nodes", "as fit"], ["hostfile", "Hostfile", "this machine"]];
 

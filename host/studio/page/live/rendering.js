@@ -48,6 +48,6 @@ export class Rendering {
     if (this.live.getAttribute("aria-pressed") === "true") this.scrub.value = frame;
     fillTrack(this.scrub, this.scrub.value / (Number(this.scrub.max) || 1));
     this.frame.describe(message);
-    if (message.nodes?.some(({seconds}) => seconds)) this.timeline.add(message);
+    if (message.whole && message.nodes?.some(({seconds}) => seconds)) this.timeline.add(message);
   }
 }

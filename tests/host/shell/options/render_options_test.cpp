@@ -175,6 +175,17 @@ TEST(RenderOptions, EveryOptionHasAnExample) {
   EXPECT_EQ(read(Program::mars, {"--help"}).code, 0);
 }
 
+TEST(RenderOptions, AStudioIsServedWithoutFilmAndFolder) {
+  for (const Program program : {Program::host, Program::threads}) {
+    const Reading reading = read(program, {"--serve", "-socket", "--mapping", "greedy"});
+    EXPECT_FALSE(reading.code) << reading.printed;
+    EXPECT_EQ(reading.options.serve, "-socket");
+    EXPECT_EQ(arguments_for(program, reading.options), (Words{"--mapping", "greedy", "--serve", "./-socket"}));
+    EXPECT_EQ(read(program, {"film.json", "--serve", "socket"}).code, kUsage);
+  }
+  EXPECT_EQ(read(Program::mars, {"--serve", "socket"}).code, kUsage);
+}
+
 TEST(RenderOptions, FramesNeedAFolderOrNoSink) {
   for (const Program program : {Program::mars, Program::host, Program::ranks, Program::threads}) {
     const Reading reading = read(program, {"film.json"});

@@ -19,6 +19,7 @@ PAGE = ROOT / "host/studio/page"
 POLICY = "default-src 'self'"
 TOKEN = "open-sesame"
 RAW, DEFLATE, JPEG = 0, 1, 2
+MOST_UNPAINTED = 2
 ANSWERED_BY_PICTURES = ("orbit", "preview", "drag", "frame", "commit", "drop")
 
 
@@ -40,7 +41,9 @@ class MockStudio:
         self.there = lambda grab: {"joint": None, "handle": None}  # what a grab finds
         self.heard = []
         self.views = {}
-        self.numbers = {}
+        self.numbers = {}  # view -> its last picture
+        self.painted = {}  # view -> the last that the page has painted
+        self.due = {}      # view -> the edit of a picture for which there was no room
         self.sockets = set()
         self.news = threading.Condition()
         self.loop = asyncio.new_event_loop()
@@ -118,6 +121,8 @@ class MockStudio:
         self.sockets.add(socket)
         self.views.clear()
         self.numbers.clear()
+        self.painted.clear()
+        self.due.clear()
         try:
             await socket.send(json.dumps({"is": "project", **self.project}))
             await socket.send(json.dumps({"is": "state", "renderer": "", "nodes": 2, "machines": 1}))
@@ -134,7 +139,12 @@ class MockStudio:
             self.views[message["view"]] = message
             await self._picture(message["view"], message["edit"])
         elif does == "unview":
-            self.views.pop(message["view"], None)
+            for known in (self.views, self.numbers, self.painted, self.due):
+                known.pop(message["view"], None)
+        elif does == "painted":
+            self.painted[message["view"]] = message["picture"]
+            if message["view"] in self.due:
+                await self._picture(message["view"], self.due.pop(message["view"]))
         elif does == "grab":
             await self._tell({"is": "grabbed", "view": message["view"], **self.there(message)})
         if does == "commit":
@@ -155,6 +165,9 @@ class MockStudio:
                     joint["pose"] = step["pose"]
 
     async def _picture(self, view, edit):
+        if self.numbers.get(view, 0) - self.painted.get(view, 0) >= MOST_UNPAINTED:
+            self.due[view] = edit
+            return
         asked = self.views[view]
         self.numbers[view] = self.numbers.get(view, 0) + 1
         rects = [(0, 0, asked["width"], asked["height"])]

@@ -188,7 +188,7 @@ class Hands(Page):
         self.assertFalse([each for each in self.studio.heard if each["do"] in ("drag", "drop")])
 
     def test_a_drag_on_a_limb_pulls_it_and_escape_lets_go(self):
-        self.studio.there = lambda grab: {"joint": "left-thigh", "handle": None}
+        self.studio.there = lambda grab: {"actor": "model", "joint": "left-thigh", "handle": None}
         self.drag((30, 10), (20, 5))
         grab = self.studio.wait_for("grab", view=0, button=0, keys=[])
         drop = self.studio.wait_for("drop")
@@ -329,7 +329,8 @@ class Controls(Page):
 
     def test_a_view_is_maximised_and_comes_back(self):
         before = self.studio.views[2]
-        ActionChains(self.browser).double_click(self.browser.find_elements(By.CSS_SELECTOR, ".title")[2]).perform()
+        # A real one takes both clicks within half a second, which a busy machine may not give.
+        self.js("document.querySelectorAll('.title')[2].dispatchEvent(new MouseEvent('dblclick', {bubbles: true}))")
         self.studio.wait_for("unview", view=0)
         self.until(lambda: self.studio.views.get(2, before)["width"] > 1.9 * before["width"])
         self.press("f")
@@ -433,7 +434,7 @@ class Films(Page):
         self.chord(".")
         self.studio.wait_for("frame", frame=26)
         self.chord(Keys.SPACE)
-        self.studio.wait_for("frame", frame=29)
+        self.studio.wait_for("frame", count=5)  # it plays by the clock, whatever is left out
         self.chord(Keys.SPACE)
 
     def test_steps_name_their_actor_and_keys_show(self):

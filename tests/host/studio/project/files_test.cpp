@@ -32,7 +32,7 @@ TEST_F(Files, AnOutsideChangeShowsAndCanBeUndone) {
 TEST_F(Files, AChangeWhileNothingIsOpenIsAnEntryToo) {
   open("pip.json")->commit(step(R"({"remove": "joint", "joint": "head"})"));
   const std::string before = text("pip.json");
-  write("pip.json", kPip);
+  write("pip.json", replaced(kPip, "40", "45"));
   const auto project = open("pip.json");
   EXPECT_EQ(project->describe()["undo"], "changed outside");
   project->undo();
@@ -57,7 +57,8 @@ TEST_F(Files, ACommandsChangeIsNotLostByAStep) {
 
 TEST_F(Files, ABrokenFileIsAProblemWithItsLineAndTheLastGoodStateStays) {
   const auto project = open("pip.json");
-  write("pip.json", replaced(kPip, "\"parent\": \"hip\", \"place\": [0, 0, 1]", "\"parent\": \"hop\", \"place\": [0, 0, 1]"));
+  write("pip.json",
+        replaced(kPip, "\"parent\": \"hip\", \"place\": [0, 0, 1]", "\"parent\": \"hop\", \"place\": [0, 0, 1]"));
   EXPECT_TRUE(look(*project));
   ASSERT_TRUE(project->problem());
   EXPECT_EQ(project->problem()->line, 5u) << project->problem()->text;

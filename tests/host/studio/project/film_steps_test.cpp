@@ -10,7 +10,8 @@ namespace {
 class FilmSteps : public OpenFiles {
  protected:
   // As `mars animate copy.json pose THING SETTINGS --frame FRAME --clamp`.
-  std::string by_command(const std::string& thing, const std::vector<std::string>& settings, std::uint32_t frame) const {
+  std::string by_command(const std::string& thing, const std::vector<std::string>& settings,
+                         std::uint32_t frame) const {
     write("copy.json", text("film.json"));
     film::change_film(path("copy.json"), [&](Json& json, const animator::Film& film) {
       animator::pose(json, film, thing, settings, frame, std::nullopt, animator::Beyond::clamped);
@@ -37,14 +38,23 @@ struct Case {
 TEST_F(FilmSteps, AStepWritesWhatTheCommandWritesAndShowsItBefore) {
   const Case cases[] = {
       {R"({"set": "pose", "actor": "one", "joint": "head", "pose": [0, 20, 0]})", "one", {"head=0,20,0"}, 12},
-      {R"({"set": "pose", "actor": "two", "joint": "left-leg", "pose": [10.5, 90, 0]})", "two", {"left-leg=10.5,90,0"}, 12},
+      {R"({"set": "pose", "actor": "two", "joint": "left-leg", "pose": [10.5, 90, 0]})",
+       "two",
+       {"left-leg=10.5,90,0"},
+       12},
       {R"({"set": "pose", "actor": "two", "joint": "left-leg", "pose": [1, 2, 0]})", "two", {"left-leg=1,2,0"}, 24},
       {R"({"set": "pose", "actor": "two", "joint": "head", "pose": [5, 99, 5]})", "two", {"head=5,99,5"}, 0},
       {R"({"set": "pose", "actor": "two", "joint": "head", "pose": [0, 30, 0]})", "two", {"head=0,30,0"}, 36},
-      {R"({"set": "poses", "actor": "two", "poses": {"head": [0, 1, 0], "hip": [1, 2, 3]}})", "two", {"head=0,1,0", "hip=1,2,3"}, 47},
+      {R"({"set": "poses", "actor": "two", "poses": {"head": [0, 1, 0], "hip": [1, 2, 3]}})",
+       "two",
+       {"head=0,1,0", "hip=1,2,3"},
+       47},
       {R"({"set": "place", "actor": "two", "place": [1, 2.25, 3]})", "two", {"place=1,2.25,3"}, 10},
       {R"({"set": "turn", "actor": "one", "turn": [0, 0, 270]})", "one", {"turn=0,0,270"}, 30},
-      {R"({"set": "camera", "eye": [5, -5, 3], "at": [0, 1, 1], "fov": 30})", "camera", {"eye=5,-5,3", "at=0,1,1", "fov=30"}, 20},
+      {R"({"set": "camera", "eye": [5, -5, 3], "at": [0, 1, 1], "fov": 30})",
+       "camera",
+       {"eye=5,-5,3", "at=0,1,1", "fov=30"},
+       20},
       {R"({"set": "camera", "fov": 60})", "camera", {"fov=60"}, 0}};
   const auto project = open("film.json");
   for (const Case& each : cases) {
@@ -60,8 +70,8 @@ TEST_F(FilmSteps, AStepWritesWhatTheCommandWritesAndShowsItBefore) {
     EXPECT_FALSE(project->in_gesture());
     EXPECT_EQ(text("film.json"), expected) << each.step;
     for (std::size_t actor = 0; actor < 2; ++actor)
-      EXPECT_TRUE(same(animator::state_at(shown, actor, each.frame),
-                       animator::state_at(project->film(), actor, each.frame)))
+      EXPECT_TRUE(
+          same(animator::state_at(shown, actor, each.frame), animator::state_at(project->film(), actor, each.frame)))
           << each.step;
     EXPECT_EQ(animator::value_at(shown.camera.eye, each.frame),
               animator::value_at(project->film().camera.eye, each.frame));
@@ -78,10 +88,10 @@ TEST_F(FilmSteps, ACancelledGestureLeavesNothing) {
   const auto project = open("film.json");
   project->set_frame(12);
   const animator::Film before = project->film();
-  for (const char* each : {R"({"set": "pose", "actor": "one", "joint": "head", "pose": [0, 20, 0]})",
-                           R"({"set": "poses", "actor": "two", "poses": {"head": [0, 20, 0], "hip": [1, 1, 1]}})",
-                           R"({"set": "place", "actor": "two", "place": [9, 9, 9]})",
-                           R"({"set": "camera", "eye": [1, 2, 3], "fov": 12})"})
+  for (const char* each :
+       {R"({"set": "pose", "actor": "one", "joint": "head", "pose": [0, 20, 0]})",
+        R"({"set": "poses", "actor": "two", "poses": {"head": [0, 20, 0], "hip": [1, 1, 1]}})",
+        R"({"set": "place", "actor": "two", "place": [9, 9, 9]})", R"({"set": "camera", "eye": [1, 2, 3], "fov": 12})"})
     project->preview(step(each));
   project->cancel();
   EXPECT_FALSE(project->in_gesture());
@@ -97,8 +107,7 @@ TEST_F(FilmSteps, ACancelledGestureLeavesNothing) {
 TEST_F(FilmSteps, PosesStopAtLimits) {
   const auto project = open("film.json");
   project->preview(step(R"({"set": "pose", "actor": "one", "joint": "head", "pose": [50, 500, 50]})"));
-  EXPECT_EQ(project->describe_poses()["actors"],
-            Json::parse(R"([{"name": "one", "place": [0, 0, 0], "turn": [0, 0, 0],
+  EXPECT_EQ(project->describe_poses()["actors"], Json::parse(R"([{"name": "one", "place": [0, 0, 0], "turn": [0, 0, 0],
                              "joints": [[0, 0, 0], [0, 40, 0], [0, 0, 0], [0, 0, 0]]}])"));
   project->commit(step(R"({"set": "pose", "actor": "one", "joint": "head", "pose": [50, 500, 50]})"));
   EXPECT_TRUE(holds(text("film.json"), R"("head": [0, 40, 0])"));
@@ -107,9 +116,7 @@ TEST_F(FilmSteps, PosesStopAtLimits) {
 
 TEST_F(FilmSteps, WhatMakesNoSenseIsRefusedAndLeavesAllAsItWas) {
   const auto project = open("film.json");
-  const auto refused = [&](const char* text) {
-    return refusal([&] { project->commit(step(text)); });
-  };
+  const auto refused = [&](const char* text) { return refusal([&] { project->commit(step(text)); }); };
   EXPECT_TRUE(holds(refused(R"({"set": "pose", "actor": "on", "joint": "head", "pose": [0, 0, 0]})"), "one"));
   EXPECT_TRUE(holds(refused(R"({"set": "pose", "joint": "head", "pose": [0, 0, 0]})"), "no actor"));
   EXPECT_TRUE(holds(refused(R"({"set": "pose", "actor": "one", "joint": "heat", "pose": [0, 0, 0]})"), "head"));
@@ -118,7 +125,8 @@ TEST_F(FilmSteps, WhatMakesNoSenseIsRefusedAndLeavesAllAsItWas) {
   refused(R"({"set": "pose", "actor": "one", "joint": "head", "pose": [0, 0, 0], "more": 1})");
   refused(R"({"set": "camera", "eye": [0, 0, 1]})");
   refused(R"({"set": "camera", "fov": 500})");
-  EXPECT_TRUE(holds(refused(R"({"set": "joint", "joint": "head", "change": {"place": [1, 2, 3]}})"), "mars studio MODEL"));
+  EXPECT_TRUE(
+      holds(refused(R"({"set": "joint", "joint": "head", "change": {"place": [1, 2, 3]}})"), "mars studio MODEL"));
   EXPECT_TRUE(holds(refused(R"({"body": "man"})"), "mars studio MODEL"));
   refused(R"({"mirror": "up"})");
   refused("[]");

@@ -94,7 +94,8 @@ TEST_F(Histories, TwoStudiosShareOne) {
   EXPECT_EQ(there->describe()["undo"], "remove head");
   there->commit(step(R"({"set": "joint", "joint": "hip", "change": {"place": [1, 0, 0]}})"));
   here->commit(step(R"({"set": "joint", "joint": "hip", "change": {"name": "pelvis"}})"));  // without a look
-  EXPECT_TRUE(holds(text("pip.json"), R"("name": "pelvis", "place": [1, 0, 0])")) << text("pip.json");
+  EXPECT_TRUE(holds(text("pip.json"), R"("name": "pelvis",)"));
+  EXPECT_TRUE(holds(text("pip.json"), R"("place": [1, 0, 0])"));
   look(*there);
   for (int i = 0; i < 3; ++i) there->undo();
   EXPECT_EQ(text("pip.json"), kPip);

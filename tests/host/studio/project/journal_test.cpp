@@ -126,8 +126,9 @@ TEST_F(Journals, WhatOthersDidMeanwhileIsAnEntry) {
 }
 
 TEST_F(Journals, ForeignAndDamagedOnesBeginAnew) {
-  for (const char* foreign : {"", "\n\n", "no json\n", "[]\n", "{\"mars-journal\": 1}\n", "{\"from\": 1, \"to\": []}\n",
-                              "{\"from\": \"a\", \"to\": \"b\", \"step\": \"x\", \"at\": 99999, \"before\": \"y\"}\n"}) {
+  for (const char* foreign :
+       {"", "\n\n", "no json\n", "[]\n", "{\"mars-journal\": 1}\n", "{\"from\": 1, \"to\": []}\n",
+        "{\"from\": \"a\", \"to\": \"b\", \"step\": \"x\", \"at\": 99999, \"before\": \"y\"}\n"}) {
     set_lines(foreign);
     Journal journal(file_);
     EXPECT_FALSE(journal.read("one")) << foreign;

@@ -368,11 +368,19 @@ TEST(Flow, ClosedPagesCloseTheirViews) {
   EXPECT_EQ(on.link.closed, (std::vector<std::uint32_t>{0}));
 }
 
+TEST(Flow, WhatTheProjectObeysIsNotRefused) {
+  OnStage on(example("robot-arm.json"));
+  for (const char* text :
+       {R"({"do": "undo"})", R"({"do": "redo"})", R"({"do": "cancel"})", R"({"do": "frame", "edit": 2})"})
+    EXPECT_NO_THROW(on.take(text)) << text;
+}
+
 TEST(Flow, NonsenseIsRefused) {
   OnStage on(example("robot-arm.json"));
   for (
       const char* text :
-      {R"([])", R"({})", R"({"do": 3})", R"({"do": "dance"})", R"({"do": "view", "view": 8})",
+      {R"([])", R"({})", R"({"do": 3})", R"({"do": "dance"})", R"({"do": "dance", "edit": 3})",
+       R"({"do": "view", "view": 8})",
        R"({"do": "view", "view": 0, "width": 15, "height": 99, "from": "front", "as": "surface"})",
        R"({"do": "view", "view": 0, "width": 99, "height": 4097, "from": "front", "as": "surface"})",
        R"({"do": "view", "view": 0, "width": 99, "height": 99, "from": "behind", "as": "surface"})",

@@ -8,6 +8,7 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <random>
 
 namespace mars::web {
 namespace {
@@ -156,10 +157,13 @@ TEST_F(PageOutboxTest, HandlesComeBeforeTheirPicture) {
 
 TEST_F(PageOutboxTest, FastLinksGetRawPictures) {
   Encoding encoding = Encoding::deflate;
+  std::mt19937 random(3);
   for (std::uint32_t i = 1; i <= 10; ++i) {
-    outbox_.show(whole(i, false, i), now_);
+    ViewPicture picture = whole(i, false, i);
+    for (std::uint32_t& pixel : picture.pixels) pixel = 0xff000000u | random();
+    outbox_.show(picture, now_);
     encoding = receive(4ms);
-    EXPECT_EQ(page_.screen, whole(i, true, i).pixels);
+    EXPECT_EQ(page_.screen, picture.pixels);
     EXPECT_EQ(page_.last.flags, 2u);
   }
   EXPECT_EQ(encoding, Encoding::raw);

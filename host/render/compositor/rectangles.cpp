@@ -1,11 +1,11 @@
-#include "host/render/serve/rectangles.h"
+#include "host/render/compositor/rectangles.h"
 
 #include <algorithm>
 #include <cstddef>
 
-namespace mars::serve {
+namespace mars::compositor {
 
-std::vector<Rect> rectangles_of(const compositor::BlockFlags& flags, std::uint32_t width, std::uint32_t height) {
+std::vector<Rect> rectangles_of(const BlockFlags& flags, std::uint32_t width, std::uint32_t height) {
   const std::uint32_t block = flags.block();
   std::vector<Rect> rects;
   std::vector<std::size_t> above, here;  // numbers of those that reach down to the row, and of the row's, from the left
@@ -30,4 +30,4 @@ std::vector<Rect> rectangles_of(const compositor::BlockFlags& flags, std::uint32
   return rects;
 }
 
-}  // namespace mars::serve
+}  // namespace mars::compositor

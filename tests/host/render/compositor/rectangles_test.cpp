@@ -1,4 +1,4 @@
-#include "host/render/serve/rectangles.h"
+#include "host/render/compositor/rectangles.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 namespace {
 
 using mars::compositor::BlockFlags;
-using mars::serve::Rect;
+using mars::compositor::Rect;
 
 // How often each pixel is in a rectangle.
 std::vector<int> coverage(const std::vector<Rect>& rects, std::uint32_t width, std::uint32_t height) {
@@ -21,7 +21,7 @@ std::vector<int> coverage(const std::vector<Rect>& rects, std::uint32_t width, s
 TEST(Rectangles, AllBlocksAreOnePicture) {
   BlockFlags flags(100, 50, 16);
   flags.set_all();
-  const std::vector<Rect> rects = mars::serve::rectangles_of(flags, 100, 50);
+  const std::vector<Rect> rects = mars::compositor::rectangles_of(flags, 100, 50);
   ASSERT_EQ(rects.size(), 1u);
   EXPECT_EQ(rects[0].width, 100);
   EXPECT_EQ(rects[0].height, 50);
@@ -30,10 +30,15 @@ TEST(Rectangles, AllBlocksAreOnePicture) {
 TEST(Rectangles, CoverFlaggedBlocksOnce) {
   constexpr std::uint32_t kWidth = 70, kHeight = 45, kBlock = 8;
   BlockFlags flags(kWidth, kHeight, kBlock);
-  for (const auto& [line, first, count] : {std::array{0u, 0u, 20u}, {8u, 0u, 20u}, {16u, 8u, 1u}, {17u, 40u, 30u},
-                                           {24u, 8u, 1u}, {25u, 30u, 40u}, {44u, 69u, 1u}})
+  for (const auto& [line, first, count] : {std::array{0u, 0u, 20u},
+                                           {8u, 0u, 20u},
+                                           {16u, 8u, 1u},
+                                           {17u, 40u, 30u},
+                                           {24u, 8u, 1u},
+                                           {25u, 30u, 40u},
+                                           {44u, 69u, 1u}})
     flags.set_pixels(line, first, count);
-  const std::vector<Rect> rects = mars::serve::rectangles_of(flags, kWidth, kHeight);
+  const std::vector<Rect> rects = mars::compositor::rectangles_of(flags, kWidth, kHeight);
   const std::vector<int> times = coverage(rects, kWidth, kHeight);
   for (std::uint32_t y = 0; y < kHeight; ++y)
     for (std::uint32_t x = 0; x < kWidth; ++x)
@@ -42,7 +47,7 @@ TEST(Rectangles, CoverFlaggedBlocksOnce) {
 }
 
 TEST(Rectangles, NothingFlaggedIsNone) {
-  EXPECT_TRUE(mars::serve::rectangles_of(BlockFlags(64, 64, 16), 64, 64).empty());
+  EXPECT_TRUE(mars::compositor::rectangles_of(BlockFlags(64, 64, 16), 64, 64).empty());
 }
 
 }  // namespace

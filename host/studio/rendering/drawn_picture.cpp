@@ -1,0 +1,165 @@
+#include "host/studio/rendering/drawn_picture.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+namespace mars::studio {
+namespace {
+
+constexpr std::uint32_t kColors = 0x00ffffff, kOpaque = 0xff000000;
+constexpr int kMarkBits = 24;
+constexpr std::size_t kMostDrawn = 256;  // frames whose times are kept
+constexpr std::size_t kMostBars = 540;   // of EBC
+
+std::string base64_of(const std::vector<std::uint8_t>& bytes) {
+  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t at = 0; at < bytes.size(); at += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - at);
+    std::uint32_t three = 0;
+    for (std::size_t i = 0; i < 3; ++i) three = three << 8 | (i < count ? bytes[at + i] : 0);
+    for (std::size_t digit = 0; digit < 4; ++digit)
+      text += digit <= count ? kDigits[three >> (18 - 6 * digit) & 63] : '=';
+  }
+  return text;
+}
+
+// Bits, the lowest of a byte first, block after block in rows.
+std::string bits_of(const compositor::BlockFlags& flags) {
+  std::vector<std::uint8_t> bytes((std::size_t{flags.rows()} * flags.columns() + 7) / 8);
+  for (std::uint32_t row = 0; row < flags.rows(); ++row)
+    flags.for_stretches(row, [&](std::uint32_t first, std::uint32_t last) {
+      for (std::size_t bit = std::size_t{row} * flags.columns() + first; first < last; ++first, ++bit)
+        bytes[bit / 8] = static_cast<std::uint8_t>(bytes[bit / 8] | 1 << bit % 8);
+    });
+  return base64_of(bytes);
+}
+
+// In the order in which a node takes them; `map` and `fill` put edge boxes where they belong.
+Json seconds_of(const wire::PhaseTimes& times) {
+  return {{"dice", times.dice},
+          {"setup", times.sum + times.map + times.fill},
+          {"exchange", times.exchange + times.depth},
+          {"raster", times.scanline},
+          {"wait", times.credit}};
+}
+
+const char* word_of(wire::FrameKind kind) { return kind == wire::FrameKind::keyframe ? "keyframe" : "inbetween"; }
+
+}  // namespace
+
+DrawnPicture::DrawnPicture(const watch::Begin& begin)
+    : width_(begin.width),
+      height_(begin.height),
+      block_(begin.block),
+      pixels_(std::size_t{begin.width} * begin.height),
+      lines_(begin.height, watch::Line{-1, 0}) {}
+
+void DrawnPicture::take(const WatchedUpdate& update, std::span<compositor::BlockFlags* const> changed) {
+  head_ = update.head;
+  lines_ = update.lines;
+  const std::uint32_t* from = update.pixels.data();
+  for (const watch::Rect& rect : update.rects)
+    for (std::uint32_t line = rect.y; line < std::uint32_t{rect.y} + rect.height; ++line, from += rect.width) {
+      std::copy_n(from, rect.width, &pixels_[std::size_t{line} * width_ + rect.x]);
+      for (compositor::BlockFlags* flags : changed) flags->set_pixels(line, rect.x, rect.width);
+    }
+}
+
+void DrawnPicture::note_drawn(const watch::DrawnHead& head, std::vector<watch::Part> parts) {
+  drawn_[head.frame] = {head, std::move(parts)};
+  if (drawn_.size() <= kMostDrawn) return;
+  const auto older = [](const auto& one, const auto& other) {
+    return one.second.head.seconds < other.second.head.seconds;
+  };
+  drawn_.erase(std::ranges::min_element(drawn_, older));
+}
+
+std::vector<std::uint32_t> DrawnPicture::pixels_of(std::span<const watch::Rect> rects) const {
+  std::vector<std::uint32_t> pixels;
+  for (const watch::Rect& rect : rects)
+    for (std::uint32_t line = rect.y; line < std::uint32_t{rect.y} + rect.height; ++line) {
+      const std::uint32_t* from = &pixels_[std::size_t{line} * width_ + rect.x];
+      std::transform(from, from + rect.width, std::back_inserter(pixels),
+                     [](std::uint32_t pixel) { return (pixel & kColors) | kOpaque; });
+    }
+  return pixels;
+}
+
+Json DrawnPicture::describe(const compositor::BlockFlags& flagged) const {
+  return {{"is", "drawn"},
+          {"frame", head_.frame},
+          {"kind", word_of(head_.kind)},
+          {"interval", head_.interval},
+          {"whole", head_.whole == 1},
+          {"group", head_.group},
+          {"seconds", head_.seconds},
+          {"block", block_},
+          {"flagged", bits_of(flagged)},
+          {"moving", bits_of(blocks_with(watch::Mark::moving))},
+          {"still", bits_of(blocks_with(watch::Mark::still))},
+          {"ebc", edge_boxes()},
+          {"nodes", nodes()}};
+}
+
+// Who drew which lines [first, last], and their times where the frame is whole.
+Json DrawnPicture::nodes() const {
+  std::map<std::int32_t, Json> lines;
+  for (std::uint32_t first = 0, last; first < height_; first = last) {
+    const std::int32_t node = lines_[first].node;
+    last = first + 1;
+    while (last < height_ && lines_[last].node == node) ++last;
+    if (node >= 0) lines[node].push_back({first, last - 1});
+  }
+  const auto drawn = head_.whole == 1 ? drawn_.find(head_.frame) : drawn_.end();
+  Json nodes = Json::array();
+  for (auto& [node, ranges] : lines) {
+    Json each{{"node", node}, {"lines", std::move(ranges)}};
+    if (drawn != drawn_.end()) {
+      const auto part = std::ranges::find(drawn->second.parts, node, &watch::Part::node);
+      if (part != drawn->second.parts.end()) {
+        each["seconds"] = seconds_of(part->times);
+        each["ended"] = part->ended;
+        each["triangles"] = part->triangles;
+        each["edge_boxes"] = part->edge_boxes;
+      }
+    }
+    nodes.push_back(std::move(each));
+  }
+  return nodes;
+}
+
+// Of each line, or of as many lines together as leave few bars.
+Json DrawnPicture::edge_boxes() const {
+  const std::size_t lines = (height_ + kMostBars - 1) / kMostBars;
+  Json counts = Json::array();
+  for (std::size_t first = 0; first < height_; first += lines) {
+    std::uint64_t sum = 0;
+    for (std::size_t line = first; line < std::min<std::size_t>(height_, first + lines); ++line)
+      sum += lines_[line].edge_boxes;
+    counts.push_back(sum);
+  }
+  return counts;
+}
+
+compositor::BlockFlags DrawnPicture::blocks_with(watch::Mark mark) const {
+  compositor::BlockFlags flags = no_blocks();
+  for (std::uint32_t line = 0; line < height_; ++line)
+    for (std::uint32_t x = 0; x < width_; x += block_) {
+      const std::span block(&pixels_[std::size_t{line} * width_ + x], std::min(block_, width_ - x));
+      const auto has_mark = [mark](std::uint32_t pixel) {
+        return pixel >> kMarkBits == static_cast<std::uint32_t>(mark);
+      };
+      if (!flags.at(x / block_, line / block_) && std::ranges::any_of(block, has_mark)) flags.set_pixels(line, x, 1);
+    }
+  return flags;
+}
+
+std::vector<std::uint32_t> opaque(const images::Image& image) {
+  std::vector<std::uint32_t> pixels(image.pixels.size());
+  std::ranges::transform(image.pixels, pixels.begin(), [](std::uint32_t pixel) { return pixel | kOpaque; });
+  return pixels;
+}
+
+}  // namespace mars::studio

@@ -1,0 +1,60 @@
+#include "host/studio/rendering/render_words.h"
+
+#include <algorithm>
+#include <array>
+
+#include "hal/failure/failure.h"
+#include "host/content/document/text.h"
+
+namespace mars::studio {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Those of `mars render` that a page may set; the command checks their values.
+constexpr std::array kTexts{"frames", "backend", "size", "samples", "mapping", "groups", "format", "intervals"};
+
+std::string text_in(const Json& options, const char* name, const std::string& otherwise) {
+  const auto found = options.find(name);
+  if (found == options.end() || found->is_null()) return otherwise;
+  if (found->is_number_integer()) return found->dump();
+  const bool sound = found->is_string() && found->get_ref<const std::string&>().find('\0') == std::string::npos;
+  if (!sound) throw Failure(std::string(name) + " is no text", "", "");
+  return found->get<std::string>();
+}
+
+}  // namespace
+
+fs::path path_below(const fs::path& folder, const std::string& name) {
+  const fs::path top = fs::weakly_canonical(folder), path = fs::weakly_canonical(top / name);
+  const auto [end, in_path] = std::ranges::mismatch(top, path);
+  if (name.empty() || end != top.end())
+    throw Failure(document::in_quotes(name) + " is not below the studio's folder", "", "name one in " + top.string());
+  return path;
+}
+
+fs::path frames_folder(const Json& options, const fs::path& folder) {
+  const fs::path path = path_below(folder, text_in(options, "folder", "out"));
+  if (path == fs::weakly_canonical(folder)) throw Failure("frames need a folder of their own", "", "name one: out");
+  return path;
+}
+
+std::vector<std::string> render_words(const RenderingSettings& settings, const Json& options,
+                                      const std::string& socket) {
+  if (!options.is_object()) throw Failure("a rendering's options are an object", "", "");
+  std::vector<std::string> words{settings.mars.string(),
+                                 "render",
+                                 fs::absolute(settings.film).string(),
+                                 "-o",
+                                 frames_folder(options, settings.folder).string(),
+                                 "--watch=" + socket};
+  for (const char* name : kTexts)
+    if (const std::string text = text_in(options, name, ""); !text.empty())
+      words.push_back("--" + std::string(name) + "=" + text);
+  if (const std::string nodes = text_in(options, "nodes", ""); !nodes.empty()) words.push_back("--nodes=" + nodes);
+  if (const std::string file = text_in(options, "hostfile", ""); !file.empty())
+    words.push_back("--hostfile=" + path_below(settings.folder, file).string());
+  return words;
+}
+
+}  // namespace mars::studio

@@ -1,0 +1,38 @@
+// What a page has selected, and what lies under its mouse.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <optional>
+#include <string>
+
+#include "host/studio/stage/handles.h"
+#include "host/studio/stage/moments.h"
+#include "host/studio/stage/picking.h"
+#include "host/studio/stage/screen.h"
+
+namespace mars::studio {
+
+// By names, for the film may change under it.
+struct Named {
+  std::optional<std::string> actor, joint;
+
+  bool operator==(const Named&) const = default;
+};
+
+// What there is of it.
+Selection selection_of(const Project& project, const Named& named);
+Named names_of(const Project& project, const Selection& selection);
+// "actor" and "joint", null where there is none.
+void put_names(const Project& project, const Selection& selection, Json& message);
+// "elbow y 45": a joint with the angles that it can change.
+std::string text_of(const Project& project, const Selection& selection);
+
+struct Picked {
+  Selection selection;
+  std::optional<Hit> hit;
+};
+
+// The visible surface under the pixel; else the joint that is nearest on the screen. Of a model, what is its own.
+Picked pick(const Project& project, const Moments& moments, const Screen& screen, const glm::dvec2& pixel);
+
+}  // namespace mars::studio

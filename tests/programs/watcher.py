@@ -1,0 +1,147 @@
+"""A watcher of a rendering, for tests: listens at a socket and puts together what the host says
+(host/render/watch/watch_messages.h). Reads frames' PNG files."""
+
+import socket
+import struct
+import threading
+import time
+import types
+import zlib
+
+BEGIN, PICTURE, DRAWN = 1, 2, 3
+HEAD = struct.Struct("<IIQ")
+PICTURE_HEAD = struct.Struct("<6Id")
+DRAWN_HEAD = struct.Struct("<6I3d")
+PART = struct.Struct("<i3I9d3Q")
+NOTHING, STILL, MOVING, UNKNOWN = range(4)
+
+
+def pixels_of_png(path):
+    """Width, and rows of red, green, blue of an 8-bit PNG."""
+    data, at, packed = path.read_bytes(), 8, b""
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at:at + 8])
+        if kind == b"IHDR":
+            width, height, depth, color = struct.unpack(">IIBB", data[at + 8:at + 18])
+            assert (depth, color) == (8, 2)
+        if kind == b"IDAT":
+            packed += data[at + 8:at + 8 + length]
+        at += 12 + length
+    lines, stride, raw = [], 3 * width, zlib.decompress(packed)
+    above = bytes(stride)
+    for y in range(height):
+        line = bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
+        kind = raw[y * (stride + 1)]
+        for x in range(stride):
+            left, corner = (line[x - 3], above[x - 3]) if x >= 3 else (0, 0)
+            if kind == 1:
+                line[x] = line[x] + left & 255
+            elif kind == 2:
+                line[x] = line[x] + above[x] & 255
+            elif kind == 3:
+                line[x] = line[x] + (left + above[x]) // 2 & 255
+            elif kind == 4:
+                p = left + above[x] - corner
+                best = min((abs(p - left), 0, left), (abs(p - above[x]), 1, above[x]), (abs(p - corner), 2, corner))
+                line[x] = line[x] + best[2] & 255
+        lines.append(bytes(line))
+        above = line
+    return lines
+
+
+class Watcher:
+    """`seen(self)` is called after each picture, on a thread of its own; `rest`: seconds between two messages."""
+
+    def __init__(self, path, seen=lambda watcher: None, rest=0.0, last=None):
+        self.seen, self.rest, self.last = seen, rest, last
+        self.begun = []   # (width, height, block, groups, frames, nodes)
+        self.drawn = {}   # frame: (interval, kind, group, parts)
+        self.pictures = 0
+        self.failure = None
+        self.listener = socket.socket(socket.AF_UNIX)
+        self.listener.bind(str(path))
+        self.listener.listen(1)
+        self.thread = threading.Thread(target=self.work)
+        self.thread.start()
+
+    def work(self):
+        try:
+            self.stream, _ = self.listener.accept()
+            with self.stream:
+                while self.last is None or self.pictures < self.last:
+                    if not self.take():
+                        break
+                    time.sleep(self.rest)
+            self.listener.close()
+        except Exception as failure:  # shown by end()
+            self.failure = failure
+
+    def end(self):
+        self.thread.join()
+        if self.failure:
+            raise self.failure
+
+    def read(self, size):
+        data = bytearray()
+        while len(data) < size:
+            piece = self.stream.recv(size - len(data))
+            if not piece:
+                return None
+            data += piece
+        return bytes(data)
+
+    def take(self):
+        head = self.read(HEAD.size)
+        if head is None:
+            return False
+        kind, _, size = HEAD.unpack(head)
+        body = self.read(size)
+        if body is None:
+            return False
+        {BEGIN: self.take_begin, PICTURE: self.take_picture, DRAWN: self.take_drawn}[kind](body)
+        return True
+
+    def take_begin(self, body):
+        self.begun.append(struct.unpack_from("<6I", body))
+        self.width, self.height = self.begun[-1][:2]
+        self.hosts = [body[24 + 68 * i + 4:24 + 68 * (i + 1)].split(b"\0")[0].decode()
+                      for i in range(self.begun[-1][5])]
+        self.rows = [bytearray(4 * self.width) for _ in range(self.height)]
+
+    def take_picture(self, body):
+        self.frame, self.interval, self.kind, self.whole, self.group, rects, self.seconds = \
+            PICTURE_HEAD.unpack_from(body)
+        at = PICTURE_HEAD.size
+        self.rects = [struct.unpack_from("<4H", body, at + 8 * i) for i in range(rects)]
+        at += 8 * rects
+        self.lines = [struct.unpack_from("<iI", body, at + 8 * i) for i in range(self.height)]
+        at += 8 * self.height
+        for x, y, width, height in self.rects:
+            for line in range(y, y + height):
+                self.rows[line][4 * x:4 * (x + width)] = body[at:at + 4 * width]
+                at += 4 * width
+        assert at == len(body)
+        self.pictures += 1
+        self.seen(self)
+
+    def take_drawn(self, body):
+        frame, interval, kind, group, parts, _, given, seconds, ratio = DRAWN_HEAD.unpack_from(body)
+        self.drawn[frame] = (interval, kind, group,
+                             [PART.unpack_from(body, DRAWN_HEAD.size + PART.size * i) for i in range(parts)])
+
+    def copy(self):
+        """What it has now; rows of `colors` are red, green, blue."""
+        return types.SimpleNamespace(frame=self.frame, interval=self.interval, kind=self.kind, whole=self.whole,
+                                     lines=self.lines, rects=self.rects, colors=self.colors(), marks=self.marks())
+
+    def colors(self):
+        rows = []
+        for row in self.rows:
+            colors = bytearray(3 * self.width)
+            for channel in range(3):
+                colors[channel::3] = row[channel::4]
+            rows.append(bytes(colors))
+        return rows
+
+    def marks(self):
+        return [bytes(row[3::4]) for row in self.rows]
