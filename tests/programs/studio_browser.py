@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import shutil
 import signal
 import subprocess
 import time
@@ -55,7 +56,7 @@ class Browser:
         for flag in [*FLAGS, *flags]:
             options.add_argument(flag)
         options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-        self.driver = webdriver.Chrome(options=options, service=Service("/usr/bin/chromedriver"))
+        self.driver = webdriver.Chrome(options=options, service=Service(shutil.which("chromedriver")))
         self.command("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
         if script:
             self.command("Page.addScriptToEvaluateOnNewDocument", source=script)
@@ -77,12 +78,12 @@ class Browser:
     def run(self, script, *arguments):
         return self.driver.execute_script(script, *arguments)
 
-    def until(self, what, condition, seconds=SECONDS):
+    def until(self, what, condition, seconds=None):
         """`condition`: JavaScript, or a function; its first value that counts as true."""
-        last = time.monotonic() + seconds
+        last = time.monotonic() + (seconds or SECONDS)
         while not (value := self.run(f"return {condition}") if isinstance(condition, str) else condition()):
             if time.monotonic() > last:
-                raise AssertionError(f"not within {seconds} s: {what}\n" + "\n".join(self.console()))
+                raise AssertionError(f"not within {seconds or SECONDS} s: {what}\n" + "\n".join(self.console()))
             time.sleep(0.02)
         return value
 

@@ -43,6 +43,8 @@ export class Views {
     connection.on("grabbed", (message) => this.hands.forEach((hand, number) => {
       if (message.view === undefined || message.view === number) hand.grabbed(message);
     }));
+    // A hand whose grab was refused would wait for ever.
+    connection.on("refused", (message) => { if (message.do === "grab") this.hands.forEach((hand) => hand.grabbed({})); });
     connection.on("connected", () => this.views.forEach((view) => { view.forgetPictures(); view.ask(); }));
     connection.on("gone", () => this.hands.forEach((hand) => hand.letGo()));
   }

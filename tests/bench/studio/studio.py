@@ -62,24 +62,6 @@ def processor_ms(*roots):
     return spent
 
 
-def find_limb(browser, view):
-    """A place of the view at which a limb lies that a hand can turn."""
-    left, top, width, height = browser.run("""
-        const at = arguments[0].getBoundingClientRect();
-        return [at.x, at.y, at.width, at.height];""", view)
-    seen = []
-    for down in (0.5, 0.45, 0.4, 0.55, 0.35, 0.6, 0.65, 0.3, 0.7):
-        for along in [0.5 + sign * step / 40 for step in range(16) for sign in (1, -1)]:
-            x, y = round(left + along * width), round(top + down * height)
-            browser.move(x, y)
-            time.sleep(0.03)
-            text = browser.run("return arguments[0].querySelector('.tip').textContent", view)
-            seen.append(text)
-            if browser.run("return arguments[0].dataset.over", view) == "limb" and any(f" {axis} " in text for axis in "xyz"):
-                return (x, y), text
-    raise RuntimeError(f"no limb to turn: {set(seen)}")
-
-
 def move_for(browser, at, seconds):
     """To and fro, MOVES times a second; how often."""
     began, moves = time.monotonic(), 0
@@ -117,7 +99,7 @@ def measure(build, case, seconds):
             browser.run("document.querySelectorAll('.view .maximise')[3].click()")
         time.sleep(1.5)
         view = browser.run("return document.querySelector('[data-key=view-3]')")
-        at, limb = find_limb(browser, view)
+        at = browser.find(view, " z " if film == "s2" else " y ")
         browser.move(*at)
         browser.press(*at, "left" if how == "drag" else "middle")
         move_for(browser, at, 1)  # the interval has begun
@@ -132,10 +114,10 @@ def measure(build, case, seconds):
             return pictures.filter(({said}) => said).map((each) => ({...each, left: sent.get(each.edit) ?? null}));""")
         browser.release(*at)
         complaints = browser.console()
-    return report(case, limb, lasted, moves, latencies, pictures, {k: after[k] - before[k] for k in after}, complaints)
+    return report(case, lasted, moves, latencies, pictures, {k: after[k] - before[k] for k in after}, complaints)
 
 
-def report(case, limb, lasted, moves, latencies, pictures, spent, complaints):
+def report(case, lasted, moves, latencies, pictures, spent, complaints):
     ours = [each for each in pictures if each["view"] == 3]
     known = [each for each in ours if each["left"] is not None and each.get("frame")]
     if not ours:
@@ -153,7 +135,9 @@ def report(case, limb, lasted, moves, latencies, pictures, spent, complaints):
         "enc": max(each["encoding"] for each in ours),
     }
     row |= {f"cpu {kind}": value / len(pictures) for kind, value in spent.items()}
-    print(f"{case} ({limb})\n   " + "  ".join(f"{k} {v:.1f}" for k, v in row.items()), *complaints, flush=True)
+    latest, fewest = TARGETS[tuple(case.split()[:2])]
+    wanted = f"p95 {latest}, " if latest else ""
+    print(f"{case} (wanted: {wanted}pict/s {fewest})\n   " + "  ".join(f"{k} {v:.1f}" for k, v in row.items()), *complaints, flush=True)
 
 
 def main():
