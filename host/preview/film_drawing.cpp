@@ -44,6 +44,12 @@ Color dim(Color color) {
   return color;
 }
 
+// Three quarters of the way to white.
+Color bright(Color color) {
+  for (float& part : color) part = 0.25f * part + 0.75f;
+  return color;
+}
+
 double distance_along(const wire::Camera& camera, const glm::dvec3& place) {
   const auto& row = camera.world_to_eye.m[2];
   return -(row[0] * place.x + row[1] * place.y + row[2] * place.z + row[3]);
@@ -66,7 +72,7 @@ FilmDrawing::FilmDrawing(const View& view) : view_(view), grid_(ground_under(vie
 }
 
 void FilmDrawing::draw(Drawing& drawing, As as, std::uint32_t frame, const wire::Camera& camera, std::uint32_t pen,
-                       bool ground, std::span<const Cover> covers) const {
+                       bool ground, std::span<const Cover> covers, const Posed& posed) const {
   const double middle = distance_along(camera, view_.subject.center);
   drawing.begin(camera, kPaper, middle - view_.subject.radius, middle + view_.subject.radius);
   for (const Cover& cover : covers) drawing.cover(*cover.facets, cover.to_world, kBehind * view_.subject.radius);
@@ -76,12 +82,22 @@ void FilmDrawing::draw(Drawing& drawing, As as, std::uint32_t frame, const wire:
   const Stroke thin{pen, small ? 1 : pen + 1};
   for (const Part& part : view_.parts[static_cast<std::size_t>(as)]) {
     Color color = line_color(view_.colors[view_.value_at(part.look, frame)]);
-    const bool scenery = moving_ && part.motion.count == 1;
-    if (scenery) color = dim(color);
-    drawing.draw(view_.lines[part.lines], view_.matrices[view_.value_at(part.motion, frame)], color,
-                 as == As::stick && !scenery ? sticks : thin);
+    const bool selected = part.joint.joint != modeler::kNone && part.joint == posed.selected;
+    const bool scenery = moving_ && part.motion.count == 1 && !posed.figures.contains(part.joint.actor);
+    if (selected) color = bright(color);
+    if (scenery && !selected) color = dim(color);
+    Stroke stroke = as == As::stick && !scenery ? sticks : thin;
+    if (selected) stroke = {stroke.line + pen, stroke.dot + pen};
+    drawing.draw(view_.lines[part.lines], placing_of(part, frame, posed), color, stroke);
   }
   if (ground) draw_axes(drawing, camera, pen);
+}
+
+Placing FilmDrawing::placing_of(const Part& part, std::uint32_t frame, const Posed& posed) const {
+  const auto figure = posed.figures.find(part.joint.actor);
+  if (figure == posed.figures.end()) return view_.matrices[view_.value_at(part.motion, frame)];
+  const auto& segment = figure->second.segments[part.joint.joint];
+  return segment ? placing(*segment) : placing(figure->second.joints[part.joint.joint]);
 }
 
 // Each axis as a little stick near the lower left corner, before everything else.

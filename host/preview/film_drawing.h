@@ -1,8 +1,10 @@
 // A frame of a film as lines: one of the thesis's three representations, seen from anywhere.
 #pragma once
 
+#include <map>
 #include <span>
 
+#include "host/content/animator/actor_state.h"
 #include "host/preview/drawing.h"
 #include "host/preview/view.h"
 
@@ -19,6 +21,12 @@ struct Cover {
   Placing to_world;
 };
 
+// How a person's hand changes a picture of a film.
+struct Posed {
+  JointNumber selected;                                 // is brighter
+  std::map<std::size_t, animator::ActorState> figures;  // by actor: those that stand otherwise than in the film
+};
+
 class FilmDrawing {
  public:
   // `view` must outlive it.
@@ -28,9 +36,10 @@ class FilmDrawing {
   // height 0 beneath it all, and the world's axes in the corner (x red, y green, z blue). Lines behind `covers` are
   // left out.
   void draw(Drawing& drawing, As as, std::uint32_t frame, const wire::Camera& camera, std::uint32_t pen, bool ground,
-            std::span<const Cover> covers = {}) const;
+            std::span<const Cover> covers = {}, const Posed& posed = {}) const;
 
  private:
+  Placing placing_of(const Part& part, std::uint32_t frame, const Posed& posed) const;
   void draw_axes(Drawing& drawing, const wire::Camera& camera, std::uint32_t pen) const;
 
   const View& view_;

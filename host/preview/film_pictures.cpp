@@ -49,7 +49,6 @@ wire::Camera FilmPictures::camera(std::uint32_t frame, double aspect) const {
 }
 
 SharedImage FilmPictures::picture(std::uint32_t frame, images::PictureSize extent) {
-  frame_ = frame;
   complete_ = true;
   aspect_ = double(extent.width) / extent.height;
   return look_.as ? one(*look_.as, frame, extent) : all(frame, extent);
@@ -65,7 +64,8 @@ images::Image FilmPictures::drawn(As as, std::uint32_t frame, images::PictureSiz
   const images::Image* old = drawing_ ? &drawing_->image() : nullptr;
   if (old == nullptr || old->width != pen * extent.width || old->height != pen * extent.height)
     drawing_.emplace(pen * extent.width, pen * extent.height);
-  lines_->draw(*drawing_, as, frame, camera(frame, double(extent.width) / extent.height), pen, look_.ground);
+  lines_->draw(*drawing_, as, frame, camera(frame, double(extent.width) / extent.height), pen, look_.ground, {},
+               posed_);
   return look_.smooth ? halved(drawing_->image()) : drawing_->image();
 }
 
@@ -101,15 +101,15 @@ SharedImage FilmPictures::all(std::uint32_t frame, images::PictureSize extent) {
   return std::make_shared<const images::Image>(std::move(whole));
 }
 
-Orbit& FilmPictures::orbit() {
+Orbit& FilmPictures::orbit(std::uint32_t frame) {
   if (!orbit_)
-    orbit_ = look_.from == From::camera ? orbit_near(view_->camera_at(frame_), view_->subject)
+    orbit_ = look_.from == From::camera ? orbit_near(view_->camera_at(frame), view_->subject)
                                         : orbit_from(look_.from, view_->subject, aspect_);
   return *orbit_;
 }
 
-bool FilmPictures::turn(double degrees, double up) {
-  Orbit& at = orbit();
+bool FilmPictures::turn(double degrees, double up, std::uint32_t frame) {
+  Orbit& at = orbit(frame);
   at.turn += degrees;
   at.height = std::clamp(at.height + up, -90.0, 90.0);
   return true;
@@ -122,12 +122,12 @@ bool FilmPictures::look_from(From from) {
   return true;
 }
 
-bool FilmPictures::obey(const KeyPress& key) {
+bool FilmPictures::obey(const KeyPress& key, std::uint32_t frame) {
   switch (key.special) {
-    case Special::left: return turn(-kStep, 0);
-    case Special::right: return turn(kStep, 0);
-    case Special::up: return turn(0, kStep);
-    case Special::down: return turn(0, -kStep);
+    case Special::left: return turn(-kStep, 0, frame);
+    case Special::right: return turn(kStep, 0, frame);
+    case Special::up: return turn(0, kStep, frame);
+    case Special::down: return turn(0, -kStep, frame);
     default: break;
   }
   switch (key.character) {

@@ -25,6 +25,9 @@ class FilmPictures : public Pictures {
   // Both must outlive it.
   FilmPictures(const View& view, SurfaceSource& surface, const Look& look);
 
+  // What a person's hand changes, from the next picture on.
+  void pose(Posed posed) { posed_ = std::move(posed); }
+
   // Another film from now on, seen as the one before. Both must outlive it.
   void change_film(const View& view, SurfaceSource& surface);
 
@@ -33,7 +36,7 @@ class FilmPictures : public Pictures {
   images::PictureSize extent() const override { return {view_->width, view_->height}; }
   SharedImage picture(std::uint32_t frame, images::PictureSize extent) override;
   bool complete() const override { return complete_; }
-  bool obey(const KeyPress& key) override;
+  bool obey(const KeyPress& key, std::uint32_t frame) override;
   std::string state() const override;
   std::string keys() const override;
 
@@ -52,19 +55,19 @@ class FilmPictures : public Pictures {
   SharedImage rendered(std::uint32_t frame, images::PictureSize extent);
   SharedImage one(As as, std::uint32_t frame, images::PictureSize extent);
   SharedImage all(std::uint32_t frame, images::PictureSize extent);
-  bool turn(double degrees, double up);
+  bool turn(double degrees, double up, std::uint32_t frame);
   bool look_from(From from);
-  Orbit& orbit();
+  Orbit& orbit(std::uint32_t frame);
 
   const View* view_ = nullptr;
   SurfaceSource* surface_ = nullptr;
   std::optional<FilmDrawing> lines_;  // of view_
+  Posed posed_;
   Look look_;
   std::optional<Orbit> orbit_;  // where a person went from look_.from
   double zoom_ = 1;
   bool complete_ = true;
   double aspect_ = 1;  // of the last picture
-  std::uint32_t frame_ = 0;
   std::optional<Drawing> drawing_;
   std::optional<Aim> aim_;
 };

@@ -2,6 +2,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/images/picture_file.h"
+#include "host/preview/pose_keys.h"
 
 namespace mars::preview {
 
@@ -16,6 +17,11 @@ SharedImage FolderPictures::picture(std::uint32_t place, images::PictureSize ext
   const std::filesystem::path file = folder_ / sinks::frame_file_name(manifest_, manifest_.frames.at(place));
   return std::make_shared<const images::Image>(
       scaled(images::read_picture(images::PictureFormat::png, file), fitted(this->extent(), extent)));
+}
+
+bool FolderPictures::obey(const KeyPress& key, std::uint32_t) {
+  note_ = is_pose_key(key) ? "rendered frames have no joints to pose: preview their film" : "";
+  return is_pose_key(key);
 }
 
 }  // namespace mars::preview

@@ -19,11 +19,15 @@ class FolderPictures : public Pictures {
   images::PictureSize extent() const override { return {manifest_.width, manifest_.height}; }
   // By its place among the folder's frames, from 0. Throws Failure where its file is missing or torn.
   SharedImage picture(std::uint32_t place, images::PictureSize extent) override;
+  // Refuses keys for posing.
+  bool obey(const KeyPress& key, std::uint32_t frame) override;
+  std::string note(std::uint32_t) const override { return note_; }
   std::string state() const override { return folder_.string(); }
 
  private:
   std::filesystem::path folder_;
   sinks::Manifest manifest_;
+  std::string note_;
 };
 
 }  // namespace mars::preview

@@ -12,6 +12,7 @@ Special special_of(char last) {
     case 'D': return Special::left;
     case 'H': return Special::home;
     case 'F': return Special::end;
+    case 'Z': return Special::back_tab;
     default: return Special::none;
   }
 }
@@ -24,6 +25,11 @@ std::vector<KeyPress> take_keys(std::string& bytes) {
   while (at < bytes.size()) {
     if (bytes[at] != '\x1b') {
       keys.push_back({bytes[at++], Special::none});
+      continue;
+    }
+    if (at + 1 < bytes.size() && bytes[at + 1] == '\x1b') {
+      keys.push_back({0, Special::escape});
+      ++at;
       continue;
     }
     const bool sequence = at + 1 < bytes.size() && (bytes[at + 1] == '[' || bytes[at + 1] == 'O');

@@ -13,13 +13,6 @@ bool is_model(const document::Element& root) {
   return root.kind() == document::Kind::object && (root.find("joints") || root.find("from")) && !root.find("actors");
 }
 
-animator::Film read_film_or_model(const std::filesystem::path& path) {
-  const document::Document document = document::read_document(path);
-  const document::Element root = document.root();
-  if (is_model(root)) return turntable(modeler::read_own_model(root), path.string());
-  return animator::read_film(root, path.parent_path());
-}
-
 }  // namespace
 
 Previewed load_previewed(const std::filesystem::path& path) {
@@ -28,10 +21,13 @@ Previewed load_previewed(const std::filesystem::path& path) {
     View view = view_of(film, nullptr);
     return {std::move(film), std::move(view)};
   }
-  const animator::Film source = read_film_or_model(path);
+  const document::Document document = document::read_document(path);
+  const bool model = is_model(document.root());
+  animator::Film source = model ? turntable(modeler::read_own_model(document.root()), path.string())
+                                : animator::read_film(document.root(), path.parent_path());
   film::CompiledFilm film = film::compile(source);
   View view = view_of(film, &source);
-  return {std::move(film), std::move(view)};
+  return {std::move(film), std::move(view), std::move(source), model};
 }
 
 }  // namespace mars::preview

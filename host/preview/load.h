@@ -9,8 +9,10 @@
 namespace mars::preview {
 
 struct Previewed {
-  film::CompiledFilm film;  // for the renderer
-  View view;                // for everything else
+  film::CompiledFilm film;                 // for the renderer
+  View view;                               // for everything else
+  std::optional<animator::Film> source{};  // what `film` was compiled from; none of a .mars file
+  bool is_model = false;                   // a model file alone, in a film made around it
 };
 
 // A model becomes the film of a turn around it. Throws Failure as the readers do.

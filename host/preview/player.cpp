@@ -16,6 +16,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr images::PictureSize kLargest{1280, 720};  // pixels, of terminals that have many
 constexpr std::string_view kTroubleColor = "\x1b[1;31m";
+constexpr std::string_view kNoteColor = "\x1b[1m";
+constexpr std::uint32_t kNoteLines = 2;
 constexpr std::string_view kOwnKeys = " space pause  , . step  home end  [ ] speed  l loop  h help  q quit";
 
 images::Image upper_part(const images::Image& image, std::uint32_t height) {
@@ -74,7 +76,7 @@ class Player {
 
   void show() {
     const std::uint32_t now = frame();
-    std::vector<std::string> notes = this->notes();
+    std::vector<std::string> notes = this->notes(now);
     if (shown_ && !missing_ && now == shown_frame_ && notes == notes_ && status(now) == status_) return;
     for (std::size_t above = notes.size(); above < notes_.size(); ++above) write_line(above + 1, "");
     show_picture(now, notes.size());
@@ -112,13 +114,15 @@ class Player {
   }
 
   // What stands between the picture and the status.
-  std::vector<std::string> notes() const {
+  std::vector<std::string> notes(std::uint32_t now) const {
     const images::PictureSize cells = terminal_.cells();
     std::vector<std::string> notes;
     if (help_) {
       std::istringstream keys(pictures_.keys() + std::string(kOwnKeys));
       for (std::string line; std::getline(keys, line);) notes.push_back(cut_to(line, cells.width));
     }
+    for (const std::string& line : wrapped(pictures_.note(now), cells.width - 1, kNoteLines))
+      notes.push_back(std::string(kNoteColor) + " " + line);
     for (const std::string& line : wrapped(pictures_.trouble(), cells.width, std::max(cells.height / 3, 1u)))
       notes.push_back(std::string(kTroubleColor) + line);
     return notes;
@@ -165,10 +169,16 @@ class Player {
       default:
         if (key.special == Special::home) go_on_from(0);
         if (key.special == Special::end) go_on_from(pictures_.frames() - 1);
-        if (key.special != Special::home && key.special != Special::end && !pictures_.obey(key)) return true;
+        if (key.special != Special::home && key.special != Special::end && !pictures_.obey(key, frame())) return true;
     }
+    if (pictures_.holds()) hold();
     shown_ = false;
     return true;
+  }
+
+  void hold() {
+    go_on_from(frame());
+    paused_ = true;
   }
 
   void step(int frames) {

@@ -25,6 +25,7 @@ constexpr std::string_view kEndPicture = "\x1b\\";  // that was cut off
 constexpr std::string_view kDeletePictures = "\x1b_Ga=d,d=A,q=2\x1b\\";
 // Do you know kitty's graphics? Who are you? Every terminal answers the second, so it ends the waiting.
 constexpr std::string_view kQuestions = "\x1b_Gi=31,s=1,v=1,a=q,t=d,f=24;AAAA\x1b\\\x1b[c";
+constexpr std::chrono::milliseconds kWithinKey{60};  // between the bytes of one key, over slow lines too
 constexpr std::chrono::milliseconds kPatience{400};  // for answers and the last words, over slow lines too
 
 // Of the answer "ESC [ ? 62 ; 4 ; 6 c": is 4, sixel, among its numbers?
@@ -222,6 +223,7 @@ void Terminal::read_keys() {
   std::array<char, 256> bytes;
   const ssize_t done = read(0, bytes.data(), bytes.size());
   if (done > 0) unread_.append(bytes.data(), static_cast<std::size_t>(done));
+  read_at_ = Clock::now();
   if (done < 0 && errno == EIO) ended_by_ = SIGHUP;  // closed, or no longer ours
 }
 
@@ -237,6 +239,10 @@ TerminalEvents Terminal::wait(std::chrono::nanoseconds time) {
   if (sources[0].revents != 0) read_keys();
   if ((sources[0].revents & POLLHUP) != 0) ended_by_ = SIGHUP;
   events.keys = take_keys(unread_);
+  if (unread_ == kEscape && Clock::now() - read_at_ > kWithinKey) {
+    events.keys.push_back({0, Special::escape});
+    unread_.clear();
+  }
   events.ended_by = ended_by_;
   return events;
 }

@@ -70,6 +70,7 @@ class Terminal {
   bool stop_ = false, continued_ = false, resized_ = false;  // what signals ask for, until it is obeyed
   int ended_by_ = 0;                                         // as in TerminalEvents; nothing is played any more
   std::string unread_;                                       // of a key that is not complete
+  std::chrono::steady_clock::time_point read_at_;            // when the last of it came
 };
 
 }  // namespace mars::preview

@@ -15,22 +15,6 @@ namespace {
 
 constexpr Color kGrey{0.7f, 0.7f, 0.7f};  // of joints that no segment lends its colour
 
-template <typename Number>
-Placing placing(const std::array<std::array<Number, 4>, 3>& rows) {
-  Placing flat;
-  for (std::size_t i = 0; i < 12; ++i) flat[i] = static_cast<float>(rows[i / 4][i % 4]);
-  return flat;
-}
-
-Placing placing(const modeler::Axes& frame) {
-  Placing flat;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) flat[4 * row + column] = static_cast<float>(frame.turn[column][row]);
-    flat[4 * row + 3] = static_cast<float>(frame.place[row]);
-  }
-  return flat;
-}
-
 glm::dvec3 column_of(const wire::Matrix& matrix, std::size_t column) {
   return {matrix.m[0][column], matrix.m[1][column], matrix.m[2][column]};
 }
@@ -73,9 +57,10 @@ class Maker {
 
   View make() {
     take_values();
+    if (source_ != nullptr) find_joints();
     take_segments();
     if (source_ != nullptr)
-      for (const animator::Actor& actor : source_->actors) add_sticks(actor);
+      for (std::size_t actor = 0; actor < source_->actors.size(); ++actor) add_sticks(actor);
     else
       add_prism_axes();
     find_balls();
@@ -93,7 +78,7 @@ class Maker {
     view_.camera = settings.camera;
     view_.cameras.assign(film_.cameras().begin(), film_.cameras().end());
     view_.changes.assign(film_.changes().begin(), film_.changes().end());
-    for (const wire::Matrix& matrix : film_.matrices()) view_.matrices.push_back(placing(matrix.m));
+    for (const wire::Matrix& matrix : film_.matrices()) view_.matrices.push_back(placing(matrix));
     for (const wire::Material& material : film_.materials())
       view_.colors.push_back(film::shown_of(material.color, settings.color_space));
   }
@@ -103,12 +88,23 @@ class Maker {
     return static_cast<std::uint32_t>(view_.lines.size() - 1);
   }
 
+  // The film's segments come actor by actor, joint by joint.
+  void find_joints() {
+    for (std::size_t actor = 0; actor < source_->actors.size(); ++actor) {
+      const modeler::Model& model = source_->models[source_->actors[actor].model];
+      for (std::size_t joint = 0; joint < model.joints.size(); ++joint)
+        if (model.joints[joint].segment) joints_.push_back({actor, joint});
+    }
+  }
+
   void take_segments() {
+    joints_.resize(film_.segments().size());
     for (const wire::Shape& shape : film_.shapes()) add_lines(control_net(film_, shape));
     const std::uint32_t cube = add_lines(cube_edges());
-    for (const wire::Segment& segment : film_.segments()) {
-      parts(As::vertices).push_back({segment.shape, segment.motion, segment.material});
-      parts(As::prisms).push_back({cube, segment.motion, segment.material});
+    for (std::size_t i = 0; i < joints_.size(); ++i) {
+      const wire::Segment& segment = film_.segments()[i];
+      parts(As::vertices).push_back({segment.shape, segment.motion, segment.material, joints_[i]});
+      parts(As::prisms).push_back({cube, segment.motion, segment.material, joints_[i]});
     }
   }
 
@@ -122,8 +118,8 @@ class Maker {
     return numbers;
   }
 
-  // The film's segments come actor by actor, joint by joint.
-  void add_sticks(const animator::Actor& actor) {
+  void add_sticks(std::size_t actor_number) {
+    const animator::Actor& actor = source_->actors[actor_number];
     const modeler::Model& model = source_->models[actor.model];
     const std::vector<std::uint32_t>& lines = model_sticks(actor.model);
     std::vector<std::size_t> bare;  // joints without a segment
@@ -132,14 +128,14 @@ class Maker {
       const modeler::Joint& joint = model.joints[number];
       if (joint.segment) {
         const wire::Segment& segment = film_.segments()[next_segment_++];
-        parts(As::stick).push_back({lines[number], segment.motion, segment.material});
+        parts(As::stick).push_back({lines[number], segment.motion, segment.material, {actor_number, number}});
         looks.push_back(segment.material);
       } else {
         looks.push_back(joint.parent == modeler::kNone ? grey() : looks[joint.parent]);
         if (actor.matrices.empty()) bare.push_back(number);
       }
     }
-    if (!bare.empty()) add_bare_joints(actor, bare, lines, looks);
+    if (!bare.empty()) add_bare_joints(actor_number, bare, lines, looks);
   }
 
   wire::Track grey() {
@@ -152,8 +148,9 @@ class Maker {
   }
 
   // Where joints without segments stand, only what changes.
-  void add_bare_joints(const animator::Actor& actor, const std::vector<std::size_t>& joints,
+  void add_bare_joints(std::size_t actor_number, const std::vector<std::size_t>& joints,
                        const std::vector<std::uint32_t>& lines, const std::vector<wire::Track>& looks) {
+    const animator::Actor& actor = source_->actors[actor_number];
     animator::Figure figure(source_->models[actor.model], actor.motion);
     std::vector<std::vector<wire::Change>> changes(joints.size());
     const std::uint32_t frames = figure.still() ? 1 : source_->frames;
@@ -169,7 +166,7 @@ class Maker {
       const wire::Track track{static_cast<std::uint32_t>(view_.changes.size()),
                               static_cast<std::uint32_t>(changes[i].size())};
       view_.changes.insert(view_.changes.end(), changes[i].begin(), changes[i].end());
-      parts(As::stick).push_back({lines[joints[i]], track, looks[joints[i]]});
+      parts(As::stick).push_back({lines[joints[i]], track, looks[joints[i]], {actor_number, joints[i]}});
     }
   }
 
@@ -201,11 +198,27 @@ class Maker {
   const animator::Film* source_;
   View view_;
   std::vector<std::vector<std::uint32_t>> model_sticks_;  // of each model, by joint; made when asked
+  std::vector<JointNumber> joints_;                       // of each segment
   std::size_t next_segment_ = 0;
   std::optional<wire::Track> grey_;
 };
 
 }  // namespace
+
+Placing placing(const wire::Matrix& matrix) {
+  Placing flat;
+  for (std::size_t i = 0; i < 12; ++i) flat[i] = static_cast<float>(matrix.m[i / 4][i % 4]);
+  return flat;
+}
+
+Placing placing(const modeler::Axes& frame) {
+  Placing flat;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) flat[4 * row + column] = static_cast<float>(frame.turn[column][row]);
+    flat[4 * row + 3] = static_cast<float>(frame.place[row]);
+  }
+  return flat;
+}
 
 std::uint32_t View::value_at(const wire::Track& track, std::uint32_t frame) const {
   const auto first = changes.begin() + track.first, last = first + track.count;

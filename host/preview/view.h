@@ -22,15 +22,27 @@ namespace mars::preview {
 enum class As { stick, vertices, prisms, surface };
 inline constexpr std::size_t kOfLines = 3;  // representations before `surface`, which the renderer draws
 
+// A joint of a film by the numbers of its actor and, in the actor's model, of its own.
+struct JointNumber {
+  std::size_t actor = modeler::kNone;
+  std::size_t joint = modeler::kNone;
+
+  bool operator==(const JointNumber&) const = default;
+};
+
 // One instance of lines: numbers of `lines`, and tracks over `changes` of numbers of `matrices` and `colors`.
 struct Part {
   std::uint32_t lines;
   wire::Track motion;
   wire::Track look;
+  JointNumber joint{};  // that moves it, where joints are known
 };
 
 // Affine map, row by row, as wire::Matrix.
 using Placing = std::array<float, 12>;
+Placing placing(const wire::Matrix& matrix);
+Placing placing(const modeler::Axes& frame);
+
 using Color = std::array<float, 3>;  // 0..1
 
 struct Ball {

@@ -1,11 +1,28 @@
 #include "host/content/film/moment.h"
 
 #include <algorithm>
+#include <cstring>
+#include <utility>
 
 #include "host/content/animator/actor_state.h"
 #include "host/content/film/motion_writer.h"
 
 namespace mars::film {
+namespace {
+
+CompiledFilm compiled(const wire::FilmData& data, const animator::Film& film) {
+  const std::vector<std::byte> block = wire::pack(data);
+  CompiledFilm compiled;
+  compiled.lines.resize(block.size() / sizeof(CompiledFilm::Line));
+  std::memcpy(compiled.lines.data(), block.data(), block.size());
+  compiled.source = film.source;
+  compiled.actors = static_cast<std::uint32_t>(film.actors.size());
+  for (const animator::Actor& actor : film.actors)
+    compiled.joints += static_cast<std::uint32_t>(film.models[actor.model].joints.size());
+  return compiled;
+}
+
+}  // namespace
 
 FilmShapes shapes_of(const animator::Film& film) {
   FilmShapes shapes;
@@ -30,6 +47,18 @@ wire::FilmData moment_of(const animator::Film& film, const ShapeNumbers& shapes,
     }
   data.intervals.push_back({0, 1, 0, 0});
   return data;
+}
+
+CompiledFilm compiled_moment(const animator::Film& film, std::uint32_t frame) {
+  FilmShapes shapes = shapes_of(film);
+  wire::FilmData data = moment_of(film, shapes.numbers, frame);
+  data.shapes = std::move(shapes.parts.shapes);
+  data.patches = std::move(shapes.parts.patches);
+  data.meshlets = std::move(shapes.parts.meshlets);
+  data.mesh_places = std::move(shapes.parts.mesh_places);
+  data.mesh_normals = std::move(shapes.parts.mesh_normals);
+  data.mesh_triangles = std::move(shapes.parts.mesh_triangles);
+  return compiled(data, film);
 }
 
 std::span<const std::uint32_t> Cut::moving_at(std::uint32_t frame) const {

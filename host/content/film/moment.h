@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/content/animator/film.h"
+#include "host/content/film/compiled_film.h"
 #include "host/content/film/film_writer.h"
 #include "node/wire/film.h"
 
@@ -23,6 +24,9 @@ FilmShapes shapes_of(const animator::Film& film);
 // One frame and one interval, in which nothing moves; without shapes, which have these numbers. Each segment has a
 // matrix of its own, by its own number.
 wire::FilmData moment_of(const animator::Film& film, const ShapeNumbers& shapes, std::uint32_t frame);
+
+// One frame of the film as a film of its own, shapes and all, in which nothing moves.
+CompiledFilm compiled_moment(const animator::Film& film, std::uint32_t frame);
 
 // The intervals that compile() cuts, and what moves in each.
 struct Cut {

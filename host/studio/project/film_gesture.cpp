@@ -6,6 +6,7 @@
 #include "hal/failure/failure.h"
 #include "host/content/animator/angles.h"
 #include "host/content/animator/rig.h"
+#include "host/content/animator/set_key.h"
 #include "host/content/document/fields.h"
 
 namespace mars::studio {
@@ -16,19 +17,6 @@ template <typename Items>
   std::vector<std::string_view> names;
   for (const auto& item : items) names.push_back(item.name);
   throw Failure(what, "'" + name + "'", document::did_you_mean(name, names, "choose another"));
-}
-
-// As animator::pose() sets it: a first key also makes one at frame 0, and the way's ease goes on.
-template <typename Value>
-void set_at(animator::Channel<Value>& channel, const Value& value, std::uint32_t frame, const Value& rest) {
-  if (channel.empty() && frame > 0) channel.push_back({0, rest, animator::kLinear});
-  const auto next = std::ranges::lower_bound(channel, frame, {}, &animator::Key<Value>::frame);
-  if (next != channel.end() && next->frame == frame) {
-    next->value = value;
-    return;
-  }
-  const bool on_the_way = next != channel.begin() && next != channel.end();
-  channel.insert(next, {frame, value, on_the_way ? std::prev(next)->ease : animator::kLinear});
 }
 
 }  // namespace
@@ -54,7 +42,7 @@ std::size_t joint_named(const modeler::Model& model, const std::string& name) {
 void FilmGesture::set(animator::Channel<glm::dvec3>& channel, const glm::dvec3& value, std::uint32_t frame,
                       const glm::dvec3& rest) {
   vectors_.push_back({&channel, channel});
-  set_at(channel, value, frame, rest);
+  animator::set_key(channel, value, frame, rest);
 }
 
 void FilmGesture::show(animator::Film& film, bool, const PoseStep& step, std::uint32_t frame) {
@@ -88,7 +76,7 @@ void FilmGesture::show(animator::Film& film, bool rig_lights, const CameraStep& 
   if (step.at) set(camera.at, *step.at, frame);
   if (step.fov) {
     numbers_.push_back({&camera.fov, camera.fov});
-    set_at(camera.fov, *step.fov, frame, 0.0);
+    animator::set_key(camera.fov, *step.fov, frame, 0.0);
   }
   shows_ = true;
   const glm::dvec3 ahead = animator::value_at(camera.at, frame) - animator::value_at(camera.eye, frame);

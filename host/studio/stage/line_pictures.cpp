@@ -13,22 +13,6 @@ namespace {
 constexpr std::uint32_t kBlock = 16;
 constexpr int kCoverSteps = 6;  // of a patch that hides lines
 
-preview::Placing placing(const wire::Matrix& matrix) {
-  preview::Placing flat;
-  for (std::size_t i = 0; i < 12; ++i) flat[i] = static_cast<float>(matrix.m[i / 4][i % 4]);
-  return flat;
-}
-
-preview::Placing placing(const modeler::Axes& frame) {
-  preview::Placing flat;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column)
-      flat[static_cast<std::size_t>(4 * row + column)] = static_cast<float>(frame.turn[column][row]);
-    flat[static_cast<std::size_t>(4 * row + 3)] = static_cast<float>(frame.place[row]);
-  }
-  return flat;
-}
-
 // What holds at the view's only frame.
 wire::Track track_of(preview::View& view, std::size_t value) {
   view.changes.push_back({0, static_cast<std::uint32_t>(value)});
@@ -109,7 +93,7 @@ void LinePictures::take_segments(preview::As as, preview::View& view) {
     view.colors.push_back(film::shown_of(material.color, now.settings.color_space));
   std::optional<std::uint32_t> of_pulled;
   for (std::size_t segment = 0; segment < now.segments.size(); ++segment) {
-    view.matrices.push_back(placing(moments_.matrix_of(segment)));
+    view.matrices.push_back(preview::placing(moments_.matrix_of(segment)));
     std::uint32_t lines = 0;
     if (as == preview::As::vertices && pulled(segment)) {
       if (!of_pulled) of_pulled = net_of(segment, view);
@@ -153,11 +137,11 @@ void LinePictures::take_sticks(preview::View& view) {
       const std::size_t parent = model.joints[joint].parent;
       if (state.segments[joint]) {
         colors.push_back(now.changes[now.segments[segment++].material.first].value);
-        view.matrices.push_back(placing(*state.segments[joint]));
+        view.matrices.push_back(preview::placing(*state.segments[joint]));
       } else {
         colors.push_back(parent == modeler::kNone ? view.colors.size() - 1 : colors[parent]);
         if (state.joints.empty()) continue;
-        view.matrices.push_back(placing(state.joints[joint]));
+        view.matrices.push_back(preview::placing(state.joints[joint]));
       }
       view.lines.push_back(sticks[joint]);
       const wire::Track look = track_of(view, colors.back());
