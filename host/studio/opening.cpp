@@ -56,13 +56,15 @@ void write_private(int file, const std::string& text) {
 }  // namespace
 
 fs::path file_to_open(const std::string& name) {
-  if (name.empty() && !fs::exists(kFigure)) return kFigure;
   const fs::path file = name.empty() ? kFigure : name;
   std::error_code problem;
-  const fs::path real = fs::canonical(file, problem), folder = fs::current_path();
+  const bool begins = !fs::exists(fs::symlink_status(file, problem)) && file.extension() == ".json";
+  const fs::path folder = fs::current_path();
+  const fs::path real =
+      begins ? fs::canonical(fs::absolute(file).parent_path(), problem) : fs::canonical(file, problem);
   if (problem)
-    throw Failure("the file cannot be opened: " + problem.message(), name,
-                  "name a film or a model; without a name mars studio begins " + std::string(kFigure));
+    throw Failure("the file cannot be opened: " + problem.message(), file.string(),
+                  "name a film or a model, or a new one: walker.json");
   if (std::mismatch(folder.begin(), folder.end(), real.begin(), real.end()).first != folder.end())
     throw Failure("the file is not below the folder in which the studio was started", name,
                   "start it in " + real.parent_path().string());

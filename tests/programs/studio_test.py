@@ -311,12 +311,16 @@ class StartTest(ProgramTest):
                                   capture_output=True, timeout=SECONDS)
             self.assertEqual(made.returncode, 1)
             self.assertIn("not below the folder", made.stderr)
-        self.assertIn("cannot be opened", self.refused("none.json"))
+        self.assertIn("cannot be opened", self.refused("none/model.json"))
+        self.assertIn("cannot be opened", self.refused("model.jso"))
+        self.assertIn("not below the folder", self.refused("../new.json"))
 
     def test_a_new_model_is_announced(self):
         with Studio(self.folder, "--port", "0") as studio:
             self.assertIn("figure.json is new", studio.said[0])
-        self.assertFalse((self.folder / "figure.json").exists())
+        with Studio(self.folder, "--port", "0", "walker.json") as studio:
+            self.assertIn("walker.json is new", studio.said[0])
+        self.assertFalse(list(self.folder.glob("*.json")))
 
 
 if __name__ == "__main__":

@@ -50,7 +50,7 @@ void add_studio(CLI::App& app) {
   const auto settings = std::make_shared<studio::StudioSettings>();
   CLI::App* command = app.add_subcommand("studio", "Work on a film or a model in the browser");
   command->add_option("FILM", settings->file,
-                      "A film or a model, below this folder; default: figure.json, a new model where it is not there. "
+                      "A film or a model, below this folder; a new model where there is none; default: figure.json. "
                       "Example: examples/demo.json");
   add_server(*command, *settings);
   options::add_render_options(*command, settings->renderer, options::Program::studio);

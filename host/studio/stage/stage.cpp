@@ -24,6 +24,7 @@ constexpr const char* kAs[] = {"stick", "vertices", "prisms", "surface"};
 constexpr const char* kHows[] = {"turn", "pan", "zoom"};
 constexpr std::string_view kOfProject[] = {"preview", "commit", "cancel", "undo", "redo", "frame"};
 constexpr double kMostEdit = 9e15;
+constexpr double kMuchLarger = 1.3;  // less is what a pose does
 
 Json json_of(const glm::dvec3& vector) { return Json::array({vector.x, vector.y, vector.z}); }
 
@@ -43,6 +44,12 @@ glm::dvec3 vector_in(const Json& message, const char* key) {
 preview::Orbit orbit_in(const Json& orbit) {
   return {vector_in(orbit, "center"), number_in(orbit, "turn", -1e6, 1e6), number_in(orbit, "height", -90, 90),
           number_in(orbit, "distance", 1e-6, 1e9)};
+}
+
+bool is_same(const Eye& one, const Eye& other) {
+  const preview::Orbit &a = one.orbit, &b = other.orbit;
+  return one.from == other.from && a.center == b.center && a.turn == b.turn && a.height == b.height &&
+         a.distance == b.distance;
 }
 
 struct Page {
@@ -91,7 +98,12 @@ class TheStage : public Stage {
     serve();
   }
 
-  void project_changed() override { serve(); }
+  void project_changed() override {
+    moments_.renew();
+    if (project_.is_model() && !project_.in_gesture())
+      for (PageView& view : views_) frame_again(view);
+    serve();
+  }
 
   void take_surface(SurfacePicture picture) override {
     PageView* const view = view_of_link(picture.view);
@@ -134,6 +146,7 @@ class TheStage : public Stage {
       eye.orbit =
           chosen ? chosen_orbit(eye.from, moments_.subject(), double(width) / height) : orbit_in(message["orbit"]);
     PageView& view = made(page, number);
+    view.framed = eye.from != From::camera && (chosen || (view.framed && is_same(eye, view.eye)));
     const bool other_size = view.width != width || view.height != height;
     if (other_size || view.look.as != look.as) restart(view, look.as);
     if (view.look.hidden != look.hidden || view.look.ground != look.ground) view.shown.reset();
@@ -156,6 +169,7 @@ class TheStage : public Stage {
     if (how == 0) turn(view.eye.orbit, by);
     if (how == 1) pan(view.eye.orbit, by, view.height);
     if (how == 2) zoom(view.eye.orbit, by, from_middle(message, view), view.height);
+    view.framed = false;
     view.orbiting = flag_in(message, "moving", false);
     if (!view.orbiting) tell_orbit(view);
   }
@@ -298,6 +312,16 @@ class TheStage : public Stage {
   void close(PageView& view) {
     if (view.known) link_.close(view.link);
     view.known = false;
+  }
+
+  // A model that a step has made much larger or smaller is shown whole again, where nobody has moved the eye.
+  void frame_again(PageView& view) {
+    if (!view.framed) return;
+    const preview::Orbit orbit = chosen_orbit(view.eye.from, moments_.subject(), double(view.width) / view.height);
+    const double growth = orbit.distance / view.eye.orbit.distance;
+    if (growth < kMuchLarger && growth > 1 / kMuchLarger) return;
+    view.eye.orbit = orbit;
+    tell_orbit(view);
   }
 
   void restart(PageView& view, preview::As as) {

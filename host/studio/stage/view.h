@@ -39,6 +39,7 @@ struct PageView {
   Eye eye{};
   LineLook look{};  // As::surface: the renderer draws it
   Tool tool = Tool::none;
+  bool framed = false;    // the studio chose where the eye is, and chooses again
   bool orbiting = false;  // a hand turns it
   std::string hot{};      // the handle under the mouse
 

@@ -190,6 +190,34 @@ TEST(Scenes, TurningTheEyeMovesEverything) {
   EXPECT_LT(moving_of(on.link.asked.back()).size(), scene_of(on.link.asked.back()).segments().size());
 }
 
+// Where nobody has moved the eye; a page says again what it was told.
+TEST(Scenes, AModelThatGrowsIsFramedAgain) {
+  OnStage on(example("robot-arm.json"), true);
+  on.view(0, 320, 200, "front", "surface");
+  on.view(1, 320, 200, "free", "surface");
+  on.take(R"({"do": "orbit", "edit": 7, "view": 1, "by": [12, 3], "how": "turn", "moving": false})");
+  on.view(0, 320, 200, "front", "surface");
+  const double before = on.last("orbit")["distance"];
+  const auto grow = [&](double times) {
+    on.project.change([times](animator::Film& film) {
+      for (animator::Actor& actor : film.actors)
+        for (auto& key : actor.motion.place) key.value *= times;
+      for (modeler::Model& model : film.models)
+        for (modeler::Joint& joint : model.joints) joint.place *= times;
+    });
+    on.stage->project_changed();
+  };
+  on.told.clear();
+  grow(1.05);
+  EXPECT_TRUE(on.told.empty() || on.told.back().second["is"] != "orbit") << "a little more is what a pose does";
+  grow(5);
+  const Json after = on.last("orbit");
+  EXPECT_EQ(after["view"], 0);
+  EXPECT_GT(after["distance"].get<double>(), 1.3 * before);
+  EXPECT_EQ(
+      std::count_if(on.told.begin(), on.told.end(), [](const auto& told) { return told.second["is"] == "orbit"; }), 1);
+}
+
 TEST(Scenes, AnotherMaterialOrLightIsAnotherInterval) {
   OnStage on(example("robot-arm.json"));
   on.view(0, 320, 200, "free", "surface");
