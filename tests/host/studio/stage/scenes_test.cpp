@@ -200,10 +200,8 @@ TEST(Scenes, AModelThatGrowsIsFramedAgain) {
   const double before = on.last("orbit")["distance"];
   const auto grow = [&](double times) {
     on.project.change([times](animator::Film& film) {
-      for (animator::Actor& actor : film.actors)
-        for (auto& key : actor.motion.place) key.value *= times;
-      for (modeler::Model& model : film.models)
-        for (modeler::Joint& joint : model.joints) joint.place *= times;
+      for (modeler::Joint& joint : film.models[film.actors.front().model].joints)
+        if (joint.segment) joint.segment->sbb = {times * joint.segment->sbb.min, times * joint.segment->sbb.max};
     });
     on.stage->project_changed();
   };
