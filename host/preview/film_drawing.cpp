@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace mars::preview {
 namespace {
@@ -50,6 +51,14 @@ Color bright(Color color) {
   return color;
 }
 
+// None where the film has it.
+std::optional<Placing> posed_placing(const Part& part, const Posed& posed) {
+  const auto figure = posed.figures.find(part.joint.actor);
+  if (figure == posed.figures.end()) return std::nullopt;
+  const auto& segment = figure->second.segments[part.joint.joint];
+  return segment ? placing(*segment) : placing(figure->second.joints[part.joint.joint]);
+}
+
 double distance_along(const wire::Camera& camera, const glm::dvec3& place) {
   const auto& row = camera.world_to_eye.m[2];
   return -(row[0] * place.x + row[1] * place.y + row[2] * place.z + row[3]);
@@ -83,21 +92,16 @@ void FilmDrawing::draw(Drawing& drawing, As as, std::uint32_t frame, const wire:
   for (const Part& part : view_.parts[static_cast<std::size_t>(as)]) {
     Color color = line_color(view_.colors[view_.value_at(part.look, frame)]);
     const bool selected = part.joint.joint != modeler::kNone && part.joint == posed.selected;
-    const bool scenery = moving_ && part.motion.count == 1 && !posed.figures.contains(part.joint.actor);
+    const Placing& in_film = view_.matrices[view_.value_at(part.motion, frame)];
+    const Placing at = posed_placing(part, posed).value_or(in_film);
+    const bool scenery = moving_ && part.motion.count == 1 && at == in_film;
     if (selected) color = bright(color);
     if (scenery && !selected) color = dim(color);
     Stroke stroke = as == As::stick && !scenery ? sticks : thin;
     if (selected) stroke = {stroke.line + pen, stroke.dot + pen};
-    drawing.draw(view_.lines[part.lines], placing_of(part, frame, posed), color, stroke);
+    drawing.draw(view_.lines[part.lines], at, color, stroke);
   }
   if (ground) draw_axes(drawing, camera, pen);
-}
-
-Placing FilmDrawing::placing_of(const Part& part, std::uint32_t frame, const Posed& posed) const {
-  const auto figure = posed.figures.find(part.joint.actor);
-  if (figure == posed.figures.end()) return view_.matrices[view_.value_at(part.motion, frame)];
-  const auto& segment = figure->second.segments[part.joint.joint];
-  return segment ? placing(*segment) : placing(figure->second.joints[part.joint.joint]);
 }
 
 // Each axis as a little stick near the lower left corner, before everything else.

@@ -39,7 +39,6 @@ class FilmDrawing {
             std::span<const Cover> covers = {}, const Posed& posed = {}) const;
 
  private:
-  Placing placing_of(const Part& part, std::uint32_t frame, const Posed& posed) const;
   void draw_axes(Drawing& drawing, const wire::Camera& camera, std::uint32_t pen) const;
 
   const View& view_;

@@ -1,5 +1,8 @@
 #include "host/preview/key_file.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "hal/failure/failure.h"
 #include "host/content/animator/pose.h"
 #include "host/content/document/file.h"
@@ -9,17 +12,20 @@
 
 namespace mars::preview {
 
-void KeyFile::set(const PoseUnderWay& pose, std::uint32_t frame) {
+animator::Remarks KeyFile::set(const PoseUnderWay& pose, std::uint32_t frame) {
   Change change;
+  animator::Remarks remarks;
   film::change_film(path_, [&](document::Json& json, const animator::Film& film) {
     change.before = document::read_file(path_);
     std::map<std::string, std::vector<animator::PartSetting>> figures;
     for (const auto& [names, angles] : pose.angles()) figures[names.first].push_back({"/" + names.second, angles});
     for (const auto& [actor, settings] : figures)
-      animator::pose(json, film, actor, settings, frame, std::nullopt, animator::Beyond::clamped);
+      std::ranges::copy(animator::pose(json, film, actor, settings, frame, std::nullopt, animator::Beyond::clamped),
+                        std::back_inserter(remarks));
     change.after = document::laid_out(json);
   });
   changes_.push_back(std::move(change));
+  return remarks;
 }
 
 bool KeyFile::undo() {

@@ -116,13 +116,14 @@ std::string PoseKeys::rest(std::uint32_t frame) {
 std::string PoseKeys::set_key(std::uint32_t frame) {
   if (!under_way()) return "no joint has been turned";
   if (film_->is_model) return "a model has no keys: its poses are only shown";
+  std::string said = "key set at frame " + std::to_string(frame);
   try {
-    file_.set(pose_, frame);
+    for (const std::string& remark : file_.set(pose_, frame)) said += "; " + remark;
   } catch (const std::exception& failure) {
     return "no key is set: " + reason_of(failure);
   }
   written_ = pose_.angles();
-  return "key set at frame " + std::to_string(frame);
+  return said;
 }
 
 std::string PoseKeys::undo() {

@@ -159,6 +159,7 @@ void add_preview(CLI::App& app, const MakeSurface& make_surface) {
       "Where it is seen from first; default: the film's camera. Example: --view side");
   add_graphics(*command, words);
   add_output(*command, words);
+  command->footer("Keys turn joints and set keys of a film: h lists them. docs/previewing.md\n");
   command->callback([words, make_surface] { preview(*words, make_surface); });
 }
 

@@ -201,6 +201,14 @@ TEST(KeyPress, ReadsCharactersAndSequences) {
   EXPECT_EQ(keys, should);
 }
 
+TEST(KeyPress, EscapeIsAKeyWhereNoSequenceFollows) {
+  std::string bytes = "\x1b\x1b\x1b[Z\t\x1b";
+  EXPECT_EQ(take_keys(bytes),
+            (std::vector<KeyPress>{
+                {0, Special::escape}, {0, Special::escape}, {0, Special::back_tab}, {'\t', Special::none}}));
+  EXPECT_EQ(bytes, kEscape);  // time tells
+}
+
 TEST(KeyPress, WaitsForTheRestOfASequence) {
   std::string bytes = "a\x1b[";
   EXPECT_EQ(take_keys(bytes).size(), 1u);

@@ -24,17 +24,9 @@ void expect_same(std::span<const Value> ones, std::span<const Value> others, con
   EXPECT_EQ(ones.empty() ? 0 : std::memcmp(ones.data(), others.data(), ones.size_bytes()), 0) << what;
 }
 
-void expect_film_at(const animator::Film& film, const FilmShapes& shapes, const wire::FilmView& whole,
-                    std::uint32_t frame) {
-  wire::FilmData data = moment_of(film, shapes.numbers, frame);
-  data.shapes = shapes.parts.shapes;
-  data.patches = shapes.parts.patches;
-  data.mesh_places = shapes.parts.mesh_places;
-  data.mesh_normals = shapes.parts.mesh_normals;
-  data.mesh_triangles = shapes.parts.mesh_triangles;
-  data.meshlets = shapes.parts.meshlets;
-  const std::vector<std::byte> block = wire::pack(data);
-  const wire::FilmView moment(block, "moment");
+void expect_film_at(const animator::Film& film, const wire::FilmView& whole, std::uint32_t frame) {
+  const CompiledFilm compiled = compiled_moment(film, frame);
+  const wire::FilmView moment = compiled.view();
   const std::string at = film.source + ", frame " + std::to_string(frame);
   wire::FilmSettings settings = whole.settings();
   settings.frames = 1;
@@ -60,12 +52,11 @@ void expect_film_at(const animator::Film& film, const FilmShapes& shapes, const 
 
 void expect_moments(const animator::Film& film) {
   const CompiledFilm whole = compile(film);
-  const FilmShapes shapes = shapes_of(film);
-  const Cut cut = cut_of(film, shapes);
+  const Cut cut = cut_of(film, shapes_of(film));
   const wire::FilmView view = whole.view();
   expect_same(std::span<const wire::Interval>(cut.intervals), view.intervals(), film.source);
   for (std::uint32_t frame = 0; frame < film.frames; ++frame) {
-    expect_film_at(film, shapes, view, frame);
+    expect_film_at(film, view, frame);
     for (const wire::Interval& interval : view.intervals())
       if (frame >= interval.first_frame && frame < interval.first_frame + interval.frame_count)
         expect_same(cut.moving_at(frame), view.moving(interval), film.source);

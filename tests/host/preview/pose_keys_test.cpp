@@ -1,0 +1,201 @@
+// Keys select joints, turn them within their limits, and make what is seen keys of the film file.
+#include "host/preview/pose_keys.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string_view>
+
+#include "host/content/animator/pose.h"
+#include "host/content/document/file.h"
+#include "host/content/document/whole_file.h"
+#include "host/content/film/film_file.h"
+#include "host/content/film/film_json.h"
+#include "host/preview/film_drawing.h"
+
+namespace mars::preview {
+namespace {
+
+// A tree of which the file lists a leaf last; scenery, which stands before who moves.
+constexpr const char* kFilm = R"({"frames": 24, "size": [96, 54], "camera": {"eye": [3, -7, 3], "at": [0, 0, 1]},
+ "models": {"lamp": {"joints": [
+  {"name": "foot", "limits": {}, "segment": {"shape": "box"}},
+  {"name": "stem", "parent": "foot", "place": [0, 0, 1], "limits": {"x": [-40, 40], "y": [-60, 60]},
+   "segment": {"shape": "box"}},
+  {"name": "tail", "parent": "foot", "limits": {"z": [-9, 9]}},
+  {"name": "arm", "parent": "stem", "place": [0, 0, 1], "limits": {"y": [0, 150]}, "segment": {"shape": "box"}}]}},
+ "actors": [{"name": "still", "model": "lamp", "place": [2, 0, 0]},
+  {"name": "lamp", "model": "lamp", "keys": [{"frame": 0, "pose": {"arm": [0, 10, 0]}},
+                                             {"frame": 20, "pose": {"arm": [0, 90, 0]}, "ease": "both"}]}]})";
+
+constexpr KeyPress kBackTab{0, Special::back_tab}, kLeave{0, Special::escape};
+
+class Posing : public testing::Test {
+ protected:
+  Posing() {
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+    document::write_whole_file(path_, kFilm);
+  }
+  ~Posing() override { std::filesystem::remove_all(folder_); }
+
+  // What is said at last.
+  static std::string press(PoseKeys& keys, std::string_view characters, std::uint32_t frame = 10) {
+    for (const char character : characters) EXPECT_TRUE(keys.obey({character, Special::none}, frame)) << character;
+    return keys.note(frame);
+  }
+
+  const std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "mars_pose_keys_test";
+  const std::filesystem::path path_ = folder_ / "film.json", other_ = folder_ / "other.json";
+};
+
+TEST_F(Posing, StepsThroughTheTreesOfJointsThatMoveFirst) {
+  Previewed film = load_previewed(path_);
+  PoseKeys keys(film, path_);
+  EXPECT_EQ(keys.note(10), "");
+  EXPECT_EQ(press(keys, "\t"), "lamp stem  x 0 (-40..40)  y 0 (-60..60)");
+  EXPECT_EQ(press(keys, "\t"), "lamp arm  y 50 (0..150)");
+  EXPECT_EQ(press(keys, "\t"), "lamp tail  z 0 (-9..9)");
+  EXPECT_EQ(press(keys, "\t"), "still stem  x 0 (-40..40)  y 0 (-60..60)");
+  EXPECT_TRUE(keys.obey(kBackTab, 10));
+  EXPECT_EQ(keys.note(10), "lamp tail  z 0 (-9..9)");
+  EXPECT_EQ(press(keys, "\t\t\t\t"), "lamp stem  x 0 (-40..40)  y 0 (-60..60)");
+  EXPECT_EQ(press(keys, "i"), "lamp arm  y 50 (0..150)");
+  EXPECT_EQ(press(keys, "i"), "lamp arm  y 50 (0..150)");
+  EXPECT_EQ(press(keys, "o"), "lamp stem  x 0 (-40..40)  y 0 (-60..60)");
+  EXPECT_EQ(press(keys, "o"), "lamp stem  x 0 (-40..40)  y 0 (-60..60)");
+  EXPECT_FALSE(keys.under_way());
+  EXPECT_TRUE(keys.obey(kLeave, 10));
+  EXPECT_EQ(keys.note(10), "");
+  EXPECT_EQ(press(keys, "x"), "Tab selects a joint");
+  EXPECT_FALSE(keys.obey({'f', Special::none}, 10));
+  EXPECT_EQ(keys.note(10), "");
+}
+
+TEST_F(Posing, TurnsWithinLimits) {
+  Previewed film = load_previewed(path_);
+  PoseKeys keys(film, path_);
+  const std::string hint = "  Enter set key  Esc give up";
+  EXPECT_EQ(press(keys, "\txxYd"), "lamp stem  x 10 (-40..40)  y -5 (-60..60)  steps of 1 degree");
+  EXPECT_EQ(press(keys, "xX"), "lamp stem  x 10 (-40..40)  y -5 (-60..60)" + hint);
+  EXPECT_EQ(press(keys, "Xd"), "lamp stem  x 9 (-40..40)  y -5 (-60..60)  steps of 5 degrees");
+  EXPECT_EQ(press(keys, "xxxxxxx"), "lamp stem  x 40 (-40..40)  y -5 (-60..60)  x stops at its limit");
+  EXPECT_EQ(press(keys, "z"), "lamp stem  x 40 (-40..40)  y -5 (-60..60)  does not turn about z");
+  EXPECT_EQ(press(keys, "0"), "lamp stem  x 0 (-40..40)  y 0 (-60..60)" + hint);
+  EXPECT_TRUE(keys.under_way());
+  EXPECT_TRUE(keys.obey(kLeave, 10));
+  EXPECT_FALSE(keys.under_way());
+  EXPECT_EQ(document::read_file(path_), kFilm);
+}
+
+TEST_F(Posing, KeysAreThoseOfTheCommand) {
+  document::write_whole_file(other_, kFilm);
+  Previewed film = load_previewed(path_);
+  PoseKeys keys(film, path_);
+  EXPECT_EQ(press(keys, "\r"), "Tab selects a joint");
+  EXPECT_EQ(press(keys, "\tXX\ty\r"), "lamp arm  y 55 (0..150)  key set at frame 10");
+  EXPECT_FALSE(keys.under_way());
+  film::change_film(other_, [](document::Json& json, const animator::Film& meaning) {
+    const std::vector<std::string> settings{"stem.x=-10", "arm.y=55"};
+    animator::pose(json, meaning, "lamp", settings, 10, std::nullopt, animator::Beyond::refused);
+  });
+  EXPECT_EQ(document::read_file(path_), document::read_file(other_));
+  EXPECT_EQ(press(keys, "\r"), "lamp arm  y 55 (0..150)  no joint has been turned");
+}
+
+TEST_F(Posing, UndoesItsKeysOneByOne) {
+  Previewed film = load_previewed(path_);
+  PoseKeys keys(film, path_);
+  press(keys, "\tx\r", 4);
+  const std::string one = document::read_file(path_);
+  press(keys, "y\r", 8);
+  EXPECT_NE(document::read_file(path_), one);
+  press(keys, "u");
+  EXPECT_EQ(document::read_file(path_), one);
+  press(keys, "u");
+  EXPECT_EQ(document::read_file(path_), kFilm);
+  EXPECT_NE(press(keys, "u").find("no key is left to undo"), std::string::npos);
+}
+
+TEST_F(Posing, UndoesNothingThatOthersWrote) {
+  Previewed film = load_previewed(path_);
+  PoseKeys keys(film, path_);
+  press(keys, "\tx\r");
+  document::write_whole_file(path_, "{}");
+  EXPECT_NE(press(keys, "u").find("has been changed since"), std::string::npos);
+  EXPECT_EQ(document::read_file(path_), "{}");
+  EXPECT_NE(press(keys, "x\r").find("no key is set: "), std::string::npos);
+  EXPECT_TRUE(keys.under_way());
+  EXPECT_EQ(document::read_file(path_), "{}");
+}
+
+TEST_F(Posing, FollowsTheFilm) {
+  Previewed film = load_previewed(path_);
+  PoseKeys keys(film, path_);
+  press(keys, "\tx\r");
+  press(keys, "y");
+  Previewed written = load_previewed(path_);
+  keys.change_film(written);
+  EXPECT_TRUE(keys.under_way());  // the later turn
+  EXPECT_TRUE(keys.note(10).starts_with("lamp stem  x 5 (-40..40)  y 5 (-60..60)"));
+  std::string renamed = kFilm;
+  while (renamed.find("stem") != std::string::npos) renamed.replace(renamed.find("stem"), 4, "pole");
+  document::write_whole_file(path_, renamed);
+  Previewed other = load_previewed(path_);
+  keys.change_film(other);
+  EXPECT_FALSE(keys.under_way());
+  EXPECT_EQ(keys.note(10), "");
+}
+
+TEST_F(Posing, WhatIsSeenIsWhatTheFilmThenHas) {
+  Previewed film = load_previewed(path_);
+  PoseKeys keys(film, path_);
+  press(keys, "\txxx\ty");
+  Posed posed = keys.posed_at(10);
+  EXPECT_EQ(posed.selected, (JointNumber{1, 3}));
+  press(keys, "\r");
+  const Previewed written = load_previewed(path_);
+  const auto drawn = [](const View& view, As as, const Posed& by) {
+    Drawing drawing(96, 54);
+    FilmDrawing(view).draw(drawing, as, 10, view.camera_at(10), 1, false, {}, by);
+    return drawing.image().pixels;
+  };
+  // How bright lines are depends on what else moves in the film.
+  const auto places = [](std::vector<std::uint32_t> pixels) {
+    const std::uint32_t paper = pixels.front();
+    for (std::uint32_t& pixel : pixels) pixel = pixel == paper ? 0 : 1;
+    return pixels;
+  };
+  Posed unselected = posed;
+  unselected.selected = {};
+  for (const As as : {As::stick, As::vertices, As::prisms}) {
+    EXPECT_EQ(places(drawn(film.view, as, unselected)), places(drawn(written.view, as, {})));
+    EXPECT_NE(places(drawn(film.view, as, {})), places(drawn(written.view, as, {})));
+    EXPECT_NE(drawn(film.view, as, unselected), drawn(film.view, as, posed));
+  }
+}
+
+TEST_F(Posing, ModelsKeepNoPoses) {
+  const std::filesystem::path model = folder_ / "model.json";
+  constexpr const char* kModel = R"({"joints": [{"name": "a", "segment": {"shape": "box"}}]})";
+  document::write_whole_file(model, kModel);
+  Previewed film = load_previewed(model);
+  PoseKeys keys(film, model);
+  EXPECT_TRUE(press(keys, "\tx").ends_with("only shown  Esc give up"));
+  EXPECT_TRUE(press(keys, "\r").ends_with("a model has no keys: its poses are only shown"));
+  EXPECT_TRUE(keys.under_way());
+  EXPECT_EQ(document::read_file(model), kModel);
+}
+
+TEST_F(Posing, CompiledFilmsHaveNoJoints) {
+  const std::filesystem::path compiled = folder_ / "film.mars";
+  film::save_film(load_previewed(path_).film, compiled);
+  Previewed film = load_previewed(compiled);
+  PoseKeys keys(film, compiled);
+  for (const char key : std::string_view("\txu"))
+    EXPECT_NE(press(keys, {&key, 1}).find("a .mars film has no joints to pose"), std::string::npos);
+  EXPECT_FALSE(keys.under_way());
+}
+
+}  // namespace
+}  // namespace mars::preview
