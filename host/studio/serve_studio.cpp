@@ -23,6 +23,12 @@ constexpr auto kFarewell = 300ms;  // for pages to answer a close frame
 
 void warn(const std::string& text) { std::cerr << "mars: warning: " << text << '\n'; }
 
+// Not where nohup started this.
+bool signal_is_heard(int number) {
+  struct sigaction action {};
+  return sigaction(number, nullptr, &action) == 0 && action.sa_handler != SIG_IGN;
+}
+
 class Serving {
  public:
   Serving(const StudioSettings& settings, const MakeParts& make_parts)
@@ -32,6 +38,7 @@ class Serving {
     studio_ = std::make_unique<Studio>(make_parts(file, context_), *server_);
     if (settings.insecure && settings.certificate.empty())
       warn("without TLS, whoever reads this network's traffic gets the token and may work in the studio");
+    if (signal_is_heard(SIGHUP)) signals_.add(SIGHUP);
     if (!std::filesystem::exists(file)) std::cout << file.string() << " is new: your first step writes it\n";
     std::cout << "Open " << server_->link() << '\n' << "Ctrl-C ends the studio\n" << std::flush;
     if (settings.browser) browser_.emplace(server_->link());

@@ -71,10 +71,10 @@ void Studio::page_said(PageNumber page, const Json& message) {
   bool step_done = false;
   try {
     step_done = obey(page, message);
-  } catch (const Failure& failure) {
-    refuse(page, message, reason_of(failure));
   } catch (const Json::exception&) {
     refuse(page, message, "something is missing in it, or is of another kind: see docs/studio-protocol.md");
+  } catch (const std::exception& failure) {  // of the file system, most likely
+    refuse(page, message, reason_of(failure));
   }
   if (project_->in_gesture() && shown() != before) gesture_of_ = page;
   announce(before, step_done);

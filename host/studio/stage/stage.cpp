@@ -62,6 +62,7 @@ struct Gesture {
   PageNumber page;
   std::uint32_t view;
   Hand hand;
+  std::uint64_t revision;  // of the project, as the hand left it
   std::optional<Json> step{};
 };
 
@@ -76,6 +77,7 @@ class TheStage : public Stage {
     if (message.contains("edit"))
       from.edit = std::max(from.edit, static_cast<std::uint64_t>(number_in(message, "edit", 0, kMostEdit)));
     moments_.renew();
+    let_go_of_what_changed();
     const std::string what = word_in(message, "do");
     static const std::map<std::string, void (TheStage::*)(PageNumber, const Json&)> deeds = {
         {"view", &TheStage::view},       {"orbit", &TheStage::orbit}, {"unview", &TheStage::unview},
@@ -99,6 +101,7 @@ class TheStage : public Stage {
   }
 
   void project_changed() override {
+    let_go_of_what_changed();
     moments_.renew();
     if (project_.is_model() && !project_.in_gesture())
       for (PageView& view : views_) frame_again(view);
@@ -238,14 +241,14 @@ class TheStage : public Stage {
     if (handle != nullptr) {
       Hand hand(project_, selected_by(page), screen, pixel);
       hand.take(*handle->grip);
-      gesture_.emplace(Gesture{page, view.number, std::move(hand)});
+      gesture_.emplace(Gesture{page, view.number, std::move(hand), project_.revision()});
       put_names(project_, selected_by(page), answer);
     } else {
       const Picked picked = pick(project_, moments_, screen_of(view), pixel);
       if (picked.selection.actor) select(page, names_of(project_, picked.selection));
       if (picked.hit) {
         Hand hand(project_, picked.selection, screen, pixel);
-        if (hand.take(*picked.hit)) gesture_.emplace(Gesture{page, view.number, std::move(hand)});
+        if (hand.take(*picked.hit)) gesture_.emplace(Gesture{page, view.number, std::move(hand), project_.revision()});
       }
       put_names(project_, picked.selection, answer);
     }
@@ -257,7 +260,13 @@ class TheStage : public Stage {
     if (!gesture_ || gesture_->page != page) return;
     const auto step = gesture_->hand.follow(pixel_in(message), has_key(message, "shift"));
     if (!step || step == gesture_->step) return;
-    project_.preview(*step);
+    try {
+      project_.preview(*step);
+    } catch (...) {
+      gesture_->revision = project_.revision();
+      throw;
+    }
+    gesture_->revision = project_.revision();
     gesture_->step = step;
   }
 
@@ -270,6 +279,11 @@ class TheStage : public Stage {
 
   void let_go(PageNumber page, const Json&) {
     if (gesture_ && gesture_->page == page) end_gesture();
+  }
+
+  // By another page, a command or a step: the hand's joints may be no more.
+  void let_go_of_what_changed() {
+    if (gesture_ && gesture_->revision != project_.revision()) gesture_.reset();
   }
 
   void end_gesture() {

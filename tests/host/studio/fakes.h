@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -15,7 +16,7 @@ namespace mars::test {
 using studio::Json;
 using studio::PageNumber;
 
-// Steps are {"set": TEXT}; "bad" makes no sense.
+// Steps are {"set": TEXT}; "bad" makes no sense, "disk" cannot be written.
 class FakeProject final : public studio::Project {
  public:
   bool is_model() const override { return true; }
@@ -60,6 +61,7 @@ class FakeProject final : public studio::Project {
   void show(const Json& step) {
     const std::string text = step.at("set").get<std::string>();
     if (text == "bad") throw Failure("the step makes no sense", "joint 'arm'", "");
+    if (text == "disk") throw std::system_error(std::make_error_code(std::errc::no_space_on_device));
     shown_ = text;
     ++revision_;
   }

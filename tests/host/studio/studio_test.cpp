@@ -111,6 +111,13 @@ TEST_F(StudioTest, RefusesWhatMakesNoSense) {
   EXPECT_EQ(stage_->changes, 0);
 }
 
+TEST_F(StudioTest, TellsThePageWhatTheSystemRefuses) {
+  say(2, R"({"do": "commit", "step": {"set": "disk"}})");
+  ASSERT_EQ(pages_.heard.size(), 1u);
+  EXPECT_EQ(pages_.heard[0].message["is"], "refused");
+  EXPECT_EQ(pages_.heard[0].message["text"], "No space left on device");
+}
+
 TEST_F(StudioTest, AGestureEndsWithItsPage) {
   say(1, R"({"do": "preview", "step": {"set": "a"}})");
   studio_->page_closed(2);

@@ -326,6 +326,28 @@ TEST(Hands, OnePageAtATime) {
   EXPECT_NO_THROW(scene.stage->take(2, Json::parse(R"({"do": "grab", "view": 0, "x": 320, "y": 240})")));
 }
 
+TEST(Hands, LetGoOfWhatOthersChange) {
+  Scene scene(arm());
+  const glm::dvec2 begin = scene.pixel({2.4, -0.15, 0.1});
+  scene.grab(begin);
+  scene.drag(begin + glm::dvec2(0, 9));
+  ASSERT_EQ(scene.project.previews.size(), 1u);
+  scene.project.change([](animator::Film& film) {
+    film.models[0].joints.pop_back();
+    film.models[0].joints.shrink_to_fit();
+    film.actors[0].motion.pose.pop_back();
+  });
+  scene.stage->project_changed();
+  scene.drag(begin + glm::dvec2(0, 20));
+  scene.drop();
+  EXPECT_EQ(scene.project.previews.size(), 1u);
+  EXPECT_TRUE(scene.project.commits.empty());
+  scene.grab(scene.pixel({0.7, -0.2, 0}));
+  scene.drag(scene.pixel({0.7, -0.2, 0}) + glm::dvec2(0, 9));
+  scene.drop();
+  EXPECT_EQ(scene.project.commits.size(), 1u) << "a new gesture begins as ever";
+}
+
 TEST(Screen, LinesAreCutAtTheNearPlane) {
   wire::Camera camera = camera_from({From::free, {{0, 0, 0}, -90, 0, 2}}, 1);
   camera.near = 1;
