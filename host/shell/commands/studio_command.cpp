@@ -35,7 +35,8 @@ void add_server(CLI::App& command, studio::StudioSettings& settings) {
       ->type_name("FILE");
   command.add_flag("--insecure", settings.insecure,
                    "Let other machines come without TLS: who listens to the network gets in. Example: --insecure");
-  command.add_flag("!--no-browser", settings.browser, "Open no browser. Example: --no-browser");
+  command.add_flag_callback(
+      "--no-browser", [&settings] { settings.browser = false; }, "Open no browser. Example: --no-browser");
 }
 
 // Threads start at once; machines need MPI.
