@@ -242,7 +242,7 @@ class StudioTest(ProgramTest):
             self.fail("no room again")
 
     def test_signals_end_it_at_once(self):
-        for number in (signal.SIGINT, signal.SIGTERM):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             with Studio(self.folder, "--port", "0") as studio, Page(studio.link) as page:
                 page.hear("state")
                 studio.process.send_signal(number)

@@ -11,10 +11,10 @@
 namespace mars::web {
 namespace {
 
-// Without the port; an IPv6 address keeps its brackets.
+// Without the port; an IPv6 address keeps its brackets, and whatever else follows them.
 std::string_view name_of(std::string_view host) {
-  const std::size_t end = host.starts_with('[') ? host.find(']') : std::string_view::npos;
-  return end == std::string_view::npos ? host.substr(0, host.find(':')) : host.substr(0, end + 1);
+  const std::size_t bracket = host.starts_with('[') ? host.find(']') : std::string_view::npos;
+  return host.substr(0, host.find(':', bracket == std::string_view::npos ? 0 : bracket));
 }
 
 bool is_address(std::string_view name) {

@@ -25,7 +25,7 @@ TEST(Gate, KnowsItsOwnNames) {
   for (const char* host : {"127.0.0.1:8640", "localhost", "LOCALHOST:1", "box:8640", "[::1]:8640", "10.0.0.7:1"})
     EXPECT_EQ(gate.check(to(host)).status, 0u) << host;
   for (const char* host : {"", ":8640", "evil.example", "evil.example:8640", "box.evil.example", "localhost.evil",
-                           "127.0.0.1.evil", "[::1", "1.2.3", "[]", "boxx"})
+                           "127.0.0.1.evil", "[::1", "[::1].evil", "1.2.3", "[]", "boxx"})
     EXPECT_EQ(gate.check(to(host)).status, 403u) << host;
   EXPECT_EQ(Gate("secret", true, {}).check(to("cluster.example:8640")).status, 0u);
 }
