@@ -8,8 +8,9 @@ namespace {
 constexpr double kNoticed = 0.02;   // seconds; a screen's refresh and a busy page are within
 constexpr double kRawAbove = 30e6;  // bytes a second; deflating takes longer than it saves
 constexpr double kLossyBelow = 10e6;
-constexpr double kBelievable = 16;  // times the speed that an acknowledgement within kNoticed proves
-constexpr std::size_t kNotWorthIt = 4096;
+constexpr double kBelievable = 16;   // times the speed that an acknowledgement within kNoticed proves
+constexpr double kInflating = 0.01;  // seconds; a page does it in several steps, each waits for its turn
+constexpr double kFewBytes = 4096, kManyBytes = 32768;
 
 }  // namespace
 
@@ -24,7 +25,8 @@ void LinkSpeed::acknowledged(std::size_t bytes, double seconds) {
 }
 
 Encoding LinkSpeed::best_for(std::size_t pixel_bytes, bool lossy) const {
-  if (pixel_bytes <= kNotWorthIt || speed_ > kRawAbove) return Encoding::raw;
+  const double not_worth_it = std::clamp(speed_ * kInflating, kFewBytes, kManyBytes);
+  if (static_cast<double>(pixel_bytes) <= not_worth_it || speed_ > kRawAbove) return Encoding::raw;
   return lossy && speed_ < kLossyBelow ? Encoding::jpeg : Encoding::deflate;
 }
 

@@ -169,6 +169,28 @@ TEST_F(PageOutboxTest, FastLinksGetRawPictures) {
   EXPECT_EQ(encoding, Encoding::raw);
 }
 
+TEST_F(PageOutboxTest, SmallPicturesAreRawUntilTheLinkIsSlow) {
+  const serve::Rect largest_small{0, 0, 256, 32};
+  for (std::uint32_t i = 1; i <= 10; ++i) {
+    outbox_.show(picture_of(i, {0, 0, 64, 20}, true, i), now_);
+    EXPECT_EQ(receive(4ms), Encoding::raw);
+  }
+  outbox_.show(picture_of(11, largest_small, true, 1), now_);
+  EXPECT_EQ(receive(4ms), Encoding::raw);
+  outbox_.show(picture_of(12, {0, 0, 256, 33}, true, 1), now_);
+  EXPECT_EQ(receive(4ms), Encoding::deflate);
+  make_slow();
+  outbox_.show(picture_of(13, largest_small, true, 1), now_);
+  EXPECT_EQ(receive(4ms), Encoding::deflate);
+}
+
+TEST_F(PageOutboxTest, OneLateSmallPictureDoesNotMakeALinkSlow) {
+  for (std::uint32_t i = 1; i <= 4; ++i) {
+    outbox_.show(picture_of(i, {0, 0, 64, 20}, true, i), now_);
+    EXPECT_EQ(receive(i == 2 ? 60ms : 4ms), Encoding::raw);
+  }
+}
+
 TEST_F(PageOutboxTest, SlowLinksGetLossyPicturesUntilTheyRest) {
   make_slow();
   outbox_.show(whole(200, false, 0x3050), now_);
