@@ -1,6 +1,7 @@
 // What hands do to the project: previews while they move, a commit when they are done.
 
 import {kNoEvent} from "./latencies.js";
+import {Unanswered} from "./unanswered.js";
 
 export class Edits {
   constructor(connection, pace, state) {
@@ -10,6 +11,7 @@ export class Edits {
   }
 
   #previews = false;
+  unanswered = new Unanswered();
 
   preview(step, event) {
     this.#previews = true;
@@ -18,6 +20,7 @@ export class Edits {
 
   commit(step, event) {
     this.#previews = false;
+    this.unanswered.add(step, this.state);
     this.pace.drop("preview");
     this.pace.now({do: "commit", step}, event ?? kNoEvent);
   }
@@ -38,8 +41,8 @@ export class Edits {
     this.connection.send({do: "select", actor, joint});
   }
 
-  undo() { this.connection.send({do: "undo"}); }
-  redo() { this.connection.send({do: "redo"}); }
+  undo() { this.#goTo("undo"); }
+  redo() { this.#goTo("redo"); }
 
   frame(frame, event) { this.pace.send("frame", {do: "frame", frame}, event ?? kNoEvent); }
 
@@ -68,6 +71,11 @@ export class Edits {
     const {actor, joint} = this.wanted;
     this.wanted = null;
     this.select(actor, joint);
+  }
+
+  #goTo(where) {
+    this.unanswered.forget();
+    this.connection.send({do: where});
   }
 
   #actor() { return this.state.ofActor(); }

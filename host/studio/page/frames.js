@@ -11,15 +11,15 @@ export class Frames {
 
   constructor(place, {state, edits}) {
     Object.assign(this, {place, state, edits});
-    const button = (glyph, text, command, act) =>
-      element("button", {class: "quiet icon", "aria-label": text, title: `${text} (${keysOf(command)})`, onclick: act}, icon(glyph));
-    this.playButton = button("play", "Play", "play", () => this.play());
+    const button = (glyph, text, keys, act) =>
+      element("button", {class: "quiet icon", "aria-label": text, title: `${text} (${keys})`, onclick: act}, icon(glyph));
+    this.playButton = button("play", "Play", keysOf("play"), () => this.play());
     this.range = element("input", {type: "range", min: 0, step: 1, "aria-label": "Frame"});
     this.range.addEventListener("input", (event) => { this.#stop(); this.go(Number(this.range.value), event); });
     this.number = numberField({name: "Frame, as a number", step: 1, digits: 0, key: "frame", commit: (frame, event) => this.go(frame, event)});
     this.of = element("span", {class: "of"});
-    place.append(element("div", {class: "group"}, button("before", "Frame before", "stepFrame", (event) => this.step(-1, event)), this.playButton,
-                         button("next", "Next frame", "stepFrame", (event) => this.step(1, event))),
+    place.append(element("div", {class: "group"}, button("before", "Frame before", ",", (event) => this.step(-1, event)), this.playButton,
+                         button("next", "Next frame", ".", (event) => this.step(1, event))),
                  this.range, this.number.root, this.of);
     state.on("project poses workspace", () => this.#show());
   }

@@ -30,6 +30,8 @@ export class Hand {
     picture.addEventListener("focus", () => state.set("activeView", view.number));
   }
 
+  get idle() { return this.#gesture === null; }
+
   // The studio's word on what the hand took.
   grabbed({actor = null, joint = null, handle = null}) {
     const gesture = this.#gesture;

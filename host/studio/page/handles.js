@@ -3,9 +3,13 @@
 import {svg} from "./dom.js";
 
 const kDot = 3.6, kJoint = 2.6, kSelected = 4.5, kHead = 9;
+const kMany = 60;  // points of a shape: more would hide what they shape
 
 // In place of what the layer shows.
-export function showHandles(layer, shapes) { layer.replaceChildren(...shapes.map(drawn)); }
+export function showHandles(layer, shapes) {
+  layer.classList.toggle("dense", shapes.filter(({kind}) => kind === "point").length > kMany);
+  layer.replaceChildren(...shapes.map(drawn));
+}
 
 function drawn(shape) {
   const kinds = ["handle", shape.kind];

@@ -37,7 +37,7 @@ const notices = new Notices();
 const help = new Help(state);
 const header = new Header(place("header"), parts, {help: () => help.toggle(), theme: () => theme.toggle()});
 const theme = new Theme(header.theme);
-const tree = new Tree(place("tree"), parts);
+const tree = new Tree(place("tree"), {...parts, rename: () => rename()});
 const views = new Views(place("views"), parts, painter);
 const tabs = new Tabs(place("panels"), [{name: "joint", text: "Joint"}, {name: "materials", text: "Materials"},
                                         {name: "scene", text: "Bodies"}, {name: "rendering", text: "Rendering"}]);
@@ -57,6 +57,13 @@ function showWorkspace() {
   tabs.show(rendering ? "rendering" : "joint");
   document.body.dataset.workspace = state.workspace;
 }
+
+const inModel = (act) => (keys, event) => state.project && !state.isFilm() ? act(keys, event) : false;
+
+const rename = inModel(() => {
+  tabs.show("joint");
+  jointPanel.rename();
+});
 
 function showProblem() {
   const {problem, file} = state.project;
@@ -81,7 +88,7 @@ state.on("project", () => {
   edits.selectWanted();
 });
 
-connection.on("project", (project) => state.setProject(project));
+connection.on("project", (project) => state.setProject(edits.unanswered.over(project)));
 connection.on("poses", (poses) => state.setPoses(poses));
 connection.on("selected", ({actor, joint}) => state.select(actor ?? null, joint ?? null));
 connection.on("state", (message) => {
@@ -89,9 +96,13 @@ connection.on("state", (message) => {
   state.tell("renderer");
   notices.banner("renderer", message.renderer, {detail: "Pictures come again as soon as it is back."});
 });
-connection.on("refused", ({text, line}) => notices.toast(line ? `${text} (line ${line})` : text));
+connection.on("refused", ({text, line}) => {
+  edits.unanswered.forget();
+  notices.toast(line ? `${text} (line ${line})` : text);
+});
 connection.on("said", ({text}) => notices.toast(text, "info"));
 connection.on("connected", () => {
+  edits.unanswered.forget();
   status.connected = true;
   status.showRenderer();
   notices.banner("connection", "");
@@ -118,7 +129,6 @@ function goToRegion(by) {
 
 const kSteps = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1], "+": [0, -6], "-": [0, 6]};
 const stepsOf = (keys) => kSteps[keys.replace("Shift+", "")];
-const inModel = (act) => (keys, event) => state.project && !state.isFilm() ? act(keys, event) : false;
 
 new Keys({
   undo: () => edits.undo(),
@@ -127,7 +137,7 @@ new Keys({
     closeMenu();
     if (!views.letGo()) edits.cancel();
   },
-  rename: inModel(() => { tabs.show("joint"); jointPanel.rename(); }),
+  rename: () => rename(),
   addJoint: inModel(() => edits.addJoint()),
   removeJoint: inModel(() => edits.removeJoint()),
   rest: (_, event) => jointPanel.rest(event),

@@ -11,7 +11,7 @@ export class Status {
     this.renderer = element("span", {class: "renderer"}, element("i", {class: "lamp"}), element("span", {}));
     this.nodes = element("span", {});
     this.rate = element("span", {class: "count"});
-    this.latency = element("span", {class: "count", title: "From an event to its picture, 95th percentile of the last 200"});
+    this.latency = element("span", {class: "count", title: "From a hand's move to its picture: 95 of 100 come within this time"});
     place.append(this.selection, element("span", {class: "spring"}), this.rate, this.latency, this.nodes, this.renderer);
     state.on("project selected", () => this.#selected());
     state.on("renderer", () => this.showRenderer());
@@ -38,7 +38,7 @@ export class Status {
   #measured() {
     const latency = this.latencies.percentile95();
     this.rate.textContent = `${this.latencies.rate(performance.now())} pictures/s`;
-    this.latency.textContent = latency === null ? "" : `p95 ${Math.round(latency)} ms`;
+    this.latency.textContent = latency === null ? "" : `${Math.round(latency)} ms to a picture`;
   }
 }
 

@@ -12,16 +12,18 @@ export class Tree {
   #shape = "";           // what the tree shows now
   #word = {text: "", time: 0};
 
-  constructor(place, {state, edits}) {
-    Object.assign(this, {state, edits});
+  constructor(place, {state, edits, rename}) {
+    Object.assign(this, {state, edits, rename});
+    this.title = element("h2", {}, "Joints");
     this.count = element("span", {class: "count"});
     this.root = element("ul", {role: "tree", "aria-label": "Joints"});
     const add = element("button", {class: "quiet icon", "aria-label": "Add a joint", title: `Add a joint (${keysOf("addJoint")})`,
                                    onclick: () => edits.addJoint()}, icon("add"));
-    place.append(element("div", {class: "panel-title"}, element("h2", {}, "Joints"), this.count, add), this.root);
+    place.append(element("div", {class: "panel-title"}, this.title, this.count, add), this.root);
     this.add = add;
     this.root.addEventListener("keydown", (event) => this.#key(event));
     this.root.addEventListener("click", (event) => this.#click(event));
+    this.root.addEventListener("dblclick", ({target}) => { if (target.closest(".row") && !target.closest(".twist")) this.rename(); });
     state.on("project", () => this.#project());
     state.on("selected", () => this.#select());
   }
@@ -38,8 +40,8 @@ export class Tree {
     this.#items.clear();
     const film = this.state.isFilm();
     this.root.replaceChildren(...actors.flatMap((actor) => film ? [this.#actor(actor)] : this.#joints(actor, null, 1)));
-    const joints = actors.reduce((sum, actor) => sum + actor.joints.length, 0);
-    this.count.textContent = joints;
+    this.title.textContent = film ? "Actors" : "Joints";
+    this.count.textContent = film ? actors.length : actors.reduce((sum, actor) => sum + actor.joints.length, 0);
     this.add.hidden = film;
     this.#select();
     if (had) this.focus();

@@ -37,7 +37,7 @@ export class Views {
     connection.on("handles", to((view, message) => view.takeHandles(message)));
     connection.on("orbit", to((view, message) => view.takeOrbit(message)));
     connection.on("hovered", to((view, {text, handle, joint}) => {
-      view.showTip(text ?? joint ?? "");
+      view.showTip(this.hands[view.number].idle ? text ?? joint ?? "" : "");
       view.picture.dataset.over = handle ? "handle" : joint ? "limb" : "";
     }));
     connection.on("grabbed", (message) => this.hands.forEach((hand, number) => {

@@ -5,7 +5,7 @@ import {nodeColor} from "./colors.js";
 
 export const kRenderingView = 255;
 const kOverlays = [["lines", "Lines", "Who draws which lines: a colour for each node"],
-                   ["ebc", "EBC", "The edge box count: how much work each line is"],
+                   ["ebc", "Work", "How much work each line is: its edge boxes (EBC)"],
                    ["moving", "Moving", "What moves, tinted, over what stands still, dimmed"],
                    ["blocks", "Blocks", "Blocks that are flagged: those that nodes send"]];
 const kBarShare = 0.25;  // of the width: the longest bar of the EBC

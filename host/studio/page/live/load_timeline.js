@@ -51,8 +51,9 @@ export class LoadTimeline {
   #row(pen, node, y, longest, perSecond) {
     pen.fillStyle = nodeColor(node);
     pen.fillRect(0, y + 3, 4, kRow - 6);
-    pen.fillStyle = getComputedStyle(this.root).color;
-    pen.font = "11px system-ui, sans-serif";
+    const {color, fontFamily} = getComputedStyle(this.root);
+    pen.fillStyle = color;
+    pen.font = `11px ${fontFamily}`;
     pen.textBaseline = "middle";
     pen.fillText(this.#nodes[node]?.name ?? `node ${node}`, 10, y + kRow / 2, kNames - 16);
     let from = kNames;

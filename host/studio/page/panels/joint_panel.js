@@ -23,7 +23,7 @@ export class JointPanel {
   }
 
   // The name is edited in its field.
-  rename() { this.place.querySelector('[data-key="name"]')?.focus(); }
+  rename() { this.place.querySelector('[data-key="name"]')?.select(); }
 
   rest(event) {
     const joint = this.state.joint();
@@ -90,6 +90,7 @@ export class JointPanel {
     const rest = element("button", {class: "quiet icon", "aria-label": "Put the joint at rest", title: `At rest (${keysOf("rest")})`,
                                     onclick: (event) => this.rest(event)}, icon("reset"));
     const made = part("Pose", sliders.length ? sliders : element("p", {class: "hint"}, joint.pose ? "This joint cannot turn." : "This actor moves by matrices."));
+    if (sliders.length && !film) made.querySelector(".body").append(element("p", {class: "hint"}, "For trying out: not kept in the file, not undone."));
     const summary = made.querySelector("summary");
     if (film) summary.append(this.#keyed());
     if (sliders.length) made.querySelector(".body").prepend(element("div", {class: "corner"}, rest));
