@@ -403,11 +403,16 @@ class TheStage : public Stage {
       return;
     }
     serving_ = true;
-    do {
-      again_ = false;
-      follow_film();
-      if (moments_.film_number() > 0) serve_views();
-    } while (again_);
+    try {
+      do {
+        again_ = false;
+        follow_film();
+        if (moments_.film_number() > 0) serve_views();
+      } while (again_);
+    } catch (...) {
+      serving_ = false;
+      throw;
+    }
     serving_ = false;
   }
 
