@@ -67,7 +67,8 @@ const rename = inModel(() => {
 
 function showProblem() {
   const {problem, file} = state.project;
-  const detail = problem?.line ? `${file}, line ${problem.line}. The last good state stays.` : "The last good state stays.";
+  const said = !problem?.line || problem.text.includes(`:${problem.line}:`);
+  const detail = `${said ? "" : `${file}, line ${problem.line}. `}The last good state stays.`;
   notices.banner("file", problem?.text ?? "", {detail, kind: "error"});
 }
 

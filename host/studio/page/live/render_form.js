@@ -46,12 +46,13 @@ export class RenderForm {
 
   show({state, text = "", done = 0, of = 0, fps = 0, nodes = []}) {
     const runs = state === "starting" || state === "running";
+    const there = state === "done" ? of : done;  // also those that were there before
     this.start.disabled = runs;
     this.stop.disabled = !runs;
     this.words.replaceChildren(element("strong", {class: state}, kWords[state] ?? state),
-                               of ? ` ${done} of ${of} frames` : "", runs && fps ? `, ${fps.toFixed(1)} a second` : "");
+                               of ? ` ${there} of ${of} frames` : "", runs && fps ? `, ${fps.toFixed(1)} a second` : "");
     this.bar.max = of || 1;
-    this.bar.value = done;
+    this.bar.value = there;
     this.bar.hidden = of === 0;
     this.text.textContent = text;
     this.nodes.replaceChildren(...nodes.map((each, number) => nodeLine(each, number)));
