@@ -102,8 +102,7 @@ PageOutbox::Outgoing PageOutbox::send_picture(View& view, Time now) {
   ViewPicture picture = std::move(view.waiting.front());
   view.waiting.pop_front();
   const bool whole = is_whole(picture), exact = picture.exact;
-  const Encoding encoding =
-      speed_.best_for(picture.pixels.size() * sizeof(std::uint32_t), whole && exact && !picture.rests);
+  const Encoding encoding = speed_.best_for(picture.pixels.size() * sizeof(std::uint32_t), whole && !picture.rests);
   const bool other_size =
       view.lossy && (view.lossy->last.width != picture.width || view.lossy->last.height != picture.height);
   if (other_size || (whole && encoding != Encoding::jpeg)) view.lossy.reset();
