@@ -324,7 +324,7 @@ class TutorialTest(StudioInBrowser):
         self.assertIn("port-arm", [joint["name"] for joint in self.project()["actors"][0]["joints"]])
         before = made.partition('"materials": {')[0]
         file.write_text(made.replace('"materials": {', '"materials": {,'))
-        self.banner("file", f"line {before.count(chr(10)) + 1}")
+        self.banner("file", f"{file.name}:{before.count(chr(10)) + 1}:")
         file.write_text(made)
         self.no_banner("file")
         self.until("the file as it was", lambda: "left-arm" in [joint["name"] for joint in self.project()["actors"][0]["joints"]])
