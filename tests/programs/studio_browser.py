@@ -1,10 +1,14 @@
-"""`mars studio` and a headless Chromium whose mouse and keyboard are moved by the DevTools protocol, as a person's are."""
+"""`mars studio` and a headless Chromium whose mouse and keyboard are moved by the DevTools protocol, as a person's
+are."""
 
 import os
 import pathlib
+import re
 import shutil
 import signal
+import socket
 import subprocess
+import threading
 import time
 
 from selenium import webdriver
@@ -25,8 +29,8 @@ class Studio:
     def __init__(self, programs, file, *arguments):
         file = pathlib.Path(file)
         opened, folder = ([], file) if file.is_dir() else ([file.name], file.parent)
-        self.process = subprocess.Popen([pathlib.Path(programs) / "mars", "studio", *opened, "--no-browser", *arguments],
-                                        cwd=folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        command = [pathlib.Path(programs) / "mars", "studio", *opened, "--no-browser", *arguments]
+        self.process = subprocess.Popen(command, cwd=folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.link = None
         for line in self.process.stdout:
             if line.startswith("Open "):
@@ -57,7 +61,8 @@ class Browser:
             options.add_argument(flag)
         options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
         self.driver = webdriver.Chrome(options=options, service=Service(shutil.which("chromedriver")))
-        self.command("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+        self.command("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1,
+                     mobile=False)
         if script:
             self.command("Page.addScriptToEvaluateOnNewDocument", source=script)
         self.held = ""
@@ -129,8 +134,9 @@ class Browser:
             const at = document.querySelector(arguments[0]).getBoundingClientRect();
             return [at.x + at.width / 2, at.y + at.height / 2];""", selector)
 
-    def find(self, view, wanted):
-        """A place of a view's picture at which the mouse finds something whose text has `wanted` in it."""
+    def find(self, view, wanted, pause=0.03):
+        """A place of a view's picture at which the mouse finds something whose text has `wanted` in it. `pause`:
+        seconds until the studio has said what is there."""
         left, top, width, height = self.run("""
             const at = arguments[0].getBoundingClientRect();
             return [at.x, at.y, at.width, at.height];""", view)
@@ -138,14 +144,63 @@ class Browser:
             for along in [0.5 + sign * step / 40 for step in range(16) for sign in (1, -1)]:
                 x, y = round(left + along * width), round(top + down * height)
                 self.move(x, y)
-                time.sleep(0.03)
-                over, text = self.run("return [arguments[0].dataset.over, arguments[0].querySelector('.tip').textContent]", view)
+                time.sleep(pause)
+                over, text = self.run("""
+                    const [view] = arguments;
+                    return [view.dataset.over, view.querySelector('.tip').textContent];""", view)
                 if over == "limb" and wanted in text:
                     return x, y
         raise AssertionError(f"nothing there has '{wanted}'")
 
     def screenshot(self, path):
         self.driver.save_screenshot(str(path))
+
+
+class Proxy:
+    """A network between page and studio that can be cut and mended."""
+
+    def __init__(self, link):
+        self.target, self.ends = int(re.search(r":(\d+)/", link)[1]), []
+        self.open()
+        self.link = link.replace(f":{self.target}/", f":{self.port}/")
+
+    def open(self, port=0):
+        self.listener = socket.create_server(("127.0.0.1", port))
+        self.port = self.listener.getsockname()[1]
+        threading.Thread(target=self.accept, args=(self.listener,), daemon=True).start()
+
+    def accept(self, listener):
+        while True:
+            try:
+                page = listener.accept()[0]
+                studio = socket.create_connection(("127.0.0.1", self.target))
+            except OSError:
+                return
+            self.ends += [page, studio]
+            for one, other in ((page, studio), (studio, page)):
+                threading.Thread(target=self.carry, args=(one, other), daemon=True).start()
+
+    def carry(self, one, other):
+        try:
+            while data := one.recv(1 << 16):
+                other.sendall(data)
+        except OSError:
+            pass
+        self.end(one, other)
+
+    @staticmethod
+    def end(*ends):
+        for each in ends:
+            try:
+                each.shutdown(socket.SHUT_RDWR)
+            except OSError:
+                pass
+
+    def cut(self):
+        self.end(self.listener, *self.ends)
+        for each in [self.listener, *self.ends]:
+            each.close()
+        self.ends = []
 
 
 def tree_of(ancestor):

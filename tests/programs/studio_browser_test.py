@@ -1,17 +1,15 @@
-"""mars studio in a headless Chromium, with mouse and keyboard alone: the tutorial's figure is made, a limb is dragged to
-its limit, pictures are the film's own frames, and what dies comes back."""
+"""mars studio in a headless Chromium, with mouse and keyboard alone: the tutorial's figure is made, a limb is dragged
+to its limit, pictures are the film's own frames, and what dies comes back."""
 
 import base64
 import json
 import re
 import signal
-import socket
-import threading
 
 from selenium.webdriver.support.ui import Select
 
 from harness import *
-from studio_browser import CTRL, SHIFT, Browser, Studio, tree_of
+from studio_browser import CTRL, SHIFT, Browser, Proxy, Studio, tree_of
 
 # Counts what the studio says and what the page paints; a person sees both.
 PROBE = """
@@ -39,6 +37,7 @@ window.seen = {projects: 0, painted: 0, exact: null};
   };
 }
 """
+JOINTS = "window.seen.project.actors[0].joints"
 FILM = {
     "frames": 1, "size": [640, 360], "background": [0.65, 0.76, 0.86],
     "camera": {"eye": [5, -2, 1.6], "at": [0, 0, 0.9], "fov": 30},
@@ -60,52 +59,6 @@ const [canvas, encoded, done] = arguments;
   done(different);
 })();
 """
-
-
-class Proxy:
-    """A network between page and studio that can be cut and mended."""
-
-    def __init__(self, port):
-        self.target, self.ends = port, []
-        self.open()
-
-    def open(self, port=0):
-        self.listener = socket.create_server(("127.0.0.1", port))
-        self.port = self.listener.getsockname()[1]
-        threading.Thread(target=self.accept, args=(self.listener,), daemon=True).start()
-
-    def accept(self, listener):
-        while True:
-            try:
-                page = listener.accept()[0]
-                studio = socket.create_connection(("127.0.0.1", self.target))
-            except OSError:
-                return
-            self.ends += [page, studio]
-            for one, other in ((page, studio), (studio, page)):
-                threading.Thread(target=self.carry, args=(one, other), daemon=True).start()
-
-    @staticmethod
-    def carry(one, other):
-        try:
-            while data := one.recv(1 << 16):
-                other.sendall(data)
-        except OSError:
-            pass
-        for each in (one, other):
-            try:
-                each.shutdown(socket.SHUT_RDWR)
-            except OSError:
-                pass
-
-    def cut(self):
-        for each in [self.listener, *self.ends]:
-            try:
-                each.shutdown(socket.SHUT_RDWR)
-            except OSError:
-                pass
-            each.close()
-        self.ends = []
 
 
 class StudioInBrowser(ProgramTest):
@@ -185,7 +138,8 @@ class StudioInBrowser(ProgramTest):
         field = f'[data-key="{key}"]'
         self.until(field, f"document.querySelector('{field}') !== null")
         if self.browser.run("return document.querySelector(arguments[0]).value", field) != value:
-            self.changed_by(lambda: Select(self.browser.driver.find_element("css selector", field)).select_by_value(value))
+            choice = Select(self.browser.driver.find_element("css selector", field))
+            self.changed_by(lambda: choice.select_by_value(value))
 
     def toggle(self, key, on):
         field = f'[data-key="{key}"]'
@@ -202,8 +156,8 @@ class StudioInBrowser(ProgramTest):
     def press(self, text):
         """A button of the panels with this text."""
         spot = self.browser.run("""
-            const button = [...document.querySelectorAll('#panels button')].find((each) => each.textContent === arguments[0]
-                                                                                          && each.offsetParent !== null);
+            const button = [...document.querySelectorAll('#panels button')]
+              .find((each) => each.textContent === arguments[0] && each.offsetParent !== null);
             button.scrollIntoView({block: 'nearest'});
             const at = button.getBoundingClientRect();
             return [at.x + at.width / 2, at.y + at.height / 2];""", text)
@@ -219,9 +173,12 @@ class StudioInBrowser(ProgramTest):
     def menu(self, view, text):
         """An entry of a view's menu."""
         self.browser.click(*self.browser.center(f".title[data-view='{view}']"))
-        entry = "[...document.querySelectorAll('.menu [role^=menuitem]')].find((each) => each.textContent.startsWith(%s))" % json.dumps(text)
+        entry = f"""[...document.querySelectorAll('.menu [role^=menuitem]')]
+          .find((each) => each.textContent.startsWith({json.dumps(text)}))"""
         self.until(text, f"{entry} !== undefined")
-        spot = self.browser.run(f"const at = {entry}.getBoundingClientRect(); return [at.x + at.width / 2, at.y + at.height / 2];")
+        spot = self.browser.run(f"""
+            const at = {entry}.getBoundingClientRect();
+            return [at.x + at.width / 2, at.y + at.height / 2];""")
         self.browser.click(*spot)
 
 
@@ -255,7 +212,7 @@ class TutorialTest(StudioInBrowser):
         else:
             self.select("body")  # that a new model begins with
         self.write("name", joint["name"])
-        self.until("its name", lambda: self.browser.run("return document.querySelector('[data-key=name]').value") == joint["name"])
+        self.until("its name", f"document.querySelector('[data-key=name]').value === '{joint['name']}'")
         segment = joint["segment"]
         self.choose("shape", segment["shape"])
         for corner in (0, 1):
@@ -327,7 +284,7 @@ class TutorialTest(StudioInBrowser):
         self.banner("file", f"{file.name}:{before.count(chr(10)) + 1}:")
         file.write_text(made)
         self.no_banner("file")
-        self.until("the file as it was", lambda: "left-arm" in [joint["name"] for joint in self.project()["actors"][0]["joints"]])
+        self.until("the file as it was", f"{JOINTS}.some(({{name}}) => name === 'left-arm')")
 
     def drag_to_limit(self, file):
         """A pose of a model is shown, in no file."""
@@ -335,7 +292,7 @@ class TutorialTest(StudioInBrowser):
         view = self.browser.run("return document.querySelector('[data-key=view-1]')")
         at = self.browser.find(view, "head y")
         self.browser.drag(at, (at[0] + 150, at[1] + 100))
-        self.until("the head's limit", "window.seen.project.actors[0].joints.find(({name}) => name === 'head').pose[1] === 35")
+        self.until("the head's limit", f"{JOINTS}.find(({{name}}) => name === 'head').pose[1] === 35")
         self.assertEqual(file.read_text(), made)
 
 
@@ -424,10 +381,9 @@ class FilmTest(StudioInBrowser):
 
     def test_network_is_cut(self):
         studio = self.enterContext(Studio(PROGRAMS, self.film()))
-        port = int(re.search(r":(\d+)/", studio.link)[1])
-        proxy = Proxy(port)
+        proxy = Proxy(studio.link)
         self.addCleanup(proxy.cut)
-        self.show(studio.link.replace(f":{port}/", f":{proxy.port}/"))
+        self.show(proxy.link)
         at = self.show_limb()
         proxy.cut()
         self.banner("connection", "The studio does not answer")
@@ -450,7 +406,10 @@ def number(text):
 def flat(limbs):
     """"hip" of "left" as "left.hip"."""
     for name, joint in limbs.items():
-        yield from ((f"{name}.{part}", one) for part, one in joint.items()) if isinstance(joint, dict) else [(name, joint)]
+        if isinstance(joint, dict):
+            yield from ((f"{name}.{part}", one) for part, one in joint.items())
+        else:
+            yield name, joint
 
 
 def comparable(model):

@@ -23,10 +23,14 @@ window.marsProbe = {sent: new Map(), pictures: []};
       super(...all);
       this.addEventListener("message", ({data}) => {
         if (!(data instanceof ArrayBuffer)) return;
-        const head = new DataView(data);
-        probe.pictures.push({view: head.getUint32(4, true), picture: head.getUint32(8, true), edit: head.getUint32(12, true),
-                             encoding: head.getUint16(24, true), rects: head.getUint32(28, true), bytes: data.byteLength,
-                             came: performance.now(), paint: 0});
+        const head = new DataView(data), rects = head.getUint32(28, true);
+        const [x, y, width, height] = rects > 0 ? new Uint16Array(data, 32 + 8 * (rects - 1), 4) : [];
+        probe.pictures.push({
+          view: head.getUint32(4, true), picture: head.getUint32(8, true), edit: head.getUint32(12, true),
+          encoding: head.getUint16(24, true), flags: head.getUint16(26, true), rects,
+          toEnd: x === 0 && width === head.getUint16(20, true) && y + height === head.getUint16(22, true),  // of all rows
+          bytes: data.byteLength, came: performance.now(), paint: 0,
+        });
       });
     }
   };
@@ -48,6 +52,7 @@ window.marsProbe = {sent: new Map(), pictures: []};
     act(time);
     if (parts === 0) return;
     for (const picture of probe.pictures.slice(-8))
-      if (!picture.frame && picture.came < began) Object.assign(picture, {frame: began, paint: painting, script: performance.now() - began});
+      if (!picture.frame && picture.came < began)
+        Object.assign(picture, {frame: began, paint: painting, script: performance.now() - began});
   });
 }

@@ -6,29 +6,41 @@ long it takes from an event to the paint that shows it, at 1280x720.
 Of each case: pictures a second; milliseconds to the paint, in the middle and at the
 95th percentile; where the time of a picture goes, in the middle (to the message's
 departure; until its picture comes; until the page's animation frame; its script; the
-paint); kB a picture; processor milliseconds that each program takes for a picture."""
+paint); kB a picture; processor milliseconds that each program takes for a picture.
+
+"slow": one view over a link of 5 Mbit/s that takes 50 ms each way. Nothing may queue:
+the last second's latency is about the first's, and moves have no picture of their own.
+Then the mouse rests, and the exact picture must come."""
 import argparse
 import os
 import pathlib
+import queue
 import shutil
 import statistics
 import sys
 import tempfile
+import threading
 import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 SOURCES = HERE.parent.parent.parent
 sys.path.insert(0, str(SOURCES / "tests" / "programs"))
-from studio_browser import Browser, Studio, tree_of  # noqa: E402
+from studio_browser import Browser, Proxy, Studio, tree_of  # noqa: E402
 
 SECONDS = 4      # of each case
 MOVES = 60       # of the mouse, a second
 REACH = 60       # pixels to each side
 CASES = ["demo drag one", "demo drag four", "demo orbit one", "demo orbit four",
-         "s2 drag one", "s2 drag four", "s2 orbit one", "s2 orbit four"]
-TARGETS = {("demo", "drag"): (50, 30), ("s2", "drag"): (100, 30), ("demo", "orbit"): (None, 24), ("s2", "orbit"): (None, 12)}
-PROGRAMS = {"nodes": "/mars-threads ", "studio": "/mars studio", "page": "--type=renderer", "paint": "--type=gpu-process",
-            "browser": "chromium/chromium", "driver": "chromedriver"}  # a word of its command line
+         "s2 drag one", "s2 drag four", "s2 orbit one", "s2 orbit four",
+         "demo drag slow", "demo orbit slow"]
+TARGETS = {("demo", "drag"): (50, 30), ("s2", "drag"): (100, 30), ("demo", "orbit"): (None, 24),
+           ("s2", "orbit"): (None, 12)}
+PROGRAMS = {"nodes": "/mars-threads ", "studio": "/mars studio", "page": "--type=renderer",
+            "paint": "--type=gpu-process", "browser": "chromium/chromium",
+            "driver": "chromedriver"}  # a word of its command line
+SLOW_BYTES = 5e6 / 8    # a second
+SLOW_DELAY = 0.05       # seconds each way
+SLOW_BURST = 8192       # bytes
 
 
 def arguments():
@@ -62,6 +74,34 @@ def processor_ms(*roots):
     return spent
 
 
+class SlowLink(Proxy):
+    """A token bucket and a delay, of each direction its own."""
+
+    def carry(self, one, other):
+        under_way = queue.Queue()
+        threading.Thread(target=self.deliver, args=(under_way, other), daemon=True).start()
+        free = time.monotonic()
+        try:
+            while data := one.recv(SLOW_BURST):
+                free = max(free, time.monotonic() - SLOW_BURST / SLOW_BYTES) + len(data) / SLOW_BYTES
+                time.sleep(max(0, free - time.monotonic()))
+                under_way.put((free + SLOW_DELAY, data))
+        except OSError:
+            pass
+        under_way.put((free + SLOW_DELAY, None))
+
+    def deliver(self, under_way, other):
+        while True:
+            due, data = under_way.get()
+            time.sleep(max(0, due - time.monotonic()))
+            if data is None:
+                return self.end(other)
+            try:
+                other.sendall(data)
+            except OSError:
+                return self.end(other)
+
+
 def move_for(browser, at, seconds):
     """To and fro, MOVES times a second; how often."""
     began, moves = time.monotonic(), 0
@@ -92,14 +132,14 @@ def measure(build, case, seconds):
     film, how, views = case.split()
     with tempfile.TemporaryDirectory() as folder, Studio(build / "bin", copied(film, folder)) as studio, \
             Browser(script=(HERE / "probe.js").read_text()) as browser:
-        browser.open(studio.link)
+        browser.open(SlowLink(studio.link).link if views == "slow" else studio.link)
         browser.until("pictures", "document.querySelectorAll('.view .waiting[hidden]').length === 4", 120)
         browser.run("document.querySelector('[data-key=view-3]').focus()")
-        if views == "one":
+        if views != "four":
             browser.run("document.querySelectorAll('.view .maximise')[3].click()")
         time.sleep(1.5)
         view = browser.run("return document.querySelector('[data-key=view-3]')")
-        at = browser.find(view, " z " if film == "s2" else " y ")
+        at = browser.find(view, " z " if film == "s2" else " y ", 0.2 if views == "slow" else 0.03)
         browser.move(*at)
         browser.press(*at, "left" if how == "drag" else "middle")
         move_for(browser, at, 1)  # the interval has begun
@@ -113,10 +153,34 @@ def measure(build, case, seconds):
             const {sent, pictures} = window.marsProbe;
             return pictures.filter(({said}) => said).map((each) => ({...each, left: sent.get(each.edit) ?? null}));""")
         browser.release(*at)
+        exact = until_exact(browser) if views == "slow" else None
         complaints = browser.console()
-    return report(case, lasted, moves, latencies, pictures, {k: after[k] - before[k] for k in after}, complaints)
+    report(case, lasted, moves, latencies, pictures, {k: after[k] - before[k] for k in after}, complaints)
+    if views == "slow":
+        report_slow(latencies, lasted, pictures, exact)
+    return None
 
 
+def until_exact(browser):
+    """Seconds after which the page shows the picture of a scene at rest without losses."""
+    began = time.monotonic()
+    browser.until("the exact picture", EXACT)
+    return time.monotonic() - began
+
+
+def report_slow(latencies, lasted, pictures, exact):
+    second = max(1, round(len(latencies) / lasted))
+    sent = sum(each["bytes"] for each in pictures) / 1000 / lasted
+    print(f"    p95 of the first second {percentile(latencies[:second], 0.95):.0f}, of the last "
+          f"{percentile(latencies[-second:], 0.95):.0f}; most {max(latencies):.0f}; kB/s {sent:.0f} of "
+          f"{SLOW_BYTES / 1000:.0f}; exact after {exact:.1f} s", flush=True)
+
+
+# Its last picture rests, and rows to the last were painted without losses since any with losses.
+EXACT = """(() => {
+  const painted = window.marsProbe.pictures.filter(({view, said}) => view === 3 && said);
+  return (painted.at(-1)?.flags & 1) === 1 && painted.findLast(({toEnd}) => toEnd)?.encoding !== 2;
+})()"""
 def report(case, lasted, moves, latencies, pictures, spent, complaints):
     ours = [each for each in pictures if each["view"] == 3]
     known = [each for each in ours if each["left"] is not None and each.get("frame")]
@@ -137,7 +201,8 @@ def report(case, lasted, moves, latencies, pictures, spent, complaints):
     row |= {f"cpu {kind}": value / len(pictures) for kind, value in spent.items()}
     latest, fewest = TARGETS[tuple(case.split()[:2])]
     wanted = f"p95 {latest}, " if latest else ""
-    print(f"{case} (wanted: {wanted}pict/s {fewest})\n   " + "  ".join(f"{k} {v:.1f}" for k, v in row.items()), *complaints, flush=True)
+    aim = f" (wanted: {wanted}pict/s {fewest})" if not case.endswith("slow") else ""
+    print(f"{case}{aim}\n   " + "  ".join(f"{k} {v:.1f}" for k, v in row.items()), *complaints, flush=True)
 
 
 def main():
