@@ -25,7 +25,7 @@ struct ViewPicture {
   std::uint64_t edit = 0;     // the last of the page's messages that it shows
   std::uint16_t width = 0, height = 0;
   bool rests = true;  // false: more changes are to be expected at once (a hand moves); it may be lossy then
-  bool exact = true;  // false: not the film's own pixels (lines)
+  bool exact = true;  // the film's own pixels; false: lines, other eyes, what moves
   std::vector<serve::Rect> rects;
   std::vector<std::uint32_t> pixels;  // as SurfacePicture's
   Json handles;                       // of the view, to be shown with it (docs/studio-protocol.md)
