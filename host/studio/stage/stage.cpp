@@ -9,11 +9,11 @@
 #include <utility>
 
 #include "hal/failure/failure.h"
+#include "host/studio/stage/flow.h"
 #include "host/studio/stage/hand.h"
 #include "host/studio/stage/page_message.h"
 #include "host/studio/stage/selection.h"
 #include "host/studio/stage/view.h"
-#include "node/wire/scene.h"
 
 namespace mars::studio {
 namespace {
@@ -69,7 +69,11 @@ struct Gesture {
 class TheStage : public Stage {
  public:
   TheStage(Project& project, RendererLink& link, Listener listener)
-      : project_(project), link_(link), listener_(std::move(listener)), moments_(project), lines_(project, moments_) {}
+      : project_(project),
+        link_(link),
+        listener_(std::move(listener)),
+        moments_(project),
+        flow_(project, link, moments_, views_, pages()) {}
 
   void take(PageNumber page, const Json& message) override {
     if (!message.is_object()) throw Failure("is no object", "the message", "see docs/studio-protocol.md");
@@ -88,7 +92,7 @@ class TheStage : public Stage {
       (this->*deed->second)(page, message);
     else if (std::find(std::begin(kOfProject), std::end(kOfProject), what) == std::end(kOfProject))
       throw Failure("is '" + what + "'", "the message's 'do'", "see docs/studio-protocol.md");
-    serve();
+    flow_.serve();
   }
 
   void page_closed(PageNumber page) override {
@@ -97,7 +101,7 @@ class TheStage : public Stage {
       if (view.page == page) close(view);
     views_.remove_if([&](const PageView& view) { return view.page == page; });
     pages_.erase(page);
-    serve();
+    flow_.serve();
   }
 
   void project_changed() override {
@@ -105,32 +109,11 @@ class TheStage : public Stage {
     moments_.renew();
     if (project_.is_model() && !project_.in_gesture())
       for (PageView& view : views_) frame_again(view);
-    serve();
+    flow_.serve();
   }
 
-  void take_surface(SurfacePicture picture) override {
-    PageView* const view = view_of_link(picture.view);
-    if (view == nullptr || !view->of_surfaces() || picture.picture < view->begun || picture.head.width != view->width ||
-        picture.head.height != view->height)
-      return;
-    const bool expected = view->asked && view->asked->picture == picture.picture;
-    Asked asked = expected ? std::move(*view->asked)
-                           : Asked{picture.picture, pages_[view->page].edit, !in_motion(*view), false, controls(*view)};
-    if (expected) view->asked.reset();
-    send(*view, asked, std::move(picture.rects), std::move(picture.pixels));
-    serve();
-  }
-
-  // An inbetween that was dropped is asked for again, as it is by then; a keyframe leaves no interval.
-  void surface_dropped(std::uint32_t link, std::uint32_t picture) override {
-    PageView* const view = view_of_link(link);
-    if (view == nullptr || !view->asked || view->asked->picture != picture) return;
-    if (picture == view->begun) view->interval.reset();
-    view->asked.reset();
-    view->shown.reset();
-    view->lost = true;
-    serve();
-  }
+  void take_surface(SurfacePicture picture) override { flow_.take(std::move(picture)); }
+  void surface_dropped(std::uint32_t link, std::uint32_t picture) override { flow_.drop(link, picture); }
 
  private:
   // ---- messages
@@ -168,7 +151,7 @@ class TheStage : public Stage {
     const glm::dvec2 by = pair_in(message, "by");
     const std::size_t how = choice_in(message, "how", kHows);
     if (view.eye.from == From::camera)
-      view.eye = {From::free, preview::orbit_near(camera_of(view), moments_.subject())};
+      view.eye = {From::free, preview::orbit_near(flow_.camera_of(view), moments_.subject())};
     if (how == 0) turn(view.eye.orbit, by);
     if (how == 1) pan(view.eye.orbit, by, view.height);
     if (how == 2) zoom(view.eye.orbit, by, from_middle(message, view), view.height);
@@ -307,16 +290,10 @@ class TheStage : public Stage {
     return found == views_.end() ? nullptr : &*found;
   }
 
-  PageView* view_of_link(std::uint32_t link) {
-    const auto found =
-        std::find_if(views_.begin(), views_.end(), [&](const PageView& view) { return view.link == link; });
-    return found == views_.end() ? nullptr : &*found;
-  }
-
   PageView& made(PageNumber page, std::uint32_t number) {
     if (PageView* const known = view_of(page, number)) return *known;
     std::uint32_t link = 0;
-    while (view_of_link(link) != nullptr) ++link;
+    while (flow_.view_of_link(link) != nullptr) ++link;
     if (link >= wire::kMostViews)
       throw Failure("cannot have more than " + std::to_string(wire::kMostViews) + " views", "the studio",
                     "close pages that nobody needs");
@@ -343,13 +320,7 @@ class TheStage : public Stage {
     view.forget();
   }
 
-  wire::Camera camera_of(const PageView& view) const {
-    const wire::FilmData& now = moments_.now();
-    const wire::Camera& own = now.cameras.front();
-    return view.eye.from == From::camera ? own : camera_from(view.eye, own.exposure);
-  }
-
-  Screen screen_of(const PageView& view) const { return {camera_of(view), view.width, view.height}; }
+  Screen screen_of(const PageView& view) const { return {flow_.camera_of(view), view.width, view.height}; }
 
   Json controls(const PageView& view) {
     return described(handles_of(project_, selected_by(view.page), view.tool, screen_of(view)), view.hot);
@@ -371,6 +342,18 @@ class TheStage : public Stage {
                                {"distance", orbit.distance}});
   }
 
+  Flow::Pages pages() {
+    return {.edit_of = [this](PageNumber page) { return pages_[page].edit; },
+            .hand =
+                [this] {
+                  return gesture_ ? std::optional(Flow::HandPlace{gesture_->page, gesture_->view}) : std::nullopt;
+                },
+            .controls = [this](const PageView& view) { return controls(view); },
+            .tell_handles = [this](PageView& view) { tell_handles(view); },
+            .tell_all = [this](const Json& message) { listener_.tell(kAllPages, message); },
+            .picture = listener_.picture};
+  }
+
   // ---- selections
 
   Selection selected_by(PageNumber page) const {
@@ -388,211 +371,14 @@ class TheStage : public Stage {
       if (view.page == page && view.sent > 0) tell_handles(view);
   }
 
-  // ---- pictures
-
-  bool in_motion(const PageView& view) const { return gesture_ || project_.in_gesture() || view.orbiting; }
-
-  bool hand_is_in(const PageView& view) const {
-    return view.orbiting || (gesture_ && gesture_->page == view.page && gesture_->view == view.number);
-  }
-
-  // Asks for all that is due and has room. Callbacks of the link may come while it does.
-  void serve() {
-    if (serving_) {
-      again_ = true;
-      return;
-    }
-    serving_ = true;
-    try {
-      do {
-        again_ = false;
-        follow_film();
-        if (moments_.film_number() > 0) serve_views();
-      } while (again_);
-    } catch (...) {
-      serving_ = false;
-      throw;
-    }
-    serving_ = false;
-  }
-
-  void follow_film() {
-    moments_.renew();
-    if (moments_.problem() != told_problem_) {
-      told_problem_ = moments_.problem();
-      if (!told_problem_.empty()) listener_.tell(kAllPages, {{"is", "said"}, {"text", told_problem_}});
-    }
-    if (moments_.film_number() == film_number_) return;
-    film_number_ = moments_.film_number();
-    link_.set_film(moments_.film_block());
-    for (PageView& view : views_) {
-      view.known = false;
-      view.forget();
-    }
-  }
-
-  // The view under the hand first; of the others, while it moves, one at a time.
-  void serve_views() {
-    const auto hand = std::find_if(views_.begin(), views_.end(), [&](const PageView& v) { return hand_is_in(v); });
-    if (hand != views_.end()) advance(*hand);
-    for (PageView& view : views_) {
-      if (hand != views_.end() && &view == &*hand) continue;
-      if (hand != views_.end() && view.of_surfaces() && other_is_asked(*hand)) continue;
-      advance(view);
-    }
-    // Who waited longest comes first.
-    if (hand != views_.end() && views_.size() > 2) {
-      const auto first = std::find_if(views_.begin(), views_.end(),
-                                      [&](const PageView& v) { return &v != &*hand && v.asked.has_value(); });
-      if (first != views_.end()) views_.splice(views_.end(), views_, first);
-    }
-  }
-
-  bool other_is_asked(const PageView& hand) const {
-    return std::any_of(views_.begin(), views_.end(),
-                       [&](const PageView& view) { return &view != &hand && view.asked.has_value(); });
-  }
-
-  void advance(PageView& view) {
-    if (!view.has_room()) return;
-    const Shown now{moments_.number(), camera_of(view)};
-    view.of_surfaces() ? advance_surface(view, now) : advance_lines(view, now);
-  }
-
-  void advance_lines(PageView& view, const Shown& now) {
-    const bool rests = !in_motion(view);
-    if (view.shown == now && (view.rested || !rests)) return;
-    if (!view.drawing || view.drawing->image().width != view.width || view.drawing->image().height != view.height)
-      view.drawing.emplace(view.width, view.height);
-    if (view.shown != now) lines_.draw(view.look, now.camera, *view.drawing);
-    const images::Image& image = view.drawing->image();
-    std::vector<serve::Rect> rects = changed_rects(view.drawn, image);
-    std::vector<std::uint32_t> pixels = pixels_in(image, rects);
-    view.drawn = image;
-    view.shown = now;
-    send(view, {0, pages_[view.page].edit, rests, false, controls(view)}, std::move(rects), std::move(pixels));
-  }
-
-  void advance_surface(PageView& view, const Shown& now) {
-    const bool rests = !in_motion(view);
-    if (view.asked) {
-      // A hand does not wait for a picture that shows what stood still before it came.
-      if (rests || !view.asked->rests || view.shown == now) return;
-      view.interval.reset();
-      view.asked.reset();
-    }
-    if (view.shown != now && !looks_the_same(view, now)) return ask(view, now, rests);
-    if (!rests) return;
-    if (is_own(view) && !is_exact(view) && moments_.own_moving()) return ask(view, now, rests);
-    if (!view.rested) send(view, {0, pages_[view.page].edit, true, is_exact(view), controls(view)}, {}, {});
-  }
-
-  // What changed may be seen in controls alone.
-  bool looks_the_same(PageView& view, const Shown& now) {
-    if (!view.interval || view.lost || !same_picture(view.scene, scene_of(view, now))) return false;
-    view.shown = now;
-    if (view.rested) tell_handles(view);
-    return true;
-  }
-
-  // Whether it shows what `mars render` would.
-  bool is_own(const PageView& view) const {
-    const wire::FilmSettings& settings = moments_.now().settings;
-    return view.eye.from == From::camera && view.width == settings.width && view.height == settings.height;
-  }
-
-  bool is_exact(const PageView& view) {
-    if (!is_own(view) || !view.interval) return false;
-    const auto own = moments_.own_moving();
-    return own && std::equal(own->begin(), own->end(), view.interval->moving().begin(), view.interval->moving().end());
-  }
-
-  wire::FilmData scene_of(const PageView& view, const Shown& now) const {
-    wire::FilmData scene = moments_.now();
-    scene.cameras = {now.camera};
-    scene.settings.width = view.width;
-    scene.settings.height = view.height;
-    return scene;
-  }
-
-  // Why a picture that rests must have the film's own interval: docs/exactness.md, "Where intervals are cut".
-  void ask(PageView& view, const Shown& now, bool rests) {
-    wire::FilmData scene = scene_of(view, now);
-    const bool exact = rests && is_own(view) && moments_.own_moving().has_value();
-    Asked asked{++picture_, pages_[view.page].edit, rests, exact, controls(view)};
-    view.shown = now;
-    view.lost = false;
-    const std::uint32_t picture = picture_;
-    if (const auto moved = inbetween(view, scene, exact)) {
-      view.asked = std::move(asked);
-      view.scene = std::move(scene);
-      view.moved = view.moved || !rests;
-      link_.draw(view.link, picture, moved->segments, moved->patches);
-      return;
-    }
-    scene.moving = moving_of(view, scene, exact);
-    scene.intervals = {{0, 1, 0, static_cast<std::uint32_t>(scene.moving.size())}};
-    std::vector<std::byte> block = wire::pack_scene(scene);
-    view.scene = scene;
-    view.interval.emplace(std::move(scene));
-    view.begun = picture;
-    view.moved = !rests;
-    view.known = true;
-    view.asked = std::move(asked);
-    link_.begin(view.link, picture, std::move(block));
-  }
-
-  // What an inbetween must move; none: a new interval begins.
-  std::optional<Moved> inbetween(PageView& view, const wire::FilmData& scene, bool exact) {
-    if (!view.interval || (exact && !is_exact(view))) return std::nullopt;
-    if (view.interval->alone() && !exact) return std::nullopt;
-    auto moved = view.interval->moved_to(scene);
-    if (!moved || !view.interval->holds(*moved)) return std::nullopt;
-    return moved;
-  }
-
-  // What changes now, and what did since something is in motion.
-  std::vector<std::uint32_t> moving_of(PageView& view, const wire::FilmData& scene, bool exact) {
-    if (exact) {
-      const auto own = *moments_.own_moving();
-      return {own.begin(), own.end()};
-    }
-    if (!view.interval) return {};
-    std::vector<std::uint32_t> changed = changed_segments(view.scene, scene);
-    if (view.moved && !view.interval->alone() && view.scene.segments.size() == scene.segments.size())
-      return joined(changed, view.interval->moving());
-    return changed;
-  }
-
-  void send(PageView& view, const Asked& asked, std::vector<serve::Rect> rects, std::vector<std::uint32_t> pixels) {
-    view.rested = asked.rests;
-    ViewPicture picture;
-    picture.page = view.page;
-    picture.view = view.number;
-    picture.picture = ++view.sent;
-    picture.edit = asked.edit;
-    picture.width = static_cast<std::uint16_t>(view.width);
-    picture.height = static_cast<std::uint16_t>(view.height);
-    picture.rests = asked.rests;
-    picture.exact = asked.exact;
-    picture.rects = std::move(rects);
-    picture.pixels = std::move(pixels);
-    picture.handles = asked.handles;
-    listener_.picture(std::move(picture));
-  }
-
   Project& project_;
   RendererLink& link_;
   Listener listener_;
   Moments moments_;
-  LinePictures lines_;
   std::map<PageNumber, Page> pages_;
   std::list<PageView> views_;
   std::optional<Gesture> gesture_;
-  std::uint32_t picture_ = 0;  // of all views, at the renderer
-  std::uint64_t film_number_ = 0;
-  std::string told_problem_;
-  bool serving_ = false, again_ = false;
+  Flow flow_;
 };
 
 }  // namespace
