@@ -1,10 +1,12 @@
 // One thing that changes over a film's frames: a place, a pose of a joint, a field of view. Keys in ascending
-// frames; before the first and after the last it holds. A key's ease rules the way to the next key.
+// frames; before the first and after the last it holds. A key's ease rules the way to the next key: straight on by its
+// timing, or by a spline, a cubic curve with a slope at each of the two keys.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "host/content/animator/ease.h"
@@ -16,6 +18,8 @@ struct Key {
   std::uint32_t frame;
   Value value;
   Ease ease = kLinear;
+  // Change a frame with which splines reach the key and leave it; where none is given, slope_at().
+  std::optional<Value> in{}, out{};
 };
 
 template <typename Value>
@@ -47,12 +51,35 @@ Stretch stretch_at(const Channel<Value>& channel, std::uint32_t frame) {
   return {next - 1, next, eased(from.ease, time)};
 }
 
-// Numbers, places and colours go straight from key to key.
+// Of a spline at a key that has no slope of its own: from the key before to the key after (Catmull and Rom 1974, for
+// keys that are not evenly spaced); at the first and the last key to its only neighbour.
+template <typename Value>
+Value slope_at(const Channel<Value>& channel, std::size_t key) {
+  const Key<Value>& before = channel[key == 0 ? 0 : key - 1];
+  const Key<Value>& after = channel[key + 1 == channel.size() ? key : key + 1];
+  if (before.frame == after.frame) return before.value - before.value;
+  return (1.0 / double(after.frame - before.frame)) * (after.value - before.value);
+}
+
+// Hermite's cubic between the two keys.
+template <typename Value>
+Value spline_at(const Channel<Value>& channel, const Stretch& stretch) {
+  const Key<Value>& from = channel[stretch.from];
+  const Key<Value>& to = channel[stretch.to];
+  const double t = stretch.part, frames = double(to.frame - from.frame);
+  const Value leave = from.out ? *from.out : slope_at(channel, stretch.from);
+  const Value reach = to.in ? *to.in : slope_at(channel, stretch.to);
+  return from.value + ((3 - 2 * t) * t * t) * (to.value - from.value) + (((t - 2) * t + 1) * t * frames) * leave +
+         ((t - 1) * t * t * frames) * reach;
+}
+
+// Numbers, places and colours.
 template <typename Value>
 Value value_at(const Channel<Value>& channel, std::uint32_t frame) {
   const Stretch stretch = stretch_at(channel, frame);
   const Value& from = channel[stretch.from].value;
   if (stretch.from == stretch.to) return from;
+  if (channel[stretch.from].ease.spline) return spline_at(channel, stretch);
   return from + stretch.part * (channel[stretch.to].value - from);
 }
 

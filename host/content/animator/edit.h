@@ -21,6 +21,8 @@ struct ActorKey {
   std::optional<glm::dvec3> place, turn;   // as in the film file: the world, degrees
   std::map<std::string, glm::dvec3> pose;  // joint to its three turns, degrees
   std::optional<Ease> ease;                // of all that is keyed there; none: as it was, or linear
+  // Slopes of splines (channel.h), of what is keyed there: "place", "turn", "/" and a joint.
+  std::map<std::string, glm::dvec3> in{}, out{};
 };
 
 // Puts the keys, in any order, into the actor's "keys": values of the same frame are replaced, others stay. A

@@ -17,6 +17,7 @@ struct TrackKey {
   document::Json value;
   Ease ease;             // to the next key of the part
   bool changed = false;  // as opposed to what stands in the file
+  document::Json in{}, out{};  // slopes of splines, like the value, a frame; null: none
 };
 
 // By part: "place", "turn", "eye", ...; a joint's pose is "/" and its name. Frames ascend.
