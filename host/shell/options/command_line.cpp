@@ -203,12 +203,15 @@ std::optional<int> read_command_line(CLI::App& app, int argc, const char* const*
 }
 
 void read_words(CLI::App& app, const std::vector<std::string>& words) {
-  for (CLI::App* each : app.get_subcommands({})) each->require_subcommand(0, 1);
+  const auto refuse = [&](const std::string& problem) {
+    throw Failure(problem, "'" + document::joined(words, " ") + "'", "`mars --help` shows what there is");
+  };
   try {
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // it takes them from the end
   } catch (const CLI::ParseError& error) {
-    throw Failure(explained(app, error), "'" + document::joined(words, " ") + "'", "`mars --help` shows what there is");
+    refuse(explained(app, error));
   }
+  if (app.get_subcommands().empty() || unfinished(app)) refuse("is no whole command");
 }
 
 }  // namespace mars::options

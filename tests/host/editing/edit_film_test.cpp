@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/host/content/document/failure_text.h"
+#include "tests/host/content/document/failure_of.h"
 
 namespace mars::editing {
 namespace {
@@ -35,7 +35,7 @@ TEST(EditFilm, DoesAllOrNothing) {
 TEST(EditFilm, ExplainsWordsThatItDoesNotKnow) {
   document::Json film = document::read_json(kFilm);
   const auto failure_of = [&](const Command& command) {
-    return document::failure_of([&] { edit_film(film, kFilm, std::vector{command}); });
+    return document::failure_of([&] { edit_film(film, kFilm, std::span(&command, 1)); });
   };
   EXPECT_NE(failure_of({"animate", "wlak", "tom"}).find("did you mean 'walk'"), std::string::npos);
   EXPECT_NE(failure_of({"animate", "pose", "camera", "fov=30"}).find("--frame"), std::string::npos);
