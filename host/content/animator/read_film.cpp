@@ -22,7 +22,7 @@ constexpr std::string_view kFilmNames[] = {"frames",     "rate",      "size",   
                                            "lights",     "materials", "models", "actors"};
 constexpr std::string_view kCameraNames[] = {"eye", "at", "up", "fov", "exposure", "near", "far", "keys"};
 constexpr std::string_view kCameraKeyNames[] = {"frame", "eye", "at", "up", "fov", "exposure", "ease"};
-constexpr std::string_view kActorNames[] = {"name",     "model",     "place", "turn",    "pose",
+constexpr std::string_view kActorNames[] = {"name",     "model",     "place", "turn",     "pose",
                                             "material", "materials", "keys",  "matrices", "attach"};
 constexpr std::string_view kActorKeyNames[] = {"frame", "place", "turn", "pose", "attach", "ease"};
 constexpr std::string_view kMatricesNames[] = {"frame", "segments"};
@@ -189,8 +189,7 @@ class ActorReader {
   void read_still_pose(const document::Element& element, Actor& actor) {
     document::require_kind(element, document::Kind::object);
     for (const document::Element item : element)
-      if (!actor.motion.pose[find_joint(item, actor)].empty())
-        refuse_still(item);
+      if (!actor.motion.pose[find_joint(item, actor)].empty()) refuse_still(item);
     read_pose(element, 0, kLinear, actor);
   }
 
@@ -355,6 +354,18 @@ Film read_film(const document::Element& element, const std::filesystem::path& fo
   return read_film_with(element, models, [&](const document::Element& named, const Film& film) {
     for (const document::Element model : named) models.push_back(read_film_model(model, film, folder));
   });
+}
+
+// Models' segments may name the film's materials.
+bool same_models(const document::Json& one, const document::Json& two) {
+  const auto names = [](const document::Json& film) {
+    std::vector<std::string_view> names;
+    if (const auto found = film.find("materials"); found != film.end() && found->is_object())
+      for (const auto& item : found->items()) names.push_back(item.key());
+    return names;
+  };
+  const auto models = one.find("models"), others = two.find("models");
+  return models != one.end() && others != two.end() && *models == *others && names(one) == names(two);
 }
 
 Film read_film(const document::Element& element, std::vector<modeler::Model>& models) {

@@ -8,12 +8,14 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "host/content/document/json_file.h"
 #include "host/content/modeler/edit.h"
 #include "host/content/modeler/edit_shapes.h"
 #include "host/content/modeler/limbs.h"
 #include "host/content/modeler/proportions.h"
+#include "host/editing/edit_film.h"
 
 namespace mars::studio {
 
@@ -71,8 +73,21 @@ struct BodyStep {
   std::optional<double> height;
 };
 
-using Step =
-    std::variant<PoseStep, PlaceStep, CameraStep, JointStep, MaterialStep, PointStep, MirrorStep, ScaleStep, BodyStep>;
+// Words after `mars`, without the film.
+struct CommandsStep {
+  std::vector<editing::Command> commands;
+};
+
+// A script beside the film, written and applied.
+struct ScriptStep {
+  std::string name, text;
+};
+
+using Step = std::variant<PoseStep, PlaceStep, CameraStep, JointStep, MaterialStep, PointStep, MirrorStep, ScaleStep,
+                          BodyStep, CommandsStep, ScriptStep>;
+
+// Throws Failure where it is no file's name that ends in ".script".
+std::string checked_script_name(const std::string& name);
 
 // Throws Failure.
 Step read_step(const Json& json);

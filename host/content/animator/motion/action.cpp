@@ -112,9 +112,13 @@ const Action* find_action(std::string_view name) {
 
 Performed perform(document::Json& json, const std::filesystem::path& path, const std::string& name,
                   const Action& action, std::optional<std::uint32_t> at, const Arguments& arguments) {
-  animator::actor_of(json, name);  // refuses what is no actor
   const document::Document document(document::laid_out(json), path.string());
-  const animator::Film film = animator::read_film(document.root(), path.parent_path());
+  return perform(json, animator::read_film(document.root(), path.parent_path()), name, action, at, arguments);
+}
+
+Performed perform(document::Json& json, const animator::Film& film, const std::string& name, const Action& action,
+                  std::optional<std::uint32_t> at, const Arguments& arguments) {
+  animator::actor_of(json, name);  // refuses what is no actor
   const animator::Actor& actor =
       *std::find_if(film.actors.begin(), film.actors.end(), [&](const animator::Actor& a) { return a.name == name; });
   if (!actor.matrices.empty())
