@@ -8,7 +8,6 @@
 #include "host/content/animator/attachments.h"
 #include "host/content/animator/camera_points.h"
 #include "host/content/animator/edit.h"
-#include "host/content/animator/keys.h"
 #include "host/content/animator/written.h"
 #include "host/content/document/fields.h"
 
@@ -94,7 +93,8 @@ void attach(document::Json& film, const Film& meaning, const std::string& name, 
   JointFrames frames(meaning);
   const modeler::Axes now =
       seen_from(frames.frame_of(target.actor, target.joint, frame), frames.root_of(actor, frame));
-  ActorKey key{.frame = frame};
+  ActorKey key;
+  key.frame = frame;
   key.attach = AttachKey{meaning.actors[target.actor].name, joint_name(meaning, target),
                          hold.place.value_or(rounded(now.place)), hold.turn ? *hold.turn : turn_of(now.turn)};
   put_keys(film, name, {&key, 1});
@@ -110,7 +110,10 @@ void detach(document::Json& film, const Film& meaning, const std::string& name, 
   make_keys(film, meaning, {false, name, {"place", "turn"}}, carried_since(actor, frame), std::nullopt,
             Beyond::refused);
   const modeler::Axes now = JointFrames(meaning).root_of(number, frame);
-  ActorKey key{.frame = frame, .place = rounded(now.place), .turn = turn_of(now.turn)};
+  ActorKey key;
+  key.frame = frame;
+  key.place = rounded(now.place);
+  key.turn = turn_of(now.turn);
   key.attach = AttachKey{};
   put_keys(film, name, {&key, 1});
 }

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "host/content/animator/things.h"
+#include "host/content/animator/keys.h"
 
 namespace mars::animator {
 
