@@ -25,9 +25,7 @@ std::optional<glm::dvec3> vector_of(const std::vector<double>& numbers) {
 }
 
 void add_frame(CLI::App& app, Words& words) {
-  app.add_option("-f,--frame", words.frame, "From this frame on. Example: --frame 24")
-      ->required()
-      ->type_name("FRAME");
+  app.add_option("-f,--frame", words.frame, "From this frame on. Example: --frame 24")->required()->type_name("FRAME");
 }
 
 void add_vector(CLI::App& app, const char* name, std::vector<double>& numbers, const char* help) {
@@ -74,9 +72,8 @@ animator::Remarks change_camera(const Words& words, document::Json& json, const 
 
 void change_camera(const Words& words, const animator::Following& following) {
   animator::Remarks remarks;
-  words.film.change([&](document::Json& json, const animator::Film& film) {
-    remarks = change_camera(words, json, film, following);
-  });
+  words.film.change(
+      [&](document::Json& json, const animator::Film& film) { remarks = change_camera(words, json, film, following); });
   for (const std::string& remark : remarks) words.film.remark(remark);
 }
 
@@ -91,7 +88,8 @@ CLI::App* add_camera(CLI::App& animate, const Typed& words, const char* name, co
 void add_look(CLI::App& animate, const Typed& words) {
   CLI::App* app = add_camera(animate, words, "look", "Let the camera look at an actor or a joint, wherever it goes",
                              "Instead: look on where it looks then. Example: --end");
-  add_vector(*app, "--offset", words->offset, "From the joint, along the world's axes; default: 0 0 0. Example: 0 0 0.2");
+  add_vector(*app, "--offset", words->offset,
+             "From the joint, along the world's axes; default: 0 0 0. Example: 0 0 0.2");
   app->callback([words] {
     change_camera(*words, {"at", vector_of(words->offset).value_or(glm::dvec3(0)), false, false});
   });

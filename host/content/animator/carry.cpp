@@ -91,8 +91,7 @@ void attach(document::Json& film, const Film& meaning, const std::string& name, 
     throw Failure("would be carried by itself", "actor '" + name + "'",
                   "detach '" + meaning.actors[target.actor].name + "' first, or attach it to another actor");
   JointFrames frames(meaning);
-  const modeler::Axes now =
-      seen_from(frames.frame_of(target.actor, target.joint, frame), frames.root_of(actor, frame));
+  const modeler::Axes now = seen_from(frames.frame_of(target.actor, target.joint, frame), frames.root_of(actor, frame));
   ActorKey key;
   key.frame = frame;
   key.attach = AttachKey{meaning.actors[target.actor].name, joint_name(meaning, target),

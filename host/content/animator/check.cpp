@@ -124,7 +124,8 @@ Findings check_film(const Film& film) {
     if (const std::uint32_t last = last_key(actor); last > film.frames)
       lines.push_back(name + "has keys up to frame " + std::to_string(last) + ", behind the film's last, " +
                       std::to_string(film.frames - 1) + " (give the film more frames, or delete them)");
-    if (actor.attach.empty() && keyed(actor) && !moves(actor)) lines.push_back(name + "has keys that are all the same: it never moves");
+    if (actor.attach.empty() && keyed(actor) && !moves(actor))
+      lines.push_back(name + "has keys that are all the same: it never moves");
     find_jumps(film, actor, lines);
     find_falls(film, number, lines);
   }

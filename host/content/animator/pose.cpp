@@ -112,8 +112,7 @@ PartSetting PartSetting::read(const std::string& text, const Thing& thing) {
   const std::string typed = setting.part;
   setting.part = part_named(thing, typed);
   const document::Json now = thing.part(setting.part).value_at(0);
-  if (now.is_null())
-    throw Failure("has no numbers", "'" + text + "'", "use the commands attach and detach");
+  if (now.is_null()) throw Failure("has no numbers", "'" + text + "'", "use the commands attach and detach");
   const std::string remedy = remedy_for(typed, now);
   const std::vector<double> numbers = numbers_of(text.substr(equals + 1), text, remedy);
   const bool three = now.is_array();

@@ -42,7 +42,8 @@ KeyedPart turning(const std::string& name, const modeler::Joint& joint, const Ch
 
 // What is kept from key to key.
 KeyedPart carried(const Film& film, const Channel<std::optional<Attachment>>& channel) {
-  return {"attach", nullptr, nullptr, [](std::uint32_t) { return nullptr; }, [&film, &channel](std::uint32_t frame) -> document::Json {
+  return {"attach", nullptr, nullptr, [](std::uint32_t) { return nullptr; },
+          [&film, &channel](std::uint32_t frame) -> document::Json {
             if (channel.empty() || frame < channel.front().frame) return nullptr;
             const auto& held = channel[stretch_at(channel, frame).from].value;
             if (!held) return nullptr;
@@ -69,8 +70,8 @@ KeyedPart point(std::string_view name, const Film& film, const Channel<Point>& c
 
 Thing camera_of(document::Json& film, const Film& meaning) {
   const CameraMotion& camera = meaning.camera;
-  std::vector<KeyedPart> parts{point("eye", meaning, camera.eye), point("at", meaning, camera.at), plain("up", camera.up),
-                               plain("fov", camera.fov)};
+  std::vector<KeyedPart> parts{point("eye", meaning, camera.eye), point("at", meaning, camera.at),
+                               plain("up", camera.up), plain("fov", camera.fov)};
   if (meaning.color == wire::ColorSpace::linear) parts.push_back(plain("exposure", camera.exposure));
   return {"camera", &film.at("camera"), false, std::move(parts)};
 }

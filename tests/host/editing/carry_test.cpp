@@ -66,7 +66,9 @@ TEST_F(Carry, DetachedItStaysAndWhatWasBeforeIsAsItWas) {
   expect_near(root(15), there);
   expect_near(root(29), there);
   EXPECT_TRUE(animator::check_film(film()).lines.empty());
-  EXPECT_TRUE(document::holds(document::failure_of([&] { obey({"detach", "ball", "--frame", "20"}); }),
+  EXPECT_TRUE(document::holds(document::failure_of([&] {
+                                obey({"detach", "ball", "--frame", "20"});
+                              }),
                               "is not attached at frame 20"));
 }
 
@@ -77,20 +79,24 @@ TEST_F(Carry, FromHandToHand) {
   obey({"detach", "ball", "--frame", "20"});
   expect_near(root(20), there);
   EXPECT_EQ(root(2).place, glm::dvec3(1, 1, 0));
-  EXPECT_TRUE(document::holds(document::failure_of([&] { obey({"attach", "tom", "--to", "ball", "--frame", "14"}); }),
+  EXPECT_TRUE(document::holds(document::failure_of([&] {
+                                obey({"attach", "tom", "--to", "ball", "--frame", "14"});
+                              }),
                               "would be carried by itself"));
 }
 
 TEST_F(Carry, AnActionWhoseKeysWouldCountForNothingIsRefused) {
   obey({"attach", "ball", "--to", "tom/b", "--frame", "6"});
-  EXPECT_TRUE(document::holds(
-      document::failure_of([&] { obey({"go", "ball", "--at", "8", "--to", "0", "0", "0"}); }), "is carried by 'tom'"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] {
+                                obey({"go", "ball", "--at", "8", "--to", "0", "0", "0"});
+                              }),
+                              "is carried by 'tom'"));
 }
 
 TEST_F(Carry, TheCameraFollowsWithoutAJump) {
   obey({"follow", "tom/b", "--frame", "8", "--level"});
-  const glm::dvec3 way = animator::state_at(film(), 1, 16).joints[1].place -
-                         animator::state_at(film(), 1, 8).joints[1].place;
+  const glm::dvec3 way =
+      animator::state_at(film(), 1, 16).joints[1].place - animator::state_at(film(), 1, 8).joints[1].place;
   EXPECT_EQ(eye(0), glm::dvec3(0, -9, 2));
   EXPECT_EQ(eye(7), glm::dvec3(0, -9, 2));
   EXPECT_LT(glm::distance(eye(8), glm::dvec3(0, -9, 2)), 1e-7);
@@ -107,7 +113,9 @@ TEST_F(Carry, TheCameraLooksAtAJoint) {
   EXPECT_EQ(animator::at_at(film(), 9), animator::state_at(film(), 1, 9).joints[1].place + glm::dvec3(0, 0, 0.2));
   Command list{"animate", "list", "camera"};
   EXPECT_TRUE(document::holds(edit_film(json, "/nowhere/f.json", std::span(&list, 1)).report, "tom/b + 0 0 0.2"));
-  EXPECT_TRUE(document::holds(document::failure_of([&] { obey({"look", "tom/hand", "--frame", "0"}); }),
+  EXPECT_TRUE(document::holds(document::failure_of([&] {
+                                obey({"look", "tom/hand", "--frame", "0"});
+                              }),
                               "is no joint of 'tom'"));
   EXPECT_TRUE(document::holds(document::failure_of([&] { obey({"look", "--frame", "0"}); }), "is not given"));
 }

@@ -144,7 +144,8 @@ class Player {
 
   // camera cut eye X Y Z at X Y Z fov N: from this frame on; camera move the same, seconds S or until TIME.
   std::uint32_t move_camera(ScriptLine& line, std::uint32_t at) {
-    constexpr std::string_view verbs[] = {"cut", "move", "follow", "look"}, parts[] = {"eye", "at", "fov", "seconds", "until"};
+    constexpr std::string_view verbs[] = {"cut", "move", "follow", "look"},
+                               parts[] = {"eye", "at", "fov", "seconds", "until"};
     const std::string verb = line.take("cut, move, follow or look");
     if (verb == "follow" || verb == "look") return go_along(line, verb, at);
     if (verb != "cut" && verb != "move")
@@ -197,7 +198,8 @@ class Player {
       else if (word == "offset")
         following.offset = take_vector(line);
       else
-        line.refuse("has '" + word + "' after camera " + verb, looks ? "write offset X Y Z" : "write level or offset X Y Z");
+        line.refuse("has '" + word + "' after camera " + verb,
+                    looks ? "write offset X Y Z" : "write level or offset X Y Z");
     }
     if (begun_.insert(kCamera).second) clear_camera_after(at);
     in_line(line, [&] {
@@ -213,7 +215,8 @@ class Player {
     for (int axis = 0; axis < 3; ++axis) {
       const std::string word = line.take("a number");
       const auto number = document::number_in<double>(word);
-      if (!number || !(std::abs(*number) <= document::kFarthest)) line.refuse("has '" + word + "' where a number belongs", "write three numbers");
+      if (!number || !(std::abs(*number) <= document::kFarthest))
+        line.refuse("has '" + word + "' where a number belongs", "write three numbers");
       vector[axis] = *number;
     }
     return vector;

@@ -147,8 +147,9 @@ TEST(Carried, WhatCannotBeIsRefusedAtItsLine) {
     return "{\"frame\": " + std::to_string(frame) + ", \"attach\": " + what + "}";
   };
   using document::holds;
-  EXPECT_TRUE(holds(refusal(attach(R"("actor": "twoo")"), ""), "f.json:9: actors[0].attach.actor: is 'twoo', which is "
-                                                               "no actor of the film (did you mean 'two'?)"));
+  EXPECT_TRUE(holds(refusal(attach(R"("actor": "twoo")"), ""),
+                    "f.json:9: actors[0].attach.actor: is 'twoo', which is "
+                    "no actor of the film (did you mean 'two'?)"));
   EXPECT_TRUE(holds(refusal("", attach(R"("actor": "one", "joint": "c")")),
                     "f.json:10: actors[1].attach.joint: is 'c', which is no joint of 'one'"));
   EXPECT_TRUE(holds(refusal(attach(R"("actor": "two")"), attach(R"("actor": "one")")),
@@ -199,7 +200,8 @@ TEST(CameraPoints, BetweenKeysGoFromWhereTheyAreAtTheFrame) {
       carried_film(R"({"keys": [{"frame": 0, "eye": [0, -9, 2]}, {"frame": 10, "eye": {"actor": "tom", "joint": "a",
           "offset": [0, -5, 1]}}, {"frame": 14, "eye": [8, 0, 0]}]})");
   for (const std::uint32_t frame : {0u, 3u, 8u}) {
-    const glm::dvec3 start(0, -9, 2), end = animator::state_at(film, kTom, frame).joints[0].place + glm::dvec3(0, -5, 1);
+    const glm::dvec3 start(0, -9, 2),
+        end = animator::state_at(film, kTom, frame).joints[0].place + glm::dvec3(0, -5, 1);
     EXPECT_EQ(animator::eye_at(film, frame), start + frame / 10.0 * (end - start)) << frame;
   }
   EXPECT_EQ(animator::eye_at(film, 14), glm::dvec3(8, 0, 0));
@@ -208,7 +210,8 @@ TEST(CameraPoints, BetweenKeysGoFromWhereTheyAreAtTheFrame) {
 TEST(CameraPoints, SplinesAreThoseOfPlacesWhereNobodyMoves) {
   const auto eye_of = [](const std::string& third) {
     animator::Film film = carried_film(R"({"keys": [{"frame": 10, "eye": [0, -9, 2]}, {"frame": 12, "eye": [3, -8, 4]},
-        {"frame": 16, "eye": )" + third + R"(}, {"frame": 19, "eye": [1, 1, 1]}]})");
+        {"frame": 16, "eye": )" + third +
+                                       R"(}, {"frame": 19, "eye": [1, 1, 1]}]})");
     for (auto& key : film.camera.eye) key.ease.spline = true;
     return film;
   };
