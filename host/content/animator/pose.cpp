@@ -1,8 +1,10 @@
 #include "host/content/animator/pose.h"
 
+#include <algorithm>
 #include <set>
 
 #include "hal/failure/failure.h"
+#include "host/content/animator/attachments.h"
 #include "host/content/animator/tracks.h"
 #include "host/content/animator/written.h"
 #include "host/content/document/fields.h"
@@ -99,6 +101,19 @@ Remarks pose_chosen(Chosen chosen, std::span<const PartSetting> settings, std::u
   return remarks;
 }
 
+// Keys of its place and turn may be meant for later; there they count for nothing.
+void remark_carried(const Film& meaning, const std::string& name, std::span<const PartSetting> settings,
+                    std::uint32_t frame, Remarks& remarks) {
+  const auto actor = std::ranges::find(meaning.actors, name, &Actor::name);
+  const Attachment* const carrier = actor == meaning.actors.end() ? nullptr : attachment_at(*actor, frame);
+  const auto moves = [](const PartSetting& setting) { return setting.part == "place" || setting.part == "turn"; };
+  if (!carrier || std::ranges::none_of(settings, moves)) return;
+  remarks.push_back(
+      "actor '" + name + "': '" + meaning.actors[carrier->actor].name + "' carries it at frame " +
+      std::to_string(frame) +
+      ", where its own place and turn count for nothing (detach it, or attach it with --place and --turn)");
+}
+
 }  // namespace
 
 PartSetting PartSetting::read(const std::string& text, const Thing& thing) {
@@ -125,7 +140,10 @@ PartSetting PartSetting::read(const std::string& text, const Thing& thing) {
 
 Remarks pose(document::Json& film, const Film& meaning, const std::string& name, std::span<const PartSetting> settings,
              std::uint32_t frame, const std::optional<Ease>& ease, Beyond beyond) {
-  return pose_chosen(std::move(choose(film, meaning, {false, name, {}}).front()), settings, frame, ease, beyond);
+  Remarks remarks =
+      pose_chosen(std::move(choose(film, meaning, {false, name, {}}).front()), settings, frame, ease, beyond);
+  remark_carried(meaning, name, settings, frame, remarks);
+  return remarks;
 }
 
 Remarks pose(document::Json& film, const Film& meaning, const std::string& name, std::span<const std::string> settings,
@@ -137,7 +155,9 @@ Remarks pose(document::Json& film, const Film& meaning, const std::string& name,
     read.push_back(PartSetting::read(text, chosen.thing));
     refuse_twice(read.back(), text, set);
   }
-  return pose_chosen(std::move(chosen), read, frame, ease, beyond);
+  Remarks remarks = pose_chosen(std::move(chosen), read, frame, ease, beyond);
+  remark_carried(meaning, name, read, frame, remarks);
+  return remarks;
 }
 
 }  // namespace mars::animator

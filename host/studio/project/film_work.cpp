@@ -36,7 +36,9 @@ animator::Remarks apply(Json& json, const animator::Film& film, const PlaceStep&
   std::vector<PartSetting> settings;
   if (step.place) settings.push_back(setting_of("place", *step.place));
   if (step.turn) settings.push_back(setting_of("turn", *step.turn));
-  return change(json, film, film.actors[actor_named(film, step.actor)].name, settings, frame);
+  const std::size_t actor = actor_named(film, step.actor);
+  refuse_carried(film, actor, frame);
+  return change(json, film, film.actors[actor].name, settings, frame);
 }
 
 animator::Remarks apply(Json& json, const animator::Film& film, const CameraStep& step, std::uint32_t frame) {
