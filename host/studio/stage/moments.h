@@ -23,6 +23,9 @@ struct Owner {
   std::size_t joint;
 };
 
+// Whether keys change it over the film: it has two of anything.
+bool moves(const animator::Actor& actor);
+
 class Moments {
  public:
   // It must outlive it.
