@@ -12,10 +12,10 @@
 namespace mars::studio {
 namespace {
 
-constexpr std::size_t kMostJoints = 400;       // of actors that nobody has selected: more would be no picture
-constexpr std::size_t kMostPoints = 64;        // of a shape: of more, those that lie farthest out
-constexpr std::uint32_t kMostTicks = 240;      // of a trail
-constexpr double kLeastEdge = 1;               // pixels
+constexpr std::size_t kMostJoints = 400;   // of actors that nobody has selected: more would be no picture
+constexpr std::size_t kMostPoints = 64;    // of a shape: of more, those that lie farthest out
+constexpr std::uint32_t kMostTicks = 240;  // of a trail
+constexpr double kLeastEdge = 1;           // pixels
 
 glm::dvec3 placed(const wire::Matrix& matrix, const glm::dvec3& point) {
   glm::dvec3 place;
@@ -33,7 +33,9 @@ std::vector<glm::dvec3> outermost(const std::vector<glm::dvec3>& points) {
     const double z = 1 - (2.0 * double(i) + 1) / kMostPoints, angle = double(i) * std::numbers::pi * (3 - std::sqrt(5));
     const double across = std::sqrt(1 - z * z);
     const glm::dvec3 way(across * std::cos(angle), across * std::sin(angle), z);
-    const auto nearer = [&](const glm::dvec3& one, const glm::dvec3& two) { return glm::dot(one, way) < glm::dot(two, way); };
+    const auto nearer = [&](const glm::dvec3& one, const glm::dvec3& two) {
+      return glm::dot(one, way) < glm::dot(two, way);
+    };
     chosen.push_back(static_cast<std::size_t>(std::max_element(points.begin(), points.end(), nearer) - points.begin()));
   }
   std::sort(chosen.begin(), chosen.end());
@@ -151,7 +153,8 @@ void Ghosts::add_trail(const GhostFrames& frames, const Selection& selection, co
   const animator::Actor& actor = film.actors[*selection.actor];
   const std::int64_t now = project_.frame();
   const auto first = std::uint32_t(std::max<std::int64_t>(now - std::int64_t{frames.before} * frames.step, 0));
-  const auto last = std::uint32_t(std::min<std::int64_t>(now + std::int64_t{frames.after} * frames.step, film.frames - 1));
+  const auto last =
+      std::uint32_t(std::min<std::int64_t>(now + std::int64_t{frames.after} * frames.step, film.frames - 1));
   const auto& channel = selection.joint ? actor.motion.pose[*selection.joint] : actor.motion.place;
   const std::uint32_t by = 1 + (last - first) / kMostTicks;
   std::vector<glm::dvec3> way;

@@ -47,9 +47,9 @@ class Ghosts {
   const Project& project_;
   const Moments& moments_;
   std::uint64_t revision_ = 0, film_number_ = 0;
-  std::vector<States> states_;                                // of actors, as they are needed
-  std::vector<std::size_t> first_segments_;                   // of actors
-  std::map<std::uint32_t, std::vector<glm::dvec3>> points_;   // of shapes
+  std::vector<States> states_;                               // of actors, as they are needed
+  std::vector<std::size_t> first_segments_;                  // of actors
+  std::map<std::uint32_t, std::vector<glm::dvec3>> points_;  // of shapes
 };
 
 // The joint's end in its frame: the middle of the face of its segment that is farthest from it; itself where nothing

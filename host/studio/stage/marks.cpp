@@ -66,8 +66,13 @@ MarkState light_state(const animator::LightMotion& light, const Moments& moments
 class Maker {
  public:
   Maker(const Mark& mark, const MarkState& state, bool selected, const Screen& screen)
-      : mark_(mark), state_(state), screen_(screen), name_(name_of(mark)), kind_(mark.light ? "light" : "camera"),
-        selected_(selected), pixel_(1 / screen.scale_at(state.place)) {}
+      : mark_(mark),
+        state_(state),
+        screen_(screen),
+        name_(name_of(mark)),
+        kind_(mark.light ? "light" : "camera"),
+        selected_(selected),
+        pixel_(1 / screen.scale_at(state.place)) {}
 
   std::vector<Handle> make(double aspect, Tool tool) {
     if (!mark_.light)
@@ -121,7 +126,8 @@ class Maker {
       return eye - back * body * ahead + 0.3 * body * (double(x) * state_.side + double(y) * state_.up);
     };
     const auto edge = [&](double back) {
-      add_line({corner(-1, -1, back), corner(1, -1, back), corner(1, 1, back), corner(-1, 1, back), corner(-1, -1, back)});
+      add_line(
+          {corner(-1, -1, back), corner(1, -1, back), corner(1, 1, back), corner(-1, 1, back), corner(-1, -1, back)});
     };
     edge(0.2);
     edge(1);
@@ -151,8 +157,7 @@ class Maker {
     add_circle(state_.place, kBulbPixels * pixel_ * screen_.right(), kBulbPixels * pixel_ * screen_.up());
     for (const double down : {1.2, 1.5})
       add_line({seen(-0.5 * kBulbPixels, -down * kBulbPixels), seen(0.5 * kBulbPixels, -down * kBulbPixels)});
-    if (state_.reach > 0)
-      add_circle(state_.place, state_.reach * screen_.right(), state_.reach * screen_.up());
+    if (state_.reach > 0) add_circle(state_.place, state_.reach * screen_.right(), state_.reach * screen_.up());
     if (!state_.aim) return;
     const glm::dvec3 up = half_width(state_) * state_.up, right = half_width(state_) * state_.side;
     add_circle(*state_.aim, right, up);

@@ -11,8 +11,7 @@ namespace mars::studio {
 
 class MouseWay {
  public:
-  MouseWay(const Screen& screen, const glm::dvec2& mouse)
-      : screen_(screen), began_(mouse), mouse_(mouse), at_(mouse) {}
+  MouseWay(const Screen& screen, const glm::dvec2& mouse) : screen_(screen), began_(mouse), mouse_(mouse), at_(mouse) {}
 
   // Where the page says that it is. `fine`: it goes a fifth of the way.
   void follow(const glm::dvec2& mouse, bool fine);
@@ -21,8 +20,8 @@ class MouseWay {
   const glm::dvec2& began() const { return began_; }
   const glm::dvec2& at() const { return at_; }  // slower than the mouse where it was fine
 
-  // How what stands at `from` moves by it along `way` alone, or in the plane parallel to the screen. None: the view does
-  // not tell.
+  // How what stands at `from` moves by it along `way` alone, or in the plane parallel to the screen. None: the view
+  // does not tell.
   std::optional<glm::dvec3> along(const glm::dvec3& from, const glm::dvec3& way) const;
   std::optional<glm::dvec3> across(const glm::dvec3& from) const;
 

@@ -22,10 +22,11 @@ bool is_on(const modeler::Model& model, std::size_t joint, std::size_t above) {
 
 bool has_pinned_foot(const modeler::Model& model, const std::vector<std::size_t>& pins) {
   return std::ranges::any_of(pins, [&](std::size_t pin) {
-    return std::ranges::any_of(std::initializer_list{modeler::Side::left, modeler::Side::right}, [&](modeler::Side side) {
-      const std::size_t ankle = model.limbs.of(modeler::Limb::ankle, side);
-      return ankle != modeler::kNone && is_on(model, pin, ankle);
-    });
+    return std::ranges::any_of(std::initializer_list{modeler::Side::left, modeler::Side::right},
+                               [&](modeler::Side side) {
+                                 const std::size_t ankle = model.limbs.of(modeler::Limb::ankle, side);
+                                 return ankle != modeler::kNone && is_on(model, pin, ankle);
+                               });
   });
 }
 

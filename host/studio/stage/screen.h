@@ -30,8 +30,8 @@ class Screen {
   Ray ray_through(const glm::dvec2& pixel) const;
   // A line through these places, cut where it goes before the near plane.
   std::vector<Polyline> polylines(const std::vector<glm::dvec3>& places) const;
-  // The outline of the places' convex hull as it is seen, cut at the near plane, without what the picture does not show:
-  // a polygon, whose first point is not repeated; empty where nothing is seen of it.
+  // The outline of the places' convex hull as it is seen, cut at the near plane, without what the picture does not
+  // show: a polygon, whose first point is not repeated; empty where nothing is seen of it.
   Polyline outline(std::span<const glm::dvec3> places) const;
   // Pixels of a length across the axis, as far away as the place; as far as the near plane where it is nearer.
   double scale_at(const glm::dvec3& place) const;

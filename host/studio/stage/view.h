@@ -41,7 +41,7 @@ struct PageView {
   LineLook look{};  // As::surface: the renderer draws it
   Tool tool = Tool::none;
   GhostFrames ghosts{};
-  bool marks = false;  // camera and lights are seen
+  bool marks = false;     // camera and lights are seen
   bool framed = false;    // the studio chose where the eye is, and chooses again
   bool orbiting = false;  // a hand turns it
   std::string hot{};      // the handle under the mouse
