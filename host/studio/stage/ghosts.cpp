@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kMostJoints = 400;   // of actors that nobody has selected: more would be no picture
 constexpr std::size_t kMostPoints = 64;    // of a shape: of more, those that lie farthest out
 constexpr std::uint32_t kMostTicks = 240;  // of a trail
-constexpr double kLeastEdge = 1;           // pixels
+constexpr double kLeastCorner = 0.6;  // pixels from the line between its neighbours
 
 glm::dvec3 placed(const wire::Matrix& matrix, const glm::dvec3& point) {
   glm::dvec3 place;
@@ -48,8 +48,10 @@ std::vector<glm::dvec3> outermost(const std::vector<glm::dvec3>& points) {
 // Corners that nobody sees as such are left out.
 Polyline coarser(const Polyline& polygon) {
   Polyline kept;
-  for (const glm::dvec2& point : polygon)
-    if (kept.empty() || glm::length(point - kept.back()) >= kLeastEdge) kept.push_back(point);
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const glm::dvec2 next = polygon[(i + 1) % polygon.size()];
+    if (kept.empty() || distance_to({kept.back(), next}, polygon[i]) >= kLeastCorner) kept.push_back(polygon[i]);
+  }
   return kept;
 }
 
@@ -77,9 +79,20 @@ glm::dvec3 end_of(const modeler::Joint& joint) {
   return farthest;
 }
 
-std::vector<Handle> Ghosts::handles(const GhostFrames& frames, const Selection& selection, const Screen& screen) {
-  if (!frames.any() || moments_.film_number() == 0) return {};
+const std::vector<Handle>& Ghosts::handles(std::uint32_t view, const GhostFrames& frames, const Selection& selection,
+                                           const Screen& screen) {
+  static const std::vector<Handle> none;
+  if (!frames.any() || moments_.film_number() == 0) return none;
+  Seen seen{moments_.number(), frames, selection, screen};
+  const auto known = shown_.find(view);
+  if (known != shown_.end() && known->second.first == seen) return known->second.second;
   follow_project();
+  std::vector<Handle> handles = made(seen);
+  return (shown_.insert_or_assign(view, std::pair(std::move(seen), std::move(handles))).first)->second.second;
+}
+
+std::vector<Handle> Ghosts::made(const Seen& seen) {
+  const auto& [moment, frames, selection, screen] = seen;
   const std::int64_t now = project_.frame(), count = project_.film().frames;
   std::vector<Placed> ghosts;
   for (const std::size_t actor : actors_near(selection))
@@ -142,6 +155,7 @@ void Ghosts::add_ghost(std::size_t actor, std::uint32_t frame, const Screen& scr
     if (ghost.points.size() < 3) continue;
     ghost.text = distance_of(frame, project_.frame());
     ghost.id = "ghost:" + ghost.text;
+    ghost.fine = false;
     ghosts.push_back({screen.depth_of(placed(*there[joint], glm::dvec3(0.5))), std::move(ghost)});
   }
 }
@@ -169,6 +183,7 @@ void Ghosts::add_trail(const GhostFrames& frames, const Selection& selection, co
     const auto pixel = screen.pixel_of(way.back());
     if (!pixel) continue;
     Handle tick{"trail", "trail", {*pixel}, "", distance_of(frame, project_.frame())};
+    tick.fine = false;
     tick.selected = has_key(channel, frame);
     ticks.push_back(std::move(tick));
   }

@@ -26,8 +26,10 @@ class Ghosts {
   // Both must outlive it.
   Ghosts(const Project& project, const Moments& moments) : project_(project), moments_(moments) {}
 
-  // Of the selected actor; where none is selected, of all that move. Back to front, then the trail.
-  std::vector<Handle> handles(const GhostFrames& frames, const Selection& selection, const Screen& screen);
+  // Of the selected actor; where none is selected, of all that move. Back to front, then the trail. Made only where
+  // something is another than the last time for the same view.
+  const std::vector<Handle>& handles(std::uint32_t view, const GhostFrames& frames, const Selection& selection,
+                                     const Screen& screen);
 
  private:
   using States = std::map<std::uint32_t, animator::ActorState>;  // by frame
@@ -36,6 +38,16 @@ class Ghosts {
     Handle handle;
   };
 
+  struct Seen {
+    std::uint64_t moment = 0;
+    GhostFrames frames{};
+    Selection selection{};
+    Screen screen;
+
+    bool operator==(const Seen&) const = default;
+  };
+
+  std::vector<Handle> made(const Seen& seen);
   void follow_project();
   const animator::ActorState& state_of(std::size_t actor, std::uint32_t frame);
   std::vector<std::size_t> actors_near(const Selection& selection) const;
@@ -46,6 +58,7 @@ class Ghosts {
 
   const Project& project_;
   const Moments& moments_;
+  std::map<std::uint32_t, std::pair<Seen, std::vector<Handle>>> shown_;  // by views
   std::uint64_t revision_ = 0, film_number_ = 0;
   std::vector<States> states_;                               // of actors, as they are needed
   std::vector<std::size_t> first_segments_;                  // of actors

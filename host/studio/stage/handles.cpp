@@ -235,17 +235,17 @@ const Handle* handle_at(const std::vector<Handle>& handles, const glm::dvec2& pi
 
 Json described(const std::vector<Handle>& handles, const std::string& hot) {
   Json shapes = Json::array();
-  const auto rounded = [](double pixel) { return std::round(pixel * 100) / 100; };
   for (const Handle& handle : handles) {
+    const double parts = handle.fine ? 100 : 10;  // of a pixel
     Json points = Json::array();
-    for (const glm::dvec2& point : handle.points) points.push_back({rounded(point.x), rounded(point.y)});
-    shapes.push_back({{"id", handle.id},
-                      {"kind", handle.kind},
-                      {"points", std::move(points)},
-                      {"axis", handle.axis},
-                      {"hot", handle.grip && handle.id == hot},
-                      {"selected", handle.selected},
-                      {"text", handle.text}});
+    for (const glm::dvec2& point : handle.points)
+      points.push_back({std::round(point.x * parts) / parts, std::round(point.y * parts) / parts});
+    Json shape{{"id", handle.id}, {"kind", handle.kind}, {"points", std::move(points)}};
+    if (!handle.axis.empty()) shape["axis"] = handle.axis;
+    if (!handle.text.empty()) shape["text"] = handle.text;
+    if (handle.grip && handle.id == hot) shape["hot"] = true;
+    if (handle.selected) shape["selected"] = true;
+    shapes.push_back(std::move(shape));
   }
   return shapes;
 }

@@ -56,6 +56,7 @@ struct Handle {
   std::string text{};
   std::optional<Grip> grip{};  // none: only to be seen
   bool selected = false;
+  bool fine = true;  // to a hundredth of a pixel, else to a tenth: of many
 };
 
 // An axis about which a pose turns, by one of its numbers.
@@ -91,7 +92,7 @@ double ring_pixels(int axis);
 // The handle under the pixel that a hand would take.
 const Handle* handle_at(const std::vector<Handle>& handles, const glm::dvec2& pixel);
 
-// As the page reads them; `hot`: the id under the mouse.
+// As the page reads them: what is empty or false is left out. `hot`: the id under the mouse.
 Json described(const std::vector<Handle>& handles, const std::string& hot);
 
 }  // namespace mars::studio

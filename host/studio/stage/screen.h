@@ -38,6 +38,8 @@ class Screen {
   // How far ahead of the eye it is.
   double depth_of(const glm::dvec3& place) const { return to_eye(place).z; }
 
+  bool operator==(const Screen&) const = default;
+
   const glm::dvec3& right() const { return axes_[0]; }
   const glm::dvec3& up() const { return axes_[1]; }
   glm::dvec3 ahead() const { return -axes_[2]; }

@@ -389,7 +389,7 @@ class TheStage : public Stage {
   std::vector<Handle> handles_in(const PageView& view) {
     const Selection selection = selected_by(view.page);
     const Screen screen = screen_of(view);
-    std::vector<Handle> handles = ghosts_.handles(view.ghosts, selection, screen);
+    std::vector<Handle> handles = ghosts_.handles(view.link, view.ghosts, selection, screen);
     const auto add = [&](std::vector<Handle> more) { std::ranges::move(more, std::back_inserter(handles)); };
     if (view.marks && view.eye.from != From::camera) add(marks_of(project_, moments_, selection, view.tool, screen));
     add(pin_handles(project_, selection, pins_of(view.page, selection), screen));
