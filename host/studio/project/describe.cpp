@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "host/content/animator/actor_state.h"
+#include "host/content/animator/camera_points.h"
 #include "host/content/animator/direction.h"
 #include "host/content/animator/edit.h"
 #include "host/content/animator/written.h"
@@ -94,8 +96,9 @@ Json actor_head(const animator::Film& film, std::size_t number, std::uint32_t fr
     json["matrices"] = true;
     return json;
   }
-  json["place"] = shown(animator::value_at(actor.motion.place, frame));
-  json["turn"] = shown(pose_of(animator::free_joint(), actor.motion.turn, frame));
+  const animator::ActorState state = animator::state_at(film, number, frame);
+  json["place"] = shown(state.place);
+  json["turn"] = shown(state.turn);
   return json;
 }
 
@@ -182,8 +185,8 @@ Json poses_of(const animator::Film& film, std::size_t actor, std::uint32_t frame
 
 void describe_camera_and_lights(Json& project, const animator::Film& film, const Json& json, std::uint32_t frame) {
   Json camera{{"keyed", keyed_of(json.at("camera"), frame)}};
-  add_part(camera, "eye", film.camera.eye, frame);
-  add_part(camera, "at", film.camera.at, frame);
+  camera["eye"] = shown(animator::eye_at(film, frame));
+  camera["at"] = shown(animator::at_at(film, frame));
   add_part(camera, "fov", film.camera.fov, frame);
   project["camera"] = std::move(camera);
   Json lights = Json::array();

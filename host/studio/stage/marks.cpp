@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "host/content/animator/camera_points.h"
 #include "host/content/animator/direction.h"
 #include "host/content/document/text.h"
 #include "host/content/modeler/frames.h"
@@ -33,7 +34,7 @@ MarkState camera_state(const Project& project, const Moments& moments) {
   const wire::Camera& camera = moments.now().cameras.front();
   const Screen seen(camera, 2, 2);
   MarkState state{seen.eye()};
-  state.aim = animator::value_at(project.film().camera.at, project.frame());
+  state.aim = animator::at_at(project.film(), project.frame());
   state.side = seen.right();
   state.up = seen.up();
   state.angle = 2 * std::atan(1 / camera.focal) / modeler::kDegree;

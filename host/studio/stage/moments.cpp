@@ -15,7 +15,7 @@ constexpr std::uint64_t kMostMatrices = 200'000;  // of a film whose intervals a
 
 bool moves(const animator::Actor& actor) {
   const auto keyed = [](const auto& channel) { return channel.size() > 1; };
-  return keyed(actor.motion.place) || keyed(actor.motion.turn) ||
+  return !actor.attach.empty() || keyed(actor.motion.place) || keyed(actor.motion.turn) ||
          std::any_of(actor.motion.pose.begin(), actor.motion.pose.end(), keyed) ||
          std::any_of(actor.matrices.begin(), actor.matrices.end(), keyed);
 }

@@ -23,7 +23,7 @@ struct Owner {
   std::size_t joint;
 };
 
-// Whether keys change it over the film: it has two of anything.
+// Whether it may change over the film: it has two keys of anything, or may be carried.
 bool moves(const animator::Actor& actor);
 
 class Moments {
