@@ -1,5 +1,6 @@
 // Steps of films: what a gesture shows, what is written, and that commands write the same.
 #include "host/content/animator/actor_state.h"
+#include "host/content/animator/camera_points.h"
 #include "host/content/animator/pose.h"
 #include "host/content/film/film_json.h"
 #include "tests/host/studio/project/open_files.h"
@@ -77,8 +78,7 @@ TEST_F(FilmSteps, AStepWritesWhatTheCommandWritesAndShowsItBefore) {
       EXPECT_TRUE(
           same(animator::state_at(shown, actor, each.frame), animator::state_at(project->film(), actor, each.frame)))
           << each.step;
-    EXPECT_EQ(animator::value_at(shown.camera.eye, each.frame),
-              animator::value_at(project->film().camera.eye, each.frame));
+    EXPECT_EQ(animator::eye_at(shown, each.frame), animator::eye_at(project->film(), each.frame));
     EXPECT_EQ(animator::value_at(shown.camera.fov, each.frame),
               animator::value_at(project->film().camera.fov, each.frame));
     ASSERT_EQ(shown.lights.size(), project->film().lights.size());
