@@ -60,8 +60,9 @@ Polyline polygon_of(const Json& shape) {
 Polyline corners_seen(const Screen& screen, const glm::dvec3& low, const glm::dvec3& high) {
   Polyline pixels;
   for (int corner = 0; corner < 8; ++corner)
-    pixels.push_back(screen.pixel_of({corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y,
-                                      corner & 4 ? high.z : low.z}).value());
+    pixels.push_back(
+        screen.pixel_of({corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y, corner & 4 ? high.z : low.z})
+            .value());
   return convex_hull(pixels);
 }
 
@@ -87,8 +88,7 @@ TEST(Ghosts, AreTheOutlinesOfTheSegmentsAtOtherFrames) {
       const Polyline polygon = polygon_of(shape);
       if (polygon.size() != expected.size()) continue;
       double farthest = 0;
-      for (std::size_t i = 0; i < polygon.size(); ++i)
-        farthest = std::max(farthest, distance_to(polygon, expected[i]));
+      for (std::size_t i = 0; i < polygon.size(); ++i) farthest = std::max(farthest, distance_to(polygon, expected[i]));
       nearest = std::min(nearest, farthest);
     }
     EXPECT_LT(nearest, 0.08) << id << ": the body's box";
@@ -149,7 +149,8 @@ TEST(Ghosts, TheTrailIsTheWayOfTheJointsEndWithATickAFrame) {
   ASSERT_EQ(ticks.size(), 17u);
   for (const int frame : {0, 3, 8, 16}) {
     const animator::ActorState state = animator::state_at(scene.project.film(), 1, std::uint32_t(frame));
-    const glm::dvec2 end = scene.screen().pixel_of(state.joints[1].turn * glm::dvec3(2, 0, 0) + state.joints[1].place).value();
+    const glm::dvec2 end =
+        scene.screen().pixel_of(state.joints[1].turn * glm::dvec3(2, 0, 0) + state.joints[1].place).value();
     const Json& tick = ticks.at(std::to_string(frame - 8));
     EXPECT_LT(glm::length(polygon_of(tick)[0] - end), 0.08) << frame;
     EXPECT_EQ(tick.contains("selected"), frame == 0 || frame == 16) << frame;
@@ -192,7 +193,8 @@ TEST(Ghosts, AFiguresFourTakeLittleTime) {
     const auto begin = std::chrono::steady_clock::now();
     const Json shapes = described(ghosts.handles(0, {2, 2, 4}, selection, screen), "");
     EXPECT_EQ(shapes.size(), count);
-    least = std::min(least, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
+    least =
+        std::min(least, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
   }
   EXPECT_LT(described(ghosts.handles(0, {2, 2, 4}, selection, screen), "").dump().size(), 40'000u);
   EXPECT_LT(least, 20) << "milliseconds, of which a machine in peace takes one or two";
