@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kMostJoints = 400;   // of actors that nobody has selected: more would be no picture
 constexpr std::size_t kMostPoints = 64;    // of a shape: of more, those that lie farthest out
 constexpr std::uint32_t kMostTicks = 240;  // of a trail
-constexpr double kLeastCorner = 0.6;  // pixels from the line between its neighbours
+constexpr double kLeastCorner = 0.6;       // pixels from the line between its neighbours
 
 glm::dvec3 placed(const wire::Matrix& matrix, const glm::dvec3& point) {
   glm::dvec3 place;

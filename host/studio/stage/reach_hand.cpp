@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "host/content/animator/angles.h"
+#include "host/content/animator/attachments.h"
 #include "host/studio/stage/ghosts.h"
 #include "host/studio/stage/hand.h"
 
@@ -20,27 +21,27 @@ bool is_on(const modeler::Model& model, std::size_t joint, std::size_t above) {
   return joint == above;
 }
 
-bool has_pinned_foot(const modeler::Model& model, const std::vector<std::size_t>& pins) {
-  return std::ranges::any_of(pins, [&](std::size_t pin) {
-    return std::ranges::any_of(std::initializer_list{modeler::Side::left, modeler::Side::right},
-                               [&](modeler::Side side) {
-                                 const std::size_t ankle = model.limbs.of(modeler::Limb::ankle, side);
-                                 return ankle != modeler::kNone && is_on(model, pin, ankle);
-                               });
-  });
+// The ankle that carries the joint or is it; none: no ankle does.
+std::optional<std::size_t> ankle_of(const modeler::Model& model, std::size_t joint) {
+  for (const modeler::Side side : {modeler::Side::left, modeler::Side::right}) {
+    const std::size_t ankle = model.limbs.of(modeler::Limb::ankle, side);
+    if (ankle != modeler::kNone && is_on(model, joint, ankle)) return ankle;
+  }
+  return std::nullopt;
 }
 
-// On pinned feet the whole figure goes along.
+// A foot is pulled at its ankle: pulled elsewhere it would rather turn than bend the knee. On pinned feet the whole
+// figure goes along. A model, and who is carried, has no place of its own.
 motion::Chain chain_at(const Project& project, const Selection& selection, const std::vector<std::size_t>& pins) {
   const modeler::Model& model = model_of(project, *selection.actor);
-  motion::Chain chain;
+  const bool stays =
+      project.is_model() || animator::attachment_at(project.film().actors[*selection.actor], project.frame());
+  const bool stands = std::ranges::any_of(pins, [&](std::size_t pin) { return ankle_of(model, pin).has_value(); });
+  motion::Chain chain{0, {}, {}, true};
   if (selection.joint)
-    chain = motion::chain_of(model, *selection.joint,
-                             !project.is_model() && has_pinned_foot(model, pins) ? motion::Extent::body
-                                                                                 : motion::Extent::limb);
-  else
-    chain = {0, {}, {}, true};
-  if (project.is_model()) chain.moves_actor = false;
+    chain = motion::chain_of(model, ankle_of(model, *selection.joint).value_or(*selection.joint),
+                             stands && !stays ? motion::Extent::body : motion::Extent::limb);
+  if (stays) chain.moves_actor = false;
   return chain;
 }
 
@@ -85,7 +86,9 @@ ReachHand::ReachHand(const Project& project, const Selection& selection, std::ve
       from_(place) {
   if (selection.joint) std::erase(pins_, *selection.joint);
   chain_ = chain_at(project, selection, pins_);
-  pull_.held = in_frame(motion::frame_in(model(), rest_, chain_.end), place);
+  const modeler::Axes end = motion::frame_in(model(), rest_, chain_.end);
+  held_ = selection.joint && ankle_of(model(), *selection.joint) ? end.place : place;
+  pull_.held = in_frame(end, held_);
 }
 
 ReachHand::ReachHand(const Project& project, const Selection& selection, std::vector<std::size_t> pins,
@@ -102,7 +105,7 @@ std::optional<Json> ReachHand::follow(const glm::dvec2& mouse, bool shift) {
   way[grip_.axis] = 1;
   const auto by = grip_.what == Grip::What::plane ? mouse_.across(from_) : mouse_.along(from_, way);
   if (!by) return std::nullopt;
-  pull_.to = from_ + *by;
+  pull_.to = held_ + *by;
   motion::pull(model(), rest_, posture_, chain_, pull_, pins_);
   return step();
 }

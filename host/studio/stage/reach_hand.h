@@ -46,7 +46,7 @@ class ReachHand {
   motion::Posture rest_, posture_;  // at the beginning; as it was shown last
   motion::Chain chain_;
   motion::Pull pull_;
-  glm::dvec3 from_;  // of the world
+  glm::dvec3 from_, held_;  // in the world at the beginning: where the mouse took it, and what is pulled
 };
 
 // The place at which arrows pull it: the joint's end, or the actor's own place. None: it cannot reach.

@@ -3,11 +3,14 @@
 
 #include <chrono>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include "host/content/animator/actor_state.h"
 #include "host/studio/stage/eye.h"
 #include "host/studio/stage/ghosts.h"
+#include "host/studio/stage/hand.h"
 #include "host/studio/stage/screen.h"
+#include "host/studio/stage/selection.h"
 #include "tests/host/studio/stage/fakes.h"
 
 namespace mars::studio {
@@ -40,6 +43,18 @@ struct Scene : OnStage {
     const modeler::Axes frame = state().joints[joint(name)];
     return frame.turn * end_of(model().joints[joint(name)]) + frame.place;
   }
+  // What the mouse takes there.
+  Held under(const glm::dvec2& pixel) const {
+    Moments moments(project);
+    moments.renew();
+    const Picked picked = pick(project, moments, screen(), pixel);
+    const modeler::Axes frame = state().joints[picked.selection.joint.value()];
+    return {*picked.selection.joint, glm::transpose(frame.turn) * (picked.hit.value().place - frame.place)};
+  }
+  glm::dvec3 place_of(const Held& held) const {
+    const modeler::Axes frame = state().joints[held.joint];
+    return frame.turn * held.place + frame.place;
+  }
   double drift(const std::string& name, const modeler::Axes& from) const {
     const modeler::Axes now = state().joints[joint(name)];
     double most = glm::length(now.place - from.place);
@@ -71,14 +86,14 @@ struct Scene : OnStage {
 
 TEST(Reaching, AHandIsPulledByItsWholeArm) {
   Scene scene;
-  const glm::dvec2 from = scene.pixel(scene.state().joints[scene.joint("left-hand")].place);
+  const glm::dvec2 from = scene.pixel(scene.end("left-hand")) - glm::dvec2(0, 3);
+  const Held held = scene.under(from);
+  ASSERT_EQ(held.joint, scene.joint("left-hand"));
   scene.grab(from);
-  const std::string grabbed = scene.last("grabbed")["joint"];
-  ASSERT_TRUE(grabbed == "left-hand" || grabbed == "left-forearm") << grabbed;
-  for (const glm::dvec2& by : {glm::dvec2(6, -10), {20, -60}, {40, -90}, {10, -70}}) {
+  EXPECT_EQ(scene.last("grabbed")["joint"], "left-hand");
+  for (const glm::dvec2& by : {glm::dvec2(6, -10), {20, -40}, {-20, -70}, {10, -50}}) {
     scene.drag(from + by);
-    const glm::dvec2 held = scene.pixel(scene.state().joints[scene.joint("left-hand")].place);
-    EXPECT_LT(glm::length(held - from - by), 6) << by.x << ", " << by.y << ": near where the mouse took it";
+    EXPECT_LT(glm::length(scene.pixel(scene.place_of(held)) - from - by), 0.5) << by.x << ", " << by.y;
     EXPECT_LE(scene.beyond_limits(), 0);
   }
   const Json step = scene.project.previews.back();
@@ -172,6 +187,22 @@ TEST(Reaching, APinnedHandStaysWhileTheActorMoves) {
   scene.drag(place + glm::dvec2(-8, 6));
   EXPECT_LT(glm::length(scene.state().joints[scene.joint("left-hand")].place - hand.place), 1e-6);
   EXPECT_LT(glm::length(scene.pixel(scene.state().place) - place - glm::dvec2(-8, 6)), 0.1);
+}
+
+TEST(Reaching, AFootIsPulledByItsLegAndBendsTheKnee) {
+  Scene scene;
+  const glm::dvec2 from = scene.pixel(scene.state().joints[scene.joint("left-toes")].place);
+  scene.grab(from);
+  const std::string grabbed = scene.last("grabbed")["joint"];
+  ASSERT_TRUE(grabbed.starts_with("left-toe") || grabbed == "left-foot" || grabbed == "left-sole") << grabbed;
+  const glm::dvec2 ankle = scene.pixel(scene.state().joints[scene.joint("left-foot")].place);
+  for (const glm::dvec2& by : {glm::dvec2(2, -5), {5, -20}, {10, -40}, {3, -8}}) {
+    scene.drag(from + by);
+    const glm::dvec2 now = scene.pixel(scene.state().joints[scene.joint("left-foot")].place);
+    EXPECT_LT(glm::length(now - ankle - by), 1.5) << by.x << ", " << by.y;
+    EXPECT_GT(scene.state().pose[scene.joint("left-shin")].y, 5);
+    EXPECT_LE(scene.beyond_limits(), 0);
+  }
 }
 
 TEST(Reaching, OfAModelLimbsFollowAndNothingElse) {
