@@ -254,7 +254,7 @@ class TheStage : public Stage {
     const Screen screen = screen_of(view);
     if (held.mark) {
       select(view.page, names_of(project_, held));
-      begin(view, MarkHand(*handle.grip, state_of(project_, moments_, *held.mark), screen, pixel));
+      begin(view, MarkHand(project_, *handle.grip, state_of(project_, moments_, *held.mark), screen, pixel));
     } else if (view.tool == Tool::reach) {
       begin(view, ReachHand(project_, held, pins_of(view.page, held), *handle.grip, screen, pixel));
     } else {
