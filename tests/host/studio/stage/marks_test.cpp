@@ -148,7 +148,7 @@ TEST(Marks, TheCameraIsPulled) {
 
 // The words are those of the command, which does what the hand did.
 TEST(Marks, ACameraThatGoesAlongIsPulledByItsOffset) {
-  constexpr const char* kFilm = R"({"version": 2, "frames": 9, "size": [640, 320],
+  constexpr const char* kFilm = R"({"frames": 9, "size": [640, 320],
     "camera": {"eye": {"actor": "box", "joint": "body", "offset": [2, -4, 2], "level": true},
                "at": {"actor": "box", "offset": [2, 0, 2]}},
     "models": {"box": {"joints": [{"name": "body", "segment": {"shape": "box"}}]}},
