@@ -20,6 +20,7 @@ namespace {
 // How the part is written, by what it is now.
 std::string remedy_for(const std::string& part, const document::Json& now) {
   if (!now.is_array()) return "write one number: " + part + "=" + now.dump();
+  if (now.size() == 2) return "write two numbers: " + part + "=" + now[0].dump() + "," + now[1].dump();
   return "write one number for one axis, like " + part + ".y=" + now[1].dump() + ", or three for all: " + part + "=" +
          now[0].dump() + "," + now[1].dump() + "," + now[2].dump();
 }
@@ -53,6 +54,7 @@ document::Json value_after(const PartSetting& setting, const Thing& thing, const
                            Beyond beyond, Remarks& remarks) {
   document::Json value = part.value_at(frame);
   if (!value.is_array()) return written(*setting.numbers[0]);
+  if (value.size() == 2) return written(glm::dvec2(*setting.numbers[0], *setting.numbers[1]));
   glm::dvec3 numbers = vector_of(value);
   for (int axis = 0; axis < 3; ++axis) numbers[axis] = setting.numbers[axis].value_or(numbers[axis]);
   if (part.joint) numbers = within_limits(thing.name, *part.joint, numbers, beyond, remarks);
@@ -130,8 +132,8 @@ PartSetting PartSetting::read(const std::string& text, const Thing& thing) {
   if (now.is_null()) throw Failure("has no numbers", "'" + text + "'", "use the commands attach and detach");
   const std::string remedy = remedy_for(typed, now);
   const std::vector<double> numbers = numbers_of(text.substr(equals + 1), text, remedy);
-  const bool three = now.is_array();
-  const std::size_t needed = with_axis || !three ? 1 : 3;
+  const bool three = now.is_array() && now.size() == 3;
+  const std::size_t needed = with_axis || !now.is_array() ? 1 : now.size();
   if (numbers.size() != needed || (with_axis && !three))
     throw Failure("has " + document::counted(numbers.size(), "number"), "'" + text + "'", remedy);
   for (std::size_t i = 0; i < needed; ++i) setting.numbers[axis + i] = numbers[i];

@@ -14,6 +14,8 @@
 namespace mars::animator {
 namespace {
 
+constexpr std::string_view kLight = "light/";  // and its number, from 1
+
 template <typename Value>
 KeyedPart plain(std::string_view name, const Channel<Value>& channel) {
   return {std::string(name), nullptr, nullptr, [&channel](std::uint32_t frame) {
@@ -134,8 +136,18 @@ std::vector<Chosen> everything(document::Json& film, const Film& meaning) {
 [[noreturn]] void refuse_name(const std::string& name, const Film& meaning) {
   std::vector<std::string_view> names = {"camera"};
   for (const Actor& actor : meaning.actors) names.push_back(actor.name);
-  throw Failure("is no actor of the film, nor its camera", "'" + name + "'",
+  throw Failure("is no actor of the film, nor its camera or light/1, light/2, ...", "'" + name + "'",
                 document::did_you_mean(name, names, "`mars animate FILM list` shows what has keys"));
+}
+
+Thing light_named(document::Json& film, const Film& meaning, const std::string& name) {
+  const auto lights = film.find("lights");
+  const std::size_t count = lights == film.end() ? 0 : lights->size();
+  const auto number = document::number_in<std::size_t>(std::string_view(name).substr(kLight.size()));
+  if (!number || *number == 0 || *number > count)
+    throw Failure("is no light of the film", "'" + name + "'",
+                  count == 0 ? "give the film lights of its own" : "the last one is light/" + std::to_string(count));
+  return light_of((*lights)[*number - 1], meaning.lights[*number - 1], *number - 1);
 }
 
 Thing thing_named(document::Json& film, const Film& meaning, const std::string& name) {
@@ -147,6 +159,7 @@ Thing thing_named(document::Json& film, const Film& meaning, const std::string& 
                     "change its matrices in the tool they came from");
     return actor_of(film.at("actors")[i], meaning, actor);
   }
+  if (name.starts_with(kLight)) return light_named(film, meaning, name);
   if (name != "camera") refuse_name(name, meaning);
   return camera_of(film, meaning);
 }

@@ -45,6 +45,7 @@ animator::Remarks apply(Json& json, const animator::Film& film, const CameraStep
 }
 
 animator::Remarks apply(Json& json, const animator::Film& film, const LightStep& step, std::uint32_t frame) {
+  check_light(film, !json.contains("lights"), step);
   std::vector<PartSetting> settings;
   if (step.place) settings.push_back(setting_of("place", *step.place));
   if (step.at) settings.push_back(setting_of("at", *step.at));
