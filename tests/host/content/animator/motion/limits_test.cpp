@@ -104,7 +104,7 @@ TEST(Actions, ThatCannotBeAreRefusedBeforeAnyWorkIsDone) {
            Impossible{"walk steps 1e6", "'steps' is 1e6 (give a number from 1 to 10000)"},
            Impossible{"walk steps -3 pace 99", "'steps' is -3 (give a number from 1 to 10000)"},
            Impossible{"walk distance 1e6", "'distance' is 1000000 away, which takes"},
-           Impossible{"walk to 1e6 1e6", "a walk has at most 10000: go to a nearer place"},
+           Impossible{"walk to 1e6 1e6", "a way has at most 10000: go to a nearer place"},
            Impossible{"walk steps 4 distance 1e6", "would take a step of 250000, where two legs of"},
            Impossible{"walk step-length 100", "take shorter steps"},
            Impossible{"walk steps 10000 pace 0.1", "would end at frame 24004440", 240},
