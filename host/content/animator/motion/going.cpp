@@ -156,12 +156,17 @@ void refuse_both(const Arguments& arguments, std::string_view one, std::string_v
     arguments.refuse(one, "stands beside " + std::string(other), "give one of them");
 }
 
+Style style_of(const Arguments& arguments) {
+  return {arguments.number("arm-swing", 1, {0, 3}), arguments.number("bounce", 1, {0, 3}),
+          arguments.number("knee-lift", 1, {0, 3}), arguments.number("lean", 0, {-30, 45})};
+}
+
 modeler::Side first_side(const Arguments& arguments) {
   constexpr std::string_view sides[] = {"left", "right"};
   return kSides[arguments.choice("first", arguments.number("turn", 0, {-3600, 3600}) > 0 ? 0 : 1, sides)];
 }
 
-std::optional<Way> way_of(const Scene& scene, Going& going, double ordinary) {
+std::optional<Way> way_of(const Scene& scene, Going& going, double ordinary, double lost) {
   const Arguments& arguments = scene.arguments;
   refuse_both(arguments, "to", "distance");
   refuse_both(arguments, "to", "turn");
@@ -179,8 +184,9 @@ std::optional<Way> way_of(const Scene& scene, Going& going, double ordinary) {
     if (*far < 0.05 * going.body().leg_length()) return std::nullopt;
   }
   const double step = arguments.number("step-length", ordinary, {1e-6, document::kFarthest});
-  const std::uint32_t steps = far && !arguments.has("steps") ? steps_for(arguments, *far, step) : asked;
-  Path path{stand_of(going.now()), far ? *far : steps * step, arguments.number("turn", 0, {-3600, 3600})};
+  const std::uint32_t steps = far && !arguments.has("steps") ? steps_for(arguments, *far + lost * step, step) : asked;
+  Path path{stand_of(going.now()), far ? *far : std::max(0.5, steps - lost) * step,
+            arguments.number("turn", 0, {-3600, 3600})};
   if (to) path.start.heading = path.start.heading + bearing(path.start, *to);
   return Way{path, steps, arguments.has("turn") && !arguments.has("steps") && !arguments.has("step-length")};
 }

@@ -90,12 +90,14 @@ struct Way {
   bool may_shorten;  // nobody has said how many or how long the steps are of a bow
 };
 
-// Turns the figure first where `to` wants it; nothing if it is there. `ordinary` is a step's length.
-std::optional<Way> way_of(const Scene& scene, Going& going, double ordinary);
+// Turns the figure first where `to` wants it; nothing if it is there. `ordinary` is a step's length; setting out and
+// stopping cost so many steps' lengths.
+std::optional<Way> way_of(const Scene& scene, Going& going, double ordinary, double lost = 0);
 
 // Goes by `gait(steps)`: in twice as many shorter steps, where limits want it and the way allows it.
 void go_along(Going& going, const Way& way, const std::function<Gait(int steps)>& gait);
 
+Style style_of(const Arguments& arguments);
 modeler::Side first_side(const Arguments& arguments);
 
 }  // namespace mars::motion

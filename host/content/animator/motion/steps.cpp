@@ -34,11 +34,6 @@ Gait walk_gait(const Body& body, const Stance& from, const Path& path, int steps
   return gait;
 }
 
-Style style_of(const Arguments& arguments) {
-  return {arguments.number("arm-swing", 1, {0, 3}), arguments.number("bounce", 1, {0, 3}),
-          arguments.number("knee-lift", 1, {0, 3}), arguments.number("lean", 0, {-30, 45})};
-}
-
 }  // namespace
 
 Motion walk(const Scene& scene) {
