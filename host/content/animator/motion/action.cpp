@@ -4,6 +4,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/animator/motion/gesture.h"
+#include "host/content/animator/motion/jumping.h"
 #include "host/content/animator/motion/kinematic.h"
 #include "host/content/animator/motion/running.h"
 #include "host/content/animator/motion/sitting.h"
@@ -43,6 +44,11 @@ constexpr Parameter kRun[] = {kSteps,
                               kUpAndDown,
                               kKneeLift,
                               kLean};
+constexpr Parameter kJump[] = {
+    {"height", "H", "that the hips rise after the feet have left; default: 0.35 of the leg", "1"},
+    {"distance", "D", "forward, negative backward; default: 0", "2.5"},
+    {"turn", "DEGREES", "to the left while it flies; default: 0", "180"},
+    {"gravity", "G", "units a second and second; default: 9.81 where a leg is 0.835 long, in proportion", "28"}};
 constexpr Parameter kTurn[] = {
     {"by", "DEGREES", "to the left; default: 90", "-90"}, {"to", "X Y", "to face a place of the floor", "2 -1"}, kPace};
 constexpr Parameter kSit[] = {
@@ -81,6 +87,7 @@ constexpr Parameter kGo[] = {{"to", "X Y Z", "the actor's place then; needed", "
 constexpr Action kActions[] = {
     {"walk", "Walk: some steps, a distance, to a place, or along a bow", kWalk, walk},
     {"run", "Run: some steps, a distance, to a place, or along a bow", kRun, run},
+    {"jump", "Jump from both feet to both feet, up, forward or turning", kJump, jump},
     {"turn", "Turn on the spot, by stepping", kTurn, turn},
     {"sit", "Sit down on a seat behind", kSit, sit},
     {"stand", "Stand up from sitting", kStand, stand},

@@ -60,6 +60,14 @@ Gait turn_gait(const Body& body, const Stance& from, double by, double at_once, 
 
 }  // namespace
 
+void require_upright(const Scene& scene, const Body& body, const Posture& posture) {
+  if (frame_in(*body.model, posture, body.pelvis).place.z - body.floor_under(posture) >= kUpright * body.height) return;
+  throw Failure(
+      "does not stand at frame " + std::to_string(scene.at), scene.where(),
+      "let it stand up first, by the action stand; to do it again otherwise, give --at with the frame where it "
+      "began");
+}
+
 glm::dvec2 ahead_of(double heading) { return {std::cos(glm::radians(heading)), std::sin(glm::radians(heading))}; }
 
 Stand stand_of(const Stance& stance) {
@@ -111,11 +119,7 @@ Going::Going(const Scene& scene, const char* command, double pace)
       body_(body_of(scene.model(), scene.actor.name, command)),
       period_(std::max(4.0, std::round(scene.film.rate / scene.arguments.number("pace", pace, {0.1, 10})))) {
   postures_.push_back(posture_at(scene.model(), scene.actor.motion, scene.at));
-  const Stance stance = now();
-  if (stance.pelvis.z - body_.floor_under(postures_[0]) < kUpright * body_.height)
-    throw Failure("does not stand at frame " + std::to_string(scene.at), "actor '" + scene.actor.name + "', " + command,
-                  "let it stand up first, by the action stand; to do it again otherwise, give --at with the "
-                  "frame where it began");
+  require_upright(scene, body_, postures_[0]);
 }
 
 // Refuses what cannot be walked whatever the joints allow, before a posture is sought.

@@ -17,6 +17,9 @@ inline constexpr double kWalkSettle = 0.5;  // and to both after the last
 
 glm::dvec2 ahead_of(double heading);
 
+// Refuses a figure that sits at the scene's frame.
+void require_upright(const Scene& scene, const Body& body, const Posture& posture);
+
 // Where a body stands, as steps see it.
 struct Stand {
   glm::dvec2 middle;  // between its feet
