@@ -27,6 +27,11 @@ double place_digit(const Body& body) { return std::pow(10, std::floor(std::log10
 
 double share(std::size_t from, std::size_t to, std::size_t at) { return double(at - from) / double(to - from); }
 
+// The same turn of a free joint, each number from -180 to 180.
+glm::dvec3 within_a_turn(const glm::dvec3& turn) {
+  return {std::remainder(turn.x, 360), std::remainder(turn.y, 360), std::remainder(turn.z, 360)};
+}
+
 class Keying {
  public:
   Keying(std::span<const Posture> postures, std::uint32_t first) : postures_(postures), keys_(postures.size()) {
@@ -125,7 +130,7 @@ std::vector<animator::ActorKey> keys_of(const Body& body, std::span<const std::s
   Keying keying(postures, first);
   keying.add_places(place_digit(body), kPlaceTolerance * body.leg_length());
   keying.add_turns(
-      modeler::Joint{}, kLegTolerance, [](const Posture& p) { return p.turn; },
+      modeler::Joint{}, kLegTolerance, [](const Posture& p) { return within_a_turn(p.turn); },
       [](animator::ActorKey& key, const glm::dvec3& turn) { key.turn = turn; });
   for (const std::size_t number : joints) {
     const modeler::Joint& joint = body.model->joints[number];

@@ -9,12 +9,12 @@ namespace mars::motion {
 namespace {
 
 constexpr double kPace = 2.7;     // steps a second
-constexpr double kLead = 0.7;     // of a period: the body leans forward before the first foot leaves
+constexpr double kLead = 0.85;    // of a period: the body leans forward before the first foot leaves
 constexpr double kRest = 0.45;    // after the last landing it has stopped
 constexpr double kSettle = 1;     // and stands upright
 constexpr double kSetsOut = 2.4;  // periods until it has its speed
 constexpr double kStops = 3.2;    // that it needs to stop
-constexpr double kLost = 0.85;    // of a step: by setting out and stopping
+constexpr double kLost = 0.7;     // of a step: by setting out and stopping
 constexpr double kInLine = 0.55;  // of a walk's: feet are nearer to the middle
 constexpr double kBehind = 0.1;   // of a leg: the foot stands behind the body in the middle of its time on the floor
 
@@ -30,7 +30,7 @@ Gait run_gait(const Body& body, const Stance& from, const Path& path, int steps,
     const bool stops = k >= steps;
     const double middle = planner.landing(k) + stands / 2;
     const double s = stops ? path.length : std::max(0.0, advance.at(middle) - kBehind * body.leg_length());
-    const double apart = stops ? 1 : 1 - (1 - kInLine) * advance.speed_at(middle) / advance.speed();
+    const double apart = stops || body.planar() ? 1 : 1 - (1 - kInLine) * advance.speed_at(middle) / advance.speed();
     gait.steps.push_back(planner.step(k, side, planner.print(path.at(s), path.heading(s), side, apart)));
   }
   const glm::dvec2 off = glm::dvec2(from.pelvis) - planner.waypoint(0, path.at(0), path.heading(0), 0).place;

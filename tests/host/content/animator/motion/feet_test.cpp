@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <map>
 
+#include "host/content/animator/motion/body.h"
 #include "host/content/film/compile.h"
 #include "tests/host/content/animator/motion/bodies.h"
 #include "tests/host/content/modeler/surface.h"
@@ -70,6 +71,20 @@ class Feet {
     EXPECT_LT(floating_, kDown) << what;
     EXPECT_GT(held_, 300u) << what << ": points that were measured";
     ::testing::Test::RecordProperty(what, "slides " + std::to_string(slid_) + ", through " + std::to_string(through_));
+  }
+
+  // Of gaits with a flight; returns for how many frames no foot is down.
+  int expect_landings(const std::string& what) {
+    int flown = 0;
+    for (std::uint32_t frame = performed_.first; frame <= performed_.last; ++frame) {
+      floating_ = 0;
+      look(frame);
+      flown += floating_ > kDown;
+    }
+    EXPECT_LT(slid_, kSlide) << what;
+    EXPECT_LT(through_, kThrough) << what;
+    EXPECT_GT(held_, 300u) << what << ": points that were measured";
+    return flown;
   }
 
   void expect_no_sinking(const std::string& what) {
@@ -158,8 +173,9 @@ TEST(Feet, OfLegsOfOnePieceOnHingesDoNotSink) {
 }
 
 TEST(Feet, StayInOtherStylesAndOnBows) {
-  for (const char* words : {"walk steps 4 lean 12 bounce 2 knee-lift 1.5 arm-swing 2", "walk steps 8 turn 120 pace 1.5",
-                            "walk distance 6 steps 7 first left", "walk to -3 4", "turn by -135", "turn to 0 9"})
+  for (const char* words :
+       {"walk steps 4 lean 12 bounce 2 knee-lift 1.5 arm-swing 2", "walk steps 8 turn 120 pace 1.5",
+        "walk distance 6 steps 7 first left", "walk to -3 4", "turn by -135", "turn by 300", "turn to 0 9"})
     for (const Build& build : people()) {
       document::Json film = film_with(build.model);
       const Performed performed = act(film, words, 5);
@@ -177,6 +193,52 @@ TEST(Feet, StayWhileAFigureSitsDownAndStandsUp) {
       Feet(film, performed, build.leg).expect_footing(build.name + " " + words);
     }
   }
+}
+
+std::vector<Build> with_knees() {
+  std::vector<Build> builds = people();
+  builds.push_back({"robot", robot(), 87});
+  return builds;
+}
+
+TEST(Feet, StayWhereTheyLandInARun) {
+  for (const char* words : {"run steps 6", "run steps 1", "run distance 9 pace 3 lean 6", "run to -6 9"})
+    for (const Build& build : with_knees()) {
+      if (build.name == "robot" && std::string(words) != "run steps 6") continue;  // its hips do not turn
+      document::Json film = film_with(build.model);
+      const Performed performed = act(film, words, 5);
+      EXPECT_GT(Feet(film, performed, build.leg).expect_landings(build.name + " " + words), 1) << build.name << words;
+    }
+}
+
+TEST(Feet, LeaveAndLandTogetherInAJump) {
+  for (const char* words : {"jump", "jump distance 1.6", "jump distance -0.6", "jump turn 180", "jump height 0.4"})
+    for (const Build& build : with_knees()) {
+      if (build.name == "robot" && std::string(words) != "jump") continue;
+      document::Json film = film_with(build.model);
+      const Performed performed = act(film, words, 5);
+      EXPECT_GT(Feet(film, performed, build.leg).expect_landings(build.name + " " + words), 5) << build.name << words;
+    }
+}
+
+// The hips' second differences are the acceleration, as long as no foot is down.
+TEST(Jumping, FliesByGravity) {
+  document::Json film = film_with(human());
+  const Performed done = act(film, "jump height 1 gravity 20 distance 2", 0);
+  const animator::Film shown = read(film);
+  const Body body = body_of(shown.models[0], "anna", "test");
+  const auto hips = [&](std::uint32_t frame) {
+    return frame_in(shown.models[0], posture_at(shown.models[0], shown.actors[0].motion, frame), body.pelvis).place;
+  };
+  double top = 0;
+  int falling = 0;
+  for (std::uint32_t frame = 1; frame < done.last; ++frame) {
+    const glm::dvec3 change = hips(frame - 1) - 2.0 * hips(frame) + hips(frame + 1);
+    falling += std::abs(change.z * 24 * 24 + 20) < 1.5;
+    top = std::max(top, hips(frame).z);
+  }
+  EXPECT_GE(falling, 13);
+  EXPECT_NEAR(top - hips(0).z, 1.2, 0.1) << "it leaves on its toes";
 }
 
 TEST(Walking, GoesOnFromWhereTheFigureStandsAndLooks) {
