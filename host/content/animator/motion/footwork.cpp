@@ -64,7 +64,7 @@ Foot Footwork::standing(const Footprint& print, const Step* before, const Footpr
   const double flat = footing_.tread.flat * footing_.period, rise = footing_.tread.rise * footing_.period;
   if (before && time < before->land + flat) {
     const double pitch = strike_pitch(*before, from) * (1 - (time - before->land) / flat);
-    return rolled(print, sole.heel, pitch, 0);
+    return rolled(print, sole.heel, pitch, sole.on_toes ? -pitch : 0);
   }
   if (!next || time < next->off - rise) return rolled(print, sole.heel, 0, 0);
   const double part = (time - next->off + rise) / rise, pitch = off_pitch(*next, print) * part * part;

@@ -102,7 +102,8 @@ TEST(Actions, ThatCannotBeAreRefusedBeforeAnyWorkIsDone) {
   const auto start = std::chrono::steady_clock::now();
   for (const auto& [words, reported, rate, at] : {
            Impossible{"walk steps 1e6", "'steps' is 1e6 (give a number from 1 to 10000)"},
-           Impossible{"walk steps -3 pace 99", "'steps' is -3 (give a number from 1 to 10000)"},
+           Impossible{"walk steps -3", "'steps' is -3 (give a number from 1 to 10000)"},
+           Impossible{"run pace 99", "'pace' is 99 (give a number from 0.1 to 10)"},
            Impossible{"walk distance 1e6", "'distance' is 1000000 away, which takes"},
            Impossible{"walk to 1e6 1e6", "a way has at most 10000: go to a nearer place"},
            Impossible{"walk steps 4 distance 1e6", "would take a step of 250000, where two legs of"},
