@@ -9,6 +9,7 @@
 #include "host/content/animator/motion/running.h"
 #include "host/content/animator/motion/sitting.h"
 #include "host/content/animator/motion/steps.h"
+#include "host/content/animator/motion/striding.h"
 #include "host/content/animator/read_film.h"
 
 namespace mars::motion {
@@ -44,6 +45,23 @@ constexpr Parameter kRun[] = {kSteps,
                               kUpAndDown,
                               kKneeLift,
                               kLean};
+constexpr Parameter kStrides{"strides", "N", "number of strides; default: 4, or as the distance needs", "6"};
+constexpr Parameter kTrot[] = {kStrides,
+                               kDistance,
+                               kTo,
+                               kBow,
+                               {"stride-length", "D", "default: 1.9 of the hips' height", "2.5"},
+                               {"pace", "N", "strides a second; default: 1.6", "2.2"},
+                               kUpAndDown,
+                               kKneeLift};
+constexpr Parameter kGallop[] = {kStrides,
+                                 kDistance,
+                                 kTo,
+                                 kBow,
+                                 {"stride-length", "D", "default: 3 times the hips' height", "6"},
+                                 {"pace", "N", "strides a second; default: 2", "2.6"},
+                                 kUpAndDown,
+                                 kKneeLift};
 constexpr Parameter kJump[] = {
     {"height", "H", "that the hips rise after the feet have left; default: 0.35 of the leg", "1"},
     {"distance", "D", "forward, negative backward; default: 0", "2.5"},
@@ -88,6 +106,8 @@ constexpr Action kActions[] = {
     {"walk", "Walk: some steps, a distance, to a place, or along a bow", kWalk, walk},
     {"run", "Run: some steps, a distance, to a place, or along a bow", kRun, run},
     {"jump", "Jump from both feet to both feet, up, forward or turning", kJump, jump},
+    {"trot", "Trot, on four legs", kTrot, trot},
+    {"gallop", "Gallop, on four legs", kGallop, gallop},
     {"turn", "Turn on the spot, by stepping", kTurn, turn},
     {"sit", "Sit down on a seat behind", kSit, sit},
     {"stand", "Stand up from sitting", kStand, stand},

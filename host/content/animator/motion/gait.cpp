@@ -179,25 +179,6 @@ class Walker {
   std::vector<CurvePoint> headings_;
 };
 
-// The lowest curve over all values that changes no faster than a moving mean over `reach` values to each
-// side.
-std::vector<double> smooth_cover(const std::vector<double>& values, int reach) {
-  const auto over = [&](const std::vector<double>& from, auto take) {
-    std::vector<double> result(from.size());
-    for (int i = 0; i < int(from.size()); ++i) {
-      const int first = std::max(0, i - reach), last = std::min(int(from.size()) - 1, i + reach);
-      result[i] = take(from.begin() + first, from.begin() + last + 1);
-    }
-    return result;
-  };
-  const auto highest = over(values, [](auto a, auto b) { return *std::max_element(a, b); });
-  return over(highest, [](auto a, auto b) {
-    double sum = 0;
-    for (auto i = a; i != b; ++i) sum += *i;
-    return sum / double(b - a);
-  });
-}
-
 // It begins as high as it is.
 void lower_smoothly(std::vector<double>& high, const Gait& gait) {
   const std::vector<double> cover = smooth_cover(high, std::max(1, int(gait.period / 3)));

@@ -160,6 +160,14 @@ void refuse_both(const Arguments& arguments, std::string_view one, std::string_v
     arguments.refuse(one, "stands beside " + std::string(other), "give one of them");
 }
 
+void refuse_contradictions(const Arguments& arguments, std::string_view count, std::string_view length) {
+  refuse_both(arguments, "to", "distance");
+  refuse_both(arguments, "to", "turn");
+  if (!arguments.has(count) || !arguments.has(length)) return;
+  refuse_both(arguments, count, "distance");
+  refuse_both(arguments, count, "to");
+}
+
 Style style_of(const Arguments& arguments) {
   return {arguments.number("arm-swing", 1, {0, 3}), arguments.number("bounce", 1, {0, 3}),
           arguments.number("knee-lift", 1, {0, 3}), arguments.number("lean", 0, {-30, 45})};
@@ -172,12 +180,7 @@ modeler::Side first_side(const Arguments& arguments) {
 
 std::optional<Way> way_of(const Scene& scene, Going& going, double ordinary, double lost) {
   const Arguments& arguments = scene.arguments;
-  refuse_both(arguments, "to", "distance");
-  refuse_both(arguments, "to", "turn");
-  if (arguments.has("steps") && arguments.has("step-length")) {
-    refuse_both(arguments, "steps", "distance");
-    refuse_both(arguments, "steps", "to");
-  }
+  refuse_contradictions(arguments, "steps", "step-length");
   const std::uint32_t asked = arguments.count("steps", 4, kMostSteps);
   std::optional<double> far = arguments.number("distance", {1e-6, document::kFarthest});
   const auto to = arguments.vector("to");

@@ -86,6 +86,9 @@ class Going {
 // Refuses two parameters that say the same.
 void refuse_both(const Arguments& arguments, std::string_view one, std::string_view other);
 
+// Refuses ways that are said twice: `count` and `length` are "steps" and "step-length".
+void refuse_contradictions(const Arguments& arguments, std::string_view count, std::string_view length);
+
 // How a person says which way to go: steps, distance, to, turn, step-length.
 struct Way {
   Path path;

@@ -254,6 +254,9 @@ class Jumper {
 
 }  // namespace
 
-Motion jump(const Scene& scene) { return Jumper(scene).motion(); }
+Motion jump(const Scene& scene) {
+  require_two_legs(scene.model(), scene.actor.name, "jump");
+  return Jumper(scene).motion();
+}
 
 }  // namespace mars::motion

@@ -47,6 +47,7 @@ Gait run_gait(const Body& body, const Stance& from, const Path& path, int steps,
 
 Motion run(const Scene& scene) {
   const Arguments& arguments = scene.arguments;
+  require_two_legs(scene.model(), scene.actor.name, "run");
   Going going(scene, "run", kPace);
   for (const modeler::Side side : kSides) needed(going.body(), modeler::Limb::knee, side, "run");
   const auto way = way_of(scene, going, running().tread.stride * going.body().leg_length(), kLost);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "host/content/animator/motion/going.h"
+#include "host/content/animator/motion/striding.h"
 
 namespace mars::motion {
 namespace {
@@ -37,6 +38,7 @@ Gait walk_gait(const Body& body, const Stance& from, const Path& path, int steps
 }  // namespace
 
 Motion walk(const Scene& scene) {
+  if (has_four_legs(scene.model())) return walk_on_four(scene);
   Going going(scene, "walk", kPace);
   const auto way = way_of(scene, going, walking().tread.stride * going.body().leg_length());
   if (!way) return going.motion();
@@ -48,6 +50,7 @@ Motion walk(const Scene& scene) {
 }
 
 Motion turn(const Scene& scene) {
+  if (has_four_legs(scene.model())) return turn_on_four(scene);
   refuse_both(scene.arguments, "by", "to");
   Going going(scene, "turn", kPace);
   const auto to = scene.arguments.vector("to");
