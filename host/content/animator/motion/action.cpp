@@ -32,8 +32,17 @@ constexpr Parameter kKneeLift{"knee-lift", "N", "of the swinging leg, times an o
 constexpr Parameter kLean{"lean", "DEGREES", "of the trunk, forward; default: 0", "8"};
 
 constexpr Parameter kWalk[] = {
-    kSteps,    kDistance,  kTo,       kBow, {"step-length", "D", "default: 0.62 of the leg", "0.7"}, kPace, kFirst,
-    kArmSwing, kUpAndDown, kKneeLift, kLean};
+    kSteps,
+    kDistance,
+    kTo,
+    kBow,
+    {"step-length", "D", "default: 0.62 of the leg; on four legs half the hips' height", "0.7"},
+    kPace,
+    kFirst,
+    kArmSwing,
+    kUpAndDown,
+    kKneeLift,
+    kLean};
 constexpr Parameter kRun[] = {kSteps,
                               kDistance,
                               kTo,
@@ -50,7 +59,7 @@ constexpr Parameter kTrot[] = {kStrides,
                                kDistance,
                                kTo,
                                kBow,
-                               {"stride-length", "D", "default: 1.9 of the hips' height", "2.5"},
+                               {"stride-length", "D", "default: 1.65 of the hips' height", "2.5"},
                                {"pace", "N", "strides a second; default: 1.6", "2.2"},
                                kUpAndDown,
                                kKneeLift};
@@ -58,7 +67,7 @@ constexpr Parameter kGallop[] = {kStrides,
                                  kDistance,
                                  kTo,
                                  kBow,
-                                 {"stride-length", "D", "default: 3 times the hips' height", "6"},
+                                 {"stride-length", "D", "default: 2.8 times the hips' height", "6"},
                                  {"pace", "N", "strides a second; default: 2", "2.6"},
                                  kUpAndDown,
                                  kKneeLift};
