@@ -14,7 +14,8 @@ namespace mars::motion {
 namespace {
 
 constexpr double kReach = 0.993;                // of a leg that stands: never quite straight
-constexpr double kLead = 0.15;                  // of a stride, before the first foot leaves
+constexpr double kLead = 0.05;                  // of a stride, before the first heel rises
+constexpr double kSetOut = 0.1;                 // after which the trunk sets out
 constexpr double kSettle = 0.3;                 // and after the last has landed
 constexpr double kSetsOut = 1.5, kStops = 1.5;  // strides
 constexpr int kRounds = 3;  // of lowering hips and shoulders, each of which moves the other a little
@@ -22,7 +23,12 @@ constexpr const char* kRemedy = "take shorter strides or steps, or widen the joi
 
 const std::array<Leg, 2>& legs_of(const Body& body, bool fore) { return fore ? *body.forelegs : body.legs; }
 
-double first_landing(const FourLegGait& gait, double period) { return std::round((kLead + 1 - gait.duty) * period); }
+// Strides until the first foot leaves.
+double lead_of(const FourLegGait& gait) { return kLead + gait.hind_tread.rise * gait.duty; }
+
+double first_landing(const FourLegGait& gait, double period) {
+  return std::round((lead_of(gait) + 1 - gait.duty) * period);
+}
 
 double latest(const FourLegGait& gait) { return std::max({gait.hind[0], gait.hind[1], gait.fore[0], gait.fore[1]}); }
 
@@ -40,7 +46,7 @@ class Strider {
         floor_(body.floor_under(start)),
         lands_(first_landing(gait, period)),
         stops_(lands_ + (errand.strides + latest(gait)) * period),
-        advance_(errand.path.length, 0.1 * period, stops_, kSetsOut * period, kStops * period) {
+        advance_(errand.path.length, kSetOut * period, stops_, kSetsOut * period, kStops * period) {
     measure();
     for (const bool fore : {false, true})
       for (const modeler::Side side : kSides) plan(fore, side);
@@ -214,6 +220,11 @@ class Strider {
 };
 
 }  // namespace
+
+double lost_strides(const FourLegGait& gait) {
+  const double lasts = lead_of(gait) + 1 - gait.duty + latest(gait) - kSetOut;
+  return (kSetsOut + kStops) / 2 - lasts;
+}
 
 double four_leg_frames(const FourLegGait& gait, int strides, double period) {
   return std::ceil(first_landing(gait, period) + (strides + latest(gait) + kSettle) * period);

@@ -46,6 +46,9 @@ std::vector<Posture> four_leg_postures(const Body& body, const Posture& start, c
                                        const FourLegStyle& style, const Errand& errand, double period,
                                        std::uint32_t first_frame, const std::string& doing);
 
+// Strides' lengths that setting out and stopping cost; negative: what they add.
+double lost_strides(const FourLegGait& gait);
+
 // Frames that it takes.
 double four_leg_frames(const FourLegGait& gait, int strides, double period);
 

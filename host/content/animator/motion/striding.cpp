@@ -15,7 +15,6 @@ namespace {
 constexpr double kOnTheWay = 12;    // degrees that the first stride can turn
 constexpr double kTurnAtOnce = 30;  // degrees a stride
 constexpr double kNothing = 0.2;    // degrees
-constexpr double kLost = 0.45;      // of a stride, by setting out and stopping, but for what the gait adds
 
 // What the parameters are called that count: a walk's steps are half strides.
 struct Counted {
@@ -71,8 +70,7 @@ class Striding {
     const double ordinary = gait_.stride * body_.height / counted_.in_a_stride;
     const double length = arguments.number(counted_.length, ordinary, {1e-6, document::kFarthest});
     const double stride = length * counted_.in_a_stride;
-    const double latest = std::max({gait_.hind[0], gait_.hind[1], gait_.fore[0], gait_.fore[1]});
-    const double lost = kLost + gait_.duty - latest;
+    const double lost = lost_strides(gait_);
     const int strides = far && !arguments.has(counted_.count)
                             ? int(count_for(arguments, *far / stride + lost, *far, stride))
                             : std::max(1, int(asked) / counted_.in_a_stride);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
+#include <string_view>
 
 #include "host/content/animator/motion/body.h"
 #include "host/content/film/compile.h"
@@ -21,6 +22,8 @@ constexpr double kDown = 0.003, kSlide = 0.002, kThrough = 0.003;
 // Straight legs under narrow hips leave the floor sideways.
 constexpr double kNarrow = 0.04, kNarrowSlide = 0.05;
 
+constexpr std::string_view kSoles[] = {"foot", "toes", "sole", "hoof", "paw"};
+
 using Points = std::vector<glm::dvec3>;
 
 // All over the parts whose names begin with "anna/left" and end so.
@@ -29,7 +32,7 @@ Points sole(const film::CompiledFilm& film, const std::string& side, std::uint32
   for (const wire::Segment& segment : film.view().segments()) {
     const std::string name(film.view().name(segment));
     if (!name.starts_with("anna/" + side) ||
-        !(name.ends_with("foot") || name.ends_with("toes") || name.ends_with("sole")))
+        !std::ranges::any_of(kSoles, [&](std::string_view end) { return name.ends_with(end); }))
       continue;
     const auto& m = film.view().matrix_at(segment, frame).m;
     const wire::Shape& shape = film.view().shapes()[segment.shape];
@@ -219,6 +222,51 @@ TEST(Feet, LeaveAndLandTogetherInAJump) {
       const Performed performed = act(film, words, 5);
       EXPECT_GT(Feet(film, performed, build.leg).expect_landings(build.name + " " + words), 5) << build.name << words;
     }
+}
+
+std::vector<Build> animals() {
+  const std::filesystem::path models = std::filesystem::path(MARS_SOURCE_DIR) / "examples/models";
+  return {{"horse", document::read_json(models / "horse.json"), 2.2},
+          {"dog", document::read_json(models / "dog.json"), 1.05}};
+}
+
+TEST(Feet, OfFourLegsStayWhereTheyStand) {
+  for (const char* words : {"walk steps 6", "walk steps 10 turn 60", "walk to -4 3", "turn by -100"})
+    for (const Build& build : animals()) {
+      document::Json film = film_with(build.model);
+      Feet(film, act(film, words, 5), build.leg).expect_footing(build.name + " " + words);
+    }
+}
+
+TEST(Feet, OfFourLegsStayWhereTheyLandInATrotAndAGallop) {
+  for (const char* words :
+       {"trot strides 4", "trot distance 9 turn 40 pace 2.2", "gallop strides 4", "gallop to -20 12"})
+    for (const Build& build : animals()) {
+      document::Json film = film_with(build.model);
+      EXPECT_GT(Feet(film, act(film, words, 5), build.leg).expect_landings(build.name + " " + words), 3)
+          << build.name << " " << words;
+    }
+}
+
+// Of the frames in the middle of a gait, for how many the feet are down that its footfalls say.
+TEST(FourLegs, WalkInFourBeatsAndTrotInPairs) {
+  const auto together = [](const char* words, const char* one, const char* other) {
+    document::Json film = film_with(animals()[0].model);
+    const Performed done = act(film, words, 0);
+    const animator::Film shown = read(film);
+    int same = 0;
+    const auto high = [&](const char* joint, std::uint32_t frame) {
+      const modeler::Model& model = shown.models[0];
+      const auto found = std::ranges::find(model.joints, std::string(joint), &modeler::Joint::name);
+      return frame_in(model, posture_at(model, shown.actors[0].motion, frame), found - model.joints.begin()).place.z >
+             0.35;
+    };
+    for (std::uint32_t frame = 24; frame < 56; ++frame) same += high(one, frame) == high(other, frame);
+    return same / 32.0;
+  };
+  EXPECT_GT(together("trot strides 6", "left-hind-hoof", "right-fore-hoof"), 0.9);
+  EXPECT_LT(together("trot strides 6", "left-hind-hoof", "left-fore-hoof"), 0.4);
+  EXPECT_LT(together("walk steps 8", "left-hind-hoof", "right-fore-hoof"), 0.75);
 }
 
 // The hips' second differences are the acceleration, as long as no foot is down.
