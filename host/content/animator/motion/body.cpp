@@ -154,6 +154,19 @@ double lowest_below(const modeler::Model& model, const Posture& drawn, modeler::
   return least;
 }
 
+// Square to the line from the hind feet to the forefeet: legs of four are not drawn straight.
+glm::dvec3 down_between_feet(const modeler::Model& model, const Posture& drawn, const glm::dvec3& left) {
+  const auto middle = [&](const LegLimbs& limbs) {
+    glm::dvec3 sum(0);
+    for (const modeler::Side side : kSides) {
+      const std::size_t toes = model.limbs.of(limbs[3], side), ankle = model.limbs.of(limbs[2], side);
+      sum += frame_in(model, drawn, toes == modeler::kNone ? ankle : toes).place;
+    }
+    return 0.5 * sum;
+  };
+  return glm::cross(left, middle(kForeleg) - middle(kHindLeg));
+}
+
 }  // namespace
 
 bool has_four_legs(const modeler::Model& model) {
@@ -249,7 +262,7 @@ Body body_of(const modeler::Model& model, const std::string& actor, const std::s
   if (body.pelvis == modeler::kNone) fail_limb(actor, command, "pelvis");
   const glm::dvec3 pelvis = frame_in(model, drawn, body.pelvis).place;
   const glm::dvec3 left = glm::normalize(hips[0] - hips[1]);
-  const glm::dvec3 legs = ankles[0] - hips[0];
+  const glm::dvec3 legs = has_four_legs(model) ? down_between_feet(model, drawn, left) : ankles[0] - hips[0];
   const glm::dvec3 up = glm::normalize(glm::dot(legs, left) * left - legs);
   body.axes = nearly_square({glm::cross(left, up), left, up});
   const glm::dmat3 back = glm::transpose(body.axes);
