@@ -4,13 +4,13 @@ namespace mars::motion {
 namespace {
 
 // Of feet that stand on their toes: a lower leg hangs from hock or wrist as it swings forward.
-constexpr CurvePoint kHindPitches[] = {{0, 40}, {0.2, 66}, {0.45, 58}, {0.7, 18}, {0.88, -14}, {1, -14}};
+constexpr CurvePoint kHindPitches[] = {{0, 40}, {0.2, 54}, {0.45, 48}, {0.7, 15}, {0.88, -14}, {1, -14}};
 constexpr CurvePoint kForePitches[] = {{0, 40}, {0.22, 88}, {0.45, 92}, {0.68, 40}, {0.86, -8}, {1, -14}};
 constexpr CurvePoint kLowHindPitches[] = {{0, 28}, {0.2, 42}, {0.45, 36}, {0.7, 10}, {0.88, -10}, {1, -10}};
 constexpr CurvePoint kLowForePitches[] = {{0, 28}, {0.22, 52}, {0.45, 56}, {0.68, 26}, {0.86, -6}, {1, -10}};
 constexpr CurvePoint kHindRises[] = {{0, 0.04}, {0.2, 0.08}, {0.45, 0.11}, {0.7, 0.08}, {0.88, 0.03}, {1, 0}};
 constexpr CurvePoint kForeRises[] = {{0, 0.04}, {0.2, 0.09}, {0.45, 0.14}, {0.7, 0.12}, {0.88, 0.04}, {1, 0}};
-constexpr CurvePoint kHighHindRises[] = {{0, 0.06}, {0.2, 0.20}, {0.42, 0.32}, {0.66, 0.24}, {0.86, 0.06}, {1, 0}};
+constexpr CurvePoint kHighHindRises[] = {{0, 0.06}, {0.2, 0.15}, {0.42, 0.24}, {0.66, 0.19}, {0.86, 0.06}, {1, 0}};
 constexpr CurvePoint kHighForeRises[] = {{0, 0.06}, {0.2, 0.22}, {0.42, 0.38}, {0.66, 0.30}, {0.86, 0.08}, {1, 0}};
 constexpr CurvePoint kLowBends[] = {{0, -28}, {0.18, 8}, {0.45, 26}, {0.7, 14}, {0.9, 8}, {1, 10}};
 constexpr CurvePoint kBends[] = {{0, -40}, {0.18, 10}, {0.45, 34}, {0.7, 18}, {0.9, 10}, {1, 14}};
