@@ -118,7 +118,7 @@ Going::Going(const Scene& scene, const char* command, double pace)
       command_(command),
       body_(body_of(scene.model(), scene.actor.name, command)),
       period_(std::max(4.0, std::round(scene.film.rate / scene.arguments.number("pace", pace, {0.1, 10})))) {
-  postures_.push_back(posture_at(scene.model(), scene.actor.motion, scene.at));
+  postures_.push_back(posture_of(scene));
   require_upright(scene, body_, postures_[0]);
 }
 

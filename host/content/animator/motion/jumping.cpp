@@ -40,7 +40,7 @@ class Jumper {
   explicit Jumper(const Scene& scene)
       : scene_(scene),
         body_(body_of(scene.model(), scene.actor.name, "jump")),
-        start_(posture_at(scene.model(), scene.actor.motion, scene.at)),
+        start_(posture_of(scene)),
         from_(stance_of(body_, start_)),
         floor_(body_.floor_under(start_)) {
     for (const modeler::Side side : kSides) needed(body_, modeler::Limb::knee, side, "jump");

@@ -36,7 +36,7 @@ class Striding {
       throw Failure("has no four legs, which '" + std::string(scene.action) + "' needs",
                     "actor '" + scene.actor.name + "'",
                     "let it walk or run, or name its forelegs in its model's limbs: docs/model-format.md");
-    postures_.push_back(posture_at(scene.model(), scene.actor.motion, scene.at));
+    postures_.push_back(posture_of(scene));
     require_upright(scene, body_, postures_[0]);
   }
 
