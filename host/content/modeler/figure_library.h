@@ -1,4 +1,4 @@
-// Whole figures that a model may begin as: people made of the same segments (thesis, figure 2.5), and a dog.
+// Whole figures that a model may begin as: people made of the same segments (thesis, figure 2.5), a dog and a horse.
 #pragma once
 
 #include <optional>
