@@ -123,11 +123,13 @@ constexpr const char* kEase =
 
 void require_thing(const Words& words) {
   if (words.thing.empty() && !words.all)
-    throw Failure("is not given", "whose keys to change", "name an actor, camera, light/N or material/NAME, or use --all");
+    throw Failure("is not given", "whose keys to change",
+                  "name an actor, camera, light/N or material/NAME, or use --all");
 }
 
 void add_pose(CLI::App& animate, Words& words) {
-  Command command(animate, words, "pose", "Set or turn joints of an actor, its place, the camera, lights and materials");
+  Command command(animate, words, "pose",
+                  "Set or turn joints of an actor, its place, the camera, lights and materials");
   command.thing(kThing)
       .parts("PART=NUMBERS",
              "One axis or all: degrees, or a place; other parts stay as they are. += and -= add to what it is there; "
@@ -236,7 +238,8 @@ void add_time(CLI::App& animate, Words& words) {
 
 void add_list(CLI::App& animate, Words& words) {
   Command command(animate, words, "list", "Show the keys in a table");
-  command.thing("An actor, camera, light/N or material/NAME; default: all that has keys. Example: robot").parts("PART", kParts);
+  command.thing("An actor, camera, light/N or material/NAME; default: all that has keys. Example: robot")
+      .parts("PART", kParts);
   command.app()->add_option("-f,--frame", words.frame, kRange)->type_name("RANGE");
   command.runs([&words] {
     film::FilmFile file = words.film.read();
