@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "host/content/animator/attachments.h"
 #include "host/content/animator/limits_left.h"
 #include "host/content/document/fields.h"
 #include "host/content/document/shell_word.h"
@@ -127,7 +128,7 @@ Findings check_film(const Film& film) {
     left.worst.outside > kExcessSeen ? lines.push_back(line_of(film, left)) : void(++small);
   for (const Actor& actor : film.actors) {
     const std::string name = "actor '" + actor.name + "'";
-    find_late_keys(film, name, last_key(actor.motion), lines);
+    find_late_keys(film, name, last_key(actor), lines);
     if (keyed(actor) && !moves(actor)) lines.push_back(name + ": has keys that are all the same: it never moves");
     find_jumps(film, actor, lines);
   }

@@ -105,7 +105,7 @@ void write_rig(Json& film, const Film& meaning) {
   if (film.contains("lights") && !film["lights"].empty())
     throw Failure("has lights of its own", meaning.source, "remove them first: mars film FILM light remove N");
   Json lights = Json::array();
-  for (const LightMotion& light : rig_lights(meaning.camera, meaning.color)) lights.push_back(light_of(light));
+  for (const LightMotion& light : rig_lights(meaning)) lights.push_back(light_of(light));
   put_before(film, "lights", std::move(lights), kBelowLights);
   if (film.contains("ambient") || meaning.color == wire::ColorSpace::coded) return;
   const Ambient ambient = rig_ambient(meaning.color);

@@ -10,6 +10,9 @@ namespace {
 
 using document::Json;
 
+// Shown elsewhere, or too long.
+constexpr std::string_view kNotShown[] = {"keys", "name", "model", "matrices", "pose", "materials"};
+
 // "frames 0 to 24" of a thing's keys, or what it is beside them.
 std::string keys_of(const Json& thing) {
   const auto keys = thing.find("keys");
@@ -20,6 +23,10 @@ std::string keys_of(const Json& thing) {
 
 std::string text_of(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
+  if (value.is_object()) {
+    const std::string joint = value.value("joint", "");
+    return value.at("actor").get<std::string>() + (joint.empty() ? "" : "/" + joint);
+  }
   std::string text = value.dump();
   std::erase(text, '[');
   std::erase(text, ']');
@@ -31,8 +38,7 @@ std::string text_of(const Json& value) {
 std::string values_of(const Json& thing) {
   std::string text;
   for (const auto& [key, value] : thing.items())
-    if (!value.is_object() && key != "keys" && key != "name" && key != "model" && key != "matrices")
-      text += "  " + key + " " + text_of(value);
+    if (std::ranges::find(kNotShown, key) == std::end(kNotShown)) text += "  " + key + " " + text_of(value);
   return text;
 }
 

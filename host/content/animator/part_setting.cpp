@@ -75,6 +75,13 @@ Typed taken_apart(const std::string& text, const Thing& thing) {
   return typed;
 }
 
+// The numbers of a part, as they are at first; null of what is not set by numbers.
+document::Json numbers_of(const KeyedPart& part) {
+  if (part.name == "attach") return nullptr;
+  document::Json now = part.value_at(0);
+  return now.is_object() ? document::Json{0, 0, 0} : now;  // the camera goes along with an actor
+}
+
 // Whether the part has such numbers.
 bool has_numbers(const document::Json& now, const Typed& typed) {
   if (!now.is_array()) return now.is_number() && !typed.axis && typed.numbers.size() == 1;
@@ -89,6 +96,8 @@ PartSetting setting_of(const std::string& part, const Typed& typed) {
 }
 
 [[noreturn]] void refuse_numbers(const Typed& typed, const std::string& text, const document::Json& now) {
+  if (now.is_null())
+    throw Failure("is not set by numbers", "'" + text + "'", "use mars animate FILM attach and detach");
   const bool axis = typed.axis && typed.numbers.size() == 1;
   throw Failure(axis ? std::string("has no ") + kAxes[*typed.axis][1]
                      : "has " + document::counted(typed.numbers.size(), "number"),
@@ -112,7 +121,7 @@ std::vector<PartSetting> read_settings(const std::string& text, const Thing& thi
   std::vector<PartSetting> settings;
   for (const std::string& name : names) {
     const KeyedPart& part = thing.part(name);
-    const document::Json now = part.value_at(0);
+    const document::Json now = numbers_of(part);
     const bool fits = has_numbers(now, typed);
     if (!is_pattern(thing, typed.part)) {
       if (!fits) refuse_numbers(typed, text, now);

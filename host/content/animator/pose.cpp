@@ -18,9 +18,24 @@ double number_after(const PartSetting& setting, std::size_t axis, double now) {
   return setting.relative ? rounded(now + *setting.numbers[axis]) : *setting.numbers[axis];
 }
 
+// A point that goes along with an actor (`now`) stands still by all three numbers; its offset changes by +=.
+document::Json point_after(const PartSetting& setting, const Thing& thing, document::Json now) {
+  glm::dvec3 numbers = setting.relative && now.contains("offset") ? vector_of(now.at("offset")) : glm::dvec3(0);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!setting.relative && !setting.numbers[axis])
+      throw Failure("goes along with an actor there", thing.name + ", " + setting.part,
+                    "set all three numbers, or change its offset by += and -=");
+    numbers[axis] = number_after(setting, axis, numbers[axis]);
+  }
+  if (!setting.relative) return written(numbers);
+  now["offset"] = written(numbers);
+  return now;
+}
+
 // What the part is to be: its numbers `now`, those given exchanged.
 document::Json value_after(const PartSetting& setting, const Thing& thing, document::Json now, Beyond beyond,
                            Remarks& remarks) {
+  if (now.is_object()) return point_after(setting, thing, std::move(now));
   if (!now.is_array()) return written(number_after(setting, 0, now.get<double>()));
   for (std::size_t axis = 0; axis < now.size(); ++axis)
     now[axis] = written(number_after(setting, axis, now[axis].get<double>()));
