@@ -18,6 +18,9 @@ CLI::App& add_animate(CLI::App& mars, EditedFilm& film, int& code);
 // `mars film`, likewise.
 CLI::App& add_film(CLI::App& mars, EditedFilm& film);
 
+// attach, detach, look and follow.
+void add_carrying(CLI::App& animate, EditedFilm& film);
+
 // A command for each action of motion::actions(), and script.
 void add_motion(CLI::App& animate, EditedFilm& film);
 

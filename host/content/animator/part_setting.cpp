@@ -75,13 +75,6 @@ Typed taken_apart(const std::string& text, const Thing& thing) {
   return typed;
 }
 
-// The numbers of a part, as they are at first; null of what is not set by numbers.
-document::Json numbers_of(const KeyedPart& part) {
-  if (part.name == "attach") return nullptr;
-  document::Json now = part.value_at(0);
-  return now.is_object() ? document::Json{0, 0, 0} : now;  // the camera goes along with an actor
-}
-
 // Whether the part has such numbers.
 bool has_numbers(const document::Json& now, const Typed& typed) {
   if (!now.is_array()) return now.is_number() && !typed.axis && typed.numbers.size() == 1;
@@ -121,7 +114,7 @@ std::vector<PartSetting> read_settings(const std::string& text, const Thing& thi
   std::vector<PartSetting> settings;
   for (const std::string& name : names) {
     const KeyedPart& part = thing.part(name);
-    const document::Json now = numbers_of(part);
+    const document::Json now = part.value_at(0);
     const bool fits = has_numbers(now, typed);
     if (!is_pattern(thing, typed.part)) {
       if (!fits) refuse_numbers(typed, text, now);

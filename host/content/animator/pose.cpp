@@ -18,24 +18,18 @@ double number_after(const PartSetting& setting, std::size_t axis, double now) {
   return setting.relative ? rounded(now + *setting.numbers[axis]) : *setting.numbers[axis];
 }
 
-// A point that goes along with an actor (`now`) stands still by all three numbers; its offset changes by +=.
-document::Json point_after(const PartSetting& setting, const Thing& thing, document::Json now) {
-  glm::dvec3 numbers = setting.relative && now.contains("offset") ? vector_of(now.at("offset")) : glm::dvec3(0);
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!setting.relative && !setting.numbers[axis])
-      throw Failure("goes along with an actor there", thing.name + ", " + setting.part,
-                    "set all three numbers, or change its offset by += and -=");
-    numbers[axis] = number_after(setting, axis, numbers[axis]);
-  }
-  if (!setting.relative) return written(numbers);
-  now["offset"] = written(numbers);
+// A point that goes along with an actor (`now`) goes on along with it: its offset changes.
+document::Json point_after(const PartSetting& setting, document::Json now) {
+  glm::dvec3 offset = now.contains("offset") ? vector_of(now.at("offset")) : glm::dvec3(0);
+  for (int axis = 0; axis < 3; ++axis) offset[axis] = number_after(setting, axis, offset[axis]);
+  now["offset"] = written(offset);
   return now;
 }
 
 // What the part is to be: its numbers `now`, those given exchanged.
 document::Json value_after(const PartSetting& setting, const Thing& thing, document::Json now, Beyond beyond,
                            Remarks& remarks) {
-  if (now.is_object()) return point_after(setting, thing, std::move(now));
+  if (now.is_object()) return point_after(setting, std::move(now));
   if (!now.is_array()) return written(number_after(setting, 0, now.get<double>()));
   for (std::size_t axis = 0; axis < now.size(); ++axis)
     now[axis] = written(number_after(setting, axis, now[axis].get<double>()));
@@ -72,11 +66,12 @@ class Posing {
   void set(const PartSetting& setting, std::uint32_t frame) {
     const KeyedPart& part = thing().part(setting.part);
     Track& track = tracks_[part.name];
-    if (track.empty() && frame > 0) track.push_back({0, part.value_at(0), kLinear, true});
+    if (track.empty() && frame > 0) track.push_back({0, part.key_at(0), kLinear, true});
     TrackKey* key = key_at(track, frame);
     // A second setting for the part keeps what the first one set.
     const bool again = !touched_.insert(part.name).second;
-    document::Json value = value_after(setting, thing(), again ? key->value : part.value_at(frame), beyond_, remarks_);
+    const document::Json now = again ? key->value : setting.relative ? part.key_at(frame) : part.value_at(frame);
+    document::Json value = value_after(setting, thing(), now, beyond_, remarks_);
     if (key != nullptr)
       key->value = std::move(value);
     else
