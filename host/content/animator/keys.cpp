@@ -122,7 +122,8 @@ Ease rounded(const Ease& ease) {
           animator::rounded(ease.y2)};
 }
 
-// Puts a key of `value` on the way between two others; the way stays as it is, where its ease can be split.
+}  // namespace
+
 void split_way(Track& track, std::uint32_t frame, document::Json value) {
   const auto next = std::find_if(track.begin(), track.end(), [&](const TrackKey& k) { return k.frame >= frame; });
   if (next != track.end() && next->frame == frame) {
@@ -141,8 +142,6 @@ void split_way(Track& track, std::uint32_t frame, document::Json value) {
   }
   put_key(track, std::move(key));
 }
-
-}  // namespace
 
 Remarks put(const Chosen& chosen, const Tracks& tracks) {
   const Thing& thing = chosen.thing;
