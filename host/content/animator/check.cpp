@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "host/content/animator/attachments.h"
 #include "host/content/animator/limits_left.h"
 #include "host/content/document/fields.h"
 #include "host/content/document/shell_word.h"
@@ -98,7 +99,7 @@ Findings check_film(const Film& film) {
   for (const Actor& actor : film.actors) {
     const std::string name = "actor '" + actor.name + "': ";
     // A key just behind the end is where a film that is played round and round begins again.
-    if (const std::uint32_t last = last_key(actor.motion); last > film.frames)
+    if (const std::uint32_t last = last_key(actor); last > film.frames)
       lines.push_back(name + "has keys up to frame " + std::to_string(last) + ", behind the film's last, " +
                       std::to_string(film.frames - 1) + " (give the film more frames, or delete them)");
     if (keyed(actor) && !moves(actor)) lines.push_back(name + "has keys that are all the same: it never moves");

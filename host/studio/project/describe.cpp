@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "host/content/animator/actor_state.h"
+#include "host/content/animator/camera_points.h"
 #include "host/content/animator/edit.h"
 #include "host/content/animator/written.h"
 #include "host/content/modeler/edit.h"
@@ -93,8 +95,9 @@ Json actor_head(const animator::Film& film, std::size_t number, std::uint32_t fr
     json["matrices"] = true;
     return json;
   }
-  json["place"] = shown(animator::value_at(actor.motion.place, frame));
-  json["turn"] = shown(pose_of(animator::free_joint(), actor.motion.turn, frame));
+  const animator::ActorState state = animator::state_at(film, number, frame);
+  json["place"] = shown(state.place);
+  json["turn"] = shown(state.turn);
   return json;
 }
 
@@ -167,8 +170,8 @@ void describe_film(Json& project, const animator::Film& film, const Json& json, 
     actors.push_back(std::move(described));
   }
   project["actors"] = std::move(actors);
-  project["camera"] = {{"eye", shown(animator::value_at(film.camera.eye, frame))},
-                       {"at", shown(animator::value_at(film.camera.at, frame))},
+  project["camera"] = {{"eye", shown(animator::eye_at(film, frame))},
+                       {"at", shown(animator::at_at(film, frame))},
                        {"fov", written(animator::rounded(animator::value_at(film.camera.fov, frame)))}};
   Json materials = Json::array();
   for (const animator::MaterialMotion& material : film.materials)

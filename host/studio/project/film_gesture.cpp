@@ -5,6 +5,8 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/animator/angles.h"
+#include "host/content/animator/attachments.h"
+#include "host/content/animator/camera_points.h"
 #include "host/content/animator/rig.h"
 #include "host/content/animator/set_key.h"
 #include "host/content/document/fields.h"
@@ -39,6 +41,13 @@ std::size_t joint_named(const modeler::Model& model, const std::string& name) {
   return static_cast<std::size_t>(found - model.joints.begin());
 }
 
+void refuse_carried(const animator::Film& film, std::size_t actor, std::uint32_t frame) {
+  const animator::Attachment* const carrier = animator::attachment_at(film.actors[actor], frame);
+  if (!carrier) return;
+  throw Failure("is carried by '" + film.actors[carrier->actor].name + "' at frame " + std::to_string(frame),
+                "actor '" + film.actors[actor].name + "'", "detach it there, or move what carries it");
+}
+
 void FilmGesture::set(animator::Channel<glm::dvec3>& channel, const glm::dvec3& value, std::uint32_t frame,
                       const glm::dvec3& rest) {
   vectors_.push_back({&channel, channel});
@@ -61,6 +70,7 @@ void FilmGesture::show(animator::Film& film, bool, const PoseStep& step, std::ui
 
 void FilmGesture::show(animator::Film& film, bool, const PlaceStep& step, std::uint32_t frame) {
   const std::size_t number = actor_named(film, step.actor);
+  refuse_carried(film, number, frame);
   take_back(film);
   animator::FigureMotion& motion = film.actors[number].motion;
   if (step.place) set(motion.place, *step.place, frame);
@@ -72,14 +82,18 @@ void FilmGesture::show(animator::Film& film, bool, const PlaceStep& step, std::u
 void FilmGesture::show(animator::Film& film, bool rig_lights, const CameraStep& step, std::uint32_t frame) {
   animator::CameraMotion& camera = film.camera;
   take_back(film);
-  if (step.eye) set(camera.eye, *step.eye, frame);
-  if (step.at) set(camera.at, *step.at, frame);
+  const auto set_point = [&](animator::Channel<animator::Point>& points, const glm::dvec3& place) {
+    points_.push_back({&points, points});
+    animator::set_key(points, animator::Point{place}, frame, {});
+  };
+  if (step.eye) set_point(camera.eye, *step.eye);
+  if (step.at) set_point(camera.at, *step.at);
   if (step.fov) {
     numbers_.push_back({&camera.fov, camera.fov});
     animator::set_key(camera.fov, *step.fov, frame, 0.0);
   }
   shows_ = true;
-  const glm::dvec3 ahead = animator::value_at(camera.at, frame) - animator::value_at(camera.eye, frame);
+  const glm::dvec3 ahead = animator::at_at(film, frame) - animator::eye_at(film, frame);
   const glm::dvec3 side = glm::cross(ahead, animator::value_at(camera.up, frame));
   if (glm::length(ahead) < 1e-9 || glm::length(side) < 1e-6 * glm::length(ahead)) {
     take_back(film);
@@ -87,14 +101,16 @@ void FilmGesture::show(animator::Film& film, bool rig_lights, const CameraStep& 
   }
   if (!rig_lights) return;
   lights_ = film.lights;
-  film.lights = animator::rig_lights(camera, film.color);
+  film.lights = animator::rig_lights(film);
 }
 
 void FilmGesture::take_back(animator::Film& film) {
   for (auto saved = vectors_.rbegin(); saved != vectors_.rend(); ++saved) *saved->channel = std::move(saved->was);
   for (auto& saved : numbers_) *saved.channel = std::move(saved.was);
   if (!lights_.empty()) film.lights = std::move(lights_);
+  for (auto& saved : points_) *saved.channel = std::move(saved.was);
   vectors_.clear();
+  points_.clear();
   numbers_.clear();
   lights_.clear();
   actors_.clear();

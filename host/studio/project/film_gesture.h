@@ -16,6 +16,9 @@ namespace mars::studio {
 std::size_t actor_named(const animator::Film& film, const std::string& name);
 std::size_t joint_named(const modeler::Model& model, const std::string& name);
 
+// Throws where another actor carries it at the frame: its own place and turn then count for nothing.
+void refuse_carried(const animator::Film& film, std::size_t actor, std::uint32_t frame);
+
 class FilmGesture {
  public:
   // `rig_lights`: the film has no lights of its own, they go with the camera. What the film shows at the frame is then
@@ -41,6 +44,7 @@ class FilmGesture {
            const glm::dvec3& rest = {});
 
   std::vector<Saved<glm::dvec3>> vectors_;
+  std::vector<Saved<animator::Point>> points_;
   std::vector<Saved<double>> numbers_;
   std::vector<animator::LightMotion> lights_;  // as they were, if the gesture has moved them
   std::set<std::size_t> actors_;
