@@ -17,6 +17,8 @@ CLI::App& add_animate(CLI::App& mars, EditedFilm& film, int& code);
 
 // `reduce`.
 void add_reduce(CLI::App& animate, EditedFilm& film);
+// attach, detach, look and follow.
+void add_carrying(CLI::App& animate, EditedFilm& film);
 
 // A command for each action of motion::actions(), and script.
 void add_motion(CLI::App& animate, EditedFilm& film);
