@@ -73,14 +73,42 @@ Value spline_at(const Channel<Value>& channel, const Stretch& stretch) {
          ((t - 1) * t * t * frames) * reach;
 }
 
+// Its change a frame there.
+template <typename Value>
+Value spline_slope_at(const Channel<Value>& channel, const Stretch& stretch) {
+  const Key<Value>& from = channel[stretch.from];
+  const Key<Value>& to = channel[stretch.to];
+  const double t = stretch.part, frames = double(to.frame - from.frame);
+  const Value leave = from.out ? *from.out : slope_at(channel, stretch.from);
+  const Value reach = to.in ? *to.in : slope_at(channel, stretch.to);
+  return (6 * t * (1 - t) / frames) * (to.value - from.value) + ((3 * t - 4) * t + 1) * leave +
+         ((3 * t - 2) * t) * reach;
+}
+
 // Numbers, places and colours.
 template <typename Value>
-Value value_at(const Channel<Value>& channel, std::uint32_t frame) {
-  const Stretch stretch = stretch_at(channel, frame);
+Value value_on(const Channel<Value>& channel, const Stretch& stretch) {
   const Value& from = channel[stretch.from].value;
   if (stretch.from == stretch.to) return from;
   if (channel[stretch.from].ease.spline) return spline_at(channel, stretch);
   return from + stretch.part * (channel[stretch.to].value - from);
+}
+
+template <typename Value>
+Value value_at(const Channel<Value>& channel, std::uint32_t frame) {
+  return value_on(channel, stretch_at(channel, frame));
+}
+
+// Whether the value changes between this key and the next, and is not the same all the way.
+template <typename Value>
+bool leads_on(const Channel<Value>& channel, std::size_t key) {
+  const Key<Value>& from = channel[key];
+  const Key<Value>& to = channel[key + 1];
+  if (!(from.value == to.value)) return true;
+  if (!from.ease.spline) return false;
+  const Value still = from.value - from.value;
+  return !((from.out ? *from.out : slope_at(channel, key)) == still) ||
+         !((to.in ? *to.in : slope_at(channel, key + 1)) == still);
 }
 
 }  // namespace mars::animator

@@ -63,14 +63,18 @@ glm::dmat3 JointMotion::at(std::uint32_t frame) {
   if (poses_->empty()) return modeler::orientation(*joint_, joint_->rest());
   const Stretch stretch = stretch_at(*poses_, frame);
   const glm::dvec3& from = (*poses_)[stretch.from].value;
+  if (by_numbers(stretch)) return modeler::orientation(*joint_, pose_by_numbers(stretch));
   if (from == (*poses_)[stretch.to].value) return modeler::orientation(*joint_, from);
-  return joint_->freedoms() == 1 ? modeler::orientation(*joint_, hinge_pose(stretch)) : between(stretch);
+  return between(stretch);
 }
 
-// One freedom: the angle itself goes from key to key, so that whole turns are possible.
-glm::dvec3 JointMotion::hinge_pose(const Stretch& stretch) const {
-  const glm::dvec3& from = (*poses_)[stretch.from].value;
-  glm::dvec3 pose = from + stretch.part * ((*poses_)[stretch.to].value - from);
+// With one freedom the angle itself goes from key to key, on splines all three do, so that whole turns are possible.
+bool JointMotion::by_numbers(const Stretch& stretch) const {
+  return stretch.from != stretch.to && ((*poses_)[stretch.from].ease.spline || joint_->freedoms() == 1);
+}
+
+glm::dvec3 JointMotion::pose_by_numbers(const Stretch& stretch) const {
+  glm::dvec3 pose = value_on(*poses_, stretch);
   for (int axis = 0; axis < 3; ++axis)
     pose[axis] = std::clamp(pose[axis], joint_->limits[axis].lower, joint_->limits[axis].upper);
   return pose;
@@ -118,8 +122,8 @@ glm::dvec3 JointMotion::pose_at(std::uint32_t frame) {
   const Stretch stretch = stretch_at(*poses_, frame);
   const glm::dvec3& from = (*poses_)[stretch.from].value;
   const glm::dvec3& to = (*poses_)[stretch.to].value;
+  if (by_numbers(stretch)) return pose_by_numbers(stretch);
   if (from == to) return from;
-  if (joint_->freedoms() == 1) return hinge_pose(stretch);
   return pose_of(*joint_, between(stretch), from + stretch.part * (to - from));
 }
 

@@ -49,7 +49,8 @@ class JointMotion {
 
  private:
   glm::dmat3 between(const Stretch& stretch);
-  glm::dvec3 hinge_pose(const Stretch& stretch) const;
+  bool by_numbers(const Stretch& stretch) const;
+  glm::dvec3 pose_by_numbers(const Stretch& stretch) const;
   glm::dmat3 turned(double part) const;
   double allowed(const Stretch& stretch, double key, double wanted) const;
 

@@ -67,7 +67,7 @@ void count_frames(const Film& film, std::size_t actor, std::size_t number, const
   LimitsLeft all{{actor, number, 0, 0, 0, 0}, 0, 0, 0};
   for (std::uint32_t frame = poses.front().frame; frame <= last_frame(film, poses); ++frame) {
     const Stretch stretch = stretch_at(poses, frame);
-    if (poses[stretch.from].value == poses[stretch.to].value) continue;
+    if (poses[stretch.from].value == poses[stretch.to].value || poses[stretch.from].ease.spline) continue;
     const Excess now = excess_at(joint, motion.pose_at(frame), motion.at(frame));
     if (now.outside <= kExcessNoticed) continue;
     if (all.frames++ == 0) all.first = frame;

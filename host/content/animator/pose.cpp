@@ -97,7 +97,7 @@ class Posing {
 
   Remarks put() {
     for (const std::uint32_t frame : frames_)
-      if (ease_) set_ease(tracks_, frame, *ease_);
+      if (ease_) set_ease(tracks_, touched_, frame, *ease_);
     chosen_.parts.assign(touched_.begin(), touched_.end());
     const Remarks more = animator::put(chosen_, tracks_);
     remarks_.insert(remarks_.end(), more.begin(), more.end());

@@ -35,6 +35,7 @@ constexpr document::Keys kKeys[] = {{"film", kFilmNames},
                                     {"matrices_key", kMatricesNames},
                                     kAttachKeys,
                                     kPointKeys,
+                                    kKeyedValueKeys,
                                     kLightKeys,
                                     kLightKeyKeys,
                                     kAmbientKeys,
@@ -197,12 +198,17 @@ class ActorReader {
     document::require_kind(element, document::Kind::object);
     for (const document::Element item : element) {
       const std::size_t number = find_joint(item, actor);
-      const glm::dvec3 pose = document::read_vector(item, kDegrees);
-      const modeler::Joint& joint = model_of(actor).joints[number];
-      if (const auto broken = broken_limit(joint, pose))
-        item.refuse("joint '" + joint.name + "' " + *broken, "keep it within the limits, or widen them in its model");
-      actor.motion.pose[number].push_back({frame, pose, ease});
+      actor.motion.pose[number].push_back(read_key<glm::dvec3>(
+          item, frame, ease, [&](const document::Element& pose) { return read_pose_of(pose, number, actor); }));
     }
+  }
+
+  glm::dvec3 read_pose_of(const document::Element& element, std::size_t number, const Actor& actor) const {
+    const glm::dvec3 pose = document::read_vector(element, kDegrees);
+    const modeler::Joint& joint = model_of(actor).joints[number];
+    if (const auto broken = broken_limit(joint, pose))
+      element.refuse("joint '" + joint.name + "' " + *broken, "keep it within the limits, or widen them in its model");
+    return pose;
   }
 
   // `item` is named after a joint of the actor's model.

@@ -3,8 +3,8 @@
 namespace mars::animator {
 
 Ease read_ease(const document::Fields& fields) {
-  constexpr std::string_view names[] = {"linear", "in", "out", "both"};
-  constexpr Ease eases[] = {kLinear, kIn, kOut, kBoth};
+  constexpr std::string_view names[] = {"linear", "in", "out", "both", "spline"};
+  constexpr Ease eases[] = {kLinear, kIn, kOut, kBoth, kSpline};
   const auto element = fields.find("ease");
   if (!element) return kLinear;
   if (element->kind() != document::Kind::list) return eases[document::read_choice(*element, names)];
@@ -16,6 +16,21 @@ Ease read_ease(const document::Fields& fields) {
     ++i;
   }
   return {numbers[0], numbers[1], numbers[2], numbers[3]};
+}
+
+glm::dvec3 read_slope(const document::Element& element, const glm::dvec3&) { return document::read_vector(element); }
+
+glm::dvec2 read_slope(const document::Element& element, const glm::dvec2&) {
+  document::require_size(element, 2);
+  auto number = element.begin();
+  const double first = document::read_number(*number);
+  return {first, document::read_number(*++number)};
+}
+
+double read_slope(const document::Element& element, double) { return document::read_number(element); }
+
+bool is_keyed_value(const document::Element& element) {
+  return element.kind() == document::Kind::object && element.find("value");
 }
 
 }  // namespace mars::animator
