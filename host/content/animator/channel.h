@@ -73,6 +73,12 @@ Value spline_at(const Channel<Value>& channel, const Stretch& stretch) {
          ((t - 1) * t * t * frames) * reach;
 }
 
+// Whether anything may change on the way from the key to the next.
+template <typename Value>
+bool moves_after(const Channel<Value>& channel, std::size_t key) {
+  return key + 1 < channel.size() && (channel[key].ease.spline || channel[key].value != channel[key + 1].value);
+}
+
 // Numbers, places and colours.
 template <typename Value>
 Value value_at(const Channel<Value>& channel, std::uint32_t frame) {
