@@ -6,6 +6,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/animator/edit.h"
+#include "host/content/animator/frame_words.h"
 #include "host/content/animator/side_effects.h"
 #include "host/content/animator/written.h"
 #include "host/content/document/fields.h"
@@ -15,12 +16,6 @@ namespace mars::animator {
 namespace {
 
 using wire::kMostFrames;
-
-std::string words_of(FrameRange range) {
-  if (range.first == range.last) return "at frame " + std::to_string(range.first);
-  if (range.last >= kMostFrames) return "from frame " + std::to_string(range.first) + " on";
-  return "in frames " + std::to_string(range.first) + " to " + std::to_string(range.last);
-}
 
 std::string listed_frames(const std::set<std::uint32_t>& frames) {
   std::string text;
@@ -91,7 +86,7 @@ std::uint32_t frame_from(std::int64_t frame, const std::string& where) {
 Remarks displace(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range, std::uint32_t to,
                  bool copies) {
   const std::int64_t by = std::int64_t{to} - range.first;
-  return change_tracks(film, meaning, choice, words_of(range),
+  return change_tracks(film, meaning, choice, shown_range(range),
                        [&](const Chosen& one, const std::string&, Track& track) {
                          const Track whole = track;
                          const Track moved = taken(track, range);
@@ -185,12 +180,12 @@ Remarks copy_keys(document::Json& film, const Film& meaning, const Choice& choic
 }
 
 Remarks delete_keys(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range) {
-  return change_tracks(film, meaning, choice, words_of(range),
+  return change_tracks(film, meaning, choice, shown_range(range),
                        [&](const Chosen&, const std::string&, Track& track) { return !taken(track, range).empty(); });
 }
 
 Remarks ease_keys(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range, const Ease& ease) {
-  return change_tracks(film, meaning, choice, words_of(range), [&](const Chosen&, const std::string&, Track& track) {
+  return change_tracks(film, meaning, choice, shown_range(range), [&](const Chosen&, const std::string&, Track& track) {
     bool any = false;
     for (TrackKey& key : track)
       if (range.holds(key.frame)) {
@@ -225,11 +220,11 @@ Remarks hold(document::Json& film, const Film& meaning, const Choice& choice, st
 
 Remarks stretch(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range, double factor) {
   if (range.last <= range.first || !(factor > 0))
-    throw Failure("cannot be stretched " + document::shown(factor) + " times", "what is keyed " + words_of(range),
+    throw Failure("cannot be stretched " + document::shown(factor) + " times", "what is keyed " + shown_range(range),
                   "name two frames and a factor above 0, like 24-48 and 1.5");
   const double length = double(range.last) - range.first;
   const auto added = static_cast<std::int64_t>(std::llround(length * factor - length));
-  return change_tracks(film, meaning, choice, words_of({range.first, kMostFrames}),
+  return change_tracks(film, meaning, choice, shown_range({range.first, kMostFrames}),
                        [&](const Chosen& one, const std::string&, Track& track) {
                          remap(track, one.thing.name, [&](std::uint32_t f) -> std::int64_t {
                            if (f <= range.first) return f;
@@ -241,7 +236,7 @@ Remarks stretch(document::Json& film, const Film& meaning, const Choice& choice,
 }
 
 Remarks shift(document::Json& film, const Film& meaning, const Choice& choice, std::uint32_t frame, std::int64_t by) {
-  return change_tracks(film, meaning, choice, words_of({frame, kMostFrames}),
+  return change_tracks(film, meaning, choice, shown_range({frame, kMostFrames}),
                        [&](const Chosen& one, const std::string&, Track& track) {
                          const bool any = track.back().frame >= frame;
                          remap(track, one.thing.name, [&](std::uint32_t f) { return f + (f >= frame ? by : 0); });

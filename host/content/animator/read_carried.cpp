@@ -97,6 +97,7 @@ Point read_point(const document::Element& element, const Carriers& carriers) {
 
 void read_attachments(const std::vector<WrittenAttachment>& written, const std::vector<modeler::Model>& models,
                       std::vector<Actor>& actors) {
+  if (written.empty()) return;
   const Carriers carriers(actors, models);
   for (const WrittenAttachment& one : written)
     actors[one.actor].attach.push_back({one.frame, read_attachment(one.element, carriers)});
