@@ -85,30 +85,20 @@ Value spline_slope_at(const Channel<Value>& channel, const Stretch& stretch) {
          ((3 * t - 2) * t) * reach;
 }
 
+// Whether anything may change on the way from the key to the next.
+template <typename Value>
+bool moves_after(const Channel<Value>& channel, std::size_t key) {
+  return key + 1 < channel.size() && (channel[key].ease.spline || channel[key].value != channel[key + 1].value);
+}
+
 // Numbers, places and colours.
 template <typename Value>
-Value value_on(const Channel<Value>& channel, const Stretch& stretch) {
+Value value_at(const Channel<Value>& channel, std::uint32_t frame) {
+  const Stretch stretch = stretch_at(channel, frame);
   const Value& from = channel[stretch.from].value;
   if (stretch.from == stretch.to) return from;
   if (channel[stretch.from].ease.spline) return spline_at(channel, stretch);
   return from + stretch.part * (channel[stretch.to].value - from);
-}
-
-template <typename Value>
-Value value_at(const Channel<Value>& channel, std::uint32_t frame) {
-  return value_on(channel, stretch_at(channel, frame));
-}
-
-// Whether the value changes between this key and the next, and is not the same all the way.
-template <typename Value>
-bool leads_on(const Channel<Value>& channel, std::size_t key) {
-  const Key<Value>& from = channel[key];
-  const Key<Value>& to = channel[key + 1];
-  if (!(from.value == to.value)) return true;
-  if (!from.ease.spline) return false;
-  const Value still = from.value - from.value;
-  return !((from.out ? *from.out : slope_at(channel, key)) == still) ||
-         !((to.in ? *to.in : slope_at(channel, key + 1)) == still);
 }
 
 }  // namespace mars::animator

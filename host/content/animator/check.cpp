@@ -54,7 +54,7 @@ std::string line_of(const Film& film, const LimitsLeft& left) {
 template <typename Value>
 bool changes(const Channel<Value>& channel) {
   for (std::size_t i = 0; i + 1 < channel.size(); ++i)
-    if (leads_on(channel, i)) return true;
+    if (moves_after(channel, i)) return true;
   return false;
 }
 

@@ -8,11 +8,11 @@
 namespace mars::animator {
 namespace {
 
-// Where the spline goes through the middle it stays as it left its key.
-glm::dvec3 unit_on_spline(const Channel<glm::dvec3>& channel, const Stretch& stretch) {
+// Where the spline passes through nothing, the key before it.
+glm::dvec3 on_spline(const Channel<glm::dvec3>& channel, const Stretch& stretch) {
   const glm::dvec3 direction = spline_at(channel, stretch);
   const double length = glm::length(direction);
-  return length > 1e-9 ? direction / length : channel[stretch.from].value;
+  return length < 1e-9 ? channel[stretch.from].value : direction / length;
 }
 
 }  // namespace
@@ -21,7 +21,7 @@ glm::dvec3 direction_at(const Channel<glm::dvec3>& channel, std::uint32_t frame)
   const Stretch stretch = stretch_at(channel, frame);
   const glm::dvec3& from = channel[stretch.from].value;
   const glm::dvec3& to = channel[stretch.to].value;
-  if (stretch.from != stretch.to && channel[stretch.from].ease.spline) return unit_on_spline(channel, stretch);
+  if (channel[stretch.from].ease.spline && stretch.from != stretch.to) return on_spline(channel, stretch);
   if (from == to) return from;
   const glm::dvec3 across = glm::cross(from, to);
   const double sine = glm::length(across), angle = std::atan2(sine, glm::dot(from, to));

@@ -63,18 +63,23 @@ glm::dmat3 JointMotion::at(std::uint32_t frame) {
   if (poses_->empty()) return modeler::orientation(*joint_, joint_->rest());
   const Stretch stretch = stretch_at(*poses_, frame);
   const glm::dvec3& from = (*poses_)[stretch.from].value;
-  if (by_numbers(stretch)) return modeler::orientation(*joint_, pose_by_numbers(stretch));
-  if (from == (*poses_)[stretch.to].value) return modeler::orientation(*joint_, from);
-  return between(stretch);
+  if (still(stretch)) return modeler::orientation(*joint_, from);
+  return by_numbers(stretch) ? modeler::orientation(*joint_, pose_by_numbers(stretch)) : between(stretch);
 }
 
-// With one freedom the angle itself goes from key to key, on splines all three do, so that whole turns are possible.
+bool JointMotion::still(const Stretch& stretch) const {
+  return stretch.from == stretch.to || !moves_after(*poses_, stretch.from);
+}
+
+// One freedom, or a spline: the angles themselves go from key to key, so that whole turns are possible.
 bool JointMotion::by_numbers(const Stretch& stretch) const {
-  return stretch.from != stretch.to && ((*poses_)[stretch.from].ease.spline || joint_->freedoms() == 1);
+  return joint_->freedoms() == 1 || (*poses_)[stretch.from].ease.spline;
 }
 
 glm::dvec3 JointMotion::pose_by_numbers(const Stretch& stretch) const {
-  glm::dvec3 pose = value_on(*poses_, stretch);
+  const Key<glm::dvec3>& from = (*poses_)[stretch.from];
+  glm::dvec3 pose = from.ease.spline ? spline_at(*poses_, stretch)
+                                     : from.value + stretch.part * ((*poses_)[stretch.to].value - from.value);
   for (int axis = 0; axis < 3; ++axis)
     pose[axis] = std::clamp(pose[axis], joint_->limits[axis].lower, joint_->limits[axis].upper);
   return pose;
@@ -122,8 +127,8 @@ glm::dvec3 JointMotion::pose_at(std::uint32_t frame) {
   const Stretch stretch = stretch_at(*poses_, frame);
   const glm::dvec3& from = (*poses_)[stretch.from].value;
   const glm::dvec3& to = (*poses_)[stretch.to].value;
+  if (still(stretch)) return from;
   if (by_numbers(stretch)) return pose_by_numbers(stretch);
-  if (from == to) return from;
   return pose_of(*joint_, between(stretch), from + stretch.part * (to - from));
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "host/content/animator/attachments.h"
+#include "host/content/animator/read_keys.h"
 
 namespace mars::animator {
 namespace {
@@ -83,15 +84,10 @@ std::size_t Carriers::joint(const document::Element& element, std::size_t actor)
                  document::did_you_mean(name, names, "name one of its joints"));
 }
 
-Point read_slope(const document::Element& element, const Point&) {
-  Point slope;
-  slope.offset = document::read_vector(element);
-  return slope;
-}
-
 Point read_point(const document::Element& element, const Carriers& carriers) {
   constexpr std::string_view axes[] = {"world", "joint"};
   if (element.kind() != document::Kind::object) return {document::read_vector(element)};
+  require_version_2(element);
   const document::Fields fields(element, kPointKeys);
   const Carriers::Named named = carriers.read(fields);
   const auto level = fields.find("level");

@@ -41,9 +41,6 @@ class Carriers {
 // Three numbers, or a point of an actor.
 Point read_point(const document::Element& element, const Carriers& carriers);
 
-// Of a spline through points: along the world's axes.
-Point read_slope(const document::Element& element, const Point& of);
-
 // An "attach" where it stands in the film file.
 struct WrittenAttachment {
   std::size_t actor;
