@@ -45,8 +45,13 @@ void FilmInMemory::obey(std::span<const Command> commands) {
     int code = 0;
     CLI::App mars("", "mars");
     add_animate(mars, *this, code);
+    add_film(mars, *this);
     options::read_words(mars, command);
   }
+}
+
+void FilmInMemory::create(const Json&) {
+  throw Failure("is open already", path_.string(), "a new film is a file of its own: mars film FILM new");
 }
 
 std::string FilmInMemory::read_script(const fs::path& path) const {

@@ -31,6 +31,7 @@ class FilmInMemory final : public EditedFilm {
 
   std::filesystem::path path() const override { return path_; }
   film::FilmFile read() const override { return {json_, film()}; }
+  void create(const document::Json& json) override;
   std::string read_script(const std::filesystem::path& path) const override;
   void change(const Change& change) override;
   void remark(const std::string& line) override { done_.remarks.push_back(line); }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "host/content/animator/attachments.h"
+#include "host/content/animator/read_keys.h"
 
 namespace mars::animator {
 namespace {
@@ -78,13 +79,15 @@ std::size_t Carriers::joint(const document::Element& element, std::size_t actor)
   if (found != joints.end()) return static_cast<std::size_t>(found - joints.begin());
   std::vector<std::string_view> names;
   for (const modeler::Joint& joint : joints) names.push_back(joint.name);
-  element.refuse("is " + document::in_quotes(name) + ", which is no joint of " + document::in_quotes(actors_[actor].name),
+  element.refuse("is " + document::in_quotes(name) + ", which is no joint of " +
+                     document::in_quotes(actors_[actor].name),
                  document::did_you_mean(name, names, "name one of its joints"));
 }
 
 Point read_point(const document::Element& element, const Carriers& carriers) {
   constexpr std::string_view axes[] = {"world", "joint"};
   if (element.kind() != document::Kind::object) return {document::read_vector(element)};
+  require_version_2(element);
   const document::Fields fields(element, kPointKeys);
   const Carriers::Named named = carriers.read(fields);
   const auto level = fields.find("level");
@@ -94,6 +97,7 @@ Point read_point(const document::Element& element, const Carriers& carriers) {
 
 void read_attachments(const std::vector<WrittenAttachment>& written, const std::vector<modeler::Model>& models,
                       std::vector<Actor>& actors) {
+  if (written.empty()) return;
   const Carriers carriers(actors, models);
   for (const WrittenAttachment& one : written)
     actors[one.actor].attach.push_back({one.frame, read_attachment(one.element, carriers)});

@@ -147,7 +147,11 @@ Json actions() {
   for (const motion::Action& action : motion::actions()) {
     Json parameters = Json::array();
     for (const motion::Parameter& parameter : action.parameters) parameters.push_back(described(parameter));
-    told.push_back({{"name", action.name}, {"purpose", action.purpose}, {"parameters", std::move(parameters)}});
+    told.push_back({{"name", action.name},
+                    {"purpose", action.purpose},
+                    {"group", action.needs.empty() ? "kinematic" : "figure"},
+                    {"needs", action.needs},
+                    {"parameters", std::move(parameters)}});
   }
   return {{"is", "actions"}, {"actions", std::move(told)}};
 }

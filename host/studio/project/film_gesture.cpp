@@ -21,6 +21,21 @@ template <typename Items>
   throw Failure(what, "'" + name + "'", document::did_you_mean(name, names, "choose another"));
 }
 
+template <typename Value>
+void set_part(animator::Channel<Value>& channel, const std::optional<Value>& value, std::uint32_t frame) {
+  if (value) animator::set_key(channel, *value, frame, {});
+}
+
+void set_light(animator::LightMotion& light, const LightStep& step, std::uint32_t frame) {
+  if (step.direction) animator::set_key(light.vector, glm::normalize(*step.direction), frame, {});
+  set_part(light.vector, step.place, frame);
+  set_part(light.at, step.at, frame);
+  set_part(light.cone, step.cone, frame);
+  set_part(light.reach, step.reach, frame);
+  set_part(light.color, step.color, frame);
+  set_part(light.intensity, step.intensity, frame);
+}
+
 }  // namespace
 
 std::size_t actor_named(const animator::Film& film, const std::string& name) {
@@ -48,33 +63,44 @@ void refuse_carried(const animator::Film& film, std::size_t actor, std::uint32_t
                 "actor '" + film.actors[actor].name + "'", "detach it there, or move what carries it");
 }
 
+void check_light(const animator::Film& film, bool rig_lights, const LightStep& step) {
+  const std::string name = "light " + std::to_string(step.light);
+  if (rig_lights || step.light > film.lights.size())
+    throw Failure("is no light of the film", name, "add it to the film's lights");
+  const animator::LightMotion& light = film.lights[step.light - 1];
+  const bool far = light.kind == wire::LightKind::directional;
+  const auto needs = [&](bool said, bool has, const char* part) {
+    if (said && !has)
+      throw Failure(std::string("has no part '") + part + "'", name, "give it to the light in the film");
+  };
+  needs(step.place.has_value(), !far, "place");
+  needs(step.direction.has_value(), far, "direction");
+  needs(step.at.has_value(), !light.at.empty(), "at");
+  needs(step.cone.has_value(), !light.cone.empty(), "cone");
+  needs(step.reach.has_value(), !light.reach.empty(), "reach");
+  if (step.direction && !(glm::length(*step.direction) > 1e-9))
+    throw Failure("has no length", "the direction of " + name, "write a vector to the light");
+}
+
 void FilmGesture::set(animator::Channel<glm::dvec3>& channel, const glm::dvec3& value, std::uint32_t frame,
                       const glm::dvec3& rest) {
   vectors_.push_back({&channel, channel});
   animator::set_key(channel, value, frame, rest);
 }
 
-void FilmGesture::show(animator::Film& film, bool, const PoseStep& step, std::uint32_t frame) {
+void FilmGesture::show(animator::Film& film, bool, const FigureStep& step, std::uint32_t frame) {
   const std::size_t number = actor_named(film, step.actor);
   animator::Actor& actor = film.actors[number];
   const modeler::Model& model = film.models[actor.model];
   for (const auto& [name, pose] : step.poses) joint_named(model, name);
+  if (step.place || step.turn) refuse_carried(film, number, frame);
   take_back(film);
+  if (step.place) set(actor.motion.place, *step.place, frame);
+  if (step.turn) set(actor.motion.turn, *step.turn, frame);
   for (const auto& [name, pose] : step.poses) {
     const std::size_t joint = joint_named(model, name);
     set(actor.motion.pose[joint], animator::clamped(model.joints[joint], pose), frame, model.joints[joint].rest());
   }
-  actors_ = {number};
-  shows_ = true;
-}
-
-void FilmGesture::show(animator::Film& film, bool, const PlaceStep& step, std::uint32_t frame) {
-  const std::size_t number = actor_named(film, step.actor);
-  refuse_carried(film, number, frame);
-  take_back(film);
-  animator::FigureMotion& motion = film.actors[number].motion;
-  if (step.place) set(motion.place, *step.place, frame);
-  if (step.turn) set(motion.turn, *step.turn, frame);
   actors_ = {number};
   shows_ = true;
 }
@@ -102,6 +128,14 @@ void FilmGesture::show(animator::Film& film, bool rig_lights, const CameraStep& 
   if (!rig_lights) return;
   lights_ = film.lights;
   film.lights = animator::rig_lights(film);
+}
+
+void FilmGesture::show(animator::Film& film, bool rig_lights, const LightStep& step, std::uint32_t frame) {
+  check_light(film, rig_lights, step);
+  take_back(film);
+  lights_ = film.lights;
+  set_light(film.lights[step.light - 1], step, frame);
+  shows_ = true;
 }
 
 void FilmGesture::take_back(animator::Film& film) {

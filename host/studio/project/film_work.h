@@ -33,7 +33,9 @@ class FilmWork : public Work {
 
   Json channels(const std::vector<std::string>& things) override;
   Json curves(const CurvesWanted& wanted) override;
+  bool rig_lights() const override { return !json().contains("lights"); }
   void describe(Json& project, std::uint32_t frame) const override;
+  void describe_shown(Json& poses, std::uint32_t frame) const override;
 
  private:
   struct Prepared {
@@ -42,6 +44,7 @@ class FilmWork : public Work {
     bool models_lent;  // they are film_'s own
   };
 
+  const Json& json() const { return edited_ ? edited_->json() : json_; }  // what film() means
   animator::Film read(const document::Element& root, bool models_stay);
   std::unique_ptr<editing::FilmInMemory> edited_by(const Step& step);
   void show_edited(std::unique_ptr<editing::FilmInMemory> edited);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "hal/failure/explain.h"
+#include "host/content/animator/film_settings.h"
 #include "host/content/document/file.h"
 #include "host/content/document/folder_lock.h"
 #include "host/content/document/whole_file.h"
@@ -47,8 +48,9 @@ class FileProject : public Project {
     document::RecordedReads reads;
     const auto text = document::read_file_if_there(path_, document::kLargestFileRead);
     on_disk_ = text.has_value();
-    work_->prepare(text ? *text : document::laid_out(new_model()), false);
-    accept(text ? *text : document::laid_out(new_model()));
+    const std::string content = text ? *text : document::laid_out(model ? new_model() : new_film(path_));
+    work_->prepare(content, false);
+    accept(content);
     good_ = reads.stamps();
     files_.set_read(good_);
     history_ = journal_.read(text_).value_or(History());
@@ -56,6 +58,7 @@ class FileProject : public Project {
 
   bool is_model() const override { return is_model_; }
   const animator::Film& film() const override { return work_->film(); }
+  bool rig_lights() const override { return work_->rig_lights(); }
   std::uint64_t revision() const override { return revision_; }
   std::uint64_t shapes_revision() const override { return work_->shapes_revision(); }
   std::optional<Pulled> pulled() const override { return work_->pulled(); }
@@ -179,7 +182,9 @@ class FileProject : public Project {
     else
       for (std::size_t actor = 0; actor < film().actors.size(); ++actor)
         actors.push_back(poses_of(film(), actor, frame_));
-    return {{"is", "poses"}, {"frame", frame_}, {"actors", std::move(actors)}};
+    Json poses{{"is", "poses"}, {"frame", frame_}, {"actors", std::move(actors)}};
+    if (work_->shows()) work_->describe_shown(poses, frame_);
+    return poses;
   }
 
  private:
@@ -202,6 +207,15 @@ class FileProject : public Project {
     Json model = modeler::empty_model();
     modeler::add_joint(model, "body", {});
     return model;
+  }
+
+  // As `mars film` would begin it.
+  static Json new_film(const std::filesystem::path& path) {
+    const std::vector<editing::Command> commands{{"film", "add", "floor", "--model", "floor"},
+                                                 {"film", "light", "rig"}};
+    Json film = animator::new_film();
+    editing::edit_film(film, path, commands);
+    return film;
   }
 
   void accept(const std::string& text) {
@@ -318,9 +332,10 @@ bool is_model(const document::Element& root) {
 
 }  // namespace
 
-std::unique_ptr<Project> open_project(const std::filesystem::path& file, std::filesystem::path folder) {
+std::unique_ptr<Project> open_project(const std::filesystem::path& file, std::filesystem::path folder, NewFile begins) {
   if (folder.empty()) folder = std::filesystem::absolute(file).parent_path();
-  if (!document::file_exists(file)) return std::make_unique<FileProject>(file, true, std::move(folder));
+  if (!document::file_exists(file))
+    return std::make_unique<FileProject>(file, begins == NewFile::model, std::move(folder));
   if (film::is_compiled_film(file))
     throw Failure("is compiled: it has matrices, no keys", file.string(), "name the film file that it was made from");
   const document::Document document = document::read_document(file);

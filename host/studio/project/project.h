@@ -35,6 +35,8 @@ class Project {
   // What is shown: the film, with what a gesture has changed; for a model a film of one actor, "model", with light, a
   // camera and a ground to stand on, posed as the page has posed it (a model's file has no pose).
   virtual const animator::Film& film() const = 0;
+  // The film's lights are a rig's, no things of their own: none is in the file. So it is with models.
+  virtual bool rig_lights() const = 0;
   // Goes up when film() changes in any way.
   virtual std::uint64_t revision() const = 0;
   // Goes up when film()'s models have other shapes than those before: nodes need the film again. A gesture that pulls
@@ -84,9 +86,12 @@ class Project {
   virtual Json scripts() const = 0;
 };
 
-// A file that is not there is a model of no joint yet, written with its first step. Throws Failure where the file
-// cannot be read at the start, or is no film or model.
-// Steps read and write files below `folder` alone; "": the file's own.
-std::unique_ptr<Project> open_project(const std::filesystem::path& file, std::filesystem::path folder = {});
+// What a file that is not there is, written with its first step: a model of one joint, or a film with a floor and lights.
+enum class NewFile { model, film };
+
+// Throws Failure where the file cannot be read at the start, or is no film or model. Steps read and write files below
+// `folder` alone; "": the file's own.
+std::unique_ptr<Project> open_project(const std::filesystem::path& file, std::filesystem::path folder = {},
+                                      NewFile begins = NewFile::model);
 
 }  // namespace mars::studio

@@ -27,6 +27,7 @@ struct Parameter {
 struct Action {
   std::string_view name;
   std::string_view purpose;
+  std::string_view needs;  // limbs that the actor's model must name: "hips, ankles"; "": none, any actor can
   std::span<const Parameter> parameters;
   Motion (*perform)(const Scene& scene);
 };
