@@ -5,8 +5,11 @@
 #include "hal/failure/failure.h"
 #include "host/content/animator/motion/gesture.h"
 #include "host/content/animator/motion/kinematic.h"
+#include "host/content/animator/motion/picking.h"
+#include "host/content/animator/motion/reaching.h"
 #include "host/content/animator/motion/sitting.h"
 #include "host/content/animator/motion/steps.h"
+#include "host/content/animator/motion/tossing.h"
 #include "host/content/animator/attachments.h"
 #include "host/content/animator/read_film.h"
 
@@ -63,11 +66,16 @@ constexpr Parameter kGo[] = {{"to", "X Y Z", "the actor's place then; needed", "
                              {"seconds", "S", "default: 1", "2"},
                              {"ease", "EASE", "linear, in, out or both; default: both", "out"}};
 
-constexpr Action kActions[] = {
+const Action kActions[] = {
     {"walk", "Walk: some steps, a distance, to a place, or along a bow", kWalk, walk},
     {"turn", "Turn on the spot, by stepping", kTurn, turn},
     {"sit", "Sit down on a seat behind", kSit, sit},
     {"stand", "Stand up from sitting", kStand, stand},
+    {"reach", "Bring a hand, a foot or another joint to a place", reach_parameters(), reach},
+    {"plant", "Keep feet or hands where they are, whatever the rest does", plant_parameters(), plant},
+    {"pick", "Bend down or reach out for an actor and take it", pick_parameters(), pick},
+    {"put", "Put down at a place what a hand holds", put_parameters(), put},
+    {"toss", "Toss what a hand holds to a place; it bounces", toss_parameters(), toss},
     {"nod", "Nod with head and neck", kNod, nod},
     {"wave", "Raise a hand, wave and lower it", kWave, wave},
     {"throw", "Fly with a velocity and an acceleration", kThrow, fling},
@@ -127,7 +135,13 @@ Performed perform(document::Json& json, const std::filesystem::path& path, const
   refuse_carried(scene, driven);
   animator::clear_keys(json, name, scene.at + 1, driven.place ? wire::kMostFrames : motion.last, driven);
   animator::put_keys(json, name, motion.keys);
-  return {scene.at, motion.last, motion.report};
+  std::uint32_t film_last = motion.last;
+  for (const auto& [other, keys] : motion.others) {
+    film_last = std::max(film_last, keys.back().frame);
+    animator::clear_keys(json, other, keys.front().frame + 1, wire::kMostFrames, all_of(keys));
+    animator::put_keys(json, other, keys);
+  }
+  return {scene.at, motion.last, film_last, motion.report};
 }
 
 }  // namespace mars::motion
