@@ -7,6 +7,7 @@
 #include "host/content/animator/motion/kinematic.h"
 #include "host/content/animator/motion/picking.h"
 #include "host/content/animator/motion/reaching.h"
+#include "host/content/animator/motion/seat.h"
 #include "host/content/animator/motion/sitting.h"
 #include "host/content/animator/motion/steps.h"
 #include "host/content/animator/motion/tossing.h"
@@ -34,6 +35,8 @@ constexpr Parameter kWalk[] = {
 constexpr Parameter kTurn[] = {
     {"by", "DEGREES", "to the left; default: 90", "-90"}, {"to", "X Y", "to face a place of the floor", "2 -1"}, kPace};
 constexpr Parameter kSit[] = {
+    {"on", "ACTOR[/JOINT]", "a seat: an actor, or a joint of it whose segment it is; the figure walks there first",
+     "bench"},
     {"seat-height", "H", "height of the seat above the floor; default: thighs are level", "0.45"},
     {"back", "D", "distance of the hips behind the feet; default: shins are upright", "0.4"},
     {"seconds", "S", "default: 1.6", "2"}};
@@ -69,7 +72,7 @@ constexpr Parameter kGo[] = {{"to", "X Y Z", "the actor's place then; needed", "
 const Action kActions[] = {
     {"walk", "Walk: some steps, a distance, to a place, or along a bow", kWalk, walk},
     {"turn", "Turn on the spot, by stepping", kTurn, turn},
-    {"sit", "Sit down on a seat behind", kSit, sit},
+    {"sit", "Sit down on a seat behind, or on one of the film", kSit, sit},
     {"stand", "Stand up from sitting", kStand, stand},
     {"reach", "Bring a hand, a foot or another joint to a place", reach_parameters(), reach},
     {"plant", "Keep feet or hands where they are, whatever the rest does", plant_parameters(), plant},

@@ -11,6 +11,7 @@ namespace {
 constexpr double kLean = 100;     // degrees of the trunk at the lowest
 constexpr double kThigh = 84;     // degrees of the thighs from upright, and
 constexpr double kShin = 24;      // of the shins, the other way
+constexpr double kHang = 0.7;     // of the lean, that arms hang forward
 constexpr double kUpright = 0.8;  // of its height: what is lower sits
 constexpr const char* kRemedy = "let it stand nearer, or widen the joint's limits in its model";
 
@@ -49,12 +50,16 @@ void Crouch::take(double depth, double twist, Posture& posture) const {
   stance.pelvis += canonical_turn(0, 0, stance.heading) * lowered(depth);
   const double lean = kLean * depth;
   stance.tilt.y += 0.5 * lean;
+  const auto turn = [&](std::size_t joint, const glm::dmat3& before, const glm::dmat3& after) {
+    if (joint == modeler::kNone) return;
+    const glm::dmat3 was =
+        glm::transpose(body_.axes) * modeler::orientation(body_.model->joints[joint], start_.pose[joint]) * body_.axes;
+    stance.turns[joint] = before * was * after;
+  };
   for (const Share& share : kShares)
-    if (const std::size_t joint = body_.find(share.part); joint != modeler::kNone) {
-      const glm::dmat3 was = glm::transpose(body_.axes) *
-                             modeler::orientation(body_.model->joints[joint], start_.pose[joint]) * body_.axes;
-      stance.turns[joint] = was * canonical_turn(0, share.lean * lean, share.twist * twist);
-    }
+    turn(body_.find(share.part), glm::dmat3(1), canonical_turn(0, share.lean * lean, share.twist * twist));
+  for (const modeler::Side side : kSides)
+    turn(body_.find(modeler::Limb::shoulder, side), canonical_turn(0, -kHang * lean, 0), glm::dmat3(1));
   take_stance(body_, stance, posture, where_, kRemedy);
 }
 

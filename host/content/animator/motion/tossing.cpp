@@ -143,8 +143,8 @@ class Swing {
       const glm::dvec3 wanted = numbers_for(body_, joint, turn, posture.pose[joint]);
       posture.pose[joint] = glm::mix(start_.pose[joint], wanted, share);
     };
-    pose(hand_.shoulder,
-         canonical_turn(0, 0, yaw) * hanging_shoulder(body_, hand_.side, {0, 0, 0}) * canonical_turn(s * 8, -angle, 0));
+    pose(hand_.shoulder, canonical_turn(0, 0, yaw) * hanging_shoulder(body_, hand_.side, {0, 0, 0}) *
+                             canonical_turn(s * 14, -angle, 0));
     pose(hand_.elbow, hanging_elbow(body_, hand_.side, {0, -12, s * 70}));
     if (hand_.end != hand_.elbow) pose(hand_.end, glm::dmat3(1));
   }
