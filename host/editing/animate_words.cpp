@@ -270,6 +270,7 @@ CLI::App& add_animate(CLI::App& mars, EditedFilm& film, int& code) {
   add_time(*animate, *words);
   add_list(*animate, *words);
   add_check(*animate, *words, code);
+  add_carrying(*animate, film);
   add_motion(*animate, film);
   animate->footer(kFooter);             // last, or each of its commands would have it
   animate->final_callback([words] {});  // keeps what was typed

@@ -25,8 +25,7 @@ modeler::Axes JointFrames::own_frame(std::size_t actor, std::uint32_t frame) {
 
 JointMotion& JointFrames::motion_of(std::size_t actor, std::size_t joint) {
   const Actor& one = film_.actors[actor];
-  return joints_
-      .try_emplace({actor, joint}, film_.models[one.model].joints[joint], one.motion.pose[joint])
+  return joints_.try_emplace({actor, joint}, film_.models[one.model].joints[joint], one.motion.pose[joint])
       .first->second;
 }
 

@@ -78,7 +78,8 @@ std::size_t Carriers::joint(const document::Element& element, std::size_t actor)
   if (found != joints.end()) return static_cast<std::size_t>(found - joints.begin());
   std::vector<std::string_view> names;
   for (const modeler::Joint& joint : joints) names.push_back(joint.name);
-  element.refuse("is " + document::in_quotes(name) + ", which is no joint of " + document::in_quotes(actors_[actor].name),
+  element.refuse("is " + document::in_quotes(name) + ", which is no joint of " +
+                     document::in_quotes(actors_[actor].name),
                  document::did_you_mean(name, names, "name one of its joints"));
 }
 

@@ -22,7 +22,7 @@ constexpr std::string_view kFilmNames[] = {"frames",     "rate",      "size",   
                                            "lights",     "materials", "models", "actors"};
 constexpr std::string_view kCameraNames[] = {"eye", "at", "up", "fov", "exposure", "near", "far", "keys"};
 constexpr std::string_view kCameraKeyNames[] = {"frame", "eye", "at", "up", "fov", "exposure", "ease"};
-constexpr std::string_view kActorNames[] = {"name",     "model",     "place", "turn",    "pose",
+constexpr std::string_view kActorNames[] = {"name",     "model",     "place", "turn",     "pose",
                                             "material", "materials", "keys",  "matrices", "attach"};
 constexpr std::string_view kActorKeyNames[] = {"frame", "place", "turn", "pose", "attach", "ease"};
 constexpr std::string_view kMatricesNames[] = {"frame", "segments"};
@@ -189,8 +189,7 @@ class ActorReader {
   void read_still_pose(const document::Element& element, Actor& actor) {
     document::require_kind(element, document::Kind::object);
     for (const document::Element item : element)
-      if (!actor.motion.pose[find_joint(item, actor)].empty())
-        refuse_still(item);
+      if (!actor.motion.pose[find_joint(item, actor)].empty()) refuse_still(item);
     read_pose(element, 0, kLinear, actor);
   }
 

@@ -42,7 +42,8 @@ KeyedPart turning(const std::string& name, const modeler::Joint& joint, const Ch
 
 // What is kept from key to key.
 KeyedPart carried(const Film& film, const Channel<std::optional<Attachment>>& channel) {
-  return {"attach", nullptr, nullptr, [&film, &channel](std::uint32_t frame) -> document::Json {
+  return {"attach", nullptr, nullptr, [](std::uint32_t) { return nullptr; },
+          [&film, &channel](std::uint32_t frame) -> document::Json {
             if (channel.empty() || frame < channel.front().frame) return nullptr;
             const auto& held = channel[stretch_at(channel, frame).from].value;
             if (!held) return nullptr;
@@ -53,20 +54,24 @@ KeyedPart carried(const Film& film, const Channel<std::optional<Attachment>>& ch
           }};
 }
 
-// On a key as the key says it; between keys where it is then.
 KeyedPart point(std::string_view name, const Film& film, const Channel<Point>& channel) {
-  return {std::string(name), nullptr, nullptr, [&film, &channel](std::uint32_t frame) {
+  const auto place = [&film, &channel](std::uint32_t frame) {
+    const Stretch stretch = stretch_at(channel, frame);
+    JointFrames frames(film);
+    const glm::dvec3 at = place_at(channel, frame, frames);
+    const bool given = stretch.from == stretch.to && channel[stretch.from].value.actor == modeler::kNone;
+    return written(given ? at : rounded(at));
+  };
+  return {std::string(name), nullptr, nullptr, place, [&film, &channel, place](std::uint32_t frame) {
             const Stretch stretch = stretch_at(channel, frame);
-            if (stretch.from == stretch.to) return written(channel[stretch.from].value, film);
-            JointFrames frames(film);
-            return written(rounded(place_at(channel, frame, frames)));
+            return stretch.from == stretch.to ? written(channel[stretch.from].value, film) : place(frame);
           }};
 }
 
 Thing camera_of(document::Json& film, const Film& meaning) {
   const CameraMotion& camera = meaning.camera;
-  std::vector<KeyedPart> parts{point("eye", meaning, camera.eye), point("at", meaning, camera.at), plain("up", camera.up),
-                               plain("fov", camera.fov)};
+  std::vector<KeyedPart> parts{point("eye", meaning, camera.eye), point("at", meaning, camera.at),
+                               plain("up", camera.up), plain("fov", camera.fov)};
   if (meaning.color == wire::ColorSpace::linear) parts.push_back(plain("exposure", camera.exposure));
   return {"camera", &film.at("camera"), false, std::move(parts)};
 }

@@ -21,6 +21,30 @@ template <typename Items>
   throw Failure(what, "'" + name + "'", document::did_you_mean(name, names, "choose another"));
 }
 
+// One part, where the light has it and the step says something of it.
+template <typename Value>
+void set_part(animator::Channel<Value>& channel, const char* part, bool has, const std::optional<Value>& value,
+              std::uint32_t frame) {
+  if (!value) return;
+  if (!has) throw Failure(std::string("has no part '") + part + "'", "the light", "give it to the light in the film");
+  animator::set_key(channel, *value, frame, {});
+}
+
+void set_light(animator::LightMotion& light, const LightStep& step, std::uint32_t frame) {
+  const bool far = light.kind == wire::LightKind::directional;
+  std::optional<glm::dvec3> direction = step.direction;
+  if (direction && !(glm::length(*direction) > 1e-9))
+    throw Failure("has no length", "the light's direction", "write a vector to the light");
+  if (direction) *direction = glm::normalize(*direction);
+  set_part(light.vector, "place", !far, step.place, frame);
+  set_part(light.vector, "direction", far, direction, frame);
+  set_part(light.at, "at", !light.at.empty(), step.at, frame);
+  set_part(light.cone, "cone", !light.cone.empty(), step.cone, frame);
+  set_part(light.reach, "reach", !light.reach.empty(), step.reach, frame);
+  set_part(light.color, "color", true, step.color, frame);
+  set_part(light.intensity, "intensity", true, step.intensity, frame);
+}
+
 }  // namespace
 
 std::size_t actor_named(const animator::Film& film, const std::string& name) {
@@ -54,27 +78,19 @@ void FilmGesture::set(animator::Channel<glm::dvec3>& channel, const glm::dvec3& 
   animator::set_key(channel, value, frame, rest);
 }
 
-void FilmGesture::show(animator::Film& film, bool, const PoseStep& step, std::uint32_t frame) {
+void FilmGesture::show(animator::Film& film, bool, const FigureStep& step, std::uint32_t frame) {
   const std::size_t number = actor_named(film, step.actor);
   animator::Actor& actor = film.actors[number];
   const modeler::Model& model = film.models[actor.model];
   for (const auto& [name, pose] : step.poses) joint_named(model, name);
+  if (step.place || step.turn) refuse_carried(film, number, frame);
   take_back(film);
+  if (step.place) set(actor.motion.place, *step.place, frame);
+  if (step.turn) set(actor.motion.turn, *step.turn, frame);
   for (const auto& [name, pose] : step.poses) {
     const std::size_t joint = joint_named(model, name);
     set(actor.motion.pose[joint], animator::clamped(model.joints[joint], pose), frame, model.joints[joint].rest());
   }
-  actors_ = {number};
-  shows_ = true;
-}
-
-void FilmGesture::show(animator::Film& film, bool, const PlaceStep& step, std::uint32_t frame) {
-  const std::size_t number = actor_named(film, step.actor);
-  refuse_carried(film, number, frame);
-  take_back(film);
-  animator::FigureMotion& motion = film.actors[number].motion;
-  if (step.place) set(motion.place, *step.place, frame);
-  if (step.turn) set(motion.turn, *step.turn, frame);
   actors_ = {number};
   shows_ = true;
 }
@@ -102,6 +118,20 @@ void FilmGesture::show(animator::Film& film, bool rig_lights, const CameraStep& 
   if (!rig_lights) return;
   lights_ = film.lights;
   film.lights = animator::rig_lights(film);
+}
+
+void FilmGesture::show(animator::Film& film, bool rig_lights, const LightStep& step, std::uint32_t frame) {
+  if (rig_lights || step.light > film.lights.size())
+    throw Failure("is no light of the film", "light " + std::to_string(step.light), "add it to the film's lights");
+  take_back(film);
+  lights_ = film.lights;
+  try {
+    set_light(film.lights[step.light - 1], step, frame);
+  } catch (...) {
+    take_back(film);
+    throw;
+  }
+  shows_ = true;
 }
 
 void FilmGesture::take_back(animator::Film& film) {

@@ -23,9 +23,9 @@ class FilmGesture {
  public:
   // `rig_lights`: the film has no lights of its own, they go with the camera. What the film shows at the frame is then
   // what it will show when the step is done. What an earlier one shows is taken back.
-  void show(animator::Film& film, bool rig_lights, const PoseStep& step, std::uint32_t frame);
-  void show(animator::Film& film, bool rig_lights, const PlaceStep& step, std::uint32_t frame);
+  void show(animator::Film& film, bool rig_lights, const FigureStep& step, std::uint32_t frame);
   void show(animator::Film& film, bool rig_lights, const CameraStep& step, std::uint32_t frame);
+  void show(animator::Film& film, bool rig_lights, const LightStep& step, std::uint32_t frame);
 
   // Of the same film, which has not been replaced since.
   void take_back(animator::Film& film);
@@ -46,7 +46,7 @@ class FilmGesture {
   std::vector<Saved<glm::dvec3>> vectors_;
   std::vector<Saved<animator::Point>> points_;
   std::vector<Saved<double>> numbers_;
-  std::vector<animator::LightMotion> lights_;  // as they were, if the gesture has moved them
+  std::vector<animator::LightMotion> lights_;  // as they were, if the gesture has changed them
   std::set<std::size_t> actors_;
   bool shows_ = false;
 };
