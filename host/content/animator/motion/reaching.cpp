@@ -20,7 +20,7 @@ constexpr Parameter kReach[] = {
     {"limb", "LIMB", "left-hand, right-hand, left-foot, right-foot, head, or a joint; default: right-hand",
      "left-foot"},
     {"to", "X Y Z", "where the palm, the ankle or the joint goes", "1.2 -0.4 3"},
-    {"of", "ACTOR[/JOINT]", "to the middle of an actor, or to a joint of it", "ball"},
+    {"of", "ACTOR[/JOINT]", "to an actor, or to a joint of it; a hand lies on the actor", "ball"},
     {"along", "PART",
      "what goes along where the limb is too short: limb (nothing), trunk, or body, which bends its "
      "knees; default: trunk",
@@ -60,16 +60,24 @@ std::string rounded_text(double value) { return document::shown(std::round(value
 
 // ---- Reaching
 
-// What of a limb goes to the place: of a hand its palm.
-glm::dvec3 held_of(const Scene& scene, std::size_t end) {
+// What of a limb goes to the place: of a hand its palm, or what lies on it that is so thick.
+glm::dvec3 held_of(const Scene& scene, std::size_t end, double radius) {
+  const modeler::Limbs& limbs = scene.model().limbs;
   for (const Side side : kSides) {
-    const modeler::Limbs& limbs = scene.model().limbs;
-    const std::size_t wrist = limbs.of(Limb::wrist, side);
-    if ((wrist == end || (wrist == modeler::kNone && limbs.of(Limb::elbow, side) == end)) &&
-        limbs.of(Limb::shoulder, side) != modeler::kNone && limbs.of(Limb::elbow, side) != modeler::kNone)
-      return hand_of(body_without_legs(scene.model(), scene.actor.name), side, "reach").grip;
+    const std::size_t wrist = limbs.of(Limb::wrist, side), elbow = limbs.of(Limb::elbow, side);
+    if (end != (wrist == modeler::kNone ? elbow : wrist)) continue;
+    if (limbs.of(Limb::shoulder, side) == modeler::kNone || elbow == modeler::kNone) continue;
+    return hand_of(body_without_legs(scene.model(), scene.actor.name), side, "reach").around(radius);
   }
   return {0, 0, 0};
+}
+
+// Of an actor that a hand touches.
+double radius_of(const Scene& scene, std::uint32_t last) {
+  const auto of = target_of(scene, "of");
+  if (!of || of->joint != modeler::kNone) return 0;
+  const Block block = block_of(scene, *of, last);
+  return std::min({block.half.x, block.half.y, block.half.z});
 }
 
 glm::dvec3 goal_of(const Scene& scene, std::uint32_t last) {
@@ -136,7 +144,7 @@ Motion reach(const Scene& scene) {
   const double seconds = scene.arguments.number("seconds", 1, {0.04, 60});
   const std::uint32_t last = scene.last_after(std::max(1.0, std::round(scene.frames(seconds))));
   const Chain chain = chain_of(model, end, extent);
-  const Pull pulled{.held = held_of(scene, end), .to = goal_of(scene, last)};
+  const Pull pulled{.held = held_of(scene, end, radius_of(scene, last)), .to = goal_of(scene, last)};
   const Posture start = posture_of(scene);
   std::vector<std::size_t> pins = extent == Extent::body ? feet_of(model) : std::vector<std::size_t>{};
   std::erase(pins, end);
