@@ -173,12 +173,13 @@ class Handling {
 
   // Near the thing the hand goes straight: `left` is what is left of the way, 1 to 0.
   void lead(double left, Posture& posture) const {
-    const double weight = 1 - smooth(0.15, 0.6, left);
+    const double weight = 1 - smooth(0.1, 0.7, left);
     if (weight <= 0) return;
     const modeler::Axes frame = frame_in(*body_.model, posture, hand_.end);
     const glm::dvec3 is = frame.turn * held_ + frame.place;
-    const double clear = kClear * hand_.length() * smooth(0, 0.7, left);
-    const glm::dvec3 place = glm::mix(is, to_ + clear * side_of_thing(contact_), weight);
+    const double clear = kClear * hand_.length() * smooth(0, 0.8, left);
+    const glm::dvec3 from = glm::normalize(side_of_thing(contact_) + glm::dvec3(0, 0, 0.7));
+    const glm::dvec3 place = glm::mix(is, to_ + clear * from, weight);
     const Posture rest = posture;
     const Chain arm = chain_of(*body_.model, hand_.end);
     pull(*body_.model, rest, posture, arm, {held_, place});

@@ -67,12 +67,11 @@ class Approach {
     stands_ = flat(0.5 * (stance.feet[0].ankle + stance.feet[1].ankle));
   }
 
-  // The ways to all four sides, the shortest first; a side of which something rises has none.
+  // The shortest way to a side on which one can sit: opposite its back, else where nothing rises.
   std::vector<glm::dvec2> way(const Target& target, Spot& spot) const {
     std::vector<glm::dvec2> best;
     double least = 1e300;
-    for (const glm::dvec2 side : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)}) {
-      if (is_closed(target, side)) continue;
+    for (const glm::dvec2& side : sides_of(target)) {
       const Spot there = spot_at(side);
       const std::vector<glm::dvec2> around = around_to(there.feet);
       if (const double length = length_of(around); length < least) {
@@ -88,6 +87,16 @@ class Approach {
   }
 
  private:
+  std::vector<glm::dvec2> sides_of(const Target& target) const {
+    std::vector<glm::dvec2> open, before_backs;
+    for (const glm::dvec2 side : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)}) {
+      if (is_closed(target, side)) continue;
+      open.push_back(side);
+      if (is_closed(target, -side)) before_backs.push_back(side);
+    }
+    return before_backs.empty() ? open : before_backs;
+  }
+
   Spot spot_at(const glm::dvec2& side) const {
     const double leg = body_.leg_length();
     const int deep = side.x != 0 ? 0 : 1;
