@@ -107,6 +107,35 @@ void refuse_carried(const Scene& scene, const animator::ActorKey& driven) {
                 scene.where(), "detach it there first");
 }
 
+bool is_about_hands(const Action& action) {
+  return std::any_of(action.parameters.begin(), action.parameters.end(), [](const Parameter& parameter) {
+    return parameter.name == "hand" || parameter.name == "limb" || parameter.name == "what";
+  });
+}
+
+// The arm of a hand that holds something stays as it is: it neither swings nor rests.
+void keep_holding(const Scene& scene, Motion& motion) {
+  const std::vector<modeler::Joint>& joints = scene.model().joints;
+  for (const animator::Actor& thing : scene.film.actors) {
+    const animator::Attachment* const carrier = animator::attachment_at(thing, scene.at);
+    if (!carrier || &scene.film.actors[carrier->actor] != &scene.actor) continue;
+    for (const modeler::Side side : {modeler::Side::left, modeler::Side::right}) {
+      const std::size_t shoulder = scene.model().limbs.of(modeler::Limb::shoulder, side);
+      std::vector<std::string> arm;
+      std::size_t joint = carrier->joint;
+      for (; joint != modeler::kNone && joint != shoulder; joint = joints[joint].parent)
+        arm.push_back(joints[joint].name);
+      if (joint == modeler::kNone) continue;
+      arm.push_back(joints[shoulder].name);
+      for (animator::ActorKey& key : motion.keys)
+        for (const std::string& name : arm) key.pose.erase(name);
+    }
+  }
+  std::erase_if(motion.keys, [](const animator::ActorKey& key) {
+    return !key.place && !key.turn && !key.attach && key.pose.empty();
+  });
+}
+
 }  // namespace
 
 std::size_t Parameter::count() const {
@@ -132,7 +161,8 @@ Performed perform(document::Json& json, const std::filesystem::path& path, const
     throw Failure("is moved by matrices", "actor '" + name + "'",
                   "take its matrices out of the film, or name another actor");
   const Scene scene{film, actor, at ? *at : animator::last_key(actor), arguments, action.name};
-  const Motion motion = action.perform(scene);
+  Motion motion = action.perform(scene);
+  if (!is_about_hands(action)) keep_holding(scene, motion);
   // Where it is elsewhere afterwards, what followed was meant for another place.
   const animator::ActorKey driven = all_of(motion.keys);
   refuse_carried(scene, driven);

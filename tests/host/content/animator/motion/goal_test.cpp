@@ -160,6 +160,19 @@ TEST(Pick, TakesFromAnothersHandAndRefusesNonsense) {
   EXPECT_LT(glm::distance(frames.root_of(1, taken).place, frames.root_of(1, taken - 1).place), 1e-3);
 }
 
+TEST(Pick, LeavesTheArmAsItIsWhileTheFigureWalks) {
+  document::Json json = film_of(figures()[0], 1.2, -0.3, kBall);
+  const Performed picked = act(json, "pick what ball hand right", 0);
+  const Performed walked = act(json, "walk steps 3");
+  const animator::Film film = read(json);
+  const modeler::Model& model = film.models[film.actors[0].model];
+  for (const modeler::Limb limb : {modeler::Limb::shoulder, modeler::Limb::elbow, modeler::Limb::wrist}) {
+    const std::size_t joint = model.limbs.of(limb, modeler::Side::right);
+    EXPECT_EQ(posture_at(model, film.actors[0].motion, walked.last - 9).pose[joint],
+              posture_at(model, film.actors[0].motion, picked.last).pose[joint]);
+  }
+}
+
 TEST(Put, PutsWhatItHoldsDownAtAPlace) {
   for (const Figure& figure : figures()) {
     document::Json json = film_of(figure, 1.2, -0.3, kBall);
