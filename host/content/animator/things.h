@@ -35,8 +35,8 @@ struct Thing {
   const KeyedPart& part(const std::string& wanted) const;  // which it has
 };
 
-// Either everything in the film, or "camera", "light/1" or an actor, and of it these parts: all if none are named. A joint
-// is named as in its model, or with a slash before it where it is called place or turn.
+// Either everything in the film, or "camera", "light/1" or an actor, and of it these parts: all if none are named. A
+// joint is named as in its model, or with a slash before it where it is called place or turn.
 struct Choice {
   bool all = false;
   std::string thing;
