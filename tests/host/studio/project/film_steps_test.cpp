@@ -209,5 +209,17 @@ TEST_F(FilmSteps, ThePageSeesActorsAndJoints) {
       "limb": "left.knee"})"));
 }
 
+TEST_F(FilmSteps, ACarriedActorIsNotMovedByItsPlace) {
+  Json json = Json::parse(text("film.json"));
+  for (Json& actor : json["actors"])
+    if (actor["name"] == "one") actor["attach"] = {{"actor", "two"}};
+  write("film.json", json.dump());
+  const auto project = open("film.json");
+  const Json place = step(R"({"set": "place", "actor": "one", "place": [1, 2, 3]})");
+  EXPECT_THROW(project->preview(place), Failure);
+  EXPECT_THROW(project->commit(place), Failure);
+  EXPECT_EQ(text("film.json"), json.dump());
+}
+
 }  // namespace
 }  // namespace mars::studio
