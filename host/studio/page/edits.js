@@ -11,6 +11,7 @@ export class Edits {
   }
 
   #previews = false;
+  onCommands = () => {};  // hears the commands of each step that is committed
   unanswered = new Unanswered();
 
   preview(step, event) {
@@ -23,6 +24,7 @@ export class Edits {
     this.unanswered.add(step, this.state);
     this.pace.drop("preview");
     this.pace.now({do: "commit", step}, event ?? kNoEvent);
+    if (step.commands) this.onCommands(step.commands);
   }
 
   cancel() {
@@ -39,6 +41,12 @@ export class Edits {
   select(actor, joint) {
     this.state.select(actor, joint);
     this.connection.send({do: "select", actor, joint});
+  }
+
+  // The camera or a light.
+  selectThing(thing) {
+    this.state.select(null, null, thing);
+    this.connection.send({do: "select", thing});
   }
 
   undo() { this.#goTo("undo"); }

@@ -56,8 +56,12 @@ export const moved = (things, by) => displaced("move", things, by);
 export const copied = (things, by) => displaced("copy", things, by);
 export const deleted = (things) =>
   ranges(things).map(({whose, first, last}) => ["animate", "delete", ...whose, "--frame", whole(first, last)]);
-export const eased = (things, ease) =>
-  ranges(things).map(({whose, first, last}) => ["animate", "time", ...whose, "--frame", whole(first, last), "--ease", ease]);
+
+const timed = (things, ...words) =>
+  ranges(things).map(({whose, first, last}) => ["animate", "time", ...whose, "--frame", whole(first, last), ...words]);
+
+export const eased = (things, ease) => timed(things, "--ease", ease);
+export const swung = (things, back, beyond) => timed(things, "--anticipate", `${back}`, "--overshoot", `${beyond}`);
 
 // Of each thing from its first selected key to its last.
 export function stretched(things, factor) {

@@ -71,11 +71,17 @@ export class Rows {
     this.choose({id: known === null ? thing : `${thing}\n${known}`});
   }
 
-  // Of the first thing that is chosen: its chosen parts, all of them where none is.
-  chosenParts() {
-    const rows = this.list.filter(({id, thing}) => thing !== null && this.chosen.has(id));
+  // Of the first thing that is chosen, or has a chosen part: these parts, none where all of it is chosen.
+  named() {
+    if (this.chosen.has("")) return {thing: "--all", parts: []};
+    const rows = this.list.filter(({id}) => this.chosen.has(id));
     const thing = rows[0]?.thing ?? null;
-    const parts = rows.filter((row) => row.thing === thing && row.part !== null).map(({part}) => part);
+    return {thing, parts: rows.filter((row) => row.thing === thing && row.part !== null).map(({part}) => part)};
+  }
+
+  // The same with all parts where none is named.
+  chosenParts() {
+    const {thing, parts} = this.named();
     return {thing, parts: parts.length ? parts : this.keys.thing(thing)?.parts.map(({name}) => name) ?? []};
   }
 
