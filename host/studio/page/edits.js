@@ -49,6 +49,14 @@ export class Edits {
     this.connection.send({do: "select", thing});
   }
 
+  // A joint that stays where it is while others are pulled, or no longer.
+  pin() {
+    const {actor, joint} = this.state.selected;
+    if (joint === null) return;
+    const pinned = !this.state.pins.some((pin) => pin.actor === actor && pin.joint === joint);
+    this.connection.send({do: "pin", actor, joint, pinned});
+  }
+
   undo() { this.#goTo("undo"); }
   redo() { this.#goTo("redo"); }
 

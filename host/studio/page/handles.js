@@ -2,7 +2,8 @@
 
 import {svg} from "./dom.js";
 
-const kDot = 3.6, kJoint = 2.6, kSelected = 4.5, kHead = 9;
+const kDot = 3.6, kJoint = 2.6, kSelected = 4.5, kHead = 9, kPin = 6;
+const kFaint = 0.055, kFaded = 0.75;  // how a ghost shows a frame away, and what is left of it another step away
 const kMany = 60;  // points of a shape: more would hide what they shape
 
 // In place of what the layer shows.
@@ -13,6 +14,7 @@ export function showHandles(layer, shapes) {
 
 function drawn(shape) {
   const kinds = ["handle", shape.kind];
+  if (shape.kind === "ghost" || shape.kind === "trail") kinds.push(Number(shape.text) < 0 ? "before" : "after");
   if (shape.axis !== undefined && shape.axis !== null) kinds.push(`axis-${axisName(shape.axis)}`);
   if (shape.hot) kinds.push("hot");
   if (shape.selected) kinds.push("selected");

@@ -60,9 +60,11 @@ export class View {
     if (width === 0 || height === 0) return;
     const {from, orbit, as, hidden, ground, handles} = this.shown;
     const message = {do: "view", view: this.number, width, height, from, orbit, as, hidden, ground,
-                     handles: handles ? this.state.tool : "none"};
+                     handles: handles ? this.state.tool : "none", ...this.#ofFilms()};
     this.pace.send(`view ${this.number}`, message, event ?? kNoEvent);
   }
+
+  #ofFilms() { return this.state.isFilm() ? {ghosts: this.state.ghosts, marks: this.state.marks} : {}; }
 
   // Pictures count from 1 again.
   forgetPictures() {
