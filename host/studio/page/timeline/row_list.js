@@ -43,7 +43,7 @@ export class RowList {
 
   #row(row, index) {
     const {id, kind, name, level, open} = row;
-    const item = element("div", {role: "treeitem", id: `${this.id}-${index}`, class: "key-row", "data-row": id, "aria-level": level + 1, "aria-label": name,
+    const item = element("div", {role: "treeitem", id: `${this.id}-${index}`, class: "key-row", "data-row": id.replace("\n", " "), "data-index": index, "aria-level": level + 1, "aria-label": name,
                                  "aria-expanded": open === undefined ? null : String(open), "aria-selected": String(this.rows.chosen.has(id))},
                          element("span", {class: "twist"}, open !== undefined && icon("twist")), kGlyphs[kind] && icon(kGlyphs[kind]),
                          element("span", {class: "name"}, name));
@@ -63,7 +63,7 @@ export class RowList {
 
   #click(event) {
     const item = event.target.closest("[role=treeitem]");
-    const row = item && this.rows.at(this.rows.index(item.dataset.row));
+    const row = item && this.rows.at(Number(item.dataset.index));
     if (!row) return;
     if (event.target.closest(".twist") && row.open !== undefined) this.rows.setOpen(row.thing, !row.open);
     else this.choose(row, event.shiftKey ? "to" : event.ctrlKey || event.metaKey ? "flip" : "only");
