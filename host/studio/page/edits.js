@@ -11,7 +11,7 @@ export class Edits {
   }
 
   #previews = false;
-  onCommands = () => {};  // hears the commands of each step that is committed
+  onCommit = () => {};  // hears each step
   unanswered = new Unanswered();
 
   preview(step, event) {
@@ -24,7 +24,7 @@ export class Edits {
     this.unanswered.add(step, this.state);
     this.pace.drop("preview");
     this.pace.now({do: "commit", step}, event ?? kNoEvent);
-    if (step.commands) this.onCommands(step.commands);
+    this.onCommit(step);
   }
 
   cancel() {

@@ -34,11 +34,11 @@ const latencies = new Latencies();
 const pace = new Pace(connection, latencies);
 const painter = new Painter(connection, latencies);
 const edits = new Edits(connection, pace, state);
-const parts = {state, connection, latencies, pace, painter, edits};
+const ghosts = new Ghosts(state);
+const parts = {state, connection, latencies, pace, painter, edits, ghosts};
 
 const notices = new Notices();
 const help = new Help(state);
-const ghosts = new Ghosts(state);
 const header = new Header(place("header"), parts, {help: () => help.toggle(), theme: () => theme.toggle(), ghosts: () => ghosts.menu()});
 const theme = new Theme(header.theme);
 const tree = new Tree(place("tree"), {...parts, rename: () => rename()});
@@ -159,8 +159,8 @@ new Keys({
   toolNone: () => state.set("tool", "none"),
   toolTurn: () => state.set("tool", "turn"),
   toolMove: () => state.set("tool", "move"),
-  toolBox: () => state.set("tool", "box"),
-  toolPoints: () => state.set("tool", "points"),
+  toolBox: inModel(() => state.set("tool", "box")),
+  toolPoints: inModel(() => state.set("tool", "points")),
   toolReach: () => state.set("tool", "reach"),
   pin: () => edits.pin(),
   goToView: (keys) => views.go(Number(keys) - 1),
@@ -169,7 +169,7 @@ new Keys({
   nextDisplay: (_, event) => views.nextDisplay(event),
   hidden: (_, event) => views.flip("hidden", event),
   ground: (_, event) => views.flip("ground", event),
-  ghosts: () => ghosts.flip(),
+  ghosts: ghosts.flip,
   marks: () => state.set("marks", !state.marks),
   orbitBy: (keys, event) => views.orbitBy("turn", stepsOf(keys), event),
   panBy: (keys, event) => views.orbitBy("pan", stepsOf(keys), event),

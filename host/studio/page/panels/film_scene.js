@@ -23,7 +23,9 @@ export class FilmScene {
   parts() {
     this.#fields = [];
     const {actor, thing} = this.state.selected;
-    return [actor !== null && this.#actor(actor), this.#camera(), this.#lights(thing), this.#cast(), this.#materials(), this.#settings()].filter(Boolean);
+    const lights = this.#lights(thing), lit = thing?.startsWith("light/");  // what is selected comes first
+    return [actor !== null && this.#actor(actor), lit && lights, this.#camera(), !lit && lights, this.#cast(), this.#materials(),
+            this.#settings()].filter(Boolean);
   }
 
   set() { for (const field of this.#fields) field(); }

@@ -3,7 +3,7 @@
 import {element} from "../dom.js";
 import {icon} from "../icons.js";
 import {openPopover} from "../popover.js";
-import {typed} from "./key_commands.js";
+import {commandsOf, typed} from "./typed.js";
 
 const kKept = 100;
 
@@ -15,7 +15,7 @@ export class CommandLog {
     this.last = element("code", {});
     this.root = element("button", {class: "quiet commands", "data-key": "commands", title: "What would be typed",
                                    onclick: () => this.#open()}, icon("prompt"), this.last);
-    edits.onCommands = (commands) => this.#add(commands);
+    edits.onCommit = (step) => { if (state.isFilm()) this.#add(commandsOf(step, state.project.frame)); };
     this.#show();
   }
 

@@ -5,6 +5,7 @@
 import {onAxis} from "./curve_data.js";
 
 const kEases = {linear: [0, 0, 1, 1], in: [0.42, 0, 1, 1], out: [0, 0, 0.58, 1], both: [0.42, 0, 0.58, 1]};
+const kAside = 1 / 6;   // of the way: where a control point shows that lies on its key
 const kThird = 1 / 3;  // of the way to the neighbour: Bezier's control point of Hermite's cubic
 
 const fourOf = (ease) => Array.isArray(ease) ? ease : kEases[ease ?? "linear"];
@@ -36,7 +37,9 @@ export function handlesOf(line, index) {
 function eases(line, index, from, to) {
   const [x1, y1, x2, y2] = fourOf(line.keys[index].key.ease);
   const at = (x, y) => ({frame: from.frame + x * (to.frame - from.frame), value: from.value + y * (to.value - from.value)});
-  return [{kind: "ease-1", line, index, from, at: at(x1, y1)}, {kind: "ease-2", line, index, from: to, at: at(x2, y2)}];
+  const first = x1 === 0 && y1 === 0 ? at(kAside, kAside) : at(x1, y1);
+  const second = x2 === 1 && y2 === 1 ? at(1 - kAside, 1 - kAside) : at(x2, y2);
+  return [{kind: "ease-1", line, index, from, at: first}, {kind: "ease-2", line, index, from: to, at: second}];
 }
 
 const rounded = (number) => Number(number.toFixed(3));

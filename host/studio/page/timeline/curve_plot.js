@@ -4,7 +4,7 @@ import {clamped, written} from "../numbers.js";
 import {Canvas, drawCursor} from "./canvas.js";
 import {handlesOf} from "./curve_handles.js";
 
-const kPoint = 4, kHandle = 3.2, kApart = 34;  // pixels
+const kPoint = 4, kHandle = 3.2, kNear = 8, kApart = 34;  // pixels
 const kMargin = 26;
 const kMostHandles = 24;
 const kAxisColor = {x: "axis-x", y: "axis-y", z: "axis-z"};
@@ -72,16 +72,13 @@ export class CurvePlot {
     this.showValues();
   }
 
-  // Handles first: they are smaller.
+  // What is nearest: {handle}, {line, index of the key}, or nothing.
   find({x, y}) {
-    const near = (at, reach) => Math.hypot(this.axis.x(at.frame) - x, this.y(at.value) - y) <= reach;
-    const handle = this.handles().find(({at}) => near(at, kHandle + 4));
-    if (handle) return {handle};
-    for (const line of [...this.lines].reverse()) {
-      const index = line.keys.findIndex(({key, value}) => near({frame: key.frame, value}, kPoint + 3));
-      if (index >= 0) return {line, index};
-    }
-    return {};
+    const away = (at) => Math.hypot(this.axis.x(at.frame) - x, this.y(at.value) - y);
+    const points = this.lines.flatMap((line) => line.keys.map(({key, value}, index) => ({line, index, away: away({frame: key.frame, value})})));
+    const handles = this.handles().map((handle) => ({handle, away: away(handle.at)}));
+    const near = [...points, ...handles].filter((each) => each.away <= kNear).sort((one, other) => one.away - other.away);
+    return near[0] ?? {};
   }
 
   isPicked(line, {key}) { return this.keys.isPicked(line.thing, line.part, key.frame); }

@@ -60,8 +60,8 @@ export class FilmKeys {
   // All things as key_commands.js takes them.
   chosen() {
     return this.things.map(({thing, parts}) => ({thing, parts: parts.map(({name, keys}) => {
-      const frames = keys.map(({frame}) => frame);
-      return {name, frames, picked: new Set(frames.filter((frame) => this.isPicked(thing, name, frame)))};
+      const frames = new Set(keys.map(({frame}) => frame));
+      return {name, frames, picked: (this.#picked.get(idOf(thing, name)) ?? new Set()).intersection(frames)};
     })}));
   }
 }

@@ -1,6 +1,6 @@
 // What hands do to keys as words of `mars animate` (docs/animating.md), as few as will do.
 //
-// `things`: [{thing, parts: [{name, frames, picked: Set of frames}]}], with all that have keys, so that "all of it" can
+// `things`: [{thing, parts: [{name, frames, picked}]}], both sets of frames, with all that have keys, so that "all of it" can
 // be said in short.
 
 const has = ({picked}) => picked.size > 0;
@@ -8,11 +8,11 @@ const whole = (first, last) => first === last ? `${first}` : `${first}-${last}`;
 
 // Runs of frames in which all keys of `parts` are picked; null where a frame has one that is and one that is not.
 function runs(parts) {
-  const frames = [...new Set(parts.flatMap((part) => part.frames))].sort((one, other) => one - other);
+  const frames = [...new Set(parts.flatMap((part) => [...part.frames]))].sort((one, other) => one - other);
   const found = [];
   let open = false;
   for (const frame of frames) {
-    const there = parts.filter((part) => part.frames.includes(frame));
+    const there = parts.filter((part) => part.frames.has(frame));
     const picked = there.filter((part) => part.picked.has(frame)).length;
     if (picked !== 0 && picked !== there.length) return null;
     if (picked !== 0 && open) found.at(-1).last = frame;
@@ -76,10 +76,3 @@ export const retimed = (things, option, frame, by) => things.filter(({parts}) =>
   .map(({thing}) => ["animate", "time", thing, "--frame", `${frame}`, `--${option}`, `${by}`]);
 
 export const keyed = (thing, parts, frame) => ["animate", "key", thing, ...parts, "--frame", `${frame}`];
-
-// As a person types it. Words that a shell would read otherwise are quoted.
-export function typed([program, ...words], film) {
-  return ["mars", program, film, ...words].map((word) => /^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`).join(" ");
-}
-
-export const easeText = (ease) => Array.isArray(ease) ? ease.join(",") : ease ?? "linear";
