@@ -1,8 +1,10 @@
 #include "host/preview/pose_under_way.h"
 
 #include <algorithm>
+#include <set>
 
 #include "host/content/animator/angles.h"
+#include "host/content/animator/attachments.h"
 #include "host/content/animator/set_key.h"
 
 namespace mars::preview {
@@ -63,11 +65,13 @@ void PoseUnderWay::keep_those_of(const animator::Film& film) {
 
 std::map<std::size_t, animator::ActorState> PoseUnderWay::figures(animator::Film& film, std::uint32_t frame) const {
   std::map<std::size_t, animator::ActorState> figures;
+  std::set<std::size_t> posed_actors;
+  for (const auto& [names, angles] : angles_) posed_actors.insert(joint_named(film, names)->actor);
   const PosedFilm posed(film, *this, frame);
-  for (const auto& [names, angles] : angles_) {
-    const std::size_t actor = joint_named(film, names)->actor;
-    if (!figures.contains(actor)) figures.emplace(actor, animator::state_at(film, actor, frame));
-  }
+  for (std::size_t actor = 0; actor < film.actors.size(); ++actor)
+    if (std::ranges::any_of(animator::chain_at(film.actors, actor, frame),
+                            [&](std::size_t carrier) { return posed_actors.contains(carrier); }))
+      figures.emplace(actor, animator::state_at(film, actor, frame));
   return figures;
 }
 

@@ -35,7 +35,7 @@ class PoseUnderWay {
   // Leaves out joints that the film does not have.
   void keep_those_of(const animator::Film& film);
 
-  // The figures that it changes.
+  // The figures that it changes, and those that they carry.
   std::map<std::size_t, animator::ActorState> figures(animator::Film& film, std::uint32_t frame) const;
 
  private:

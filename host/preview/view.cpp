@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "host/content/animator/figure.h"
+#include "host/content/animator/joint_frames.h"
 #include "host/content/film/light_writer.h"
 #include "host/preview/shape_lines.h"
 
@@ -152,10 +153,11 @@ class Maker {
                        const std::vector<std::uint32_t>& lines, const std::vector<wire::Track>& looks) {
     const animator::Actor& actor = source_->actors[actor_number];
     animator::Figure figure(source_->models[actor.model], actor.motion);
+    animator::JointFrames carriers(*source_);
     std::vector<std::vector<wire::Change>> changes(joints.size());
-    const std::uint32_t frames = figure.still() ? 1 : source_->frames;
+    const std::uint32_t frames = figure.still() && actor.attach.empty() ? 1 : source_->frames;
     for (std::uint32_t frame = 0; frame < frames; ++frame) {
-      if (!figure.move_to(frame)) continue;
+      if (!figure.move_to(frame, carriers.root_of(actor_number, frame))) continue;
       for (std::size_t i = 0; i < joints.size(); ++i) {
         if (!figure.moved(joints[i])) continue;
         changes[i].push_back({frame, static_cast<std::uint32_t>(view_.matrices.size())});

@@ -91,25 +91,25 @@ animator::Film turntable(modeler::Model model, const std::string& source) {
   actor.motion.pose.resize(model.joints.size());
   film.models.push_back(std::move(model));
   film.actors.push_back(std::move(actor));
-  film.camera.eye = animator::constant(glm::dvec3(1, 0, 0));
-  film.camera.at = animator::constant(glm::dvec3(0));
+  film.camera.eye = animator::constant(animator::Point{{1, 0, 0}});
+  film.camera.at = animator::constant(animator::Point{});
   film.camera.up = animator::constant(glm::dvec3(0, 0, 1));
   film.camera.fov = animator::constant(kFov);
   film.camera.exposure = animator::constant(0.0);
-  film.lights = animator::rig_lights(film.camera, film.color);
+  film.lights = animator::rig_lights(film);
   film.ambient = animator::rig_ambient(film.color);
   film.frames = 1;
   const Ball ball = view_of(film::compile(film), &film).whole;  // its size is known when it is compiled
   film.frames = kFrames;
   Orbit orbit = orbit_from(From::front, ball, 1);
   orbit.height = 12;
-  film.camera.at = animator::constant(ball.center);
+  film.camera.at = animator::constant(animator::Point{ball.center});
   film.camera.eye.clear();
   for (animator::LightMotion& light : film.lights) light.vector.clear();
   for (std::uint32_t frame = 0; frame < kFrames; ++frame) {
     orbit.turn = 360.0 * frame / kFrames - 30;
     const glm::dvec3 eye = ball.center + orbit.distance * outward(orbit);
-    film.camera.eye.push_back({frame, eye, animator::kLinear});
+    film.camera.eye.push_back({frame, animator::Point{eye}, animator::kLinear});
     const auto directions = animator::rig_directions(eye, ball.center, {0, 0, 1});
     for (std::size_t i = 0; i < film.lights.size(); ++i)
       film.lights[i].vector.push_back({frame, directions[i], animator::kLinear});

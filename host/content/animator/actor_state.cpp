@@ -1,5 +1,9 @@
 #include "host/content/animator/actor_state.h"
 
+#include "host/content/animator/angles.h"
+#include "host/content/animator/attachments.h"
+#include "host/content/animator/joint_frames.h"
+
 namespace mars::animator {
 namespace {
 
@@ -13,11 +17,18 @@ void place_by_matrices(const Actor& actor, const modeler::Model& model, std::uin
   }
 }
 
-void place_by_keys(const Actor& actor, const modeler::Model& model, std::uint32_t frame, ActorState& state) {
+void place_by_keys(const Film& film, std::size_t actor_number, std::uint32_t frame, ActorState& state) {
+  const Actor& actor = film.actors[actor_number];
+  const modeler::Model& model = film.models[actor.model];
+  state.root = JointFrames(film).root_of(actor_number, frame);
   state.place = value_at(actor.motion.place, frame);
   state.turn = JointMotion(free_joint(), actor.motion.turn).pose_at(frame);
+  if (attachment_at(actor, frame)) {
+    state.place = state.root.place;
+    state.turn = pose_of(free_joint(), state.root.turn, state.turn);
+  }
   Figure figure(model, actor.motion);
-  figure.move_to(frame);
+  figure.move_to(frame, state.root);
   for (std::size_t number = 0; number < model.joints.size(); ++number) {
     const modeler::Joint& joint = model.joints[number];
     state.pose.push_back(JointMotion(joint, actor.motion.pose[number]).pose_at(frame));
@@ -35,7 +46,7 @@ ActorState state_at(const Film& film, std::size_t number, std::uint32_t frame) {
   const modeler::Model& model = film.models[actor.model];
   ActorState state{};
   state.segments.resize(model.joints.size());
-  actor.matrices.empty() ? place_by_keys(actor, model, frame, state) : place_by_matrices(actor, model, frame, state);
+  actor.matrices.empty() ? place_by_keys(film, number, frame, state) : place_by_matrices(actor, model, frame, state);
   return state;
 }
 

@@ -13,7 +13,8 @@
 namespace mars::animator {
 
 struct ActorState {
-  glm::dvec3 place, turn;                             // of the whole figure; those of an actor moved by matrices are 0
+  glm::dvec3 place, turn;                             // of the whole figure in the world; 0 if matrices move it
+  modeler::Axes root;                                 // the same as a frame
   std::vector<glm::dvec3> pose;                       // of each joint, degrees, as the film file would say it
   std::vector<modeler::Axes> joints;                  // where each stands in the world; none if matrices move it
   std::vector<std::optional<wire::Matrix>> segments;  // of each joint, the T-matrix of its segment, if it has one

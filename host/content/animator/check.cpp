@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "host/content/animator/attachments.h"
+#include "host/content/animator/joint_frames.h"
 #include "host/content/animator/limits_left.h"
 #include "host/content/document/fields.h"
 #include "host/content/document/shell_word.h"
@@ -12,6 +14,7 @@ namespace mars::animator {
 namespace {
 
 constexpr std::size_t kMostWarnings = 10;  // of joints
+constexpr double kFall = 0.1;              // of its size: less is no jump when an actor is let go
 
 std::string rounded_text(double number) { return document::shown(std::round(number * 100) / 100); }
 
@@ -82,8 +85,27 @@ void find_jumps(const Film& film, const Actor& actor, std::vector<std::string>& 
   for (std::size_t i = 0; i + 1 < place.size(); ++i) {
     const double way = glm::length(place[i + 1].value - place[i].value);
     if (place[i + 1].frame != place[i].frame + 1 || way <= size || size == 0) continue;
+    if (attachment_at(actor, place[i].frame) || attachment_at(actor, place[i + 1].frame)) continue;
     lines.push_back("actor '" + actor.name + "': jumps " + document::shown(std::round(way * 1000) / 1000) +
                     " from frame " + std::to_string(place[i].frame) + " to the next, farther than it is long");
+  }
+}
+
+// Where nothing carries it any more, it should be where it would have been carried to.
+void find_falls(const Film& film, std::size_t number, std::vector<std::string>& lines) {
+  const Actor& actor = film.actors[number];
+  const double size = size_of(film.models[actor.model]);
+  JointFrames frames(film);
+  for (std::size_t i = 1; i < actor.attach.size(); ++i) {
+    const std::uint32_t frame = actor.attach[i].frame;
+    if (!actor.attach[i - 1].value || actor.attach[i].value || frame >= film.frames) continue;
+    const Attachment& carrier = *actor.attach[i - 1].value;
+    const modeler::Axes carried = within(frames.frame_of(carrier.actor, carrier.joint, frame), axes_of(carrier));
+    const double way = glm::length(frames.root_of(number, frame).place - carried.place);
+    if (way <= kFall * size) continue;
+    lines.push_back("actor '" + actor.name + "': jumps " + document::shown(std::round(way * 1000) / 1000) +
+                    " where it is detached at frame " + std::to_string(frame) + " (fix it with: detach " +
+                    document::shell_word(actor.name) + " --frame " + std::to_string(frame) + ")");
   }
 }
 
@@ -95,14 +117,17 @@ Findings check_film(const Film& film) {
   std::size_t small = 0;
   for (const LimitsLeft& left : limits_left(film))
     left.worst.outside > kExcessSeen ? lines.push_back(line_of(film, left)) : void(++small);
-  for (const Actor& actor : film.actors) {
+  for (std::size_t number = 0; number < film.actors.size(); ++number) {
+    const Actor& actor = film.actors[number];
     const std::string name = "actor '" + actor.name + "': ";
     // A key just behind the end is where a film that is played round and round begins again.
-    if (const std::uint32_t last = last_key(actor.motion); last > film.frames)
+    if (const std::uint32_t last = last_key(actor); last > film.frames)
       lines.push_back(name + "has keys up to frame " + std::to_string(last) + ", behind the film's last, " +
                       std::to_string(film.frames - 1) + " (give the film more frames, or delete them)");
-    if (keyed(actor) && !moves(actor)) lines.push_back(name + "has keys that are all the same: it never moves");
+    if (actor.attach.empty() && keyed(actor) && !moves(actor))
+      lines.push_back(name + "has keys that are all the same: it never moves");
     find_jumps(film, actor, lines);
+    find_falls(film, number, lines);
   }
   findings.trouble = !lines.empty();
   if (small > 0)

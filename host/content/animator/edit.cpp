@@ -46,6 +46,7 @@ void put(KeysByFrame& keys, const ActorKey& key) {
     for (const auto& [joint, angles] : key.pose) pose[joint] = written(angles);
     set(item, "pose", pose);
   }
+  if (key.attach) set(item, "attach", written(*key.attach));
   if (key.ease) item["ease"] = written(*key.ease);
 }
 
@@ -82,6 +83,15 @@ void move_still_pose(document::Json& actor, KeysByFrame& keys) {
 
 }  // namespace
 
+document::Json written(const AttachKey& attach) {
+  if (attach.actor.empty()) return nullptr;
+  document::Json json{{"actor", attach.actor}};
+  if (!attach.joint.empty()) json["joint"] = attach.joint;
+  if (attach.place != glm::dvec3(0)) json["place"] = written(attach.place);
+  if (attach.turn != glm::dvec3(0)) json["turn"] = written(attach.turn);
+  return json;
+}
+
 document::Json& actor_of(document::Json& film, const std::string& actor) {
   std::vector<std::string> names;
   for (document::Json& each : film.at("actors")) {
@@ -101,7 +111,7 @@ void put_keys(document::Json& film, const std::string& actor, std::span<const Ac
   if (keys.empty()) return;
   KeysByFrame all = keys_of(object);
   for (const ActorKey& key : keys) put(all, key);
-  for (const char* name : {"place", "turn"}) move_still_vector(object, all, name);
+  for (const char* name : {"place", "turn", "attach"}) move_still_vector(object, all, name);
   move_still_pose(object, all);
   document::Json list = document::Json::array();
   for (auto& [frame, key] : all) list.push_back(std::move(key));
@@ -118,6 +128,7 @@ void clear_keys(document::Json& film, const std::string& actor, std::uint32_t fi
   };
   if (like.place) clear("place");
   if (like.turn) clear("turn");
+  if (like.attach) clear("attach");
   for (const auto& [joint, angles] : like.pose) clear("/" + joint);
   put_tracks(object, tracks);
 }

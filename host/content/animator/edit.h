@@ -15,23 +15,34 @@
 
 namespace mars::animator {
 
+// What carries an actor from a frame on.
+struct AttachKey {
+  std::string actor{};  // "": nothing
+  std::string joint{};  // "": the actor itself
+  glm::dvec3 place{0, 0, 0}, turn{0, 0, 0};
+};
+
 // What an actor's keys hold at one frame. What is not set is not keyed there.
 struct ActorKey {
   std::uint32_t frame = 0;
   std::optional<glm::dvec3> place, turn;   // as in the film file: the world, degrees
   std::map<std::string, glm::dvec3> pose;  // joint to its three turns, degrees
-  std::optional<Ease> ease;                // of all that is keyed there; none: as it was, or linear
+  std::optional<AttachKey> attach{};
+  std::optional<Ease> ease;  // of all that is keyed there; none: as it was, or linear
   // Slopes of splines (channel.h), of what is keyed there: "place", "turn", "/" and a joint.
   std::map<std::string, glm::dvec3> in{}, out{};
 };
+
+// As a key of the film holds it.
+document::Json written(const AttachKey& attach);
 
 // Puts the keys, in any order, into the actor's "keys": values of the same frame are replaced, others stay. A
 // still value of what is now keyed, beside the keys, becomes a key of frame 0, unless that frame is keyed.
 // Throws where the film has no such actor or matrices move it; the film is then as it was.
 void put_keys(document::Json& film, const std::string& actor, std::span<const ActorKey> keys);
 
-// Takes out what the actor's keys of frames `first` to `last` hold of the same kinds as `like`: place, turn, and its
-// joints' poses.
+// Takes out what the actor's keys of frames `first` to `last` hold of the same kinds as `like`: place, turn, what
+// carries it, and its joints' poses.
 void clear_keys(document::Json& film, const std::string& actor, std::uint32_t first, std::uint32_t last,
                 const ActorKey& like);
 

@@ -123,8 +123,11 @@ glm::dvec3 JointMotion::pose_at(std::uint32_t frame) {
   return pose_of(*joint_, between(stretch), from + stretch.part * (to - from));
 }
 
-Figure::Figure(const modeler::Model& model, const FigureMotion& motion)
-    : model_(&model), motion_(&motion), root_turn_(kFree, motion.turn) {
+OwnFrame::OwnFrame(const FigureMotion& motion) : motion_(&motion), turn_(kFree, motion.turn) {}
+
+modeler::Axes OwnFrame::at(std::uint32_t frame) { return {turn_.at(frame), value_at(motion_->place, frame)}; }
+
+Figure::Figure(const modeler::Model& model, const FigureMotion& motion) : model_(&model), own_frame_(motion) {
   for (std::size_t joint = 0; joint < model.joints.size(); ++joint) {
     turns_.push_back(JointMotion(model.joints[joint], motion.pose[joint]).at(0));
     if (motion.pose[joint].size() < 2) continue;
@@ -145,18 +148,17 @@ void Figure::turn_keyed_joints(std::uint32_t frame) {
   }
 }
 
-bool Figure::move_root(std::uint32_t frame) {
-  const modeler::Axes now{root_turn_.at(frame), value_at(motion_->place, frame)};
-  const bool moved = first_ || now.turn != root_.turn || now.place != root_.place;
-  root_ = now;
+bool Figure::move_root(const modeler::Axes& root) {
+  const bool moved = first_ || root.turn != root_.turn || root.place != root_.place;
+  root_ = root;
   first_ = false;
   return moved;
 }
 
-bool Figure::move_to(std::uint32_t frame) {
+bool Figure::move_to(std::uint32_t frame, const modeler::Axes& root) {
   std::fill(moved_.begin(), moved_.end(), char{false});
   turn_keyed_joints(frame);
-  const bool root_moved = move_root(frame);
+  const bool root_moved = move_root(root);
   bool any = false;
   char* moved = moved_.data();
   modeler::Axes* frames = frames_.data();

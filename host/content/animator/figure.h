@@ -61,14 +61,28 @@ class JointMotion {
   double first_part_ = 0, last_part_ = 1;  // how far beyond the keys the limits let it go
 };
 
+// Where the whole figure stands by its own keys.
+class OwnFrame {
+ public:
+  explicit OwnFrame(const FigureMotion& motion);  // must outlive it
+
+  modeler::Axes at(std::uint32_t frame);
+
+ private:
+  const FigureMotion* motion_;
+  JointMotion turn_;
+};
+
 // Plays a figure: frame by frame, in any order.
 class Figure {
  public:
   // Both must outlive it.
   Figure(const modeler::Model& model, const FigureMotion& motion);
 
-  // True if any joint now stands elsewhere than at the frame before.
-  bool move_to(std::uint32_t frame);
+  // Where its own keys place it, or where it is carried to. True if any joint now stands elsewhere than at the frame
+  // before.
+  bool move_to(std::uint32_t frame) { return move_to(frame, own_frame_.at(frame)); }
+  bool move_to(std::uint32_t frame, const modeler::Axes& root);
 
   const modeler::Axes& frame_of(std::size_t joint) const { return frames_[joint]; }
   bool moved(std::size_t joint) const { return moved_[joint]; }  // by the last move_to
@@ -76,11 +90,10 @@ class Figure {
 
  private:
   void turn_keyed_joints(std::uint32_t frame);
-  bool move_root(std::uint32_t frame);
+  bool move_root(const modeler::Axes& root);
 
   const modeler::Model* model_;
-  const FigureMotion* motion_;
-  JointMotion root_turn_;
+  OwnFrame own_frame_;
   modeler::Axes root_;
   bool first_ = true;
   bool still_;

@@ -23,9 +23,20 @@ inline constexpr document::Range kExposures{-16, 16};       // stops
 // Where render intervals are cut: where it saves work, or at the animator's keyframes.
 enum class Cutting { automatic, keyframes };
 
+// A point fixed in the world or, with an actor, one that goes along with it.
+struct Point {
+  glm::dvec3 offset{0, 0, 0};          // from the origin, or from where the actor or its joint is
+  std::size_t actor = modeler::kNone;  // of the film
+  std::size_t joint = modeler::kNone;  // of its model; none: the actor itself
+  bool joint_axes = false;             // the offset is along the axes of the joint or the actor, else the world's
+  bool level = false;                  // its height is the offset's alone
+
+  bool operator==(const Point&) const = default;
+};
+
 struct CameraMotion {
-  Channel<glm::dvec3> eye;
-  Channel<glm::dvec3> at;
+  Channel<Point> eye;  // camera_points.h says where they are
+  Channel<Point> at;
   Channel<glm::dvec3> up;
   Channel<double> fov;       // vertical, degrees
   Channel<double> exposure;  // stops; of linear films
@@ -63,11 +74,22 @@ struct Fog {
   double end;
 };
 
+// What carries an actor: another one, by a joint or as a whole.
+struct Attachment {
+  std::size_t actor;                   // of the film
+  std::size_t joint = modeler::kNone;  // of its model; none: the actor itself
+  glm::dvec3 place{0, 0, 0};           // in the frame of the joint or the actor
+  glm::dvec3 turn{0, 0, 0};            // against it, degrees as a free joint's pose
+
+  bool operator==(const Attachment&) const = default;
+};
+
 // A model in the film. Either `motion` moves its joints, or `matrices` its segments.
 struct Actor {
   std::string name;
   std::size_t model;
   FigureMotion motion;
+  Channel<std::optional<Attachment>> attach;  // each holds until the next; before the first nothing carries it
   // Of each joint, with a key at frame 0 where it has a segment; or empty.
   std::vector<Channel<modeler::Axes>> matrices;
   std::string material;  // of the film, for all segments; "": the model's

@@ -165,7 +165,8 @@ Remarks make_keys(document::Json& film, const Film& meaning, const Choice& choic
     for (const std::string& name : one.parts) {
       const KeyedPart& part = one.thing.part(name);
       if (part.joint ? part.joint->freedoms() == 0 : choice.all && !one.thing.actor && !tracks.contains(name)) continue;
-      document::Json value = part.value_at(frame);
+      if (name == "attach" && !tracks.contains(name)) continue;
+      document::Json value = part.key_at(frame);
       if (part.joint) value = written(within_limits(one.thing.name, *part.joint, vector_of(value), beyond, remarks));
       split_way(tracks[name], frame, std::move(value));
     }
@@ -207,7 +208,7 @@ Remarks hold(document::Json& film, const Film& meaning, const Choice& choice, st
     const bool moves_there = track.front().frame <= frame && frame < track.back().frame;
     if (moves_there) {
       const KeyedPart& part = one.thing.part(name);
-      document::Json value = part.value_at(frame);
+      document::Json value = part.key_at(frame);
       if (part.joint)
         value = written(within_limits(one.thing.name, *part.joint, vector_of(value), Beyond::refused, none));
       split_way(track, frame, std::move(value));

@@ -14,7 +14,27 @@ struct Row {
   std::string part, value, ease;
 };
 
+std::string shown_numbers(const document::Json& numbers) {
+  std::string text;
+  for (const document::Json& number : numbers) text += " " + document::shown(number.get<double>());
+  return text;
+}
+
+// "tom/head + 0 0 0.2 level", "tom/right-hand place 0 0 0.1 turn 0 90 0"
+std::string shown_carried(const document::Json& value) {
+  std::string text = value.at("actor").get<std::string>();
+  if (value.contains("joint")) text += "/" + value.at("joint").get<std::string>();
+  if (value.contains("offset")) text += " +" + shown_numbers(value.at("offset"));
+  if (value.value("axes", "") == "joint") text += " along its axes";
+  if (value.value("level", false)) text += " level";
+  for (const char* own : {"place", "turn"})
+    if (value.contains(own)) text += std::string(" ") + own + shown_numbers(value.at(own));
+  return text;
+}
+
 std::string shown_value(const KeyedPart& part, const document::Json& value) {
+  if (value.is_null()) return "nothing";
+  if (value.is_object()) return shown_carried(value);
   if (!value.is_array()) return document::shown(value.get<double>());
   std::string text;
   for (std::size_t axis = 0; axis < value.size(); ++axis) {

@@ -118,7 +118,8 @@ std::string plot_script(document::Json& film, const Film& meaning, const Choice&
     for (const std::string& name : chosen[i].parts) {
       const auto track = tracks[i].find(name);
       const KeyedPart& part = chosen[i].thing.part(name);
-      if (track == tracks[i].end() || (part.joint && part.joint->freedoms() == 0)) continue;
+      if (track == tracks[i].end() || (part.joint && part.joint->freedoms() == 0) || part.value_at(0).is_null())
+        continue;
       panels.push_back({chosen[i].thing.name + ": " + shown_part(name), &part, &track->second});
     }
   const std::string whose = choice.all ? meaning.source : chosen[0].thing.name;

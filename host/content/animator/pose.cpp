@@ -80,7 +80,7 @@ Remarks pose_chosen(Chosen chosen, std::span<const PartSetting> settings, std::u
   for (const PartSetting& setting : settings) {
     const KeyedPart& part = thing.part(setting.part);
     Track& track = tracks[part.name];
-    if (track.empty() && frame > 0) track.push_back({0, part.value_at(0), kLinear, true});
+    if (track.empty() && frame > 0) track.push_back({0, part.key_at(0), kLinear, true});
     document::Json value = value_after(setting, thing, part, frame, beyond, remarks);
     if (TrackKey* key = key_at(track, frame)) {
       // A second setting for the part keeps what the first one set.
@@ -112,6 +112,7 @@ PartSetting PartSetting::read(const std::string& text, const Thing& thing) {
   const std::string typed = setting.part;
   setting.part = part_named(thing, typed);
   const document::Json now = thing.part(setting.part).value_at(0);
+  if (now.is_null()) throw Failure("has no numbers", "'" + text + "'", "use the commands attach and detach");
   const std::string remedy = remedy_for(typed, now);
   const std::vector<double> numbers = numbers_of(text.substr(equals + 1), text, remedy);
   const bool three = now.is_array();

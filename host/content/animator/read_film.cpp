@@ -5,6 +5,7 @@
 #include <unordered_set>
 
 #include "hal/failure/failure.h"
+#include "host/content/animator/read_carried.h"
 #include "host/content/animator/read_keys.h"
 #include "host/content/animator/read_lights.h"
 #include "host/content/animator/read_materials.h"
@@ -21,9 +22,9 @@ constexpr std::string_view kFilmNames[] = {"frames",     "rate",      "size",   
                                            "lights",     "materials", "models", "actors"};
 constexpr std::string_view kCameraNames[] = {"eye", "at", "up", "fov", "exposure", "near", "far", "keys"};
 constexpr std::string_view kCameraKeyNames[] = {"frame", "eye", "at", "up", "fov", "exposure", "ease"};
-constexpr std::string_view kActorNames[] = {"name",     "model",     "place", "turn",    "pose",
-                                            "material", "materials", "keys",  "matrices"};
-constexpr std::string_view kActorKeyNames[] = {"frame", "place", "turn", "pose", "ease"};
+constexpr std::string_view kActorNames[] = {"name",     "model",     "place", "turn",     "pose",
+                                            "material", "materials", "keys",  "matrices", "attach"};
+constexpr std::string_view kActorKeyNames[] = {"frame", "place", "turn", "pose", "attach", "ease"};
 constexpr std::string_view kMatricesNames[] = {"frame", "segments"};
 
 constexpr document::Keys kKeys[] = {{"film", kFilmNames},
@@ -32,6 +33,8 @@ constexpr document::Keys kKeys[] = {{"film", kFilmNames},
                                     {"actor", kActorNames},
                                     {"actor_key", kActorKeyNames},
                                     {"matrices_key", kMatricesNames},
+                                    kAttachKeys,
+                                    kPointKeys,
                                     kLightKeys,
                                     kLightKeyKeys,
                                     kAmbientKeys,
@@ -63,20 +66,21 @@ std::uint32_t read_dice(const document::Element& element) {
                  "write \"adaptive\" or a number of quads a side");
 }
 
-CameraMotion read_camera(const document::Element& element, wire::ColorSpace color) {
+CameraMotion read_camera(const document::Element& element, wire::ColorSpace color, const Carriers& carriers) {
+  const auto point_of = [&](const document::Element& point) { return read_point(point, carriers); };
   const document::Fields fields(element, kKeys[kCamera]);
   CameraMotion camera;
   if (const auto keys = fields.find("keys"))
     read_keys(*keys, kKeys[kCameraKey], [&](const document::Fields& key, std::uint32_t frame, const Ease& ease) {
-      add_key(camera.eye, key, "eye", frame, ease, place_of);
-      add_key(camera.at, key, "at", frame, ease, place_of);
+      add_key(camera.eye, key, "eye", frame, ease, point_of);
+      add_key(camera.at, key, "at", frame, ease, point_of);
       add_key(camera.up, key, "up", frame, ease, place_of);
       add_key(camera.fov, key, "fov", frame, ease, fov_of);
       add_key(camera.exposure, key, "exposure", frame, ease, exposure_of);
     });
   if (camera.eye.empty()) fields.required("eye");
-  settle(camera.eye, fields, "eye", {}, place_of);
-  settle(camera.at, fields, "at", {}, place_of);
+  settle(camera.eye, fields, "eye", {}, point_of);
+  settle(camera.at, fields, "at", {}, point_of);
   settle(camera.up, fields, "up", {0, 0, 1}, place_of);
   settle(camera.fov, fields, "fov", 40.0, fov_of);
   if (const bool given = !camera.exposure.empty() || fields.find("exposure"); given && color == wire::ColorSpace::coded)
@@ -91,7 +95,7 @@ CameraMotion read_camera(const document::Element& element, wire::ColorSpace colo
   return camera;
 }
 
-// Reads the actors once the models and materials are known.
+// Reads the actors once the models and materials are known; then, as they may name each other, what carries them.
 class ActorReader {
  public:
   ActorReader(const Film& film, const std::vector<modeler::Model>& models, std::vector<std::string> model_names)
@@ -100,7 +104,16 @@ class ActorReader {
     for (const MaterialMotion& material : film.materials) materials_.insert(material.name);
   }
 
-  Actor read(const document::Element& element) {
+  std::vector<Actor> read_all(const document::Element& list) {
+    document::require_kind(list, document::Kind::list);
+    std::vector<Actor> actors;
+    for (const document::Element actor : list) actors.push_back(read(actor, actors.size()));
+    read_attachments(attachments_, film_models_, actors);
+    return actors;
+  }
+
+ private:
+  Actor read(const document::Element& element, std::size_t number) {
     const document::Fields fields(element, kKeys[kActor]);
     Actor actor;
     actor.name = modeler::read_name(fields.required("name"));
@@ -109,11 +122,10 @@ class ActorReader {
     actor.model = find_model(fields.required("model"));
     if (const auto material = fields.find("material")) actor.material = film_material(*material);
     if (const auto materials = fields.find("materials")) read_materials(*materials, actor);
-    read_motion(fields, actor);
+    read_motion(fields, actor, number);
     return actor;
   }
 
- private:
   const modeler::Model& model_of(const Actor& actor) const { return film_models_[actor.model]; }
 
   std::size_t find_model(const document::Element& element) const {
@@ -145,30 +157,39 @@ class ActorReader {
     }
   }
 
-  void read_motion(const document::Fields& fields, Actor& actor) {
+  void read_motion(const document::Fields& fields, Actor& actor, std::size_t number) {
     actor.motion.pose.resize(model_of(actor).joints.size());
     if (const auto matrices = fields.find("matrices")) {
-      for (const std::string_view key : {"keys", "place", "turn", "pose"})
+      for (const std::string_view key : {"keys", "place", "turn", "pose", "attach"})
         if (const auto other = fields.find(key))
           other->refuse("stands beside matrices", "move an actor by keys or by matrices, not by both");
       read_matrices(*matrices, actor);
     }
+    const std::size_t attached_before = attachments_.size();
     if (const auto keys = fields.find("keys"))
       read_keys(*keys, kKeys[kActorKey], [&](const document::Fields& key, std::uint32_t frame, const Ease& ease) {
         add_key(actor.motion.place, key, "place", frame, ease, place_of);
         add_key(actor.motion.turn, key, "turn", frame, ease, angles_of);
         if (const auto pose = key.find("pose")) read_pose(*pose, frame, ease, actor);
+        if (const auto attach = key.find("attach")) attachments_.push_back({number, frame, *attach});
       });
+    if (const auto attach = fields.find("attach")) {
+      if (attachments_.size() > attached_before) refuse_still(*attach);
+      attachments_.push_back({number, 0, *attach});
+    }
     settle(actor.motion.place, fields, "place", {}, place_of);
     settle(actor.motion.turn, fields, "turn", {}, angles_of);
     if (const auto pose = fields.find("pose")) read_still_pose(*pose, actor);
   }
 
+  [[noreturn]] static void refuse_still(const document::Element& element) {
+    element.refuse("is also set by keys", "take it out here, or out of every key");
+  }
+
   void read_still_pose(const document::Element& element, Actor& actor) {
     document::require_kind(element, document::Kind::object);
     for (const document::Element item : element)
-      if (!actor.motion.pose[find_joint(item, actor)].empty())
-        item.refuse("is also set by keys", "take it out here, or out of every key");
+      if (!actor.motion.pose[find_joint(item, actor)].empty()) refuse_still(item);
     read_pose(element, 0, kLinear, actor);
   }
 
@@ -237,6 +258,7 @@ class ActorReader {
   std::unordered_set<std::string_view> materials_;
   std::vector<std::unordered_map<std::string_view, std::size_t>> joints_;  // of each model, filled when asked
   std::unordered_set<std::string> names_;
+  std::vector<WrittenAttachment> attachments_;
 };
 
 modeler::Model read_film_model(const document::Element& element, const Film& film,
@@ -277,9 +299,10 @@ void read_colors(const document::Fields& fields, Film& film) {
   if (const auto fog = fields.find("fog")) film.fog = read_fog(*fog, film.background);
 }
 
+// But for the lights of a film without any, which stand as its camera does.
 void read_lighting(const document::Fields& fields, Film& film) {
   const auto lights = fields.find("lights"), ambient = fields.find("ambient");
-  film.lights = lights ? read_lights(*lights) : rig_lights(film.camera, film.color);
+  if (lights) film.lights = read_lights(*lights);
   if (ambient)
     film.ambient = read_ambient(*ambient);
   else if (!lights)
@@ -307,7 +330,7 @@ Film read_film_with(const document::Element& element, std::vector<modeler::Model
   Film film;
   film.source = element.document().name();
   read_settings(fields, film);
-  film.camera = read_camera(fields.required("camera"), film.color);
+  const document::Element camera = fields.required("camera");
   read_lighting(fields, film);
   if (const auto materials = fields.find("materials")) film.materials = read_materials(*materials);
   std::vector<std::string> model_names;
@@ -315,11 +338,10 @@ Film read_film_with(const document::Element& element, std::vector<modeler::Model
   document::require_kind(named, document::Kind::object);
   for (const document::Element model : named) model_names.push_back(modeler::checked_name(model, model.key()));
   read_models(named, film);
-  const document::Element actors = fields.required("actors");
-  document::require_kind(actors, document::Kind::list);
-  ActorReader reader(film, models, std::move(model_names));
-  for (const document::Element actor : actors) film.actors.push_back(reader.read(actor));
+  film.actors = ActorReader(film, models, std::move(model_names)).read_all(fields.required("actors"));
+  film.camera = read_camera(camera, film.color, Carriers(film.actors, models));
   film.models = std::move(models);
+  if (!fields.find("lights")) film.lights = rig_lights(film);
   return film;
 }
 

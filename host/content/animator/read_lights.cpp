@@ -7,8 +7,6 @@
 namespace mars::animator {
 namespace {
 
-constexpr document::Range kIntensities{0, 1000};
-constexpr std::size_t kMostLights = 64;
 constexpr double kCone = 40;       // degrees
 constexpr double kFullyLit = 0.8;  // of a cone of which one number is given
 

@@ -20,6 +20,8 @@ inline constexpr document::Keys kLightKeyKeys{"light_key", kLightKeyNames};
 inline constexpr document::Keys kAmbientKeys{"ambient", kAmbientNames};
 inline constexpr document::Keys kFogKeys{"fog", kFogNames};
 
+inline constexpr std::size_t kMostLights = 64;
+inline constexpr document::Range kIntensities{0, 1000};
 inline constexpr document::Range kReaches{1e-6, document::kFarthest};
 inline constexpr document::Range kCones{0.01, 180};  // degrees
 

@@ -2,6 +2,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "host/content/animator/camera_points.h"
+
 namespace mars::animator {
 namespace {
 
@@ -37,13 +39,13 @@ std::array<glm::dvec3, 3> rig_directions(const glm::dvec3& eye, const glm::dvec3
   return directions;
 }
 
-std::vector<LightMotion> rig_lights(const CameraMotion& camera, wire::ColorSpace color) {
-  const auto directions = rig_directions(value_at(camera.eye, 0), value_at(camera.at, 0), value_at(camera.up, 0));
+std::vector<LightMotion> rig_lights(const Film& film) {
+  const auto directions = rig_directions(eye_at(film, 0), at_at(film, 0), value_at(film.camera.up, 0));
   std::vector<LightMotion> lights(kRig.size());
   for (std::size_t i = 0; i < kRig.size(); ++i) {
     lights[i].vector = constant(directions[i]);
     lights[i].color = constant(kRig[i].color);
-    lights[i].intensity = constant(color == wire::ColorSpace::linear ? kRig[i].linear : kRig[i].coded);
+    lights[i].intensity = constant(film.color == wire::ColorSpace::linear ? kRig[i].linear : kRig[i].coded);
   }
   return lights;
 }

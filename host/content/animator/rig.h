@@ -14,7 +14,7 @@ namespace mars::animator {
 std::array<glm::dvec3, 3> rig_directions(const glm::dvec3& eye, const glm::dvec3& at, const glm::dvec3& up);
 
 // The rig's lights, still, as they stand for the camera's first frame.
-std::vector<LightMotion> rig_lights(const CameraMotion& camera, wire::ColorSpace color);
+std::vector<LightMotion> rig_lights(const Film& film);
 
 Ambient rig_ambient(wire::ColorSpace color);
 

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "hal/failure/failure.h"
+#include "host/content/animator/camera_points.h"
 #include "host/content/animator/direction.h"
 #include "host/content/animator/edit.h"
 #include "host/content/animator/written.h"
@@ -39,10 +40,38 @@ KeyedPart turning(const std::string& name, const modeler::Joint& joint, const Ch
           }};
 }
 
+// What is kept from key to key.
+KeyedPart carried(const Film& film, const Channel<std::optional<Attachment>>& channel) {
+  return {"attach", nullptr, nullptr, [](std::uint32_t) { return nullptr; },
+          [&film, &channel](std::uint32_t frame) -> document::Json {
+            if (channel.empty() || frame < channel.front().frame) return nullptr;
+            const auto& held = channel[stretch_at(channel, frame).from].value;
+            if (!held) return nullptr;
+            const Actor& carrier = film.actors[held->actor];
+            const bool whole = held->joint == modeler::kNone;
+            return written(AttachKey{carrier.name, whole ? "" : film.models[carrier.model].joints[held->joint].name,
+                                     held->place, held->turn});
+          }};
+}
+
+KeyedPart point(std::string_view name, const Film& film, const Channel<Point>& channel) {
+  const auto place = [&film, &channel](std::uint32_t frame) {
+    const Stretch stretch = stretch_at(channel, frame);
+    JointFrames frames(film);
+    const glm::dvec3 at = place_at(channel, frame, frames);
+    const bool given = stretch.from == stretch.to && channel[stretch.from].value.actor == modeler::kNone;
+    return written(given ? at : rounded(at));
+  };
+  return {std::string(name), nullptr, nullptr, place, [&film, &channel, place](std::uint32_t frame) {
+            const Stretch stretch = stretch_at(channel, frame);
+            return stretch.from == stretch.to ? written(channel[stretch.from].value, film) : place(frame);
+          }};
+}
+
 Thing camera_of(document::Json& film, const Film& meaning) {
   const CameraMotion& camera = meaning.camera;
-  std::vector<KeyedPart> parts{plain("eye", camera.eye), plain("at", camera.at), plain("up", camera.up),
-                               plain("fov", camera.fov)};
+  std::vector<KeyedPart> parts{point("eye", meaning, camera.eye), point("at", meaning, camera.at),
+                               plain("up", camera.up), plain("fov", camera.fov)};
   if (meaning.color == wire::ColorSpace::linear) parts.push_back(plain("exposure", camera.exposure));
   return {"camera", &film.at("camera"), false, std::move(parts)};
 }
@@ -68,9 +97,11 @@ Thing material_of(document::Json& json, const MaterialMotion& material) {
   return {"material '" + material.name + "'", &json, false, std::move(parts)};
 }
 
-Thing actor_of(document::Json& json, const Actor& actor, const modeler::Model& model) {
+Thing actor_of(document::Json& json, const Film& film, const Actor& actor) {
+  const modeler::Model& model = film.models[actor.model];
   Thing thing{"actor '" + actor.name + "'", &json, true, {plain("place", actor.motion.place)}};
   thing.parts.push_back(turning("turn", free_joint(), actor.motion.turn, false));
+  thing.parts.push_back(carried(film, actor.attach));
   for (std::size_t i = 0; i < model.joints.size(); ++i)
     thing.parts.push_back(turning("/" + model.joints[i].name, model.joints[i], actor.motion.pose[i], true));
   return thing;
@@ -95,7 +126,7 @@ std::vector<Chosen> everything(document::Json& film, const Film& meaning) {
     all.push_back(whole(material_of(film["materials"][material.name], material)));
   for (std::size_t i = 0; i < meaning.actors.size(); ++i) {
     const Actor& actor = meaning.actors[i];
-    if (actor.matrices.empty()) all.push_back(whole(actor_of(film["actors"][i], actor, meaning.models[actor.model])));
+    if (actor.matrices.empty()) all.push_back(whole(actor_of(film["actors"][i], meaning, actor)));
   }
   return all;
 }
@@ -114,7 +145,7 @@ Thing thing_named(document::Json& film, const Film& meaning, const std::string& 
     if (!actor.matrices.empty())
       throw Failure("is moved by matrices, which have no keys", "actor '" + name + "'",
                     "change its matrices in the tool they came from");
-    return actor_of(film.at("actors")[i], actor, meaning.models[actor.model]);
+    return actor_of(film.at("actors")[i], meaning, actor);
   }
   if (name != "camera") refuse_name(name, meaning);
   return camera_of(film, meaning);

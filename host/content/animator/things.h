@@ -18,6 +18,12 @@ struct KeyedPart {
   const modeler::Joint* joint;  // whose limits bound it; null: no joint
   const modeler::Joint* turns;  // by the smallest turn from key to key; null: straight on
   std::function<document::Json(std::uint32_t frame)> value_at;  // as a film file writes it; read_film's own on a key
+  // Where a key may hold more than numbers - a point of an actor, what carries an actor -, that; `value_at` is then the
+  // place in the world, or null.
+  std::function<document::Json(std::uint32_t frame)> held_at{};
+
+  // What a key there holds, so that all stays as it is.
+  document::Json key_at(std::uint32_t frame) const { return held_at ? held_at(frame) : value_at(frame); }
 };
 
 struct Thing {

@@ -24,6 +24,17 @@ document::Json written(const glm::dvec3& v) {
   return document::Json::array({written(v.x), written(v.y), written(v.z)});
 }
 
+document::Json written(const Point& point, const Film& film) {
+  if (point.actor == modeler::kNone) return written(point.offset);
+  const Actor& actor = film.actors[point.actor];
+  document::Json json{{"actor", actor.name}};
+  if (point.joint != modeler::kNone) json["joint"] = film.models[actor.model].joints[point.joint].name;
+  if (point.offset != glm::dvec3(0)) json["offset"] = written(point.offset);
+  if (point.joint_axes) json["axes"] = "joint";
+  if (point.level) json["level"] = true;
+  return json;
+}
+
 document::Json written(const Ease& ease) {
   for (const auto& [name, known] : kNamed)
     if (ease == known) return name;

@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 
 #include "host/content/animator/ease.h"
+#include "host/content/animator/film.h"
 #include "host/content/document/json_file.h"
 
 namespace mars::animator {
@@ -12,6 +13,8 @@ namespace mars::animator {
 document::Json written(double number);  // whole numbers without ".0", and no -0
 document::Json written(const glm::dvec2& pair);
 document::Json written(const glm::dvec3& vector);
+// Three numbers, or a point of one of the film's actors.
+document::Json written(const Point& point, const Film& film);
 document::Json written(const Ease& ease);  // by its name, if it has one
 
 // Of a key, as read_film accepts it.

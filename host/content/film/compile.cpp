@@ -78,7 +78,7 @@ class Compiler {
       for (const auto& channel : material.numbers) add(channel);
     }
     for (const animator::Actor& actor : film_.actors) {
-      add_all(actor.motion.place, actor.motion.turn);
+      add_all(actor.motion.place, actor.motion.turn, actor.attach);
       for (const auto& poses : actor.motion.pose) add(poses);
     }
     std::sort(frames.begin(), frames.end());
@@ -127,9 +127,9 @@ CompiledFilm compile(const animator::Film& film, const CompileOptions& options) 
 Cut cut_of(const animator::Film& film, const FilmShapes& shapes) { return Compiler(film, {}).cut(shapes); }
 
 void check_camera(const animator::Film& film) {
-  const animator::CameraMotion& motion = film.camera;
-  const std::uint32_t frames = frames_to_see(film.frames, motion.eye, motion.at, motion.up);
-  for (std::uint32_t frame = 0; frame < frames; ++frame) camera_at(film, frame);
+  animator::JointFrames joints(film);
+  const std::uint32_t frames = camera_frames(film.camera, film.frames);
+  for (std::uint32_t frame = 0; frame < frames; ++frame) camera_at(film, frame, joints);
 }
 
 CompiledFilm load_film(const std::filesystem::path& path, const CompileOptions& options) {

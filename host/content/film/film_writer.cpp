@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "hal/failure/failure.h"
+#include "host/content/animator/camera_points.h"
 #include "host/content/film/light_writer.h"
 #include "host/content/film/shape_writer.h"
 
@@ -36,9 +37,10 @@ ShapeNumbers write_shapes(const animator::Film& film, wire::FilmData& data) {
   return numbers;
 }
 
-wire::Camera camera_at(const animator::Film& film, std::uint32_t frame) {
+wire::Camera camera_at(const animator::Film& film, std::uint32_t frame, animator::JointFrames& joints) {
   const animator::CameraMotion& motion = film.camera;
-  const glm::dvec3 eye = animator::value_at(motion.eye, frame), ahead = animator::value_at(motion.at, frame) - eye;
+  const glm::dvec3 eye = animator::place_at(motion.eye, frame, joints);
+  const glm::dvec3 ahead = animator::place_at(motion.at, frame, joints) - eye;
   const double distance = glm::length(ahead);
   const glm::dvec3 up = animator::value_at(motion.up, frame);
   const double length = glm::length(up);
@@ -61,6 +63,11 @@ wire::Camera camera_at(const animator::Film& film, std::uint32_t frame) {
   return camera;
 }
 
+std::uint32_t camera_frames(const animator::CameraMotion& motion, std::uint32_t frames) {
+  if (animator::follows(motion.eye) || animator::follows(motion.at)) return frames;
+  return frames_to_see(frames, motion.eye, motion.at, motion.up, motion.fov, motion.exposure);
+}
+
 FilmWriter::FilmWriter(const animator::Film& film, WrittenFrames frames, wire::FilmData& data)
     : film_(film), frames_(frames), data_(data), materials_(film, frames, data) {}
 
@@ -77,11 +84,11 @@ void FilmWriter::write_settings() {
 }
 
 void FilmWriter::write_camera() {
-  const animator::CameraMotion& motion = film_.camera;
   TrackWriter<wire::Camera> track(data_.cameras);
-  const std::uint32_t frames =
-      frames_to_see(frames_.count, motion.eye, motion.at, motion.up, motion.fov, motion.exposure);
-  for (std::uint32_t frame = 0; frame < frames; ++frame) track.add(frame, camera_at(film_, frames_.first + frame));
+  animator::JointFrames joints(film_);
+  const std::uint32_t frames = camera_frames(film_.camera, frames_.count);
+  for (std::uint32_t frame = 0; frame < frames; ++frame)
+    track.add(frame, camera_at(film_, frames_.first + frame, joints));
   data_.settings.camera = track.write(data_.changes);
 }
 

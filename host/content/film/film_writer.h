@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/content/animator/film.h"
+#include "host/content/animator/joint_frames.h"
 #include "host/content/film/material_writer.h"
 #include "host/content/film/track_writer.h"
 #include "node/wire/film.h"
@@ -19,8 +20,11 @@ using ShapeNumbers = std::vector<std::vector<std::uint32_t>>;
 // Adds the shapes of the models that actors have, in the order of the actors.
 ShapeNumbers write_shapes(const animator::Film& film, wire::FilmData& data);
 
-// Throws where the camera sees nothing: it looks at its own place, or along its up vector.
-wire::Camera camera_at(const animator::Film& film, std::uint32_t frame);
+// Throws where the camera sees nothing: it looks at its own place, or along its up vector. `joints` are the film's.
+wire::Camera camera_at(const animator::Film& film, std::uint32_t frame, animator::JointFrames& joints);
+
+// Frames from 0, of so many, at which the camera may differ from the frame before.
+std::uint32_t camera_frames(const animator::CameraMotion& motion, std::uint32_t frames);
 
 class FilmWriter {
  public:

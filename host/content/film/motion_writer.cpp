@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "hal/failure/failure.h"
+#include "host/content/animator/joint_frames.h"
 #include "host/content/document/text.h"
 #include "topology/memory_limit.h"
 
@@ -73,22 +74,64 @@ std::vector<std::size_t> most_of_matrices(const animator::Actor& actor, const mo
   return most;
 }
 
+// What of runs of the whole film lies in the frames (within.after, within.last].
+void add_clipped(const Runs& runs, const Run& within, Runs& clipped) {
+  for (const Run& run : runs) {
+    const Run part{std::max(run.after, within.after), std::min(run.last, within.last)};
+    if (part.after < part.last) clipped.push_back(part);
+  }
+}
+
+// Frames in `within` at which the whole actor may move: by its own keys, or with its carrier; and where what carries
+// it changes. At no frame do actors carry each other in a circle, so this ends.
+void add_root_runs(const animator::Film& film, std::size_t number, const Run& within, Runs& runs);
+
+void add_joint_runs(const animator::Film& film, const animator::Attachment& carrier, const Run& within, Runs& runs) {
+  add_root_runs(film, carrier.actor, within, runs);
+  const animator::Actor& actor = film.actors[carrier.actor];
+  const auto& joints = film.models[actor.model].joints;
+  Runs turns;
+  for (std::size_t joint = carrier.joint; joint != modeler::kNone; joint = joints[joint].parent)
+    add_runs(actor.motion.pose[joint], film.frames, turns);
+  add_clipped(turns, within, runs);
+}
+
+void add_root_runs(const animator::Film& film, std::size_t number, const Run& within, Runs& runs) {
+  const animator::Actor& actor = film.actors[number];
+  Runs own;
+  add_runs(actor.motion.place, film.frames, own);
+  add_runs(actor.motion.turn, film.frames, own);
+  std::uint32_t after = within.after;
+  for (std::size_t key = 0; key <= actor.attach.size(); ++key) {
+    // Until the key's frame, what the key before says holds.
+    const std::uint32_t next = key < actor.attach.size() ? actor.attach[key].frame : film.frames;
+    if (const Run held{after, std::min(next == 0 ? 0 : next - 1, within.last)}; held.after < held.last) {
+      const bool carried = key > 0 && actor.attach[key - 1].value;
+      carried ? add_joint_runs(film, *actor.attach[key - 1].value, held, runs) : add_clipped(own, held, runs);
+    }
+    if (next > within.last) break;
+    if (next > within.after) runs.push_back({next - 1, next});
+    after = std::max(after, next);
+  }
+}
+
 // A joint moves where it is turned or its parent moves.
-std::vector<std::size_t> most_of_motion(const animator::Actor& actor, const modeler::Model& model,
-                                        std::uint32_t frames) {
+std::vector<std::size_t> most_of_motion(const animator::Film& film, std::size_t number) {
+  const animator::Actor& actor = film.actors[number];
+  const modeler::Model& model = film.models[actor.model];
+  const std::uint32_t frames = film.frames;
   Runs root;
-  add_runs(actor.motion.place, frames, root);
-  add_runs(actor.motion.turn, frames, root);
+  add_root_runs(film, number, {0, frames - 1}, root);
   root = merged(std::move(root));
   std::vector<Runs> runs(model.joints.size());
   std::vector<std::size_t> most;
-  for (std::size_t number = 0; number < model.joints.size(); ++number) {
-    const modeler::Joint& joint = model.joints[number];
-    runs[number] = joint.parent == modeler::kNone ? root : runs[joint.parent];
-    const std::size_t before = runs[number].size();
-    add_runs(actor.motion.pose[number], frames, runs[number]);
-    if (runs[number].size() > before) runs[number] = merged(std::move(runs[number]));
-    if (joint.segment) most.push_back(count_of(runs[number]));
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const modeler::Joint& joint = model.joints[i];
+    runs[i] = joint.parent == modeler::kNone ? root : runs[joint.parent];
+    const std::size_t before = runs[i].size();
+    add_runs(actor.motion.pose[i], frames, runs[i]);
+    if (runs[i].size() > before) runs[i] = merged(std::move(runs[i]));
+    if (joint.segment) most.push_back(count_of(runs[i]));
   }
   return most;
 }
@@ -132,13 +175,13 @@ class MotionWriter {
 
   void plan() {
     std::size_t segment = 0;
-    for (const animator::Actor& actor : film_.actors) {
-      const modeler::Model& model = film_.models[actor.model];
+    for (std::size_t number = 0; number < film_.actors.size(); ++number) {
+      const animator::Actor& actor = film_.actors[number];
       Share share;
       share.first_segment = segment;
       share.first_matrix = share.first_change = most_matrices_;
-      share.most = actor.matrices.empty() ? most_of_motion(actor, model, film_.frames)
-                                          : most_of_matrices(actor, model, film_.frames);
+      share.most = actor.matrices.empty() ? most_of_motion(film_, number)
+                                          : most_of_matrices(actor, film_.models[actor.model], film_.frames);
       share.segments = share.most.size();
       segment += share.segments;
       for (const std::size_t most : share.most) most_matrices_ += most;
@@ -203,16 +246,19 @@ class MotionWriter {
       writings.push_back({joint, share.first_segment + segment, changes, 0});
       changes += share.most[segment];
     }
-    actor.matrices.empty() ? play(actor, share, writings) : copy(actor, share, writings);
+    actor.matrices.empty() ? play(number, share, writings) : copy(actor, share, writings);
     for (const Writing& writing : writings) share.changes.push_back(writing.count);
   }
 
-  void play(const animator::Actor& actor, Share& share, std::vector<Writing>& writings) {
+  void play(std::size_t number, Share& share, std::vector<Writing>& writings) {
+    const animator::Actor& actor = film_.actors[number];
     const modeler::Model& model = film_.models[actor.model];
     animator::Figure figure(model, actor.motion);
-    const std::uint32_t frames = figure.still() ? 1 : film_.frames;
+    animator::JointFrames carriers(film_);
+    const bool carried = !actor.attach.empty();
+    const std::uint32_t frames = figure.still() && !carried ? 1 : film_.frames;
     for (std::uint32_t frame = 0; frame < frames; ++frame) {
-      if (!figure.move_to(frame)) continue;
+      if (!(carried ? figure.move_to(frame, carriers.root_of(number, frame)) : figure.move_to(frame))) continue;
       for (Writing& writing : writings) {
         if (!figure.moved(writing.joint)) continue;
         const modeler::Joint& joint = model.joints[writing.joint];

@@ -10,8 +10,10 @@
 #include <string_view>
 #include <vector>
 
+#include "hal/failure/failure.h"
 #include "hal/messages/settings.h"
 #include "host/content/document/fields.h"
+#include "host/content/document/text.h"
 #include "host/shell/options/wrapped.h"
 
 namespace mars::options {
@@ -164,6 +166,16 @@ void prepare(CLI::App& command, const std::shared_ptr<Help>& help) {
   for (CLI::App* each : command.get_subcommands({})) prepare(*each, help);
 }
 
+// In a line.
+std::string explained(const CLI::App& app, const CLI::ParseError& error) {
+  // An unknown word is reported first: what is missing may be what it was meant for.
+  const bool misfits = dynamic_cast<const CLI::ExtrasError*>(&error) || dynamic_cast<const CLI::RequiredError*>(&error);
+  if (misfits && app.remaining_size(true) > 0) return misfit(app);
+  if (const auto* mismatch = dynamic_cast<const CLI::ArgumentMismatch*>(&error))
+    if (const std::string form = written_form(app, *mismatch); !form.empty()) return form;
+  return error.what();
+}
+
 // Whether the command given only holds others and none of them is named.
 bool unfinished(const CLI::App& app) {
   const std::vector<CLI::App*> given = app.get_subcommands();
@@ -184,20 +196,22 @@ std::optional<int> read_command_line(CLI::App& app, int argc, const char* const*
     std::cout << app.help();
     return 0;
   } catch (const CLI::ParseError& error) {
-    // An unknown word is reported first: what is missing may be what it was meant for.
-    const bool misfits =
-        dynamic_cast<const CLI::ExtrasError*>(&error) || dynamic_cast<const CLI::RequiredError*>(&error);
-    if (misfits && app.remaining_size(true) > 0) {
-      app.exit(CLI::ValidationError(misfit(app)), std::cout, std::cerr);
-      return kUsage;
-    }
-    if (const auto* mismatch = dynamic_cast<const CLI::ArgumentMismatch*>(&error))
-      if (const std::string form = written_form(app, *mismatch); !form.empty()) {
-        app.exit(CLI::ValidationError(form), std::cout, std::cerr);
-        return kUsage;
-      }
-    return app.exit(error, std::cout, std::cerr) == 0 ? 0 : kUsage;
+    if (error.get_exit_code() == 0) return app.exit(error, std::cout, std::cerr);
+    app.exit(CLI::ValidationError(explained(app, error)), std::cout, std::cerr);
+    return kUsage;
   }
+}
+
+void read_words(CLI::App& app, const std::vector<std::string>& words) {
+  const auto refuse = [&](const std::string& problem) {
+    throw Failure(problem, "'" + document::joined(words, " ") + "'", "`mars --help` shows what there is");
+  };
+  try {
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // it takes them from the end
+  } catch (const CLI::ParseError& error) {
+    refuse(explained(app, error));
+  }
+  if (app.get_subcommands().empty() || unfinished(app)) refuse("is no whole command");
 }
 
 }  // namespace mars::options

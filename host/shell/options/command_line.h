@@ -3,6 +3,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -24,5 +26,9 @@ inline constexpr const char* kExitCodes =
 //   option    COMMAND  NAMES  VALUE  NEED  HELP   NAMES like -o,--output; VALUE is - where none is, X Y Z for three
 //   setting   NAME     MEANING                    of the environment
 std::optional<int> read_command_line(CLI::App& app, int argc, const char* const* argv);
+
+// The same of words after the program's name, from elsewhere than a command line: prints nothing, and throws Failure
+// where they are wrong.
+void read_words(CLI::App& app, const std::vector<std::string>& words);
 
 }  // namespace mars::options

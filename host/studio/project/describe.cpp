@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <map>
 
+#include "host/content/animator/actor_state.h"
+#include "host/content/animator/camera_points.h"
+#include "host/content/animator/direction.h"
 #include "host/content/animator/edit.h"
 #include "host/content/animator/written.h"
 #include "host/content/modeler/edit.h"
@@ -93,8 +96,9 @@ Json actor_head(const animator::Film& film, std::size_t number, std::uint32_t fr
     json["matrices"] = true;
     return json;
   }
-  json["place"] = shown(animator::value_at(actor.motion.place, frame));
-  json["turn"] = shown(pose_of(animator::free_joint(), actor.motion.turn, frame));
+  const animator::ActorState state = animator::state_at(film, number, frame);
+  json["place"] = shown(state.place);
+  json["turn"] = shown(state.turn);
   return json;
 }
 
@@ -106,6 +110,39 @@ Json material_of(const std::string& name, const wire::Material& material) {
   for (const modeler::MaterialNumber& number : modeler::kMaterialNumbers)
     if (modeler::uses(material.reflection, number))
       json[std::string(number.key)] = document::rounded_to(material.*number.member, 6);
+  return json;
+}
+
+// What has a key of the file at the frame.
+Json keyed_of(const Json& thing, std::uint32_t frame) {
+  Json keyed = Json::array();
+  if (thing.contains("keys"))
+    for (const Json& key : thing["keys"])
+      if (key.at("frame") == frame)
+        for (const auto& part : key.items())
+          if (part.key() != "frame" && part.key() != "ease") keyed.push_back(part.key());
+  return keyed;
+}
+
+// Where the thing has it.
+template <typename Value>
+void add_part(Json& thing, const char* part, const animator::Channel<Value>& channel, std::uint32_t frame) {
+  if (!channel.empty()) thing[part] = written(animator::rounded(animator::value_at(channel, frame)));
+}
+
+Json light_of(const animator::LightMotion& light, std::size_t number, const Json& file, std::uint32_t frame) {
+  constexpr const char* kKinds[] = {"directional", "point", "spot"};
+  Json json{{"thing", "light/" + std::to_string(number + 1)}, {"kind", kKinds[std::size_t(light.kind)]}};
+  if (light.kind == wire::LightKind::directional)
+    json["direction"] = shown(animator::direction_at(light.vector, frame));
+  else
+    json["place"] = shown(animator::value_at(light.vector, frame));
+  add_part(json, "at", light.at, frame);
+  add_part(json, "cone", light.cone, frame);
+  add_part(json, "reach", light.reach, frame);
+  add_part(json, "color", light.color, frame);
+  add_part(json, "intensity", light.intensity, frame);
+  json["keyed"] = keyed_of(file, frame);
   return json;
 }
 
@@ -146,6 +183,18 @@ Json poses_of(const animator::Film& film, std::size_t actor, std::uint32_t frame
   return json;
 }
 
+void describe_camera_and_lights(Json& project, const animator::Film& film, const Json& json, std::uint32_t frame) {
+  Json camera{{"keyed", keyed_of(json.at("camera"), frame)}};
+  camera["eye"] = shown(animator::eye_at(film, frame));
+  camera["at"] = shown(animator::at_at(film, frame));
+  add_part(camera, "fov", film.camera.fov, frame);
+  project["camera"] = std::move(camera);
+  Json lights = Json::array();
+  for (std::size_t number = 0; json.contains("lights") && number < film.lights.size(); ++number)
+    lights.push_back(light_of(film.lights[number], number, json["lights"][number], frame));
+  project["lights"] = std::move(lights);
+}
+
 void describe_film(Json& project, const animator::Film& film, const Json& json, std::uint32_t frame) {
   Json actors = Json::array();
   for (std::size_t number = 0; number < film.actors.size(); ++number) {
@@ -167,9 +216,7 @@ void describe_film(Json& project, const animator::Film& film, const Json& json, 
     actors.push_back(std::move(described));
   }
   project["actors"] = std::move(actors);
-  project["camera"] = {{"eye", shown(animator::value_at(film.camera.eye, frame))},
-                       {"at", shown(animator::value_at(film.camera.at, frame))},
-                       {"fov", written(animator::rounded(animator::value_at(film.camera.fov, frame)))}};
+  describe_camera_and_lights(project, film, json, frame);
   Json materials = Json::array();
   for (const animator::MaterialMotion& material : film.materials)
     materials.push_back({{"name", material.name}, {"color", shown(animator::value_at(material.color, frame))}});

@@ -14,6 +14,8 @@ using document::Json;
 
 // Into `project`. `json`: the file that the film is read from.
 void describe_film(Json& project, const animator::Film& film, const Json& json, std::uint32_t frame);
+// "camera" and "lights", with what has a key at the frame; of rig lights none.
+void describe_camera_and_lights(Json& project, const animator::Film& film, const Json& json, std::uint32_t frame);
 // `film`: of model_film.h. `json`: the model's.
 void describe_model(Json& project, const animator::Film& film, const Json& json, std::uint32_t frame);
 

@@ -5,6 +5,8 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/animator/angles.h"
+#include "host/content/animator/attachments.h"
+#include "host/content/animator/camera_points.h"
 #include "host/content/animator/rig.h"
 #include "host/content/animator/set_key.h"
 #include "host/content/document/fields.h"
@@ -17,6 +19,30 @@ template <typename Items>
   std::vector<std::string_view> names;
   for (const auto& item : items) names.push_back(item.name);
   throw Failure(what, "'" + name + "'", document::did_you_mean(name, names, "choose another"));
+}
+
+// One part, where the light has it and the step says something of it.
+template <typename Value>
+void set_part(animator::Channel<Value>& channel, const char* part, bool has, const std::optional<Value>& value,
+              std::uint32_t frame) {
+  if (!value) return;
+  if (!has) throw Failure(std::string("has no part '") + part + "'", "the light", "give it to the light in the film");
+  animator::set_key(channel, *value, frame, {});
+}
+
+void set_light(animator::LightMotion& light, const LightStep& step, std::uint32_t frame) {
+  const bool far = light.kind == wire::LightKind::directional;
+  std::optional<glm::dvec3> direction = step.direction;
+  if (direction && !(glm::length(*direction) > 1e-9))
+    throw Failure("has no length", "the light's direction", "write a vector to the light");
+  if (direction) *direction = glm::normalize(*direction);
+  set_part(light.vector, "place", !far, step.place, frame);
+  set_part(light.vector, "direction", far, direction, frame);
+  set_part(light.at, "at", !light.at.empty(), step.at, frame);
+  set_part(light.cone, "cone", !light.cone.empty(), step.cone, frame);
+  set_part(light.reach, "reach", !light.reach.empty(), step.reach, frame);
+  set_part(light.color, "color", true, step.color, frame);
+  set_part(light.intensity, "intensity", true, step.intensity, frame);
 }
 
 }  // namespace
@@ -39,18 +65,28 @@ std::size_t joint_named(const modeler::Model& model, const std::string& name) {
   return static_cast<std::size_t>(found - model.joints.begin());
 }
 
+void refuse_carried(const animator::Film& film, std::size_t actor, std::uint32_t frame) {
+  const animator::Attachment* const carrier = animator::attachment_at(film.actors[actor], frame);
+  if (!carrier) return;
+  throw Failure("is carried by '" + film.actors[carrier->actor].name + "' at frame " + std::to_string(frame),
+                "actor '" + film.actors[actor].name + "'", "detach it there, or move what carries it");
+}
+
 void FilmGesture::set(animator::Channel<glm::dvec3>& channel, const glm::dvec3& value, std::uint32_t frame,
                       const glm::dvec3& rest) {
   vectors_.push_back({&channel, channel});
   animator::set_key(channel, value, frame, rest);
 }
 
-void FilmGesture::show(animator::Film& film, bool, const PoseStep& step, std::uint32_t frame) {
+void FilmGesture::show(animator::Film& film, bool, const FigureStep& step, std::uint32_t frame) {
   const std::size_t number = actor_named(film, step.actor);
   animator::Actor& actor = film.actors[number];
   const modeler::Model& model = film.models[actor.model];
   for (const auto& [name, pose] : step.poses) joint_named(model, name);
+  if (step.place || step.turn) refuse_carried(film, number, frame);
   take_back(film);
+  if (step.place) set(actor.motion.place, *step.place, frame);
+  if (step.turn) set(actor.motion.turn, *step.turn, frame);
   for (const auto& [name, pose] : step.poses) {
     const std::size_t joint = joint_named(model, name);
     set(actor.motion.pose[joint], animator::clamped(model.joints[joint], pose), frame, model.joints[joint].rest());
@@ -59,27 +95,21 @@ void FilmGesture::show(animator::Film& film, bool, const PoseStep& step, std::ui
   shows_ = true;
 }
 
-void FilmGesture::show(animator::Film& film, bool, const PlaceStep& step, std::uint32_t frame) {
-  const std::size_t number = actor_named(film, step.actor);
-  take_back(film);
-  animator::FigureMotion& motion = film.actors[number].motion;
-  if (step.place) set(motion.place, *step.place, frame);
-  if (step.turn) set(motion.turn, *step.turn, frame);
-  actors_ = {number};
-  shows_ = true;
-}
-
 void FilmGesture::show(animator::Film& film, bool rig_lights, const CameraStep& step, std::uint32_t frame) {
   animator::CameraMotion& camera = film.camera;
   take_back(film);
-  if (step.eye) set(camera.eye, *step.eye, frame);
-  if (step.at) set(camera.at, *step.at, frame);
+  const auto set_point = [&](animator::Channel<animator::Point>& points, const glm::dvec3& place) {
+    points_.push_back({&points, points});
+    animator::set_key(points, animator::Point{place}, frame, {});
+  };
+  if (step.eye) set_point(camera.eye, *step.eye);
+  if (step.at) set_point(camera.at, *step.at);
   if (step.fov) {
     numbers_.push_back({&camera.fov, camera.fov});
     animator::set_key(camera.fov, *step.fov, frame, 0.0);
   }
   shows_ = true;
-  const glm::dvec3 ahead = animator::value_at(camera.at, frame) - animator::value_at(camera.eye, frame);
+  const glm::dvec3 ahead = animator::at_at(film, frame) - animator::eye_at(film, frame);
   const glm::dvec3 side = glm::cross(ahead, animator::value_at(camera.up, frame));
   if (glm::length(ahead) < 1e-9 || glm::length(side) < 1e-6 * glm::length(ahead)) {
     take_back(film);
@@ -87,14 +117,30 @@ void FilmGesture::show(animator::Film& film, bool rig_lights, const CameraStep& 
   }
   if (!rig_lights) return;
   lights_ = film.lights;
-  film.lights = animator::rig_lights(camera, film.color);
+  film.lights = animator::rig_lights(film);
+}
+
+void FilmGesture::show(animator::Film& film, bool rig_lights, const LightStep& step, std::uint32_t frame) {
+  if (rig_lights || step.light > film.lights.size())
+    throw Failure("is no light of the film", "light " + std::to_string(step.light), "add it to the film's lights");
+  take_back(film);
+  lights_ = film.lights;
+  try {
+    set_light(film.lights[step.light - 1], step, frame);
+  } catch (...) {
+    take_back(film);
+    throw;
+  }
+  shows_ = true;
 }
 
 void FilmGesture::take_back(animator::Film& film) {
   for (auto saved = vectors_.rbegin(); saved != vectors_.rend(); ++saved) *saved->channel = std::move(saved->was);
   for (auto& saved : numbers_) *saved.channel = std::move(saved.was);
   if (!lights_.empty()) film.lights = std::move(lights_);
+  for (auto& saved : points_) *saved.channel = std::move(saved.was);
   vectors_.clear();
+  points_.clear();
   numbers_.clear();
   lights_.clear();
   actors_.clear();

@@ -16,13 +16,16 @@ namespace mars::studio {
 std::size_t actor_named(const animator::Film& film, const std::string& name);
 std::size_t joint_named(const modeler::Model& model, const std::string& name);
 
+// Throws where another actor carries it at the frame: its own place and turn then count for nothing.
+void refuse_carried(const animator::Film& film, std::size_t actor, std::uint32_t frame);
+
 class FilmGesture {
  public:
   // `rig_lights`: the film has no lights of its own, they go with the camera. What the film shows at the frame is then
   // what it will show when the step is done. What an earlier one shows is taken back.
-  void show(animator::Film& film, bool rig_lights, const PoseStep& step, std::uint32_t frame);
-  void show(animator::Film& film, bool rig_lights, const PlaceStep& step, std::uint32_t frame);
+  void show(animator::Film& film, bool rig_lights, const FigureStep& step, std::uint32_t frame);
   void show(animator::Film& film, bool rig_lights, const CameraStep& step, std::uint32_t frame);
+  void show(animator::Film& film, bool rig_lights, const LightStep& step, std::uint32_t frame);
 
   // Of the same film, which has not been replaced since.
   void take_back(animator::Film& film);
@@ -41,8 +44,9 @@ class FilmGesture {
            const glm::dvec3& rest = {});
 
   std::vector<Saved<glm::dvec3>> vectors_;
+  std::vector<Saved<animator::Point>> points_;
   std::vector<Saved<double>> numbers_;
-  std::vector<animator::LightMotion> lights_;  // as they were, if the gesture has moved them
+  std::vector<animator::LightMotion> lights_;  // as they were, if the gesture has changed them
   std::set<std::size_t> actors_;
   bool shows_ = false;
 };

@@ -22,21 +22,16 @@ animator::Remarks change(Json& json, const animator::Film& film, const std::stri
   return animator::pose(json, film, thing, settings, frame, std::nullopt, animator::Beyond::clamped);
 }
 
-animator::Remarks apply(Json& json, const animator::Film& film, const PoseStep& step, std::uint32_t frame) {
+animator::Remarks apply(Json& json, const animator::Film& film, const FigureStep& step, std::uint32_t frame) {
   const animator::Actor& actor = film.actors[actor_named(film, step.actor)];
   std::vector<PartSetting> settings;
+  if (step.place) settings.push_back(setting_of("place", *step.place));
+  if (step.turn) settings.push_back(setting_of("turn", *step.turn));
   for (const auto& [name, pose] : step.poses) {
     joint_named(film.models[actor.model], name);
     settings.push_back(setting_of("/" + name, pose));
   }
   return change(json, film, actor.name, settings, frame);
-}
-
-animator::Remarks apply(Json& json, const animator::Film& film, const PlaceStep& step, std::uint32_t frame) {
-  std::vector<PartSetting> settings;
-  if (step.place) settings.push_back(setting_of("place", *step.place));
-  if (step.turn) settings.push_back(setting_of("turn", *step.turn));
-  return change(json, film, film.actors[actor_named(film, step.actor)].name, settings, frame);
 }
 
 animator::Remarks apply(Json& json, const animator::Film& film, const CameraStep& step, std::uint32_t frame) {
@@ -45,6 +40,18 @@ animator::Remarks apply(Json& json, const animator::Film& film, const CameraStep
   if (step.at) settings.push_back(setting_of("at", *step.at));
   if (step.fov) settings.push_back({"fov", {*step.fov, {}, {}}});
   return change(json, film, "camera", settings, frame);
+}
+
+animator::Remarks apply(Json& json, const animator::Film& film, const LightStep& step, std::uint32_t frame) {
+  std::vector<PartSetting> settings;
+  if (step.place) settings.push_back(setting_of("place", *step.place));
+  if (step.at) settings.push_back(setting_of("at", *step.at));
+  if (step.direction) settings.push_back(setting_of("direction", *step.direction));
+  if (step.color) settings.push_back(setting_of("color", *step.color));
+  if (step.intensity) settings.push_back({"intensity", {*step.intensity, {}, {}}});
+  if (step.cone) settings.push_back({"cone", {step.cone->x, step.cone->y, {}}});
+  if (step.reach) settings.push_back({"reach", {*step.reach, {}, {}}});
+  return change(json, film, "light/" + std::to_string(step.light), settings, frame);
 }
 
 [[noreturn]] void refuse_model_step(const std::filesystem::path& path) {
@@ -116,7 +123,7 @@ std::string FilmWork::text_after(const Step& step, std::uint32_t frame, animator
 void FilmWork::show(const Step& step, std::uint32_t frame) {
   const auto done = [&](const auto& each) {
     if constexpr (requires { gesture_.show(film_, true, each, frame); })
-      gesture_.show(film_, !json_.contains("lights"), each, frame);
+      gesture_.show(film_, rig_lights(), each, frame);
     else
       refuse_model_step(path_);
   };
@@ -124,5 +131,9 @@ void FilmWork::show(const Step& step, std::uint32_t frame) {
 }
 
 void FilmWork::describe(Json& project, std::uint32_t frame) const { describe_film(project, film_, json_, frame); }
+
+void FilmWork::describe_shown(Json& poses, std::uint32_t frame) const {
+  if (gesture_.actors().empty()) describe_camera_and_lights(poses, film_, json_, frame);
+}
 
 }  // namespace mars::studio

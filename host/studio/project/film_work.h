@@ -27,7 +27,9 @@ class FilmWork : public Work {
   bool shows() const override { return gesture_.shows(); }
   std::set<std::size_t> shown_actors() const override { return gesture_.actors(); }
 
+  bool rig_lights() const override { return !json_.contains("lights"); }
   void describe(Json& project, std::uint32_t frame) const override;
+  void describe_shown(Json& poses, std::uint32_t frame) const override;
 
  private:
   struct Prepared {

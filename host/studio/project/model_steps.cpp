@@ -19,9 +19,9 @@ class ModelSteps {
  public:
   ModelSteps(Json& json, const modeler::Model& meaning) : json_(json), meaning_(meaning) {}
 
-  Remarks operator()(const PoseStep&) { refuse("poses in its file"); }
-  Remarks operator()(const PlaceStep&) { refuse("place or turn of its own"); }
+  Remarks operator()(const FigureStep&) { refuse("place or turn of its own"); }
   Remarks operator()(const CameraStep&) { refuse("camera"); }
+  Remarks operator()(const LightStep&) { refuse("lights"); }
 
   Remarks operator()(const JointStep& step) {
     switch (step.verb) {

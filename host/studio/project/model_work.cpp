@@ -12,6 +12,15 @@
 #include "host/studio/project/same_shapes.h"
 
 namespace mars::studio {
+namespace {
+
+// Which no model's file has; null: it is another step.
+const FigureStep* only_poses(const Step& step) {
+  const auto* const figure = std::get_if<FigureStep>(&step);
+  return figure && !figure->place && !figure->turn ? figure : nullptr;
+}
+
+}  // namespace
 
 const modeler::Model& ModelWork::model() const { return before_ ? *before_ : film_.models[kModelActor]; }
 
@@ -40,7 +49,7 @@ std::string ModelWork::text_after(const Step& step, std::uint32_t, animator::Rem
 }
 
 bool ModelWork::kept_in_memory(const Step& step) {
-  const auto* const pose = std::get_if<PoseStep>(&step);
+  const FigureStep* const pose = only_poses(step);
   if (!pose) return false;
   for (const auto& [joint, turns] : pose->poses) joint_named(model(), joint);
   for (const auto& [joint, turns] : pose->poses) poses_[joint] = turns;
@@ -56,7 +65,7 @@ void ModelWork::apply_poses(const std::map<std::string, glm::dvec3>& poses) {
           animator::constant(animator::clamped(shown.joints[joint], pose->second));
 }
 
-void ModelWork::show_pose(const PoseStep& step) {
+void ModelWork::show_pose(const FigureStep& step) {
   for (const auto& [joint, turns] : step.poses) joint_named(model(), joint);
   take_back();
   shows_ = true;
@@ -64,7 +73,7 @@ void ModelWork::show_pose(const PoseStep& step) {
 }
 
 void ModelWork::show(const Step& step, std::uint32_t) {
-  if (const auto* const pose = std::get_if<PoseStep>(&step)) return show_pose(*pose);
+  if (const FigureStep* const pose = only_poses(step)) return show_pose(*pose);
   Json json = json_;
   change_model(json, model(), step);
   const document::Document document(json.dump(), path_.string());

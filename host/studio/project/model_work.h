@@ -38,7 +38,7 @@ class ModelWork : public Work {
   };
 
   const modeler::Model& model() const;
-  void show_pose(const PoseStep& step);
+  void show_pose(const FigureStep& step);
   void apply_poses(const std::map<std::string, glm::dvec3>& poses);
   void take_shapes(bool pulls);
 

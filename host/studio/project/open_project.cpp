@@ -54,6 +54,7 @@ class FileProject : public Project {
 
   bool is_model() const override { return is_model_; }
   const animator::Film& film() const override { return work_->film(); }
+  bool rig_lights() const override { return work_->rig_lights(); }
   std::uint64_t revision() const override { return revision_; }
   std::uint64_t shapes_revision() const override { return work_->shapes_revision(); }
   std::optional<Pulled> pulled() const override { return work_->pulled(); }
@@ -159,7 +160,9 @@ class FileProject : public Project {
     else
       for (std::size_t actor = 0; actor < film().actors.size(); ++actor)
         actors.push_back(poses_of(film(), actor, frame_));
-    return {{"is", "poses"}, {"frame", frame_}, {"actors", std::move(actors)}};
+    Json poses{{"is", "poses"}, {"frame", frame_}, {"actors", std::move(actors)}};
+    if (work_->shows()) work_->describe_shown(poses, frame_);
+    return poses;
   }
 
  private:

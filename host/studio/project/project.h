@@ -36,6 +36,8 @@ class Project {
   // What is shown: the film, with what a gesture has changed; for a model a film of one actor, "model", with light, a
   // camera and a ground to stand on, posed as the page has posed it (a model's file has no pose).
   virtual const animator::Film& film() const = 0;
+  // The film's lights are a rig's, no things of their own: none is in the file. So it is with models.
+  virtual bool rig_lights() const = 0;
   // Goes up when film() changes in any way.
   virtual std::uint64_t revision() const = 0;
   // Goes up when film()'s models have other shapes than those before: nodes need the film again. A gesture that pulls

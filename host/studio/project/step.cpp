@@ -7,6 +7,7 @@
 #include "hal/failure/failure.h"
 #include "host/content/animator/edit.h"
 #include "host/content/animator/film.h"
+#include "host/content/animator/read_lights.h"
 
 namespace mars::studio {
 namespace {
@@ -21,6 +22,9 @@ constexpr std::string_view kPoseNames[] = {"set", "actor", "joint", "pose"};
 constexpr std::string_view kPosesNames[] = {"set", "actor", "poses"};
 constexpr std::string_view kPlaceNames[] = {"set", "actor", "place"};
 constexpr std::string_view kTurnNames[] = {"set", "actor", "turn"};
+constexpr std::string_view kFigureNames[] = {"set", "actor", "place", "turn", "poses"};
+constexpr std::string_view kLightNames[] = {"set",   "light",     "place", "at",   "direction",
+                                            "color", "intensity", "cone",  "reach"};
 constexpr std::string_view kCameraNames[] = {"set", "eye", "at", "fov"};
 constexpr std::string_view kJointNames[] = {"set", "add", "remove", "actor", "joint", "change", "branch"};
 constexpr std::string_view kMaterialNames[] = {"set", "add", "remove", "material", "change"};
@@ -37,10 +41,11 @@ constexpr std::string_view kMaterialChangeNames[] = {"name",       "color",     
 constexpr std::string_view kAxisNames[] = {"x", "y", "z"};
 
 constexpr document::Keys kPose{"step", kPoseNames}, kPoses{"step", kPosesNames}, kPlace{"step", kPlaceNames},
-    kTurn{"step", kTurnNames}, kCamera{"step", kCameraNames}, kJoint{"step", kJointNames},
-    kMaterial{"step", kMaterialNames}, kPoint{"step", kPointNames}, kMirror{"step", kMirrorNames},
-    kScale{"step", kScaleNames}, kBody{"step", kBodyNames}, kJointChange{"change", kJointChangeNames},
-    kMaterialChange{"change", kMaterialChangeNames}, kLimits{"limits", kAxisNames};
+    kTurn{"step", kTurnNames}, kFigure{"step", kFigureNames}, kLight{"step", kLightNames},
+    kCamera{"step", kCameraNames}, kJoint{"step", kJointNames}, kMaterial{"step", kMaterialNames},
+    kPoint{"step", kPointNames}, kMirror{"step", kMirrorNames}, kScale{"step", kScaleNames}, kBody{"step", kBodyNames},
+    kJointChange{"change", kJointChangeNames}, kMaterialChange{"change", kMaterialChangeNames},
+    kLimits{"limits", kAxisNames};
 
 // As a page may also say that there is none: null.
 std::optional<Element> given(const Fields& fields, std::string_view key) {
@@ -71,35 +76,50 @@ std::optional<double> number_given(const Fields& fields, std::string_view key, d
 
 glm::dvec3 read_turns(const Element& element) { return animator::rounded(document::read_vector(element, kDegrees)); }
 
-PoseStep read_pose(const Element& element) {
+FigureStep read_pose(const Element& element) {
   const Fields fields(element, kPose);
-  return {text_or_none(fields, "actor"),
-          {{document::read_text(fields.required("joint")), read_turns(fields.required("pose"))}}};
-}
-
-PoseStep read_poses(const Element& element) {
-  const Fields fields(element, kPoses);
-  PoseStep step{text_or_none(fields, "actor"), {}};
-  const Element poses = fields.required("poses");
-  document::require_kind(poses, Kind::object);
-  for (const Element pose : poses) step.poses[std::string(pose.key())] = read_turns(pose);
+  FigureStep step{text_or_none(fields, "actor")};
+  step.poses[document::read_text(fields.required("joint"))] = read_turns(fields.required("pose"));
   return step;
 }
 
-PlaceStep read_place(const Element& element) {
-  const Fields fields(element, kPlace);
-  return {text_or_none(fields, "actor"), animator::rounded(document::read_vector(fields.required("place"))), {}};
-}
-
-PlaceStep read_turn(const Element& element) {
-  const Fields fields(element, kTurn);
-  return {text_or_none(fields, "actor"), {}, read_turns(fields.required("turn"))};
+FigureStep read_figure(const Element& element, const document::Keys& keys, std::string_view required) {
+  const Fields fields(element, keys);
+  if (!required.empty()) fields.required(required);
+  FigureStep step{text_or_none(fields, "actor")};
+  step.place = vector_given(fields, "place");
+  step.turn = vector_given(fields, "turn", kDegrees);
+  const auto poses = given(fields, "poses");
+  if (!poses) return step;
+  document::require_kind(*poses, Kind::object);
+  for (const Element pose : *poses) step.poses[std::string(pose.key())] = read_turns(pose);
+  return step;
 }
 
 CameraStep read_camera(const Element& element) {
   const Fields fields(element, kCamera);
   return {vector_given(fields, "eye"), vector_given(fields, "at"),
           number_given(fields, "fov", animator::kFieldsOfView)};
+}
+
+glm::dvec2 read_cone(const Element& element) {
+  document::require_size(element, 2);
+  auto angle = element.begin();
+  const double inner = animator::rounded(document::read_number(*angle, animator::kCones));
+  return {inner, animator::rounded(document::read_number(*++angle, animator::kCones))};
+}
+
+LightStep read_light(const Element& element) {
+  const Fields fields(element, kLight);
+  LightStep step{document::read_count(fields.required("light"), 1, animator::kMostLights)};
+  step.place = vector_given(fields, "place");
+  step.at = vector_given(fields, "at");
+  step.direction = vector_given(fields, "direction");
+  step.color = vector_given(fields, "color", {0, 1});
+  step.intensity = number_given(fields, "intensity", animator::kIntensities);
+  step.reach = number_given(fields, "reach", animator::kReaches);
+  if (const auto cone = given(fields, "cone")) step.cone = read_cone(*cone);
+  return step;
 }
 
 modeler::Freedom read_freedom(const Fields& fields) {
@@ -221,15 +241,18 @@ BodyStep read_body(const Element& element) {
 }
 
 Step read_set(const Element& element, const Element& what) {
-  constexpr std::string_view kWhat[] = {"pose", "poses", "place", "turn", "camera", "joint", "material", "point"};
+  constexpr std::string_view kWhat[] = {"pose",   "poses", "place", "turn",     "figure",
+                                        "camera", "light", "joint", "material", "point"};
   switch (document::read_choice(what, kWhat)) {
     case 0: return read_pose(element);
-    case 1: return read_poses(element);
-    case 2: return read_place(element);
-    case 3: return read_turn(element);
-    case 4: return read_camera(element);
-    case 5: return read_joint(element, Verb::set);
-    case 6: return read_material(element, Verb::set);
+    case 1: return read_figure(element, kPoses, "poses");
+    case 2: return read_figure(element, kPlace, "place");
+    case 3: return read_figure(element, kTurn, "turn");
+    case 4: return read_figure(element, kFigure, "");
+    case 5: return read_camera(element);
+    case 6: return read_light(element);
+    case 7: return read_joint(element, Verb::set);
+    case 8: return read_material(element, Verb::set);
     default: return read_point(element);
   }
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <map>
 #include <optional>
@@ -19,21 +20,24 @@ namespace mars::studio {
 
 using document::Json;
 
-// Joints' turns, degrees, within any limits or not.
-struct PoseStep {
+// A figure as a whole, and its joints' turns, degrees, within any limits or not.
+struct FigureStep {
   std::string actor;
-  std::map<std::string, glm::dvec3> poses;
-};
-
-// A whole figure's.
-struct PlaceStep {
-  std::string actor;
-  std::optional<glm::dvec3> place, turn;
+  std::optional<glm::dvec3> place{}, turn{};
+  std::map<std::string, glm::dvec3> poses{};
 };
 
 struct CameraStep {
   std::optional<glm::dvec3> eye, at;
   std::optional<double> fov;
+};
+
+// Of the lights that the film has.
+struct LightStep {
+  std::size_t light;  // from 1
+  std::optional<glm::dvec3> place{}, at{}, direction{}, color{};
+  std::optional<double> intensity{}, reach{};
+  std::optional<glm::dvec2> cone{};  // inner and outer, degrees
 };
 
 enum class Verb { set, add, remove };
@@ -71,8 +75,8 @@ struct BodyStep {
   std::optional<double> height;
 };
 
-using Step =
-    std::variant<PoseStep, PlaceStep, CameraStep, JointStep, MaterialStep, PointStep, MirrorStep, ScaleStep, BodyStep>;
+using Step = std::variant<FigureStep, CameraStep, LightStep, JointStep, MaterialStep, PointStep, MirrorStep, ScaleStep,
+                          BodyStep>;
 
 // Throws Failure.
 Step read_step(const Json& json);

@@ -6,15 +6,19 @@
 namespace mars::studio {
 namespace {
 
-// "turn left-knee of pip", "turn 3 joints".
-std::string name_of_step(const PoseStep& step) {
+// "turn left-knee of pip", "turn 3 joints", "move pip", "pose pip".
+std::string name_of_step(const FigureStep& step) {
+  const std::string figure = step.actor.empty() ? "the figure" : step.actor;
+  if (step.poses.empty()) return (step.place ? "move " : "turn ") + figure;
+  if (step.place || step.turn) return "pose " + figure;
   const std::string what =
       step.poses.size() == 1 ? step.poses.begin()->first : document::counted(step.poses.size(), "joint");
   return "turn " + what + (step.actor.empty() ? "" : " of " + step.actor);
 }
 
-std::string name_of_step(const PlaceStep& step) {
-  return (step.place ? "move " : "turn ") + (step.actor.empty() ? "the figure" : step.actor);
+std::string name_of_step(const LightStep& step) {
+  const bool moves = step.place || step.at || step.direction;
+  return (moves ? "move light " : "change light ") + std::to_string(step.light);
 }
 
 std::string name_of_step(const CameraStep& step) {

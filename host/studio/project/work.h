@@ -41,8 +41,12 @@ class Work {
   virtual std::set<std::size_t> shown_actors() const = 0;  // that move while it shows
 
   virtual std::vector<modeler::ControlPoint> control_points(const std::string& /*joint*/) const { return {}; }
+  // Its lights are no things of the film.
+  virtual bool rig_lights() const { return true; }
   // Into the description: actors, materials, shapes.
   virtual void describe(Json& project, std::uint32_t frame) const = 0;
+  // Into what is said during gestures: camera and lights where it changes them.
+  virtual void describe_shown(Json& /*poses*/, std::uint32_t /*frame*/) const {}
 };
 
 }  // namespace mars::studio

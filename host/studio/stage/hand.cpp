@@ -12,17 +12,11 @@
 namespace mars::studio {
 namespace {
 
-constexpr double kFine = 0.2;          // of the mouse's way
 constexpr double kEdgeOn = 0.12;       // cosine between a ring's axis and the way to the eye: it is seen as a line
 constexpr double kLeastExtent = 1e-3;  // of a box, of its extent before
 
 const modeler::Model& model_of(const Project& project, std::size_t actor) {
   return project.film().models[project.film().actors[actor].model];
-}
-
-Json listed(const glm::dvec3& vector) {
-  return Json::array(
-      {modeler::plain_number(vector.x), modeler::plain_number(vector.y), modeler::plain_number(vector.z)});
 }
 
 glm::dmat3 linear_of(const wire::Matrix& matrix) {
@@ -32,8 +26,13 @@ glm::dmat3 linear_of(const wire::Matrix& matrix) {
 
 }  // namespace
 
+Json listed(const glm::dvec3& vector) {
+  return Json::array(
+      {modeler::plain_number(vector.x), modeler::plain_number(vector.y), modeler::plain_number(vector.z)});
+}
+
 Hand::Hand(const Project& project, const Selection& selection, const Screen& screen, const glm::dvec2& mouse)
-    : project_(project), selection_(selection), screen_(screen), began_(mouse), mouse_(mouse), at_(mouse) {}
+    : project_(project), selection_(selection), mouse_(screen, mouse) {}
 
 void Hand::take(const Grip& grip) {
   grip_ = grip;
@@ -78,17 +77,17 @@ bool Hand::take(const Hit& hit) {
 
 std::optional<Json> Hand::follow(const glm::dvec2& mouse, bool shift) {
   const bool point = grip_ && grip_->what == Grip::What::point;
-  const glm::dvec2 before = at_;
-  at_ += (shift && !point ? kFine : 1.0) * (mouse - mouse_);
-  mouse_ = mouse;
+  const glm::dvec2 before = mouse_.at();
+  mouse_.follow(mouse, shift && !point);
   if (held_) return follow_limb();
   if (!grip_) return std::nullopt;
   switch (grip_->what) {
-    case Grip::What::ring: wound_ += turned_by(before, at_); return follow_ring();
+    case Grip::What::ring: wound_ += turned_by(before, mouse_.at()); return follow_ring();
     case Grip::What::arrow:
     case Grip::What::plane: return follow_place();
     case Grip::What::face: return follow_face();
     case Grip::What::point: return follow_point(shift);
+    case Grip::What::size: break;  // of marks
   }
   return std::nullopt;
 }
@@ -110,12 +109,12 @@ Json Hand::pose_step(const glm::dvec3& pose) const {
 // along it.
 double Hand::turned_by(const glm::dvec2& before, const glm::dvec2& now) const {
   const TurnAxis axis = posed_.axis(grip_->axis);
-  const auto center = screen_.pixel_of(axis.center);
+  const auto center = mouse_.screen().pixel_of(axis.center);
   if (!center) return 0;
-  const glm::dvec3 to_eye = glm::normalize(screen_.eye() - axis.center);
+  const glm::dvec3 to_eye = glm::normalize(mouse_.screen().eye() - axis.center);
   const double facing = glm::dot(axis.axis, to_eye);
   if (std::abs(facing) < kEdgeOn) {
-    const glm::dvec2 way = screen_.motion_of(axis.center, glm::cross(axis.axis, to_eye));
+    const glm::dvec2 way = mouse_.screen().motion_of(axis.center, glm::cross(axis.axis, to_eye));
     return glm::dot(now - before, glm::normalize(way)) / ring_pixels(grip_->axis) / modeler::kDegree;
   }
   const glm::dvec2 from = before - *center, to = now - *center;
@@ -131,23 +130,8 @@ std::optional<Json> Hand::follow_ring() {
 }
 
 std::optional<Json> Hand::follow_limb() {
-  pose_ = pose_towards(posed_, held_->place, pose_, screen_, at_);
+  pose_ = pose_towards(posed_, held_->place, pose_, mouse_.screen(), mouse_.at());
   return pose_step(pose_);
-}
-
-// Of what stands at `from` and moves along `way` by the mouse.
-std::optional<glm::dvec3> Hand::shift_along(const glm::dvec3& from, const glm::dvec3& way) const {
-  const auto first = nearest_along(screen_.ray_through(began_), from, way);
-  const auto now = nearest_along(screen_.ray_through(at_), from, way);
-  if (!first || !now) return std::nullopt;
-  return (*now - *first) * way;
-}
-
-std::optional<glm::dvec3> Hand::shift_across(const glm::dvec3& from) const {
-  const auto first = on_plane(screen_.ray_through(began_), from, screen_.ahead());
-  const auto now = on_plane(screen_.ray_through(at_), from, screen_.ahead());
-  if (!first || !now) return std::nullopt;
-  return *now - *first;
 }
 
 std::optional<Json> Hand::follow_place() {
@@ -155,7 +139,7 @@ std::optional<Json> Hand::follow_place() {
   glm::dvec3 way(0);
   way[grip_->axis] = 1;
   if (of_joint) way = posed_.parent.turn * way;
-  const auto by = grip_->what == Grip::What::plane ? shift_across(world_) : shift_along(world_, way);
+  const auto by = grip_->what == Grip::What::plane ? mouse_.across(world_) : mouse_.along(world_, way);
   if (!by) return std::nullopt;
   const glm::dvec3 place = place_ + (of_joint ? glm::transpose(posed_.parent.turn) * *by : *by);
   Json made = step(of_joint ? "joint" : "place");
@@ -172,7 +156,7 @@ std::optional<Json> Hand::follow_place() {
 std::optional<Json> Hand::follow_face() {
   const int axis = grip_->axis;
   const glm::dvec3 way = frame_.turn[axis];
-  const auto by = shift_along(world_, way);
+  const auto by = mouse_.along(world_, way);
   if (!by) return std::nullopt;
   const double length = glm::dot(*by, way) / glm::dot(way, way);
   const double least = kLeastExtent * (sbb_.max[axis] - sbb_.min[axis]);
@@ -189,17 +173,17 @@ std::optional<Json> Hand::follow_face() {
 // In the plane parallel to the screen, or along the surface's axis that is nearest to the mouse's way.
 std::optional<Json> Hand::follow_point(bool along_axis) {
   const glm::dmat3 linear = linear_of(matrix_);
-  std::optional<glm::dvec3> by = shift_across(world_);
-  if (along_axis && at_ != began_) {
+  std::optional<glm::dvec3> by = mouse_.across(world_);
+  if (along_axis && mouse_.at() != mouse_.began()) {
     const auto likeness = [&](int axis) {
-      const glm::dvec2 way = screen_.motion_of(world_, linear[axis]);
+      const glm::dvec2 way = mouse_.screen().motion_of(world_, linear[axis]);
       const double length = glm::length(way);
-      return length > 0 ? std::abs(glm::dot(way / length, at_ - began_)) : 0;
+      return length > 0 ? std::abs(glm::dot(way / length, mouse_.at() - mouse_.began())) : 0;
     };
     int nearest = 0;
     for (const int axis : {1, 2})
       if (likeness(axis) > likeness(nearest)) nearest = axis;
-    by = shift_along(world_, linear[nearest]);
+    by = mouse_.along(world_, linear[nearest]);
   }
   if (!by) return std::nullopt;
   Json made = step("point");

@@ -8,10 +8,14 @@
 #include <vector>
 
 #include "host/studio/stage/handles.h"
+#include "host/studio/stage/mouse_way.h"
 #include "host/studio/stage/picking.h"
 #include "host/studio/stage/screen.h"
 
 namespace mars::studio {
+
+// In a step.
+Json listed(const glm::dvec3& vector);
 
 // A place in a joint's own frame that is to follow the mouse.
 struct Held {
@@ -40,16 +44,11 @@ class Hand {
   std::optional<Json> follow_face();
   std::optional<Json> follow_point(bool along_axis);
   Json pose_step(const glm::dvec3& pose) const;
-  std::optional<glm::dvec3> shift_along(const glm::dvec3& from, const glm::dvec3& way) const;
-  std::optional<glm::dvec3> shift_across(const glm::dvec3& from) const;
   double turned_by(const glm::dvec2& before, const glm::dvec2& now) const;
 
   const Project& project_;
   Selection selection_;
-  Screen screen_;
-  glm::dvec2 began_;  // where the mouse took it
-  glm::dvec2 mouse_;  // the page's
-  glm::dvec2 at_;     // as the gesture goes: slower where it is fine
+  MouseWay mouse_;
   std::optional<Grip> grip_;
   std::optional<Held> held_;
   Posed posed_{};              // at the beginning

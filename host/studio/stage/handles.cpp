@@ -6,6 +6,7 @@
 #include <set>
 
 #include "host/content/modeler/frames.h"
+#include "host/studio/stage/reach_hand.h"
 
 namespace mars::studio {
 namespace {
@@ -45,6 +46,7 @@ class Maker {
     const auto posed = studio::posed(project_, selection_);
     if (tool == Tool::turn && posed) add_rings(*posed);
     if (tool == Tool::move && posed) add_arrows(*posed);
+    if (tool == Tool::reach) add_reach();
     if (tool == Tool::box && project_.is_model()) add_box();
     if (tool == Tool::points && project_.is_model()) add_points();
     return std::move(handles_);
@@ -105,16 +107,21 @@ class Maker {
 
   // A model's joint is moved along its parent's axes, a film's actor along the world's.
   void add_arrows(const Posed& posed) {
-    const bool of_joint = project_.is_model();
-    if (of_joint && !selection_.joint) return;
+    if (project_.is_model() && !selection_.joint) return;
+    if (project_.is_model()) return add_arrows(posed.center, posed.parent.turn);
     const animator::ActorState state = animator::state_at(project_.film(), *selection_.actor, project_.frame());
-    const glm::dvec3 from = of_joint ? posed.center : state.place;
+    add_arrows(state.place, glm::dmat3(1));
+  }
+
+  void add_reach() {
+    if (const auto place = reach_place(project_, selection_)) add_arrows(*place, glm::dmat3(1));
+  }
+
+  void add_arrows(const glm::dvec3& from, const glm::dmat3& ways) {
     const double length = kArrowPixels / screen_.scale_at(from);
-    for (int axis = 0; axis < 3; ++axis) {
-      const glm::dvec3 way = of_joint ? posed.parent.turn[axis] : unit(axis);
+    for (int axis = 0; axis < 3; ++axis)
       add_line({std::string("arrow:") + kAxes[axis], "arrow", {}, kAxes[axis], "", Grip{Grip::What::arrow, axis}},
-               {from, from + length * way});
-    }
+               {from, from + length * ways[axis]});
     add_place({"plane", "point", {}, "", "", Grip{Grip::What::plane}}, from);
   }
 
@@ -228,17 +235,17 @@ const Handle* handle_at(const std::vector<Handle>& handles, const glm::dvec2& pi
 
 Json described(const std::vector<Handle>& handles, const std::string& hot) {
   Json shapes = Json::array();
-  const auto rounded = [](double pixel) { return std::round(pixel * 100) / 100; };
   for (const Handle& handle : handles) {
+    const double parts = handle.fine ? 100 : 10;  // of a pixel
     Json points = Json::array();
-    for (const glm::dvec2& point : handle.points) points.push_back({rounded(point.x), rounded(point.y)});
-    shapes.push_back({{"id", handle.id},
-                      {"kind", handle.kind},
-                      {"points", std::move(points)},
-                      {"axis", handle.axis},
-                      {"hot", handle.grip && handle.id == hot},
-                      {"selected", handle.selected},
-                      {"text", handle.text}});
+    for (const glm::dvec2& point : handle.points)
+      points.push_back({std::round(point.x * parts) / parts, std::round(point.y * parts) / parts});
+    Json shape{{"id", handle.id}, {"kind", handle.kind}, {"points", std::move(points)}};
+    if (!handle.axis.empty()) shape["axis"] = handle.axis;
+    if (!handle.text.empty()) shape["text"] = handle.text;
+    if (handle.grip && handle.id == hot) shape["hot"] = true;
+    if (handle.selected) shape["selected"] = true;
+    shapes.push_back(std::move(shape));
   }
   return shapes;
 }

@@ -14,23 +14,35 @@
 
 namespace mars::studio {
 
-enum class Tool { none, turn, move, box, points };
-inline constexpr const char* kTools[] = {"none", "turn", "move", "box", "points"};
+enum class Tool { none, turn, move, box, points, reach };
+inline constexpr const char* kTools[] = {"none", "turn", "move", "box", "points", "reach"};
 
+// The film's camera, or one of its lights.
+struct Mark {
+  std::optional<std::size_t> light{};  // none: the camera
+
+  bool operator==(const Mark&) const = default;
+};
+
+// A figure or its joint, or a mark, or nothing.
 struct Selection {
-  std::optional<std::size_t> actor;
-  std::optional<std::size_t> joint;  // none: the actor as a whole
+  std::optional<std::size_t> actor{};
+  std::optional<std::size_t> joint{};  // none: the actor as a whole
+  std::optional<Mark> mark{};          // there is no actor beside it
 
   bool operator==(const Selection&) const = default;
 };
 
 // What a hand takes hold of.
 struct Grip {
-  enum class What { ring, arrow, plane, face, point } what;
+  enum class What { ring, arrow, plane, face, point, size } what;
   int axis = 0;           // ring, arrow, face: x, y, z
   int side = 0;           // face: 0 lower, 1 upper
   std::size_t patch = 0;  // point
   std::size_t i = 0, j = 0;
+  // Of a mark: arrow and plane move it, or what it aims at; size is its field of view, cone or reach.
+  std::optional<Mark> mark{};
+  bool aim = false;
 
   bool operator==(const Grip&) const = default;
 };
@@ -44,6 +56,7 @@ struct Handle {
   std::string text{};
   std::optional<Grip> grip{};  // none: only to be seen
   bool selected = false;
+  bool fine = true;  // to a hundredth of a pixel, else to a tenth: of many
 };
 
 // An axis about which a pose turns, by one of its numbers.
@@ -79,7 +92,7 @@ double ring_pixels(int axis);
 // The handle under the pixel that a hand would take.
 const Handle* handle_at(const std::vector<Handle>& handles, const glm::dvec2& pixel);
 
-// As the page reads them; `hot`: the id under the mouse.
+// As the page reads them: what is empty or false is left out. `hot`: the id under the mouse.
 Json described(const std::vector<Handle>& handles, const std::string& hot);
 
 }  // namespace mars::studio

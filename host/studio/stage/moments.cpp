@@ -11,15 +11,14 @@ namespace {
 
 constexpr std::uint64_t kMostMatrices = 200'000;  // of a film whose intervals are cut between two pictures
 
-// Places and joints that have two keys or more.
+}  // namespace
+
 bool moves(const animator::Actor& actor) {
   const auto keyed = [](const auto& channel) { return channel.size() > 1; };
-  return keyed(actor.motion.place) || keyed(actor.motion.turn) ||
+  return !actor.attach.empty() || keyed(actor.motion.place) || keyed(actor.motion.turn) ||
          std::any_of(actor.motion.pose.begin(), actor.motion.pose.end(), keyed) ||
          std::any_of(actor.matrices.begin(), actor.matrices.end(), keyed);
 }
-
-}  // namespace
 
 void Moments::renew() {
   const bool other_shapes = shapes_revision_ != project_.shapes_revision();

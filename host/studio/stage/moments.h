@@ -23,6 +23,9 @@ struct Owner {
   std::size_t joint;
 };
 
+// Whether it may change over the film: it has two keys of anything, or may be carried.
+bool moves(const animator::Actor& actor);
+
 class Moments {
  public:
   // It must outlive it.

@@ -59,6 +59,27 @@ std::vector<Polyline> Screen::polylines(const std::vector<glm::dvec3>& places) c
   return lines;
 }
 
+Polyline Screen::outline(std::span<const glm::dvec3> places) const {
+  std::vector<glm::dvec3> seen, behind;
+  for (const glm::dvec3& place : places) {
+    const glm::dvec3 at = to_eye(place);
+    (at.z >= near_ ? seen : behind).push_back(at);
+  }
+  Polyline pixels;
+  for (const glm::dvec3& at : seen) {
+    pixels.push_back(projected(at));
+    for (const glm::dvec3& other : behind)
+      pixels.push_back(projected(at + (near_ - at.z) / (other.z - at.z) * (other - at)));
+  }
+  const auto beside = [&](int axis) {
+    const auto all = [&](const auto& is) { return std::all_of(pixels.begin(), pixels.end(), is); };
+    return all([&](const glm::dvec2& pixel) { return pixel[axis] < 0; }) ||
+           all([&](const glm::dvec2& pixel) { return pixel[axis] > 2 * middle_[axis]; });
+  };
+  if (beside(0) || beside(1)) return {};
+  return convex_hull(std::move(pixels));
+}
+
 double Screen::scale_at(const glm::dvec3& place) const { return scale_ / std::max(to_eye(place).z, near_); }
 
 std::optional<double> nearest_along(const Ray& ray, const glm::dvec3& from, const glm::dvec3& way) {
@@ -75,6 +96,29 @@ std::optional<glm::dvec3> on_plane(const Ray& ray, const glm::dvec3& place, cons
   const double part = glm::dot(place - ray.from, normal) / along;
   if (part <= 0) return std::nullopt;
   return ray.from + part * ray.way;
+}
+
+Polyline convex_hull(Polyline points) {
+  const auto before = [](const glm::dvec2& one, const glm::dvec2& two) {
+    return one.x < two.x || (one.x == two.x && one.y < two.y);
+  };
+  std::sort(points.begin(), points.end(), before);
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  if (points.size() < 3) return points;
+  Polyline hull;
+  const auto add = [&](const glm::dvec2& point, std::size_t fixed) {
+    const auto turns_left = [&] {
+      const glm::dvec2 edge = hull.back() - hull[hull.size() - 2], on = point - hull.back();
+      return edge.x * on.y - edge.y * on.x > 0;
+    };
+    while (hull.size() > fixed && !turns_left()) hull.pop_back();
+    hull.push_back(point);
+  };
+  for (const glm::dvec2& point : points) add(point, 1);
+  const std::size_t lower = hull.size();
+  for (auto point = points.rbegin() + 1; point != points.rend(); ++point) add(*point, lower);
+  hull.pop_back();
+  return hull;
 }
 
 double distance_to(const Polyline& line, const glm::dvec2& pixel) {

@@ -5,6 +5,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "node/wire/film_parts.h"
@@ -29,8 +30,15 @@ class Screen {
   Ray ray_through(const glm::dvec2& pixel) const;
   // A line through these places, cut where it goes before the near plane.
   std::vector<Polyline> polylines(const std::vector<glm::dvec3>& places) const;
+  // The outline of the places' convex hull as it is seen, cut at the near plane, without what the picture does not
+  // show: a polygon, whose first point is not repeated; empty where nothing is seen of it.
+  Polyline outline(std::span<const glm::dvec3> places) const;
   // Pixels of a length across the axis, as far away as the place; as far as the near plane where it is nearer.
   double scale_at(const glm::dvec3& place) const;
+  // How far ahead of the eye it is.
+  double depth_of(const glm::dvec3& place) const { return to_eye(place).z; }
+
+  bool operator==(const Screen&) const = default;
 
   const glm::dvec3& right() const { return axes_[0]; }
   const glm::dvec3& up() const { return axes_[1]; }
@@ -53,6 +61,9 @@ std::optional<double> nearest_along(const Ray& ray, const glm::dvec3& from, cons
 
 // Where the ray meets the plane; none where it does not.
 std::optional<glm::dvec3> on_plane(const Ray& ray, const glm::dvec3& place, const glm::dvec3& normal);
+
+// Counterclockwise as x goes right and y up, from the leftmost; points on its edges are left out (Andrew 1979).
+Polyline convex_hull(Polyline points);
 
 // From the pixel to the line, at its nearest.
 double distance_to(const Polyline& line, const glm::dvec2& pixel);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "host/studio/stage/marks.h"
+
 namespace mars::studio {
 namespace {
 
@@ -29,6 +31,8 @@ Selection nearest_joint(const Project& project, const Screen& screen, const glm:
 
 Selection selection_of(const Project& project, const Named& named) {
   Selection selection;
+  if (const auto mark = named.thing ? mark_named(*named.thing) : std::nullopt; mark && there_is(project, *mark))
+    selection.mark = mark;
   if (!named.actor) return selection;
   const animator::Film& film = project.film();
   const auto actor = std::find_if(film.actors.begin(), film.actors.end(),
@@ -43,6 +47,7 @@ Selection selection_of(const Project& project, const Named& named) {
 
 Named names_of(const Project& project, const Selection& selection) {
   Named named;
+  if (selection.mark) named.thing = name_of(*selection.mark);
   if (!selection.actor) return named;
   const animator::Actor& actor = project.film().actors[*selection.actor];
   named.actor = actor.name;
@@ -54,11 +59,12 @@ void put_names(const Project& project, const Selection& selection, Json& message
   const Named named = names_of(project, selection);
   message["actor"] = named.actor ? Json(*named.actor) : Json(nullptr);
   message["joint"] = named.joint ? Json(*named.joint) : Json(nullptr);
+  message["thing"] = named.thing ? Json(*named.thing) : Json(nullptr);
 }
 
 std::string text_of(const Project& project, const Selection& selection) {
   const Named named = names_of(project, selection);
-  if (!named.joint) return named.actor.value_or("");
+  if (!named.joint) return named.thing ? *named.thing : named.actor.value_or("");
   const auto posed = studio::posed(project, selection);
   std::string text = *named.joint;
   for (int axis = 0; posed && axis < 3; ++axis)

@@ -14,7 +14,8 @@ namespace mars::studio {
 
 // By names, for the film may change under it.
 struct Named {
-  std::optional<std::string> actor, joint;
+  std::optional<std::string> actor{}, joint{};
+  std::optional<std::string> thing{};  // "camera", "light/1"; there is no actor beside it
 
   bool operator==(const Named&) const = default;
 };
@@ -22,9 +23,9 @@ struct Named {
 // What there is of it.
 Selection selection_of(const Project& project, const Named& named);
 Named names_of(const Project& project, const Selection& selection);
-// "actor" and "joint", null where there is none.
+// "actor", "joint" and "thing", null where there is none.
 void put_names(const Project& project, const Selection& selection, Json& message);
-// "elbow y 45": a joint with the angles that it can change.
+// "elbow y 45": a joint with the angles that it can change; a mark's name.
 std::string text_of(const Project& project, const Selection& selection);
 
 struct Picked {

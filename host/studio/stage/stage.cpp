@@ -5,13 +5,19 @@
 #include <iterator>
 #include <list>
 #include <map>
+#include <set>
 #include <string_view>
 #include <utility>
+#include <variant>
 
 #include "hal/failure/failure.h"
 #include "host/studio/stage/flow.h"
+#include "host/studio/stage/ghosts.h"
 #include "host/studio/stage/hand.h"
+#include "host/studio/stage/mark_hand.h"
+#include "host/studio/stage/marks.h"
 #include "host/studio/stage/page_message.h"
+#include "host/studio/stage/reach_hand.h"
 #include "host/studio/stage/selection.h"
 #include "host/studio/stage/view.h"
 
@@ -24,6 +30,7 @@ constexpr const char* kAs[] = {"stick", "vertices", "prisms", "surface"};
 constexpr const char* kHows[] = {"turn", "pan", "zoom"};
 constexpr std::string_view kOfProject[] = {"preview", "commit", "cancel", "undo", "redo", "frame"};
 constexpr double kMostEdit = 9e15;
+constexpr double kMostGhosts = 8, kMostGhostStep = 1000;
 constexpr double kMuchLarger = 1.3;  // less is what a pose does
 
 Json json_of(const glm::dvec3& vector) { return Json::array({vector.x, vector.y, vector.z}); }
@@ -52,16 +59,26 @@ bool is_same(const Eye& one, const Eye& other) {
          a.distance == b.distance;
 }
 
+GhostFrames ghosts_in(const Json& message) {
+  const auto found = message.find("ghosts");
+  if (found == message.end() || found->is_null()) return {};
+  const auto whole = [&](const char* key, double least, double most) {
+    return static_cast<int>(number_in(*found, key, least, most));
+  };
+  return {whole("before", 0, kMostGhosts), whole("after", 0, kMostGhosts), whole("step", 1, kMostGhostStep)};
+}
+
 struct Page {
   std::uint64_t edit = 0;
   Named selected;
+  std::set<Pin> pins{};
 };
 
 // A gesture under way.
 struct Gesture {
   PageNumber page;
   std::uint32_t view;
-  Hand hand;
+  std::variant<Hand, MarkHand, ReachHand> hand;
   std::uint64_t revision;  // of the project, as the hand left it
   std::optional<Json> step{};
 };
@@ -73,6 +90,7 @@ class TheStage : public Stage {
         link_(link),
         listener_(std::move(listener)),
         moments_(project),
+        ghosts_(project, moments_),
         flow_(project, link, moments_, views_, pages()) {}
 
   void take(PageNumber page, const Json& message) override {
@@ -87,7 +105,7 @@ class TheStage : public Stage {
         {"view", &TheStage::view},       {"orbit", &TheStage::orbit}, {"unview", &TheStage::unview},
         {"painted", &TheStage::painted}, {"hover", &TheStage::hover}, {"select", &TheStage::select},
         {"grab", &TheStage::grab},       {"drag", &TheStage::drag},   {"drop", &TheStage::drop},
-        {"let_go", &TheStage::let_go}};
+        {"let_go", &TheStage::let_go},   {"pin", &TheStage::pin}};
     if (const auto deed = deeds.find(what); deed != deeds.end())
       (this->*deed->second)(page, message);
     else if (std::find(std::begin(kOfProject), std::end(kOfProject), what) == std::end(kOfProject))
@@ -141,6 +159,8 @@ class TheStage : public Stage {
     view.eye = eye;
     view.look = look;
     view.tool = tool;
+    view.ghosts = ghosts_in(message);
+    view.marks = flag_in(message, "marks", false);
     view.orbiting = false;
     if (chosen && eye.from != From::camera) tell_orbit(view);
     if (view.sent > 0) tell_handles(view);
@@ -184,21 +204,24 @@ class TheStage : public Stage {
       if (!message.contains(key) || message[key].is_null()) return std::nullopt;
       return word_in(message, key);
     };
-    Named named{name("actor"), name("joint")};
+    Named named{name("actor"), name("joint"), name("thing")};
+    if (named.thing && (named.actor || named.joint)) refuse("is beside an actor", "thing", "select one of them");
     if (project_.is_model() && named.joint) named.actor = project_.film().actors[0].name;
     const Selection found = selection_of(project_, named);
     if (named.actor && !found.actor) refuse("is no actor", "actor", "select one that there is");
     if (named.joint && !found.joint) refuse("is no joint", "joint", "select one that there is");
+    if (named.thing && !found.mark)
+      refuse("is '" + *named.thing + "'", "thing", "select camera, or a light that the film has: light/1");
     select(page, std::move(named));
   }
 
   void hover(PageNumber page, const Json& message) {
     PageView& view = view_in(page, message);
     const glm::dvec2 pixel = pixel_in(message);
-    const auto handles = handles_of(project_, selected_by(page), view.tool, screen_of(view));
+    const auto handles = handles_in(view);
     const Handle* const handle = handle_at(handles, pixel);
     const Selection under =
-        handle != nullptr ? selected_by(page) : pick(project_, moments_, screen_of(view), pixel).selection;
+        handle != nullptr ? held_by(page, *handle) : pick(project_, moments_, screen_of(view), pixel).selection;
     Json answer = {{"is", "hovered"}, {"view", view.number}};
     put_names(project_, under, answer);
     answer["handle"] = handle != nullptr ? Json(handle->id) : Json(nullptr);
@@ -217,31 +240,57 @@ class TheStage : public Stage {
                     "wait until the hand there rests");
     if (gesture_) end_gesture();
     const glm::dvec2 pixel = pixel_in(message);
-    const Screen screen = screen_of(view);
-    const auto handles = handles_of(project_, selected_by(page), view.tool, screen);
+    const auto handles = handles_in(view);
     const Handle* const handle = handle_at(handles, pixel);
+    const Selection taken = handle != nullptr ? take(view, *handle, pixel) : take_what_is_at(view, pixel);
     Json answer = {{"is", "grabbed"}, {"view", view.number}};
-    if (handle != nullptr) {
-      Hand hand(project_, selected_by(page), screen, pixel);
-      hand.take(*handle->grip);
-      gesture_.emplace(Gesture{page, view.number, std::move(hand), project_.revision()});
-      put_names(project_, selected_by(page), answer);
-    } else {
-      const Picked picked = pick(project_, moments_, screen_of(view), pixel);
-      if (picked.selection.actor) select(page, names_of(project_, picked.selection));
-      if (picked.hit) {
-        Hand hand(project_, picked.selection, screen, pixel);
-        if (hand.take(*picked.hit)) gesture_.emplace(Gesture{page, view.number, std::move(hand), project_.revision()});
-      }
-      put_names(project_, picked.selection, answer);
-    }
+    put_names(project_, taken, answer);
     answer["handle"] = handle != nullptr ? Json(handle->id) : Json(nullptr);
     listener_.tell(page, answer);
   }
 
+  Selection take(const PageView& view, const Handle& handle, const glm::dvec2& pixel) {
+    const Selection held = held_by(view.page, handle);
+    const Screen screen = screen_of(view);
+    if (held.mark) {
+      select(view.page, names_of(project_, held));
+      begin(view, MarkHand(*handle.grip, state_of(project_, moments_, *held.mark), screen, pixel));
+    } else if (view.tool == Tool::reach) {
+      begin(view, ReachHand(project_, held, pins_of(view.page, held), *handle.grip, screen, pixel));
+    } else {
+      Hand hand(project_, held, screen, pixel);
+      hand.take(*handle.grip);
+      begin(view, std::move(hand));
+    }
+    return held;
+  }
+
+  // What it picks is selected, and follows the hand if it can.
+  Selection take_what_is_at(const PageView& view, const glm::dvec2& pixel) {
+    const Picked picked = pick(project_, moments_, screen_of(view), pixel);
+    if (!picked.selection.actor) return picked.selection;
+    select(view.page, names_of(project_, picked.selection));
+    if (!picked.hit) return picked.selection;
+    if (view.tool == Tool::reach && can_reach(project_, picked.selection)) {
+      begin(view, ReachHand(project_, picked.selection, pins_of(view.page, picked.selection), picked.hit->place,
+                            screen_of(view), pixel));
+    } else {
+      Hand hand(project_, picked.selection, screen_of(view), pixel);
+      if (hand.take(*picked.hit)) begin(view, std::move(hand));
+    }
+    return picked.selection;
+  }
+
+  template <typename Taken>
+  void begin(const PageView& view, Taken hand) {
+    gesture_.emplace(Gesture{view.page, view.number, std::move(hand), project_.revision()});
+  }
+
   void drag(PageNumber page, const Json& message) {
     if (!gesture_ || gesture_->page != page) return;
-    const auto step = gesture_->hand.follow(pixel_in(message), has_key(message, "shift"));
+    const glm::dvec2 pixel = pixel_in(message);
+    const bool shift = has_key(message, "shift");
+    const auto step = std::visit([&](auto& hand) { return hand.follow(pixel, shift); }, gesture_->hand);
     if (!step || step == gesture_->step) return;
     try {
       project_.preview(*step);
@@ -262,6 +311,18 @@ class TheStage : public Stage {
 
   void let_go(PageNumber page, const Json&) {
     if (gesture_ && gesture_->page == page) end_gesture();
+  }
+
+  void pin(PageNumber page, const Json& message) {
+    const Pin pin{word_in(message, "actor"), word_in(message, "joint")};
+    if (!selection_of(project_, {pin.actor, pin.joint}).joint) refuse("is no joint", "joint", "pin one that there is");
+    std::set<Pin>& pins = pages_[page].pins;
+    flag_in(message, "pinned", true) ? void(pins.insert(pin)) : void(pins.erase(pin));
+    Json answer = {{"is", "pinned"}, {"pins", Json::array()}};
+    for (const Pin& each : pins) answer["pins"].push_back({{"actor", each.actor}, {"joint", each.joint}});
+    listener_.tell(page, answer);
+    for (PageView& view : views_)
+      if (view.page == page && view.sent > 0) tell_handles(view);
   }
 
   // By another page, a command or a step: the hand's joints may be no more.
@@ -322,8 +383,18 @@ class TheStage : public Stage {
 
   Screen screen_of(const PageView& view) const { return {flow_.camera_of(view), view.width, view.height}; }
 
-  Json controls(const PageView& view) {
-    return described(handles_of(project_, selected_by(view.page), view.tool, screen_of(view)), view.hot);
+  Json controls(const PageView& view) { return described(handles_in(view), view.hot); }
+
+  // Those below first.
+  std::vector<Handle> handles_in(const PageView& view) {
+    const Selection selection = selected_by(view.page);
+    const Screen screen = screen_of(view);
+    std::vector<Handle> handles = ghosts_.handles(view.link, view.ghosts, selection, screen);
+    const auto add = [&](std::vector<Handle> more) { std::ranges::move(more, std::back_inserter(handles)); };
+    if (view.marks && view.eye.from != From::camera) add(marks_of(project_, moments_, selection, view.tool, screen));
+    add(pin_handles(project_, selection, pins_of(view.page, selection), screen));
+    add(handles_of(project_, selection, view.tool, screen));
+    return handles;
   }
 
   void tell_handles(PageView& view) {
@@ -361,6 +432,23 @@ class TheStage : public Stage {
     return found == pages_.end() ? Selection{} : selection_of(project_, found->second.selected);
   }
 
+  // What a hand has that takes the handle: a mark may be another than is selected.
+  Selection held_by(PageNumber page, const Handle& handle) const {
+    return handle.grip->mark ? Selection{.mark = handle.grip->mark} : selected_by(page);
+  }
+
+  // Of the selected actor.
+  std::vector<std::size_t> pins_of(PageNumber page, const Selection& selection) const {
+    std::vector<std::size_t> joints;
+    const auto found = pages_.find(page);
+    if (!selection.actor || found == pages_.end()) return joints;
+    for (const Pin& pin : found->second.pins) {
+      const Selection pinned = selection_of(project_, {pin.actor, pin.joint});
+      if (pinned.actor == selection.actor && pinned.joint) joints.push_back(*pinned.joint);
+    }
+    return joints;
+  }
+
   void select(PageNumber page, Named named) {
     if (pages_[page].selected == named) return;
     pages_[page].selected = std::move(named);
@@ -375,6 +463,7 @@ class TheStage : public Stage {
   RendererLink& link_;
   Listener listener_;
   Moments moments_;
+  Ghosts ghosts_;
   std::map<PageNumber, Page> pages_;
   std::list<PageView> views_;
   std::optional<Gesture> gesture_;

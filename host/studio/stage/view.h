@@ -7,6 +7,7 @@
 
 #include "host/preview/drawing.h"
 #include "host/studio/stage/eye.h"
+#include "host/studio/stage/ghosts.h"
 #include "host/studio/stage/handles.h"
 #include "host/studio/stage/interval.h"
 #include "host/studio/stage/line_pictures.h"
@@ -39,6 +40,8 @@ struct PageView {
   Eye eye{};
   LineLook look{};  // As::surface: the renderer draws it
   Tool tool = Tool::none;
+  GhostFrames ghosts{};
+  bool marks = false;     // camera and lights are seen
   bool framed = false;    // the studio chose where the eye is, and chooses again
   bool orbiting = false;  // a hand turns it
   std::string hot{};      // the handle under the mouse

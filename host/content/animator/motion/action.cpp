@@ -7,6 +7,7 @@
 #include "host/content/animator/motion/kinematic.h"
 #include "host/content/animator/motion/sitting.h"
 #include "host/content/animator/motion/steps.h"
+#include "host/content/animator/attachments.h"
 #include "host/content/animator/read_film.h"
 
 namespace mars::motion {
@@ -81,9 +82,18 @@ animator::ActorKey all_of(std::span<const animator::ActorKey> keys) {
   for (const animator::ActorKey& key : keys) {
     if (key.place) all.place = key.place;
     if (key.turn) all.turn = key.turn;
+    if (key.attach) all.attach = key.attach;
     all.pose.insert(key.pose.begin(), key.pose.end());
   }
   return all;
+}
+
+// Where another actor carries it, keys of its place would count for nothing.
+void refuse_carried(const Scene& scene, const animator::ActorKey& driven) {
+  const animator::Attachment* const carrier = animator::attachment_at(scene.actor, scene.at);
+  if (!carrier || driven.attach || !(driven.place || driven.turn)) return;
+  throw Failure("is carried by '" + scene.film.actors[carrier->actor].name + "' at frame " + std::to_string(scene.at),
+                scene.where(), "detach it there first");
 }
 
 }  // namespace
@@ -110,10 +120,11 @@ Performed perform(document::Json& json, const std::filesystem::path& path, const
   if (!actor.matrices.empty())
     throw Failure("is moved by matrices", "actor '" + name + "'",
                   "take its matrices out of the film, or name another actor");
-  const Scene scene{film, actor, at ? *at : animator::last_key(actor.motion), arguments, action.name};
+  const Scene scene{film, actor, at ? *at : animator::last_key(actor), arguments, action.name};
   const Motion motion = action.perform(scene);
   // Where it is elsewhere afterwards, what followed was meant for another place.
   const animator::ActorKey driven = all_of(motion.keys);
+  refuse_carried(scene, driven);
   animator::clear_keys(json, name, scene.at + 1, driven.place ? wire::kMostFrames : motion.last, driven);
   animator::put_keys(json, name, motion.keys);
   return {scene.at, motion.last, motion.report};

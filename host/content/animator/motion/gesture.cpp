@@ -167,7 +167,7 @@ Motion nod(const Scene& scene) {
   const std::size_t neck = body.find(modeler::Trunk::neck);
   const std::size_t head =
       neck == modeler::kNone ? needed(body, modeler::Trunk::head, "nod") : body.find(modeler::Trunk::head);
-  const Posture start = posture_at(scene.model(), scene.actor.motion, scene.at);
+  const Posture start = posture_of(scene);
   const Posture down = nodded(body, start, neck, head, arguments.number("depth", 24, {0.1, 120}), arguments);
   std::vector<std::size_t> joints{neck, head};
   std::erase(joints, modeler::kNone);
@@ -189,7 +189,7 @@ Motion wave(const Scene& scene) {
   const modeler::Side side = kSides[arguments.choice("hand", 1, hands)];
   Arm arm{needed(body, modeler::Limb::shoulder, side, "wave"), needed(body, modeler::Limb::elbow, side, "wave"),
           body.find(modeler::Limb::wrist, side), 0, 0};
-  const Posture start = posture_at(scene.model(), scene.actor.motion, scene.at);
+  const Posture start = posture_of(scene);
   const auto place = [&](std::size_t joint) { return frame_in(scene.model(), start, joint).place; };
   arm.upper = glm::distance(place(arm.shoulder), place(arm.elbow));
   arm.fore = arm.wrist == modeler::kNone ? arm.upper : glm::distance(place(arm.elbow), place(arm.wrist));

@@ -55,12 +55,12 @@ class Sampled {
   void add_turns(const glm::dvec3& spin, const Turns& turned_at) {
     const double speed = glm::length(spin);
     if (speed == 0) return;
-    const glm::dmat3 start = actor_turn(posture_at(scene_.model(), scene_.actor.motion, scene_.at));
+    const glm::dmat3 start = actor_turn(posture_of(scene_));
     std::vector<glm::dvec3> turns;
     for (std::size_t i = 0; i < keys_.size(); ++i)
       turns.push_back(animator::rounded(
           canonical_degrees(modeler::rotation_by_degrees(spin / speed, speed * turned_at(seconds(i))) * start)));
-    turns.front() = posture_at(scene_.model(), scene_.actor.motion, scene_.at).turn;
+    turns.front() = posture_of(scene_).turn;
     choose_keys(
         turns.size(),
         [&](std::size_t a, std::size_t b, std::size_t at) {
@@ -83,8 +83,6 @@ class Sampled {
   const Scene& scene_;
   std::vector<animator::ActorKey> keys_;
 };
-
-Posture posture_of(const Scene& scene) { return posture_at(scene.model(), scene.actor.motion, scene.at); }
 
 Motion flown(const Scene& scene, const Flight& flight, double seconds) {
   Sampled sampled(scene, frames_of(scene, seconds));

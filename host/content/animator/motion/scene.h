@@ -9,13 +9,14 @@
 #include "host/content/animator/edit.h"
 #include "host/content/animator/film.h"
 #include "host/content/animator/motion/arguments.h"
+#include "host/content/animator/motion/posture.h"
 
 namespace mars::motion {
 
 // The actor of the action, and the frame at which it begins.
 struct Scene {
   const animator::Film& film;
-  const animator::Actor& actor;
+  const animator::Actor& actor;  // of the film
   std::uint32_t at;
   const Arguments& arguments;
   std::string_view action;  // its name
@@ -26,6 +27,9 @@ struct Scene {
   // The frame so many later. Throws where a film has no such frame: to be asked before any work for it is done.
   std::uint32_t last_after(double frames) const;
 };
+
+// How the actor stands when the action begins: in the world, also where another actor carries it.
+Posture posture_of(const Scene& scene);
 
 // What comes of it. Keys of what it drives make way: up to the last frame, and all later ones if the figure's
 // place is driven.

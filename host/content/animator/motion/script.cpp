@@ -5,6 +5,7 @@
 #include <set>
 
 #include "hal/failure/failure.h"
+#include "host/content/animator/carry.h"
 #include "host/content/animator/motion/script_line.h"
 #include "host/content/animator/pose.h"
 #include "host/content/animator/read_film.h"
@@ -81,8 +82,9 @@ class Player {
                   document::did_you_mean(name, std::vector<std::string_view>(actors_.begin(), actors_.end()),
                                          "name an actor, or camera"));
     const std::string verb = line.take("an action");
+    if (verb == "attach" || verb == "detach") return carry(line, name, verb, at);
     const Action* action = find_action(verb);
-    std::vector<std::string_view> verbs;
+    std::vector<std::string_view> verbs{"attach", "detach"};
     for (const Action& each : actions()) verbs.push_back(each.name);
     if (!action)
       line.refuse("has '" + verb + "', which is no action",
@@ -93,6 +95,20 @@ class Player {
     played_.report.push_back(line.where() + ": " + name + " " + verb + ", frames " + std::to_string(done.first) +
                              " to " + std::to_string(done.last) + (done.report.empty() ? "" : ": " + done.report));
     return done.last;
+  }
+
+  // attach ACTOR/JOINT, detach: from this frame on.
+  std::uint32_t carry(ScriptLine& line, const std::string& name, const std::string& verb, std::uint32_t at) {
+    const std::string to = verb == "attach" ? line.take("an actor or its joint, as in tom/right-hand") : "";
+    if (begun_.insert(name).second) clear_after(name, at);
+    in_line(line, [&] {
+      const animator::Film meaning = meaning_of(film_, path_);
+      verb == "attach" ? animator::attach(film_, meaning, name, to, at, {})
+                       : animator::detach(film_, meaning, name, at);
+      return meaning_of(film_, path_).frames;
+    });
+    played_.report.push_back(line.where() + ": " + name + " " + verb + ", frame " + std::to_string(at));
+    return at;
   }
 
   Arguments::Values take_values(ScriptLine& line, const Action& action, std::uint32_t at) {
@@ -128,11 +144,13 @@ class Player {
 
   // camera cut eye X Y Z at X Y Z fov N: from this frame on; camera move the same, seconds S or until TIME.
   std::uint32_t move_camera(ScriptLine& line, std::uint32_t at) {
-    constexpr std::string_view verbs[] = {"cut", "move"}, parts[] = {"eye", "at", "fov", "seconds", "until"};
-    const std::string verb = line.take("cut or move");
+    constexpr std::string_view verbs[] = {"cut", "move", "follow", "look"},
+                               parts[] = {"eye", "at", "fov", "seconds", "until"};
+    const std::string verb = line.take("cut, move, follow or look");
+    if (verb == "follow" || verb == "look") return go_along(line, verb, at);
     if (verb != "cut" && verb != "move")
       line.refuse("has '" + verb + "' after camera",
-                  document::did_you_mean(verb, verbs, "write camera cut or camera move"));
+                  document::did_you_mean(verb, verbs, "write camera cut, move, follow or look"));
     std::vector<std::string> settings;
     double seconds = 1;
     while (!line.empty() && !line.next_is("as")) {
@@ -167,6 +185,43 @@ class Player {
     return end;
   }
 
+  // camera follow ACTOR/JOINT offset X Y Z level; camera look the same without level: from this frame on.
+  std::uint32_t go_along(ScriptLine& line, const std::string& verb, std::uint32_t at) {
+    const bool looks = verb == "look";
+    const std::string to = line.take("an actor or its joint, as in tom/head");
+    animator::Following following{looks ? "at" : "eye", std::nullopt};
+    if (looks) following.offset = glm::dvec3(0);
+    while (!line.empty() && !line.next_is("as")) {
+      const std::string word = line.take("");
+      if (word == "level" && !looks)
+        following.level = true;
+      else if (word == "offset")
+        following.offset = take_vector(line);
+      else
+        line.refuse("has '" + word + "' after camera " + verb,
+                    looks ? "write offset X Y Z" : "write level or offset X Y Z");
+    }
+    if (begun_.insert(kCamera).second) clear_camera_after(at);
+    in_line(line, [&] {
+      animator::follow(film_, meaning_of(film_, path_), to, at, following);
+      return meaning_of(film_, path_).frames;
+    });
+    played_.report.push_back(line.where() + ": camera " + verb + ", frame " + std::to_string(at));
+    return at;
+  }
+
+  static glm::dvec3 take_vector(ScriptLine& line) {
+    glm::dvec3 vector;
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::string word = line.take("a number");
+      const auto number = document::number_in<double>(word);
+      if (!number || !(std::abs(*number) <= document::kFarthest))
+        line.refuse("has '" + word + "' where a number belongs", "write three numbers");
+      vector[axis] = *number;
+    }
+    return vector;
+  }
+
   static std::vector<std::string> parts_of(const std::vector<std::string>& settings) {
     std::vector<std::string> parts;
     for (const std::string& argument : settings) parts.push_back(argument.substr(0, argument.find('=')));
@@ -186,6 +241,7 @@ class Player {
         std::find_if(film.actors.begin(), film.actors.end(), [&](const animator::Actor& a) { return a.name == name; });
     animator::ActorKey all;
     all.place = all.turn = glm::dvec3(0);
+    all.attach = animator::AttachKey{};
     for (const modeler::Joint& joint : film.models[actor->model].joints) all.pose[joint.name] = glm::dvec3(0);
     animator::clear_keys(film_, name, at + 1, wire::kMostFrames, all);
   }

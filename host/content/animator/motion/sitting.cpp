@@ -56,7 +56,7 @@ class Chair {
         command_(command),
         remedy_(remedy),
         body_(body_of(scene.model(), scene.actor.name, command)),
-        start_(posture_at(scene.model(), scene.actor.motion, scene.at)),
+        start_(posture_of(scene)),
         from_(stance_of(body_, start_)),
         floor_(body_.floor_under(start_)),
         frames_(static_cast<int>(

@@ -152,7 +152,7 @@ class Going {
         command_(command),
         body_(body_of(scene.model(), scene.actor.name, command)),
         period_(std::max(4.0, std::round(scene.film.rate / scene.arguments.number("pace", kPace, {0.1, 10})))) {
-    postures_.push_back(posture_at(scene.model(), scene.actor.motion, scene.at));
+    postures_.push_back(posture_of(scene));
     const Stance stance = now();
     if (stance.pelvis.z - body_.floor_under(postures_[0]) < kUpright * body_.height)
       throw Failure("does not stand at frame " + std::to_string(scene.at),

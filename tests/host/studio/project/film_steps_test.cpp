@@ -1,5 +1,6 @@
 // Steps of films: what a gesture shows, what is written, and that commands write the same.
 #include "host/content/animator/actor_state.h"
+#include "host/content/animator/camera_points.h"
 #include "host/content/animator/pose.h"
 #include "host/content/film/film_json.h"
 #include "tests/host/studio/project/open_files.h"
@@ -51,6 +52,10 @@ TEST_F(FilmSteps, AStepWritesWhatTheCommandWritesAndShowsItBefore) {
        47},
       {R"({"set": "place", "actor": "two", "place": [1, 2.25, 3]})", "two", {"place=1,2.25,3"}, 10},
       {R"({"set": "turn", "actor": "one", "turn": [0, 0, 270]})", "one", {"turn=0,0,270"}, 30},
+      {R"({"set": "figure", "actor": "two", "place": [2, 1, 0], "turn": [0, 0, 9], "poses": {"head": [0, 99, 0]}})",
+       "two",
+       {"place=2,1,0", "turn=0,0,9", "head=0,99,0"},
+       14},
       {R"({"set": "camera", "eye": [5, -5, 3], "at": [0, 1, 1], "fov": 30})",
        "camera",
        {"eye=5,-5,3", "at=0,1,1", "fov=30"},
@@ -73,8 +78,7 @@ TEST_F(FilmSteps, AStepWritesWhatTheCommandWritesAndShowsItBefore) {
       EXPECT_TRUE(
           same(animator::state_at(shown, actor, each.frame), animator::state_at(project->film(), actor, each.frame)))
           << each.step;
-    EXPECT_EQ(animator::value_at(shown.camera.eye, each.frame),
-              animator::value_at(project->film().camera.eye, each.frame));
+    EXPECT_EQ(animator::eye_at(shown, each.frame), animator::eye_at(project->film(), each.frame));
     EXPECT_EQ(animator::value_at(shown.camera.fov, each.frame),
               animator::value_at(project->film().camera.fov, each.frame));
     ASSERT_EQ(shown.lights.size(), project->film().lights.size());
@@ -88,10 +92,11 @@ TEST_F(FilmSteps, ACancelledGestureLeavesNothing) {
   const auto project = open("film.json");
   project->set_frame(12);
   const animator::Film before = project->film();
-  for (const char* each :
-       {R"({"set": "pose", "actor": "one", "joint": "head", "pose": [0, 20, 0]})",
-        R"({"set": "poses", "actor": "two", "poses": {"head": [0, 20, 0], "hip": [1, 1, 1]}})",
-        R"({"set": "place", "actor": "two", "place": [9, 9, 9]})", R"({"set": "camera", "eye": [1, 2, 3], "fov": 12})"})
+  for (const char* each : {R"({"set": "pose", "actor": "one", "joint": "head", "pose": [0, 20, 0]})",
+                           R"({"set": "poses", "actor": "two", "poses": {"head": [0, 20, 0], "hip": [1, 1, 1]}})",
+                           R"({"set": "place", "actor": "two", "place": [9, 9, 9]})",
+                           R"({"set": "figure", "actor": "two", "place": [9, 9, 9], "poses": {"head": [0, 9, 0]}})",
+                           R"({"set": "camera", "eye": [1, 2, 3], "fov": 12})"})
     project->preview(step(each));
   project->cancel();
   EXPECT_FALSE(project->in_gesture());

@@ -7,6 +7,7 @@
 #include "host/content/animator/read_film.h"
 #include "host/content/modeler/read_model.h"
 #include "host/preview/viewpoint.h"
+#include "host/studio/project/film_gesture.h"
 
 namespace mars::studio {
 namespace {
@@ -30,6 +31,14 @@ void set_key(animator::Channel<glm::dvec3>& channel, std::uint32_t frame, const 
 void FakeProject::apply(const Json& step) {
   film_ = saved_;
   pulled_.reset();
+  ++revision_;
+  if (const std::string what = step.at("set"); what == "figure" || what == "camera" || what == "light") {
+    const auto show = [&](const auto& each) {
+      if constexpr (requires { FilmGesture().show(film_, rig_lights_, each, frame_); })
+        FilmGesture().show(film_, rig_lights_, each, frame_);
+    };
+    return std::visit(show, read_step(step));
+  }
   animator::Actor* actor = &film_.actors.at(0);
   if (!model_)
     for (animator::Actor& each : film_.actors)
@@ -62,7 +71,6 @@ void FakeProject::apply(const Json& step) {
   } else {
     throw Failure("is '" + what + "'", "set", "");
   }
-  ++revision_;
 }
 
 void FakeProject::preview(const Json& step) {

@@ -1,18 +1,15 @@
-#include "host/shell/commands/motion_command.h"
-
 #include <CLI/CLI.hpp>
 #include <functional>
-#include <iostream>
 #include <memory>
 
 #include "hal/failure/failure.h"
 #include "host/content/animator/motion/action.h"
 #include "host/content/animator/motion/script.h"
 #include "host/content/document/file.h"
-#include "host/content/film/film_json.h"
+#include "host/editing/words.h"
 #include "node/wire/film.h"
 
-namespace mars::commands {
+namespace mars::editing {
 namespace {
 
 // What a person typed for one action.
@@ -44,8 +41,7 @@ void require_all(const motion::Action& action, const motion::Parameter& paramete
                 std::string(action.name), "write " + name + " " + std::string(parameter.example));
 }
 
-void run_action(const std::string& film, const motion::Action& action, const Typed& typed,
-                std::optional<std::uint32_t> at) {
+void run_action(EditedFilm& film, const motion::Action& action, const Typed& typed, std::optional<std::uint32_t> at) {
   motion::Arguments::Values values;
   for (std::size_t i = 0; i < typed.values.size(); ++i) {
     require_all(action, action.parameters[i], typed.values[i]);
@@ -54,12 +50,13 @@ void run_action(const std::string& film, const motion::Action& action, const Typ
   const motion::Arguments arguments(values, std::string(action.name));
   motion::Performed done;
   std::string note;
-  film::change_film(film, [&](document::Json& json, const animator::Film&) {
-    done = motion::perform(json, film, typed.actor, action, at, arguments);
+  film.change([&](document::Json& json, const animator::Film&) {
+    done = motion::perform(json, film.path(), typed.actor, action, at, arguments);
     note = grown(json, done.last, typed.lengthen);
   });
-  std::cout << "frames " << done.first << " to " << done.last << (done.report.empty() ? "" : ": " + done.report) << note
-            << (note.empty() ? "" : "--at " + std::to_string(done.first) + " --lengthen") << '\n';
+  if (!note.empty()) note += "--at " + std::to_string(done.first) + " --lengthen";
+  film.print("frames " + std::to_string(done.first) + " to " + std::to_string(done.last) +
+             (done.report.empty() ? "" : ": " + done.report) + note + "\n");
 }
 
 void add_parameters(CLI::App& command, const motion::Action& action, Typed& typed) {
@@ -75,7 +72,7 @@ void add_parameters(CLI::App& command, const motion::Action& action, Typed& type
   }
 }
 
-void add_action(CLI::App& animate, const std::string& film, const motion::Action& action) {
+void add_action(CLI::App& animate, EditedFilm& film, const motion::Action& action) {
   CLI::App* command = animate.add_subcommand(std::string(action.name), std::string(action.purpose));
   const auto typed = std::make_shared<Typed>();
   command->add_option("ACTOR", typed->actor, "The actor. Example: anna")->required();
@@ -92,7 +89,7 @@ void add_action(CLI::App& animate, const std::string& film, const motion::Action
   });
 }
 
-void add_script(CLI::App& animate, const std::string& film) {
+void add_script(CLI::App& animate, EditedFilm& film) {
   CLI::App* command = animate.add_subcommand("script", "Run a script: actions of several actors at their times");
   const auto script = std::make_shared<std::string>();
   const auto lengthen = std::make_shared<bool>(false);
@@ -101,20 +98,20 @@ void add_script(CLI::App& animate, const std::string& film) {
   command->callback([&film, script, lengthen] {
     motion::Played played;
     std::string note;
-    film::change_film(film, [&](document::Json& json, const animator::Film&) {
-      played = motion::play_script(json, film, document::read_file(*script), *script);
+    film.change([&](document::Json& json, const animator::Film&) {
+      played = motion::play_script(json, film.path(), document::read_file(*script), *script);
       if (!played.cut) note = grown(json, played.last, *lengthen);
     });
-    for (const std::string& line : played.report) std::cout << line << '\n';
-    if (!note.empty()) std::cout << "frames up to " << played.last << note << "--lengthen\n";
+    for (const std::string& line : played.report) film.print(line + "\n");
+    if (!note.empty()) film.print("frames up to " + std::to_string(played.last) + note + "--lengthen\n");
   });
 }
 
 }  // namespace
 
-void add_motion(CLI::App& animate, const std::string& film) {
+void add_motion(CLI::App& animate, EditedFilm& film) {
   for (const motion::Action& action : motion::actions()) add_action(animate, film, action);
   add_script(animate, film);
 }
 
-}  // namespace mars::commands
+}  // namespace mars::editing

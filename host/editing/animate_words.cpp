@@ -1,0 +1,280 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <functional>
+#include <memory>
+
+#include "hal/failure/failure.h"
+#include "host/content/animator/check.h"
+#include "host/content/animator/frame_words.h"
+#include "host/content/animator/keys_table.h"
+#include "host/content/animator/pose.h"
+#include "host/editing/words.h"
+#include "host/shell/options/command_line.h"
+#include "node/wire/film.h"
+
+namespace mars::editing {
+namespace {
+
+constexpr const char* kFooter = R"(FILM is changed in place, whole or not at all. Begin with
+  mars animate film.json list                              what is keyed
+  mars animate film.json pose robot elbow.y=90 --frame 24  the elbow there
+  mars animate film.json time robot --frame 0 --ease both  begin and end slowly
+More: docs/animating.md.
+)";
+
+// What a person typed, of all the commands.
+struct Words {
+  EditedFilm& film;
+  std::string thing{}, frame{}, ease{};
+  std::vector<std::string> parts{};
+  bool all = false, clamp = false, lengthen = false;
+  std::uint32_t to = 0, hold = 0;
+  std::int64_t shift = 0;
+  double stretch = 0, anticipation = 0, overshoot = 0;
+
+  animator::Choice choice() const { return {all, thing, parts}; }
+};
+
+// Changes the film by `change`; it stays as it was where that fails or the result is no film.
+void edit(const Words& words, const std::function<animator::Remarks(document::Json&, const animator::Film&)>& change) {
+  animator::Remarks remarks;
+  std::string note;
+  const auto changed = [&](document::Json& json, const animator::Film& film) {
+    const std::uint32_t before = animator::last_key(json);
+    remarks = change(json, film);
+    const std::uint32_t last = animator::last_key(json);
+    if (words.lengthen && last >= film.frames) json["frames"] = last + 1;
+    if (!words.lengthen && last >= film.frames && last > before)
+      note = "the last key is at frame " + std::to_string(last) + "; the film shows only its " +
+             std::to_string(film.frames) + (film.frames == 1 ? " frame" : " frames") +
+             ": --lengthen, or set its frames to " + std::to_string(last + 1) + "\n";
+  };
+  words.film.change(changed);
+  for (const std::string& remark : remarks) words.film.remark(remark);
+  if (!note.empty()) words.film.print(note);
+}
+
+// The options that several commands have.
+class Command {
+ public:
+  Command(CLI::App& animate, Words& words, const char* name, const char* purpose)
+      : app_(animate.add_subcommand(name, purpose)), words_(words) {}
+
+  Command& thing(const char* help) {
+    app_->add_option("ACTOR", words_.thing, help);
+    return *this;
+  }
+  Command& parts(const char* name, const char* help) {
+    app_->add_option(name, words_.parts, help);
+    return *this;
+  }
+  Command& all() {
+    app_->add_flag("--all", words_.all,
+                   "Instead of an actor: all that has keys, camera, lights and materials too. Example: --all");
+    return *this;
+  }
+  Command& frame(const char* help, const char* type) {
+    app_->add_option("-f,--frame", words_.frame, help)->required()->type_name(type);
+    return *this;
+  }
+  Command& ease(const char* help) {
+    app_->add_option("--ease", words_.ease, help)->type_name("EASE");
+    return *this;
+  }
+  Command& to(const char* help) {
+    app_->add_option("--to", words_.to, help)
+        ->required()
+        ->type_name("FRAME")
+        ->check(CLI::Range(0u, wire::kMostFrames).description(""));
+    return *this;
+  }
+  Command& clamp() {
+    app_->add_flag("--clamp", words_.clamp, "Clamp angles to the limits of their joints. Example: --clamp");
+    return *this;
+  }
+  Command& lengthen() {
+    app_->add_flag("--lengthen", words_.lengthen,
+                   "Give the film as many frames as its last key needs. Example: --lengthen");
+    return *this;
+  }
+  void runs(const std::function<void()>& run) {
+    app_->callback([this_words = &words_, run] {
+      if (this_words->all && !this_words->thing.empty())
+        throw Failure("are given both", "--all and '" + this_words->thing + "'", "choose one of them");
+      run();
+    });
+  }
+  CLI::App* app() { return app_; }
+
+ private:
+  CLI::App* app_;
+  Words& words_;
+};
+
+constexpr const char* kThing = "An actor, or camera. Example: robot";
+constexpr const char* kParts =
+    "Only these of its joints, place and turn (camera: eye, at, up, fov). Example: elbow place";
+constexpr const char* kOneFrame = "The frame. Example: --frame 24";
+constexpr const char* kRange = "The frame, or a range of frames, both ends included. Example: --frame 24-48";
+constexpr const char* kEase =
+    "From this key to the next: linear, in, out, both or a curve. Example: --ease both or --ease 0.4,0,0.6,1";
+
+void require_thing(const Words& words) {
+  if (words.thing.empty() && !words.all)
+    throw Failure("is not given", "whose keys to change", "name an actor or camera, or use --all");
+}
+
+void add_pose(CLI::App& animate, Words& words) {
+  Command command(animate, words, "pose", "Set an actor's joints, place or turn, or the camera, at a frame");
+  command.thing(kThing)
+      .parts("PART=NUMBERS",
+             "One axis or all three: degrees, or a place; other parts stay as they are. "
+             "Example: elbow.y=90 place=2,0,0 turn.z=45")
+      .frame(kOneFrame, "FRAME")
+      .ease(kEase)
+      .clamp()
+      .lengthen();
+  command.app()->get_option("ACTOR")->required();
+  command.app()->get_option("PART=NUMBERS")->required();
+  command.runs([&words] {
+    edit(words, [&](document::Json& json, const animator::Film& film) {
+      return animator::pose(json, film, words.thing, words.parts, animator::read_frame(words.frame),
+                            animator::read_typed_ease(words.ease),
+                            words.clamp ? animator::Beyond::clamped : animator::Beyond::refused);
+    });
+  });
+}
+
+void add_key(CLI::App& animate, Words& words) {
+  Command command(animate, words, "key", "Make keys of the pose at a frame");
+  command.thing(kThing)
+      .parts("PART", kParts)
+      .all()
+      .frame(kOneFrame, "FRAME")
+      .ease("From this key to the next; without it the film moves as before. Example: --ease both");
+  command.clamp().lengthen().runs([&words] {
+    require_thing(words);
+    edit(words, [&](document::Json& json, const animator::Film& film) {
+      return animator::make_keys(json, film, words.choice(), animator::read_frame(words.frame),
+                                 animator::read_typed_ease(words.ease),
+                                 words.clamp ? animator::Beyond::clamped : animator::Beyond::refused);
+    });
+  });
+}
+
+void add_displacing(CLI::App& animate, Words& words, const char* name, const char* purpose, bool copies) {
+  Command command(animate, words, name, purpose);
+  command.thing(kThing).parts("PART", kParts).all().frame(kRange, "RANGE");
+  command.to("Where the range's first frame goes. Example: --to 60").lengthen().runs([&words, copies] {
+    require_thing(words);
+    edit(words, [&](document::Json& json, const animator::Film& film) {
+      return (copies ? animator::copy_keys : animator::move_keys)(json, film, words.choice(),
+                                                                  animator::read_frame_range(words.frame), words.to);
+    });
+  });
+}
+
+void add_delete(CLI::App& animate, Words& words) {
+  Command command(animate, words, "delete", "Delete keys");
+  command.thing(kThing).parts("PART", kParts).all().frame(kRange, "RANGE").runs([&words] {
+    require_thing(words);
+    edit(words, [&](document::Json& json, const animator::Film& film) {
+      return animator::delete_keys(json, film, words.choice(), animator::read_frame_range(words.frame));
+    });
+  });
+}
+
+animator::Remarks retime(const Words& words, CLI::App& command, document::Json& json, const animator::Film& film) {
+  const animator::FrameRange range = animator::read_frame_range(words.frame);
+  if (command.count("--hold"))
+    return animator::hold(json, film, words.choice(), animator::read_frame(words.frame), words.hold);
+  if (command.count("--shift"))
+    return animator::shift(json, film, words.choice(), animator::read_frame(words.frame), words.shift);
+  if (command.count("--stretch")) return animator::stretch(json, film, words.choice(), range, words.stretch);
+  if (command.count("--ease"))
+    return animator::ease_keys(json, film, words.choice(), range, *animator::read_typed_ease(words.ease));
+  return animator::ease_keys(json, film, words.choice(), range,
+                             animator::swinging(words.anticipation / 100, words.overshoot / 100));
+}
+
+void add_time(CLI::App& animate, Words& words) {
+  Command command(animate, words, "time", "Change the timing of all parts of an actor or of the film");
+  command.thing(kThing).all().frame(kRange, "RANGE").ease(kEase);
+  CLI::App* app = command.app();
+  app->add_option("--hold", words.hold,
+                  "Stand still for N frames from the frame on; later keys move back. Example: --hold 12")
+      ->type_name("N")
+      ->check(CLI::Range(1u, wire::kMostFrames).description(""));
+  app->add_option("--stretch", words.stretch,
+                  "Multiply the length of the range by FACTOR; later keys move along. Example: --stretch 1.5")
+      ->type_name("FACTOR")
+      ->check(CLI::Range(0.001, 1000.0).description(""));
+  app->add_option("--shift", words.shift,
+                  "Move keys at the frame and after it N frames later, or earlier. Example: --shift -6")
+      ->type_name("N")
+      ->check(CLI::Range(-std::int64_t{wire::kMostFrames}, std::int64_t{wire::kMostFrames}).description(""));
+  for (const auto& [name, value, help] :
+       {std::tuple("--anticipate", &words.anticipation,
+                   "Swing back first after the frame's keys, by percent of the way. Example: --anticipate 15"),
+        std::tuple("--overshoot", &words.overshoot,
+                   "Swing beyond the next keys and back, by percent of the way. Example: --overshoot 10")})
+    app->add_option(name, *value, help)->type_name("PERCENT")->check(CLI::Range(0.0, 100.0).description(""));
+  command.lengthen().runs([&words, app] {
+    require_thing(words);
+    int changes = 0;
+    for (const char* name : {"--ease", "--hold", "--stretch", "--shift"}) changes += app->count(name) > 0;
+    changes += app->count("--anticipate") + app->count("--overshoot") > 0;
+    if (changes != 1)
+      throw Failure(changes == 0 ? "is not given" : "is given twice", "the change of timing",
+                    "use one of --ease, --hold, --stretch, --shift, or --anticipate and --overshoot");
+    edit(words, [&](document::Json& json, const animator::Film& film) { return retime(words, *app, json, film); });
+  });
+}
+
+void add_list(CLI::App& animate, Words& words) {
+  Command command(animate, words, "list", "Show the keys in a table");
+  command.thing("An actor, or camera; default: all that has keys. Example: robot").parts("PART", kParts);
+  command.app()->add_option("-f,--frame", words.frame, kRange)->type_name("RANGE");
+  command.runs([&words] {
+    film::FilmFile file = words.film.read();
+    const animator::FrameRange range =
+        words.frame.empty() ? animator::FrameRange{0, wire::kMostFrames} : animator::read_frame_range(words.frame);
+    words.film.print(
+        animator::keys_table(file.json, file.film, {words.thing.empty(), words.thing, words.parts}, range));
+  });
+}
+
+void add_check(CLI::App& animate, Words& words, int& code) {
+  Command command(animate, words, "check",
+                  "Report errors: limits broken between keys, keys after the last frame and more");
+  command.runs([&words, &code] {
+    const animator::Findings findings = animator::check_film(words.film.read().film);
+    for (const std::string& line : findings.lines) words.film.print(line + "\n");
+    if (findings.lines.empty())
+      words.film.print(words.film.path().string() + ": all joints stay within their limits; no errors\n");
+    if (findings.trouble) code = options::kFailed;
+  });
+}
+
+}  // namespace
+
+CLI::App& add_animate(CLI::App& mars, EditedFilm& film, int& code) {
+  const auto words = std::make_shared<Words>(film);
+  CLI::App* animate = mars.add_subcommand("animate", "Set, move, time, list and check the keys of a film");
+  animate->require_subcommand(1);
+  add_pose(*animate, *words);
+  add_key(*animate, *words);
+  add_displacing(*animate, *words, "move", "Move keys to other frames", false);
+  add_displacing(*animate, *words, "copy", "Copy keys to other frames", true);
+  add_delete(*animate, *words);
+  add_time(*animate, *words);
+  add_list(*animate, *words);
+  add_check(*animate, *words, code);
+  add_carrying(*animate, film);
+  add_motion(*animate, film);
+  animate->footer(kFooter);             // last, or each of its commands would have it
+  animate->final_callback([words] {});  // keeps what was typed
+  return *animate;
+}
+
+}  // namespace mars::editing

@@ -1,0 +1,121 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "hal/failure/failure.h"
+#include "host/content/animator/carry.h"
+#include "host/content/animator/frame_words.h"
+#include "host/editing/words.h"
+
+namespace mars::editing {
+namespace {
+
+// What a person typed; callbacks keep it.
+struct Words {
+  EditedFilm& film;
+  std::string actor{}, to{}, frame{};
+  std::vector<double> place{}, turn{}, offset{};
+  std::string axes = "world";
+  bool level = false, end = false;
+};
+using Typed = std::shared_ptr<Words>;
+
+std::optional<glm::dvec3> vector_of(const std::vector<double>& numbers) {
+  if (numbers.empty()) return std::nullopt;
+  return glm::dvec3(numbers[0], numbers[1], numbers[2]);
+}
+
+void add_frame(CLI::App& app, Words& words) {
+  app.add_option("-f,--frame", words.frame, "From this frame on. Example: --frame 24")->required()->type_name("FRAME");
+}
+
+void add_vector(CLI::App& app, const char* name, std::vector<double>& numbers, const char* help) {
+  app.add_option(name, numbers, help)->expected(3)->type_name("X Y Z");
+}
+
+void add_attach(CLI::App& animate, const Typed& words) {
+  CLI::App* app = animate.add_subcommand("attach", "Let another actor carry an actor, by one of its joints");
+  app->add_option("ACTOR", words->actor, "What is carried. Example: ball")->required();
+  app->add_option("--to", words->to, "What carries it. Example: --to tom/right-hand")
+      ->required()
+      ->type_name("ACTOR[/JOINT]");
+  add_frame(*app, *words);
+  add_vector(*app, "--place", words->place, "Its place in the joint's frame; default: where it is. Example: 0 0 0.1");
+  add_vector(*app, "--turn", words->turn, "Its turn against the joint, degrees; default: as it is. Example: 0 90 0");
+  app->callback([words] {
+    words->film.change([&](document::Json& json, const animator::Film& film) {
+      animator::attach(json, film, words->actor, words->to, animator::read_frame(words->frame),
+                       {vector_of(words->place), vector_of(words->turn)});
+    });
+  });
+}
+
+void add_detach(CLI::App& animate, const Typed& words) {
+  CLI::App* app = animate.add_subcommand("detach", "Let an actor go: it stays where it is then");
+  app->add_option("ACTOR", words->actor, "What is carried. Example: ball")->required();
+  add_frame(*app, *words);
+  app->callback([words] {
+    words->film.change([&](document::Json& json, const animator::Film& film) {
+      animator::detach(json, film, words->actor, animator::read_frame(words->frame));
+    });
+  });
+}
+
+animator::Remarks change_camera(const Words& words, document::Json& json, const animator::Film& film,
+                                animator::Following following) {
+  if (words.end != words.to.empty())
+    throw Failure(words.end ? "are given both" : "is not given", words.end ? "an actor and --end" : "the actor",
+                  "name an actor, as in tom/head, or use --end");
+  const std::uint32_t frame = animator::read_frame(words.frame);
+  return words.end ? animator::unfollow(json, film, following.part, frame)
+                   : animator::follow(json, film, words.to, frame, following);
+}
+
+void change_camera(const Words& words, const animator::Following& following) {
+  animator::Remarks remarks;
+  words.film.change(
+      [&](document::Json& json, const animator::Film& film) { remarks = change_camera(words, json, film, following); });
+  for (const std::string& remark : remarks) words.film.remark(remark);
+}
+
+CLI::App* add_camera(CLI::App& animate, const Typed& words, const char* name, const char* purpose, const char* end) {
+  CLI::App* app = animate.add_subcommand(name, purpose);
+  app->add_option("ACTOR[/JOINT]", words->to, "Example: tom/head");
+  add_frame(*app, *words);
+  app->add_flag("--end", words->end, end);
+  return app;
+}
+
+void add_look(CLI::App& animate, const Typed& words) {
+  CLI::App* app = add_camera(animate, words, "look", "Let the camera look at an actor or a joint, wherever it goes",
+                             "Instead: look on where it looks then. Example: --end");
+  add_vector(*app, "--offset", words->offset,
+             "From the joint, along the world's axes; default: 0 0 0. Example: 0 0 0.2");
+  app->callback([words] {
+    change_camera(*words, {"at", vector_of(words->offset).value_or(glm::dvec3(0)), false, false});
+  });
+}
+
+void add_follow(CLI::App& animate, const Typed& words) {
+  CLI::App* app = add_camera(animate, words, "follow", "Let the camera go along with an actor or a joint",
+                             "Instead: stay where it is then. Example: --end");
+  add_vector(*app, "--offset", words->offset, "From the actor or joint; default: where it is. Example: 0 -4 1.5");
+  app->add_option("--axes", words->axes, "Axes of the offset: world or joint; default: world. Example: --axes joint")
+      ->type_name("AXES")
+      ->check(CLI::IsMember({"world", "joint"}).description(""));
+  app->add_flag("--level", words->level, "Keep the camera's height, which is then the offset's z. Example: --level");
+  app->callback([words] {
+    change_camera(*words, {"eye", vector_of(words->offset), words->axes == "joint", words->level});
+  });
+}
+
+}  // namespace
+
+void add_carrying(CLI::App& animate, EditedFilm& film) {
+  const auto attaching = std::make_shared<Words>(film), camera = std::make_shared<Words>(film);
+  add_attach(animate, attaching);
+  add_detach(animate, attaching);
+  add_look(animate, camera);
+  add_follow(animate, camera);
+}
+
+}  // namespace mars::editing

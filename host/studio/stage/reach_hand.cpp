@@ -1,0 +1,140 @@
+#include "host/studio/stage/reach_hand.h"
+
+#include <algorithm>
+#include <glm/matrix.hpp>
+#include <utility>
+
+#include "host/content/animator/angles.h"
+#include "host/content/animator/attachments.h"
+#include "host/studio/stage/ghosts.h"
+#include "host/studio/stage/hand.h"
+
+namespace mars::studio {
+namespace {
+
+const modeler::Model& model_of(const Project& project, std::size_t actor) {
+  return project.film().models[project.film().actors[actor].model];
+}
+
+bool is_on(const modeler::Model& model, std::size_t joint, std::size_t above) {
+  while (joint != above && joint != modeler::kNone) joint = model.joints[joint].parent;
+  return joint == above;
+}
+
+// The ankle that carries the joint or is it; none: no ankle does.
+std::optional<std::size_t> ankle_of(const modeler::Model& model, std::size_t joint) {
+  for (const modeler::Side side : {modeler::Side::left, modeler::Side::right}) {
+    const std::size_t ankle = model.limbs.of(modeler::Limb::ankle, side);
+    if (ankle != modeler::kNone && is_on(model, joint, ankle)) return ankle;
+  }
+  return std::nullopt;
+}
+
+// A foot is pulled at its ankle: pulled elsewhere it would rather turn than bend the knee. On pinned feet the whole
+// figure goes along. A model, and who is carried, has no place of its own.
+motion::Chain chain_at(const Project& project, const Selection& selection, const std::vector<std::size_t>& pins) {
+  const modeler::Model& model = model_of(project, *selection.actor);
+  const bool stays =
+      project.is_model() || animator::attachment_at(project.film().actors[*selection.actor], project.frame());
+  const bool stands = std::ranges::any_of(pins, [&](std::size_t pin) { return ankle_of(model, pin).has_value(); });
+  motion::Chain chain{0, {}, {}, true};
+  if (selection.joint)
+    chain = motion::chain_of(model, ankle_of(model, *selection.joint).value_or(*selection.joint),
+                             stands && !stays ? motion::Extent::body : motion::Extent::limb);
+  if (stays) chain.moves_actor = false;
+  return chain;
+}
+
+motion::Posture posture_of(const Project& project, std::size_t actor) {
+  animator::ActorState state = animator::state_at(project.film(), actor, project.frame());
+  const auto& joints = model_of(project, actor).joints;
+  for (std::size_t joint = 0; joint < joints.size(); ++joint)
+    state.pose[joint] = animator::clamped(joints[joint], state.pose[joint]);
+  return {state.place, state.turn, std::move(state.pose)};
+}
+
+glm::dvec3 in_frame(const modeler::Axes& frame, const glm::dvec3& place) {
+  return glm::transpose(frame.turn) * (place - frame.place);
+}
+
+}  // namespace
+
+bool can_reach(const Project& project, const Selection& selection) {
+  if (!selection.actor || !project.film().actors[*selection.actor].matrices.empty()) return false;
+  if (model_of(project, *selection.actor).joints.empty()) return false;
+  const motion::Chain chain = chain_at(project, selection, {});
+  return chain.moves_actor || !chain.joints.empty();
+}
+
+std::optional<glm::dvec3> reach_place(const Project& project, const Selection& selection) {
+  if (!can_reach(project, selection)) return std::nullopt;
+  const animator::ActorState state = animator::state_at(project.film(), *selection.actor, project.frame());
+  if (!selection.joint) return state.place;
+  const modeler::Axes& frame = state.joints[*selection.joint];
+  return frame.turn * end_of(model_of(project, *selection.actor).joints[*selection.joint]) + frame.place;
+}
+
+ReachHand::ReachHand(const Project& project, const Selection& selection, std::vector<std::size_t> pins,
+                     const glm::dvec3& place, const Screen& screen, const glm::dvec2& mouse)
+    : project_(project),
+      actor_(*selection.actor),
+      pins_(std::move(pins)),
+      grip_{Grip::What::plane},
+      mouse_(screen, mouse),
+      rest_(posture_of(project, actor_)),
+      posture_(rest_),
+      from_(place) {
+  if (selection.joint) std::erase(pins_, *selection.joint);
+  chain_ = chain_at(project, selection, pins_);
+  const modeler::Axes end = motion::frame_in(model(), rest_, chain_.end);
+  held_ = selection.joint && ankle_of(model(), *selection.joint) ? end.place : place;
+  pull_.held = in_frame(end, held_);
+}
+
+ReachHand::ReachHand(const Project& project, const Selection& selection, std::vector<std::size_t> pins,
+                     const Grip& grip, const Screen& screen, const glm::dvec2& mouse)
+    : ReachHand(project, selection, std::move(pins), reach_place(project, selection).value(), screen, mouse) {
+  grip_ = grip;
+}
+
+const modeler::Model& ReachHand::model() const { return model_of(project_, actor_); }
+
+std::optional<Json> ReachHand::follow(const glm::dvec2& mouse, bool shift) {
+  mouse_.follow(mouse, shift);
+  glm::dvec3 way(0);
+  way[grip_.axis] = 1;
+  const auto by = grip_.what == Grip::What::plane ? mouse_.across(from_) : mouse_.along(from_, way);
+  if (!by) return std::nullopt;
+  pull_.to = held_ + *by;
+  motion::pull(model(), rest_, posture_, chain_, pull_, pins_);
+  return step();
+}
+
+// All that is no more as it was.
+Json ReachHand::step() const {
+  Json step = {{"set", "figure"}, {"poses", Json::object()}};
+  if (!project_.is_model()) step["actor"] = project_.film().actors[actor_].name;
+  if (posture_.place != rest_.place) step["place"] = listed(posture_.place);
+  if (posture_.turn != rest_.turn) step["turn"] = listed(posture_.turn);
+  for (std::size_t joint = 0; joint < posture_.pose.size(); ++joint)
+    if (posture_.pose[joint] != rest_.pose[joint])
+      step["poses"][model().joints[joint].name] = listed(posture_.pose[joint]);
+  return step;
+}
+
+std::vector<Handle> pin_handles(const Project& project, const Selection& selection,
+                                const std::vector<std::size_t>& pins, const Screen& screen) {
+  std::vector<Handle> handles;
+  if (pins.empty()) return handles;
+  const animator::ActorState state = animator::state_at(project.film(), *selection.actor, project.frame());
+  for (const std::size_t joint : pins) {
+    const auto pixel = state.joints.empty() ? std::nullopt : screen.pixel_of(state.joints[joint].place);
+    if (!pixel) continue;
+    const std::string& name = model_of(project, *selection.actor).joints[joint].name;
+    handles.push_back({"pin:" + name, "pin", {*pixel}, "", name});
+    handles.back().selected = selection.joint == joint;
+  }
+  return handles;
+}
+
+}  // namespace mars::studio

@@ -1,0 +1,1 @@
+// A source to compile the headers with that nearly every test includes (CMakeLists.txt).

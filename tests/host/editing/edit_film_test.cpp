@@ -1,0 +1,48 @@
+#include "host/editing/edit_film.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/host/content/document/failure_of.h"
+
+namespace mars::editing {
+namespace {
+
+const std::filesystem::path kFilm = std::filesystem::path(MARS_SOURCE_DIR) / "examples/robot-arm.json";
+
+TEST(EditFilm, ObeysCommandsOneAfterTheOther) {
+  document::Json film = document::read_json(kFilm);
+  const std::vector<Command> commands = {
+      {"animate", "pose", "camera", "fov=30", "--frame", "7"},
+      {"animate", "move", "camera", "fov", "--frame", "7", "--to", "9"},
+  };
+  const Done done = edit_film(film, kFilm, commands);
+  EXPECT_TRUE(done.remarks.empty());
+  bool found = false;
+  for (const document::Json& key : film.at("camera").at("keys"))
+    if (key.at("frame") == 9) found = key.at("fov") == 30;
+  EXPECT_TRUE(found) << document::laid_out(film.at("camera"));
+}
+
+TEST(EditFilm, DoesAllOrNothing) {
+  const document::Json before = document::read_json(kFilm);
+  document::Json film = before;
+  const std::vector<Command> commands = {{"animate", "pose", "camera", "fov=30", "--frame", "7"},
+                                         {"animate", "pose", "camera", "fov=300", "--frame", "8"}};
+  EXPECT_NE(document::failure_of([&] { edit_film(film, kFilm, commands); }), "");
+  EXPECT_EQ(film, before);
+}
+
+TEST(EditFilm, ExplainsWordsThatItDoesNotKnow) {
+  document::Json film = document::read_json(kFilm);
+  const auto failure_of = [&](const Command& command) {
+    return document::failure_of([&] { edit_film(film, kFilm, std::span(&command, 1)); });
+  };
+  EXPECT_NE(failure_of({"animate", "wlak", "tom"}).find("did you mean 'walk'"), std::string::npos);
+  EXPECT_NE(failure_of({"animate", "pose", "camera", "fov=30"}).find("--frame"), std::string::npos);
+  EXPECT_NE(failure_of({}), "");
+  EXPECT_NE(failure_of({"animate"}), "");
+  EXPECT_NE(failure_of({"animate", "--help"}), "");
+}
+
+}  // namespace
+}  // namespace mars::editing

@@ -1,0 +1,205 @@
+// The camera and lights as things: what is seen of them, what picks them, and which steps pulling them makes.
+#include "host/studio/stage/marks.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <set>
+
+#include "host/content/animator/direction.h"
+#include "host/studio/stage/eye.h"
+#include "tests/host/content/film/small_film.h"
+#include "tests/host/studio/stage/fakes.h"
+
+namespace mars::studio {
+namespace {
+
+constexpr int kWidth = 640, kHeight = 480;
+
+std::string xy(const glm::dvec2& pixel) {
+  return "\"x\": " + std::to_string(pixel.x) + ", \"y\": " + std::to_string(pixel.y);
+}
+
+animator::Film lit() {
+  return film::film_of(R"({"frames": 9, "size": [640, 320],
+    "camera": {"eye": [2, -4, 2], "at": [2, 0, 2], "fov": 40},
+    "lights": [{"direction": [0, 0, 1]}, {"place": [-2, 0, 3], "reach": 1.5},
+               {"place": [4, 0, 4], "at": [4, 0, 1], "cone": [20, 40]}],
+    "models": {"box": {"joints": [{"name": "body", "segment": {"shape": "box"}}]}},
+    "actors": [{"name": "box", "model": "box"}]})");
+}
+
+struct Scene : OnStage {
+  explicit Scene(bool rig = false) : OnStage(lit()) {
+    project.rig_lights_ = rig;
+    show();
+  }
+
+  void show(const std::string& from = "free", const std::string& more = R"(, "marks": true, "handles": "move")") {
+    view(0, kWidth, kHeight, from, "stick",
+         R"(, "orbit": {"center": [1, 0, 2], "turn": -70, "height": 15, "distance": 14})" + more);
+    paint();
+  }
+  Screen screen() const { return {camera_from({From::free, {{1, 0, 2}, -70, 15, 14}}, 1), kWidth, kHeight}; }
+  glm::dvec2 pixel(const glm::dvec3& place) const { return screen().pixel_of(place).value(); }
+  std::set<std::string> ids() const {
+    std::set<std::string> ids;
+    const Json told_last = last("handles");
+    const Json& all = told_last.is_object() ? told_last["shapes"] : pictures.back().handles;
+    for (const Json& shape : all) ids.insert(shape["id"]);
+    return ids;
+  }
+  // Whether a line of this handle has a point there.
+  bool passes(const std::string& id, const glm::dvec3& place) const {
+    for (const Json& shape : shapes(id))
+      for (const Json& point : shape["points"])
+        if (glm::length(glm::dvec2(point[0].get<double>(), point[1].get<double>()) - pixel(place)) < 0.02) return true;
+    return false;
+  }
+  void select(const std::string& thing) { take(R"({"do": "select", "thing": ")" + thing + "\"}"); }
+  void pull(const glm::dvec3& from, const glm::dvec3& to) {
+    take(R"({"do": "grab", "view": 0, )" + xy(pixel(from)) + "}");
+    take(R"({"do": "drag", )" + xy(pixel(to)) + "}");
+  }
+  Json drop() {
+    take(R"({"do": "drop"})");
+    return project.commits.back();
+  }
+};
+
+glm::dvec3 vector_of(const Json& list) {
+  return {list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>()};
+}
+
+TEST(Marks, AreSeenWhereTheyStand) {
+  Scene scene;
+  EXPECT_EQ(scene.ids(), (std::set<std::string>{"camera", "light/1", "light/2", "light/3"}));
+  const double up = 4 * std::tan(20 * 3.14159265358979 / 180);
+  for (const double x : {-2.0, 2.0})
+    for (const double z : {-1.0, 1.0})
+      EXPECT_TRUE(scene.passes("camera", {2 + x * up, 0, 2 + z * up})) << "a corner of what the film shows";
+  EXPECT_TRUE(scene.passes("camera", {2, -4, 2}));
+  EXPECT_TRUE(scene.passes("light/2", {-2, 0, 3}));
+  EXPECT_TRUE(scene.passes("light/2", glm::dvec3(-2, 0, 3) + 1.5 * scene.screen().right())) << "its reach";
+  EXPECT_TRUE(scene.passes("light/3", {4, 0, 4}));
+  EXPECT_TRUE(scene.passes("light/3", {4, 3 * std::tan(20 * 3.14159265358979 / 180), 1})) << "its cone";
+}
+
+TEST(Marks, AreNotSeenFromTheFilmsCameraNorOfModelsNorOfRigLights) {
+  Scene scene;
+  scene.show("camera");
+  EXPECT_TRUE(scene.pictures.back().handles.empty());
+  scene.show("free", "");
+  EXPECT_TRUE(scene.pictures.back().handles.empty()) << "nobody asked";
+  Scene rig(true);
+  EXPECT_EQ(rig.ids(), (std::set<std::string>{"camera"}));
+  EXPECT_ANY_THROW(rig.select("light/1"));
+  OnStage model(model_film("human.json"), true);
+  model.view(0, kWidth, kHeight, "front", "stick", R"(, "marks": true)");
+  EXPECT_TRUE(model.pictures.back().handles.empty());
+  EXPECT_ANY_THROW(model.take(R"({"do": "select", "thing": "camera"})"));
+}
+
+TEST(Marks, AreSelectedByMessageAndByTheirSymbols) {
+  Scene scene;
+  scene.select("light/3");
+  EXPECT_EQ(scene.last("selected"),
+            Json::parse(R"({"is": "selected", "actor": null, "joint": null, "thing": "light/3"})"));
+  EXPECT_TRUE(scene.ids().contains("light/3:at"));
+  EXPECT_TRUE(scene.ids().contains("light/3:cone"));
+  EXPECT_TRUE(scene.ids().contains("arrow:x"));
+  EXPECT_TRUE(scene.ids().contains("at:x"));
+  scene.take(R"({"do": "hover", "view": 0, )" + xy(scene.pixel({2, -4, 2})) + "}");
+  EXPECT_EQ(scene.last("hovered")["thing"], "camera");
+  EXPECT_EQ(scene.last("hovered")["text"], "camera");
+  scene.take(R"({"do": "grab", "view": 0, )" + xy(scene.pixel({2, -4, 2})) + "}");
+  EXPECT_EQ(scene.last("grabbed")["thing"], "camera");
+  EXPECT_EQ(scene.last("selected")["thing"], "camera");
+  EXPECT_EQ(scene.shapes("camera")[0]["selected"], true);
+  scene.take(R"({"do": "drop"})");
+  EXPECT_TRUE(scene.project.commits.empty()) << "a click moves nothing";
+  scene.take(R"({"do": "select", "actor": "box", "joint": "body"})");
+  EXPECT_TRUE(scene.last("selected")["thing"].is_null());
+  for (const char* wrong : {"light/0", "light/4", "light/x", "sun", "light/"})
+    EXPECT_ANY_THROW(scene.select(wrong)) << wrong;
+  EXPECT_ANY_THROW(scene.take(R"({"do": "select", "thing": "camera", "actor": "box"})"));
+}
+
+TEST(Marks, TheCameraIsPulled) {
+  Scene scene;
+  scene.select("camera");
+  const glm::dvec3 eye(2, -4, 2), at(2, 0, 2), by = 0.5 * scene.screen().right() - 0.25 * scene.screen().up();
+  scene.pull(eye, eye + by);
+  EXPECT_LT(glm::length(scene.project.film().camera.eye[0].value.offset - eye - by), 1e-5) << "it shows at once";
+  Json step = scene.drop();
+  EXPECT_EQ(step["set"], "camera");
+  EXPECT_LT(glm::length(vector_of(step["eye"]) - eye - by), 1e-5);
+  EXPECT_FALSE(step.contains("at"));
+  scene.pull(at, at + by);
+  step = scene.drop();
+  EXPECT_LT(glm::length(vector_of(step["at"]) - at - by), 1e-5);
+  const double pixels = 40 / scene.screen().scale_at(at + by);
+  scene.pull(at + by + glm::dvec3(0, 0, pixels), at + by + glm::dvec3(0, 0, pixels + 0.3));
+  step = scene.drop();
+  EXPECT_LT(glm::length(vector_of(step["at"]) - at - by - glm::dvec3(0, 0, 0.3)), 1e-5) << step.dump();
+}
+
+TEST(Marks, TheCameraIsZoomedByItsUpperEdge) {
+  Scene scene;
+  scene.select("camera");
+  const double degree = 3.14159265358979 / 180, half = 4 * std::tan(20 * degree), wider = 4 * std::tan(30 * degree);
+  scene.pull({2, 0, 2 + half}, {2, 0, 2 + wider});
+  const Json step = scene.drop();
+  EXPECT_NEAR(step["fov"].get<double>(), 60, 1e-4);
+  EXPECT_FALSE(step.contains("eye"));
+}
+
+TEST(Marks, LightsArePulled) {
+  Scene scene;
+  const glm::dvec3 by = 0.5 * scene.screen().right() + 0.3 * scene.screen().up();
+  scene.pull({-2, 0, 3}, glm::dvec3(-2, 0, 3) + by);
+  EXPECT_LT(glm::length(scene.project.film().lights[1].vector[0].value - glm::dvec3(-2, 0, 3) - by), 1e-5);
+  Json step = scene.drop();
+  EXPECT_EQ(step["light"], 2);
+  EXPECT_LT(glm::length(vector_of(step["place"]) - glm::dvec3(-2, 0, 3) - by), 1e-5);
+  const glm::dvec3 edge = glm::dvec3(-2, 0, 3) + by + 1.5 * scene.screen().right();
+  scene.pull(edge, edge + 0.5 * scene.screen().right());
+  EXPECT_NEAR(scene.drop()["reach"].get<double>(), 2, 1e-5);
+  scene.select("light/3");
+  scene.pull({4, 0, 1}, glm::dvec3(4, 0, 1) + by);
+  step = scene.drop();
+  EXPECT_EQ(step["light"], 3);
+  EXPECT_LT(glm::length(vector_of(step["at"]) - glm::dvec3(4, 0, 1) - by), 1e-5);
+}
+
+TEST(Marks, ASpotsConeOpensAndItsInnerOneAlong) {
+  Scene scene;
+  scene.select("light/3");
+  const Json point = scene.shapes("light/3:cone").at(0)["points"][0];
+  const glm::dvec2 at(point[0].get<double>(), point[1].get<double>()), middle = scene.pixel({4, 0, 1});
+  scene.take(R"({"do": "grab", "view": 0, )" + xy(at) + "}");
+  ASSERT_EQ(scene.last("grabbed")["handle"], "light/3:cone");
+  scene.take(R"({"do": "drag", )" + xy(at + 0.5 * (at - middle)) + "}");
+  const Json cone = scene.drop()["cone"];
+  EXPECT_GT(cone[1].get<double>(), 48);
+  EXPECT_LT(cone[1].get<double>(), 65);
+  EXPECT_NEAR(cone[0].get<double>(), cone[1].get<double>() / 2, 1e-6);
+}
+
+TEST(Marks, ASunKeepsItsDistanceAndChangesItsDirection) {
+  Scene scene;
+  Moments moments(scene.project);
+  moments.renew();
+  const MarkState sun = state_of(scene.project, moments, Mark{0});
+  ASSERT_LT(glm::length(glm::normalize(sun.place - sun.center) - glm::dvec3(0, 0, 1)), 1e-9);
+  const glm::dvec3 by = 0.6 * scene.screen().right();
+  scene.pull(sun.place, sun.place + by);
+  const glm::dvec3 expected = glm::normalize(sun.place + by - sun.center);
+  EXPECT_LT(glm::length(animator::direction_at(scene.project.film().lights[0].vector, 0) - expected), 1e-5);
+  const Json step = scene.drop();
+  EXPECT_LT(glm::length(vector_of(step["direction"]) - expected), 1e-5);
+  EXPECT_FALSE(step.contains("place"));
+}
+
+}  // namespace
+}  // namespace mars::studio
