@@ -2,8 +2,8 @@
 
 import {element} from "../dom.js";
 
-const kColors = ["ground", "surface", "raised", "field", "hover", "edge", "edge-strong", "text", "muted", "faint", "accent",
-                 "selected", "on-accent", "axis-x", "axis-y", "axis-z", "key-linear", "key-eased", "key-spline", "band", "lane"];
+const kColors = ["sheet", "lane", "grid", "band", "surface", "edge-strong", "text", "muted", "accent", "on-accent", "selected", "axis-x",
+                 "axis-y", "axis-z", "key-linear", "key-eased", "key-spline"];
 const kFont = "11px";
 
 function themeColors() {

@@ -92,7 +92,7 @@ export class CurvePlot {
     const {width, height, colors} = size;
     this.lines = this.data.lines();
     this.nothing.hidden = this.lines.length > 0;
-    pen.fillStyle = colors.ground;
+    pen.fillStyle = colors.sheet;
     pen.fillRect(0, 0, width, height);
     this.#outside(pen, size);
     this.#limits(pen, size);
@@ -136,7 +136,7 @@ export class CurvePlot {
   }
 
   #grid(pen, {width, height, colors}) {
-    pen.fillStyle = colors.edge;
+    pen.fillStyle = colors.grid;
     for (const frame of this.axis.steps().frames) pen.fillRect(Math.round(this.axis.x(frame)), 0, 1, height);
     for (const value of this.#steps(height)) pen.fillRect(0, Math.round(this.y(value)), width, 1);
     pen.fillStyle = colors["edge-strong"];
@@ -146,7 +146,7 @@ export class CurvePlot {
   #numbers(pen, {height, colors}) {
     pen.textAlign = "left";
     pen.lineWidth = 3;
-    pen.strokeStyle = colors.ground;
+    pen.strokeStyle = colors.sheet;
     for (const value of this.#steps(height)) {
       pen.fillStyle = colors.muted;
       pen.strokeText(written(value, 3), 5, this.y(value) - 7);
@@ -178,7 +178,7 @@ export class CurvePlot {
       pen.fillStyle = picked ? colors.accent : color;
       pen.fill();
       pen.lineWidth = 1.5;
-      pen.strokeStyle = picked ? colors.text : colors.ground;
+      pen.strokeStyle = picked ? colors.text : colors.sheet;
       pen.stroke();
     }
   }
@@ -195,7 +195,7 @@ export class CurvePlot {
     pen.beginPath();
     if (handle.kind.startsWith("ease")) pen.rect(x - kHandle, y - kHandle, 2 * kHandle, 2 * kHandle);
     else pen.arc(x, y, kHandle, 0, 2 * Math.PI);
-    pen.fillStyle = colors.ground;
+    pen.fillStyle = colors.sheet;
     pen.fill();
     pen.strokeStyle = colors.text;
     pen.lineWidth = 1.5;

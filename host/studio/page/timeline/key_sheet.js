@@ -32,7 +32,7 @@ export class KeySheet {
 
   constructor(rows, rowList, keys, axis, state) {
     Object.assign(this, {rows, rowList, keys, axis, state});
-    this.view = new Canvas((pen, size) => this.#draw(pen, size), (width) => axis.resize(width));
+    this.view = new Canvas((pen, size) => this.#draw(pen, size));
     this.root = this.view.root;
     axis.on(() => this.redraw());
     state.on("keys rows scrolled project poses frame range", () => this.redraw());
@@ -62,7 +62,7 @@ export class KeySheet {
 
   #draw(pen, size) {
     const {width, height, colors} = size, {project} = this.state, top = this.rowList.top;
-    pen.fillStyle = colors.ground;
+    pen.fillStyle = colors.sheet;
     pen.fillRect(0, 0, width, height);
     const first = Math.max(0, Math.floor(top / kRow));
     const seen = this.rows.list.slice(first, first + Math.ceil(height / kRow) + 1);
@@ -75,12 +75,12 @@ export class KeySheet {
   }
 
   #lane(pen, {width, colors}, row, y) {
-    pen.fillStyle = this.rows.chosen.has(row.id) ? colors.selected : row.level === 0 ? colors.lane : colors.ground;
+    pen.fillStyle = this.rows.chosen.has(row.id) ? colors.selected : row.level === 0 ? colors.lane : colors.sheet;
     pen.fillRect(0, y, width, kRow - 1);
   }
 
   #grid(pen, {height, colors}) {
-    pen.fillStyle = colors.edge;
+    pen.fillStyle = colors.grid;
     for (const frame of this.axis.steps().frames) pen.fillRect(Math.round(this.axis.x(frame)), 0, 1, height);
   }
 
@@ -137,7 +137,7 @@ function drawMark(pen, colors, look, x, y, picked) {
   pen.fillStyle = picked ? colors.accent : colors[kColors[look]];
   pen.fill();
   pen.lineWidth = picked ? 1.4 : 1;
-  pen.strokeStyle = picked ? colors.text : colors.ground;
+  pen.strokeStyle = picked ? colors.text : colors.sheet;
   pen.stroke();
   if (look !== "slopes") return;
   pen.beginPath();

@@ -11,7 +11,7 @@ export class Ruler {
 
   constructor({state, frames}, axis) {
     Object.assign(this, {state, frames, axis});
-    this.view = new Canvas((pen, size) => this.#draw(pen, size));
+    this.view = new Canvas((pen, size) => this.#draw(pen, size), (width) => { if (width > 0) axis.resize(width); });
     this.root = this.view.root;
     this.root.classList.add("ruler");
     for (const [key, value] of [["role", "slider"], ["tabindex", 0], ["aria-label", "Frame"], ["data-key", "ruler"]]) this.root.setAttribute(key, value);
@@ -76,16 +76,16 @@ export class Ruler {
     pen.fillRect(this.axis.x(first), 0, this.axis.x(last) - this.axis.x(first), kBand);
     pen.fillStyle = colors.muted;
     for (const end of [first, last]) pen.fillRect(Math.round(this.axis.x(end)) - 2, 0, 4, kBand + 3);
-    this.#numbers(pen, {height, colors}, project.frames);
-    this.#flag(pen, {width, height, colors}, project.frame);
+    this.#numbers(pen, {width, height, colors}, project.frames);
+    this.#flag(pen, {height, colors}, project.frame);
   }
 
-  #numbers(pen, {height, colors}, frames) {
+  #numbers(pen, {width, height, colors}, frames) {
     pen.textAlign = "center";
     for (const frame of this.axis.steps().frames) {
       const x = this.axis.x(frame);
       pen.fillStyle = frame < frames ? colors.muted : colors["edge-strong"];
-      pen.fillText(frame, x, height / 2 + 3);
+      if (x < width - kGrip) pen.fillText(frame, x, height / 2 + 3);
       pen.fillStyle = colors["edge-strong"];
       pen.fillRect(Math.round(x), height - 4, 1, 4);
     }

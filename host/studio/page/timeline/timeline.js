@@ -84,6 +84,7 @@ export class Timeline {
   #project() {
     const shown = this.state.isFilm() && this.state.workspace === "scene";
     this.place.hidden = !shown || !this.open;
+    document.body.style.setProperty("--timeline", `${this.place.hidden ? 0 : this.height}px`);
     this.bar.classList.toggle("shut", !this.open);
     const text = `${this.open ? "Shut" : "Open"} the timeline (${keysOf("foldTimeline")})`;
     setIcon(this.fold, this.open ? "shut" : "unshut");
@@ -151,6 +152,7 @@ export class Timeline {
   setHeight(height) {
     this.height = clamped(height, kLeast, Math.max(kLeast, innerHeight - 320));
     this.place.style.height = `${this.height}px`;
+    document.body.style.setProperty("--timeline", `${this.height}px`);
     this.grip?.setAttribute("aria-valuenow", Math.round(this.height));
     sessionStorage.setItem("timeline", this.height);
   }
