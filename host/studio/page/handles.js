@@ -3,7 +3,7 @@
 import {svg} from "./dom.js";
 
 const kDot = 3.6, kJoint = 2.6, kSelected = 4.5, kHead = 9, kPin = 6;
-const kNearest = 0.5, kFading = 0.72;  // how much the nearest ghost hides, and what is left of that a step further
+const kNearest = 0.4, kFading = 0.72;  // how much the nearest ghost hides, and what is left of that a step further
 const kMany = 60;  // points of a shape: more would hide what they shape
 
 // In place of what the layer shows.

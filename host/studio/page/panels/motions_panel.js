@@ -41,12 +41,15 @@ export class MotionsPanel {
   }
 
   #build() {
-    const groups = kGroups.map(([group, title]) => [title, this.#actions.filter((action) => (action.group ?? "figure") === group)]);
     this.who = element("p", {class: "motion-who"});
     this.form = element("div", {});
-    this.place.replaceChildren(this.who, ...groups.filter(([, list]) => list.length).map(([title, list]) =>
-      part(title, element("div", {class: "motions", role: "group", "aria-label": title}, list.map((action) => this.#button(action))))), this.form);
+    this.place.replaceChildren(this.who, ...kGroups.map(([group, title]) => this.#group(group, title)).filter(Boolean), this.form);
     this.#show();
+  }
+
+  #group(group, title) {
+    const buttons = this.#actions.filter((action) => action.group === group).map((action) => this.#button(action));
+    return buttons.length > 0 && part(title, element("div", {class: "motions", role: "group", "aria-label": title}, buttons));
   }
 
   #button(action) {
@@ -71,40 +74,46 @@ export class MotionsPanel {
 
   #show() {
     const action = this.#action;
-    for (const button of this.place.querySelectorAll("[data-motion]")) button.setAttribute("aria-pressed", String(button.dataset.motion === action?.name));
+    for (const button of this.place.querySelectorAll("[data-motion]"))
+      button.setAttribute("aria-pressed", String(button.dataset.motion === action?.name));
     if (!action) return this.form.replaceChildren();
     this.#fields = action.parameters.map((parameter) => this.#field(parameter));
-    const start = choice({name: "Begins", options: [["frame", "At the frame that shows"], ["last", "At its last key"]], key: "motion.start", commit: () => this.#changed()});
+    const starts = [["frame", "At the frame that shows"], ["last", "At its last key"]];
+    const start = choice({name: "Begins", options: starts, key: "motion.start", commit: () => this.#changed()});
     this.start = start.root.querySelector("select");
     this.problem = element("p", {class: "motion-problem", role: "status"});
-    this.previewButton = element("button", {"aria-pressed": "false", "data-key": "motion.preview", onclick: (event) => this.#flip(event)}, "Preview");
+    this.previewButton = element("button", {"aria-pressed": "false", "data-key": "motion.preview",
+                                            onclick: (event) => this.#flip(event)}, "Preview");
     this.applyButton = element("button", {class: "primary", "data-key": "motion.apply", onclick: (event) => this.#apply(event)}, "Apply");
     const body = part(titled(action.name), element("p", {class: "hint"}, action.purpose), line("Begins", start.root),
-                      this.#fields.map(({root}) => root), this.problem, element("div", {class: "actions"}, this.previewButton, this.applyButton));
+                      this.#fields.map(({root}) => root), this.problem,
+                      element("div", {class: "actions"}, this.previewButton, this.applyButton));
     body.classList.add("motion-form");
     this.form.replaceChildren(body);
     this.#who();
   }
 
-  #field({name, value, meaning, example, count}) {
-    const choices = kChoices[value];
-    if (choices) {
-      const made = choice({name: titled(name), options: [[null, "\u2013"], ...choices.map((each) => [each, each])], key: `motion.${name}`, commit: () => this.#changed()});
-      made.root.title = meaning;
-      const select = made.root.querySelector("select");
-      return {name, root: line(titled(name), made.root), values: () => select.value === "" ? [] : [select.value]};
-    }
-    const otherwise = /default: ([-\d.]+)/.exec(meaning)?.[1];
-    const labels = value.split(" "), examples = String(example).split(" ");
-    const inputs = Array.from({length: count ?? labels.length}, (_, i) => element("input", {
+  #field(parameter) {
+    return kChoices[parameter.value] ? this.#oneOf(parameter, kChoices[parameter.value]) : this.#numbers(parameter);
+  }
+
+  #oneOf({name, meaning}, choices) {
+    const options = [[null, "\u2013"], ...choices.map((each) => [each, each])];
+    const made = choice({name: titled(name), options, key: `motion.${name}`, commit: () => this.#changed()});
+    made.root.title = meaning;
+    const select = made.root.querySelector("select");
+    return {name, root: line(titled(name), made.root), values: () => select.value === "" ? [] : [select.value]};
+  }
+
+  #numbers({name, value, meaning, example, count}) {
+    const otherwise = /default: ([-\d.]+)/.exec(meaning)?.[1], letters = value.split(" "), examples = example.split(" ");
+    const inputs = Array.from({length: count}, (_, i) => element("input", {
       type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false", title: meaning, "data-key": `motion.${name}${i || ""}`,
-      "aria-label": labels.length > 1 ? `${titled(name)} ${labels[i]}` : titled(name), placeholder: otherwise ?? `e.g. ${examples[i] ?? ""}`,
+      "aria-label": count > 1 ? `${titled(name)} ${letters[i]}` : titled(name), placeholder: otherwise ?? `e.g. ${examples[i]}`,
       oninput: () => this.#changed(),
     }));
-    return {name, root: line(titled(name), element("div", {class: "several"}, inputs)), values: () => {
-      const words = inputs.map((input) => input.value.trim().replace(",", "."));
-      return words.includes("") ? [] : words;
-    }};
+    const values = () => inputs.map((input) => input.value.trim().replace(",", "."));
+    return {name, root: line(titled(name), element("div", {class: "several"}, inputs)), values: () => values().includes("") ? [] : values()};
   }
 
   #commands() {

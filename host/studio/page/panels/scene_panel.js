@@ -1,27 +1,33 @@
-// What is not of one joint. A model: bodies of other proportions, made of the same segments. A film: film_scene.js.
+// What is not of one joint. A model: bodies of other proportions, made of the same segments. A film: its actors, camera,
+// lights, materials and settings, by the commands of `mars film` and `mars animate`.
 
 import {element, keepingFocus} from "../dom.js";
 import {part} from "../fields.js";
-import {FilmScene} from "./film_scene.js";
+import {actorPart, castPart} from "./scene/actors.js";
+import {cameraPart} from "./scene/camera.js";
+import {Controls} from "./scene/controls.js";
+import {filmPart, materialsPart} from "./scene/film.js";
+import {lightsPart} from "./scene/lights.js";
 
 export class ScenePanel {
   #built = "";
 
   constructor(place, {state, edits}) {
     Object.assign(this, {place, state, edits});
-    this.film = new FilmScene({state, edits});
+    this.controls = new Controls({state, edits});
     state.on("project selected", () => this.#update());
-    state.on("poses", () => this.film.set());
+    state.on("poses", () => this.controls.set());
   }
 
   #update() {
     const film = this.state.isFilm();
-    const built = JSON.stringify(film ? this.film.shape() : [this.state.project?.bodies]);
+    const built = JSON.stringify(film ? this.#shape() : [this.state.project?.bodies]);
     if (built !== this.#built) {
       this.#built = built;
-      keepingFocus(this.place, () => this.place.replaceChildren(...(film ? this.film.parts() : this.#bodies())));
+      this.controls.clear();
+      keepingFocus(this.place, () => this.place.replaceChildren(...(film ? this.#film() : this.#bodies())));
     }
-    if (film) this.film.set();
+    this.controls.set();
   }
 
   #bodies() {
@@ -30,5 +36,21 @@ export class ScenePanel {
     const button = ({name, what}) => element("button", {title: what, onclick: (event) => this.edits.commit({body: name}, event)}, name);
     return [part("Bodies", element("p", {class: "hint"}, "The same segments with other proportions."),
                  element("div", {class: "actions"}, bodies.map(button)))];
+  }
+
+  // What decides which controls there are.
+  #shape() {
+    const {project, selected} = this.state;
+    return [selected.actor, selected.thing, Boolean(project.camera), project.actors.map(({name, place}) => [name, Boolean(place)]),
+            project.library, (project.lights ?? []).map(({thing, kind}) => [thing, kind]),
+            (project.materials ?? []).map(({name}) => name), Boolean(project.background)];
+  }
+
+  // What is selected comes first.
+  #film() {
+    const {controls} = this, lit = this.state.selected.thing?.startsWith("light/");
+    const made = [actorPart(controls), ...(lit ? [lightsPart(controls), cameraPart(controls)] : [cameraPart(controls), lightsPart(controls)]),
+                  castPart(controls), materialsPart(controls), filmPart(controls)];
+    return made.filter(Boolean);
   }
 }

@@ -43,8 +43,9 @@ export class RowList {
 
   #row(row, index) {
     const {id, kind, name, level, open} = row;
-    const item = element("div", {role: "treeitem", id: `${this.id}-${index}`, class: "key-row", "data-row": id.replace("\n", " "), "data-index": index, "aria-level": level + 1, "aria-label": name,
-                                 "aria-expanded": open === undefined ? null : String(open), "aria-selected": String(this.rows.chosen.has(id))},
+    const item = element("div", {role: "treeitem", id: `${this.id}-${index}`, class: "key-row", "data-row": id.replace("\n", " "),
+                                 "data-index": index, "aria-level": level + 1, "aria-label": name, "aria-expanded": open === undefined ? null : String(open),
+                                 "aria-selected": String(this.rows.chosen.has(id))},
                          element("span", {class: "twist"}, open !== undefined && icon("twist")), kGlyphs[kind] && icon(kGlyphs[kind]),
                          element("span", {class: "name"}, name));
     item.classList.toggle("active", id === this.rows.active);

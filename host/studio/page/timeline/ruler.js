@@ -85,7 +85,7 @@ export class Ruler {
     for (const frame of this.axis.steps().frames) {
       const x = this.axis.x(frame);
       pen.fillStyle = frame < frames ? colors.muted : colors["edge-strong"];
-      if (x < width - kGrip) pen.fillText(frame, x, height / 2 + 3);
+      if (x < width - 2 * kGrip) pen.fillText(frame, x, height / 2 + 3);
       pen.fillStyle = colors["edge-strong"];
       pen.fillRect(Math.round(x), height - 4, 1, 4);
     }

@@ -2,11 +2,12 @@
 
 import {written} from "../numbers.js";
 
-const kNumbers = (value) => [value].flat().map((number) => written(number, 4)).join(",");
+const numbersOf = (value) => [value].flat().map((number) => written(number, 4)).join(",");
 
 // Words that a shell would read otherwise are quoted.
 export function typed([program, ...words], film) {
-  return ["mars", program, film, ...words].map((word) => /^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`).join(" ");
+  const quoted = (word) => /^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
+  return ["mars", program, film, ...words].map(quoted).join(" ");
 }
 
 // Of a step that was committed at this frame.
@@ -14,7 +15,10 @@ export function commandsOf(step, frame) {
   if (step.commands) return step.commands;
   if (step.script) return [["animate", "script", step.script.name, "--lengthen"]];
   const {set, actor, joint, pose, ...others} = step;
-  const posed = (thing, values, ...more) => [["animate", "pose", thing, ...Object.entries(values).map(([part, value]) => `${part}=${kNumbers(value)}`), "--frame", `${frame}`, ...more]];
+  const posed = (thing, values, ...more) => {
+    const parts = Object.entries(values).map(([part, value]) => `${part}=${numbersOf(value)}`);
+    return [["animate", "pose", thing, ...parts, "--frame", `${frame}`, ...more]];
+  };
   if (set === "pose") return posed(actor, {[joint]: pose}, "--clamp");
   if (set === "place" || set === "turn") return posed(actor, {[set]: step[set]});
   return set === "camera" ? posed("camera", others) : [];
