@@ -48,7 +48,7 @@ export class MotionsPanel {
   }
 
   #group(group, title) {
-    const buttons = this.#actions.filter((action) => action.group === group).map((action) => this.#button(action));
+    const buttons = this.#actions.filter((action) => (action.group ?? "figure") === group).map((action) => this.#button(action));
     return buttons.length > 0 && part(title, element("div", {class: "motions", role: "group", "aria-label": title}, buttons));
   }
 

@@ -61,3 +61,22 @@ export function drawCursor(pen, x, height, colors) {
   pen.fillStyle = colors.accent;
   pen.fillRect(Math.round(x) - 0.75, 0, 1.5, height);
 }
+
+// Frames that the film has not are darker.
+export function drawOutside(pen, {width, height, colors}, axis, frames) {
+  pen.fillStyle = colors.band;
+  const begin = axis.x(0), end = axis.x(frames - 1);
+  if (begin > 0) pen.fillRect(0, 0, begin, height);
+  if (end < width) pen.fillRect(end, 0, width - end, height);
+}
+
+// That a hand draws.
+export function drawBox(pen, colors, {x, y, toX, toY}) {
+  pen.fillStyle = colors.accent;
+  pen.globalAlpha = 0.14;
+  pen.fillRect(x, y, toX - x, toY - y);
+  pen.globalAlpha = 1;
+  pen.lineWidth = 1;
+  pen.strokeStyle = colors.accent;
+  pen.strokeRect(x + 0.5, y + 0.5, toX - x, toY - y);
+}

@@ -35,7 +35,10 @@ export class CurveHand {
         this.plot.redraw();
         this.acts.tryOut(commands, event);
       },
-      end: (event) => { still(); this.acts.commit(commands, event); },
+      end: (event) => {
+        this.acts.commit(commands, event);
+        this.keys.whenAnswered(still);
+      },
       giveUp: () => { still(); this.acts.cancel(); },
     };
   }
@@ -90,9 +93,11 @@ export class CurveHand {
 
   #drop(line, event) {
     const {frames} = this.plot.by, commands = this.#commands(line);
-    this.#hold(kNone);
     this.acts.commit(commands, event);
-    if (frames !== 0) this.keys.moved(frames);
+    this.keys.whenAnswered((taken) => {
+      this.#hold(kNone);
+      if (taken) this.keys.moved(frames);
+    });
   }
 
   #hold(by) {

@@ -1,14 +1,14 @@
 // The curves of the chosen parts over the frames: values, keys, handles, limits. What hands do is in curve_hand.js.
 
-import {clamped, written} from "../numbers.js";
-import {Canvas, drawCursor} from "./canvas.js";
+import {element} from "../dom.js";
+import {clamped} from "../numbers.js";
+import {Canvas, drawBox, drawCursor, drawOutside} from "./canvas.js";
 import {handlesOf} from "./curve_handles.js";
+import {colorOf, drawGrid, drawHandle, drawLimits, drawLine, drawNumbers, drawPoint} from "./curve_paint.js";
 
-const kPoint = 4, kHandle = 3.2, kNear = 8, kApart = 34;  // pixels
-const kMargin = 26;
+const kNear = 8;      // pixels from a point's middle at which it is meant
+const kMargin = 26;   // above and below curves that show whole
 const kMostHandles = 24;
-const kAxisColor = {x: "axis-x", y: "axis-y", z: "axis-z"};
-const kColors = ["accent", "key-eased", "key-spline", "key-linear"];
 
 export class CurvePlot {
   low = -10;
@@ -21,9 +21,7 @@ export class CurvePlot {
     Object.assign(this, {data, keys, axis, state, lines: []});
     this.view = new Canvas((pen, size) => this.#draw(pen, size), (width, height) => this.#resized(width, height));
     this.root = this.view.root;
-    this.nothing = document.createElement("p");
-    this.nothing.className = "nothing";
-    this.nothing.textContent = "Choose rows at the left to see their curves.";
+    this.nothing = element("p", {class: "nothing"}, "Choose rows at the left to see their curves.");
     this.root.append(this.nothing);
     axis.on(() => this.redraw());
     state.on("curves keys rows project poses frame", () => this.redraw());
@@ -31,6 +29,7 @@ export class CurvePlot {
   }
 
   redraw() { this.view.redraw(); }
+  x(frame) { return this.axis.x(frame); }
   y(value) { return this.view.height - (value - this.low) * this.perValue; }
   valueAt(y) { return (this.view.height - y) / this.perValue + this.low; }
 
@@ -89,126 +88,36 @@ export class CurvePlot {
   }
 
   #draw(pen, size) {
-    const {width, height, colors} = size;
+    const {width, height, colors} = size, {frame, frames} = this.state.project;
     this.lines = this.data.lines();
     this.nothing.hidden = this.lines.length > 0;
     pen.fillStyle = colors.sheet;
     pen.fillRect(0, 0, width, height);
-    this.#outside(pen, size);
-    this.#limits(pen, size);
-    this.#grid(pen, size);
-    this.lines.forEach((line, i) => this.#line(pen, size, line, colorOf(colors, line, i)));
-    drawCursor(pen, this.axis.x(this.state.project.frame), height, colors);
-    if (this.by.frames === 0 && this.by.value === 0) for (const handle of this.handles()) this.#handle(pen, colors, handle);
-    this.lines.forEach((line, i) => this.#points(pen, size, line, colorOf(colors, line, i)));
-    this.#numbers(pen, size);
-    if (this.box) this.#boxed(pen, colors);
+    drawOutside(pen, size, this.axis, frames);
+    for (const line of this.lines) if (line.limits && (this.lines.length === 1 || same(line, this.by.line))) drawLimits(pen, size, this, line);
+    drawGrid(pen, size, this, this.axis.steps().frames);
+    this.lines.forEach((line, i) => drawLine(pen, size, this, line, colorOf(colors, line, i)));
+    drawCursor(pen, this.x(frame), height, colors);
+    if (!this.by.line) for (const handle of this.handles()) drawHandle(pen, colors, this, handle, this.#atOf(handle));
+    this.lines.forEach((line, i) => this.#points(pen, colors, line, colorOf(colors, line, i)));
+    drawNumbers(pen, size, this);
+    if (this.box) drawBox(pen, colors, this.box);
   }
 
-  #outside(pen, {width, height, colors}) {
-    pen.fillStyle = colors.band;
-    const begin = this.axis.x(0), end = this.axis.x(this.state.project.frames - 1);
-    if (begin > 0) pen.fillRect(0, 0, begin, height);
-    if (end < width) pen.fillRect(end, 0, width - end, height);
+  // Where it is held, or else where it is.
+  #atOf(handle) {
+    const {handle: held, at} = this.held ?? {};
+    return held && held.kind === handle.kind && held.index === handle.index && same(held.line, handle.line) ? at : handle.at;
   }
 
-  // Of one line only: several bands over each other say nothing.
-  #limits(pen, {width, height, colors}) {
-    const limited = this.lines.filter(({limits}) => limits);
-    const shown = limited.length === 1 ? limited : limited.filter((line) => line.keys.some((point) => this.isPicked(line, point)) && this.by.line === line);
-    for (const line of shown) {
-      const [lower, upper] = line.limits, top = this.y(upper), bottom = this.y(lower);
-      pen.fillStyle = colors[kAxisColor[line.axis]] ?? colors.accent;
-      pen.globalAlpha = 0.07;
-      pen.fillRect(0, top, width, bottom - top);
-      pen.globalAlpha = 0.5;
-      for (const y of [top, bottom]) pen.fillRect(0, Math.round(y), width, 1);
-      pen.globalAlpha = 1;
-    }
-  }
-
-  #steps(height) {
-    let step = 1e-3;
-    for (let i = 0; step * this.perValue < kApart; ++i) step *= [2, 2.5, 2][i % 3];
-    const list = [];
-    for (let at = Math.ceil(this.low / step); at * step * this.perValue < height + this.low * this.perValue; ++at) list.push(at * step);
-    return list;
-  }
-
-  #grid(pen, {width, height, colors}) {
-    pen.fillStyle = colors.grid;
-    for (const frame of this.axis.steps().frames) pen.fillRect(Math.round(this.axis.x(frame)), 0, 1, height);
-    for (const value of this.#steps(height)) pen.fillRect(0, Math.round(this.y(value)), width, 1);
-    pen.fillStyle = colors["edge-strong"];
-    pen.fillRect(0, Math.round(this.y(0)), width, 1);
-  }
-
-  #numbers(pen, {height, colors}) {
-    pen.textAlign = "left";
-    pen.lineWidth = 3;
-    pen.strokeStyle = colors.sheet;
-    for (const value of this.#steps(height)) {
-      pen.fillStyle = colors.muted;
-      pen.strokeText(written(value, 3), 5, this.y(value) - 7);
-      pen.fillText(written(value, 3), 5, this.y(value) - 7);
-    }
-  }
-
-  #line(pen, {width}, {values, first}, color) {
-    pen.beginPath();
-    const begin = clamped(Math.floor(this.axis.from) - first, 0, values.length), every = Math.max(1, Math.floor(0.5 / this.axis.perFrame));
-    for (let i = begin; i < values.length; i += every) {
-      const x = this.axis.x(first + i);
-      pen.lineTo(x, this.y(values[i]));
-      if (x > width) break;
-    }
-    pen.strokeStyle = color;
-    pen.lineWidth = 1.6;
-    pen.lineJoin = "round";
-    pen.stroke();
-  }
-
-  #points(pen, {colors}, line, color) {
+  #points(pen, colors, line, color) {
     for (const point of line.keys) {
-      const picked = this.isPicked(line, point), held = picked ? this.by : {frames: 0, value: 0};
-      const sameLine = held.line && held.line.part === line.part && held.line.axis === line.axis;
-      const x = this.axis.x(point.key.frame + held.frames), y = this.y(point.value + (sameLine ? held.value : 0));
-      pen.beginPath();
-      pen.arc(x, y, picked ? kPoint + 0.6 : kPoint, 0, 2 * Math.PI);
-      pen.fillStyle = picked ? colors.accent : color;
-      pen.fill();
-      pen.lineWidth = 1.5;
-      pen.strokeStyle = picked ? colors.text : colors.sheet;
-      pen.stroke();
+      const picked = this.isPicked(line, point);
+      const frame = point.key.frame + (picked ? this.by.frames : 0);
+      const value = point.value + (picked && same(line, this.by.line) ? this.by.value : 0);
+      drawPoint(pen, colors, this.x(frame), this.y(value), picked, color);
     }
-  }
-
-  #handle(pen, colors, handle) {
-    const at = this.held && same(this.held.handle, handle) ? this.held.at : handle.at;
-    const x = this.axis.x(at.frame), y = this.y(at.value);
-    pen.beginPath();
-    pen.moveTo(this.axis.x(handle.from.frame), this.y(handle.from.value));
-    pen.lineTo(x, y);
-    pen.strokeStyle = colors.muted;
-    pen.lineWidth = 1;
-    pen.stroke();
-    pen.beginPath();
-    if (handle.kind.startsWith("ease")) pen.rect(x - kHandle, y - kHandle, 2 * kHandle, 2 * kHandle);
-    else pen.arc(x, y, kHandle, 0, 2 * Math.PI);
-    pen.fillStyle = colors.sheet;
-    pen.fill();
-    pen.strokeStyle = colors.text;
-    pen.lineWidth = 1.5;
-    pen.stroke();
-  }
-
-  #boxed(pen, colors) {
-    const {x, y, toX, toY} = this.box;
-    pen.strokeStyle = colors.accent;
-    pen.lineWidth = 1;
-    pen.strokeRect(x + 0.5, y + 0.5, toX - x, toY - y);
   }
 }
 
-const same = (one, other) => one.kind === other.kind && one.index === other.index && one.line.part === other.line.part && one.line.axis === other.line.axis;
-const colorOf = (colors, {axis}, i) => colors[kAxisColor[axis] ?? kColors[i % kColors.length]];
+const same = (one, other) => other !== null && one.part === other.part && one.axis === other.axis;

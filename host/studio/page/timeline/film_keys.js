@@ -1,18 +1,23 @@
 // The film's keys as the studio tells them, and which of them are selected here. Listeners hear "keys" (either changed).
 
+const kPatience = 1500;  // ms for the studio's answer
+
 const idOf = (thing, part) => `${thing}\n${part}`;
 
 export class FilmKeys {
   #picked = new Map();  // of a part (idOf) -> Set of frames
   #asked = false;
+  #awaited = null;      // hears whether the studio took the last step
   things = [];          // {thing, kind, parts: [{name, axes, keys: [{frame, value, ease, in, out}]}]}
 
   constructor({connection, state}) {
     Object.assign(this, {connection, state});
     connection.on("channels", ({things}) => {
       this.things = things;
+      this.#answered(true);
       state.tell("keys");
     });
+    connection.on("refused", () => this.#answered(false));
     connection.on("gone", () => { this.#asked = false; });
     state.on("project", () => this.#ask());
   }
@@ -20,6 +25,19 @@ export class FilmKeys {
   #ask() {
     if (!this.state.isFilm() || this.#asked) return;
     this.#asked = this.connection.send({do: "channels", things: ["*"]});
+  }
+
+  // What a hand let go of stays where it shows until the studio has answered: `done(whether it took it)`.
+  whenAnswered(done) {
+    this.#answered(true);
+    this.#awaited = done;
+    setTimeout(() => { if (this.#awaited === done) this.#answered(false); }, kPatience);
+  }
+
+  #answered(taken) {
+    const done = this.#awaited;
+    this.#awaited = null;
+    done?.(taken);
   }
 
   thing(name) { return this.things.find(({thing}) => thing === name) ?? null; }

@@ -26,9 +26,12 @@ export class KeyActions {
   retime(option, by, event) { this.commit(retimed(this.keys.chosen(), option, this.state.project.frame, by), event); }
 
   nudge(by, event) {
-    if (this.keys.picked().some(({key}) => key.frame + by < 0)) return;
-    this.commit(moved(this.keys.chosen(), by), event);
-    this.keys.moved(by);
+    if (by !== 0 && this.keys.picked().every(({key}) => key.frame + by >= 0)) this.#displace(moved, by, event);
+  }
+
+  #displace(words, by, event) {
+    this.commit(words(this.keys.chosen(), by), event);
+    this.keys.whenAnswered((taken) => { if (taken) this.keys.moved(by); });
   }
 
   copy() { this.#copied = this.keys.picked().map(({thing, part, key}) => ({thing, part: part.name, frame: key.frame})); }
@@ -38,9 +41,7 @@ export class KeyActions {
     if (this.#copied.length === 0) return;
     this.keys.pick(this.#copied);
     const by = this.state.project.frame - Math.min(...this.#copied.map(({frame}) => frame));
-    if (by === 0) return;
-    this.commit(copied(this.keys.chosen(), by), event);
-    this.keys.moved(by);
+    if (by !== 0) this.#displace(copied, by, event);
   }
 
   // Of the rows that are chosen, else of what is selected in the views.

@@ -1,6 +1,6 @@
 // The dope sheet: a row of diamonds for each thing and part, as row_list.js has them. What hands do is in sheet_hand.js.
 
-import {Canvas, drawCursor} from "./canvas.js";
+import {Canvas, drawBox, drawCursor, drawOutside} from "./canvas.js";
 import {kRow} from "./row_list.js";
 import {firstFrom} from "./rows.js";
 
@@ -68,10 +68,10 @@ export class KeySheet {
     const seen = this.rows.list.slice(first, first + Math.ceil(height / kRow) + 1);
     seen.forEach((row, i) => this.#lane(pen, size, row, (first + i) * kRow - top));
     this.#grid(pen, size);
-    this.#outside(pen, size, project.frames);
+    drawOutside(pen, size, this.axis, project.frames);
     seen.forEach((row, i) => this.#marks(pen, size, row, (first + i) * kRow - top + kRow / 2));
     drawCursor(pen, this.axis.x(project.frame), height, colors);
-    if (this.box) this.#boxed(pen, colors);
+    if (this.box) drawBox(pen, colors, this.box);
   }
 
   #lane(pen, {width, colors}, row, y) {
@@ -82,14 +82,6 @@ export class KeySheet {
   #grid(pen, {height, colors}) {
     pen.fillStyle = colors.grid;
     for (const frame of this.axis.steps().frames) pen.fillRect(Math.round(this.axis.x(frame)), 0, 1, height);
-  }
-
-  // Frames that the film has not are darker.
-  #outside(pen, {width, height, colors}, frames) {
-    pen.fillStyle = colors.band;
-    const begin = this.axis.x(0), end = this.axis.x(frames - 1);
-    if (begin > 0) pen.fillRect(0, 0, begin, height);
-    if (end < width) pen.fillRect(end, 0, width - end, height);
   }
 
   #marks(pen, {width, colors}, row, y) {
@@ -118,16 +110,6 @@ export class KeySheet {
     drawMark(pen, colors, mark.look, x, y, false);
     pen.globalAlpha = 1;
     drawMark(pen, colors, mark.look, this.axis.x(mark.frame + this.by), y, true);
-  }
-
-  #boxed(pen, colors) {
-    const {x, y, toX, toY} = this.box;
-    pen.fillStyle = colors.accent;
-    pen.globalAlpha = 0.14;
-    pen.fillRect(x, y, toX - x, toY - y);
-    pen.globalAlpha = 1;
-    pen.strokeStyle = colors.accent;
-    pen.strokeRect(x + 0.5, y + 0.5, toX - x, toY - y);
   }
 }
 

@@ -3,7 +3,6 @@
 import {element, keepingFocus} from "../dom.js";
 import {numberField} from "../fields.js";
 import {onAxis} from "./curve_data.js";
-import {moved} from "./key_commands.js";
 
 export class KeyValues {
   #built = "";
@@ -38,9 +37,7 @@ export class KeyValues {
 
   #frame({key}) {
     const field = numberField({name: "Frame of the key", letter: "f", axis: "", step: 1, least: 0, digits: 0, key: "key.frame", commit: (frame, event) => {
-      const by = Math.round(frame) - key.frame;
-      this.acts.commit(by === 0 ? [] : moved(this.keys.chosen(), by), event);
-      this.keys.moved(by);
+      this.acts.nudge(Math.round(frame) - key.frame, event);
     }});
     this.#fields.push((now) => field.set(now.key.frame));
     return field.root;

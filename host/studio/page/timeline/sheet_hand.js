@@ -49,10 +49,12 @@ export class SheetHand {
 
   #drop(event) {
     const {by} = this.sheet;
-    const commands = by === 0 ? [] : this.#commands();
-    this.#still();
-    this.acts.commit(commands, event);
-    if (by !== 0) this.keys.moved(by);
+    if (by === 0) return this.#letGo();
+    this.acts.commit(this.#commands(), event);
+    this.keys.whenAnswered((taken) => {
+      this.#still();
+      if (taken) this.keys.moved(by);
+    });
   }
 
   #letGo() {
