@@ -33,9 +33,11 @@ export function askNumbers(anchor, title, hint, numbers, apply) {
                        element("button", {class: "primary"}, "Apply"));
   form.addEventListener("submit", (event) => { event.preventDefault(); done(event); });
   form.addEventListener("keydown", (event) => {
-    if (event.key === "Enter" && event.target.matches("input")) done(event);
+    if (event.key !== "Enter" || !event.target.matches("input")) return;
     event.stopPropagation();
-  });
+    event.preventDefault();
+    done(event);
+  }, true);  // before the number that has the focus
   const root = openPopover(anchor, title, form);
   root.querySelector("input").focus();
 }

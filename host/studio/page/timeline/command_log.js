@@ -32,7 +32,8 @@ export class CommandLog {
 
   #open() {
     const lines = this.#lines.map((text) => element("li", {}, element("code", {}, text), copyButton("Copy this command", text)));
-    const all = element("header", {}, element("h3", {}, "Commands"), copyButton("Copy all", this.#lines.join("\n"), "Copy all"));
+    const all = element("header", {}, element("h3", {}, "Commands"),
+                        lines.length > 0 && copyButton("Copy all", this.#lines.join("\n"), "Copy all"));
     const root = openPopover(this.root, "Commands", all, element("p", {class: "hint"}, "What you did on this page, as it would be typed."),
                              lines.length ? element("ol", {class: "command-lines", tabindex: 0}, lines) : element("p", {}, "None yet."));
     root.querySelector("ol")?.scrollTo(0, 1e6);
