@@ -198,6 +198,7 @@ glm::dvec3 between_feet(const Stance& stance) { return 0.5 * (stance.feet[0].ank
 }  // namespace
 
 Motion sit(const Scene& scene) {
+  require_two_legs(scene.model(), scene.actor.name, "sit");
   Chair chair(scene, "sit", kSitRemedy);
   if (!chair.upright())
     fail(scene, "does not stand", "sit",
@@ -228,6 +229,7 @@ Motion sit(const Scene& scene) {
 }
 
 Motion stand(const Scene& scene) {
+  require_two_legs(scene.model(), scene.actor.name, "stand");
   Chair chair(scene, "stand", kWiden);
   if (chair.upright()) fail(scene, "stands already", "stand", "let it sit down first, by the action sit");
   const glm::dvec3 middle = between_feet(chair.from());
