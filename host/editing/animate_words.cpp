@@ -274,6 +274,7 @@ CLI::App& add_animate(CLI::App& mars, EditedFilm& film, int& code) {
   add_displacing(*animate, *words, "copy", "Copy keys to other frames", true);
   add_delete(*animate, *words);
   add_time(*animate, *words);
+  add_reduce(*animate, film);
   add_list(*animate, *words);
   add_check(*animate, *words, code);
   add_carrying(*animate, film);

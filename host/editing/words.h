@@ -18,6 +18,8 @@ CLI::App& add_animate(CLI::App& mars, EditedFilm& film, int& code);
 // `mars film`, likewise.
 CLI::App& add_film(CLI::App& mars, EditedFilm& film);
 
+// `reduce`.
+void add_reduce(CLI::App& animate, EditedFilm& film);
 // attach, detach, look and follow.
 void add_carrying(CLI::App& animate, EditedFilm& film);
 

@@ -53,7 +53,9 @@ std::string line_of(const Film& film, const LimitsLeft& left) {
 
 template <typename Value>
 bool changes(const Channel<Value>& channel) {
-  return std::any_of(channel.begin(), channel.end(), [&](const auto& key) { return key.value != channel[0].value; });
+  for (std::size_t i = 0; i + 1 < channel.size(); ++i)
+    if (moves_after(channel, i)) return true;
+  return false;
 }
 
 bool keyed(const Actor& actor) {

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "hal/failure/failure.h"
+#include "host/content/animator/attachments.h"
 #include "host/content/animator/edit.h"
 #include "host/content/animator/frame_words.h"
 #include "host/content/animator/tracks.h"
@@ -96,7 +97,7 @@ class Posing {
 
   Remarks put() {
     for (const std::uint32_t frame : frames_)
-      if (ease_) set_ease(tracks_, frame, *ease_);
+      if (ease_) set_ease(tracks_, touched_, frame, *ease_);
     chosen_.parts.assign(touched_.begin(), touched_.end());
     const Remarks more = animator::put(chosen_, tracks_);
     remarks_.insert(remarks_.end(), more.begin(), more.end());
@@ -125,28 +126,47 @@ void turn_all_keys(Posing& posing, const std::vector<PartSetting>& settings, Fra
                   "name one frame to make a key there; `mars animate FILM list` shows what is keyed");
 }
 
+// Keys of its place and turn may be meant for later; there they count for nothing.
+void remark_carried(const Film& meaning, const std::string& name, std::span<const PartSetting> settings,
+                    std::uint32_t frame, Remarks& remarks) {
+  const auto actor = std::ranges::find(meaning.actors, name, &Actor::name);
+  const Attachment* const carrier = actor == meaning.actors.end() ? nullptr : attachment_at(*actor, frame);
+  const auto moves = [](const PartSetting& setting) { return setting.part == "place" || setting.part == "turn"; };
+  if (!carrier || std::ranges::none_of(settings, moves)) return;
+  remarks.push_back(
+      "actor '" + name + "': '" + meaning.actors[carrier->actor].name + "' carries it at frame " +
+      std::to_string(frame) +
+      ", where its own place and turn count for nothing (detach it, or attach it with --place and --turn)");
+}
+
 }  // namespace
 
 Remarks pose(document::Json& film, const Film& meaning, const std::string& name, std::span<const PartSetting> settings,
              std::uint32_t frame, const std::optional<Ease>& ease, Beyond beyond) {
   Posing posing(film, meaning, name, ease, beyond);
   for (const PartSetting& setting : settings) posing.set(setting, frame);
-  return posing.put();
+  Remarks remarks = posing.put();
+  remark_carried(meaning, name, settings, frame, remarks);
+  return remarks;
 }
 
 Remarks pose(document::Json& film, const Film& meaning, const std::string& name, std::span<const std::string> settings,
              FrameRange range, const std::optional<Ease>& ease, Beyond beyond) {
   Posing posing(film, meaning, name, ease, beyond);
   std::set<std::pair<std::string, int>> set;
+  std::vector<PartSetting> all;
   for (const std::string& text : settings) {
     const std::vector<PartSetting> parts = read_settings(text, posing.thing());
     for (const PartSetting& part : parts) refuse_twice(part, text, set);
+    all.insert(all.end(), parts.begin(), parts.end());
     if (range.first != range.last)
       turn_all_keys(posing, parts, range, text);
     else
       for (const PartSetting& part : parts) posing.set(part, range.first);
   }
-  return posing.put();
+  Remarks remarks = posing.put();
+  remark_carried(meaning, name, all, range.first, remarks);
+  return remarks;
 }
 
 }  // namespace mars::animator

@@ -14,7 +14,8 @@ constexpr LibraryFigure kFigures[] = {{"man", "5.1 units tall, 2.9 to a metre", 
                                       {"child", "a smaller body of the man's segments", kHumanText, kChildText},
                                       {"tall", "a tall body of the man's segments", kHumanText, kTallText},
                                       {"stout", "a stout body of the man's segments", kHumanText, kStoutText},
-                                      {"dog", "of capsules and ellipsoids", kDogText, ""}};
+                                      {"dog", "a shoulder height of 1.6 units, 2.9 to a metre", kDogText, ""},
+                                      {"horse", "5.8 units tall, 2.9 to a metre", kHorseText, ""}};
 
 constexpr LibraryFigure kObjects[] = {{"ball", "0.55 wide, 19 cm; its place is its middle", kBallText, "", true},
                                       {"box", "1.3 high, 45 cm: a seat, too", kBoxText, ""},

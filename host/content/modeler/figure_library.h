@@ -1,5 +1,5 @@
-// Whole figures that a model may begin as: people made of the same segments (thesis, figure 2.5), and a dog. And
-// objects for films with them. All are of one size: 2.9 units a metre.
+// Whole figures that a model may begin as: people made of the same segments (thesis, figure 2.5), a dog and a horse.
+// And objects for films with them. All are of one size: 2.9 units a metre.
 #pragma once
 
 #include <optional>
