@@ -7,6 +7,7 @@ import math
 import pathlib
 import sys
 
+from animals import dog, horse
 from human import glazed, human, soft, walk
 from make_scenes import HERE, text_of
 
@@ -351,7 +352,7 @@ if __name__ == "__main__":
     to = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else HERE
     (to / "models").mkdir(exist_ok=True)
     written = {"models/human": human(METRE), "models/caterpillar": caterpillar(), "models/robot-arm": robot_arm(),
-               "models/tiles": tiles(), "caterpillar": caterpillar_film(), "robot-arm": robot_film(),
+               "models/tiles": tiles(), "models/dog": dog(METRE), "models/horse": horse(METRE), "caterpillar": caterpillar_film(), "robot-arm": robot_film(),
                "demo": demo_film(), "bodies": bodies_film(),
                **{f"models/{name}": derived(name, "human.json") for name in FIGURES}}
     for name, content in written.items():

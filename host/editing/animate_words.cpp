@@ -18,6 +18,7 @@ namespace {
 constexpr const char* kFooter = R"(FILM is changed in place, whole or not at all. Begin with
   mars animate film.json list                              what is keyed
   mars animate film.json pose robot elbow.y=90 --frame 24  the elbow there
+  mars animate film.json pose robot elbow.y+=5 --frame 0-48  a little more
   mars animate film.json time robot --frame 0 --ease both  begin and end slowly
 More: docs/animating.md.
 )";
@@ -111,9 +112,10 @@ class Command {
   Words& words_;
 };
 
-constexpr const char* kThing = "An actor, or camera. Example: robot";
+constexpr const char* kThing = "An actor, camera, light/N (from 1) or material/NAME. Example: robot";
 constexpr const char* kParts =
-    "Only these of its joints, place and turn (camera: eye, at, up, fov). Example: elbow place";
+    "Only these of its joints, place and turn (camera: eye, at, up, fov), or all like a pattern. "
+    "Example: elbow place '*-shin'";
 constexpr const char* kOneFrame = "The frame. Example: --frame 24";
 constexpr const char* kRange = "The frame, or a range of frames, both ends included. Example: --frame 24-48";
 constexpr const char* kEase =
@@ -121,16 +123,19 @@ constexpr const char* kEase =
 
 void require_thing(const Words& words) {
   if (words.thing.empty() && !words.all)
-    throw Failure("is not given", "whose keys to change", "name an actor or camera, or use --all");
+    throw Failure("is not given", "whose keys to change",
+                  "name an actor, camera, light/N or material/NAME, or use --all");
 }
 
 void add_pose(CLI::App& animate, Words& words) {
-  Command command(animate, words, "pose", "Set an actor's joints, place or turn, or the camera, at a frame");
+  Command command(animate, words, "pose",
+                  "Set or turn joints of an actor, its place, the camera, lights and materials");
   command.thing(kThing)
       .parts("PART=NUMBERS",
-             "One axis or all three: degrees, or a place; other parts stay as they are. "
-             "Example: elbow.y=90 place=2,0,0 turn.z=45")
-      .frame(kOneFrame, "FRAME")
+             "One axis or all: degrees, or a place; other parts stay as they are. += and -= add to what it is there; "
+             "* stands for any text. Example: elbow.y=90 place=2,0,0 turn.z+=45 '*-shin.y-=10'")
+      .frame("The frame; with += or -= also a range, of which all keys of the part change. Example: --frame 24",
+             "FRAME")
       .ease(kEase)
       .clamp()
       .lengthen();
@@ -138,7 +143,7 @@ void add_pose(CLI::App& animate, Words& words) {
   command.app()->get_option("PART=NUMBERS")->required();
   command.runs([&words] {
     edit(words, [&](document::Json& json, const animator::Film& film) {
-      return animator::pose(json, film, words.thing, words.parts, animator::read_frame(words.frame),
+      return animator::pose(json, film, words.thing, words.parts, animator::read_frame_range(words.frame),
                             animator::read_typed_ease(words.ease),
                             words.clamp ? animator::Beyond::clamped : animator::Beyond::refused);
     });
@@ -233,7 +238,8 @@ void add_time(CLI::App& animate, Words& words) {
 
 void add_list(CLI::App& animate, Words& words) {
   Command command(animate, words, "list", "Show the keys in a table");
-  command.thing("An actor, or camera; default: all that has keys. Example: robot").parts("PART", kParts);
+  command.thing("An actor, camera, light/N or material/NAME; default: all that has keys. Example: robot")
+      .parts("PART", kParts);
   command.app()->add_option("-f,--frame", words.frame, kRange)->type_name("RANGE");
   command.runs([&words] {
     film::FilmFile file = words.film.read();
@@ -268,6 +274,7 @@ CLI::App& add_animate(CLI::App& mars, EditedFilm& film, int& code) {
   add_displacing(*animate, *words, "copy", "Copy keys to other frames", true);
   add_delete(*animate, *words);
   add_time(*animate, *words);
+  add_reduce(*animate, film);
   add_list(*animate, *words);
   add_check(*animate, *words, code);
   add_carrying(*animate, film);

@@ -39,8 +39,10 @@ void add_attach(CLI::App& animate, const Typed& words) {
       ->required()
       ->type_name("ACTOR[/JOINT]");
   add_frame(*app, *words);
-  add_vector(*app, "--place", words->place, "Its place in the joint's frame; default: where it is. Example: 0 0 0.1");
-  add_vector(*app, "--turn", words->turn, "Its turn against the joint, degrees; default: as it is. Example: 0 90 0");
+  add_vector(*app, "--place", words->place,
+             "Its place in the joint's frame; default: where it is. Example: --place 0 0 0.1");
+  add_vector(*app, "--turn", words->turn,
+             "Its turn against the joint, degrees; default: as it is. Example: --turn 0 90 0");
   app->callback([words] {
     words->film.change([&](document::Json& json, const animator::Film& film) {
       animator::attach(json, film, words->actor, words->to, animator::read_frame(words->frame),
@@ -89,7 +91,7 @@ void add_look(CLI::App& animate, const Typed& words) {
   CLI::App* app = add_camera(animate, words, "look", "Let the camera look at an actor or a joint, wherever it goes",
                              "Instead: look on where it looks then. Example: --end");
   add_vector(*app, "--offset", words->offset,
-             "From the joint, along the world's axes; default: 0 0 0. Example: 0 0 0.2");
+             "From the joint, along the world's axes; default: 0 0 0. Example: --offset 0 0 0.2");
   app->callback([words] {
     change_camera(*words, {"at", vector_of(words->offset).value_or(glm::dvec3(0)), false, false});
   });
@@ -98,7 +100,8 @@ void add_look(CLI::App& animate, const Typed& words) {
 void add_follow(CLI::App& animate, const Typed& words) {
   CLI::App* app = add_camera(animate, words, "follow", "Let the camera go along with an actor or a joint",
                              "Instead: stay where it is then. Example: --end");
-  add_vector(*app, "--offset", words->offset, "From the actor or joint; default: where it is. Example: 0 -4 1.5");
+  add_vector(*app, "--offset", words->offset,
+             "From the actor or joint; default: where it is. Example: --offset 0 -4 1.5");
   app->add_option("--axes", words->axes, "Axes of the offset: world or joint; default: world. Example: --axes joint")
       ->type_name("AXES")
       ->check(CLI::IsMember({"world", "joint"}).description(""));

@@ -19,6 +19,10 @@ class FilmInMemory : public EditedFilm {
   std::filesystem::path path() const override { return path_; }
   film::FilmFile read() const override { return {json_, meaning_of(json_)}; }
 
+  void create(const document::Json&) override {
+    throw Failure("is open already", path_.string(), "a new film is a file of its own: mars film FILM new");
+  }
+
   void change(const Change& change) override {
     document::Json changed = json_;
     change(changed, meaning_of(json_));
@@ -45,6 +49,7 @@ void obey(FilmInMemory& film, const Command& command) {
   int code = 0;
   CLI::App mars("", "mars");
   add_animate(mars, film, code);
+  add_film(mars, film);
   options::read_words(mars, command);
 }
 

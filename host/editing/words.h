@@ -1,4 +1,4 @@
-// The words of `mars animate FILM ...`, as commands of a parser.
+// The words of `mars animate FILM ...` and `mars film FILM ...`, as commands of a parser.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +15,11 @@ namespace mars::editing {
 // `mars animate`, without its FILM. `film` must outlive the parser; `code` becomes the exit code where it is not 0.
 CLI::App& add_animate(CLI::App& mars, EditedFilm& film, int& code);
 
+// `mars film`, likewise.
+CLI::App& add_film(CLI::App& mars, EditedFilm& film);
+
+// `reduce`.
+void add_reduce(CLI::App& animate, EditedFilm& film);
 // attach, detach, look and follow.
 void add_carrying(CLI::App& animate, EditedFilm& film);
 

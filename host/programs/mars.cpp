@@ -20,6 +20,7 @@
 #include "host/shell/commands/calibrate_command.h"
 #include "host/shell/commands/compile_command.h"
 #include "host/shell/commands/doctor_command.h"
+#include "host/shell/commands/film_command.h"
 #include "host/shell/commands/folder_commands.h"
 #include "host/shell/commands/import_command.h"
 #include "host/shell/commands/info_command.h"
@@ -55,6 +56,7 @@ Commands:
   mars play DIR                    play rendered frames in the terminal
   mars studio [FILM]               work on a film or a model in the browser
   mars verify DIR                  check that all frames are there and whole
+  mars film FILM new               a film of figures, objects and lights, step by step
   mars animate FILM list           the keys of a film; pose, key, move, time and more
   mars plot FILM -o FILE.png       joint angles over time, as a picture
   mars import FILE -o MODEL.json   a model from a mesh or patch file
@@ -63,7 +65,7 @@ Commands:
   mars calibrate                   measure this machine, for simulated renderings
   mars bench NAME                  measure, where MARS was built from its sources
 
-A film is a JSON file: docs/film-format.md says how to write one.
+A film is a JSON file: mars film writes one, docs/film-format.md says how to.
 )";
 
 experiments::MessageCosts measure_messages() {
@@ -100,6 +102,7 @@ int run(int argc, char** argv) {
   commands::add_play(app);
   commands::add_studio(app);
   commands::add_animate(app, code);
+  commands::add_film(app);
   commands::add_plot(app);
   commands::add_model(app);
   commands::add_doctor(app, {.reserved_cores = kCoresForHost, .version = MARS_VERSION}, code);

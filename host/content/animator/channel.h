@@ -73,6 +73,24 @@ Value spline_at(const Channel<Value>& channel, const Stretch& stretch) {
          ((t - 1) * t * t * frames) * reach;
 }
 
+// Its change a frame there.
+template <typename Value>
+Value spline_slope_at(const Channel<Value>& channel, const Stretch& stretch) {
+  const Key<Value>& from = channel[stretch.from];
+  const Key<Value>& to = channel[stretch.to];
+  const double t = stretch.part, frames = double(to.frame - from.frame);
+  const Value leave = from.out ? *from.out : slope_at(channel, stretch.from);
+  const Value reach = to.in ? *to.in : slope_at(channel, stretch.to);
+  return (6 * t * (1 - t) / frames) * (to.value - from.value) + ((3 * t - 4) * t + 1) * leave +
+         ((3 * t - 2) * t) * reach;
+}
+
+// Whether anything may change on the way from the key to the next.
+template <typename Value>
+bool moves_after(const Channel<Value>& channel, std::size_t key) {
+  return key + 1 < channel.size() && (channel[key].ease.spline || channel[key].value != channel[key + 1].value);
+}
+
 // Numbers, places and colours.
 template <typename Value>
 Value value_at(const Channel<Value>& channel, std::uint32_t frame) {

@@ -53,7 +53,9 @@ std::string line_of(const Film& film, const LimitsLeft& left) {
 
 template <typename Value>
 bool changes(const Channel<Value>& channel) {
-  return std::any_of(channel.begin(), channel.end(), [&](const auto& key) { return key.value != channel[0].value; });
+  for (std::size_t i = 0; i + 1 < channel.size(); ++i)
+    if (moves_after(channel, i)) return true;
+  return false;
 }
 
 bool keyed(const Actor& actor) {
@@ -109,6 +111,36 @@ void find_falls(const Film& film, std::size_t number, std::vector<std::string>& 
   }
 }
 
+template <typename... Channels>
+std::uint32_t last_of(const Channels&... channels) {
+  return std::max({(channels.empty() ? 0u : channels.back().frame)...});
+}
+
+std::uint32_t last_key(const CameraMotion& c) { return last_of(c.eye, c.at, c.up, c.fov, c.exposure); }
+
+std::uint32_t last_key(const LightMotion& l) { return last_of(l.vector, l.color, l.intensity, l.reach, l.at, l.cone); }
+
+std::uint32_t last_key(const MaterialMotion& material) {
+  std::uint32_t last = last_of(material.color);
+  for (const Channel<double>& numbers : material.numbers) last = std::max(last, last_of(numbers));
+  return last;
+}
+
+// A key just behind the end is where a film that is played round and round begins again.
+void find_late_keys(const Film& film, const std::string& name, std::uint32_t last, std::vector<std::string>& lines) {
+  if (last > film.frames)
+    lines.push_back(name + ": has keys up to frame " + std::to_string(last) + ", behind the film's last, " +
+                    std::to_string(film.frames - 1) + " (give the film more frames, or delete them)");
+}
+
+void find_late_keys(const Film& film, std::vector<std::string>& lines) {
+  find_late_keys(film, "camera", last_key(film.camera), lines);
+  for (std::size_t i = 0; i < film.lights.size(); ++i)
+    find_late_keys(film, "light/" + std::to_string(i + 1), last_key(film.lights[i]), lines);
+  for (const MaterialMotion& material : film.materials)
+    find_late_keys(film, "material/" + material.name, last_key(material), lines);
+}
+
 }  // namespace
 
 Findings check_film(const Film& film) {
@@ -119,16 +151,14 @@ Findings check_film(const Film& film) {
     left.worst.outside > kExcessSeen ? lines.push_back(line_of(film, left)) : void(++small);
   for (std::size_t number = 0; number < film.actors.size(); ++number) {
     const Actor& actor = film.actors[number];
-    const std::string name = "actor '" + actor.name + "': ";
-    // A key just behind the end is where a film that is played round and round begins again.
-    if (const std::uint32_t last = last_key(actor); last > film.frames)
-      lines.push_back(name + "has keys up to frame " + std::to_string(last) + ", behind the film's last, " +
-                      std::to_string(film.frames - 1) + " (give the film more frames, or delete them)");
+    const std::string name = "actor '" + actor.name + "'";
+    find_late_keys(film, name, last_key(actor), lines);
     if (actor.attach.empty() && keyed(actor) && !moves(actor))
-      lines.push_back(name + "has keys that are all the same: it never moves");
+      lines.push_back(name + ": has keys that are all the same: it never moves");
     find_jumps(film, actor, lines);
     find_falls(film, number, lines);
   }
+  find_late_keys(film, lines);
   findings.trouble = !lines.empty();
   if (small > 0)
     lines.push_back(std::to_string(small) + (lines.empty() ? "" : " more") +

@@ -1,4 +1,4 @@
-// Directions of lights: from key to key on the great circle.
+// Directions of lights: from key to key on the great circle; on a spline by their numbers, made as long as 1.
 #pragma once
 
 #include <glm/vec3.hpp>

@@ -63,14 +63,23 @@ glm::dmat3 JointMotion::at(std::uint32_t frame) {
   if (poses_->empty()) return modeler::orientation(*joint_, joint_->rest());
   const Stretch stretch = stretch_at(*poses_, frame);
   const glm::dvec3& from = (*poses_)[stretch.from].value;
-  if (from == (*poses_)[stretch.to].value) return modeler::orientation(*joint_, from);
-  return joint_->freedoms() == 1 ? modeler::orientation(*joint_, hinge_pose(stretch)) : between(stretch);
+  if (still(stretch)) return modeler::orientation(*joint_, from);
+  return by_numbers(stretch) ? modeler::orientation(*joint_, pose_by_numbers(stretch)) : between(stretch);
 }
 
-// One freedom: the angle itself goes from key to key, so that whole turns are possible.
-glm::dvec3 JointMotion::hinge_pose(const Stretch& stretch) const {
-  const glm::dvec3& from = (*poses_)[stretch.from].value;
-  glm::dvec3 pose = from + stretch.part * ((*poses_)[stretch.to].value - from);
+bool JointMotion::still(const Stretch& stretch) const {
+  return stretch.from == stretch.to || !moves_after(*poses_, stretch.from);
+}
+
+// One freedom, or a spline: the angles themselves go from key to key, so that whole turns are possible.
+bool JointMotion::by_numbers(const Stretch& stretch) const {
+  return joint_->freedoms() == 1 || (*poses_)[stretch.from].ease.spline;
+}
+
+glm::dvec3 JointMotion::pose_by_numbers(const Stretch& stretch) const {
+  const Key<glm::dvec3>& from = (*poses_)[stretch.from];
+  glm::dvec3 pose = from.ease.spline ? spline_at(*poses_, stretch)
+                                     : from.value + stretch.part * ((*poses_)[stretch.to].value - from.value);
   for (int axis = 0; axis < 3; ++axis)
     pose[axis] = std::clamp(pose[axis], joint_->limits[axis].lower, joint_->limits[axis].upper);
   return pose;
@@ -118,8 +127,8 @@ glm::dvec3 JointMotion::pose_at(std::uint32_t frame) {
   const Stretch stretch = stretch_at(*poses_, frame);
   const glm::dvec3& from = (*poses_)[stretch.from].value;
   const glm::dvec3& to = (*poses_)[stretch.to].value;
-  if (from == to) return from;
-  if (joint_->freedoms() == 1) return hinge_pose(stretch);
+  if (still(stretch)) return from;
+  if (by_numbers(stretch)) return pose_by_numbers(stretch);
   return pose_of(*joint_, between(stretch), from + stretch.part * (to - from));
 }
 

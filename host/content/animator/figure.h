@@ -34,7 +34,8 @@ struct FigureMotion {
 // The last frame at which anything of it has a key; 0 if nothing has.
 std::uint32_t last_key(const FigureMotion& motion);
 
-// A joint's turn over the frames. An ease that overshoots stops at the joint's limits. Keeps the turn between the two
+// A joint's turn over the frames. An ease that overshoots stops at the joint's limits, and so does a spline, on which
+// the joint goes by its three numbers. Keeps the turn between the two
 // keys it was last asked about.
 class JointMotion {
  public:
@@ -44,12 +45,14 @@ class JointMotion {
   glm::dmat3 at(std::uint32_t frame);
 
   // The pose that gives it: on a key the key's own; between keys that of pose_of(), which may leave the limits
-  // of a joint with several freedoms.
+  // of a joint with several freedoms; on a spline the spline's.
   glm::dvec3 pose_at(std::uint32_t frame);
 
  private:
   glm::dmat3 between(const Stretch& stretch);
-  glm::dvec3 hinge_pose(const Stretch& stretch) const;
+  bool still(const Stretch& stretch) const;
+  bool by_numbers(const Stretch& stretch) const;
+  glm::dvec3 pose_by_numbers(const Stretch& stretch) const;
   glm::dmat3 turned(double part) const;
   double allowed(const Stretch& stretch, double key, double wanted) const;
 

@@ -35,6 +35,12 @@ FrameRange read_frame_range(const std::string& text) {
   return {first, last};
 }
 
+std::string shown_range(FrameRange range) {
+  if (range.first == range.last) return "at frame " + std::to_string(range.first);
+  if (range.last >= wire::kMostFrames) return "from frame " + std::to_string(range.first) + " on";
+  return "in frames " + std::to_string(range.first) + " to " + std::to_string(range.last);
+}
+
 std::uint32_t read_frame(const std::string& text) {
   const FrameRange range = read_frame_range(text);
   if (range.first != range.last) throw Failure("is a range", "'" + text + "'", "name one frame here");

@@ -12,6 +12,8 @@ namespace mars::animator {
 
 // "24", "24-48", or "24-" to the last frame that a film can have. Throws Failure where it is none of these.
 FrameRange read_frame_range(const std::string& text);
+// "at frame 24", "in frames 24 to 48", "from frame 24 on".
+std::string shown_range(FrameRange range);
 // "24".
 std::uint32_t read_frame(const std::string& text);
 

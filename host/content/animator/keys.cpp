@@ -5,7 +5,9 @@
 #include <set>
 
 #include "hal/failure/failure.h"
+#include "host/content/animator/channel.h"
 #include "host/content/animator/edit.h"
+#include "host/content/animator/frame_words.h"
 #include "host/content/animator/side_effects.h"
 #include "host/content/animator/written.h"
 #include "host/content/document/fields.h"
@@ -15,12 +17,6 @@ namespace mars::animator {
 namespace {
 
 using wire::kMostFrames;
-
-std::string words_of(FrameRange range) {
-  if (range.first == range.last) return "at frame " + std::to_string(range.first);
-  if (range.last >= kMostFrames) return "from frame " + std::to_string(range.first) + " on";
-  return "in frames " + std::to_string(range.first) + " to " + std::to_string(range.last);
-}
 
 std::string listed_frames(const std::set<std::uint32_t>& frames) {
   std::string text;
@@ -91,7 +87,7 @@ std::uint32_t frame_from(std::int64_t frame, const std::string& where) {
 Remarks displace(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range, std::uint32_t to,
                  bool copies) {
   const std::int64_t by = std::int64_t{to} - range.first;
-  return change_tracks(film, meaning, choice, words_of(range),
+  return change_tracks(film, meaning, choice, shown_range(range),
                        [&](const Chosen& one, const std::string&, Track& track) {
                          const Track whole = track;
                          const Track moved = taken(track, range);
@@ -122,7 +118,71 @@ Ease rounded(const Ease& ease) {
           animator::rounded(ease.y2)};
 }
 
-// Puts a key of `value` on the way between two others; the way stays as it is, where its ease can be split.
+void split_ease(TrackKey& before, std::uint32_t next, TrackKey& key) {
+  const double time = double(key.frame - before.frame) / double(next - before.frame);
+  if (const auto halves = split(before.ease, time)) {
+    before.ease = rounded(halves->first);
+    before.changed = true;
+    key.ease = rounded(halves->second);
+  }
+}
+
+glm::dvec3 numbers_of(const document::Json& value) {
+  glm::dvec3 numbers(0);
+  if (value.is_number()) return {value.get<double>(), 0, 0};
+  for (std::size_t i = 0; i < value.size(); ++i) numbers[static_cast<int>(i)] = value[i].get<double>();
+  return numbers;
+}
+
+document::Json shaped(const document::Json& like, const glm::dvec3& numbers) {
+  if (like.is_number()) return written(animator::rounded(numbers.x));
+  document::Json array = document::Json::array();
+  for (std::size_t i = 0; i < like.size(); ++i)
+    array.push_back(written(animator::rounded(numbers[static_cast<int>(i)])));
+  return array;
+}
+
+// Numbers alone; a point of an actor has none.
+bool has_numbers(const Track& track) {
+  return std::ranges::none_of(track, [](const TrackKey& key) { return key.value.is_object(); });
+}
+
+// The cubic in two: the slopes that it has at its ends and at the new key, which must now be written.
+void split_spline(Track& track, std::size_t from, TrackKey& key) {
+  key.ease = kSpline;
+  if (!has_numbers(track)) return;
+  Channel<glm::dvec3> channel;
+  for (const TrackKey& each : track) {
+    Key<glm::dvec3>& made = channel.emplace_back(Key<glm::dvec3>{each.frame, numbers_of(each.value), each.ease});
+    if (!each.in.is_null()) made.in = numbers_of(each.in);
+    if (!each.out.is_null()) made.out = numbers_of(each.out);
+  }
+  const document::Json& like = key.value;
+  const auto keep = [&](document::Json& slope, std::size_t at) {
+    if (slope.is_null()) slope = shaped(like, slope_at(channel, at));
+  };
+  const double time = double(key.frame - track[from].frame) / double(track[from + 1].frame - track[from].frame);
+  key.in = key.out = shaped(like, spline_slope_at(channel, {from, from + 1, time}));
+  for (const std::size_t at : {from, from + 1}) {
+    if (at > 0 && track[at - 1].ease.spline) keep(track[at].in, at);
+    keep(track[at].out, at);
+    track[at].changed = true;
+  }
+}
+
+// Of splines between the keys of the range.
+void scale_slopes(Track& track, FrameRange range, double factor) {
+  const auto scale = [&](document::Json& slope) {
+    if (!slope.is_null()) slope = shaped(slope, factor * numbers_of(slope));
+  };
+  for (TrackKey& key : track) {
+    if (key.frame > range.first && key.frame <= range.last) scale(key.in);
+    if (key.frame >= range.first && key.frame < range.last) scale(key.out);
+  }
+}
+
+}  // namespace
+
 void split_way(Track& track, std::uint32_t frame, document::Json value) {
   const auto next = std::find_if(track.begin(), track.end(), [&](const TrackKey& k) { return k.frame >= frame; });
   if (next != track.end() && next->frame == frame) {
@@ -132,27 +192,17 @@ void split_way(Track& track, std::uint32_t frame, document::Json value) {
   TrackKey key{frame, std::move(value), kLinear, true};
   if (next != track.begin() && next != track.end()) {
     TrackKey& before = *std::prev(next);
-    const double time = double(frame - before.frame) / double(next->frame - before.frame);
-    if (const auto halves = split(before.ease, time)) {
-      before.ease = rounded(halves->first);
-      before.changed = true;
-      key.ease = rounded(halves->second);
-    }
+    before.ease.spline ? split_spline(track, static_cast<std::size_t>(next - track.begin()) - 1, key)
+                       : split_ease(before, next->frame, key);
   }
   put_key(track, std::move(key));
 }
 
-}  // namespace
-
 Remarks put(const Chosen& chosen, const Tracks& tracks) {
   const Thing& thing = chosen.thing;
   const Tracks before = tracks_of(*thing.json);
-  const std::string gave_way = document::joined(put_tracks(*thing.json, tracks));
-  Remarks remarks;
-  if (!gave_way.empty())
-    remarks.push_back(thing.name + ": a key has one ease; the ease of the other keys there applies to " + gave_way);
-  append(remarks, side_effects(chosen, before, tracks_of(*thing.json)));
-  return remarks;
+  put_tracks(*thing.json, tracks);
+  return side_effects(chosen, before, tracks_of(*thing.json));
 }
 
 Remarks make_keys(document::Json& film, const Film& meaning, const Choice& choice, std::uint32_t frame,
@@ -170,7 +220,7 @@ Remarks make_keys(document::Json& film, const Film& meaning, const Choice& choic
       if (part.joint) value = written(within_limits(one.thing.name, *part.joint, vector_of(value), beyond, remarks));
       split_way(tracks[name], frame, std::move(value));
     }
-    if (ease) set_ease(tracks, frame, *ease);
+    if (ease) set_ease(tracks, {one.parts.begin(), one.parts.end()}, frame, *ease);
   }
   for (std::size_t i = 0; i < chosen.size(); ++i) append(remarks, put(chosen[i], changed[i]));
   return remarks;
@@ -185,12 +235,12 @@ Remarks copy_keys(document::Json& film, const Film& meaning, const Choice& choic
 }
 
 Remarks delete_keys(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range) {
-  return change_tracks(film, meaning, choice, words_of(range),
+  return change_tracks(film, meaning, choice, shown_range(range),
                        [&](const Chosen&, const std::string&, Track& track) { return !taken(track, range).empty(); });
 }
 
 Remarks ease_keys(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range, const Ease& ease) {
-  return change_tracks(film, meaning, choice, words_of(range), [&](const Chosen&, const std::string&, Track& track) {
+  return change_tracks(film, meaning, choice, shown_range(range), [&](const Chosen&, const std::string&, Track& track) {
     bool any = false;
     for (TrackKey& key : track)
       if (range.holds(key.frame)) {
@@ -225,12 +275,13 @@ Remarks hold(document::Json& film, const Film& meaning, const Choice& choice, st
 
 Remarks stretch(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range, double factor) {
   if (range.last <= range.first || !(factor > 0))
-    throw Failure("cannot be stretched " + document::shown(factor) + " times", "what is keyed " + words_of(range),
+    throw Failure("cannot be stretched " + document::shown(factor) + " times", "what is keyed " + shown_range(range),
                   "name two frames and a factor above 0, like 24-48 and 1.5");
   const double length = double(range.last) - range.first;
   const auto added = static_cast<std::int64_t>(std::llround(length * factor - length));
-  return change_tracks(film, meaning, choice, words_of({range.first, kMostFrames}),
+  return change_tracks(film, meaning, choice, shown_range({range.first, kMostFrames}),
                        [&](const Chosen& one, const std::string&, Track& track) {
+                         scale_slopes(track, range, length / (length + added));
                          remap(track, one.thing.name, [&](std::uint32_t f) -> std::int64_t {
                            if (f <= range.first) return f;
                            if (f >= range.last) return f + added;
@@ -241,7 +292,7 @@ Remarks stretch(document::Json& film, const Film& meaning, const Choice& choice,
 }
 
 Remarks shift(document::Json& film, const Film& meaning, const Choice& choice, std::uint32_t frame, std::int64_t by) {
-  return change_tracks(film, meaning, choice, words_of({frame, kMostFrames}),
+  return change_tracks(film, meaning, choice, shown_range({frame, kMostFrames}),
                        [&](const Chosen& one, const std::string&, Track& track) {
                          const bool any = track.back().frame >= frame;
                          remap(track, one.thing.name, [&](std::uint32_t f) { return f + (f >= frame ? by : 0); });

@@ -20,6 +20,9 @@ struct FrameRange {
   bool holds(std::uint32_t frame) const { return frame >= first && frame <= last; }
 };
 
+// Puts a key of `value` on the way between two others; the way stays as it is, where its ease can be split.
+void split_way(Track& track, std::uint32_t frame, document::Json value);
+
 // Makes the tracks the keys of a thing of which some parts were to change; remarks whose ease gave way, and what
 // side_effects() finds.
 Remarks put(const Chosen& chosen, const Tracks& tracks);

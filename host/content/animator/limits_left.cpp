@@ -28,7 +28,7 @@ bool holds_every_turn(const modeler::Joint& joint) {
   return square(joint) && holds(0, 180) && holds(1, 90) && holds(2, 180);
 }
 
-// A hinge's angle goes straight from key to key and stays within its limits.
+// A hinge's angle goes straight from key to key and stays within its limits; a spline is held within them.
 bool may_leave(const modeler::Joint& joint, const Poses& poses) {
   return joint.freedoms() > 1 && poses.size() > 1 && !holds_every_turn(joint);
 }
@@ -67,7 +67,8 @@ void count_frames(const Film& film, std::size_t actor, std::size_t number, const
   LimitsLeft all{{actor, number, 0, 0, 0, 0}, 0, 0, 0};
   for (std::uint32_t frame = poses.front().frame; frame <= last_frame(film, poses); ++frame) {
     const Stretch stretch = stretch_at(poses, frame);
-    if (poses[stretch.from].value == poses[stretch.to].value) continue;
+    const Key<glm::dvec3>& from = poses[stretch.from];
+    if (from.ease.spline || from.value == poses[stretch.to].value) continue;
     const Excess now = excess_at(joint, motion.pose_at(frame), motion.at(frame));
     if (now.outside <= kExcessNoticed) continue;
     if (all.frames++ == 0) all.first = frame;
@@ -125,7 +126,7 @@ class Search {
   // The pose of a key itself keeps the limits.
   void search_after(std::size_t key) {
     const glm::dvec3 &from = poses_[key].value, &to = poses_[key + 1].value;
-    if (from == to) return;
+    if (poses_[key].ease.spline || from == to) return;
     bounded_ = square(joint_) && steady(poses_[key].ease);
     // The turn is no larger than the three turns together, which cost no matrix.
     const glm::dvec3 change = glm::abs(to - from);

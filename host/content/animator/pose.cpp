@@ -1,8 +1,12 @@
 #include "host/content/animator/pose.h"
 
+#include <algorithm>
 #include <set>
 
 #include "hal/failure/failure.h"
+#include "host/content/animator/attachments.h"
+#include "host/content/animator/edit.h"
+#include "host/content/animator/frame_words.h"
 #include "host/content/animator/tracks.h"
 #include "host/content/animator/written.h"
 #include "host/content/document/fields.h"
@@ -10,51 +14,28 @@
 namespace mars::animator {
 namespace {
 
-[[noreturn]] void refuse_setting(const std::string& text) {
-  throw Failure("is not PART=NUMBERS", "'" + text + "'",
-                "write it like elbow.y=90, elbow=0,90,0, place=2,0,0 or turn.z=45");
+double number_after(const PartSetting& setting, std::size_t axis, double now) {
+  if (!setting.numbers[axis]) return now;
+  return setting.relative ? rounded(now + *setting.numbers[axis]) : *setting.numbers[axis];
 }
 
-// How the part is written, by what it is now.
-std::string remedy_for(const std::string& part, const document::Json& now) {
-  if (!now.is_array()) return "write one number: " + part + "=" + now.dump();
-  return "write one number for one axis, like " + part + ".y=" + now[1].dump() + ", or three for all: " + part + "=" +
-         now[0].dump() + "," + now[1].dump() + "," + now[2].dump();
+// A point that goes along with an actor (`now`) goes on along with it: its offset changes.
+document::Json point_after(const PartSetting& setting, document::Json now) {
+  glm::dvec3 offset = now.contains("offset") ? vector_of(now.at("offset")) : glm::dvec3(0);
+  for (int axis = 0; axis < 3; ++axis) offset[axis] = number_after(setting, axis, offset[axis]);
+  now["offset"] = written(offset);
+  return now;
 }
 
-double number_of(std::string_view digits, const std::string& text, const std::string& remedy) {
-  if (!digits.empty() && digits.front() == '+') digits.remove_prefix(1);
-  const auto number = document::number_in<double>(digits);
-  if (!number || !(*number >= -document::kFarthest && *number <= document::kFarthest))
-    throw Failure("has '" + std::string(digits) + "' where a number belongs", "'" + text + "'", remedy);
-  return *number;
-}
-
-std::vector<double> numbers_of(const std::string& list, const std::string& text, const std::string& remedy) {
-  std::vector<double> numbers;
-  for (std::size_t at = 0; at <= list.size();) {
-    const std::size_t comma = std::min(list.find(',', at), list.size());
-    numbers.push_back(number_of(std::string_view(list).substr(at, comma - at), text, remedy));
-    at = comma + 1;
-  }
-  return numbers;
-}
-
-bool has_part(const Thing& thing, const std::string& name) {
-  for (const KeyedPart& part : thing.parts)
-    if (part.name == name || part.name == "/" + name) return true;
-  return false;
-}
-
-// What the part is to be: its numbers at the frame, those given exchanged.
-document::Json value_after(const PartSetting& setting, const Thing& thing, const KeyedPart& part, std::uint32_t frame,
-                           Beyond beyond, Remarks& remarks) {
-  document::Json value = part.value_at(frame);
-  if (!value.is_array()) return written(*setting.numbers[0]);
-  glm::dvec3 numbers = vector_of(value);
-  for (int axis = 0; axis < 3; ++axis) numbers[axis] = setting.numbers[axis].value_or(numbers[axis]);
-  if (part.joint) numbers = within_limits(thing.name, *part.joint, numbers, beyond, remarks);
-  return written(numbers);
+// What the part is to be: its numbers `now`, those given exchanged.
+document::Json value_after(const PartSetting& setting, const Thing& thing, document::Json now, Beyond beyond,
+                           Remarks& remarks) {
+  if (now.is_object()) return point_after(setting, std::move(now));
+  if (!now.is_array()) return written(number_after(setting, 0, now.get<double>()));
+  for (std::size_t axis = 0; axis < now.size(); ++axis)
+    now[axis] = written(number_after(setting, axis, now[axis].get<double>()));
+  const KeyedPart& part = thing.part(setting.part);
+  return part.joint ? written(within_limits(thing.name, *part.joint, vector_of(now), beyond, remarks)) : now;
 }
 
 // Refuses an axis that an earlier setting has set; `set` are the parts and axes of those.
@@ -71,73 +52,121 @@ Ease ease_there(const Track& track, std::uint32_t frame) {
   return kLinear;
 }
 
-Remarks pose_chosen(Chosen chosen, std::span<const PartSetting> settings, std::uint32_t frame,
-                    const std::optional<Ease>& ease, Beyond beyond) {
-  const Thing& thing = chosen.thing;
-  Tracks tracks = tracks_of(*thing.json);
-  std::set<std::string> touched;
-  Remarks remarks;
-  for (const PartSetting& setting : settings) {
-    const KeyedPart& part = thing.part(setting.part);
-    Track& track = tracks[part.name];
+// Gathers settings of one thing, then makes them its keys.
+class Posing {
+ public:
+  Posing(document::Json& film, const Film& meaning, const std::string& name, const std::optional<Ease>& ease,
+         Beyond beyond)
+      : chosen_(std::move(choose(film, meaning, {false, name, {}}).front())),
+        tracks_(tracks_of(*chosen_.thing.json)),
+        ease_(ease),
+        beyond_(beyond) {}
+
+  const Thing& thing() const { return chosen_.thing; }
+
+  void set(const PartSetting& setting, std::uint32_t frame) {
+    const KeyedPart& part = thing().part(setting.part);
+    Track& track = tracks_[part.name];
     if (track.empty() && frame > 0) track.push_back({0, part.key_at(0), kLinear, true});
-    document::Json value = value_after(setting, thing, part, frame, beyond, remarks);
-    if (TrackKey* key = key_at(track, frame)) {
-      // A second setting for the part keeps what the first one set.
-      for (std::size_t axis = 0; touched.contains(part.name) && axis < 3 && value.is_array(); ++axis)
-        if (!setting.numbers[axis]) value[axis] = key->value[axis];
+    TrackKey* key = key_at(track, frame);
+    // A second setting for the part keeps what the first one set.
+    const bool again = !touched_.insert(part.name).second;
+    const document::Json now = again ? key->value : setting.relative ? part.key_at(frame) : part.value_at(frame);
+    document::Json value = value_after(setting, thing(), now, beyond_, remarks_);
+    if (key != nullptr)
       key->value = std::move(value);
-    } else {
+    else
       put_key(track, {frame, std::move(value), ease_there(track, frame), true});
-    }
-    touched.insert(part.name);
+    frames_.insert(frame);
   }
-  if (ease) set_ease(tracks, frame, *ease);
-  chosen.parts.assign(touched.begin(), touched.end());
-  const Remarks more = put(chosen, tracks);
-  remarks.insert(remarks.end(), more.begin(), more.end());
-  return remarks;
+
+  // All keys that the part has there; whether it has any.
+  bool turn_keys(const PartSetting& setting, FrameRange range) {
+    const auto track = tracks_.find(setting.part);
+    if (track == tracks_.end()) return false;
+    bool any = false;
+    for (TrackKey& key : track->second) {
+      if (!range.holds(key.frame)) continue;
+      key.value = value_after(setting, thing(), key.value, beyond_, remarks_);
+      frames_.insert(key.frame);
+      any = true;
+    }
+    if (any) touched_.insert(setting.part);
+    return any;
+  }
+
+  Remarks put() {
+    for (const std::uint32_t frame : frames_)
+      if (ease_) set_ease(tracks_, touched_, frame, *ease_);
+    chosen_.parts.assign(touched_.begin(), touched_.end());
+    const Remarks more = animator::put(chosen_, tracks_);
+    remarks_.insert(remarks_.end(), more.begin(), more.end());
+    return std::move(remarks_);
+  }
+
+ private:
+  Chosen chosen_;
+  Tracks tracks_;
+  const std::optional<Ease>& ease_;
+  Beyond beyond_;
+  std::set<std::string> touched_;
+  std::set<std::uint32_t> frames_;
+  Remarks remarks_;
+};
+
+void turn_all_keys(Posing& posing, const std::vector<PartSetting>& settings, FrameRange range,
+                   const std::string& text) {
+  if (!settings.front().relative)
+    throw Failure("sets numbers " + shown_range(range), "'" + text + "'",
+                  "name one frame, or turn what is keyed there by += or -=");
+  bool any = false;
+  for (const PartSetting& setting : settings) any |= posing.turn_keys(setting, range);
+  if (!any)
+    throw Failure("finds no key of " + posing.thing().name + " " + shown_range(range), "'" + text + "'",
+                  "name one frame to make a key there; `mars animate FILM list` shows what is keyed");
+}
+
+// Keys of its place and turn may be meant for later; there they count for nothing.
+void remark_carried(const Film& meaning, const std::string& name, std::span<const PartSetting> settings,
+                    std::uint32_t frame, Remarks& remarks) {
+  const auto actor = std::ranges::find(meaning.actors, name, &Actor::name);
+  const Attachment* const carrier = actor == meaning.actors.end() ? nullptr : attachment_at(*actor, frame);
+  const auto moves = [](const PartSetting& setting) { return setting.part == "place" || setting.part == "turn"; };
+  if (!carrier || std::ranges::none_of(settings, moves)) return;
+  remarks.push_back(
+      "actor '" + name + "': '" + meaning.actors[carrier->actor].name + "' carries it at frame " +
+      std::to_string(frame) +
+      ", where its own place and turn count for nothing (detach it, or attach it with --place and --turn)");
 }
 
 }  // namespace
 
-PartSetting PartSetting::read(const std::string& text, const Thing& thing) {
-  const std::size_t equals = text.rfind('=');
-  if (equals == std::string::npos || equals == 0) refuse_setting(text);
-  PartSetting setting{text.substr(0, equals), {}};
-  const bool with_axis = setting.part.size() > 2 && setting.part[setting.part.size() - 2] == '.' &&
-                         setting.part.back() >= 'x' && setting.part.back() <= 'z' && !has_part(thing, setting.part);
-  const std::size_t axis = with_axis ? std::size_t(setting.part.back() - 'x') : 0;
-  if (with_axis) setting.part.resize(setting.part.size() - 2);
-  const std::string typed = setting.part;
-  setting.part = part_named(thing, typed);
-  const document::Json now = thing.part(setting.part).value_at(0);
-  if (now.is_null()) throw Failure("has no numbers", "'" + text + "'", "use the commands attach and detach");
-  const std::string remedy = remedy_for(typed, now);
-  const std::vector<double> numbers = numbers_of(text.substr(equals + 1), text, remedy);
-  const bool three = now.is_array();
-  const std::size_t needed = with_axis || !three ? 1 : 3;
-  if (numbers.size() != needed || (with_axis && !three))
-    throw Failure("has " + document::counted(numbers.size(), "number"), "'" + text + "'", remedy);
-  for (std::size_t i = 0; i < needed; ++i) setting.numbers[axis + i] = numbers[i];
-  return setting;
-}
-
 Remarks pose(document::Json& film, const Film& meaning, const std::string& name, std::span<const PartSetting> settings,
              std::uint32_t frame, const std::optional<Ease>& ease, Beyond beyond) {
-  return pose_chosen(std::move(choose(film, meaning, {false, name, {}}).front()), settings, frame, ease, beyond);
+  Posing posing(film, meaning, name, ease, beyond);
+  for (const PartSetting& setting : settings) posing.set(setting, frame);
+  Remarks remarks = posing.put();
+  remark_carried(meaning, name, settings, frame, remarks);
+  return remarks;
 }
 
 Remarks pose(document::Json& film, const Film& meaning, const std::string& name, std::span<const std::string> settings,
-             std::uint32_t frame, const std::optional<Ease>& ease, Beyond beyond) {
-  Chosen chosen = std::move(choose(film, meaning, {false, name, {}}).front());
+             FrameRange range, const std::optional<Ease>& ease, Beyond beyond) {
+  Posing posing(film, meaning, name, ease, beyond);
   std::set<std::pair<std::string, int>> set;
-  std::vector<PartSetting> read;
+  std::vector<PartSetting> all;
   for (const std::string& text : settings) {
-    read.push_back(PartSetting::read(text, chosen.thing));
-    refuse_twice(read.back(), text, set);
+    const std::vector<PartSetting> parts = read_settings(text, posing.thing());
+    for (const PartSetting& part : parts) refuse_twice(part, text, set);
+    all.insert(all.end(), parts.begin(), parts.end());
+    if (range.first != range.last)
+      turn_all_keys(posing, parts, range, text);
+    else
+      for (const PartSetting& part : parts) posing.set(part, range.first);
   }
-  return pose_chosen(std::move(chosen), read, frame, ease, beyond);
+  Remarks remarks = posing.put();
+  remark_carried(meaning, name, all, range.first, remarks);
+  return remarks;
 }
 
 }  // namespace mars::animator

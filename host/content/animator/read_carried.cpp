@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "host/content/animator/attachments.h"
+#include "host/content/animator/read_keys.h"
 
 namespace mars::animator {
 namespace {
@@ -86,6 +87,7 @@ std::size_t Carriers::joint(const document::Element& element, std::size_t actor)
 Point read_point(const document::Element& element, const Carriers& carriers) {
   constexpr std::string_view axes[] = {"world", "joint"};
   if (element.kind() != document::Kind::object) return {document::read_vector(element)};
+  require_version_2(element);
   const document::Fields fields(element, kPointKeys);
   const Carriers::Named named = carriers.read(fields);
   const auto level = fields.find("level");
@@ -95,6 +97,7 @@ Point read_point(const document::Element& element, const Carriers& carriers) {
 
 void read_attachments(const std::vector<WrittenAttachment>& written, const std::vector<modeler::Model>& models,
                       std::vector<Actor>& actors) {
+  if (written.empty()) return;
   const Carriers carriers(actors, models);
   for (const WrittenAttachment& one : written)
     actors[one.actor].attach.push_back({one.frame, read_attachment(one.element, carriers)});

@@ -1,6 +1,7 @@
 #include "host/content/animator/read_film.h"
 
 #include <algorithm>
+#include <limits>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -17,9 +18,9 @@
 namespace mars::animator {
 namespace {
 
-constexpr std::string_view kFilmNames[] = {"frames",     "rate",      "size",   "samples",   "color", "curve",
-                                           "background", "ambient",   "fog",    "intervals", "dice",  "camera",
-                                           "lights",     "materials", "models", "actors"};
+constexpr std::string_view kFilmNames[] = {"version", "frames",     "rate",      "size",   "samples",   "color",
+                                           "curve",   "background", "ambient",   "fog",    "intervals", "dice",
+                                           "camera",  "lights",     "materials", "models", "actors"};
 constexpr std::string_view kCameraNames[] = {"eye", "at", "up", "fov", "exposure", "near", "far", "keys"};
 constexpr std::string_view kCameraKeyNames[] = {"frame", "eye", "at", "up", "fov", "exposure", "ease"};
 constexpr std::string_view kActorNames[] = {"name",     "model",     "place", "turn",     "pose",
@@ -33,6 +34,7 @@ constexpr document::Keys kKeys[] = {{"film", kFilmNames},
                                     {"actor", kActorNames},
                                     {"actor_key", kActorKeyNames},
                                     {"matrices_key", kMatricesNames},
+                                    kPartKeys,
                                     kAttachKeys,
                                     kPointKeys,
                                     kLightKeys,
@@ -171,15 +173,20 @@ class ActorReader {
         add_key(actor.motion.place, key, "place", frame, ease, place_of);
         add_key(actor.motion.turn, key, "turn", frame, ease, angles_of);
         if (const auto pose = key.find("pose")) read_pose(*pose, frame, ease, actor);
-        if (const auto attach = key.find("attach")) attachments_.push_back({number, frame, *attach});
+        if (const auto attach = key.find("attach")) add_attachment(*attach, frame, number);
       });
     if (const auto attach = fields.find("attach")) {
       if (attachments_.size() > attached_before) refuse_still(*attach);
-      attachments_.push_back({number, 0, *attach});
+      add_attachment(*attach, 0, number);
     }
     settle(actor.motion.place, fields, "place", {}, place_of);
     settle(actor.motion.turn, fields, "turn", {}, angles_of);
     if (const auto pose = fields.find("pose")) read_still_pose(*pose, actor);
+  }
+
+  void add_attachment(const document::Element& element, std::uint32_t frame, std::size_t actor) {
+    require_version_2(element);
+    attachments_.push_back({actor, frame, element});
   }
 
   [[noreturn]] static void refuse_still(const document::Element& element) {
@@ -188,21 +195,28 @@ class ActorReader {
 
   void read_still_pose(const document::Element& element, Actor& actor) {
     document::require_kind(element, document::Kind::object);
-    for (const document::Element item : element)
-      if (!actor.motion.pose[find_joint(item, actor)].empty()) refuse_still(item);
-    read_pose(element, 0, kLinear, actor);
+    for (const document::Element item : element) {
+      const std::size_t joint = find_joint(item, actor);
+      if (!actor.motion.pose[joint].empty()) refuse_still(item);
+      actor.motion.pose[joint].push_back({0, pose_of(item, model_of(actor).joints[joint])});
+    }
   }
 
   void read_pose(const document::Element& element, std::uint32_t frame, const Ease& ease, Actor& actor) {
     document::require_kind(element, document::Kind::object);
     for (const document::Element item : element) {
       const std::size_t number = find_joint(item, actor);
-      const glm::dvec3 pose = document::read_vector(item, kDegrees);
       const modeler::Joint& joint = model_of(actor).joints[number];
-      if (const auto broken = broken_limit(joint, pose))
-        item.refuse("joint '" + joint.name + "' " + *broken, "keep it within the limits, or widen them in its model");
-      actor.motion.pose[number].push_back({frame, pose, ease});
+      actor.motion.pose[number].push_back(
+          read_part(item, frame, ease, [&](const document::Element& value) { return pose_of(value, joint); }));
     }
+  }
+
+  static glm::dvec3 pose_of(const document::Element& element, const modeler::Joint& joint) {
+    const glm::dvec3 pose = document::read_vector(element, kDegrees);
+    if (const auto broken = broken_limit(joint, pose))
+      element.refuse("joint '" + joint.name + "' " + *broken, "keep it within the limits, or widen them in its model");
+    return pose;
   }
 
   // `item` is named after a joint of the actor's model.
@@ -309,6 +323,17 @@ void read_lighting(const document::Fields& fields, Film& film) {
     film.ambient = rig_ambient(film.color);
 }
 
+// Before anything else is read: a newer film may have keys that are not known here.
+void check_version(const document::Element& film) {
+  const auto version = film.find("version");
+  if (!version) return;
+  const std::uint32_t number = document::read_count(*version, 1, std::numeric_limits<std::uint32_t>::max());
+  if (number > kFilmVersion)
+    version->refuse("is " + std::to_string(number) + ", but this MARS reads films up to version " +
+                        std::to_string(kFilmVersion),
+                    "use a newer MARS, or make the film without what is new in that version");
+}
+
 void read_settings(const document::Fields& fields, Film& film) {
   film.frames = document::read_count(fields.required("frames"), 1, kMostFrames);
   film.rate = fields.number("rate", film.rate, {0.001, 1000});
@@ -326,6 +351,7 @@ Film read_film_with(const document::Element& element, std::vector<modeler::Model
   if (element.find("joints") || element.find("from"))
     element.refuse("is a model, not a film",
                    "look at it with mars preview, or name it in a film: \"models\": {\"dog\": \"dog.json\"}");
+  check_version(element);
   const document::Fields fields(element, kKeys[kFilm]);
   Film film;
   film.source = element.document().name();

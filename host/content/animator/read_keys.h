@@ -1,12 +1,14 @@
 // Reading of keyed values: "keys" lists whose items hold any of some channels, beside the same keys in the
-// object itself for channels that no key names.
+// object itself for channels that no key names. A key's part is a value, or an object of a value with an ease and
+// slopes of its own.
 #pragma once
 
 #include <glm/geometric.hpp>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
-#include "host/content/animator/channel.h"
+#include "host/content/animator/film.h"
 #include "host/content/document/fields.h"
 #include "node/wire/film_parts.h"
 
@@ -14,8 +16,23 @@ namespace mars::animator {
 
 using wire::kMostFrames;
 
-// "linear", "in", "out", "both" or [x1, y1, x2, y2]; linear if there is none.
-Ease read_ease(const document::Fields& fields);
+inline constexpr std::string_view kPartNames[] = {"value", "ease", "in", "out"};
+inline constexpr document::Keys kPartKeys{"part", kPartNames};
+
+// The newest version of the format.
+inline constexpr std::uint32_t kFilmVersion = 2;
+
+// Refuses the element, which came with version 2, in a film that says that it is of an older one.
+void require_version_2(const document::Element& element);
+
+// "linear", "in", "out", "both", "spline" or [x1, y1, x2, y2]; `otherwise` if there is none.
+Ease read_ease(const document::Fields& fields, const Ease& otherwise = kLinear);
+
+// A change of such a value.
+void read_slope(const document::Element& element, double& slope);
+void read_slope(const document::Element& element, glm::dvec2& slope);
+void read_slope(const document::Element& element, glm::dvec3& slope);
+void read_slope(const document::Element& element, Point& slope);  // of its place in the world
 
 // Calls take(fields, frame, ease) for each item of the list, whose frames must ascend.
 template <typename Take>
@@ -34,11 +51,34 @@ void read_keys(const document::Element& list, const document::Keys& keys, Take t
   }
 }
 
-// Adds the value of `key`, if it is there, to the channel.
+template <typename Value>
+std::optional<Value> find_slope(const document::Fields& part, std::string_view name) {
+  const auto element = part.find(name);
+  if (!element) return std::nullopt;
+  Value slope;
+  read_slope(*element, slope);
+  return slope;
+}
+
+// A part of a key, whose ease is `ease` unless it has its own. `read` reads the value.
+template <typename Read>
+auto read_part(const document::Element& element, std::uint32_t frame, const Ease& ease, Read read) {
+  using Value = std::decay_t<decltype(read(element))>;
+  // A point of an actor is an object, too.
+  const bool plain =
+      element.kind() != document::Kind::object || (std::is_same_v<Value, Point> && !element.find("value"));
+  if (plain) return Key<Value>{frame, read(element), ease};
+  require_version_2(element);
+  const document::Fields part(element, kPartKeys);
+  return Key<Value>{frame, read(part.required("value")), read_ease(part, ease), find_slope<Value>(part, "in"),
+                    find_slope<Value>(part, "out")};
+}
+
+// Adds the part of the key, if it is there, to the channel.
 template <typename Value, typename Read>
-void add_key(Channel<Value>& channel, const document::Fields& fields, std::string_view key, std::uint32_t frame,
+void add_key(Channel<Value>& channel, const document::Fields& fields, std::string_view part, std::uint32_t frame,
              const Ease& ease, Read read) {
-  if (const auto element = fields.find(key)) channel.push_back({frame, read(*element), ease});
+  if (const auto element = fields.find(part)) channel.push_back(read_part(*element, frame, ease, read));
 }
 
 // A channel that no key names takes the object's own value, else `otherwise`.

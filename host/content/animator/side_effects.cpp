@@ -122,6 +122,7 @@ void find_other_ways(const Thing& thing, const KeyedPart& part, const Track& bef
                      std::vector<std::string>& lines) {
   for (std::size_t i = 0; i + 1 < after.size(); ++i) {
     const Way way{after[i], after[i + 1]};
+    if (way.from.ease.spline) continue;  // goes as its numbers say
     if (largest(way.change()) < 180) continue;
     const std::string goes = other_way(*part.turns, way);
     if (goes.empty() || went_so(part, way, before)) continue;
@@ -130,21 +131,6 @@ void find_other_ways(const Thing& thing, const KeyedPart& part, const Track& bef
                     asked_of(way.change()) + ": from key to key it takes the smallest turn (" +
                     way_round(thing, part.name, way) + ")");
   }
-}
-
-// Parts that were not chosen and whose way on from the frame has another ease now, by frame.
-std::map<std::uint32_t, std::string> retimed(const Chosen& chosen, const Tracks& before, const Tracks& after) {
-  std::map<std::uint32_t, std::string> parts;
-  for (const auto& [name, track] : after) {
-    const auto old = before.find(name);
-    if (old == before.end() || std::ranges::count(chosen.parts, name)) continue;
-    for (std::size_t i = 0; i + 1 < std::min(track.size(), old->second.size()); ++i) {
-      if (track[i].ease == old->second[i].ease || track[i].value == track[i + 1].value) continue;
-      std::string& list = parts[track[i].frame];
-      list += (list.empty() ? "" : ", ") + shown_part(name);
-    }
-  }
-  return parts;
 }
 
 }  // namespace
@@ -156,10 +142,6 @@ std::vector<std::string> side_effects(const Chosen& chosen, const Tracks& before
       const auto old = before.find(name);
       find_other_ways(chosen.thing, part, old == before.end() ? Track() : old->second, track, lines);
     }
-  for (const auto& [frame, parts] : retimed(chosen, before, after))
-    lines.push_back(chosen.thing.name + ": the ease at frame " + std::to_string(frame) +
-                    " also changes how these move on from there: " + parts +
-                    " (a key has one ease for all that it holds; to time them apart, put keys at other frames)");
   return lines;
 }
 

@@ -1,5 +1,4 @@
-// What a change of keys does besides what a person asked for: turns that go another way than their numbers say, and
-// eases that change how other parts move.
+// What a change of keys does besides what a person asked for: turns that go another way than their numbers say.
 #pragma once
 
 #include <string>

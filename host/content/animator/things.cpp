@@ -1,5 +1,7 @@
 #include "host/content/animator/things.h"
 
+#include <fnmatch.h>
+
 #include <algorithm>
 #include <memory>
 #include <string_view>
@@ -8,11 +10,16 @@
 #include "host/content/animator/camera_points.h"
 #include "host/content/animator/direction.h"
 #include "host/content/animator/edit.h"
+#include "host/content/animator/tracks.h"
 #include "host/content/animator/written.h"
 #include "host/content/document/fields.h"
 
 namespace mars::animator {
 namespace {
+
+// What a person types before a light's number, a material's name.
+constexpr std::string_view kLight = "light/", kMaterial = "material/";
+constexpr std::size_t kMostNames = 40;  // in a message
 
 template <typename Value>
 KeyedPart plain(std::string_view name, const Channel<Value>& channel) {
@@ -76,6 +83,7 @@ Thing camera_of(document::Json& film, const Film& meaning) {
   return {"camera", &film.at("camera"), false, std::move(parts)};
 }
 
+// `number` counts from 1.
 Thing light_of(document::Json& json, const LightMotion& light, std::size_t number) {
   const bool far = light.kind == wire::LightKind::directional;
   std::vector<KeyedPart> parts{far ? direction(light.vector) : plain("place", light.vector)};
@@ -86,7 +94,7 @@ Thing light_of(document::Json& json, const LightMotion& light, std::size_t numbe
   if (!light.reach.empty()) parts.push_back(plain("reach", light.reach));
   parts.push_back(plain("color", light.color));
   parts.push_back(plain("intensity", light.intensity));
-  return {"light " + std::to_string(number), &json, false, std::move(parts)};
+  return {std::string(kLight) + std::to_string(number), &json, false, std::move(parts)};
 }
 
 Thing material_of(document::Json& json, const MaterialMotion& material) {
@@ -94,7 +102,7 @@ Thing material_of(document::Json& json, const MaterialMotion& material) {
   for (std::size_t i = 0; i < modeler::kMaterialNumbers.size(); ++i)
     if (uses(material.shading.reflection, modeler::kMaterialNumbers[i]))
       parts.push_back(plain(modeler::kMaterialNumbers[i].key, material.numbers[i]));
-  return {"material '" + material.name + "'", &json, false, std::move(parts)};
+  return {std::string(kMaterial) + material.name, &json, false, std::move(parts)};
 }
 
 Thing actor_of(document::Json& json, const Film& film, const Actor& actor) {
@@ -121,7 +129,8 @@ Chosen whole(Thing thing) {
 std::vector<Chosen> everything(document::Json& film, const Film& meaning) {
   std::vector<Chosen> all = {whole(camera_of(film, meaning))};
   if (const auto lights = film.find("lights"); lights != film.end())
-    for (std::size_t i = 0; i < lights->size(); ++i) all.push_back(whole(light_of((*lights)[i], meaning.lights[i], i)));
+    for (std::size_t i = 0; i < lights->size(); ++i)
+      all.push_back(whole(light_of((*lights)[i], meaning.lights[i], i + 1)));
   for (const MaterialMotion& material : meaning.materials)
     all.push_back(whole(material_of(film["materials"][material.name], material)));
   for (std::size_t i = 0; i < meaning.actors.size(); ++i) {
@@ -134,8 +143,34 @@ std::vector<Chosen> everything(document::Json& film, const Film& meaning) {
 [[noreturn]] void refuse_name(const std::string& name, const Film& meaning) {
   std::vector<std::string_view> names = {"camera"};
   for (const Actor& actor : meaning.actors) names.push_back(actor.name);
-  throw Failure("is no actor of the film, nor its camera", "'" + name + "'",
+  throw Failure("is no actor of the film, nor its camera, light/N or material/NAME", "'" + name + "'",
                 document::did_you_mean(name, names, "`mars animate FILM list` shows what has keys"));
+}
+
+Thing light_named(document::Json& film, const Film& meaning, const std::string& name) {
+  const auto lights = film.find("lights");
+  if (lights == film.end())
+    throw Failure("has no lights of its own: those it is shown with stand in no file", meaning.source,
+                  "write them into the film: mars film FILM light rig");
+  const auto number = document::number_in<std::size_t>(std::string_view(name).substr(kLight.size()));
+  if (!number || *number < 1 || *number > lights->size())
+    throw Failure("is no light of the film", "'" + name + "'",
+                  lights->empty() ? "it has none: mars film FILM light add"
+                                  : "its lights are light/1 to light/" + std::to_string(lights->size()));
+  return light_of((*lights)[*number - 1], meaning.lights[*number - 1], *number);
+}
+
+Thing material_named(document::Json& film, const Film& meaning, const std::string& name) {
+  const std::string wanted = name.substr(kMaterial.size());
+  std::vector<std::string_view> names;
+  for (const MaterialMotion& material : meaning.materials) {
+    if (material.name == wanted) return material_of(film["materials"][wanted], material);
+    names.push_back(material.name);
+  }
+  throw Failure("is no material of the film", "'" + name + "'",
+                document::did_you_mean(wanted, names,
+                                       "one of a model becomes the film's by: mars film FILM material add " + wanted +
+                                           " --actor ACTOR"));
 }
 
 Thing thing_named(document::Json& film, const Film& meaning, const std::string& name) {
@@ -147,8 +182,28 @@ Thing thing_named(document::Json& film, const Film& meaning, const std::string& 
                     "change its matrices in the tool they came from");
     return actor_of(film.at("actors")[i], meaning, actor);
   }
+  if (name.starts_with(kLight)) return light_named(film, meaning, name);
+  if (name.starts_with(kMaterial)) return material_named(film, meaning, name);
   if (name != "camera") refuse_name(name, meaning);
   return camera_of(film, meaning);
+}
+
+bool can_change(const KeyedPart& part) { return !part.joint || part.joint->freedoms() > 0; }
+
+std::vector<std::string> parts_that_change(const Thing& thing) {
+  std::vector<std::string> names;
+  for (const KeyedPart& part : thing.parts)
+    if (can_change(part)) names.push_back(part.name);
+  return names;
+}
+
+[[noreturn]] void refuse_pattern(const Thing& thing, const std::string& pattern) {
+  std::vector<std::string> names;
+  for (const std::string& name : parts_that_change(thing)) names.push_back(shown_part(name));
+  const bool more = names.size() > kMostNames;
+  names.resize(std::min(names.size(), kMostNames));
+  throw Failure("has no part like '" + pattern + "'", thing.name,
+                "its parts are: " + document::joined(names) + (more ? " ..." : ""));
 }
 
 }  // namespace
@@ -159,17 +214,30 @@ const KeyedPart& Thing::part(const std::string& wanted) const {
   return *found;
 }
 
-std::string part_named(const Thing& thing, const std::string& name) {
+bool is_pattern(const Thing& thing, const std::string& name) {
+  return name.find_first_of("*?[") != std::string::npos &&
+         std::ranges::none_of(thing.parts,
+                              [&](const KeyedPart& part) { return part.name == name || part.name == "/" + name; });
+}
+
+std::vector<std::string> parts_named(const Thing& thing, const std::string& name) {
+  if (is_pattern(thing, name)) {
+    std::vector<std::string> like = parts_that_change(thing);
+    std::erase_if(like, [&](const std::string& part) {
+      return fnmatch(name.c_str(), part.c_str(), 0) != 0 && fnmatch(name.c_str(), shown_part(part).c_str(), 0) != 0;
+    });
+    if (like.empty()) refuse_pattern(thing, name);
+    return like;
+  }
   for (const std::string& candidate : {name, "/" + name})
     for (const KeyedPart& part : thing.parts)
-      if (part.name == candidate) return part.name;
+      if (part.name == candidate) return {part.name};
   std::vector<std::string> names;
-  for (const KeyedPart& part : thing.parts) names.push_back(part.name[0] == '/' ? part.name.substr(1) : part.name);
+  for (const KeyedPart& part : thing.parts) names.push_back(shown_part(part.name));
   throw Failure("has no part '" + name + "'", thing.name,
                 document::did_you_mean(name, std::vector<std::string_view>(names.begin(), names.end()),
-                                       thing.name == "camera"
-                                           ? "its parts are: " + document::joined(names)
-                                           : "its parts are place, turn and the joints of its model"));
+                                       thing.actor ? "its parts are place, turn and the joints of its model"
+                                                   : "its parts are: " + document::joined(names)));
 }
 
 std::vector<Chosen> choose(document::Json& film, const Film& meaning, const Choice& choice) {
@@ -177,7 +245,9 @@ std::vector<Chosen> choose(document::Json& film, const Film& meaning, const Choi
   Chosen one = whole(thing_named(film, meaning, choice.thing));
   if (choice.parts.empty()) return {std::move(one)};
   one.parts.clear();
-  for (const std::string& name : choice.parts) one.parts.push_back(part_named(one.thing, name));
+  for (const std::string& typed : choice.parts)
+    for (const std::string& name : parts_named(one.thing, typed))
+      if (std::ranges::find(one.parts, name) == one.parts.end()) one.parts.push_back(name);
   return {std::move(one)};
 }
 

@@ -27,7 +27,7 @@ struct KeyedPart {
 };
 
 struct Thing {
-  std::string name;  // for messages: "actor 'robot'", "camera", "light 2"
+  std::string name;  // for messages: "actor 'robot'", "camera", "light/2", "material/skin"
   document::Json* json;
   bool actor;
   std::vector<KeyedPart> parts;  // of an actor: place, turn and all joints
@@ -35,8 +35,9 @@ struct Thing {
   const KeyedPart& part(const std::string& wanted) const;  // which it has
 };
 
-// Either everything in the film, or "camera" or an actor, and of it these parts: all if none are named. A joint
-// is named as in its model, or with a slash before it where it is called place or turn.
+// Either everything in the film, or an actor, "camera", "light/2" (from 1) or "material/skin", and of it these parts:
+// all if none are named. A joint is named as in its model, or with a slash before it where it is called place or turn;
+// "*-shin" names all parts like it that can change, "/*" all such joints.
 struct Choice {
   bool all = false;
   std::string thing;
@@ -52,7 +53,11 @@ struct Chosen {
 // actor is moved by matrices; those are left out where all is chosen.
 std::vector<Chosen> choose(document::Json& film, const Film& meaning, const Choice& choice);
 
-// The part's own name of what a person calls it: "elbow" is "/elbow".
-std::string part_named(const Thing& thing, const std::string& name);
+// The parts' own names of what a person calls them: "elbow" is "/elbow"; of a pattern, all like it that can change.
+// Throws where there is none.
+std::vector<std::string> parts_named(const Thing& thing, const std::string& name);
+
+// Whether it stands for parts like it: it is none's name, and has *, ? or [.
+bool is_pattern(const Thing& thing, const std::string& name);
 
 }  // namespace mars::animator

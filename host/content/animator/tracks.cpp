@@ -1,7 +1,6 @@
 #include "host/content/animator/tracks.h"
 
 #include <algorithm>
-#include <optional>
 
 #include "host/content/animator/written.h"
 
@@ -16,15 +15,46 @@ bool before(const TrackKey& key, std::uint32_t frame) { return key.frame < frame
 // Whether anything changes on the way to the next key.
 bool leads_on(const Track& track, const TrackKey& key) {
   const TrackKey* next = &key + 1;
-  return next != track.data() + track.size() && next->value != key.value;
+  if (next == track.data() + track.size()) return false;
+  return next->value != key.value ||
+         (key.ease.spline && (!key.out.is_null() || !next->in.is_null() || track.size() > 2));
+}
+
+// The ease of most of what leads on, rather that of the key as it was; of a key from which nothing leads on that of
+// all.
+Ease common_ease(const Tracks& tracks, const Held& held, const document::Json& old) {
+  std::vector<Ease> eases;
+  for (const auto& [part, key] : held)
+    if (leads_on(tracks.at(part), *key)) eases.push_back(key->ease);
+  const auto agrees = [&](const auto& each) { return each.second->ease == held.begin()->second->ease; };
+  if (eases.empty())
+    return held.empty() || (old.contains("ease") && !std::ranges::all_of(held, agrees)) ? ease_of(old)
+                                                                                        : held.begin()->second->ease;
+  const Ease was = ease_of(old);
+  const auto votes = [&](const Ease& ease) {
+    return 2 * std::ranges::count(eases, ease) + (old.contains("ease") && ease == was ? 1 : 0);
+  };
+  return *std::ranges::max_element(eases, {}, votes);
+}
+
+// The part's value, as an object where its slopes or its ease are its own.
+document::Json value_of(const Tracks& tracks, const std::string& part, const TrackKey& key, const Ease& common) {
+  const bool own_ease = key.ease != common && (leads_on(tracks.at(part), key) || key.ease.spline);
+  if (!own_ease && key.in.is_null() && key.out.is_null()) return key.value;
+  document::Json value = {{"value", key.value}};
+  if (own_ease) value["ease"] = written(key.ease);
+  if (!key.in.is_null()) value["in"] = key.in;
+  if (!key.out.is_null()) value["out"] = key.out;
+  return value;
 }
 
 // The values of `held` in the order of `old`, then those that are new.
-document::Json values_of(const Held& held, const document::Json& old, bool joints) {
+document::Json values_of(const Tracks& tracks, const Held& held, const Ease& common, const document::Json& old,
+                         bool joints) {
   document::Json values = document::Json::object();
   const auto put = [&](const std::string& name) {
     if (const auto found = held.find(joints ? "/" + name : name); found != held.end())
-      values[name] = found->second->value;
+      values[name] = value_of(tracks, found->first, *found->second, common);
   };
   if (old.is_object())
     for (const auto& item : old.items()) put(item.key());
@@ -33,41 +63,23 @@ document::Json values_of(const Held& held, const document::Json& old, bool joint
   return values;
 }
 
-class Composer {
- public:
-  explicit Composer(const Tracks& tracks) : tracks_(tracks) {}
+document::Json key_of(const Tracks& tracks, std::uint32_t frame, const Held& held, const document::Json& old) {
+  const Ease common = common_ease(tracks, held, old);
+  document::Json key = {{"frame", frame}};
+  key.update(values_of(tracks, held, common, old, false));
+  const document::Json pose = values_of(tracks, held, common, old.value("pose", document::Json()), true);
+  if (!pose.empty()) key["pose"] = pose;
+  if (common != kLinear || old.contains("ease")) key["ease"] = written(common);
+  return key;
+}
 
-  document::Json key_of(std::uint32_t frame, const Held& held, const document::Json& old) {
-    document::Json key = {{"frame", frame}};
-    key.update(values_of(held, old, false));
-    const document::Json pose = values_of(held, old.value("pose", document::Json()), true);
-    if (!pose.empty()) key["pose"] = pose;
-    const Ease ease = ease_for(frame, held, old);
-    if (ease != kLinear || old.contains("ease")) key["ease"] = written(ease);
-    return key;
-  }
-
-  std::vector<std::string> gave_way;
-
- private:
-  Ease ease_for(std::uint32_t frame, const Held& held, const document::Json& old) {
-    std::optional<Ease> chosen;
-    for (const bool changed : {false, true})
-      for (const auto& [part, key] : held)
-        if (key->changed == changed && leads_on(tracks_.at(part), *key)) {
-          if (chosen && *chosen != key->ease)
-            gave_way.push_back(shown_part(part) + " at frame " + std::to_string(frame));
-          if (!chosen) chosen = key->ease;
-        }
-    if (chosen) return *chosen;
-    // The last key of all its parts: its ease rules once others follow.
-    const auto agrees = [&](const auto& each) { return each.second->ease == held.begin()->second->ease; };
-    return held.empty() || (old.contains("ease") && !std::ranges::all_of(held, agrees)) ? ease_of(old)
-                                                                                        : held.begin()->second->ease;
-  }
-
-  const Tracks& tracks_;
-};
+TrackKey track_key(std::uint32_t frame, const document::Json& written, const Ease& common) {
+  if (!written.is_object() || !written.contains("value")) return {frame, written, common};
+  TrackKey key{frame, written.at("value"), written.contains("ease") ? ease_of(written) : common};
+  key.in = written.value("in", document::Json());
+  key.out = written.value("out", document::Json());
+  return key;
+}
 
 void drop_still_values(document::Json& thing, const Tracks& tracks) {
   for (const auto& [part, track] : tracks) {
@@ -92,16 +104,17 @@ Tracks tracks_of(const document::Json& thing) {
     for (const auto& item : key.items()) {
       if (item.key() == "frame" || item.key() == "ease") continue;
       if (item.key() != "pose") {
-        tracks[item.key()].push_back({frame, item.value(), ease});
+        tracks[item.key()].push_back(track_key(frame, item.value(), ease));
         continue;
       }
-      for (const auto& joint : item.value().items()) tracks["/" + joint.key()].push_back({frame, joint.value(), ease});
+      for (const auto& joint : item.value().items())
+        tracks["/" + joint.key()].push_back(track_key(frame, joint.value(), ease));
     }
   }
   return tracks;
 }
 
-std::vector<std::string> put_tracks(document::Json& thing, const Tracks& tracks) {
+void put_tracks(document::Json& thing, const Tracks& tracks) {
   std::map<std::uint32_t, Held> frames;
   std::map<std::uint32_t, document::Json> old;
   if (const auto keys = thing.find("keys"); keys != thing.end())
@@ -112,15 +125,13 @@ std::vector<std::string> put_tracks(document::Json& thing, const Tracks& tracks)
     }
   for (const auto& [part, track] : tracks)
     for (const TrackKey& key : track) frames[key.frame][part] = &key;
-  Composer composer(tracks);
   document::Json keys = document::Json::array();
   for (const auto& [frame, held] : frames) {
     const auto was = old.find(frame);
-    keys.push_back(composer.key_of(frame, held, was == old.end() ? document::Json::object() : was->second));
+    keys.push_back(key_of(tracks, frame, held, was == old.end() ? document::Json::object() : was->second));
   }
   drop_still_values(thing, tracks);
   keys.empty() ? void(thing.erase("keys")) : void(thing["keys"] = std::move(keys));
-  return composer.gave_way;
 }
 
 TrackKey* key_at(Track& track, std::uint32_t frame) {
@@ -136,9 +147,10 @@ void put_key(Track& track, TrackKey key) {
     track.insert(place, std::move(key));
 }
 
-void set_ease(Tracks& tracks, std::uint32_t frame, const Ease& ease) {
-  for (auto& [part, track] : tracks)
-    if (TrackKey* key = key_at(track, frame)) key->ease = ease;
+void set_ease(Tracks& tracks, const std::set<std::string>& parts, std::uint32_t frame, const Ease& ease) {
+  for (const std::string& part : parts)
+    if (const auto track = tracks.find(part); track != tracks.end())
+      if (TrackKey* key = key_at(track->second, frame)) key->ease = ease;
 }
 
 std::string shown_part(const std::string& part) { return part[0] == '/' ? part.substr(1) : part; }

@@ -1,9 +1,11 @@
 // The keys of one thing of a film file - camera, light, material or actor - taken apart into tracks, one a part
-// that changes, and put together again. A key of the file holds several parts and one ease for all of them.
+// that changes, and put together again. A key of the file holds several parts and an ease, for parts that have none of
+// their own.
 #pragma once
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -15,9 +17,9 @@ namespace mars::animator {
 struct TrackKey {
   std::uint32_t frame;
   document::Json value;
-  Ease ease;             // to the next key of the part
-  bool changed = false;  // as opposed to what stands in the file
-  document::Json in{}, out{};  // slopes of splines, like the value, a frame; null: none
+  Ease ease;                   // to the next key of the part
+  bool changed = false;        // as opposed to what stands in the file
+  document::Json in{}, out{};  // slopes of splines, a frame; null: none
 };
 
 // By part: "place", "turn", "eye", ...; a joint's pose is "/" and its name. Frames ascend.
@@ -26,9 +28,9 @@ using Tracks = std::map<std::string, Track>;
 
 Tracks tracks_of(const document::Json& thing);
 
-// Makes them the thing's keys; still values of what is keyed now go. Where parts of one frame want several
-// eases, those that are not `changed` keep theirs. Returns whose ease gave way: "elbow at frame 24".
-std::vector<std::string> put_tracks(document::Json& thing, const Tracks& tracks);
+// Makes them the thing's keys; still values of what is keyed now go. Where parts of one frame have several eases, the
+// key has that of most of them, the others have their own.
+void put_tracks(document::Json& thing, const Tracks& tracks);
 
 // The key at the frame; null if there is none.
 TrackKey* key_at(Track& track, std::uint32_t frame);
@@ -36,8 +38,8 @@ TrackKey* key_at(Track& track, std::uint32_t frame);
 // Puts a key in its place, instead of one at its frame.
 void put_key(Track& track, TrackKey key);
 
-// The ease of the key of the file at the frame, and so of all its parts.
-void set_ease(Tracks& tracks, std::uint32_t frame, const Ease& ease);
+// The ease of the parts' keys at the frame.
+void set_ease(Tracks& tracks, const std::set<std::string>& parts, std::uint32_t frame, const Ease& ease);
 
 // As people name a part: joints without the slash.
 std::string shown_part(const std::string& part);

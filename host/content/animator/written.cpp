@@ -8,8 +8,8 @@
 namespace mars::animator {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Ease>, 4> kNamed = {
-    {{"linear", kLinear}, {"in", kIn}, {"out", kOut}, {"both", kBoth}}};
+constexpr std::array<std::pair<std::string_view, Ease>, 5> kNamed = {
+    {{"linear", kLinear}, {"in", kIn}, {"out", kOut}, {"both", kBoth}, {"spline", kSpline}}};
 
 }  // namespace
 

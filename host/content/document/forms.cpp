@@ -24,6 +24,7 @@ constexpr Form kForms[] = {
     {"limits.y", "[-30, 30]"},
     {"limits.z", "[-30, 30]"},
 
+    {"version", "2"},
     {"frames", "48"},
     {"rate", "24"},
     {"size", "[960, 540]"},
@@ -95,6 +96,9 @@ constexpr Form kForms[] = {
     {"ground", "true"},
 };
 
+// Within a part of a film's key, which are written as the part is without them.
+bool in_a_part(std::string_view key) { return key == "value" || key == "in" || key == "out"; }
+
 // A key, and that of the object it stands in: "" where that is an item of a list, or the file itself.
 struct Named {
   std::string_view key, above;
@@ -116,11 +120,13 @@ std::string form_of(const Element& element) {
   std::optional<Element> keyed = element;
   while (keyed && keyed->key().empty()) keyed = keyed->parent();
   if (!keyed) return "";
+  const std::string_view key = keyed->key();
+  if (const auto part = keyed->parent(); in_a_part(key) && part && part->parent()) keyed = part;
   const std::optional<Element> above = keyed->parent();
   const Named named{keyed->key(), above->key(), !above->parent()};
   const auto form = std::ranges::find_if(kForms, [&](const Form& each) { return fits(each.key, named); });
   if (form == std::end(kForms)) return "";
-  return "\"" + std::string(named.key) + "\": " + std::string(form->value);
+  return "\"" + std::string(key) + "\": " + std::string(form->value);
 }
 
 }  // namespace mars::document

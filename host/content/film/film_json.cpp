@@ -14,6 +14,11 @@ animator::Film meaning_of(const std::filesystem::path& path) {
   return animator::read_film(path);
 }
 
+std::function<void(const document::Element&)> check_beside(const std::filesystem::path& path) {
+  return
+      [folder = path.parent_path()](const document::Element& root) { check_camera(animator::read_film(root, folder)); };
+}
+
 }  // namespace
 
 FilmFile open_film(const std::filesystem::path& path) {
@@ -25,8 +30,14 @@ void change_film(const std::filesystem::path& path,
                  const std::function<void(document::Json&, const animator::Film&)>& change) {
   meaning_of(path);  // refuses a file of another kind by its name
   document::change_json(
-      path, [&](document::Json& json) { change(json, animator::read_film(path)); },
-      [&](const document::Element& root) { check_camera(animator::read_film(root, path.parent_path())); });
+      path, [&](document::Json& json) { change(json, animator::read_film(path)); }, check_beside(path));
+}
+
+void create_film(const std::filesystem::path& path, const document::Json& film) {
+  if (std::filesystem::exists(path))
+    throw Failure("is there already", path.string(),
+                  "choose another name, or change it with mars film FILM set and add");
+  document::write_json(path, film, check_beside(path));
 }
 
 }  // namespace mars::film

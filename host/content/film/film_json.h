@@ -22,4 +22,7 @@ FilmFile open_film(const std::filesystem::path& path);
 void change_film(const std::filesystem::path& path,
                  const std::function<void(document::Json& json, const animator::Film& film)>& change);
 
+// Writes a new film file. Refuses if there is one of this name.
+void create_film(const std::filesystem::path& path, const document::Json& film);
+
 }  // namespace mars::film

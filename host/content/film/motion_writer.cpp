@@ -33,7 +33,7 @@ using Runs = std::vector<Run>;
 template <typename Value>
 void add_runs(const animator::Channel<Value>& channel, std::uint32_t frames, Runs& runs) {
   for (std::size_t i = 0; i + 1 < channel.size() && channel[i].frame + 1 < frames; ++i)
-    if (channel[i].value != channel[i + 1].value)
+    if (animator::moves_after(channel, i))
       runs.push_back({channel[i].frame, std::min(channel[i + 1].frame, frames - 1)});
 }
 

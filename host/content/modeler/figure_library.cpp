@@ -1,6 +1,5 @@
 #include "host/content/modeler/figure_library.h"
 
-#include <algorithm>
 #include <vector>
 
 #include "hal/failure/failure.h"
@@ -15,7 +14,14 @@ constexpr LibraryFigure kFigures[] = {{"man", "5.1 units tall, 2.9 to a metre", 
                                       {"child", "a smaller body of the man's segments", kHumanText, kChildText},
                                       {"tall", "a tall body of the man's segments", kHumanText, kTallText},
                                       {"stout", "a stout body of the man's segments", kHumanText, kStoutText},
-                                      {"dog", "of capsules and ellipsoids", kDogText, ""}};
+                                      {"dog", "a shoulder height of 1.6 units, 2.9 to a metre", kDogText, ""},
+                                      {"horse", "5.8 units tall, 2.9 to a metre", kHorseText, ""}};
+
+constexpr LibraryFigure kObjects[] = {{"ball", "0.55 wide, 19 cm; its place is its middle", kBallText, "", true},
+                                      {"box", "1.3 high, 45 cm: a seat, too", kBoxText, ""},
+                                      {"chair", "its seat 1.3 high, it faces x", kChairText, ""},
+                                      {"table", "2.12 high, 73 cm", kTableText, ""},
+                                      {"floor", "58 by 58 units, 20 by 20 m, its top at height 0", kFloorText, ""}};
 
 Model meaning_of(const document::Json& json) {
   const document::Document document(json.dump(), "figure");
@@ -34,12 +40,22 @@ void give_proportions(document::Json& json, std::string_view text) {
 
 std::span<const LibraryFigure> figure_library() { return kFigures; }
 
+std::span<const LibraryFigure> object_library() { return kObjects; }
+
+const LibraryFigure* find_in_library(std::string_view name) {
+  for (const std::span<const LibraryFigure> library : {figure_library(), object_library()})
+    for (const LibraryFigure& each : library)
+      if (each.name == name) return &each;
+  return nullptr;
+}
+
 document::Json library_figure(const std::string& name, const std::optional<double>& height) {
-  const auto figure = std::ranges::find(kFigures, std::string_view(name), &LibraryFigure::name);
-  if (figure == std::end(kFigures)) {
+  const LibraryFigure* figure = find_in_library(name);
+  if (figure == nullptr) {
     std::vector<std::string_view> names;
-    for (const LibraryFigure& each : kFigures) names.push_back(each.name);
-    throw Failure("is no figure of the library", "'" + name + "'",
+    for (const auto library : {figure_library(), object_library()})
+      for (const LibraryFigure& each : library) names.push_back(each.name);
+    throw Failure("is no figure or object of the library", "'" + name + "'",
                   document::did_you_mean(name, names, "choose " + document::joined(names)));
   }
   document::Json json = document::Json::parse(figure->model);
@@ -47,6 +63,7 @@ document::Json library_figure(const std::string& name, const std::optional<doubl
   if (!height) return json;
   Proportions proportions;
   proportions.height = height;
+  proportions.ground = !figure->centred;
   scale_model(json, meaning_of(json), proportions);
   return json;
 }

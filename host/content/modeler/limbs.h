@@ -13,10 +13,11 @@ namespace mars::modeler {
 
 enum class Side : std::size_t { left, right };
 enum class Trunk : std::size_t { pelvis, spine, chest, neck, head };
-enum class Limb : std::size_t { hip, knee, ankle, toes, shoulder, elbow, wrist };  // of either side
+enum class Limb : std::size_t { hip, knee, ankle, toes, shoulder, elbow, wrist, fingers };  // of either side
 
 inline constexpr std::string_view kTrunkNames[] = {"pelvis", "spine", "chest", "neck", "head"};
-inline constexpr std::string_view kLimbNames[] = {"hip", "knee", "ankle", "toes", "shoulder", "elbow", "wrist"};
+inline constexpr std::string_view kLimbNames[] = {"hip",      "knee",  "ankle", "toes",
+                                                  "shoulder", "elbow", "wrist", "fingers"};
 inline constexpr std::string_view kLimbsNames[] = {"pelvis", "spine", "chest", "neck", "head", "left", "right"};
 
 // Indices of the model's joints; those that are not named are kNone. A joint is a limb at its upper end: the

@@ -14,6 +14,7 @@ class FilmOnDisk : public editing::EditedFilm {
 
   std::filesystem::path path() const override { return name; }
   film::FilmFile read() const override { return film::open_film(name); }
+  void create(const document::Json& json) override { film::create_film(name, json); }
   void change(const Change& change) override { film::change_film(name, change); }
   void remark(const std::string& line) override { std::cerr << "mars: " << line << '\n'; }
   void print(const std::string& text) override { std::cout << text; }

@@ -64,21 +64,33 @@ std::string typed(const CLI::App& command) {
   return text + command.get_name();
 }
 
+const CLI::App* command_named(const CLI::App& app, const std::string& name) {
+  for (const CLI::App* command : commands_in(app))
+    if (command->get_name() == name) return command;
+  return nullptr;
+}
+
 // The command that was named where an argument of `app` belongs, as in `mars animate pose --help`; null if none was.
 const CLI::App* named_too_early(const CLI::App& app) {
-  for (const CLI::Option* each : app.get_options()) {
-    if (!each->get_positional() || each->count() == 0) continue;
-    for (const CLI::App* command : commands_in(app))
-      if (command->get_name() == each->results().front()) return command;
-  }
+  for (const CLI::Option* each : app.get_options())
+    if (each->get_positional() && each->count() > 0)
+      if (const CLI::App* command = command_named(app, each->results().front())) return command;
   return nullptr;
+}
+
+// Whose help is meant where that of `app` is asked for: `mars film light add --help` lacks FILM, and is not about
+// `mars film FILM add`.
+const CLI::App* meant_by(const CLI::App& app) {
+  if (const CLI::App* command = named_too_early(app)) return command;
+  const CLI::App* within = app.get_parent() == nullptr ? nullptr : named_too_early(*app.get_parent());
+  return within == nullptr ? nullptr : command_named(*within, app.get_name());
 }
 
 // Help as wide as a terminal, each example on a line of its own.
 class Help : public CLI::Formatter {
  public:
   std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
-    const CLI::App* meant = named_too_early(*app);
+    const CLI::App* meant = meant_by(*app);
     return Formatter::make_help(meant == nullptr ? app : meant, name, mode);
   }
 

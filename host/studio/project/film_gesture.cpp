@@ -21,28 +21,19 @@ template <typename Items>
   throw Failure(what, "'" + name + "'", document::did_you_mean(name, names, "choose another"));
 }
 
-// One part, where the light has it and the step says something of it.
 template <typename Value>
-void set_part(animator::Channel<Value>& channel, const char* part, bool has, const std::optional<Value>& value,
-              std::uint32_t frame) {
-  if (!value) return;
-  if (!has) throw Failure(std::string("has no part '") + part + "'", "the light", "give it to the light in the film");
-  animator::set_key(channel, *value, frame, {});
+void set_part(animator::Channel<Value>& channel, const std::optional<Value>& value, std::uint32_t frame) {
+  if (value) animator::set_key(channel, *value, frame, {});
 }
 
 void set_light(animator::LightMotion& light, const LightStep& step, std::uint32_t frame) {
-  const bool far = light.kind == wire::LightKind::directional;
-  std::optional<glm::dvec3> direction = step.direction;
-  if (direction && !(glm::length(*direction) > 1e-9))
-    throw Failure("has no length", "the light's direction", "write a vector to the light");
-  if (direction) *direction = glm::normalize(*direction);
-  set_part(light.vector, "place", !far, step.place, frame);
-  set_part(light.vector, "direction", far, direction, frame);
-  set_part(light.at, "at", !light.at.empty(), step.at, frame);
-  set_part(light.cone, "cone", !light.cone.empty(), step.cone, frame);
-  set_part(light.reach, "reach", !light.reach.empty(), step.reach, frame);
-  set_part(light.color, "color", true, step.color, frame);
-  set_part(light.intensity, "intensity", true, step.intensity, frame);
+  if (step.direction) animator::set_key(light.vector, glm::normalize(*step.direction), frame, {});
+  set_part(light.vector, step.place, frame);
+  set_part(light.at, step.at, frame);
+  set_part(light.cone, step.cone, frame);
+  set_part(light.reach, step.reach, frame);
+  set_part(light.color, step.color, frame);
+  set_part(light.intensity, step.intensity, frame);
 }
 
 }  // namespace
@@ -70,6 +61,25 @@ void refuse_carried(const animator::Film& film, std::size_t actor, std::uint32_t
   if (!carrier) return;
   throw Failure("is carried by '" + film.actors[carrier->actor].name + "' at frame " + std::to_string(frame),
                 "actor '" + film.actors[actor].name + "'", "detach it there, or move what carries it");
+}
+
+void check_light(const animator::Film& film, bool rig_lights, const LightStep& step) {
+  const std::string name = "light " + std::to_string(step.light);
+  if (rig_lights || step.light > film.lights.size())
+    throw Failure("is no light of the film", name, "add it to the film's lights");
+  const animator::LightMotion& light = film.lights[step.light - 1];
+  const bool far = light.kind == wire::LightKind::directional;
+  const auto needs = [&](bool said, bool has, const char* part) {
+    if (said && !has)
+      throw Failure(std::string("has no part '") + part + "'", name, "give it to the light in the film");
+  };
+  needs(step.place.has_value(), !far, "place");
+  needs(step.direction.has_value(), far, "direction");
+  needs(step.at.has_value(), !light.at.empty(), "at");
+  needs(step.cone.has_value(), !light.cone.empty(), "cone");
+  needs(step.reach.has_value(), !light.reach.empty(), "reach");
+  if (step.direction && !(glm::length(*step.direction) > 1e-9))
+    throw Failure("has no length", "the direction of " + name, "write a vector to the light");
 }
 
 void FilmGesture::set(animator::Channel<glm::dvec3>& channel, const glm::dvec3& value, std::uint32_t frame,
@@ -121,16 +131,10 @@ void FilmGesture::show(animator::Film& film, bool rig_lights, const CameraStep& 
 }
 
 void FilmGesture::show(animator::Film& film, bool rig_lights, const LightStep& step, std::uint32_t frame) {
-  if (rig_lights || step.light > film.lights.size())
-    throw Failure("is no light of the film", "light " + std::to_string(step.light), "add it to the film's lights");
+  check_light(film, rig_lights, step);
   take_back(film);
   lights_ = film.lights;
-  try {
-    set_light(film.lights[step.light - 1], step, frame);
-  } catch (...) {
-    take_back(film);
-    throw;
-  }
+  set_light(film.lights[step.light - 1], step, frame);
   shows_ = true;
 }
 

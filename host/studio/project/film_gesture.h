@@ -19,6 +19,9 @@ std::size_t joint_named(const modeler::Model& model, const std::string& name);
 // Throws where another actor carries it at the frame: its own place and turn then count for nothing.
 void refuse_carried(const animator::Film& film, std::size_t actor, std::uint32_t frame);
 
+// Throws Failure where there is no such light, or it has no such part.
+void check_light(const animator::Film& film, bool rig_lights, const LightStep& step);
+
 class FilmGesture {
  public:
   // `rig_lights`: the film has no lights of its own, they go with the camera. What the film shows at the frame is then

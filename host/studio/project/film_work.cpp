@@ -23,7 +23,9 @@ animator::Remarks change(Json& json, const animator::Film& film, const std::stri
 }
 
 animator::Remarks apply(Json& json, const animator::Film& film, const FigureStep& step, std::uint32_t frame) {
-  const animator::Actor& actor = film.actors[actor_named(film, step.actor)];
+  const std::size_t number = actor_named(film, step.actor);
+  const animator::Actor& actor = film.actors[number];
+  if (step.place || step.turn) refuse_carried(film, number, frame);
   std::vector<PartSetting> settings;
   if (step.place) settings.push_back(setting_of("place", *step.place));
   if (step.turn) settings.push_back(setting_of("turn", *step.turn));
@@ -43,6 +45,7 @@ animator::Remarks apply(Json& json, const animator::Film& film, const CameraStep
 }
 
 animator::Remarks apply(Json& json, const animator::Film& film, const LightStep& step, std::uint32_t frame) {
+  check_light(film, !json.contains("lights"), step);
   std::vector<PartSetting> settings;
   if (step.place) settings.push_back(setting_of("place", *step.place));
   if (step.at) settings.push_back(setting_of("at", *step.at));

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
+#include "host/content/animator/edit.h"
+#include "host/content/animator/joint_frames.h"
 #include "host/content/modeler/frames.h"
 #include "host/studio/stage/hand.h"
 
@@ -25,14 +28,40 @@ Json MarkHand::step() const {
   return {{"set", "light"}, {"light", *grip_.mark->light + 1}};
 }
 
+// Of a point of the camera that goes along with an actor, its offset in the key that rules there: none where it stands
+// by itself.
+std::optional<Json> MarkHand::offset_step(const glm::dvec3& to) const {
+  if (grip_.mark->light) return std::nullopt;
+  const animator::Film& film = project_.film();
+  const auto& points = grip_.aim ? film.camera.at : film.camera.eye;
+  const animator::Stretch stretch = animator::stretch_at(points, project_.frame());
+  const animator::Point& point = points[stretch.from].value;
+  if (point.actor == modeler::kNone) return std::nullopt;
+  const animator::Actor& actor = film.actors[point.actor];
+  const bool joint_axes = point.joint_axes && !grip_.aim;
+  const modeler::Axes axes = animator::JointFrames(film).frame_of(point.actor, point.joint, project_.frame());
+  glm::dvec3 offset = joint_axes ? glm::transpose(axes.turn) * (to - axes.place) : to - axes.place;
+  const bool level = point.level && !grip_.aim;
+  if (level) offset.z = to.z;
+  const bool whole = point.joint == modeler::kNone;
+  const std::uint32_t frame = stretch.from == stretch.to ? points[stretch.from].frame : project_.frame();
+  const std::string target = actor.name + (whole ? "" : "/" + film.models[actor.model].joints[point.joint].name);
+  Json words = {"animate", grip_.aim ? "look" : "follow", target, "--frame", std::to_string(frame), "--offset"};
+  for (int axis = 0; axis < 3; ++axis) words.push_back(document::shown(animator::rounded(offset[axis])));
+  if (joint_axes) words.insert(words.end(), {"--axes", "joint"});
+  if (level) words.push_back("--level");
+  return Json{{"commands", Json::array({std::move(words)})}};
+}
+
 std::optional<Json> MarkHand::moved() const {
   const glm::dvec3& from = grip_.aim ? *state_.aim : state_.place;
   glm::dvec3 way(0);
   way[grip_.axis] = 1;
   const auto by = grip_.what == Grip::What::plane ? mouse_.across(from) : mouse_.along(from, way);
   if (!by) return std::nullopt;
-  Json made = step();
   const glm::dvec3 to = from + *by;
+  if (auto made = offset_step(to)) return made;
+  Json made = step();
   if (grip_.aim)
     made["at"] = listed(to);
   else if (!grip_.mark->light)

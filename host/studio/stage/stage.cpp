@@ -8,64 +8,31 @@
 #include <set>
 #include <string_view>
 #include <utility>
-#include <variant>
 
 #include "hal/failure/failure.h"
 #include "host/studio/stage/flow.h"
 #include "host/studio/stage/ghosts.h"
-#include "host/studio/stage/hand.h"
-#include "host/studio/stage/mark_hand.h"
+#include "host/studio/stage/hands.h"
 #include "host/studio/stage/marks.h"
 #include "host/studio/stage/page_message.h"
-#include "host/studio/stage/reach_hand.h"
 #include "host/studio/stage/selection.h"
 #include "host/studio/stage/view.h"
+#include "host/studio/stage/view_message.h"
 
 namespace mars::studio {
 namespace {
 
-constexpr double kLeastSide = 16, kMostSide = 4096;  // of a view, pixels
-constexpr double kMostViewsOfPage = 8;
-constexpr const char* kAs[] = {"stick", "vertices", "prisms", "surface"};
 constexpr const char* kHows[] = {"turn", "pan", "zoom"};
 constexpr std::string_view kOfProject[] = {"preview", "commit", "cancel", "undo", "redo", "frame"};
 constexpr double kMostEdit = 9e15;
-constexpr double kMostGhosts = 8, kMostGhostStep = 1000;
 constexpr double kMuchLarger = 1.3;  // less is what a pose does
 
 Json json_of(const glm::dvec3& vector) { return Json::array({vector.x, vector.y, vector.z}); }
-
-glm::dvec3 vector_in(const Json& message, const char* key) {
-  const auto found = message.find(key);
-  if (found == message.end() || !found->is_array() || found->size() != 3)
-    refuse("is no list of three numbers", key, "give x, y and z");
-  glm::dvec3 vector;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Json& number = (*found)[static_cast<std::size_t>(axis)];
-    if (!number.is_number() || !(std::abs(number.get<double>()) < 1e9)) refuse("is out of range", key, "below 1e9");
-    vector[axis] = number.get<double>();
-  }
-  return vector;
-}
-
-preview::Orbit orbit_in(const Json& orbit) {
-  return {vector_in(orbit, "center"), number_in(orbit, "turn", -1e6, 1e6), number_in(orbit, "height", -90, 90),
-          number_in(orbit, "distance", 1e-6, 1e9)};
-}
 
 bool is_same(const Eye& one, const Eye& other) {
   const preview::Orbit &a = one.orbit, &b = other.orbit;
   return one.from == other.from && a.center == b.center && a.turn == b.turn && a.height == b.height &&
          a.distance == b.distance;
-}
-
-GhostFrames ghosts_in(const Json& message) {
-  const auto found = message.find("ghosts");
-  if (found == message.end() || found->is_null()) return {};
-  const auto whole = [&](const char* key, double least, double most) {
-    return static_cast<int>(number_in(*found, key, least, most));
-  };
-  return {whole("before", 0, kMostGhosts), whole("after", 0, kMostGhosts), whole("step", 1, kMostGhostStep)};
 }
 
 struct Page {
@@ -78,7 +45,7 @@ struct Page {
 struct Gesture {
   PageNumber page;
   std::uint32_t view;
-  std::variant<Hand, MarkHand, ReachHand> hand;
+  AnyHand hand;
   std::uint64_t revision;  // of the project, as the hand left it
   std::optional<Json> step{};
 };
@@ -137,32 +104,24 @@ class TheStage : public Stage {
   // ---- messages
 
   void view(PageNumber page, const Json& message) {
-    const auto number = static_cast<std::uint32_t>(number_in(message, "view", 0, kMostViewsOfPage - 1));
-    const auto width = static_cast<std::uint32_t>(number_in(message, "width", kLeastSide, kMostSide));
-    const auto height = static_cast<std::uint32_t>(number_in(message, "height", kLeastSide, kMostSide));
-    Eye eye{static_cast<From>(choice_in(message, "from", kFroms)), {}};
-    const LineLook look{static_cast<preview::As>(choice_in(message, "as", kAs)), flag_in(message, "hidden", false),
-                        flag_in(message, "ground", true)};
-    const Tool tool =
-        message.contains("handles") ? static_cast<Tool>(choice_in(message, "handles", kTools)) : Tool::none;
-    const bool chosen = !message.contains("orbit") || message["orbit"].is_null();
-    if (eye.from != From::camera)
-      eye.orbit =
-          chosen ? chosen_orbit(eye.from, moments_.subject(), double(width) / height) : orbit_in(message["orbit"]);
-    PageView& view = made(page, number);
+    const ViewMessage said = read_view(message);
+    const bool chosen = !said.orbit && said.from != From::camera;
+    Eye eye{said.from, said.orbit.value_or(preview::Orbit{})};
+    if (chosen) eye.orbit = chosen_orbit(eye.from, moments_.subject(), double(said.width) / said.height);
+    PageView& view = made(page, said.number);
     view.framed = eye.from != From::camera && (chosen || (view.framed && is_same(eye, view.eye)));
-    const bool other_size = view.width != width || view.height != height;
-    if (other_size || view.look.as != look.as) restart(view, look.as);
-    if (view.look.hidden != look.hidden || view.look.ground != look.ground) view.shown.reset();
-    view.width = width;
-    view.height = height;
+    const bool other_size = view.width != said.width || view.height != said.height;
+    if (other_size || view.look.as != said.look.as) restart(view, said.look.as);
+    if (view.look.hidden != said.look.hidden || view.look.ground != said.look.ground) view.shown.reset();
+    view.width = said.width;
+    view.height = said.height;
     view.eye = eye;
-    view.look = look;
-    view.tool = tool;
-    view.ghosts = ghosts_in(message);
-    view.marks = flag_in(message, "marks", false);
+    view.look = said.look;
+    view.tool = said.tool;
+    view.ghosts = said.ghosts;
+    view.marks = said.marks;
     view.orbiting = false;
-    if (chosen && eye.from != From::camera) tell_orbit(view);
+    if (chosen) tell_orbit(view);
     if (view.sent > 0) tell_handles(view);
   }
 
@@ -251,46 +210,32 @@ class TheStage : public Stage {
 
   Selection take(const PageView& view, const Handle& handle, const glm::dvec2& pixel) {
     const Selection held = held_by(view.page, handle);
-    const Screen screen = screen_of(view);
-    if (held.mark) {
-      select(view.page, names_of(project_, held));
-      begin(view, MarkHand(*handle.grip, state_of(project_, moments_, *held.mark), screen, pixel));
-    } else if (view.tool == Tool::reach) {
-      begin(view, ReachHand(project_, held, pins_of(view.page, held), *handle.grip, screen, pixel));
-    } else {
-      Hand hand(project_, held, screen, pixel);
-      hand.take(*handle.grip);
-      begin(view, std::move(hand));
-    }
+    if (held.mark) select(view.page, names_of(project_, held));
+    begin(view, hand_on({project_, moments_, view.tool, screen_of(view), pixel, pins_of(view.page, held)}, held,
+                        *handle.grip));
     return held;
   }
 
   // What it picks is selected, and follows the hand if it can.
   Selection take_what_is_at(const PageView& view, const glm::dvec2& pixel) {
     const Picked picked = pick(project_, moments_, screen_of(view), pixel);
-    if (!picked.selection.actor) return picked.selection;
-    select(view.page, names_of(project_, picked.selection));
-    if (!picked.hit) return picked.selection;
-    if (view.tool == Tool::reach && can_reach(project_, picked.selection)) {
-      begin(view, ReachHand(project_, picked.selection, pins_of(view.page, picked.selection), picked.hit->place,
-                            screen_of(view), pixel));
-    } else {
-      Hand hand(project_, picked.selection, screen_of(view), pixel);
-      if (hand.take(*picked.hit)) begin(view, std::move(hand));
-    }
-    return picked.selection;
+    const Selection& held = picked.selection;
+    if (!held.actor) return held;
+    select(view.page, names_of(project_, held));
+    if (!picked.hit) return held;
+    auto hand =
+        hand_on({project_, moments_, view.tool, screen_of(view), pixel, pins_of(view.page, held)}, held, *picked.hit);
+    if (hand) begin(view, std::move(*hand));
+    return held;
   }
 
-  template <typename Taken>
-  void begin(const PageView& view, Taken hand) {
+  void begin(const PageView& view, AnyHand hand) {
     gesture_.emplace(Gesture{view.page, view.number, std::move(hand), project_.revision()});
   }
 
   void drag(PageNumber page, const Json& message) {
     if (!gesture_ || gesture_->page != page) return;
-    const glm::dvec2 pixel = pixel_in(message);
-    const bool shift = has_key(message, "shift");
-    const auto step = std::visit([&](auto& hand) { return hand.follow(pixel, shift); }, gesture_->hand);
+    const auto step = followed(gesture_->hand, pixel_in(message), has_key(message, "shift"));
     if (!step || step == gesture_->step) return;
     try {
       project_.preview(*step);
@@ -339,8 +284,7 @@ class TheStage : public Stage {
   // ---- views
 
   PageView& view_in(PageNumber page, const Json& message) {
-    const auto number = static_cast<std::uint32_t>(number_in(message, "view", 0, kMostViewsOfPage - 1));
-    PageView* const view = view_of(page, number);
+    PageView* const view = view_of(page, view_number_in(message));
     if (view == nullptr) refuse("is none that there is", "view", "make it first");
     return *view;
   }

@@ -5,6 +5,7 @@
 #include "host/content/animator/actor_state.h"
 #include "host/content/animator/camera_points.h"
 #include "host/content/animator/check.h"
+#include "host/content/animator/motion/script.h"
 #include "host/content/animator/read_film.h"
 #include "host/editing/edit_film.h"
 #include "tests/host/content/document/failure_of.h"
@@ -91,6 +92,33 @@ TEST_F(Carry, AnActionWhoseKeysWouldCountForNothingIsRefused) {
                                 obey({"go", "ball", "--at", "8", "--to", "0", "0", "0"});
                               }),
                               "is carried by 'tom'"));
+}
+
+TEST_F(Carry, APlaceThatCountsForNothingIsRemarked) {
+  obey({"attach", "ball", "--to", "tom/b", "--frame", "6"});
+  const Command pose{"animate", "pose", "ball", "place=1,2,3", "--frame", "8"};
+  const Done done = edit_film(json, "/nowhere/f.json", std::span(&pose, 1));
+  ASSERT_EQ(done.remarks.size(), 1u);
+  EXPECT_TRUE(document::holds(done.remarks[0], "'tom' carries it at frame 8"));
+}
+
+TEST_F(Carry, ScriptsHaveTheSameCommands) {
+  const std::string script =
+      "at 6 ball attach tom/b\nat 15 ball detach\nat 8 camera follow tom/b level\nat 8 camera look tom offset 0 0 1";
+  document::Json by_script = json;
+  motion::play_script(by_script, "/nowhere/f.json", script, "a.script");
+  obey({"attach", "ball", "--to", "tom/b", "--frame", "6"});
+  obey({"detach", "ball", "--frame", "15"});
+  obey({"follow", "tom/b", "--frame", "8", "--level"});
+  obey({"look", "tom", "--frame", "8", "--offset", "0", "0", "1"});
+  EXPECT_EQ(document::laid_out(by_script), document::laid_out(json));
+  motion::play_script(by_script, "/nowhere/f.json", script, "a.script");
+  EXPECT_EQ(document::laid_out(by_script), document::laid_out(json));
+  const auto refused = [&](const char* line) {
+    return document::failure_of([&] { motion::play_script(by_script, "/nowhere/f.json", line, "a.script"); });
+  };
+  EXPECT_TRUE(document::holds(refused("at 6 ball attach tom/c"), "a.script:1: "));
+  EXPECT_TRUE(document::holds(refused("at 6 camera look tom level"), "write offset X Y Z"));
 }
 
 TEST_F(Carry, TheCameraFollowsWithoutAJump) {

@@ -3,15 +3,18 @@
 #include <algorithm>
 
 #include "hal/failure/failure.h"
+#include "host/content/animator/attachments.h"
 #include "host/content/animator/motion/gesture.h"
+#include "host/content/animator/motion/jumping.h"
 #include "host/content/animator/motion/kinematic.h"
 #include "host/content/animator/motion/picking.h"
 #include "host/content/animator/motion/reaching.h"
+#include "host/content/animator/motion/running.h"
 #include "host/content/animator/motion/seat.h"
 #include "host/content/animator/motion/sitting.h"
 #include "host/content/animator/motion/steps.h"
+#include "host/content/animator/motion/striding.h"
 #include "host/content/animator/motion/tossing.h"
-#include "host/content/animator/attachments.h"
 #include "host/content/animator/read_film.h"
 
 namespace mars::motion {
@@ -19,19 +22,65 @@ namespace {
 
 constexpr Parameter kPace{"pace", "N", "steps a second; default: 2", "1.5"};
 
+constexpr Parameter kSteps{
+    "steps", "N",
+    "number of steps, without the last that brings the feet together; default: 4, or as the distance needs", "6"};
+constexpr Parameter kDistance{"distance", "D", "length of the way; default: from the number of steps", "3.5"};
+constexpr Parameter kTo{"to", "X Y", "a place on the floor; the figure turns to it first", "2 -1"};
+constexpr Parameter kBow{"turn", "DEGREES", "go a bow of this angle to the left; default: straight on", "90"};
+constexpr Parameter kFirst{
+    "first", "SIDE", "the foot that steps first, left or right; default: the inner one of a bow, else right", "left"};
+constexpr Parameter kArmSwing{"arm-swing", "N", "times an ordinary one's, 0 to 3; default: 1", "1.5"};
+constexpr Parameter kUpAndDown{"bounce", "N", "up and down, times an ordinary one's, 0 to 3; default: 1", "0.5"};
+constexpr Parameter kKneeLift{"knee-lift", "N", "of the swinging leg, times an ordinary one's, 0 to 3; default: 1",
+                              "1.4"};
+constexpr Parameter kLean{"lean", "DEGREES", "of the trunk, forward; default: 0", "8"};
+
 constexpr Parameter kWalk[] = {
-    {"steps", "N",
-     "number of steps, without the last that brings the feet together; default: 4, or as the distance needs", "6"},
-    {"distance", "D", "length of the way; default: from the number of steps", "3.5"},
-    {"to", "X Y", "a place on the floor; the figure turns to it first", "2 -1"},
-    {"turn", "DEGREES", "walk a bow of this angle to the left; default: straight on", "90"},
-    {"step-length", "D", "default: 0.62 of the leg", "0.7"},
+    kSteps,
+    kDistance,
+    kTo,
+    kBow,
+    {"step-length", "D", "default: 0.62 of the leg; on four legs half the hips' height", "0.7"},
     kPace,
-    {"first", "SIDE", "the foot that steps first, left or right; default: the inner one of a bow, else right", "left"},
-    {"arm-swing", "N", "times an ordinary walk's, 0 to 3; default: 1", "1.5"},
-    {"bounce", "N", "up and down, times an ordinary walk's, 0 to 3; default: 1", "0.5"},
-    {"knee-lift", "N", "of the swinging leg, times an ordinary walk's, 0 to 3; default: 1", "1.4"},
-    {"lean", "DEGREES", "of the trunk, forward; default: 0", "8"}};
+    kFirst,
+    kArmSwing,
+    kUpAndDown,
+    kKneeLift,
+    kLean};
+constexpr Parameter kRun[] = {kSteps,
+                              kDistance,
+                              kTo,
+                              kBow,
+                              {"step-length", "D", "default: 1.15 of the leg", "1.3"},
+                              {"pace", "N", "steps a second; default: 2.7", "3"},
+                              kFirst,
+                              kArmSwing,
+                              kUpAndDown,
+                              kKneeLift,
+                              kLean};
+constexpr Parameter kStrides{"strides", "N", "number of strides; default: 4, or as the distance needs", "6"};
+constexpr Parameter kTrot[] = {kStrides,
+                               kDistance,
+                               kTo,
+                               kBow,
+                               {"stride-length", "D", "default: 1.65 of the hips' height", "2.5"},
+                               {"pace", "N", "strides a second; default: 1.6", "2.2"},
+                               kUpAndDown,
+                               kKneeLift};
+constexpr Parameter kGallop[] = {kStrides,
+                                 kDistance,
+                                 kTo,
+                                 kBow,
+                                 {"stride-length", "D", "default: 2.8 times the hips' height", "6"},
+                                 {"pace", "N", "strides a second; default: 2", "2.6"},
+                                 kUpAndDown,
+                                 kKneeLift};
+constexpr Parameter kJump[] = {
+    {"height", "H", "that the hips rise after the feet have left; default: 0.35 of the leg", "1"},
+    {"distance", "D", "forward, negative backward; default: 0", "2.5"},
+    {"turn", "DEGREES", "to the left while it flies; default: 0", "180"},
+    {"gravity", "G", "units a second and second; default: 9.81 where a leg is 0.835 long, in proportion", "28"}};
 constexpr Parameter kTurn[] = {
     {"by", "DEGREES", "to the left; default: 90", "-90"}, {"to", "X Y", "to face a place of the floor", "2 -1"}, kPace};
 constexpr Parameter kSit[] = {
@@ -71,6 +120,10 @@ constexpr Parameter kGo[] = {{"to", "X Y Z", "the actor's place then; needed", "
 
 const Action kActions[] = {
     {"walk", "Walk: some steps, a distance, to a place, or along a bow", kWalk, walk},
+    {"run", "Run: some steps, a distance, to a place, or along a bow", kRun, run},
+    {"jump", "Jump from both feet to both feet, up, forward or turning", kJump, jump},
+    {"trot", "Trot, on four legs", kTrot, trot},
+    {"gallop", "Gallop, on four legs", kGallop, gallop},
     {"turn", "Turn on the spot, by stepping", kTurn, turn},
     {"sit", "Sit down on a seat behind, or on one of the film", kSit, sit},
     {"stand", "Stand up from sitting", kStand, stand},

@@ -114,7 +114,81 @@ void check_legs(const std::string& actor, const std::array<glm::dvec3, 2>& hips,
   }
 }
 
+// The limbs of a leg, from the body outwards.
+using LegLimbs = std::array<modeler::Limb, 4>;
+constexpr LegLimbs kHindLeg{modeler::Limb::hip, modeler::Limb::knee, modeler::Limb::ankle, modeler::Limb::toes};
+constexpr LegLimbs kForeleg{modeler::Limb::shoulder, modeler::Limb::elbow, modeler::Limb::wrist,
+                            modeler::Limb::fingers};
+
+Leg leg_of(const Body& body, const Posture& drawn, const LegLimbs& limbs, modeler::Side side) {
+  const modeler::Model& model = *body.model;
+  const auto find = [&](std::size_t part) { return model.limbs.of(limbs[part], side); };
+  const auto place = [&](std::size_t joint) { return frame_in(model, drawn, joint).place; };
+  Leg leg{find(0), find(1), find(2), find(3), 0, 0, 0, 0, {}};
+  const glm::dvec3 hip = place(leg.hip), ankle = place(leg.ankle);
+  const glm::dvec3 knee = leg.knee == modeler::kNone ? ankle : place(leg.knee);
+  const glm::dmat3 back = glm::transpose(body.axes);
+  leg.thigh = glm::distance(hip, knee);
+  leg.shin = glm::distance(knee, ankle);
+  leg.aside = (back * (hip - place(body.pelvis))).y;
+  const glm::dvec3 thigh = back * (knee - hip), shin = back * (ankle - knee);
+  leg.bent = glm::degrees(std::atan2(thigh.z * shin.x - thigh.x * shin.z, thigh.x * shin.x + thigh.z * shin.z));
+  leg.sole = sole_of(model, drawn, body.axes, leg.ankle, leg.toes);
+  return leg;
+}
+
+// What comes down on its heel in a man comes down on its toes.
+void stand_on_toes(Leg& leg) {
+  if (leg.toes == modeler::kNone) return;
+  leg.sole.on_toes = true;
+  leg.sole.heel = leg.sole.ball;
+}
+
+// Of what a limb carries, as drawn.
+double lowest_below(const modeler::Model& model, const Posture& drawn, modeler::Limb limb, modeler::Side side) {
+  std::vector<glm::dvec3> points;
+  for (std::size_t joint = 0; joint < model.joints.size(); ++joint)
+    if (is_below(model, joint, model.limbs.of(limb, side))) add_points(model, drawn, joint, points);
+  double least = 1e300;
+  for (const glm::dvec3& point : points) least = std::min(least, point.z);
+  return least;
+}
+
+// Square to the line from the hind feet to the forefeet: legs of four are not drawn straight.
+glm::dvec3 down_between_feet(const modeler::Model& model, const Posture& drawn, const glm::dvec3& left) {
+  const auto middle = [&](const LegLimbs& limbs) {
+    glm::dvec3 sum(0);
+    for (const modeler::Side side : kSides) {
+      const std::size_t toes = model.limbs.of(limbs[3], side), ankle = model.limbs.of(limbs[2], side);
+      sum += frame_in(model, drawn, toes == modeler::kNone ? ankle : toes).place;
+    }
+    return 0.5 * sum;
+  };
+  return glm::cross(left, middle(kForeleg) - middle(kHindLeg));
+}
+
 }  // namespace
+
+bool has_four_legs(const modeler::Model& model) {
+  constexpr double kNear = 0.1;  // of the hip's height: how far front and hind feet are from one level
+  for (const LegLimbs& limbs : {kHindLeg, kForeleg})
+    for (const modeler::Side side : kSides)
+      for (std::size_t part = 0; part < 3; ++part)
+        if (model.limbs.of(limbs[part], side) == modeler::kNone) return false;
+  const Posture drawn = drawn_posture(model);
+  for (const modeler::Side side : kSides) {
+    const double hind = lowest_below(model, drawn, modeler::Limb::ankle, side);
+    const double high = frame_in(model, drawn, model.limbs.of(modeler::Limb::hip, side)).place.z - hind;
+    if (std::abs(lowest_below(model, drawn, modeler::Limb::wrist, side) - hind) > kNear * high) return false;
+  }
+  return true;
+}
+
+void require_two_legs(const modeler::Model& model, const std::string& actor, const std::string& command) {
+  if (has_four_legs(model))
+    throw Failure("has four legs, which '" + command + "' does not move", "actor '" + actor + "'",
+                  "let it walk, trot, gallop or turn, or key its pose");
+}
 
 glm::dmat3 canonical_turn(double a, double b, double c) {
   return modeler::rotation_by_degrees({1, 0, 0}, a) * modeler::rotation_by_degrees({0, 1, 0}, b) *
@@ -175,7 +249,7 @@ double lowest_of(const modeler::Model& model, const Posture& posture) {
 }
 
 Body body_of(const modeler::Model& model, const std::string& actor, const std::string& command) {
-  Body body{&model, actor, glm::dmat3(1), model.limbs.of(modeler::Trunk::pelvis), {}, 0};
+  Body body{&model, actor, glm::dmat3(1), model.limbs.of(modeler::Trunk::pelvis), {}};
   const Posture drawn = drawn_posture(model);
   std::array<glm::dvec3, 2> hips, ankles;
   for (const modeler::Side side : kSides) {
@@ -188,26 +262,16 @@ Body body_of(const modeler::Model& model, const std::string& actor, const std::s
   if (body.pelvis == modeler::kNone) fail_limb(actor, command, "pelvis");
   const glm::dvec3 pelvis = frame_in(model, drawn, body.pelvis).place;
   const glm::dvec3 left = glm::normalize(hips[0] - hips[1]);
-  const glm::dvec3 legs = ankles[0] - hips[0];
+  const glm::dvec3 legs = has_four_legs(model) ? down_between_feet(model, drawn, left) : ankles[0] - hips[0];
   const glm::dvec3 up = glm::normalize(glm::dot(legs, left) * left - legs);
   body.axes = nearly_square({glm::cross(left, up), left, up});
   const glm::dmat3 back = glm::transpose(body.axes);
-  for (const modeler::Side side : kSides) {
-    Leg& leg = body.legs[index_of(side)];
-    leg = {model.limbs.of(modeler::Limb::hip, side),
-           model.limbs.of(modeler::Limb::knee, side),
-           model.limbs.of(modeler::Limb::ankle, side),
-           model.limbs.of(modeler::Limb::toes, side),
-           0,
-           0,
-           0,
-           {}};
-    const glm::dvec3 hip = hips[index_of(side)], ankle = ankles[index_of(side)];
-    const glm::dvec3 knee = leg.knee == modeler::kNone ? ankle : frame_in(model, drawn, leg.knee).place;
-    leg.thigh = glm::distance(hip, knee);
-    leg.shin = glm::distance(knee, ankle);
-    leg.aside = (back * (hip - pelvis)).y;
-    leg.sole = sole_of(model, drawn, body.axes, leg.ankle, leg.toes);
+  for (const modeler::Side side : kSides) body.legs[index_of(side)] = leg_of(body, drawn, kHindLeg, side);
+  if (has_four_legs(model)) {
+    body.forelegs.emplace();
+    for (const modeler::Side side : kSides) (*body.forelegs)[index_of(side)] = leg_of(body, drawn, kForeleg, side);
+    for (std::array<Leg, 2>* legs : {&body.legs, &*body.forelegs})
+      for (Leg& leg : *legs) stand_on_toes(leg);
   }
   const double drawn_ankle = (back * (pelvis - frame_in(model, drawn, body.legs[0].ankle).place)).z;
   body.height = drawn_ankle + body.legs[0].sole.height(0, 0);
@@ -219,7 +283,7 @@ Body body_without_legs(const modeler::Model& model, const std::string& actor) {
     if (model.limbs.of(modeler::Limb::hip, side) == modeler::kNone ||
         model.limbs.of(modeler::Limb::ankle, side) == modeler::kNone ||
         model.joints[model.limbs.of(modeler::Limb::hip, side)].parent == modeler::kNone)
-      return {&model, actor, glm::dmat3(1), model.limbs.of(modeler::Trunk::pelvis), {}, 0};
+      return {&model, actor, glm::dmat3(1), model.limbs.of(modeler::Trunk::pelvis), {}};
   return body_of(model, actor, "");
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,6 +31,7 @@ struct Sole {
   std::vector<glm::dvec3> foot, toes;
   glm::dvec3 bend;        // of the toes, from the ankle
   glm::dvec3 heel, ball;  // on what the foot comes down, and on what it leaves
+  bool on_toes = false;   // of four legs: the toes alone stand
 
   // How high the ankle is over the floor when the foot, pitched with its toes down by so many degrees and the
   // toes bent against it, touches it.
@@ -40,6 +42,7 @@ struct Leg {
   std::size_t hip, knee, ankle, toes;  // knee and toes may be kNone
   double thigh, shin;                  // lengths; a leg of one piece is all thigh
   double aside;                        // of the hip from the pelvis' middle
+  double bent;                         // of the knee as drawn, degrees, the shin backward
   Sole sole;
 
   double length() const { return thigh + shin; }
@@ -51,7 +54,8 @@ struct Body {
   glm::dmat3 axes;     // forward, left, up in the model's own frame
   std::size_t pelvis;  // named, or the joint that carries the hips
   std::array<Leg, 2> legs;
-  double height;  // of the pelvis over the floor as drawn, where it stands
+  std::optional<std::array<Leg, 2>> forelegs{};  // where shoulders carry legs, too
+  double height = 0;                             // of the pelvis over the floor as drawn, where it stands
 
   const Leg& leg(modeler::Side side) const { return legs[index_of(side)]; }
   double leg_length() const { return legs[0].length(); }
@@ -76,6 +80,12 @@ double lowest_of(const modeler::Model& model, const Posture& posture);
 
 // Throws Failure where limbs that every command needs are not named.
 Body body_of(const modeler::Model& model, const std::string& actor, const std::string& command);
+
+// Whether wrists are named and what they carry reaches the floor as the hind feet do, as drawn.
+bool has_four_legs(const modeler::Model& model);
+
+// Throws Failure for figures with four legs.
+void require_two_legs(const modeler::Model& model, const std::string& actor, const std::string& command);
 
 // What a command needs that moves no legs: axes as those of the legs, or where these are not named forward
 // along x and up along z. `legs` is not to be asked.

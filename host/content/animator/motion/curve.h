@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <vector>
 
 namespace mars::motion {
 
@@ -33,6 +34,25 @@ inline double curve_through(std::span<const CurvePoint> points, double first_slo
 inline double smooth(double from, double to, double x) {
   const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
   return (3 - 2 * t) * t * t;
+}
+
+// The lowest curve over all values that changes no faster than a moving mean over `reach` values to each
+// side.
+inline std::vector<double> smooth_cover(const std::vector<double>& values, int reach) {
+  const auto over = [&](const std::vector<double>& from, auto take) {
+    std::vector<double> result(from.size());
+    for (int i = 0; i < int(from.size()); ++i) {
+      const int first = std::max(0, i - reach), last = std::min(int(from.size()) - 1, i + reach);
+      result[i] = take(from.begin() + first, from.begin() + last + 1);
+    }
+    return result;
+  };
+  const auto highest = over(values, [](auto a, auto b) { return *std::max_element(a, b); });
+  return over(highest, [](auto a, auto b) {
+    double sum = 0;
+    for (auto i = a; i != b; ++i) sum += *i;
+    return sum / double(b - a);
+  });
 }
 
 }  // namespace mars::motion

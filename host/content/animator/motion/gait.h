@@ -1,26 +1,13 @@
-// Steps: from a plan of footprints and times to a stance at every moment. Walking and turning are plans of
-// steps.
+// Steps: from a plan of footprints and times to a stance at every moment. Walking, turning and running are plans
+// of steps.
 #pragma once
 
 #include <glm/vec2.hpp>
 #include <vector>
 
-#include "host/content/animator/motion/stance.h"
+#include "host/content/animator/motion/footwork.h"
 
 namespace mars::motion {
-
-// Where an ankle is when its foot stands flat.
-struct Footprint {
-  glm::dvec2 place;
-  double heading;  // degrees
-};
-
-struct Step {
-  modeler::Side side;
-  Footprint to;
-  double off;   // frames from the start: the foot leaves the floor
-  double land;  // and is down again
-};
 
 // Through which the pelvis goes.
 struct Waypoint {
@@ -43,6 +30,7 @@ struct Gait {
   double period;              // frames from landing to landing
   double stride;              // a step's length over the leg's, for how much the body swings
   Style style;
+  const Manner* manner = &walking();
 
   double end() const { return way.back().time; }
 };
@@ -53,9 +41,6 @@ struct Gait {
 // the gait's end, from `start` on. `doing` and `remedy` are for failures.
 std::vector<Posture> postures_of(const Body& body, const Posture& start, const Gait& gait, std::uint32_t first_frame,
                                  const std::string& doing, const std::string& remedy);
-
-// Share of a period for which a foot is off the floor.
-double swing_share(const Body& body);
 
 // How a body stands at ease: arms hanging, trunk upright.
 std::map<std::size_t, glm::dmat3> at_ease(const Body& body);

@@ -27,6 +27,11 @@ double place_digit(const Body& body) { return std::pow(10, std::floor(std::log10
 
 double share(std::size_t from, std::size_t to, std::size_t at) { return double(at - from) / double(to - from); }
 
+// The same turn of a free joint, each number from -180 to 180.
+glm::dvec3 within_a_turn(const glm::dvec3& turn) {
+  return {std::remainder(turn.x, 360), std::remainder(turn.y, 360), std::remainder(turn.z, 360)};
+}
+
 class Keying {
  public:
   Keying(std::span<const Posture> postures, std::uint32_t first) : postures_(postures), keys_(postures.size()) {
@@ -74,11 +79,17 @@ class Keying {
   std::vector<animator::ActorKey> keys_;
 };
 
+bool is_above(const modeler::Model& model, std::size_t ancestor, std::size_t joint) {
+  while (joint != modeler::kNone && joint != ancestor) joint = model.joints[joint].parent;
+  return joint == ancestor;
+}
+
 bool carries_legs(const Body& body, std::size_t joint) {
-  for (const Leg& leg : body.legs)
-    for (const std::size_t part : {body.pelvis, leg.hip, leg.knee, leg.ankle, leg.toes})
-      if (part == joint) return true;
-  return false;
+  const auto carries = [&](const Leg& leg) {
+    return is_above(*body.model, joint, leg.toes == modeler::kNone ? leg.ankle : leg.toes);
+  };
+  return std::any_of(body.legs.begin(), body.legs.end(), carries) ||
+         (body.forelegs && std::any_of(body.forelegs->begin(), body.forelegs->end(), carries));
 }
 
 }  // namespace
@@ -133,7 +144,7 @@ std::vector<animator::ActorKey> keys_of(const Body& body, std::span<const std::s
   Keying keying(postures, first);
   keying.add_places(place_digit(body), kPlaceTolerance * body.leg_length());
   keying.add_turns(
-      modeler::Joint{}, kLegTolerance, [](const Posture& p) { return p.turn; },
+      modeler::Joint{}, kLegTolerance, [](const Posture& p) { return within_a_turn(p.turn); },
       [](animator::ActorKey& key, const glm::dvec3& turn) { key.turn = turn; });
   for (const std::size_t joint : joints)
     keying.add_joint(*body.model, joint, carries_legs(body, joint) ? kLegTolerance : kTolerance);

@@ -41,7 +41,12 @@ class Player {
     const std::uint32_t at = line.next_is("cut") ? last_ : take_cue(line);
     if (line.next_is("cut")) return cut_film(line, at);
     const std::string name = line.take("an actor, or cut,");
-    last_ = name == kCamera && !is_actor(name) ? move_camera(line, at) : start(line, name, at);
+    const bool camera = name == kCamera && !is_actor(name);
+    if (!camera) require_actor(line, name);
+    if (line.next_is("pose"))
+      last_ = pose(line, name, at);
+    else
+      last_ = camera ? move_camera(line, at) : start(line, name, at);
     if (line.take_if("as")) times_[line.take("a name")] = last_;
     if (!line.empty()) line.refuse("goes on with '" + line.take("") + "'", "take it out");
     played_.last = std::max(played_.last, last_);
@@ -76,21 +81,39 @@ class Player {
     played_.report.push_back(line.where() + ": the film has " + std::to_string(at) + " frames");
   }
 
-  std::uint32_t start(ScriptLine& line, const std::string& name, std::uint32_t at) {
+  void require_actor(const ScriptLine& line, const std::string& name) const {
     if (!is_actor(name))
       line.refuse("names '" + name + "', which is no actor of the film",
                   document::did_you_mean(name, std::vector<std::string_view>(actors_.begin(), actors_.end()),
                                          "name an actor, or camera"));
+  }
+
+  // ACTOR pose elbow.y=90 place.x+=1: keys at this frame, of the camera too.
+  std::uint32_t pose(ScriptLine& line, const std::string& name, std::uint32_t at) {
+    line.take("pose");
+    std::vector<std::string> settings;
+    while (!line.empty() && !line.next_is("as")) settings.push_back(line.take(""));
+    if (settings.empty()) line.refuse("does not say what is posed", "add PART=NUMBERS, as in: tom pose head.z=20");
+    // What an earlier version of the script keyed here would be added to again.
+    if (begun_.insert(name).second) is_actor(name) ? clear_from(name, std::max(at, 1u)) : clear_camera_after(at);
+    in_line(line, [&] {
+      return animator::pose(film_, meaning_of(film_, path_), name, settings, {at, at}, {}, animator::Beyond::refused);
+    });
+    played_.report.push_back(line.where() + ": " + name + " pose, frame " + std::to_string(at));
+    return at;
+  }
+
+  std::uint32_t start(ScriptLine& line, const std::string& name, std::uint32_t at) {
     const std::string verb = line.take("an action");
     if (verb == "attach" || verb == "detach") return carry(line, name, verb, at);
     const Action* action = find_action(verb);
-    std::vector<std::string_view> verbs{"attach", "detach"};
+    std::vector<std::string_view> verbs{"pose", "attach", "detach"};
     for (const Action& each : actions()) verbs.push_back(each.name);
     if (!action)
       line.refuse("has '" + verb + "', which is no action",
                   document::did_you_mean(verb, verbs, "see: mars animate --help"));
     const Arguments arguments(take_values(line, *action, at), line.where() + ": " + verb);
-    if (begun_.insert(name).second) clear_after(name, at);
+    if (begun_.insert(name).second) clear_from(name, at + 1);
     const Performed done = in_line(line, [&] { return perform(film_, path_, name, *action, at, arguments); });
     played_.report.push_back(line.where() + ": " + name + " " + verb + ", frames " + std::to_string(done.first) +
                              " to " + std::to_string(done.last) + (done.report.empty() ? "" : ": " + done.report));
@@ -101,7 +124,7 @@ class Player {
   // attach ACTOR/JOINT, detach: from this frame on.
   std::uint32_t carry(ScriptLine& line, const std::string& name, const std::string& verb, std::uint32_t at) {
     const std::string to = verb == "attach" ? line.take("an actor or its joint, as in tom/right-hand") : "";
-    if (begun_.insert(name).second) clear_after(name, at);
+    if (begun_.insert(name).second) clear_from(name, at + 1);
     in_line(line, [&] {
       const animator::Film meaning = meaning_of(film_, path_);
       verb == "attach" ? animator::attach(film_, meaning, name, to, at, {})
@@ -145,13 +168,13 @@ class Player {
 
   // camera cut eye X Y Z at X Y Z fov N: from this frame on; camera move the same, seconds S or until TIME.
   std::uint32_t move_camera(ScriptLine& line, std::uint32_t at) {
-    constexpr std::string_view verbs[] = {"cut", "move", "follow", "look"},
+    constexpr std::string_view verbs[] = {"cut", "move", "follow", "look", "pose"},
                                parts[] = {"eye", "at", "fov", "seconds", "until"};
-    const std::string verb = line.take("cut, move, follow or look");
+    const std::string verb = line.take("cut, move, pose, follow or look");
     if (verb == "follow" || verb == "look") return go_along(line, verb, at);
     if (verb != "cut" && verb != "move")
       line.refuse("has '" + verb + "' after camera",
-                  document::did_you_mean(verb, verbs, "write camera cut, move, follow or look"));
+                  document::did_you_mean(verb, verbs, "write camera cut, move, pose, follow or look"));
     std::vector<std::string> settings;
     double seconds = 1;
     while (!line.empty() && !line.next_is("as")) {
@@ -178,7 +201,7 @@ class Player {
       if (const std::uint32_t before = verb == "cut" ? at - 1 : at; verb == "move" || at > 0)
         animator::make_keys(film_, meaning_of(film_, path_), {false, kCamera, parts_of(settings)}, before,
                             verb == "cut" ? animator::kLinear : animator::kBoth, animator::Beyond::refused);
-      animator::pose(film_, meaning_of(film_, path_), kCamera, settings, end, animator::kLinear,
+      animator::pose(film_, meaning_of(film_, path_), kCamera, settings, {end, end}, animator::kLinear,
                      animator::Beyond::refused);
       return meaning_of(film_, path_).frames;
     });
@@ -236,7 +259,7 @@ class Player {
   }
 
   // What an earlier version of the script had left there.
-  void clear_after(const std::string& name, std::uint32_t at) {
+  void clear_from(const std::string& name, std::uint32_t frame) {
     const animator::Film film = meaning_of(film_, path_);
     const auto actor =
         std::find_if(film.actors.begin(), film.actors.end(), [&](const animator::Actor& a) { return a.name == name; });
@@ -244,7 +267,7 @@ class Player {
     all.place = all.turn = glm::dvec3(0);
     all.attach = animator::AttachKey{};
     for (const modeler::Joint& joint : film.models[actor->model].joints) all.pose[joint.name] = glm::dvec3(0);
-    animator::clear_keys(film_, name, at + 1, wire::kMostFrames, all);
+    animator::clear_keys(film_, name, frame, wire::kMostFrames, all);
   }
 
   void clear_camera_after(std::uint32_t at) {

@@ -215,6 +215,7 @@ Seated seated(const Scene& scene, const Chair& chair, const std::optional<double
 }
 
 Chair chair_of(const Scene& scene) {
+  require_two_legs(scene.model(), scene.actor.name, "sit");
   Chair chair(scene, "sit", kSitRemedy);
   if (!chair.upright())
     fail(scene, "does not stand", "sit",
@@ -246,6 +247,7 @@ Motion sit_down(const Scene& scene) {
 }
 
 Motion stand(const Scene& scene) {
+  require_two_legs(scene.model(), scene.actor.name, "stand");
   Chair chair(scene, "stand", kWiden);
   if (chair.upright()) fail(scene, "stands already", "stand", "let it sit down first, by the action sit");
   const glm::dvec3 middle = between_feet(chair.from());

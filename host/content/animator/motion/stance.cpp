@@ -19,6 +19,7 @@ constexpr double kTurnWeight = 0.3;    // of the leg's length, for a radian of t
 constexpr double kKneeWeight = 0.1;    // and of the knee's
 constexpr double kKneeShare = 0.7;     // of the foot's heading against the pelvis, to which the knee points
 constexpr double kAtLimit = 1e-3;      // degrees
+constexpr double kZigzag = 5;          // degrees that a knee is drawn bent
 
 glm::dmat3 heading_turn(double degrees) { return modeler::rotation_by_degrees({0, 0, 1}, degrees); }
 
@@ -69,6 +70,11 @@ void bend_knee(const Body& body, const Leg& leg, const Hinge& hinge, double dist
       (leg.thigh * leg.thigh + leg.shin * leg.shin - distance * distance) / (2 * leg.thigh * leg.shin);
   const double bend = 180 - glm::degrees(std::acos(std::clamp(cosine, -1.0, 1.0)));
   const modeler::Limits& limits = body.model->joints[leg.knee].limits[hinge.axis];
+  if (std::abs(leg.bent) > kZigzag) {  // such a leg bends on as it is drawn
+    posture.pose[leg.knee][hinge.axis] =
+        std::clamp(hinge.sign * (std::copysign(bend, leg.bent) - leg.bent), limits.lower, limits.upper);
+    return;
+  }
   const double forward = hinge.sign * bend, now = std::clamp(forward, limits.lower, limits.upper);
   const double backward = std::clamp(-forward, limits.lower, limits.upper);
   // A knee that bends only the other way, as a bird's heel does, bends so.
@@ -111,13 +117,10 @@ std::string limit_in_the_way(const Body& body, const Posture& posture, std::span
 
 class LegReach {
  public:
-  LegReach(const Body& body, modeler::Side side, const Stance& stance, Posture& posture)
-      : body_(body),
-        leg_(body.leg(side)),
-        side_(side),
-        foot_(stance.feet[index_of(side)]),
-        stance_(stance),
-        posture_(posture) {}
+  // `whose` foot: "left", "right fore".
+  LegReach(const Body& body, const Leg& leg, const std::string& whose, const Foot& foot, const Stance& stance,
+           Posture& posture)
+      : body_(body), leg_(leg), whose_(whose), foot_(foot), stance_(stance), posture_(posture) {}
 
   // A leg of one piece that swings goes in the foot's direction as far as it goes.
   void solve() {
@@ -146,13 +149,12 @@ class LegReach {
 
   void require_footing(const std::string& doing, const std::string& remedy) const {
     if (!foot_.stands) return;
-    const std::string whose = side_ == modeler::Side::left ? "left" : "right";
     const double far = error_of(foot_.ankle);
     std::vector<std::size_t> joints{leg_.hip};
     if (leg_.knee != modeler::kNone) joints.push_back(leg_.knee);
     if (far > kNearEnough * leg_.length()) {
       const std::string limit = limit_in_the_way(body_, posture_, joints);
-      fail("its " + whose + " foot cannot be where it stands", limit.empty() ? "the leg is too short" : limit, doing,
+      fail("its " + whose_ + " foot cannot be where it stands", limit.empty() ? "the leg is too short" : limit, doing,
            remedy);
     }
     const glm::dmat3 wanted = heading_turn(foot_.heading) * canonical_turn(0, foot_.pitch, 0);
@@ -164,7 +166,7 @@ class LegReach {
       joints.assign(1, leg_.ankle);
       joints.push_back(leg_.hip);
       const std::string limit = limit_in_the_way(body_, posture_, joints);
-      fail("its " + whose + " foot cannot stand on its sole", limit.empty() ? turn_missing(wanted) : limit, doing,
+      fail("its " + whose_ + " foot cannot stand on its sole", limit.empty() ? turn_missing(wanted) : limit, doing,
            remedy);
     }
   }
@@ -210,11 +212,20 @@ class LegReach {
 
   const Body& body_;
   const Leg& leg_;
-  modeler::Side side_;
+  std::string whose_;
   const Foot& foot_;
   const Stance& stance_;
   Posture& posture_;
 };
+
+Foot foot_of(const Body& body, const Posture& posture, const Leg& leg) {
+  const glm::dmat3 turn = body.turn_of(posture, leg.ankle);
+  Foot foot;
+  foot.ankle = frame_in(*body.model, posture, leg.ankle).place;
+  foot.heading = glm::degrees(std::atan2(turn[0].y, turn[0].x));
+  foot.pitch = -glm::degrees(std::asin(std::clamp(turn[0].z, -1.0, 1.0)));
+  return foot;
+}
 
 }  // namespace
 
@@ -225,12 +236,8 @@ Stance stance_of(const Body& body, const Posture& posture) {
   const glm::dmat3 facing = heading_turn(-stance.heading);
   stance.tilt = canonical_degrees(facing * body.turn_of(posture, body.pelvis));
   for (const modeler::Side side : kSides) {
-    const Leg& leg = body.leg(side);
-    const glm::dmat3 turn = body.turn_of(posture, leg.ankle);
-    Foot& foot = stance.feet[index_of(side)];
-    foot.ankle = frame_in(*body.model, posture, leg.ankle).place;
-    foot.heading = glm::degrees(std::atan2(turn[0].y, turn[0].x));
-    foot.pitch = -glm::degrees(std::asin(std::clamp(turn[0].z, -1.0, 1.0)));
+    stance.feet[index_of(side)] = foot_of(body, posture, body.leg(side));
+    if (body.forelegs) stance.forefeet[index_of(side)] = foot_of(body, posture, (*body.forelegs)[index_of(side)]);
   }
   return stance;
 }
@@ -263,10 +270,15 @@ void take_stance(const Body& body, const Stance& stance, Posture& posture, const
   place_pelvis(body, stance, posture);
   for (const auto& [joint, turn] : stance.turns)
     posture.pose[joint] = numbers_for(body, joint, turn, posture.pose[joint]);
+  const auto stand = [&](const Leg& leg, const std::string& whose, const Foot& foot) {
+    LegReach reach(body, leg, whose, foot, stance, posture);
+    reach.solve();
+    reach.require_footing(doing, remedy);
+  };
   for (const modeler::Side side : kSides) {
-    LegReach leg(body, side, stance, posture);
-    leg.solve();
-    leg.require_footing(doing, remedy);
+    const std::string name = side == modeler::Side::left ? "left" : "right";
+    stand(body.leg(side), body.forelegs ? name + " hind" : name, stance.feet[index_of(side)]);
+    if (body.forelegs) stand((*body.forelegs)[index_of(side)], name + " fore", stance.forefeet[index_of(side)]);
   }
 }
 

@@ -24,6 +24,7 @@ struct Stance {
   glm::dvec3 pelvis;         // place of the joint
   glm::dvec3 tilt{0, 0, 0};  // of the pelvis: canonical degrees beyond the heading
   std::array<Foot, 2> feet;
+  std::array<Foot, 2> forefeet{};           // of four legs
   std::map<std::size_t, glm::dmat3> turns;  // of other joints against their parents, canonical
 };
 

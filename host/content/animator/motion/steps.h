@@ -1,4 +1,4 @@
-// Walking and turning (thesis 3.2.2, 3.2.4): plans of steps for a gait.
+// Walking and turning (thesis 3.2.2, 3.2.4): plans of steps for a gait, of two legs or four.
 #pragma once
 
 #include "host/content/animator/motion/scene.h"

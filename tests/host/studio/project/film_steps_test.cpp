@@ -88,6 +88,57 @@ TEST_F(FilmSteps, AStepWritesWhatTheCommandWritesAndShowsItBefore) {
   EXPECT_EQ(project->shapes_revision(), open("film.json")->shapes_revision());
 }
 
+TEST_F(FilmSteps, LightsAreSetAsTheCommandSetsThem) {
+  Json film = Json::parse(kFilm);
+  film["lights"] = Json::parse(R"([{"direction": [0, 0, 1]}, {"place": [-2, 0, 3], "reach": 1.5},
+    {"place": [4, 0, 4], "at": [4, 0, 1], "cone": [20, 40], "keys": [{"frame": 8, "intensity": 2}]}])");
+  write("film.json", document::laid_out(film));
+  const Case cases[] = {
+      {R"({"set": "light", "light": 1, "direction": [1, 0, 1]})", "light/1", {"direction=1,0,1"}, 12},
+      {R"({"set": "light", "light": 2, "place": [1, 2, 3], "reach": 2})", "light/2", {"place=1,2,3", "reach=2"}, 0},
+      {R"({"set": "light", "light": 3, "at": [1, 2, 0], "cone": [10, 30]})", "light/3", {"at=1,2,0", "cone=10,30"}, 20},
+      {R"({"set": "light", "light": 3, "color": [1, 0.5, 0], "intensity": 3})",
+       "light/3",
+       {"color=1,0.5,0", "intensity=3"},
+       8}};
+  const auto project = open("film.json");
+  for (const Case& each : cases) {
+    project->set_frame(each.frame);
+    const std::string expected = by_command(each.thing, each.settings, each.frame);
+    project->preview(step(each.step));
+    const Json shown = project->describe_poses()["lights"];
+    project->commit(step(each.step));
+    EXPECT_EQ(text("film.json"), expected) << each.step;
+    const Json lights = project->describe()["lights"];
+    ASSERT_EQ(lights.size(), 3u);
+    for (std::size_t light = 0; light < 3; ++light)
+      for (const auto& part : lights[light].items())
+        EXPECT_TRUE(part.key() == "keyed" || part.value() == shown[light][part.key()]) << each.step << part.key();
+  }
+  const Json spot = project->describe()["lights"][2];
+  EXPECT_EQ(spot["thing"], "light/3");
+  EXPECT_EQ(spot["kind"], "spot");
+  EXPECT_EQ(spot["color"], Json::parse("[1, 0.5, 0]"));
+  EXPECT_EQ(spot["keyed"], Json::parse(R"(["intensity", "color"])"));
+  for (const char* wrong :
+       {R"({"set": "light", "light": 4, "place": [1, 2, 3]})", R"({"set": "light", "light": 0, "place": [1, 2, 3]})",
+        R"({"set": "light", "light": 1, "place": [1, 2, 3]})", R"({"set": "light", "light": 2, "cone": [10, 30]})",
+        R"({"set": "light", "light": 1, "direction": [0, 0, 0]})"}) {
+    refusal([&] { project->preview(step(wrong)); });
+    refusal([&] { project->commit(step(wrong)); });
+    EXPECT_FALSE(project->in_gesture());
+  }
+}
+
+TEST_F(FilmSteps, RigLightsAreNoThings) {
+  const auto project = open("film.json");
+  EXPECT_TRUE(project->rig_lights());
+  EXPECT_TRUE(project->describe()["lights"].empty());
+  refusal([&] { project->preview(step(R"({"set": "light", "light": 1, "intensity": 2})")); });
+  refusal([&] { project->commit(step(R"({"set": "light", "light": 1, "intensity": 2})")); });
+  EXPECT_EQ(text("film.json"), kFilm);
+}
+
 TEST_F(FilmSteps, ACancelledGestureLeavesNothing) {
   const auto project = open("film.json");
   project->set_frame(12);
@@ -156,6 +207,18 @@ TEST_F(FilmSteps, ThePageSeesActorsAndJoints) {
   EXPECT_EQ(two["joints"][2], Json::parse(R"({"name": "left-leg", "parent": "hip",
       "limits": [[-10, 30], [0, 90], [0, 0]], "free": ["x", "y"], "pose": [10, 20, 0], "keyed": true,
       "limb": "left.knee"})"));
+}
+
+TEST_F(FilmSteps, ACarriedActorIsNotMovedByItsPlace) {
+  Json json = Json::parse(text("film.json"));
+  for (Json& actor : json["actors"])
+    if (actor["name"] == "one") actor["attach"] = {{"actor", "two"}};
+  write("film.json", json.dump());
+  const auto project = open("film.json");
+  const Json place = step(R"({"set": "place", "actor": "one", "place": [1, 2, 3]})");
+  EXPECT_THROW(project->preview(place), Failure);
+  EXPECT_THROW(project->commit(place), Failure);
+  EXPECT_EQ(text("film.json"), json.dump());
 }
 
 }  // namespace

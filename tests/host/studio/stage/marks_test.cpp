@@ -6,7 +6,9 @@
 #include <glm/geometric.hpp>
 #include <set>
 
+#include "host/content/animator/camera_points.h"
 #include "host/content/animator/direction.h"
+#include "host/editing/edit_film.h"
 #include "host/studio/stage/eye.h"
 #include "tests/host/content/film/small_film.h"
 #include "tests/host/studio/stage/fakes.h"
@@ -142,6 +144,38 @@ TEST(Marks, TheCameraIsPulled) {
   scene.pull(at + by + glm::dvec3(0, 0, pixels), at + by + glm::dvec3(0, 0, pixels + 0.3));
   step = scene.drop();
   EXPECT_LT(glm::length(vector_of(step["at"]) - at - by - glm::dvec3(0, 0, 0.3)), 1e-5) << step.dump();
+}
+
+// The words are those of the command, which does what the hand did.
+TEST(Marks, ACameraThatGoesAlongIsPulledByItsOffset) {
+  constexpr const char* kFilm = R"({"frames": 9, "size": [640, 320],
+    "camera": {"eye": {"actor": "box", "joint": "body", "offset": [2, -4, 2], "level": true},
+               "at": {"actor": "box", "offset": [2, 0, 2]}},
+    "models": {"box": {"joints": [{"name": "body", "segment": {"shape": "box"}}]}},
+    "actors": [{"name": "box", "model": "box", "keys": [{"frame": 0, "place": [0, 0, 1]},
+                                                        {"frame": 8, "place": [8, 0, 1]}]}]})";
+  const auto pulled_to = [&](bool aim, const glm::dvec3& by) {
+    OnStage scene(film::film_of(kFilm));
+    scene.project.set_frame(2);
+    scene.view(0, kWidth, kHeight, "free", "stick",
+               R"(, "orbit": {"center": [3, 0, 2], "turn": -70, "height": 15, "distance": 14}, "marks": true)");
+    scene.take(R"({"do": "select", "thing": "camera"})");
+    const Screen screen(camera_from({From::free, {{3, 0, 2}, -70, 15, 14}}, 1), kWidth, kHeight);
+    const glm::dvec3 from = aim ? animator::at_at(scene.project.film(), 2) : animator::eye_at(scene.project.film(), 2);
+    scene.take(R"({"do": "grab", "view": 0, )" + xy(screen.pixel_of(from).value()) + "}");
+    scene.take(R"({"do": "drag", )" + xy(screen.pixel_of(from + by).value()) + "}");
+    const auto commands = scene.project.previews.back().at("commands").get<std::vector<editing::Command>>();
+    document::Json json = document::Json::parse(kFilm);
+    editing::edit_film(json, "/nowhere/f.json", commands);
+    const animator::Film film = film::film_of(json.dump());
+    const glm::dvec3 now = aim ? animator::at_at(film, 2) : animator::eye_at(film, 2);
+    EXPECT_LT(glm::length(now - from - by), 1e-5) << json["camera"].dump();
+    const glm::dvec3 later = aim ? animator::at_at(film, 8) : animator::eye_at(film, 8);
+    EXPECT_NEAR(later.x - now.x, 6, 1e-6) << "it goes along as before";
+  };
+  const Screen screen(camera_from({From::free, {{3, 0, 2}, -70, 15, 14}}, 1), kWidth, kHeight);
+  pulled_to(false, 0.5 * screen.right() - 0.25 * screen.up());
+  pulled_to(true, 0.5 * screen.up());
 }
 
 TEST(Marks, TheCameraIsZoomedByItsUpperEdge) {

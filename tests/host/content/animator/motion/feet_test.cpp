@@ -6,7 +6,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
+#include <string_view>
 
+#include "host/content/animator/motion/body.h"
 #include "host/content/film/compile.h"
 #include "tests/host/content/animator/motion/bodies.h"
 #include "tests/host/content/modeler/surface.h"
@@ -20,6 +22,8 @@ constexpr double kDown = 0.003, kSlide = 0.002, kThrough = 0.003;
 // Straight legs under narrow hips leave the floor sideways.
 constexpr double kNarrow = 0.04, kNarrowSlide = 0.05;
 
+constexpr std::string_view kSoles[] = {"foot", "toes", "sole", "hoof", "paw"};
+
 using Points = std::vector<glm::dvec3>;
 
 // All over the parts whose names begin with "anna/left" and end so.
@@ -28,7 +32,7 @@ Points sole(const film::CompiledFilm& film, const std::string& side, std::uint32
   for (const wire::Segment& segment : film.view().segments()) {
     const std::string name(film.view().name(segment));
     if (!name.starts_with("anna/" + side) ||
-        !(name.ends_with("foot") || name.ends_with("toes") || name.ends_with("sole")))
+        !std::ranges::any_of(kSoles, [&](std::string_view end) { return name.ends_with(end); }))
       continue;
     const auto& m = film.view().matrix_at(segment, frame).m;
     const wire::Shape& shape = film.view().shapes()[segment.shape];
@@ -70,6 +74,20 @@ class Feet {
     EXPECT_LT(floating_, kDown) << what;
     EXPECT_GT(held_, 300u) << what << ": points that were measured";
     ::testing::Test::RecordProperty(what, "slides " + std::to_string(slid_) + ", through " + std::to_string(through_));
+  }
+
+  // Of gaits with a flight; returns for how many frames no foot is down.
+  int expect_landings(const std::string& what) {
+    int flown = 0;
+    for (std::uint32_t frame = performed_.first; frame <= performed_.last; ++frame) {
+      floating_ = 0;
+      look(frame);
+      flown += floating_ > kDown;
+    }
+    EXPECT_LT(slid_, kSlide) << what;
+    EXPECT_LT(through_, kThrough) << what;
+    EXPECT_GT(held_, 300u) << what << ": points that were measured";
+    return flown;
   }
 
   void expect_no_sinking(const std::string& what) {
@@ -158,8 +176,9 @@ TEST(Feet, OfLegsOfOnePieceOnHingesDoNotSink) {
 }
 
 TEST(Feet, StayInOtherStylesAndOnBows) {
-  for (const char* words : {"walk steps 4 lean 12 bounce 2 knee-lift 1.5 arm-swing 2", "walk steps 8 turn 120 pace 1.5",
-                            "walk distance 6 steps 7 first left", "walk to -3 4", "turn by -135", "turn to 0 9"})
+  for (const char* words :
+       {"walk steps 4 lean 12 bounce 2 knee-lift 1.5 arm-swing 2", "walk steps 8 turn 120 pace 1.5",
+        "walk distance 6 steps 7 first left", "walk to -3 4", "turn by -135", "turn to 0 9"})
     for (const Build& build : people()) {
       document::Json film = film_with(build.model);
       const Performed performed = act(film, words, 5);
@@ -179,6 +198,94 @@ TEST(Feet, StayWhileAFigureSitsDownAndStandsUp) {
   }
 }
 
+std::vector<Build> with_knees() {
+  std::vector<Build> builds = people();
+  builds.push_back({"robot", robot(), 87});
+  return builds;
+}
+
+void expect_flights(const std::vector<Build>& builds, const char* words, int least) {
+  for (const Build& build : builds) {
+    document::Json film = film_with(build.model);
+    const int flown = Feet(film, act(film, words, 5), build.leg).expect_landings(build.name + " " + words);
+    EXPECT_GE(flown, least) << build.name << " " << words;
+  }
+}
+
+TEST(Feet, StayWhereTheyLandInARun) {
+  expect_flights(with_knees(), "run steps 5", 5);
+  for (const char* words : {"run steps 1", "run distance 9 pace 3 lean 6 turn 60", "run to -6 9"})
+    expect_flights({people()[0]}, words, 2);
+}
+
+TEST(Feet, LeaveAndLandTogetherInAJump) {
+  expect_flights(with_knees(), "jump", 9);
+  for (const char* words : {"jump distance 1.6", "jump distance -0.6", "jump turn 180", "jump height 0.4"})
+    expect_flights({people()[1]}, words, 5);
+}
+
+// Of four legs the length is from the hip to the floor.
+std::vector<Build> animals() {
+  const std::filesystem::path models = std::filesystem::path(MARS_SOURCE_DIR) / "examples/models";
+  return {{"horse", document::read_json(models / "horse.json"), 3.4},
+          {"dog", document::read_json(models / "dog.json"), 1.4}};
+}
+
+TEST(Feet, OfFourLegsStayWhereTheyStand) {
+  for (const char* words : {"walk steps 6 turn 40", "turn by -60"})
+    for (const Build& build : animals()) {
+      document::Json film = film_with(build.model);
+      Feet(film, act(film, words, 5), build.leg).expect_footing(build.name + " " + words);
+    }
+}
+
+TEST(Feet, OfFourLegsStayWhereTheyLandInATrotAndAGallop) {
+  expect_flights(animals(), "trot strides 3", 3);
+  expect_flights(animals(), "gallop strides 3", 4);
+  expect_flights({animals()[1]}, "gallop distance 9 turn 40 pace 2.6", 3);
+}
+
+// Of the frames in the middle of a gait, for how many the feet are down that its footfalls say.
+TEST(FourLegs, WalkInFourBeatsAndTrotInPairs) {
+  const auto together = [](const char* words, const char* one, const char* other) {
+    document::Json film = film_with(animals()[0].model);
+    const Performed done = act(film, words, 0);
+    const animator::Film shown = read(film);
+    int same = 0;
+    const auto high = [&](const char* joint, std::uint32_t frame) {
+      const modeler::Model& model = shown.models[0];
+      const auto found = std::ranges::find(model.joints, std::string(joint), &modeler::Joint::name);
+      return frame_in(model, posture_at(model, shown.actors[0].motion, frame), found - model.joints.begin()).place.z >
+             0.35;
+    };
+    for (std::uint32_t frame = 24; frame < 56; ++frame) same += high(one, frame) == high(other, frame);
+    return same / 32.0;
+  };
+  EXPECT_GT(together("trot strides 6", "left-hind-hoof", "right-fore-hoof"), 0.9);
+  EXPECT_LT(together("trot strides 6", "left-hind-hoof", "left-fore-hoof"), 0.4);
+  EXPECT_LT(together("walk steps 8", "left-hind-hoof", "right-fore-hoof"), 0.75);
+}
+
+// The hips' second differences are the acceleration, as long as no foot is down.
+TEST(Jumping, FliesByGravity) {
+  document::Json film = film_with(human());
+  const Performed done = act(film, "jump height 1 gravity 20 distance 2", 0);
+  const animator::Film shown = read(film);
+  const Body body = body_of(shown.models[0], "anna", "test");
+  const auto hips = [&](std::uint32_t frame) {
+    return frame_in(shown.models[0], posture_at(shown.models[0], shown.actors[0].motion, frame), body.pelvis).place;
+  };
+  double top = 0;
+  int falling = 0;
+  for (std::uint32_t frame = 1; frame < done.last; ++frame) {
+    const glm::dvec3 change = hips(frame - 1) - 2.0 * hips(frame) + hips(frame + 1);
+    falling += std::abs(change.z * 24 * 24 + 20) < 1.5;
+    top = std::max(top, hips(frame).z);
+  }
+  EXPECT_GE(falling, 13);
+  EXPECT_NEAR(top - hips(0).z, 1.2, 0.1) << "it leaves on its toes";
+}
+
 TEST(Walking, GoesOnFromWhereTheFigureStandsAndLooks) {
   document::Json film = film_with(human());
   act(film, "turn by 60", 0);
@@ -186,6 +293,17 @@ TEST(Walking, GoesOnFromWhereTheFigureStandsAndLooks) {
   const glm::dvec3 way = Feet(film, performed, 2.42).way();
   EXPECT_NEAR(std::atan2(way.y, way.x) * 180 / M_PI, 90, 1.5);
   EXPECT_NEAR(glm::length(way), 4.5, 0.05);
+}
+
+TEST(Turning, GoesBeyondHalfATurn) {
+  document::Json film = film_with(human());
+  const Performed performed = act(film, "turn by 200", 0);
+  Feet(film, performed, 2.42).expect_footing("turn by 200");
+  const animator::Film shown = read(film);
+  const Body body = body_of(shown.models[0], "anna", "test");
+  const double heading =
+      body.heading_of(posture_at(shown.models[0], shown.actors[0].motion, performed.last));
+  EXPECT_NEAR(std::remainder(heading - 230, 360), 0, 0.1);
 }
 
 TEST(Walking, GoesToAPlace) {

@@ -40,22 +40,35 @@ const char* const kAll[] = {"walk steps 4",
                             "stand",
                             "walk to 9 9 arm-swing 1.5"};
 
+void expect_limits_kept(const document::Json& film, const Performed& done, const std::string& what) {
+  const Shown shown(film);
+  for (std::uint32_t frame = done.first; frame <= done.last; ++frame) {
+    const Posture posture = shown.at(frame);
+    for (std::size_t i = 0; i < posture.pose.size(); ++i)
+      for (int axis = 0; axis < 3; ++axis) {
+        const modeler::Limits& limits = shown.film_model().joints[i].limits[axis];
+        EXPECT_GE(posture.pose[i][axis], limits.lower - kRounding) << what << " " << frame << shown.body.joint_name(i);
+        EXPECT_LE(posture.pose[i][axis], limits.upper + kRounding) << what << " " << frame << shown.body.joint_name(i);
+      }
+  }
+}
+
 TEST(Actions, KeepTheLimitsAtEveryFrame) {
   document::Json film = film_with(human());
-  for (const char* words : kAll) {
-    const Performed done = act(film, words);
-    const Shown shown(film);
-    for (std::uint32_t frame = done.first; frame <= done.last; ++frame) {
-      const Posture posture = shown.at(frame);
-      for (std::size_t i = 0; i < posture.pose.size(); ++i)
-        for (int axis = 0; axis < 3; ++axis) {
-          const modeler::Limits& limits = shown.film_model().joints[i].limits[axis];
-          EXPECT_GE(posture.pose[i][axis], limits.lower - kRounding)
-              << words << " " << frame << shown.body.joint_name(i);
-          EXPECT_LE(posture.pose[i][axis], limits.upper + kRounding)
-              << words << " " << frame << shown.body.joint_name(i);
-        }
-    }
+  for (const char* words : kAll) expect_limits_kept(film, act(film, words), words);
+  for (const char* words : {"run steps 5", "jump distance 1.5 turn 60", "jump height 1.2"})
+    expect_limits_kept(film, act(film, words), words);
+}
+
+document::Json animal(const std::string& name) {
+  return document::read_json(std::filesystem::path(MARS_SOURCE_DIR) / "examples/models" / (name + ".json"));
+}
+
+TEST(Actions, OfFourLegsKeepTheLimitsAtEveryFrame) {
+  for (const char* name : {"horse", "dog"}) {
+    document::Json film = film_with(animal(name));
+    for (const char* words : {"walk steps 4", "trot strides 3", "turn by 70", "gallop strides 4", "nod"})
+      expect_limits_kept(film, act(film, words), std::string(name) + " " + words);
   }
 }
 
@@ -102,9 +115,10 @@ TEST(Actions, ThatCannotBeAreRefusedBeforeAnyWorkIsDone) {
   const auto start = std::chrono::steady_clock::now();
   for (const auto& [words, reported, rate, at] : {
            Impossible{"walk steps 1e6", "'steps' is 1e6 (give a number from 1 to 10000)"},
-           Impossible{"walk steps -3 pace 99", "'steps' is -3 (give a number from 1 to 10000)"},
+           Impossible{"walk steps -3", "'steps' is -3 (give a number from 1 to 10000)"},
+           Impossible{"run pace 99", "'pace' is 99 (give a number from 0.1 to 10)"},
            Impossible{"walk distance 1e6", "'distance' is 1000000 away, which takes"},
-           Impossible{"walk to 1e6 1e6", "a walk has at most 10000: go to a nearer place"},
+           Impossible{"walk to 1e6 1e6", "a way has at most 10000: go to a nearer place"},
            Impossible{"walk steps 4 distance 1e6", "would take a step of 250000, where two legs of"},
            Impossible{"walk step-length 100", "take shorter steps"},
            Impossible{"walk steps 10000 pace 0.1", "would end at frame 24004440", 240},
@@ -268,6 +282,24 @@ TEST(Actions, SayWhatIsInTheWay) {
   EXPECT_EQ(refused(human(), "walk steps 0"), "walk: 'steps' is 0 (give a number from 1 to 10000)");
   EXPECT_EQ(refused(human(), "walk to 1 1 distance 3"), "walk: 'to' stands beside distance (give one of them)");
   EXPECT_EQ(refused(human(), "wave hand lft"), "wave: 'hand' is 'lft' (did you mean 'left'?)");
+}
+
+TEST(Actions, SayHowManyLegsTheyNeed) {
+  EXPECT_EQ(
+      refused(human(), "trot"),
+      "actor 'anna': has no four legs, which 'trot' needs (let it walk or run, or name its forelegs in its model's "
+      "limbs: docs/model-format.md)");
+  for (const char* words : {"run", "jump", "sit", "stand"})
+    EXPECT_NE(refused(animal("dog"), words).find("has four legs, which '" + std::string(words) + "' does not move"),
+              std::string::npos)
+        << refused(animal("dog"), words);
+  const std::string narrow = refused(limited(animal("horse"), "fore-arm", "y", {-8, 8}), "gallop");
+  EXPECT_NE(narrow.find("fore foot cannot be where it stands"), std::string::npos) << narrow;
+  EXPECT_NE(narrow.find("fore-arm' is at its limit"), std::string::npos) << narrow;
+  EXPECT_NE(refused(bird(), "run").find("names no left knee, which 'run' needs"), std::string::npos);
+  EXPECT_NE(refused(limited(human(), "-shin", "y", {0, 20}), "jump").find("-shin' is at its limit of 20"),
+            std::string::npos)
+      << refused(limited(human(), "-shin", "y", {0, 20}), "jump");
 }
 
 document::Json with_places(const std::vector<std::pair<std::string, document::Json>>& places) {

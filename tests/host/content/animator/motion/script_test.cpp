@@ -4,6 +4,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "host/content/animator/camera_points.h"
 #include "host/content/document/file.h"
 #include "tests/host/content/animator/motion/bodies.h"
 #include "tests/host/content/document/failure_of.h"
@@ -81,10 +82,10 @@ TEST(Script, PlayedAgainAfterAChangeLeavesNothingOfTheOld) {
 TEST(Script, TheCameraCutsFromOneFrameToTheNextAndMoves) {
   document::Json film = played("at 20 camera cut eye 5 0 1 fov 30\nat 40 camera move eye 9 0 1 seconds 1");
   const animator::Film meaning = read(film);
-  EXPECT_EQ(animator::value_at(meaning.camera.eye, 19), glm::dvec3(0, -9, 2));
-  EXPECT_EQ(animator::value_at(meaning.camera.eye, 20), glm::dvec3(5, 0, 1));
-  EXPECT_EQ(animator::value_at(meaning.camera.eye, 40), glm::dvec3(5, 0, 1));
-  EXPECT_EQ(animator::value_at(meaning.camera.eye, 64), glm::dvec3(9, 0, 1));
+  EXPECT_EQ(animator::eye_at(meaning, 19), glm::dvec3(0, -9, 2));
+  EXPECT_EQ(animator::eye_at(meaning, 20), glm::dvec3(5, 0, 1));
+  EXPECT_EQ(animator::eye_at(meaning, 40), glm::dvec3(5, 0, 1));
+  EXPECT_EQ(animator::eye_at(meaning, 64), glm::dvec3(9, 0, 1));
   EXPECT_EQ(animator::value_at(meaning.camera.fov, 19), 40);
   EXPECT_EQ(animator::value_at(meaning.camera.fov, 20), 30);
 }
@@ -124,7 +125,7 @@ TEST(Script, WhatFailsLeavesTheFilmAsItWas) {
 }
 
 TEST(Script, TheExamplesAreAsTheirScriptsMakeThem) {
-  for (const std::string name : {"cubes", "visit"}) {
+  for (const std::string name : {"cubes", "visit", "meadow"}) {
     const std::filesystem::path path = std::filesystem::path(MARS_SOURCE_DIR) / "examples" / (name + ".json");
     const document::Json kept = document::read_json(path);
     document::Json made = kept;

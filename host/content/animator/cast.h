@@ -1,0 +1,31 @@
+// A film's actors and the models that they use: added, removed, renamed. As values: `film` is the JSON of what
+// read_film accepts, which also checks the result; it is as it was where these throw.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+
+#include "host/content/document/json_file.h"
+
+namespace mars::animator {
+
+struct NewActor {
+  std::string name;
+  std::string
+      model;  // one of the film's; a figure or object of the library; or a model file, seen from the film's folder
+  std::optional<glm::dvec3> place{}, turn{};  // without a place it stands at the origin
+  std::optional<double> height{};             // at rest, of what is of the library
+};
+
+// What is of the library becomes the film's own model, by its name; of a height of its own, by the actor's.
+void add_actor(document::Json& film, const NewActor& actor);
+
+// Refuses where something is attached to it or the camera follows it. A model that nothing else uses goes too, unless
+// it stands in this film alone.
+void remove_actor(document::Json& film, const std::string& name);
+
+// Also wherever the film names it.
+void rename_actor(document::Json& film, const std::string& name, const std::string& new_name);
+
+}  // namespace mars::animator

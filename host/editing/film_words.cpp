@@ -1,0 +1,232 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <optional>
+
+#include "host/content/animator/cast.h"
+#include "host/content/animator/film_settings.h"
+#include "host/content/animator/film_summary.h"
+#include "host/content/document/text.h"
+#include "host/content/modeler/figure_library.h"
+#include "host/editing/words.h"
+#include "host/shell/options/wrapped.h"
+
+namespace mars::editing {
+namespace {
+
+using document::Json;
+
+constexpr const char* kWay = R"(A film from nothing:
+  mars film play.json new size=640,360 --figure man
+  mars film play.json add floor --model floor
+  mars film play.json add ball --model ball --place 1.2 -1 0.275
+  mars animate play.json walk man --to 4 0 --lengthen
+  mars render play.json -o play
+FILM is changed in place, whole or not at all. More: docs/filming.md.
+)";
+
+// What a person typed after any of the commands.
+struct Words {
+  EditedFilm& film;
+  std::string name{}, other{}, model{};
+  std::vector<std::string> fields{};
+  std::vector<double> place{}, turn{};
+  std::optional<double> height{};
+  std::size_t number = 0;
+};
+
+using Meaning = animator::Film;
+
+std::optional<glm::dvec3> place_of(const Words& words) {
+  if (words.place.empty()) return std::nullopt;
+  return glm::dvec3(words.place[0], words.place[1], words.place[2]);
+}
+
+std::optional<glm::dvec3> turn_of(const Words& words) {
+  if (words.turn.empty()) return std::nullopt;
+  if (words.turn.size() == 1) return glm::dvec3(0, 0, words.turn[0]);
+  return glm::dvec3(words.turn[0], words.turn[1], words.turn[2]);
+}
+
+void run_new(const Words& words) {
+  Json film = animator::new_film();
+  animator::set_film(film, words.fields);
+  if (!words.model.empty()) animator::add_actor(film, {words.model, words.model});
+  words.film.create(film);
+}
+
+void run_add(const Words& words) {
+  words.film.change([&](Json& film, const Meaning&) {
+    animator::add_actor(film, {words.name, words.model, place_of(words), turn_of(words), words.height});
+  });
+}
+
+void run_remove(const Words& words) {
+  words.film.change([&](Json& film, const Meaning&) { animator::remove_actor(film, words.name); });
+}
+
+void run_rename(const Words& words) {
+  words.film.change([&](Json& film, const Meaning&) { animator::rename_actor(film, words.name, words.other); });
+}
+
+void run_set(const Words& words) {
+  words.film.change([&](Json& film, const Meaning&) { animator::set_film(film, words.fields); });
+}
+
+void run_show(const Words& words) {
+  film::FilmFile file = words.film.read();
+  words.film.print(animator::film_summary(file.json, file.film));
+}
+
+void run_light_add(const Words& words) {
+  bool own = false;
+  std::size_t number = 0;
+  words.film.change([&](Json& film, const Meaning& meaning) {
+    own = film.contains("lights");
+    number = animator::add_light(film, meaning, words.fields);
+  });
+  words.film.print(
+      "light/" + std::to_string(number) +
+      (own ? "\n"
+           : ", beside those that the film was shown with: light/1 to light/" + std::to_string(number - 1) + "\n"));
+}
+
+void run_light_remove(const Words& words) {
+  words.film.change([&](Json& film, const Meaning& meaning) { animator::remove_light(film, meaning, words.number); });
+}
+
+void run_light_rig(const Words& words) { words.film.change(animator::write_rig); }
+
+void run_material_add(const Words& words) {
+  words.film.change([&](Json& film, const Meaning& meaning) {
+    animator::add_material(film, meaning, words.name, words.fields, words.other);
+  });
+}
+
+void run_material_set(const Words& words) {
+  words.film.change([&](Json& film, const Meaning&) { animator::set_material(film, words.name, words.fields); });
+}
+
+void run_material_remove(const Words& words) {
+  words.film.change([&](Json& film, const Meaning&) { animator::remove_material(film, words.name); });
+}
+
+// A command of which `run` does the work.
+CLI::App& add_command(CLI::App& film, const std::shared_ptr<Words>& words, const char* name, const char* purpose,
+                      void (*run)(const Words& words)) {
+  CLI::App* command = film.add_subcommand(name, purpose);
+  command->callback([words, run] { run(*words); });
+  return *command;
+}
+
+CLI::Option* add_fields(CLI::App& command, Words& words, const char* help) {
+  return command.add_option("KEY=VALUE", words.fields, help);
+}
+
+void add_actor_options(CLI::App& command, Words& words) {
+  command.add_option("ACTOR", words.name, "Its name. Example: tom")->required();
+  command
+      .add_option("--model", words.model,
+                  "A figure or object of the library, a model file as seen from the film's folder, or a model that the "
+                  "film has. Example: --model man")
+      ->type_name("MODEL")
+      ->required();
+  command.add_option("--place", words.place, "Where it stands. Example: --place 2 0 0")
+      ->expected(3)
+      ->type_name("X Y Z");
+  command
+      .add_option("--turn", words.turn,
+                  "How it is turned: degrees about the upward axis, or about x, y and z. Example: --turn 90")
+      ->expected(1, 3)
+      ->type_name("DEGREES");
+  command
+      .add_option("--height", words.height, "How high it is at rest, if it is of the library. Example: --height 4.6")
+      ->type_name("LENGTH")
+      ->check(CLI::Range(1e-6, 1e6).description(""));
+  command.parse_complete_callback([&words] {
+    if (words.turn.size() == 2) throw CLI::ValidationError("--turn", "give one angle, or three");
+  });
+}
+
+void add_actors(CLI::App& film, const std::shared_ptr<Words>& words) {
+  add_actor_options(add_command(film, words, "add", "Add an actor: a figure, an object or another model", run_add),
+                    *words);
+  CLI::App& remove = add_command(film, words, "remove", "Remove an actor", run_remove);
+  remove.add_option("ACTOR", words->name, "The actor. Example: tom")->required();
+  CLI::App& rename = add_command(film, words, "rename", "Give an actor another name", run_rename);
+  rename.add_option("ACTOR", words->name, "The actor. Example: tom")->required();
+  rename.add_option("NAME", words->other, "Its new name. Example: anna")->required();
+}
+
+constexpr const char* kSettings =
+    "frames, rate, size, samples, background, ambient, color, curve, intervals or dice, as in docs/film-format.md. "
+    "Example: frames=120 size=640,360 background=0.6,0.7,0.8";
+
+void add_settings(CLI::App& film, const std::shared_ptr<Words>& words) {
+  CLI::App& fresh = add_command(film, words, "new", "Make a film file with a camera", run_new);
+  add_fields(fresh, *words, kSettings);
+  fresh.add_option("--figure", words->model, "With a figure of the library at its middle. Example: --figure man")
+      ->type_name("FIGURE");
+  add_fields(add_command(film, words, "set", "Change settings of the film", run_set), *words, kSettings)->required();
+  add_command(film, words, "show", "Show what the film holds, by the names that commands take", run_show);
+}
+
+void add_lights(CLI::App& film, const std::shared_ptr<Words>& words) {
+  CLI::App& light = *film.add_subcommand("light", "Add and remove lights");
+  add_fields(add_command(light, words, "add", "Add a light", run_light_add), *words,
+             "direction to it, or place, or place and at of a spot; cone, reach, color, intensity, as in "
+             "docs/film-format.md. Example: place=4,-3,6 at=0,0,2 color=1,0.9,0.8 intensity=2")
+      ->required();
+  CLI::App& remove = add_command(light, words, "remove", "Remove a light", run_light_remove);
+  remove.add_option("N", words->number, "Its number, from 1. Example: 2")->required();
+  add_command(light, words, "rig", "Write the three lights into a film that has none of its own", run_light_rig);
+}
+
+void add_materials(CLI::App& film, const std::shared_ptr<Words>& words) {
+  constexpr const char* fields =
+      "color, reflection, ambient, diffuse, specular, exponent, roughness, metallic, refraction, interpolation or "
+      "sides, as in docs/film-format.md. Example: color=0.9,0.6,0.5 reflection=blinn-phong";
+  CLI::App& material = *film.add_subcommand("material", "Add, change and remove materials of the film");
+  const auto add = [&](const char* name, const char* purpose, void (*run)(const Words&)) -> CLI::App& {
+    CLI::App& command = add_command(material, words, name, purpose, run);
+    command.add_option("NAME", words->name, "The material. Example: skin")->required();
+    return command;
+  };
+  CLI::App& fresh = add("add", "Add a material", run_material_add);
+  add_fields(fresh, *words, fields);
+  fresh
+      .add_option("--actor", words->other,
+                  "Who wears it: where its model wears one of this name, which it begins as, else all over. "
+                  "Example: --actor tom")
+      ->type_name("ACTOR");
+  add_fields(add("set", "Change a material", run_material_set), *words, fields)->required();
+  add("remove", "Remove a material", run_material_remove);
+}
+
+std::string library_text() {
+  const auto list = [](std::span<const modeler::LibraryFigure> library) {
+    std::vector<std::string> texts;
+    for (const modeler::LibraryFigure& each : library)
+      texts.push_back(std::string(each.name) + " (" + std::string(each.what) + ")");
+    return document::joined(texts);
+  };
+  return "Of the library, 2.9 units a metre:\n  " + options::wrapped(list(modeler::figure_library()), 2) + "\n  " +
+         options::wrapped(list(modeler::object_library()), 2) + "\n";
+}
+
+}  // namespace
+
+CLI::App& add_film(CLI::App& mars, EditedFilm& film) {
+  const auto words = std::make_shared<Words>(film);
+  CLI::App* app = mars.add_subcommand("film", "Begin a film; add actors, lights and materials; change its settings");
+  app->require_subcommand(1);
+  add_settings(*app, words);
+  add_actors(*app, words);
+  add_lights(*app, words);
+  add_materials(*app, words);
+  app->get_subcommand("add")->footer(library_text());
+  app->footer(kWay);                // last, or each of its commands would have it
+  app->final_callback([words] {});  // keeps what was typed
+  return *app;
+}
+
+}  // namespace mars::editing
