@@ -273,6 +273,7 @@ Motion pick(const Scene& scene) {
   if (!what) scene.arguments.refuse("what", "is missing", "say what it picks up: what ACTOR");
   if (scene.film.actors[what->actor].name == scene.actor.name)
     scene.arguments.refuse("what", "is the figure itself", "name another actor");
+  require_two_legs(scene.model(), scene.actor.name, "pick");
   const Body body = body_of(scene.model(), scene.actor.name, "pick");
   // Where it is when the hand is there, and so when that is.
   Timing timing = timing_of(scene, 0.5);
@@ -308,6 +309,7 @@ Motion pick(const Scene& scene) {
 Motion put(const Scene& scene) {
   const auto to = scene.arguments.vector("to");
   if (!to) scene.arguments.refuse("to", "is missing", "say where: to 1 0 2");
+  require_two_legs(scene.model(), scene.actor.name, "put");
   const Body body = body_of(scene.model(), scene.actor.name, "put");
   const Holding holding = holding_of(scene, body);
   const glm::dvec3 held = animator::attachment_at(scene.film.actors[holding.actor], scene.at)->place;

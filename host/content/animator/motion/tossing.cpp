@@ -50,13 +50,12 @@ struct Throw {
 Throw throw_to(const glm::dvec3& from, const glm::dvec3& to, double gravity, double rate,
                const std::optional<double>& seconds) {
   const glm::dvec3 way = to - from;
-  const double across = std::hypot(way.x, way.y), far = glm::length(way);
+  const double far = glm::length(way);
   const double speed2 = gravity * (way.z + far);
-  // Of the slowest: tangent of its angle = v^2 / (g across), so the time is across / (v cos) = sqrt(2 far / g).
+  // The slowest takes sqrt(2 far / g): it halves the angle between the way and straight up.
   const double slowest = speed2 > 0 && gravity > 0 ? std::sqrt(2 * far / gravity) : 1;
   const double frames = std::max(1.0, std::round(rate * seconds.value_or(slowest)));
   const double time = frames / rate;
-  static_cast<void>(across);
   return {way / time + glm::dvec3(0, 0, 0.5 * gravity * time), static_cast<std::uint32_t>(frames)};
 }
 
@@ -178,6 +177,7 @@ Motion toss(const Scene& scene) {
   const auto to = arguments.vector("to"), velocity = arguments.vector("velocity");
   if (to && velocity) arguments.refuse("to", "stands beside velocity", "give one of them");
   if (!to && !velocity) arguments.refuse("to", "is missing", "say where it flies: to 4 0 0, or with which velocity");
+  require_two_legs(scene.model(), scene.actor.name, "toss");
   const Body body = body_of(scene.model(), scene.actor.name, "toss");
   const Holding holding = holding_of(scene, body);
   const double gravity = arguments.number("gravity", kGravity, {1e-6, 1e9});
