@@ -52,7 +52,7 @@ void run_action(EditedFilm& film, const motion::Action& action, const Typed& typ
   std::string note;
   film.change([&](document::Json& json, const animator::Film& meaning) {
     done = motion::perform(json, meaning, typed.actor, action, at, arguments);
-    note = grown(json, done.last, typed.lengthen);
+    note = grown(json, done.film_last, typed.lengthen);
   });
   if (!note.empty()) note += "--at " + std::to_string(done.first) + " --lengthen";
   film.print("frames " + std::to_string(done.first) + " to " + std::to_string(done.last) +

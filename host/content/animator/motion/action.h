@@ -11,18 +11,10 @@
 
 #include "host/content/animator/edit.h"
 #include "host/content/animator/motion/arguments.h"
+#include "host/content/animator/motion/parameter.h"
 #include "host/content/animator/motion/scene.h"
 
 namespace mars::motion {
-
-struct Parameter {
-  std::string_view name;     // "step-length"; an option --step-length, in scripts a word before its values
-  std::string_view value;    // what follows, for help: "N", "X Y"; as many words as values
-  std::string_view meaning;  // with what it is otherwise
-  std::string_view example;  // its values
-
-  std::size_t count() const;  // of values
-};
 
 struct Action {
   std::string_view name;
@@ -36,7 +28,8 @@ std::span<const Action> actions();
 const Action* find_action(std::string_view name);
 
 struct Performed {
-  std::uint32_t first, last;  // frames
+  std::uint32_t first, last;  // frames of the actor
+  std::uint32_t film_last;    // of others, too: what is tossed moves on
   std::string report;
 };
 

@@ -117,6 +117,7 @@ class Player {
     const Performed done = in_line(line, [&] { return perform(film_, path_, name, *action, at, arguments); });
     played_.report.push_back(line.where() + ": " + name + " " + verb + ", frames " + std::to_string(done.first) +
                              " to " + std::to_string(done.last) + (done.report.empty() ? "" : ": " + done.report));
+    played_.last = std::max(played_.last, done.film_last);
     return done.last;
   }
 

@@ -441,7 +441,7 @@ class Films(Page):
     kind = projects.film
 
     def test_frames_are_scrubbed_and_played(self):
-        self.find("#frames input[type=range]").send_keys(Keys.ARROW_RIGHT)
+        self.find(".ruler").send_keys(Keys.ARROW_RIGHT)
         self.studio.wait_for("frame", frame=25)
         self.js("document.activeElement.blur()")
         self.chord(".")
