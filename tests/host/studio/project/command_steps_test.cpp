@@ -48,7 +48,7 @@ class CommandSteps : public OpenFiles {
 const std::vector<std::vector<Command>> kSteps = {
     {{"animate", "pose", "one", "head.y=20", "--frame", "12"}},
     {{"animate", "move", "two", "left-leg", "--frame", "24", "--to", "30"}},
-    {{"animate", "key", "two", "--frame", "10"}, {"animate", "delete", "two", "head", "--frame", "10"}},
+    {{"animate", "key", "two", "--frame", "10", "--clamp"}, {"animate", "delete", "two", "head", "--frame", "10"}},
     {{"animate", "time", "two", "--frame", "0", "--anticipate", "15", "--overshoot", "10"}},
     {{"animate", "time", "--all", "--frame", "0-24", "--stretch", "2", "--lengthen"}},
     {{"animate", "bounce", "one", "--velocity", "1", "0", "3", "--lengthen"}},
