@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "hal/failure/failure.h"
+#include "host/content/animator/film_version.h"
 #include "host/content/animator/read_film.h"
 #include "host/content/document/shell_word.h"
 #include "host/editing/words.h"
@@ -26,6 +27,7 @@ class FilmInMemory : public EditedFilm {
   void change(const Change& change) override {
     document::Json changed = json_;
     change(changed, meaning_of(json_));
+    animator::write_version(changed);
     meaning_of(changed);
     json_ = std::move(changed);
   }
