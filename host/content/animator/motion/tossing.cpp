@@ -59,9 +59,9 @@ Throw throw_to(const glm::dvec3& from, const glm::dvec3& to, double gravity, dou
   return {way / time + glm::dvec3(0, 0, 0.5 * gravity * time), static_cast<std::uint32_t>(frames)};
 }
 
-class Swing {
+class ArmSwing {
  public:
-  Swing(const Scene& scene, const Body& body, const Holding& holding)
+  ArmSwing(const Scene& scene, const Body& body, const Holding& holding)
       : scene_(scene),
         body_(body),
         hand_(holding.hand),
@@ -182,7 +182,7 @@ Motion toss(const Scene& scene) {
   const Holding holding = holding_of(scene, body);
   const double gravity = arguments.number("gravity", kGravity, {1e-6, 1e9});
   const double floor = arguments.number("floor", 0, {-document::kFarthest, document::kFarthest});
-  const Swing swing(scene, body, holding);
+  const ArmSwing swing(scene, body, holding);
 
   const Block block = block_of(scene, {holding.actor}, scene.at);
   const glm::dvec3 now = animator::state_at(scene.film, holding.actor, scene.at).root.place;
@@ -204,7 +204,7 @@ Motion toss(const Scene& scene) {
                   "let it turn there first: turn " +
                       (to ? "to " + text(target.x) + " " + text(target.y) : "by " + text(bearing)));
   const auto frames = [&](double seconds) { return std::max(2, static_cast<int>(std::round(scene.frames(seconds)))); };
-  Swing::Shape shape{frames(kBack), 0, frames(kThrough), frames(kRest), 40, level ? bearing : 0};
+  ArmSwing::Shape shape{frames(kBack), 0, frames(kThrough), frames(kRest), 40, level ? bearing : 0};
   std::vector<Posture> postures;
   // The arm lets go where it moves as the thing shall fly, and about as fast.
   for (int round = 0; round < 3; ++round) {
