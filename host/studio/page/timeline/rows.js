@@ -4,7 +4,7 @@
 const kLooks = ["linear", "eased", "spline", "slopes"];
 const kOrder = ["camera", "light", "material", "actor"];
 
-export function lookOf({ease = "linear", in: reach, out}) {
+function lookOf({ease = "linear", in: reach, out}) {
   if (ease === "spline") return reach !== undefined || out !== undefined ? "slopes" : "spline";
   return ease === "linear" ? "linear" : "eased";
 }
