@@ -6,6 +6,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/animator/carry.h"
+#include "host/content/animator/film_version.h"
 #include "host/content/animator/motion/script_line.h"
 #include "host/content/animator/pose.h"
 #include "host/content/animator/read_film.h"
@@ -17,7 +18,9 @@ constexpr std::string_view kCues[] = {"at", "then", "after"};
 constexpr const char* kCamera = "camera";
 
 animator::Film meaning_of(const document::Json& json, const std::filesystem::path& path) {
-  const document::Document document(document::laid_out(json), path.string());
+  document::Json newest = json;
+  animator::write_version(newest);
+  const document::Document document(document::laid_out(newest), path.string());
   return animator::read_film(document.root(), path.parent_path());
 }
 
