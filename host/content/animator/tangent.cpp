@@ -3,6 +3,7 @@
 #include <set>
 
 #include "hal/failure/failure.h"
+#include "host/content/animator/frame_words.h"
 #include "host/content/animator/part_setting.h"
 #include "host/content/animator/track_splines.h"
 

@@ -124,6 +124,8 @@ class Player {
                   document::did_you_mean(verb, verbs, "see: mars animate --help"));
     const Arguments arguments(take_values(line, *action, at), line.where() + ": " + verb);
     if (begun_.insert(name).second) clear_from(name, at + 1);
+    if (const auto what = arguments.word("what"); what && is_actor(*what) && begun_.insert(*what).second)
+      clear_from(*what, at + 1);
     const Performed done = in_line(line, [&] { return perform(film_, meaning(), name, *action, at, arguments); });
     played_.report.push_back(line.where() + ": " + name + " " + verb + ", frames " + std::to_string(done.first) +
                              " to " + std::to_string(done.last) + (done.report.empty() ? "" : ": " + done.report));
