@@ -61,6 +61,32 @@ class Animate(ProgramTest):
         self.changed("time", "robot", "--frame", 12, "--shift", -6)
         self.assertEqual(self.frames(), [6])
 
+    def test_relative_turns_of_patterns_and_ranges(self):
+        self.changed("pose", "robot", "elbow.y=90", "--frame", 24)
+        self.changed("pose", "robot", "e*.y+=10", "--frame", "0-")
+        self.changed("pose", "robot", "place.x-=1", "--frame", 24)
+        self.assertEqual(self.actor()["keys"], [{"frame": 0, "place": [0, 0, 0], "pose": {"elbow": [0, 10, 0]}},
+                                                {"frame": 24, "place": [-1, 0, 0], "pose": {"elbow": [0, 100, 0]}}])
+        self.assertIn("finds no key", self.refused("pose", "robot", "shoulder.x+=9", "--frame", "0-24"))
+
+    def test_lights_are_posed_listed_and_checked(self):
+        self.write("film.json", film(lights=[{"direction": [0, -1, 1]}, {"place": [0, 0, 5]}]))
+        self.animate("pose", "light/2", "intensity=3", "color=1,0.8,0.6", "--frame", 24)
+        self.assertRegex(self.animate("list", "light/2", "int*").stdout, r"light/2\n.*\n +0  intensity  1\n +24 +intensity +3")
+        self.assertIn("light/1 to light/2", self.refused("pose", "light/3", "intensity=3", "--frame", 24))
+        self.animate("move", "light/2", "--frame", 24, "--to", 90)
+        self.assertIn("light/2: has keys up to frame 90", self.animate("check").stdout)
+
+    def test_a_film_is_begun_and_rendered(self):
+        self.succeed("mars", "film", "new.json", "new", "size=32,18", "frames=1", "--figure", "man")
+        before = (self.folder / "new.json").read_bytes()
+        again = self.mars("film", "new.json", "new")
+        self.assertEqual((again.returncode, (self.folder / "new.json").read_bytes()), (1, before))
+        self.assertIn("is there already", again.stderr)
+        self.succeed("mars", "film", "new.json", "add", "ball", "--model", "ball", "--place", 1, -1, 0.275)
+        self.succeed("mars", "render", "new.json", "-o", "out", "--backend", "threads", "--nodes", 1, "--quiet")
+        self.assertIn("Usage: mars film FILM light add", self.succeed("mars", "film", "light", "add", "--help"))
+
     def test_limits(self):
         printed = self.refused("pose", "robot", "elbow.y=170", "--frame", 24)
         self.assertIn("actor 'robot', joint 'elbow': turns 170 degrees about y, outside its limits 0 to 150", printed)
@@ -174,7 +200,7 @@ class Animate(ProgramTest):
         self.assertIn("did you mean 'elbow'?", self.refused("pose", "robot", "elbwo.y=9", "--frame", 3))
         self.assertIn("did you mean 'robot'?", self.refused("key", "robbot", "--frame", 3))
         self.assertIn("its keys stand at 0, 12", self.refused("move", "robot", "--frame", "3-5", "--to", 9))
-        self.assertIn("name an actor or camera, or use --all", self.refused("delete", "--frame", 0))
+        self.assertIn("name an actor, camera, light/N or material/NAME, or use --all", self.refused("delete", "--frame", 0))
         self.assertIn("--all and 'robot'", self.refused("delete", "robot", "--all", "--frame", 0))
         self.assertIn("use one of --ease", self.refused("time", "robot", "--frame", 0))
         self.assertIn("is no frame", self.refused("key", "robot", "--frame", "twelve"))

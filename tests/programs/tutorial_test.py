@@ -14,7 +14,7 @@ MAKE_PICTURES = "--make-pictures" in sys.argv
 from harness import ENVIRONMENT, PROGRAMS, SOURCES, main  # noqa: E402
 from pages import PageTest, pattern_of  # noqa: E402
 
-PAGES = ["tutorial.md"]
+PAGES = ["tutorial.md", "filming.md"]
 
 
 def pixels_of(path):

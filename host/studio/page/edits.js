@@ -11,6 +11,7 @@ export class Edits {
   }
 
   #previews = false;
+  onCommit = () => {};  // hears each step
   unanswered = new Unanswered();
 
   preview(step, event) {
@@ -23,6 +24,7 @@ export class Edits {
     this.unanswered.add(step, this.state);
     this.pace.drop("preview");
     this.pace.now({do: "commit", step}, event ?? kNoEvent);
+    this.onCommit(step);
   }
 
   cancel() {
@@ -39,6 +41,20 @@ export class Edits {
   select(actor, joint) {
     this.state.select(actor, joint);
     this.connection.send({do: "select", actor, joint});
+  }
+
+  // The camera or a light.
+  selectThing(thing) {
+    this.state.select(null, null, thing);
+    this.connection.send({do: "select", thing});
+  }
+
+  // A joint that stays where it is while others are pulled, or no longer.
+  pin() {
+    const {actor, joint} = this.state.selected;
+    if (joint === null) return;
+    const pinned = !this.state.pins.some((pin) => pin.actor === actor && pin.joint === joint);
+    this.connection.send({do: "pin", actor, joint, pinned});
   }
 
   undo() { this.#goTo("undo"); }

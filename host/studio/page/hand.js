@@ -33,11 +33,11 @@ export class Hand {
   get idle() { return this.#gesture === null; }
 
   // The studio's word on what the hand took.
-  grabbed({actor = null, joint = null, handle = null}) {
+  grabbed({actor = null, joint = null, handle = null, thing = null}) {
     const gesture = this.#gesture;
     if (gesture?.kind !== "asked") return;
-    const empty = joint === null && handle === null;
-    const kind = handle !== null || this.#turns(actor, joint) ? "drag" : "orbit";
+    const empty = joint === null && handle === null && thing === null;
+    const kind = handle !== null || thing !== null || this.#turns(actor, joint) ? "drag" : "orbit";
     Object.assign(gesture, {kind, how: "turn", empty});
     this.#look(kind === "orbit" ? "turn" : "drag");
     if (gesture.newest) this.#follow(gesture.newest);

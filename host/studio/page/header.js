@@ -2,14 +2,16 @@
 
 import {element} from "./dom.js";
 import {icon, logo} from "./icons.js";
+import {addMenu} from "./menu.js";
 import {keysOf} from "./shortcuts.js";
 
 export const kTools = [["none", "Select", "toolNone"], ["turn", "Turn", "toolTurn"], ["move", "Move", "toolMove"],
-                       ["box", "Box", "toolBox"], ["points", "Control points", "toolPoints"]];
+                       ["box", "Box", "toolBox"], ["points", "Control points", "toolPoints"], ["reach", "Reach", "toolReach"]];
+const kOfModels = ["box", "points"], kOfFilms = ["reach"];
 const kWorkspaces = [["scene", "Scene", "scene"], ["rendering", "Rendering", "render"]];
 
 export class Header {
-  constructor(place, {state, edits}, {help, theme}) {
+  constructor(place, {state, edits}, {help, theme, ghosts}) {
     this.state = state;
     this.file = element("span", {class: "file"});
     this.kind = element("span", {class: "kind"});
@@ -20,14 +22,23 @@ export class Header {
     this.workspaces = segmented("Workspace", kWorkspaces.map(([value, text, glyph]) => ({value, text, glyph, tip: `${text} (${keysOf("workspace")})`})),
                                 (value) => state.set("workspace", value), true);
     this.theme = iconButton(null, theme);
+    this.marks = iconButton("marks", () => state.set("marks", !state.marks));
+    this.ghosts = iconButton("ghosts");
+    addMenu(this.ghosts, ghosts);
+    this.pin = iconButton("pin", () => edits.pin());
+    this.film = element("div", {class: "group", hidden: true}, this.ghosts, this.marks, this.pin);
+    name(this.ghosts, "Ghosts", keysOf("ghosts"));
+    name(this.marks, "Marks of camera and lights", keysOf("marks"));
+    name(this.pin, "Pin the selected joint", keysOf("pin"));
     const sheet = iconButton("help", help);
     name(sheet, "Keys and mouse", keysOf("help"));
     place.append(element("div", {class: "brand"}, logo(), element("h1", {}, this.file), this.kind),
-                 element("div", {class: "group"}, this.undo, this.redo), this.tools.root, element("span", {class: "spring"}),
+                 element("div", {class: "group"}, this.undo, this.redo), this.tools.root, this.film, element("span", {class: "spring"}),
                  this.workspaces.root, element("span", {class: "spring"}), element("div", {class: "group"}, this.theme, sheet));
     state.on("project", () => this.#project());
     state.on("tool", () => this.tools.set(state.tool));
     state.on("workspace", () => this.#workspace());
+    state.on("ghosts marks pins selected project", () => this.#shown());
     this.tools.set(state.tool);
     this.#workspace();
     this.#history({});
@@ -49,9 +60,19 @@ export class Header {
     name(this.redo, redo ? `Redo: ${redo}` : "Nothing to redo", keysOf("redo"));
   }
 
+  #shown() {
+    const {ghosts, marks, pins, selected} = this.state;
+    this.film.hidden = !this.state.isFilm();
+    this.tools.without(this.state.isFilm() ? kOfModels : kOfFilms);
+    this.ghosts.setAttribute("aria-pressed", String(ghosts !== null));
+    this.marks.setAttribute("aria-pressed", String(marks));
+    this.pin.disabled = selected.joint === null;
+    this.pin.setAttribute("aria-pressed", String(pins.some(({actor, joint}) => actor === selected.actor && joint === selected.joint)));
+  }
+
   #workspace() {
     this.workspaces.set(this.state.workspace);
-    this.tools.root.classList.toggle("away", this.state.workspace !== "scene");
+    for (const root of [this.tools.root, this.film]) root.classList.toggle("away", this.state.workspace !== "scene");
   }
 }
 
@@ -72,14 +93,14 @@ function segmented(name, choices, choose, withText) {
   const root = element("div", {class: "segmented", role: "radiogroup", "aria-label": name}, buttons);
   root.addEventListener("keydown", (event) => {
     const by = {ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1}[event.key];
-    const at = buttons.indexOf(event.target);
+    const open = buttons.filter(({hidden}) => !hidden), at = open.indexOf(event.target);
     if (by === undefined || at < 0) return;
     event.preventDefault();
-    const next = buttons[(at + by + buttons.length) % buttons.length];
+    const next = open[(at + by + open.length) % open.length];
     next.focus();
     choose(next.dataset.value);
   });
-  return {root, set: (value) => {
+  return {root, without: (values) => { for (const button of buttons) button.hidden = values.includes(button.dataset.value); }, set: (value) => {
     for (const button of buttons) {
       const on = button.dataset.value === value;
       button.setAttribute("aria-checked", String(on));

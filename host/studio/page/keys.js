@@ -19,7 +19,8 @@ function where(target) {
   return {
     text,
     view: target.closest(".view .picture") !== null,
-    letters: target.closest("[role=tree], select") !== null,
+    timeline: target.closest("#timeline") !== null,
+    letters: target.closest("[role=tree]:not(.row-list), select") !== null,
     control: target.matches("button, input, select, a[href], [role=tab]"),
   };
 }
@@ -29,6 +30,7 @@ function holds(shortcut, keys, place) {
   if (shortcut.at === "always") return true;
   if (place.text) return false;
   if (shortcut.at === "view") return place.view;
+  if (shortcut.at === "timeline") return place.timeline;
   if (shortcut.at !== "page") return false;
   if (place.letters && (/^[A-Z0-9]$/.test(keys) || kOwnKeys.has(keys))) return false;
   return !(place.control && kOwnKeys.has(keys));
@@ -41,8 +43,9 @@ export class Keys {
       if (event.defaultPrevented) return;
       const keys = pressed(event);
       const place = where(event.target);
-      const shortcut = kShortcuts.find((each) => each.keys.includes(keys) && holds(each, keys, place) &&
+      const held = kShortcuts.filter((each) => each.keys.includes(keys) && holds(each, keys, place) &&
                                                  (!each.film || state.isFilm()));
+      const shortcut = held.find(({at}) => at === "timeline") ?? held[0];
       if (!shortcut || commands[shortcut.name](keys, event) === false) return;
       event.preventDefault();
     });

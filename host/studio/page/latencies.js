@@ -10,7 +10,7 @@ export class Latencies {
   #edit = 0;
   #began = new Map();    // edit -> time of its event
   #counted = new Map();  // view -> last edit that was measured
-  #painted = [];         // times of the last second's pictures
+  #painted = [];         // the last second's pictures: {time, view}
 
   constructor() { window.marsLatencies = []; }
 
@@ -23,7 +23,7 @@ export class Latencies {
   }
 
   painted(view, edit, now) {
-    this.#painted.push(now);
+    this.#painted.push({time: now, view});
     const began = this.#began.get(edit);
     if (began === undefined || edit <= (this.#counted.get(view) ?? 0)) return;
     this.#counted.set(view, edit);
@@ -33,9 +33,11 @@ export class Latencies {
 
   // Pictures in the last second.
   rate(now) {
-    this.#painted = this.#painted.filter((time) => time > now - 1000);
+    this.#painted = this.#painted.filter(({time}) => time > now - 1000);
     return this.#painted.length;
   }
+
+  rateOf(wanted, now) { return this.#painted.filter(({time, view}) => view === wanted && time > now - 1000).length; }
 
   // Of the last ones, in ms; null where there are none.
   percentile95() {

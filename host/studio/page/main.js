@@ -3,6 +3,7 @@
 import {Connection} from "./connection.js";
 import {Edits} from "./edits.js";
 import {Frames} from "./frames.js";
+import {Ghosts} from "./ghosts.js";
 import {Header} from "./header.js";
 import {Help} from "./help.js";
 import {Keys} from "./keys.js";
@@ -14,11 +15,13 @@ import {Pace} from "./pace.js";
 import {Painter} from "./painter.js";
 import {JointPanel} from "./panels/joint_panel.js";
 import {MaterialsPanel} from "./panels/materials_panel.js";
+import {MotionsPanel} from "./panels/motions_panel.js";
 import {ScenePanel} from "./panels/scene_panel.js";
 import {State} from "./state.js";
 import {Status} from "./status.js";
 import {Tabs} from "./tabs.js";
 import {Theme} from "./theme.js";
+import {Timeline} from "./timeline/timeline.js";
 import {Tree} from "./tree.js";
 import {Views} from "./views.js";
 
@@ -31,21 +34,24 @@ const latencies = new Latencies();
 const pace = new Pace(connection, latencies);
 const painter = new Painter(connection, latencies);
 const edits = new Edits(connection, pace, state);
-const parts = {state, connection, latencies, pace, painter, edits};
+const ghosts = new Ghosts(state);
+const parts = {state, connection, latencies, pace, painter, edits, ghosts};
 
 const notices = new Notices();
 const help = new Help(state);
-const header = new Header(place("header"), parts, {help: () => help.toggle(), theme: () => theme.toggle()});
+const header = new Header(place("header"), parts, {help: () => help.toggle(), theme: () => theme.toggle(), ghosts: () => ghosts.menu()});
 const theme = new Theme(header.theme);
 const tree = new Tree(place("tree"), {...parts, rename: () => rename()});
 const views = new Views(place("views"), parts, painter);
 const tabs = new Tabs(place("panels"), [{name: "joint", text: "Joint"}, {name: "materials", text: "Materials"},
-                                        {name: "scene", text: "Bodies"}, {name: "rendering", text: "Rendering"}]);
+                                        {name: "scene", text: "Bodies"}, {name: "motions", text: "Motions"}, {name: "rendering", text: "Rendering"}]);
 const jointPanel = new JointPanel(tabs.panel("joint"), parts);
 new MaterialsPanel(tabs.panel("materials"), parts);
 new ScenePanel(tabs.panel("scene"), parts);
+const motions = new MotionsPanel(tabs.panel("motions"), parts);
 new Rendering(place("rendering"), tabs.panel("rendering"), parts);
 const frames = new Frames(place("frames"), parts);
+const timeline = new Timeline(place("timeline"), place("frames"), parts, frames);
 const status = new Status(place("status"), parts);
 
 function showWorkspace() {
@@ -54,6 +60,7 @@ function showWorkspace() {
   for (const id of ["views", "tree"]) place(id).hidden = rendering;
   for (const name of ["joint", "scene", "rendering"]) tabs.available(name, (name === "rendering") === rendering);
   tabs.available("materials", !rendering && !state.isFilm());
+  tabs.available("motions", !rendering && state.isFilm());
   tabs.show(rendering ? "rendering" : "joint");
   document.body.dataset.workspace = state.workspace;
 }
@@ -74,9 +81,9 @@ function showProblem() {
 
 // The panel follows what is selected, between a joint and a film's actor.
 function showSelected() {
-  const {actor, joint} = state.selected;
+  const {actor, joint, thing} = state.selected;
   if (joint !== null && tabs.shown === "scene") tabs.show("joint");
-  else if (state.isFilm() && joint === null && actor !== null && tabs.shown === "joint") tabs.show("scene");
+  else if (state.isFilm() && joint === null && (actor ?? thing) !== null && tabs.shown === "joint") tabs.show("scene");
 }
 
 state.on("workspace", showWorkspace);
@@ -84,6 +91,7 @@ state.on("selected", showSelected);
 state.on("project", () => {
   tabs.rename("scene", state.isFilm() ? "Scene" : "Bodies");
   tabs.available("materials", state.workspace === "scene" && !state.isFilm());
+  tabs.available("motions", state.workspace === "scene" && state.isFilm());
   document.body.dataset.kind = state.project.kind;
   showProblem();
   edits.selectWanted();
@@ -91,23 +99,29 @@ state.on("project", () => {
 
 connection.on("project", (project) => state.setProject(edits.unanswered.over(project)));
 connection.on("poses", (poses) => state.setPoses(poses));
-connection.on("selected", ({actor, joint}) => state.select(actor ?? null, joint ?? null));
+connection.on("selected", ({actor, joint, thing}) => state.select(actor ?? null, joint ?? null, thing ?? null));
 connection.on("state", (message) => {
   state.renderer = message;
   state.tell("renderer");
   notices.banner("renderer", message.renderer, {detail: "Pictures come again as soon as it is back."});
 });
-connection.on("refused", ({text, line}) => {
+connection.on("refused", (message) => {
+  const {text, line} = message;
   edits.unanswered.forget();
+  if (motions.refused(message)) return;
   notices.toast(line ? `${text} (line ${line})` : text);
 });
 connection.on("said", ({text}) => notices.toast(text, "info"));
+connection.on("pinned", ({pins}) => state.set("pins", pins));
 connection.on("connected", () => {
   edits.unanswered.forget();
   status.connected = true;
   status.showRenderer();
   notices.banner("connection", "");
-  if (state.selected.joint !== null) connection.send({do: "select", ...state.selected});
+  state.set("pins", []);
+  const {actor, joint, thing} = state.selected;
+  if (thing !== null) connection.send({do: "select", thing});
+  else if (actor !== null) connection.send({do: "select", actor, joint});
 });
 connection.on("gone", (failures) => {
   status.connected = false;
@@ -117,7 +131,7 @@ connection.on("gone", (failures) => {
   notices.banner("connection", "The studio does not answer.", {detail});
 });
 
-const kRegions = ["header", "tree", "views", "rendering", "panels", "frames"];
+const kRegions = ["header", "tree", "views", "rendering", "panels", "frames", "timeline"];
 
 // The next part of the page that shows, at what it had in focus or its first control.
 function goToRegion(by) {
@@ -136,7 +150,7 @@ new Keys({
   redo: () => edits.redo(),
   letGo: () => {
     closeMenu();
-    if (!views.letGo()) edits.cancel();
+    if (!views.letGo() && !timeline.letGo()) edits.cancel();
   },
   rename: () => rename(),
   addJoint: inModel(() => edits.addJoint()),
@@ -145,20 +159,35 @@ new Keys({
   toolNone: () => state.set("tool", "none"),
   toolTurn: () => state.set("tool", "turn"),
   toolMove: () => state.set("tool", "move"),
-  toolBox: () => state.set("tool", "box"),
-  toolPoints: () => state.set("tool", "points"),
+  toolBox: inModel(() => state.set("tool", "box")),
+  toolPoints: inModel(() => state.set("tool", "points")),
+  toolReach: () => state.set("tool", "reach"),
+  pin: () => edits.pin(),
   goToView: (keys) => views.go(Number(keys) - 1),
   maximise: () => views.maximise(),
   showAll: (_, event) => views.showAll(event),
   nextDisplay: (_, event) => views.nextDisplay(event),
   hidden: (_, event) => views.flip("hidden", event),
   ground: (_, event) => views.flip("ground", event),
+  ghosts: ghosts.flip,
+  marks: () => state.set("marks", !state.marks),
   orbitBy: (keys, event) => views.orbitBy("turn", stepsOf(keys), event),
   panBy: (keys, event) => views.orbitBy("pan", stepsOf(keys), event),
   zoomBy: (keys, event) => views.orbitBy("zoom", stepsOf(keys), event),
   play: () => frames.play(),
   stepFrame: (keys, event) => frames.step(keys === "." ? 1 : -1, event),
   endFrame: (keys, event) => frames.end(keys === "End", event),
+  range: (keys) => keys === "B" ? frames.beginRange() : frames.endRange(),
+  insertKeys: (_, event) => timeline.acts.insert(event),
+  foldTimeline: () => timeline.setOpen(!timeline.open),
+  nextTimeline: () => timeline.next(),
+  pickAll: () => timeline.keys.pickAll(),
+  copyKeys: () => timeline.acts.copy(),
+  pasteKeys: (_, event) => timeline.acts.paste(event),
+  removeKeys: (_, event) => timeline.acts.remove(event),
+  easeKeys: () => timeline.keyBar.openEases(),
+  timeKeys: () => timeline.keyBar.openTimes(),
+  showAllKeys: () => timeline.showAll(),
   nextRegion: (keys) => goToRegion(keys === "F6" ? 1 : -1),
   workspace: () => state.set("workspace", state.workspace === "scene" ? "rendering" : "scene"),
   theme: () => theme.toggle(),

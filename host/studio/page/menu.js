@@ -29,7 +29,7 @@ function show(button, items) {
   const root = element("div", {class: "menu", role: "menu", "aria-label": button.getAttribute("aria-label") ?? button.textContent});
   for (const item of items) root.append(item.heading ? heading(item) : entry(item));
   document.body.append(root);
-  place(root, button);
+  besides(root, button);
   button.setAttribute("aria-expanded", "true");
   open = {button, close: () => close(root, button)};
   root.addEventListener("keydown", (event) => keyPressed(event, root, button));
@@ -49,7 +49,7 @@ function entry({text, keys, act, chosen, checked, disabled}) {
 }
 
 // Below the button, or above it, or else beside it: never over it.
-function place(root, button) {
+export function besides(root, button) {
   const at = button.getBoundingClientRect();
   const {offsetWidth: width, offsetHeight: height} = root;
   const below = at.bottom + kGap, above = at.top - kGap - height;

@@ -1,7 +1,8 @@
 // All shortcuts, in one table: keys.js acts on it, help.js lists it, menus and tips name its keys.
 //
 // `at`: where they hold: "page" (not while text is written), "always" (also then), "view" (a view has the focus),
-// "tree". Letters at "page" leave alone the tree and lists, where letters find an entry.
+// "timeline" (it has the focus; before those of the page), "tree". Letters at "page" leave alone the tree and lists,
+// where letters find an entry. `film`: in films only.
 
 export const kShortcuts = [
   {group: "Edit", keys: ["Ctrl+Z"], name: "undo", text: "Undo", at: "always"},
@@ -17,6 +18,8 @@ export const kShortcuts = [
   {group: "Tools", keys: ["E"], name: "toolMove", text: "Move joints: arrows", at: "page"},
   {group: "Tools", keys: ["R"], name: "toolBox", text: "Pull the sides of the bounding box", at: "page"},
   {group: "Tools", keys: ["T"], name: "toolPoints", text: "Pull control points", at: "page"},
+  {group: "Tools", keys: ["Y"], name: "toolReach", text: "Reach: a pull at a hand or foot turns its whole limb", at: "page", film: true},
+  {group: "Tools", keys: ["P"], name: "pin", text: "Pin the selected hand or foot: it stays while others are pulled", at: "page", film: true},
 
   {group: "Views", keys: ["1", "2", "3", "4"], name: "goToView", text: "Go to a view", at: "page"},
   {group: "Views", keys: ["F"], name: "maximise", text: "Maximise the view, and back", at: "page"},
@@ -24,6 +27,8 @@ export const kShortcuts = [
   {group: "Views", keys: ["S"], name: "nextDisplay", text: "Surface, control vertices, prisms, stick in turn", at: "page"},
   {group: "Views", keys: ["H"], name: "hidden", text: "Hidden lines on and off", at: "page"},
   {group: "Views", keys: ["G"], name: "ground", text: "Ground on and off", at: "page"},
+  {group: "Views", keys: ["O"], name: "ghosts", text: "Ghosts: the figure at neighbouring frames", at: "page", film: true},
+  {group: "Views", keys: ["M"], name: "marks", text: "Marks of the camera and of lights", at: "page", film: true},
 
   {group: "In a view", keys: ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown"], name: "orbitBy", text: "Orbit", at: "view"},
   {group: "In a view", keys: ["Shift+ArrowLeft", "Shift+ArrowRight", "Shift+ArrowUp", "Shift+ArrowDown"], name: "panBy",
@@ -33,6 +38,20 @@ export const kShortcuts = [
   {group: "Frames", keys: ["Space"], name: "play", text: "Play and pause", at: "page", film: true},
   {group: "Frames", keys: [",", "."], name: "stepFrame", text: "Frame before, next frame", at: "page", film: true},
   {group: "Frames", keys: ["Home", "End"], name: "endFrame", text: "First frame, last frame", at: "page", film: true},
+  {group: "Frames", keys: ["B", "N"], name: "range", text: "The frames that play begin here, end here", at: "page", film: true},
+  {group: "Frames", keys: ["I"], name: "insertKeys", text: "Insert keys at the frame", at: "page", film: true},
+  {group: "Frames", keys: ["D"], name: "foldTimeline", text: "Open and shut the timeline", at: "page", film: true},
+  {group: "Frames", keys: ["K"], name: "nextTimeline", text: "Keys, curves, scripts in turn", at: "page", film: true},
+
+  {group: "Timeline", keys: ["ArrowLeft", "ArrowRight"], text: "Key before, next key; with Shift also those", at: "timeline", film: true},
+  {group: "Timeline", keys: ["Alt+ArrowLeft", "Alt+ArrowRight"], text: "Selected keys a frame earlier, later; with Shift ten", at: "timeline", film: true},
+  {group: "Timeline", keys: ["Ctrl+A"], name: "pickAll", text: "Select all keys", at: "timeline", film: true},
+  {group: "Timeline", keys: ["Ctrl+C"], name: "copyKeys", text: "Copy the selected keys", at: "timeline", film: true},
+  {group: "Timeline", keys: ["Ctrl+V"], name: "pasteKeys", text: "Put the copies at the frame", at: "timeline", film: true},
+  {group: "Timeline", keys: ["Delete"], name: "removeKeys", text: "Delete the selected keys", at: "timeline", film: true},
+  {group: "Timeline", keys: ["E"], name: "easeKeys", text: "Ease of the selected keys", at: "timeline", film: true},
+  {group: "Timeline", keys: ["T"], name: "timeKeys", text: "Timing of the selected keys", at: "timeline", film: true},
+  {group: "Timeline", keys: ["A"], name: "showAllKeys", text: "Show all frames, all of the curves", at: "timeline", film: true},
 
   {group: "Page", keys: ["F6", "Shift+F6"], name: "nextRegion", text: "Next part of the page, the one before", at: "always"},
   {group: "Page", keys: ["F9"], name: "workspace", text: "Scene or rendering", at: "always"},
@@ -58,6 +77,13 @@ export const kHands = [
   {group: "Mouse in a view", keys: ["Wheel"], text: "Zoom at the mouse"},
   {group: "Mouse in a view", keys: ["Double click"], text: "On a view's title: maximise it, and back. On a model's joint in the tree: rename it"},
   {group: "Mouse in a view", keys: ["Drag"], text: "On the letter before a number: change it"},
+
+  {group: "Mouse in the timeline", keys: ["Click", "Shift+Click"], text: "Select a key, a row; also this one", film: true},
+  {group: "Mouse in the timeline", keys: ["Drag"], text: "On a key: move what is selected. On empty space: select in a box", film: true},
+  {group: "Mouse in the timeline", keys: ["Alt+Drag"], text: "Keys: copies of them. A spline's slope: of this side alone", film: true},
+  {group: "Mouse in the timeline", keys: ["Shift+Drag"], text: "In curves: in time alone, or in value alone", film: true},
+  {group: "Mouse in the timeline", keys: ["Wheel", "Ctrl+Wheel"], text: "Scroll the rows, zoom the curves; zoom in time", film: true},
+  {group: "Mouse in the timeline", keys: ["Shift+Wheel", "Middle drag"], text: "Pan", film: true},
 ];
 
 const kSigns = {ArrowLeft: "\u2190", ArrowRight: "\u2192", ArrowUp: "\u2191", ArrowDown: "\u2193", Escape: "Esc", Delete: "Del"};

@@ -1,13 +1,18 @@
 // What the page knows: the project as the studio told it, and what is selected here. Others listen to what concerns
-// them: "project", "poses", "selected", "tool", "view" (the active one), "renderer", "workspace".
+// them: "project", "poses", "selected", "tool", "view" (the active one), "renderer", "workspace"; of films "frame", "range", "keys", "rows",
+// "curves", "ghosts", "marks", "pins".
 
 export class State {
   #listeners = new Map();
   project = null;
-  selected = {actor: null, joint: null};
+  selected = {actor: null, joint: null, thing: null};  // thing: the camera or a light, instead of the others
   tool = "turn";
   activeView = 0;
   workspace = "scene";  // or "rendering"
+  range = null;         // [first, last] frames that play; null: all
+  ghosts = null;        // {before, after, step} as views are asked for them
+  marks = false;        // camera and lights show in views
+  pins = [];            // [{actor, joint}]
   renderer = {renderer: "", nodes: 0, machines: 0};
 
   on(what, listener) {
@@ -22,14 +27,16 @@ export class State {
   setProject(project) {
     this.project = project;
     const {actor, joint} = this.selected;
-    if (joint !== null && !this.joint(joint, actor)) this.selected = {actor: this.actor(actor) ? actor : null, joint: null};
+    if (joint !== null && !this.joint(joint, actor)) this.selected = {actor: this.actor(actor) ? actor : null, joint: null, thing: null};
     this.tell("project");
   }
 
   // Poses, places and turns during gestures.
-  setPoses({frame, actors}) {
+  setPoses({frame, actors, camera, lights}) {
     if (!this.project) return;
     this.project.frame = frame;
+    if (camera) Object.assign(this.project.camera, camera);
+    for (const light of lights ?? []) Object.assign(this.project.lights.find(({thing}) => thing === light.thing) ?? {}, light);
     for (const moved of actors) {
       const actor = this.actor(moved.name);
       if (!actor) continue;
@@ -39,9 +46,9 @@ export class State {
     this.tell("poses");
   }
 
-  select(actor, joint) {
-    if (this.selected.actor === actor && this.selected.joint === joint) return;
-    this.selected = {actor, joint};
+  select(actor, joint, thing = null) {
+    if (this.selected.actor === actor && this.selected.joint === joint && this.selected.thing === thing) return;
+    this.selected = {actor, joint, thing};
     this.tell("selected");
   }
 

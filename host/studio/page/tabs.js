@@ -3,16 +3,18 @@
 import {element, newId} from "./dom.js";
 
 export class Tabs {
-  // `list`: {name, text}. A panel's element is `panel(name)`.
-  constructor(place, list) {
+  // `list`: {name, text}. A panel's element is `panel(name)`; `chosen(name)` hears which one shows.
+  constructor(place, list, label = "Panels", chosen = () => {}) {
+    this.chosen = chosen;
     this.tabs = list.map(({name, text}) => {
       const panel = element("div", {class: "panel", role: "tabpanel", id: newId("panel")});
       const tab = element("button", {role: "tab", id: newId("tab"), "aria-controls": panel.id, onclick: () => this.show(name)}, text);
       panel.setAttribute("aria-labelledby", tab.id);
       return {name, tab, panel};
     });
-    const bar = element("div", {class: "tabs", role: "tablist", "aria-label": "Panels"}, this.tabs.map(({tab}) => tab));
+    const bar = element("div", {class: "tabs", role: "tablist", "aria-label": label}, this.tabs.map(({tab}) => tab));
     bar.addEventListener("keydown", (event) => this.#key(event));
+    this.bar = bar;
     place.append(bar, ...this.tabs.map(({panel}) => panel));
     this.show(list[0].name);
   }
@@ -28,6 +30,7 @@ export class Tabs {
       tab.tabIndex = each === name ? 0 : -1;
       panel.hidden = each !== name;
     }
+    this.chosen(name);
   }
 
   #key(event) {

@@ -18,8 +18,8 @@ export class View {
   #handles = new Map();    // picture -> shapes, of pictures that are not painted yet
   #context;
 
-  constructor(number, from, {connection, pace, state}) {
-    Object.assign(this, {number, connection, pace, state});
+  constructor(number, from, {connection, pace, state, ghosts}) {
+    Object.assign(this, {number, connection, pace, state, ghosts});
     this.shown = {from, as: "surface", hidden: true, ground: true, handles: true, orbit: null};
     this.size = [0, 0];
     this.#build();
@@ -60,9 +60,11 @@ export class View {
     if (width === 0 || height === 0) return;
     const {from, orbit, as, hidden, ground, handles} = this.shown;
     const message = {do: "view", view: this.number, width, height, from, orbit, as, hidden, ground,
-                     handles: handles ? this.state.tool : "none"};
+                     handles: handles ? this.state.tool : "none", ...this.#ofFilms()};
     this.pace.send(`view ${this.number}`, message, event ?? kNoEvent);
   }
+
+  #ofFilms() { return this.state.isFilm() ? {ghosts: this.state.ghosts, marks: this.state.marks} : {}; }
 
   // Pictures count from 1 again.
   forgetPictures() {
@@ -143,6 +145,9 @@ export class View {
   #menu() {
     const froms = kFroms.filter(([from]) => from !== "camera" || this.state.isFilm());
     const flip = (key) => (event) => this.show({[key]: !this.shown[key]}, event);
+    const ofFilms = [{text: "Ghosts", keys: keysOf("ghosts"), checked: this.state.ghosts !== null, act: this.ghosts.flip},
+                     {text: "Marks of camera and lights", keys: keysOf("marks"), checked: this.state.marks,
+                      act: () => this.state.set("marks", !this.state.marks)}];
     return [
       {heading: "From"},
       ...froms.map(([from, text]) => ({text, chosen: this.shown.from === from,
@@ -153,6 +158,7 @@ export class View {
       {text: "Hidden lines left out", keys: keysOf("hidden"), checked: this.shown.hidden, act: flip("hidden")},
       {text: "Ground", keys: keysOf("ground"), checked: this.shown.ground, act: flip("ground")},
       {text: "Handles of the tool", checked: this.shown.handles, act: flip("handles")},
+      ...(this.state.isFilm() ? ofFilms : []),
       {heading: "View"},
       {text: "Show all", keys: keysOf("showAll"), act: (event) => this.show({orbit: null}, event)},
       {text: "Maximise, and back", keys: keysOf("maximise"), act: () => this.root.dispatchEvent(new Event("maximise"))},

@@ -82,7 +82,7 @@ glm::dvec3 end_of(const modeler::Joint& joint) {
 const std::vector<Handle>& Ghosts::handles(std::uint32_t view, const GhostFrames& frames, const Selection& selection,
                                            const Screen& screen) {
   static const std::vector<Handle> none;
-  if (!frames.any() || moments_.film_number() == 0) return none;
+  if (!frames.any() || !moments_.show_the_film()) return none;
   Seen seen{moments_.number(), frames, selection, screen};
   const auto known = shown_.find(view);
   if (known != shown_.end() && known->second.first == seen) return known->second.second;

@@ -225,7 +225,7 @@ std::optional<Mark> mark_named(const std::string& name) {
 
 std::vector<Handle> marks_of(const Project& project, const Moments& moments, const Selection& selection, Tool tool,
                              const Screen& screen) {
-  if (project.is_model() || moments.film_number() == 0) return {};
+  if (project.is_model() || !moments.show_the_film()) return {};
   const animator::Film& film = project.film();
   std::vector<Mark> marks{Mark{}};
   if (!project.rig_lights())

@@ -34,6 +34,8 @@ class Moments {
   // Follows the project. A film that shows nothing at this frame leaves what was; `problem` then says why.
   void renew();
   const std::string& problem() const { return problem_; }
+  // What is here is the film as it is now.
+  bool show_the_film() const { return film_number_ > 0 && problem_.empty(); }
 
   // Goes up with each other film that nodes must load; 0: there is none yet.
   std::uint64_t film_number() const { return film_number_; }

@@ -23,6 +23,8 @@ void take_step(studio::Project& project, const document::Json& step, std::string
     } catch (const Failure& failure) {
       refused = failure.what();
     }
+  project.channels({"*"});
+  project.curves({"pip", {"place", "head", "attach"}, 0, 9});
   project.describe();
   project.describe_poses();
   project.control_points("head");
@@ -36,6 +38,8 @@ void take(std::string_view input) {
   const auto model = scratch().file("pip.json", kModel), film = scratch().file("film.json", kFilm);
   for (const char* journal : {".pip.json.journal", ".film.json.journal"})
     std::filesystem::remove(scratch().path(journal));
+  for (const auto& entry : std::filesystem::directory_iterator(film.parent_path()))
+    if (entry.path().extension() == ".script") std::filesystem::remove(entry.path());
   std::string refused;
   for (const auto& path : {film, model}) {
     const auto project = studio::open_project(path);
@@ -46,6 +50,8 @@ void take(std::string_view input) {
       if (!step.is_discarded()) take_step(*project, step, refused);
       at = end + 1;
     }
+    project->scripts();
+    project->check_script("play.script", std::string(input));
     while (project->describe()["undo"].is_string()) project->undo();
   }
   if (!refused.empty()) throw Failure(refused, "", "");

@@ -16,7 +16,7 @@ namespace mars::test {
 using studio::Json;
 using studio::PageNumber;
 
-// Steps are {"set": TEXT}; "bad" makes no sense, "disk" cannot be written.
+// Steps are {"set": TEXT}; "bad" makes no sense, "line" has a wrong line, "disk" cannot be written.
 class FakeProject final : public studio::Project {
  public:
   bool is_model() const override { return true; }
@@ -54,6 +54,15 @@ class FakeProject final : public studio::Project {
   Json describe() const override { return {{"is", "project"}, {"shown", shown_}, {"frame", frame_}}; }
   Json describe_poses() const override { return {{"is", "poses"}, {"shown", shown_}}; }
 
+  std::uint64_t keys_revision() const override { return written.size(); }
+  Json channels(const std::vector<std::string>& things) override { return {{"is", "channels"}, {"things", things}}; }
+  Json curves(const studio::CurvesWanted& wanted) override { return {{"is", "curves"}, {"thing", wanted.thing}}; }
+  Json check_script(const std::string& name, const std::string&) override { return {{"is", "script"}, {"name", name}}; }
+  Json scripts() const override { return {{"is", "scripts"}}; }
+
+  std::vector<std::string> take_remarks() override { return std::exchange(remarks, {}); }
+
+  std::vector<std::string> remarks;
   bool outside_change = false;
   std::vector<std::string> written;
 
@@ -61,6 +70,7 @@ class FakeProject final : public studio::Project {
   void show(const Json& step) {
     const std::string text = step.at("set").get<std::string>();
     if (text == "bad") throw Failure("the step makes no sense", "joint 'arm'", "");
+    if (text == "line") throw Failure("is no action", "play.script:4: walk", "");
     if (text == "disk") throw std::system_error(std::make_error_code(std::errc::no_space_on_device));
     shown_ = text;
     ++revision_;

@@ -96,11 +96,53 @@ TEST_F(StudioTest, RenderingsHearWhatIsForThem) {
   EXPECT_EQ(rendering_->heard, (std::vector<std::string>{"opened", "render", "painted", "closed"}));
 }
 
+TEST_F(StudioTest, KeysAndCurvesAreToldToWhoAsked) {
+  say(1, R"({"do": "channels", "things": ["*"]})");
+  say(2, R"({"do": "curves", "thing": "tom", "parts": ["head"], "first": 0, "last": 9})");
+  say(2, R"({"do": "actions"})");
+  EXPECT_EQ(pages_.said(), "1 channels, 2 curves, 2 actions");
+  say(1, R"({"do": "preview", "step": {"set": "a"}})");
+  EXPECT_EQ(pages_.said(), "0 poses, 2 curves");
+  say(1, R"({"do": "cancel"})");
+  EXPECT_EQ(pages_.said(), "0 project, 2 curves");
+  say(1, R"({"do": "frame", "frame": 3})");
+  EXPECT_EQ(pages_.said(), "0 project");
+  say(1, R"({"do": "commit", "step": {"set": "b"}})");
+  EXPECT_EQ(pages_.said(), "0 project, 1 channels, 2 curves");
+  say(1, R"({"do": "channels", "things": []})");
+  say(2, R"({"do": "curves"})");
+  say(1, R"({"do": "commit", "step": {"set": "c"}})");
+  EXPECT_EQ(pages_.said(), "0 project");
+  say(1, R"({"do": "channels", "things": ["tom"]})");
+  studio_->page_closed(1);
+  pages_.said();
+  say(2, R"({"do": "commit", "step": {"set": "d"}})");
+  EXPECT_EQ(pages_.said(), "0 project");
+}
+
+TEST_F(StudioTest, RemarksAreSaidToWhoseStepItWas) {
+  project_->remarks = {"clamped"};
+  say(2, R"({"do": "commit", "step": {"set": "a"}})");
+  EXPECT_EQ(pages_.said(), "2 said, 0 project");
+  say(2, R"({"do": "script", "name": "a.script", "text": ""})");
+  say(2, R"({"do": "scripts"})");
+  EXPECT_EQ(pages_.said(), "2 script, 2 scripts");
+}
+
+TEST_F(StudioTest, ARefusalHasTheLineThatIsToBlame) {
+  say(2, R"({"do": "commit", "step": {"set": "line"}})");
+  ASSERT_EQ(pages_.heard.size(), 1u);
+  EXPECT_EQ(pages_.heard[0].message["line"], 4);
+}
+
 TEST_F(StudioTest, RefusesWhatMakesNoSense) {
   for (const char* message :
        {R"({"do": "commit", "step": {"set": "bad"}})", R"({"do": "commit"})", R"({"do": "commit", "step": 3})",
         R"({"do": "preview", "step": {"set": [1]}})", R"({"do": "frame", "frame": -1})",
-        R"({"do": "frame", "frame": 1e9})", R"({"do": "view", "width": "wide"})", R"({"do": "unheard"})"}) {
+        R"({"do": "frame", "frame": 1e9})", R"({"do": "view", "width": "wide"})", R"({"do": "unheard"})",
+        R"({"do": "channels"})", R"({"do": "channels", "things": [3]})", R"({"do": "curves", "parts": []})",
+        R"({"do": "curves", "thing": "tom", "parts": [], "first": 9, "last": 3})",
+        R"({"do": "curves", "thing": "tom", "parts": [], "first": 0, "last": 1e9})", R"({"do": "script"})"}) {
     say(2, message);
     ASSERT_EQ(pages_.heard.size(), 1u) << message;
     EXPECT_EQ(pages_.heard[0].page, 2u);

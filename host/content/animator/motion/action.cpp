@@ -7,10 +7,14 @@
 #include "host/content/animator/motion/gesture.h"
 #include "host/content/animator/motion/jumping.h"
 #include "host/content/animator/motion/kinematic.h"
+#include "host/content/animator/motion/picking.h"
+#include "host/content/animator/motion/reaching.h"
 #include "host/content/animator/motion/running.h"
+#include "host/content/animator/motion/seat.h"
 #include "host/content/animator/motion/sitting.h"
 #include "host/content/animator/motion/steps.h"
 #include "host/content/animator/motion/striding.h"
+#include "host/content/animator/motion/tossing.h"
 #include "host/content/animator/read_film.h"
 
 namespace mars::motion {
@@ -80,6 +84,8 @@ constexpr Parameter kJump[] = {
 constexpr Parameter kTurn[] = {
     {"by", "DEGREES", "to the left; default: 90", "-90"}, {"to", "X Y", "to face a place of the floor", "2 -1"}, kPace};
 constexpr Parameter kSit[] = {
+    {"on", "ACTOR[/JOINT]", "a seat: an actor, or a joint of it whose segment it is; the figure walks there first",
+     "bench"},
     {"seat-height", "H", "height of the seat above the floor; default: thighs are level", "0.45"},
     {"back", "D", "distance of the hips behind the feet; default: shins are upright", "0.4"},
     {"seconds", "S", "default: 1.6", "2"}};
@@ -112,21 +118,28 @@ constexpr Parameter kGo[] = {{"to", "X Y Z", "the actor's place then; needed", "
                              {"seconds", "S", "default: 1", "2"},
                              {"ease", "EASE", "linear, in, out or both; default: both", "out"}};
 
-constexpr Action kActions[] = {
-    {"walk", "Walk: some steps, a distance, to a place, or along a bow", kWalk, walk},
-    {"run", "Run: some steps, a distance, to a place, or along a bow", kRun, run},
-    {"jump", "Jump from both feet to both feet, up, forward or turning", kJump, jump},
-    {"trot", "Trot, on four legs", kTrot, trot},
-    {"gallop", "Gallop, on four legs", kGallop, gallop},
-    {"turn", "Turn on the spot, by stepping", kTurn, turn},
-    {"sit", "Sit down on a seat behind", kSit, sit},
-    {"stand", "Stand up from sitting", kStand, stand},
-    {"nod", "Nod with head and neck", kNod, nod},
-    {"wave", "Raise a hand, wave and lower it", kWave, wave},
-    {"throw", "Fly with a velocity and an acceleration", kThrow, fling},
-    {"bounce", "Fall and bounce on a floor until at rest", kBounce, bounce},
-    {"spin", "Spin evenly about an axis of the world", kSpin, spin},
-    {"go", "Go straight to a place", kGo, go},
+const Action kActions[] = {
+    {"walk", "Walk: some steps, a distance, to a place, or along a bow", "hips, ankles", kWalk, walk},
+    {"run", "Run: some steps, a distance, to a place, or along a bow", "hips, knees, ankles", kRun, run},
+    {"jump", "Jump from both feet to both feet, up, forward or turning", "hips, knees, ankles", kJump, jump},
+    {"trot", "Trot, on four legs", "hips, ankles, shoulders", kTrot, trot},
+    {"gallop", "Gallop, on four legs", "hips, ankles, shoulders", kGallop, gallop},
+    {"turn", "Turn on the spot, by stepping", "hips, ankles", kTurn, turn},
+    {"sit", "Sit down on a seat behind, or on one of the film", "hips, knees, ankles", kSit, sit},
+    {"stand", "Stand up from sitting", "hips, knees, ankles", kStand, stand},
+    {"reach", "Bring a hand, a foot or another joint to a place", "the limb that reaches", reach_parameters(), reach},
+    {"plant", "Keep feet or hands where they are, whatever the rest does", "the limbs that stay", plant_parameters(),
+     plant},
+    {"pick", "Bend down or reach out for an actor and take it", "hips, ankles, shoulder, elbow", pick_parameters(),
+     pick},
+    {"put", "Put down at a place what a hand holds", "hips, ankles, shoulder, elbow", put_parameters(), put},
+    {"toss", "Toss what a hand holds to a place; it bounces", "hips, ankles, shoulder, elbow", toss_parameters(), toss},
+    {"nod", "Nod with head and neck", "head or neck", kNod, nod},
+    {"wave", "Raise a hand, wave and lower it", "shoulder, elbow", kWave, wave},
+    {"throw", "Fly with a velocity and an acceleration", "", kThrow, fling},
+    {"bounce", "Fall and bounce on a floor until at rest", "", kBounce, bounce},
+    {"spin", "Spin evenly about an axis of the world", "", kSpin, spin},
+    {"go", "Go straight to a place", "", kGo, go},
 };
 
 // Everything that the keys hold, as one key.
@@ -149,6 +162,35 @@ void refuse_carried(const Scene& scene, const animator::ActorKey& driven) {
                 scene.where(), "detach it there first");
 }
 
+bool is_about_hands(const Action& action) {
+  return std::any_of(action.parameters.begin(), action.parameters.end(), [](const Parameter& parameter) {
+    return parameter.name == "hand" || parameter.name == "limb" || parameter.name == "what";
+  });
+}
+
+// The arm of a hand that holds something stays as it is: it neither swings nor rests.
+void keep_holding(const Scene& scene, Motion& motion) {
+  const std::vector<modeler::Joint>& joints = scene.model().joints;
+  for (const animator::Actor& thing : scene.film.actors) {
+    const animator::Attachment* const carrier = animator::attachment_at(thing, scene.at);
+    if (!carrier || &scene.film.actors[carrier->actor] != &scene.actor) continue;
+    for (const modeler::Side side : {modeler::Side::left, modeler::Side::right}) {
+      const std::size_t shoulder = scene.model().limbs.of(modeler::Limb::shoulder, side);
+      std::vector<std::string> arm;
+      std::size_t joint = carrier->joint;
+      for (; joint != modeler::kNone && joint != shoulder; joint = joints[joint].parent)
+        arm.push_back(joints[joint].name);
+      if (joint == modeler::kNone) continue;
+      arm.push_back(joints[shoulder].name);
+      for (animator::ActorKey& key : motion.keys)
+        for (const std::string& name : arm) key.pose.erase(name);
+    }
+  }
+  std::erase_if(motion.keys, [](const animator::ActorKey& key) {
+    return !key.place && !key.turn && !key.attach && key.pose.empty();
+  });
+}
+
 }  // namespace
 
 std::size_t Parameter::count() const {
@@ -165,22 +207,33 @@ const Action* find_action(std::string_view name) {
 
 Performed perform(document::Json& json, const std::filesystem::path& path, const std::string& name,
                   const Action& action, std::optional<std::uint32_t> at, const Arguments& arguments) {
-  animator::actor_of(json, name);  // refuses what is no actor
   const document::Document document(document::laid_out(json), path.string());
-  const animator::Film film = animator::read_film(document.root(), path.parent_path());
+  return perform(json, animator::read_film(document.root(), path.parent_path()), name, action, at, arguments);
+}
+
+Performed perform(document::Json& json, const animator::Film& film, const std::string& name, const Action& action,
+                  std::optional<std::uint32_t> at, const Arguments& arguments) {
+  animator::actor_of(json, name);  // refuses what is no actor
   const animator::Actor& actor =
       *std::find_if(film.actors.begin(), film.actors.end(), [&](const animator::Actor& a) { return a.name == name; });
   if (!actor.matrices.empty())
     throw Failure("is moved by matrices", "actor '" + name + "'",
                   "take its matrices out of the film, or name another actor");
   const Scene scene{film, actor, at ? *at : animator::last_key(actor), arguments, action.name};
-  const Motion motion = action.perform(scene);
+  Motion motion = action.perform(scene);
+  if (!is_about_hands(action)) keep_holding(scene, motion);
   // Where it is elsewhere afterwards, what followed was meant for another place.
   const animator::ActorKey driven = all_of(motion.keys);
   refuse_carried(scene, driven);
   animator::clear_keys(json, name, scene.at + 1, driven.place ? wire::kMostFrames : motion.last, driven);
   animator::put_keys(json, name, motion.keys);
-  return {scene.at, motion.last, motion.report};
+  std::uint32_t film_last = motion.last;
+  for (const auto& [other, keys] : motion.others) {
+    film_last = std::max(film_last, keys.back().frame);
+    animator::clear_keys(json, other, keys.front().frame + 1, wire::kMostFrames, all_of(keys));
+    animator::put_keys(json, other, keys);
+  }
+  return {scene.at, motion.last, film_last, motion.report};
 }
 
 }  // namespace mars::motion

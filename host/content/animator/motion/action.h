@@ -11,22 +11,15 @@
 
 #include "host/content/animator/edit.h"
 #include "host/content/animator/motion/arguments.h"
+#include "host/content/animator/motion/parameter.h"
 #include "host/content/animator/motion/scene.h"
 
 namespace mars::motion {
 
-struct Parameter {
-  std::string_view name;     // "step-length"; an option --step-length, in scripts a word before its values
-  std::string_view value;    // what follows, for help: "N", "X Y"; as many words as values
-  std::string_view meaning;  // with what it is otherwise
-  std::string_view example;  // its values
-
-  std::size_t count() const;  // of values
-};
-
 struct Action {
   std::string_view name;
   std::string_view purpose;
+  std::string_view needs;  // limbs that the actor's model must name: "hips, ankles"; "": none, any actor can
   std::span<const Parameter> parameters;
   Motion (*perform)(const Scene& scene);
 };
@@ -35,12 +28,16 @@ std::span<const Action> actions();
 const Action* find_action(std::string_view name);
 
 struct Performed {
-  std::uint32_t first, last;  // frames
+  std::uint32_t first, last;  // frames of the actor
+  std::uint32_t film_last;    // of others, too: what is tossed moves on
   std::string report;
 };
 
-// Has an actor of the film do something; the film stays as long as it is. `path` is the film file's, beside which its
-// models are. Without `at` the action begins at the actor's last key.
+// Has an actor of the film do something; the film stays as long as it is. `film` is what `json` means. Without `at` the
+// action begins at the actor's last key.
+Performed perform(document::Json& json, const animator::Film& film, const std::string& name, const Action& action,
+                  std::optional<std::uint32_t> at, const Arguments& arguments);
+// The same of the film file at `path`, beside which its models are.
 Performed perform(document::Json& json, const std::filesystem::path& path, const std::string& name,
                   const Action& action, std::optional<std::uint32_t> at, const Arguments& arguments);
 

@@ -44,6 +44,11 @@ std::optional<glm::dvec3> Arguments::vector(std::string_view name) const {
   return vector;
 }
 
+std::optional<std::string> Arguments::word(std::string_view name) const {
+  const auto found = values_.find(std::string(name));
+  return found == values_.end() ? std::nullopt : std::optional(found->second.at(0));
+}
+
 std::size_t Arguments::choice(std::string_view name, std::size_t otherwise,
                               std::span<const std::string_view> choices) const {
   const auto found = values_.find(std::string(name));

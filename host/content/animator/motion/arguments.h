@@ -27,6 +27,8 @@ class Arguments {
   double number(std::string_view name, double otherwise, document::Range range) const;
   std::uint32_t count(std::string_view name, std::uint32_t otherwise, std::uint32_t highest) const;
   std::optional<glm::dvec3> vector(std::string_view name) const;  // of two or three numbers, z then 0
+  std::optional<std::string> word(std::string_view name) const;
+  const std::vector<std::string>& values(std::string_view name) const { return values_.at(std::string(name)); }
   std::size_t choice(std::string_view name, std::size_t otherwise, std::span<const std::string_view> choices) const;
 
   const std::string& where() const { return where_; }

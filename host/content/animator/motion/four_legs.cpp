@@ -62,11 +62,6 @@ class Strider {
   }
 
  private:
-  struct Stood {
-    glm::dvec2 middle;  // between hips and shoulders
-    double heading;
-  };
-
   // ---- Where the trunk is
 
   void measure() {
@@ -90,7 +85,7 @@ class Strider {
     began_ = {glm::dvec2(from_.pelvis) - pelvis_ * ahead_of(from_.heading), from_.heading};
   }
 
-  Stood trunk_at(double time) const {
+  Stand trunk_at(double time) const {
     if (errand_.turn != 0) {
       const double way = smooth(0.2 * period_, stops_, time);
       return {began_.middle, began_.heading + errand_.turn * way};
@@ -101,7 +96,7 @@ class Strider {
 
   // ---- Feet
 
-  Footprint print(const Stood& trunk, bool fore, modeler::Side side) const {
+  Footprint print(const Stand& trunk, bool fore, modeler::Side side) const {
     const glm::dvec2 ahead = ahead_of(trunk.heading), left(-ahead.y, ahead.x), rest = rest_[fore][index_of(side)];
     return {trunk.middle + rest.x * ahead + rest.y * left, trunk.heading};
   }
@@ -119,7 +114,7 @@ class Strider {
     Footwork work(footing, {{foot.ankle.x, foot.ankle.y}, foot.heading});
     for (int stride = 0; stride <= errand_.strides; ++stride) {
       const double land = std::round(lands_ + (stride + phase) * period_);
-      const Stood trunk = trunk_at(stride == errand_.strides ? stops_ : land + stands / 2);
+      const Stand trunk = trunk_at(stride == errand_.strides ? stops_ : land + stands / 2);
       work.add({side, print(trunk, fore, side), land - swings, land});
     }
     feet_[fore].push_back(std::move(work));
@@ -138,7 +133,7 @@ class Strider {
 
   Stance at(double time) const {
     Stance stance;
-    const Stood trunk = trunk_at(time);
+    const Stand trunk = trunk_at(time);
     const double settle = smooth(0, lands_, time);
     stance.heading = trunk.heading;
     const glm::dvec2 place = trunk.middle + pelvis_ * ahead_of(trunk.heading);
@@ -215,7 +210,7 @@ class Strider {
   double pelvis_;                                  // before the middle of these
   double height_;                                  // of the hips
   std::array<std::array<glm::dvec2, 2>, 2> rest_;  // ankles before and beside the middle: hind and fore
-  Stood began_;
+  Stand began_;
   std::array<std::vector<Footwork>, 2> feet_;
 };
 

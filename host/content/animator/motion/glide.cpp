@@ -50,6 +50,14 @@ class Keying {
         [&](std::size_t at) { put(keys_[at], values[at]); });
   }
 
+  void add_joint(const modeler::Model& model, std::size_t number, double tolerance) {
+    const modeler::Joint& joint = model.joints[number];
+    if (joint.freedoms() == 0) return;
+    add_turns(
+        joint, tolerance, [&](const Posture& p) { return p.pose[number]; },
+        [&](animator::ActorKey& key, const glm::dvec3& turns) { key.pose[joint.name] = turns; });
+  }
+
   void add_places(double digit, double tolerance) {
     choose_keys(
         postures_.size(),
@@ -138,14 +146,16 @@ std::vector<animator::ActorKey> keys_of(const Body& body, std::span<const std::s
   keying.add_turns(
       modeler::Joint{}, kLegTolerance, [](const Posture& p) { return within_a_turn(p.turn); },
       [](animator::ActorKey& key, const glm::dvec3& turn) { key.turn = turn; });
-  for (const std::size_t number : joints) {
-    const modeler::Joint& joint = body.model->joints[number];
-    if (joint.freedoms() == 0) continue;
-    keying.add_turns(
-        joint, carries_legs(body, number) ? kLegTolerance : kTolerance,
-        [&](const Posture& p) { return p.pose[number]; },
-        [&](animator::ActorKey& key, const glm::dvec3& turns) { key.pose[joint.name] = turns; });
-  }
+  for (const std::size_t joint : joints)
+    keying.add_joint(*body.model, joint, carries_legs(body, joint) ? kLegTolerance : kTolerance);
+  return keying.take();
+}
+
+std::vector<animator::ActorKey> keys_of_joints(const modeler::Model& model, std::span<const std::size_t> joints,
+                                               std::span<const Posture> postures, std::uint32_t first,
+                                               double tolerance) {
+  Keying keying(postures, first);
+  for (const std::size_t joint : joints) keying.add_joint(model, joint, tolerance);
   return keying.take();
 }
 

@@ -112,9 +112,11 @@ class Pulling {
   }
 
   double solve(Posture& posture) {
-    bend(posture);
     approach(posture);
-    for (const double share : {1.0, kExactly}) search(posture, share);
+    for (const double share : {1.0, kExactly}) {
+      bend(posture);
+      search(posture, share);
+    }
     settle(posture);
     return glm::distance(held_in(posture), pull_.to);
   }
@@ -181,6 +183,7 @@ class Pulling {
     const double strides = std::ceil(glm::distance(from, to) / (kStride * size_));
     for (double stride = 1; stride < strides; ++stride) {
       goal.place = glm::mix(from, to, stride / strides);
+      bend(posture);
       search(posture, 1);
       if (glm::distance(held_in(posture), *goal.place) > kStride * size_) break;
     }

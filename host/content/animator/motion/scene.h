@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,7 +37,9 @@ Posture posture_of(const Scene& scene);
 struct Motion {
   std::vector<animator::ActorKey> keys;
   std::uint32_t last = 0;  // frame, as Scene::last_after() allows
-  std::string report;      // more for the person who asked: "the seat is ..."; "" if nothing
+  std::string report{};    // more for the person who asked: "the seat is ..."; "" if nothing
+  // Of other actors, by their names: what is picked up or tossed. Later keys of what these drive make way.
+  std::map<std::string, std::vector<animator::ActorKey>> others{};
 };
 
 }  // namespace mars::motion

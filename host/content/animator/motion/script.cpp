@@ -33,7 +33,7 @@ std::string list_of(const std::vector<std::string>& words, char between) {
 class Player {
  public:
   Player(document::Json& film, const std::filesystem::path& path, std::string name)
-      : film_(film), path_(path), name_(std::move(name)), rate_(meaning_of(film, path).rate) {
+      : film_(film), path_(path), name_(std::move(name)), meaning_(meaning_of(film, path)), rate_(meaning_.rate) {
     for (const document::Json& actor : film.at("actors")) actors_.push_back(actor.at("name").get<std::string>());
   }
 
@@ -58,6 +58,13 @@ class Player {
   Played played() { return std::move(played_); }
 
  private:
+  // Of the film as it is now; its models stay what they are.
+  const animator::Film& meaning() {
+    const document::Document document(document::laid_out(film_), path_.string());
+    meaning_ = animator::read_film(document.root(), meaning_.models);
+    return meaning_;
+  }
+
   bool is_actor(const std::string& name) const { return std::count(actors_.begin(), actors_.end(), name) > 0; }
 
   void let(ScriptLine& line) {
@@ -100,7 +107,7 @@ class Player {
     // What an earlier version of the script keyed here would be added to again.
     if (begun_.insert(name).second) is_actor(name) ? clear_from(name, std::max(at, 1u)) : clear_camera_after(at);
     in_line(line, [&] {
-      return animator::pose(film_, meaning_of(film_, path_), name, settings, {at, at}, {}, animator::Beyond::refused);
+      return animator::pose(film_, meaning(), name, settings, {at, at}, {}, animator::Beyond::refused);
     });
     played_.report.push_back(line.where() + ": " + name + " pose, frame " + std::to_string(at));
     return at;
@@ -117,9 +124,12 @@ class Player {
                   document::did_you_mean(verb, verbs, "see: mars animate --help"));
     const Arguments arguments(take_values(line, *action, at), line.where() + ": " + verb);
     if (begun_.insert(name).second) clear_from(name, at + 1);
-    const Performed done = in_line(line, [&] { return perform(film_, path_, name, *action, at, arguments); });
+    if (const auto what = arguments.word("what"); what && is_actor(*what) && begun_.insert(*what).second)
+      clear_from(*what, at + 1);
+    const Performed done = in_line(line, [&] { return perform(film_, meaning(), name, *action, at, arguments); });
     played_.report.push_back(line.where() + ": " + name + " " + verb + ", frames " + std::to_string(done.first) +
                              " to " + std::to_string(done.last) + (done.report.empty() ? "" : ": " + done.report));
+    played_.last = std::max(played_.last, done.film_last);
     return done.last;
   }
 
@@ -128,10 +138,9 @@ class Player {
     const std::string to = verb == "attach" ? line.take("an actor or its joint, as in tom/right-hand") : "";
     if (begun_.insert(name).second) clear_from(name, at + 1);
     in_line(line, [&] {
-      const animator::Film meaning = meaning_of(film_, path_);
-      verb == "attach" ? animator::attach(film_, meaning, name, to, at, {})
-                       : animator::detach(film_, meaning, name, at);
-      return meaning_of(film_, path_).frames;
+      const animator::Film& now = meaning();
+      verb == "attach" ? animator::attach(film_, now, name, to, at, {}) : animator::detach(film_, now, name, at);
+      return meaning().frames;
     });
     played_.report.push_back(line.where() + ": " + name + " " + verb + ", frame " + std::to_string(at));
     return at;
@@ -201,11 +210,10 @@ class Player {
     in_line(line, [&] {
       // It stays as it is until the cut, or until it moves.
       if (const std::uint32_t before = verb == "cut" ? at - 1 : at; verb == "move" || at > 0)
-        animator::make_keys(film_, meaning_of(film_, path_), {false, kCamera, parts_of(settings)}, before,
+        animator::make_keys(film_, meaning(), {false, kCamera, parts_of(settings)}, before,
                             verb == "cut" ? animator::kLinear : animator::kBoth, animator::Beyond::refused);
-      animator::pose(film_, meaning_of(film_, path_), kCamera, settings, {end, end}, animator::kLinear,
-                     animator::Beyond::refused);
-      return meaning_of(film_, path_).frames;
+      animator::pose(film_, meaning(), kCamera, settings, {end, end}, animator::kLinear, animator::Beyond::refused);
+      return meaning().frames;
     });
     played_.report.push_back(line.where() + ": camera " + verb + ", frame " + std::to_string(end));
     return end;
@@ -229,8 +237,8 @@ class Player {
     }
     if (begun_.insert(kCamera).second) clear_camera_after(at);
     in_line(line, [&] {
-      animator::follow(film_, meaning_of(film_, path_), to, at, following);
-      return meaning_of(film_, path_).frames;
+      animator::follow(film_, meaning(), to, at, following);
+      return meaning().frames;
     });
     played_.report.push_back(line.where() + ": camera " + verb + ", frame " + std::to_string(at));
     return at;
@@ -262,7 +270,7 @@ class Player {
 
   // What an earlier version of the script had left there.
   void clear_from(const std::string& name, std::uint32_t frame) {
-    const animator::Film film = meaning_of(film_, path_);
+    const animator::Film& film = meaning();
     const auto actor =
         std::find_if(film.actors.begin(), film.actors.end(), [&](const animator::Actor& a) { return a.name == name; });
     animator::ActorKey all;
@@ -295,6 +303,7 @@ class Player {
   document::Json& film_;
   std::filesystem::path path_;
   std::string name_;
+  animator::Film meaning_;
   double rate_;
   std::vector<std::string> actors_;
   std::set<std::string> begun_;

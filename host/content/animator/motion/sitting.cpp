@@ -195,28 +195,46 @@ glm::dvec3 between_feet(const Stance& stance) { return 0.5 * (stance.feet[0].ank
                 remedy);
 }
 
-}  // namespace
+// Where the hips come, by the seat's height or, without it, with level thighs.
+struct Seated {
+  double hips;  // height in the world
+  double back;  // behind the ankles, with upright shins
+  double soft;  // of the hips over the seat
+};
 
-Motion sit(const Scene& scene) {
+Seated seated(const Scene& scene, const Chair& chair, const std::optional<double>& height) {
+  const Leg& leg = chair.body().legs[0];
+  const double soft = cushion(chair.body(), chair.hip_drop()), level = between_feet(chair.from()).z + leg.shin;
+  const double hips = height ? chair.floor() + *height + soft : level;
+  if (std::abs(hips - level) > leg.thigh)
+    scene.arguments.refuse(scene.arguments.has("on") ? "on" : "seat-height",
+                           "is " + document::shown(animator::rounded(*height)) + ", out of this figure's reach",
+                           "its thighs are level at " +
+                               document::shown(animator::rounded(level - soft - chair.floor())));
+  return {hips, std::sqrt(leg.thigh * leg.thigh - (hips - level) * (hips - level)), soft};
+}
+
+Chair chair_of(const Scene& scene) {
   require_two_legs(scene.model(), scene.actor.name, "sit");
   Chair chair(scene, "sit", kSitRemedy);
   if (!chair.upright())
     fail(scene, "does not stand", "sit",
          "let it stand up first, by the action stand; to do it again otherwise, give --at with the frame "
          "where it began");
-  const Leg& leg = chair.body().legs[0];
+  return chair;
+}
+
+}  // namespace
+
+double hips_behind(const Scene& scene, double seat_height) { return seated(scene, chair_of(scene), seat_height).back; }
+
+Motion sit_down(const Scene& scene) {
+  Chair chair = chair_of(scene);
+  const Seated seat = seated(scene, chair, scene.arguments.number("seat-height", {0, document::kFarthest}));
   const glm::dvec3 ankle = between_feet(chair.from());
-  const double soft = cushion(chair.body(), chair.hip_drop()), level = ankle.z + leg.shin;
-  const auto wanted = scene.arguments.number("seat-height", {0, document::kFarthest});
-  const double hips = wanted ? chair.floor() + *wanted + soft : level;
-  if (std::abs(hips - level) > leg.thigh)
-    scene.arguments.refuse("seat-height", "is " + document::shown(*wanted) + ", out of this figure's reach",
-                           "its thighs are level at " +
-                               document::shown(animator::rounded(level - soft - chair.floor())));
-  const double back = std::sqrt(leg.thigh * leg.thigh - (hips - level) * (hips - level));
   const glm::dvec3 behind =
-      facing(chair.from()) * glm::dvec3(-scene.arguments.number("back", back, {0, document::kFarthest}), 0, 0);
-  const glm::dvec3 pelvis(ankle.x + behind.x, ankle.y + behind.y, hips + chair.hip_drop());
+      facing(chair.from()) * glm::dvec3(-scene.arguments.number("back", seat.back, {0, document::kFarthest}), 0, 0);
+  const glm::dvec3 pelvis(ankle.x + behind.x, ankle.y + behind.y, seat.hips + chair.hip_drop());
   Motion motion = chair.move(
       pelvis, 0.5, [](double u) { return smooth(0, 0.9, u); }, [](double u) { return smooth(0.05, 1, u); },
       chair.with_hands_on_thighs(pelvis));
@@ -224,7 +242,7 @@ Motion sit(const Scene& scene) {
     return document::shown(std::round(value * 1e4) / 1e4 + 0.0);
   };  // never -0
   motion.report = "sits at " + rounded_text(pelvis.x) + " " + rounded_text(pelvis.y) + ", on a seat of height " +
-                  rounded_text(hips - soft - chair.floor());
+                  rounded_text(seat.hips - seat.soft - chair.floor());
   return motion;
 }
 

@@ -1,34 +1,33 @@
-// What is not of one joint. A model: bodies of other proportions, made of the same segments. A film: the selected
-// actor's place and turn, and the camera.
+// What is not of one joint. A model: bodies of other proportions, made of the same segments. A film: its actors, camera,
+// lights, materials and settings, by the commands of `mars film` and `mars animate`.
 
 import {element, keepingFocus} from "../dom.js";
-import {line, numberField, part, vectorField} from "../fields.js";
+import {part} from "../fields.js";
+import {actorPart, castPart} from "./scene/actors.js";
+import {cameraPart} from "./scene/camera.js";
+import {Controls} from "./scene/controls.js";
+import {filmPart, materialsPart} from "./scene/film.js";
+import {lightsPart} from "./scene/lights.js";
 
 export class ScenePanel {
   #built = "";
-  #fields = [];
 
   constructor(place, {state, edits}) {
     Object.assign(this, {place, state, edits});
+    this.controls = new Controls({state, edits});
     state.on("project selected", () => this.#update());
-    state.on("poses", () => this.#set());
+    state.on("poses", () => this.controls.set());
   }
 
   #update() {
-    const {project, selected} = this.state;
-    const built = JSON.stringify([project?.kind, selected.actor, project?.bodies, Boolean(project?.camera)]);
+    const film = this.state.isFilm();
+    const built = JSON.stringify(film ? this.#shape() : [this.state.project?.bodies]);
     if (built !== this.#built) {
       this.#built = built;
-      keepingFocus(this.place, () => this.#build());
+      this.controls.clear();
+      keepingFocus(this.place, () => this.place.replaceChildren(...(film ? this.#film() : this.#bodies())));
     }
-    this.#set();
-  }
-
-  #set() { for (const field of this.#fields) field(); }
-
-  #build() {
-    this.#fields = [];
-    this.place.replaceChildren(...(this.state.isFilm() ? this.#film() : this.#bodies()));
+    this.controls.set();
   }
 
   #bodies() {
@@ -39,41 +38,19 @@ export class ScenePanel {
                  element("div", {class: "actions"}, bodies.map(button)))];
   }
 
-  #field(made, of) {
-    this.#fields.push(() => { const value = of(); if (value) made.set(value); });
-    return made.root;
+  // What decides which controls there are.
+  #shape() {
+    const {project, selected} = this.state;
+    return [selected.actor, selected.thing, Boolean(project.camera), project.actors.map(({name, place}) => [name, Boolean(place)]),
+            project.library, (project.lights ?? []).map(({thing, kind}) => [thing, kind]),
+            (project.materials ?? []).map(({name}) => name), Boolean(project.background)];
   }
 
-  #gestures(stepOf) {
-    return {
-      preview: (value, event) => this.edits.preview(stepOf(value), event),
-      commit: (value, event) => this.edits.commit(stepOf(value), event),
-      cancel: () => this.edits.cancel(),
-    };
-  }
-
+  // What is selected comes first.
   #film() {
-    const name = this.state.selected.actor;
-    const actor = !this.state.actor()?.place
-      ? element("p", {class: "nothing"}, name === null ? "Select an actor in the tree." : "This actor moves by matrices.")
-      : part(`Actor ${name}`, this.#ofActor("Place", "place", 0.1), this.#ofActor("Turn", "turn", 5));
-    return this.state.project.camera ? [actor, this.#camera()] : [actor];
-  }
-
-  #ofActor(label, member, step) {
-    const actor = this.state.selected.actor;
-    return line(label, this.#field(vectorField({
-      name: `${label} of the actor`, key: `actor.${member}`, step, ...this.#gestures((value) => ({set: member, actor, [member]: value})),
-    }), () => this.state.actor()?.[member]));
-  }
-
-  #camera() {
-    const now = () => this.state.project.camera;
-    const stepOf = (change) => ({set: "camera", eye: now().eye, at: now().at, fov: now().fov, ...change});
-    const vector = (label, member) => line(label, this.#field(vectorField({
-      name: `Camera, ${label.toLowerCase()}`, key: `camera.${member}`, step: 0.1, ...this.#gestures((value) => stepOf({[member]: value})),
-    }), () => now()?.[member]));
-    const fov = numberField({name: "Camera, view angle", unit: "°", least: 0.01, most: 179, step: 1, key: "camera.fov", ...this.#gestures((value) => stepOf({fov: value}))});
-    return part("Camera", vector("Eye", "eye"), vector("Looks at", "at"), line("View angle", this.#field(fov, () => now()?.fov)));
+    const {controls} = this, lit = this.state.selected.thing?.startsWith("light/");
+    const made = [actorPart(controls), ...(lit ? [lightsPart(controls), cameraPart(controls)] : [cameraPart(controls), lightsPart(controls)]),
+                  castPart(controls), materialsPart(controls), filmPart(controls)];
+    return made.filter(Boolean);
   }
 }

@@ -39,6 +39,7 @@ class MockStudio:
         self.project = project
         self.draw = draw or (lambda asked: plain(asked["width"], asked["height"], (40 + 30 * asked["view"], 60, 80)))
         self.there = lambda grab: {"joint": None, "handle": None}  # what a grab finds
+        self.channels = []  # things with keys, as the protocol has them
         self.heard = []
         self.views = {}
         self.numbers = {}  # view -> its last picture
@@ -147,6 +148,10 @@ class MockStudio:
                 await self._picture(message["view"], self.due.pop(message["view"]))
         elif does == "grab":
             await self._tell({"is": "grabbed", "view": message["view"], **self.there(message)})
+        elif does == "channels":
+            await self._tell({"is": "channels", "things": self.channels})
+        elif does == "curves" and "parts" in message:
+            await self._tell({"is": "curves", "thing": message["thing"], "first": 0, "parts": self._curves(message)})
         if does == "commit":
             self._commit(message["step"])
             await self._tell({"is": "project", **self.project})
@@ -163,6 +168,13 @@ class MockStudio:
             for joint in actor["joints"]:
                 if step.get("set") == "pose" and joint["name"] == step["joint"]:
                     joint["pose"] = step["pose"]
+
+    # Straight from a value to itself: flat curves at the first key's values.
+    def _curves(self, asked):
+        parts = [part for each in self.channels if each["thing"] == asked["thing"] for part in each["parts"]]
+        return [{"name": part["name"], "axes": part["axes"], "limits": [[-90, 90]] * len(part["axes"]),
+                 "values": [[value] * self.project["frames"] for value in part["keys"][0]["value"]]}
+                for part in parts if part["name"] in asked["parts"]]
 
     async def _picture(self, view, edit):
         if self.numbers.get(view, 0) - self.painted.get(view, 0) >= MOST_UNPAINTED:

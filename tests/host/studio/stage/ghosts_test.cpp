@@ -172,6 +172,21 @@ TEST(Ghosts, AreCutAtTheEye) {
   EXPECT_TRUE(screen.outline(std::vector<glm::dvec3>{{9, 0, 0}, {9.5, 0, 0}, {9, 0, 1}}).empty()) << "beside";
 }
 
+TEST(Ghosts, AreNotOfAFilmThatShowsNothing) {
+  Scene scene;
+  scene.take(R"({"do": "select", "actor": "box", "joint": null})");
+  scene.show(R"({"before": 1, "after": 1, "step": 4})");
+  ASSERT_FALSE(scene.ghost_texts().empty());
+  scene.project.change([](animator::Film& film) {
+    film.actors.push_back(film.actors[1]);
+    film.actors[2].name = "more";
+    film.camera.eye = film.camera.at;
+  });
+  scene.stage->project_changed();
+  scene.take(R"({"do": "select", "actor": "more", "joint": null})");
+  EXPECT_TRUE(scene.ghost_texts().empty());
+}
+
 TEST(Ghosts, AFiguresFourTakeLittleTime) {
   FakeProject project(example("demo.json"));
   project.set_frame(20);

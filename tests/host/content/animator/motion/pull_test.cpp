@@ -166,6 +166,13 @@ TEST(Pull, TurnsAFootAsItIsAsked) {
   EXPECT_LT(glm::degrees(animator::turn_between(man.frame(foot).turn, frame.turn).angle), 0.5);
 }
 
+TEST(Pull, LiftsAFootHighAtOnce) {
+  Pulled man(human());
+  const Chain chain = chain_of(man.model(), man.of(Limb::ankle, Side::left));
+  const glm::dvec3 forward = canonical_turn(0, 0, 30)[0];
+  EXPECT_LT(man.to(chain, man.frame(chain.end).place + 0.9 * forward + glm::dvec3(0, 0, 0.75)), 1e-3);
+}
+
 TEST(Pull, IsQuickEnoughForAMouse) {
   Pulled man(human());
   const std::size_t pins[] = {man.of(Limb::ankle, Side::left), man.of(Limb::ankle, Side::right)};

@@ -1,0 +1,52 @@
+// Actors of a film: the selected one's name, place, turn and carrier; others are added.
+
+import {element} from "../../dom.js";
+import {choice, line, part, textField} from "../../fields.js";
+import {targetOf} from "./controls.js";
+
+export function actorPart(controls) {
+  const {actor} = controls.state.selected;
+  if (actor === null) return null;
+  if (!controls.state.actor()?.place) return element("p", {class: "nothing"}, "This actor moves by matrices.");
+  const name = textField({name: "Name of the actor", key: "actor.name",
+                          commit: (to, event) => controls.commit(["film", "rename", actor, to], event)});
+  name.set(actor);
+  const ofActor = (label, member, step) => controls.vector(label, `${label} of the actor`, `actor.${member}`, step,
+    (value) => ({set: member, actor, [member]: value}), () => controls.state.actor()?.[member]);
+  return part(`Actor ${actor}`, line("Name", name.root), ofActor("Place", "place", 0.1), ofActor("Turn", "turn", 5),
+              carrier(controls, actor),
+              element("div", {class: "actions"}, controls.button("Remove", "actor.remove", () => ["film", "remove", actor])));
+}
+
+function carrier(controls, actor) {
+  const words = (target) => target === null ? ["animate", "detach", actor] : ["animate", "attach", actor, "--to", target];
+  const made = choice({name: "Carried by", options: [[null, "Nobody"], ...controls.targets(actor)], key: "actor.attach",
+                       commit: (target, event) => controls.commit([...words(target), ...controls.atFrame()], event)});
+  controls.whenSet(() => made.set(targetOf(controls.state.actor(actor)?.attach)));
+  return line("Carried by", made.root);
+}
+
+export function castPart(controls) {
+  const library = (controls.project.library ?? []).map(({name, what}) => element("option", {value: name}, what));
+  const list = element("datalist", {id: "library"}, library);
+  const text = (name, key, hint) => element("input", {type: "text", "aria-label": name, "data-key": key, placeholder: hint,
+                                                      list: key === "cast.model" ? "library" : null, autocomplete: "off"});
+  const model = text("Model of the new actor", "cast.model", "man, ball, FILE.json");
+  const name = text("Name of the new actor", "cast.name", "as its model");
+  const add = (event) => {
+    const of = model.value.trim();
+    if (of === "") return model.focus();
+    const called = name.value.trim() || freeName(controls.project.actors, of.split("/").at(-1).replace(/\..*$/, ""));
+    controls.commit(["film", "add", called, "--model", of], event);
+  };
+  return part("Add an actor", line("Model", model, list), line("Name", name),
+              element("div", {class: "actions"}, element("button", {"data-key": "cast.add", onclick: add}, "Add")));
+}
+
+function freeName(actors, wanted) {
+  const names = new Set(actors.map(({name}) => name));
+  for (let number = 1;; ++number) {
+    const name = number === 1 ? wanted : `${wanted}-${number}`;
+    if (!names.has(name)) return name;
+  }
+}

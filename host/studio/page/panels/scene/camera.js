@@ -1,0 +1,24 @@
+// A film's camera: where it is, where it looks, and whom it looks at or goes along with.
+
+import {choice, line, part} from "../../fields.js";
+import {targetOf} from "./controls.js";
+
+export function cameraPart(controls) {
+  const now = () => controls.project.camera;
+  if (!now()) return null;
+  const stepOf = (change) => ({set: "camera", ...change});
+  const vector = (label, member) => controls.vector(label, `Camera, ${label.toLowerCase()}`, `camera.${member}`, 0.1,
+                                                    (value) => stepOf({[member]: value}), () => now()?.[member]);
+  const angle = {name: "Camera, view angle", unit: "°", least: 0.01, most: 179, step: 1, key: "camera.fov"};
+  return part("Camera", vector("Eye", "eye"), vector("Looks at", "at"),
+              controls.number("View angle", angle, (fov) => stepOf({fov}), () => now()?.fov),
+              bound(controls, "Look at", "look"), bound(controls, "Go along", "follow"));
+}
+
+// `word`: of the command, and of what the project says.
+function bound(controls, label, word) {
+  const made = choice({name: `Camera: ${label.toLowerCase()} an actor`, options: [[null, "Nobody"], ...controls.targets()], key: `camera.${word}`,
+                       commit: (target, event) => controls.commit(["animate", word, target ?? "--end", ...controls.atFrame()], event)});
+  controls.whenSet(() => made.set(targetOf(controls.project.camera?.[word])));
+  return line(label, made.root);
+}

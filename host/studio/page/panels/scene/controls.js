@@ -1,0 +1,70 @@
+// Controls of a film's scene: each shows a value of the project and changes it by a step, most by one command.
+
+import {element} from "../../dom.js";
+import {colorField, line, numberField, vectorField} from "../../fields.js";
+import {written} from "../../numbers.js";
+
+export const joined = (numbers) => numbers.map((number) => written(number, 4)).join(",");
+
+// {actor, joint} as commands name it; null: nobody.
+export const targetOf = (bound) => bound ? [bound.actor, bound.joint].filter(Boolean).join("/") : null;
+
+export class Controls {
+  #fields = [];
+
+  constructor({state, edits}) { Object.assign(this, {state, edits}); }
+
+  get project() { return this.state.project; }
+
+  clear() { this.#fields = []; }
+  set() { for (const field of this.#fields) field(); }
+
+  // `show` is done whenever values change.
+  whenSet(show) { this.#fields.push(show); }
+
+  // A control that shows what `of` gives; gives its element.
+  field(made, of) {
+    this.whenSet(() => { const value = of(); if (value !== undefined && value !== null) made.set(value); });
+    return made.root;
+  }
+
+  // `stepOf(value)` gives a step, or the words of its one command.
+  gestures(stepOf) {
+    const step = (value) => {
+      const made = stepOf(value);
+      return Array.isArray(made) ? {commands: [made]} : made;
+    };
+    return {
+      preview: (value, event) => this.edits.preview(step(value), event),
+      commit: (value, event) => this.edits.commit(step(value), event),
+      cancel: () => this.edits.cancel(),
+    };
+  }
+
+  atFrame() { return ["--frame", `${this.project.frame}`]; }
+  posed(thing, text) { return ["animate", "pose", thing, text, ...this.atFrame()]; }
+  commit(words, event) { this.edits.commit({commands: [words]}, event); }
+
+  // `words()` gives those of the command.
+  button(text, key, words) {
+    return element("button", {"data-key": key, onclick: (event) => this.commit(words(), event)}, text);
+  }
+
+  vector(label, name, key, step, stepOf, of) {
+    return line(label, this.field(vectorField({name, key, step, ...this.gestures(stepOf)}), of));
+  }
+
+  number(label, {name = label, ...options}, stepOf, of) {
+    return line(label, this.field(numberField({name, ...options, ...this.gestures(stepOf)}), of));
+  }
+
+  color(label, name, key, stepOf, of) {
+    return line(label, this.field(colorField({name, key, ...this.gestures(stepOf)}), of));
+  }
+
+  // Actors and their joints, as commands name them: [value, text].
+  targets(without = null) {
+    return this.project.actors.filter(({name}) => name !== without).flatMap(({name, joints}) =>
+      [[name, name], ...joints.map((joint) => [`${name}/${joint.name}`, `${name} \u203a ${joint.name}`])]);
+  }
+}

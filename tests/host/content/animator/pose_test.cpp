@@ -1,0 +1,114 @@
+// Settings as people type them: relative ones, over ranges, by patterns, of lights and materials.
+#include "host/content/animator/pose.h"
+
+#include <gtest/gtest.h>
+
+#include "host/content/animator/check.h"
+#include "host/content/animator/read_film.h"
+#include "tests/host/content/document/failure_of.h"
+
+namespace mars::animator {
+namespace {
+
+constexpr const char* kFilm = R"({
+  "frames": 49, "camera": {"eye": [0, -9, 2]},
+  "lights": [{"direction": [0, 0, 1]}, {"place": [0, 0, 4], "at": [0, 0, 0], "cone": [20, 30]}],
+  "materials": {"skin": {"color": [0.5, 0.5, 0.5]}},
+  "models": {"legs": {"joints": [
+    {"name": "hip"},
+    {"name": "left-shin", "parent": "hip", "limits": {"y": [0, 150]}},
+    {"name": "right-shin", "parent": "hip", "limits": {"y": [0, 150]}},
+    {"name": "bolt-shin", "parent": "hip", "limits": {}}]}},
+  "actors": [{"name": "it", "model": "legs", "keys": [
+    {"frame": 0, "pose": {"left-shin": [0, 10, 0]}}, {"frame": 24, "pose": {"left-shin": [0, 90, 0]}}]}]})";
+
+class Poses : public testing::Test {
+ protected:
+  void read() {
+    const document::Document document(document::laid_out(json_), "f.json");
+    film_ = read_film(document.root(), {});
+  }
+
+  Remarks pose(const std::string& thing, const std::vector<std::string>& settings, FrameRange range,
+               Beyond beyond = Beyond::refused) {
+    read();
+    const Remarks remarks = animator::pose(json_, film_, thing, settings, range, {}, beyond);
+    read();
+    return remarks;
+  }
+
+  std::string failure(const std::string& thing, const std::vector<std::string>& settings, FrameRange range) {
+    return document::failure_of([&] { pose(thing, settings, range); });
+  }
+
+  const document::Json& key(std::size_t number) { return json_["actors"][0]["keys"][number]["pose"]; }
+
+  document::Json json_ = document::Json::parse(kFilm);
+  Film film_;
+};
+
+TEST_F(Poses, TurnOnFromWhatIsThere) {
+  pose("it", {"left-shin.y+=7", "place.x-=2"}, {12, 12});
+  EXPECT_EQ(key(1), document::Json::parse(R"({"left-shin": [0, 57, 0]})"));
+  EXPECT_EQ(json_["actors"][0]["keys"][1]["place"], document::Json::parse("[-2, 0, 0]"));
+  pose("it", {"left-shin+=0,-7,0"}, {12, 12});
+  EXPECT_EQ(key(1), document::Json::parse(R"({"left-shin": [0, 50, 0]})"));
+}
+
+TEST_F(Poses, ChangeAllKeysOfARange) {
+  pose("it", {"left-shin.y-=10"}, {0, 48});
+  EXPECT_EQ(key(0)["left-shin"][1], 0);
+  EXPECT_EQ(key(1)["left-shin"][1], 80);
+  EXPECT_NE(failure("it", {"left-shin.y-=10"}, {1, 23}).find("finds no key of actor 'it' in frames 1 to 23"),
+            std::string::npos);
+  EXPECT_NE(failure("it", {"left-shin.y=10"}, {0, 23}).find("+="), std::string::npos);
+  EXPECT_NE(failure("it", {"left-shin.y-=10"}, {0, 48}).find("outside its limits 0 to 150"), std::string::npos);
+  EXPECT_EQ(pose("it", {"left-shin.y-=10"}, {0, 48}, Beyond::clamped).size(), 1u);
+}
+
+TEST_F(Poses, ByPatternsAreOfAllPartsThatCanTurnThere) {
+  pose("it", {"*-shin.y+=5"}, {12, 12});
+  EXPECT_EQ(key(1), document::Json::parse(R"({"left-shin": [0, 55, 0], "right-shin": [0, 5, 0]})"));
+  EXPECT_NE(failure("it", {"*-shin.x+=5"}, {12, 12}).find("like it are: left-shin, right-shin"), std::string::npos);
+  EXPECT_NE(failure("it", {"*-shim.y+=5"}, {12, 12}).find("its parts are: place, turn"), std::string::npos);
+  EXPECT_NE(failure("it", {"*-shin.y+=5", "left-shin.y=1"}, {12, 12}).find("an earlier word"), std::string::npos);
+  read();
+  const auto parts = choose(json_, film_, {false, "it", {"/*"}}).front().parts;
+  EXPECT_EQ(parts, (std::vector<std::string>{"/hip", "/left-shin", "/right-shin"}));
+}
+
+TEST_F(Poses, OfLightsAndMaterials) {
+  pose("light/2", {"cone=10,12", "color.x=0.5", "intensity=3"}, {24, 24});
+  EXPECT_EQ(json_["lights"][1]["keys"][1]["cone"], document::Json::parse("[10, 12]"));
+  EXPECT_EQ(json_["lights"][1]["keys"][0]["color"], document::Json::parse("[1, 1, 1]"));
+  EXPECT_EQ(json_["lights"][1]["keys"][1]["color"], document::Json::parse("[0.5, 1, 1]"));
+  pose("material/skin", {"color.z+=0.1"}, {0, 0});
+  EXPECT_EQ(json_["materials"]["skin"]["keys"][0]["color"], document::Json::parse("[0.5, 0.5, 0.6]"));
+  EXPECT_NE(failure("light/2", {"intensity=3000"}, {24, 24}).find("from 0 to 1000"), std::string::npos);
+}
+
+TEST_F(Poses, NameLightsAndMaterialsThatThereAre) {
+  EXPECT_NE(failure("light/3", {"intensity=3"}, {0, 0}).find("light/1 to light/2"), std::string::npos);
+  EXPECT_NE(failure("light/1", {"cone=3,4"}, {0, 0}).find("direction, color, intensity"), std::string::npos);
+  EXPECT_NE(failure("light/2", {"cone=3"}, {0, 0}).find("cone=20,30"), std::string::npos);
+  EXPECT_NE(failure("material/skni", {"color=1,1,1"}, {0, 0}).find("did you mean 'skin'?"), std::string::npos);
+  json_.erase("lights");
+  EXPECT_NE(failure("light/1", {"intensity=3"}, {0, 0}).find("mars film FILM light rig"), std::string::npos);
+}
+
+TEST_F(Poses, MoveWhatGoesAlongByItsOffset) {
+  json_["camera"]["at"] = {{"actor", "it"}, {"offset", {0, 0, 2}}};
+  pose("camera", {"at.z+=1"}, {24, 24});
+  EXPECT_EQ(json_["camera"]["keys"][1]["at"], document::Json::parse(R"({"actor": "it", "offset": [0, 0, 3]})"));
+  EXPECT_EQ(json_["camera"]["keys"][0]["at"], document::Json::parse(R"({"actor": "it", "offset": [0, 0, 2]})"));
+}
+
+TEST_F(Poses, OfLightsBehindTheEndAreFound) {
+  pose("light/1", {"intensity=3"}, {60, 60});
+  const Findings findings = check_film(film_);
+  ASSERT_EQ(findings.lines.size(), 1u);
+  EXPECT_NE(findings.lines[0].find("light/1: has keys up to frame 60"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace mars::animator

@@ -1,0 +1,125 @@
+// `mars film` on a film in memory.
+#include <gtest/gtest.h>
+
+#include "host/content/animator/film_settings.h"
+#include "host/content/modeler/figure_library.h"
+#include "host/editing/edit_film.h"
+#include "tests/host/content/document/failure_of.h"
+
+namespace mars::editing {
+namespace {
+
+class FilmWords : public testing::Test {
+ protected:
+  Done film(std::vector<std::string> words) {
+    words.insert(words.begin(), "film");
+    return edit_film(json_, "film.json", std::vector<Command>{words});
+  }
+
+  // The film stays.
+  std::string failure(const std::vector<std::string>& words) {
+    const document::Json before = json_;
+    const std::string text = document::failure_of([&] { film(words); });
+    EXPECT_EQ(json_, before);
+    return text;
+  }
+
+  document::Json& actor(std::size_t number) { return json_["actors"][number]; }
+
+  document::Json json_ = animator::new_film();
+};
+
+TEST_F(FilmWords, AddEverythingOfTheLibrary) {
+  for (const auto library : {modeler::figure_library(), modeler::object_library()})
+    for (const modeler::LibraryFigure& each : library)
+      film({"add", "one-" + std::string(each.name), "--model", std::string(each.name)});
+  EXPECT_EQ(json_["actors"].size(), 10u);
+  EXPECT_EQ(json_["models"].size(), 10u);
+}
+
+TEST_F(FilmWords, AddActors) {
+  film({"add", "tom", "--model", "man", "--place", "1", "-2", "0", "--turn", "90"});
+  film({"add", "tim", "--model", "man", "--height", "4"});
+  film({"add", "ball", "--model", "ball"});
+  film({"add", "big", "--model", "ball", "--height", "2"});
+  EXPECT_EQ(actor(0),
+            document::Json::parse(R"({"name": "tom", "model": "man", "place": [1, -2, 0], "turn": [0, 0, 90]})"));
+  EXPECT_EQ(actor(1), document::Json::parse(R"({"name": "tim", "model": "tim"})"));
+  EXPECT_EQ(actor(2)["place"], document::Json::parse("[0, 0, 0.275]"));
+  EXPECT_NEAR(actor(3)["place"][2].get<double>(), 1, 0.01);  // with its seams 2 high
+  EXPECT_NE(failure({"add", "tom", "--model", "man"}).find("already"), std::string::npos);
+  EXPECT_NE(failure({"add", "bob", "--model", "mann"}).find("did you mean 'man'?"), std::string::npos);
+  EXPECT_NE(failure({"add", "bob", "--model", "none.json"}).find("does not exist"), std::string::npos);
+  EXPECT_NE(failure({"add", "bob", "--model", "tim", "--height", "3"}).find("leave --height out"), std::string::npos);
+}
+
+TEST_F(FilmWords, RemoveAndRenameActorsWithWhatNamesThem) {
+  film({"add", "tom", "--model", "man"});
+  film({"add", "ball", "--model", "ball"});
+  actor(1)["attach"] = {{"actor", "tom"}, {"joint", "right-hand"}};
+  actor(1).erase("place");
+  film({"rename", "tom", "anna"});
+  EXPECT_EQ(actor(1)["attach"]["actor"], "anna");
+  EXPECT_NE(failure({"remove", "anna"}).find("hang on: ball"), std::string::npos);
+  EXPECT_NE(failure({"rename", "anna", "ball"}).find("already"), std::string::npos);
+  EXPECT_NE(failure({"rename", "anna", "camera"}).find("camera"), std::string::npos);
+  film({"remove", "ball"});
+  film({"remove", "anna"});
+  EXPECT_TRUE(json_["actors"].empty());
+  EXPECT_TRUE(json_["models"].empty());
+}
+
+TEST_F(FilmWords, ChangeSettings) {
+  film({"set", "frames=10", "size=64,36", "ambient=0.1,0.2,0.3", "curve=none"});
+  EXPECT_EQ(json_["size"], document::Json::parse("[64, 36]"));
+  EXPECT_EQ(json_["curve"], "none");
+  EXPECT_NE(failure({"set", "frames=0"}).find("from 1 to 1000000"), std::string::npos);
+  EXPECT_NE(failure({"set", "frame=1"}).find("did you mean 'frames'?"), std::string::npos);
+  EXPECT_NE(failure({"set", "frames"}).find("KEY=VALUE"), std::string::npos);
+  EXPECT_NE(failure({"set", "rate=1", "rate=2"}).find("twice"), std::string::npos);
+  EXPECT_NE(failure({"new"}).find("is open already"), std::string::npos);
+}
+
+TEST_F(FilmWords, AddAndRemoveLights) {
+  EXPECT_EQ(film({"light", "add", "place=1,2,3", "intensity=2"}).report,
+            "light/4, beside those that the film was shown with: light/1 to light/3\n");
+  EXPECT_EQ(json_["lights"].size(), 4u);
+  EXPECT_TRUE(json_.contains("ambient"));
+  EXPECT_NE(failure({"light", "rig"}).find("has lights of its own"), std::string::npos);
+  EXPECT_NE(failure({"light", "add", "intensity=2"}).find("neither a direction nor a place"), std::string::npos);
+  EXPECT_NE(failure({"light", "remove", "5"}).find("1 to 4"), std::string::npos);
+  for (int i = 0; i < 4; ++i) film({"light", "remove", "1"});
+  film({"light", "rig"});
+  EXPECT_EQ(json_["lights"].size(), 3u);
+}
+
+TEST_F(FilmWords, GiveActorsMaterials) {
+  film({"add", "tom", "--model", "man"});
+  film({"material", "add", "skin", "--actor", "tom", "exponent=12"});
+  EXPECT_EQ(
+      json_["materials"]["skin"],
+      document::Json::parse(
+          R"({"color": [0.87, 0.64, 0.5], "reflection": "blinn-phong", "ambient": 0.35, "diffuse": 0.75, "specular": 0.1,
+          "exponent": 12})"));
+  EXPECT_EQ(actor(0)["materials"]["skin"], "skin");
+  film({"material", "add", "gold", "--actor", "tom", "reflection=metallic-roughness"});
+  film({"material", "set", "gold", "metallic=1"});
+  EXPECT_EQ(actor(0)["material"], "gold");
+  EXPECT_NE(failure({"material", "set", "gold", "metallic=2"}).find("from 0 to 1"), std::string::npos);
+  EXPECT_NE(failure({"material", "set", "gld", "metallic=1"}).find("did you mean 'gold'?"), std::string::npos);
+  film({"material", "remove", "gold"});
+  film({"material", "remove", "skin"});
+  EXPECT_EQ(actor(0), document::Json::parse(R"({"name": "tom", "model": "man"})"));
+}
+
+TEST_F(FilmWords, ShowWhatThereIsByItsNames) {
+  film({"add", "tom", "--model", "man"});
+  film({"light", "rig"});
+  film({"material", "add", "gold"});
+  const std::string shown = film({"show"}).report;
+  for (const char* name : {"48 frames at 24 a second", "camera", "light/3", "material/gold", "tom"})
+    EXPECT_NE(shown.find(name), std::string::npos) << shown;
+}
+
+}  // namespace
+}  // namespace mars::editing

@@ -1,0 +1,176 @@
+"""The timeline of a film in a headless Chromium: what hands do to keys leaves as the commands that a person would
+type. Takes what page_test.py takes."""
+
+import time
+
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+
+import projects
+from page_test import Page, main
+
+SHIFT, ALT = 8, 1
+
+
+def key(frame, *value, ease="linear", **slopes):
+    return {"frame": frame, "value": list(value), "ease": ease, **slopes}
+
+
+def channels():
+    """A walker with three parts, of which one lies on a spline, and a camera."""
+    parts = [{"name": "place", "axes": ["x", "y", "z"], "keys": [key(0, 0, 0, 0), key(40, 2, 0, 0)]},
+             {"name": "left-shin", "axes": ["y"], "keys": [key(0, 10), key(20, 50, ease="spline"), key(40, 30, ease="spline"), key(60, 0)]},
+             {"name": "head", "axes": ["x", "y", "z"], "keys": [key(20, 0, 0, 30, ease="both"), key(60, 0, 0, 0)]}]
+    return [{"thing": "camera", "kind": "camera", "parts": [{"name": "eye", "axes": ["x", "y", "z"], "keys": [key(0, 6, -4, 3), key(60, 2, -4, 3)]}]},
+            {"thing": "walker", "kind": "actor", "parts": parts}]
+
+
+class Timeline(Page):
+    kind = projects.film
+
+    def setUp(self):
+        super().setUp()
+        self.studio.channels = channels()
+        self.studio.tell({"is": "channels", "things": self.studio.channels})
+        self.until(lambda: len(self.browser.find_elements(By.CSS_SELECTOR, ".key-row")) >= 3)
+        self.js("document.querySelector('[data-row=walker] .twist').dispatchEvent(new MouseEvent('click', {bubbles: true}))")
+        self.until(lambda: len(self.browser.find_elements(By.CSS_SELECTOR, ".key-row")), 6)
+
+    # Where a key is, in pixels of the page: rows and the ruler's numbers are known to hands, too.
+
+    def x(self, frame):
+        left, width = self.js("const at = document.querySelector('.ruler').getBoundingClientRect(); return [at.x, at.width]")
+        return left + 18 + frame * (width - 36) / (self.studio.project["frames"] - 1)
+
+    def y(self, row):
+        return self.js("const at = document.querySelector(arguments[0]).getBoundingClientRect(); return at.y + at.height / 2", f'[data-row="{row}"]')
+
+    def mouse(self, kind, x, y, keys=0):
+        self.browser.execute_cdp_cmd("Input.dispatchMouseEvent", {
+            "type": kind, "x": x, "y": y, "button": "left", "buttons": 1 if kind != "mouseReleased" else 0, "clickCount": 1, "modifiers": keys})
+
+    def click(self, row, frame, keys=0):
+        for kind in ("mousePressed", "mouseReleased"):
+            self.mouse(kind, self.x(frame), self.y(row), keys)
+
+    def pull(self, begin, end, keys=0, drop=True):
+        self.mouse("mousePressed", *begin, keys)
+        for step in range(1, 6):
+            self.mouse("mouseMoved", *(a + (b - a) * step / 5 for a, b in zip(begin, end)), keys)
+        if drop:
+            self.mouse("mouseReleased", *end, keys)
+
+    def drag(self, row, frame, to, keys=0, drop=True):
+        y = self.y(row)
+        self.pull((self.x(frame), y), (self.x(to), y), keys, drop)
+
+    def commands(self, count=1):
+        """Those of the last step, of so many."""
+        self.studio.wait_for("commit", count=count)
+        return [" ".join(words) for words in self.studio.wait_for("commit", count=count)["step"]["commands"]]
+
+    def test_a_key_is_dragged_previewed_and_shown_as_a_command(self):
+        self.drag("walker left-shin", 20, 24)
+        self.assertEqual(self.commands(), ["animate move walker left-shin --frame 20 --to 24"])
+        self.studio.wait_for("preview", step={"commands": [["animate", "move", "walker", "left-shin", "--frame", "20", "--to", "24"]]})
+        self.assertEqual(self.find(".commands").text, "mars animate examples/demo.json move walker left-shin --frame 20 --to 24")
+
+    def test_escape_gives_a_drag_up(self):
+        self.drag("walker left-shin", 20, 24, drop=False)
+        self.press(Keys.ESCAPE)
+        self.studio.wait_for("cancel")
+        self.mouse("mouseReleased", self.x(24), self.y("walker left-shin"))
+        self.assertFalse([each for each in self.studio.heard if each["do"] == "commit"])
+
+    def test_keys_of_a_frame_move_with_alt_as_copies(self):
+        self.drag("walker", 20, 30, keys=ALT)
+        self.assertEqual(self.commands(), ["animate copy walker --frame 20 --to 30"])
+        self.studio.forget()
+        self.drag("", 0, 10)  # the row of all keys
+        self.assertEqual(self.commands(), ["animate move --all --frame 0 --to 10"])
+
+    def test_runs_that_pass_over_others_go_in_their_order(self):
+        self.click("walker left-shin", 0)
+        self.click("walker left-shin", 40, keys=SHIFT)
+        self.drag("walker left-shin", 40, 70)
+        self.assertEqual(self.commands(), ["animate move walker left-shin --frame 40 --to 70",
+                                           "animate move walker left-shin --frame 0 --to 30"])
+        self.studio.forget()
+        self.click("walker left-shin", 20)
+        self.click("walker left-shin", 60, keys=SHIFT)
+        self.drag("walker left-shin", 60, 50)
+        self.assertEqual(self.commands(), ["animate move walker left-shin --frame 20 --to 10",
+                                           "animate move walker left-shin --frame 60 --to 50"])
+
+    def test_a_box_is_eased_by_the_menu_and_deleted(self):
+        self.pull((self.x(15), self.y("walker left-shin") - 8), (self.x(45), self.y("walker head") + 8))
+        self.press("e")
+        self.until(lambda: self.js("return document.activeElement.role"), "menuitemradio")
+        [item] = [each for each in self.browser.find_elements(By.CSS_SELECTOR, ".menu button") if each.text == "Begin and end slowly"]
+        item.click()
+        self.assertEqual(self.commands(), ["animate time walker left-shin head --frame 20-40 --ease both"])
+        self.studio.forget()
+        self.find(".drawing").click()
+        self.press(Keys.CONTROL, "a")
+        self.press(Keys.DELETE)
+        self.assertEqual(self.commands(), ["animate delete --all --frame 0-60"])
+
+    def test_copies_are_put_at_the_frame_and_keys_inserted(self):
+        self.click("walker head", 20)
+        self.press(Keys.CONTROL, "c")
+        self.press(Keys.CONTROL, "v")
+        self.assertEqual(self.commands(), ["animate copy walker head --frame 20 --to 24"])
+        self.studio.forget()
+        self.press("i")
+        self.assertEqual(self.commands(), ["animate key walker head --frame 24"])
+
+    def curves(self, row):
+        self.js("document.querySelector(arguments[0]).dispatchEvent(new MouseEvent('click', {bubbles: true}))", f'[data-row="{row}"]')
+        self.press("k")
+        self.studio.wait_for("curves", thing="walker", parts=[row.split()[1]])
+        self.until(lambda: self.find(".drawing .nothing").is_displayed(), False)
+
+    # Values of curves as a page shows them: from the least to the greatest, 26 pixels above and below.
+    def curve_y(self, value, least, most):
+        top, height = self.js("const at = document.querySelector('[data-shown=curves] .panel:not([hidden]) .drawing').getBoundingClientRect(); return [at.y, at.height]")
+        return top + height - 26 - (value - least) * (height - 52) / (most - least)
+
+    def test_points_and_slopes_of_curves_are_pulled(self):
+        self.js("document.querySelector('[data-row=walker]').click()")
+        self.curves("walker left-shin")
+        spot = lambda frame, value: (self.x(frame), self.curve_y(value, 0, 50))  # noqa: E731
+        for kind in ("mousePressed", "mouseReleased"):
+            self.mouse(kind, *spot(20, 50))
+        # The key's own slope is half a degree a frame, from the key before to the one after.
+        self.pull(spot(20 + 20 / 3, 50 + 20 / 3 * 0.5), spot(30, 50))
+        [command] = self.commands()
+        self.assertRegex(command, r"^animate tangent walker left-shin.y --frame 20 --out -?0(\.0\d+)?$")
+        self.studio.forget()
+        self.pull(spot(60, 0), spot(60, 25))
+        [command] = self.commands()
+        self.assertRegex(command, r"^animate pose walker left-shin.y=2[45](\.\d+)? --frame 60 --clamp$")
+
+    def test_the_selected_keys_numbers_are_typed(self):
+        self.click("walker left-shin", 40)
+        field = self.find('[data-key="key.y"]')
+        field.click()
+        field.send_keys("12.5", Keys.ENTER)  # over what the click has selected
+        self.assertEqual(self.commands(), ["animate pose walker left-shin.y=12.5 --frame 40 --clamp"])
+        self.find('[data-key="key.flat"]').click()
+        self.assertEqual(self.commands(2), ["animate tangent walker left-shin --frame 40 --flat"])
+
+    def test_thousands_of_keys_are_drawn_and_selected(self):
+        parts = [{"name": f"joint-{i}", "axes": ["x"], "keys": [key(frame, i) for frame in range(120)]} for i in range(200)]
+        self.studio.tell({"is": "channels", "things": [{"thing": "walker", "kind": "actor", "parts": parts}]})
+        self.until(lambda: self.js("return document.querySelectorAll('.key-row').length < 20 && document.querySelector('[data-row=\"walker joint-3\"]') !== null"))
+        begin = time.monotonic()
+        self.find(".drawing").click()
+        self.press(Keys.CONTROL, "a")
+        self.until(lambda: self.find(".key-values").text, "24000 keys selected, at 120 frames")
+        self.assertLess(time.monotonic() - begin, 4)
+        self.press(Keys.DELETE)
+        self.assertEqual(self.commands(), ["animate delete walker --frame 0-119"])
+
+
+if __name__ == "__main__":
+    main()
