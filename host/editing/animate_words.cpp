@@ -119,7 +119,7 @@ constexpr const char* kParts =
 constexpr const char* kOneFrame = "The frame. Example: --frame 24";
 constexpr const char* kRange = "The frame, or a range of frames, both ends included. Example: --frame 24-48";
 constexpr const char* kEase =
-    "From this key to the next: linear, in, out, both or a curve. Example: --ease both or --ease 0.4,0,0.6,1";
+    "From this key to the next: linear, in, out, both, spline or a curve. Example: --ease both or --ease 0.4,0,0.6,1";
 
 void require_thing(const Words& words) {
   if (words.thing.empty() && !words.all)
@@ -203,8 +203,8 @@ animator::Remarks retime(const Words& words, CLI::App& command, document::Json& 
 }
 
 void add_time(CLI::App& animate, Words& words) {
-  Command command(animate, words, "time", "Change the timing of all parts of an actor or of the film");
-  command.thing(kThing).all().frame(kRange, "RANGE").ease(kEase);
+  Command command(animate, words, "time", "Change the timing of an actor, of some of its parts or of the film");
+  command.thing(kThing).parts("PART", kParts).all().frame(kRange, "RANGE").ease(kEase);
   CLI::App* app = command.app();
   app->add_option("--hold", words.hold,
                   "Stand still for N frames from the frame on; later keys move back. Example: --hold 12")
@@ -274,6 +274,7 @@ CLI::App& add_animate(CLI::App& mars, EditedFilm& film, int& code) {
   add_displacing(*animate, *words, "copy", "Copy keys to other frames", true);
   add_delete(*animate, *words);
   add_time(*animate, *words);
+  add_tangent(*animate, film);
   add_reduce(*animate, film);
   add_list(*animate, *words);
   add_check(*animate, *words, code);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "hal/failure/failure.h"
+#include "host/content/animator/film_version.h"
 #include "host/content/animator/read_film.h"
 #include "host/content/document/file.h"
 #include "host/editing/words.h"
@@ -63,6 +64,7 @@ std::string FilmInMemory::read_script(const fs::path& path) const {
 void FilmInMemory::change(const Change& change) {
   Json changed = json_;
   change(changed, film());
+  animator::write_version(changed);
   become(std::move(changed));
 }
 

@@ -20,6 +20,8 @@ CLI::App& add_film(CLI::App& mars, EditedFilm& film);
 
 // `reduce`.
 void add_reduce(CLI::App& animate, EditedFilm& film);
+// `tangent`.
+void add_tangent(CLI::App& animate, EditedFilm& film);
 // attach, detach, look and follow.
 void add_carrying(CLI::App& animate, EditedFilm& film);
 

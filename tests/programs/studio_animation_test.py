@@ -95,13 +95,28 @@ class AnimationTest(StudioInBrowser):
         self.same_as_commands("time tom left-shin --frame 0-50 --ease spline")
         self.open_tab("Curves")
         self.until("curves", "document.querySelector('.drawing .nothing').hidden")
-        left, top, width, height = self.box_of(".panel:not([hidden]) > .drawing")
-        frame = lambda at: left + MARGIN + at * (width - 2 * MARGIN) / (FILM["frames"] - 1)  # noqa: E731
-        spot = self.browser.run("return arguments[0]", [frame(20), top + 26])  # the greatest value, 40 degrees
-        time.sleep(0.3)
-        self.browser.click(*spot)
-        self.browser.screenshot("/tmp/curves-test.png")
+        self.until("a key at its place", "document.querySelector('.panel:not([hidden]) > .drawing canvas').width > 300")
+        _, top, _, height = self.box_of(".panel:not([hidden]) > .drawing")
+        x = self.at("tom left-shin", 20)[0]
+        y = self.point_on_curve(x, top, height)
+        self.browser.click(x, y)
+        self.until("one key", "document.querySelector('[data-key=\"key.y\"]')?.value === '40'")
+        self.changed_by(lambda: self.click('[data-key="key.flat"]'))
+        self.same_as_commands("tangent tom left-shin --frame 20 --flat")
+        # The handle is a third of the way to the next key at 50.
+        self.changed_by(lambda: self.browser.drag((self.at("tom left-shin", 30)[0], y), (x + 90, top + height / 2)))
+        line = self.shown_commands()[-1].replace(" film.json ", " ").removeprefix("mars animate ")
+        self.assertRegex(line, r"^tangent tom left-shin.y --frame 20 --in -[\d.]+ --out -[\d.]+$")
+        self.same_as_commands(line)
         self.no_complaint()
+
+    def point_on_curve(self, x, top, height):
+        """Where the mouse finds a key."""
+        for y in range(round(top) + 8, round(top + height), 3):
+            self.browser.move(x, y)
+            if self.browser.run("return document.querySelector('.panel:not([hidden]) > .drawing').style.cursor") == "pointer":
+                return y + 4
+        raise AssertionError("no key there")
 
     def test_a_walk_is_shown_and_kept(self):
         self.begin()

@@ -85,10 +85,16 @@ Value spline_slope_at(const Channel<Value>& channel, const Stretch& stretch) {
          ((3 * t - 2) * t) * reach;
 }
 
-// Whether anything may change on the way from the key to the next.
+// Whether anything changes on the way from the key to the next: a spline may leave a value and come back to it.
 template <typename Value>
 bool moves_after(const Channel<Value>& channel, std::size_t key) {
-  return key + 1 < channel.size() && (channel[key].ease.spline || channel[key].value != channel[key + 1].value);
+  if (key + 1 >= channel.size()) return false;
+  const Key<Value>&from = channel[key], &to = channel[key + 1];
+  if (from.value != to.value) return true;
+  if (!from.ease.spline) return false;
+  const Value still = from.value - from.value;
+  return (from.out ? *from.out : slope_at(channel, key)) != still ||
+         (to.in ? *to.in : slope_at(channel, key + 1)) != still;
 }
 
 // Numbers, places and colours.

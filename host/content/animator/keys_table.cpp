@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "host/content/animator/tracks.h"
+#include "host/content/animator/written.h"
 #include "host/content/document/fields.h"
 
 namespace mars::animator {
@@ -47,15 +48,28 @@ std::string shown_value(const KeyedPart& part, const document::Json& value) {
   return text.empty() ? "rests" : text;
 }
 
-std::string shown_ease(const document::Json& key) {
-  const auto ease = key.find("ease");
-  if (ease == key.end()) return "";
-  if (ease->is_string()) return ease->get<std::string>();
+std::string shown_ease(const Ease& ease) {
+  const document::Json json = written(ease);
+  if (json.is_string()) return json.get<std::string>();
   std::string curve;
-  for (const document::Json& number : *ease) {
+  for (const document::Json& number : json)
     curve += (curve.empty() ? "" : ",") + document::formatted("%.3g", number.get<double>());
-  }
   return curve;
+}
+
+// "in 0 2 0"
+std::string shown_slope(const char* name, const document::Json& slope) {
+  if (slope.is_null()) return "";
+  return std::string("  ") + name +
+         (slope.is_array() ? shown_numbers(slope) : " " + document::shown(slope.get<double>()));
+}
+
+// How the part goes on from its key; `key` is the file's.
+std::string shown_way(const TrackKey& part, const document::Json& key) {
+  const bool plain = part.ease == kLinear && !key.contains("ease");
+  const std::string text = plain ? "" : shown_ease(part.ease);
+  const std::string slopes = shown_slope("in", part.in) + shown_slope("out", part.out);
+  return text.empty() && !slopes.empty() ? slopes.substr(2) : text + slopes;
 }
 
 std::vector<Row> rows_of(const Chosen& chosen, FrameRange range) {
@@ -70,10 +84,17 @@ std::vector<Row> rows_of(const Chosen& chosen, FrameRange range) {
       const auto track = tracks.find(name);
       if (track == tracks.end()) continue;
       if (const TrackKey* found = key_at(track->second, frame))
-        rows.push_back({frame, shown_part(name), shown_value(chosen.thing.part(name), found->value), shown_ease(key)});
+        rows.push_back(
+            {frame, shown_part(name), shown_value(chosen.thing.part(name), found->value), shown_way(*found, key)});
     }
   }
   return rows;
+}
+
+// Of all parts at the frame: it is then shown once.
+bool same_ease(const std::vector<Row>& rows, std::uint32_t frame) {
+  const auto there = std::ranges::equal_range(rows, frame, {}, &Row::frame);
+  return std::ranges::all_of(there, [&](const Row& row) { return row.ease == there.begin()->ease; });
 }
 
 std::string table_of(const std::vector<Row>& rows) {
@@ -93,7 +114,7 @@ std::string table_of(const std::vector<Row>& rows) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const bool again = i > 0 && rows[i - 1].frame == rows[i].frame;
     Row row = rows[i];
-    if (again) row.ease.clear();
+    if (again && same_ease(rows, row.frame)) row.ease.clear();
     add(again ? "" : std::to_string(row.frame), row);
   }
   return text;

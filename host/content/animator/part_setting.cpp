@@ -108,6 +108,13 @@ PartSetting setting_of(const std::string& part, const Typed& typed) {
 
 }  // namespace
 
+std::vector<PartSetting> read_axes(const std::string& text, const Thing& thing) {
+  const Typed typed = taken_apart(text + "=0", thing);
+  const document::Json now = thing.part(parts_named(thing, typed.part).front()).value_at(0);
+  const std::size_t axes = now.is_array() && !typed.axis ? now.size() : 1;
+  return read_settings(text + "=" + document::joined(std::vector<std::string>(axes, "0"), ","), thing);
+}
+
 std::vector<PartSetting> read_settings(const std::string& text, const Thing& thing) {
   const Typed typed = taken_apart(text, thing);
   const std::vector<std::string> names = parts_named(thing, typed.part);

@@ -108,8 +108,8 @@ class Reducer {
     Track inside;
     for (const FittedKey& key : keys) {
       const glm::dvec3 value = part.joint != nullptr ? clamped(*part.joint, key.value) : key.value;
-      TrackKey& made = inside.emplace_back(
-          TrackKey{static_cast<std::uint32_t>(range.first + key.at), like(shape, value), kSpline, true});
+      TrackKey& made =
+          inside.emplace_back(TrackKey{static_cast<std::uint32_t>(range.first + key.at), like(shape, value), kSpline});
       if (key.in) made.in = like(shape, *key.in);
       if (key.out) made.out = like(shape, *key.out);
     }

@@ -1,6 +1,7 @@
 #include "host/content/film/film_json.h"
 
 #include "hal/failure/failure.h"
+#include "host/content/animator/film_version.h"
 #include "host/content/animator/read_film.h"
 #include "host/content/film/compile.h"
 #include "host/content/film/film_file.h"
@@ -30,7 +31,12 @@ void change_film(const std::filesystem::path& path,
                  const std::function<void(document::Json&, const animator::Film&)>& change) {
   meaning_of(path);  // refuses a file of another kind by its name
   document::change_json(
-      path, [&](document::Json& json) { change(json, animator::read_film(path)); }, check_beside(path));
+      path,
+      [&](document::Json& json) {
+        change(json, animator::read_film(path));
+        animator::write_version(json);
+      },
+      check_beside(path));
 }
 
 void create_film(const std::filesystem::path& path, const document::Json& film) {

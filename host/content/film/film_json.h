@@ -17,8 +17,8 @@ struct FilmFile {
 // Refuses compiled films, and what read_film() refuses.
 FilmFile open_film(const std::filesystem::path& path);
 
-// Changes the film file; it stays as it was where `change` fails or the result is no film. Of several at a time no
-// change is lost (change_json()).
+// Changes the film file, and its version where it needs a newer one (film_version.h); it stays as it was where `change`
+// fails or the result is no film. Of several at a time no change is lost (change_json()).
 void change_film(const std::filesystem::path& path,
                  const std::function<void(document::Json& json, const animator::Film& film)>& change);
 

@@ -27,7 +27,8 @@ export class Ghosts {
       ...kCounts.map(([one, other]) => ({text: words(one, other), chosen: one === before && other === after,
                                          act: () => this.#set({...this.#last, before: one, after: other})})),
       {heading: "Apart"},
-      ...kSteps.map((each) => ({text: each === 1 ? "Every frame" : `${each} frames`, chosen: each === step, act: () => this.#set({...this.#last, step: each})})),
+      ...kSteps.map((each) => ({text: each === 1 ? "Every frame" : `${each} frames`, chosen: each === step,
+                                act: () => this.#set({...this.#last, step: each})})),
     ];
   }
 }

@@ -55,7 +55,8 @@ const kParts = {
   trail: lineOrDot,
   camera: lineOrDot,
   light: lineOrDot,
-  pin: ({points: [[x, y]]}) => [svg("path", {class: "head", d: `M${x} ${y}l-${kPin / 2} -${kPin}h${kPin}Z`}), svg("circle", {cx: x, cy: y - 1.6 * kPin, r: kPin * 0.6})],
+  pin: ({points: [[x, y]]}) => [svg("path", {class: "head", d: `M${x} ${y}l-${kPin / 2} -${kPin}h${kPin}Z`}),
+                                svg("circle", {cx: x, cy: y - 1.6 * kPin, r: kPin * 0.6})],
   label: ({points: [[x, y]], text}) => {
     const label = svg("text", {x: x + kHead, y: y - kDot});
     label.textContent = text;

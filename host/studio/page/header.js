@@ -27,8 +27,9 @@ export class Header {
     addMenu(this.ghosts, ghosts);
     this.pin = iconButton("pin", () => edits.pin());
     this.film = element("div", {class: "group", hidden: true}, this.ghosts, this.marks, this.pin);
-    for (const [button, text, command] of [[this.ghosts, "Ghosts", "ghosts"], [this.marks, "Marks of camera and lights", "marks"], [this.pin, "Pin the selected joint", "pin"]])
-      name(button, text, keysOf(command));
+    name(this.ghosts, "Ghosts", keysOf("ghosts"));
+    name(this.marks, "Marks of camera and lights", keysOf("marks"));
+    name(this.pin, "Pin the selected joint", keysOf("pin"));
     const sheet = iconButton("help", help);
     name(sheet, "Keys and mouse", keysOf("help"));
     place.append(element("div", {class: "brand"}, logo(), element("h1", {}, this.file), this.kind),

@@ -35,7 +35,7 @@ export class State {
   setPoses({frame, actors, camera, lights}) {
     if (!this.project) return;
     this.project.frame = frame;
-    if (camera) this.project.camera = camera;
+    if (camera) Object.assign(this.project.camera, camera);
     for (const light of lights ?? []) Object.assign(this.project.lights.find(({thing}) => thing === light.thing) ?? {}, light);
     for (const moved of actors) {
       const actor = this.actor(moved.name);

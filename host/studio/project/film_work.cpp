@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "hal/failure/failure.h"
+#include "host/content/animator/film_version.h"
 #include "host/content/animator/pose.h"
 #include "host/content/animator/read_film.h"
 #include "host/content/film/compile.h"
@@ -149,6 +150,7 @@ std::string FilmWork::text_after(const Step& step, std::uint32_t frame, animator
       refuse_model_step(path_);
   };
   std::visit(done, step);
+  animator::write_version(json);
   return document::laid_out(json);
 }
 

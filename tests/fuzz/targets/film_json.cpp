@@ -1,5 +1,6 @@
 // Film files: read, looked over as `mars animate check` and `keys` do, compiled where small, and laid out again.
 #include "host/content/animator/check.h"
+#include "host/content/animator/film_version.h"
 #include "host/content/animator/keys_table.h"
 #include "host/content/animator/read_film.h"
 #include "host/content/document/json_file.h"
@@ -33,6 +34,8 @@ void take(std::string_view input) {
   animator::warnings_of(film);
   document::Json json = document::read_json(path);
   animator::keys_table(json, film, {true, "", {}}, {0, film.frames});
+  animator::make_keys(json, film, {true, "", {}}, film.frames / 2, {}, animator::Beyond::clamped);
+  animator::write_version(json);
   document::laid_out(json);
   film::CompileOptions small;
   small.size = {32, 16};

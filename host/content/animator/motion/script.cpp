@@ -6,6 +6,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/animator/carry.h"
+#include "host/content/animator/film_version.h"
 #include "host/content/animator/motion/script_line.h"
 #include "host/content/animator/pose.h"
 #include "host/content/animator/read_film.h"
@@ -17,7 +18,9 @@ constexpr std::string_view kCues[] = {"at", "then", "after"};
 constexpr const char* kCamera = "camera";
 
 animator::Film meaning_of(const document::Json& json, const std::filesystem::path& path) {
-  const document::Document document(document::laid_out(json), path.string());
+  document::Json newest = json;
+  animator::write_version(newest);
+  const document::Document document(document::laid_out(newest), path.string());
   return animator::read_film(document.root(), path.parent_path());
 }
 
@@ -121,6 +124,8 @@ class Player {
                   document::did_you_mean(verb, verbs, "see: mars animate --help"));
     const Arguments arguments(take_values(line, *action, at), line.where() + ": " + verb);
     if (begun_.insert(name).second) clear_from(name, at + 1);
+    if (const auto what = arguments.word("what"); what && is_actor(*what) && begun_.insert(*what).second)
+      clear_from(*what, at + 1);
     const Performed done = in_line(line, [&] { return perform(film_, meaning(), name, *action, at, arguments); });
     played_.report.push_back(line.where() + ": " + name + " " + verb + ", frames " + std::to_string(done.first) +
                              " to " + std::to_string(done.last) + (done.report.empty() ? "" : ": " + done.report));

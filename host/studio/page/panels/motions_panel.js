@@ -8,6 +8,7 @@ const kGroups = [["figure", "Figures"], ["kinematic", "Things"], ["camera", "Cam
 const kChoices = {SIDE: ["left", "right"], AXIS: ["x", "y", "z"], EASE: ["linear", "in", "out", "both"]};
 
 const titled = (name) => name[0].toUpperCase() + name.slice(1).replaceAll("-", " ");
+const purposeOf = ({purpose, needs}) => needs ? `${purpose}. Limbs: ${needs}.` : `${purpose}.`;
 
 export class MotionsPanel {
   #actions = [];
@@ -48,12 +49,12 @@ export class MotionsPanel {
   }
 
   #group(group, title) {
-    const buttons = this.#actions.filter((action) => (action.group ?? "figure") === group).map((action) => this.#button(action));
+    const buttons = this.#actions.filter((action) => action.group === group).map((action) => this.#button(action));
     return buttons.length > 0 && part(title, element("div", {class: "motions", role: "group", "aria-label": title}, buttons));
   }
 
   #button(action) {
-    return element("button", {title: action.purpose, "data-key": `motion.${action.name}`, "data-motion": action.name, "aria-pressed": "false",
+    return element("button", {title: purposeOf(action), "data-key": `motion.${action.name}`, "data-motion": action.name, "aria-pressed": "false",
                               onclick: () => this.#choose(action)}, titled(action.name));
   }
 
@@ -85,7 +86,7 @@ export class MotionsPanel {
     this.previewButton = element("button", {"aria-pressed": "false", "data-key": "motion.preview",
                                             onclick: (event) => this.#flip(event)}, "Preview");
     this.applyButton = element("button", {class: "primary", "data-key": "motion.apply", onclick: (event) => this.#apply(event)}, "Apply");
-    const body = part(titled(action.name), element("p", {class: "hint"}, action.purpose), line("Begins", start.root),
+    const body = part(titled(action.name), element("p", {class: "hint"}, purposeOf(action)), line("Begins", start.root),
                       this.#fields.map(({root}) => root), this.problem,
                       element("div", {class: "actions"}, this.previewButton, this.applyButton));
     body.classList.add("motion-form");

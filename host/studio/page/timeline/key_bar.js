@@ -53,15 +53,20 @@ export class KeyBar {
       ({text: `${title}\u2026`, act: () => askNumbers(this.time, title, hint, [number], ([value], event) => apply(value, event))});
     return [
       {heading: "Timing"},
-      one("Stretch", "From the first selected key to the last; later keys follow.", {name: "Times", value: 1.5, step: 0.1, least: 0.01}, (by, event) => acts.stretch(by, event)),
-      one("Hold", "Stand still from the frame that shows; later keys follow.", {name: "Frames", value: 6, step: 1, least: 1}, (by, event) => acts.retime("hold", by, event)),
-      one("Shift", "All keys from the frame that shows on; negative: earlier.", {name: "Frames", value: 4, step: 1}, (by, event) => acts.retime("shift", by, event)),
+      one("Stretch", "From the first selected key to the last; later keys follow.",
+          {name: "Times", value: 1.5, step: 0.1, least: 0.01}, (by, event) => acts.stretch(by, event)),
+      one("Hold", "Stand still from the frame that shows; later keys follow.",
+          {name: "Frames", value: 6, step: 1, least: 1}, (by, event) => acts.retime("hold", by, event)),
+      one("Shift", "All keys from the frame that shows on; negative: earlier.",
+          {name: "Frames", value: 4, step: 1}, (by, event) => acts.retime("shift", by, event)),
       {heading: "Swing"},
-      {text: "Anticipate, overshoot\u2026", act: () => askNumbers(this.time, "Swing", "Percent of the motion.", kSwing, (two, event) => acts.swing(...two, event))},
+      {text: "Anticipate, overshoot\u2026",
+       act: () => askNumbers(this.time, "Swing", "Percent of the motion.", kSwing, (two, event) => acts.swing(...two, event))},
     ];
   }
 }
 
 function button(glyph, text, command, act) {
-  return element("button", {class: "quiet icon", "aria-label": text, title: `${text} (${keysOf(command)})`, "data-key": `keys.${glyph}`, onclick: act}, icon(glyph));
+  return element("button", {class: "quiet icon", "aria-label": text, title: `${text} (${keysOf(command)})`, "data-key": `keys.${glyph}`,
+                            onclick: act}, icon(glyph));
 }

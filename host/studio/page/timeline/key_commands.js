@@ -40,7 +40,7 @@ function rangesOf({thing, parts}) {
 }
 
 // Ranges of frames and whose keys in them are all picked: [{whose: words, first, last}].
-export function ranges(things) {
+function ranges(things) {
   const some = things.filter(({parts}) => parts.some(has));
   const all = some.length > 1 ? runs(things.flatMap(({parts}) => parts)) : null;
   return all ? all.map((run) => ({whose: ["--all"], ...run})) : some.flatMap(rangesOf);

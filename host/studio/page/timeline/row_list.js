@@ -9,8 +9,8 @@ const kGlyphs = {all: "key", camera: "camera", light: "sun", material: "drop", a
 export class RowList {
   #shown = "";
 
-  constructor(rows, keys, {state, choose}) {
-    Object.assign(this, {rows, keys, state, choose});
+  constructor(rows, {state, choose}) {
+    Object.assign(this, {rows, choose});
     this.id = newId("rows");
     this.filler = element("div", {class: "filler", role: "presentation"});
     this.root = element("div", {class: "row-list", role: "tree", tabindex: 0, "aria-label": "Things with keys", "aria-multiselectable": "true",

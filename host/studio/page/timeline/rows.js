@@ -4,7 +4,7 @@
 const kLooks = ["linear", "eased", "spline", "slopes"];
 const kOrder = ["camera", "light", "material", "actor"];
 
-export function lookOf({ease = "linear", in: reach, out}) {
+function lookOf({ease = "linear", in: reach, out}) {
   if (ease === "spline") return reach !== undefined || out !== undefined ? "slopes" : "spline";
   return ease === "linear" ? "linear" : "eased";
 }
@@ -105,7 +105,7 @@ export class Rows {
 function addMarks(marks, thing, part, keys) {
   keys.forEach((key, i) => {
     const look = lookOf(key);
-    const still = keys[i + 1] !== undefined && String(keys[i + 1].value) === String(key.value);
+    const still = keys[i + 1] !== undefined && key.ease !== "spline" && String(keys[i + 1].value) === String(key.value);
     const mark = marks.get(key.frame) ?? {frame: key.frame, look, still: true, keys: []};
     if (kLooks.indexOf(look) > kLooks.indexOf(mark.look)) mark.look = look;
     mark.still &&= still;

@@ -5,8 +5,8 @@ import {kRow} from "./row_list.js";
 import {onDrag} from "./pointer_drag.js";
 
 export class SheetHand {
-  constructor(sheet, {keys, axis, rows, rowList, acts, choose}) {
-    Object.assign(this, {sheet, keys, axis, rows, rowList, acts, choose});
+  constructor(sheet, {keys, axis, rowList, acts, choose}) {
+    Object.assign(this, {sheet, keys, axis, rowList, acts, choose});
     onDrag(sheet.root, (event) => this.#begin(event));
     sheet.root.addEventListener("pointermove", (event) => this.#hover(event));
     sheet.root.addEventListener("wheel", (event) => this.#wheel(event), {passive: false});

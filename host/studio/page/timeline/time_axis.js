@@ -24,11 +24,6 @@ export class TimeAxis {
 
   showAll() { this.#whole = true; this.#again(); }
 
-  show(first, last) {
-    this.#whole = false;
-    this.#fit(first, last);
-  }
-
   zoom(x, factor) {
     const at = this.frameAt(x);
     this.#whole = false;
@@ -66,14 +61,10 @@ export class TimeAxis {
   }
 
   #again() {
-    if (this.#whole) this.#fit(0, this.#frames - 1);
-    else this.#tell();
-  }
-
-  #fit(first, last) {
     if (this.width === 0) return;
-    this.perFrame = clamped((this.width - 2 * kMargin) / Math.max(1, last - first), kLeast, kMost);
-    this.#go(first - kMargin / this.perFrame);
+    if (!this.#whole) return this.#tell();
+    this.perFrame = clamped((this.width - 2 * kMargin) / Math.max(1, this.#frames - 1), kLeast, kMost);
+    this.#go(-kMargin / this.perFrame);
   }
 
   #go(from) {

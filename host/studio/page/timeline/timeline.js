@@ -45,14 +45,15 @@ export class Timeline {
   #makeBody(parts) {
     const {state, keys, rows, axis, acts} = this;
     const choose = (row, how, picks) => this.#choose(row, how, picks);
-    const rowList = new RowList(rows, keys, {state, choose});
-    const hands = {keys, axis, rows, rowList, acts, choose};
+    const rowList = new RowList(rows, {state, choose});
+    const hands = {keys, axis, rowList, acts, choose};
     this.data = new CurveData(parts, keys, rows, axis);
     this.sheet = new KeySheet(rows, rowList, keys, axis, state);
     this.plot = new CurvePlot(this.data, keys, axis, state);
     new SheetHand(this.sheet, hands);
     new CurveHand(this.plot, hands);
-    for (const [made, name] of [[this.sheet, "Keys: arrows go from key to key"], [this.plot, "Curves: arrows go from key to key"]]) this.#reachable(made.root, name);
+    this.#reachable(this.sheet.root, "Keys: arrows go from key to key");
+    this.#reachable(this.plot.root, "Curves: arrows go from key to key");
     this.values = new KeyValues(acts, keys, state);
     this.body = element("div", {class: "timeline-body"}, legend(),
                         new Ruler({state, frames: this.frames}, axis).root, rowList.root);

@@ -197,15 +197,17 @@ TEST(MakeKeys, OfSomePartsWithAnEase) {
   EXPECT_EQ(scene.keys()[2]["pose"].size(), 1u);
 }
 
-TEST(MakeKeys, WhoseEaseCannotBeKeptIsTold) {
+TEST(MakeKeys, OfOnePartLeaveTheEaseOfOthers) {
+  const Scene before(kMoving);
   Scene scene(kMoving);
-  const Remarks remarks = scene([&](document::Json& j, const Film& f) {
-    return make_keys(j, f, {false, "it", {"elbow"}}, 12, {}, Beyond::refused);
-  });
-  ASSERT_EQ(remarks.size(), 1u);
-  EXPECT_TRUE(document::holds(remarks[0], "actor 'it'")) << remarks[0];
-  EXPECT_TRUE(document::holds(remarks[0], "elbow at frame 0")) << remarks[0];
-  EXPECT_EQ(scene.keys()[0]["ease"], "both") << "the others keep theirs";
+  EXPECT_TRUE(scene([&](document::Json& j, const Film& f) {
+                return make_keys(j, f, {false, "it", {"elbow"}}, 12, {}, Beyond::refused);
+              }).empty());
+  EXPECT_EQ(scene.keys()[0]["ease"], "both");
+  EXPECT_TRUE(scene.keys()[0]["pose"]["elbow"]["ease"].is_array());
+  EXPECT_EQ(scene.keys()[0]["pose"]["shoulder"].dump(), "[0,0,0]");
+  for (std::uint32_t frame = 0; frame <= 48; ++frame)
+    EXPECT_LT(farthest_apart(scene, before, frame, frame), 1e-7) << frame;
 }
 
 TEST(MoveKeys, GoWithTheirEaseAndReplaceOthers) {
@@ -404,21 +406,13 @@ TEST(SideEffects, AHingeGoesRoundByItself) {
   EXPECT_TRUE(posed(scene, "elbow.y=900", 20).empty());
 }
 
-TEST(SideEffects, ANewKeysEaseTellsWhomElseItChanges) {
+TEST(Pose, AnEaseIsOfTheNamedPartsAlone) {
   Scene scene(kMoving);
-  const Remarks remarks = posed(scene, "elbow.y=60", 24, kBoth);
-  ASSERT_EQ(remarks.size(), 1u);
-  EXPECT_EQ(
-      remarks[0],
-      "actor 'it': the ease at frame 24 also changes how these move on from there: shoulder, place, turn (a key has "
-      "one ease for all that it holds; to time them apart, put keys at other frames)");
-  EXPECT_TRUE(posed(scene, "elbow.y=50", 24, kBoth).empty()) << "it has that ease";
-  EXPECT_TRUE(posed(scene, "elbow.y=50", 30, kOut).empty()) << "nothing else is keyed there";
-  EXPECT_TRUE(posed(scene, "elbow.y=50", 48, kOut).empty()) << "nothing follows";
-  EXPECT_TRUE(scene([&](document::Json& j, const Film& f) {
-                return ease_keys(j, f, kIt, {0, 48}, kOut);
-              }).empty())
-      << "all were meant";
+  EXPECT_TRUE(posed(scene, "elbow.y=60", 24, kBoth).empty());
+  EXPECT_EQ(scene.keys()[1].dump(), R"({"frame":24,"place":[3,0,0],"turn":[10,20,30],"pose":{"shoulder":[30,-40,50],)"
+                                    R"("elbow":{"value":[0,60,0],"ease":"both"}},"ease":"in"})");
+  posed(scene, "elbow.y=60", 24, kIn);
+  EXPECT_EQ(scene.keys()[1]["pose"]["elbow"].dump(), "[0,60,0]");
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 import {element} from "../../dom.js";
 import {choice, line, part, textField} from "../../fields.js";
+import {targetOf} from "./controls.js";
 
 export function actorPart(controls) {
   const {actor} = controls.state.selected;
@@ -21,10 +22,7 @@ function carrier(controls, actor) {
   const words = (target) => target === null ? ["animate", "detach", actor] : ["animate", "attach", actor, "--to", target];
   const made = choice({name: "Carried by", options: [[null, "Nobody"], ...controls.targets(actor)], key: "actor.attach",
                        commit: (target, event) => controls.commit([...words(target), ...controls.atFrame()], event)});
-  controls.whenSet(() => {
-    const {attach} = controls.state.actor(actor) ?? {};
-    made.set(attach ? [attach.actor, attach.joint].filter(Boolean).join("/") : null);
-  });
+  controls.whenSet(() => made.set(targetOf(controls.state.actor(actor)?.attach)));
   return line("Carried by", made.root);
 }
 

@@ -1,13 +1,12 @@
 // A film's camera: where it is, where it looks, and whom it looks at or goes along with.
 
 import {choice, line, part} from "../../fields.js";
-
-const kNobody = "--end";
+import {targetOf} from "./controls.js";
 
 export function cameraPart(controls) {
   const now = () => controls.project.camera;
   if (!now()) return null;
-  const stepOf = (change) => ({set: "camera", eye: now().eye, at: now().at, fov: now().fov, ...change});
+  const stepOf = (change) => ({set: "camera", ...change});
   const vector = (label, member) => controls.vector(label, `Camera, ${label.toLowerCase()}`, `camera.${member}`, 0.1,
                                                     (value) => stepOf({[member]: value}), () => now()?.[member]);
   const angle = {name: "Camera, view angle", unit: "°", least: 0.01, most: 179, step: 1, key: "camera.fov"};
@@ -16,11 +15,10 @@ export function cameraPart(controls) {
               bound(controls, "Look at", "look"), bound(controls, "Go along", "follow"));
 }
 
+// `word`: of the command, and of what the project says.
 function bound(controls, label, word) {
-  const options = [[null, "Choose an actor\u2026"], [kNobody, "Nobody from here on"], ...controls.targets()];
-  const made = choice({name: `Camera: ${label.toLowerCase()} an actor`, options, key: `camera.${word}`, commit: (target, event) => {
-    if (target !== null) controls.commit(["animate", word, target, ...controls.atFrame()], event);
-    made.set(null);
-  }});
+  const made = choice({name: `Camera: ${label.toLowerCase()} an actor`, options: [[null, "Nobody"], ...controls.targets()], key: `camera.${word}`,
+                       commit: (target, event) => controls.commit(["animate", word, target ?? "--end", ...controls.atFrame()], event)});
+  controls.whenSet(() => made.set(targetOf(controls.project.camera?.[word])));
   return line(label, made.root);
 }

@@ -6,6 +6,9 @@ import {written} from "../../numbers.js";
 
 export const joined = (numbers) => numbers.map((number) => written(number, 4)).join(",");
 
+// {actor, joint} as commands name it; null: nobody.
+export const targetOf = (bound) => bound ? [bound.actor, bound.joint].filter(Boolean).join("/") : null;
+
 export class Controls {
   #fields = [];
 

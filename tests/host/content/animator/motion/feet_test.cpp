@@ -176,9 +176,8 @@ TEST(Feet, OfLegsOfOnePieceOnHingesDoNotSink) {
 }
 
 TEST(Feet, StayInOtherStylesAndOnBows) {
-  for (const char* words :
-       {"walk steps 4 lean 12 bounce 2 knee-lift 1.5 arm-swing 2", "walk steps 8 turn 120 pace 1.5",
-        "walk distance 6 steps 7 first left", "walk to -3 4", "turn by -135", "turn to 0 9"})
+  for (const char* words : {"walk steps 4 lean 12 bounce 2 knee-lift 1.5 arm-swing 2", "walk steps 8 turn 120 pace 1.5",
+                            "walk distance 6 steps 7 first left", "walk to -3 4", "turn by -135", "turn to 0 9"})
     for (const Build& build : people()) {
       document::Json film = film_with(build.model);
       const Performed performed = act(film, words, 5);
@@ -301,8 +300,7 @@ TEST(Turning, GoesBeyondHalfATurn) {
   Feet(film, performed, 2.42).expect_footing("turn by 200");
   const animator::Film shown = read(film);
   const Body body = body_of(shown.models[0], "anna", "test");
-  const double heading =
-      body.heading_of(posture_at(shown.models[0], shown.actors[0].motion, performed.last));
+  const double heading = body.heading_of(posture_at(shown.models[0], shown.actors[0].motion, performed.last));
   EXPECT_NEAR(std::remainder(heading - 230, 360), 0, 0.1);
 }
 

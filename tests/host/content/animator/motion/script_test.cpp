@@ -125,7 +125,7 @@ TEST(Script, WhatFailsLeavesTheFilmAsItWas) {
 }
 
 TEST(Script, TheExamplesAreAsTheirScriptsMakeThem) {
-  for (const std::string name : {"cubes", "visit", "meadow"}) {
+  for (const std::string name : {"cubes", "visit", "ball", "meadow"}) {
     const std::filesystem::path path = std::filesystem::path(MARS_SOURCE_DIR) / "examples" / (name + ".json");
     const document::Json kept = document::read_json(path);
     document::Json made = kept;
