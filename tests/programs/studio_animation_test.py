@@ -34,7 +34,7 @@ class AnimationTest(StudioInBrowser):
     def shown_commands(self):
         self.click("#frames .commands")
         lines = self.browser.run("return [...document.querySelectorAll('.command-lines code')].map((each) => each.textContent)")
-        self.keys("Escape")
+        self.click("#status")
         self.until("no list of commands", "document.querySelector('.popover') === null")
         return lines
 
