@@ -32,8 +32,8 @@ animator::Film meaning_of(const Json& json, const fs::path& path, Read read) {
 
 }  // namespace
 
-FilmInMemory::FilmInMemory(Json json, animator::Film& film, fs::path path, fs::path folder)
-    : json_(std::move(json)), lender_(film), path_(std::move(path)), folder_(std::move(folder)) {}
+FilmInMemory::FilmInMemory(const Json& json, animator::Film& film, fs::path path, fs::path folder)
+    : begun_as_(&json), lender_(film), path_(std::move(path)), folder_(std::move(folder)) {}
 
 FilmInMemory::~FilmInMemory() { give_back(); }
 
@@ -62,14 +62,14 @@ std::string FilmInMemory::read_script(const fs::path& path) const {
 }
 
 void FilmInMemory::change(const Change& change) {
-  Json changed = json_;
+  Json changed = this->json();
   change(changed, film());
   animator::write_version(changed);
   become(std::move(changed));
 }
 
 void FilmInMemory::become(Json json) {
-  if (animator::same_models(json_, json)) {
+  if (animator::same_models(this->json(), json)) {
     std::vector<modeler::Model>& models = edited_ ? edited_->models : lender_.models;
     edited_ = meaning_of(json, path_, [&](const document::Element& root) { return animator::read_film(root, models); });
   } else {
@@ -82,7 +82,7 @@ void FilmInMemory::become(Json json) {
 }
 
 animator::Film FilmInMemory::with_other_models(const Json& json) const {
-  const Json& known = json_.at("models");
+  const Json& known = this->json().at("models");
   if (const auto models = json.find("models"); models != json.end())
     for (const auto& [name, model] : models->items())
       if (model.is_string() && !(known.contains(name) && known.at(name) == model))

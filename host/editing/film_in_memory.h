@@ -13,9 +13,10 @@ namespace mars::editing {
 
 class FilmInMemory final : public EditedFilm {
  public:
-  // `film` is what `json`, the film at `path`, means; it must outlive this, and has no models as long as they are lent.
-  // Files that words name must be below `folder`; "": anywhere.
-  FilmInMemory(document::Json json, animator::Film& film, std::filesystem::path path, std::filesystem::path folder);
+  // `film` is what `json`, the film at `path`, means. Both must outlive this; the film has no models as long as they
+  // are lent. Files that words name must be below `folder`; "": anywhere.
+  FilmInMemory(const document::Json& json, animator::Film& film, std::filesystem::path path,
+               std::filesystem::path folder);
   ~FilmInMemory() override;
   FilmInMemory(const FilmInMemory&) = delete;
   FilmInMemory& operator=(const FilmInMemory&) = delete;
@@ -24,13 +25,13 @@ class FilmInMemory final : public EditedFilm {
   void give_script(const std::filesystem::path& path, const std::string& text) { scripts_[path] = text; }
   void obey(std::span<const Command> commands);
 
-  const document::Json& json() const { return json_; }
+  const document::Json& json() const { return edited_ ? json_ : *begun_as_; }
   const animator::Film& film() const { return edited_ ? *edited_ : lender_; }
   const Done& done() const { return done_; }
   bool lends() const { return lends_; }  // no command has changed the models
 
   std::filesystem::path path() const override { return path_; }
-  film::FilmFile read() const override { return {json_, film()}; }
+  film::FilmFile read() const override { return {json(), film()}; }
   void create(const document::Json& json) override;
   std::string read_script(const std::filesystem::path& path) const override;
   void change(const Change& change) override;
@@ -43,7 +44,8 @@ class FilmInMemory final : public EditedFilm {
   void require_below(const std::filesystem::path& file) const;
   void give_back();
 
-  document::Json json_;
+  const document::Json* begun_as_;
+  document::Json json_;  // what edited_ means
   animator::Film& lender_;
   std::filesystem::path path_, folder_;
   std::map<std::filesystem::path, std::string> scripts_;

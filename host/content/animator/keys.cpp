@@ -145,9 +145,9 @@ void split_way(Track& track, std::uint32_t frame, document::Json value) {
 
 Remarks put(const Chosen& chosen, const Tracks& tracks) {
   const Thing& thing = chosen.thing;
-  const Tracks before = tracks_of(*thing.json);
+  const Tracks before = tracks_of(*thing.json, chosen.parts);
   put_tracks(*thing.json, tracks);
-  return side_effects(chosen, before, tracks_of(*thing.json));
+  return side_effects(chosen, before, tracks_of(*thing.json, chosen.parts));
 }
 
 Remarks make_keys(document::Json& film, const Film& meaning, const Choice& choice, std::uint32_t frame,

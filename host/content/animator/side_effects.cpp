@@ -136,11 +136,12 @@ void find_other_ways(const Thing& thing, const KeyedPart& part, const Track& bef
 }  // namespace
 
 std::vector<std::string> side_effects(const Chosen& chosen, const Tracks& before, const Tracks& after) {
+  const Track none;
   std::vector<std::string> lines;
   for (const auto& [name, track] : after)
     if (const KeyedPart& part = chosen.thing.part(name); part.turns) {
       const auto old = before.find(name);
-      find_other_ways(chosen.thing, part, old == before.end() ? Track() : old->second, track, lines);
+      find_other_ways(chosen.thing, part, old == before.end() ? none : old->second, track, lines);
     }
   return lines;
 }

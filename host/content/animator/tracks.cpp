@@ -88,26 +88,37 @@ void drop_still_values(document::Json& thing, const Tracks& tracks) {
   if (thing.contains("pose") && thing["pose"].empty()) thing.erase("pose");
 }
 
-}  // namespace
-
-Tracks tracks_of(const document::Json& thing) {
+template <typename Wanted>
+Tracks tracks_of_parts(const document::Json& thing, Wanted wanted) {
   Tracks tracks;
   const auto keys = thing.find("keys");
   if (keys == thing.end()) return tracks;
   for (const document::Json& key : *keys) {
     const std::uint32_t frame = key.at("frame").get<std::uint32_t>();
     const Ease ease = ease_of(key);
+    const auto add = [&](const std::string& part, const document::Json& value) {
+      if (wanted(part)) tracks[part].push_back(track_key(frame, value, ease));
+    };
     for (const auto& item : key.items()) {
       if (item.key() == "frame" || item.key() == "ease") continue;
       if (item.key() != "pose") {
-        tracks[item.key()].push_back(track_key(frame, item.value(), ease));
+        add(item.key(), item.value());
         continue;
       }
-      for (const auto& joint : item.value().items())
-        tracks["/" + joint.key()].push_back(track_key(frame, joint.value(), ease));
+      for (const auto& joint : item.value().items()) add("/" + joint.key(), joint.value());
     }
   }
   return tracks;
+}
+
+}  // namespace
+
+Tracks tracks_of(const document::Json& thing) {
+  return tracks_of_parts(thing, [](const std::string&) { return true; });
+}
+
+Tracks tracks_of(const document::Json& thing, const std::vector<std::string>& parts) {
+  return tracks_of_parts(thing, [&](const std::string& part) { return std::ranges::find(parts, part) != parts.end(); });
 }
 
 void put_tracks(document::Json& thing, const Tracks& tracks) {

@@ -191,7 +191,13 @@ std::set<std::size_t> FilmWork::shown_actors() const {
   return changed;
 }
 
-Json FilmWork::channels(const std::vector<std::string>& things) { return channels_of(json_, film_, things); }
+// Of the file, whose film may have lent its models.
+Json FilmWork::channels(const std::vector<std::string>& things) {
+  if (!edited_ || !edited_->lends()) return channels_of(json_, film_, things);
+  animator::Film film = film_;
+  film.models = edited_->film().models;
+  return channels_of(json_, film, things);
+}
 
 Json FilmWork::curves(const CurvesWanted& wanted) {
   if (!edited_) return curves_of(json_, film_, wanted);
