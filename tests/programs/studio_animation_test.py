@@ -34,7 +34,7 @@ class AnimationTest(StudioInBrowser):
     def shown_commands(self):
         self.click("#frames .commands")
         lines = self.browser.run("return [...document.querySelectorAll('.command-lines code')].map((each) => each.textContent)")
-        self.keys("Escape")
+        self.click("#status")
         self.until("no list of commands", "document.querySelector('.popover') === null")
         return lines
 
@@ -70,7 +70,6 @@ class AnimationTest(StudioInBrowser):
 
     def test_keys_are_dragged_boxed_and_eased(self):
         self.begin()
-        self.click("[data-row=tom] .twist")
         self.until("parts", "document.querySelector('[data-row=\"tom head\"]') !== null")
         self.changed_by(lambda: self.browser.drag(self.at("tom head", 20), self.at("tom head", 26)))
         self.same_as_commands("move tom head --frame 20 --to 26")
@@ -87,7 +86,6 @@ class AnimationTest(StudioInBrowser):
 
     def test_slopes_of_curves_are_pulled(self):
         self.begin()
-        self.click("[data-row=tom] .twist")
         self.until("parts", "document.querySelector('[data-row=\"tom left-shin\"]') !== null")
         self.click('[data-row="tom left-shin"]')
         self.keys("e", "e")

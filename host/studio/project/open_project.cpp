@@ -37,6 +37,18 @@ Problem problem_of(const std::exception& reason, const std::filesystem::path& pa
   return problem;
 }
 
+// The same for who has the file before his eyes.
+Problem problem_in(const std::exception& reason, const std::filesystem::path& path) {
+  const Failure failure = explain(reason);
+  Problem problem = problem_of(reason, path);
+  if (problem.line == 0) return problem;
+  const std::string begin = path.string() + ":" + std::to_string(problem.line);
+  const std::size_t rest = failure.where.find_first_not_of(": ", begin.size());
+  problem.text =
+      Failure(failure.problem, rest == std::string::npos ? "" : failure.where.substr(rest), failure.remedy).what();
+  return problem;
+}
+
 class FileProject : public Project {
  public:
   FileProject(std::filesystem::path path, bool model, std::filesystem::path folder)
@@ -153,7 +165,7 @@ class FileProject : public Project {
     try {
       work_->text_after(ScriptStep{checked_script_name(name), text}, frame_, report);
     } catch (const std::exception& reason) {
-      problem = problem_of(reason, path_.parent_path() / name);
+      problem = problem_in(reason, path_.parent_path() / name);
     }
     return {{"is", "script"}, {"name", name}, {"problem", described(problem)}, {"report", std::move(report)}};
   }

@@ -21,6 +21,7 @@ class FakeProject final : public studio::Project {
  public:
   bool is_model() const override { return true; }
   const animator::Film& film() const override { return film_; }
+  bool rig_lights() const override { return true; }
   std::uint64_t revision() const override { return revision_; }
   std::uint64_t shapes_revision() const override { return 1; }
   std::optional<Pulled> pulled() const override { return {}; }

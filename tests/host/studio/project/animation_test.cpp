@@ -53,7 +53,7 @@ TEST_F(AnimationTold, CurvesGoAlongWithGesturesAndChannelsDoNot) {
     return project->curves({"two", {"left-leg"}, 12, 12})["parts"][0]["values"][1][0].get<double>();
   };
   const double before = at_12();
-  project->preview(step(R"({"commands": [["animate", "pose", "two", "left-leg.y=80", "--frame", "12"]]})"));
+  project->preview(step(R"({"commands": [["animate", "pose", "two", "left-leg.y=80", "--frame", "12", "--clamp"]]})"));
   EXPECT_EQ(at_12(), 80);
   EXPECT_EQ(project->channels({"*"}), channels);
   project->cancel();

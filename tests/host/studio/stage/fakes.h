@@ -36,6 +36,11 @@ class FakeProject : public Project {
   const std::optional<Problem>& problem() const override { return problem_; }
   Json describe() const override { return {}; }
   Json describe_poses() const override { return {}; }
+  std::uint64_t keys_revision() const override { return revision_; }
+  Json channels(const std::vector<std::string>&) override { return {}; }
+  Json curves(const CurvesWanted&) override { return {}; }
+  Json check_script(const std::string&, const std::string&) override { return {}; }
+  Json scripts() const override { return {}; }
 
   // The film changes by itself, as by a command.
   void change(const std::function<void(animator::Film&)>& change, bool shapes = false);
