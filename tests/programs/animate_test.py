@@ -189,8 +189,21 @@ class Animate(ProgramTest):
         self.assertEqual((ended.returncode, ended.stdout), (0, ""))
         self.assertIn("mars: actor 'robot': turn goes 90 degrees back from frame 0 to 20", ended.stderr)
         self.changed(*re.search(r"also (pose .*)\)", ended.stderr)[1].split())
-        ended = self.animate("key", "robot", "elbow", "--frame", 10, "--ease", "both")
-        self.assertIn("the ease at frame 10 also changes how these move on from there: turn (", ended.stderr)
+
+    def test_eases_and_slopes_of_single_parts(self):
+        self.changed("pose", "robot", "elbow.y=90", "place=1,0,0", "--frame", 24)
+        actor = self.changed("time", "robot", "elbow", "--frame", 0, "--ease", "both")
+        self.assertEqual(actor["keys"][0], {"frame": 0, "place": [0, 0, 0],
+                                            "pose": {"elbow": {"value": [0, 0, 0], "ease": "both"}}})
+        actor = self.changed("tangent", "robot", "elbow.y", "--frame", 24, "--in", "-2.5")
+        self.assertEqual(actor["keys"][0]["pose"]["elbow"]["ease"], "spline")
+        self.assertEqual(actor["keys"][1]["pose"]["elbow"], {"value": [0, 90, 0], "in": [0, -2.5, 0]})
+        self.assertEqual(next(iter(json.loads((self.folder / "film.json").read_text()).items())), ("version", 2))
+        self.assertIn("elbow  y 90           in 0 -2.5 0\n", self.animate("list", "robot").stdout)
+        self.assertEqual(self.changed("tangent", "robot", "elbow", "--frame", 24, "--auto")["keys"][1]["pose"],
+                         {"elbow": [0, 90, 0]})
+        self.assertIn("use --in and --out, or --flat, or --auto",
+                      self.refused("tangent", "robot", "elbow", "--frame", 24))
 
     def degrees_outside(self, printed):
         return float(re.search(r"turns (\S+) degrees", printed)[1]) - 81

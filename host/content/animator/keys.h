@@ -1,6 +1,6 @@
 // Changes of a film file's keys by its parts: keys made, moved, copied, deleted, and their timing. All take the
 // film's JSON and what read_film made of it, change the JSON or throw (it is then as it was), and know no file.
-// They return remarks for the person, mostly none: what was left as it is, whose ease gave way.
+// They return remarks for the person, mostly none: what was left as it is, what goes another way.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +23,7 @@ struct FrameRange {
 // Puts a key of `value` on the way between two others; the way stays as it is, where its ease can be split.
 void split_way(Track& track, std::uint32_t frame, document::Json value);
 
-// Makes the tracks the keys of a thing of which some parts were to change; remarks whose ease gave way, and what
-// side_effects() finds.
+// Makes the tracks the keys of a thing of which some parts were to change; remarks what side_effects() finds.
 Remarks put(const Chosen& chosen, const Tracks& tracks);
 
 // Keys of the chosen parts as they are at the frame. Without an ease the film moves as before: the ease of the
@@ -39,7 +38,7 @@ Remarks copy_keys(document::Json& film, const Film& meaning, const Choice& choic
 // A part without any key left is what it is without keys.
 Remarks delete_keys(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range);
 
-// Timing: of all parts of a thing, or of all in the film.
+// Timing: of a thing, of some of its parts, or of all in the film.
 
 // The ease from the keys in the range, each to the next.
 Remarks ease_keys(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range, const Ease& ease);

@@ -58,6 +58,18 @@ document::Json values_of(const Tracks& tracks, const Held& held, const Ease& com
   return values;
 }
 
+// A key that holds what it held keeps its order.
+document::Json ordered_as(const document::Json& old, const document::Json& key) {
+  document::Json ordered = document::Json::object();
+  if (key.size() != old.size()) return key;
+  for (const auto& item : old.items()) {
+    const auto found = key.find(item.key());
+    if (found == key.end()) return key;
+    ordered[item.key()] = *found;
+  }
+  return ordered;
+}
+
 document::Json key_of(const Tracks& tracks, std::uint32_t frame, const Held& held, const document::Json& old) {
   const Ease common = common_ease(tracks, held, old);
   document::Json key = {{"frame", frame}};
@@ -65,7 +77,7 @@ document::Json key_of(const Tracks& tracks, std::uint32_t frame, const Held& hel
   const document::Json pose = values_of(tracks, held, common, old.value("pose", document::Json()), true);
   if (!pose.empty()) key["pose"] = pose;
   if (common != kLinear || old.contains("ease")) key["ease"] = written(common);
-  return key;
+  return ordered_as(old, key);
 }
 
 TrackKey track_key(std::uint32_t frame, const document::Json& written, const Ease& common) {

@@ -8,7 +8,7 @@
 
 namespace mars::animator {
 
-// For the person: what was left as it is, whose ease gave way, what was clamped.
+// For the person: what was left as it is, what goes another way, what was clamped.
 using Remarks = std::vector<std::string>;
 
 // What may be outside the limits of joints: refused, or turned to the nearest that they allow.
