@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "host/editing/edit_film.h"
+#include "host/editing/command.h"
 #include "host/editing/edited_film.h"
 
 namespace mars::editing {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "host/content/animator/ease.h"
-#include "host/content/animator/keys.h"
+#include "host/content/animator/frame_range.h"
 
 namespace mars::animator {
 

@@ -6,19 +6,12 @@
 #include <cstdint>
 #include <optional>
 
+#include "host/content/animator/frame_range.h"
 #include "host/content/animator/things.h"
 #include "host/content/animator/tracks.h"
 #include "host/content/animator/within_limits.h"
 
 namespace mars::animator {
-
-// Both ends belong to it.
-struct FrameRange {
-  std::uint32_t first;
-  std::uint32_t last;
-
-  bool holds(std::uint32_t frame) const { return frame >= first && frame <= last; }
-};
 
 // Puts a key of `value` on the way between two others; the way stays as it is, where its ease can be split.
 void split_way(Track& track, std::uint32_t frame, document::Json value);

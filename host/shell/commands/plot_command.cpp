@@ -35,8 +35,10 @@ void add_plot(CLI::App& app) {
   const auto words = std::make_shared<Words>();
   CLI::App* command = app.add_subcommand("plot", "Draw joint angles and places over time, with gnuplot");
   command->add_option("FILM", words->film, "The film file. Example: film.json")->required();
-  command->add_option("ACTOR", words->thing, "An actor, camera, light/N or material/NAME; default: all that has keys. Example: robot");
-  command->add_option("PART", words->parts, "Only these of its joints, place and turn, or all like a pattern. Example: elbow '*-shin'");
+  command->add_option("ACTOR", words->thing,
+                      "An actor, camera, light/N or material/NAME; default: all that has keys. Example: robot");
+  command->add_option("PART", words->parts,
+                      "Only these of its joints, place and turn, or all like a pattern. Example: elbow '*-shin'");
   command->add_option("-o,--output", words->output, "The picture, .png or .svg. Example: -o angles.png")
       ->required()
       ->type_name("FILE");

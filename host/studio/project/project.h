@@ -86,7 +86,8 @@ class Project {
   virtual Json scripts() const = 0;
 };
 
-// What a file that is not there is, written with its first step: a model of one joint, or a film with a floor and lights.
+// What a file that is not there is, written with its first step: a model of one joint, or a film with a floor and
+// lights.
 enum class NewFile { model, film };
 
 // Throws Failure where the file cannot be read at the start, or is no film or model. Steps read and write files below

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "host/content/modeler/frames.h"
+#include "host/studio/stage/reach_place.h"
 
 namespace mars::studio {
 namespace {
@@ -64,20 +65,6 @@ bool has_key(const animator::Channel<glm::dvec3>& channel, std::uint32_t frame) 
 }
 
 }  // namespace
-
-glm::dvec3 end_of(const modeler::Joint& joint) {
-  if (!joint.segment || joint.parent == modeler::kNone) return glm::dvec3(0);
-  const modeler::Box& sbb = joint.segment->sbb;
-  glm::dvec3 farthest(0);
-  for (int axis = 0; axis < 3; ++axis)
-    for (const double at : {sbb.min[axis], sbb.max[axis]}) {
-      glm::dvec3 face = 0.5 * (sbb.min + sbb.max);
-      face[axis] = at;
-      face = modeler::segment_axes(joint) * face;
-      if (glm::length(face) > glm::length(farthest)) farthest = face;
-    }
-  return farthest;
-}
 
 const std::vector<Handle>& Ghosts::handles(std::uint32_t view, const GhostFrames& frames, const Selection& selection,
                                            const Screen& screen) {

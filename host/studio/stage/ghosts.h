@@ -65,8 +65,4 @@ class Ghosts {
   std::map<std::uint32_t, std::vector<glm::dvec3>> points_;  // of shapes
 };
 
-// The joint's end in its frame: the middle of the face of its segment that is farthest from it; itself where nothing
-// carries it or it has no segment.
-glm::dvec3 end_of(const modeler::Joint& joint);
-
 }  // namespace mars::studio

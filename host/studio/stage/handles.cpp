@@ -6,7 +6,7 @@
 #include <set>
 
 #include "host/content/modeler/frames.h"
-#include "host/studio/stage/reach_hand.h"
+#include "host/studio/stage/reach_place.h"
 
 namespace mars::studio {
 namespace {

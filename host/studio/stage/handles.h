@@ -11,27 +11,12 @@
 #include "host/content/animator/actor_state.h"
 #include "host/studio/project/project.h"
 #include "host/studio/stage/screen.h"
+#include "host/studio/stage/selected.h"
 
 namespace mars::studio {
 
 enum class Tool { none, turn, move, box, points, reach };
 inline constexpr const char* kTools[] = {"none", "turn", "move", "box", "points", "reach"};
-
-// The film's camera, or one of its lights.
-struct Mark {
-  std::optional<std::size_t> light{};  // none: the camera
-
-  bool operator==(const Mark&) const = default;
-};
-
-// A figure or its joint, or a mark, or nothing.
-struct Selection {
-  std::optional<std::size_t> actor{};
-  std::optional<std::size_t> joint{};  // none: the actor as a whole
-  std::optional<Mark> mark{};          // there is no actor beside it
-
-  bool operator==(const Selection&) const = default;
-};
 
 // What a hand takes hold of.
 struct Grip {

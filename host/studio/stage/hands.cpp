@@ -1,4 +1,5 @@
 #include "host/studio/stage/hands.h"
+#include "host/studio/stage/reach_place.h"
 
 namespace mars::studio {
 

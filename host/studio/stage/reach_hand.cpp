@@ -6,43 +6,14 @@
 
 #include "host/content/animator/angles.h"
 #include "host/content/animator/attachments.h"
-#include "host/studio/stage/ghosts.h"
 #include "host/studio/stage/hand.h"
+#include "host/studio/stage/reach_place.h"
 
 namespace mars::studio {
 namespace {
 
 const modeler::Model& model_of(const Project& project, std::size_t actor) {
   return project.film().models[project.film().actors[actor].model];
-}
-
-bool is_on(const modeler::Model& model, std::size_t joint, std::size_t above) {
-  while (joint != above && joint != modeler::kNone) joint = model.joints[joint].parent;
-  return joint == above;
-}
-
-// The ankle that carries the joint or is it; none: no ankle does.
-std::optional<std::size_t> ankle_of(const modeler::Model& model, std::size_t joint) {
-  for (const modeler::Side side : {modeler::Side::left, modeler::Side::right}) {
-    const std::size_t ankle = model.limbs.of(modeler::Limb::ankle, side);
-    if (ankle != modeler::kNone && is_on(model, joint, ankle)) return ankle;
-  }
-  return std::nullopt;
-}
-
-// A foot is pulled at its ankle: pulled elsewhere it would rather turn than bend the knee. On pinned feet the whole
-// figure goes along. A model, and who is carried, has no place of its own.
-motion::Chain chain_at(const Project& project, const Selection& selection, const std::vector<std::size_t>& pins) {
-  const modeler::Model& model = model_of(project, *selection.actor);
-  const bool stays =
-      project.is_model() || animator::attachment_at(project.film().actors[*selection.actor], project.frame());
-  const bool stands = std::ranges::any_of(pins, [&](std::size_t pin) { return ankle_of(model, pin).has_value(); });
-  motion::Chain chain{0, {}, {}, true};
-  if (selection.joint)
-    chain = motion::chain_of(model, ankle_of(model, *selection.joint).value_or(*selection.joint),
-                             stands && !stays ? motion::Extent::body : motion::Extent::limb);
-  if (stays) chain.moves_actor = false;
-  return chain;
 }
 
 motion::Posture posture_of(const Project& project, std::size_t actor) {
@@ -59,21 +30,6 @@ glm::dvec3 in_frame(const modeler::Axes& frame, const glm::dvec3& place) {
 
 }  // namespace
 
-bool can_reach(const Project& project, const Selection& selection) {
-  if (!selection.actor || !project.film().actors[*selection.actor].matrices.empty()) return false;
-  if (model_of(project, *selection.actor).joints.empty()) return false;
-  const motion::Chain chain = chain_at(project, selection, {});
-  return chain.moves_actor || !chain.joints.empty();
-}
-
-std::optional<glm::dvec3> reach_place(const Project& project, const Selection& selection) {
-  if (!can_reach(project, selection)) return std::nullopt;
-  const animator::ActorState state = animator::state_at(project.film(), *selection.actor, project.frame());
-  if (!selection.joint) return state.place;
-  const modeler::Axes& frame = state.joints[*selection.joint];
-  return frame.turn * end_of(model_of(project, *selection.actor).joints[*selection.joint]) + frame.place;
-}
-
 ReachHand::ReachHand(const Project& project, const Selection& selection, std::vector<std::size_t> pins,
                      const glm::dvec3& place, const Screen& screen, const glm::dvec2& mouse)
     : project_(project),
@@ -85,7 +41,7 @@ ReachHand::ReachHand(const Project& project, const Selection& selection, std::ve
       posture_(rest_),
       from_(place) {
   if (selection.joint) std::erase(pins_, *selection.joint);
-  chain_ = chain_at(project, selection, pins_);
+  chain_ = reach_chain(project, selection, pins_);
   const modeler::Axes end = motion::frame_in(model(), rest_, chain_.end);
   held_ = selection.joint && ankle_of(model(), *selection.joint) ? end.place : place;
   pull_.held = in_frame(end, held_);

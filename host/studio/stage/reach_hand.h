@@ -19,9 +19,6 @@ struct Pin {
   auto operator<=>(const Pin&) const = default;
 };
 
-// Whether anything moves where the joint, or the actor as a whole, is pulled.
-bool can_reach(const Project& project, const Selection& selection);
-
 class ReachHand {
  public:
   // `project` must outlive it. It can reach; `pins` are joints of its actor. Taken where the joint's surface is, across
@@ -48,9 +45,6 @@ class ReachHand {
   motion::Pull pull_;
   glm::dvec3 from_, held_;  // in the world at the beginning: where the mouse took it, and what is pulled
 };
-
-// The place at which arrows pull it: the joint's end, or the actor's own place. None: it cannot reach.
-std::optional<glm::dvec3> reach_place(const Project& project, const Selection& selection);
 
 std::vector<Handle> pin_handles(const Project& project, const Selection& selection,
                                 const std::vector<std::size_t>& pins, const Screen& screen);

@@ -7,8 +7,8 @@
 
 #include "host/content/animator/actor_state.h"
 #include "host/studio/stage/eye.h"
-#include "host/studio/stage/ghosts.h"
 #include "host/studio/stage/hand.h"
+#include "host/studio/stage/reach_place.h"
 #include "host/studio/stage/screen.h"
 #include "host/studio/stage/selection.h"
 #include "tests/host/studio/stage/fakes.h"
