@@ -50,8 +50,8 @@ void run_action(EditedFilm& film, const motion::Action& action, const Typed& typ
   const motion::Arguments arguments(values, std::string(action.name));
   motion::Performed done;
   std::string note;
-  film.change([&](document::Json& json, const animator::Film&) {
-    done = motion::perform(json, film.path(), typed.actor, action, at, arguments);
+  film.change([&](document::Json& json, const animator::Film& meaning) {
+    done = motion::perform(json, meaning, typed.actor, action, at, arguments);
     note = grown(json, done.film_last, typed.lengthen);
   });
   if (!note.empty()) note += "--at " + std::to_string(done.first) + " --lengthen";
@@ -99,7 +99,7 @@ void add_script(CLI::App& animate, EditedFilm& film) {
     motion::Played played;
     std::string note;
     film.change([&](document::Json& json, const animator::Film&) {
-      played = motion::play_script(json, film.path(), document::read_file(*script), *script);
+      played = motion::play_script(json, film.path(), film.read_script(*script), *script);
       if (!played.cut) note = grown(json, played.last, *lengthen);
     });
     for (const std::string& line : played.report) film.print(line + "\n");

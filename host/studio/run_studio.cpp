@@ -17,7 +17,8 @@ void run_studio(const StudioSettings& settings) {
     const auto rendering = [&context, file](Rendering::Listener listener) {
       return make_rendering(context, {file, std::filesystem::current_path(), child::own_file()}, std::move(listener));
     };
-    return Parts{open_project(file), link, make_stage, rendering};
+    const NewFile begins = settings.film ? NewFile::film : NewFile::model;
+    return Parts{open_project(file, std::filesystem::current_path(), begins), link, make_stage, rendering};
   });
 }
 

@@ -1,9 +1,11 @@
 #include "host/studio/studio.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
 #include "hal/failure/explain.h"
+#include "host/content/document/text.h"
 
 namespace mars::studio {
 namespace {
@@ -13,6 +15,14 @@ std::uint32_t frame_in(const Json& message) {
   if (!frame.is_number_unsigned() || frame.get<std::uint64_t>() >= wire::kMostFrames)
     throw Failure(frame.dump() + " is no frame", "", "");
   return frame.get<std::uint32_t>();
+}
+
+// Of a file that it names, "visit.script:4: ..."; 0: none.
+std::uint32_t line_in(const std::string& where) {
+  const std::size_t begin = where.find(':') + 1,
+                    end = std::min(where.find_first_not_of("0123456789", begin), where.size());
+  if (begin == 0 || (end < where.size() && where[end] != ':')) return 0;
+  return document::number_in<std::uint32_t>(where.substr(begin, end - begin)).value_or(0);
 }
 
 struct Step {
@@ -31,7 +41,10 @@ constexpr std::array<Step, 6> kSteps{{
 
 }  // namespace
 
-Studio::Studio(Parts parts, web::Pages& pages) : pages_(pages), project_(std::move(parts.project)) {
+Studio::Studio(Parts parts, web::Pages& pages)
+    : pages_(pages),
+      project_(std::move(parts.project)),
+      animation_(*project_, [this](PageNumber page, const Json& message) { pages_.tell(page, message); }) {
   link_ = parts.make_link(link_listener());
   stage_ = parts.make_stage(*project_, *link_,
                             {[this](ViewPicture picture) { pages_.show(std::move(picture)); },
@@ -72,10 +85,11 @@ void Studio::page_said(PageNumber page, const Json& message) {
   try {
     step_done = obey(page, message);
   } catch (const Json::exception&) {
-    refuse(page, message, "something is missing in it, or is of another kind: see docs/studio-protocol.md");
+    refuse(page, message, {"something is missing in it, or is of another kind: see docs/studio-protocol.md", "", ""});
   } catch (const std::exception& failure) {  // of the file system, most likely
-    refuse(page, message, reason_of(failure));
+    refuse(page, message, explain(failure));
   }
+  for (const std::string& remark : project_->take_remarks()) pages_.tell(page, {{"is", "said"}, {"text", remark}});
   if (project_->in_gesture() && shown() != before) gesture_of_ = page;
   announce(before, step_done);
 }
@@ -84,6 +98,10 @@ void Studio::page_said(PageNumber page, const Json& message) {
 bool Studio::obey(PageNumber page, const Json& message) {
   if (Rendering::is_for_it(message)) {
     rendering_->take(page, message);
+    return false;
+  }
+  if (AnimationPages::is_for_it(message)) {
+    animation_.take(page, message);
     return false;
   }
   const bool is_step = obey_step(message);
@@ -101,14 +119,17 @@ bool Studio::obey_step(const Json& message) {
   return false;
 }
 
-void Studio::refuse(PageNumber page, const Json& message, const std::string& why) {
-  pages_.tell(page, {{"is", "refused"}, {"text", why}, {"do", message["do"]}});
+void Studio::refuse(PageNumber page, const Json& message, const Failure& why) {
+  Json refused{{"is", "refused"}, {"text", why.what()}, {"do", message["do"]}};
+  if (const std::uint32_t line = line_in(why.where)) refused["line"] = line;
+  pages_.tell(page, refused);
 }
 
 void Studio::page_closed(PageNumber page) {
   const Shown before = shown();
   stage_->page_closed(page);
   rendering_->page_closed(page);
+  animation_.page_closed(page);
   if (gesture_of_ == page && project_->in_gesture()) project_->cancel();
   announce(before, false);
 }
@@ -120,7 +141,8 @@ void Studio::look_at_files() {
 
 Studio::Shown Studio::shown() const {
   const auto& problem = project_->problem();
-  return {project_->revision(), project_->frame(), project_->in_gesture(), problem ? problem->text : ""};
+  return {project_->revision(), project_->keys_revision(), project_->frame(), project_->in_gesture(),
+          problem ? problem->text : ""};
 }
 
 // Gestures tell poses only; their end, and whatever else happens, tells all.
@@ -130,6 +152,15 @@ void Studio::announce(const Shown& before, bool step_done) {
   if (!now.in_gesture) gesture_of_.reset();
   pages_.tell(Stage::kAllPages, now.in_gesture && !step_done ? project_->describe_poses() : project_->describe());
   if (now.revision != before.revision || now.frame != before.frame) stage_->project_changed();
+  announce_keys(before, now);
+}
+
+// The frame that is shown changes no key, but ends a gesture.
+void Studio::announce_keys(const Shown& before, const Shown& now) {
+  if (now.keys_revision != before.keys_revision)
+    animation_.keys_changed();
+  else if (now.revision != before.revision && (now.in_gesture || before.in_gesture))
+    animation_.values_changed();
 }
 
 }  // namespace mars::studio

@@ -8,6 +8,8 @@
 #include <optional>
 #include <string>
 
+#include "hal/failure/failure.h"
+#include "host/studio/animation_pages.h"
 #include "host/studio/rendering/rendering.h"
 #include "host/studio/web/pages.h"
 
@@ -36,7 +38,7 @@ class Studio {
  private:
   // What pages are told of when it changes.
   struct Shown {
-    std::uint64_t revision;
+    std::uint64_t revision, keys_revision;
     std::uint32_t frame;
     bool in_gesture;
     std::string problem;
@@ -48,7 +50,8 @@ class Studio {
   bool obey(PageNumber page, const Json& message);
   bool obey_step(const Json& message);
   void announce(const Shown& before, bool step_done);
-  void refuse(PageNumber page, const Json& message, const std::string& why);
+  void announce_keys(const Shown& before, const Shown& now);
+  void refuse(PageNumber page, const Json& message, const Failure& why);
   RendererLink::Listener link_listener();
   void tell_state(PageNumber page);
 
@@ -57,6 +60,7 @@ class Studio {
   std::unique_ptr<RendererLink> link_;
   std::unique_ptr<Stage> stage_;
   std::unique_ptr<Rendering> rendering_;
+  AnimationPages animation_;
   std::optional<PageNumber> gesture_of_;
   std::string trouble_;  // the renderer's
   std::uint32_t nodes_ = 0, machines_ = 0;

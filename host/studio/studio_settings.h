@@ -11,7 +11,8 @@
 namespace mars::studio {
 
 struct StudioSettings {
-  std::string file;                   // a film or a model; "": figure.json, which is begun where it is not there
+  std::string file;                   // a film or a model; "": figure.json, or film.json
+  bool film = false;                  // where the file is not there, a film is begun instead of a model
   std::optional<std::uint16_t> port;  // none: the usual one, or one that is free; 0: any that is free
   std::string listen;                 // ADDRESS or ADDRESS:PORT; "": this machine only
   std::string certificate, key;       // PEM files; "": no TLS

@@ -63,7 +63,7 @@ std::uint32_t carried_since(const Actor& actor, std::uint32_t frame) {
 void hold_before(const Channel<Point>& points, const KeyedPart& part, std::uint32_t frame, Track& track) {
   if (frame == 0 || key_at(track, frame - 1)) return;
   const Stretch stretch = stretch_at(points, frame - 1);
-  if (stretch.from == stretch.to) put_key(track, {frame - 1, part.key_at(frame - 1), kLinear, true});
+  if (stretch.from == stretch.to) put_key(track, {frame - 1, part.key_at(frame - 1), kLinear});
 }
 
 Remarks put_point(document::Json& film, const Film& meaning, const std::string& part, const Point& point,
@@ -72,7 +72,7 @@ Remarks put_point(document::Json& film, const Film& meaning, const std::string& 
   Tracks tracks = tracks_of(*camera.thing.json);
   Track& track = tracks[part];
   hold_before(part == "eye" ? meaning.camera.eye : meaning.camera.at, camera.thing.part(part), frame, track);
-  put_key(track, {frame, written(point, meaning), kLinear, true});
+  put_key(track, {frame, written(point, meaning), kLinear});
   return put(camera, tracks);
 }
 

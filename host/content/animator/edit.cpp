@@ -14,71 +14,48 @@
 namespace mars::animator {
 namespace {
 
-// Sets a value before "ease", which stays last.
-void set(document::Json& key, const char* name, const document::Json& value) {
-  const bool moves = !key.contains(name) && key.contains("ease");
-  key[name] = value;
-  if (!moves) return;
-  const document::Json ease = key.at("ease");
-  key.erase("ease");
-  key["ease"] = ease;
-}
+using Eases = std::map<std::uint32_t, Ease>;
 
-using KeysByFrame = std::map<std::uint32_t, document::Json>;
-
-KeysByFrame keys_of(const document::Json& actor) {
-  KeysByFrame keys;
+// Of the keys that the actor has.
+Eases eases_of(const document::Json& actor) {
+  Eases eases;
   if (const auto found = actor.find("keys"); found != actor.end())
-    for (const document::Json& key : *found) keys.emplace(key.at("frame").get<std::uint32_t>(), key);
-  return keys;
+    for (const document::Json& key : *found) eases.emplace(key.at("frame").get<std::uint32_t>(), ease_of(key));
+  return eases;
 }
 
-document::Json& key_at(KeysByFrame& keys, std::uint32_t frame) {
-  return keys.try_emplace(frame, document::Json{{"frame", frame}}).first->second;
+Ease ease_at(const Eases& eases, std::uint32_t frame) {
+  const auto found = eases.find(frame);
+  return found == eases.end() ? kLinear : found->second;
 }
 
-void put(KeysByFrame& keys, const ActorKey& key) {
-  document::Json& item = key_at(keys, key.frame);
-  if (key.place) set(item, "place", written(*key.place));
-  if (key.turn) set(item, "turn", written(*key.turn));
-  if (!key.pose.empty()) {
-    document::Json pose = item.value("pose", document::Json::object());
-    for (const auto& [joint, angles] : key.pose) pose[joint] = written(angles);
-    set(item, "pose", pose);
-  }
-  if (key.attach) set(item, "attach", written(*key.attach));
-  if (key.ease) item["ease"] = written(*key.ease);
+// A slope of the part, if the key has one.
+document::Json slope_of(const std::map<std::string, glm::dvec3>& slopes, const std::string& part) {
+  const auto found = slopes.find(part);
+  return found == slopes.end() ? document::Json() : written(found->second);
 }
 
-bool any_keys(const KeysByFrame& keys, const char* name) {
-  for (const auto& [frame, key] : keys)
-    if (key.contains(name)) return true;
-  return false;
+void put(Tracks& tracks, const ActorKey& key, const Eases& eases) {
+  const auto set = [&](const std::string& part, document::Json value) {
+    Track& track = tracks[part];
+    const TrackKey* old = key_at(track, key.frame);
+    TrackKey made{key.frame, std::move(value), key.ease ? *key.ease : old ? old->ease : ease_at(eases, key.frame)};
+    made.own_ease = !key.ease && old && old->own_ease;
+    made.in = slope_of(key.in, part);
+    made.out = slope_of(key.out, part);
+    put_key(track, std::move(made));
+  };
+  if (key.place) set("place", written(*key.place));
+  if (key.turn) set("turn", written(*key.turn));
+  if (key.attach) set("attach", written(*key.attach));
+  for (const auto& [joint, angles] : key.pose) set("/" + joint, written(angles));
 }
 
-void move_still_vector(document::Json& actor, KeysByFrame& keys, const char* name) {
-  if (!actor.contains(name) || !any_keys(keys, name)) return;
-  document::Json& first = key_at(keys, 0);
-  if (!first.contains(name)) set(first, name, actor.at(name));
-  actor.erase(name);
-}
-
-void move_still_pose(document::Json& actor, KeysByFrame& keys) {
-  const auto still = actor.find("pose");
-  if (still == actor.end()) return;
-  std::map<std::string, bool> keyed;
-  for (const auto& [frame, key] : keys)
-    if (key.contains("pose"))
-      for (const auto& joint : key.at("pose").items()) keyed[joint.key()] = true;
-  document::Json left = document::Json::object(), moved = document::Json::object();
-  for (const auto& joint : still->items()) (keyed[joint.key()] ? moved : left)[joint.key()] = joint.value();
-  if (moved.empty()) return;
-  document::Json& first = key_at(keys, 0);
-  document::Json pose = first.value("pose", document::Json::object());
-  for (const auto& joint : moved.items())
-    if (!pose.contains(joint.key())) pose[joint.key()] = joint.value();
-  set(first, "pose", pose);
-  left.empty() ? void(actor.erase("pose")) : void(actor["pose"] = left);
+// The value that the part has beside the keys; null if it has none.
+document::Json still_value(const document::Json& actor, const std::string& part) {
+  if (part[0] != '/') return actor.value(part, document::Json());
+  const auto pose = actor.find("pose");
+  return pose == actor.end() ? document::Json() : pose->value(part.substr(1), document::Json());
 }
 
 }  // namespace
@@ -109,13 +86,13 @@ void put_keys(document::Json& film, const std::string& actor, std::span<const Ac
     throw Failure("is moved by matrices, which have no keys", "actor '" + actor + "'",
                   "take its matrices out of the film, or move another actor");
   if (keys.empty()) return;
-  KeysByFrame all = keys_of(object);
-  for (const ActorKey& key : keys) put(all, key);
-  for (const char* name : {"place", "turn", "attach"}) move_still_vector(object, all, name);
-  move_still_pose(object, all);
-  document::Json list = document::Json::array();
-  for (auto& [frame, key] : all) list.push_back(std::move(key));
-  object["keys"] = std::move(list);
+  Tracks tracks = tracks_of(object);
+  const Eases eases = eases_of(object);
+  for (const ActorKey& key : keys) put(tracks, key, eases);
+  for (auto& [part, track] : tracks)
+    if (document::Json still = still_value(object, part); !still.is_null() && !key_at(track, 0))
+      put_key(track, {0, std::move(still), ease_at(eases, 0)});
+  put_tracks(object, tracks);
 }
 
 void clear_keys(document::Json& film, const std::string& actor, std::uint32_t first, std::uint32_t last,

@@ -27,7 +27,7 @@ struct ActorKey {
   std::uint32_t frame = 0;
   std::optional<glm::dvec3> place, turn;   // as in the film file: the world, degrees
   std::map<std::string, glm::dvec3> pose;  // joint to its three turns, degrees
-  std::optional<Ease> ease;                // of all that is keyed there; none: as it was, or linear
+  std::optional<Ease> ease;                // of what is keyed there; none: as it was, or linear
   // Slopes of splines (channel.h), of what is keyed there: "place", "turn", "/" and a joint.
   std::map<std::string, glm::dvec3> in{}, out{};
   std::optional<AttachKey> attach{};

@@ -9,6 +9,7 @@
 #include "host/content/animator/edit.h"
 #include "host/content/animator/frame_words.h"
 #include "host/content/animator/side_effects.h"
+#include "host/content/animator/track_splines.h"
 #include "host/content/animator/written.h"
 #include "host/content/document/fields.h"
 #include "node/wire/film.h"
@@ -94,7 +95,6 @@ Remarks displace(document::Json& film, const Film& meaning, const Choice& choice
                          if (copies) track = whole;
                          for (TrackKey key : moved) {
                            key.frame = frame_from(key.frame + by, one.thing.name);
-                           key.changed = true;
                            put_key(track, key);
                          }
                          return !moved.empty();
@@ -122,62 +122,7 @@ void split_ease(TrackKey& before, std::uint32_t next, TrackKey& key) {
   const double time = double(key.frame - before.frame) / double(next - before.frame);
   if (const auto halves = split(before.ease, time)) {
     before.ease = rounded(halves->first);
-    before.changed = true;
     key.ease = rounded(halves->second);
-  }
-}
-
-glm::dvec3 numbers_of(const document::Json& value) {
-  glm::dvec3 numbers(0);
-  if (value.is_number()) return {value.get<double>(), 0, 0};
-  for (std::size_t i = 0; i < value.size(); ++i) numbers[static_cast<int>(i)] = value[i].get<double>();
-  return numbers;
-}
-
-document::Json shaped(const document::Json& like, const glm::dvec3& numbers) {
-  if (like.is_number()) return written(animator::rounded(numbers.x));
-  document::Json array = document::Json::array();
-  for (std::size_t i = 0; i < like.size(); ++i)
-    array.push_back(written(animator::rounded(numbers[static_cast<int>(i)])));
-  return array;
-}
-
-// Numbers alone; a point of an actor has none.
-bool has_numbers(const Track& track) {
-  return std::ranges::none_of(track, [](const TrackKey& key) { return key.value.is_object(); });
-}
-
-// The cubic in two: the slopes that it has at its ends and at the new key, which must now be written.
-void split_spline(Track& track, std::size_t from, TrackKey& key) {
-  key.ease = kSpline;
-  if (!has_numbers(track)) return;
-  Channel<glm::dvec3> channel;
-  for (const TrackKey& each : track) {
-    Key<glm::dvec3>& made = channel.emplace_back(Key<glm::dvec3>{each.frame, numbers_of(each.value), each.ease});
-    if (!each.in.is_null()) made.in = numbers_of(each.in);
-    if (!each.out.is_null()) made.out = numbers_of(each.out);
-  }
-  const document::Json& like = key.value;
-  const auto keep = [&](document::Json& slope, std::size_t at) {
-    if (slope.is_null()) slope = shaped(like, slope_at(channel, at));
-  };
-  const double time = double(key.frame - track[from].frame) / double(track[from + 1].frame - track[from].frame);
-  key.in = key.out = shaped(like, spline_slope_at(channel, {from, from + 1, time}));
-  for (const std::size_t at : {from, from + 1}) {
-    if (at > 0 && track[at - 1].ease.spline) keep(track[at].in, at);
-    keep(track[at].out, at);
-    track[at].changed = true;
-  }
-}
-
-// Of splines between the keys of the range.
-void scale_slopes(Track& track, FrameRange range, double factor) {
-  const auto scale = [&](document::Json& slope) {
-    if (!slope.is_null()) slope = shaped(slope, factor * numbers_of(slope));
-  };
-  for (TrackKey& key : track) {
-    if (key.frame > range.first && key.frame <= range.last) scale(key.in);
-    if (key.frame >= range.first && key.frame < range.last) scale(key.out);
   }
 }
 
@@ -189,7 +134,7 @@ void split_way(Track& track, std::uint32_t frame, document::Json value) {
     next->value = std::move(value);
     return;
   }
-  TrackKey key{frame, std::move(value), kLinear, true};
+  TrackKey key{frame, std::move(value), kLinear};
   if (next != track.begin() && next != track.end()) {
     TrackKey& before = *std::prev(next);
     before.ease.spline ? split_spline(track, static_cast<std::size_t>(next - track.begin()) - 1, key)
@@ -245,6 +190,7 @@ Remarks ease_keys(document::Json& film, const Film& meaning, const Choice& choic
     for (TrackKey& key : track)
       if (range.holds(key.frame)) {
         key.ease = ease;
+        key.own_ease = true;
         any = true;
       }
     return any;
@@ -262,11 +208,15 @@ Remarks hold(document::Json& film, const Film& meaning, const Choice& choice, st
       if (part.joint)
         value = written(within_limits(one.thing.name, *part.joint, vector_of(value), Beyond::refused, none));
       split_way(track, frame, std::move(value));
+      keep_slopes(track, frame);
     }
     remap(track, one.thing.name, [&](std::uint32_t f) { return std::int64_t{f} + (f > frame ? frames : 0); });
     if (moves_there) {
-      TrackKey end = *key_at(track, frame);
+      TrackKey& start = *key_at(track, frame);
+      TrackKey end = start;
       end.frame = frame_from(std::int64_t{frame} + frames, one.thing.name);
+      if (start.ease.spline) start.ease = kLinear;
+      start.out = end.in = nullptr;
       put_key(track, end);
     }
     return true;
@@ -281,7 +231,7 @@ Remarks stretch(document::Json& film, const Film& meaning, const Choice& choice,
   const auto added = static_cast<std::int64_t>(std::llround(length * factor - length));
   return change_tracks(film, meaning, choice, shown_range({range.first, kMostFrames}),
                        [&](const Chosen& one, const std::string&, Track& track) {
-                         scale_slopes(track, range, length / (length + added));
+                         scale_slopes(track, range.first, range.last, length / (length + added));
                          remap(track, one.thing.name, [&](std::uint32_t f) -> std::int64_t {
                            if (f <= range.first) return f;
                            if (f >= range.last) return f + added;

@@ -108,6 +108,14 @@ PartSetting setting_of(const std::string& part, const Typed& typed) {
 
 }  // namespace
 
+std::vector<PartSetting> read_axes(const std::string& text, const Thing& thing, double number) {
+  const Typed typed = taken_apart(text + "=0", thing);
+  const document::Json now = thing.part(parts_named(thing, typed.part).front()).value_at(0);
+  std::string numbers = document::exactly(number);
+  for (std::size_t i = 1; now.is_array() && !typed.axis && i < now.size(); ++i) numbers += "," + document::exactly(number);
+  return read_settings(text + "=" + numbers, thing);
+}
+
 std::vector<PartSetting> read_settings(const std::string& text, const Thing& thing) {
   const Typed typed = taken_apart(text, thing);
   const std::vector<std::string> names = parts_named(thing, typed.part);

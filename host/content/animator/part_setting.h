@@ -21,4 +21,7 @@ struct PartSetting {
 // is none of these.
 std::vector<PartSetting> read_settings(const std::string& text, const Thing& thing);
 
+// The same of a text without numbers, "elbow.y" or "place": each that it names is `number`.
+std::vector<PartSetting> read_axes(const std::string& text, const Thing& thing, double number);
+
 }  // namespace mars::animator

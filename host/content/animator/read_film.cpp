@@ -382,6 +382,18 @@ Film read_film(const document::Element& element, const std::filesystem::path& fo
   });
 }
 
+// Models' segments may name the film's materials.
+bool same_models(const document::Json& one, const document::Json& two) {
+  const auto names = [](const document::Json& film) {
+    std::vector<std::string_view> names;
+    if (const auto found = film.find("materials"); found != film.end() && found->is_object())
+      for (const auto& item : found->items()) names.push_back(item.key());
+    return names;
+  };
+  const auto models = one.find("models"), others = two.find("models");
+  return models != one.end() && others != two.end() && *models == *others && names(one) == names(two);
+}
+
 Film read_film(const document::Element& element, std::vector<modeler::Model>& models) {
   return read_film_with(element, models, [&](const document::Element& named, const Film&) {
     check(named.size() == models.size(), "a film is read again with all its models");

@@ -8,6 +8,7 @@
 
 #include "host/content/animator/film.h"
 #include "host/content/document/fields.h"
+#include "host/content/document/json_file.h"
 
 namespace mars::animator {
 
@@ -15,7 +16,10 @@ namespace mars::animator {
 Film read_film(const std::filesystem::path& path);
 Film read_film(const document::Element& element, const std::filesystem::path& folder);
 
-// A film with the same models and materials as one read before, whose `models` are not read again: they become the
+// Whether films of these files have the same models, as long as nobody changes other files.
+bool same_models(const document::Json& one, const document::Json& two);
+
+// A film with the same models as one read before, whose `models` are not read again: they become the
 // film's, or stay where they are if it throws.
 Film read_film(const document::Element& element, std::vector<modeler::Model>& models);
 

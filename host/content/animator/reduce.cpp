@@ -109,7 +109,7 @@ class Reducer {
     for (const FittedKey& key : keys) {
       const glm::dvec3 value = part.joint != nullptr ? clamped(*part.joint, key.value) : key.value;
       TrackKey& made = inside.emplace_back(
-          TrackKey{static_cast<std::uint32_t>(range.first + key.at), like(shape, value), kSpline, true});
+          TrackKey{static_cast<std::uint32_t>(range.first + key.at), like(shape, value), kSpline});
       if (key.in) made.in = like(shape, *key.in);
       if (key.out) made.out = like(shape, *key.out);
     }

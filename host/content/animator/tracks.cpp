@@ -15,31 +15,25 @@ bool before(const TrackKey& key, std::uint32_t frame) { return key.frame < frame
 // Whether anything changes on the way to the next key.
 bool leads_on(const Track& track, const TrackKey& key) {
   const TrackKey* next = &key + 1;
-  if (next == track.data() + track.size()) return false;
-  return next->value != key.value ||
-         (key.ease.spline && (!key.out.is_null() || !next->in.is_null() || track.size() > 2));
+  return next != track.data() + track.size() && (next->value != key.value || key.ease.spline);
 }
 
-// The ease of most of what leads on, rather that of the key as it was; of a key from which nothing leads on that of
-// all.
+// That of the key as it was, while any part that leads on goes by it; else that of most. Where none leads on, all count.
 Ease common_ease(const Tracks& tracks, const Held& held, const document::Json& old) {
-  std::vector<Ease> eases;
-  for (const auto& [part, key] : held)
+  std::vector<Ease> eases, all;
+  for (const auto& [part, key] : held) {
+    all.push_back(key->ease);
     if (leads_on(tracks.at(part), *key)) eases.push_back(key->ease);
-  const auto agrees = [&](const auto& each) { return each.second->ease == held.begin()->second->ease; };
-  if (eases.empty())
-    return held.empty() || (old.contains("ease") && !std::ranges::all_of(held, agrees)) ? ease_of(old)
-                                                                                        : held.begin()->second->ease;
+  }
+  if (eases.empty()) eases = std::move(all);
   const Ease was = ease_of(old);
-  const auto votes = [&](const Ease& ease) {
-    return 2 * std::ranges::count(eases, ease) + (old.contains("ease") && ease == was ? 1 : 0);
-  };
-  return *std::ranges::max_element(eases, {}, votes);
+  if (eases.empty() || (!old.empty() && std::ranges::count(eases, was) > 0)) return was;
+  return *std::ranges::max_element(eases, {}, [&](const Ease& ease) { return std::ranges::count(eases, ease); });
 }
 
 // The part's value, as an object where its slopes or its ease are its own.
 document::Json value_of(const Tracks& tracks, const std::string& part, const TrackKey& key, const Ease& common) {
-  const bool own_ease = key.ease != common && (leads_on(tracks.at(part), key) || key.ease.spline);
+  const bool own_ease = key.ease != common && (key.own_ease || leads_on(tracks.at(part), key));
   if (!own_ease && key.in.is_null() && key.out.is_null()) return key.value;
   document::Json value = {{"value", key.value}};
   if (own_ease) value["ease"] = written(key.ease);
@@ -75,7 +69,8 @@ document::Json key_of(const Tracks& tracks, std::uint32_t frame, const Held& hel
 
 TrackKey track_key(std::uint32_t frame, const document::Json& written, const Ease& common) {
   if (!written.is_object() || !written.contains("value")) return {frame, written, common};
-  TrackKey key{frame, written.at("value"), written.contains("ease") ? ease_of(written) : common};
+  const bool own_ease = written.contains("ease");
+  TrackKey key{frame, written.at("value"), own_ease ? ease_of(written) : common, own_ease};
   key.in = written.value("in", document::Json());
   key.out = written.value("out", document::Json());
   return key;
@@ -150,7 +145,10 @@ void put_key(Track& track, TrackKey key) {
 void set_ease(Tracks& tracks, const std::set<std::string>& parts, std::uint32_t frame, const Ease& ease) {
   for (const std::string& part : parts)
     if (const auto track = tracks.find(part); track != tracks.end())
-      if (TrackKey* key = key_at(track->second, frame)) key->ease = ease;
+      if (TrackKey* key = key_at(track->second, frame)) {
+        key->ease = ease;
+        key->own_ease = true;
+      }
 }
 
 std::string shown_part(const std::string& part) { return part[0] == '/' ? part.substr(1) : part; }

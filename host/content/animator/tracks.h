@@ -18,7 +18,7 @@ struct TrackKey {
   std::uint32_t frame;
   document::Json value;
   Ease ease;                   // to the next key of the part
-  bool changed = false;        // as opposed to what stands in the file
+  bool own_ease = false;       // meant for this part alone: it stays even while nothing moves on from here
   document::Json in{}, out{};  // slopes of splines, a frame; null: none
 };
 
@@ -29,7 +29,7 @@ using Tracks = std::map<std::string, Track>;
 Tracks tracks_of(const document::Json& thing);
 
 // Makes them the thing's keys; still values of what is keyed now go. Where parts of one frame have several eases, the
-// key has that of most of them, the others have their own.
+// key keeps the one it has, if any part that moves on goes by it, else has that of most; the others have their own.
 void put_tracks(document::Json& thing, const Tracks& tracks);
 
 // The key at the frame; null if there is none.
@@ -38,7 +38,7 @@ TrackKey* key_at(Track& track, std::uint32_t frame);
 // Puts a key in its place, instead of one at its frame.
 void put_key(Track& track, TrackKey key);
 
-// The ease of the parts' keys at the frame.
+// Gives the parts' keys at the frame an ease of their own.
 void set_ease(Tracks& tracks, const std::set<std::string>& parts, std::uint32_t frame, const Ease& ease);
 
 // As people name a part: joints without the slash.

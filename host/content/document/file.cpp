@@ -12,6 +12,7 @@
 #include "hal/failure/failure.h"
 #include "host/content/document/file_failure.h"
 #include "host/content/document/recorded_reads.h"
+#include "host/content/document/text.h"
 
 namespace mars::document {
 namespace {
@@ -114,6 +115,14 @@ std::string read_start(const fs::path& path, std::size_t bytes) try {
   return file.read_next(std::min<std::uintmax_t>(file.size(), bytes));
 } catch (const Failure&) {
   return "";
+}
+
+fs::path path_below(const fs::path& folder, const std::string& name) {
+  const fs::path top = fs::weakly_canonical(folder), path = fs::weakly_canonical(top / name);
+  const auto [end, in_path] = std::ranges::mismatch(top, path);
+  if (name.empty() || end != top.end())
+    throw Failure(in_quotes(name) + " is not below the studio's folder", "", "name one in " + top.string());
+  return path;
 }
 
 bool file_exists(const fs::path& path) {

@@ -25,6 +25,9 @@ bool read_pieces(const std::filesystem::path& path, const std::function<void(std
 // The first bytes of a regular file: fewer where it is shorter, none where it cannot be read.
 std::string read_start(const std::filesystem::path& path, std::size_t bytes);
 
+// A file or folder that a stranger names, as seen from `folder`, links followed. Throws Failure where it is not below.
+std::filesystem::path path_below(const std::filesystem::path& folder, const std::string& name);
+
 bool file_exists(const std::filesystem::path& path);
 
 }  // namespace mars::document

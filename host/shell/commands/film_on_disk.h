@@ -4,6 +4,7 @@
 #include <iostream>
 #include <string>
 
+#include "host/content/document/file.h"
 #include "host/editing/edited_film.h"
 
 namespace mars::commands {
@@ -14,6 +15,7 @@ class FilmOnDisk : public editing::EditedFilm {
 
   std::filesystem::path path() const override { return name; }
   film::FilmFile read() const override { return film::open_film(name); }
+  std::string read_script(const std::filesystem::path& path) const override { return document::read_file(path); }
   void create(const document::Json& json) override { film::create_film(name, json); }
   void change(const Change& change) override { film::change_film(name, change); }
   void remark(const std::string& line) override { std::cerr << "mars: " << line << '\n'; }

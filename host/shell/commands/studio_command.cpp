@@ -53,11 +53,14 @@ void add_studio(CLI::App& app) {
   command->add_option("FILM", settings->file,
                       "A film or a model, below this folder; a new model where there is none; default: figure.json. "
                       "Example: examples/demo.json");
+  command->add_flag("--film", settings->film,
+                    "Where there is none, begin a film instead of a model; default: film.json. Example: --film");
   add_server(*command, *settings);
   options::add_render_options(*command, settings->renderer, options::Program::studio);
   command->footer(kAfterwards + std::string(options::kExitCodes));
   command->callback([settings] {
     settings->page = child::own_file().parent_path().parent_path() / "share" / "mars" / "studio";
+    if (settings->film && settings->file.empty()) settings->file = "film.json";
     choose_backend(settings->renderer);
     studio::run_studio(*settings);
   });

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <map>
+#include <span>
+#include <string_view>
 
 #include "host/content/animator/actor_state.h"
+#include "host/content/animator/attachments.h"
 #include "host/content/animator/camera_points.h"
 #include "host/content/animator/direction.h"
 #include "host/content/animator/edit.h"
@@ -126,8 +129,8 @@ Json keyed_of(const Json& thing, std::uint32_t frame) {
 
 // Where the thing has it.
 template <typename Value>
-void add_part(Json& thing, const char* part, const animator::Channel<Value>& channel, std::uint32_t frame) {
-  if (!channel.empty()) thing[part] = written(animator::rounded(animator::value_at(channel, frame)));
+void add_part(Json& thing, std::string_view part, const animator::Channel<Value>& channel, std::uint32_t frame) {
+  if (!channel.empty()) thing[std::string(part)] = written(animator::rounded(animator::value_at(channel, frame)));
 }
 
 Json light_of(const animator::LightMotion& light, std::size_t number, const Json& file, std::uint32_t frame) {
@@ -146,7 +149,7 @@ Json light_of(const animator::LightMotion& light, std::size_t number, const Json
   return json;
 }
 
-Json library() {
+Json shapes() {
   Json shapes = Json::array();
   for (const modeler::LibraryShape& shape : modeler::shape_library()) {
     Json options = Json::array();
@@ -160,6 +163,47 @@ Json library() {
     shapes.push_back({{"name", shape.name}, {"what", shape.what}, {"options", std::move(options)}});
   }
   return shapes;
+}
+
+// What `mars film FILM add` takes by name.
+Json library() {
+  Json library = Json::array();
+  const auto add = [&](const char* kind, std::span<const modeler::LibraryFigure> all) {
+    for (const modeler::LibraryFigure& each : all)
+      library.push_back({{"name", each.name}, {"what", each.what}, {"kind", kind}});
+  };
+  add("figure", modeler::figure_library());
+  add("object", modeler::object_library());
+  return library;
+}
+
+Json shown_joint(const animator::Film& film, std::size_t actor, std::size_t joint) {
+  Json json{{"actor", film.actors[actor].name}};
+  if (joint != modeler::kNone) json["joint"] = film.models[film.actors[actor].model].joints[joint].name;
+  return json;
+}
+
+// Null: the point is fixed at the frame.
+Json followed(const animator::Film& film, const animator::Channel<animator::Point>& points, std::uint32_t frame) {
+  const animator::Point& point = points[animator::stretch_at(points, frame).from].value;
+  return point.actor == modeler::kNone ? Json() : shown_joint(film, point.actor, point.joint);
+}
+
+Json material_at(const animator::MaterialMotion& material, std::uint32_t frame) {
+  Json json{{"name", material.name}, {"color", shown(animator::value_at(material.color, frame))}};
+  json["reflection"] = modeler::word_of(material.shading.reflection);
+  for (std::size_t i = 0; i < modeler::kMaterialNumbers.size(); ++i)
+    if (modeler::uses(material.shading.reflection, modeler::kMaterialNumbers[i]))
+      add_part(json, modeler::kMaterialNumbers[i].key, material.numbers[i], frame);
+  return json;
+}
+
+void describe_settings(Json& project, const animator::Film& film, const Json& json) {
+  project["version"] = json.value("version", Json());
+  project["samples"] = film.samples;
+  project["color"] = film.color == wire::ColorSpace::linear ? "linear" : "coded";
+  project["background"] = shown(film.background);
+  project["library"] = library();
 }
 
 Json limb_names() {
@@ -188,6 +232,8 @@ void describe_camera_and_lights(Json& project, const animator::Film& film, const
   camera["eye"] = shown(animator::eye_at(film, frame));
   camera["at"] = shown(animator::at_at(film, frame));
   add_part(camera, "fov", film.camera.fov, frame);
+  camera["follow"] = followed(film, film.camera.eye, frame);
+  camera["look"] = followed(film, film.camera.at, frame);
   project["camera"] = std::move(camera);
   Json lights = Json::array();
   for (std::size_t number = 0; json.contains("lights") && number < film.lights.size(); ++number)
@@ -212,15 +258,17 @@ void describe_film(Json& project, const animator::Film& film, const Json& json, 
       add_limb(joint, limbs, i);
       joints.push_back(std::move(joint));
     }
+    if (const animator::Attachment* const carrier = animator::attachment_at(actor, frame))
+      described["attach"] = shown_joint(film, carrier->actor, carrier->joint);
     described["joints"] = std::move(joints);
     actors.push_back(std::move(described));
   }
   project["actors"] = std::move(actors);
   describe_camera_and_lights(project, film, json, frame);
   Json materials = Json::array();
-  for (const animator::MaterialMotion& material : film.materials)
-    materials.push_back({{"name", material.name}, {"color", shown(animator::value_at(material.color, frame))}});
+  for (const animator::MaterialMotion& material : film.materials) materials.push_back(material_at(material, frame));
   project["materials"] = std::move(materials);
+  describe_settings(project, film, json);
 }
 
 void describe_model(Json& project, const animator::Film& film, const Json& json, std::uint32_t frame) {
@@ -239,7 +287,7 @@ void describe_model(Json& project, const animator::Film& film, const Json& json,
   project["materials"] = Json::array();
   for (const modeler::NamedMaterial& material : model.materials)
     project["materials"].push_back(material_of(material.name, material.material));
-  project["shapes"] = library();
+  project["shapes"] = shapes();
   if (json.contains("shapes"))
     for (const auto& [name, shape] : json["shapes"].items())
       project["shapes"].push_back({{"name", name}, {"own", true}});

@@ -1,6 +1,7 @@
 #include "host/studio/project/film_work.h"
 
 #include <array>
+#include <sstream>
 #include <utility>
 
 #include "hal/failure/failure.h"
@@ -62,11 +63,10 @@ animator::Remarks apply(Json& json, const animator::Film& film, const LightStep&
                 "open the model itself: mars studio MODEL");
 }
 
-// Two films that the same nodes' copy of shapes and segments serves.
-bool same_for_nodes(const animator::Film& one, const animator::Film& two) {
+// Two films that the same nodes' copy of shapes and segments serves. `models_same`: they are known to be.
+bool same_for_nodes(const animator::Film& one, const animator::Film& two, bool models_same) {
   const auto settings = [](const animator::Film& film) {
-    return std::array{film.frames,
-                      film.width,
+    return std::array{film.width,
                       film.height,
                       film.samples,
                       film.dice,
@@ -74,7 +74,22 @@ bool same_for_nodes(const animator::Film& one, const animator::Film& two) {
                       std::uint32_t(film.curve),
                       std::uint32_t(film.lights.size())};
   };
-  return settings(one) == settings(two) && same_shapes(one, two);
+  return settings(one) == settings(two) && (models_same ? same_actors(one, two) : same_shapes(one, two));
+}
+
+// None: it is a step of another kind.
+std::optional<std::vector<editing::Command>> commands_of(const Step& step, const std::filesystem::path& folder) {
+  if (const auto* const commands = std::get_if<CommandsStep>(&step)) return commands->commands;
+  const auto* const script = std::get_if<ScriptStep>(&step);
+  if (!script) return std::nullopt;
+  return {{{"animate", "script", (folder / script->name).string(), "--lengthen"}}};
+}
+
+animator::Remarks remarks_of(const editing::Done& done) {
+  animator::Remarks remarks = done.remarks;
+  std::istringstream report(done.report);
+  for (std::string line; std::getline(report, line);) remarks.push_back(line);
+  return remarks;
 }
 
 }  // namespace
@@ -87,8 +102,7 @@ animator::Film FilmWork::read(const document::Element& root, bool models_stay) {
 void FilmWork::prepare(const std::string& text, bool models_stay) {
   const document::Document document(text, path_.string());
   Json json = Json::parse(text);
-  const auto same = [&](const char* key) { return json.value(key, Json()) == json_.value(key, Json()); };
-  const bool lent = models_stay && json_.is_object() && json.is_object() && same("models") && same("materials");
+  const bool lent = models_stay && json_.is_object() && json.is_object() && animator::same_models(json, json_);
   animator::Film film = read(document.root(), lent);
   prepared_ = Prepared{std::move(json), std::move(film), lent};
   try {
@@ -100,7 +114,7 @@ void FilmWork::prepare(const std::string& text, bool models_stay) {
 }
 
 void FilmWork::accept() {
-  if (!prepared_->models_lent && !same_for_nodes(film_, prepared_->film)) ++shapes_revision_;
+  if (!same_for_nodes(film_, prepared_->film, prepared_->models_lent)) ++shapes_revision_;
   json_ = std::move(prepared_->json);
   film_ = std::move(prepared_->film);
   prepared_.reset();
@@ -111,7 +125,22 @@ void FilmWork::reject() {
   prepared_.reset();
 }
 
-std::string FilmWork::text_after(const Step& step, std::uint32_t frame, animator::Remarks& remarks) const {
+// Null: of another kind of step.
+std::unique_ptr<editing::FilmInMemory> FilmWork::edited_by(const Step& step) {
+  const auto commands = commands_of(step, path_.parent_path());
+  if (!commands) return nullptr;
+  auto edited = std::make_unique<editing::FilmInMemory>(json_, film_, path_, folder_);
+  if (const auto* const script = std::get_if<ScriptStep>(&step))
+    edited->give_script(path_.parent_path() / script->name, script->text);
+  edited->obey(*commands);
+  return edited;
+}
+
+std::string FilmWork::text_after(const Step& step, std::uint32_t frame, animator::Remarks& remarks) {
+  if (const auto edited = edited_by(step)) {
+    remarks = remarks_of(edited->done());
+    return document::laid_out(edited->json());
+  }
   Json json = json_;
   const auto done = [&](const auto& each) {
     if constexpr (requires { apply(json, film_, each, frame); })
@@ -124,6 +153,8 @@ std::string FilmWork::text_after(const Step& step, std::uint32_t frame, animator
 }
 
 void FilmWork::show(const Step& step, std::uint32_t frame) {
+  take_back();
+  if (auto edited = edited_by(step)) return show_edited(std::move(edited));
   const auto done = [&](const auto& each) {
     if constexpr (requires { gesture_.show(film_, true, each, frame); })
       gesture_.show(film_, rig_lights(), each, frame);
@@ -133,10 +164,43 @@ void FilmWork::show(const Step& step, std::uint32_t frame) {
   std::visit(done, step);
 }
 
-void FilmWork::describe(Json& project, std::uint32_t frame) const { describe_film(project, film_, json_, frame); }
+void FilmWork::show_edited(std::unique_ptr<editing::FilmInMemory> edited) {
+  film::check_camera(edited->film());
+  edited_ = std::move(edited);
+  if (shows_other_shapes()) ++shapes_revision_;
+}
+
+bool FilmWork::shows_other_shapes() const { return !same_for_nodes(film_, edited_->film(), edited_->lends()); }
+
+void FilmWork::take_back() {
+  gesture_.take_back(film_);
+  if (edited_ && shows_other_shapes()) ++shapes_revision_;
+  edited_.reset();
+}
+
+// Of those that commands change; where they change which actors there are, all.
+std::set<std::size_t> FilmWork::shown_actors() const {
+  if (!edited_) return gesture_.actors();
+  const Json& before = json_.at("actors");
+  const Json& now = edited_->json().at("actors");
+  std::set<std::size_t> changed;
+  for (std::size_t actor = 0; actor < now.size(); ++actor)
+    if (now.size() != before.size() || now[actor] != before[actor]) changed.insert(actor);
+  return changed;
+}
+
+Json FilmWork::channels(const std::vector<std::string>& things) { return channels_of(json_, film_, things); }
+
+Json FilmWork::curves(const CurvesWanted& wanted) {
+  if (!edited_) return curves_of(json_, film_, wanted);
+  Json shown = edited_->json();
+  return curves_of(shown, edited_->film(), wanted);
+}
+
+void FilmWork::describe(Json& project, std::uint32_t frame) const { describe_film(project, film(), json(), frame); }
 
 void FilmWork::describe_shown(Json& poses, std::uint32_t frame) const {
-  if (gesture_.actors().empty()) describe_camera_and_lights(poses, film_, json_, frame);
+  if (edited_ || gesture_.actors().empty()) describe_camera_and_lights(poses, film(), json(), frame);
 }
 
 }  // namespace mars::studio

@@ -23,6 +23,9 @@ class ModelSteps {
   Remarks operator()(const CameraStep&) { refuse("camera"); }
   Remarks operator()(const LightStep&) { refuse("lights"); }
 
+  Remarks operator()(const CommandsStep&) { refuse("keys, which commands could change"); }
+  Remarks operator()(const ScriptStep&) { refuse("actors, whom a script could move"); }
+
   Remarks operator()(const JointStep& step) {
     switch (step.verb) {
       case Verb::set: modeler::set_joint(json_, step.joint, step.change); break;

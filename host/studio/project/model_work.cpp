@@ -42,7 +42,7 @@ void ModelWork::accept() {
   take_shapes(false);
 }
 
-std::string ModelWork::text_after(const Step& step, std::uint32_t, animator::Remarks& remarks) const {
+std::string ModelWork::text_after(const Step& step, std::uint32_t, animator::Remarks& remarks) {
   Json json = json_;
   remarks = change_model(json, model(), step);
   return document::laid_out(json);

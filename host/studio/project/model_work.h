@@ -20,7 +20,7 @@ class ModelWork : public Work {
   void prepare(const std::string& text, bool models_stay) override;
   void accept() override;
   void reject() override { prepared_.reset(); }
-  std::string text_after(const Step& step, std::uint32_t frame, animator::Remarks& remarks) const override;
+  std::string text_after(const Step& step, std::uint32_t frame, animator::Remarks& remarks) override;
   bool kept_in_memory(const Step& step) override;
 
   void show(const Step& step, std::uint32_t frame) override;

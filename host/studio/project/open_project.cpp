@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "hal/failure/explain.h"
+#include "host/content/animator/film_settings.h"
 #include "host/content/document/file.h"
 #include "host/content/document/folder_lock.h"
 #include "host/content/document/whole_file.h"
@@ -18,6 +19,7 @@
 #include "host/studio/project/model_film.h"
 #include "host/studio/project/model_work.h"
 #include "host/studio/project/project.h"
+#include "host/studio/project/scripts.h"
 
 namespace mars::studio {
 namespace {
@@ -37,16 +39,18 @@ Problem problem_of(const std::exception& reason, const std::filesystem::path& pa
 
 class FileProject : public Project {
  public:
-  FileProject(std::filesystem::path path, bool model) : path_(std::move(path)), is_model_(model), journal_(path_) {
+  FileProject(std::filesystem::path path, bool model, std::filesystem::path folder)
+      : path_(std::move(path)), is_model_(model), journal_(path_), scripts_(path_, folder) {
     if (model)
       work_ = std::make_unique<ModelWork>(path_);
     else
-      work_ = std::make_unique<FilmWork>(path_);
+      work_ = std::make_unique<FilmWork>(path_, std::move(folder));
     document::RecordedReads reads;
     const auto text = document::read_file_if_there(path_, document::kLargestFileRead);
     on_disk_ = text.has_value();
-    work_->prepare(text ? *text : document::laid_out(new_model()), false);
-    accept(text ? *text : document::laid_out(new_model()));
+    const std::string content = text ? *text : document::laid_out(model ? new_model() : new_film(path_));
+    work_->prepare(content, false);
+    accept(content);
     good_ = reads.stamps();
     files_.set_read(good_);
     history_ = journal_.read(text_).value_or(History());
@@ -98,6 +102,7 @@ class FileProject : public Project {
     look_at_disk();
     refuse_while_broken();
     const std::string after = work_->text_after(step, frame_, remarks_);
+    if (const auto* const script = std::get_if<ScriptStep>(&step)) scripts_.write(*script);
     if (after == text_ && on_disk_) return;
     const HistoryEntry entry{time_now(), name_of(step), change_between(text_, after)};
     replace(after, [&] { journal_.write_step(entry, text_, after); });
@@ -136,6 +141,23 @@ class FileProject : public Project {
     return look_at_disk();
   }
 
+  std::uint64_t keys_revision() const override { return keys_revision_; }
+  Json channels(const std::vector<std::string>& things) override { return work_->channels(things); }
+  Json curves(const CurvesWanted& wanted) override { return work_->curves(wanted); }
+  Json scripts() const override { return scripts_.list(); }
+
+  Json check_script(const std::string& name, const std::string& text) override {
+    cancel();
+    animator::Remarks report;
+    std::optional<Problem> problem;
+    try {
+      work_->text_after(ScriptStep{checked_script_name(name), text}, frame_, report);
+    } catch (const std::exception& reason) {
+      problem = problem_of(reason, path_.parent_path() / name);
+    }
+    return {{"is", "script"}, {"name", name}, {"problem", described(problem)}, {"report", std::move(report)}};
+  }
+
   Json describe() const override {
     Json json{{"is", "project"},
               {"kind", is_model_ ? "model" : "film"},
@@ -147,7 +169,7 @@ class FileProject : public Project {
     work_->describe(json, frame_);
     json["undo"] = problem_ ? Json(kBreaking) : name_of(history_.to_undo());
     json["redo"] = problem_ ? Json() : name_of(history_.to_redo());
-    json["problem"] = problem_ ? Json{{"text", problem_->text}, {"line", problem_->line}} : Json();
+    json["problem"] = described(problem_);
     return json;
   }
 
@@ -173,6 +195,10 @@ class FileProject : public Project {
     throw Failure("does not fit the file", journal_.path().string(), "remove it; the history begins anew");
   }
 
+  static Json described(const std::optional<Problem>& problem) {
+    return problem ? Json{{"text", problem->text}, {"line", problem->line}} : Json();
+  }
+
   static Json name_of(const HistoryEntry* entry) { return entry ? Json(entry->name) : Json(); }
   static std::string name_of(const Step& step) { return studio::name_of(step); }
 
@@ -183,11 +209,21 @@ class FileProject : public Project {
     return model;
   }
 
+  // As `mars film` would begin it.
+  static Json new_film(const std::filesystem::path& path) {
+    const std::vector<editing::Command> commands{{"film", "add", "floor", "--model", "floor"},
+                                                 {"film", "light", "rig"}};
+    Json film = animator::new_film();
+    editing::edit_film(film, path, commands);
+    return film;
+  }
+
   void accept(const std::string& text) {
     work_->accept();
     text_ = text;
     frame_ = std::min(frame_, film().frames - 1);
     ++revision_;
+    ++keys_revision_;
   }
 
   // The file and what is open become this text, or stay as they are.
@@ -279,12 +315,13 @@ class FileProject : public Project {
   bool on_disk_ = false;
   std::unique_ptr<Work> work_;
   Journal journal_;
+  Scripts scripts_;
   History history_;
   document::FileStamps good_;  // of the files as they were read without a problem
   preview::WatchedFiles files_{{}};
   std::string text_;  // the last good one of the file
   std::uint32_t frame_ = 0;
-  std::uint64_t revision_ = 1;
+  std::uint64_t revision_ = 1, keys_revision_ = 1;
   std::optional<Problem> problem_;
   std::vector<std::string> remarks_;
 };
@@ -295,12 +332,14 @@ bool is_model(const document::Element& root) {
 
 }  // namespace
 
-std::unique_ptr<Project> open_project(const std::filesystem::path& file) {
-  if (!document::file_exists(file)) return std::make_unique<FileProject>(file, true);
+std::unique_ptr<Project> open_project(const std::filesystem::path& file, std::filesystem::path folder, NewFile begins) {
+  if (folder.empty()) folder = std::filesystem::absolute(file).parent_path();
+  if (!document::file_exists(file))
+    return std::make_unique<FileProject>(file, begins == NewFile::model, std::move(folder));
   if (film::is_compiled_film(file))
     throw Failure("is compiled: it has matrices, no keys", file.string(), "name the film file that it was made from");
   const document::Document document = document::read_document(file);
-  return std::make_unique<FileProject>(file, is_model(document.root()));
+  return std::make_unique<FileProject>(file, is_model(document.root()), std::move(folder));
 }
 
 }  // namespace mars::studio

@@ -17,10 +17,9 @@
 #include "host/content/animator/film.h"
 #include "host/content/document/json_file.h"
 #include "host/content/modeler/edit_shapes.h"
+#include "host/studio/project/animation.h"
 
 namespace mars::studio {
-
-using document::Json;
 
 // A file that cannot be read, or a step that makes no sense. What was open stays open.
 struct Problem {
@@ -76,10 +75,23 @@ class Project {
   virtual Json describe() const = 0;
   // What moves during gestures only: the joints' poses, places and turns at the frame ("poses").
   virtual Json describe_poses() const = 0;
+
+  // Goes up when keys of the film may be others; a gesture does not count.
+  virtual std::uint64_t keys_revision() const = 0;
+  // Its keys, as the file has them, and values over the frames, with what a gesture has changed (animation.h).
+  virtual Json channels(const std::vector<std::string>& things) = 0;
+  virtual Json curves(const CurvesWanted& wanted) = 0;
+  // What a step {"script": ...} would say, or the problem it has ("script"); a gesture ends. And those beside the film.
+  virtual Json check_script(const std::string& name, const std::string& text) = 0;
+  virtual Json scripts() const = 0;
 };
 
-// A file that is not there is a model of no joint yet, written with its first step. Throws Failure where the file
-// cannot be read at the start, or is no film or model.
-std::unique_ptr<Project> open_project(const std::filesystem::path& file);
+// What a file that is not there is, written with its first step: a model of one joint, or a film with a floor and lights.
+enum class NewFile { model, film };
+
+// Throws Failure where the file cannot be read at the start, or is no film or model. Steps read and write files below
+// `folder` alone; "": the file's own.
+std::unique_ptr<Project> open_project(const std::filesystem::path& file, std::filesystem::path folder = {},
+                                      NewFile begins = NewFile::model);
 
 }  // namespace mars::studio

@@ -24,10 +24,13 @@ bool same_segments(const modeler::Model& one, const modeler::Model& two) {
   return std::ranges::equal(one.joints, two.joints, {}, shape_of, shape_of);
 }
 
-bool same_shapes(const animator::Film& one, const animator::Film& two) {
+bool same_actors(const animator::Film& one, const animator::Film& two) {
   const auto model_of = [](const animator::Actor& actor) { return actor.model; };
-  return std::ranges::equal(one.actors, two.actors, {}, model_of, model_of) &&
-         std::ranges::equal(one.models, two.models, same_model);
+  return std::ranges::equal(one.actors, two.actors, {}, model_of, model_of);
+}
+
+bool same_shapes(const animator::Film& one, const animator::Film& two) {
+  return same_actors(one, two) && std::ranges::equal(one.models, two.models, same_model);
 }
 
 std::optional<std::size_t> pulled_shape(const modeler::Model& one, const modeler::Model& two) {

@@ -8,6 +8,7 @@
 
 namespace mars::studio {
 
+bool same_actors(const animator::Film& one, const animator::Film& two);  // have the same models, by their numbers
 bool same_shapes(const animator::Film& one, const animator::Film& two);
 bool same_segments(const modeler::Model& one, const modeler::Model& two);
 bool same_shape(const modeler::Shape& one, const modeler::Shape& two);

@@ -17,6 +17,9 @@ using document::Fields;
 using document::Kind;
 
 constexpr document::Range kDegrees{-1e6, 1e6};
+constexpr std::string_view kScript = ".script";
+constexpr std::size_t kLongestName = 100;
+constexpr std::size_t kMostCommands = 200, kMostWords = 500;  // of a step; of a command
 
 constexpr std::string_view kPoseNames[] = {"set", "actor", "joint", "pose"};
 constexpr std::string_view kPosesNames[] = {"set", "actor", "poses"};
@@ -32,6 +35,7 @@ constexpr std::string_view kPointNames[] = {"set", "actor", "joint", "patch", "p
 constexpr std::string_view kMirrorNames[] = {"mirror", "joint"};
 constexpr std::string_view kScaleNames[] = {"scale"};
 constexpr std::string_view kBodyNames[] = {"body", "height"};
+constexpr std::string_view kCommandsNames[] = {"commands"};
 constexpr std::string_view kJointChangeNames[] = {"name",     "parent", "place", "x_axis",  "y_axis",
                                                   "freedom",  "limits", "shape", "options", "sbb",
                                                   "material", "limb",   "reset"};
@@ -44,8 +48,8 @@ constexpr document::Keys kPose{"step", kPoseNames}, kPoses{"step", kPosesNames},
     kTurn{"step", kTurnNames}, kFigure{"step", kFigureNames}, kLight{"step", kLightNames},
     kCamera{"step", kCameraNames}, kJoint{"step", kJointNames}, kMaterial{"step", kMaterialNames},
     kPoint{"step", kPointNames}, kMirror{"step", kMirrorNames}, kScale{"step", kScaleNames}, kBody{"step", kBodyNames},
-    kJointChange{"change", kJointChangeNames}, kMaterialChange{"change", kMaterialChangeNames},
-    kLimits{"limits", kAxisNames};
+    kCommands{"step", kCommandsNames}, kJointChange{"change", kJointChangeNames},
+    kMaterialChange{"change", kMaterialChangeNames}, kLimits{"limits", kAxisNames};
 
 // As a page may also say that there is none: null.
 std::optional<Element> given(const Fields& fields, std::string_view key) {
@@ -240,6 +244,37 @@ BodyStep read_body(const Element& element) {
   return {document::read_text(fields.required("body")), number_given(fields, "height", {1e-6, document::kFarthest})};
 }
 
+editing::Command read_command(const Element& element) {
+  constexpr std::string_view kPrograms[] = {"animate", "film"};
+  document::require_kind(element, Kind::list);
+  editing::Command words;
+  for (const Element word : element) words.push_back(document::read_text(word));
+  if (words.empty() || words.size() > kMostWords)
+    element.refuse("has " + document::counted(words.size(), "word"), "write 1 to " + std::to_string(kMostWords));
+  document::read_choice(*element.begin(), kPrograms);
+  return words;
+}
+
+CommandsStep read_commands(const Element& element) {
+  const Fields fields(element, kCommands);
+  const Element list = fields.required("commands");
+  document::require_kind(list, Kind::list);
+  if (list.size() == 0 || list.size() > kMostCommands)
+    list.refuse("has " + document::counted(list.size(), "command"), "write 1 to " + std::to_string(kMostCommands));
+  CommandsStep step;
+  for (const Element command : list) step.commands.push_back(read_command(command));
+  return step;
+}
+
+// Its text is longer than texts of files are.
+ScriptStep read_script(const Json& json) {
+  const Json& script = json.at("script");
+  const auto is_text = [&](const char* key) { return script.contains(key) && script.at(key).is_string(); };
+  if (json.size() != 1 || !script.is_object() || script.size() != 2 || !is_text("name") || !is_text("text"))
+    throw Failure("has not the form of a script's step", "step", R"(write {"script": {"name": ..., "text": ...}})");
+  return {checked_script_name(script.at("name").get<std::string>()), script.at("text").get<std::string>()};
+}
+
 Step read_set(const Element& element, const Element& what) {
   constexpr std::string_view kWhat[] = {"pose",   "poses", "place", "turn",     "figure",
                                         "camera", "light", "joint", "material", "point"};
@@ -274,12 +309,22 @@ Step read_element(const Element& element) {
     return ScaleStep{modeler::read_proportions(*proportions)};
   }
   if (element.find("body")) return read_body(element);
-  element.refuse("is no step", "begin it with set, add, remove, mirror, scale or body");
+  if (element.find("commands")) return read_commands(element);
+  element.refuse("is no step", "begin it with set, add, remove, mirror, scale, body, commands or script");
 }
 
 }  // namespace
 
+std::string checked_script_name(const std::string& name) {
+  const auto is_odd = [](unsigned char c) { return c < ' ' || c == 127 || c == '/'; };
+  if (name.size() > kScript.size() && name.size() <= kLongestName && name.ends_with(kScript) && name.front() != '.' &&
+      std::ranges::none_of(name, is_odd))
+    return name;
+  throw Failure("is no name of a script", document::in_quotes(name), "name it like visit.script, without a folder");
+}
+
 Step read_step(const Json& json) {
+  if (json.is_object() && json.contains("script")) return read_script(json);
   const document::Document document(json.dump(-1, ' ', false, Json::error_handler_t::replace), "step");
   return read_element(document.root());
 }

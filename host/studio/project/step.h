@@ -9,12 +9,14 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "host/content/document/json_file.h"
 #include "host/content/modeler/edit.h"
 #include "host/content/modeler/edit_shapes.h"
 #include "host/content/modeler/limbs.h"
 #include "host/content/modeler/proportions.h"
+#include "host/editing/edit_film.h"
 
 namespace mars::studio {
 
@@ -75,8 +77,21 @@ struct BodyStep {
   std::optional<double> height;
 };
 
+// Words after `mars`, without the film.
+struct CommandsStep {
+  std::vector<editing::Command> commands;
+};
+
+// A script beside the film, written and applied.
+struct ScriptStep {
+  std::string name, text;
+};
+
 using Step = std::variant<FigureStep, CameraStep, LightStep, JointStep, MaterialStep, PointStep, MirrorStep, ScaleStep,
-                          BodyStep>;
+                          BodyStep, CommandsStep, ScriptStep>;
+
+// Throws Failure where it is no file's name that ends in ".script".
+std::string checked_script_name(const std::string& name);
 
 // Throws Failure.
 Step read_step(const Json& json);

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <set>
 #include <vector>
 
 #include "host/content/document/text.h"
@@ -69,6 +71,25 @@ std::string name_of_step(const MirrorStep& step) {
 std::string name_of_step(const ScaleStep&) { return "change the proportions"; }
 
 std::string name_of_step(const BodyStep& step) { return "begin as the figure '" + step.body + "'"; }
+
+// "walk tom", "move keys of tom", "add ball".
+std::string name_of_command(const editing::Command& words) {
+  constexpr std::string_view kOfKeys[] = {"move", "copy", "delete", "time", "reduce"};
+  const auto word = [&](std::size_t i) { return i < words.size() ? document::shortened(words[i]) : std::string(); };
+  const std::string verb = word(1), thing = word(2) == "--all" ? "all" : word(2);
+  if (thing.empty() || thing.starts_with('-')) return verb;
+  const bool keys = words[0] == "animate" && std::ranges::find(kOfKeys, verb) != std::end(kOfKeys);
+  return verb + (keys ? " keys of " : " ") + thing;
+}
+
+std::string name_of_step(const CommandsStep& step) {
+  std::set<std::string> names;
+  for (const editing::Command& words : step.commands) names.insert(name_of_command(words));
+  const std::string first = name_of_command(step.commands.front());
+  return names.size() == 1 ? first : first + " and " + std::to_string(names.size() - 1) + " more";
+}
+
+std::string name_of_step(const ScriptStep& step) { return "apply " + step.name; }
 
 }  // namespace
 

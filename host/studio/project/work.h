@@ -30,7 +30,7 @@ class Work {
   virtual void reject() = 0;
 
   // The text after the step, at the frame. Throws Failure where it makes no sense.
-  virtual std::string text_after(const Step& step, std::uint32_t frame, animator::Remarks& remarks) const = 0;
+  virtual std::string text_after(const Step& step, std::uint32_t frame, animator::Remarks& remarks) = 0;
   // A step that no file has: done, and true.
   virtual bool kept_in_memory(const Step& /*step*/) { return false; }
 
@@ -39,6 +39,14 @@ class Work {
   virtual void take_back() = 0;
   virtual bool shows() const = 0;
   virtual std::set<std::size_t> shown_actors() const = 0;  // that move while it shows
+
+  // As Project's; a model has no keys.
+  virtual Json channels(const std::vector<std::string>& /*things*/) {
+    return {{"is", "channels"}, {"things", Json::array()}};
+  }
+  virtual Json curves(const CurvesWanted& wanted) {
+    return {{"is", "curves"}, {"thing", wanted.thing}, {"first", wanted.first}, {"parts", Json::array()}};
+  }
 
   virtual std::vector<modeler::ControlPoint> control_points(const std::string& /*joint*/) const { return {}; }
   // Its lights are no things of the film.

@@ -1,10 +1,9 @@
 #include "host/studio/rendering/render_words.h"
 
-#include <algorithm>
 #include <array>
 
 #include "hal/failure/failure.h"
-#include "host/content/document/text.h"
+#include "host/content/document/file.h"
 
 namespace mars::studio {
 namespace {
@@ -25,16 +24,8 @@ std::string text_in(const Json& options, const char* name, const std::string& ot
 
 }  // namespace
 
-fs::path path_below(const fs::path& folder, const std::string& name) {
-  const fs::path top = fs::weakly_canonical(folder), path = fs::weakly_canonical(top / name);
-  const auto [end, in_path] = std::ranges::mismatch(top, path);
-  if (name.empty() || end != top.end())
-    throw Failure(document::in_quotes(name) + " is not below the studio's folder", "", "name one in " + top.string());
-  return path;
-}
-
 fs::path frames_folder(const Json& options, const fs::path& folder) {
-  const fs::path path = path_below(folder, text_in(options, "folder", "out"));
+  const fs::path path = document::path_below(folder, text_in(options, "folder", "out"));
   if (path == fs::weakly_canonical(folder)) throw Failure("frames need a folder of their own", "", "name one: out");
   return path;
 }
@@ -53,7 +44,7 @@ std::vector<std::string> render_words(const RenderingSettings& settings, const J
       words.push_back("--" + std::string(name) + "=" + text);
   if (const std::string nodes = text_in(options, "nodes", ""); !nodes.empty()) words.push_back("--nodes=" + nodes);
   if (const std::string file = text_in(options, "hostfile", ""); !file.empty())
-    words.push_back("--hostfile=" + path_below(settings.folder, file).string());
+    words.push_back("--hostfile=" + document::path_below(settings.folder, file).string());
   return words;
 }
 

@@ -9,9 +9,6 @@
 
 namespace mars::studio {
 
-// A file or folder that a page names, below `folder`. Throws Failure where it is not.
-std::filesystem::path path_below(const std::filesystem::path& folder, const std::string& name);
-
 // The folder for frames in options of a `render` message.
 std::filesystem::path frames_folder(const Json& options, const std::filesystem::path& folder);
 

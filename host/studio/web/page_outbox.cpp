@@ -17,7 +17,10 @@ constexpr double kBandSeconds = 0.05;  // that a band takes, about
 constexpr double kDeflatedTo = 0.3;    // of the bytes of pixels, about
 constexpr std::uint32_t kFewestRows = 16;
 
-bool replaces(const std::string& kind) { return kind == "project" || kind == "poses" || kind == "state"; }
+bool replaces(const std::string& kind) {
+  constexpr std::string_view kKinds[] = {"project", "poses", "state", "channels", "curves"};
+  return std::ranges::find(kKinds, kind) != std::end(kKinds);
+}
 
 std::optional<std::uint32_t> number_in(const Json& message, const char* name) {
   const auto found = message.find(name);

@@ -1,7 +1,7 @@
-// What is to be sent to one page. Nothing piles up: of texts that replace one another (the project, its poses, the
-// renderer's state) only the newest is kept, and a view's picture is encoded only once the page has painted all but one
-// of those before. What a view got with losses it gets without as soon as nothing newer comes, in bands that a newer
-// picture need not wait long for. Knows no network; `now` is given.
+// What is to be sent to one page. Nothing piles up: of texts that replace one another (the project, its poses, its
+// channels and curves, the renderer's state) only the newest is kept, and a view's picture is encoded only once the
+// page has painted all but one of those before. What a view got with losses it gets without as soon as nothing newer
+// comes, in bands that a newer picture need not wait long for. Knows no network; `now` is given.
 #pragma once
 
 #include <chrono>

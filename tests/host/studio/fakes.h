@@ -54,6 +54,12 @@ class FakeProject final : public studio::Project {
   Json describe() const override { return {{"is", "project"}, {"shown", shown_}, {"frame", frame_}}; }
   Json describe_poses() const override { return {{"is", "poses"}, {"shown", shown_}}; }
 
+  std::uint64_t keys_revision() const override { return written.size(); }
+  Json channels(const std::vector<std::string>& things) override { return {{"is", "channels"}, {"things", things}}; }
+  Json curves(const studio::CurvesWanted& wanted) override { return {{"is", "curves"}, {"thing", wanted.thing}}; }
+  Json check_script(const std::string& name, const std::string&) override { return {{"is", "script"}, {"name", name}}; }
+  Json scripts() const override { return {{"is", "scripts"}}; }
+
   bool outside_change = false;
   std::vector<std::string> written;
 

@@ -119,25 +119,27 @@ constexpr Parameter kGo[] = {{"to", "X Y Z", "the actor's place then; needed", "
                              {"ease", "EASE", "linear, in, out or both; default: both", "out"}};
 
 const Action kActions[] = {
-    {"walk", "Walk: some steps, a distance, to a place, or along a bow", kWalk, walk},
-    {"run", "Run: some steps, a distance, to a place, or along a bow", kRun, run},
-    {"jump", "Jump from both feet to both feet, up, forward or turning", kJump, jump},
-    {"trot", "Trot, on four legs", kTrot, trot},
-    {"gallop", "Gallop, on four legs", kGallop, gallop},
-    {"turn", "Turn on the spot, by stepping", kTurn, turn},
-    {"sit", "Sit down on a seat behind, or on one of the film", kSit, sit},
-    {"stand", "Stand up from sitting", kStand, stand},
-    {"reach", "Bring a hand, a foot or another joint to a place", reach_parameters(), reach},
-    {"plant", "Keep feet or hands where they are, whatever the rest does", plant_parameters(), plant},
-    {"pick", "Bend down or reach out for an actor and take it", pick_parameters(), pick},
-    {"put", "Put down at a place what a hand holds", put_parameters(), put},
-    {"toss", "Toss what a hand holds to a place; it bounces", toss_parameters(), toss},
-    {"nod", "Nod with head and neck", kNod, nod},
-    {"wave", "Raise a hand, wave and lower it", kWave, wave},
-    {"throw", "Fly with a velocity and an acceleration", kThrow, fling},
-    {"bounce", "Fall and bounce on a floor until at rest", kBounce, bounce},
-    {"spin", "Spin evenly about an axis of the world", kSpin, spin},
-    {"go", "Go straight to a place", kGo, go},
+    {"walk", "Walk: some steps, a distance, to a place, or along a bow", "hips, ankles", kWalk, walk},
+    {"run", "Run: some steps, a distance, to a place, or along a bow", "hips, knees, ankles", kRun, run},
+    {"jump", "Jump from both feet to both feet, up, forward or turning", "hips, knees, ankles", kJump, jump},
+    {"trot", "Trot, on four legs", "hips, ankles, shoulders", kTrot, trot},
+    {"gallop", "Gallop, on four legs", "hips, ankles, shoulders", kGallop, gallop},
+    {"turn", "Turn on the spot, by stepping", "hips, ankles", kTurn, turn},
+    {"sit", "Sit down on a seat behind, or on one of the film", "hips, knees, ankles", kSit, sit},
+    {"stand", "Stand up from sitting", "hips, knees, ankles", kStand, stand},
+    {"reach", "Bring a hand, a foot or another joint to a place", "the limb that reaches", reach_parameters(), reach},
+    {"plant", "Keep feet or hands where they are, whatever the rest does", "the limbs that stay", plant_parameters(),
+     plant},
+    {"pick", "Bend down or reach out for an actor and take it", "hips, ankles, shoulder, elbow", pick_parameters(),
+     pick},
+    {"put", "Put down at a place what a hand holds", "hips, ankles, shoulder, elbow", put_parameters(), put},
+    {"toss", "Toss what a hand holds to a place; it bounces", "hips, ankles, shoulder, elbow", toss_parameters(), toss},
+    {"nod", "Nod with head and neck", "head or neck", kNod, nod},
+    {"wave", "Raise a hand, wave and lower it", "shoulder, elbow", kWave, wave},
+    {"throw", "Fly with a velocity and an acceleration", "", kThrow, fling},
+    {"bounce", "Fall and bounce on a floor until at rest", "", kBounce, bounce},
+    {"spin", "Spin evenly about an axis of the world", "", kSpin, spin},
+    {"go", "Go straight to a place", "", kGo, go},
 };
 
 // Everything that the keys hold, as one key.
@@ -205,9 +207,13 @@ const Action* find_action(std::string_view name) {
 
 Performed perform(document::Json& json, const std::filesystem::path& path, const std::string& name,
                   const Action& action, std::optional<std::uint32_t> at, const Arguments& arguments) {
-  animator::actor_of(json, name);  // refuses what is no actor
   const document::Document document(document::laid_out(json), path.string());
-  const animator::Film film = animator::read_film(document.root(), path.parent_path());
+  return perform(json, animator::read_film(document.root(), path.parent_path()), name, action, at, arguments);
+}
+
+Performed perform(document::Json& json, const animator::Film& film, const std::string& name, const Action& action,
+                  std::optional<std::uint32_t> at, const Arguments& arguments) {
+  animator::actor_of(json, name);  // refuses what is no actor
   const animator::Actor& actor =
       *std::find_if(film.actors.begin(), film.actors.end(), [&](const animator::Actor& a) { return a.name == name; });
   if (!actor.matrices.empty())

@@ -19,6 +19,7 @@ namespace mars::motion {
 struct Action {
   std::string_view name;
   std::string_view purpose;
+  std::string_view needs;  // limbs that the actor's model must name: "hips, ankles"; "": none, any actor can
   std::span<const Parameter> parameters;
   Motion (*perform)(const Scene& scene);
 };
@@ -32,8 +33,11 @@ struct Performed {
   std::string report;
 };
 
-// Has an actor of the film do something; the film stays as long as it is. `path` is the film file's, beside which its
-// models are. Without `at` the action begins at the actor's last key.
+// Has an actor of the film do something; the film stays as long as it is. `film` is what `json` means. Without `at` the
+// action begins at the actor's last key.
+Performed perform(document::Json& json, const animator::Film& film, const std::string& name, const Action& action,
+                  std::optional<std::uint32_t> at, const Arguments& arguments);
+// The same of the film file at `path`, beside which its models are.
 Performed perform(document::Json& json, const std::filesystem::path& path, const std::string& name,
                   const Action& action, std::optional<std::uint32_t> at, const Arguments& arguments);
 
