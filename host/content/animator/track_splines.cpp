@@ -20,16 +20,26 @@ Key<glm::dvec3> numbers_of_key(const TrackKey& key) {
 struct Near {
   Channel<glm::dvec3> keys;
   std::size_t key;
+  std::vector<const document::Json*> values{};
 };
 
 Near near(const Track& track, std::size_t key) {
   const std::size_t first = key == 0 ? 0 : key - 1, end = std::min(key + 3, track.size());
   Near found{{}, key - first};
-  for (std::size_t i = first; i < end; ++i) found.keys.push_back(numbers_of_key(track[i]));
+  for (std::size_t i = first; i < end; ++i) {
+    found.keys.push_back(numbers_of_key(track[i]));
+    found.values.push_back(&track[i].value);
+  }
   return found;
 }
 
+// Points of actors have no numbers.
+bool has_numbers(const Near& near) {
+  return std::ranges::none_of(near.values, [](const document::Json* value) { return value->is_object(); });
+}
+
 void keep_slopes_at(Track& track, std::size_t key) {
+  if (!has_numbers(near(track, key))) return;
   const document::Json slope = own_slope(track, key);
   if (key > 0 && track[key - 1].ease.spline && track[key].in.is_null()) track[key].in = slope;
   if (track[key].ease.spline && track[key].out.is_null()) track[key].out = slope;
@@ -64,6 +74,7 @@ void split_spline(Track& track, std::size_t from, TrackKey& key) {
   key.ease = kSpline;
   const double time = double(key.frame - track[from].frame) / double(track[from + 1].frame - track[from].frame);
   const Near found = near(track, from);
+  if (!has_numbers(found)) return;
   key.in = key.out = shaped_like(key.value, spline_slope_at(found.keys, {found.key, found.key + 1, time}));
   for (const std::size_t end : {from, from + 1}) keep_slopes_at(track, end);
 }

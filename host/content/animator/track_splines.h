@@ -17,10 +17,11 @@ document::Json shaped_like(const document::Json& like, const glm::dvec3& numbers
 document::Json own_slope(const Track& track, std::size_t key);
 
 // Writes the slopes with which splines reach and leave the key at the frame where it has none, so that they stay
-// whatever its neighbours become.
+// whatever its neighbours become. Points of actors, which are elsewhere in every frame, get none.
 void keep_slopes(Track& track, std::uint32_t frame);
 
 // `key` is to stand on the spline from track[from] to the next key: the cubic becomes two, with the slopes that it has.
+// Not between points of actors.
 void split_spline(Track& track, std::size_t from, TrackKey& key);
 
 // Multiplies the slopes of splines between `first` and `last`.

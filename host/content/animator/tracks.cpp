@@ -12,6 +12,9 @@ using Held = std::map<std::string, const TrackKey*>;
 
 bool before(const TrackKey& key, std::uint32_t frame) { return key.frame < frame; }
 
+// What carries an actor stays from key to key: it has no ease.
+bool has_ease(const std::string& part) { return part != "attach"; }
+
 // Whether anything changes on the way to the next key.
 bool leads_on(const Track& track, const TrackKey& key) {
   const TrackKey* next = &key + 1;
@@ -23,6 +26,7 @@ bool leads_on(const Track& track, const TrackKey& key) {
 Ease common_ease(const Tracks& tracks, const Held& held, const document::Json& old) {
   std::vector<Ease> eases, all;
   for (const auto& [part, key] : held) {
+    if (!has_ease(part)) continue;
     all.push_back(key->ease);
     if (leads_on(tracks.at(part), *key)) eases.push_back(key->ease);
   }
@@ -35,7 +39,7 @@ Ease common_ease(const Tracks& tracks, const Held& held, const document::Json& o
 // The part's value, as an object where its slopes or its ease are its own.
 document::Json value_of(const Tracks& tracks, const std::string& part, const TrackKey& key, const Ease& common) {
   const bool own_ease = key.ease != common && (key.own_ease || leads_on(tracks.at(part), key));
-  if (!own_ease && key.in.is_null() && key.out.is_null()) return key.value;
+  if (!has_ease(part) || (!own_ease && key.in.is_null() && key.out.is_null())) return key.value;
   document::Json value = {{"value", key.value}};
   if (own_ease) value["ease"] = written(key.ease);
   if (!key.in.is_null()) value["in"] = key.in;

@@ -217,6 +217,18 @@ TEST(Tangent, SetsSlopesOfAxesAndMakesSplines) {
   EXPECT_TRUE(document::holds(document::failure_of([&] { set("place", {"1", {}}); }), "has 1 number"));
 }
 
+TEST(OwnEase, WhatCarriesAnActorHasNone) {
+  Arm arm(R"([{"frame": 0, "place": [0, 0, 0], "ease": "spline"}, {"frame": 20, "place": [1, 0, 0]}])");
+  arm.json["actors"].push_back({{"name", "rod"}, {"model", "arm"}});
+  arm.actor()["keys"][0]["attach"] = {{"actor", "rod"}};
+  arm.actor()["keys"][1]["attach"] = nullptr;
+  arm.read();
+  arm([](document::Json& j, const Film& f) { return make_keys(j, f, kIt, 8, kBoth, Beyond::refused); });
+  arm([](document::Json& j, const Film& f) { return hold(j, f, kIt, 4, 3); });
+  for (const document::Json& key : arm.keys())
+    EXPECT_FALSE(key.value("attach", document::Json()).contains("value")) << key;
+}
+
 TEST(PutKeys, TakeSlopesAndLeaveTheEaseOfOthers) {
   Arm arm(
       R"([{"frame": 0, "pose": {"elbow": [0, 5, 0]}, "ease": "both"}, {"frame": 9, "pose": {"elbow": [0, 50, 0]}}])");
