@@ -48,7 +48,8 @@ TEST(PutKeys, AnEaseReplacesTheOneOfItsFrame) {
   const std::string before = R"(, "keys": [{"frame": 5, "turn": [0, 0, 2], "ease": "in"}])";
   EXPECT_EQ(after(before, {{5, {}, glm::dvec3(0, 0, 2), {}, kLinear}}).dump(),
             R"({"keys":[{"frame":5,"turn":[0,0,2],"ease":"linear"}]})");
-  EXPECT_EQ(after(before, {{5, {}, glm::dvec3(0, 0, 3), {}, Ease{0.5, -0.25, 1, 1}}})["keys"][0]["ease"].dump(), "[0.5,-0.25,1,1]");
+  EXPECT_EQ(after(before, {{5, {}, glm::dvec3(0, 0, 3), {}, Ease{0.5, -0.25, 1, 1}}})["keys"][0]["ease"].dump(),
+            "[0.5,-0.25,1,1]");
 }
 
 TEST(PutKeys, StillValuesOfWhatIsKeyedBecomeKeysOfFrame0) {

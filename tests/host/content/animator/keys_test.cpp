@@ -138,15 +138,19 @@ TEST(Pose, TellsWhatItDoesNotUnderstand) {
             "'elbow.y=30': sets what an earlier word has set (give each part and axis once)");
   EXPECT_TRUE(document::holds(told_twice({"place=1,2,3", "place.z=3"}), "'place.z=3': sets what"));
   const std::vector<std::string> eye = {"eye=1,2"};
-  EXPECT_TRUE(document::holds(
-      document::failure_of([&] { pose(scene.json, scene.film, "camera", eye, {3, 3}, {}, Beyond::refused); }),
-      "has 2 numbers (write one number for one axis, like eye.y=-9, or three for all: eye=0,-9,2)"));
+  EXPECT_TRUE(
+      document::holds(document::failure_of([&] {
+                        pose(scene.json, scene.film, "camera", eye, {3, 3}, {}, Beyond::refused);
+                      }),
+                      "has 2 numbers (write one number for one axis, like eye.y=-9, or three for all: eye=0,-9,2)"));
 }
 
 TEST(Pose, TheCameraIsSetToo) {
   Scene scene("");
   const std::vector<std::string> settings = {"eye.x=4", "fov=30"};
-  scene([&](document::Json& j, const Film& f) { return pose(j, f, "camera", settings, {10, 10}, {}, Beyond::refused); });
+  scene([&](document::Json& j, const Film& f) {
+    return pose(j, f, "camera", settings, {10, 10}, {}, Beyond::refused);
+  });
   EXPECT_EQ(scene.json["camera"].dump(),
             R"({"keys":[{"frame":0,"eye":[0,-9,2],"fov":40},{"frame":10,"eye":[4,-9,2],"fov":30}]})");
 }
@@ -343,8 +347,9 @@ TEST(KeysTable, ShowsWhatIsFree) {
 
 Remarks posed(Scene& scene, const std::string& setting, std::uint32_t frame, std::optional<Ease> ease = {}) {
   const std::vector<std::string> settings = {setting};
-  return scene(
-      [&](document::Json& j, const Film& f) { return pose(j, f, "it", settings, {frame, frame}, ease, Beyond::refused); });
+  return scene([&](document::Json& j, const Film& f) {
+    return pose(j, f, "it", settings, {frame, frame}, ease, Beyond::refused);
+  });
 }
 
 TEST(SideEffects, ATurnThatGoesBackIsToldAndHowToGoRound) {
