@@ -324,6 +324,7 @@ Played play_script(document::Json& film, const std::filesystem::path& path, cons
     player.play(std::string_view(script).substr(start, end - start), ++number);
     start = end + 1;
   }
+  animator::write_version(changed);
   film = std::move(changed);
   return player.played();
 }
