@@ -13,6 +13,9 @@
 namespace mars::studio {
 namespace {
 
+// Frames with keys, of all things: more would be too much for a page at each change.
+constexpr std::size_t kMostFramesTold = 5000;
+
 using animator::KeyedPart;
 using animator::Thing;
 
@@ -73,6 +76,10 @@ Json described(const Thing& thing) {
   return {{"thing", word_of(thing)}, {"kind", kind_of(thing)}, {"parts", std::move(parts)}};
 }
 
+Json named(const Thing& thing) {
+  return {{"thing", word_of(thing)}, {"kind", kind_of(thing)}, {"parts", Json::array()}};
+}
+
 // None where the film has none of this name that has keys.
 std::optional<Thing> thing_named(Json& json, const animator::Film& film, const std::string& name) {
   try {
@@ -121,9 +128,12 @@ Json described(const motion::Parameter& parameter) {
 Json channels_of(Json& json, const animator::Film& film, const std::vector<std::string>& things) {
   Json told = Json::array();
   const bool all = things == std::vector<std::string>{"*"};
+  std::size_t keys = 0;
   if (all)
     for (const animator::Chosen& each : animator::choose(json, film, {true, "", {}})) {
-      if (each.thing.json->contains("keys")) told.push_back(described(each.thing));
+      if (!each.thing.json->contains("keys")) continue;
+      keys += each.thing.json->at("keys").size();
+      told.push_back(keys <= kMostFramesTold ? described(each.thing) : named(each.thing));
     }
   else
     for (const std::string& name : things)

@@ -123,7 +123,7 @@ TEST_F(Files, AnOutsideChangeEndsAGesture) {
 }
 
 TEST_F(Files, WhatIsNoFilmOrModelIsNotOpened) {
-  write("broken.json", "{\"frames\": 1,\n \"camera\": 3}");
+  write("broken.json", "{\"models\": {},\n \"frames\": 0}");
   EXPECT_TRUE(holds(refusal([&] { open("broken.json"); }), "broken.json:2"));
   write("list.json", "[1, 2]");
   refusal([&] { open("list.json"); });
