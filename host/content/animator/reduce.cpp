@@ -33,9 +33,10 @@ double angle_between(const glm::dmat3& one, const glm::dmat3& other) {
   return turn_between(one, other).angle / modeler::kDegree;
 }
 
-// The actor's size, or how far the camera is from what it looks at.
+// The actor's size, or how far the camera is from what it looks at; 1 for other things, of which nothing is reduced.
 double size_of(const Film& film, const Chosen& chosen) {
   if (!chosen.thing.actor) {
+    if (chosen.thing.name != "camera") return 1;
     const Thing& camera = chosen.thing;
     return glm::length(numbers_of(camera.part("eye").value_at(0)) - numbers_of(camera.part("at").value_at(0)));
   }

@@ -220,6 +220,8 @@ void read_words(CLI::App& app, const std::vector<std::string>& words) {
   };
   try {
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // it takes them from the end
+  } catch (const CLI::Success&) {
+    refuse("asks for help, which is shown in a terminal only");
   } catch (const CLI::ParseError& error) {
     refuse(explained(app, error));
   }

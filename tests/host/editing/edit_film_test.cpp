@@ -41,7 +41,16 @@ TEST(EditFilm, ExplainsWordsThatItDoesNotKnow) {
   EXPECT_NE(failure_of({"animate", "pose", "camera", "fov=30"}).find("--frame"), std::string::npos);
   EXPECT_NE(failure_of({}), "");
   EXPECT_NE(failure_of({"animate"}), "");
-  EXPECT_NE(failure_of({"animate", "--help"}), "");
+  EXPECT_NE(failure_of({"animate", "--help"}).find("asks for help"), std::string::npos);
+  EXPECT_NE(failure_of({"animate", "walk", "robot", "--help"}).find("asks for help"), std::string::npos);
+}
+
+TEST(EditFilm, ReducesNoKeysOfLights) {
+  document::Json film = document::read_json(kFilm);
+  film["lights"] = {{{"direction", {0, 0, 1}}, {"keys", {{{"frame", 0}, {"intensity", 1}}}}}};
+  const Command reduce = {"animate", "reduce", "light/1", "--error", "1"};
+  const std::string failure = document::failure_of([&] { edit_film(film, kFilm, std::span(&reduce, 1)); });
+  EXPECT_NE(failure.find("'light/1': has no part with three keys or more"), std::string::npos) << failure;
 }
 
 }  // namespace
