@@ -25,9 +25,10 @@ animator::Film meaning_of(const Json& json, const fs::path& path, Read read) {
     const document::Document document(json.dump(), path.string());
     return read(document.root());
   } catch (const Failure&) {
-    const document::Document document(document::laid_out(json), path.string());
-    return read(document.root());
+  } catch (const Json::type_error&) {  // words that are not UTF-8, which laid_out() refuses
   }
+  const document::Document document(document::laid_out(json), path.string());
+  return read(document.root());
 }
 
 }  // namespace
