@@ -139,10 +139,11 @@ class Handling {
     const glm::dvec3 feet = 0.5 * (stance.feet[0].ankle + stance.feet[1].ankle);
     glm::dvec3 way = to_ - feet;
     way.z = 0;
-    const double far = glm::length(way), near = 0.75 * hand_.length();
-    const glm::dvec3 beside = glm::dvec3(-way.y, way.x, 0) * (0.2 * sign_of(hand_.side) / std::max(far, 1e-9));
-    const glm::dvec3 place =
-        far > near ? to_ - (near / far) * way - beside * hand_.length() / std::max(far, 1e-9) : feet;
+    const double far = glm::length(way), near = 0.5 * hand_.length();
+    // Beside the thing, but not so far that a short way there would turn the figure away from it.
+    const double beside = 0.2 * hand_.length() * std::clamp((far - near) / (2 * near), 0.0, 1.0);
+    const glm::dvec3 across = glm::dvec3(-way.y, way.x, 0) * (sign_of(hand_.side) / std::max(far, 1e-9));
+    const glm::dvec3 place = far > near ? to_ - (near / far) * way - beside * across : feet;
     const auto text = [](double value) { return document::shown(std::round(value * 100) / 100 + 0.0); };
     throw Failure("its " + std::string(kHands[index_of(hand_.side)]) + " hand cannot reach " + text(to_.x) + " " +
                       text(to_.y) + " " + text(to_.z) +
