@@ -120,31 +120,36 @@ class TutorialsFilmTest(StudioInBrowser):
 
     # ---- what is taken back
 
-    def undone(self, act):
-        """What `act` changes, undo and redo, by the keyboard, put away and back; it is left undone."""
+    def file_becomes(self, text):
+        wait_until(lambda: self.file.read_text() == text, SECONDS, "the file's text")
+
+    def file_changed_by(self, act):
         before = self.file.read_text()
-        steps = act()
+        act()
+        wait_until(lambda: self.file.read_text() != before, SECONDS, "a change of the file")
+
+    def undone(self, act, steps):
+        """Undo and redo take away and bring back, by the keyboard, what `act` changes; it is left undone."""
+        before = self.file.read_text()
+        act()
         changed = self.file.read_text()
-        self.assertNotEqual(changed, before)
         for text, key, held in ((before, "z", CTRL), (changed, "Z", CTRL | SHIFT), (before, "z", CTRL)):
             for _ in range(steps):
-                self.changed_by(lambda: self.keys(key, modifiers=held))
-            self.assertEqual(self.file.read_text(), text)
+                self.keys(key, modifiers=held)
+            self.file_becomes(text)
 
     def drag_key(self):
         self.pick_keys_of("head", frame=285)
-        begin = self.key_at("head", 285)
-        self.changed_by(lambda: self.browser.drag(begin, self.key_at("head", 276)))
+        self.file_changed_by(lambda: self.browser.drag(self.key_at("head", 285), self.key_at("head", 276)))
         self.assertEqual([key["frame"] for key in self.pip()["keys"]][-3:], [267, 276, 285])
-        return 1
 
-    def pull_slope(self):
+    def flatten_slope(self):
         """The curve goes on from its key at frame 267 as a spline that rests there."""
         self.pick_keys_of("neck")
         self.keys("e", "e")
-        self.changed_by(lambda: self.choose_entry("Spline"))
-        self.changed_by(lambda: self.click('[data-key="key.flat"]'))
-        return 2
+        self.file_changed_by(lambda: self.choose_entry("Spline"))
+        self.file_changed_by(lambda: self.click('[data-key="key.flat"]'))
+        self.assertIn('"out": [0, 0, 0]', self.file.read_text())
 
     def pip(self):
         return json.loads(self.file.read_text())["actors"][1]
@@ -202,10 +207,10 @@ class TutorialsFilmTest(StudioInBrowser):
         self.begin_film()
         self.move_figure()
         self.keys_by_hand()
-        self.assertEqual(self.file.read_text(), (self.by_commands / "film.json").read_text())
+        self.file_becomes((self.by_commands / "film.json").read_text())
         self.ghosts_show()
-        self.undone(self.drag_key)
-        self.undone(self.pull_slope)
+        self.undone(self.drag_key, steps=1)
+        self.undone(self.flatten_slope, steps=2)
         self.no_complaint()
         self.assertEqual(studio.end(), (0, ""))
 
