@@ -91,10 +91,9 @@ void add_look(CLI::App& animate, const Typed& words) {
   CLI::App* app = add_camera(animate, words, "look", "Let the camera look at an actor or a joint, wherever it goes",
                              "Instead: look on where it looks then. Example: --end");
   add_vector(*app, "--offset", words->offset,
-             "From the joint, along the world's axes; default: 0 0 0. Example: --offset 0 0 0.2");
-  app->callback([words] {
-    change_camera(*words, {"at", vector_of(words->offset).value_or(glm::dvec3(0)), false, false});
-  });
+             "From the joint, along the world's axes; default: the joint itself, the middle of an actor. "
+             "Example: --offset 0 0 0.2");
+  app->callback([words] { change_camera(*words, {"at", vector_of(words->offset), false, false}); });
 }
 
 void add_follow(CLI::App& animate, const Typed& words) {

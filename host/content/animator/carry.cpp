@@ -10,6 +10,7 @@
 #include "host/content/animator/edit.h"
 #include "host/content/animator/written.h"
 #include "host/content/document/fields.h"
+#include "host/content/modeler/frames.h"
 
 namespace mars::animator {
 namespace {
@@ -117,6 +118,17 @@ void detach(document::Json& film, const Film& meaning, const std::string& name, 
   put_keys(film, name, {&key, 1});
 }
 
+namespace {
+
+// What to look at: the joint itself, or of a whole figure the middle of its height, not the feet.
+glm::dvec3 middle_of(const Film& meaning, const Target& target) {
+  if (target.joint != modeler::kNone) return glm::dvec3(0);
+  const auto bounds = modeler::rest_bounds(meaning.models[meaning.actors[target.actor].model]);
+  return bounds ? glm::dvec3(0, 0, document::rounded_to((bounds->min.z + bounds->max.z) / 2, 3)) : glm::dvec3(0);
+}
+
+}  // namespace
+
 Remarks follow(document::Json& film, const Film& meaning, const std::string& to, std::uint32_t frame,
                const Following& following) {
   const Target target = target_named(meaning, to);
@@ -127,6 +139,7 @@ Remarks follow(document::Json& film, const Film& meaning, const std::string& to,
   const glm::dvec3 away = now - axes.place;
   point.offset = rounded(point.joint_axes ? glm::transpose(axes.turn) * away : away);
   if (point.level) point.offset.z = rounded(now.z);
+  if (following.part == "at") point.offset = middle_of(meaning, target);
   if (following.offset) point.offset = *following.offset;
   return put_point(film, meaning, following.part, point, frame);
 }

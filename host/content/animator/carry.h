@@ -25,7 +25,8 @@ void detach(document::Json& film, const Film& meaning, const std::string& actor,
 // A point of the camera: "eye" or "at".
 struct Following {
   std::string part;
-  std::optional<glm::dvec3> offset;  // none: as it is at the frame
+  // None: as "eye" is at the frame; "at" looks at the joint, or at the middle of the actor's height.
+  std::optional<glm::dvec3> offset;
   bool joint_axes = false, level = false;
 };
 

@@ -224,7 +224,6 @@ class Player {
     const bool looks = verb == "look";
     const std::string to = line.take("an actor or its joint, as in tom/head");
     animator::Following following{looks ? "at" : "eye", std::nullopt};
-    if (looks) following.offset = glm::dvec3(0);
     while (!line.empty() && !line.next_is("as")) {
       const std::string word = line.take("");
       if (word == "level" && !looks)
