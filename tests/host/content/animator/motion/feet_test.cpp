@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "host/content/animator/motion/body.h"
+#include "host/content/animator/reduce.h"
 #include "host/content/film/compile.h"
 #include "tests/host/content/animator/motion/bodies.h"
 #include "tests/host/content/modeler/surface.h"
@@ -150,6 +151,18 @@ TEST(Feet, OfAllBuildsStayWhereTheyStandInAWalk) {
     Feet feet(film, performed, build.leg);
     feet.expect_footing(build.name + " walks");
     EXPECT_NEAR(glm::length(feet.way()) / build.leg, 5 * 0.616, 0.05) << build.name;
+  }
+}
+
+// With less than half of its keys, as splines: no longer to 2 mm, but to 3.
+TEST(Feet, StayInAWalkWhoseKeysAreReduced) {
+  for (const Build& build : people()) {
+    document::Json film = film_with(build.model);
+    const Performed performed = act(film, "walk steps 6", 5);
+    const animator::Reduction done =
+        animator::reduce_keys(film, read(film), {false, "anna", {}}, {0, performed.last}, {0.03, {}});
+    EXPECT_LT(2 * done.keys_after, done.keys_before) << build.name;
+    Feet(film, performed, build.leg).expect_footing(build.name + " walks on few keys", 1.5 * kSlide);
   }
 }
 
