@@ -11,6 +11,12 @@ namespace {
 
 constexpr std::uint64_t kMostMatrices = 200'000;  // of a film whose intervals are cut between two pictures
 
+// Whether it is a figure, not a floor or a chair.
+bool has_limbs(const modeler::Model& model) {
+  return model.limbs.of(modeler::Trunk::pelvis) != modeler::kNone ||
+         model.limbs.of(modeler::Limb::hip, modeler::Side::left) != modeler::kNone;
+}
+
 }  // namespace
 
 bool moves(const animator::Actor& actor) {
@@ -91,8 +97,11 @@ std::span<const wire::Patch> Moments::patches_of(std::size_t segment) const {
 
 preview::Ball Moments::subject() const {
   const animator::Film& film = project_.film();
+  const bool any_moves = std::ranges::any_of(film.actors, moves);
   const auto counts = [&](const Owner& owner) {
-    return project_.is_model() ? owner.actor == 0 : moves(film.actors[owner.actor]);
+    if (project_.is_model()) return owner.actor == 0;
+    const animator::Actor& actor = film.actors[owner.actor];
+    return any_moves ? moves(actor) : has_limbs(film.models[actor.model]);
   };
   const bool any = std::any_of(owners_.begin(), owners_.end(), counts);
   glm::dvec3 low(1e300), high(-1e300);

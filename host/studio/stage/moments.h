@@ -50,7 +50,7 @@ class Moments {
   const wire::Matrix& matrix_of(std::size_t segment) const { return now_.matrices[segment]; }
   // The patches of a segment's shape, wherever they are.
   std::span<const wire::Patch> patches_of(std::size_t segment) const;
-  preview::Ball subject() const;  // what moves or is a model; else everything
+  preview::Ball subject() const;  // what moves or is a model; else figures; else everything
 
   // What moves in the film's own interval that has the frame: only with this is a picture the film's own. None where
   // the film is too long to know it at once.
