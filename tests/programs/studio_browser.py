@@ -140,16 +140,17 @@ class Browser:
         left, top, width, height = self.run("""
             const at = arguments[0].getBoundingClientRect();
             return [at.x, at.y, at.width, at.height];""", view)
-        for down in (0.5, 0.45, 0.4, 0.55, 0.35, 0.6, 0.3, 0.65, 0.25, 0.7, 0.2, 0.75):
-            for along in [0.5 + sign * step / 40 for step in range(16) for sign in (1, -1)]:
-                x, y = round(left + along * width), round(top + down * height)
-                self.move(x, y)
-                time.sleep(pause)
-                over, text = self.run("""
-                    const [view] = arguments;
-                    return [view.dataset.over, view.querySelector('.tip').textContent];""", view)
-                if over == "limb" and wanted in text:
-                    return x, y
+        for patience in (pause, 5 * pause):  # a busy machine answers late
+            for down in (0.5, 0.45, 0.4, 0.55, 0.35, 0.6, 0.3, 0.65, 0.25, 0.7, 0.2, 0.75):
+                for along in [0.5 + sign * step / 40 for step in range(16) for sign in (1, -1)]:
+                    x, y = round(left + along * width), round(top + down * height)
+                    self.move(x, y)
+                    time.sleep(patience)
+                    over, text = self.run("""
+                        const [view] = arguments;
+                        return [view.dataset.over, view.querySelector('.tip').textContent];""", view)
+                    if over == "limb" and wanted in text:
+                        return x, y
         raise AssertionError(f"nothing there has '{wanted}'")
 
     def screenshot(self, path):
