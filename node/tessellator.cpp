@@ -110,7 +110,7 @@ void Tessellator::add_patch(const geometry::Scene& scene, const shape::EyeMatrix
   const shape::EyePatch eye_patch = shape::to_eye(matrix, patch);
   const auto width = static_cast<float>(scene.width()), height = static_cast<float>(scene.height());
   if (shape::unseen(eye_patch, scene.projection(), width, height)) return;
-  dicer_.dice(eye_patch, scene.projection(), static_cast<int>(scene.film().settings().dice));
+  dicer_.dice(eye_patch, scene.projection(), scene.dicing());
   output.add_patch(dicer_, identity);
 }
 

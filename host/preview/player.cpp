@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "host/content/document/text.h"
+#include "host/content/document/text_lines.h"
 #include "host/preview/terminal_picture.h"
-#include "host/preview/text_lines.h"
 
 namespace mars::preview {
 namespace {
@@ -109,8 +109,9 @@ class Player {
     const std::string numbers =
         document::formatted(" %u/%u  %g frames/s%s%s  ", now, pictures_.frames() - 1, pictures_.rate() * speed_,
                             paused_ ? "  paused" : "", loop_ ? "" : "  once");
-    return cut_to(numbers + pictures_.state() + (missing_ ? "  rendering ..." : "") + (help_ ? "" : "  h help  q quit"),
-                  terminal_.cells().width);
+    return document::cut_to(numbers + pictures_.state() + (missing_ ? "  rendering ..." : "") +
+                                (help_ ? "" : "  h help  q quit"),
+                            terminal_.cells().width);
   }
 
   // What stands between the picture and the status.
@@ -119,11 +120,11 @@ class Player {
     std::vector<std::string> notes;
     if (help_) {
       std::istringstream keys(pictures_.keys() + std::string(kOwnKeys));
-      for (std::string line; std::getline(keys, line);) notes.push_back(cut_to(line, cells.width));
+      for (std::string line; std::getline(keys, line);) notes.push_back(document::cut_to(line, cells.width));
     }
-    for (const std::string& line : wrapped(pictures_.note(now), cells.width - 1, kNoteLines))
+    for (const std::string& line : document::wrapped(pictures_.note(now), cells.width - 1, kNoteLines))
       notes.push_back(std::string(kNoteColor) + " " + line);
-    for (const std::string& line : wrapped(pictures_.trouble(), cells.width, std::max(cells.height / 3, 1u)))
+    for (const std::string& line : document::wrapped(pictures_.trouble(), cells.width, std::max(cells.height / 3, 1u)))
       notes.push_back(std::string(kTroubleColor) + line);
     return notes;
   }

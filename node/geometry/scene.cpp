@@ -52,7 +52,7 @@ ShapeBoxes::ShapeBoxes(const wire::FilmView& film) {
   for (std::uint32_t shape = 0; shape < film.shape_count(); ++shape) boxes_.push_back(box_of(film, shape));
 }
 
-Scene::Scene(const wire::FilmView& film) : film_(film) {
+Scene::Scene(const wire::FilmView& film) : film_(film), tolerances_(shape::tolerances_of(film.settings().samples)) {
   first_patch_.reserve(film.segments().size());
   std::uint32_t next = 0;
   for (const wire::Segment& segment : film.segments()) {

@@ -47,6 +47,8 @@ class Scene {
   const shape::Projection& projection() const { return projection_; }
   std::span<const EyeLight> lights() const { return lights_; }
   const shape::SamplePattern& pattern() const { return shape::sample_pattern(film_.settings().samples); }
+  // How its patches are diced.
+  shape::Dicing dicing() const { return {static_cast<int>(film_.settings().dice), tolerances_}; }
   const wire::Camera& camera() const { return film_.camera_at(frame_); }
   // The world's z axis in eye space.
   std::array<float, 3> up() const;
@@ -64,6 +66,7 @@ class Scene {
   LineRange lines_of(std::size_t segment, std::uint32_t frame, const ShapeBoxes::Box& box) const;
 
   wire::FilmView film_;
+  shape::Tolerances tolerances_;
   std::vector<std::uint32_t> first_patch_;
   std::vector<std::uint8_t> moves_;
   std::span<const std::uint32_t> movers_;

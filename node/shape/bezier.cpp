@@ -74,7 +74,7 @@ int whole_steps(float rate) {
 }
 
 // Steps for a second derivative of `bound` pixels: ceil(sqrt(bound / (8 tolerance))).
-int steps(float bound) { return whole_steps(std::sqrt(bound / (8 * kTolerance))); }
+int steps(float bound, float tolerance) { return whole_steps(std::sqrt(bound / (8 * tolerance))); }
 
 // Places near the patch's borders and between.
 CurvatureWeights curvature_weights() {
@@ -165,10 +165,16 @@ Edge edge(const EyePatch& patch, Side side) {
   return out;
 }
 
+// One sample a pixel cannot show what several do: outlines to a fraction of a pixel, and rims thinner than one.
+Tolerances tolerances_of(std::uint32_t samples) {
+  if (samples == 1) return {.outline = 3.0f / 16, .turn = 0.2f, .least_step = 4};
+  return {.outline = 3.0f / 128, .turn = 0.14f, .least_step = 0.5f};
+}
+
 // Second differences of the control points, times six, bound the second derivative. Seen from the eye, what of it
 // lies along a ray does not show; across, at depth w, a length shows at most scale |p| / w^2 times, along the ray
 // through p. Both bounds hold for all rays to the curve if they do for those to its control points.
-int edge_rate(const Curve& curve, const Projection& projection) {
+int edge_rate(const Curve& curve, const Projection& projection, float tolerance) {
   const auto& p = curve.point;
   float bend = 0, across = 0, nearest = -p[0][2];
   for (int i = 1; i < 4; ++i) nearest = std::min(nearest, -p[i][2]);
@@ -180,19 +186,20 @@ int edge_rate(const Curve& curve, const Projection& projection) {
   }
   const float depth = std::max(nearest, projection.near);
   return steps(6 * std::min(std::sqrt(bend) * magnification(p, 4, projection),
-                            std::sqrt(across) * projection.scale / (depth * depth)));
+                            std::sqrt(across) * projection.scale / (depth * depth)),
+               tolerance);
 }
 
-Rates rates(const ShapeKernels& kernels, const EyePatch& patch, const Projection& projection, int fixed) {
-  if (fixed > 0) return {fixed, fixed, {fixed, fixed, fixed, fixed}};
+Rates rates(const ShapeKernels& kernels, const EyePatch& patch, const Projection& projection, const Dicing& dicing) {
+  if (const int n = dicing.fixed_rate; n > 0) return {n, n, {n, n, n, n}};
   static const CurvatureWeights weights = curvature_weights();
-  const Fineness inside = kernels.estimate_curvature(weights, patch.point, projection);
+  const Fineness inside = kernels.estimate_curvature(weights, patch.point, projection, dicing.tolerances);
   Rates out{whole_steps(inside.u), whole_steps(inside.v), {}};
   for (const Side side : {Side::bottom, Side::right, Side::top, Side::left}) {
     const Curve curve = edge(patch, side).curve;
     int& rate = out.side[static_cast<int>(side)];
     if (!is_point(curve)) {
-      rate = edge_rate(curve, projection);
+      rate = edge_rate(curve, projection, dicing.tolerances.outline);
     } else if (side == Side::bottom || side == Side::top) {
       rate = out.u;
       out.v = std::max(out.v, out.u);

@@ -62,8 +62,8 @@ Row side_row(const EyePatch& patch, Side side) {
 
 Dicer::Dicer(simd::InstructionSet set) : Surface(set, kMostVertices, kMostTriangles, kMostBatches) {}
 
-void Dicer::dice(const EyePatch& patch, const Projection& projection, int fixed_rate) {
-  const Rates wanted = rates(kernels_, patch, projection, fixed_rate);
+void Dicer::dice(const EyePatch& patch, const Projection& projection, const Dicing& dicing) {
+  const Rates wanted = rates(kernels_, patch, projection, dicing);
   lay_out(wanted);
   bool normals = evaluate_inside(patch);
   for (const Side side : kSides) normals &= evaluate_side(patch, side);

@@ -17,7 +17,7 @@ class Dicer : public Surface {
   explicit Dicer(simd::InstructionSet set);
 
   // Becomes the surface of `patch`, until the next call.
-  void dice(const EyePatch& patch, const Projection& projection, int fixed_rate);
+  void dice(const EyePatch& patch, const Projection& projection, const Dicing& dicing);
 
  private:
   // A row of vertices along one side of a stitched band, with the place of each along that side:

@@ -14,7 +14,7 @@ namespace mars::shape {
 struct ShapeKernels {
   // How a patch's inside bends, as it is seen: see rates (bezier.h).
   Fineness (*estimate_curvature)(const CurvatureWeights& weights, const float (*points)[3],
-                                 const Projection& projection);
+                                 const Projection& projection, const Tolerances& tolerances);
 
   // Vertices first..last - 1 of `row` at first/rate.. into out[at..]. Whether all have a normal.
   bool (*evaluate)(const Row& row, const Basis& basis, int first, int last, const Vertices& out, int at);

@@ -39,13 +39,15 @@ struct CurvatureWeights {
   alignas(64) float weight[kKinds][16][16];  // [control point][place]
 };
 
-// A diced curve strays from the true one by no more than this many pixels; the inside of a surface by about twice
-// as much, where it is seen edge-on, as outlines are.
-inline constexpr float kTolerance = 0.1875f;
-// Nor does its normal turn by more than about this (radians) in a step, unless the step is shorter than kLeastStep
-// pixels.
-inline constexpr float kTurn = 0.2f;
-inline constexpr float kLeastStep = 4.0f;
+// How far triangles may be from the surface that they stand for.
+struct Tolerances {
+  // Pixels by which a diced curve strays from the true one at most; the inside of a surface strays by about twice as
+  // many, where it is seen edge-on, as outlines are.
+  float outline;
+  // Radians by which a normal turns in a step at most, about, unless the step is shorter than `least_step` pixels.
+  float turn;
+  float least_step;
+};
 
 // How finely a patch's inside is to be diced, in steps, before rounding.
 struct Fineness {

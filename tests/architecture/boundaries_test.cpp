@@ -80,6 +80,22 @@ TEST(Boundaries, GetenvInOneSettingsFile) {
   EXPECT_EQ(files, Files{"hal/messages/settings.cpp"});
 }
 
+// whole_file.h writes files; these would leave half of one, and follow links.
+TEST(Boundaries, NoFileIsWrittenByStreams) {
+  for (const Source& source : sources())
+    EXPECT_FALSE(std::regex_search(source.text, std::regex("\\b(ofstream|fopen)\\b"))) << source.path;
+}
+
+// Standard output with nothing made plain is for what moves a cursor.
+TEST(Boundaries, FewWriteToTerminalsAsTheyLike) {
+  Files files;
+  for (const Source& source : sources())
+    if (std::regex_search(source.text, std::regex("\\braw_(output|error)\\(\\)"))) files.insert(source.path);
+  EXPECT_EQ(files, (Files{"host/child/standard_streams.cpp", "host/child/standard_streams.h",
+                          "host/shell/batch/follow.cpp", "host/shell/commands/calibrate_command.cpp",
+                          "host/shell/launch/launch.cpp", "host/studio/link/host_job.cpp"}));
+}
+
 // In hal/ and topology/ each folder knows only itself and these.
 TEST(Boundaries, HalRunsOneWay) {
   const std::vector<std::string> messages = {"hal/failure/", "topology/", "hal/messages/"};
@@ -170,7 +186,7 @@ TEST(Boundaries, HostsToolsStandOnOneAnother) {
   below(child, {child});
   below(document, {document});
   below(modeler, {document, modeler});
-  below("host/content/importer/", {child, document, modeler, "host/content/importer/"});
+  below("host/content/importer/", {child, images, document, modeler, "host/content/importer/"});
   below(animator, {child, document, modeler, animator});
   below(film, {document, modeler, animator, film});
   below(images, {document, images});

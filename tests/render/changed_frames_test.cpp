@@ -4,11 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "host/content/film/frame_content.h"
 #include "host/content/modeler/primitives.h"
 #include "tests/render/film_run.h"
 #include "tests/render/films.h"
@@ -110,7 +112,11 @@ Frames differing(const std::map<std::uint32_t, Pixels>& before, const std::map<s
 
 Frames found(const FilmData& before, const FilmData& now) {
   const FilmBlock a(before), b(now);
-  return film::changed_frames(a.view(), b.view());
+  const film::FrameContent of_a(a.view()), of_b(b.view());
+  Frames changed = film::changed_frames(a.view(), b.view());
+  for (std::uint32_t frame = 0; frame < std::min(before.settings.frames, now.settings.frames); ++frame)
+    EXPECT_EQ(of_a.checksum(frame) != of_b.checksum(frame), std::ranges::binary_search(changed, frame)) << frame;
+  return changed;
 }
 
 struct Edit {

@@ -32,7 +32,7 @@ class MemorySink : public sinks::Sink {
 void write_png(const std::string& path, const wire::FilmSettings& settings, const Pixels& pixels) {
   const bool two_words = pixels.size() > std::size_t{settings.width} * settings.height;
   const auto encode = two_words ? images::encode_png16 : images::encode_png;
-  const auto bytes = encode(settings.width, settings.height, pixels);
+  const auto bytes = encode(settings.width, settings.height, pixels, "");
   std::ofstream(path, std::ios::binary)
       .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }

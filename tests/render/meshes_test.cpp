@@ -36,7 +36,8 @@ modeler::Meshlets diced(const std::vector<wire::Patch>& patches, const wire::Mat
   shape::Dicer dicer(simd::best_instruction_set(""));
   const shape::Projection projection{300, {160, 120}, 0.1f, 100, 32768, 0.8f};
   for (const wire::Patch& patch : patches) {
-    dicer.dice(shape::to_eye(shape::eye_matrix(kAsItIs, matrix), patch), projection, kRate);
+    dicer.dice(shape::to_eye(shape::eye_matrix(kAsItIs, matrix), patch), projection,
+               {.fixed_rate = kRate, .tolerances = {}});
     const shape::Vertices& v = dicer.vertices();
     const auto count = static_cast<std::uint32_t>(dicer.vertex_count());
     wire::Meshlet meshlet{static_cast<std::uint32_t>(out.places.size()),

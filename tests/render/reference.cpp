@@ -51,7 +51,7 @@ void add_segment(const geometry::Scene& scene, std::size_t segment, Surfaces& su
     ++identity.patch;
   };
   for (const wire::Patch& patch : film.patches().subspan(shape.first_patch, shape.patch_count)) {
-    surfaces.dicer.dice(shape::to_eye(matrix, patch), scene.projection(), static_cast<int>(film.settings().dice));
+    surfaces.dicer.dice(shape::to_eye(matrix, patch), scene.projection(), scene.dicing());
     add(surfaces.dicer);
   }
   for (const wire::Meshlet& meshlet : film.meshlets().subspan(shape.first_meshlet, shape.meshlet_count)) {

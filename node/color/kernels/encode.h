@@ -33,8 +33,13 @@ inline void apply_filmic_curve(Floats* color) {
   }
 }
 
-inline void load(const float* const* light, std::uint32_t at, Floats* color) {
+// Black beyond `count`: what lies there was never written, and shall choose no branch of the curve and no place in a
+// table.
+inline void load(const float* const* light, std::uint32_t at, std::uint32_t count, Floats* color) {
   for (int c = 0; c < 3; ++c) color[c] = hn::LoadU(kFloats, light[c] + at);
+  if (count - at >= kLanes) return;
+  const auto lit = hn::FirstN(kFloats, count - at);
+  for (int c = 0; c < 3; ++c) color[c] = hn::IfThenElseZero(lit, color[c]);
 }
 
 // Light that the film is to show, 0..1.
@@ -78,7 +83,7 @@ void encode_levels(const Encoding& encoding, const float* const* light, std::uin
   constexpr float kMost = kWide ? 65535.0f : 255.0f, kSteps = kWide ? kSteps16 : kSteps8;
   for (std::uint32_t k = 0; k < count; k += kLanes) {
     Floats color[3];
-    load(light, k, color);
+    load(light, k, count, color);
     show<kSpace>(encoding, color);
     Ints level[3];
     for (int c = 0; c < 3; ++c) level[c] = place<kSpace>(color[c], kMost, kSteps);
@@ -101,7 +106,7 @@ inline Ints half_of(Floats value) {
 inline void encode_halves(const float* const* light, std::uint32_t count, void* pixels) {
   for (std::uint32_t k = 0; k < count; k += kLanes) {
     Floats color[3];
-    load(light, k, color);
+    load(light, k, count, color);
     const Ints level[3] = {half_of(color[0]), half_of(color[1]), half_of(color[2])};
     store16(level, k, pixels);
   }

@@ -55,6 +55,13 @@ struct Block {
   }
   // One of its materials, all of which share_model.
   const wire::Material& model(const wire::Material* materials) const { return materials[stretches[0].material]; }
+  // Samples behind the last, to the end of its vector, are as the last: for what finds places in memory by them.
+  void fill_last_vector() {
+    for (std::uint32_t k = count; k % kLanes != 0; ++k) {
+      std::memcpy(values[k], values[count - 1], sizeof values[k]);
+      for (auto& along : eye) along[k] = along[count - 1];
+    }
+  }
   // Of the latest stretch, or `none`.
   std::uint32_t last_material(std::uint32_t none) const {
     return stretch_count > 0 ? stretches[stretch_count - 1].material : none;

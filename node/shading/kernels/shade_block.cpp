@@ -158,7 +158,9 @@ void shade_lights(const Shading& shading, float unit, Block& block, std::uint32_
     case wire::Reflection::phong: return shade_highlights<Phong>(shading, scale, block, pixels);
     case wire::Reflection::blinn_phong: return shade_highlights<BlinnPhong>(shading, scale, block, pixels);
     case wire::Reflection::cook_torrance: return shade_facets<CookTorrance>(shading, scale, block);
-    case wire::Reflection::metallic_roughness: return shade_facets<MetallicRoughness>(shading, scale, block);
+    case wire::Reflection::metallic_roughness:
+      block.fill_last_vector();  // its ambient light is looked up in tables
+      return shade_facets<MetallicRoughness>(shading, scale, block);
   }
 }
 

@@ -38,7 +38,8 @@ Floats ratio(Floats a, Floats b) { return hn::IfThenElseZero(hn::Gt(b, hn::Zero(
 
 }  // namespace
 
-Fineness estimate_curvature(const CurvatureWeights& weights, const float (*points)[3], const Projection& projection) {
+Fineness estimate_curvature(const CurvatureWeights& weights, const float (*points)[3], const Projection& projection,
+                            const Tolerances& tolerances) {
   Floats most_u = hn::Zero(kFloats), most_v = hn::Zero(kFloats);
   for (int place = 0; place < 16; place += kLanes) {
     const auto at = [&](CurvatureWeights::Kind kind) { return blend(weights.weight[kind], place, points); };
@@ -53,12 +54,12 @@ Fineness estimate_curvature(const CurvatureWeights& weights, const float (*point
     const Floats cosine2 = ratio(hn::Mul(toward, toward), dot(p, p));
     const Floats sine = hn::Sqrt(hn::Max(hn::Sub(constant(1), cosine2), hn::Zero(kFloats)));
     const Floats pixels = hn::Div(constant(projection.scale), hn::Max(hn::Neg(p.z), constant(projection.near)));
-    const Floats shown = hn::Mul(hn::Mul(sine, pixels), constant(1 / (8 * kTolerance)));
+    const Floats shown = hn::Mul(hn::Mul(sine, pixels), constant(1 / (8 * tolerances.outline)));
     const auto fineness = [&](Floats own, Floats length, Floats other_length) {
       const Floats outline = hn::Sqrt(hn::Mul(hn::Add(own, uv), shown));
       const Floats turns = hn::Add(ratio(own, length), ratio(uv, other_length));
-      const Floats shade =
-          hn::Min(hn::Mul(turns, constant(1 / kTurn)), hn::Mul(hn::Mul(length, pixels), constant(1 / kLeastStep)));
+      const Floats shade = hn::Min(hn::Mul(turns, constant(1 / tolerances.turn)),
+                                   hn::Mul(hn::Mul(length, pixels), constant(1 / tolerances.least_step)));
       return hn::Max(outline, shade);
     };
     most_u = hn::Max(most_u, fineness(uu, length_u, length_v));

@@ -45,7 +45,7 @@ void Workload::dice(shape::Dicer& dicer, const std::function<void(const shape::S
       const shape::EyePatch patch = shape::to_eye(matrix, view_.patches()[shape.first_patch + i]);
       if (shape::unseen(patch, scene_.projection(), static_cast<float>(width()), static_cast<float>(height())))
         continue;
-      dicer.dice(patch, scene_.projection(), rate);
+      dicer.dice(patch, scene_.projection(), {.fixed_rate = rate, .tolerances = {}});
       classified_ += dicer.triangles().count;
       if (visit) visit(dicer);
     }

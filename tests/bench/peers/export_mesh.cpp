@@ -100,7 +100,7 @@ void add_segments(const geometry::Scene& scene, bool moving, Mesh& mesh) {
     if (shape::mirrors(matrix)) refuse("a mirrored segment", std::string(film.name(film.segments()[s])));
     const wire::Shape& shape = film.shapes()[film.segments()[s].shape];
     for (const wire::Patch& patch : film.patches().subspan(shape.first_patch, shape.patch_count)) {
-      dicer.dice(shape::to_eye(matrix, patch), scene.projection(), static_cast<int>(film.settings().dice));
+      dicer.dice(shape::to_eye(matrix, patch), scene.projection(), scene.dicing());
       add_patch(dicer, {s, scene.material(s), moving ? 1u : 0u, 0, 0, 0, 0}, mesh);
     }
   }

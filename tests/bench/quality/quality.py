@@ -9,6 +9,7 @@ measuring scene. The fan turns by a fraction of a pixel a frame: printed is by
 how much its mean light varies over all frames. README.md beside this program
 tells more. It fails if the demo at 16 samples is too far from its reference."""
 import argparse
+import copy
 import json
 import os
 import subprocess
@@ -22,6 +23,9 @@ import films  # noqa: E402
 FINER = 4                    # reference pixels along a pixel's side
 MOST_RMS = {("demo", 16): 1.5}  # of 255, at 960x540
 SCENES = ["s1", "s1m", "s2", "s3"]
+DICED = ["demo", "visit", "meadow", "teapot"]
+FINEST = 256                 # quads along a patch's side
+MOST_BY_DICING = 0.05        # of 255, that adaptive dicing may add with several samples
 
 
 class Trouble(Exception):
@@ -47,6 +51,17 @@ class Film:
             film = json.load(file)
         self.count = film["frames"]
         self.color = film.get("color", "linear")
+
+    def diced(self, rate):
+        """The same film with rate x rate quads a patch."""
+        with open(self.path) as file:
+            film = json.load(file)
+        film["models"] = {name: os.path.join(films.EXAMPLES, model) if isinstance(model, str) else model
+                          for name, model in film["models"].items()}
+        other = copy.copy(self)
+        other.name = f"{self.name}-{rate}"
+        other.path = films.save({**film, "dice": rate}, os.path.join(self.folder, other.name + ".json"))
+        return other
 
     def shown(self):
         return sorted({0, self.count // 2, self.count - 1})
@@ -102,6 +117,25 @@ def measure(film, samples):
     return {"film": film.name, "frames": frames, "MARS": ours, "Embree": embrees}
 
 
+def measure_dicing(film, samples):
+    """By samples, the distance of adaptively and of finely diced pictures to a finely diced reference."""
+    fine, frames = film.diced(FINEST), [film.count // 2]
+    references = fine.references(frames)
+    return {s: [one.rms(one.render(s, frames), references)[0] for one in (film, fine)] for s in samples}
+
+
+def print_dicing(build, size, names, samples, folder):
+    """Whether adaptive dicing is as good as it must be with several samples."""
+    print(f"RMS of 255: adaptive dicing, {FINEST} x {FINEST} quads a patch")
+    good = True
+    for name in names:
+        for s, (adaptive, fine) in measure_dicing(Film(build, name, size, folder), samples).items():
+            print(f"  {name}, {s} samples".ljust(27) + f"{adaptive:8.3f}{fine:8.3f}", flush=True)
+            good &= s == 1 or adaptive - fine <= MOST_BY_DICING
+    if not good:
+        raise Trouble(f"adaptive dicing adds more than {MOST_BY_DICING} with several samples")
+
+
 def variation(lights):
     """Greatest less least, in parts of the mean."""
     return (max(lights) - min(lights)) * len(lights) / sum(lights)
@@ -144,8 +178,10 @@ def read_command_line():
     parser = argparse.ArgumentParser(prog="mars bench quality", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", required=True, help=argparse.SUPPRESS)
-    parser.add_argument("--films", default="demo,s1,s3", type=names, help="of the examples")
-    parser.add_argument("--samples", default="1,2,4,8,16", type=numbers)
+    parser.add_argument("--dicing", action="store_true",
+                        help=f"compare adaptive dicing with {FINEST} x {FINEST} quads a patch instead; takes minutes")
+    parser.add_argument("--films", type=names, help="of the examples (demo,s1,s3; with --dicing " + ",".join(DICED) + ")")
+    parser.add_argument("--samples", type=numbers, help="(1,2,4,8,16; with --dicing 1,4,16)")
     parser.add_argument("--size", default="960x540", type=size, help="of the pictures")
     return parser.parse_args()
 
@@ -154,10 +190,13 @@ def main():
     wanted = read_command_line()
     results = []
     with tempfile.TemporaryDirectory() as folder:
-        for name in wanted.films:
-            results.append(measure(Film(wanted.build, name, wanted.size, folder), wanted.samples))
+        if wanted.dicing:
+            return print_dicing(wanted.build, wanted.size, wanted.films or DICED, wanted.samples or [1, 4, 16], folder)
+        samples = wanted.samples or [1, 2, 4, 8, 16]
+        for name in wanted.films or ["demo", "s1", "s3"]:
+            results.append(measure(Film(wanted.build, name, wanted.size, folder), samples))
             tell(results[-1])
-        tell_variation(wanted.build, wanted.size, wanted.samples, folder)
+        tell_variation(wanted.build, wanted.size, samples, folder)
     for result in results:
         check(result)
 

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
+#include <span>
 #include <vector>
 
 #include "tests/node/raster/plain_set_up.h"
@@ -207,9 +209,9 @@ TEST(Meshlets, AreSetUpAlikeEitherWay) {
                          other = raster::set_up(set, picture, placer, identity, raster::Way::plainly);
       ASSERT_EQ(one.triangles.size(), other.triangles.size());
       ASSERT_EQ(one.boxes.size(), other.boxes.size());
-      EXPECT_EQ(
-          std::memcmp(one.triangles.data(), other.triangles.data(), one.triangles.size() * sizeof one.triangles[0]), 0);
-      EXPECT_EQ(std::memcmp(one.boxes.data(), other.boxes.data(), one.boxes.size() * sizeof one.boxes[0]), 0);
+      EXPECT_TRUE(
+          std::ranges::equal(std::as_bytes(std::span(one.triangles)), std::as_bytes(std::span(other.triangles))));
+      EXPECT_TRUE(std::ranges::equal(std::as_bytes(std::span(one.boxes)), std::as_bytes(std::span(other.boxes))));
       boxes += one.edge_boxes;
     }
   }

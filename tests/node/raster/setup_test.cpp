@@ -45,7 +45,7 @@ class SetUpTest : public testing::Test {
   Picture picture(const shape::Projection& view = kView) const { return {view, kWidth, kHeight, samples}; }
   Emitted set_up(const EyePatch& patch, int rate, const PatchIdentity& identity = {5, 3, false, false, false},
                  const shape::Projection& view = kView) {
-    dicer.dice(patch, view, rate);
+    dicer.dice(patch, view, shape::steps(rate));
     Emitted emitted{raster::set_up(set, picture(view), dicer, identity), {}, {}};
     EXPECT_TRUE(emitted.all_stored);
     for (const PlainTriangle& plain : plain_set_up(dicer, view, identity)) {
@@ -288,7 +288,7 @@ TEST_F(SetUpTest, CountsOnWhenMemoryIsShort) {
   const EyePatch wedge = shape::make_patch([](int i, int j) {
     return shape::Vec3{0.3 * (i - 1.5), (j / 1.5 - 1) * (1.7 - 0.56 * i), -3.5 - 0.2 * (i == 1 || i == 2)};
   });
-  dicer.dice(wedge, kView, 0);
+  dicer.dice(wedge, kView, shape::adaptive());
   EXPECT_GT(mixed_batches(), 0);
   for (const EyePatch& patch :
        {shape::sphere_octant({0, 0, -4}, 1), ground, shape::swapped(ground), wedge, shape::turned(wedge)})

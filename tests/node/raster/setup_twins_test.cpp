@@ -95,7 +95,7 @@ class SetUpTwins : public testing::Test {
     const shape::SamplePattern& pattern = shape::sample_pattern(picture.samples);
     Made expected;
     for (auto& [set, dicer] : dicers) {
-      dicer.dice(patch, kView, rate);
+      dicer.dice(patch, kView, shape::steps(rate));
       if (set == dicers[0].first) {
         expected = expected_of(plain_set_up(dicer, kView, identity), pattern, identity.moving, &paths.turned_over);
         paths.count(set, pattern, dicer, identity);
@@ -270,7 +270,7 @@ TEST_F(SetUpTwins, MakeTheSameWhereDecidingEnds) {
                        y[4] = {top + height, top + height - b, top, top + b};
     const bool turned = random.whole(0, 1) == 1;
     const EyePatch patch = turned ? planted(random, y, x) : planted(random, x, y);
-    dicers[0].second.dice(patch, kView, 1);
+    dicers[0].second.dice(patch, kView, shape::steps(1));
     const std::int32_t* snapped = dicers[0].second.vertices().x;
     ASSERT_EQ(std::set(snapped, snapped + dicers[0].second.vertex_count()),
               turned ? std::set(y, y + 4) : std::set(x, x + 4));

@@ -38,7 +38,8 @@ struct Ball {
     light.vector[0] = light.vector[1] = 3;
     for (float& color : light.color) color = 1;
     frame.lights = {light};
-    dicer.dice(shape::sphere_octant({0, 0, -distance}, radius), frame.shading.projection, rate);
+    dicer.dice(shape::sphere_octant({0, 0, -distance}, radius), frame.shading.projection,
+               {.fixed_rate = rate, .tolerances = {}});
   }
   Coloring coloring() { return {frame.view(), 0, true, true}; }
   Vec3 place(std::uint32_t k) const { return of(dicer.vertices().place, k); }

@@ -66,9 +66,10 @@ TEST(Bezier, SharedEdgesAreOneCurveFromBothSides) {
     const Edge one = edge(first, of_a), other = edge(b, of_b);
     EXPECT_TRUE(same_bits(one.curve, other.curve));
     EXPECT_EQ(one.reversed != other.reversed, against);
-    EXPECT_EQ(shape::rates(kernels, first, view, 0).side[static_cast<int>(of_a)],
-              shape::rates(kernels, b, view, 0).side[static_cast<int>(of_b)]);
-    EXPECT_EQ(shape::rates(kernels, b, view, 0).side[static_cast<int>(of_b)], edge_rate(one.curve, view));
+    EXPECT_EQ(shape::rates(kernels, first, view, adaptive()).side[static_cast<int>(of_a)],
+              shape::rates(kernels, b, view, adaptive()).side[static_cast<int>(of_b)]);
+    EXPECT_EQ(shape::rates(kernels, b, view, adaptive()).side[static_cast<int>(of_b)],
+              edge_rate(one.curve, view, adaptive().tolerances.outline));
   }
 }
 
@@ -106,34 +107,35 @@ double chord_error(const Curve& curve, int rate, const Projection& view) {
 TEST(Bezier, EdgeRatesKeepTheirTolerance) {
   Random random(12);
   const Projection view = projection(640, 480, 3);
-  const double slack = 1.01;
+  const double slack = 1.01, tolerance = 0.1;
   double worst = 0;
   for (int trial = 0; trial < 2000; ++trial) {
     const EyePatch patch = random_patch(random, {random.real(-2, 2), random.real(-2, 2), random.real(-20, -3)},
                                         std::pow(10, random.real(-2, 0.7)));
     const Curve curve = edge(patch, Side::top).curve;
-    const int rate = edge_rate(curve, view);
+    const int rate = edge_rate(curve, view, static_cast<float>(tolerance));
     ASSERT_GE(rate, 1);
     ASSERT_LE(rate, kMaxRate);
     if (rate == kMaxRate) continue;  // as fine as it gets
     worst = std::max(worst, chord_error(curve, rate, view));
   }
-  EXPECT_LE(worst, kTolerance * slack);
-  EXPECT_GT(worst, kTolerance / 3) << "rates are much finer than they need be";
+  EXPECT_LE(worst, tolerance * slack);
+  EXPECT_GT(worst, tolerance / 3) << "rates are much finer than they need be";
 }
 
 // Second differences of d pixels, times six, bound the second derivative. Before the eye a bend across the view shows
 // whole (or 1 / cosine longer, if nobody knows yet where), one along it not at all.
 TEST(Bezier, EdgeRatesOfAParabola) {
   const Projection view = projection(200, 200, 1);  // 100 pixels a unit at distance 1
-  const auto steps = [](double pixels) { return std::sqrt(6 * pixels / (8 * double{kTolerance})); };
+  constexpr float kTolerance = 0.1875f;
+  const auto steps = [&](double pixels) { return std::sqrt(6 * pixels / (8 * double{kTolerance})); };
   for (const double d : {0.0, 0.02, 0.1, 0.17, 1.0, 5.0, 40.0, 1000.0})
     for (const bool across : {true, false}) {
       const EyePatch patch = make_patch([&](int i, int j) {
         const double off = d / 100 * (i == 1 || i == 2);
         return Vec3{i * 1e-4, j * 1e-4 + (across ? off : 0), -1 - (across ? 0 : off)};
       });
-      const int rate = edge_rate(edge(patch, Side::bottom).curve, view);
+      const int rate = edge_rate(edge(patch, Side::bottom).curve, view, kTolerance);
       if (across) {
         EXPECT_GE(rate, std::min(std::ceil(steps(0.999 * d)), 1.0 * kMaxRate)) << d;
         EXPECT_LE(rate, std::clamp(std::ceil(steps(1.001 * d / view.corner)), 1.0, 1.0 * kMaxRate)) << d;
@@ -145,7 +147,7 @@ TEST(Bezier, EdgeRatesOfAParabola) {
 
 TEST(Bezier, FixedRatesAreThoseGiven) {
   Random random(13);
-  const Rates rates = shape::rates(kernels, random_patch(random, {0, 0, -2}, 1), projection(64, 48, 2), 7);
+  const Rates rates = shape::rates(kernels, random_patch(random, {0, 0, -2}, 1), projection(64, 48, 2), steps(7));
   EXPECT_EQ(rates.u, 7);
   EXPECT_EQ(rates.v, 7);
   for (const int side : rates.side) EXPECT_EQ(side, 7);
@@ -198,7 +200,7 @@ struct GridError {
   double turn = 0;
 };
 
-GridError grid_error(const EyePatch& patch, const Rates& rates, const Projection& view) {
+GridError grid_error(const EyePatch& patch, const Rates& rates, const Projection& view, float least_step) {
   GridError worst;
   for (int j = 0; j < rates.v; ++j)
     for (int i = 0; i < rates.u; ++i) {
@@ -210,32 +212,49 @@ GridError grid_error(const EyePatch& patch, const Rates& rates, const Projection
       const double off = std::abs(dot(p - flat, n)) * std::sqrt(std::max(0.0, 1 - toward * toward)) * pixels;
       worst.outline = std::max(worst.outline, off);
       const Vec3 at_b = normal_at(patch, u + du, v);
-      if (length(b - a) * pixels > kLeastStep) worst.turn = std::max(worst.turn, angle(normal_at(patch, u, v), at_b));
-      if (length(c - b) * pixels > kLeastStep)
+      if (length(b - a) * pixels > least_step) worst.turn = std::max(worst.turn, angle(normal_at(patch, u, v), at_b));
+      if (length(c - b) * pixels > least_step)
         worst.turn = std::max(worst.turn, angle(at_b, normal_at(patch, u + du, v + dv)));
     }
   return worst;
 }
 
-TEST(Bezier, InsideRatesKeepOutlinesAndTurns) {
+// Of pictures of one sample a pixel and of several.
+void check_inside_rates(std::uint32_t samples) {
   Random random(14);
   const Projection view = projection(640, 480, 3);
+  const Dicing dicing = adaptive(samples);
+  const Tolerances& allowed = dicing.tolerances;
   GridError worst;
   std::uint64_t cells = 0;
   for (int trial = 0; trial < 400; ++trial) {
     const EyePatch patch =
         sphere_part({random.real(-2, 2), random.real(-2, 2), random.real(-20, -5)}, std::pow(10, random.real(-2, 0.3)),
                     random.real(0, 6.28), random.real(-1.2, 0.3), random.real(0.1, 0.9));
-    const Rates rates = shape::rates(kernels, patch, view, 0);
+    const Rates rates = shape::rates(kernels, patch, view, dicing);
     cells += static_cast<std::uint64_t>(rates.u * rates.v);
-    const GridError error = grid_error(patch, rates, view);
+    const GridError error = grid_error(patch, rates, view, allowed.least_step);
     worst = {std::max(worst.outline, error.outline), std::max(worst.turn, error.turn)};
   }
-  EXPECT_LE(worst.outline, 2 * kTolerance);
-  EXPECT_GT(worst.outline, kTolerance / 3) << "rates are much finer than they need be";
-  EXPECT_LE(worst.turn, 1.1 * kTurn);
-  EXPECT_GT(worst.turn, kTurn / 2) << "rates are much finer than they need be";
+  EXPECT_LE(worst.outline, 2 * allowed.outline);
+  EXPECT_GT(worst.outline, allowed.outline / 3) << "rates are much finer than they need be";
+  EXPECT_LE(worst.turn, 1.1 * allowed.turn);
+  EXPECT_GT(worst.turn, allowed.turn / 2) << "rates are much finer than they need be";
   EXPECT_GT(cells, 400u * 4);
+}
+
+TEST(Bezier, InsideRatesKeepOutlinesAndTurns) { check_inside_rates(1); }
+TEST(Bezier, InsideRatesKeepFinerOutlinesAndTurnsWithSeveralSamples) { check_inside_rates(4); }
+
+// What one sample a pixel hides, several show.
+TEST(Bezier, SeveralSamplesAskForAFinerOutline) {
+  const Tolerances one = tolerances_of(1);
+  for (const std::uint32_t samples : {2u, 4u, 8u, 16u}) {
+    const Tolerances several = tolerances_of(samples);
+    EXPECT_LT(several.outline, one.outline) << samples;
+    EXPECT_LT(several.turn, one.turn) << samples;
+    EXPECT_LT(several.least_step, 1) << samples << ": rims thinner than a pixel show";
+  }
 }
 
 // The curvature's bits are the same for all instruction sets.
@@ -244,9 +263,10 @@ TEST(Bezier, RatesAreTheSameEverywhere) {
   const Projection view = projection(640, 480, 2);
   for (int trial = 0; trial < 3000; ++trial) {
     const EyePatch patch = random_patch(random, {0, 0, random.real(-20, 1)}, std::pow(10, random.real(-3, 1)));
-    const Rates expected = shape::rates(shape_kernels(simd::InstructionSet::sse2), patch, view, 0);
+    const Rates expected = shape::rates(shape_kernels(simd::InstructionSet::sse2), patch, view, adaptive());
     for (const simd::InstructionSet set : simd::all_sets())
-      ASSERT_EQ(shape::rates(shape_kernels(set), patch, view, 0), expected) << simd::name_of(set) << ' ' << trial;
+      ASSERT_EQ(shape::rates(shape_kernels(set), patch, view, adaptive()), expected)
+          << simd::name_of(set) << ' ' << trial;
   }
 }
 

@@ -63,11 +63,11 @@ TEST(Dice, AnyRatesMakeADiscWithoutTJoints) {
   std::set<std::array<int, 6>> reached;
   for (int trial = 0; trial < 60000; ++trial) {
     const EyePatch patch = random_hills(random);
-    const Rates rates = shape::rates(shape_kernels(simd::best_instruction_set("")), patch, kView, 0);
+    const Rates rates = shape::rates(shape_kernels(simd::best_instruction_set("")), patch, kView, adaptive());
     if (*std::max_element(rates.side, rates.side + 4) > 5 || rates.u > 6 || rates.v > 6) continue;
     const std::array<int, 6> key{rates.u, rates.v, rates.side[0], rates.side[1], rates.side[2], rates.side[3]};
     if (!reached.insert(key).second) continue;
-    dicer.dice(patch, kView, 0);
+    dicer.dice(patch, kView, adaptive());
     const Mesh mesh = mesh_of(dicer);
     expect_tiled(mesh);
     ASSERT_TRUE(sound_disc(mesh, patch, rates)) << "inside " << rates.u << " x " << rates.v << ", sides " << key[2]
@@ -87,11 +87,11 @@ TEST(Dice, HighAndUnequalRates) {
       points[1][2] -= static_cast<float>(size);
       points[2][2] += static_cast<float>(0.1 * size);
       set_side_points(patch, side, points);
-      dicer.dice(patch, kView, 0);
+      dicer.dice(patch, kView, adaptive());
       const Mesh mesh = mesh_of(dicer);
       expect_tiled(mesh);
-      ASSERT_TRUE(
-          sound_disc(mesh, patch, shape::rates(shape_kernels(simd::best_instruction_set("")), patch, kView, 0)));
+      ASSERT_TRUE(sound_disc(mesh, patch,
+                             shape::rates(shape_kernels(simd::best_instruction_set("")), patch, kView, adaptive())));
     }
 }
 
@@ -99,7 +99,7 @@ TEST(Dice, FixedRateGivesTwoTrianglesAQuad) {
   Dicer dicer(simd::best_instruction_set(""));
   const EyePatch patch = make_patch([](int i, int j) { return Vec3{i / 3.0, j / 3.0, -3 + 0.1 * i * j}; });
   for (const int rate : {1, 2, 3, 4, 5, 8, 17, 64, 256}) {
-    dicer.dice(patch, kView, rate);
+    dicer.dice(patch, kView, steps(rate));
     EXPECT_EQ(dicer.triangles().count, static_cast<std::uint32_t>(2 * rate * rate));
     const Mesh mesh = mesh_of(dicer);
     expect_tiled(mesh);
@@ -119,10 +119,10 @@ TEST(Dice, NeighboursShareTheirEdgesVertices) {
     if (trial / 16 % 2) std::reverse(points.begin(), points.end());
     EyePatch b = random_patch(random, {0, 0, -8}, random.whole(0, 1) ? 0.01 : 3);
     set_side_points(b, of_b, points);
-    const int rate = edge_rate(edge(a, of_a).curve, kView);
-    dicer.dice(a, kView, 0);
+    const int rate = edge_rate(edge(a, of_a).curve, kView, adaptive().tolerances.outline);
+    dicer.dice(a, kView, adaptive());
     const auto vertices = boundary_vertices(dicer);
-    dicer.dice(b, kView, 0);
+    dicer.dice(b, kView, adaptive());
     std::size_t shared = 0;
     for (const ScreenVertex& vertex : boundary_vertices(dicer)) shared += vertices.contains(vertex);
     EXPECT_EQ(shared, static_cast<std::size_t>(rate + 1)) << "trial " << trial;
@@ -155,7 +155,7 @@ TEST(Dice, NormalsOfASphereAndItsPole) {
   const EyePatch sideways = turned(swapped(octant));  // the pole on the left, the inside outside
   for (const auto& [patch, out] : {std::pair{octant, 1}, {turned(octant), 1}, {swapped(octant), -1}, {sideways, -1}})
     for (const int rate : {0, 1, 2, 3, 16}) {
-      dicer.dice(patch, kView, rate);
+      dicer.dice(patch, kView, steps(rate));
       double worst = 0;
       for (int k = 0; k < dicer.vertex_count(); ++k) {
         const Vec3 outward = place_of(dicer, k) - middle;
@@ -171,7 +171,7 @@ TEST(Dice, NormalsOfAConeAndItsApex) {
   const double height = 2;
   Dicer dicer(simd::best_instruction_set(""));
   for (const int rate : {0, 2, 9}) {
-    dicer.dice(cone_quarter(middle, 0, height), kView, rate);
+    dicer.dice(cone_quarter(middle, 0, height), kView, steps(rate));
     double least = 10, most = -10;
     for (int k = 0; k < dicer.vertex_count(); ++k) {
       const Vec3 from_axis = place_of(dicer, k) - middle;
@@ -205,7 +205,7 @@ TEST(Dice, DegeneratePatchesHaveFiniteNormals) {
                         })};
   for (const EyePatch& patch : patches)
     for (const int rate : {0, 1, 4}) {
-      dicer.dice(patch, kView, rate);
+      dicer.dice(patch, kView, steps(rate));
       for (int k = 0; k < dicer.vertex_count(); ++k) {
         const double size = length(normal_of(dicer, k));
         EXPECT_TRUE(size == 0 || std::abs(size - 1) < 1e-5) << size;
@@ -218,12 +218,12 @@ TEST(Dice, ACylindersSideIsAStrip) {
   Dicer dicer(simd::best_instruction_set(""));
   const EyePatch cylinder = cone_quarter(middle, 1, 2);
   for (const EyePatch& patch : {cylinder, swapped(cylinder)}) {
-    const Rates rates = shape::rates(shape_kernels(simd::best_instruction_set("")), patch, kView, 0);
+    const Rates rates = shape::rates(shape_kernels(simd::best_instruction_set("")), patch, kView, adaptive());
     const bool upright = rates.v == 1;
     EXPECT_EQ(upright ? rates.v : rates.u, 1);
     const int along = rates.side[upright ? 0 : 1];
     EXPECT_GT(along, 3);
-    dicer.dice(patch, kView, 0);
+    dicer.dice(patch, kView, adaptive());
     EXPECT_EQ(dicer.triangles().count, static_cast<std::uint32_t>(2 * along));
     ASSERT_TRUE(sound_disc(mesh_of(dicer), patch, rates));
     for (int k = 0; k < dicer.vertex_count(); ++k) {

@@ -32,6 +32,10 @@ double dot(const Vec3& a, const Vec3& b);
 Vec3 cross(const Vec3& a, const Vec3& b);
 double length(const Vec3& a);
 
+// Every patch into as many steps; and as films of one sample a pixel ask for.
+inline Dicing steps(int rate) { return {rate, {}}; }
+inline Dicing adaptive(std::uint32_t samples = 1) { return {0, tolerances_of(samples)}; }
+
 // The eye's view on a picture: `focal` = 1 / tan(half the vertical field of view).
 Projection projection(std::int32_t width, std::int32_t height, double focal, double near = 0.1, double far = 1000);
 
