@@ -10,16 +10,24 @@ namespace {
 
 // Of the largest picture, not compressed, with 4 channels of 16 bits; the rest is for what else a file holds.
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{8} * wire::kMaxSide * wire::kMaxSide + (1 << 24);
+constexpr std::size_t kLargestStart = 4096;  // bytes, in which notes end
 
 }  // namespace
 
 std::vector<std::byte> encode_picture(PictureFormat format, std::uint32_t width, std::uint32_t height,
-                                      std::span<const std::uint32_t> pixels) {
+                                      std::span<const std::uint32_t> pixels, const std::string& note) {
   switch (format) {
-    case PictureFormat::png16: return encode_png16(width, height, pixels);
-    case PictureFormat::exr: return encode_exr(width, height, pixels);
-    default: return encode_png(width, height, pixels);
+    case PictureFormat::png16: return encode_png16(width, height, pixels, note);
+    case PictureFormat::exr: return encode_exr(width, height, pixels, note);
+    default: return encode_png(width, height, pixels, note);
   }
+}
+
+std::optional<std::string> read_note(const std::filesystem::path& path) {
+  const std::string start = document::read_start(path, kLargestStart);
+  const auto bytes = std::as_bytes(std::span(start));
+  const std::optional<std::string> note = note_in_png(bytes);
+  return note ? note : note_in_exr(bytes);
 }
 
 Image read_picture(PictureFormat format, const std::filesystem::path& path) {

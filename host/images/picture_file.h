@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "host/images/image.h"
@@ -12,9 +14,12 @@
 
 namespace mars::images {
 
-// The bytes of such a file.
+// The bytes of such a file. `note`: ASCII that it carries beside the pixels, at its beginning; "": none.
 std::vector<std::byte> encode_picture(PictureFormat format, std::uint32_t width, std::uint32_t height,
-                                      std::span<const std::uint32_t> pixels);
+                                      std::span<const std::uint32_t> pixels, const std::string& note = "");
+
+// The note of the file, of any format, whose pixels are not read; none where it has none, or is no regular file.
+std::optional<std::string> read_note(const std::filesystem::path& path);
 
 // Throws Failure naming the file where it is missing, torn or no such picture. Either format of PNG reads both.
 Image read_picture(PictureFormat format, const std::filesystem::path& path);

@@ -96,6 +96,11 @@ std::string reason_of(const child::Ending& ending, bool too_late, const ApartLim
 
 }  // namespace
 
+ApartLimits limits_for(std::uint64_t bytes) {
+  const std::chrono::seconds processor_time(5 + (bytes >> 20));
+  return {processor_time, processor_time + std::chrono::minutes(1), (std::uint64_t{1} << 30) + 64 * bytes};
+}
+
 std::string run_apart(const std::function<std::string()>& work, const ApartLimits& limits, const std::string& where,
                       const std::string& remedy) {
   child::Pipe pipe = child::make_pipe();

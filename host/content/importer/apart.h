@@ -15,6 +15,9 @@ struct ApartLimits {
   std::uint64_t memory;            // bytes, beyond what this process has
 };
 
+// Of the work on so many bytes of a file; a sound one takes a fraction of that.
+ApartLimits limits_for(std::uint64_t bytes);
+
 // What `work` returns; its Failure is thrown here. Where the process dies or reaches a
 // limit, that is a Failure at `where` with `remedy`. The process ends with this one.
 std::string run_apart(const std::function<std::string()>& work, const ApartLimits& limits, const std::string& where,

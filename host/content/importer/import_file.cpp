@@ -14,10 +14,11 @@
 #include "host/content/document/whole_file.h"
 #include "host/content/importer/apart.h"
 #include "host/content/importer/file_kind.h"
+#include "host/content/importer/gltf_json.h"
 #include "host/content/importer/import_report.h"
 #include "host/content/importer/mesh_file.h"
 #include "host/content/importer/model_text.h"
-#include "host/content/importer/promised.h"
+#include "host/content/importer/orientation.h"
 #include "host/content/modeler/patch_file.h"
 
 namespace mars::importer {
@@ -28,46 +29,54 @@ struct Imported {
   std::string model;
 };
 
+bool is_gltf(FileKind kind) { return kind == FileKind::gltf || kind == FileKind::glb; }
+
 // y up is glTF's rule and OBJ's custom.
-char usual_up(FileKind kind) {
-  return kind == FileKind::obj || kind == FileKind::gltf || kind == FileKind::glb ? 'y' : 'z';
+std::string usual_up(FileKind kind) { return kind == FileKind::obj || is_gltf(kind) ? "y" : "z"; }
+
+// How a person wants the model to stand.
+struct Stance {
+  std::string up;  // never ""
+  glm::dmat3 upright;
+};
+
+// "1.2 x 0.33 x 1.45 units, 1.45 m tall, the file's y upward": only glTF says what its unit is.
+std::string box_of(const glm::dvec3& extent, double factor, FileKind kind, const Stance& stance) {
+  std::string text = document::formatted("%.4g x %.4g x %.4g units", extent.x, extent.y, extent.z);
+  if (is_gltf(kind))
+    text += document::formatted(", %.4g m tall", extent.z / factor) + (factor == 1 ? "" : " in the file");
+  return text + ", the file's " + stance.up + " upward";
 }
 
-// Turns the axis `up` into z: from y the file's x stays x; from x, as COLLADA has it, its -y becomes x.
-glm::dmat3 upright(char up) {
-  const glm::dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
-  if (up == 'x') return {z, -x, -y};
-  return up == 'y' ? glm::dmat3(x, z, -y) : glm::dmat3(x, y, z);
-}
-
-std::string box_of(const glm::dvec3& extent, char up) {
-  return document::formatted("%.4g x %.4g x %.4g, the file's %c upward", extent.x, extent.y, extent.z, up);
-}
-
-Imported import_patches(const ImportOptions& options, char up) {
+Imported import_patches(const ImportOptions& options, FileKind kind, const Stance& stance) {
   if (options.crease)
     throw Failure("has patches, which need no crease", options.from.string(), "leave out --crease: it is for meshes");
-  const modeler::PatchFile file = modeler::read_patch_file(options.from, upright(up) * options.scale);
+  const auto read = [&](double factor) { return modeler::read_patch_file(options.from, stance.upright * factor); };
+  const double factor = options.size.factor(options.size.height ? read(1).extent.z : 0, options.from.string());
+  const modeler::PatchFile file = read(factor);
   return {{"model of one joint '" + options.joint + "'",
-           box_of(file.extent, up),
+           box_of(file.extent, factor, kind, stance),
            {document::counted(file.patches.size(), "patch", "patches")},
+           {},
            {}},
-          model_text({{shape_text(file.patches), {}}}, file.bounds, options.joint)};
+          model_text({{options.joint, "", {}, false, WrittenSegment{shape_text(file.patches), file.bounds, {}}}}, {})};
 }
 
 std::vector<std::string> read_of(const MeshFile& file) {
-  std::size_t vertices = 0, faces = 0, colors = 0;
-  for (const MeshPart& part : file.parts) {
-    vertices += part.mesh.vertices.size();
-    faces += part.mesh.ends.size();
-    colors += part.color.has_value();
+  std::size_t vertices = 0, faces = 0;
+  bool has_normals = false;
+  for (const MeshJoint& joint : file.joints) {
+    if (!joint.part) continue;
+    vertices += joint.part->mesh.vertices.size();
+    faces += joint.part->mesh.ends.size();
+    has_normals = !joint.part->mesh.normals.empty();
   }
   const bool joined = vertices < file.vertices;
   std::vector<std::string> read = {document::counted(vertices, "vertex", "vertices") +
                                        (joined ? " of the file's " + std::to_string(file.vertices) : ""),
                                    document::counted(faces, "face", "faces")};
-  if (!file.parts[0].mesh.normals.empty()) read.emplace_back("normals");
-  if (colors > 0) read.push_back(document::counted(colors, "colour", "colours"));
+  if (has_normals) read.emplace_back("normals");
+  if (!file.materials.empty()) read.push_back(document::counted(file.materials.size(), "colour", "colours"));
   return read;
 }
 
@@ -77,21 +86,20 @@ std::string set_material(const ImportOptions& options) {
          " --material " + material_name(0);
 }
 
-Imported import_mesh(const ImportOptions& options, FileKind kind, char up) {
-  const MeshOptions mesh{upright(up), options.scale, options.crease, set_material(options)};
+Imported import_mesh(const ImportOptions& options, FileKind kind, const Stance& stance) {
+  const MeshOptions mesh{stance.upright, options.size, options.crease, options.joint, set_material(options)};
   const MeshFile file = read_mesh_file(options.from, kind, mesh);
   for (const std::filesystem::path& companion : file.companions) document::refuse_same_file(companion, options.to);
-  std::vector<ImportedPart> parts;
-  for (const MeshPart& part : file.parts) parts.push_back({shape_text(part.mesh), part.color});
-  const std::string joints = parts.size() == 1 ? "one joint" : std::to_string(parts.size()) + " joints, the first";
-  return {{"model of " + joints + " '" + options.joint + "'", box_of(file.extent, up), read_of(file), file.not_read},
-          model_text(parts, file.bounds, options.joint)};
-}
-
-// Of the work on so many bytes; a sound file takes a fraction of that.
-ApartLimits limits_for(std::uint64_t bytes) {
-  const std::chrono::seconds processor_time(5 + (bytes >> 20));
-  return {processor_time, processor_time + std::chrono::minutes(1), (std::uint64_t{1} << 30) + 64 * bytes};
+  std::vector<WrittenJoint> joints;
+  for (const MeshJoint& joint : file.joints) {
+    joints.push_back({joint.name, joint.parent, joint.frame, joint.fixed, {}});
+    if (joint.part)
+      joints.back().segment = WrittenSegment{shape_text(joint.part->mesh), joint.part->bounds, joint.part->material};
+  }
+  const std::string count = joints.size() == 1 ? "one joint" : std::to_string(joints.size()) + " joints, the first";
+  return {{"model of " + count + " '" + options.joint + "'", box_of(file.extent, file.factor, kind, stance),
+           read_of(file), file.made, file.not_read},
+          model_text(joints, file.materials)};
 }
 
 // A library does not come back from every damaged file.
@@ -107,8 +115,9 @@ std::string read_apart(const std::filesystem::path& path, FileKind kind, const s
 }
 
 // The report, a zero, the model.
-std::string run(const ImportOptions& options, FileKind kind, char up) {
-  const Imported imported = kind == FileKind::patches ? import_patches(options, up) : import_mesh(options, kind, up);
+std::string run(const ImportOptions& options, FileKind kind, const Stance& stance) {
+  const Imported imported =
+      kind == FileKind::patches ? import_patches(options, kind, stance) : import_mesh(options, kind, stance);
   return text_of(imported.report, options.to.string()) + '\0' + imported.model;
 }
 
@@ -149,8 +158,9 @@ std::string import_model(const ImportOptions& given) {
   check_joint(options.joint, given.joint, given.from);
   check_first_bytes(options.from, kind);
   check_target(options);
-  const char up = options.up.value_or(usual_up(kind));
-  const std::string answer = read_apart(options.from, kind, [&] { return run(options, kind, up); });
+  const std::string up = options.up.empty() ? usual_up(kind) : options.up;
+  const Stance stance{up, orientation(up, options.front)};
+  const std::string answer = read_apart(options.from, kind, [&] { return run(options, kind, stance); });
   const std::size_t end = answer.find('\0');
   document::write_whole_file(options.to, std::string_view(answer).substr(end + 1));
   return answer.substr(0, end);

@@ -6,19 +6,22 @@
 #include <optional>
 #include <string>
 
+#include "host/content/importer/model_size.h"
+
 namespace mars::importer {
 
 struct ImportOptions {
   std::filesystem::path from, to;
-  std::string joint;             // the model's; "": as the file is named
-  std::optional<char> up;        // the file's axis that points up: x, y, z; none: as is usual for its kind
-  double scale = 1;              // above 0
+  std::string joint;      // the model's; "": as the file is named
+  std::string up, front;  // as in orientation.h; "" for `up`: as is usual for the file's kind
+  ModelSize size;
   std::optional<double> crease;  // degrees, of meshes; none: the file's normals, or what is usual for its kind
   bool force = false;            // `to` may be there already: it is replaced
 };
 
-// Reads the patch file or mesh file `from` and writes the model file `to`. A mesh of several colours has a joint for
-// each, fixed to the first. The report of what was read, and what was not.
+// Reads the patch file or mesh file `from` and writes the model file `to`. Nodes of glTF with meshes below them become
+// joints; a mesh of several colours has a joint for each, fixed to the first. The report of what was read, what was
+// made of it, and what was not read.
 std::string import_model(const ImportOptions& given);
 
 }  // namespace mars::importer

@@ -11,14 +11,20 @@ std::string line(std::string_view title, const std::string& text) {
   return start + text + "\n";
 }
 
+std::string list(std::string_view title, const std::vector<std::string>& items) {
+  std::string text;
+  for (const std::string& item : items) text += line(text.empty() ? title : "", item);
+  return text;
+}
+
 }  // namespace
 
 std::string text_of(const ImportReport& report, const std::string& written) {
   std::string text =
       written + ": " + report.model + "\n" + line("box", report.box) + line("read", document::joined(report.read));
-  if (report.not_read.empty()) return text + line("not read", "nothing: all of the file was read");
-  for (std::size_t i = 0; i < report.not_read.size(); ++i) text += line(i == 0 ? "not read" : "", report.not_read[i]);
-  return text;
+  text += list("made", report.made);
+  return text + (report.not_read.empty() ? line("not read", "nothing: all of the file was read")
+                                         : list("not read", report.not_read));
 }
 
 }  // namespace mars::importer

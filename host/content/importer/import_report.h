@@ -12,6 +12,7 @@ struct ImportReport {
   std::string model;                  // "model of one joint 'rock'"
   std::string box;                    // what the shape takes up: "2 x 4 x 6, ..."
   std::vector<std::string> read;      // "8 vertices", ...
+  std::vector<std::string> made;      // of it besides meshes: "joints of 4 nodes", ...
   std::vector<std::string> not_read;  // "19 bones", ...; none: all was read
 };
 

@@ -1,4 +1,5 @@
-// What a mesh file of another program becomes: meshes in the unit cube, and a list of what else the file holds.
+// What a mesh file of another program becomes: joints with meshes in the unit cube, materials, and a list of what else
+// the file holds.
 #pragma once
 
 #include <array>
@@ -9,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "host/content/importer/joint_frame.h"
+#include "host/content/importer/model_size.h"
 #include "host/content/modeler/mesh.h"
 #include "host/content/modeler/model.h"
 
@@ -17,25 +20,51 @@ namespace mars::importer {
 // How a person wants the file read.
 struct MeshOptions {
   glm::dmat3 upright{1};  // turns the file's axes into ours
-  double scale = 1;
+  ModelSize size;
   std::optional<double> crease;  // degrees; given: normals follow from the faces, whatever the file says
+  std::string joint;             // the first joint's name
   std::string set_material;      // "mars model set rock.json rock --material color": remedies begin so
 };
 
-// The faces of one colour.
-struct MeshPart {
-  std::optional<std::array<double, 3>> color;  // none: the file gives none
-  modeler::Mesh mesh;
+struct Surface {
+  double roughness, metallic;
+
+  bool operator==(const Surface&) const = default;
 };
 
-// All parts are scaled together from `bounds` into the unit cube, so that vertices they share stay the same.
+struct ImportedMaterial {
+  std::array<double, 3> color;     // as shown
+  std::optional<Surface> surface;  // given: of the reflection metallic-roughness
+
+  bool operator==(const ImportedMaterial&) const = default;
+};
+
+// The faces of one material. A joint's parts are scaled together from its bounds into the unit cube, so that vertices
+// they share stay the same.
+struct MeshPart {
+  std::optional<std::size_t> material;  // of the file's; none: the file gives none
+  modeler::Mesh mesh;
+  modeler::Box bounds;  // in the joint's axes
+};
+
+// A joint with one part at the most.
+struct MeshJoint {
+  std::string name;
+  std::string parent;  // "": it stands in the model's frame
+  JointFrame frame;    // its origin in the parent's frame, in the model's units
+  bool fixed = false;  // it shows a further material of its parent, and cannot turn
+  std::optional<MeshPart> part;
+};
+
 struct MeshFile {
-  std::vector<MeshPart> parts;  // at least one, in the file's order
-  modeler::Box bounds;
-  glm::dvec3 extent;                              // of the faces; 0 where they are flat
+  std::vector<MeshJoint> joints;  // the first has no parent, all others do
+  std::vector<ImportedMaterial> materials;
+  glm::dvec3 extent;                              // of all faces; 0 where they are flat
+  double factor = 1;                              // from the file's units to the model's
   std::size_t vertices = 0;                       // in the file, before those that agree in place and normal are joined
+  std::vector<std::string> made;                  // besides: "a mean colour of 2 textures", ...
   std::vector<std::string> not_read;              // "19 bones", ...
-  std::vector<std::filesystem::path> companions;  // files that were read besides: materials, buffers
+  std::vector<std::filesystem::path> companions;  // files that were read besides: materials, buffers, textures
 };
 
 }  // namespace mars::importer

@@ -4,11 +4,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <limits>
 
 #include "hal/failure/failure.h"
-#include "host/content/document/fields.h"
-#include "host/content/document/text.h"
 
 namespace mars::importer {
 namespace {
@@ -43,27 +40,20 @@ std::size_t MeshBuilder::Hash::operator()(const std::array<double, 6>& key) cons
   return sum ^ sum >> 29;
 }
 
-void MeshBuilder::fail(const std::string& problem, const std::string& remedy) const {
-  throw Failure(problem, file_, remedy);
-}
-
-std::size_t MeshBuilder::part_of(const Color& color) {
-  const auto same = [&](const Part& part) { return part.color == color; };
+std::size_t MeshBuilder::part_of(const Material& material) {
+  const auto same = [&](const Part& part) { return part.material == material; };
   const auto found = std::find_if(parts_.begin(), parts_.end(), same);
   if (found != parts_.end()) return static_cast<std::size_t>(found - parts_.begin());
-  parts_.push_back({color, {}, {}, {}, {}});
+  parts_.push_back({material, {}, {}, {}, {}});
   return parts_.size() - 1;
 }
 
-MeshBuilder::Vertex MeshBuilder::placed(const glm::dvec3& place, const glm::dvec3& normal) const {
-  Vertex vertex{options_.upright * place * options_.scale, {}};
-  if (takes_normals_) vertex.normal = options_.upright * normal;
+MeshBuilder::Vertex MeshBuilder::checked(const glm::dvec3& place, const glm::dvec3& normal) const {
+  Vertex vertex{place, style_.takes_normals ? normal : glm::dvec3(0)};
   for (int axis = 0; axis < 3; ++axis) {
     if (!std::isfinite(place[axis]))
-      fail("has a vertex that is not at numbers, or at too large ones", "the file may be damaged: export it again");
-    if (!(std::abs(vertex.place[axis]) <= document::kFarthest))
-      fail("has a vertex at " + document::shown(vertex.place[axis]),
-           "keep vertices within 1e9 of the origin, with a smaller --scale if need be");
+      throw Failure("has a vertex that is not at numbers, or at too large ones", file_,
+                    "the file may be damaged: export it again");
     if (!(std::abs(vertex.normal[axis]) <= kLongestNormal)) vertex.normal = {};
     vertex.place[axis] += 0.0;  // no negative zero
   }
@@ -72,7 +62,7 @@ MeshBuilder::Vertex MeshBuilder::placed(const glm::dvec3& place, const glm::dvec
 
 std::uint32_t MeshBuilder::vertex(std::size_t number, const glm::dvec3& place, const glm::dvec3& normal) {
   Part& part = parts_[number];
-  const Vertex vertex = placed(place, normal);
+  const Vertex vertex = checked(place, normal);
   const glm::dvec3 &p = vertex.place, &n = vertex.normal;
   const auto [at, is_new] =
       part.numbers.try_emplace({p.x, p.y, p.z, n.x, n.y, n.z}, static_cast<std::uint32_t>(part.vertices.size()));
@@ -94,26 +84,25 @@ void MeshBuilder::add_face(std::size_t number, std::vector<std::uint32_t>& face)
   part.ends.push_back(static_cast<std::uint32_t>(part.corners.size()));
 }
 
-modeler::Box MeshBuilder::bounds() const {
-  modeler::Box box{glm::dvec3(std::numeric_limits<double>::max()), glm::dvec3(std::numeric_limits<double>::lowest())};
+void MeshBuilder::widen(modeler::Box& box, const glm::dvec3& origin, const glm::dmat3& axes) const {
   for (const Part& part : parts_)
     for (const std::uint32_t corner : part.corners) {
-      box.min = glm::min(box.min, part.vertices[corner].place);
-      box.max = glm::max(box.max, part.vertices[corner].place);
+      const glm::dvec3 place = origin + axes * part.vertices[corner].place;
+      box.min = glm::min(box.min, place);
+      box.max = glm::max(box.max, place);
     }
-  return box;
 }
 
-modeler::Mesh MeshBuilder::mesh_of(const Part& part, const modeler::Box& bounds, double crease) const {
+modeler::Mesh MeshBuilder::mesh_of(const Part& part, const modeler::Box& bounds, double factor) const {
   modeler::Mesh mesh;
-  mesh.crease = crease;
+  mesh.crease = style_.crease;
   const glm::dvec3 extent = bounds.max - bounds.min;
   for (const Vertex& vertex : part.vertices) {
     // In doubles the largest may come out of the cube by a rounding.
-    const glm::dvec3 unit = glm::clamp((vertex.place - bounds.min) / extent, 0.0, 1.0);
+    const glm::dvec3 unit = glm::clamp((vertex.place * factor - bounds.min) / extent, 0.0, 1.0);
     mesh.vertices.push_back({float(unit.x), float(unit.y), float(unit.z)});
     // Normals shrink where places grow.
-    if (takes_normals_) mesh.normals.push_back(unit_normal(vertex.normal, extent));
+    if (style_.takes_normals) mesh.normals.push_back(unit_normal(vertex.normal, extent));
   }
   for (std::size_t face = 0, first = 0; face < part.ends.size(); first = part.ends[face++])
     add_drawable(mesh,
@@ -121,19 +110,17 @@ modeler::Mesh MeshBuilder::mesh_of(const Part& part, const modeler::Box& bounds,
   return mesh;
 }
 
-MeshFile MeshBuilder::finish(double default_crease) {
+std::vector<MeshPart> MeshBuilder::finish(double factor) {
   std::erase_if(parts_, [](const Part& part) { return part.ends.empty(); });
-  if (parts_.empty()) fail("has no faces", "export the object's surface, not only points or lines");
-  const modeler::Box box = bounds();
-  MeshFile file{{}, modeler::thickened(box), box.max - box.min, 0, {}, {}};
+  modeler::Box box = kEmptyBox;
+  widen(box, glm::dvec3(0), glm::dmat3(1));
+  const modeler::Box bounds = modeler::thickened({box.min * factor, box.max * factor});
+  std::vector<MeshPart> finished;
   for (Part& part : parts_) {
     part.numbers = {};  // its memory is wanted for the mesh
-    file.parts.push_back({part.color, mesh_of(part, file.bounds, options_.crease.value_or(default_crease))});
+    finished.push_back({part.material, mesh_of(part, bounds, factor), bounds});
   }
-  if (faces_left_out_ > 0)
-    file.not_read.push_back(document::counted(faces_left_out_, "face", "faces") + " without three different corners");
-  if (has_normals_ && !takes_normals_) file.not_read.emplace_back("normals (--crease makes others)");
-  return file;
+  return finished;
 }
 
 }  // namespace mars::importer

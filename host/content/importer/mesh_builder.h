@@ -1,10 +1,13 @@
-// Puts a mesh file's faces together: vertices that agree in place and normal become one, faces of one colour one part.
+// Puts the faces of one joint together: vertices that agree in place and normal become one, faces of one material one
+// part.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -15,28 +18,40 @@
 
 namespace mars::importer {
 
+// One that nothing is in, to be widened.
+inline const modeler::Box kEmptyBox{glm::dvec3(std::numeric_limits<double>::max()),
+                                    glm::dvec3(std::numeric_limits<double>::lowest())};
+
+// Where the crease and the normals of all meshes of a file come from.
+struct MeshStyle {
+  bool takes_normals = false;  // without, those given to vertex() are passed over
+  double crease = modeler::kDefaultCrease;
+};
+
 class MeshBuilder {
  public:
-  using Color = std::optional<std::array<double, 3>>;
+  using Material = std::optional<std::size_t>;
 
-  // `file` is what failures name. Without normals those given to vertex() are passed over.
-  MeshBuilder(std::string file, const MeshOptions& options, bool has_normals)
-      : file_(std::move(file)),
-        options_(options),
-        has_normals_(has_normals),
-        takes_normals_(has_normals && !options.crease) {}
+  // `file` is what failures name.
+  MeshBuilder(std::string file, const MeshStyle& style) : file_(std::move(file)), style_(style) {}
 
-  // The number of the part of this colour.
-  std::size_t part_of(const Color& color);
+  // The number of the part of this material.
+  std::size_t part_of(const Material& material);
 
-  // The number, within its part, of a vertex given in the file's axes and units.
+  // The number, within its part, of a vertex given in the joint's axes and the file's units.
   std::uint32_t vertex(std::size_t part_number, const glm::dvec3& place, const glm::dvec3& normal);
 
   // Changes `face`: a corner twice in a row is one.
   void add_face(std::size_t part_number, std::vector<std::uint32_t>& face);
 
-  // All but the file's vertices; as not read, what was given here and left out. Refuses a file without faces.
-  MeshFile finish(double default_crease);
+  // Makes `box` reach round what lies on faces, seen from where the joint's origin is at `origin` and its axes are
+  // `axes`.
+  void widen(modeler::Box& box, const glm::dvec3& origin, const glm::dmat3& axes) const;
+
+  // All parts with faces, `factor` times as large.
+  std::vector<MeshPart> finish(double factor);
+
+  std::size_t faces_left_out() const { return faces_left_out_; }
 
  private:
   struct Vertex {
@@ -46,21 +61,18 @@ class MeshBuilder {
     std::size_t operator()(const std::array<double, 6>& key) const;
   };
   struct Part {
-    Color color;
+    Material material;
     std::vector<Vertex> vertices;
     std::unordered_map<std::array<double, 6>, std::uint32_t, Hash> numbers;
     std::vector<std::uint32_t> corners;
     std::vector<std::uint32_t> ends;
   };
 
-  [[noreturn]] void fail(const std::string& problem, const std::string& remedy) const;
-  Vertex placed(const glm::dvec3& place, const glm::dvec3& normal) const;
-  modeler::Box bounds() const;  // round what lies on faces
-  modeler::Mesh mesh_of(const Part& part, const modeler::Box& bounds, double crease) const;
+  Vertex checked(const glm::dvec3& place, const glm::dvec3& normal) const;
+  modeler::Mesh mesh_of(const Part& part, const modeler::Box& bounds, double factor) const;
 
   std::string file_;
-  MeshOptions options_;
-  bool has_normals_, takes_normals_;
+  MeshStyle style_;
   std::vector<Part> parts_;
   std::size_t faces_left_out_ = 0;
 };

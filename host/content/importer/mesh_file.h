@@ -1,4 +1,5 @@
-// Mesh files of other programs: OBJ, STL, PLY, glTF, GLB. What stands still is read.
+// Mesh files of other programs: OBJ, STL, PLY, glTF, GLB. What stands still is read: the nodes of a glTF file become
+// joints, all else is one joint; what its skins place stands as its bones do in the file.
 #pragma once
 
 #include <filesystem>

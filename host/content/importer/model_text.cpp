@@ -1,7 +1,9 @@
 #include "host/content/importer/model_text.h"
 
 #include <charconv>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 namespace mars::importer {
 namespace {
@@ -41,9 +43,73 @@ std::string numbered(const std::string& name, std::size_t number) {
   return number == 0 ? name : name + "-" + std::to_string(number + 1);
 }
 
+std::string row_text(const glm::dvec3& vector) {
+  std::string text;
+  append_row(text, &vector.x, 3);
+  return text;
+}
+
+std::string material_text(const ImportedMaterial& material) {
+  std::string text = "{\"color\": ";
+  append_row(text, material.color.data(), 3);
+  if (material.surface) {
+    text += ", \"reflection\": \"metallic-roughness\", \"roughness\": ";
+    append(text, material.surface->roughness);
+    text += ", \"metallic\": ";
+    append(text, material.surface->metallic);
+  }
+  return text + "}";
+}
+
+// The lists of a model's joints and shapes, as they grow.
+class ModelText {
+ public:
+  void add(const WrittenJoint& joint) {
+    joints_ += (joints_.empty() ? "\n    {" : ",\n    {") + ("\"name\": " + json_text(joint.name));
+    if (!joint.parent.empty()) joints_ += ", \"parent\": " + json_text(joint.parent);
+    const JointFrame &frame = joint.frame, usual;
+    add_vector("place", frame.origin, usual.origin);
+    add_vector("x_axis", frame.x_axis, usual.x_axis);
+    add_vector("y_axis", frame.y_axis, usual.y_axis);
+    if (joint.fixed) joints_ += ", \"limits\": {}";
+    if (joint.segment) add_segment(*joint.segment);
+    joints_ += "}";
+  }
+
+  std::string whole(const std::vector<ImportedMaterial>& materials) const {
+    std::string text = "{\n";
+    for (std::size_t i = 0; i < materials.size(); ++i)
+      text += (i == 0 ? "  \"materials\": {\n    " : ",\n    ") + json_text(material_name(i)) + ": " +
+              material_text(materials[i]);
+    if (!materials.empty()) text += "\n  },\n";
+    return text + "  \"joints\": [" + joints_ + "\n  ],\n  \"shapes\": {" + shapes_ + "\n  }\n}\n";
+  }
+
+ private:
+  void add_vector(const char* key, const glm::dvec3& vector, const glm::dvec3& usual) {
+    if (vector != usual) joints_ += std::string(", \"") + key + "\": " + row_text(vector);
+  }
+
+  void add_segment(const WrittenSegment& segment) {
+    joints_ += ", \"segment\": {\"shape\": " + shape_name(segment.shape) + ", \"sbb\": [" + row_text(segment.sbb.min) +
+               ", " + row_text(segment.sbb.max) + "]";
+    if (segment.material) joints_ += ", \"material\": " + json_text(material_name(*segment.material));
+    joints_ += "}";
+  }
+
+  std::string shape_name(const std::string& shape) {
+    const auto [known, is_new] = shape_names_.try_emplace(shape, json_text(numbered("imported", shape_names_.size())));
+    if (is_new) shapes_ += (shapes_.empty() ? "\n    " : ",\n    ") + known->second + ": " + shape;
+    return known->second;
+  }
+
+  std::string joints_, shapes_;
+  std::map<std::string_view, std::string> shape_names_;  // by their texts, which the joints hold
+};
+
 }  // namespace
 
-std::string material_name(std::size_t part) { return numbered("color", part); }
+std::string material_name(std::size_t number) { return numbered("color", number); }
 
 std::string shape_text(const std::vector<wire::Patch>& patches) {
   std::string text;
@@ -74,28 +140,10 @@ std::string shape_text(const modeler::Mesh& mesh) {
   return text + "}}";
 }
 
-std::string model_text(const std::vector<ImportedPart>& parts, const modeler::Box& bounds, const std::string& joint) {
-  std::string materials, joints, shapes, sbb = "[";
-  append_row(sbb, &bounds.min.x, 3);
-  sbb += ", ";
-  append_row(sbb, &bounds.max.x, 3);
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const std::string comma = i == 0 ? "\n    " : ",\n    ";
-    const std::string shape = json_text(numbered("imported", i)), material = json_text(material_name(i));
-    joints += comma + "{\"name\": " + json_text(numbered(joint, i));
-    if (i > 0) joints += ", \"parent\": " + json_text(joint) + ", \"limits\": {}";
-    joints += ", \"segment\": {\"shape\": " + shape + ", \"sbb\": " + sbb + "]";
-    if (parts[i].color) {
-      joints += ", \"material\": " + material;
-      materials += (materials.empty() ? "\n    " : ",\n    ") + material + ": {\"color\": ";
-      append_row(materials, parts[i].color->data(), 3);
-      materials += "}";
-    }
-    joints += "}}";
-    shapes += comma + shape + ": " + parts[i].shape;
-  }
-  if (!materials.empty()) materials = "  \"materials\": {" + materials + "\n  },\n";
-  return "{\n" + materials + "  \"joints\": [" + joints + "\n  ],\n  \"shapes\": {" + shapes + "\n  }\n}\n";
+std::string model_text(const std::vector<WrittenJoint>& joints, const std::vector<ImportedMaterial>& materials) {
+  ModelText text;
+  for (const WrittenJoint& joint : joints) text.add(joint);
+  return text.whole(materials);
 }
 
 }  // namespace mars::importer

@@ -1,19 +1,15 @@
 #include "host/content/importer/promised.h"
 
 #include <algorithm>
-#include <charconv>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
 
 #include "hal/failure/failure.h"
-#include "host/content/document/file.h"
 #include "host/content/document/text.h"
 
 namespace mars::importer {
 namespace {
 
-constexpr std::uintmax_t kLargestFile = std::uintmax_t{1} << 30;
 constexpr std::string_view kSpace = " \t\r\n\f\v";
 
 // The next line of `text`, which loses it; one that ends in "\" goes on in the next.
@@ -63,12 +59,6 @@ Promised promised_by_obj(const std::filesystem::path& path, std::string_view tex
   return promised;
 }
 
-std::uint32_t little_endian_at(std::string_view bytes, std::size_t at) {
-  std::uint32_t number = 0;
-  for (std::size_t i = 4; i-- > 0;) number = number << 8 | static_cast<unsigned char>(bytes[at + i]);
-  return number;
-}
-
 Promised promised_by_stl(std::string_view bytes) {
   constexpr std::size_t kHeader = 84, kFacet = 50;
   if (bytes.size() >= kHeader) {
@@ -81,26 +71,6 @@ Promised promised_by_stl(std::string_view bytes) {
     *promised.faces += take_word(line) == "facet";
   }
   return promised;
-}
-
-using Tree = nlohmann::json;
-
-// What `tree` has under `key`; null where it is no object or has none.
-const Tree& at(const Tree& tree, const char* key) {
-  static const Tree null;
-  const auto found = tree.find(key);
-  return found == tree.end() ? null : *found;
-}
-
-std::size_t number(const Tree& tree, std::size_t otherwise) {
-  return tree.is_number_unsigned() ? tree.get<std::size_t>() : otherwise;
-}
-
-// Item `index` of a list; null where there is none.
-const Tree& item(const Tree& list, const Tree& index) {
-  static const Tree null;
-  const std::size_t place = number(index, list.size());
-  return list.is_array() && place < list.size() ? list[place] : null;
 }
 
 // Without the shapes of these, the file cannot be read; other extensions are about what models do not have.
@@ -123,31 +93,21 @@ std::size_t triangles_of(const Tree& primitive, const Tree& accessors) {
 // The numbers of the meshes that the nodes of the file's scene name: the others are not read.
 std::set<std::size_t> meshes_in_scene(const Tree& tree) {
   std::set<std::size_t> meshes, visited;
-  std::vector<Tree> nodes;
-  const Tree& scene = at(tree, "scene");
-  for (const Tree& node : at(item(at(tree, "scenes"), scene.is_null() ? Tree(0u) : scene), "nodes"))
-    nodes.push_back(node);
+  const Tree& all = at(tree, "nodes");
+  std::vector<std::size_t> nodes = root_nodes(tree);
   while (!nodes.empty()) {
-    const Tree index = std::move(nodes.back());
+    const std::size_t index = nodes.back();
     nodes.pop_back();
-    const Tree& node = item(at(tree, "nodes"), index);
-    if (node.is_null() || !visited.insert(number(index, 0)).second) continue;
+    if (!visited.insert(index).second) continue;
+    const Tree& node = all[index];
     if (const Tree& mesh = at(node, "mesh"); !item(at(tree, "meshes"), mesh).is_null()) meshes.insert(number(mesh, 0));
-    for (const Tree& child : at(node, "children")) nodes.push_back(child);
+    for (const std::size_t child : places_in(all, at(node, "children"))) nodes.push_back(child);
   }
   return meshes;
 }
 
-// The JSON of a GLB: after its header of 12 bytes, a chunk of its length, "JSON" and itself.
-std::string_view json_of(std::string_view bytes, FileKind kind) {
-  if (kind == FileKind::gltf) return bytes;
-  return bytes.size() < 20 ? "" : bytes.substr(20, little_endian_at(bytes, 12));
-}
-
-Promised promised_by_gltf(const std::filesystem::path& path, std::string_view bytes, FileKind kind) {
-  const std::string_view json = json_of(bytes, kind);
-  const Tree tree = Tree::parse(json, nullptr, false);
-  if (tree.is_discarded()) return {};
+Promised promised_by_gltf(const std::filesystem::path& path, const Tree& tree) {
+  if (tree.is_null()) return {};
   refuse_extensions(path, at(tree, "extensionsRequired"));
   Promised promised{0, {}, {}};
   const Tree& meshes = at(tree, "meshes");
@@ -163,45 +123,10 @@ Promised promised_by_gltf(const std::filesystem::path& path, std::string_view by
 
 }  // namespace
 
-Promised promised_by(const std::filesystem::path& path, FileKind kind) {
-  const std::string bytes = document::read_file(path, kLargestFile);
+Promised promised_by(const std::filesystem::path& path, FileKind kind, std::string_view bytes, const Tree& gltf) {
   if (kind == FileKind::obj) return promised_by_obj(path, bytes);
   if (kind == FileKind::stl) return promised_by_stl(bytes);
-  return promised_by_gltf(path, bytes, kind);
-}
-
-namespace {
-
-// "my%20mesh.bin" is the file "my mesh.bin".
-std::string percent_decoded(const std::string& uri) {
-  std::string text;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    unsigned byte = 0;
-    const char* digits = uri.data() + i + 1;
-    if (uri[i] == '%' && i + 2 < uri.size() && std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2) {
-      text += static_cast<char>(byte);
-      i += 2;
-    } else {
-      text += uri[i];
-    }
-  }
-  return text;
-}
-
-}  // namespace
-
-std::uintmax_t bytes_of_buffers(const std::filesystem::path& path) {
-  const Tree tree = Tree::parse(document::read_file(path, kLargestFile), nullptr, false);
-  std::uintmax_t sum = 0;
-  for (const Tree& buffer : at(tree, "buffers")) {
-    const Tree& uri = at(buffer, "uri");
-    if (!uri.is_string() || uri.get_ref<const std::string&>().starts_with("data:")) continue;
-    std::error_code error;
-    const std::uintmax_t size =
-        std::filesystem::file_size(path.parent_path() / percent_decoded(uri.get_ref<const std::string&>()), error);
-    if (!error) sum += size;
-  }
-  return sum;
+  return promised_by_gltf(path, gltf);
 }
 
 }  // namespace mars::importer

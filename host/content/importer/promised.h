@@ -3,13 +3,14 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "host/content/importer/file_kind.h"
+#include "host/content/importer/gltf_json.h"
 
 namespace mars::importer {
 
@@ -19,11 +20,8 @@ struct Promised {
   std::vector<std::string> not_read;    // of what Assimp passes over
 };
 
-// Of OBJ, STL, glTF and GLB. glTF's meshes count once each, however often they stand in its scene. Refuses glTF that
-// requires an extension without which its shapes cannot be read.
-Promised promised_by(const std::filesystem::path& path, FileKind kind);
-
-// The size of the files that a glTF file's buffers name, which are read with it.
-std::uintmax_t bytes_of_buffers(const std::filesystem::path& path);
+// Of OBJ, STL, glTF and GLB with these bytes, `gltf` the JSON of the last two. glTF's meshes count once each, however
+// often they stand in its scene. Refuses glTF that requires an extension without which its shapes cannot be read.
+Promised promised_by(const std::filesystem::path& path, FileKind kind, std::string_view bytes, const Tree& gltf);
 
 }  // namespace mars::importer

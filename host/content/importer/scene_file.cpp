@@ -1,33 +1,35 @@
 #include "host/content/importer/scene_file.h"
 
-#include <assimp/material.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
-#include <cmath>
 #include <exception>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <memory>
-#include <set>
+#include <span>
 #include <string_view>
 
 #include "hal/failure/failure.h"
+#include "host/content/document/file.h"
 #include "host/content/document/text.h"
-#include "host/content/importer/mesh_builder.h"
+#include "host/content/importer/assimp_matrix.h"
+#include "host/content/importer/gltf_skins.h"
+#include "host/content/importer/joint_frame.h"
+#include "host/content/importer/material_reader.h"
+#include "host/content/importer/model_builder.h"
+#include "host/content/importer/node_tree.h"
 #include "host/content/importer/promised.h"
 #include "host/content/importer/scene_sources.h"
+#include "host/content/importer/skin.h"
 #include "host/content/importer/unread_parts.h"
 
 namespace mars::importer {
 namespace {
 
-constexpr std::size_t kMostNodes = 1'000'000;
-
-using Vector = aiVector3t<double>;
-using Matrix = aiMatrix4x4t<double>;
-
-glm::dvec3 dvec3_of(const Vector& vector) { return {vector.x, vector.y, vector.z}; }
+bool is_gltf(FileKind kind) { return kind == FileKind::gltf || kind == FileKind::glb; }
 
 void append(std::vector<std::string>& list, const std::vector<std::string>& more) {
   list.insert(list.end(), more.begin(), more.end());
@@ -53,6 +55,7 @@ constexpr Reason kReasons[] = {{"mNumMeshes is 0", "it has no meshes"},
                                {"JSON parse error", "it is not JSON, or cut short"},
                                {"JSON document", "it is not as glTF should be"},
                                {"Unsupported glTF version", "its version of glTF is not known"},
+                               {"has the same name as", "two of its bones have one name"},
                                {"too small", "it is empty or cut short"},
                                {"is empty", "it is empty or cut short"},
                                {"unexpected EOF", "it is cut short"}};
@@ -64,30 +67,49 @@ std::string reason_in_our_words(std::string_view message) {
   return "";
 }
 
+// What the file says without Assimp.
+struct FileItself {
+  FileItself(const std::filesystem::path& path, FileKind kind) {
+    const std::string bytes = document::read_file(path, kLargestMeshFile);
+    Tree gltf;
+    if (is_gltf(kind)) gltf = gltf_json(bytes, kind);
+    promised = promised_by(path, kind, bytes, gltf);
+    if (is_gltf(kind)) skins = gltf_skins(path, gltf);
+  }
+
+  Promised promised;
+  std::optional<GltfSkins> skins;
+};
+
 class SceneReader {
  public:
   SceneReader(const std::filesystem::path& path, FileKind kind, const MeshOptions& options)
       : path_(path),
         kind_(kind),
-        set_material_(options.set_material),
-        is_gltf_(kind == FileKind::gltf || kind == FileKind::glb),
-        promised_(promised_by(path, kind)),
+        options_(options),
+        upright_(options.upright),
+        file_(path, kind),
         sources_(handed_over(std::make_unique<SceneSources>(path))),
         scene_(load()),
-        builder_(path.string(), options, has_normals()) {}
+        tree_(node_tree(path, scene_, file_.skins ? &*file_.skins : nullptr)),
+        materials_(path, kind, scene_),
+        builder_(path.string(), options, has_normals(), is_gltf(kind) ? 0 : modeler::kDefaultCrease) {}
 
   MeshFile read() {
     check_faces();
-    visit(*scene_.mRootNode, Matrix());
-    MeshFile file = builder_.finish(is_gltf_ ? 0 : modeler::kDefaultCrease);
+    if (is_gltf(kind_))
+      add_joints();
+    else
+      add_all_to_one();
+    MeshFile file = builder_.finish();
     for (unsigned i = 0; i < scene_.mNumMeshes; ++i) file.vertices += scene_.mMeshes[i]->mNumVertices;
-    file.vertices = promised_.vertices.value_or(file.vertices);
-    append(file.not_read, unread_parts(scene_, is_gltf_, set_material_));
-    append(file.not_read, promised_.not_read);
-    if (!cut_colors_.empty())
-      file.not_read.push_back(document::counted(cut_colors_.size(), "colour", "colours") +
-                              " beyond 0 to 1: cut to that (another: " + set_material_ + " --color 0.8 0.6 0.4)");
+    file.vertices = file_.promised.vertices.value_or(file.vertices);
+    file.materials = materials_.materials();
+    list_what_was_made(file);
+    list_not_read(file.not_read);
     file.companions = sources_.companions();
+    file.companions.insert(file.companions.end(), materials_.textures().companions().begin(),
+                           materials_.textures().companions().end());
     return file;
   }
 
@@ -139,70 +161,153 @@ class SceneReader {
     for (unsigned i = 0; i < scene_.mNumMeshes; ++i)
       for (unsigned f = 0; f < scene_.mMeshes[i]->mNumFaces; ++f)
         faces += scene_.mMeshes[i]->mFaces[f].mNumIndices >= 3;
-    if (promised_.faces.value_or(0) > faces)
-      fail("promises " + std::to_string(*promised_.faces) + " faces, " + std::to_string(faces) +
+    if (file_.promised.faces.value_or(0) > faces)
+      fail("promises " + std::to_string(*file_.promised.faces) + " faces, " + std::to_string(faces) +
                (faces == 1 ? " was read" : " were read"),
            "export it again, or as another of OBJ, STL, PLY, glTF, GLB");
   }
 
-  void visit(const aiNode& node, const Matrix& above) {
-    if (++visited_ > kMostNodes) fail("has more than a million nodes", "join its objects before exporting it");
-    const auto matrix = above * static_cast<Matrix>(node.mTransformation);
-    for (unsigned i = 0; i < node.mNumMeshes; ++i) add(*scene_.mMeshes[node.mMeshes[i]], matrix);
-    for (unsigned i = 0; i < node.mNumChildren; ++i) visit(*node.mChildren[i], matrix);
+  // Of OBJ and STL, whose nodes have no places of their own.
+  void add_all_to_one() {
+    builder_.add_joint(options_.joint, modeler::kNone, {});
+    for (const PlacedNode& node : tree_.nodes) {
+      const glm::dmat4 matrix = upright_ * node.matrix;
+      for (unsigned i = 0; i < node.node->mNumMeshes; ++i)
+        add(*scene_.mMeshes[node.node->mMeshes[i]], 0, std::span(&matrix, 1));
+    }
   }
 
-  void add(const aiMesh& mesh, const Matrix& matrix) {
-    const bool mirrored = matrix.Determinant() < 0;
-    auto across = aiMatrix3x3t<double>(matrix);  // normals go by the inverse's transpose
-    if (across.Determinant() != 0) across.Inverse().Transpose();
-    const std::size_t part = builder_.part_of(color_of(mesh));
+  // Nodes with meshes below them become joints, but for what a skin places: that stands on the first joint.
+  void add_joints() {
+    const std::vector<bool> shown = shown_nodes();
+    const bool one_root = !tree_.nodes.empty() && tree_.nodes[0].parent == modeler::kNone && shown[0] &&
+                          file_.skins->roots.size() == 1 && !has_skins();
+    if (!one_root) builder_.add_joint(options_.joint, modeler::kNone, {});
+    std::vector<std::size_t> joints(tree_.nodes.size(), 0);
+    for (std::size_t i = 0; i < tree_.nodes.size(); ++i) {
+      const PlacedNode& node = tree_.nodes[i];
+      if (shown[i]) {
+        const std::size_t parent = node.parent == modeler::kNone ? 0 : joints[node.parent];
+        joints[i] = add_joint(node, one_root && i == 0 ? modeler::kNone : parent);
+      }
+      if (node.skin) add_skinned(node);
+    }
+    nodes_as_joints_ = std::ranges::count(shown, true);
+  }
+
+  bool has_skins() const {
+    return std::ranges::any_of(tree_.nodes, [](const PlacedNode& node) { return node.skin.has_value(); });
+  }
+
+  bool has_faces(const PlacedNode& node) const {
+    const auto is_face = [](const aiFace& face) { return face.mNumIndices >= 3; };
+    return std::ranges::any_of(std::span(node.node->mMeshes, node.node->mNumMeshes), [&](unsigned number) {
+      const aiMesh& mesh = *scene_.mMeshes[number];
+      return std::ranges::any_of(std::span(mesh.mFaces, mesh.mNumFaces), is_face);
+    });
+  }
+
+  // Those with a mesh of their own, or below them, that no skin places.
+  std::vector<bool> shown_nodes() const {
+    std::vector<bool> shown(tree_.nodes.size());
+    for (std::size_t i = shown.size(); i-- > 0;) {
+      const PlacedNode& node = tree_.nodes[i];
+      if (!node.skin && has_faces(node)) shown[i] = true;
+      if (shown[i] && node.parent != modeler::kNone) shown[node.parent] = true;
+    }
+    return shown;
+  }
+
+  // In the model's axes a node that the file does not turn has the model's.
+  glm::dmat4 in_our_axes(const glm::dmat4& matrix) const { return upright_ * matrix * glm::transpose(upright_); }
+
+  std::size_t add_joint(const PlacedNode& node, std::size_t parent) {
+    const glm::dmat4 matrix = in_our_axes(node.matrix);
+    const JointFrame frame = frame_of(matrix);
+    const std::string name = node.name.empty() ? "node" : node.name;
+    const std::size_t joint = builder_.add_joint(parent == modeler::kNone ? options_.joint : name, parent, frame);
+    uneven_joints_ += !scales_evenly(tree_.above(node));
+    if (node.skin) return joint;  // its mesh stands elsewhere
+    const glm::dmat4 within(within_frame(frame, glm::dmat3(matrix)) * glm::dmat3(upright_));
+    for (unsigned i = 0; i < node.node->mNumMeshes; ++i)
+      add(*scene_.mMeshes[node.node->mMeshes[i]], joint, std::span(&within, 1));
+    return joint;
+  }
+
+  void add_skinned(const PlacedNode& node) {
+    std::vector<glm::dmat4> joints;
+    for (const std::size_t number : file_.skins->skins[*node.skin])
+      joints.push_back(upright_ * tree_.by_number[number]);
+    for (unsigned i = 0; i < node.node->mNumMeshes; ++i) {
+      const aiMesh& mesh = *scene_.mMeshes[node.node->mMeshes[i]];
+      add(mesh, 0, skinned(mesh, joints));
+    }
+    ++skinned_meshes_;
+  }
+
+  // `matrices`, from the mesh's axes to the joint's: one for all vertices, or one a vertex.
+  void add(const aiMesh& mesh, std::size_t joint, std::span<const glm::dmat4> matrices) {
+    std::vector<glm::dmat3> across;  // normals go by the inverse's transpose
+    for (const glm::dmat4& matrix : matrices) {
+      const glm::dmat3 linear(matrix);
+      across.push_back(glm::determinant(linear) == 0 ? linear : glm::transpose(glm::inverse(linear)));
+    }
+    MeshBuilder& builder = builder_.mesh(joint);
+    const std::size_t part = builder.part_of(materials_.number_of(mesh));
     std::vector<std::uint32_t> face;
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
-      if (mesh.mFaces[f].mNumIndices < 3) continue;  // a point, a line
+      const std::span corners(mesh.mFaces[f].mIndices, mesh.mFaces[f].mNumIndices);
+      if (corners.size() < 3) continue;  // a point, a line
       face.clear();
-      for (unsigned c = 0; c < mesh.mFaces[f].mNumIndices; ++c) {
-        const unsigned index = mesh.mFaces[f].mIndices[c];
-        const Vector normal = mesh.HasNormals() ? across * static_cast<Vector>(mesh.mNormals[index]) : Vector();
-        face.push_back(
-            builder_.vertex(part, dvec3_of(matrix * static_cast<Vector>(mesh.mVertices[index])), dvec3_of(normal)));
+      for (const unsigned corner : corners) {
+        const std::size_t at = matrices.size() == 1 ? 0 : corner;
+        const glm::dvec3 place(matrices[at] * glm::dvec4(dvec3_of(mesh.mVertices[corner]), 1));
+        const glm::dvec3 normal = mesh.HasNormals() ? across[at] * dvec3_of(mesh.mNormals[corner]) : glm::dvec3(0);
+        face.push_back(builder.vertex(part, place, normal));
       }
-      if (mirrored) std::reverse(face.begin(), face.end());
-      builder_.add_face(part, face);
+      if (glm::determinant(across[matrices.size() == 1 ? 0 : corners[0]]) < 0) std::ranges::reverse(face);  // mirrored
+      builder.add_face(part, face);
     }
   }
 
-  // OBJ's colour is as shown, glTF's is light.
-  MeshBuilder::Color color_of(const aiMesh& mesh) {
-    if (kind_ == FileKind::stl) return {};
-    const aiMaterial& material = *scene_.mMaterials[mesh.mMaterialIndex];
-    aiColor4D given;
-    if (material.GetName() == aiString(AI_DEFAULT_MATERIAL_NAME)) return {};
-    if (material.Get(AI_MATKEY_BASE_COLOR, given) != AI_SUCCESS &&
-        material.Get(AI_MATKEY_COLOR_DIFFUSE, given) != AI_SUCCESS)
-      return {};
-    std::array<double, 3> color{given.r, given.g, given.b};
-    if (std::any_of(color.begin(), color.end(), [](double c) { return !(c >= 0 && c <= 1); }))
-      cut_colors_.insert(mesh.mMaterialIndex);
-    for (double& c : color) {
-      c = c >= 0 ? std::min(c, 1.0) : 0;
-      if (is_gltf_) c = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
-      c = std::round(c * 1000) / 1000;
-    }
-    return color;
+  void list_what_was_made(MeshFile& file) const {
+    const auto add = [&](const char* what, std::size_t count, std::string_view one, std::string_view several) {
+      if (count > 0) file.made.push_back(what + document::counted(count, one, several));
+    };
+    add("joints of ", nodes_as_joints_ > 1 ? nodes_as_joints_ : 0, "node", "nodes");
+    add("the pose of the file's bones for ", skinned_meshes_, "skinned mesh", "skinned meshes");
+    add("metallic-roughness of ",
+        static_cast<std::size_t>(std::ranges::count_if(
+            file.materials, [](const ImportedMaterial& material) { return material.surface.has_value(); })),
+        "material", "materials");
+    add("a mean colour of ", materials_.textures_of_colors(), "texture", "textures");
+    add("a mean roughness and metal of ", materials_.textures_of_surfaces(), "texture", "textures");
+  }
+
+  void list_not_read(std::vector<std::string>& list) const {
+    if (uneven_joints_ > 0)
+      list.push_back("an uneven scale above " + document::counted(uneven_joints_, "joint", "joints") +
+                     ": turned, they keep their shape at rest");
+    append(list, unread_parts(scene_, materials_.textures(), options_.set_material));
+    append(list, materials_.textures().not_read());
+    append(list, file_.promised.not_read);
+    if (const std::size_t count = materials_.cut_colors(); count > 0)
+      list.push_back(document::counted(count, "colour", "colours") +
+                     " beyond 0 to 1: cut to that (another: " + options_.set_material + " --color 0.8 0.6 0.4)");
   }
 
   std::filesystem::path path_;
   FileKind kind_;
-  std::string set_material_;
-  bool is_gltf_;
-  Promised promised_;
+  MeshOptions options_;
+  glm::dmat4 upright_;
+  FileItself file_;
   Assimp::Importer importer_;
   const SceneSources& sources_;  // the importer's
   const aiScene& scene_;
-  MeshBuilder builder_;
-  std::size_t visited_ = 0;
-  std::set<unsigned> cut_colors_;  // numbers of materials
+  NodeTree tree_;
+  MaterialReader materials_;
+  ModelBuilder builder_;
+  std::size_t nodes_as_joints_ = 0, skinned_meshes_ = 0, uneven_joints_ = 0;
 };
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 
 struct Counts {
   std::set<std::string> bones, textures;
-  std::size_t nodes = 0, colored_vertices = 0, mapped_vertices = 0, targets = 0, points = 0, lines = 0, glosses = 0,
+  std::size_t colored_vertices = 0, mapped_vertices = 0, targets = 0, points = 0, lines = 0, glosses = 0, glows = 0,
               transparencies = 0;
 };
 
@@ -34,11 +34,15 @@ float number_of(const aiMaterial& material, const char* key, unsigned type, unsi
   return number;
 }
 
+bool has_color(const aiMaterial& material, const char* key, unsigned type, unsigned index) {
+  aiColor3D color(0, 0, 0);
+  material.Get(key, type, index, color);
+  return !color.IsBlack();
+}
+
+// A gloss that roughness does not stand for.
 bool shines(const aiMaterial& material) {
-  aiColor3D specular(0, 0, 0), emissive(0, 0, 0);
-  material.Get(AI_MATKEY_COLOR_SPECULAR, specular);
-  material.Get(AI_MATKEY_COLOR_EMISSIVE, emissive);
-  return !specular.IsBlack() || !emissive.IsBlack() || number_of(material, AI_MATKEY_METALLIC_FACTOR, -1) >= 0;
+  return has_color(material, AI_MATKEY_COLOR_SPECULAR) && number_of(material, AI_MATKEY_ROUGHNESS_FACTOR, -1) < 0;
 }
 
 bool is_transparent(const aiMaterial& material) {
@@ -48,53 +52,41 @@ bool is_transparent(const aiMaterial& material) {
 }
 
 // Only materials that meshes have: Assimp makes some of its own.
-void add_material(const aiMaterial& material, Counts& counts) {
+void add_material(const aiMaterial& material, const TextureMeans& means, Counts& counts) {
   for (int type = aiTextureType_NONE; type <= AI_TEXTURE_TYPE_MAX; ++type)
     for (unsigned i = 0; i < material.GetTextureCount(static_cast<aiTextureType>(type)); ++i) {
       aiString path;
       material.GetTexture(static_cast<aiTextureType>(type), i, &path);
-      counts.textures.insert(path.C_Str());
+      if (!means.has(path.C_Str())) counts.textures.insert(path.C_Str());
     }
   if (material.GetName() == aiString(AI_DEFAULT_MATERIAL_NAME) || material.GetName().length == 0) return;
   counts.glosses += shines(material);
+  counts.glows += has_color(material, AI_MATKEY_COLOR_EMISSIVE);
   counts.transparencies += is_transparent(material);
 }
 
-std::size_t nodes_from(const aiNode& node) {
-  std::size_t count = 1;
-  for (unsigned i = 0; i < node.mNumChildren; ++i) count += nodes_from(*node.mChildren[i]);
-  return count;
-}
-
-// Assimp puts a node of its own above several.
-bool is_added(const aiNode& root) {
-  return root.mName == aiString("ROOT") && root.mNumChildren > 1 && root.mNumMeshes == 0 &&
-         root.mTransformation.IsIdentity();
-}
-
-Counts counts_of(const aiScene& scene) {
+Counts counts_of(const aiScene& scene, const TextureMeans& means) {
   Counts counts;
   std::set<unsigned> materials;
-  counts.nodes = nodes_from(*scene.mRootNode) - is_added(*scene.mRootNode);
   for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
     add_mesh(*scene.mMeshes[i], counts);
     materials.insert(scene.mMeshes[i]->mMaterialIndex);
   }
-  for (const unsigned number : materials) add_material(*scene.mMaterials[number], counts);
+  for (const unsigned number : materials) add_material(*scene.mMaterials[number], means, counts);
   return counts;
 }
 
 }  // namespace
 
-std::vector<std::string> unread_parts(const aiScene& scene, bool has_tree, const std::string& set_material) {
-  const Counts counts = counts_of(scene);
+std::vector<std::string> unread_parts(const aiScene& scene, const TextureMeans& means,
+                                      const std::string& set_material) {
+  const Counts counts = counts_of(scene, means);
   std::vector<std::string> parts;
   const auto add = [&](std::size_t count, std::string_view one, std::string_view several,
                        const std::string& remedy = "") {
     if (count > 0) parts.push_back(document::counted(count, one, several) + remedy);
   };
   const std::string one_color = " (one colour instead: " + set_material + " --color 0.8 0.6 0.4)";
-  add(has_tree && counts.nodes > 1 ? counts.nodes : 0, "node", "nodes", " as joints: all stand as one");
   add(counts.bones.size(), "bone", "bones", " (mars model add makes joints)");
   add(scene.mNumAnimations, "animation", "animations", " (mars animate sets keys)");
   add(counts.targets, "morph target", "morph targets");
@@ -102,6 +94,7 @@ std::vector<std::string> unread_parts(const aiScene& scene, bool has_tree, const
   add(counts.mapped_vertices, "vertex's place in a texture", "vertices' places in a texture");
   add(counts.colored_vertices, "vertex's colour", "vertices' colours", one_color);
   add(counts.glosses, "material's gloss", "materials' gloss", " (" + set_material + " --specular 0.3)");
+  add(counts.glows, "material's glow", "materials' glow");
   add(counts.transparencies, "material's transparency", "materials' transparency");
   add(counts.points, "point", "points");
   add(counts.lines, "line", "lines");

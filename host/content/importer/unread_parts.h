@@ -1,15 +1,17 @@
 // What a scene of Assimp's holds besides its meshes: a model takes none of it.
 #pragma once
 
+#include <assimp/scene.h>
+
 #include <string>
 #include <vector>
 
-struct aiScene;
+#include "host/content/importer/texture_means.h"
 
 namespace mars::importer {
 
-// "19 bones (...)", ... with what to do about it. Lists nodes only if `has_tree`: where the file's own nodes move.
-// `set_material` as in MeshOptions.
-std::vector<std::string> unread_parts(const aiScene& scene, bool has_tree, const std::string& set_material);
+// "19 bones (...)", ... with what to do about it. Textures of `means` stand in materials. `set_material` as in
+// MeshOptions.
+std::vector<std::string> unread_parts(const aiScene& scene, const TextureMeans& means, const std::string& set_material);
 
 }  // namespace mars::importer

@@ -54,6 +54,31 @@ TEST(PngFile, GivesBackSixteenBits) {
   }
 }
 
+TEST(PngFile, CarriesANoteBesideThePixels) {
+  const sinks::TemporaryFolder folder;
+  const std::string note = R"({"frame": 7})";
+  for (const PictureFormat format : {PictureFormat::png, PictureFormat::png16, PictureFormat::exr}) {
+    const std::vector<std::uint32_t> pixels(6 * 4 * (format == PictureFormat::png ? 1 : 2), 0x1234);
+    const std::vector<std::byte> bytes = encode_picture(format, 6, 4, pixels, note);
+    document::write_whole_file(folder / "x", bytes);
+    EXPECT_EQ(read_note(folder / "x"), note);
+    EXPECT_EQ(read_picture(format, folder / "x").pixels, pixels);
+    for (std::size_t size = 0; size < bytes.size(); size += 7) {
+      document::write_whole_file(folder / "x", std::span(bytes).first(size));
+      EXPECT_EQ(read_note(folder / "x").value_or(note), note) << "a part of it passes for the whole";
+    }
+    document::write_whole_file(folder / "x", encode_picture(format, 6, 4, pixels));
+    EXPECT_EQ(read_note(folder / "x"), std::nullopt);
+  }
+}
+
+TEST(PngFile, ADamagedNoteIsNone) {
+  std::vector<std::byte> bytes = encode_png(2, 1, random_pixels(2), "a note");
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  bytes[text.find("a note")] ^= std::byte{1};
+  EXPECT_EQ(note_in_png(bytes), std::nullopt);
+}
+
 TEST(PngFile, IsEightBitRgbMarkedSrgb) {
   const std::vector<std::byte> bytes = encode_png(2, 1, random_pixels(2));
   const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());

@@ -1,0 +1,47 @@
+// The JSON of glTF and GLB files, read leniently: what is missing or of another kind is null, for Assimp refuses what
+// is not as glTF should be.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/content/importer/file_kind.h"
+
+namespace mars::importer {
+
+using Tree = nlohmann::json;
+
+inline constexpr std::uintmax_t kLargestMeshFile = std::uintmax_t{1} << 30;
+
+// Of a .gltf's or .glb's bytes; null where it is no JSON.
+Tree gltf_json(std::string_view bytes, FileKind kind);
+
+// What `tree` has under `key`; null where it is no object or has none.
+const Tree& at(const Tree& tree, const char* key);
+
+// Item `index` of a list; null where there is none.
+const Tree& item(const Tree& list, const Tree& index);
+
+std::size_t number(const Tree& tree, std::size_t otherwise);
+
+// The items of `numbers` that are places in `list`.
+std::vector<std::size_t> places_in(const Tree& list, const Tree& numbers);
+
+// The numbers of the nodes that stand in the file's scene, each on no other.
+std::vector<std::size_t> root_nodes(const Tree& gltf);
+
+// The number in `bytes` at `at`, the lowest byte first.
+std::uint32_t little_endian_at(std::string_view bytes, std::size_t at);
+
+// "my%20mesh.bin" is the file "my mesh.bin".
+std::string percent_decoded(const std::string& uri);
+
+// The size of the files that a glTF file's buffers name, which are read with it.
+std::uintmax_t bytes_of_buffers(const std::filesystem::path& path);
+
+}  // namespace mars::importer

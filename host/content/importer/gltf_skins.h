@@ -1,0 +1,30 @@
+// What Assimp 5.2 does not give of a glTF file's nodes: which node a bone is (Assimp has names alone, and several nodes
+// may have one), and which of the nodes that share a mesh have a skin.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/content/importer/gltf_json.h"
+
+namespace mars::importer {
+
+struct GltfNode {
+  std::string name;  // the node's, else its mesh's; "": neither has one
+  std::vector<std::size_t> children;
+  std::optional<std::size_t> skin;
+};
+
+struct GltfSkins {
+  std::vector<GltfNode> nodes;                  // all of the file's
+  std::vector<std::size_t> roots;               // of the scene
+  std::vector<std::vector<std::size_t>> skins;  // each the numbers of its joints' nodes, in the order of Assimp's bones
+};
+
+// Refuses skins that Assimp reads wrongly.
+GltfSkins gltf_skins(const std::filesystem::path& path, const Tree& gltf);
+
+}  // namespace mars::importer

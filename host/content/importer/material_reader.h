@@ -1,0 +1,52 @@
+// What a scene's materials become. glTF's are metallic and rough, its base colour is light; OBJ's colours are as shown,
+// and some files give roughness and metal too. Where a texture has the colour, its mean stands for it.
+#pragma once
+
+#include <assimp/scene.h>
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "host/content/importer/file_kind.h"
+#include "host/content/importer/imported_mesh.h"
+#include "host/content/importer/texture_means.h"
+
+namespace mars::importer {
+
+class MaterialReader {
+ public:
+  MaterialReader(const std::filesystem::path& path, FileKind kind, const aiScene& scene)
+      : kind_(kind), scene_(scene), textures_(path, kind, scene) {}
+
+  // The number, among materials(), of what the mesh's material becomes; none where the file gives it none. Materials
+  // that become the same are one.
+  std::optional<std::size_t> number_of(const aiMesh& mesh);
+
+  const std::vector<ImportedMaterial>& materials() const { return materials_; }
+  const TextureMeans& textures() const { return textures_; }
+  std::size_t textures_of_colors() const { return colors_.size(); }
+  std::size_t textures_of_surfaces() const { return surfaces_.size(); }
+  std::size_t cut_colors() const { return cut_colors_; }
+
+ private:
+  bool is_gltf() const { return kind_ == FileKind::gltf || kind_ == FileKind::glb; }
+  bool is_given(const aiMesh& mesh) const;
+  std::optional<ImportedMaterial> read(const aiMaterial& material);
+  std::array<double, 3> color_of(const aiColor4D& given, const aiMaterial& material, aiTextureType texture);
+  std::optional<Surface> surface_of(const aiMaterial& material);
+  const images::PictureMean* mean_of(const aiMaterial& material, aiTextureType type, std::set<std::string>& used);
+
+  FileKind kind_;
+  const aiScene& scene_;
+  TextureMeans textures_;
+  std::vector<ImportedMaterial> materials_;
+  std::map<unsigned, std::optional<std::size_t>> numbers_;  // by the scene's
+  std::set<std::string> colors_, surfaces_;                 // textures whose means stand in materials
+  std::size_t cut_colors_ = 0;
+};
+
+}  // namespace mars::importer

@@ -1,0 +1,48 @@
+// Puts a mesh file's joints together and makes the model as large as a person wants it.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "host/content/importer/imported_mesh.h"
+#include "host/content/importer/joint_frame.h"
+#include "host/content/importer/mesh_builder.h"
+
+namespace mars::importer {
+
+class ModelBuilder {
+ public:
+  // `file` is what failures name. `usual_crease`: of meshes without normals, unless the options have one.
+  ModelBuilder(std::string file, const MeshOptions& options, bool has_normals, double usual_crease);
+
+  // A joint's number; the first has no parent. Its frame is in the file's units. The name is made one that no other
+  // joint has and that a model can have.
+  std::size_t add_joint(const std::string& name, std::size_t parent, const JointFrame& frame);
+
+  MeshBuilder& mesh(std::size_t joint) { return joints_[joint].mesh; }
+
+  // Joints and their size; as not read, what was given here and left out. Refuses a file without faces.
+  MeshFile finish();
+
+ private:
+  struct Draft {
+    std::string name;
+    std::size_t parent;
+    JointFrame frame;
+    MeshBuilder mesh;
+  };
+
+  std::string unused_name(const std::string& wanted);
+  void check_places(const modeler::Box& box) const;
+  void finish_joint(Draft& draft, double factor, MeshFile& file);
+
+  std::string file_;
+  ModelSize size_;
+  bool has_normals_;
+  MeshStyle style_;
+  std::vector<Draft> joints_;
+  std::map<std::string, int> names_;  // and with which number another of the name would go on
+};
+
+}  // namespace mars::importer
