@@ -63,7 +63,7 @@ void add_detach(CLI::App& animate, const Typed& words) {
 }
 
 animator::Remarks change_camera(const Words& words, document::Json& json, const animator::Film& film,
-                                animator::Following following) {
+                                const animator::Following& following) {
   if (words.end != words.to.empty())
     throw Failure(words.end ? "are given both" : "is not given", words.end ? "an actor and --end" : "the actor",
                   "name an actor, as in tom/head, or use --end");

@@ -18,6 +18,8 @@ class EditedFilm {
 
   virtual std::filesystem::path path() const = 0;  // beside which its models are; for messages
   virtual film::FilmFile read() const = 0;
+  // How the film names the model file that a person names so.
+  virtual std::string name_of_model(const std::string& file) const = 0;
   virtual std::string read_script(const std::filesystem::path& path) const = 0;
   virtual void create(const document::Json& json) = 0;  // refuses where there is one already
   // It stays as it was where `change` throws or the result is no film.

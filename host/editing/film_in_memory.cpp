@@ -46,8 +46,9 @@ void FilmInMemory::obey(std::span<const Command> commands) {
   for (const Command& command : commands) {
     int code = 0;
     CLI::App mars("", "mars");
-    add_animate(mars, *this, code);
-    add_film(mars, *this);
+    const std::string program = command.empty() ? "" : command.front();
+    if (program != "film") add_animate(mars, *this, code);  // the words of both take longer than most commands
+    if (program != "animate") add_film(mars, *this);
     options::read_words(mars, command);
   }
 }

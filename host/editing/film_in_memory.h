@@ -33,6 +33,8 @@ class FilmInMemory final : public EditedFilm {
   std::filesystem::path path() const override { return path_; }
   film::FilmFile read() const override { return {json(), film()}; }
   void create(const document::Json& json) override;
+  // Pages name files as the film does.
+  std::string name_of_model(const std::string& file) const override { return file; }
   std::string read_script(const std::filesystem::path& path) const override;
   void change(const Change& change) override;
   void remark(const std::string& line) override { done_.remarks.push_back(line); }

@@ -47,6 +47,11 @@ std::optional<glm::dvec3> turn_of(const Words& words) {
   return glm::dvec3(words.turn[0], words.turn[1], words.turn[2]);
 }
 
+// As the film names it.
+std::string model_of(const Words& words, const Json& film) {
+  return animator::is_model_file(film, words.model) ? words.film.name_of_model(words.model) : words.model;
+}
+
 void run_new(const Words& words) {
   Json film = animator::new_film();
   animator::set_film(film, words.fields);
@@ -56,7 +61,7 @@ void run_new(const Words& words) {
 
 void run_add(const Words& words) {
   words.film.change([&](Json& film, const Meaning&) {
-    animator::add_actor(film, {words.name, words.model, place_of(words), turn_of(words), words.height});
+    animator::add_actor(film, {words.name, model_of(words, film), place_of(words), turn_of(words), words.height});
   });
 }
 
@@ -126,8 +131,7 @@ void add_actor_options(CLI::App& command, Words& words) {
   command.add_option("ACTOR", words.name, "Its name. Example: tom")->required();
   command
       .add_option("--model", words.model,
-                  "A figure or object of the library, a model file as seen from the film's folder, or a model that the "
-                  "film has. Example: --model man")
+                  "A figure or object of the library, a model file, or a model that the film has. Example: --model man")
       ->type_name("MODEL")
       ->required();
   command.add_option("--place", words.place, "Where it stands. Example: --place 2 0 0")

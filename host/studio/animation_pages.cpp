@@ -42,7 +42,7 @@ void AnimationPages::take(PageNumber page, const Json& message) {
   if (what == "actions") return tell_(page, actions());
   if (what == "scripts") return tell_(page, project_.scripts());
   if (what == "script") return tell_(page, project_.check_script(message.at("name"), message.at("text")));
-  Wanted& wanted = pages_[page];
+  Wanted wanted = pages_[page];
   if (what == "channels") {
     wanted.things = names_in(message, "things");
     tell_channels(page, wanted);
@@ -50,6 +50,7 @@ void AnimationPages::take(PageNumber page, const Json& message) {
     wanted.curves = curves_in(message);
     tell_curves(page, wanted);
   }
+  pages_[page] = std::move(wanted);  // a list that failed is not sent again at each change
 }
 
 void AnimationPages::tell_channels(PageNumber page, const Wanted& wanted) {

@@ -54,8 +54,14 @@ Studio::Studio(Parts parts, web::Pages& pages)
 }
 
 RendererLink::Listener Studio::link_listener() {
-  return {.picture = [this](SurfacePicture picture) { stage_->take_surface(std::move(picture)); },
-          .dropped = [this](std::uint32_t view, std::uint32_t picture) { stage_->surface_dropped(view, picture); },
+  return {.picture =
+              [this](SurfacePicture picture) {
+                answer_failure(Stage::kAllPages, {}, [&] { stage_->take_surface(std::move(picture)); });
+              },
+          .dropped =
+              [this](std::uint32_t view, std::uint32_t picture) {
+                answer_failure(Stage::kAllPages, {}, [&] { stage_->surface_dropped(view, picture); });
+              },
           .ready =
               [this](std::uint32_t nodes, std::uint32_t machines) {
                 nodes_ = nodes;
@@ -74,24 +80,33 @@ void Studio::tell_state(PageNumber page) {
 }
 
 void Studio::page_opened(PageNumber page) {
-  pages_.tell(page, project_->describe());
-  tell_state(page);
-  rendering_->page_opened(page);
+  answer_failure(page, {}, [&] {
+    pages_.tell(page, project_->describe());
+    tell_state(page);
+    rendering_->page_opened(page);
+  });
 }
 
 void Studio::page_said(PageNumber page, const Json& message) {
   const Shown before = shown();
   bool step_done = false;
+  answer_failure(page, message, [&] { step_done = obey(page, message); });
+  answer_failure(page, message, [&] {
+    for (const std::string& remark : project_->take_remarks()) pages_.tell(page, {{"is", "said"}, {"text", remark}});
+    if (project_->in_gesture() && shown() != before) gesture_of_ = page;
+    announce(before, step_done);
+  });
+}
+
+// Where every exception of the studio's work ends: what one page asks for must not end the others' session.
+void Studio::answer_failure(PageNumber page, const Json& message, const std::function<void()>& work) {
   try {
-    step_done = obey(page, message);
+    work();
   } catch (const Json::exception&) {
     refuse(page, message, {"something is missing in it, or is of another kind: see docs/studio-protocol.md", "", ""});
   } catch (const std::exception& failure) {  // of the file system, most likely
     refuse(page, message, explain(failure));
   }
-  for (const std::string& remark : project_->take_remarks()) pages_.tell(page, {{"is", "said"}, {"text", remark}});
-  if (project_->in_gesture() && shown() != before) gesture_of_ = page;
-  announce(before, step_done);
 }
 
 // Whether the history may be another.
@@ -120,23 +135,28 @@ bool Studio::obey_step(const Json& message) {
 }
 
 void Studio::refuse(PageNumber page, const Json& message, const Failure& why) {
+  if (message.is_null()) return pages_.tell(page, {{"is", "said"}, {"text", why.what()}});
   Json refused{{"is", "refused"}, {"text", why.what()}, {"do", message["do"]}};
   if (const std::uint32_t line = line_in(why.where)) refused["line"] = line;
   pages_.tell(page, refused);
 }
 
 void Studio::page_closed(PageNumber page) {
-  const Shown before = shown();
-  stage_->page_closed(page);
-  rendering_->page_closed(page);
-  animation_.page_closed(page);
-  if (gesture_of_ == page && project_->in_gesture()) project_->cancel();
-  announce(before, false);
+  answer_failure(Stage::kAllPages, {}, [&] {
+    const Shown before = shown();
+    animation_.page_closed(page);
+    rendering_->page_closed(page);
+    stage_->page_closed(page);
+    if (gesture_of_ == page && project_->in_gesture()) project_->cancel();
+    announce(before, false);
+  });
 }
 
 void Studio::look_at_files() {
-  const Shown before = shown();
-  announce(before, project_->look_at_files());
+  answer_failure(Stage::kAllPages, {}, [&] {
+    const Shown before = shown();
+    announce(before, project_->look_at_files());
+  });
 }
 
 Studio::Shown Studio::shown() const {

@@ -28,8 +28,9 @@ class Studio {
   // `pages` must outlive it.
   Studio(Parts parts, web::Pages& pages);
 
+  // None of these throws. A message that fails or makes no sense is answered with `refused`; what fails otherwise is a
+  // remark to the page, or to all.
   void page_opened(PageNumber page);
-  // Answers what makes no sense with `refused`.
   void page_said(PageNumber page, const Json& message);
   void page_closed(PageNumber page);
   // Somebody else may have changed the files; called a few times a second.
@@ -51,6 +52,7 @@ class Studio {
   bool obey_step(const Json& message);
   void announce(const Shown& before, bool step_done);
   void announce_keys(const Shown& before, const Shown& now);
+  void answer_failure(PageNumber page, const Json& message, const std::function<void()>& work);
   void refuse(PageNumber page, const Json& message, const Failure& why);
   RendererLink::Listener link_listener();
   void tell_state(PageNumber page);

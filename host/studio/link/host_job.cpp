@@ -8,15 +8,16 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
-#include <iostream>
 #include <string_view>
 #include <utility>
 
 #include "hal/failure/explain.h"
 #include "hal/failure/failure.h"
 #include "host/child/environment.h"
+#include "host/child/standard_streams.h"
 #include "host/shell/launch/diagnosis.h"
 #include "host/shell/launch/display.h"
+#include "host/shell/launch/hostfile.h"
 #include "host/shell/launch/job.h"
 
 namespace mars::studio {
@@ -51,7 +52,7 @@ int watch_job(const child::Command& command, const options::RenderOptions& optio
   closefrom(kReason + 1);
   std::string reason;
   try {
-    launch::Display nothing(launch::Display::Kind::silent, std::cout);
+    launch::Display nothing(launch::Display::Kind::silent, child::raw_output());
     launch::Job job(nothing);
     job.follow(command, {kPatience, [](child::Child&) {}, [] {}});
     if (!job.remains().well()) reason = launch::diagnose(job.remains(), options, {}).failure.what();
@@ -81,6 +82,7 @@ HostStart prepare_host(options::RenderOptions options, const std::filesystem::pa
   if (!start.options.hostfile.empty() && start.options.backend == options::Backend::mpi)
     start.surroundings.machines = machines_from_here(launch::read_hostfile(start.options.hostfile), this_machine());
   if (start.options.nodes == 0) start.options.nodes = default_nodes(start);
+  options::check_nodes(start.options, launch::cores_in_use(start.options, start.surroundings));
   return start;
 }
 

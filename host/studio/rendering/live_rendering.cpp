@@ -200,9 +200,10 @@ void LiveRendering::scrub(PageNumber page, const Json& message) {
 
 void LiveRendering::painted(PageNumber page, const Json& message) {
   RenderingPage& view = pages_[page];
-  const auto picture = message.at("picture").get<std::uint32_t>();
-  if (picture > view.picture) throw Failure("there was no such picture", "", "");
-  view.painted = std::max(view.painted, picture);
+  const Json& picture = message.at("picture");
+  if (!picture.is_number_integer() || picture < 0 || picture > view.picture)
+    throw Failure("there was no such picture", "", "");
+  view.painted = std::max(view.painted, picture.get<std::uint32_t>());
   show(page, view);
 }
 
@@ -398,7 +399,7 @@ void LiveRendering::send(PageNumber page, RenderingPage& view, ViewPicture pictu
 
 bool Rendering::is_for_it(const Json& message) {
   const std::string what = message.value("do", "");
-  if (what == "painted") return message.value("view", 0u) == kRenderingView;
+  if (what == "painted") return message.value("view", Json()) == kRenderingView;
   return what == "render" || what == "stop" || what == "watch" || what == "scrub";
 }
 

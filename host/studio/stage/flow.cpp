@@ -69,7 +69,7 @@ void Flow::serve() {
     do {
       again_ = false;
       follow_film();
-      if (moments_.film_number() > 0) serve_views();
+      if (moments_.show_the_film()) serve_views();
     } while (again_);
   } catch (...) {
     serving_ = false;

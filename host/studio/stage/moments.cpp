@@ -27,16 +27,14 @@ bool moves(const animator::Actor& actor) {
 }
 
 void Moments::renew() {
-  const bool other_shapes = shapes_revision_ != project_.shapes_revision();
-  if (!other_shapes && revision_ == project_.revision() && frame_ == project_.frame()) return;
+  if (revision_ == project_.revision() && frame_ == project_.frame()) return;
   try {
-    if (other_shapes) load_shapes();
+    if (shapes_revision_ != project_.shapes_revision()) load_shapes();
     take_moment();
     problem_.clear();
   } catch (const Failure& failure) {
     problem_ = failure.what();
   }
-  shapes_revision_ = project_.shapes_revision();
   revision_ = project_.revision();
   frame_ = project_.frame();
 }
@@ -54,6 +52,7 @@ void Moments::load_shapes() {
   film.meshlets = parts.meshlets;
   film.shapes = parts.shapes;
   film_block_ = std::make_shared<const std::vector<std::byte>>(wire::pack(film));
+  shapes_revision_ = project_.shapes_revision();
   ++film_number_;
 }
 
@@ -96,6 +95,7 @@ std::span<const wire::Patch> Moments::patches_of(std::size_t segment) const {
 }
 
 preview::Ball Moments::subject() const {
+  if (!show_the_film()) return {{0, 0, 0}, 1};
   const animator::Film& film = project_.film();
   const bool any_moves = std::ranges::any_of(film.actors, moves);
   const auto counts = [&](const Owner& owner) {

@@ -34,7 +34,7 @@ class Moments {
   // Follows the project. A film that shows nothing at this frame leaves what was; `problem` then says why.
   void renew();
   const std::string& problem() const { return problem_; }
-  // What is here is the film as it is now.
+  // What is here is the film as it is now. If not, the film may have lost the actors that are seen here.
   bool show_the_film() const { return film_number_ > 0 && problem_.empty(); }
 
   // Goes up with each other film that nodes must load; 0: there is none yet.
@@ -50,7 +50,8 @@ class Moments {
   const wire::Matrix& matrix_of(std::size_t segment) const { return now_.matrices[segment]; }
   // The patches of a segment's shape, wherever they are.
   std::span<const wire::Patch> patches_of(std::size_t segment) const;
-  preview::Ball subject() const;  // what moves or is a model; else figures; else everything
+  // What moves or is a model; else figures; else everything. Of a film that is not shown the ball of one unit.
+  preview::Ball subject() const;
 
   // What moves in the film's own interval that has the frame: only with this is a picture the film's own. None where
   // the film is too long to know it at once.

@@ -92,7 +92,7 @@ class TheStage : public Stage {
   void project_changed() override {
     let_go_of_what_changed();
     moments_.renew();
-    if (project_.is_model() && !project_.in_gesture())
+    if (project_.is_model() && !project_.in_gesture() && moments_.show_the_film())
       for (PageView& view : views_) frame_again(view);
     flow_.serve();
   }
@@ -126,7 +126,7 @@ class TheStage : public Stage {
   }
 
   void orbit(PageNumber page, const Json& message) {
-    PageView& view = view_in(page, message);
+    PageView& view = seen_view_in(page, message);
     const glm::dvec2 by = pair_in(message, "by");
     const std::size_t how = choice_in(message, "how", kHows);
     if (view.eye.from == From::camera)
@@ -175,7 +175,7 @@ class TheStage : public Stage {
   }
 
   void hover(PageNumber page, const Json& message) {
-    PageView& view = view_in(page, message);
+    PageView& view = seen_view_in(page, message);
     const glm::dvec2 pixel = pixel_in(message);
     const auto handles = handles_in(view);
     const Handle* const handle = handle_at(handles, pixel);
@@ -193,7 +193,7 @@ class TheStage : public Stage {
   }
 
   void grab(PageNumber page, const Json& message) {
-    PageView& view = view_in(page, message);
+    PageView& view = seen_view_in(page, message);
     if (gesture_ && gesture_->page != page)
       throw Failure("is being changed in another page", "the " + std::string(project_.is_model() ? "model" : "film"),
                     "wait until the hand there rests");
@@ -289,6 +289,13 @@ class TheStage : public Stage {
     return *view;
   }
 
+  // Of a film that cannot be shown nothing is seen that a hand could take.
+  PageView& seen_view_in(PageNumber page, const Json& message) {
+    PageView& view = view_in(page, message);
+    if (!moments_.show_the_film()) throw Failure(moments_.problem(), "", "");
+    return view;
+  }
+
   PageView* view_of(PageNumber page, std::uint32_t number) {
     const auto found = std::find_if(views_.begin(), views_.end(),
                                     [&](const PageView& view) { return view.page == page && view.number == number; });
@@ -331,6 +338,7 @@ class TheStage : public Stage {
 
   // Those below first.
   std::vector<Handle> handles_in(const PageView& view) {
+    if (!moments_.show_the_film()) return {};
     const Selection selection = selected_by(view.page);
     const Screen screen = screen_of(view);
     std::vector<Handle> handles = ghosts_.handles(view.link, view.ghosts, selection, screen);

@@ -29,14 +29,15 @@ Request request_of(const HttpRequest& request) {
 
 // Requests one after another, until one asks for a WebSocket.
 template <typename Stream>
-class Visit final : public std::enable_shared_from_this<Visit<Stream>> {
+class Visit final : public Newcomer, public std::enable_shared_from_this<Visit<Stream>> {
  public:
-  Visit(Stream stream, Site& site, std::shared_ptr<void> counted)
-      : stream_(std::move(stream)), site_(site), counted_(std::move(counted)) {}
+  Visit(Stream stream, Site& site, std::unique_ptr<Crowd::Place> place)
+      : stream_(std::move(stream)), site_(site), place_(std::move(place)) {}
 
   void begin() {
+    place_->may_give_way([this] { beast::get_lowest_layer(stream_).close(); });
     if constexpr (std::is_same_v<Stream, Tls>) {
-      beast::get_lowest_layer(stream_).expires_after(kPatience);
+      beast::get_lowest_layer(stream_).expires_after(site_.patience().request);
       stream_.async_handshake(asio::ssl::stream_base::server, [self = this->shared_from_this()](Error error) {
         if (!error) self->read();
       });
@@ -45,12 +46,18 @@ class Visit final : public std::enable_shared_from_this<Visit<Stream>> {
     }
   }
 
+  void answer(bool has_room) override {
+    if (!has_room) return refuse({503, "The studio has no room for another page.\n"});
+    place_->becomes_page();
+    serve_page(std::move(stream_), parser_->get(), site_, std::move(place_));
+  }
+
  private:
   void read() {
     parser_.emplace();
     parser_->header_limit(kMostHeader);
     parser_->body_limit(0);
-    beast::get_lowest_layer(stream_).expires_after(kPatience);
+    beast::get_lowest_layer(stream_).expires_after(site_.patience().request);
     http::async_read_header(stream_, buffer_, *parser_, [self = this->shared_from_this()](Error error, std::size_t) {
       if (error == http::error::end_of_stream) return self->end();
       if (error == http::error::header_limit) return self->refuse({431, "The request's header is too long.\n"});
@@ -61,6 +68,7 @@ class Visit final : public std::enable_shared_from_this<Visit<Stream>> {
   }
 
   void take() {
+    place_->request_came();
     const HttpRequest& request = parser_->get();
     const Request asked = request_of(request);
     if (const Refusal refusal = site_.gate().check(asked); refusal.status != 0) return refuse(refusal);
@@ -69,8 +77,8 @@ class Visit final : public std::enable_shared_from_this<Visit<Stream>> {
       return write(answer_file(site_.folder(), path_of(asked.target), asked.known), request.keep_alive());
     if (!beast::websocket::is_upgrade(request)) return refuse({426, "This is for the page's WebSocket.\n"});
     if (const Refusal refusal = site_.gate().check_socket(asked); refusal.status != 0) return refuse(refusal);
-    if (!site_.has_room()) return refuse({503, "The studio has no room for another page.\n"});
-    serve_page(std::move(stream_), request, site_, std::move(counted_));
+    if (!site_.has_room()) return site_.wait_for_room(this->shared_from_this());
+    answer(true);
   }
 
   void refuse(const Refusal& refusal) {
@@ -89,7 +97,7 @@ class Visit final : public std::enable_shared_from_this<Visit<Stream>> {
     answer_.body() = std::move(answer.body);
     answer_.prepare_payload();
     if (request.method() == http::verb::head) answer_.body().clear();  // its length is told
-    beast::get_lowest_layer(stream_).expires_after(kPatience);
+    beast::get_lowest_layer(stream_).expires_after(site_.patience().request);
     http::async_write(stream_, answer_, [self = this->shared_from_this(), keep_alive](Error error, std::size_t) {
       if (error || !keep_alive) return self->end();
       self->read();
@@ -123,7 +131,7 @@ class Visit final : public std::enable_shared_from_this<Visit<Stream>> {
 
   Stream stream_;
   Site& site_;
-  std::shared_ptr<void> counted_;
+  std::unique_ptr<Crowd::Place> place_;
   beast::flat_buffer buffer_{2 * kMostHeader};
   std::optional<http::request_parser<http::empty_body>> parser_;
   http::response<http::string_body> answer_;
@@ -132,12 +140,12 @@ class Visit final : public std::enable_shared_from_this<Visit<Stream>> {
 }  // namespace
 
 void serve_connection(asio::ip::tcp::socket socket, asio::ssl::context* tls, Site& site,
-                      std::shared_ptr<void> counted) {
+                      std::unique_ptr<Crowd::Place> place) {
   Plain stream(std::move(socket));
   if (tls == nullptr)
-    std::make_shared<Visit<Plain>>(std::move(stream), site, std::move(counted))->begin();
+    std::make_shared<Visit<Plain>>(std::move(stream), site, std::move(place))->begin();
   else
-    std::make_shared<Visit<Tls>>(Tls(std::move(stream), *tls), site, std::move(counted))->begin();
+    std::make_shared<Visit<Tls>>(Tls(std::move(stream), *tls), site, std::move(place))->begin();
 }
 
 }  // namespace mars::web

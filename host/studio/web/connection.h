@@ -5,12 +5,13 @@
 #include <boost/asio/ssl/context.hpp>
 #include <memory>
 
+#include "host/studio/web/crowd.h"
 #include "host/studio/web/site.h"
 
 namespace mars::web {
 
-// Lives by itself until it ends; `counted` lives as long. `tls`: none where there is no TLS.
+// Lives by itself until it ends; `place` lives as long. `tls`: none where there is no TLS.
 void serve_connection(boost::asio::ip::tcp::socket socket, boost::asio::ssl::context* tls, Site& site,
-                      std::shared_ptr<void> counted);
+                      std::unique_ptr<Crowd::Place> place);
 
 }  // namespace mars::web

@@ -20,21 +20,20 @@ namespace beast = boost::beast;
 namespace websocket = beast::websocket;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kSilence{20};  // without a sign of life, after a ping
-
 template <typename Stream>
 class Socket final : public PageSocket, public std::enable_shared_from_this<Socket<Stream>> {
  public:
-  Socket(Stream stream, Site& site, std::shared_ptr<void> counted)
+  Socket(Stream stream, Site& site, std::unique_ptr<Crowd::Place> place)
       : socket_(std::move(stream)),
         timer_(socket_.get_executor()),
         pause_(socket_.get_executor()),
         site_(site),
-        counted_(std::move(counted)) {}
+        place_(std::move(place)) {}
 
   void accept(const HttpRequest& request) {
     beast::get_lowest_layer(socket_).expires_never();  // the WebSocket has its own
-    socket_.set_option(websocket::stream_base::timeout{kPatience, kSilence, true});
+    socket_.set_option(websocket::stream_base::timeout{site_.patience().request, site_.patience().silence, true});
+    socket_.control_callback([this](websocket::frame_type, beast::string_view) { heard_at_ = Clock::now(); });
     socket_.read_message_max(kMostMessage);
     socket_.auto_fragment(false);
     socket_.async_accept(request, [self = this->shared_from_this()](Error error) {
@@ -53,6 +52,14 @@ class Socket final : public PageSocket, public std::enable_shared_from_this<Sock
   }
 
   void close() override { close(websocket::close_code::going_away); }
+
+  void ask() override {
+    if (closing_ || std::exchange(asking_, true)) return;
+    socket_.async_ping({}, [self = this->shared_from_this()](Error) { self->asking_ = false; });
+  }
+
+  bool was_heard_since(Clock::time_point then) const override { return heard_at_ >= then; }
+  void drop() override { end(); }
 
  private:
   void begin() {
@@ -85,6 +92,7 @@ class Socket final : public PageSocket, public std::enable_shared_from_this<Sock
   void read() {
     socket_.async_read(buffer_, [self = this->shared_from_this()](Error error, std::size_t) {
       if (error) return self->end();
+      self->heard_at_ = Clock::now();
       self->take();
     });
   }
@@ -105,7 +113,7 @@ class Socket final : public PageSocket, public std::enable_shared_from_this<Sock
     try {
       const Json message = read_page_message(text);
       if (outbox_.hear(message, Clock::now())) site_.said(*number_, message);
-    } catch (const Failure& failure) {
+    } catch (const std::exception& failure) {  // what the studio makes of a message, it answers itself
       outbox_.tell({{"is", "refused"}, {"text", reason_of(failure)}});
     }
     write();
@@ -115,7 +123,8 @@ class Socket final : public PageSocket, public std::enable_shared_from_this<Sock
     if (closing_) return;
     if (outbox_.overflows()) return end_later();
     if (writing_) return;
-    auto outgoing = outbox_.next(Clock::now());
+    auto outgoing = next();
+    if (closing_) return;
     if (!outgoing) return write_when_due();
     writing_ = true;
     outgoing_ = std::move(outgoing->bytes);
@@ -126,6 +135,16 @@ class Socket final : public PageSocket, public std::enable_shared_from_this<Sock
       if (error) return self->end();
       self->write();
     });
+  }
+
+  // A picture that cannot be encoded ends this page alone, which comes again.
+  std::optional<PageOutbox::Outgoing> next() {
+    try {
+      return outbox_.next(Clock::now());
+    } catch (const std::exception&) {
+      end_later();
+      return std::nullopt;
+    }
   }
 
   void write_when_due() {
@@ -140,23 +159,24 @@ class Socket final : public PageSocket, public std::enable_shared_from_this<Sock
   websocket::stream<Stream> socket_;
   asio::steady_timer timer_, pause_;
   Site& site_;
-  std::shared_ptr<void> counted_;
+  std::unique_ptr<Crowd::Place> place_;
   std::optional<PageNumber> number_;
   beast::flat_buffer buffer_;
   PageOutbox outbox_;
   MessageRate rate_;
   std::string outgoing_;
-  bool writing_ = false, closing_ = false;
+  Clock::time_point heard_at_ = Clock::now();
+  bool writing_ = false, closing_ = false, asking_ = false;
 };
 
 }  // namespace
 
 template <typename Stream>
-void serve_page(Stream stream, const HttpRequest& request, Site& site, std::shared_ptr<void> counted) {
-  std::make_shared<Socket<Stream>>(std::move(stream), site, std::move(counted))->accept(request);
+void serve_page(Stream stream, const HttpRequest& request, Site& site, std::unique_ptr<Crowd::Place> place) {
+  std::make_shared<Socket<Stream>>(std::move(stream), site, std::move(place))->accept(request);
 }
 
-template void serve_page(Plain, const HttpRequest&, Site&, std::shared_ptr<void>);
-template void serve_page(Tls, const HttpRequest&, Site&, std::shared_ptr<void>);
+template void serve_page(Plain, const HttpRequest&, Site&, std::unique_ptr<Crowd::Place>);
+template void serve_page(Tls, const HttpRequest&, Site&, std::unique_ptr<Crowd::Place>);
 
 }  // namespace mars::web

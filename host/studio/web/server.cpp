@@ -21,9 +21,10 @@ namespace {
 namespace asio = boost::asio;
 using asio::ip::tcp;
 using Error = boost::system::error_code;
+using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kMostPages = 16;
-constexpr int kMostConnections = 64;
+constexpr std::size_t kMostConnections = 64;
 constexpr std::chrono::milliseconds kNoDescriptors{200};  // until accepting is tried again
 
 std::string own_name() {
@@ -64,11 +65,13 @@ class TcpServer final : public Server, private Site {
  public:
   TcpServer(asio::io_context& context, const ServerSettings& settings, PageListener listener)
       : folder_(settings.folder),
+        patience_(settings.patience),
         listener_(std::move(listener)),
         tls_(settings.certificate.empty() ? nullptr : make_tls(settings.certificate, settings.key)),
         gate_(make_token(), tls_ != nullptr, {own_name()}),
         acceptor_(listen(context, settings)),
-        pause_(context) {
+        pause_(context),
+        room_(context) {
     accept();
   }
 
@@ -82,6 +85,8 @@ class TcpServer final : public Server, private Site {
   void close() override {
     acceptor_.close();
     pause_.cancel();
+    room_.cancel();
+    newcomer_.reset();
     for (const auto& [number, page] : pages_) page->close();
   }
 
@@ -98,7 +103,24 @@ class TcpServer final : public Server, private Site {
  private:
   const Gate& gate() const override { return gate_; }
   const std::filesystem::path& folder() const override { return folder_; }
+  const Patience& patience() const override { return patience_; }
   bool has_room() const override { return pages_.size() < kMostPages; }
+
+  // One waits at most, the newest: a person has just opened it.
+  void wait_for_room(std::shared_ptr<Newcomer> newcomer) override {
+    if (const auto before = std::exchange(newcomer_, std::move(newcomer))) return before->answer(false);
+    for (const auto& [number, page] : pages_) page->ask();
+    room_.expires_after(patience_.answer);
+    room_.async_wait([this, asked_at = Clock::now()](Error error) {
+      if (!error) answer_newcomer(asked_at);
+    });
+  }
+
+  void answer_newcomer(Clock::time_point asked_at) {
+    for (const auto& [number, page] : std::map(pages_))
+      if (!page->was_heard_since(asked_at)) page->drop();
+    if (const auto newcomer = std::exchange(newcomer_, nullptr)) newcomer->answer(has_room());
+  }
 
   PageNumber enter(std::shared_ptr<PageSocket> page) override {
     const PageNumber number = ++last_page_;
@@ -118,9 +140,9 @@ class TcpServer final : public Server, private Site {
     acceptor_.async_accept([this](Error error, tcp::socket socket) {
       if (!acceptor_.is_open()) return;
       if (error) return accept_later();
-      if (connections_.use_count() <= kMostConnections) {
+      if (crowd_->size() < kMostConnections || crowd_->make_room()) {
         socket.set_option(tcp::no_delay(true), error);
-        serve_connection(std::move(socket), tls_.get(), *this, connections_);
+        serve_connection(std::move(socket), tls_.get(), *this, crowd_->enter());
       }
       accept();
     });
@@ -135,14 +157,16 @@ class TcpServer final : public Server, private Site {
   }
 
   std::filesystem::path folder_;
+  Patience patience_;
   PageListener listener_;
   std::unique_ptr<asio::ssl::context> tls_;
   Gate gate_;
   tcp::acceptor acceptor_;
-  asio::steady_timer pause_;
+  asio::steady_timer pause_, room_;
   std::map<PageNumber, std::shared_ptr<PageSocket>> pages_;
   PageNumber last_page_ = 0;
-  std::shared_ptr<void> connections_ = std::make_shared<int>();  // counted by those who share it
+  std::shared_ptr<Crowd> crowd_ = std::make_shared<Crowd>();  // connections may end after this
+  std::shared_ptr<Newcomer> newcomer_;
 };
 
 }  // namespace

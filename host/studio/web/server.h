@@ -1,5 +1,6 @@
 // The studio's server: the page's files by HTTP, and a WebSocket for each page. All of it runs on the thread that runs
-// the io_context. Connections that are slow, silent or too many are ended.
+// the io_context. Connections that are slow or silent are ended, and give way to others where they are too many: 64, of
+// which 16 may be pages. A page stays as long as its browser answers pings.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +9,7 @@
 #include <string>
 
 #include "host/studio/web/pages.h"
+#include "host/studio/web/patience.h"
 
 namespace boost::asio {
 class io_context;
@@ -22,6 +24,7 @@ struct ServerSettings {
   std::string certificate;  // PEM files; "": no TLS
   std::string key;
   std::filesystem::path folder;  // of the page's files
+  Patience patience;
 };
 
 class Server : public Pages {

@@ -7,9 +7,9 @@
 #include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/http/message.hpp>
 #include <boost/beast/ssl.hpp>
-#include <chrono>
 #include <memory>
 
+#include "host/studio/web/crowd.h"
 #include "host/studio/web/site.h"
 
 namespace mars::web {
@@ -19,11 +19,9 @@ using Tls = boost::beast::ssl_stream<boost::beast::tcp_stream>;
 using HttpRequest = boost::beast::http::request<boost::beast::http::empty_body>;
 using Error = boost::beast::error_code;
 
-inline constexpr std::chrono::seconds kPatience{10};  // with a request, a handshake, an answer
-
 // The request, which passed the gate, becomes a page's WebSocket; it lives by itself as serve_connection's. Of Plain
 // and Tls.
 template <typename Stream>
-void serve_page(Stream stream, const HttpRequest& request, Site& site, std::shared_ptr<void> counted);
+void serve_page(Stream stream, const HttpRequest& request, Site& site, std::unique_ptr<Crowd::Place> place);
 
 }  // namespace mars::web

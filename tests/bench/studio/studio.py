@@ -208,6 +208,8 @@ def report(case, lasted, moves, latencies, pictures, spent, complaints):
 def main():
     wanted = arguments()
     cases = [case for case in CASES if all(word in case.split() for word in wanted.cases)]
+    if not cases:
+        sys.exit(f"mars bench studio: no case has all of the words {' '.join(wanted.cases)}; all: {', '.join(CASES)}")
     print(f"{os.cpu_count()} processors, load {os.getloadavg()[0]:.1f}")
     for case in cases:
         measure(wanted.build.resolve(), case, wanted.seconds)

@@ -1,8 +1,12 @@
 // What people type: the input's first word names the reader, the rest is its text.
+#include <algorithm>
 #include <map>
 #include <string>
 
+#include "hal/failure/failure.h"
 #include "host/content/animator/frame_words.h"
+#include "host/content/document/shell_line.h"
+#include "host/content/document/shell_word.h"
 #include "host/content/film/frame_set.h"
 #include "host/images/picture_format.h"
 #include "host/images/picture_size.h"
@@ -23,6 +27,14 @@ void read_frames(const std::string& text) {
   film::FrameSet(set.text());
 }
 
+void read_shell_words(const std::string& text) {
+  const std::vector<std::string> words = document::shell_words(text);
+  if (!std::ranges::all_of(text, [](char c) { return c >= ' ' && c <= '~'; })) return;
+  std::string line;
+  for (const std::string& word : words) line += document::shell_word(word) + " ";
+  check(document::shell_words(line) == words, "words come through a shell");
+}
+
 const std::map<std::string, Reader, std::less<>>& readers() {
   static const std::map<std::string, Reader, std::less<>> table{
       {"frames", read_frames},
@@ -33,6 +45,7 @@ const std::map<std::string, Reader, std::less<>>& readers() {
       {"format", [](const std::string& text) { images::picture_format_of(text); }},
       {"tasks", [](const std::string& text) { launch::tasks_of_machines(text); }},
       {"words", [](const std::string& text) { launch::meaning_of(text); }},
+      {"shell", read_shell_words},
       {"file", [](const std::string& text) { options::word_of_file(text); }},
       {"wrapped", [](const std::string& text) { options::wrapped(text, 8, 40); }},
   };

@@ -11,6 +11,7 @@
 namespace mars::fuzz {
 namespace {
 
+constexpr const char* kNote = "a note";
 constexpr std::size_t kSignature = 8, kChunkHead = 8, kSum = 4;
 
 std::uint32_t crc_of(const std::byte* from, std::size_t count) {
@@ -41,7 +42,7 @@ void set_sums(Message& file) {
 Message sound(bool two_words) {
   std::vector<std::uint32_t> pixels(two_words ? 7 * 5 * 2 : 7 * 5);
   std::iota(pixels.begin(), pixels.end(), 0x00102030u);
-  return two_words ? images::encode_png16(7, 5, pixels) : images::encode_png(7, 5, pixels);
+  return two_words ? images::encode_png16(7, 5, pixels, kNote) : images::encode_png(7, 5, pixels, kNote);
 }
 
 }  // namespace
@@ -51,6 +52,7 @@ const Form kForm = Form::bytes;
 void take(std::string_view input) {
   static const std::array<Message, 2> files{sound(false), sound(true)};
   if (input.starts_with("\x89PNG")) {
+    images::note_in_png(std::as_bytes(std::span(input)));
     images::decode_png(std::as_bytes(std::span(input)), "frame.png");
     return;
   }
@@ -58,6 +60,7 @@ void take(std::string_view input) {
   Message file = files[script.below(2)];
   while (!script.at_end()) edit(file, script, 4096);
   set_sums(file);
+  images::note_in_png(file);
   if (script.below(2) == 0)
     images::decode_png(file, "frame.png");
   else

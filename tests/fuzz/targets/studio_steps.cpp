@@ -2,20 +2,11 @@
 #include "hal/failure/failure.h"
 #include "host/studio/project/project.h"
 #include "tests/fuzz/scratch.h"
+#include "tests/fuzz/studio_pages.h"
 #include "tests/fuzz/target.h"
 
 namespace mars::fuzz {
 namespace {
-
-constexpr const char* kModel = R"({"limbs": {"left": {"hip": "left-leg"}}, "joints": [
-  {"name": "hip", "place": [0, 0, 1], "segment": {"shape": "box", "material": "shirt"}},
-  {"name": "head", "parent": "hip", "place": [0, 0, 1], "segment": {"shape": "cloth"}},
-  {"name": "left-leg", "parent": "hip", "place": [0, 0.5, 0], "limits": {"x": [-10, 30]}, "segment": {"shape": "cone"}}],
-  "shapes": {"cloth": {"bspline": {"points": [[[0, 0, 0], [1, 0, 0]], [[0, 0, 1], [1, 0, 1]]],
-                                   "u": {"degree": 1}, "v": {"degree": 1}}}},
-  "materials": {"shirt": {"color": [1, 0, 0]}}})";
-constexpr const char* kFilm = R"({"frames": 9, "camera": {"eye": [9, 0, 2], "at": [0, 0, 1]},
-  "models": {"pip": "pip.json"}, "actors": [{"name": "pip", "model": "pip", "keys": [{"frame": 4, "place": [1, 0, 0]}]}]})";
 
 void take_step(studio::Project& project, const document::Json& step, std::string& refused) {
   for (const bool commits : {false, true}) try {
@@ -35,7 +26,8 @@ void take_step(studio::Project& project, const document::Json& step, std::string
 const Form kForm = Form::text;
 
 void take(std::string_view input) {
-  const auto model = scratch().file("pip.json", kModel), film = scratch().file("film.json", kFilm);
+  for (const auto& [name, text] : small_film().files) scratch().file(name, text);
+  const auto model = scratch().path("pip.json"), film = scratch().path("film.json");
   for (const char* journal : {".pip.json.journal", ".film.json.journal"})
     std::filesystem::remove(scratch().path(journal));
   for (const auto& entry : std::filesystem::directory_iterator(film.parent_path()))

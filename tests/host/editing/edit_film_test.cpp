@@ -39,6 +39,11 @@ TEST(EditFilm, ExplainsWordsThatItDoesNotKnow) {
   };
   EXPECT_NE(failure_of({"animate", "wlak", "tom"}).find("did you mean 'walk'"), std::string::npos);
   EXPECT_NE(failure_of({"animate", "pose", "camera", "fov=30"}).find("--frame"), std::string::npos);
+  EXPECT_NE(failure_of({"animate", "film", "x"}).find("'film' is not a command"), std::string::npos);
+  EXPECT_NE(failure_of({"film", "light", "material", "x"}).find("'material' is not a command"), std::string::npos);
+  EXPECT_NE(failure_of({"film", "animate", "x"}).find("'animate' is not a command"), std::string::npos);
+  EXPECT_NE(failure_of({"film", "--", "x"}), "");
+  EXPECT_NE(failure_of({""}), "");
   EXPECT_NE(failure_of({}), "");
   EXPECT_NE(failure_of({"animate"}), "");
   EXPECT_NE(failure_of({"animate", "--help"}).find("asks for help"), std::string::npos);

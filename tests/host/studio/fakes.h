@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -16,7 +17,8 @@ namespace mars::test {
 using studio::Json;
 using studio::PageNumber;
 
-// Steps are {"set": TEXT}; "bad" makes no sense, "line" has a wrong line, "disk" cannot be written.
+// Steps are {"set": TEXT}; "bad" makes no sense, "line" has a wrong line, "disk" cannot be written, "unshown" not be
+// described.
 class FakeProject final : public studio::Project {
  public:
   bool is_model() const override { return true; }
@@ -52,7 +54,10 @@ class FakeProject final : public studio::Project {
     return changed;
   }
   const std::optional<studio::Problem>& problem() const override { return problem_; }
-  Json describe() const override { return {{"is", "project"}, {"shown", shown_}, {"frame", frame_}}; }
+  Json describe() const override {
+    if (shown_ == "unshown") throw std::length_error("nobody expected it");
+    return {{"is", "project"}, {"shown", shown_}, {"frame", frame_}};
+  }
   Json describe_poses() const override { return {{"is", "poses"}, {"shown", shown_}}; }
 
   std::uint64_t keys_revision() const override { return written.size(); }

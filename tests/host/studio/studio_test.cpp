@@ -135,6 +135,20 @@ TEST_F(StudioTest, ARefusalHasTheLineThatIsToBlame) {
   EXPECT_EQ(pages_.heard[0].message["line"], 4);
 }
 
+// Whatever a page makes the studio throw is an answer to that page.
+TEST_F(StudioTest, NoPageEndsTheStudio) {
+  say(2, R"({"do": "commit", "step": {"set": "unshown"}})");
+  EXPECT_EQ(pages_.said(), "2 refused");
+  studio_->page_opened(3);
+  EXPECT_EQ(pages_.said(), "3 said");
+  studio_->page_closed(2);
+  project_->outside_change = true;
+  studio_->look_at_files();
+  EXPECT_EQ(pages_.said(), "0 said");
+  say(1, R"({"do": "undo"})");
+  EXPECT_EQ(pages_.said(), "0 project");
+}
+
 TEST_F(StudioTest, RefusesWhatMakesNoSense) {
   for (const char* message :
        {R"({"do": "commit", "step": {"set": "bad"}})", R"({"do": "commit"})", R"({"do": "commit", "step": 3})",

@@ -292,6 +292,30 @@ TEST(Scenes, AFilmThatShowsNothingLeavesWhatWas) {
   EXPECT_EQ(on.link.asked.size(), 1u);
 }
 
+// The film then has other actors than those that were seen.
+TEST(Scenes, NoHandTakesWhatCannotBeShown) {
+  OnStage on(example("robot-arm.json"));
+  on.view(0, 320, 200, "free", "surface");
+  on.answer();
+  on.project.change(
+      [](animator::Film& film) {
+        film.camera.at = film.camera.eye;
+        film.actors.clear();
+      },
+      true);
+  on.stage->project_changed();
+  for (const char* message :
+       {R"({"do": "hover", "view": 0, "x": 160, "y": 100})", R"({"do": "grab", "view": 0, "x": 160, "y": 100})",
+        R"({"do": "orbit", "view": 0, "by": [1, 1], "how": "turn"})"})
+    EXPECT_THROW(on.take(message), Failure) << message;
+  on.view(1, 320, 200, "free", "stick");
+  on.take(R"({"do": "select", "thing": "camera"})");
+  on.project.change([&](animator::Film& film) { film.camera = example("robot-arm.json").camera; });
+  on.stage->project_changed();
+  EXPECT_EQ(on.link.films.size(), 2u) << "its shapes are loaded once it can be shown";
+  on.take(R"({"do": "hover", "view": 0, "x": 160, "y": 100})");
+}
+
 // ---- flow
 
 TEST(Flow, NewestWinsAndTwoAreOnTheWay) {

@@ -1,0 +1,232 @@
+// Connections that are silent, slow or too many, over real sockets.
+#include "host/studio/web/server.h"
+
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <boost/asio/io_context.hpp>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace mars::web {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+constexpr int kLongest = 20'000;  // ms that a test waits for what must come
+constexpr std::size_t kMostPages = 16, kMostConnections = 64;
+
+// Somebody at the other end.
+class Client {
+ public:
+  explicit Client(std::uint16_t port) : socket_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in to{};
+    to.sin_family = AF_INET;
+    to.sin_port = htons(port);
+    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    EXPECT_EQ(connect(socket_, reinterpret_cast<const sockaddr*>(&to), sizeof to), 0);
+  }
+  ~Client() { close(socket_); }
+  Client(const Client&) = delete;
+  Client& operator=(const Client&) = delete;
+
+  void send(const std::string& text) {
+    EXPECT_EQ(::send(socket_, text.data(), text.size(), MSG_NOSIGNAL), static_cast<ssize_t>(text.size()));
+  }
+
+  // What comes within the time; "": nothing, or the end.
+  std::string read(int milliseconds = kLongest) {
+    pollfd at{socket_, POLLIN, 0};
+    if (poll(&at, 1, milliseconds) <= 0) return "";
+    std::array<char, 4096> bytes{};
+    const ssize_t size = recv(socket_, bytes.data(), bytes.size(), 0);
+    ended_ = size <= 0;
+    if (size > 0) answered_ = true;
+    return size > 0 ? std::string(bytes.data(), static_cast<std::size_t>(size)) : "";
+  }
+  bool answered(int milliseconds) {
+    if (!answered_) read(milliseconds);
+    return answered_;
+  }
+  bool ended() const { return ended_; }
+
+  // Of an answer: "200".
+  std::string status() { return read().substr(9, 3); }
+
+  bool ends() {
+    while (!ended_ && !read().empty()) {
+    }
+    return ended_;
+  }
+  bool is_open() {
+    read(0);
+    return !ended_;
+  }
+
+  // As a browser does, to all that came: whether there was one.
+  bool answer_pings() {
+    const std::string came = read(0);
+    const bool asked = came.find(kPing) != std::string::npos;
+    if (asked) send(kPong);
+    return asked;
+  }
+
+ private:
+  static inline const std::string kPing{'\x89', '\0'}, kPong{'\x8a', '\x80', '\0', '\0', '\0', '\0'};
+
+  int socket_;
+  bool answered_ = false, ended_ = false;
+};
+
+using Clients = std::vector<std::unique_ptr<Client>>;
+
+class ServerTest : public testing::Test {
+ protected:
+  ~ServerTest() override {
+    context_.stop();
+    if (thread_.joinable()) thread_.join();
+    fs::remove_all(folder_);
+  }
+
+  void serve(const Patience& patience) {
+    fs::create_directory(folder_);
+    std::ofstream(folder_ / "index.html") << "<!DOCTYPE html>";
+    ServerSettings settings;
+    settings.folder = folder_;
+    settings.patience = patience;
+    server_ = make_server(
+        context_, settings,
+        {[this](PageNumber) { ++opened_; }, [](PageNumber, const Json&) {}, [this](PageNumber) { ++closed_; }});
+    const std::string link = server_->link();
+    address_ = link.substr(7, link.find("/?") - 7);
+    token_ = link.substr(link.find("token=") + 6);
+    thread_ = std::thread([this] { context_.run(); });
+  }
+
+  std::unique_ptr<Client> client(const std::string& text = "") {
+    auto made =
+        std::make_unique<Client>(static_cast<std::uint16_t>(std::stoi(address_.substr(address_.find(':') + 1))));
+    if (!text.empty()) made->send(text);
+    return made;
+  }
+
+  Clients crowd(std::size_t size, const std::string& text) {
+    Clients clients;
+    while (clients.size() < size) clients.push_back(client(text));
+    return clients;
+  }
+
+  std::string request() const { return "GET / HTTP/1.1\r\nHost: " + address_ + "\r\n\r\n"; }
+  std::string page_request() const {
+    return "GET /ws?token=" + token_ + " HTTP/1.1\r\nHost: " + address_ + "\r\nOrigin: http://" + address_ +
+           "\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+           "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n";
+  }
+
+  Clients pages(std::size_t size) {
+    Clients clients = crowd(size, page_request());
+    for (const auto& each : clients) EXPECT_EQ(each->status(), "101");
+    return clients;
+  }
+
+  fs::path folder_ = fs::temp_directory_path() / ("mars-server-test-" + std::to_string(getpid()));
+  boost::asio::io_context context_{1};
+  std::atomic<int> opened_ = 0, closed_ = 0;
+  std::unique_ptr<Server> server_;
+  std::string address_, token_;
+  std::thread thread_;
+};
+
+TEST_F(ServerTest, WhoSendsNothingGivesWay) {
+  serve({});
+  for (const std::string& text : {std::string(), std::string("GET / HTTP/1.1\r\nHo")}) {
+    const Clients silent = crowd(kMostConnections, text);
+    EXPECT_EQ(client(request())->status(), "200") << text;
+    EXPECT_TRUE(silent.front()->ends()) << text;
+    EXPECT_TRUE(silent.back()->is_open()) << text;
+  }
+}
+
+TEST_F(ServerTest, WhoAskedLastGivesWayLast) {
+  serve({});
+  const auto early = client(request());
+  EXPECT_EQ(early->status(), "200");
+  const Clients silent = crowd(kMostConnections - 1, "");
+  early->send(request());
+  EXPECT_EQ(early->status(), "200");
+  EXPECT_EQ(client(request())->status(), "200");
+  EXPECT_TRUE(silent.front()->ends());
+  EXPECT_TRUE(early->is_open());
+}
+
+TEST_F(ServerTest, WhoSendsNoWholeRequestIsEnded) {
+  serve({.request = 100ms});
+  const auto silent = client(), slow = client();
+  for (const char letter : std::string("GET / HTTP/1.1")) {
+    if (!slow->is_open()) break;
+    slow->send(std::string(1, letter));
+    std::this_thread::sleep_for(15ms);
+  }
+  EXPECT_TRUE(slow->ends());
+  EXPECT_TRUE(silent->ends());
+}
+
+TEST_F(ServerTest, PagesThatAnswerNoPingGiveWayToTheNewest) {
+  serve({.answer = 200ms});
+  const Clients idle = pages(kMostPages);
+  const Clients more = crowd(kMostConnections - kMostPages, page_request());
+  const auto unanswered = [&] {
+    return std::ranges::count_if(more, [](const auto& each) { return !each->answered(1); });
+  };
+  while (unanswered() > 1) {
+  }
+  const auto newest = client(page_request());
+  EXPECT_EQ(newest->status(), "101");
+  EXPECT_GE(closed_, static_cast<int>(kMostPages));
+  for (const auto& each : idle) EXPECT_TRUE(each->ends());
+}
+
+TEST_F(ServerTest, PagesWhoseBrowsersAnswerStay) {
+  serve({.answer = 500ms});
+  const Clients open = pages(kMostPages);
+  const auto newcomer = client(page_request());
+  std::size_t answered = 0;
+  std::string answer;
+  while (answer.empty()) {
+    for (const auto& each : open) answered += each->answer_pings();
+    answer = newcomer->read(5);
+    ASSERT_FALSE(newcomer->ended());
+  }
+  EXPECT_EQ(answer.substr(9, 3), "503");
+  EXPECT_EQ(answered, kMostPages);
+  EXPECT_EQ(closed_, 0);
+}
+
+TEST_F(ServerTest, AnIdlePageStaysWhileItsBrowserAnswers) {
+  serve({.silence = 400ms});
+  const Clients both = pages(2);
+  int answered = 0;
+  while (answered < 3) {
+    answered += both[0]->answer_pings();
+    ASSERT_FALSE(both[0]->ended());
+    std::this_thread::sleep_for(5ms);
+  }
+  EXPECT_TRUE(both[1]->ends());
+  EXPECT_TRUE(both[0]->is_open());
+}
+
+}  // namespace
+}  // namespace mars::web
