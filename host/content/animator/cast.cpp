@@ -46,7 +46,7 @@ std::string put_model(Json& film, const Json& model, const std::string& wanted) 
 
 // The film's name for the actor's model.
 std::string model_for(Json& film, const NewActor& actor) {
-  const bool file = std::filesystem::path(actor.model).extension() == ".json";
+  const bool file = is_model_file(film, actor.model);
   const bool known = film.at("models").contains(actor.model);
   const bool library = modeler::find_in_library(actor.model) != nullptr;
   if (library && actor.height) return put_model(film, modeler::library_figure(actor.model, actor.height), actor.name);
@@ -108,6 +108,11 @@ bool stands_elsewhere(const Json& model, const std::string& name) {
 }
 
 }  // namespace
+
+bool is_model_file(const Json& film, const std::string& model) {
+  const bool known = film.at("models").contains(model) || modeler::find_in_library(model) != nullptr;
+  return !known && std::filesystem::path(model).extension() == ".json";
+}
 
 void add_actor(Json& film, const NewActor& actor) {
   refuse_taken(film, actor.name);

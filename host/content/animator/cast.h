@@ -18,6 +18,9 @@ struct NewActor {
   std::optional<double> height{};             // at rest, of what is of the library
 };
 
+// Neither a model that the film has nor one of the library.
+bool is_model_file(const document::Json& film, const std::string& model);
+
 // What is of the library becomes the film's own model, by its name; of a height of its own, by the actor's.
 void add_actor(document::Json& film, const NewActor& actor);
 

@@ -93,8 +93,9 @@ std::vector<Row> rows_of(const Chosen& chosen, FrameRange range) {
 
 // Of all parts at the frame: it is then shown once.
 bool same_ease(const std::vector<Row>& rows, std::uint32_t frame) {
-  const auto there = std::ranges::equal_range(rows, frame, {}, &Row::frame);
-  return std::ranges::all_of(there, [&](const Row& row) { return row.ease == there.begin()->ease; });
+  const auto first = std::ranges::lower_bound(rows, frame, {}, &Row::frame);
+  const auto end = std::ranges::upper_bound(rows, frame, {}, &Row::frame);
+  return std::all_of(first, end, [&](const Row& row) { return row.ease == first->ease; });
 }
 
 std::string table_of(const std::vector<Row>& rows) {

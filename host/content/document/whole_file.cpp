@@ -87,6 +87,12 @@ const char* remedy_for(int error) {
   }
 }
 
+// `path` is what failures name.
+void refuse_all_but_files(const struct stat& thing, const std::filesystem::path& path) {
+  if (S_ISDIR(thing.st_mode)) fail_file("write", path, EISDIR);
+  if (!S_ISREG(thing.st_mode)) throw Failure("cannot write: is not a regular file", path.string(), remedy_for(EEXIST));
+}
+
 // A new file under a temporary name, which becomes the file `path` when it is renamed; removed unless it was. The file
 // that it replaces leaves it its permissions; what is no file is not replaced.
 class Part {
@@ -119,9 +125,7 @@ class Part {
   std::optional<mode_t> mode_of_replaced() const {
     struct stat old {};
     if (lstat(replaced_.c_str(), &old) != 0 || S_ISLNK(old.st_mode)) return std::nullopt;
-    if (S_ISDIR(old.st_mode)) fail_file("write", target_, EISDIR);
-    if (!S_ISREG(old.st_mode))
-      throw Failure("cannot write: is not a regular file", target_.string(), remedy_for(EEXIST));
+    refuse_all_but_files(old, target_);
     return old.st_mode & 0777;
   }
 
@@ -132,11 +136,25 @@ class Part {
   bool renamed_ = false;
 };
 
-// The file that a person means by `path`: found through links, unless these lead nowhere.
+bool is_anothers(const struct stat& thing) { return thing.st_uid != geteuid() && thing.st_uid != 0; }
+
+// The file that a person means by `path`, found through links. Whoever can write to the folder can have put a link
+// there: it is followed to a file only that its owner, who is the person or root, could have named as well.
 std::filesystem::path file_meant_by(const std::filesystem::path& path) {
-  std::error_code none;
-  const bool leads = std::filesystem::is_symlink(path, none) && std::filesystem::exists(path, none);
-  return leads ? std::filesystem::canonical(path) : path;
+  const auto refuse = [&](const std::string& problem) {
+    throw Failure("cannot write: " + problem, path.string(), "remove the link, or name the file itself");
+  };
+  struct stat link {};
+  struct stat file {};
+  if (lstat(path.c_str(), &link) != 0 || !S_ISLNK(link.st_mode)) return path;
+  if (is_anothers(link)) refuse("is a link that another user has made");
+  if (stat(path.c_str(), &file) != 0) {
+    if (errno != ENOENT) fail_file("write", path, errno);
+    refuse("is a link to " + std::filesystem::read_symlink(path).string() + ", which is not there");
+  }
+  refuse_all_but_files(file, path);
+  if (file.st_uid != geteuid()) refuse("is a link to a file of another user");
+  return std::filesystem::canonical(path);
 }
 
 // A name beside `path` that no other process uses, and nobody can foresee.

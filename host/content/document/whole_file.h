@@ -16,8 +16,9 @@ namespace mars::document {
 // What ends the temporary names; a killed process may leave such files, never others.
 inline constexpr std::string_view kPartSuffix = ".part";
 
-// For files that a person names: where `path` is a link, the file it leads to is replaced. The temporary file is beside
-// it, named .NAME.<16 random digits>.part.
+// For files that a person names: where `path` is a link, the file it leads to is replaced, in its own folder. Refused
+// are links that lead nowhere, links of other users, and links to their files. The temporary file is beside the one
+// that is replaced, named .NAME.<16 random digits>.part.
 void write_whole_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void write_whole_file(const std::filesystem::path& path, std::string_view text);
 // What `produce` writes, piece by piece.

@@ -7,6 +7,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "host/content/film/frame_content.h"
+
 namespace mars::film {
 namespace {
 
@@ -30,14 +32,6 @@ static_assert(sizeof(wire::Light) == 13 * sizeof(float));
 static_assert(sizeof(wire::Material) == 13 * sizeof(float));
 static_assert(sizeof(wire::FilmSettings) == 24 * sizeof(float));
 static_assert(sizeof(wire::AmbientLight) == 6 * sizeof(float) && sizeof(wire::Fog) == 5 * sizeof(float));
-
-// Without what decides no pixel.
-wire::FilmSettings shown_settings(wire::FilmSettings settings) {
-  settings.frames = 0;
-  settings.rate = 0;
-  settings.camera = {};
-  return settings;
-}
 
 bool same_meshlet(const FilmView& a, const wire::Meshlet& in_a, const FilmView& b, const wire::Meshlet& in_b) {
   return same_bits(in_a.low, in_b.low) && same_bits(in_a.high, in_b.high) &&

@@ -9,26 +9,27 @@
 namespace mars::film {
 namespace {
 
-animator::Film meaning_of(const std::filesystem::path& path) {
+namespace fs = std::filesystem;
+
+animator::Film meaning_of(const fs::path& path) {
   if (is_compiled_film(path))
     throw Failure("is compiled: it has matrices, no keys", path.string(), "name the film file that it was made from");
   return animator::read_film(path);
 }
 
-std::function<void(const document::Element&)> check_beside(const std::filesystem::path& path) {
+std::function<void(const document::Element&)> check_beside(const fs::path& path) {
   return
       [folder = path.parent_path()](const document::Element& root) { check_camera(animator::read_film(root, folder)); };
 }
 
 }  // namespace
 
-FilmFile open_film(const std::filesystem::path& path) {
+FilmFile open_film(const fs::path& path) {
   animator::Film film = meaning_of(path);
   return {document::read_json(path), std::move(film)};
 }
 
-void change_film(const std::filesystem::path& path,
-                 const std::function<void(document::Json&, const animator::Film&)>& change) {
+void change_film(const fs::path& path, const std::function<void(document::Json&, const animator::Film&)>& change) {
   meaning_of(path);  // refuses a file of another kind by its name
   document::change_json(
       path,
@@ -39,11 +40,24 @@ void change_film(const std::filesystem::path& path,
       check_beside(path));
 }
 
-void create_film(const std::filesystem::path& path, const document::Json& film) {
-  if (std::filesystem::exists(path))
+void create_film(const fs::path& path, const document::Json& film) {
+  if (fs::exists(path))
     throw Failure("is there already", path.string(),
                   "choose another name, or change it with mars film FILM set and add");
   document::write_json(path, film, check_beside(path));
+}
+
+std::string name_beside(const fs::path& film, const std::string& file) {
+  if (!fs::exists(file)) {
+    const fs::path other = film.parent_path() / file;
+    throw Failure("there is no such model file", file,
+                  fs::exists(other) ? "beside the film there is one: name it " + other.string() : "check its name");
+  }
+  const fs::path path = file;
+  if (path.is_absolute()) return file;
+  // Their folders are found through links, for ".." leads out of where a link leads.
+  const fs::path folder = fs::weakly_canonical(fs::absolute(path).parent_path());
+  return (folder / path.filename()).lexically_relative(fs::weakly_canonical(fs::absolute(film).parent_path())).string();
 }
 
 }  // namespace mars::film

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
 
 #include "host/content/animator/film.h"
 #include "host/content/document/json_file.h"
@@ -24,5 +25,9 @@ void change_film(const std::filesystem::path& path,
 
 // Writes a new film file. Refuses if there is one of this name.
 void create_film(const std::filesystem::path& path, const document::Json& film);
+
+// How the film names a model file that is there, which a person names as seen from the working folder: a relative name
+// becomes one as seen from the film's folder.
+std::string name_beside(const std::filesystem::path& film, const std::string& file);
 
 }  // namespace mars::film

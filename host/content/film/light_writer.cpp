@@ -9,14 +9,10 @@
 #include "hal/failure/failure.h"
 #include "host/content/animator/direction.h"
 #include "host/content/animator/read_lights.h"
+#include "host/content/document/shown_color.h"
 
 namespace mars::film {
 namespace {
-
-// Of one channel, by sRGB (IEC 61966-2-1).
-double decoded(double shown) { return shown <= 0.04045 ? shown / 12.92 : std::pow((shown + 0.055) / 1.055, 2.4); }
-
-double encoded(double light) { return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055; }
 
 std::array<float, 3> floats(const glm::dvec3& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
@@ -25,7 +21,7 @@ std::array<float, 3> floats(const glm::dvec3& v) {
 glm::dvec3 light_from(const glm::dvec3& color, wire::ColorSpace space) {
   const glm::dvec3 shown = glm::clamp(color, 0.0, 1.0);
   if (space == wire::ColorSpace::coded) return shown;
-  return {decoded(shown.x), decoded(shown.y), decoded(shown.z)};
+  return {document::light_of_shown(shown.x), document::light_of_shown(shown.y), document::light_of_shown(shown.z)};
 }
 
 // Of half the angle that a cone opens.
@@ -102,7 +98,7 @@ std::array<float, 3> light_of(const glm::dvec3& color, wire::ColorSpace space) {
 std::array<float, 3> shown_of(const std::array<float, 3>& light, wire::ColorSpace space) {
   std::array<float, 3> shown = light;
   if (space == wire::ColorSpace::linear)
-    for (float& channel : shown) channel = static_cast<float>(encoded(channel));
+    for (float& channel : shown) channel = static_cast<float>(document::shown_of_light(channel));
   return shown;
 }
 

@@ -29,7 +29,9 @@ bool asks_for_kept_film(const Wish& wish) {
 }
 
 // Whether the film of the folder is the one asked for, as far as can be told without compiling it.
-bool is_made_of_the_same(const Manifest& there, const Wish& wish) {
+bool is_asked_for(const Manifest& there, const Wish& wish) {
+  if (wish.kept_film) return true;
+  if (wish.overwrite) return false;
   if (asks_for_kept_film(wish)) return wish.options.empty();
   return there.options == wish.options && !there.sources.empty() &&
          there.sources.front().path == source_path(wish.film) && are_unchanged(there.sources);
@@ -62,6 +64,14 @@ void refuse_other_film(const Manifest& there, const Wish& wish) {
                 "give another folder with -o, or replace them with --overwrite");
 }
 
+bool has_no_frames(const Manifest& there) { return std::ranges::all_of(there.pixel_hashes, &std::string::empty); }
+
+Failure other_pixels(const Manifest& there, const Wish& wish) {
+  return Failure("the frames in this folder were rendered by a MARS that draws other pixels: their pixel version is " +
+                     std::to_string(there.pixel_version) + ", not " + std::to_string(wire::kPixelVersion),
+                 wish.folder, "give another folder with -o, or replace them with --overwrite");
+}
+
 // It cannot be compared.
 void refuse_unknown_film(const Manifest& there, const Wish& wish) {
   throw Failure("the frames in this folder are of another film, or of another version of it, " + film_text(there) +
@@ -84,15 +94,23 @@ class Opening {
     }
   }
 
+  film::CompiledFilm look_only() {
+    look();
+    if (refusal_) throw *refusal_;
+    return std::move(kept_ ? *kept_ : *compiled_);
+  }
+
  private:
   // At the folder as it is now; and takes the film that it keeps, or compiles it.
   void look() {
-    seen_ = sinks::read_frames_json(wish_.folder);
+    auto [seen, repaired] = sinks::find_manifest(wish_.folder);
+    seen_ = std::move(seen);
+    is_sound_ = repaired.empty();
     if (seen_ && !wish_.overwrite) refuse_other_format(*seen_, wish_);
     kept_.reset();
     edit_.reset();
     refusal_.reset();
-    if (seen_ && !wish_.overwrite && is_made_of_the_same(*seen_, wish_)) kept_ = load_kept_film(wish_.folder, *seen_);
+    if (seen_ && is_asked_for(*seen_, wish_)) kept_ = load_kept_film(wish_.folder, *seen_);
     if (kept_) return;
     compile();
     if (seen_ && document::checksum_of(compiled_->block()) != seen_->checksum) compare();
@@ -100,7 +118,7 @@ class Opening {
 
   // With what the folder's frames show.
   void compare() try {
-    if (std::ranges::all_of(seen_->pixel_hashes, &std::string::empty)) return;  // nothing is there
+    if (has_no_frames(*seen_)) return;
     const auto before = load_kept_film(wish_.folder, *seen_);
     if (!before) refuse_unknown_film(*seen_, wish_);
     refuse_other_format(*seen_, wish_);
@@ -112,11 +130,15 @@ class Opening {
     if (!wish_.overwrite) refusal_ = failure;
   }
 
-  void compile() {
+  void compile() try {
     if (compiled_) return;
     document::RecordedReads reads;
     compiled_ = compile_();
     sources_ = sources_of(wish_.film, reads.stamps());
+  } catch (const Failure& failure) {
+    if (!wish_.kept_film) throw;
+    throw Failure(failure.problem + "; and the folder " + wish_.folder + " keeps no film.mars of its frames",
+                  failure.where, failure.remedy);
   }
 
   const film::CompiledFilm& film() const { return kept_ ? *kept_ : *compiled_; }
@@ -137,6 +159,8 @@ class Opening {
                       sources_,
                       wish_.options};
     const bool is_kept_film = seen_ && seen_->checksum == manifest.checksum;
+    if (is_kept_film && !wish_.overwrite && sinks::missing_frames(wish_.folder, *seen_, manifest.frames).empty())
+      manifest.pixel_version = seen_->pixel_version;                          // nothing is rendered
     const bool known = is_kept_film && (kept_ || asks_for_kept_film(wish_));  // what it was made of
     if (known) {
       manifest.film = seen_->film;
@@ -150,7 +174,9 @@ class Opening {
     const Manifest wanted = this->wanted();
     const auto asked = static_cast<std::uint32_t>(wanted.frames.size());
     // Needs no right to write there.
-    if (kept_ && sinks::missing_frames(wish_.folder, *seen_, wanted.frames).empty())
+    if (!wish_.overwrite && seen_ && wanted.pixel_version != seen_->pixel_version && !has_no_frames(*seen_))
+      refusal_ = other_pixels(*seen_, wish_);
+    if (kept_ && is_sound_ && !wish_.overwrite && sinks::missing_frames(wish_.folder, *seen_, wanted.frames).empty())
       return {std::move(*kept_), nullptr, asked, {}, ""};
     auto folder = std::make_unique<sinks::FrameFolder>(
         wish_.folder, wanted, [&](const std::optional<Manifest>& there) { return go_on(there, wanted); }, bounds_);
@@ -165,12 +191,14 @@ class Opening {
     Manifest all = wanted;
     all.pixel_hashes.assign(all.frames.size(), "");
     if (there) keep_frames(*there, all);
-    return {std::move(all), kept_ ? nullptr : &film(), refusal_};
+    if (!there && !wish_.overwrite) sinks::add_marked_frames(wish_.folder, all);
+    return {std::move(all), kept_ ? nullptr : &film(), refusal_, wish_.renders};
   }
 
   void keep_frames(const Manifest& there, Manifest& all) const {
     const bool same = sinks::are_of_one_folder(there, all);
-    if (!same && !edit_) return;
+    if (!same && (!edit_ || there.pixel_version != all.pixel_version)) return;
+    all.more = there.more;
     Manifest kept = there;
     kept.pixel_hashes.resize(kept.frames.size());
     if (wish_.overwrite)
@@ -182,6 +210,7 @@ class Opening {
   const std::function<film::CompiledFilm()>& compile_;
   const sinks::Patience::Bounds& bounds_;
   std::optional<Manifest> seen_;
+  bool is_sound_ = true;  // frames.json; no: seen_ stands in for it
   std::optional<film::CompiledFilm> kept_, compiled_;
   std::optional<Edit> edit_;            // from the folder's film to compiled_; none: they are the same, or all goes
   std::optional<Failure> refusal_;      // why the folder may not become compiled_'s
@@ -193,7 +222,7 @@ class Opening {
 std::optional<std::uint32_t> count_if_complete(const Wish& wish) try {
   if (wish.overwrite || !sinks::read_frames_json(wish.folder)) return std::nullopt;
   const Manifest there = sinks::read_manifest(wish.folder);
-  if (there.format != wish.format || !is_made_of_the_same(there, wish)) return std::nullopt;
+  if (there.format != wish.format || !is_asked_for(there, wish)) return std::nullopt;
   const std::vector<std::uint32_t> asked = wish.frames.of_film(there.film_frames);
   if (!sinks::missing_frames(wish.folder, there, asked).empty()) return std::nullopt;
   return static_cast<std::uint32_t>(asked.size());
@@ -209,6 +238,10 @@ bool keeps_its_film(const std::string& folder) {
 Opened open(const Wish& wish, const std::function<film::CompiledFilm()>& compile,
             const sinks::Patience::Bounds& bounds) {
   return Opening(wish, compile, bounds).open();
+}
+
+film::CompiledFilm film_for(const Wish& wish, const std::function<film::CompiledFilm()>& compile) {
+  return Opening(wish, compile, {}).look_only();
 }
 
 }  // namespace mars::resume

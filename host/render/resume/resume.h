@@ -1,7 +1,8 @@
 // A rendering goes on where an earlier one of the same film stopped. The folder keeps the compiled film (film.mars),
 // and frames.json says what it was compiled from: while that is the same, nothing is compiled again, and all runs in
 // the folder render the very same film, on whichever machines. Where the film was edited, frames that show the same as
-// before stay.
+// before stay. A run that goes on with another, as a job that is started again, takes the folder's film without a look
+// at what it was compiled from, which may be half edited by then.
 #pragma once
 
 #include <cstdint>
@@ -26,6 +27,8 @@ struct Wish {
   images::PictureFormat format = images::PictureFormat::png;
   film::FrameSet frames;
   bool overwrite = false;  // render them all, whatever is there
+  bool kept_film = false;  // the folder's film, whatever has become of `film`, which counts where the folder keeps none
+  bool renders = true;     // no: the film is left in the folder for runs to come, and no frame is claimed
 };
 
 // The number of frames asked for, where all are there: nothing is left to render. None also where that cannot be seen
@@ -39,7 +42,7 @@ struct Opened {
   film::CompiledFilm film;
   std::unique_ptr<sinks::FrameFolder> folder;  // none where nothing is left to render
   std::uint32_t asked = 0;                     // frames
-  std::vector<std::uint32_t> frames;           // of these, to be rendered, ascending
+  std::vector<std::uint32_t> frames;           // those that this run is to render, ascending
   std::string changed;                         // a line about what the film shows otherwise now; "": nothing
 };
 
@@ -49,5 +52,9 @@ struct Opened {
 // What is waited for is waited for as `bounds` say.
 Opened open(const Wish& wish, const std::function<film::CompiledFilm()>& compile,
             const sinks::Patience::Bounds& bounds = {});
+
+// The film with which open() would enter the folder, where nothing is changed. Throws Failure where the folder's frames
+// would be in its way.
+film::CompiledFilm film_for(const Wish& wish, const std::function<film::CompiledFilm()>& compile);
 
 }  // namespace mars::resume

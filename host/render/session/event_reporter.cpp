@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hal/failure/failure.h"
+#include "hal/failure/plain_text.h"
 
 namespace mars::session {
 namespace {
@@ -40,7 +41,7 @@ std::vector<events::Warning> warnings_of(std::span<const wire::Hello> hellos) {
 
 void EventReporter::report(const events::Event& event) const {
   board_.note(event);
-  const std::string line = events::line_of(event);
+  const std::string line = plain_text(events::line_of(event));  // the same JSON
   const std::lock_guard lock(mutex_);
   std::cout << line << std::flush;
 }

@@ -17,6 +17,7 @@
 #include "hal/nx/nx_messages.h"
 #include "host/content/document/checksum.h"
 #include "host/content/document/whole_file.h"
+#include "host/content/film/frame_content.h"
 #include "host/render/farm/farm.h"
 #include "host/render/farm/host_memory.h"
 #include "host/render/farm/node_inbox.h"
@@ -39,9 +40,11 @@ constexpr int kMostSinks = 64;
 constexpr std::chrono::seconds kLongestEnd{10};  // of a run that fails, for what it has written
 
 // To nowhere where there is no folder.
-std::unique_ptr<sinks::Sink> make_sink(sinks::FrameFolder* folder) {
+std::unique_ptr<sinks::Sink> make_sink(sinks::FrameFolder* folder, const wire::FilmView& film) {
   if (folder == nullptr) return std::make_unique<sinks::NullSink>();
-  return std::make_unique<sinks::FileSink>(*folder);
+  const auto content = std::make_shared<film::FrameContent>(film);
+  return std::make_unique<sinks::FileSink>(*folder,
+                                           [content](std::uint32_t frame) { return content->checksum(frame); });
 }
 
 // What writes frames, and ends in this order: the threads, then the folder, then what it shows.
@@ -49,6 +52,7 @@ struct Output {
   explicit Output(const std::string& film) : board(film) {}
 
   StatusBoard board;
+  film::CompiledFilm film;                     // what its frames are of
   std::unique_ptr<sinks::FrameFolder> folder;  // none: frames go nowhere
   std::unique_ptr<sinks::Sink> sink;
   std::unique_ptr<sinks::SinkPool> pool;
@@ -122,24 +126,24 @@ resume::Opened open_film(const RenderJob& job, const EventReporter& reporter) {
   const sinks::Patience::Bounds bounds = bounds_of(reporter);
   const auto compile = [&] { return job.load_film(bounds.warn); };
   if (!job.folder.empty())
-    return resume::open({job.folder, job.film, job.film_options, job.format, job.frames, job.overwrite}, compile,
-                        bounds);
+    return resume::open({job.folder, job.film, job.film_options, job.format, job.frames, job.overwrite, job.kept_film},
+                        compile, bounds);
   film::CompiledFilm film = compile();
   std::vector<std::uint32_t> frames = job.frames.of_film(film.view().settings().frames);
   const auto asked = static_cast<std::uint32_t>(frames.size());
   return {std::move(film), nullptr, asked, std::move(frames), ""};
 }
 
-resume::Opened load_film(const RenderJob& job, const EventReporter& reporter, farm::Heartbeats& heartbeats,
-                         double& seconds) {
+resume::Opened load_film(const RenderJob& job, const EventReporter& reporter, farm::Heartbeats& heartbeats) {
   reporter.report(events::Loading{job.film});
   const double started = dclock();
   std::optional<resume::Opened> opened;
   heartbeats.during("loading", [&] { opened.emplace(open_film(job, reporter)); });
-  seconds = dclock() - started;
   const auto left = static_cast<std::uint32_t>(opened->frames.size());
   if (left < opened->asked || !opened->changed.empty())
     reporter.report(events::Resumed{opened->asked - left, opened->asked, opened->changed});
+  // Only now: before, the host may have waited for its turn in the folder, and not for nodes.
+  reporter.report(events::Loaded{dclock() - started, opened->folder ? opened->folder->run() : ""});
   return std::move(*opened);
 }
 
@@ -160,12 +164,11 @@ farm::Plan plan_of(const wire::FilmView& film, const std::vector<std::uint32_t>&
 }
 
 // A measurement of nothing would pass as one of the film.
-void render_nothing(const RenderJob& job, const EventReporter& reporter, double load_seconds) {
+void render_nothing(const RenderJob& job, const EventReporter& reporter) {
   for (const std::string& file : {job.report, job.trace})
     if (!file.empty())
       reporter.report(events::Warning{"nothing is left to render, so " + file +
                                       " is not written (--overwrite renders all again, --sink none only measures)"});
-  reporter.report(events::Loaded{load_seconds});
   farm::dismiss_nodes();
   reporter.report(events::Done{0, 0, job.folder});
 }
@@ -183,10 +186,10 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace, 
   if (!job.report.empty()) document::check_can_write(job.report);  // early too
   Termination termination(messages::process().backend().has_machine_clock());
   farm::Heartbeats heartbeats(host_name(), getpid(), heartbeat_listener(reporter, termination));
-  double load_seconds = 0;
-  resume::Opened opened = load_film(job, reporter, heartbeats, load_seconds);
-  if (opened.frames.empty()) return render_nothing(job, reporter, load_seconds);
-  const film::CompiledFilm& film = opened.film;
+  resume::Opened opened = load_film(job, reporter, heartbeats);
+  if (opened.frames.empty()) return render_nothing(job, reporter);
+  output.film = std::move(opened.film);
+  const film::CompiledFilm& film = output.film;
   const wire::FilmView view = film.view();
   const wire::FilmSettings& settings = view.settings();
   const farm::Plan plan = plan_of(view, opened.frames, job, reporter, heartbeats);
@@ -195,9 +198,7 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace, 
 
   output.folder = std::move(opened.folder);
   if (output.folder) output.folder->show_status([&board = output.board] { return sinks::text_of(board.status()); });
-  output.sink = make_sink(output.folder.get());
-  // Only now: before, the host may have waited for its turn in the folder, and not for nodes.
-  reporter.report(events::Loaded{load_seconds, output.folder ? output.folder->run() : ""});
+  output.sink = make_sink(output.folder.get(), view);
   output.pool = make_sinks(job, *output.sink, pool_shape(host, view, job, memory.frames));
   const auto watch = begin_watch(job, reporter);
   const farm::FarmReport report =

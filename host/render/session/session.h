@@ -40,6 +40,7 @@ struct RenderJob {
   std::vector<std::string> film_options;
   std::string folder;      // for the frames; "": they go nowhere
   bool overwrite = false;  // frames that the folder has already
+  bool kept_film = false;  // the folder's, as in resume::Wish
   images::PictureFormat format = images::PictureFormat::png;
   film::FrameSet frames;
   wire::Mapping mapping = wire::Mapping::cost;

@@ -12,11 +12,12 @@
 #include <utility>
 
 #include "hal/failure/failure.h"
-#include "host/content/document/file.h"
+#include "host/content/document/text.h"
 #include "host/content/document/whole_file.h"
 #include "host/content/film/film_file.h"
 #include "host/images/picture_file.h"
 #include "host/render/sinks/claim.h"
+#include "host/render/sinks/frame_mark.h"
 #include "host/render/sinks/record.h"
 
 namespace mars::sinks {
@@ -26,7 +27,6 @@ using nlohmann::json;
 
 namespace {
 
-constexpr const char* kManifestName = "frames.json";
 constexpr std::chrono::seconds kShortPatience{2};  // of a run that fails: a person waits to learn why
 
 void create_folder(const fs::path& path) {
@@ -41,20 +41,17 @@ void remove_part(const fs::path& part) {
   if (unlink(part.c_str()) != 0 && errno != ENOENT) document::fail_file("write", part, errno);
 }
 
-void write_manifest(const Manifest& manifest, const fs::path& folder, const RunsFolder& runs) {
-  const std::string text = to_json(manifest).dump(2, ' ', false, json::error_handler_t::replace) + "\n";
-  const fs::path part = runs.own_file(".frames.json.part");
-  remove_part(part);
-  document::replace_file(folder / kManifestName, part, std::as_bytes(std::span(text)));
-}
-
-// False, and nothing is added, where the manifest is of another film or format.
-bool add_to_manifest(const Manifest& rendered, const fs::path& folder, const RunsFolder& runs, const FolderTurn& turn) {
-  Manifest all = read_frames_json(folder).value_or(rendered);
+// False, and nothing is added, where the manifest is of another film or format. `known`: what the run knows of the
+// folder, which stands in for a manifest that is lost or damaged.
+bool add_to_manifest(const Manifest& rendered, const Manifest& known, const fs::path& folder, const RunsFolder& runs,
+                     const FolderTurn& turn, const Warn& warn = {}) {
+  Found found = find_manifest(folder, &known);
   turn.confirm();
+  Manifest& all = *found.manifest;
   if (!are_of_one_folder(all, rendered)) return false;
   add_frames(all, rendered);
   write_manifest(all, folder, runs);
+  if (warn && !found.repaired.empty()) warn(repair_text(found.repaired));
   return true;
 }
 
@@ -78,7 +75,8 @@ void settle_ended_runs(const fs::path& folder, const RunsFolder& runs, const Fol
   for (const RunFiles& run : runs.runs()) {
     if (run.run == runs.own_name() || (run.run != ended && !turn.has_ended(run))) continue;
     remove_parts(run);
-    if (const std::optional<Manifest> rendered = rendered_by(run)) add_to_manifest(*rendered, folder, runs, turn);
+    if (const std::optional<Manifest> rendered = rendered_by(run))
+      add_to_manifest(*rendered, *rendered, folder, runs, turn);
     remove_files(run, turn);
   }
 }
@@ -110,29 +108,26 @@ void sync_folder(const fs::path& folder) {
 
 }  // namespace
 
-std::optional<Manifest> read_frames_json(const fs::path& folder) {
-  const fs::path path = folder / kManifestName;
-  const std::optional<std::string> text = document::read_file_if_there(path, kLargestRecord);
-  if (!text) return std::nullopt;
-  try {
-    return manifest_of(parse_record(*text));
-  } catch (const Failure& failure) {
-    throw Failure("not a manifest of frames: " + failure.problem, path.string(),
-                  "remove it, and render all frames of the folder again");
-  }
+void write_manifest(const Manifest& manifest, const fs::path& folder, const RunsFolder& runs) {
+  const std::string text = to_json(manifest).dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+  const fs::path part = runs.own_file(".frames.json.part");
+  remove_part(part);
+  document::replace_file(folder / kManifestName, part, std::as_bytes(std::span(text)));
 }
 
 std::vector<std::uint32_t> missing_frames(const fs::path& folder, const Manifest& manifest,
                                           const std::vector<std::uint32_t>& frames) {
-  const std::set<std::string> names = names_in(folder);
   std::vector<std::uint32_t> missing;
   for (const std::uint32_t frame : frames)
-    if (hash_of(manifest, frame).empty() || !names.contains(frame_file_name(manifest, frame))) missing.push_back(frame);
+    if (hash_of(manifest, frame).empty() || !is_frame_file(folder / frame_file_name(manifest, frame)))
+      missing.push_back(frame);
   return missing;
 }
 
 void remove_frame(const fs::path& file) {
-  if (unlink(file.c_str()) != 0 && errno != ENOENT) document::fail_file("remove", file, errno);
+  if (unlink(file.c_str()) == 0 || errno == ENOENT) return;
+  if (errno == EISDIR && rmdir(file.c_str()) == 0) return;
+  document::fail_file("remove", file, errno);
 }
 
 Continue keep_same_film(const Manifest& wanted) {
@@ -143,7 +138,7 @@ Continue keep_same_film(const Manifest& wanted) {
 
 FrameFolder::FrameFolder(fs::path path, const Manifest& wanted, const Continue& go_on, Patience::Bounds bounds,
                          const ProcessName& self)
-    : path_(std::move(path)), patience_(bounds), rendered_(wanted), runs_(path_, self) {
+    : path_(std::move(path)), warn_(bounds.warn), patience_(bounds), rendered_(wanted), runs_(path_, self) {
   UnseenRivals unseen(bounds.warn);
   patience_.begin(path_, [&] {
     create_folder(path_);
@@ -171,19 +166,21 @@ void FrameFolder::give_back_claim() {
 bool FrameFolder::enter(const FolderTurn& turn, const Manifest& wanted, const Continue& go_on, UnseenRivals& unseen) {
   settle_ended_runs(path_, runs_, turn);
   turn.confirm();
-  const std::optional<Manifest> there = read_frames_json(path_);
-  auto [all, new_film, refusal] = go_on(there);
+  const auto [there, repaired] = find_manifest(path_);
+  auto [all, new_film, refusal, renders] = go_on(there);
   add_frames(all, wanted);
-  rendered_ = all;
-  rendered_.frames = missing_frames(path_, all, wanted.frames);
+  begun_ = rendered_ = all;
+  const std::vector<std::uint32_t> missing = missing_frames(path_, all, wanted.frames);
+  rendered_.frames = renders ? missing : std::vector<std::uint32_t>();
   rendered_.pixel_hashes.assign(rendered_.frames.size(), "");
   if (must_wait(turn, !there || !are_of_one_folder(*there, all), unseen)) return false;
-  if (refusal) throw *refusal;
+  if (refusal && !missing.empty()) throw *refusal;
   if (rendered_.frames.empty())
     finished_ = true;
   else
     claim();
-  if (there != all) write_manifest(all, path_, runs_);
+  if (there != all || !repaired.empty()) write_manifest(all, path_, runs_);
+  if (warn_ && !repaired.empty()) warn_(repair_text(repaired));
   if (new_film != nullptr) write_film(*new_film, turn);
   return true;
 }
@@ -254,13 +251,25 @@ void FrameFolder::finish_within(std::chrono::milliseconds patience) {
   lease_->confirm();
   hashes_.reset();
   status_.reset();
-  if (!add_to_manifest(rendered_, path_, runs_, turn))
+  if (!add_to_manifest(rendered_, known(), path_, runs_, turn, warn_))
     throw Failure("is no longer the manifest of the film that was rendered", (path_ / kManifestName).string(),
                   "see that nothing else writes it, and render the film again");
   for (const RunFiles& run : runs_.runs())
     if (run.run == runs_.own_name()) remove_files(run, turn);
   lease_.reset();
   sync_folder(path_);
+}
+
+// All that stands in for a manifest that is lost.
+Manifest FrameFolder::known() const {
+  Manifest known = begun_;
+  known.pixel_hashes.resize(known.frames.size());
+  add_frames(known, rendered_);
+  return known;
+}
+
+std::string FrameFolder::mark_of(std::uint32_t frame, const std::string& pixel_hash, const std::string& content) const {
+  return text_of(mark_in(begun_, frame, pixel_hash, content));
 }
 
 void FrameFolder::show_status(std::function<std::string()> text) {
@@ -308,6 +317,9 @@ Manifest read_manifest(const fs::path& folder) {
   for (const RunFiles& run : RunsFolder(folder, this_process()).runs())
     if (std::optional<Manifest> rendered = rendered_by(run)) unfinished.push_back(std::move(*rendered));
   std::optional<Manifest> manifest = read_frames_json(folder);
+  std::error_code none;
+  if (!manifest && fs::exists(folder / kFilmName, none))
+    throw Failure("it has a film.mars, but no frames.json any more", folder.string(), repair_remedy(folder));
   if (!manifest)
     throw Failure("no folder of frames: it has no frames.json", folder.string(),
                   "name the folder that was given to mars render with -o");
@@ -317,8 +329,10 @@ Manifest read_manifest(const fs::path& folder) {
 }
 
 void FileSink::take(const compositor::Frame& frame) {
-  folder_.put(frame.number, pixel_hash(frame.pixels),
-              images::encode_picture(folder_.format(), frame.width, frame.height, frame.pixels));
+  const std::string hash = pixel_hash(frame.pixels);
+  const std::string mark = folder_.mark_of(frame.number, hash, content_ ? content_(frame.number) : "");
+  folder_.put(frame.number, hash,
+              images::encode_picture(folder_.format(), frame.width, frame.height, frame.pixels, mark));
 }
 
 }  // namespace mars::sinks

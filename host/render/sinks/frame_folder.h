@@ -1,6 +1,7 @@
 // The folder a film is rendered into: frame-0000.png (or .exr) and so on; frames.json, the manifest that says which
 // frames of which film belong there, and the hash of each one's pixels; and film.mars, the compiled film. A frame is
-// there if the manifest has its hash and its file exists: then it is not rendered again. From its first file to its
+// there if the manifest has its hash and its file is a regular one with something in it: then it is not rendered again.
+// A manifest that is lost or damaged is made again by the run that notices (restore.h). From its first file to its
 // last a run has a claim there (claim.h); what it alone knows meanwhile, the hashes of its frames, is in .runs
 // (runs_folder.h).
 #pragma once
@@ -23,14 +24,13 @@
 #include "host/render/sinks/manifest.h"
 #include "host/render/sinks/patience.h"
 #include "host/render/sinks/process_name.h"
+#include "host/render/sinks/restore.h"
 #include "host/render/sinks/runs_folder.h"
 #include "host/render/sinks/sink.h"
 #include "host/render/sinks/status_file.h"
 #include "host/render/sinks/unseen_rivals.h"
 
 namespace mars::sinks {
-
-inline constexpr const char* kFilmName = "film.mars";
 
 // What a run makes of a folder of frames, decided in its turn: the manifest of the frames that stay, with their hashes,
 // in the form of the film that is rendered now; that film, where film.mars is not it yet; and why the run may not go on
@@ -39,6 +39,7 @@ struct Continuation {
   Manifest manifest;
   const film::CompiledFilm* new_film = nullptr;
   std::optional<Failure> refusal = {};
+  bool renders = true;  // no: the run claims no frame, and leaves manifest and film for others
 };
 // `there`: the folder's manifest, none where it has none. What it throws ends the run's claim.
 using Continue = std::function<Continuation(const std::optional<Manifest>& there)>;
@@ -74,6 +75,8 @@ class FrameFolder {
   // From now on `text` is what the run's .status says (status_file.h). Until the end a thread calls it.
   void show_status(std::function<std::string()> text);
 
+  // What the frame's file says of itself (frame_mark.h).
+  std::string mark_of(std::uint32_t frame, const std::string& pixel_hash, const std::string& content) const;
   // Writes a frame's file; from several threads at once. Throws Failure where it cannot, the claim is lost, or the
   // folder is gone.
   void put(std::uint32_t frame, const std::string& pixel_hash, std::span<const std::byte> file);
@@ -96,11 +99,14 @@ class FrameFolder {
   void remove_frames(const std::vector<std::uint32_t>& frames) const;
   void finish_within(std::chrono::milliseconds patience);
   void record(std::uint32_t frame, const std::string& pixel_hash);
+  Manifest known() const;
 
   std::filesystem::path path_;
+  const Warn warn_;
   Patience patience_;
   std::mutex mutex_;  // guards the hashes of rendered_
   Manifest rendered_;
+  Manifest begun_;  // the folder's when the run began
   RunsFolder runs_;
   std::optional<Lease> lease_;
   std::optional<HashLog> hashes_;
@@ -115,28 +121,31 @@ void clear_ended_runs(const std::filesystem::path& folder, const std::string& en
 
 // With what runs that are not finished have rendered so far. Throws Failure where there is none, or no sound one.
 Manifest read_manifest(const std::filesystem::path& folder);
-// What frames.json alone says; none where there is none. Throws Failure where it cannot be read or is not sound: then
-// it is unknown which frames belong into the folder, and no run may decide that none do.
-std::optional<Manifest> read_frames_json(const std::filesystem::path& folder);
-
-// Those of `frames` that are not there: `manifest` has no hash of theirs, or the folder no file.
+// Those of `frames` that are not there: `manifest` has no hash of theirs, or the folder no file with something in it.
 std::vector<std::uint32_t> missing_frames(const std::filesystem::path& folder, const Manifest& manifest,
                                           const std::vector<std::uint32_t>& frames);
 
-// Where it is there.
+// What has a frame's name, where something has it: a file, a link, a pipe, a device, an empty folder. Opens nothing.
 void remove_frame(const std::filesystem::path& file);
+
+// In the folder's turn, which `runs` has.
+void write_manifest(const Manifest& manifest, const std::filesystem::path& folder, const RunsFolder& runs);
 
 // Writes every frame as a file of the folder.
 class FileSink : public Sink {
  public:
-  // `folder` must outlive the sink.
-  explicit FileSink(FrameFolder& folder) : folder_(folder) {}
+  // The checksum of what decides a frame's pixels (frame_content.h); from several threads at once.
+  using ContentOf = std::function<std::string(std::uint32_t frame)>;
+
+  // `folder` must outlive the sink. `content`: none where it is not known.
+  explicit FileSink(FrameFolder& folder, ContentOf content = {}) : folder_(folder), content_(std::move(content)) {}
   void take(const compositor::Frame& frame) override;
   void check() override { folder_.check(); }
   void give_up() override { folder_.give_up(); }
 
  private:
   FrameFolder& folder_;
+  const ContentOf content_;
 };
 
 }  // namespace mars::sinks

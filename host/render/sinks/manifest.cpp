@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string_view>
 
 #include "hal/failure/failure.h"
+#include "hal/failure/plain_text.h"
 #include "host/content/document/checksum.h"
+#include "host/content/document/text.h"
 #include "host/content/film/frame_set.h"
 #include "host/render/sinks/record.h"
 #include "node/wire/film_parts.h"
@@ -20,8 +21,9 @@ using nlohmann::json;
 namespace {
 
 constexpr std::size_t kLongestFilm = 3 * 4096;  // bytes: of a path, of which each may be written as three
-constexpr auto kKeys = std::to_array<std::string_view>({"film", "checksum", "width", "height", "format", "rate",
-                                                        "film_frames", "frames", "pixel_hashes", "sources", "options"});
+constexpr auto kKeys =
+    std::to_array<std::string_view>({"version", "sum", "film", "checksum", "width", "height", "format", "rate",
+                                     "film_frames", "frames", "pixel_version", "pixel_hashes", "sources", "options"});
 
 // Unbroken stretches as [first, last] pairs, so that a long film's manifest stays short.
 json stretches_of(const std::vector<std::uint32_t>& frames) {
@@ -29,15 +31,6 @@ json stretches_of(const std::vector<std::uint32_t>& frames) {
   const film::FrameSet set(frames);
   for (const film::FrameSet::Stretch& stretch : set.stretches()) stretches.push_back({stretch.first, *stretch.last});
   return stretches;
-}
-
-// PNG where there is none: of frames that were rendered before there were others.
-images::PictureFormat format_of(const Record& record) {
-  constexpr std::size_t kLongestName = 16;
-  if (!record.has("format")) return images::PictureFormat::png;
-  const auto format = images::picture_format_of(record.text("format", kLongestName));
-  if (!format) refuse_value("format", record.value("format"), "png, png16 or exr");
-  return *format;
 }
 
 std::uint32_t frame_of(const json& number, std::uint32_t film_frames) {
@@ -105,10 +98,44 @@ std::vector<std::string> words_of(const json& list) {
   return words;
 }
 
+std::uint32_t version_of(const Record& record) {
+  if (!record.has("version")) return 1;
+  const auto version = static_cast<std::uint32_t>(record.whole_number("version", 2, kMostVersion));
+  if (version > kManifestVersion)
+    throw LaterManifest("it has version " + std::to_string(version) + " and this MARS knows manifests up to version " +
+                            std::to_string(kManifestVersion),
+                        "", "use the MARS that wrote it or a later one, or give another folder with -o");
+  return version;
+}
+
+// None has been seen of another program in a file of version 1.
+std::string unknown_keys(const json& from, std::uint32_t version) {
+  json unknown = json::object();
+  for (const auto& [key, value] : from.items())
+    if (std::ranges::find(kKeys, key) == kKeys.end()) unknown[key] = value;
+  if (unknown.empty()) return "";
+  if (version == 1) Record(from).refuse_keys_but(kKeys);
+  return unknown.dump();
+}
+
 }  // namespace
 
+std::string sum_of(json text) {
+  text.erase("sum");
+  const std::string all = text.dump(-1, ' ', false, json::error_handler_t::replace);
+  return document::checksum_of(std::as_bytes(std::span(all)));
+}
+
+images::PictureFormat format_of(const Record& record) {
+  constexpr std::size_t kLongestName = 16;
+  if (!record.has("format")) return images::PictureFormat::png;
+  const auto format = images::picture_format_of(record.text("format", kLongestName));
+  if (!format) refuse_value("format", record.value("format"), "png, png16 or exr");
+  return *format;
+}
+
 bool are_of_one_folder(const Manifest& a, const Manifest& b) {
-  return a.checksum == b.checksum && a.format == b.format;
+  return a.checksum == b.checksum && a.format == b.format && a.pixel_version == b.pixel_version;
 }
 
 std::string pixel_hash(const std::vector<std::uint32_t>& pixels) {
@@ -154,31 +181,37 @@ std::string film_text(const Manifest& manifest) {
   constexpr std::size_t kLongestShown = 200;  // bytes
   std::size_t from = film.size() - std::min(film.size(), kLongestShown);
   while (from < film.size() && (static_cast<unsigned char>(film[from]) & 0xc0) == 0x80) ++from;  // within a letter
-  std::string text = (from > 0 ? "..." : "") + film.substr(from);
-  std::ranges::replace_if(
-      text, [](unsigned char c) { return std::iscntrl(c); }, '?');
-  return text;
+  return (from > 0 ? "..." : "") + plain_line(film.substr(from));
 }
 
 json to_json(const Manifest& manifest) {
-  json text = {{"film", manifest.film},
+  json text = manifest.more.empty() ? json::object() : json::parse(manifest.more);
+  text.update({{"version", kManifestVersion},
+               {"film", manifest.film},
                {"checksum", manifest.checksum},
                {"width", manifest.width},
                {"height", manifest.height},
                {"format", images::facts_of(manifest.format).name},
                {"rate", manifest.rate},
                {"film_frames", manifest.film_frames},
-               {"frames", stretches_of(manifest.frames)}};
+               {"frames", stretches_of(manifest.frames)},
+               {"pixel_version", manifest.pixel_version}});
   if (!manifest.pixel_hashes.empty()) text["pixel_hashes"] = hashes_json(manifest.pixel_hashes);
   if (!manifest.sources.empty()) text["sources"] = sources_json(manifest.sources);
   if (!manifest.options.empty()) text["options"] = manifest.options;
+  text["sum"] = sum_of(text);
   return text;
 }
 
 Manifest manifest_of(const json& from) {
   const Record record(from);
-  record.refuse_keys_but(kKeys);
+  const std::uint32_t version = version_of(record);
+  if (version > 1 && record.checksum("sum") != sum_of(from)) throw Failure("its sum is that of another text", "", "");
   Manifest manifest;
+  manifest.more = unknown_keys(from, version);
+  manifest.pixel_version = version == 1
+                               ? wire::kFirstPixelVersion
+                               : static_cast<std::uint32_t>(record.whole_number("pixel_version", 1, kMostVersion));
   manifest.film = record.text("film", kLongestFilm);
   manifest.checksum = record.checksum("checksum");
   manifest.width = static_cast<std::uint32_t>(record.whole_number("width", 1, wire::kMaxSide));
@@ -192,6 +225,15 @@ Manifest manifest_of(const json& from) {
   if (from.contains("sources")) manifest.sources = sources_of(record.list("sources"));
   if (from.contains("options")) manifest.options = words_of(record.list("options"));
   return manifest;
+}
+
+std::optional<std::uint32_t> frame_of_file(const Manifest& manifest, const std::string& name) {
+  constexpr std::string_view kHead = "frame-";
+  if (!name.starts_with(kHead)) return std::nullopt;
+  const std::string digits = name.substr(kHead.size(), name.find('.') - kHead.size());
+  const auto frame = document::number_in<std::uint32_t>(digits);
+  const bool is_one = frame && *frame < manifest.film_frames && frame_file_name(manifest, *frame) == name;
+  return is_one ? frame : std::nullopt;
 }
 
 std::string frame_file_name(const Manifest& manifest, std::uint32_t frame) {

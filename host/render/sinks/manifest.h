@@ -1,15 +1,24 @@
 // What a folder of frames says of itself, in its file frames.json: which frames of which film belong there, and the
-// hash of each one's pixels (docs/rendering.md).
+// hash of each one's pixels (docs/frame-folders.md).
 #pragma once
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "hal/failure/failure.h"
 #include "host/images/picture_format.h"
+#include "node/wire/pixel_version.h"
 
 namespace mars::sinks {
+
+class Record;
+
+// Of the file. 1, which files without the key have: they have no key but those known then. 2: with a sum over all other
+// keys, and a pixel version. A frame's hash is the one over its pixels in both. A later version may hash otherwise.
+inline constexpr std::uint32_t kManifestVersion = 2;
 
 // A file that was read to compile a film.
 struct Source {
@@ -33,11 +42,14 @@ struct Manifest {
   // What the film was compiled from, the film's own file first; none: that is not known.
   std::vector<Source> sources;
   std::vector<std::string> options;  // with which it was compiled, as on a command line: "--size", "640x360"
+  std::uint32_t pixel_version = wire::kPixelVersion;  // of the program that rendered the frames
+  std::string more = {};  // keys that this program does not know, as the text of an object; "": none
 
   bool operator==(const Manifest&) const = default;
 };
 
-// Whether both are of the same compiled film, in the same format: then their frames are those of one folder.
+// Whether both are of the same compiled film, in the same format and of the same pixel version: then their frames are
+// those of one folder.
 bool are_of_one_folder(const Manifest& a, const Manifest& b);
 
 // Of one frame's pixels, in the form that Frame and Image give them.
@@ -57,11 +69,25 @@ std::string hash_of(const Manifest& manifest, std::uint32_t frame);
 // more.
 std::string film_text(const Manifest& manifest);
 
+// Of a version that this program does not know: nothing is wrong with it.
+class LaterManifest : public Failure {
+ public:
+  using Failure::Failure;
+};
+
 nlohmann::json to_json(const Manifest& manifest);
-// Throws Failure, without a place, where it is none, or has keys of another kind.
+// The checksum of all other keys, which a manifest has as "sum": a changed bit may leave a text that can be read. The
+// same for the same values, whatever stands between them.
+std::string sum_of(nlohmann::json manifest);
+// Throws LaterManifest; and Failure, without a place, where it is none, has keys of another kind, or another sum.
 Manifest manifest_of(const nlohmann::json& from);
+
+// Of the key "format": PNG where there is none, as of frames that were rendered before there were others.
+images::PictureFormat format_of(const Record& record);
 
 // Names sort as frames do: as many digits as the film's last frame needs, at least four.
 std::string frame_file_name(const Manifest& manifest, std::uint32_t frame);
+// Whose file has this name; none where no frame's has.
+std::optional<std::uint32_t> frame_of_file(const Manifest& manifest, const std::string& name);
 
 }  // namespace mars::sinks

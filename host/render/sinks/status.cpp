@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "hal/failure/failure.h"
+#include "hal/failure/plain_text.h"
 #include "host/content/document/file.h"
 #include "host/render/sinks/record.h"
 #include "node/wire/film_parts.h"
@@ -49,13 +50,9 @@ std::uint32_t count_of(const Record& from, std::string_view key) {
   return static_cast<std::uint32_t>(from.whole_number(key, 0, std::numeric_limits<std::uint32_t>::max()));
 }
 
-// Terminals obey control characters.
 std::string text_of(const json& from) {
   if (!from.is_string()) refuse_value("warnings", from, "a list of texts");
-  std::string text = from.get<std::string>().substr(0, kLongestText);
-  std::ranges::replace_if(
-      text, [](unsigned char c) { return c < ' ' || c == 0x7f; }, '?');
-  return text;
+  return plain_line(from.get<std::string>().substr(0, kLongestText));
 }
 
 std::string text_of(const Record& from, std::string_view key) { return text_of(json(from.text(key, kLongestText))); }

@@ -6,6 +6,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/document/checksum.h"
+#include "host/content/document/text.h"
 #include "host/images/picture_file.h"
 #include "host/render/sinks/claim.h"
 #include "host/render/sinks/folder_turn.h"
@@ -57,6 +58,13 @@ void refuse_living_runs(const RunsFolder& runs, const FolderTurn& turn, const fs
   }
 }
 
+std::string frames_text(const Restored& restored) {
+  const std::string frames = document::counted(restored.manifest.frames.size(), "frame");
+  if (restored.unmarked == 0) return frames;
+  return frames + ", of which " + std::to_string(restored.unmarked) +
+         " say nothing of themselves, as of an older MARS: they are rendered again";
+}
+
 }  // namespace
 
 Verdict verify_folder(const fs::path& folder) {
@@ -74,6 +82,29 @@ Verdict verify_folder(const fs::path& folder) {
   verdict.expected = static_cast<std::uint32_t>(manifest.frames.size());
   if (verdict.troubles.empty()) verdict.hash = pixels.digits();
   return verdict;
+}
+
+std::string repair_manifest(const fs::path& folder) {
+  std::optional<DamagedManifest> damaged;
+  std::error_code none;
+  if (!fs::is_directory(folder, none)) return "";
+  try {
+    if (read_frames_json(folder)) return "";
+  } catch (const DamagedManifest& failure) {
+    damaged = failure;
+  }
+  const RunsFolder runs(folder, this_process());
+  const FolderTurn turn(runs);
+  refuse_living_runs(runs, turn, folder);
+  const std::optional<Restored> restored = restore_manifest(folder, nullptr);
+  turn.confirm();
+  if (restored && !restored->manifest.frames.empty()) {
+    write_manifest(restored->manifest, folder, runs);
+    return repair_text(damaged ? damaged->problem : "it is gone") + ": " + frames_text(*restored);
+  }
+  if (!damaged) return "";
+  throw Failure(damaged->problem + "; and neither film.mars nor the frames say of which film these are", damaged->where,
+                "remove it, and render all frames of the folder again");
 }
 
 void remove_wrong_files(const fs::path& folder, const Verdict& verdict) {

@@ -25,6 +25,11 @@ struct Verdict {
 // Throws Failure where there is no folder or no manifest.
 Verdict verify_folder(const std::filesystem::path& folder);
 
+// Makes frames.json again where it is lost or damaged, and gives a line about that; "" where the manifest is sound, or
+// the folder has nothing of which it could be made. Throws Failure where a run renders into the folder, or nothing says
+// of which film the frames are.
+std::string repair_manifest(const std::filesystem::path& folder);
+
 // Removes the files of frames in which it found trouble, and in which there still is some. Throws Failure, and removes
 // none, while a run renders into the folder.
 void remove_wrong_files(const std::filesystem::path& folder, const Verdict& verdict);

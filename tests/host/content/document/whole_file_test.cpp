@@ -51,6 +51,33 @@ TEST(WholeFile, LinksAndPermissionsStay) {
   EXPECT_EQ(folder.entries(), 2u);
 }
 
+TEST(WholeFile, LinksThatLeadNowhereAreRefused) {
+  const sinks::TemporaryFolder folder;
+  std::filesystem::create_symlink("gone", folder / "link");
+  std::filesystem::create_symlink("circle", folder / "circle");
+  EXPECT_TRUE(holds(failure_of([&] { write_whole_file(folder / "link", "new"); }),
+                    "link: cannot write: is a link to gone, which is not there (remove the link"));
+  EXPECT_TRUE(holds(failure_of([&] { write_whole_file(folder / "circle", "new"); }), "lead in a circle"));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+  EXPECT_EQ(folder.entries(), 2u);
+}
+
+TEST(WholeFile, NothingIsWrittenWhereOthersLead) {
+  const sinks::TemporaryFolder folder;
+  write_whole_file(folder / "file", "old");
+  std::filesystem::create_symlink("file", folder / "link");
+  const auto refusal = [&] { return failure_of([&] { check_can_write(folder / "link"); }); };
+  EXPECT_EQ(refusal(), "");
+  std::filesystem::create_symlink("/dev/null", folder / "device");
+  EXPECT_TRUE(holds(failure_of([&] { write_whole_file(folder / "device", "new"); }), "is not a regular file"));
+  if (geteuid() != 0) return;  // only root can give files away
+  ASSERT_EQ(chown((folder / "file").c_str(), 1234, 1234), 0);
+  EXPECT_TRUE(holds(refusal(), "link: cannot write: is a link to a file of another user"));
+  ASSERT_EQ(lchown((folder / "link").c_str(), 1234, 1234), 0);
+  EXPECT_TRUE(holds(refusal(), "link: cannot write: is a link that another user has made"));
+  EXPECT_EQ(text_of(folder / "file"), "old");
+}
+
 // Whoever can foresee a temporary name can put a link there.
 TEST(WholeFile, NothingIsWrittenThroughAPlantedPart) {
   const sinks::TemporaryFolder folder;

@@ -127,7 +127,7 @@ TEST_P(Library, HasUnitNormalsOnTheOutsideOfEveryDicedFace) {
   const shape::Projection view{1000, {500, 500}, 0.1f, 100, 8000, 0.5f};
   shape::Dicer dicer(simd::best_instruction_set(""));
   for (const wire::Patch& patch : patches_) {
-    dicer.dice(shape::to_eye(away, patch), view, 8);
+    dicer.dice(shape::to_eye(away, patch), view, {.fixed_rate = 8, .tolerances = {}});
     for (std::uint32_t number = 0; number < dicer.triangles().count; ++number) {
       const auto [a, b, c] = dicer.triangles()[number];
       const auto place = [&](std::uint32_t vertex) { return vector_of(dicer.vertices().place, vertex); };

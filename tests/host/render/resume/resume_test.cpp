@@ -7,6 +7,7 @@
 
 #include <barrier>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <thread>
@@ -17,6 +18,7 @@
 #include "host/content/document/whole_file.h"
 #include "host/content/film/compile.h"
 #include "host/content/film/film_file.h"
+#include "host/content/film/frame_content.h"
 #include "tests/host/content/document/failure_of.h"
 #include "tests/host/render/sinks/small_folders.h"
 #include "tests/host/render/sinks/temporary_folder.h"
@@ -66,7 +68,8 @@ class Resume : public testing::Test {
     sinks::Manifest manifest = manifest_of(opened);
     manifest.frames = opened.frames;
     manifest.frames.resize(std::min(most, opened.frames.size()));
-    sinks::put_frames(*opened.folder, manifest, 7);
+    const film::FrameContent content(opened.film.view());
+    sinks::put_frames(*opened.folder, manifest, 7, [&](std::uint32_t frame) { return content.checksum(frame); });
     opened.folder->finish();
     return opened.frames;
   }
@@ -106,14 +109,71 @@ TEST_F(Resume, AFrameWhoseFileIsGoneIsRenderedAgain) {
 
 TEST_F(Resume, AFrameWhoseHashIsLostIsRenderedAgainAndItsFileGoesFirst) {
   render(wish());
-  const std::string text = document::read_file(folder_ / "out/frames.json");
-  const std::string hash = sinks::hash_of(manifest(), 4);
-  std::string without = text;
-  without.replace(text.find('"' + hash + '"'), hash.size() + 2, "null");
-  document::write_whole_file(folder_ / "out/frames.json", without);
+  sinks::Manifest without = manifest();
+  sinks::set_hash(without, 4, "");
+  document::write_whole_file(folder_ / "out/frames.json", sinks::to_json(without).dump());
   const Opened opened = open(wish());
   EXPECT_EQ(opened.frames, Frames{4});
   EXPECT_FALSE(fs::exists(folder_ / "out/frame-0004.png"));
+}
+
+TEST_F(Resume, AManifestThatIsLostOrDamagedIsMadeAgain) {
+  render(wish(), 5);
+  const sinks::Manifest before = manifest();
+  for (const std::string text : {"", "nonsense"}) {
+    if (text.empty())
+      fs::remove(folder_ / "out/frames.json");
+    else
+      document::write_whole_file(folder_ / "out/frames.json", text);
+    EXPECT_EQ(open(wish()).frames.size(), 7u);
+    EXPECT_EQ(manifest(), before);
+  }
+  fs::remove(folder_ / "out/frames.json");
+  fs::remove(folder_ / "out/film.mars");
+  EXPECT_EQ(open(wish()).frames.size(), 7u) << "the film is compiled, and the frames are its";
+}
+
+// Also where nothing is left to render.
+TEST_F(Resume, AManifestIsMadeAgainOfACompleteFolder) {
+  render(wish());
+  for (const fs::path& film : {folder_ / "film.json", folder_ / "out/film.mars"}) {
+    document::write_whole_file(folder_ / "out/frames.json", "nonsense");
+    Wish again = wish();
+    again.film = film;
+    EXPECT_EQ(count_if_complete(again), std::nullopt);
+    EXPECT_TRUE(open(again).frames.empty());
+    EXPECT_EQ(manifest().pixel_hashes.size(), 12u);
+    EXPECT_EQ(count_if_complete(again), 12u);
+  }
+}
+
+TEST_F(Resume, FramesThatStayedThroughAnEditAreKnownToBeTheFilms) {
+  render(wish());
+  write(film_text(12, 8));
+  EXPECT_EQ(render(wish()).size(), 4u);
+  document::write_whole_file(folder_ / "out/frames.json", "nonsense");
+  EXPECT_TRUE(open(wish()).frames.empty());
+  write(film_text(12, 6));
+  document::write_whole_file(folder_ / "out/frames.json", "nonsense");
+  EXPECT_EQ(open(wish()).frames.front(), 6u) << "an edit and a damage at once";
+}
+
+TEST_F(Resume, FramesOfAnotherPixelVersionAreNotMixed) {
+  render(wish(), 5);
+  sinks::Manifest older = manifest();
+  older.pixel_version = wire::kFirstPixelVersion;
+  const std::string text = sinks::to_json(older).dump();
+  document::write_whole_file(folder_ / "out/frames.json", text);
+  EXPECT_TRUE(document::holds(failure_of(wish()), "draws other pixels: their pixel version is 1, not 2 (give another"));
+  EXPECT_EQ(document::read_file(folder_ / "out/frames.json"), text);
+  Wish part = wish();
+  part.frames = film::FrameSet("0-4");
+  EXPECT_EQ(count_if_complete(part), 5u) << "nothing is mixed";
+  EXPECT_TRUE(open(part).frames.empty());
+  part.frames = film::FrameSet("0-5");
+  part.overwrite = true;
+  EXPECT_EQ(render(part).size(), 6u);
+  EXPECT_EQ(manifest().pixel_version, wire::kPixelVersion);
 }
 
 TEST_F(Resume, OnlyFramesAskedForCount) {
@@ -262,6 +322,91 @@ TEST_F(Resume, WithoutItsFilmAnEditedOnesFolderIsRefused) {
   fs::remove(folder_ / "out/film.mars");
   write(film_text(12, 8));
   EXPECT_TRUE(document::holds(failure_of(wish()), "film.mars, which would tell")) << failure_of(wish());
+}
+
+TEST_F(Resume, TheKeptFilmIsTakenWhateverBecomesOfItsFiles) {
+  render(wish(), 5);
+  Wish kept = wish();
+  kept.kept_film = true;
+  for (const std::string text : {film_text(12, 3), film_text(12).substr(0, 100), std::string()}) {
+    if (text.empty())
+      fs::remove(folder_ / "film.json");
+    else
+      write(text);
+    const Opened opened = open(kept);
+    EXPECT_EQ(opened.frames.size(), 7u) << opened.changed;
+    EXPECT_EQ(opened.changed, "");
+  }
+  EXPECT_EQ(compiled_, 1);
+  const std::vector<sinks::Source> sources = manifest().sources;
+  EXPECT_EQ(render(kept).size(), 7u);
+  EXPECT_EQ(manifest().sources, sources) << "a person's next run sees that they have changed";
+  EXPECT_EQ(count_if_complete(kept), 12u);
+  EXPECT_EQ(count_if_complete(wish()), std::nullopt);
+}
+
+TEST_F(Resume, WithoutAKeptFilmItIsCompiledAsAtFirst) {
+  Wish kept = wish();
+  kept.kept_film = true;
+  EXPECT_EQ(render(kept, 5).size(), 12u);
+  fs::remove(folder_ / "out/film.mars");
+  EXPECT_EQ(render(kept, 1).size(), 7u);
+  EXPECT_EQ(compiled_, 2);
+  fs::remove(folder_ / "out/film.mars");
+  write(film_text(12).substr(0, 100));
+  EXPECT_TRUE(document::holds(failure_of(kept), "out keeps no film.mars of its frames")) << failure_of(kept);
+  EXPECT_TRUE(document::holds(failure_of(kept), "film.json:")) << failure_of(kept);
+}
+
+// As mars submit does, for jobs to come.
+TEST_F(Resume, AFilmIsLeftForRunsToCome) {
+  Wish left = wish(), kept = wish();
+  left.renders = false;
+  kept.kept_film = true;
+  Opened opened = open(left);
+  EXPECT_FALSE(opened.folder);
+  EXPECT_EQ(manifest().frames.size(), 12u);
+  fs::remove(folder_ / "film.json");
+  EXPECT_EQ(render(kept, 5).size(), 12u);
+  write(film_text(12, 3));
+  opened = open(left);
+  EXPECT_TRUE(document::holds(opened.changed, "frames 3-4 are to be rendered again")) << opened.changed;
+  fs::remove(folder_ / "film.json");
+  EXPECT_EQ(render(kept), (Frames{3, 4, 5, 6, 7, 8, 9, 10, 11})) << "the person's newer film, which wins";
+  EXPECT_EQ(compiled_, 2);
+}
+
+TEST_F(Resume, AFilmIsLeftBesideARunOfTheSameAlone) {
+  Wish left = wish(), part = wish();
+  left.renders = false;
+  part.frames = film::FrameSet("0-5");
+  const Opened running = open(part);
+  EXPECT_NO_THROW(open(left));
+  EXPECT_EQ(manifest().frames.size(), 12u);
+  write(film_text(12, 3));
+  EXPECT_TRUE(document::holds(failure_of(left), "renders frames 0-5 of another version, size or format of"))
+      << failure_of(left);
+  EXPECT_EQ(manifest().checksum, document::checksum_of(running.film.block()));
+}
+
+TEST_F(Resume, OverwriteOfAFilmThatIsLeftCountsOnce) {
+  render(wish());
+  Wish left = wish(), kept = wish();
+  left.renders = false;
+  left.overwrite = kept.kept_film = true;
+  open(left);
+  EXPECT_EQ(render(kept, 5).size(), 12u);
+  EXPECT_EQ(render(kept).size(), 7u);
+}
+
+TEST_F(Resume, ALookAtTheFilmChangesNothing) {
+  const auto look = [&] { return film_for(wish(), [&] { return film::load_film(wish().film); }); };
+  EXPECT_EQ(look().view().settings().frames, 12u);
+  EXPECT_EQ(folder_.entries(), 1u);
+  render(wish());
+  std::string wide = film_text(12);
+  write(wide.replace(wide.find("[16, 8]"), 7, "[32, 8]"));
+  EXPECT_TRUE(document::holds(document::failure_of(look), "are 16x8 with 4 samples a pixel, not 32x8"));
 }
 
 // As of runs on machines whose compiled films differ in a last bit: all go on with the film of the first.

@@ -131,9 +131,10 @@ TEST(FrameFolder, ARunThatCannotRecordItsHashesFails) {
   const TemporaryFolder folder;
   FrameFolder frames(folder.path(), of_frames({1}));
   put_frames(frames, of_frames({1}), 7);
-  document::write_whole_file(folder / "frames.json", "nonsense");
+  fs::remove(folder / "frames.json");
+  fs::create_directory(folder / "frames.json");
   const std::string failure = document::failure_of([&] { frames.finish(); });
-  EXPECT_TRUE(document::holds(failure, "frames.json: not a manifest of frames")) << failure;
+  EXPECT_TRUE(document::holds(failure, "frames.json: is a directory")) << failure;
   EXPECT_TRUE(fs::exists(file_of_run(folder.path(), ".hashes")));
 }
 
@@ -411,6 +412,36 @@ TEST(FrameFolder, AnotherFilmsFramesDoNotPassAsThisOnes) {
   EXPECT_TRUE(fs::exists(other.file_of(2))) << "what was not asked for is left alone";
 }
 
+// Neither followed nor opened: what they lead to stays as it is.
+TEST(FrameFolder, WhatHasAFramesNameAndIsNoneIsRenderedAgain) {
+  const TemporaryFolder folder;
+  fill(folder.path(), small_manifest(), 7);
+  document::write_whole_file(folder / "precious", "old");
+  for (const std::uint32_t frame : small_manifest().frames)
+    fs::remove(folder / frame_file_name(small_manifest(), frame));
+  document::write_whole_file(folder / "frame-0000.png", "");
+  ASSERT_EQ(mkfifo((folder / "frame-0001.png").c_str(), 0600), 0);
+  fs::create_directory(folder / "frame-0002.png");
+  fs::create_symlink("nothing", folder / "frame-0005.png");
+  fs::create_symlink("/dev/null", folder / "frame-0011.png");
+  FrameFolder frames(folder.path(), small_manifest());
+  EXPECT_EQ(frames.frames(), small_manifest().frames);
+  put_frames(frames, small_manifest(), 7);
+  frames.finish();
+  EXPECT_TRUE(verify_folder(folder.path()).troubles.empty());
+  EXPECT_FALSE(fs::exists(folder / "nothing"));
+  EXPECT_EQ(folder.entries(), 7u);
+}
+
+// A link to a frame on another disk is one.
+TEST(FrameFolder, AFrameMayBeMovedAwayAndLinked) {
+  const TemporaryFolder folder;
+  fill(folder / "out", of_frames({1}), 7);
+  fs::rename(folder / "out/frame-0001.png", folder / "elsewhere.png");
+  fs::create_symlink("../elsewhere.png", folder / "out/frame-0001.png");
+  EXPECT_TRUE(FrameFolder(folder / "out", of_frames({1})).frames().empty());
+}
+
 TEST(FrameFolder, FramesOfTheSameFilmAreAdded) {
   const TemporaryFolder folder;
   Manifest manifest = of_frames({1, 2, 5});
@@ -440,7 +471,7 @@ TEST(FrameFolder, WrongManifestsAreToldAndNotReplaced) {
     document::write_whole_file(folder / "frames.json", text);
     const std::string failure = document::failure_of([&] { read_manifest(folder.path()); });
     EXPECT_TRUE(document::holds(failure, "frames.json: not a manifest of frames: ")) << text;
-    EXPECT_TRUE(document::holds(failure, "remove it, and render all frames")) << text;
+    EXPECT_TRUE(document::holds(failure, "(mars verify --repair ")) << text;
     EXPECT_FALSE(document::holds(failure, "exception")) << failure;
     EXPECT_EQ(failure_to_claim(folder.path(), small_manifest()), failure);
     EXPECT_EQ(document::read_file(folder / "frames.json"), text);
@@ -541,7 +572,7 @@ TEST(FrameFolder, AnotherFilmsFolderUnderAFramesNameIsToldWithARemedy) {
   const TemporaryFolder folder;
   fs::create_directories(folder / "frame-0001.png/below");
   const std::string failure = failure_to_claim(folder.path(), small_manifest());
-  EXPECT_TRUE(document::holds(failure, "frame-0001.png: cannot remove: Is a directory (something of another kind"))
+  EXPECT_TRUE(document::holds(failure, "frame-0001.png: cannot remove: Directory not empty (it is a folder with"))
       << failure;
 }
 

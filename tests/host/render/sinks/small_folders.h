@@ -29,8 +29,9 @@ inline Manifest of_frames(std::vector<std::uint32_t> frames) {
 }
 
 // Each frame of one colour.
-inline void put_frames(FrameFolder& folder, const Manifest& manifest, std::uint32_t color) {
-  FileSink sink(folder);
+inline void put_frames(FrameFolder& folder, const Manifest& manifest, std::uint32_t color,
+                       FileSink::ContentOf content = {}) {
+  FileSink sink(folder, std::move(content));
   compositor::Frame frame(manifest.width, manifest.height, 16, 0, images::facts_of(manifest.format).pixels);
   for (const std::uint32_t number : manifest.frames) {
     frame.number = number;

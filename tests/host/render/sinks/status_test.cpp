@@ -49,7 +49,7 @@ TEST(Status, IsNoneWhereItsFileIsDamagedOrMissing) {
 TEST(Status, HidesWhatATerminalWouldObey) {
   Status status = some_status();
   status.warnings = {"\x1b[2J"};
-  EXPECT_EQ(read_again(text_of(status))->warnings.front(), "?[2J");
+  EXPECT_EQ(read_again(text_of(status))->warnings.front(), R"(\u001b[2J)");
 }
 
 TEST(Status, OfManyNodesIsSmall) {

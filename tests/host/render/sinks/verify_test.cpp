@@ -131,7 +131,9 @@ TEST(Verify, ManifestsWithoutHashesAreReadToo) {
   const Verdict verdict = verify_folder(folder.path());
   EXPECT_FALSE(verdict.compared);
   EXPECT_EQ(verdict.hash, hash);
-  fill(folder.path(), of_frames({1, 3}), 7);
+  Manifest more = of_frames({1, 3});
+  more.pixel_version = wire::kFirstPixelVersion;
+  fill(folder.path(), more, 7);
   EXPECT_EQ(verify_folder(folder.path()).troubles.size(), 4u) << "where some have a hash, all must";
 }
 

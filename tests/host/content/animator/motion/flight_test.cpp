@@ -88,7 +88,8 @@ TEST(Spin, TurnsEvenlyThroughWholeTurns) {
   film["actors"][0].erase("turn");
   act(film, "spin axis z degrees 720 seconds 3", 0);
   const animator::Film meaning = read(film);
-  animator::JointMotion turning(modeler::Joint{}, meaning.actors[0].motion.turn);
+  const modeler::Joint joint;
+  animator::JointMotion turning(joint, meaning.actors[0].motion.turn);
   for (std::uint32_t frame = 0; frame <= 72; ++frame) {
     const glm::dmat3 turn = turning.at(frame), wanted = modeler::rotation_by_degrees({0, 0, 1}, 10.0 * frame);
     EXPECT_LT(animator::turn_between(turn, wanted).angle, 1e-3) << frame;

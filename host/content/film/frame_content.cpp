@@ -1,0 +1,70 @@
+#include "host/content/film/frame_content.h"
+
+#include <algorithm>
+#include <span>
+
+#include "host/content/document/checksum.h"
+
+namespace mars::film {
+namespace {
+
+using document::Checksum;
+
+// Structs without padding (changed_frames.cpp asserts it), with their number, so that no two lists run together.
+template <typename T>
+void add(Checksum& sum, std::span<const T> values) {
+  const std::uint64_t count = values.size();
+  sum.add(std::as_bytes(std::span(&count, 1)));
+  sum.add(std::as_bytes(values));
+}
+
+template <typename T>
+void add(Checksum& sum, const T& value) {
+  add(sum, std::span(&value, 1));
+}
+
+std::string checksum_of_shape(const wire::FilmView& film, const wire::Shape& shape) {
+  Checksum sum;
+  add(sum, film.patches().subspan(shape.first_patch, shape.patch_count));
+  for (const wire::Meshlet& meshlet : film.meshlets().subspan(shape.first_meshlet, shape.meshlet_count)) {
+    add(sum, meshlet.low);
+    add(sum, meshlet.high);
+    add(sum, film.mesh_places().subspan(meshlet.first_vertex, meshlet.vertex_count));
+    add(sum, film.mesh_normals().subspan(meshlet.first_vertex, meshlet.vertex_count));
+    add(sum, film.mesh_triangles().subspan(meshlet.first_triangle, meshlet.triangle_count));
+  }
+  return sum.digits();
+}
+
+const wire::Interval& interval_of(const wire::FilmView& film, std::uint32_t frame) {
+  return *std::prev(std::ranges::upper_bound(film.intervals(), frame, {}, &wire::Interval::first_frame));
+}
+
+}  // namespace
+
+wire::FilmSettings shown_settings(wire::FilmSettings settings) {
+  settings.frames = 0;
+  settings.rate = 0;
+  settings.camera = {};
+  return settings;
+}
+
+std::string FrameContent::checksum(std::uint32_t frame) const {
+  std::call_once(read_, [this] {
+    for (const wire::Shape& shape : film_.shapes()) shapes_.push_back(checksum_of_shape(film_, shape));
+  });
+  Checksum sum;
+  add(sum, shown_settings(film_.settings()));
+  add(sum, film_.camera_at(frame));
+  for (const wire::Track& light : film_.light_tracks()) add(sum, film_.lights()[film_.value_at(light, frame)]);
+  for (const wire::Segment& segment : film_.segments()) {
+    const std::string& shape = shapes_[segment.shape];
+    add(sum, std::span(shape.data(), shape.size()));
+    add(sum, film_.matrix_at(segment, frame));
+    add(sum, film_.material_at(segment, frame));
+  }
+  add(sum, film_.moving(interval_of(film_, frame)));
+  return sum.digits();
+}
+
+}  // namespace mars::film

@@ -1,0 +1,32 @@
+// What decides a frame's pixels (changed_frames.h says what does), as one checksum: it is the same for frames of two
+// films, or of one film before and after an edit, where a rendering gives the same pixels, and other where anything
+// that changed_frames compares differs. Frames' files carry it (host/render/sinks/frame_mark.h).
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "node/wire/film.h"
+
+namespace mars::film {
+
+// Without what decides no pixel.
+wire::FilmSettings shown_settings(wire::FilmSettings settings);
+
+class FrameContent {
+ public:
+  // `film` must outlive it.
+  explicit FrameContent(const wire::FilmView& film) : film_(film) {}
+
+  // 32 hexadecimal digits; from several threads at once. The first call reads all shapes.
+  std::string checksum(std::uint32_t frame) const;
+
+ private:
+  const wire::FilmView film_;
+  mutable std::once_flag read_;
+  mutable std::vector<std::string> shapes_;  // their checksums
+};
+
+}  // namespace mars::film

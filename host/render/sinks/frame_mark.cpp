@@ -1,0 +1,76 @@
+#include "host/render/sinks/frame_mark.h"
+
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <nlohmann/json.hpp>
+
+#include "hal/failure/failure.h"
+#include "host/content/document/whole_file.h"
+#include "host/images/picture_file.h"
+#include "host/render/sinks/record.h"
+#include "node/wire/film_parts.h"
+
+namespace mars::sinks {
+
+using nlohmann::json;
+
+namespace {
+
+std::uint32_t number_in(const Record& record, std::string_view key, std::uint32_t lowest, std::uint32_t highest) {
+  return static_cast<std::uint32_t>(record.whole_number(key, lowest, highest));
+}
+
+FrameMark mark_of(const json& from) {
+  const Record record(from);
+  FrameMark mark;
+  mark.film = record.checksum("film");
+  if (record.has("content")) mark.content = record.checksum("content");
+  mark.film_frames = number_in(record, "film_frames", 1, wire::kMostFrames);
+  mark.frame = number_in(record, "frame", 0, mark.film_frames - 1);
+  mark.rate = record.positive_number("rate");
+  mark.format = format_of(record);
+  mark.pixel_version = number_in(record, "pixel_version", 1, kMostVersion);
+  mark.pixel_hash = record.checksum("pixel_hash");
+  return mark;
+}
+
+}  // namespace
+
+std::string text_of(const FrameMark& mark) {
+  json text = {{"film", mark.film},
+               {"frame", mark.frame},
+               {"film_frames", mark.film_frames},
+               {"rate", mark.rate},
+               {"format", images::facts_of(mark.format).name},
+               {"pixel_version", mark.pixel_version},
+               {"pixel_hash", mark.pixel_hash}};
+  if (!mark.content.empty()) text["content"] = mark.content;
+  return text.dump();
+}
+
+std::optional<FrameMark> mark_of(const std::string& text) try {
+  return mark_of(parse_record(text));
+} catch (const Failure&) {
+  return std::nullopt;
+}
+
+std::optional<FrameMark> read_mark(const std::filesystem::path& file) {
+  const std::optional<std::string> note = images::read_note(file);
+  return note ? mark_of(*note) : std::nullopt;
+}
+
+bool is_frame_file(const std::filesystem::path& file) {
+  struct stat status {};
+  if (stat(file.c_str(), &status) == 0) return S_ISREG(status.st_mode) && status.st_size > 0;
+  if (errno != ENOENT && errno != ENOTDIR && errno != ELOOP) document::fail_file("look at", file, errno);
+  return false;
+}
+
+FrameMark mark_in(const Manifest& manifest, std::uint32_t frame, const std::string& pixel_hash,
+                  const std::string& content) {
+  return {manifest.checksum,      content,   frame, manifest.film_frames, manifest.rate, manifest.format,
+          manifest.pixel_version, pixel_hash};
+}
+
+}  // namespace mars::sinks

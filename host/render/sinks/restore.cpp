@@ -1,0 +1,228 @@
+#include "host/render/sinks/restore.h"
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "host/content/document/checksum.h"
+#include "host/content/document/file.h"
+#include "host/content/document/shell_word.h"
+#include "host/content/document/whole_file.h"
+#include "host/content/film/film_file.h"
+#include "host/content/film/frame_content.h"
+#include "host/images/picture_file.h"
+#include "host/render/sinks/claim.h"
+#include "host/render/sinks/frame_mark.h"
+#include "host/render/sinks/record.h"
+#include "host/render/sinks/runs_folder.h"
+
+namespace mars::sinks {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct File {
+  std::string name;
+  FrameMark mark;
+};
+
+// What files with frames' names say of themselves.
+struct Files {
+  std::vector<File> marked;
+  std::vector<std::string> unmarked;  // their names
+};
+
+Files files_in(const fs::path& folder) {
+  Files files;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (!name.starts_with("frame-") || !is_frame_file(entry->path())) continue;
+    if (std::optional<FrameMark> mark = read_mark(entry->path()))
+      files.marked.push_back({name, std::move(*mark)});
+    else
+      files.unmarked.push_back(name);
+  }
+  if (error && error != std::errc::no_such_file_or_directory)
+    document::fail_file("list the folder", folder, error.value());
+  std::ranges::sort(files.marked, {}, &File::name);
+  return files;
+}
+
+Manifest manifest_of(const film::CompiledFilm& film) {
+  const wire::FilmView view = film.view();
+  const wire::FilmSettings& settings = view.settings();
+  Manifest manifest;
+  manifest.checksum = document::checksum_of(film.block());
+  manifest.width = settings.width;
+  manifest.height = settings.height;
+  manifest.rate = settings.rate;
+  manifest.film_frames = settings.frames;
+  return manifest;
+}
+
+// Where film.mars is lost. None where the frames are not all of one film, or the first of them shows no picture.
+std::optional<Manifest> manifest_of(const std::vector<File>& files, const fs::path& folder) try {
+  if (files.empty()) return std::nullopt;
+  const FrameMark& first = files.front().mark;
+  if (!std::ranges::all_of(files, [&](const File& file) { return file.mark.film == first.film; })) return std::nullopt;
+  const images::Image image = images::read_picture(first.format, folder / files.front().name);
+  Manifest manifest;
+  manifest.checksum = first.film;
+  manifest.width = image.width;
+  manifest.height = image.height;
+  manifest.rate = first.rate;
+  manifest.film_frames = first.film_frames;
+  return manifest;
+} catch (const Failure&) {
+  return std::nullopt;
+}
+
+// Of the latest pixel version, in the format that most frames of it have.
+void take_form(const std::vector<File>& files, Manifest& manifest) {
+  using Form = std::pair<std::uint32_t, images::PictureFormat>;
+  std::map<Form, std::uint32_t> counts;
+  for (const File& file : files) ++counts[{file.mark.pixel_version, file.mark.format}];
+  if (counts.empty()) return;
+  const std::uint32_t latest = counts.rbegin()->first.first;
+  const auto count = [&](const auto& form) { return form.first.first == latest ? form.second : 0; };
+  const Form form = std::ranges::max_element(counts, {}, count)->first;
+  manifest.pixel_version = form.first;
+  manifest.format = form.second;
+}
+
+class Restoring {
+ public:
+  Restoring(const fs::path& folder, const Manifest* known) : folder_(folder), files_(files_in(folder)) {
+    if (known != nullptr) runs_.push_back(*known);
+    for (const RunFiles& run : RunsFolder(folder, this_process()).runs())
+      if (std::optional<Manifest> rendered = rendered_by(run)) runs_.push_back(std::move(*rendered));
+    try {
+      film_ = film::load_compiled_film(folder / kFilmName);
+    } catch (const Failure&) {  // it is lost or damaged too
+    }
+  }
+
+  std::optional<Restored> restore() {
+    if (!begin()) return std::nullopt;
+    std::map<std::uint32_t, std::string> hashes;
+    for (const File& file : files_.marked)
+      if (const auto frame = frame_of_file(manifest_, file.name); frame && is_of_it(file.mark, *frame))
+        hashes[*frame] = file.mark.pixel_hash;
+    const std::uint32_t unmarked = runs_.empty() ? add_unmarked(hashes) : 0;
+    Manifest found = manifest_;
+    found.frames.clear();
+    found.pixel_hashes.clear();
+    for (auto& [frame, hash] : hashes) {
+      found.frames.push_back(frame);
+      found.pixel_hashes.push_back(std::move(hash));
+    }
+    add_frames(manifest_, found);
+    return Restored{std::move(manifest_), unmarked};
+  }
+
+ private:
+  // With what runs know, or else what the film or the frames say.
+  bool begin() {
+    if (!runs_.empty()) {
+      manifest_ = runs_.front();
+      manifest_.pixel_hashes.resize(manifest_.frames.size());
+      for (const Manifest& run : runs_)
+        if (are_of_one_folder(run, manifest_)) add_frames(manifest_, run);
+      return true;
+    }
+    std::optional<Manifest> begun = film_ ? manifest_of(*film_) : manifest_of(files_.marked, folder_);
+    if (!begun) return false;
+    manifest_ = std::move(*begun);
+    manifest_.film = kFilmName;
+    take_form(files_.marked, manifest_);
+    return true;
+  }
+
+  // Frames that stayed through an edit were rendered of another film, which shows the same there.
+  bool is_of_it(const FrameMark& mark, std::uint32_t frame) {
+    if (mark.frame != frame || mark.format != manifest_.format || mark.pixel_version != manifest_.pixel_version)
+      return false;
+    if (mark.film == manifest_.checksum) return true;
+    if (mark.content.empty()) return false;
+    if (!content_ && film_ && document::checksum_of(film_->block()) != manifest_.checksum) film_.reset();
+    if (!film_) return false;
+    if (!content_) content_.emplace(film_->view());
+    return content_->checksum(frame) == mark.content;
+  }
+
+  // Returns how many there are.
+  std::uint32_t add_unmarked(std::map<std::uint32_t, std::string>& hashes) const {
+    std::uint32_t unmarked = 0;
+    for (const std::string& name : files_.unmarked)
+      if (const auto frame = frame_of_file(manifest_, name)) unmarked += hashes.try_emplace(*frame).second;
+    return unmarked;
+  }
+
+  const fs::path& folder_;
+  const Files files_;
+  std::vector<Manifest> runs_;  // what they know
+  std::optional<film::CompiledFilm> film_;
+  std::optional<film::FrameContent> content_;
+  Manifest manifest_;
+};
+
+}  // namespace
+
+std::optional<Restored> restore_manifest(const fs::path& folder, const Manifest* known) {
+  return Restoring(folder, known).restore();
+}
+
+std::optional<Manifest> read_frames_json(const fs::path& folder) {
+  const fs::path path = folder / kManifestName;
+  const std::optional<std::string> text = document::read_file_if_there(path, kLargestRecord);
+  if (!text) return std::nullopt;
+  try {
+    return manifest_of(parse_record(*text));
+  } catch (const LaterManifest& failure) {
+    throw Failure("cannot be read: " + failure.problem, path.string(), failure.remedy);
+  } catch (const Failure& failure) {
+    throw DamagedManifest("not a manifest of frames: " + failure.problem, path.string(), repair_remedy(folder));
+  }
+}
+
+Found find_manifest(const fs::path& folder, const Manifest* known) {
+  std::optional<DamagedManifest> damaged;
+  try {
+    if (std::optional<Manifest> there = read_frames_json(folder)) return {std::move(there), ""};
+  } catch (const DamagedManifest& failure) {
+    damaged = failure;
+  }
+  const bool may_be_new = !damaged && known == nullptr;
+  std::error_code none;
+  if (may_be_new && !fs::exists(folder / kFilmName, none)) return {};
+  std::optional<Restored> restored = restore_manifest(folder, known);
+  const bool known_whole = restored && (known != nullptr || restored->unmarked == 0);
+  if (!known_whole && damaged) throw *damaged;
+  if (!known_whole || (may_be_new && restored->manifest.frames.empty())) return {};
+  return {std::move(restored->manifest), damaged ? damaged->problem : "it is gone"};
+}
+
+std::string repair_text(const std::string& problem) {
+  return std::string(kManifestName) + " was lost or damaged (" + problem +
+         "): it is made again from what runs and the frames say";
+}
+
+std::string repair_remedy(const fs::path& folder) {
+  return "mars verify --repair " + document::shell_word(folder.string()) + " makes it again";
+}
+
+void add_marked_frames(const fs::path& folder, Manifest& manifest) {
+  for (const File& file : files_in(folder).marked) {
+    const auto frame = frame_of_file(manifest, file.name);
+    const FrameMark& mark = file.mark;
+    if (frame && hash_of(manifest, *frame).empty() && mark == mark_in(manifest, *frame, mark.pixel_hash, mark.content))
+      set_hash(manifest, *frame, mark.pixel_hash);
+  }
+}
+
+}  // namespace mars::sinks
