@@ -1,20 +1,18 @@
 #include "hal/failure/failure.h"
 
-#include <algorithm>
 #include <utility>
+
+#include "hal/failure/plain_text.h"
 
 namespace mars {
 namespace {
 
 constexpr std::size_t kLongest = 8000;  // bytes
 
-// What files, people and other machines wrote is part of failures' texts: nothing in them shall act on a terminal, or
-// fill it.
+// What files, people and other machines wrote is part of failures' texts.
 std::string shown(std::string text) {
   if (text.size() > kLongest) text.replace(kLongest, std::string::npos, "...");
-  const auto acts = [](unsigned char c) { return (c < ' ' && c != '\n') || c == 127; };
-  std::replace_if(text.begin(), text.end(), acts, '?');
-  return text;
+  return plain_text(text);
 }
 
 std::string one_line(const std::string& problem, const std::string& where, const std::string& remedy) {

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <numeric>
 #include <span>
 #include <string_view>
@@ -19,6 +18,7 @@
 #include "host/child/process.h"
 #include "host/child/programs.h"
 #include "host/content/document/shell_word.h"
+#include "host/shell/launch/hostfile.h"
 #include "host/shell/launch/text_reader.h"
 #include "topology/machine.h"
 
@@ -166,56 +166,26 @@ std::vector<std::uint32_t> tasks_of_machines(const std::string& tasks_per_node) 
 
 namespace {
 
-constexpr std::uint32_t kMostSlots = 999999;
-constexpr const char* kHostfileForm = "write a line a host, like: n1 slots=4";
-
-// "n1 slots=4 max_slots=8  # of four cores"; none: a line without a host.
-std::optional<Slots> read_slots(const std::string& line, const std::string& where) {
-  TextReader words(std::string_view(line).substr(0, line.find('#')));
-  words.skip_space();
-  if (words.at_end()) return std::nullopt;
-  const auto host = words.word();
-  if (!host) throw Failure("is no host's name: it is too long", where, kHostfileForm);
-  Slots slots{*host, 1};
-  for (words.skip_space(); !words.at_end(); words.skip_space()) {
-    if (!words.skip("slots")) {
-      words.word();
-      continue;
-    }
-    words.skip_space();
-    words.skip("=");
-    words.skip_space();
-    const auto count = words.number();
-    if (!count || *count > kMostSlots)
-      throw Failure("slots has no number up to " + std::to_string(kMostSlots), where, kHostfileForm);
-    slots.count = *count;
-  }
-  return slots;
+// Of the hostfile or the batch system; 0: there is none.
+std::uint32_t slots_of(const options::RenderOptions& options, const Surroundings& surroundings) {
+  const std::vector<Slots> machines = options.hostfile.empty() ? std::vector<Slots>() : read_hostfile(options.hostfile);
+  if (machines.empty()) return surroundings.tasks;
+  return std::accumulate(machines.begin(), machines.end(), 0u,
+                         [](std::uint32_t sum, const Slots& slots) { return sum + slots.count; });
 }
 
 }  // namespace
 
-std::vector<Slots> read_hostfile(const fs::path& hostfile) {
-  std::ifstream file(hostfile);
-  if (!file) throw Failure("cannot be read", hostfile.string(), "--hostfile names a file of lines like: n1 slots=4");
-  std::vector<Slots> hosts;
-  int number = 0;
-  for (std::string line; std::getline(file, line);) {
-    const auto slots = read_slots(line, hostfile.string() + ":" + std::to_string(++number));
-    if (slots && slots->count > 0) hosts.push_back(*slots);
-  }
-  if (hosts.empty()) throw Failure("names no host", hostfile.string(), kHostfileForm);
-  return hosts;
-}
-
 std::uint32_t default_nodes(const options::RenderOptions& options, const Surroundings& surroundings) {
-  std::uint32_t tasks = options.hostfile.empty() ? surroundings.tasks : 0;
-  if (!options.hostfile.empty()) {
-    for (const Slots& slots : read_hostfile(options.hostfile)) tasks += slots.count;
-  }
+  const std::uint32_t tasks = slots_of(options, surroundings);
   if (tasks == 0 || options.backend == options::Backend::threads || options.backend == options::Backend::simulated)
     return surroundings.processors;
   return std::max(tasks, 2u) - 1;
+}
+
+std::uint32_t cores_in_use(const options::RenderOptions& options, const Surroundings& surroundings) {
+  const std::uint32_t slots = options.backend == options::Backend::mpi ? slots_of(options, surroundings) : 0;
+  return slots != 0 ? slots : surroundings.cores;
 }
 
 options::Backend choose_backend(options::Backend asked, const Programs& programs) {
@@ -309,6 +279,7 @@ child::Command open_mpi_start(const options::RenderOptions& options, const Progr
 
 child::Command mpi_start(const options::RenderOptions& options, const Programs& programs,
                          const Surroundings& surroundings) {
+  if (!options.hostfile.empty()) read_hostfile(options.hostfile);  // what is wrong with it shows before mpirun's words
   if (surroundings.address_limit != 0 && surroundings.address_limit < kLeastForMpi)
     throw Failure("the limit of " + std::to_string(surroundings.address_limit >> 10) +
                       " kB of addresses a process is too small for MPI",

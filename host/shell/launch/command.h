@@ -70,13 +70,12 @@ Surroundings look_around(const std::string& path, Ask ask = Ask::programs);
 // Slurm's list of tasks a host, "2(x3),1", as 2 2 2 1; none for what is none.
 std::vector<std::uint32_t> tasks_of_machines(const std::string& tasks_per_node);
 
-// A hostfile's hosts with their slots, 1 for a line that names none. Throws Failure where it cannot be read or
-// names no host.
-std::vector<Slots> read_hostfile(const std::filesystem::path& hostfile);
-
 // How many nodes render where a person does not say: the slots of the hostfile or the batch system beside
 // the host; else, and for threads, one a processor.
 std::uint32_t default_nodes(const options::RenderOptions& options, const Surroundings& surroundings);
+
+// Of the machines that a rendering uses: other machines' slots stand for theirs. `options.backend` is settled.
+std::uint32_t cores_in_use(const options::RenderOptions& options, const Surroundings& surroundings);
 
 // Takes auto to one of the two. Throws Failure where the programs for the backend asked for are missing.
 options::Backend choose_backend(options::Backend asked, const Programs& programs);

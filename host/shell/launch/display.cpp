@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "hal/failure/plain_text.h"
 #include "host/content/document/text.h"
 
 namespace mars::launch {
@@ -86,7 +87,7 @@ void Display::print(const std::string& line) {
   if (kind_ == Kind::silent) return;
   if (line_open_) out_ << kClearLine;
   line_open_ = false;
-  out_ << line << std::endl;
+  out_ << plain_text(line) << std::endl;
 }
 
 void Display::show(const events::Progress& progress) {

@@ -25,6 +25,7 @@ class Display {
  public:
   enum class Kind { silent, lines, terminal };
 
+  // `out` takes what moves the cursor as it is (child::raw_output).
   Display(Kind kind, std::ostream& out) : kind_(kind), out_(out) {}
 
   // A line that stays.

@@ -10,6 +10,7 @@
 #include "host/child/descriptor.h"
 #include "host/child/environment.h"
 #include "host/child/process.h"
+#include "host/child/standard_streams.h"
 #include "host/render/events/events.h"
 #include "host/render/resume/resume.h"
 #include "host/render/sinks/frame_folder.h"
@@ -18,6 +19,8 @@
 #include "host/shell/launch/between_jobs.h"
 #include "host/shell/launch/command.h"
 #include "host/shell/launch/display.h"
+#include "host/shell/launch/film_check.h"
+#include "host/shell/launch/hostfile.h"
 #include "host/shell/launch/job.h"
 #include "host/shell/launch/supervisor.h"
 
@@ -60,6 +63,7 @@ Starting prepare(options::RenderOptions& options, const std::filesystem::path& s
   options.backend = choose_backend(options.backend, starting.programs);
   starting.surroundings = look_around(path);
   if (options.nodes == 0) options.nodes = default_nodes(options, starting.surroundings);
+  options::check_nodes(options, cores_in_use(options, starting.surroundings));
   return starting;
 }
 
@@ -141,20 +145,21 @@ std::optional<std::uint32_t> frames_there(const options::RenderOptions& options)
   const bool measures = !options.report.empty() || !options.trace.empty();
   if (options.sink == options::SinkKind::none || measures) return std::nullopt;
   return resume::count_if_complete({options.folder, options.film, options::film_arguments(options), options.format,
-                                    options.frames, options.overwrite});
+                                    options.frames, options.overwrite, options.kept_film});
 }
 
 }  // namespace
 
 void launch_render(options::RenderOptions options, const std::filesystem::path& self, const Adviser& adviser) {
   const auto started = std::chrono::steady_clock::now();
-  Display display(kind_of_output(options.quiet), std::cout);
+  Display display(kind_of_output(options.quiet), child::raw_output());
   for (const std::string& line : messages::unknown_settings()) display.print(line);
   messages::read_settings();  // wrong settings fail before anything is started
   if (const auto there = frames_there(options)) {
     clear_ended_runs(options.folder);
     return display.print(resumed_text({*there, *there, ""}));
   }
+  if (!options.kept_film) check_film_file(options.film);  // else it may be gone
   const Starting starting = prepare(options, self);
   Supervisor supervisor(options, world_of(options, starting, display, adviser));
   supervisor.render();
@@ -171,7 +176,7 @@ Trial try_start(options::RenderOptions options, const std::filesystem::path& sel
   messages::read_settings();
   const Starting starting = prepare(options, self);
   const child::Command command = command_for(options, starting);
-  Display nothing(Display::Kind::silent, std::cout);
+  Display nothing(Display::Kind::silent, child::raw_output());
   Job job(nothing);
   bool given_up = false;
   job.follow(command, {kLongestTrial,

@@ -13,6 +13,10 @@ constexpr const char* kAskForMore = "use fewer --nodes, or ask for one task more
 constexpr const char* kWrongMpi = "this mpirun is not of the MPI that MARS was built with";
 constexpr const char* kOneMpi =
     "load the MPI that MARS was built with (module load ...), or build MARS again with this one";
+constexpr const char* kWrongHostfile = "the hostfile has a line that Open MPI does not take";
+constexpr const char* kHostfileForm = "write a line a host, like: n1 slots=4";
+constexpr const char* kNotAllocated = "the hostfile names a machine that the batch system did not give to this job";
+constexpr const char* kUseAllocated = "name only machines of the job, or leave out --hostfile";
 constexpr const char* kMakeShmLarger =
     "enlarge /dev/shm: mount -o remount,size=1G /dev/shm, or start the container with --shm-size=1g";
 constexpr const char* kOpenPorts =
@@ -35,6 +39,19 @@ constexpr std::array kTable = {
              "set TMPDIR to a folder on a local disk that you may write, on every machine"},
     MpiWords{"orte_session_dir failed", "Open MPI cannot write its temporary files",
              "set TMPDIR to a folder on a local disk that you may write, on every machine"},
+    MpiWords{"parse error in the hostfile", kWrongHostfile, kHostfileForm},
+    MpiWords{"bad parameter in the hostfile", kWrongHostfile, kHostfileForm},
+    MpiWords{"multiple definitions of the slot count", "the hostfile gives the slots of a machine twice",
+             "give them once: localhost and this machine's own name are one machine"},
+    MpiWords{"regular expression of the node names", "the hostfile has a name that Open MPI takes for no machine",
+             "use names of letters, digits, - and . only"},
+    MpiWords{"not included in the current allocation", kNotAllocated, kUseAllocated},
+    MpiWords{"not present in the allocation", kNotAllocated, kUseAllocated},
+    MpiWords{"relative host was specified",
+             "the hostfile names a machine by its number in an allocation that has none such",
+             "write the machine's name instead of +n0"},
+    MpiWords{"unable to open the hostfile", "mpirun cannot open the hostfile",
+             "check that the file is there and can be read"},
     MpiWords{"Too many open files", "mpirun or a node may not open as many files as it must", "ulimit -n 1024"},
     MpiWords{"No space left on device", "a disk is full", "empty it, or set TMPDIR to a folder with free space"},
     MpiWords{"listener thread failed to start", "Open MPI finds no address 127.0.0.1 on this machine",

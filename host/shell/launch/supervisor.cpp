@@ -46,6 +46,7 @@ void Supervisor::render() {
 
 void Supervisor::run_job(const options::RenderOptions& options) {
   last_ = world_.run_job(options, chosen_.left_out.empty() ? std::vector<Slots>() : chosen_.use);
+  entered_ = entered_ || !last_.run.empty();
   booted_ = booted_ || last_.booted;
   rendered_ = rendered_ || !last_.taken.empty();
   if (!last_.well()) world_.clear(last_.run);
@@ -56,22 +57,33 @@ void Supervisor::count_frames() {
   if (!last_.resumed && !last_.booted) return;
   const std::uint32_t there = last_.resumed ? last_.resumed->there : 0;
   frames_.set_count(last_.resumed ? last_.resumed->of : last_.progress.of());
-  if (there < frames_.there())
-    world_.print("only " + std::to_string(there) + " of " + std::to_string(frames_.there()) +
-                 " frames are there still: do all machines see the folder " + options_.folder + "?");
+  if (there < frames_.there()) world_.print(loss_text(there));
+  host_moved_ = false;
   frames_.count(there, static_cast<std::uint32_t>(last_.taken.size()));
 }
 
-bool Supervisor::all_there() const { return last_.well() || frames_.complete(); }
+// A host that fails after the last frame, though no node is to blame, could not record what it has rendered.
+bool Supervisor::all_there() const {
+  const bool host_failed = last_.fault && !last_.fault->node;
+  return last_.well() || (frames_.complete() && !host_failed);
+}
+
+std::string Supervisor::loss_text(std::uint32_t there) const {
+  const std::string reason = host_moved_
+                                 ? "do all machines see the folder " + options_.folder + "?"
+                                 : "others were removed from " + options_.folder + ", or it has another film now";
+  return "only " + std::to_string(there) + " of " + std::to_string(frames_.there()) +
+         " frames are there still: " + reason;
+}
 
 // Not where a person stopped it, and not where the film, the folder or the command line is the reason. A job whose like
-// has never begun would end as it did, unless somebody ended it.
+// has never begun would end as it did, unless something died or somebody ended it.
 bool Supervisor::may_help() const {
   if (last_.passed_on != 0 || options_.restarts == 0 || options_.sink == options::SinkKind::none) return false;
   if (options_.backend == options::Backend::simulated) return false;
+  if (diagnose(last_, options_, {}).died) return true;
   if (last_.fault) return booted_ && last_.fault->node.has_value();
-  const bool was_ended = !last_.ended_for.empty() || last_.ending.signal != 0;
-  return booted_ || was_ended || diagnose(last_, options_, {}).killed;
+  return booted_ || !last_.ended_for.empty();
 }
 
 // Then even a job that has never begun may begin without it.
@@ -120,9 +132,11 @@ void Supervisor::choose_machines(std::chrono::seconds pause) {
   if (chosen_.use.empty())
     throw Failure("none of the machines answers: " + document::joined(names) + "; " + account(), options_.folder,
                   "the same command goes on once they do");
-  if (const std::string& host = chosen_.use.front().host; host != host_before)
-    world_.print("the host runs on " + host + " now, no more on " + host_before + ": both must see the folder " +
-                 options_.folder);
+  const std::string& host = chosen_.use.front().host;
+  if (host == host_before) return;
+  host_moved_ = true;
+  world_.print("the host runs on " + host + " now, no more on " + host_before + ": both must see the folder " +
+               options_.folder);
 }
 
 void Supervisor::print_choice() const {
@@ -137,7 +151,8 @@ options::RenderOptions Supervisor::next_options() const {
   options::RenderOptions next = options_;
   next.nodes = chosen_.nodes;
   next.frames = frames_.next();
-  next.overwrite = options_.overwrite && !booted_;  // what the first job brought is not what was there before
+  next.kept_film = options_.kept_film || entered_;
+  next.overwrite = options_.overwrite && !entered_;  // what was there before is gone since
   return next;
 }
 

@@ -1,5 +1,6 @@
 // Starts a rendering's job, and starts it again when it dies: on the machines that answer, for the frames that are
-// missing, until all are there, until several jobs in a row brought no frame, or until starting again cannot help. A
+// missing, until all are there, until several jobs in a row brought no frame, or until starting again cannot help. Once
+// a job has left the compiled film in the folder, all later ones render that, whatever becomes of the film's files. A
 // frame that kills its nodes is set aside, tried once more by itself at the end, and reported.
 #pragma once
 
@@ -50,6 +51,7 @@ class Supervisor {
  private:
   void run_job(const options::RenderOptions& options);
   void count_frames();
+  std::string loss_text(std::uint32_t there) const;
   bool all_there() const;
   bool may_help() const;
   bool a_machine_is_gone();
@@ -69,7 +71,9 @@ class Supervisor {
   Restarts restarts_;
   std::optional<Machines> machines_;  // once a job has died
   Machines::Choice chosen_;           // for the next job
+  bool host_moved_ = false;           // to another machine, since frames were counted last
   Remains last_;
+  bool entered_ = false;   // some job did: the folder has its film
   bool booted_ = false;    // some job came so far
   bool rendered_ = false;  // some job brought a frame
 };

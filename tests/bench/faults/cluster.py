@@ -11,7 +11,7 @@ TESTBED = pathlib.Path(__file__).resolve().parents[3] / "cluster" / "testbed" / 
 HEAD = "n0"
 HOSTS = ("n1", "n2", "n3", "n4")
 OWN_FOLDERS = ("/tmp", "/dev/shm")  # of which every host has its own
-OURS = ("mars", "mars-host", "mars-node", "mpirun", "orted")
+OURS = ("mars", "mars-host", "mars-node", "mars-threads", "mpirun", "orted")
 
 
 @dataclass(frozen=True)
@@ -32,6 +32,9 @@ class Process:
         self.send(signal.SIGCONT)
         if (state_and_program(parent) or ("", ""))[1] == "nsenter":
             os.kill(parent, signal.SIGCONT)
+
+    def is_stopped(self):
+        return (state_and_program(self.number) or "")[:1] == ("T",)
 
     def field(self, name):
         """A number of /proc/N/status; 0 once it has ended."""
@@ -64,7 +67,26 @@ def namespace_of(number):
         return None
 
 
-class Cluster:
+class Machines:
+    """What is seen of a cluster and of one machine alike; `processes` and `left` differ."""
+
+    def ours(self, host=None):
+        return self.processes(*OURS, host=host)
+
+    def wait_until_idle(self, seconds):
+        """The processes that are still left after so many seconds, and the seconds that it took."""
+        began = time.monotonic()
+        while (left := self.left()) and time.monotonic() - began < seconds:
+            time.sleep(0.1)
+        return left, time.monotonic() - began
+
+    def end_what_is_left(self):
+        for process in self.left():
+            process.send(signal.SIGKILL)
+        self.wait_until_idle(10)
+
+
+class Cluster(Machines):
     """`environment`: of what runs on it."""
 
     def __init__(self, name, environment):
@@ -110,25 +132,10 @@ class Cluster:
                 found.append(Process(number, seen[1], where))
         return found
 
-    def ours(self, host=None):
-        return self.processes(*OURS, host=host)
-
     def left(self):
         """Processes of ours, and of others that started since the cluster did and are no helper of its daemons."""
         daemons = {process.program for process in self.idle}
         return [process for process in self.processes() if process not in self.idle and process.program not in daemons]
-
-    def wait_until_idle(self, seconds):
-        """The processes that are still left after so many seconds, and the seconds that it took."""
-        began = time.monotonic()
-        while (left := self.left()) and time.monotonic() - began < seconds:
-            time.sleep(0.1)
-        return left, time.monotonic() - began
-
-    def end_what_is_left(self):
-        for process in self.left():
-            process.send(signal.SIGKILL)
-        self.wait_until_idle(10)
 
     def own_files(self):
         """{host: names} of what lies in the folders that are the host's own."""

@@ -1,4 +1,4 @@
-"""What is concluded from the notes and times of a rendering that was disturbed, and from samples of its programs."""
+"""What is concluded from the notes and times of a rendering that was disturbed."""
 import pathlib
 import sys
 import tempfile
@@ -6,10 +6,9 @@ import types
 import unittest
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE.parent / "soak")]
+sys.path.insert(0, str(HERE))
 import film  # noqa: E402
 import table  # noqa: E402
-from growth import Samples  # noqa: E402
 from scene import Notes, Scene  # noqa: E402
 
 
@@ -40,13 +39,6 @@ class Measures(unittest.TestCase):
         for before, after in zip(short["actors"], long["actors"]):
             self.assertEqual(before["keys"], after["keys"][:len(before["keys"])])
             self.assertGreater(len(after["keys"]), len(before["keys"]))
-
-    def test_what_grows(self):
-        samples = Samples(None)
-        samples.of = {"mars": [(10000 + 1000 * n, 9) for n in range(60)], "mars-host": [(90000, 30 + n) for n in range(60)],
-                      "mars-node": [(60000 + n % 7, 20) for n in range(60)]}
-        self.assertEqual({name: found["grew"] for name, found in samples.growth().items()},
-                         {"mars": True, "mars-host": True, "mars-node": False})
 
     def test_the_table(self):
         result = {"title": "a node dies", "how": "`kill`", "reported": 2.25, "again": None, "goes_on": False, "lost": 0,

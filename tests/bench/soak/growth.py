@@ -1,34 +1,48 @@
-"""What grows while a film is rendered: memory and descriptors of the programs, looked at every few seconds."""
+"""What grows while a film is rendered: each process's own memory and descriptors, looked at every second in which its
+job draws. Memory that processes share, pictures and triangles and the film, counts in each process that has looked at
+it: it seems to grow for minutes, and is as large as what is rendered. A leak is in a process's own."""
 import statistics
 
-import cluster as clusters
-
-MEMORY = (1.25, 16 << 10)  # the last third's middle may be so many times the first third's, and so many kB more
+BEGINNING = 8        # of a process's samples are left out: it still makes its buffers
+LEAST = 12           # samples of a process that can show growth
+MEMORY = (1.1, 4 << 10)  # its last third's middle may be so many times the first third's, and so many kB more
 DESCRIPTORS = (1.1, 8)
 
 
 class Samples:
-    def __init__(self, cluster):
-        self.cluster = cluster
-        self.of = {}  # by program: list of (kB, descriptors), each the most of any of its processes at a time
+    def __init__(self, machines):
+        self.machines = machines
+        self.of = {}  # by process: list of (kB, descriptors)
 
     def take(self):
-        most = {}
-        for process in self.cluster.processes(*clusters.OURS):
-            memory, descriptors = most.get(process.program, (0, 0))
-            most[process.program] = max(memory, process.field("VmRSS")), max(descriptors, process.descriptors())
-        for program, sample in most.items():
-            self.of.setdefault(program, []).append(sample)
+        for process in self.machines.ours():
+            sample = process.field("RssAnon"), process.descriptors()
+            if all(sample):
+                self.of.setdefault(process, []).append(sample)
 
     def growth(self):
-        """By program: first and last third's middle of memory (kB) and descriptors, and whether either grew."""
+        """By program: how many of its processes lived long enough, and of that which grew most, its first and last
+        third's middle of memory (kB) and descriptors, and whether any grew."""
         found = {}
-        for program, samples in self.of.items():
-            third = max(1, len(samples) // 3)
-            middle = lambda part, column: statistics.median(sample[column] for sample in part)
-            first, last = ([middle(part, column) for column in (0, 1)] for part in (samples[:third], samples[-third:]))
-            grew = any(after > before * times + more
-                       for before, after, (times, more) in zip(first, last, (MEMORY, DESCRIPTORS)))
-            found[program] = {"samples": len(samples), "memory_kb": [first[0], last[0]],
-                              "descriptors": [first[1], last[1]], "grew": grew}
-        return found
+        for process, samples in self.of.items():
+            found.setdefault(process.program, []).append(samples[BEGINNING:])
+        return {program: self.most_grown([samples for samples in lives if len(samples) >= LEAST])
+                for program, lives in found.items() if any(len(samples) >= LEAST for samples in lives)}
+
+    @staticmethod
+    def most_grown(lives):
+        thirds = [first_and_last(samples) for samples in lives]
+        first, last = max(thirds, key=lambda pair: pair[1][0] - pair[0][0])
+        return {"processes": len(lives), "longest": max(map(len, lives)), "memory_kb": [first[0], last[0]],
+                "descriptors": [first[1], last[1]], "grew": any(grew(*pair) for pair in thirds)}
+
+
+def first_and_last(samples):
+    """The middles of the first and last third, each (kB, descriptors)."""
+    third = len(samples) // 3
+    return [[statistics.median(column) for column in zip(*part)] for part in (samples[:third], samples[-third:])]
+
+
+def grew(first, last):
+    return any(after > before * times + more
+               for before, after, (times, more) in zip(first, last, (MEMORY, DESCRIPTORS)))

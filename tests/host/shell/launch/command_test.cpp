@@ -93,10 +93,15 @@ TEST(Command, WhatAPersonSetOfMpiCounts) {
 }
 
 TEST(Command, NamesOfFilesAreNoWordsForMpirun) {
+  const sinks::TemporaryFolder folder;
+  const fs::path before = fs::current_path();
+  fs::current_path(folder / "");
+  std::ofstream(":") << "n1\n";
   options::RenderOptions options = film(3);
   options.film = options.folder = options.report = options.hostfile = ":";
   options.trace = "-t";
   const child::Command command = mpi_command(options, all_programs(), alone(8));
+  fs::current_path(before);
   EXPECT_EQ(std::count(command.words.begin(), command.words.end(), ":"), 1) << shell_text(command);
   EXPECT_EQ(std::count(command.words.begin(), command.words.end(), "./:"), 4) << shell_text(command);
   EXPECT_EQ(std::count(command.words.begin(), command.words.end(), "./-t"), 1) << shell_text(command);
@@ -112,10 +117,11 @@ TEST(Command, NoMpiWithinTooFewAddresses) {
 }
 
 TEST(Command, AHostfileIsPassedOn) {
+  const sinks::TemporaryFolder folder;
   options::RenderOptions options = film(7);
-  options.hostfile = "my hosts";
+  options.hostfile = write_hostfile(folder, "n1 slots=2\nn2\n").string();
   const std::string text = shell_text(mpi_command(options, all_programs(), alone(8)));
-  EXPECT_TRUE(document::holds(text, "--bind-to none --hostfile 'my hosts' --oversubscribe -n 1"));
+  EXPECT_TRUE(document::holds(text, "--bind-to none --hostfile " + options.hostfile + " --oversubscribe -n 1"));
   EXPECT_TRUE(document::holds(text, "OMPI_MCA_oob_tcp_keepalive_time=10"));
 }
 
@@ -143,28 +149,6 @@ TEST(Command, SlurmsTasksAreCounted) {
   EXPECT_LE(tasks_of_machines("1(x4294967295)").size(), 1u << 20);
 }
 
-TEST(Command, HostfilesAreRead) {
-  const sinks::TemporaryFolder folder;
-  std::string found;
-  for (const Slots& slots :
-       read_hostfile(write_hostfile(folder, "n1 slots=2\n n2 slots = 3 max-slots=9 # fast\n\n# n3 slots=7\nn4\n")))
-    found += slots.host + ":" + std::to_string(slots.count) + " ";
-  EXPECT_EQ(found, "n1:2 n2:3 n4:1 ");
-  EXPECT_TRUE(document::holds(document::failure_of([&] { read_hostfile(write_hostfile(folder, "# none\n")); }),
-                              "names no host"));
-  EXPECT_TRUE(
-      document::holds(document::failure_of([&] { read_hostfile(write_hostfile(folder, "n1\nn2 slots=many\n")); }),
-                      "hosts:2: slots has no number up to 999999"));
-  const std::string long_name(100000, 'y');
-  EXPECT_TRUE(
-      document::holds(document::failure_of([&] { read_hostfile(write_hostfile(folder, long_name + " slots=2\n")); }),
-                      "hosts:1: is no host's name: it is too long"));
-  const std::string longest(255, 'y');
-  EXPECT_EQ(read_hostfile(write_hostfile(folder, longest + " slots=2\n")).at(0).host, longest);
-  EXPECT_EQ(read_hostfile(write_hostfile(folder, "n1 " + long_name + " slots=2 #" + long_name)).at(0).count, 2u);
-  EXPECT_TRUE(document::holds(document::failure_of([&] { read_hostfile(folder / "nowhere"); }), "cannot be read"));
-}
-
 TEST(Command, NodesFillWhatThereIs) {
   const sinks::TemporaryFolder folder;
   options::RenderOptions options;
@@ -177,6 +161,27 @@ TEST(Command, NodesFillWhatThereIs) {
   options = {};
   options.backend = options::Backend::threads;
   EXPECT_EQ(default_nodes(options, batch_job(8)), 2u);
+}
+
+TEST(Command, AWrongHostfileIsRefusedBeforeMpirunSeesIt) {
+  const sinks::TemporaryFolder folder;
+  options::RenderOptions options = film(7);
+  options.hostfile = write_hostfile(folder, "n1\nn2 slots=many\n").string();
+  const auto starts = [&] { mpi_command(options, all_programs(), alone(8)); };
+  EXPECT_TRUE(document::holds(document::failure_of(starts), "hosts:2: slots has no number"));
+}
+
+TEST(Command, SlotsStandForTheCoresOfOtherMachines) {
+  const sinks::TemporaryFolder folder;
+  options::RenderOptions options;
+  options.backend = options::Backend::mpi;
+  EXPECT_EQ(cores_in_use(options, alone(4)), 4u);
+  EXPECT_EQ(cores_in_use(options, batch_job(16)), 16u);
+  options.hostfile = write_hostfile(folder, "n1 slots=2\nn2\n").string();
+  EXPECT_EQ(cores_in_use(options, batch_job(16)), 3u);
+  options = {};
+  options.backend = options::Backend::threads;
+  EXPECT_EQ(cores_in_use(options, batch_job(16)), 2u);
 }
 
 TEST(Command, MindsRootContainersAndSettings) {
@@ -193,7 +198,7 @@ TEST(Command, ThreadsAreOneProcess) {
 
 TEST(Command, AnyWordCanBePasted) {
   const child::Command command{{{"A", "b c"}}, {"x", "", "it's", "$HOME", "a*b", "tab\there", "é"}};
-  EXPECT_EQ(shell_text(command), "A='b c' x '' 'it'\\''s' '$HOME' 'a*b' 'tab\there' 'é'");
+  EXPECT_EQ(shell_text(command), "A='b c' x '' 'it'\\''s' '$HOME' 'a*b' $'tab\\011here' 'é'");
 }
 
 TEST(Command, ProgramsAreBesideUsOrInLibexecOrInThePath) {

@@ -97,6 +97,25 @@ TEST(Diagnosis, OfAKilledRankWhoseWordsAreWrapped) {
   EXPECT_TRUE(document::holds(message(remains), "machine ada: the host was killed by signal 11"));
 }
 
+TEST(Diagnosis, OfADeathThatTheExitCodeAloneShows) {
+  Remains remains = failed_with({"Primary job  terminated normally, but 1 process returned", "a non-zero exit code."});
+  remains.ending.code = 128 + SIGKILL;
+  EXPECT_TRUE(
+      document::holds(message(remains), "the host or a node was killed by signal 9 (Killed) (perhaps the machine"));
+  EXPECT_TRUE(document::holds(message(remains), "/dev/shm is small"));
+  remains.last_words.push_back("not enough space for");
+  EXPECT_TRUE(document::holds(message(remains), "too little shared memory")) << "the cause is known";
+}
+
+TEST(Diagnosis, OfADaemonThatDied) {
+  Remains remains = failed_with({"ORTE was unable to reliably start one or more daemons."});
+  remains.ending.code = SIGKILL;
+  EXPECT_TRUE(
+      document::holds(message(remains), "Open MPI's daemon on another machine was killed by signal 9 (Killed)"));
+  remains = failed_with({"srun: error: n2: task 0: Exited with exit code 1", "srun: error: n3: task 1: Out Of Memory"});
+  EXPECT_TRUE(document::holds(message(remains), "machine n3: Open MPI's daemon was killed by signal 9"));
+}
+
 TEST(Diagnosis, ShowsTheLastOfManyWords) {
   std::deque<std::string> words(300, "earlier");
   words.push_back("at last");
@@ -126,6 +145,8 @@ TEST(Diagnosis, OfWhatIsNotUnderstoodTheLastWords) {
   Remains killed = failed_with({});
   killed.ending = {0, SIGSEGV};
   EXPECT_TRUE(document::holds(message(killed), "mpirun was killed by signal 11 (Segmentation fault)"));
+  Remains ended = failed_with({});
+  EXPECT_TRUE(document::holds(message(ended), "mpirun ended with exit code 1 and gave no reason"));
   Remains silent = failed_with({});
   silent.ending = {};
   EXPECT_TRUE(document::holds(message(silent), "ended before all frames were there"));

@@ -46,6 +46,7 @@ Remains never_began() {
   Remains remains;
   remains.program = "mpirun";
   remains.ending.code = 1;
+  remains.last_words = {"what nobody has seen yet"};
   return remains;
 }
 
@@ -57,6 +58,7 @@ class SupervisorOf : public testing::Test {
     std::uint32_t nodes;
     std::vector<Slots> machines;
     bool overwrite;
+    bool kept_film;
   };
 
   Supervisor supervise(std::deque<Remains> jobs) {
@@ -65,18 +67,19 @@ class SupervisorOf : public testing::Test {
     options_.nodes = 8;
     options_.backend = options::Backend::mpi;
     return Supervisor(
-        options_, {[this](const options::RenderOptions& options, const std::vector<Slots>& machines) {
-                     starts_.push_back({options.frames.text(), options.nodes, machines, options.overwrite});
-                     const Remains next = jobs_.front();
-                     jobs_.pop_front();
-                     return next;
-                   },
-                   [this](const std::string& run) { cleared_.push_back(run); }, [this] { return machines_; },
-                   [this](std::chrono::seconds pause, const std::vector<std::string>&) {
-                     pauses_.push_back(pause.count());
-                     return answering_;
-                   },
-                   [this](const std::string& line) { printed_ += line + "\n"; }, [] { return std::string("advice"); }});
+        options_,
+        {[this](const options::RenderOptions& options, const std::vector<Slots>& machines) {
+           starts_.push_back({options.frames.text(), options.nodes, machines, options.overwrite, options.kept_film});
+           const Remains next = jobs_.front();
+           jobs_.pop_front();
+           return next;
+         },
+         [this](const std::string& run) { cleared_.push_back(run); }, [this] { return machines_; },
+         [this](std::chrono::seconds pause, const std::vector<std::string>&) {
+           pauses_.push_back(pause.count());
+           return answering_;
+         },
+         [this](const std::string& line) { printed_ += line + "\n"; }, [] { return std::string("advice"); }});
   }
 
   options::RenderOptions options_;
@@ -97,6 +100,17 @@ TEST_F(SupervisorOf, AJobThatEndsWellIsStartedOnce) {
   EXPECT_EQ(supervisor.restarts(), 0u);
 }
 
+// All frames were taken, but what the host records at its end may be missing.
+TEST_F(SupervisorOf, AHostThatFailsAfterTheLastFrameIsAFailure) {
+  Remains failed = booted({0, 1, 2}, 3, 0);
+  failed.ending.code = 1;
+  failed.fault = events::Fault{"not a manifest of frames", "out/frames.json", "remove it", {}, {}, ""};
+  Supervisor supervisor = supervise({failed});
+  EXPECT_EQ(document::failure_of([&] { supervisor.render(); }),
+            "out/frames.json: not a manifest of frames (remove it)");
+  EXPECT_EQ(starts_.size(), 1u);
+}
+
 TEST_F(SupervisorOf, AJobThatIsKilledBeforeItBeginsIsStartedAgain) {
   Remains killed_early = never_began();
   killed_early.ending = {0, 9};
@@ -105,6 +119,74 @@ TEST_F(SupervisorOf, AJobThatIsKilledBeforeItBeginsIsStartedAgain) {
   Supervisor supervisor = supervise({killed_early, lost_a_node, done({0, 1}, 2)});
   supervisor.render();
   EXPECT_EQ(starts_.size(), 3u);
+}
+
+// However mpirun ends, with however few words.
+TEST_F(SupervisorOf, AJobThatDiesWhileItStartsIsStartedAgain) {
+  const std::string kNoDaemon = "ORTE was unable to reliably start one or more daemons.";
+  const std::string kLostDaemon =
+      "ORTE has lost communication with a remote daemon. Remote daemon: [[1,0],2] on node n3";
+  const std::vector<std::pair<child::Ending, std::string>> kDeaths = {
+      {{137, 0}, "Primary job  terminated normally, but 1 process returned a non-zero exit code."},
+      {{139, 0}, "Primary job  terminated normally, but 1 process returned a non-zero exit code."},
+      {{134, 0}, "mpirun: Forwarding signal 6 to job"},
+      {{143, 0}, ""},
+      {{1, 0}, ""},  // mpirun itself by SIGTERM
+      {{0, SIGBUS}, "[ada:1] Signal: Bus error (7)"},
+      {{205, 0}, kLostDaemon},
+      {{9, 0}, kNoDaemon},
+      {{137, 0}, kNoDaemon},
+      {{255, 0}, kNoDaemon},
+      {{1, 0}, "srun: error: n3: task 1: Killed"},
+      {{1, 0}, "srun: error: n[2-3]: tasks 1-2: Exited with exit code 143"},
+  };
+  for (const auto& [ending, words] : kDeaths) {
+    starts_.clear();
+    Remains dead = never_began();
+    dead.ending = ending;
+    dead.last_words = words.empty() ? std::deque<std::string>() : std::deque{words};
+    supervise({dead, done({0, 1}, 2)}).render();
+    EXPECT_EQ(starts_.size(), 2u) << ending.code << " " << words;
+  }
+}
+
+TEST_F(SupervisorOf, AHostThatReportsADeathOfAnotherIsStartedAgain) {
+  Remains lost = never_began();
+  lost.ending.code = 137;
+  lost.fault = events::Fault{"MPI_Recv failed", "host", "", {}, {}, ""};
+  supervise({lost, done({0, 1}, 2)}).render();
+  EXPECT_EQ(starts_.size(), 2u);
+}
+
+TEST_F(SupervisorOf, AJobThatDoesNotStartForAReasonIsNotStartedAgain) {
+  const std::vector<std::pair<int, std::string>> kReasons = {
+      {134, "mpirun was unable to find the specified executable file, and therefore did not launch the job."},
+      {132, "mpirun was unable to launch the specified application as it could not access or execute an executable:"},
+      {1, "There are not enough slots available in the system to satisfy the 9"},
+      {127, "ORTE was unable to reliably start one or more daemons."},
+      {1, "srun: error: n3: task 1: Exited with exit code 1"},
+      {1, "mars: film.json: line 3: has no camera"},
+      {148, "what ended with no signal"},
+      {213, "what ended with no signal"},
+  };
+  for (const auto& [code, words] : kReasons) {
+    starts_.clear();
+    Remains failed = never_began();
+    failed.ending.code = code;
+    failed.last_words = {words};
+    Supervisor supervisor = supervise({failed});
+    EXPECT_NE(document::failure_of([&] { supervisor.render(); }), "") << words;
+    EXPECT_EQ(starts_.size(), 1u) << words;
+  }
+}
+
+TEST_F(SupervisorOf, AJobThatDiesWhileItStartsEachTimeIsGivenUp) {
+  options_.restarts = 2;
+  Remains dead = never_began();
+  dead.ending.code = 137;
+  Supervisor supervisor = supervise({dead, dead, dead});
+  EXPECT_TRUE(document::holds(document::failure_of([&] { supervisor.render(); }),
+                              "the host or a node was killed by signal 9 (Killed); gave up after 2 restarts"));
 }
 
 TEST_F(SupervisorOf, AJobThatDiesIsStartedAgainWithWhatIsMissing) {
@@ -186,8 +268,30 @@ TEST_F(SupervisorOf, TheHostMovesWhereItsMachineIsGone) {
 }
 
 TEST_F(SupervisorOf, AFolderThatTheNextHostDoesNotSeeIsNamed) {
+  machines_ = {{"n1", 2}, {"n2", 2}};
+  answering_ = {"n2"};
   supervise({killed(0, {}, {0}, 3), done({0, 1, 2}, 3)}).render();
   EXPECT_TRUE(document::holds(printed_, "only 0 of 1 frames are there still: do all machines see the folder out?"));
+}
+
+TEST_F(SupervisorOf, FramesThatAreGoneThoughTheHostStaysAreNoMatterOfMachines) {
+  supervise({killed(0, {}, {0}, 3), done({0, 1, 2}, 3)}).render();
+  EXPECT_TRUE(document::holds(printed_,
+                              "only 0 of 1 frames are there still: others were removed from out, or it has another "
+                              "film now\n"));
+}
+
+TEST_F(SupervisorOf, OnceAJobHasEnteredTheFolderOthersTakeTheFilmThere) {
+  Remains killed_early = never_began();
+  killed_early.ending = {0, 9};
+  Remains entered = killed_early;
+  entered.run = "run-1";
+  supervise({killed_early, entered, killed(1, {}, {0}, 3), done({1, 2}, 3, 1)}).render();
+  ASSERT_EQ(starts_.size(), 4u);
+  EXPECT_FALSE(starts_[0].kept_film);
+  EXPECT_FALSE(starts_[1].kept_film) << "the folder may have another film yet";
+  EXPECT_TRUE(starts_[2].kept_film);
+  EXPECT_TRUE(starts_[3].kept_film);
 }
 
 TEST_F(SupervisorOf, OnlyTheFirstJobOverwrites) {

@@ -1,0 +1,34 @@
+// What a job left: the host's events, how its process ended, and its last words on standard error.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/child/child.h"
+#include "host/render/events/events.h"
+
+namespace mars::launch {
+
+struct Remains {
+  std::string run;  // the host's in the folder, if it came so far; "": it had none
+  std::optional<events::Resumed> resumed;
+  std::optional<events::Booted> booted;  // once all nodes were there
+  std::vector<std::uint32_t> taken;      // frames, as they came
+  std::optional<events::Drawing> drawing;
+  std::optional<events::Fault> fault;
+  std::optional<events::Done> done;
+  std::string ended_for;  // why we ended it: what it did not say or do; "": we did not
+  child::Ending ending;
+  int passed_on = 0;                   // the signal with which the person stopped it; 0: none
+  std::deque<std::string> last_words;  // lines of standard error, the last ones
+  events::Progress progress;
+  std::string program;  // that was started
+
+  // All its frames are where they belong, though it may have had to be ended.
+  bool well() const { return done && (ending.well() || !ended_for.empty()); }
+};
+
+}  // namespace mars::launch
