@@ -1,9 +1,12 @@
 #include "host/experiments/calibrate.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cstring>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <iomanip>
 #include <map>
@@ -14,6 +17,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/child/child.h"
+#include "host/content/document/text.h"
 #include "host/content/document/whole_file.h"
 #include "host/experiments/calibration_films.h"
 #include "host/experiments/fit.h"
@@ -96,7 +100,8 @@ class Measuring {
     for (const Phase& phase : kNodePhases) fit(phase, frames());
     fit(kHostPhase, runs());
     set_file_costs();
-    calibration_.spread = spread();
+    busyness_.spread = spread();
+    calibration_.doubt = doubt_of(busyness_);
     return std::move(calibration_);
   }
 
@@ -184,6 +189,7 @@ class Measuring {
   std::map<std::string, std::vector<double>> file_seconds_;
   double file_pixels_ = 0;
   int done_ = 0;
+  Busyness busyness_ = busyness();  // before it begins: its own renderings are no others
   Calibration calibration_;
 };
 
@@ -218,6 +224,22 @@ double wire_rate(double rate, double copy_rate) {
 
 }  // namespace
 
+Busyness busyness() {
+  Busyness now;
+  getloadavg(&now.load, 1);  // stays 0 where it is not known
+  now.processors = std::max(1, static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN)));
+  return now;
+}
+
+std::string doubt_of(const Busyness& busyness) {
+  constexpr double kMostSpread = 0.2;
+  if (busyness.load > busyness.processors)
+    return document::formatted("%.1f programs wanted to run at a time on ", busyness.load) +
+           document::counted(static_cast<std::uint64_t>(busyness.processors), "processor");
+  if (busyness.spread <= kMostSpread) return "";
+  return document::formatted("repeats took %.0f %% longer than the shortest", 100 * busyness.spread);
+}
+
 Calibration calibrate(const CalibrationTask& task) {
   Calibration calibration = Measuring(task).run();
   calibration.copy_rate = copy_rate();
@@ -230,7 +252,7 @@ std::string platform_text(const Calibration& calibration, const MessageCosts& me
   nlohmann::ordered_json work;
   for (std::size_t kind = 0; kind < calibration.work.size(); ++kind)
     work[std::string(wire::kWorkNames[kind])] = rounded(calibration.work[kind]);
-  const nlohmann::ordered_json platform = {
+  nlohmann::ordered_json platform = {
       {"name", machine.name},
       {"about", machine.about},
       {"computers", {{"nodes", kAllNodes}, {"processors", machine.processors}, {"memory", machine.memory}}},
@@ -243,6 +265,7 @@ std::string platform_text(const Calibration& calibration, const MessageCosts& me
         {"send", rounded(messages.end)},
         {"receive", rounded(messages.end)}}},
       {"work", work}};
+  if (!calibration.doubt.empty()) platform["doubt"] = calibration.doubt;
   return platform.dump(2) + "\n";
 }
 

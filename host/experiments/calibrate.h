@@ -30,12 +30,20 @@ struct PhaseFit {
 struct Calibration {
   std::vector<double> work;  // by kind (node/wire/work.h), seconds a unit
   std::vector<PhaseFit> phases;
-  double spread = 0;  // how far repeats differ from the least, in the middle; 0.1: by a tenth
   double copy_rate = 0;
+  std::string doubt;  // why it cannot be trusted; "": it can
 };
 
-// A machine whose repeats differ by more is too busy to be measured.
-inline constexpr double kMostSpread = 0.2;
+struct Busyness {
+  double load = 0;     // programs that want to run at a time, in the last minute
+  int processors = 1;  // of the whole machine
+  double spread = 0;   // how far repeats of a rendering differ from the least, in the middle; 0.1: by a tenth
+};
+
+// Of the machine, now.
+Busyness busyness();
+// Why what is measured meanwhile cannot be trusted; "" where it can be.
+std::string doubt_of(const Busyness& busyness);
 
 // Throws Failure where a rendering fails.
 Calibration calibrate(const CalibrationTask& task);

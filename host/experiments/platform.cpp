@@ -20,7 +20,7 @@ using document::Keys;
 using std::string_view;
 
 constexpr string_view kHere = "here";
-constexpr string_view kPlatformNames[] = {"name", "about", "computers", "host", "network", "work"};
+constexpr string_view kPlatformNames[] = {"name", "about", "doubt", "computers", "host", "network", "work"};
 constexpr string_view kComputerNames[] = {"nodes", "processors", "memory"};
 constexpr string_view kHostNames[] = {"apart", "processors", "memory", "files"};
 constexpr string_view kNetworkNames[] = {"topology",  "latency",    "hop",           "rate",        "uplink",
@@ -135,6 +135,7 @@ Platform read(const document::Element& root, const fs::path& folder) {
   Platform platform;
   platform.name = document::read_text(fields.required("name"));
   platform.about = fields.text("about", "");
+  platform.doubt = fields.text("doubt", "");
   const Fields computers(fields.required("computers"), kComputerKeys);
   platform.memory = static_cast<std::uint64_t>(computers.number("memory", 1 << 30, {1 << 20, 1e15}));
   platform.machine.nodes = static_cast<int>(computers.count("nodes", 1, 1, kMany));
@@ -162,7 +163,21 @@ Platform read_platform(const std::string& name, const fs::path& folder) {
   Platform platform = read_one(name.substr(0, colon), folder);
   const Platform costs = read_one(name.substr(colon + 1), folder);
   platform.name += ":" + costs.name;
+  platform.doubt = costs.doubt;
   platform.machine.work = costs.machine.work;
+  return platform;
+}
+
+std::string doubt_text(const Platform& platform) {
+  if (platform.doubt.empty()) return "";
+  return "platform " + platform.name + " was measured on a machine that was too busy: " + platform.doubt +
+         " (run mars calibrate when nothing else runs)";
+}
+
+Platform like_here(const std::string& name, const fs::path& folder, int processors) {
+  Platform platform = read_platform(name, folder);
+  platform.machine.nodes = platform.machine.processors = processors;
+  platform.machine.host_apart = false;
   return platform;
 }
 

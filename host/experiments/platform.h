@@ -15,6 +15,7 @@ namespace mars::experiments {
 struct Platform {
   std::string name;
   std::string about;              // what it is, and where its numbers come from
+  std::string doubt;              // why its costs cannot be trusted; "": they can
   std::uint64_t memory = 0;       // bytes that a node may use for its frames
   std::uint64_t host_memory = 0;  // bytes that the host may use
   bool charges_files = false;     // of frames that go nowhere too
@@ -27,6 +28,12 @@ struct Platform {
 // `name`: a file, or the name of one in `folder` without its ending, or two of these, A:B: A with B's costs of work.
 // Throws Failure.
 Platform read_platform(const std::string& name, const std::filesystem::path& folder);
+
+// That its costs cannot be trusted, and why; "" where they can.
+std::string doubt_text(const Platform& platform);
+
+// Machines like this one, which has so many processors, with a node on each of them and the costs of platform `name`.
+Platform like_here(const std::string& name, const std::filesystem::path& folder, int processors);
 
 // Beside `self`, a program of MARS.
 std::filesystem::path platforms_folder(const std::filesystem::path& self);

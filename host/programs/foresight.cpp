@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include "hal/failure/failure.h"
 #include "host/child/programs.h"
 #include "host/experiments/forecast/forecast.h"
 #include "host/programs/node_counter.h"
+#include "host/render/farm/rough_work.h"
 #include "host/render/serve/server.h"
 #include "host/shell/job/render_job.h"
 #include "topology/machine.h"
@@ -37,19 +39,23 @@ session::Foresight foresee(const session::RenderJob& job, const experiments::Pla
   return {best.groups, best.contributors, events::Course(std::move(best.run.frames))};
 }
 
-// Machines like this one, each with as many nodes as processors.
 experiments::Platform like_here(const std::string& name) {
-  experiments::Platform platform = experiments::read_platform(name, experiments::platforms_folder(child::own_file()));
-  platform.machine.nodes = platform.machine.processors = topology::Machine::here().processors();
-  platform.machine.host_apart = false;
-  return platform;
+  return experiments::like_here(name, experiments::platforms_folder(child::own_file()),
+                                topology::Machine::here().processors());
+}
+
+// What mars calibrate measured; none where nothing was, or where that cannot be trusted.
+std::optional<experiments::Platform> calibrated_here() {
+  if (!std::filesystem::exists(experiments::calibrated_platform())) return std::nullopt;
+  experiments::Platform platform = like_here("here");
+  return platform.doubt.empty() ? std::optional(std::move(platform)) : std::nullopt;
 }
 
 // Of a rendering on this machine, and perhaps on others: then it is not known how these are joined.
 session::Foresight foresee_here(const session::RenderJob& job, const wire::FilmView& film,
                                 const farm::PlanRequest& request, int nodes) {
-  const bool calibrated = std::filesystem::exists(experiments::calibrated_platform());
-  const experiments::Platform platform = like_here(calibrated ? "here" : "reference");
+  const std::optional<experiments::Platform> calibrated = calibrated_here();
+  const experiments::Platform platform = calibrated ? *calibrated : like_here("reference");
   farm::PlanRequest known = request;
   const std::size_t tasks = farm::make_tasks(film, request.frames, request.coherence).size();
   const bool chooses = calibrated && nodes <= platform.machine.processors;
@@ -62,17 +68,10 @@ session::Foresight foresee_here(const session::RenderJob& job, const wire::FilmV
 
 // Seconds that nodes work, very roughly.
 double rough_seconds(const wire::FilmView& film, const std::vector<farm::Task>& tasks) {
-  constexpr double kPatch = 1e-5, kSample = 2e-9;
-  const wire::FilmSettings& settings = film.settings();
-  const double samples = static_cast<double>(settings.width) * settings.height * settings.samples;
   double seconds = 0;
   for (const farm::Task& task : tasks) {
-    double moving = 0;
-    for (const std::uint32_t segment : film.moving(film.intervals()[task.interval]))
-      moving += static_cast<double>(film.shapes()[film.segments()[segment].shape].size());
-    const auto frames = static_cast<double>(task.frames.size());
-    seconds += static_cast<double>(film.patch_instances()) * kPatch + (frames - 1) * moving * kPatch +
-               frames * samples * kSample;
+    const farm::RoughWork work = farm::rough_work(film, film.intervals()[task.interval]);
+    seconds += work.keyframe + static_cast<double>(task.frames.size() - 1) * work.inbetween;
   }
   return seconds;
 }
@@ -81,7 +80,9 @@ double rough_seconds(const wire::FilmView& film, const std::vector<farm::Task>& 
 
 void foresee_on(const experiments::Platform& platform, session::RenderJob& job) {
   job.foresee = [platform, job](const wire::FilmView& film, const farm::PlanRequest& request, int nodes) {
-    return foresee(job, platform, film, request, nodes);
+    session::Foresight foresight = foresee(job, platform, film, request, nodes);
+    foresight.warning = experiments::doubt_text(platform);
+    return foresight;
   };
 }
 

@@ -12,7 +12,8 @@ namespace mars::programs {
 // On simulated machines.
 void foresee_on(const experiments::Platform& platform, session::RenderJob& job);
 
-// Renders on this machine, as its host. What is foreseen follows from what mars calibrate measured; else from what work
+// Renders on this machine, as its host. What is foreseen follows from what mars calibrate measured on a machine
+// that was not too busy; else from what work
 // costs on a typical machine, and groups are not chosen by that. Nothing is foreseen of renderings that soon end. Or
 // serves a studio, where the options say so.
 void render_here(const options::RenderOptions& options, const std::string& backend);

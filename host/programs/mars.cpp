@@ -95,7 +95,7 @@ int run(int argc, char** argv) {
   commands::add_folder_commands(app, code);
   commands::add_compile(app);
   commands::add_info(app);
-  commands::add_plan(app, make_node_counter);
+  commands::add_plan(app, make_node_counter, measure_messages);
   commands::add_verify(app, code);
   commands::add_import(app);
   commands::add_preview(app, [](const film::CompiledFilm& film) { return std::make_unique<SurfaceFrames>(film); });
@@ -120,7 +120,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace mars::programs;
-  mars::child::open_standard_streams();
+  mars::child::prepare_standard_streams();
   std::signal(SIGXFSZ, SIG_IGN);  // beyond ulimit -f a write fails then, and MARS says so
   try {
     return mars::launch::exit_code(run(argc, argv));

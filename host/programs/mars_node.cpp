@@ -5,11 +5,13 @@
 
 #include "hal/failure/explain.h"
 #include "hal/mpi/start.h"
+#include "host/child/standard_streams.h"
 #include "host/programs/node_job.h"
 #include "host/shell/options/command_line.h"
 
 int main(int argc, char** argv) try {
   using namespace mars;
+  child::prepare_standard_streams();
   CLI::App app("A node of a rendering: mpirun -n 1 mars-host FILM -o DIR : -n 4 mars-node", "mars-node");
   if (const auto code = options::read_command_line(app, argc, argv)) return *code;
   return mpi::run_mpi(argc, argv, mpi::Role::node, [](int, char**) {

@@ -12,6 +12,7 @@
 #include "hal/messages/settings.h"
 #include "hal/processes/job.h"
 #include "host/child/exec.h"
+#include "host/child/standard_streams.h"
 #include "host/content/document/text.h"
 #include "host/shell/nx/run.h"
 #include "host/shell/options/command_line.h"
@@ -145,6 +146,7 @@ int run_command(int argc, char** argv) {
 }  // namespace mars::programs
 
 int main(int argc, char** argv) {
+  mars::child::prepare_standard_streams();
   try {
     return mars::programs::run_command(argc, argv);
   } catch (const std::exception& failure) {

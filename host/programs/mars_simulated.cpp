@@ -68,7 +68,7 @@ void spare_memory() {
 int main(int argc, char** argv) {
   using namespace mars;
   programs::spare_memory();
-  child::open_standard_streams();
+  child::prepare_standard_streams();
   constexpr const char* kPurpose =
       "Host and nodes on simulated machines: mars-simulated FILM --sink none --nodes 64 --platform fat-tree";
   options::RenderOptions options;

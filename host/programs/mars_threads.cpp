@@ -13,7 +13,7 @@
 
 int main(int argc, char** argv) {
   using namespace mars;
-  child::open_standard_streams();
+  child::prepare_standard_streams();
   constexpr const char* kPurpose = "Host and nodes in one process: mars-threads FILM -o DIR --nodes 4";
   options::RenderOptions options;
   if (const auto code =
@@ -21,7 +21,9 @@ int main(int argc, char** argv) {
     return *code;
   }
   try {
-    if (options.nodes == 0) options.nodes = static_cast<std::uint32_t>(topology::Machine::here().processors());
+    const topology::Machine machine = topology::Machine::here();
+    if (options.nodes == 0) options.nodes = static_cast<std::uint32_t>(machine.processors());
+    options::check_nodes(options, static_cast<std::uint32_t>(machine.cores()));
     programs::check_memory_limit(options.nodes);
     threads::run_threads(
         static_cast<int>(options.nodes), [&] { programs::render_here(options, "threads"); },

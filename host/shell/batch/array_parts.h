@@ -7,11 +7,18 @@
 
 #include "host/content/film/frame_set.h"
 #include "host/render/farm/plan.h"
+#include "host/render/farm/rough_work.h"
 
 namespace mars::batch {
 
-// At most `count` parts of about as many frames each. No interval is in two parts: each task of `tasks` (make_tasks)
-// goes to one, so that no keyframe is drawn twice.
-std::vector<film::FrameSet> array_parts(std::span<const farm::Task> tasks, std::size_t count);
+struct ArrayParts {
+  std::vector<film::FrameSet> frames;
+  double more_work = 0;  // of all parts, as a share of what one job would do: keyframes within intervals
+};
+
+// At most `count` parts of about equal work, `works[i]` for frames of `tasks[i]` (make_tasks). They are cut where
+// intervals begin if the longest then takes at most a tenth longer than it must. A part that begins within an interval
+// draws a keyframe of its own there.
+ArrayParts array_parts(std::span<const farm::Task> tasks, std::span<const farm::RoughWork> works, std::size_t count);
 
 }  // namespace mars::batch

@@ -25,22 +25,29 @@ bool replaces(const BatchJob& job, const std::string& line) {
   return std::ranges::any_of(job.options, [&](const auto& option) { return option.first == option_in(line); });
 }
 
+std::vector<std::string> quoted_words(const std::vector<std::string>& words) {
+  std::vector<std::string> quoted;
+  std::ranges::transform(words, std::back_inserter(quoted), document::shell_word);
+  return quoted;
+}
+
 std::string options_text(const BatchJob& job) {
   std::string text;
   for (const auto& [name, value] : job.options) text += std::string(kOption) + name + "=" + value + "\n";
   if (job.parts.size() > 1) text += std::string(kOption) + "array=0-" + std::to_string(job.parts.size() - 1) + "\n";
+  if (!job.sbatch.empty())
+    text += "# mars submit calls sbatch with: " + document::joined(quoted_words(job.sbatch), " ") + "\n";
   return text;
 }
 
 // What the script would be called with.
 std::string words_text(const BatchJob& job) {
-  std::vector<std::string> words;
-  std::ranges::transform(job.words, std::back_inserter(words), document::shell_word);
+  std::vector<std::string> words = quoted_words(job.words);
   std::string text = "PATH=" + document::shell_word(job.programs.string()) + ":$PATH\n";
   if (job.parts.size() > 1) {
     std::vector<std::string> parts;
     for (const film::FrameSet& part : job.parts) parts.push_back(part.text());
-    text += "# Of each task of the array, cut where intervals begin.\nframes=(" + document::joined(parts, " ") + ")\n";
+    text += "# Of each task of the array.\nframes=(" + document::joined(parts, " ") + ")\n";
     words.insert(words.end(), {"--frames", "\"${frames[SLURM_ARRAY_TASK_ID]}\""});
   } else if (job.parts.size() == 1) {
     words.insert(words.end(), {"--frames", job.parts.front().text()});

@@ -14,6 +14,7 @@ namespace mars::batch {
 struct BatchJob {
   // sbatch's options by their long names, which replace the script's own: {"nodes", "4"}.
   std::vector<std::pair<std::string, std::string>> options;
+  std::vector<std::string> sbatch;    // more words for sbatch, in the form a person gave them; the script names them
   std::vector<std::string> words;     // of mars render, without frames
   std::vector<film::FrameSet> parts;  // for each task of an array; one: no array; none: the words say which frames
   std::filesystem::path programs;     // the folder where mars is

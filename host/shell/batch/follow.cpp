@@ -9,7 +9,9 @@
 #include <thread>
 
 #include "hal/failure/failure.h"
+#include "host/child/standard_streams.h"
 #include "host/content/document/text.h"
+#include "host/content/document/text_lines.h"
 #include "host/shell/batch/folder_state.h"
 #include "host/shell/batch/remembered_jobs.h"
 
@@ -33,9 +35,10 @@ std::size_t columns() {
 
 // Writes over the lines of the last time.
 void rewrite(const Lines& before, const Lines& now) {
-  if (!before.empty()) std::cout << "\x1b[" << before.size() << "A\r\x1b[J";
-  for (const std::string& line : now) std::cout << line.substr(0, columns()) << '\n';
-  std::cout << std::flush;
+  std::ostream& out = child::raw_output();
+  if (!before.empty()) out << "\x1b[" << before.size() << "A\r\x1b[J";
+  for (const std::string& line : now) out << document::cut_to(line, columns()) << '\n';
+  out << std::flush;
 }
 
 void print_new(const Lines& before, const Lines& now) {

@@ -82,8 +82,13 @@ QueuedJob queued_job_of(const std::string& line) {
 
 void check_slurm() { path_of("sbatch"); }
 
-std::string submit_job(const std::filesystem::path& script, const std::string& output) {
-  const Answer answer = ask("sbatch", {"--parsable", "--output=" + output, script.string()});
+// What a person says comes last, so it counts.
+std::string submit_job(const std::filesystem::path& script, const std::string& output,
+                       const std::vector<std::string>& more) {
+  std::vector<std::string> words{"--parsable", "--output=" + output};
+  words.insert(words.end(), more.begin(), more.end());
+  words.push_back(script.string());
+  const Answer answer = ask("sbatch", words);
   if (!answer.ending.well() || answer.lines.empty()) refuse("sbatch", answer);
   const std::string& line = answer.lines.back();  // "12", or "12;cluster"
   const std::string number = line.substr(0, line.find(';'));

@@ -30,8 +30,9 @@ QueuedJob queued_job_of(const std::string& line);
 
 // Throws where there is no Slurm on this machine.
 void check_slurm();
-// Returns the job's number. `output` is sbatch's pattern.
-std::string submit_job(const std::filesystem::path& script, const std::string& output);
+// Returns the job's number. `output` is sbatch's pattern; `more` are a person's options for sbatch.
+std::string submit_job(const std::filesystem::path& script, const std::string& output,
+                       const std::vector<std::string>& more);
 // Of these jobs, those that have not ended.
 std::vector<QueuedJob> queued_jobs(const std::vector<std::string>& numbers);
 void cancel_jobs(const std::vector<std::string>& numbers);

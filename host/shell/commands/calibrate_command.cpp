@@ -6,14 +6,17 @@
 #include <array>
 #include <cerrno>
 #include <ctime>
+#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
 
+#include "hal/failure/explain.h"
 #include "hal/failure/failure.h"
 #include "host/child/environment.h"
 #include "host/child/programs.h"
+#include "host/child/standard_streams.h"
 #include "host/content/document/whole_file.h"
 #include "host/experiments/calibrate.h"
 #include "host/experiments/platform.h"
@@ -73,27 +76,75 @@ experiments::CalibratedMachine this_machine(const fs::path& file) {
 }
 
 void show_progress(int done, int all) {
-  if (isatty(STDERR_FILENO)) std::cerr << "\rmeasuring: " << 100 * done / all << " %" << (done == all ? "\n" : "");
+  if (isatty(STDERR_FILENO))
+    child::raw_error() << "\rmeasuring: " << 100 * done / all << " %" << (done == all ? "\n" : "");
 }
 
-void calibrate(const Words& words, const MeasureMessages& measure_messages) {
-  const fs::path file = words.file.empty() ? experiments::calibrated_platform() : fs::path(words.file);
-  if (words.file.empty()) fs::create_directories(file.parent_path());
-  document::check_can_write(file);
+// Where what --platform here names is written, in a folder that is there.
+fs::path file_of_here() {
+  const fs::path file = experiments::calibrated_platform();
+  if (file.is_relative())
+    throw Failure("there is no folder of yours to keep a calibration in", "", "set HOME, or give a file with -o");
+  fs::create_directories(file.parent_path());
+  return file;
+}
+
+struct Measured {
+  experiments::Calibration calibration;
+  experiments::MessageCosts messages;
+};
+
+Measured measure(int repeats, const MeasureMessages& measure_messages) {
   const auto over_mpi = launch::mpi_message_costs(child::own_file());
   const experiments::MessageCosts messages = over_mpi ? *over_mpi : measure_messages();
   const WorkFolder folder;
-  const experiments::Calibration calibration =
-      experiments::calibrate({renderer(), folder.path(), words.repeats, show_progress});
-  std::cout << experiments::table_text(calibration);
-  if (calibration.spread > experiments::kMostSpread)
-    std::cout << "\nThe machine was too busy: repeats took " << static_cast<int>(100 * calibration.spread)
-              << " % longer than the shortest. Calibrate again when nothing else runs.\n";
-  document::write_whole_file(file, experiments::platform_text(calibration, messages, this_machine(file)));
+  return {experiments::calibrate({renderer(), folder.path(), repeats, show_progress}), messages};
+}
+
+void write(const fs::path& file, const Measured& measured) {
+  document::write_whole_file(file,
+                             experiments::platform_text(measured.calibration, measured.messages, this_machine(file)));
+}
+
+void calibrate(const Words& words, const MeasureMessages& measure_messages) {
+  const fs::path file = words.file.empty() ? file_of_here() : fs::path(words.file);
+  document::check_can_write(file);
+  const Measured measured = measure(words.repeats, measure_messages);
+  std::cout << experiments::table_text(measured.calibration);
+  if (const std::string& doubt = measured.calibration.doubt; !doubt.empty())
+    std::cout << "\nThe machine was too busy: " << doubt << ". Calibrate again when nothing else runs.\n";
+  write(file, measured);
   std::cout << "\nwritten to " << file.string() << '\n';
 }
 
+// Fewer repeats than mars calibrate has: a person waits for something else.
+constexpr int kFewRepeats = 3;
+
+// Why it cannot; "": it has.
+std::string calibrate_unasked(const MeasureMessages& measure_messages) try {
+  const fs::path file = file_of_here();
+  document::check_can_write(file);
+  if (const std::string busy = experiments::doubt_of(experiments::busyness()); !busy.empty()) return busy;
+  std::cerr << "mars: this machine is not calibrated: it is measured now, for some 10 seconds\n";
+  const Measured measured = measure(kFewRepeats, measure_messages);
+  if (!measured.calibration.doubt.empty()) return measured.calibration.doubt;
+  write(file, measured);
+  std::cerr << "mars: kept in " << file.string() << "; mars calibrate measures again\n";
+  return "";
+} catch (const std::exception& failure) {
+  return reason_of(failure);
+}
+
 }  // namespace
+
+bool calibrate_if_need_be(const MeasureMessages& measure_messages) {
+  if (fs::exists(experiments::calibrated_platform())) return true;
+  const std::string trouble = calibrate_unasked(measure_messages);
+  if (!trouble.empty())
+    std::cerr << "mars: warning: this machine is not calibrated, and cannot be now: " << trouble
+              << "; costs are those of the reference machine (run mars calibrate when nothing else runs)\n";
+  return trouble.empty();
+}
 
 void add_calibrate(CLI::App& app, const MeasureMessages& measure_messages) {
   const auto words = std::make_shared<Words>();

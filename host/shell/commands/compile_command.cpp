@@ -1,10 +1,12 @@
 #include "host/shell/commands/compile_command.h"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
 
+#include "hal/failure/failure.h"
 #include "host/content/document/whole_file.h"
 #include "host/content/film/film_file.h"
 #include "host/shell/job/film_of.h"
@@ -20,6 +22,8 @@ struct Words {
 
 void compile(const Words& words) {
   document::refuse_same_file(words.options.film, words.output);
+  if (std::filesystem::path(words.output).extension() == ".json")
+    throw Failure("has the name of a film or model as people write it", words.output, "name it like film.mars");
   const auto warn = [](const std::string& line) { std::cerr << "mars: warning: " << line << '\n'; };
   film::save_film(job::load_film_of(words.options, warn), words.output);
 }

@@ -3,10 +3,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "host/child/programs.h"
@@ -45,12 +47,29 @@ struct Planned {
   }
 };
 
-Planned plan(const options::RenderOptions& options, const forecast::MakeCounter& make_counter) {
-  const film::CompiledFilm film =
-      job::load_film_of(options, [](const std::string& line) { std::cerr << "mars: warning: " << line << '\n'; });
+void warn(const std::string& line) { std::cerr << "mars: warning: " << line << '\n'; }
+
+// Machines that would render: this one, which is calibrated first, unless the options name others.
+experiments::Platform platform_of(const options::RenderOptions& options, const MeasureMessages& measure_messages) {
+  constexpr std::string_view kHere = "here", kReference = "reference";
+  const std::filesystem::path folder = experiments::platforms_folder(child::own_file());
+  std::string name = options.platform.empty() ? std::string(kHere) : options.platform;
+  const bool costs_of_here = name == kHere || name.ends_with(":here");
+  if (costs_of_here && !calibrate_if_need_be(measure_messages)) {
+    if (name == kHere)
+      return experiments::like_here(std::string(kReference), folder, topology::Machine::here().processors());
+    name.replace(name.size() - kHere.size(), kHere.size(), kReference);
+  }
+  experiments::Platform platform = experiments::read_platform(name, folder);
+  if (!platform.doubt.empty()) warn(experiments::doubt_text(platform));
+  return platform;
+}
+
+Planned plan(const options::RenderOptions& options, const forecast::MakeCounter& make_counter,
+             const MeasureMessages& measure_messages) {
+  const film::CompiledFilm film = job::load_film_of(options, warn);
   const wire::FilmView view = film.view();
-  const experiments::Platform platform = experiments::read_platform(
-      options.platform.empty() ? "here" : options.platform, experiments::platforms_folder(child::own_file()));
+  const experiments::Platform platform = platform_of(options, measure_messages);
   const auto frames = options.frames.of_film(view.settings().frames);
   const std::vector<farm::Task> tasks = farm::make_tasks(view, frames, !options.no_coherence);
   const forecast::FilmCounts counts = forecast::count_film(view, tasks, *make_counter(view), {kCounting});
@@ -115,13 +134,13 @@ std::string json_text(const Planned& planned) {
 
 }  // namespace
 
-void add_plan(CLI::App& app, const forecast::MakeCounter& make_counter) {
+void add_plan(CLI::App& app, const forecast::MakeCounter& make_counter, const MeasureMessages& measure_messages) {
   const auto words = std::make_shared<Words>();
   CLI::App* command = app.add_subcommand("plan", "Forecast a rendering's time, memory and bytes");
   options::add_render_options(*command, words->options, options::Program::plan);
   command->add_flag("--json", words->json, "Print one JSON object, for programs. Example: --json");
-  command->callback([words, make_counter] {
-    const Planned planned = plan(words->options, make_counter);
+  command->callback([words, make_counter, measure_messages] {
+    const Planned planned = plan(words->options, make_counter, measure_messages);
     std::cout << (words->json ? json_text(planned) : text_of(planned));
   });
 }

@@ -1,6 +1,7 @@
 #include "host/shell/commands/submit_command.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -10,10 +11,11 @@
 
 #include "hal/failure/failure.h"
 #include "host/child/programs.h"
-#include "host/content/document/checksum.h"
+#include "host/content/document/shell_line.h"
 #include "host/content/document/text.h"
 #include "host/render/farm/plan.h"
-#include "host/render/sinks/frame_folder.h"
+#include "host/render/farm/rough_work.h"
+#include "host/render/resume/resume.h"
 #include "host/shell/batch/array_parts.h"
 #include "host/shell/batch/batch_script.h"
 #include "host/shell/batch/remembered_jobs.h"
@@ -29,13 +31,15 @@ namespace fs = std::filesystem;
 constexpr std::uint32_t kMostMachines = 1 << 16;
 constexpr std::uint32_t kMostTasks = 1 << 20;
 constexpr std::uint32_t kMostParts = 1000;  // Slurm's MaxArraySize is 1001 by default
+constexpr double kWorthSaying = 0.005;      // of more work
 
 struct Words {
   options::RenderOptions render;
   std::uint32_t machines = 0;  // 0, "": as the script says
   std::uint32_t tasks = 0;
   std::string time, partition;
-  std::uint32_t parts = 1;  // of an array
+  std::uint32_t parts = 1;          // of an array
+  std::vector<std::string> sbatch;  // each a text of one or several words
   bool print = false;
 };
 
@@ -43,6 +47,17 @@ struct Words {
 std::string one_word(const std::string& text) {
   const bool plain = !text.empty() && text.find_first_of(" \t\n\r#'\"\\") == std::string::npos;
   return plain ? "" : "'" + text + "' is not one word";
+}
+
+// In the script they are a comment, which a line's end would end.
+std::string words_on_a_line(const std::string& text) {
+  if (text.find_first_of("\n\r") != std::string::npos) return "more than one line";
+  try {
+    document::shell_words(text);
+  } catch (const Failure& failure) {
+    return failure.what();
+  }
+  return "";
 }
 
 void add_job_options(CLI::App& command, Words& words) {
@@ -69,71 +84,113 @@ void add_job_options(CLI::App& command, Words& words) {
       ->check(one_word);
   command
       .add_option("--array", words.parts,
-                  "Jobs side by side, each with the machines and tasks above; the film is cut among them where "
-                  "intervals begin. Example: --array 10")
+                  "Jobs side by side, each with the machines and tasks above and about as much of the film's work. "
+                  "Example: --array 10")
       ->type_name("N")
       ->check(CLI::Range(std::uint32_t{1}, kMostParts).description(""));
+  command
+      .add_option(
+          "--sbatch", words.sbatch,
+          "More options for sbatch, quoted as one word of the shell; they win over those above, the script's "
+          "and the environment's. May be given several times. Example: --sbatch \"--account=physics --qos=long\"")
+      ->type_name("WORDS")
+      ->type_size(1)
+      ->allow_extra_args(false)
+      ->check(words_on_a_line);
   command.add_flag("--print", words.print, "Print the batch script; submit nothing. Example: --print");
 }
 
-// What would be refused when the job begins, perhaps tomorrow.
-void refuse_other_film(const options::RenderOptions& render, const film::CompiledFilm& film) {
-  if (!fs::exists(fs::path(render.folder) / "frames.json")) return;
-  const sinks::Manifest there = sinks::read_manifest(render.folder);
-  if (there.film != render.film && there.checksum != document::checksum_of(film.block()))
-    throw Failure("has frames of another film, " + there.film, render.folder, "give another folder with -o");
+void warn(const std::string& line) { std::cerr << "mars: warning: " << line << '\n'; }
+
+// What is wrong with the film shows now, not when the job begins. Where the job is submitted, the film lies in the
+// folder from then on, for every start of the job to take, whatever becomes of the film's files.
+film::CompiledFilm film_of(const Words& words) {
+  const options::RenderOptions& render = words.render;
+  const auto compile = [&] { return job::load_film_of(render, warn); };
+  const resume::Wish wish{.folder = render.folder,
+                          .film = render.film,
+                          .options = options::film_arguments(render),
+                          .format = render.format,
+                          .frames = render.frames,
+                          .overwrite = render.overwrite,
+                          .kept_film = render.kept_film,
+                          .renders = false};
+  if (words.print) return resume::film_for(wish, compile);
+  resume::Opened opened = resume::open(wish, compile, {.warn = warn});
+  if (!opened.changed.empty()) std::cout << opened.changed << '\n';
+  return std::move(opened.film);
 }
 
-// More than one: without the option --frames.
-std::vector<film::FrameSet> parts_of(const Words& words, const film::CompiledFilm& film) {
+// More than one frame set: without the option --frames.
+batch::ArrayParts parts_of(const Words& words, const film::CompiledFilm& film) {
   if (words.parts == 1) return {};
   const wire::FilmView view = film.view();
   const std::vector<std::uint32_t> frames = words.render.frames.of_film(view.settings().frames);
-  std::vector<film::FrameSet> parts =
-      batch::array_parts(farm::make_tasks(view, frames, !words.render.no_coherence), words.parts);
-  if (parts.size() < words.parts)
-    std::cerr << "mars: warning: the film has too few intervals for " << words.parts
-              << " jobs: " << document::counted(parts.size(), "job") << '\n';
+  const std::vector<farm::Task> tasks = farm::make_tasks(view, frames, !words.render.no_coherence);
+  std::vector<farm::RoughWork> works;
+  for (const farm::Task& task : tasks) works.push_back(farm::rough_work(view, view.intervals()[task.interval]));
+  batch::ArrayParts parts = batch::array_parts(tasks, works, words.parts);
+  if (parts.frames.size() < words.parts)
+    warn(document::counted(parts.frames.size(), "job") + " instead of " + std::to_string(words.parts) +
+         ": with so few frames more would not be faster");
   return parts;
 }
 
+// More words for sbatch.
+std::vector<std::string> sbatch_words(const Words& words) {
+  std::vector<std::string> all;
+  for (const std::string& text : words.sbatch)
+    for (std::string& word : document::shell_words(text)) all.push_back(std::move(word));
+  return all;
+}
+
 batch::BatchJob job_of(const Words& words, std::vector<film::FrameSet> parts, const fs::path& self) {
-  batch::BatchJob job{{}, {}, std::move(parts), self.parent_path()};
+  batch::BatchJob job{{}, sbatch_words(words), {}, std::move(parts), self.parent_path()};
   if (words.machines != 0) job.options.emplace_back("nodes", std::to_string(words.machines));
   if (words.tasks != 0) job.options.emplace_back("ntasks", std::to_string(words.tasks));
   if (!words.time.empty()) job.options.emplace_back("time", words.time);
   if (!words.partition.empty()) job.options.emplace_back("partition", words.partition);
   options::RenderOptions render = words.render;
+  render.kept_film = true;
+  render.overwrite = false;  // what was there before is gone by then
   if (!job.parts.empty()) render.frames = film::FrameSet();
   job.words = options::arguments_for(options::Program::submit, render);
   return job;
 }
 
+// "3 tasks, with 12 % more work than one job's"
+std::string array_text(const batch::ArrayParts& parts) {
+  const std::string tasks = document::counted(parts.frames.size(), "task");
+  if (parts.more_work < kWorthSaying) return tasks;
+  return tasks + document::formatted(", with %.0f %% more work than one job's", 100 * parts.more_work);
+}
+
 void submit(const Words& words) {
   const fs::path self = child::own_file();
-  const options::RenderOptions& render = words.render;
   if (!words.print) batch::check_slurm();
-  // Also what is wrong with the film shows now, not when the job begins.
-  const film::CompiledFilm film =
-      job::load_film_of(render, [](const std::string& line) { std::cerr << "mars: warning: " << line << '\n'; });
-  refuse_other_film(render, film);
-  const batch::BatchJob job = job_of(words, parts_of(words, film), self);
+  const batch::ArrayParts parts = parts_of(words, film_of(words));
+  const batch::BatchJob job = job_of(words, parts.frames, self);
   const std::string script = batch::batch_script(batch::script_template(self), job);
   if (words.print) {
     std::cout << script;
     return;
   }
-  const batch::RememberedJobs jobs(render.folder);
+  const batch::RememberedJobs jobs(words.render.folder);
   const bool array = job.parts.size() > 1;
-  const std::string number = batch::submit_job(jobs.write_script(script), jobs.output_pattern(array));
+  const std::string number = batch::submit_job(jobs.write_script(script), jobs.output_pattern(array), job.sbatch);
   jobs.add(number);
-  std::cout << "job " << number << (array ? ", " + document::counted(job.parts.size(), "task") : "")
-            << "; follow it with: mars watch " << options::word_of_file(render.folder) << '\n';
+  std::cout << "job " << number << (array ? ", " + array_text(parts) : "") << "; follow it with: mars watch "
+            << options::word_of_file(words.render.folder) << '\n';
 }
 
 void check_words(const Words& words) {
   if (words.parts > 1 && (!words.render.report.empty() || !words.render.trace.empty()))
     throw CLI::ValidationError("--array", "its jobs cannot share one file: leave out --report and --trace");
+  const auto makes_array = [](const std::string& word) { return word.starts_with("--ar") || word.starts_with("-a"); };
+  if (words.parts == 1 && std::ranges::any_of(sbatch_words(words), makes_array))
+    throw CLI::ValidationError("--sbatch",
+                               "each job of an array would render all frames: add --array N of mars submit, "
+                               "which cuts the film among them");
 }
 
 }  // namespace
@@ -144,8 +201,9 @@ void add_submit(CLI::App& app) {
   options::add_render_options(*command, words->render, options::Program::submit);
   add_job_options(*command, *words);
   command->footer(
-      "What sbatch reads from the environment counts too: SBATCH_ACCOUNT, SBATCH_QOS,\n"
-      "SBATCH_EXCLUSIVE and others.\n");
+      "The compiled film lies in DIR when the job is queued. Each start of the job\n"
+      "renders it, whatever has become of FILM. What sbatch reads from the environment\n"
+      "counts too: SBATCH_ACCOUNT, SBATCH_QOS, SBATCH_EXCLUSIVE and others.\n");
   command->callback([words] {
     check_words(*words);
     submit(*words);

@@ -33,6 +33,10 @@ film::FrameSet frames_of(const sinks::Verdict& verdict) {
   return film::FrameSet(frames);
 }
 
+void print_line(const std::string& line) {
+  if (!line.empty()) std::cout << line << std::endl;
+}
+
 // Exit code 0 in any case; prints nothing if no frame is missing.
 void print_missing(const sinks::Verdict& verdict) {
   if (!verdict.troubles.empty()) std::cout << frames_of(verdict).text() << '\n';
@@ -59,8 +63,12 @@ void repair(const sinks::Verdict& verdict, options::RenderOptions render) {
   if (!resume::keeps_its_film(folder))
     throw Failure("has no film.mars of its frames, from which they can be rendered again", folder,
                   "render them with: mars render FILM -o DIR --overwrite --frames " + render.frames.text());
+  const sinks::Manifest manifest = sinks::read_manifest(folder);
+  if (manifest.pixel_version != wire::kPixelVersion)
+    throw Failure("its frames were rendered by a MARS that draws other pixels, which this one would mix with its own",
+                  folder, "render all with: mars render FILM -o DIR --overwrite");
   render.film = std::filesystem::path(folder) / sinks::kFilmName;
-  render.format = sinks::read_manifest(folder).format;
+  render.format = manifest.format;
   sinks::remove_wrong_files(folder, verdict);
   if (!render.quiet)
     std::cout << verdict.troubles.size() << " of " << verdict.expected << " frames are missing or wrong" << std::endl;
@@ -79,12 +87,14 @@ void add_verify(CLI::App& app, int& code) {
       "Print only the missing or wrong frames, in the form of --frames; nothing if there are none. Example: --missing");
   CLI::Option* repairs = command->add_flag(
       "--repair", words->repair,
-      "Remove wrong frames and render what is missing, from DIR/film.mars; then check again. Example: --repair");
+      "Make frames.json again if it is lost or damaged; remove wrong frames and render what is missing, from "
+      "DIR/film.mars; then check again. Example: --repair");
   repairs->excludes(missing);
   const std::size_t own = command->get_options().size();
   options::add_render_options(*command, words->render, options::Program::repair);
   for (std::size_t i = own; i < command->get_options().size(); ++i) command->get_options()[i]->needs(repairs);
   command->callback([words, &code] {
+    if (words->repair) print_line(sinks::repair_manifest(words->render.folder));
     sinks::Verdict verdict = sinks::verify_folder(words->render.folder);
     if (words->missing) return print_missing(verdict);
     if (words->repair && !verdict.troubles.empty()) {

@@ -26,6 +26,7 @@ session::RenderJob job_of(const options::RenderOptions& options, const std::stri
   job.load_film = [options](const auto& warn) { return load_film_of(options, warn); };
   job.film_options = options::film_arguments(options);
   job.overwrite = options.overwrite;
+  job.kept_film = options.kept_film;
   job.folder = options.sink == options::SinkKind::files ? options.folder : "";
   job.format = options.format;
   job.frames = options.frames;

@@ -140,10 +140,16 @@ std::vector<std::string> options_of(const CLI::App& app) {
   return names;
 }
 
-// What is wrong with the first word that the command it was given to does not know, and what could be meant.
+// The command, `app` or one within it, that was given a word that it does not know; null where none was.
+const CLI::App* given_too_much(const CLI::App& app) {
+  if (app.remaining_size() > 0) return &app;
+  for (const CLI::App* command : app.get_subcommands())
+    if (const CLI::App* found = given_too_much(*command)) return found;
+  return nullptr;
+}
+
+// What is wrong with the first word that the command does not know, and what could be meant.
 std::string misfit(const CLI::App& command) {
-  const std::vector<CLI::App*> given = command.get_subcommands();
-  if (command.remaining().empty() && !given.empty()) return misfit(*given.front());
   const std::string word = command.remaining().front();
   const std::string name = word.substr(0, word.find('='));
   const bool option = word.starts_with('-');
@@ -170,21 +176,46 @@ std::string written_form(const CLI::App& app, const CLI::ArgumentMismatch& error
   return name + ": write " + option->get_type_name() + ", as in " + help.substr(example + std::strlen("Example: "));
 }
 
+// "-o=out" would mean a file "=out".
+void refuse_signs(CLI::Option& option) {
+  if (option.get_snames().empty() || option.get_type_size() == 0) return;
+  const auto refusal = [name = option.get_snames().front()](const std::string& text) {
+    return text.starts_with('=') ? "'" + text + "' begins with = (write -" + name + " " + text.substr(1) + ")" : "";
+  };
+  option.check(refusal, "");
+}
+
 // Commands may be within commands: `mars model show`.
 void prepare(CLI::App& command, const std::shared_ptr<Help>& help) {
   command.formatter(help);
   command.get_help_ptr()->description("Print this help. Example: --help");
-  if (!commands_in(command).empty()) command.require_subcommand(0, 1);
+  for (CLI::Option* each : command.get_options()) refuse_signs(*each);
   for (CLI::App* each : command.get_subcommands({})) prepare(*each, help);
+}
+
+// Of those within a command one at most is given: the name of another one is a word like any other.
+void allow_one_command(CLI::App& command) {
+  if (!commands_in(command).empty()) command.require_subcommand(0, 1);
+  for (CLI::App* each : command.get_subcommands({})) allow_one_command(*each);
+}
+
+// Where a command stands in the place of what comes before it; "" elsewhere.
+std::string swapped(const CLI::App& app) {
+  const CLI::App* command = named_too_early(innermost(app));
+  return command == nullptr ? "" : "'" + command->get_name() + "' comes later: write " + typed(*command);
 }
 
 // In a line.
 std::string explained(const CLI::App& app, const CLI::ParseError& error) {
+  if (const std::string order = swapped(app); !order.empty()) return order;
   // An unknown word is reported first: what is missing may be what it was meant for.
   const bool misfits = dynamic_cast<const CLI::ExtrasError*>(&error) || dynamic_cast<const CLI::RequiredError*>(&error);
-  if (misfits && app.remaining_size(true) > 0) return misfit(app);
+  if (misfits)
+    if (const CLI::App* command = given_too_much(app)) return misfit(*command);
   if (const auto* mismatch = dynamic_cast<const CLI::ArgumentMismatch*>(&error))
     if (const std::string form = written_form(app, *mismatch); !form.empty()) return form;
+  if (const std::string text = error.what(); text.find(": At Most 1 required") != std::string::npos)
+    return text.substr(0, text.find(':')) + " is given more than once";
   return error.what();
 }
 
@@ -198,6 +229,7 @@ bool unfinished(const CLI::App& app) {
 
 std::optional<int> read_command_line(CLI::App& app, int argc, const char* const* argv) {
   prepare(app, std::make_shared<Help>());
+  allow_one_command(app);
   if (argc == 2 && std::string_view(argv[1]) == "--list-options") {
     std::cout << option_list(app);
     return 0;
@@ -218,6 +250,7 @@ void read_words(CLI::App& app, const std::vector<std::string>& words) {
   const auto refuse = [&](const std::string& problem) {
     throw Failure(problem, "'" + document::joined(words, " ") + "'", "`mars --help` shows what there is");
   };
+  allow_one_command(app);
   try {
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // it takes them from the end
   } catch (const CLI::Success&) {

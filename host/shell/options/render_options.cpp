@@ -4,11 +4,15 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cctype>
+#include <filesystem>
 #include <functional>
+#include <span>
 #include <string_view>
 #include <utility>
 
 #include "hal/failure/failure.h"
+#include "host/content/document/shell_word.h"
 #include "host/content/document/text.h"
 #include "host/shell/options/command_line.h"
 #include "node/wire/film.h"
@@ -182,6 +186,7 @@ std::vector<Entry> table() {
   constexpr unsigned compiles = plans | bit(Program::compile);
   constexpr unsigned counts_nodes = bit(Program::mars) | bit(Program::threads) | bit(Program::simulated) |
                                     bit(Program::plan) | bit(Program::repair) | bit(Program::studio);
+  constexpr unsigned forces = counts_nodes & ~(bit(Program::simulated) | bit(Program::plan));
   constexpr unsigned serves = bit(Program::host) | bit(Program::threads);
   constexpr unsigned simulates = bit(Program::mars) | bit(Program::simulated);
   constexpr unsigned person = bit(Program::mars);
@@ -194,11 +199,17 @@ std::vector<Entry> table() {
       film(serves, false),
       option(submits, "-o,--output", "DIR", &RenderOptions::folder,
              "Folder for the frames; created if it is missing. Example: -o build/demo"),
-      flag(all, "--overwrite", &RenderOptions::overwrite,
+      flag(submits, "--overwrite", &RenderOptions::overwrite,
            "Render all frames, also those that the folder has already, of whichever film. Example: --overwrite"),
+      flag(
+          submits, "--kept-film", &RenderOptions::kept_film,
+          "Render the compiled film that DIR keeps, film.mars, whatever has become of FILM; FILM where DIR keeps none. "
+          "Example: --kept-film"),
       number(counts_nodes, "--nodes", {&RenderOptions::nodes, false, many},
              "Nodes that render; default: one per processor, or the slots of the batch job or hostfile less one "
              "for the host. Example: --nodes 4"),
+      flag(forces, "--force", &RenderOptions::force,
+           "Start more than 64 nodes a core all the same. Example: --nodes 1000 --force"),
       option(starts, "--backend", "auto|mpi|threads|simulated", &RenderOptions::backend,
              "MPI processes, or threads of one process; auto uses MPI where it is installed; simulated: nodes of "
              "--platform, whose times are counted, not measured. Example: --backend threads"),
@@ -209,7 +220,7 @@ std::vector<Entry> table() {
              "Machines that --backend simulated simulates: ipsc2, fat-tree, dragonfly, ethernet, here (mars "
              "calibrate), or a file; default: fat-tree. Example: --platform fat-tree:here"),
       option(bit(Program::plan), "--platform", "here|NAME|FILE", &RenderOptions::platform,
-             "Machines that would render: here, as mars calibrate measured them, which is the default; ipsc2, "
+             "Machines that would render: here, this one as mars calibrate measured it, which is the default; ipsc2, "
              "fat-tree, dragonfly, ethernet; or a file. Example: --platform fat-tree"),
       option(starts | draws, "--hostfile", "FILE", &RenderOptions::hostfile,
              "Machines to use, one per line as for mpirun: n1 slots=4. Example: --hostfile hosts"),
@@ -224,9 +235,10 @@ std::vector<Entry> table() {
           plans, "--mapping", "greedy|optimal|cost", &RenderOptions::mapping,
           "How scanlines are divided among nodes: by edge boxes with the thesis's heuristic, exactly by edge boxes, or "
           "exactly by edge boxes and the samples that they cover; default: cost. Example: --mapping greedy"),
-      option(compiles, "--intervals", "auto|keyframes", &RenderOptions::intervals,
-             "Where render intervals are cut: where it saves work, or at the animator's keyframes. "
-             "Example: --intervals keyframes"),
+      option(
+          compiles, "--intervals", "auto|keyframes", &RenderOptions::intervals,
+          "Where render intervals are cut: where it saves work, or at the animator's keyframes. With several samples a "
+          "pixel, a few pixels differ between the two by a few levels. Example: --intervals keyframes"),
       flag(plans, "--no-coherence", &RenderOptions::no_coherence,
            "Render every frame from scratch: same pictures, slower. Example: --no-coherence"),
       number(submits, "--block", {&RenderOptions::block, false, wire::kMaxSide},
@@ -270,6 +282,32 @@ void refuse_former_names(CLI::App& app) {
   }
 }
 
+bool ends_in(const std::filesystem::path& name, std::span<const std::string_view> endings) {
+  std::string ending = name.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return std::ranges::find(endings, ending) != endings.end();
+}
+
+// Who names a video or a picture expects that file, and would find a folder of this name.
+void refuse_name_of_file(const RenderOptions& options) {
+  constexpr auto kVideos =
+      std::to_array<std::string_view>({".mp4", ".m4v", ".mkv", ".mov", ".webm", ".avi", ".mpg", ".gif"});
+  constexpr auto kPictures = std::to_array<std::string_view>(
+      {".png", ".exr", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp", ".ppm", ".tga", ".webp"});
+  const std::filesystem::path name = options.folder;
+  const bool video = ends_in(name, kVideos);
+  if ((!video && !ends_in(name, kPictures)) || std::filesystem::is_directory(name)) return;
+  const std::string folder = std::filesystem::path(name).replace_extension().string();
+  const std::string frames = folder + "/frame-*" + images::facts_of(options.format).ending;
+  const char* const pixels = name.extension() == ".gif" ? " " : " -pix_fmt yuv420p ";
+  const std::string ffmpeg = "ffmpeg -framerate 24 -pattern_type glob -i " + document::shell_word(frames) + pixels +
+                             document::shell_word(options.folder);
+  const std::string remedy =
+      "give -o " + document::shell_word(folder) + (name.extension() == ".exr" ? " --format exr" : "");
+  throw Failure(document::in_quotes(options.folder) + " would be a folder: frames are files of their own", "",
+                video ? remedy + ", then make the video: " + ffmpeg : remedy);
+}
+
 // Checks that concern several options.
 void check_together(const RenderOptions& options, Program program) {
   if (options.serve.empty() == options.film.empty() && program != Program::repair && program != Program::studio) {
@@ -282,6 +320,7 @@ void check_together(const RenderOptions& options, Program program) {
     throw Failure("no folder to put the frames in", "",
                   measures ? "add -o DIR, or --sink none to measure only" : "add -o DIR");
   }
+  refuse_name_of_file(options);
   if (options.backend == Backend::simulated && program == Program::studio)
     throw Failure("simulated nodes draw nothing that can be seen", "", "leave out --backend simulated");
   if (!options.hostfile.empty() && options.backend == Backend::threads) {
@@ -300,6 +339,15 @@ void check_together(const RenderOptions& options, Program program) {
 }
 
 }  // namespace
+
+void check_nodes(const RenderOptions& options, std::uint32_t cores) {
+  constexpr std::uint64_t kACore = 64;
+  const std::uint64_t most = kACore * cores;
+  if (options.nodes <= most || options.force || options.backend == Backend::simulated) return;
+  throw Failure(document::counted(options.nodes, "node") + " are more than " + std::to_string(kACore) +
+                    " for each of " + document::counted(cores, "core"),
+                "--nodes", "use up to " + std::to_string(most) + ", or add --force");
+}
 
 std::string word_of_file(const std::string& name) { return name.starts_with('-') || name == ":" ? "./" + name : name; }
 

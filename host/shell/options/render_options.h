@@ -32,6 +32,7 @@ struct RenderOptions {
   std::uint32_t nodes = 0;  // 0: as many as the machine has processors for
   Backend backend = Backend::automatic;
   std::string platform;  // name or file of the simulated machines
+  bool force = false;    // also with very many nodes a core (check_nodes)
   std::string hostfile;  // Open MPI's, of the machines to use; "": this one, or the batch system's
   film::FrameSet frames;
   std::optional<images::PictureSize> size;  // none: the film's own
@@ -42,6 +43,7 @@ struct RenderOptions {
   std::uint32_t block = 16;   // side of the compositor's blocks, pixels
   std::uint32_t groups = 0;   // intervals rendered at a time; 0: chosen by the plan
   bool overwrite = false;     // render frames that the folder has already, too
+  bool kept_film = false;     // the folder's film.mars, whatever has become of `film`; that where there is none
   SinkKind sink = SinkKind::files;
   images::PictureFormat format = images::PictureFormat::png;  // of the files
   std::string report;                                         // file for the measurements; "": none
@@ -77,6 +79,10 @@ void add_render_options(CLI::App& app, RenderOptions& options, Program program);
 // read_command_line.
 std::optional<int> read_render_options(Program program, const char* name, const char* purpose, RenderOptions& options,
                                        int argc, const char* const* argv);
+
+// Throws Failure where so many nodes on machines of so many cores are likely to be a slip: they ask for --force. Not
+// for simulated nodes, which take turns.
+void check_nodes(const RenderOptions& options, std::uint32_t cores);
 
 // A file's name as a word of a command line: one that begins with a dash would be taken for an option, and mpirun takes
 // a colon for the end of a program's arguments.

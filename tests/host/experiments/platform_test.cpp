@@ -108,5 +108,30 @@ TEST_F(Platforms, AreWhatACalibrationWrites) {
   EXPECT_NEAR(named.machine.network.local_byte + 2 * named.machine.network.copy_byte, 1 / 2e9, 1e-12);
 }
 
+TEST_F(Platforms, OfABusyMachineAreDoubted) {
+  EXPECT_EQ(doubt_of({1.9, 2, 0.2}), "");
+  EXPECT_EQ(doubt_of({9, 2, 0}), "9.0 programs wanted to run at a time on 2 processors");
+  EXPECT_EQ(doubt_of({0.5, 2, 0.34}), "repeats took 34 % longer than the shortest");
+  EXPECT_GT(busyness().processors, 0);
+  Calibration calibration;
+  calibration.work.assign(wire::kWorkNames.size(), 1e-9);
+  calibration.copy_rate = 1e10;
+  calibration.doubt = "repeats took long";
+  document::write_whole_file(folder_ / "busy.json",
+                             platform_text(calibration, {1e-6, 2e9, 3e-7}, {"busy", "made up", 6, 1 << 30}));
+  add("small", R"({"pixel": 2e-9})");
+  EXPECT_EQ(doubt_text(read("small")), "");
+  EXPECT_EQ(read("busy:small").doubt, "") << "doubtful are costs of work";
+  EXPECT_TRUE(holds(doubt_text(read("small:busy")), "small:busy was measured on a machine that was too busy: repeats"));
+}
+
+TEST_F(Platforms, LikeThisMachineHaveItsProcessors) {
+  add("small", R"({"pixel": 2e-9})");
+  const Platform platform = like_here("small", folder_.path(), 12);
+  EXPECT_EQ(platform.machine.nodes, 12);
+  EXPECT_EQ(platform.host_processors(), 12);
+  EXPECT_DOUBLE_EQ(cost(platform, wire::Work::pixel), 2e-9);
+}
+
 }  // namespace
 }  // namespace mars::experiments

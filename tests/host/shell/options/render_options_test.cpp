@@ -6,6 +6,7 @@
 
 #include "host/shell/options/command_line.h"
 #include "tests/host/content/document/failure_of.h"
+#include "tests/host/render/sinks/temporary_folder.h"
 
 namespace mars::options {
 namespace {
@@ -50,6 +51,8 @@ RenderOptions unusual() {
   options.block = 5;
   options.groups = 3;
   options.overwrite = true;
+  options.force = true;
+  options.kept_film = true;
   options.sink = SinkKind::none;
   options.format = images::PictureFormat::exr;
   options.report = "report.json";
@@ -80,6 +83,7 @@ TEST(RenderOptions, EveryProgramGetsWhatConcernsIt) {
     RenderOptions expected = unusual();
     const bool starts_nodes = program == Program::mars || program == Program::threads;
     if (!starts_nodes) expected.nodes = 0;
+    if (!starts_nodes) expected.force = false;
     if (program != Program::mars) expected.backend = Backend::automatic;
     if (program != Program::mars) expected.quiet = false;
     const Reading reading = read(program, arguments_for(program, unusual()));
@@ -194,6 +198,41 @@ TEST(RenderOptions, FramesNeedAFolderOrNoSink) {
     EXPECT_EQ(read(program, {"film.json", "--sink", "none"}).code, std::nullopt);
   }
   EXPECT_EQ(read(Program::compile, {"film.json"}).code, std::nullopt);
+}
+
+TEST(RenderOptions, VeryManyNodesOfACoreAskForForce) {
+  RenderOptions options;
+  const auto failure = [&] { return document::failure_of([&] { check_nodes(options, 2); }); };
+  options.nodes = 128;
+  EXPECT_EQ(failure(), "");
+  options.nodes = 100000;
+  EXPECT_EQ(failure(), "--nodes: 100000 nodes are more than 64 for each of 2 cores (use up to 128, or add --force)");
+  options.force = true;
+  EXPECT_EQ(failure(), "");
+  options.force = false;
+  options.backend = Backend::simulated;
+  EXPECT_EQ(failure(), "") << "they take turns";
+}
+
+TEST(RenderOptions, FoldersHaveNoNamesOfVideosAndPictures) {
+  const auto refusal = [](const Words& words) {
+    const Reading reading = read(Program::mars, words);
+    return reading.code == kUsage ? reading.printed : "";
+  };
+  EXPECT_TRUE(document::holds(refusal({"film.json", "-o", "out/my film.mp4"}),
+                              "give -o 'out/my film', then make the video: ffmpeg -framerate 24 -pattern_type glob -i "
+                              "'out/my film/frame-*.png' -pix_fmt yuv420p 'out/my film.mp4'"));
+  EXPECT_TRUE(document::holds(refusal({"film.json", "-o", "x.GIF", "--format", "exr"}), "x/frame-*.exr"));
+  for (const char* name : {"x.mkv", "x.mov", "x.webm", "x.avi", "x.png", "x.exr", "x.jpg"})
+    EXPECT_TRUE(document::holds(refusal({"film.json", "-o", name}), "frames are files of their own (give -o x"))
+        << name;
+  const sinks::TemporaryFolder folder;
+  const std::string there = folder / "x.mp4";
+  EXPECT_NE(refusal({"film.json", "-o", there}), "");
+  std::filesystem::create_directory(there);
+  EXPECT_EQ(refusal({"film.json", "-o", there}), "") << "a folder of this name may be gone on with";
+  for (const char* name : {"x", "x.mp4/", "mp4", ".png", "x.d", "scene.1"})
+    EXPECT_EQ(refusal({"film.json", "-o", name}), "") << name;
 }
 
 }  // namespace
