@@ -23,6 +23,7 @@ class Jobs(ClusterTest):
         first, last = actor["keys"]
         actor["keys"] = [dict(first, frame=0), dict(last, frame=40), dict(first, frame=80), dict(last, frame=120)]
         self.film = self.write("film.json", film)
+        self.text = self.film.read_text()
         self.intervals = ["--intervals", "keyframes"]
 
     def crawl(self, host):
@@ -34,10 +35,12 @@ class Jobs(ClusterTest):
         testbed("slow", host, "full")
 
     def submit(self, folder, *options, machines=2, **environment):
-        """The number of the job."""
+        """The number of the job, whose film's file is half saved from then on."""
+        self.film.write_text(self.text)
         settings = [f"{name}={value}" for name, value in environment.items()]
         done = self.on("n0", "env", *settings, "mars", "submit", self.film, "-o", folder, *self.intervals,
                        "--nodes", machines, "--tasks", 2 * machines, *options)
+        self.film.write_text(self.text[:100])
         job = done.stdout.split()[1].strip(",;")
         self.addCleanup(testbed, "exec", "n0", "scancel", job)
         return job
@@ -63,6 +66,7 @@ class Jobs(ClusterTest):
 
     def pixels(self):
         if not (self.folder / "alone").exists():
+            self.film.write_text(self.text)
             self.succeed("mars", "render", self.film, "-o", "alone", *self.intervals, "--backend", "threads",
                          "--nodes", 1, "--quiet")
         return self.verified_hash("alone")
@@ -100,7 +104,7 @@ class Jobs(ClusterTest):
             self.full_speed(host)
         self.assertCompletes("out")
         script = (self.folder / "out/.slurm/job.sbatch").read_text()
-        self.assertIn("frames=(0-39 40-119)", script)
+        self.assertIn("frames=(0-59 60-119)", script)
         self.assertEqual(self.facts(f"{job}_0")["Restarts"], "0")
 
     def test_cancel(self):

@@ -87,6 +87,38 @@ class Animate(ProgramTest):
         self.succeed("mars", "render", "new.json", "-o", "out", "--backend", "threads", "--nodes", 1, "--quiet")
         self.assertIn("Usage: mars film FILM light add", self.succeed("mars", "film", "light", "add", "--help"))
 
+    def test_model_files_are_named_as_the_shell_names_them(self):
+        (self.folder / "films").mkdir()
+        (self.folder / "models").mkdir()
+        self.succeed("mars", "model", "new", "models/pip.json", "hip", "--shape", "box", "--material", "clay",
+                     "--color", 1, 1, 1)
+        self.succeed("mars", "film", "films/play.json", "new", "frames=1")
+        self.succeed("mars", "film", "films/play.json", "add", "pip", "--model", "models/pip.json")
+        self.succeed("mars", "film", "play.json", "add", "pip2", "--model", "../models/pip.json",
+                     cwd=self.folder / "films")
+        film = json.loads((self.folder / "films/play.json").read_text())
+        self.assertEqual(film["models"], {"pip": "../models/pip.json"})
+        absolute = self.folder / "models/pip.json"
+        self.succeed("mars", "film", "films/play.json", "add", "pip3", "--model", absolute)
+        self.assertIn("actors      3", self.succeed("mars", "info", "films/play.json"))
+        # Through a link, whose ".." is not the film's.
+        (self.folder / "deep").mkdir()
+        (self.folder / "deep/linked").symlink_to(self.folder / "films")
+        self.succeed("mars", "film", "deep/linked/other.json", "new", "frames=1")
+        self.succeed("mars", "film", "deep/linked/other.json", "add", "pip", "--model", "models/pip.json")
+        self.succeed("mars", "info", "films/other.json")
+
+    def test_a_model_file_beside_the_film_is_pointed_at(self):
+        (self.folder / "films").mkdir()
+        self.succeed("mars", "model", "new", "films/pip.json", "hip", "--shape", "box", "--material", "clay",
+                     "--color", 1, 1, 1)
+        self.succeed("mars", "film", "films/play.json", "new", "frames=1")
+        self.fail_clearly(1, "film", "films/play.json", "add", "pip", "--model", "pip.json",
+                          says="pip.json: there is no such model file (beside the film there is one: "
+                               "name it films/pip.json)")
+        self.fail_clearly(1, "film", "films/play.json", "add", "pip", "--model", "none.json",
+                          says="none.json: there is no such model file (check its name)")
+
     def test_limits(self):
         printed = self.refused("pose", "robot", "elbow.y=170", "--frame", 24)
         self.assertIn("actor 'robot', joint 'elbow': turns 170 degrees about y, outside its limits 0 to 150", printed)

@@ -7,6 +7,7 @@ import shutil
 import signal
 import struct
 import subprocess
+import sys
 
 from harness import EXAMPLES, PROGRAMS, SECONDS, SOURCES, ProgramTest, family, living, main, needs_mpi, wait_until
 
@@ -108,7 +109,7 @@ class Commands(ProgramTest):
                                "f 1 2 6 5\nf 3 4 5 6\nf 2 3 6\nf 4 1 5\nf 4 3 2 1\n")
         printed = self.succeed("mars", "import", "tent.obj", "-o", "tent.json", "--up", "z")
         self.assertEqual(printed, "tent.json: model of one joint 'tent'\n"
-                               "  box        4 x 3 x 2, the file's z upward\n"
+                               "  box        4 x 3 x 2 units, the file's z upward\n"
                                "  read       6 vertices, 5 faces\n"
                                "  not read   nothing: all of the file was read\n")
         film = {"frames": 1, "size": [64, 64], "camera": {"eye": [2, -9, 3], "at": [2, 1, 1]},
@@ -131,9 +132,13 @@ class Commands(ProgramTest):
         self.assertEqual((self.folder / "flat.json").read_text(), "mine")
         self.succeed("mars", "import", "flat.obj", "-o", "flat.json", "--force", "--scale", "2", "--crease", "22.5")
         self.assertEqual(json.loads((self.folder / "flat.json").read_text())["joints"][0]["segment"]["sbb"][1], [2, 1, 2])
-        for option, value in [("--scale", "0"), ("--scale", "nan"), ("--crease", "181"), ("--up", "w")]:
+        for option, value in [("--scale", "0"), ("--scale", "nan"), ("--crease", "181"), ("--up", "w"), ("--front", "-w"),
+                              ("--height", "0")]:
             self.fail_clearly(2, "import", "flat.obj", "-o", "other.json", option, value, says=f"'{value}' is no")
         self.succeed("mars", "import", "flat.obj", "-o", "other.json", "--up", "Z")
+        turned = ["mars", "import", "flat.obj", "-o", "turned.json", "--up", "-x", "--front", "-Y", "--height", "3"]
+        self.assertIn("3 x 0 x 3 units, the file's -x upward", self.succeed(*turned))
+        self.fail_clearly(2, *turned[1:], "--scale", "2", says="--scale excludes --height")
 
     def test_an_import_that_waits_ends_with_mars(self):
         """Its reader has so much to read that it can be stopped before its end."""
@@ -188,6 +193,26 @@ class Commands(ProgramTest):
         unknown = self.mars("bench", "pears", "--rounds", "3")
         self.assertEqual(unknown.returncode, 1)
         self.assertIn("those here: ", unknown.stderr)
+
+    def test_benchmarks_say_what_they_lack(self):
+        def run(program, *words):
+            file = self.write("program.py", program)
+            return subprocess.run([sys.executable, "-B", SOURCES / "tests/bench/run.py", file, *words],
+                                  capture_output=True, text=True, timeout=SECONDS)
+
+        self.write("selenium.py", "raise ModuleNotFoundError('No module named selenium', name='selenium')")
+        module = run("from selenium import webdriver")
+        self.assertEqual((module.returncode, module.stdout), (1, ""))
+        self.assertClear(module.stderr, "mars bench program: needs the module selenium, which")
+        self.assertIn("(Debian: apt install python3-selenium)", module.stderr)
+        program = run("import subprocess\nsubprocess.run(['chromedriver'], env={'PATH': '/nowhere'})")
+        self.assertClear(program.stderr, "needs the program chromedriver, which is not installed (Debian: apt install")
+        unbuilt = run("import subprocess\nsubprocess.run(['/nowhere/bench/x'])", "--build", "/nowhere")
+        self.assertClear(unbuilt.stderr, "needs /nowhere/bench/x, which is not built (./bootstrap bench)")
+        stopped = run("raise KeyboardInterrupt")
+        self.assertEqual((stopped.returncode, stopped.stderr.strip()), (-signal.SIGINT, ""))
+        self.assertIn("ZeroDivisionError", run("1 / 0").stderr)
+        self.assertEqual(run("import sys\nprint(sys.argv[1:])", "--build", "x").stdout, "['--build', 'x']\n")
 
     def test_a_program_by_itself_has_no_benchmarks(self):
         (self.folder / "bin").mkdir()

@@ -6,7 +6,7 @@ import resource
 import shutil
 import unittest
 
-from harness import (ENVIRONMENT, EXAMPLES, MPICH, OWN_MPIRUN, PROGRAMS, ProgramTest, main, needs_mpi,
+from harness import (ENVIRONMENT, EXAMPLES, MPICH, OWN_MPIRUN, PROGRAMS, SANITIZED, ProgramTest, main, needs_mpi,
                      spinning_teapot)
 
 TEAPOT = EXAMPLES / "teapot.json"
@@ -31,6 +31,13 @@ class CommandLine(ProgramTest):
         self.fail_clearly(2, "render", TEAPOT, says="add -o DIR, or --sink none")
         self.fail_clearly(2, "compile", TEAPOT, says="--output is required")
         self.fail_clearly(2, "paint", says="paint")
+
+    def test_words_out_of_place(self):
+        self.fail_clearly(1, "compile", TEAPOT, "-o", "film.json", says="name it like film.mars")
+        self.fail_clearly(2, "compile", TEAPOT, "-o=film.mars", says="'=film.mars' begins with = (write -o film.mars)")
+        self.fail_clearly(2, "compile", TEAPOT, "-o", "a.mars", "-o", "b.mars", says="--output is given more than once")
+        self.fail_clearly(2, "film", "new", "play.json", says="'new' comes later: write mars film FILM new")
+        self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_frames_beyond_the_film(self):
         self.fail_clearly(1, "render", TEAPOT, "-o", "out", "--frames", "20-30",
@@ -118,6 +125,7 @@ class Films(ProgramTest):
         self.assertFalse((self.folder / "model.json").exists())
 
 
+@unittest.skipIf(SANITIZED, "a sanitizer takes more addresses than any limit leaves")
 class Memory(ProgramTest):
     """Limits of a process's addresses (ulimit -v), from hardly any to nearly enough."""
 
@@ -227,7 +235,7 @@ class Starting(ProgramTest):
                              ("exit 0", "mpirun ended before all frames were there"),
                              ("kill -SEGV $$", "mpirun was killed by signal 11")]:
             self.write("mpirun", "#!/bin/sh\n" + script).chmod(0o755)
-            done = self.mars("render", TEAPOT, "-o", "out", "--backend", "mpi",
+            done = self.mars("render", TEAPOT, "-o", "out", "--backend", "mpi", "--restarts", 0,
                              env=dict(ENVIRONMENT, PATH=f"{self.folder}:{ENVIRONMENT['PATH']}"))
             self.assertEqual(done.returncode, 1)
             self.assertIn(says, done.stderr)

@@ -20,9 +20,10 @@ class Folders(ProgramTest):
         self.film = self.write("film.json", spinning_teapot(LONG, [160, 90]))
         self.other = self.write("other.json", spinning_teapot(LONG, [120, 90]))
 
-    def start(self, frames):
+    def start(self, frames, backend="threads"):
         shutil.rmtree(self.out, ignore_errors=True)
-        return self.start_mars("render", self.film, "-o", "out", *SMALL, "--frames", frames)
+        return self.start_mars("render", self.film, "-o", "out", "--nodes", 1, "--backend", backend, "--quiet", "--frames",
+                               frames)
 
     def render(self, film, frames, *more):
         return self.mars("render", film, "-o", "out", *SMALL, "--frames", frames, *more)
@@ -133,6 +134,26 @@ class Folders(ProgramTest):
             self.assertEqual((self.out / name).stat().st_mtime_ns, there[name], "it was there already")
         self.assertOnlyFrames()
 
+    def test_a_manifest_that_is_spoilt_while_a_run_renders(self):
+        """Cut short, or replaced by what it may not replace: exit code 0 only with a folder that verify takes."""
+        for spoilt, code in [('{"checksum": "0123', 0), ('{"version": 99}', 1)]:
+            run = self.start("0-999", self.backends()[-1])
+            kin = family(run.pid)
+            for each in kin:
+                os.kill(each, signal.SIGSTOP)
+            self.assertTrue((self.out / ".runs").exists(), "it has ended already")
+            (self.out / "frames.json").write_text(spoilt)
+            for each in kin:
+                os.kill(each, signal.SIGCONT)
+            printed = run.communicate(timeout=SECONDS)[1]
+            self.assertEqual(run.returncode, code, printed)
+            if code != 0:
+                self.assertClear(printed, "out/frames.json: cannot be read: it has version 99 and this MARS knows")
+                continue
+            self.assertIn("mars: warning: frames.json was lost or damaged", printed)
+            self.assertIn("1000 frames, all there and whole", self.succeed("mars", "verify", "out"))
+            self.assertOnlyFrames()
+
     def test_missing_is_what_frames_takes(self):
         self.assertEqual(self.render(self.film, "0-9").returncode, 0)
         self.assertEqual(self.missing(), "")
@@ -201,6 +222,8 @@ class GoingOn(ProgramTest):
         expected, before = self.verified_hash("out"), self.times()
         for name in ["frame-0003.png", "frame-0017.png"]:
             (self.out / name).unlink()
+        (self.out / "frame-0003.png").touch()
+        os.mkfifo(self.out / "frame-0017.png")
         self.assertIn("22 of 24 frames are there already\n", self.render())
         self.assertEqual(self.verified_hash("out"), expected)
         changed = {name for name, time in self.times().items() if before[name] != time}
@@ -244,6 +267,20 @@ class GoingOn(ProgramTest):
             self.assertEqual(self.times(), before)
         self.render("--overwrite", film=other)
         self.assertIn("24 of 24", self.render(film=other))
+
+    def test_repair_of_the_manifest(self):
+        self.render()
+        expected, before = self.verified_hash("out"), self.times()
+        self.edit(background=[1, 0, 0])
+        for film_too in [False, True]:
+            (self.out / "frames.json").write_bytes((self.out / "frames.json").read_bytes()[:40])
+            if film_too:
+                (self.out / "film.mars").write_bytes(b"lost")
+            self.assertClear(self.mars("verify", "out").stderr, "(mars verify --repair out makes it again)")
+            printed = self.succeed("mars", "verify", "out", "--repair")
+            self.assertIn("made again from what runs and the frames say: 24 frames\n", printed)
+            self.assertTrue(printed.splitlines()[-1].endswith(expected), printed)
+            self.assertEqual(self.times(), before, "what is whole is not rendered")
 
     def test_repair(self):
         self.render()

@@ -23,7 +23,7 @@ class NxInstallation(ProgramTest):
             subprocess.run(["cmake", "--install", harness.PROGRAMS.parent, "--component", part,
                             "--prefix", work / "first", "--strip"], check=True, capture_output=True)
         cls.prefix = (work / "first").rename(work / "moved")
-        if re.search(rb"__[at]san_init", next(cls.prefix.rglob("libmars-nx.so")).read_bytes()):
+        if harness.SANITIZED:
             raise unittest.SkipTest("a sanitized library is for programs built likewise")
         cls.headers = sorted((cls.prefix / "include/mars-nx").iterdir())
 

@@ -4,7 +4,7 @@ import json
 import re
 import time
 
-from harness import EXAMPLES, ProgramTest, main
+from harness import ENVIRONMENT, EXAMPLES, SOURCES, ProgramTest, main
 
 CUBES = EXAMPLES / "cubes.json"
 
@@ -24,6 +24,39 @@ class Plans(ProgramTest):
         self.assertEqual(plan["seconds"], plan["by_nodes"][-1]["seconds"])
         self.assertLessEqual(plan["best"]["seconds"], 1.05 * min(each["seconds"] for each in plan["by_nodes"]))
         self.assertAlmostEqual(plan["node_hours"], 4 * plan["seconds"] / 3600)
+
+    def test_the_first_forecast_calibrates_or_says_why_not(self):
+        home = dict(ENVIRONMENT, HOME=str(self.folder), XDG_DATA_HOME="")
+        first = self.mars("plan", CUBES, "--json", env=home)
+        self.assertEqual(first.returncode, 0, first.stderr)
+        kept = (self.folder / ".local/share/mars/here.json").exists()
+        self.assertEqual(json.loads(first.stdout)["platform"], "here" if kept else "reference")
+        if kept:
+            self.assertIn("this machine is not calibrated: it is measured now", first.stderr)
+            self.assertEqual(self.succeed("mars", "plan", CUBES, "--json", env=home), first.stdout)
+        else:
+            self.assertIn("not calibrated, and cannot be now: ", first.stderr)
+
+    def test_without_a_place_for_a_calibration_costs_are_the_reference(self):
+        for home in ["", "/proc"]:
+            planned = self.mars("plan", CUBES, "--platform", "fat-tree:here",
+                                env=dict(ENVIRONMENT, HOME=home, XDG_DATA_HOME=""))
+            self.assertEqual(planned.returncode, 0, planned.stderr)
+            self.assertRegex(planned.stdout, "^platform    fat-tree:reference\n")
+            self.assertClear(planned.stderr, "costs are those of the reference machine (run mars calibrate")
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_what_was_measured_on_a_busy_machine_is_doubted(self):
+        platform = json.loads((SOURCES / "cluster/platforms/reference.json").read_text())
+        platform["doubt"] = "repeats took 34 % longer than the shortest"
+        file = self.write("busy.json", platform)
+        planned = self.mars("plan", CUBES, "--platform", file)
+        self.assertEqual(planned.returncode, 0, planned.stderr)
+        self.assertClear(planned.stderr, "too busy: repeats took 34 % longer than the shortest (run mars calibrate when")
+        rendered = self.mars("render", CUBES, "--sink", "none", "--backend", "simulated", "--platform", file, "--size",
+                             "16x9", "--frames", "0")
+        self.assertEqual(rendered.returncode, 0, rendered.stderr)
+        self.assertIn("too busy: repeats took 34 %", rendered.stderr)
 
     def test_it_is_the_same_every_time(self):
         plans = {self.succeed("mars", "plan", CUBES, "--nodes", 6, "--platform", "ethernet", "--json")

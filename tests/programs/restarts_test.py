@@ -1,4 +1,4 @@
-"""A rendering whose job dies goes on by itself, to the same pixels."""
+"""A rendering whose job dies goes on by itself, to the same pixels, whatever has become of the film's file meanwhile."""
 
 import os
 import shutil
@@ -7,7 +7,7 @@ import subprocess
 import time
 import unittest
 
-from harness import (ENVIRONMENT, MPICH, PROGRAMS, SECONDS, ProgramTest, family, living, main, needs_mpi,
+from harness import (ENVIRONMENT, MPICH, OWN_MPIRUN, PROGRAMS, SECONDS, ProgramTest, family, living, main, needs_mpi,
                      spinning_teapot)
 
 FRAMES = 400
@@ -18,6 +18,7 @@ class Restarts(ProgramTest):
     def setUp(self):
         super().setUp()
         self.film = self.write("film.json", spinning_teapot(FRAMES, [160, 90]))
+        self.text = self.film.read_text()
 
     def start(self, backend, *words):
         shutil.rmtree(self.folder / "out", ignore_errors=True)
@@ -33,12 +34,14 @@ class Restarts(ProgramTest):
         self.assertEqual((self.process.returncode, complaints), (0, ""), printed)
         self.assertRegex(printed, says)
         self.assertIn("starting again (1 of 5) with 3 nodes; ", printed)
+        self.assertNotRegex(printed, "has changed|still")
         self.assertIn(f"{FRAMES} frames in out", printed)
         self.assertNothingTorn(self.folder / "out")
         self.assertEqual(living(self.family), [])
         self.assertEqual(self.verified_hash("out"), self.undisturbed())
 
     def undisturbed(self):
+        self.film.write_text(self.text)
         self.succeed("mars", "render", self.film, "-o", "whole", "--backend", "threads", "--quiet")
         return self.verified_hash("whole")
 
@@ -49,19 +52,36 @@ class Restarts(ProgramTest):
         self.assertGoesOn("killed by signal 9")
 
     @needs_mpi
-    def test_after_a_killed_host(self):
+    def test_after_a_killed_host_whose_film_was_edited(self):
         self.start("mpi")
+        self.write("film.json", dict(spinning_teapot(FRAMES, [160, 90]), background=[1, 0, 0]))
         self.kill("mars-host")
         self.assertGoesOn("was killed by signal 9")
 
     @needs_mpi
-    def test_after_a_killed_mpirun(self):
+    def test_after_a_killed_mpirun_whose_film_is_half_saved(self):
         self.start("mpi")
+        self.film.write_text(self.text[:100])
         self.kill("mpi" if MPICH else "orterun")
         self.assertGoesOn("was killed by signal 9")
 
-    def test_after_killed_threads(self):
+    @needs_mpi
+    def test_after_a_death_while_it_starts(self):
+        """Of which mpirun may report nothing but 128 and the signal's number."""
+        for name in ["mpirun", "mpirun.openmpi", "mpirun.mpich"]:
+            mpirun = self.folder / name
+            mpirun.write_text(f'#!/bin/sh\nmkdir {self.folder}/died 2>/dev/null && exit 137\n'
+                              f'exec {shutil.which(OWN_MPIRUN[0])} "$@"\n')
+            mpirun.chmod(0o755)
+        film = self.write("short.json", spinning_teapot(4, [32, 18]))
+        printed = self.succeed("mars", "render", film, "-o", "out", "--nodes", 2, "--backend", "mpi",
+                               env=dict(ENVIRONMENT, PATH=f"{self.folder}:{ENVIRONMENT['PATH']}"))
+        self.assertIn("the host or a node was killed by signal 9 (Killed)\nstarting again (1 of 5) with 2 nodes", printed)
+        self.assertIn("4 frames in out", printed)
+
+    def test_after_killed_threads_whose_film_was_deleted(self):
         self.start("threads")
+        self.film.unlink()
         self.kill("mars-threads")
         self.assertGoesOn("mars-threads was killed by signal 9")
 

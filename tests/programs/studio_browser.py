@@ -1,6 +1,7 @@
 """`mars studio` and a headless Chromium whose mouse and keyboard are moved by the DevTools protocol, as a person's
 are."""
 
+import errno
 import os
 import pathlib
 import re
@@ -54,13 +55,20 @@ class Studio:
         self.end(signal.SIGTERM)
 
 
+def found(program):
+    """The program's file; an error as starting it would give where it is not installed."""
+    if file := shutil.which(program):
+        return file
+    raise FileNotFoundError(errno.ENOENT, "not installed", program)
+
+
 class Browser:
     def __init__(self, width=1280, height=720, script=None, flags=()):
         options = Options()
         for flag in [*FLAGS, *flags]:
             options.add_argument(flag)
         options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-        self.driver = webdriver.Chrome(options=options, service=Service(shutil.which("chromedriver")))
+        self.driver = webdriver.Chrome(options=options, service=Service(found("chromedriver")))
         self.command("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1,
                      mobile=False)
         if script:

@@ -48,19 +48,22 @@ class Commands(FakeSlurm):
         return self.slurm("submit", "film.json", "-o", "out", *words)
 
     def test_a_job_is_submitted_followed_and_cancelled(self):
-        told = self.submit("--nodes", 2, "--tasks", 8, "--time", "1:00:00", "--partition", "long", "--samples", 2)
+        told = self.submit("--nodes", 2, "--tasks", 8, "--time", "1:00:00", "--partition", "long", "--samples", 2,
+                           "--sbatch", "--qos=high '--comment=two words'", "--sbatch", "--time=5")
         self.assertEqual(told, "job 12; follow it with: mars watch out\n")
-        self.assertEqual(self.read("sbatch.words").split(),
-                         ["--parsable", f"--output={self.folder}/out/.slurm/%j.out", "out/.slurm/job.sbatch"])
+        self.assertEqual(self.read("sbatch.words").splitlines(),
+                         ["--parsable", f"--output={self.folder}/out/.slurm/%j.out", "--qos=high",
+                          "--comment=two words", "--time=5", "out/.slurm/job.sbatch"])
         script = self.read("submitted")
         for line in ["#SBATCH --nodes=2", "#SBATCH --ntasks=8", "#SBATCH --time=1:00:00", "#SBATCH --partition=long",
-                     "#SBATCH --requeue", "set -- film.json -o out --samples 2"]:
+                     "#SBATCH --requeue", "# mars submit calls sbatch with: --qos=high '--comment=two words' --time=5",
+                     "set -- film.json -o out --kept-film --samples 2"]:
             self.assertIn(f"\n{line}\n", script)
         self.assertEqual(self.slurm("status", "out"),
-                         "out: no frame yet\njob 12: running on n[1-4] for 0:20, 1 restart\n")
-        self.assertEqual(self.slurm("cancel", "out"), "job 12 has ended\nout: no frame yet\n")
+                         "out: 0 of 24 frames of film.json\njob 12: running on n[1-4] for 0:20, 1 restart\n")
+        self.assertEqual(self.slurm("cancel", "out"), "job 12 has ended\nout: 0 of 24 frames of film.json\n")
         self.assertEqual(self.read("scancel.words"), "12\n")
-        self.assertEqual(self.slurm("cancel", "out"), "no job is left to cancel\nout: no frame yet\n")
+        self.assertEqual(self.slurm("cancel", "out"), "no job is left to cancel\nout: 0 of 24 frames of film.json\n")
 
     def test_the_script_is_the_one_of_the_cluster_folder(self):
         printed = self.submit("--print")
@@ -69,26 +72,30 @@ class Commands(FakeSlurm):
         self.assertEqual(ours, SCRIPTS[0].read_text().splitlines())
         subprocess.run(["bash", "-n"], input=printed, text=True, check=True)
 
-    def test_an_array_is_cut_where_intervals_begin(self):
+    def test_an_array_is_cut_into_equal_work(self):
         film = spinning_teapot(24, [64, 36])
         first, last = film["actors"][0]["keys"]
         film["actors"][0]["keys"] = [dict(first, frame=0), dict(last, frame=8), dict(first, frame=16),
                                      dict(last, frame=24)]
         self.write("film.json", film)
-        told = self.submit("--array", 2, "--intervals", "keyframes")
-        self.assertIn("job 12, 2 tasks;", told)
-        self.assertIn("\nframes=(0-7 8-23)\n", self.read("submitted"))
-        self.assertIn("%A_%a.out", self.read("sbatch.words"))
-        done = self.run_program("mars", "submit", "film.json", "-o", "out", "--array", 9, "--print",
-                                env=self.environment)
-        self.assertIn("too few intervals for 9 jobs: 1 job", done.stderr)
-        self.refused(2, "submit", "film.json", "-o", "out", "--array", 2, "--report", "r", says="cannot share one file")
+        told = self.submit("--array", 3, "--intervals", "keyframes", "--sbatch", "--array=0-2%2")
+        self.assertIn("job 12, 3 tasks;", told)
+        self.assertIn("\nframes=(0-7 8-15 16-23)\n", self.read("submitted"))
+        self.assertIn("%A_%a.out\n--array=0-2%2\n", self.read("sbatch.words"))
+        submit = ["submit", "film.json", "-o", "out"]
+        done = self.run_program("mars", *submit, "--array", 9, "--print", env=self.environment)
+        self.assertIn("8 jobs instead of 9", done.stderr)
+        self.assertIn("\nframes=(0-2 3-5 6-8 9-11 12-14 15-17 18-20 21-23)\n", done.stdout)
+        self.refused(2, *submit, "--array", 2, "--report", "r", says="cannot share one file")
+        self.refused(2, *submit, "--sbatch", "--array=0-9", says="add --array N of mars submit")
 
     def test_what_cannot_be_submitted(self):
         submit = ["submit", "film.json", "-o", "out"]
         self.refused(2, "submit", "film.json", says="add -o DIR")
         self.refused(2, *submit, "--time", "1 day", says="'1 day' is not one word")
         self.refused(2, *submit, "--tasks", 1, says="--tasks")
+        self.refused(2, *submit, "--sbatch", "--comment='two words", says="the quotation mark ' is not closed")
+        self.refused(2, *submit, "--sbatch", "--qos=long\ntouch x", says="more than one line")
         self.refused(1, "submit", "none.json", "-o", "out", says="none.json")
         self.write("refusal", "sbatch: error: invalid partition specified: nix\n")
         self.refused(1, *submit, says="sbatch failed: sbatch: error: invalid partition specified: nix")
@@ -100,8 +107,14 @@ class Commands(FakeSlurm):
         render = ["render", "--backend", "threads", "--quiet", "-o", "out"]
         self.succeed("mars", *render, "film.json")
         self.submit()
-        self.write("other.json", spinning_teapot(23, [64, 36]))
-        self.refused(1, "submit", "other.json", "-o", "out", says="has frames of another film, film.json")
+        self.write("other.json", dict(spinning_teapot(23, [64, 36]), background=[1, 0, 0]))
+        for more in [[], ["--print"]]:
+            self.refused(1, "submit", "other.json", "-o", "out", *more,
+                         says="out: the frames in this folder are of another film, film.json")
+        self.assertEqual(self.slurm("submit", "other.json", "-o", "out", "--overwrite").splitlines()[-1],
+                         "job 12; follow it with: mars watch out")
+        self.assertNotIn("--overwrite", self.read("submitted"))
+        self.assertEqual(self.slurm("status", "out").splitlines()[0], "out: 0 of 23 frames of other.json")
 
     def test_a_run_without_slurm(self):
         self.refused(1, "status", "out", says="no folder of frames")
@@ -129,18 +142,56 @@ class Commands(FakeSlurm):
         self.refused(1, "cancel", "out", says="squeue failed: squeue: error: timed out")
 
 
+class Jobs(FakeSlurm):
+    """What sbatch was given, run as Slurm runs it, on a machine without MPI."""
+
+    def setUp(self):
+        super().setUp()
+        self.program("sbatch", SBATCH)
+        self.film = self.write("film.json", spinning_teapot(24, [64, 36]))
+        self.succeed("mars", "render", "film.json", "-o", "whole", "--backend", "threads", "--quiet")
+
+    def submit(self, *words):
+        return self.succeed("mars", "submit", "film.json", "-o", "out", *words, env=self.environment)
+
+    def run_job(self, **slurm):
+        environment = dict(ENVIRONMENT, PATH=f"{self.folder}/bin", SLURM_JOB_ID="12", SLURM_JOB_NUM_NODES="1",
+                           SLURM_NTASKS="2", **slurm)
+        done = subprocess.run(["/bin/bash", "submitted"], cwd=self.folder, env=environment, capture_output=True,
+                              text=True, timeout=SECONDS)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
+
+    def test_what_was_submitted_is_rendered(self):
+        self.submit()
+        whole = self.film.read_text()
+        self.film.unlink()
+        self.run_job()
+        for restarts, text in enumerate([whole.replace('"frame": 24', '"frame": 30'), whole[:100]], 1):
+            self.film.write_text(text)
+            (self.folder / "out/frame-0007.png").unlink()
+            self.run_job(SLURM_RESTART_COUNT=str(restarts))
+        self.assertEqual(self.verified_hash("out"), self.verified_hash("whole"))
+
+    def test_an_array_of_one_interval(self):
+        self.assertIn("job 12, 3 tasks", self.submit("--array", 3))
+        self.film.unlink()
+        for task in range(3):
+            self.run_job(SLURM_ARRAY_JOB_ID="10", SLURM_ARRAY_TASK_ID=str(task))
+        self.assertEqual(self.verified_hash("out"), self.verified_hash("whole"))
+
+
 class Scripts(FakeSlurm):
     """What a batch script does with its film's end and with signals."""
 
     def setUp(self):
         super().setUp()
         for name in ["mars", "mpirun"]:
-            self.program(name, "trap 'echo term >told; sleep 0.2; exit 1' TERM; touch begun\n"
+            self.program(name, "trap 'echo term >told; sleep 0.2; exit 1' TERM; echo \"$@\" >words; touch begun\n"
                          "[ -e go ] || exit $(cat code)\n"
                          "while :; do sleep 0.05; done")
         self.program("mars-host", "")
         self.program("mars-node", "")
-        self.program("srun", "case $* in *--multi-prog*) exec mars;; *--relative*) ;; *) exit $(cat machines);; esac")
+        self.program("srun", "case $* in *--multi-prog*) exec mars $(<${!#});; *--relative*) ;; *) exit $(cat machines);; esac")
         self.program("scontrol", "case $1 in show) cat job;; *) echo \"$@\" >>requeued;; esac")
         self.write("job", "JobId=12 PreemptTime=None\n")
         self.write("machines", "0")
@@ -184,6 +235,14 @@ class Scripts(FakeSlurm):
                 for code in ["0", "1", "2"]:
                     self.write("code", code)
                     self.assertEqual(self.end_of(script), (int(code), ""))
+
+    def test_a_job_that_is_queued_again_takes_the_folders_film(self):
+        self.write("code", "0")
+        for restarts in [{}, {"SLURM_RESTART_COUNT": "1"}]:
+            self.job.update(restarts)
+            for script in SCRIPTS:
+                self.end_of(script)
+                self.assertEqual("-o out --kept-film" in self.read("words"), bool(restarts), script)
 
     def test_a_lost_machine(self):
         self.write("code", "1")

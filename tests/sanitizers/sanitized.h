@@ -1,0 +1,13 @@
+// Whether this test is built with a sanitizer: for what a sanitizer makes impossible, as limits of memory, since it
+// takes terabytes of addresses when a program starts.
+#pragma once
+
+namespace mars::sanitizers {
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool kSanitized = true;
+#else
+inline constexpr bool kSanitized = false;
+#endif
+
+}  // namespace mars::sanitizers
