@@ -171,6 +171,13 @@ Part part_of(const std::filesystem::path& path) {
   return Part(path, std::move(meant), std::move(part));
 }
 
+void write_and_rename(const std::filesystem::path& path, const std::filesystem::path& part,
+                      const std::function<void(const Write&)>& produce) {
+  Part file(path, path, part);
+  produce([&file](std::string_view piece) { file.write(piece); });
+  file.rename_to_target();
+}
+
 }  // namespace
 
 void write_whole_file(const std::filesystem::path& path, std::span<const std::byte> bytes) {
@@ -195,9 +202,13 @@ void replace_file(const std::filesystem::path& path, const std::filesystem::path
 
 void replace_file(const std::filesystem::path& path, const std::filesystem::path& part,
                   const std::function<void(const Write&)>& produce) {
-  Part file(path, path, part);
-  produce([&file](std::string_view piece) { file.write(piece); });
-  file.rename_to_target();
+  try {
+    write_and_rename(path, part, produce);
+  } catch (const FileFailure& failure) {
+    std::error_code none;
+    if (failure.error != ENOENT || !std::filesystem::is_directory(part.parent_path(), none)) throw;
+    write_and_rename(path, part, produce);  // somebody who tidied up has removed the part
+  }
 }
 
 bool create_file(const std::filesystem::path& path, std::string_view text) {

@@ -26,7 +26,8 @@ using Write = std::function<void(std::string_view piece)>;
 void write_whole_file(const std::filesystem::path& path, const std::function<void(const Write&)>& produce);
 
 // For files of a folder that MARS keeps: where `path` is a link, the link itself is replaced, for nobody has asked to
-// write where it leads. `part` is the temporary file, on the same file system.
+// write where it leads. `part` is the temporary file, on the same file system; where another process removes it
+// meanwhile, it is written once more.
 void replace_file(const std::filesystem::path& path, const std::filesystem::path& part,
                   std::span<const std::byte> bytes);
 void replace_file(const std::filesystem::path& path, const std::filesystem::path& part,

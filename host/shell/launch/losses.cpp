@@ -20,6 +20,7 @@ namespace {
 constexpr int kCodeOfSignals = 128;  // and the signal's number: how shells and MPIs write it as an exit code
 constexpr int kSignals = 32;         // that have a meaning of their own
 constexpr int kCodeOfSsh = 255;      // also where a signal ended what it had started
+constexpr const char* kNoConnection = "connect() to ";
 constexpr const char* kNoDaemon = "unable to reliably start one or more daemons";
 
 // Those that end no process by themselves.
@@ -118,7 +119,7 @@ std::optional<std::string> machine_lost(const std::string& line, const std::opti
     return daemon.word();
   if (!booted) return std::nullopt;
   TextReader connection(line);
-  if (connection.find("connect() to "))
+  if (connection.find(kNoConnection))
     if (const auto address = connection.word()) return name_of(without_port(*address));
   if (line.find(kNoDaemon) != std::string::npos) return machines_of(*booted);
   return std::nullopt;
@@ -174,6 +175,16 @@ std::optional<Loss> lost_daemon(const std::string& line, const child::Ending& en
   return std::nullopt;
 }
 
+// While a job starts, a link that is down for some seconds ends it with the words of a closed port: the next start shows
+// which of both it was.
+std::optional<Loss> lost_connection(const std::string& line) {
+  if (line.find(kNoDaemon) != std::string::npos) return std::nullopt;
+  for (const char* words : {kNoConnection, "unable to complete a TCP connection"})
+    if (line.find(words) != std::string::npos)
+      if (const auto meaning = meaning_of(line)) return Loss{*meaning};
+  return std::nullopt;
+}
+
 // What Open MPI cannot start has an exit code of its own, from 129 on too.
 bool never_started(const std::string& words) {
   for (const char* way : {"find", "launch", "start"})
@@ -186,7 +197,8 @@ std::optional<Loss> loss_in_words(const Remains& remains, const std::string& wor
   if (auto loss = lost_process(words)) return loss;
   if (auto loss = lost_machine(words, remains.booted)) return loss;
   if (auto loss = lost_task(words)) return loss;
-  return lost_daemon(words, remains.ending);
+  if (auto loss = lost_daemon(words, remains.ending)) return loss;
+  return lost_connection(words);
 }
 
 // Open MPI has no words for a process that dies while others still start.

@@ -69,6 +69,7 @@ constexpr std::array kTable = {
     MpiWords{"lost communication with a remote daemon", "a machine was lost",
              "check whether it still runs; the same command goes on"},
     MpiWords{"unable to complete a TCP connection", "two machines cannot reach each other", kOpenPorts},
+    MpiWords{"connect() to ", "two machines cannot reach each other", kOpenPorts},
     MpiWords{"Read -1, expected", "the system forbids processes to copy from each other's memory",
              "export OMPI_MCA_btl_vader_single_copy_mechanism=none, or give the container "
              "--cap-add=SYS_PTRACE"},

@@ -124,6 +124,21 @@ TEST(WholeFile, InAFolderOfOursALinkIsReplaced) {
   EXPECT_EQ(folder.entries(), 2u);
 }
 
+TEST(WholeFile, APartThatSomebodyRemovesIsWrittenOnceMore) {
+  const sinks::TemporaryFolder folder;
+  int tries = 0, removals = 1;
+  const auto produce = [&](const Write& write) {
+    ++tries;
+    write("new");
+    if (removals-- > 0) std::filesystem::remove(folder / "file.part");
+  };
+  replace_file(folder / "file", folder / "file.part", produce);
+  EXPECT_EQ(text_of(folder / "file"), "new");
+  EXPECT_EQ(tries, 2);
+  removals = 2;
+  EXPECT_TRUE(holds(failure_of([&] { replace_file(folder / "file", folder / "file.part", produce); }), "No such file"));
+}
+
 TEST(WholeFile, WhatIsNoFileIsNotReplaced) {
   const sinks::TemporaryFolder folder;
   const std::filesystem::path pipe = folder / "pipe";
