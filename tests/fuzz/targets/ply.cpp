@@ -11,7 +11,8 @@ const Form kForm = Form::text;
 void take(std::string_view input) {
   const auto path = scratch().file("mesh.ply", input);
   const importer::MeshFile file = importer::read_mesh_file(path, importer::FileKind::ply, {});
-  for (const importer::MeshPart& part : file.parts) importer::shape_text(part.mesh);
+  for (const importer::MeshJoint& joint : file.joints)
+    if (joint.part) importer::shape_text(joint.part->mesh);
 }
 
 }  // namespace mars::fuzz
