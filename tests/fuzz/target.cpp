@@ -22,7 +22,8 @@ Counts counted;
 
 // Nothing that a terminal would obey, and no book.
 bool can_be_shown(std::string_view message) {
-  const bool obeyed = std::ranges::any_of(message, [](unsigned char c) { return (c < ' ' && c != '\n') || c == 127; });
+  const bool obeyed =
+      std::ranges::any_of(message, [](unsigned char c) { return (c < ' ' && c != '\n' && c != '\t') || c == 127; });
   return !message.empty() && !obeyed && message.size() <= kLongestMessage;
 }
 

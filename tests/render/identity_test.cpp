@@ -206,7 +206,9 @@ std::uint64_t edge_boxes_of_inbetweens(const FilmRun& run) {
 
 // Inbetweens draw stationary parts again on lines that are not kept.
 TEST_P(Identity, WithLittleMemoryForStationaryParts) {
-  const std::uint64_t a_line = wire::plan_still_lines(settings().width, 1, settings().samples, 0).line_bytes;
+  // A line of which each sample may show another triangle.
+  const std::uint64_t a_line =
+      wire::plan_still_lines(settings().width, 1, settings().samples, std::uint64_t{1} << 40).line_bytes;
   for (const std::uint64_t nodes : {1u, 3u}) {
     const auto edge_boxes = [&](std::optional<std::uint64_t> still_memory, const std::string& how) {
       RunOptions options;

@@ -175,8 +175,8 @@ std::optional<Loss> lost_daemon(const std::string& line, const child::Ending& en
   return std::nullopt;
 }
 
-// While a job starts, a link that is down for some seconds ends it with the words of a closed port: the next start shows
-// which of both it was.
+// While a job starts, a link that is down for some seconds ends it with the words of a closed port: the next start
+// shows which of both it was.
 std::optional<Loss> lost_connection(const std::string& line) {
   if (line.find(kNoDaemon) != std::string::npos) return std::nullopt;
   for (const char* words : {kNoConnection, "unable to complete a TCP connection"})
