@@ -168,7 +168,7 @@ Edge edge(const EyePatch& patch, Side side) {
 // One sample a pixel cannot show what several do: outlines to a fraction of a pixel, and rims thinner than one.
 Tolerances tolerances_of(std::uint32_t samples) {
   if (samples == 1) return {.outline = 3.0f / 16, .turn = 0.2f, .least_step = 4};
-  return {.outline = 3.0f / 128, .turn = 0.14f, .least_step = 0.5f};
+  return {.outline = 3.0f / 128, .turn = 0.1f, .least_step = 0.35f};
 }
 
 // Second differences of the control points, times six, bound the second derivative. Seen from the eye, what of it
