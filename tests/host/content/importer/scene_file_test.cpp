@@ -247,7 +247,7 @@ test::Glb painted(const json& material) {
 TEST_F(SceneFileTest, RoughnessAndMetalAreTheMaterials) {
   test::Glb glb = painted({{"pbrMetallicRoughness",
                             {{"baseColorFactor", {1, 0, 0, 1}}, {"roughnessFactor", 0.25}, {"metallicFactor", 0.75}}}});
-  const modeler::NamedMaterial& red = import(glb).materials.at(0);
+  const modeler::NamedMaterial red = import(glb).materials.at(0);
   EXPECT_EQ(red.material.reflection, wire::Reflection::metallic_roughness);
   EXPECT_EQ(red.material.roughness, 0.25f);
   EXPECT_EQ(red.material.metallic, 0.75f);
@@ -257,7 +257,7 @@ TEST_F(SceneFileTest, RoughnessAndMetalAreTheMaterials) {
       {{"extensions",
         {{"KHR_materials_pbrSpecularGlossiness", {{"diffuseFactor", {0, 1, 0, 1}}, {"glossinessFactor", 0.9}}}}}});
   glossy.json["extensionsUsed"] = {"KHR_materials_pbrSpecularGlossiness"};
-  const modeler::NamedMaterial& green = import(glossy).materials.at(0);
+  const modeler::NamedMaterial green = import(glossy).materials.at(0);
   EXPECT_EQ(green.material.color, (std::array<float, 3>{0, 1, 0}));
   EXPECT_NEAR(green.material.roughness, 0.1, 1e-6);
   EXPECT_EQ(green.material.metallic, 0);
@@ -281,7 +281,7 @@ TEST_F(SceneFileTest, ATexturesMeanStandsForIt) {
   glb.json["images"] = {{{"bufferView", glb.view(png({0x000000, 0x00ffff}))}, {"mimeType", "image/png"}},
                         {{"uri", "rough%20and%20metal.png"}}};
   write("rough and metal.png", png({0xff0000, 0x00ff00}));
-  const modeler::NamedMaterial& made = import(glb).materials.at(0);
+  const modeler::NamedMaterial made = import(glb).materials.at(0);
   EXPECT_EQ(made.material.color, (std::array<float, 3>{0.537f, 0.735f, 0}));
   EXPECT_EQ(made.material.roughness, 0.25f) << "half of the texture's green";
   EXPECT_EQ(made.material.metallic, 0.5f) << "half of its blue";
