@@ -32,7 +32,7 @@ Platform read_platform(const std::string& name, const std::filesystem::path& fol
 // That its costs cannot be trusted, and why; "" where they can.
 std::string doubt_text(const Platform& platform);
 
-// Machines like this one, which has so many processors, with a node on each of them and the costs of platform `name`.
+// Machines like this one, which has `processors`, with a node on each of them and the costs of platform `name`.
 Platform like_here(const std::string& name, const std::filesystem::path& folder, int processors);
 
 // Beside `self`, a program of MARS.

@@ -66,23 +66,23 @@ RendererLink::Listener Studio::link_listener() {
               [this](std::uint32_t nodes, std::uint32_t machines) {
                 nodes_ = nodes;
                 machines_ = machines;
-                tell_state(Stage::kAllPages);
+                send_state(Stage::kAllPages);
               },
           .state =
               [this](const std::string& trouble) {
                 trouble_ = trouble;
-                tell_state(Stage::kAllPages);
+                send_state(Stage::kAllPages);
               }};
 }
 
-void Studio::tell_state(PageNumber page) {
+void Studio::send_state(PageNumber page) {
   pages_.tell(page, {{"is", "state"}, {"renderer", trouble_}, {"nodes", nodes_}, {"machines", machines_}});
 }
 
 void Studio::page_opened(PageNumber page) {
   answer_failure(page, {}, [&] {
     pages_.tell(page, project_->describe());
-    tell_state(page);
+    send_state(page);
     rendering_->page_opened(page);
   });
 }

@@ -55,7 +55,7 @@ class Studio {
   void answer_failure(PageNumber page, const Json& message, const std::function<void()>& work);
   void refuse(PageNumber page, const Json& message, const Failure& why);
   RendererLink::Listener link_listener();
-  void tell_state(PageNumber page);
+  void send_state(PageNumber page);
 
   web::Pages& pages_;
   std::unique_ptr<Project> project_;

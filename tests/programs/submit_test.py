@@ -48,9 +48,9 @@ class Commands(FakeSlurm):
         return self.slurm("submit", "film.json", "-o", "out", *words)
 
     def test_a_job_is_submitted_followed_and_cancelled(self):
-        told = self.submit("--nodes", 2, "--tasks", 8, "--time", "1:00:00", "--partition", "long", "--samples", 2,
-                           "--sbatch", "--qos=high '--comment=two words'", "--sbatch", "--time=5")
-        self.assertEqual(told, "job 12; follow it with: mars watch out\n")
+        output = self.submit("--nodes", 2, "--tasks", 8, "--time", "1:00:00", "--partition", "long", "--samples", 2,
+                             "--sbatch", "--qos=high '--comment=two words'", "--sbatch", "--time=5")
+        self.assertEqual(output, "job 12; follow it with: mars watch out\n")
         self.assertEqual(self.read("sbatch.words").splitlines(),
                          ["--parsable", f"--output={self.folder}/out/.slurm/%j.out", "--qos=high",
                           "--comment=two words", "--time=5", "out/.slurm/job.sbatch"])
@@ -78,8 +78,8 @@ class Commands(FakeSlurm):
         film["actors"][0]["keys"] = [dict(first, frame=0), dict(last, frame=8), dict(first, frame=16),
                                      dict(last, frame=24)]
         self.write("film.json", film)
-        told = self.submit("--array", 3, "--intervals", "keyframes", "--sbatch", "--array=0-2%2")
-        self.assertIn("job 12, 3 tasks;", told)
+        output = self.submit("--array", 3, "--intervals", "keyframes", "--sbatch", "--array=0-2%2")
+        self.assertIn("job 12, 3 tasks;", output)
         self.assertIn("\nframes=(0-7 8-15 16-23)\n", self.read("submitted"))
         self.assertIn("%A_%a.out\n--array=0-2%2\n", self.read("sbatch.words"))
         submit = ["submit", "film.json", "-o", "out"]

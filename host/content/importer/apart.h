@@ -15,7 +15,7 @@ struct ApartLimits {
   std::uint64_t memory;            // bytes, beyond what this process has
 };
 
-// Of the work on so many bytes of a file; a sound one takes a fraction of that.
+// For the work on a file of `bytes` bytes; a sound file takes a fraction of these limits.
 ApartLimits limits_for(std::uint64_t bytes);
 
 // What `work` returns; its Failure is thrown here. Where the process dies or reaches a

@@ -37,7 +37,7 @@ class Row {
     return last;
   }
 
-  // Of the longest of so many parts, by halving.
+  // Work of the longest of `parts` parts, found by halving.
   double least_work(std::size_t parts) const {
     double too_little = 0, enough = work();
     for (int i = 0; i < kHalvings; ++i) {

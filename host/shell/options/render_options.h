@@ -80,8 +80,8 @@ void add_render_options(CLI::App& app, RenderOptions& options, Program program);
 std::optional<int> read_render_options(Program program, const char* name, const char* purpose, RenderOptions& options,
                                        int argc, const char* const* argv);
 
-// Throws Failure where so many nodes on machines of so many cores are likely to be a slip: they ask for --force. Not
-// for simulated nodes, which take turns.
+// Throws Failure where the nodes are more than 64 for each of `cores`, which is likely to be a slip, unless --force is
+// given. Not for simulated nodes, which take turns.
 void check_nodes(const RenderOptions& options, std::uint32_t cores);
 
 // A file's name as a word of a command line: one that begins with a dash would be taken for an option, and mpirun takes

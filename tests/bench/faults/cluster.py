@@ -74,7 +74,7 @@ class Machines:
         return self.processes(*OURS, host=host)
 
     def wait_until_idle(self, seconds):
-        """The processes that are still left after so many seconds, and the seconds that it took."""
+        """The processes that are left after `seconds`, and the seconds until they had ended."""
         began = time.monotonic()
         while (left := self.left()) and time.monotonic() - began < seconds:
             time.sleep(0.1)

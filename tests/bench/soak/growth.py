@@ -5,7 +5,7 @@ import statistics
 
 BEGINNING = 8        # of a process's samples are left out: it still makes its buffers
 LEAST = 12           # samples of a process that can show growth
-MEMORY = (1.1, 4 << 10)  # its last third's middle may be so many times the first third's, and so many kB more
+MEMORY = (1.1, 4 << 10)  # the last third's median may be the first third's times the first number, plus the second in kB
 DESCRIPTORS = (1.1, 8)
 
 

@@ -10,7 +10,7 @@ namespace {
 
 using Texts = std::vector<std::string>;
 
-// Intervals of so many frames each; a keyframe works as long as `keyframe` inbetweens.
+// Intervals of `lengths` frames; a keyframe works as long as `keyframe` inbetweens.
 ArrayParts parts_of(const std::vector<std::uint32_t>& lengths, std::size_t count, double keyframe = 1) {
   std::vector<farm::Task> tasks;
   std::uint32_t frame = 0;
