@@ -49,6 +49,11 @@ std::optional<Failure> own_words(const std::deque<std::string>& lines) {
   return std::nullopt;
 }
 
+// As mpirun does that was stopped and continued before it knew its daemons.
+bool ended_as_if_done(const Remains& remains) {
+  return remains.ending.well() && !remains.fault && !own_words(remains.last_words);
+}
+
 Failure unknown(const Remains& remains) {
   const std::string program = std::filesystem::path(remains.program).stem().string();  // mpirun.mpich is one
   const std::string how = remains.ending.code == 0 ? " ended before all frames were there"
@@ -93,7 +98,7 @@ Diagnosis diagnose(const Remains& remains, const options::RenderOptions& options
   const std::string words = on_one_line(join(remains.last_words, remains.last_words.size()));
   const std::optional<Loss> loss = find_loss(remains, words);
   Diagnosis found = cause(remains, words, loss, advice);
-  found.died = loss.has_value();
+  found.died = loss.has_value() || ended_as_if_done(remains);
   return found;
 }
 

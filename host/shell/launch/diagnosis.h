@@ -24,7 +24,7 @@ struct Diagnosis {
   std::optional<std::int32_t> node;  // that died or failed
   std::string machine{};             // where it did, or which does not answer; "" where not known
   bool machine_lost = false;         // it does not answer
-  bool died = false;                 // by a signal or with a machine: what it ended for need not end the next job
+  bool died = false;                 // by a signal, with a machine, or with code 0: the next job need not end so
 };
 
 // With advice where the run never began or nothing else is known.

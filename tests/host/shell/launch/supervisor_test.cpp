@@ -132,6 +132,7 @@ TEST_F(SupervisorOf, AJobThatDiesWhileItStartsIsStartedAgain) {
       {{134, 0}, "mpirun: Forwarding signal 6 to job"},
       {{143, 0}, ""},
       {{1, 0}, ""},  // mpirun itself by SIGTERM
+      {{0, 0}, "ORTE does not know how to route a message to the specified daemon"},
       {{0, SIGBUS}, "[ada:1] Signal: Bus error (7)"},
       {{205, 0}, kLostDaemon},
       {{9, 0}, kNoDaemon},
