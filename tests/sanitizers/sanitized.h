@@ -10,4 +10,7 @@ inline constexpr bool kSanitized = true;
 inline constexpr bool kSanitized = false;
 #endif
 
+// By how much longer what a test bounds may take.
+inline constexpr int kSlowness = kSanitized ? 20 : 1;
+
 }  // namespace mars::sanitizers

@@ -14,6 +14,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/images/picture_file.h"
+#include "tests/sanitizers/sanitized.h"
 
 namespace mars::studio {
 namespace {
@@ -66,7 +67,7 @@ class RenderingTest : public testing::Test {
 
   template <typename Holds>
   bool run_until(Holds holds) {
-    const auto last = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    const auto last = std::chrono::steady_clock::now() + std::chrono::seconds(30) * sanitizers::kSlowness;
     while (!holds() && std::chrono::steady_clock::now() < last) context_.run_one_for(std::chrono::milliseconds(20));
     return holds();
   }

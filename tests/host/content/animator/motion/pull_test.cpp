@@ -180,7 +180,7 @@ TEST(Pull, IsQuickEnoughForAMouse) {
   const Chain chain = chain_of(man.model(), man.of(Limb::wrist, Side::right), Extent::body);
   const glm::dvec3 began = man.frame(chain.end).place, forward = canonical_turn(0, 0, 30)[0];
   constexpr int kMoves = 200;
-  constexpr double kMost = sanitizers::kSanitized ? 200 : 20;  // milliseconds of processor time a move
+  constexpr double kMost = 20 * sanitizers::kSlowness;  // milliseconds of processor time a move
   const std::clock_t start = std::clock();
   for (int i = 0; i < kMoves; ++i)
     pull(man.model(), man.rest, man.posture, chain, {.to = began + 0.02 * i * forward}, pins);
