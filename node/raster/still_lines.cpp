@@ -84,9 +84,16 @@ std::span<const std::byte> StillLines::packed(std::uint32_t line) const {
   return {slot(line), packed_bytes(head(line).groups)};
 }
 
+// A message's bytes are not aligned as a line's own.
+StillLines::Head StillLines::head_of(std::span<const std::byte> line) {
+  Head head;
+  std::memcpy(&head, line.data(), sizeof head);
+  return head;
+}
+
 bool StillLines::is_packed(std::span<const std::byte> line) const {
   if (samples_ == 1 || line.size() < sizeof(Head)) return false;
-  const Head& head = *reinterpret_cast<const Head*>(line.data());
+  const Head head = head_of(line);
   if (head.kept != 1 || head.interval != interval_ || !lines_.has(head.line) ||
       line.size() != packed_bytes(head.groups))
     return false;
@@ -99,8 +106,7 @@ bool StillLines::is_packed(std::span<const std::byte> line) const {
 }
 
 void StillLines::unpack(std::span<const std::byte> line) {
-  Head head;
-  std::memcpy(&head, line.data(), sizeof head);
+  const Head head = head_of(line);
   if (!begin_line(head.line, head.groups)) return;
   std::memcpy(slot(head.line), line.data(), line.size());
 }

@@ -80,6 +80,7 @@ class StillLines {
   bool has_slot(std::uint32_t line) const { return line - lines_.first < plan_.lines; }
   std::byte* slot(std::uint32_t line) const;
   Head& head(std::uint32_t line) const { return *reinterpret_cast<Head*>(slot(line)); }
+  static Head head_of(std::span<const std::byte> line);
   std::size_t packed_bytes(std::size_t groups) const;
 
   std::size_t width_;
