@@ -1,6 +1,8 @@
 #include "host/render/serve/live_view.h"
 
+#include <algorithm>
 #include <cstring>
+#include <span>
 
 #include "host/render/compositor/rectangles.h"
 
@@ -60,8 +62,7 @@ std::uint32_t LiveView::finish(compositor::Frame* picture, std::uint32_t number,
   const std::vector<Rect> rects = compositor::rectangles_of(picture->changed, width_, height_);
   const std::size_t rect_bytes = rects.size() * sizeof(Rect);
   message.resize(room + rect_bytes + pixels_in(rects) * sizeof(std::uint32_t));
-  std::memcpy(message.data() + room, rects.data(), rect_bytes);
-  std::byte* to = message.data() + room + rect_bytes;
+  std::byte* to = std::ranges::copy(std::as_bytes(std::span(rects)), message.data() + room).out;
   for (const Rect& rect : rects) to = copy_pixels(*picture, rect, to);
   return static_cast<std::uint32_t>(rects.size());
 }
