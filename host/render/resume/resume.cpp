@@ -79,6 +79,13 @@ void refuse_unknown_film(const Manifest& there, const Wish& wish) {
                 wish.folder, "give another folder with -o, or replace them with --overwrite");
 }
 
+// They would be lost.
+Failure unlisted_frames(const Wish& wish) {
+  return Failure(
+      "the frames in this folder say that they are of another film, or of another version of it; it has no frames.json",
+      wish.folder, "give another folder with -o, or replace them with --overwrite");
+}
+
 class Opening {
  public:
   Opening(const Wish& wish, const std::function<film::CompiledFilm()>& compile, const sinks::Patience::Bounds& bounds)
@@ -191,8 +198,9 @@ class Opening {
     Manifest all = wanted;
     all.pixel_hashes.assign(all.frames.size(), "");
     if (there) keep_frames(*there, all);
-    if (!there && !wish_.overwrite) sinks::add_marked_frames(wish_.folder, all);
-    return {std::move(all), kept_ ? nullptr : &film(), refusal_, wish_.renders};
+    std::optional<Failure> refusal = refusal_;
+    if (!there && !wish_.overwrite && sinks::add_marked_frames(wish_.folder, all)) refusal = unlisted_frames(wish_);
+    return {std::move(all), kept_ ? nullptr : &film(), std::move(refusal), wish_.renders};
   }
 
   void keep_frames(const Manifest& there, Manifest& all) const {

@@ -34,6 +34,7 @@ struct File {
 struct Files {
   std::vector<File> marked;
   std::vector<std::string> unmarked;  // their names
+  std::vector<std::string> empty;     // of what has a frame's name and is none
 };
 
 Files files_in(const fs::path& folder) {
@@ -41,8 +42,10 @@ Files files_in(const fs::path& folder) {
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; entry != end; entry.increment(error)) {
     const std::string name = entry->path().filename().string();
-    if (!name.starts_with("frame-") || !is_frame_file(entry->path())) continue;
-    if (std::optional<FrameMark> mark = read_mark(entry->path()))
+    if (!name.starts_with("frame-")) continue;
+    if (!is_frame_file(entry->path()))
+      files.empty.push_back(name);
+    else if (std::optional<FrameMark> mark = read_mark(entry->path()))
       files.marked.push_back({name, std::move(*mark)});
     else
       files.unmarked.push_back(name);
@@ -110,10 +113,17 @@ class Restoring {
   std::optional<Restored> restore() {
     if (!begin()) return std::nullopt;
     std::map<std::uint32_t, std::string> hashes;
-    for (const File& file : files_.marked)
-      if (const auto frame = frame_of_file(manifest_, file.name); frame && is_of_it(file.mark, *frame))
+    std::vector<std::string> others = files_.empty;
+    for (const File& file : files_.marked) {
+      const auto frame = frame_of_file(manifest_, file.name);
+      if (frame && is_of_it(file.mark, *frame))
         hashes[*frame] = file.mark.pixel_hash;
-    const std::uint32_t unmarked = runs_.empty() ? add_unmarked(hashes) : 0;
+      else
+        others.push_back(file.name);
+    }
+    const bool asked_is_known = !runs_.empty();
+    const std::uint32_t unmarked = asked_is_known ? 0 : add_unknown(files_.unmarked, hashes);
+    const std::uint32_t unlike = asked_is_known ? 0 : add_unknown(others, hashes);
     Manifest found = manifest_;
     found.frames.clear();
     found.pixel_hashes.clear();
@@ -122,7 +132,7 @@ class Restoring {
       found.pixel_hashes.push_back(std::move(hash));
     }
     add_frames(manifest_, found);
-    return Restored{std::move(manifest_), unmarked};
+    return Restored{std::move(manifest_), unmarked, unlike};
   }
 
  private:
@@ -155,12 +165,12 @@ class Restoring {
     return content_->checksum(frame) == mark.content;
   }
 
-  // Returns how many there are.
-  std::uint32_t add_unmarked(std::map<std::uint32_t, std::string>& hashes) const {
-    std::uint32_t unmarked = 0;
-    for (const std::string& name : files_.unmarked)
-      if (const auto frame = frame_of_file(manifest_, name)) unmarked += hashes.try_emplace(*frame).second;
-    return unmarked;
+  // Frames without a hash. Returns how many there are.
+  std::uint32_t add_unknown(const std::vector<std::string>& names, std::map<std::uint32_t, std::string>& hashes) const {
+    std::uint32_t unknown = 0;
+    for (const std::string& name : names)
+      if (const auto frame = frame_of_file(manifest_, name)) unknown += hashes.try_emplace(*frame).second;
+    return unknown;
   }
 
   const fs::path& folder_;
@@ -216,13 +226,17 @@ std::string repair_remedy(const fs::path& folder) {
   return "mars verify --repair " + document::shell_word(folder.string()) + " makes it again";
 }
 
-void add_marked_frames(const fs::path& folder, Manifest& manifest) {
-  for (const File& file : files_in(folder).marked) {
+bool add_marked_frames(const fs::path& folder, Manifest& manifest) {
+  const Files files = files_in(folder);
+  bool some_of_it = false;
+  for (const File& file : files.marked) {
     const auto frame = frame_of_file(manifest, file.name);
     const FrameMark& mark = file.mark;
     if (frame && hash_of(manifest, *frame).empty() && mark == mark_in(manifest, *frame, mark.pixel_hash, mark.content))
       set_hash(manifest, *frame, mark.pixel_hash);
+    some_of_it = some_of_it || mark.film == manifest.checksum;
   }
+  return !files.marked.empty() && !some_of_it;
 }
 
 }  // namespace mars::sinks

@@ -28,6 +28,9 @@ struct Restored {
   // Files with frames' names that say nothing of themselves, as those of the first pixel version, or that are damaged.
   // Where no run knows them, their frames are in the manifest without a hash.
   std::uint32_t unmarked = 0;
+  // Files with frames' names that say that they are others, or are empty or no files. Where no run knows what was asked
+  // for, their frames are in the manifest without a hash, too.
+  std::uint32_t others = 0;
 };
 
 // `known`: what the asking run knows of the folder; nullptr: nothing. None where nothing says of which film the frames
@@ -49,7 +52,8 @@ Found find_manifest(const std::filesystem::path& folder, const Manifest* known =
 std::string repair_text(const std::string& problem);
 std::string repair_remedy(const std::filesystem::path& folder);
 
-// Adds hashes, to frames of `manifest` that have none, of those whose files say that they are of its very film.
-void add_marked_frames(const std::filesystem::path& folder, Manifest& manifest);
+// Adds hashes, to frames of `manifest` that have none, of those whose files say that they are of its very film. Returns
+// whether there are frames that say that they are of other films, and none of this one.
+bool add_marked_frames(const std::filesystem::path& folder, Manifest& manifest);
 
 }  // namespace mars::sinks

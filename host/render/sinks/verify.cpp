@@ -59,10 +59,13 @@ void refuse_living_runs(const RunsFolder& runs, const FolderTurn& turn, const fs
 }
 
 std::string frames_text(const Restored& restored) {
-  const std::string frames = document::counted(restored.manifest.frames.size(), "frame");
-  if (restored.unmarked == 0) return frames;
-  return frames + ", of which " + std::to_string(restored.unmarked) +
-         " say nothing of themselves, as of an older MARS: they are rendered again";
+  std::string text = document::counted(restored.manifest.frames.size(), "frame");
+  if (restored.unmarked > 0)
+    text += ", of which " + std::to_string(restored.unmarked) +
+            " say nothing of themselves, as of an older MARS: they are rendered again";
+  if (restored.others > 0)
+    text += ", of which " + std::to_string(restored.others) + " are of another film, or empty: they are rendered again";
+  return text;
 }
 
 }  // namespace
@@ -80,6 +83,7 @@ Verdict verify_folder(const fs::path& folder) {
     if (!reason.empty()) verdict.troubles.push_back({frame, reason});
   }
   verdict.expected = static_cast<std::uint32_t>(manifest.frames.size());
+  verdict.film_frames = manifest.film_frames;
   if (verdict.troubles.empty()) verdict.hash = pixels.digits();
   return verdict;
 }

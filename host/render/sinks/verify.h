@@ -16,6 +16,7 @@ struct Verdict {
   };
 
   std::uint32_t expected = 0;     // frames
+  std::uint32_t film_frames = 0;  // of the whole film
   std::string pixels;             // what their pixels are: "8-bit sRGB"
   std::vector<Trouble> troubles;  // frames that are missing or wrong, ascending
   bool compared = true;           // with the hashes of what was rendered; no: the manifest has none

@@ -51,7 +51,9 @@ int print_verdict(const sinks::Verdict& verdict) {
     return options::kFailed;
   }
   std::cout << verdict.expected << " frames, all there";
-  std::cout << (verdict.compared ? " and whole\n" : "; frames.json has no pixel hashes, so pixels were not compared\n");
+  std::cout << (verdict.compared ? " and whole" : "; frames.json has no pixel hashes, so pixels were not compared");
+  if (verdict.expected < verdict.film_frames) std::cout << " (the film has " << verdict.film_frames << ")";
+  std::cout << '\n';
   std::cout << "pixels (" << verdict.pixels << ") " << verdict.hash << '\n';
   return 0;
 }

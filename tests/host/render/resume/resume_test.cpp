@@ -309,6 +309,21 @@ TEST_F(Resume, AnotherFilmOrSizeIsRefusedAndChangesNothing) {
   EXPECT_EQ(open(another).frames.size(), 12u);
 }
 
+// The files say so themselves.
+TEST_F(Resume, FramesOfAnotherFilmInNoListAreNotOverwritten) {
+  render(wish());
+  fs::remove(folder_ / "out/film.mars");
+  fs::remove(folder_ / "out/frames.json");
+  EXPECT_EQ(open(wish()).frames.size(), 0u) << "they are of the film";
+  fs::remove(folder_ / "out/film.mars");
+  fs::remove(folder_ / "out/frames.json");
+  write(film_text(12, 8));
+  EXPECT_TRUE(document::holds(failure_of(wish()), "say that they are of another film")) << failure_of(wish());
+  Wish again = wish();
+  again.overwrite = true;
+  EXPECT_EQ(open(again).frames.size(), 12u);
+}
+
 TEST_F(Resume, TheSameFilmInAnotherFileGoesOn) {
   render(wish(), 5);
   film::save_film(film::load_film(folder_ / "film.json"), folder_ / "compiled.mars");

@@ -125,11 +125,26 @@ TEST(Restore, FilesSayWhichFrameTheyAre) {
   fs::copy_file(folder / "frame-0000.png", folder / "frame-0003.png");
   spoil(folder / kManifestName, 3);
   repair_manifest(folder.path());
-  EXPECT_EQ(read_manifest(folder.path()).frames, (std::vector<std::uint32_t>{0, 2, 5, 11}));
+  const Manifest restored = read_manifest(folder.path());
+  EXPECT_EQ(restored.frames, (std::vector<std::uint32_t>{0, 1, 2, 3, 5, 11}));
+  for (const std::uint32_t other : {1u, 3u}) EXPECT_EQ(hash_of(restored, other), "") << "it is to be rendered again";
   FrameMark mark = *read_mark(folder / "frame-0005.png");
   EXPECT_EQ(mark.pixel_hash, hash_of(read_manifest(folder.path()), 5));
   mark.pixel_version = 7;
   EXPECT_EQ(mark_of(text_of(mark)), mark);
+}
+
+// A repair does not call a folder whole where such files are.
+TEST(Restore, FilesThatAreEmptyAreToBeRenderedAgain) {
+  const TemporaryFolder folder;
+  fill(folder.path(), small_manifest(), 7);
+  fs::resize_file(folder / "frame-0002.png", 0);
+  spoil(folder / kManifestName, 3);
+  EXPECT_TRUE(document::holds(repair_manifest(folder.path()), "of which 1 are of another film, or empty"));
+  const Verdict verdict = verify_folder(folder.path());
+  ASSERT_EQ(verdict.troubles.size(), 1u);
+  EXPECT_EQ(verdict.troubles[0].frame, 2u);
+  EXPECT_EQ(verdict.film_frames, small_manifest().film_frames);
 }
 
 TEST(Restore, FramesOfTwoFilmsAreNotTakenForOnes) {
