@@ -229,6 +229,7 @@ class Starting(ProgramTest):
         self.succeed("mars", "render", TEAPOT, "-o", "out", "--frames", "0", "--backend", "mpi",
                      env=self.path_of_its_own())
 
+    @needs_mpi
     def test_mpirun_does_not_work(self):
         for script, says in [("exit 3", "mpirun ended with exit code 3"),
                              ("echo lost my way >&2; exit 1", "mpirun ended with exit code 1"),

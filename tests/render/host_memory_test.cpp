@@ -40,9 +40,11 @@ void* counted(std::size_t size) {
 }
 
 void release(void* block) {
-  void** end = pictures.data() + made;
-  void** found = is_host && block != nullptr ? std::find(pictures.data(), end, block) : end;
-  if (found != end) *found = nullptr, --live;
+  if (is_host && block != nullptr) {
+    void** const end = pictures.data() + made;
+    void** const found = std::find(pictures.data(), end, block);
+    if (found != end) *found = nullptr, --live;
+  }
   allocated -= static_cast<std::int64_t>(malloc_usable_size(block));
   std::free(block);
 }
