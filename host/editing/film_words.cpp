@@ -6,6 +6,7 @@
 #include "host/content/animator/film_settings.h"
 #include "host/content/animator/film_summary.h"
 #include "host/content/document/text.h"
+#include "host/content/keys/text.h"
 #include "host/content/modeler/figure_library.h"
 #include "host/editing/words.h"
 #include "host/shell/options/wrapped.h"
@@ -123,7 +124,7 @@ CLI::App& add_command(CLI::App& film, const std::shared_ptr<Words>& words, const
   return *command;
 }
 
-CLI::Option* add_fields(CLI::App& command, Words& words, const char* help) {
+CLI::Option* add_fields(CLI::App& command, Words& words, const std::string& help) {
   return command.add_option("KEY=VALUE", words.fields, help);
 }
 
@@ -161,24 +162,26 @@ void add_actors(CLI::App& film, const std::shared_ptr<Words>& words) {
   rename.add_option("NAME", words->other, "Its new name. Example: anna")->required();
 }
 
-constexpr const char* kSettings =
-    "frames, rate, size, samples, background, ambient, color, curve, intervals or dice, as in docs/film-format.md. "
-    "Example: frames=120 size=640,360 background=0.6,0.7,0.8";
+// What KEY may be, by the table.
+std::string fields_of(const char* object, const std::string& example) {
+  return keys::names_of(keys::object(object)) + "; `mars keys " + object + "` says what each is. Example: " + example;
+}
+
+std::string settings() { return fields_of("film", "frames=120 size=640,360 background=0.6,0.7,0.8"); }
 
 void add_settings(CLI::App& film, const std::shared_ptr<Words>& words) {
   CLI::App& fresh = add_command(film, words, "new", "Make a film file with a camera", run_new);
-  add_fields(fresh, *words, kSettings);
+  add_fields(fresh, *words, settings());
   fresh.add_option("--figure", words->model, "With a figure of the library at its middle. Example: --figure man")
       ->type_name("FIGURE");
-  add_fields(add_command(film, words, "set", "Change settings of the film", run_set), *words, kSettings)->required();
+  add_fields(add_command(film, words, "set", "Change settings of the film", run_set), *words, settings())->required();
   add_command(film, words, "show", "Show what the film holds, by the names that commands take", run_show);
 }
 
 void add_lights(CLI::App& film, const std::shared_ptr<Words>& words) {
   CLI::App& light = *film.add_subcommand("light", "Add and remove lights");
   add_fields(add_command(light, words, "add", "Add a light", run_light_add), *words,
-             "direction to it, or place, or place and at of a spot; cone, reach, color, intensity, as in "
-             "docs/film-format.md. Example: place=4,-3,6 at=0,0,2 color=1,0.9,0.8 intensity=2")
+             fields_of("light", "place=4,-3,6 at=0,0,2 color=1,0.9,0.8 intensity=2"))
       ->required();
   CLI::App& remove = add_command(light, words, "remove", "Remove a light", run_light_remove);
   remove.add_option("N", words->number, "Its number, from 1. Example: 2")->required();
@@ -186,9 +189,7 @@ void add_lights(CLI::App& film, const std::shared_ptr<Words>& words) {
 }
 
 void add_materials(CLI::App& film, const std::shared_ptr<Words>& words) {
-  constexpr const char* fields =
-      "color, reflection, ambient, diffuse, specular, exponent, roughness, metallic, refraction, interpolation or "
-      "sides, as in docs/film-format.md. Example: color=0.9,0.6,0.5 reflection=blinn-phong";
+  const std::string fields = fields_of("material", "color=0.9,0.6,0.5 reflection=blinn-phong");
   CLI::App& material = *film.add_subcommand("material", "Add, change and remove materials of the film");
   const auto add = [&](const char* name, const char* purpose, void (*run)(const Words&)) -> CLI::App& {
     CLI::App& command = add_command(material, words, name, purpose, run);

@@ -24,6 +24,7 @@
 #include "host/shell/commands/folder_commands.h"
 #include "host/shell/commands/import_command.h"
 #include "host/shell/commands/info_command.h"
+#include "host/shell/commands/keys_command.h"
 #include "host/shell/commands/model_command.h"
 #include "host/shell/commands/plan_command.h"
 #include "host/shell/commands/plot_command.h"
@@ -51,6 +52,7 @@ Commands:
   mars status DIR                  how far it is; watch follows it, cancel ends jobs
   mars compile FILM -o FILM.mars   compute all its motion once
   mars info FILM                   print what a film holds
+  mars keys [NAME]                 what film and model files may hold
   mars plan FILM                   forecast its time, memory and bytes
   mars preview FILM                play a film or a model in the terminal, before it is rendered
   mars play DIR                    play rendered frames in the terminal
@@ -95,6 +97,7 @@ int run(int argc, char** argv) {
   commands::add_folder_commands(app, code);
   commands::add_compile(app);
   commands::add_info(app);
+  commands::add_keys(app);
   commands::add_plan(app, make_node_counter, measure_messages);
   commands::add_verify(app, code);
   commands::add_import(app);

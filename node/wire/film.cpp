@@ -88,10 +88,10 @@ bool sound(const FilmSettings& s) {
 
 bool sound(const Material& m) {
   return std::ranges::all_of(m.color, is_share) &&
-         std::ranges::all_of(std::array{m.ambient, m.diffuse, m.specular}, [](float n) { return n >= 0 && n <= 10; }) &&
-         m.exponent >= 0 && m.exponent <= 65535 && (m.sides == 1 || m.sides == 2) &&
-         m.interpolation <= Interpolation::flat && m.reflection <= kLastReflection && is_share(m.roughness) &&
-         is_share(m.metallic) && m.refraction > 1 && m.refraction <= 100;
+         std::ranges::all_of(
+             kMaterialBounds,
+             [&](const MaterialBounds& each) { return m.*each.number >= each.least && m.*each.number <= each.most; }) &&
+         (m.sides == 1 || m.sides == 2) && m.interpolation <= Interpolation::flat && m.reflection <= kLastReflection;
 }
 
 }  // namespace

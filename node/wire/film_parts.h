@@ -90,7 +90,7 @@ struct Material {
   std::array<float, 3> color;  // 0..1
   float ambient;        // share of AmbientLight that is reflected, in the colour; by metallic_roughness mirrored too
   float diffuse;        // share of lights, in the colour; all but metallic_roughness
-  float specular;       // strength of white highlights; likewise
+  float specular;       // strength of white highlights; all but metallic_roughness
   float exponent;       // phong's highlight is (R.V)^exponent, blinn_phong's (N.H)^exponent
   std::uint32_t sides;  // 1: seen from outside only; 2: the normal turns to the eye
   Interpolation interpolation = Interpolation::phong;
@@ -101,6 +101,16 @@ struct Material {
 
   bool operator==(const Material&) const = default;
 };
+
+// What nodes take of a material's numbers.
+struct MaterialBounds {
+  float Material::*number;
+  float least, most;
+};
+inline constexpr MaterialBounds kMaterialBounds[] = {
+    {&Material::ambient, 0, 10},          {&Material::diffuse, 0, 10},  {&Material::specular, 0, 10},
+    {&Material::exponent, 0, 65535},      {&Material::roughness, 0, 1}, {&Material::metallic, 0, 1},
+    {&Material::refraction, 1.0001f, 100}};
 
 enum class LightKind : std::uint32_t { directional, point, spot };
 inline constexpr LightKind kLastLightKind = LightKind::spot;

@@ -179,21 +179,23 @@ TEST(Boundaries, HostsToolsStandOnOneAnother) {
       return std::any_of(known.begin(), known.end(), [&](const auto& folder) { return begins(include, folder); });
     });
   };
-  const std::string document = "host/content/document/", modeler = "host/content/modeler/",
+  const std::string keys = "host/content/keys/", document = "host/content/document/", modeler = "host/content/modeler/",
                     animator = "host/content/animator/";
   const std::string film = "host/content/film/", preview = "host/preview/", images = "host/images/",
                     child = "host/child/";
   below(child, {child});
-  below(document, {document});
-  below(modeler, {document, modeler});
-  below("host/content/importer/", {child, images, document, modeler, "host/content/importer/"});
-  below(animator, {child, document, modeler, animator});
-  below(film, {document, modeler, animator, film});
-  below(images, {document, images});
-  below(preview, {child, document, modeler, animator, film, images, preview, "host/render/sinks/"});
-  below("host/editing/", {document, modeler, animator, film, "host/shell/options/command_line.h",
+  below(keys, {keys});
+  below(document, {keys, document});
+  below(modeler, {keys, document, modeler});
+  below("host/content/importer/", {child, images, keys, document, modeler, "host/content/importer/"});
+  below(animator, {child, keys, document, modeler, animator});
+  below(film, {keys, document, modeler, animator, film});
+  below(images, {keys, document, images});
+  below(preview, {child, keys, document, modeler, animator, film, images, preview, "host/render/sinks/"});
+  below("host/editing/", {keys, document, modeler, animator, film, "host/shell/options/command_line.h",
                           "host/shell/options/wrapped.h", "host/editing/"});
-  below("host/studio/project/", {document, modeler, animator, film, preview, "host/editing/", "host/studio/project/"});
+  below("host/studio/project/",
+        {keys, document, modeler, animator, film, preview, "host/editing/", "host/studio/project/"});
   for (const Source& source : sources())
     for (const std::string& include : source.includes) {
       EXPECT_TRUE(!begins(include, "host/programs/") || begins(source.path, "host/programs/")) << source.path;

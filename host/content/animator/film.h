@@ -17,9 +17,6 @@
 
 namespace mars::animator {
 
-inline constexpr document::Range kFieldsOfView{0.01, 179};  // degrees
-inline constexpr document::Range kExposures{-16, 16};       // stops
-
 // Where render intervals are cut: where it saves work, or at the animator's keyframes.
 enum class Cutting { automatic, keyframes };
 

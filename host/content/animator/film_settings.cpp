@@ -21,9 +21,6 @@ constexpr std::string_view kBelowAmbient[] = {"lights", "materials", "models", "
 constexpr std::string_view kBelowLights[] = {"materials", "models", "actors"};
 constexpr std::string_view kBelowMaterials[] = {"models", "actors"};
 
-// All keys but the last, "keys".
-constexpr std::span<const std::string_view> kLightFields(kLightNames, std::size(kLightNames) - 1);
-
 Json light_of(const LightMotion& light) {
   return {{"direction", written(rounded(light.vector.front().value))},
           {"color", written(light.color.front().value)},
@@ -49,7 +46,7 @@ Json material_of(const wire::Material& material) {
     json["interpolation"] = modeler::word_of(material.interpolation);
   for (const modeler::MaterialNumber& each : modeler::kMaterialNumbers)
     if (uses(material.reflection, each) && material.*each.member != modeler::kDefaultMaterial.*each.member)
-      json[std::string(each.key)] = number(material.*each.member);
+      json[std::string(each.key.name)] = number(material.*each.member);
   if (material.sides != modeler::kDefaultMaterial.sides) json["sides"] = material.sides;
   return json;
 }
@@ -97,7 +94,7 @@ Json new_film() {
 
 void set_film(Json& film, TypedFields settings) {
   Json values = Json::object();
-  set_fields(values, settings, kFilmSettings, "a film");
+  set_fields(values, settings, keys::object("film").typed_names(), "a film");
   for (const auto& [key, value] : values.items()) put_before(film, key, value, kBelowSettings);
 }
 
@@ -114,7 +111,7 @@ void write_rig(Json& film, const Film& meaning) {
 
 std::size_t add_light(Json& film, const Film& meaning, TypedFields fields) {
   Json light = Json::object();
-  set_fields(light, fields, kLightFields, "a light");
+  set_fields(light, fields, keys::object("light").typed_names(), "a light");
   if (!film.contains("lights")) write_rig(film, meaning);
   film["lights"].push_back(std::move(light));
   return film["lights"].size();
@@ -137,14 +134,14 @@ void add_material(Json& film, const Film& meaning, const std::string& name, Type
     throw Failure("is a material of the film already", document::in_quotes(name),
                   "change it: mars film FILM material set");
   Json material = actor.empty() ? Json::object() : put_on(film, meaning, name, actor);
-  set_fields(material, fields, modeler::kMaterialKeys, "a material");
+  set_fields(material, fields, keys::object("material").typed_names(), "a material");
   Json materials = film.value("materials", Json::object());
   materials[name] = std::move(material);
   put_before(film, "materials", std::move(materials), kBelowMaterials);
 }
 
 void set_material(Json& film, const std::string& name, TypedFields fields) {
-  set_fields(material_named(film, name), fields, modeler::kMaterialKeys, "a material");
+  set_fields(material_named(film, name), fields, keys::object("material").typed_names(), "a material");
 }
 
 void remove_material(Json& film, const std::string& name) {

@@ -18,9 +18,7 @@ document::Json new_film();
 
 using TypedFields = std::span<const std::string>;
 
-// "frames=120", "size=640,360"; these keys.
-inline constexpr std::string_view kFilmSettings[] = {"frames", "rate",    "size",      "samples", "color",
-                                                     "curve",  "ambient", "intervals", "dice",    "background"};
+// "frames=120", "size=640,360".
 void set_film(document::Json& film, TypedFields settings);
 
 // The lights of a film without any, and their ambient light, become its own.

@@ -66,7 +66,8 @@ std::string film_summary(Json& film, const Film& meaning) {
   for (const Chosen& chosen : choose(film, meaning, {true, "", {}}))
     if (!chosen.thing.actor)
       rows.push_back({chosen.thing.name, keys_of(*chosen.thing.json) + values_of(*chosen.thing.json)});
-  if (!film.contains("lights")) rows.push_back({"lights", "none of its own: it is shown with three (film-format.md)"});
+  if (!film.contains("lights"))
+    rows.push_back({"lights", "none of its own: it is shown with three (light-and-materials.md)"});
   for (const Json& actor : film.at("actors"))
     rows.push_back({actor.at("name"), "model " + actor.at("model").get<std::string>() + ", " +
                                           (actor.contains("matrices") ? "moved by matrices" : keys_of(actor)) +

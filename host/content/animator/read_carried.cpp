@@ -10,14 +10,9 @@ namespace {
 
 constexpr document::Range kDegrees{-1e6, 1e6};
 
-bool read_yes(const document::Element& element) {
-  document::require_kind(element, document::Kind::boolean);
-  return element.boolean();
-}
-
 std::optional<Attachment> read_attachment(const document::Element& element, const Carriers& carriers) {
   if (element.kind() == document::Kind::null) return std::nullopt;
-  const document::Fields fields(element, kAttachKeys);
+  const document::Fields fields(element, keys::object("attach"));
   const Carriers::Named named = carriers.read(fields);
   return Attachment{named.actor, named.joint, fields.vector("place", {0, 0, 0}),
                     fields.vector("turn", {0, 0, 0}, kDegrees)};
@@ -85,14 +80,12 @@ std::size_t Carriers::joint(const document::Element& element, std::size_t actor)
 }
 
 Point read_point(const document::Element& element, const Carriers& carriers) {
-  constexpr std::string_view axes[] = {"world", "joint"};
   if (element.kind() != document::Kind::object) return {document::read_vector(element)};
   require_version_2(element);
-  const document::Fields fields(element, kPointKeys);
+  const document::Fields fields(element, keys::object("point"));
   const Carriers::Named named = carriers.read(fields);
-  const auto level = fields.find("level");
-  return {fields.vector("offset", {0, 0, 0}), named.actor, named.joint, fields.choice("axes", 0, axes) == 1,
-          level && read_yes(*level)};
+  return {fields.vector("offset", {0, 0, 0}), named.actor, named.joint, fields.choice("axes") == 1,
+          fields.flag("level")};
 }
 
 void read_attachments(const std::vector<WrittenAttachment>& written, const std::vector<modeler::Model>& models,

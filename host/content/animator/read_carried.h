@@ -13,11 +13,6 @@
 
 namespace mars::animator {
 
-inline constexpr std::string_view kAttachNames[] = {"actor", "joint", "place", "turn"};
-inline constexpr std::string_view kPointNames[] = {"actor", "joint", "offset", "axes", "level"};
-inline constexpr document::Keys kAttachKeys{"attach", kAttachNames};
-inline constexpr document::Keys kPointKeys{"point", kPointNames};
-
 // Actors and joints by their names.
 class Carriers {
  public:

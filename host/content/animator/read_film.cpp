@@ -18,39 +18,16 @@
 namespace mars::animator {
 namespace {
 
-constexpr std::string_view kFilmNames[] = {"version", "frames",     "rate",      "size",   "samples",   "color",
-                                           "curve",   "background", "ambient",   "fog",    "intervals", "dice",
-                                           "camera",  "lights",     "materials", "models", "actors"};
-constexpr std::string_view kCameraNames[] = {"eye", "at", "up", "fov", "exposure", "near", "far", "keys"};
-constexpr std::string_view kCameraKeyNames[] = {"frame", "eye", "at", "up", "fov", "exposure", "ease"};
-constexpr std::string_view kActorNames[] = {"name",     "model",     "place", "turn",     "pose",
-                                            "material", "materials", "keys",  "matrices", "attach"};
-constexpr std::string_view kActorKeyNames[] = {"frame", "place", "turn", "pose", "attach", "ease"};
-constexpr std::string_view kMatricesNames[] = {"frame", "segments"};
-
-constexpr document::Keys kKeys[] = {{"film", kFilmNames},
-                                    {"camera", kCameraNames},
-                                    {"camera_key", kCameraKeyNames},
-                                    {"actor", kActorNames},
-                                    {"actor_key", kActorKeyNames},
-                                    {"matrices_key", kMatricesNames},
-                                    kPartKeys,
-                                    kAttachKeys,
-                                    kPointKeys,
-                                    kLightKeys,
-                                    kLightKeyKeys,
-                                    kAmbientKeys,
-                                    kFogKeys,
-                                    kFilmMaterialKeys,
-                                    kMaterialKeyKeys};
-enum KeySet { kFilm, kCamera, kCameraKey, kActor, kActorKey, kMatrices };
-
 constexpr document::Range kDegrees{-1e6, 1e6};
 // Readers of one value, as settle() and add_key() want them.
 glm::dvec3 place_of(const document::Element& element) { return document::read_vector(element); }
 glm::dvec3 angles_of(const document::Element& element) { return document::read_vector(element, kDegrees); }
-double fov_of(const document::Element& element) { return document::read_number(element, kFieldsOfView); }
-double exposure_of(const document::Element& element) { return document::read_number(element, kExposures); }
+double fov_of(const document::Element& element) {
+  return document::read_number(element, keys::range_of("camera", "fov"));
+}
+double exposure_of(const document::Element& element) {
+  return document::read_number(element, keys::range_of("camera", "exposure"));
+}
 
 void read_size(const document::Element& element, Film& film) {
   document::require_size(element, 2);
@@ -70,27 +47,28 @@ std::uint32_t read_dice(const document::Element& element) {
 
 CameraMotion read_camera(const document::Element& element, wire::ColorSpace color, const Carriers& carriers) {
   const auto point_of = [&](const document::Element& point) { return read_point(point, carriers); };
-  const document::Fields fields(element, kKeys[kCamera]);
+  const document::Fields fields(element, keys::object("camera"));
   CameraMotion camera;
   if (const auto keys = fields.find("keys"))
-    read_keys(*keys, kKeys[kCameraKey], [&](const document::Fields& key, std::uint32_t frame, const Ease& ease) {
-      add_key(camera.eye, key, "eye", frame, ease, point_of);
-      add_key(camera.at, key, "at", frame, ease, point_of);
-      add_key(camera.up, key, "up", frame, ease, place_of);
-      add_key(camera.fov, key, "fov", frame, ease, fov_of);
-      add_key(camera.exposure, key, "exposure", frame, ease, exposure_of);
-    });
+    read_keys(*keys, keys::object("camera_key"),
+              [&](const document::Fields& key, std::uint32_t frame, const Ease& ease) {
+                add_key(camera.eye, key, "eye", frame, ease, point_of);
+                add_key(camera.at, key, "at", frame, ease, point_of);
+                add_key(camera.up, key, "up", frame, ease, place_of);
+                add_key(camera.fov, key, "fov", frame, ease, fov_of);
+                add_key(camera.exposure, key, "exposure", frame, ease, exposure_of);
+              });
   if (camera.eye.empty()) fields.required("eye");
   settle(camera.eye, fields, "eye", {}, point_of);
   settle(camera.at, fields, "at", {}, point_of);
   settle(camera.up, fields, "up", {0, 0, 1}, place_of);
-  settle(camera.fov, fields, "fov", 40.0, fov_of);
+  settle(camera.fov, fields, "fov", fields.key("fov").number.value(), fov_of);
   if (const bool given = !camera.exposure.empty() || fields.find("exposure"); given && color == wire::ColorSpace::coded)
     element.refuse("has an exposure, but the film's colours are coded, as they are shown",
                    "leave exposure out, or \"color\": \"coded\"");
-  settle(camera.exposure, fields, "exposure", 0.0, exposure_of);
-  camera.near = fields.number("near", camera.near, {1e-6, 1e9});
-  camera.far = fields.number("far", camera.far, {1e-6, 1e10});
+  settle(camera.exposure, fields, "exposure", fields.key("exposure").number.value(), exposure_of);
+  camera.near = fields.number("near");
+  camera.far = fields.number("far");
   if (camera.far <= camera.near)
     element.refuse("has far " + document::shown(camera.far) + ", not beyond near " + document::shown(camera.near),
                    "make far larger");
@@ -116,7 +94,7 @@ class ActorReader {
 
  private:
   Actor read(const document::Element& element, std::size_t number) {
-    const document::Fields fields(element, kKeys[kActor]);
+    const document::Fields fields(element, keys::object("actor"));
     Actor actor;
     actor.name = modeler::read_name(fields.required("name"));
     if (!names_.insert(actor.name).second)
@@ -169,12 +147,13 @@ class ActorReader {
     }
     const std::size_t attached_before = attachments_.size();
     if (const auto keys = fields.find("keys"))
-      read_keys(*keys, kKeys[kActorKey], [&](const document::Fields& key, std::uint32_t frame, const Ease& ease) {
-        add_key(actor.motion.place, key, "place", frame, ease, place_of);
-        add_key(actor.motion.turn, key, "turn", frame, ease, angles_of);
-        if (const auto pose = key.find("pose")) read_pose(*pose, frame, ease, actor);
-        if (const auto attach = key.find("attach")) add_attachment(*attach, frame, number);
-      });
+      read_keys(*keys, keys::object("actor_key"),
+                [&](const document::Fields& key, std::uint32_t frame, const Ease& ease) {
+                  add_key(actor.motion.place, key, "place", frame, ease, place_of);
+                  add_key(actor.motion.turn, key, "turn", frame, ease, angles_of);
+                  if (const auto pose = key.find("pose")) read_pose(*pose, frame, ease, actor);
+                  if (const auto attach = key.find("attach")) add_attachment(*attach, frame, number);
+                });
     if (const auto attach = fields.find("attach")) {
       if (attachments_.size() > attached_before) refuse_still(*attach);
       add_attachment(*attach, 0, number);
@@ -251,7 +230,7 @@ class ActorReader {
   void read_matrices(const document::Element& list, Actor& actor) {
     const auto& joints = model_of(actor).joints;
     actor.matrices.resize(joints.size());
-    read_keys(list, kKeys[kMatrices], [&](const document::Fields& key, std::uint32_t frame, const Ease&) {
+    read_keys(list, keys::object("matrices_key"), [&](const document::Fields& key, std::uint32_t frame, const Ease&) {
       const document::Element segments = key.required("segments");
       document::require_kind(segments, document::Kind::object);
       for (const document::Element item : segments) {
@@ -302,13 +281,12 @@ std::uint32_t read_samples(const document::Element& element) {
 
 // How its numbers become what is shown.
 void read_colors(const document::Fields& fields, Film& film) {
-  constexpr std::string_view spaces[] = {"coded", "linear"}, curves[] = {"none", "filmic"};
-  film.color = static_cast<wire::ColorSpace>(fields.choice("color", 1, spaces));
+  film.color = static_cast<wire::ColorSpace>(fields.choice("color"));
   const bool coded = film.color == wire::ColorSpace::coded;
   if (const auto curve = fields.find("curve"); curve && coded)
     curve->refuse("stands in a film whose colours are coded, as they are shown",
                   "leave curve out, or \"color\": \"coded\"");
-  film.curve = static_cast<wire::Curve>(fields.choice("curve", coded ? 0 : 1, curves));
+  film.curve = coded ? wire::Curve::none : static_cast<wire::Curve>(fields.choice("curve"));
   film.background = fields.color("background", film.background);
   if (const auto fog = fields.find("fog")) film.fog = read_fog(*fog, film.background);
 }
@@ -335,14 +313,13 @@ void check_version(const document::Element& film) {
 }
 
 void read_settings(const document::Fields& fields, Film& film) {
-  film.frames = document::read_count(fields.required("frames"), 1, kMostFrames);
-  film.rate = fields.number("rate", film.rate, {0.001, 1000});
+  film.frames = document::read_count(fields.required("frames"), fields.key("frames"));
+  film.rate = fields.number("rate");
   read_colors(fields, film);
   if (const auto size = fields.find("size")) read_size(*size, film);
   if (const auto samples = fields.find("samples")) film.samples = read_samples(*samples);
   if (const auto dice = fields.find("dice")) film.dice = read_dice(*dice);
-  constexpr std::string_view cuttings[] = {"auto", "keyframes"};
-  film.cutting = static_cast<Cutting>(fields.choice("intervals", 0, cuttings));
+  film.cutting = static_cast<Cutting>(fields.choice("intervals"));
 }
 
 // `read_models` fills `models`, which become the film's unless it throws.
@@ -352,7 +329,7 @@ Film read_film_with(const document::Element& element, std::vector<modeler::Model
     element.refuse("is a model, not a film",
                    "look at it with mars preview, or name it in a film: \"models\": {\"dog\": \"dog.json\"}");
   check_version(element);
-  const document::Fields fields(element, kKeys[kFilm]);
+  const document::Fields fields(element, keys::object("film"));
   Film film;
   film.source = element.document().name();
   read_settings(fields, film);
@@ -372,8 +349,6 @@ Film read_film_with(const document::Element& element, std::vector<modeler::Model
 }
 
 }  // namespace
-
-std::span<const document::Keys> film_keys() { return kKeys; }
 
 Film read_film(const document::Element& element, const std::filesystem::path& folder) {
   std::vector<modeler::Model> models;

@@ -23,7 +23,4 @@ bool same_models(const document::Json& one, const document::Json& two);
 // film's, or stay where they are if it throws.
 Film read_film(const document::Element& element, std::vector<modeler::Model>& models);
 
-// What the objects of a film file may hold, as docs/schema/film.schema.json names them.
-std::span<const document::Keys> film_keys();
-
 }  // namespace mars::animator

@@ -16,9 +16,6 @@ namespace mars::animator {
 
 using wire::kMostFrames;
 
-inline constexpr std::string_view kPartNames[] = {"value", "ease", "in", "out"};
-inline constexpr document::Keys kPartKeys{"part", kPartNames};
-
 // The newest version of the format.
 inline constexpr std::uint32_t kFilmVersion = 2;
 
@@ -69,7 +66,7 @@ auto read_part(const document::Element& element, std::uint32_t frame, const Ease
       element.kind() != document::Kind::object || (std::is_same_v<Value, Point> && !element.find("value"));
   if (plain) return Key<Value>{frame, read(element), ease};
   require_version_2(element);
-  const document::Fields part(element, kPartKeys);
+  const document::Fields part(element, keys::object("part"));
   return Key<Value>{frame, read(part.required("value")), read_ease(part, ease), find_slope<Value>(part, "in"),
                     find_slope<Value>(part, "out")};
 }

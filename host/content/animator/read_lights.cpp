@@ -12,8 +12,12 @@ constexpr double kFullyLit = 0.8;  // of a cone of which one number is given
 
 // Readers of one value, as settle() and add_key() want them.
 glm::dvec3 place_of(const document::Element& element) { return document::read_vector(element); }
-double intensity_of(const document::Element& element) { return document::read_number(element, kIntensities); }
-double reach_of(const document::Element& element) { return document::read_number(element, kReaches); }
+double intensity_of(const document::Element& element) {
+  return document::read_number(element, keys::range_of("light", "intensity"));
+}
+double reach_of(const document::Element& element) {
+  return document::read_number(element, keys::range_of("light", "reach"));
+}
 
 glm::dvec3 direction_of(const document::Element& element) {
   const glm::dvec3 direction = document::read_vector(element);
@@ -24,12 +28,13 @@ glm::dvec3 direction_of(const document::Element& element) {
 
 glm::dvec2 cone_of(const document::Element& element) {
   if (element.kind() != document::Kind::list) {
-    const double outer = document::read_number(element, kCones);
+    const double outer = document::read_number(element, keys::range_of("light", "cone"));
     return {kFullyLit * outer, outer};
   }
   document::require_size(element, 2);
   auto angle = element.begin();
-  const double inner = document::read_number(*angle, kCones), outer = document::read_number(*++angle, kCones);
+  const double inner = document::read_number(*angle, keys::range_of("light", "cone")),
+               outer = document::read_number(*++angle, keys::range_of("light", "cone"));
   if (inner > outer)
     element.refuse("is " + document::shown(inner) + " degrees wide inside and " + document::shown(outer) + " outside",
                    "write the inner angle first");
@@ -38,7 +43,7 @@ glm::dvec2 cone_of(const document::Element& element) {
 
 void read_light_keys(const document::Element& list, LightMotion& light, Channel<glm::dvec3>& direction,
                      Channel<glm::dvec3>& place) {
-  read_keys(list, kLightKeyKeys, [&](const document::Fields& key, std::uint32_t frame, const Ease& ease) {
+  read_keys(list, keys::object("light_key"), [&](const document::Fields& key, std::uint32_t frame, const Ease& ease) {
     add_key(direction, key, "direction", frame, ease, direction_of);
     add_key(place, key, "place", frame, ease, place_of);
     add_key(light.at, key, "at", frame, ease, place_of);
@@ -60,7 +65,7 @@ wire::LightKind kind_of(const document::Element& element, bool direction, bool p
 }
 
 LightMotion read_light(const document::Element& element) {
-  const document::Fields fields(element, kLightKeys);
+  const document::Fields fields(element, keys::object("light"));
   LightMotion light;
   Channel<glm::dvec3> direction, place;
   if (const auto keys = fields.find("keys")) read_light_keys(*keys, light, direction, place);
@@ -79,7 +84,7 @@ LightMotion read_light(const document::Element& element) {
   }
   if (has(light.reach, "reach")) settle(light.reach, fields, "reach", {}, reach_of);
   settle(light.color, fields, "color", {1, 1, 1}, document::read_color);
-  settle(light.intensity, fields, "intensity", 1.0, intensity_of);
+  settle(light.intensity, fields, "intensity", fields.key("intensity").number.value(), intensity_of);
   return light;
 }
 
@@ -87,7 +92,9 @@ LightMotion read_light(const document::Element& element) {
 
 std::vector<LightMotion> read_lights(const document::Element& list) {
   document::require_kind(list, document::Kind::list);
-  if (list.size() > kMostLights) list.refuse("has " + std::to_string(list.size()) + " lights", "at most 64");
+  const double most = keys::range_of("film", "lights").highest;
+  if (static_cast<double>(list.size()) > most)
+    list.refuse("has " + std::to_string(list.size()) + " lights", "at most " + document::shown(most));
   std::vector<LightMotion> lights;
   for (const document::Element element : list) lights.push_back(read_light(element));
   return lights;
@@ -98,14 +105,14 @@ Ambient read_ambient(const document::Element& element) {
     const glm::dvec3 color = document::read_color(element);
     return {color, color};
   }
-  const document::Fields fields(element, kAmbientKeys);
+  const document::Fields fields(element, keys::object("ambient"));
   return {document::read_color(fields.required("sky")), document::read_color(fields.required("ground"))};
 }
 
 Fog read_fog(const document::Element& element, const glm::dvec3& background) {
-  const document::Fields fields(element, kFogKeys);
-  const Fog fog{fields.color("color", background), fields.number("start", 0, {0, document::kFarthest}),
-                document::read_number(fields.required("end"), {0, document::kFarthest})};
+  const document::Fields fields(element, keys::object("fog"));
+  const Fog fog{fields.color("color", background), fields.number("start"),
+                document::read_number(fields.required("end"), fields.key("end"))};
   if (fog.end <= fog.start)
     element.refuse("ends at " + document::shown(fog.end) + ", not beyond its start " + document::shown(fog.start),
                    "make end larger");

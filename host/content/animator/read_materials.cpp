@@ -10,24 +10,26 @@ using modeler::kMaterialNumbers;
 using modeler::MaterialNumber;
 
 auto reader_of(const MaterialNumber& number) {
-  return [&number](const document::Element& element) { return document::read_number(element, number.range); };
+  return [&number](const document::Element& element) { return document::read_number(element, number.key); };
 }
 
 MaterialMotion read_material(const document::Element& element) {
-  const document::Fields fields(element, kFilmMaterialKeys);
+  const document::Fields fields(element, keys::object("film_material"));
   MaterialMotion material;
   material.name = modeler::checked_name(element, element.key());
   material.shading = modeler::read_shading(fields);
   if (const auto keys = fields.find("keys"))
-    read_keys(*keys, kMaterialKeyKeys, [&](const document::Fields& key, std::uint32_t frame, const Ease& ease) {
-      modeler::refuse_unused(key, material.shading.reflection);
-      add_key(material.color, key, "color", frame, ease, document::read_color);
-      for (std::size_t i = 0; i < kMaterialNumbers.size(); ++i)
-        add_key(material.numbers[i], key, kMaterialNumbers[i].key, frame, ease, reader_of(kMaterialNumbers[i]));
-    });
+    read_keys(*keys, keys::object("material_key"),
+              [&](const document::Fields& key, std::uint32_t frame, const Ease& ease) {
+                modeler::refuse_unused(key, material.shading.reflection);
+                add_key(material.color, key, "color", frame, ease, document::read_color);
+                for (std::size_t i = 0; i < kMaterialNumbers.size(); ++i)
+                  add_key(material.numbers[i], key, kMaterialNumbers[i].key.name, frame, ease,
+                          reader_of(kMaterialNumbers[i]));
+              });
   settle(material.color, fields, "color", {0.8, 0.8, 0.8}, document::read_color);
   for (std::size_t i = 0; i < kMaterialNumbers.size(); ++i)
-    settle(material.numbers[i], fields, kMaterialNumbers[i].key, kMaterialNumbers[i].otherwise,
+    settle(material.numbers[i], fields, kMaterialNumbers[i].key.name, kMaterialNumbers[i].key.number.value(),
            reader_of(kMaterialNumbers[i]));
   return material;
 }

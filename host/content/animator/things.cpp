@@ -101,7 +101,7 @@ Thing material_of(document::Json& json, const MaterialMotion& material) {
   std::vector<KeyedPart> parts{plain("color", material.color)};
   for (std::size_t i = 0; i < modeler::kMaterialNumbers.size(); ++i)
     if (uses(material.shading.reflection, modeler::kMaterialNumbers[i]))
-      parts.push_back(plain(modeler::kMaterialNumbers[i].key, material.numbers[i]));
+      parts.push_back(plain(modeler::kMaterialNumbers[i].key.name, material.numbers[i]));
   return {std::string(kMaterial) + material.name, &json, false, std::move(parts)};
 }
 

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <vector>
 
+#include "hal/failure/failure.h"
 #include "host/content/document/forms.h"
 
 namespace mars::document {
@@ -92,6 +93,15 @@ double read_number(const Element& element, Range range) {
   return number;
 }
 
+double read_number(const Element& element, const keys::Key& key) { return read_number(element, key.range); }
+
+std::uint32_t read_count(const Element& element, const keys::Key& key) {
+  return read_count(element, static_cast<std::uint32_t>(key.range.lowest),
+                    static_cast<std::uint32_t>(key.range.highest));
+}
+
+std::size_t read_choice(const Element& element, const keys::Key& key) { return read_choice(element, key.choices); }
+
 std::uint32_t read_count(const Element& element, std::uint32_t lowest, std::uint32_t highest) {
   const double number = read_number(element, {double(lowest), double(highest)});
   if (number != std::floor(number)) element.refuse("is " + shown(number), "write a whole number");
@@ -143,10 +153,40 @@ Fields::Fields(const Element& object, const Keys& keys) : object_(object), keys_
   require_kind(object, Kind::object);
   for (const Element child : object) {
     if (std::find(keys.names.begin(), keys.names.end(), child.key()) != keys.names.end()) continue;
-    child.refuse((std::string_view(keys.of).ends_with("_key") ? "does not belong to " : "is no key of ") +
-                     with_article(keys.of),
+    child.refuse((keys.of.ends_with("_key") ? "does not belong to " : "is no key of ") + with_article(keys.of),
                  did_you_mean(child.key(), keys.names, "its keys are: " + listed(keys.names)));
   }
+}
+
+const keys::Key& Fields::key(std::string_view name) const {
+  check(keys_.object != nullptr, "only objects of film and model files have a table");
+  return keys_.object->key(name);
+}
+
+double Fields::number(std::string_view name) const {
+  const keys::Key& row = key(name);
+  const auto found = find(name);
+  return found ? read_number(*found, row) : row.number.value();
+}
+
+std::uint32_t Fields::count(std::string_view name) const {
+  const keys::Key& row = key(name);
+  const auto found = find(name);
+  return found ? read_count(*found, row) : static_cast<std::uint32_t>(row.number.value());
+}
+
+std::size_t Fields::choice(std::string_view name) const {
+  const keys::Key& row = key(name);
+  if (const auto found = find(name)) return read_choice(*found, row);
+  const auto otherwise = std::ranges::find(row.choices, row.json.substr(1, row.json.size() - 2));
+  return static_cast<std::size_t>(otherwise - row.choices.begin());
+}
+
+bool Fields::flag(std::string_view name) const {
+  const auto found = find(name);
+  if (!found) return key(name).json == "true";
+  require_kind(*found, Kind::boolean);
+  return found->boolean();
 }
 
 Element Fields::required(std::string_view key) const {

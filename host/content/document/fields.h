@@ -11,20 +11,21 @@
 
 #include "host/content/document/document.h"
 #include "host/content/document/text.h"
+#include "host/content/keys/key.h"
 
 namespace mars::document {
 
-inline constexpr double kFarthest = 1e9;  // of any coordinate or length, from the origin
+using keys::kFarthest;
+using keys::Range;
 
-struct Range {
-  double lowest = -kFarthest;
-  double highest = kFarthest;
-};
-
-// The keys an object may have. Named as in docs/schema, which a test compares with them.
+// The keys an object may have.
 struct Keys {
-  const char* of;  // what the object is: "joint"
+  std::string_view of;  // what the object is: "joint"
   std::span<const std::string_view> names;
+  const keys::Object* object = nullptr;  // where it is one of film and model files
+
+  constexpr Keys(std::string_view of, std::span<const std::string_view> names) : of(of), names(names) {}
+  Keys(const keys::Object& object) : of(object.name), names(object.names), object(&object) {}
 };
 
 double read_number(const Element& element, Range range = {});
@@ -35,6 +36,11 @@ std::string read_text(const Element& element);  // not empty
 
 // The index of the text among `choices`.
 std::size_t read_choice(const Element& element, std::span<const std::string_view> choices);
+
+// The value of the key, a number, a whole number or a choice, by the range or the choices of the table.
+double read_number(const Element& element, const keys::Key& key);
+std::uint32_t read_count(const Element& element, const keys::Key& key);
+std::size_t read_choice(const Element& element, const keys::Key& key);
 
 void require_kind(const Element& element, Kind kind);
 void require_size(const Element& element, std::size_t size);  // a list of so many
@@ -55,6 +61,15 @@ class Fields {
   std::optional<Element> find(std::string_view key) const { return object_.find(key); }
   Element required(std::string_view key) const;
 
+  // What the table of an object says of one of its keys.
+  const keys::Key& key(std::string_view name) const;
+
+  // The key's value; where it is not there, the table's default.
+  double number(std::string_view key) const;
+  std::uint32_t count(std::string_view key) const;
+  std::size_t choice(std::string_view key) const;
+  bool flag(std::string_view key) const;
+
   // The key's value, or `otherwise` if it is not there.
   double number(std::string_view key, double otherwise, Range range = {}) const;
   std::uint32_t count(std::string_view key, std::uint32_t otherwise, std::uint32_t lowest, std::uint32_t highest) const;
@@ -65,7 +80,7 @@ class Fields {
 
  private:
   Element object_;
-  const Keys& keys_;
+  Keys keys_;
 };
 
 }  // namespace mars::document

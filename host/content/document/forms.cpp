@@ -2,119 +2,76 @@
 
 #include <algorithm>
 
+#include "host/content/document/text.h"
+#include "host/content/keys/key.h"
+
 namespace mars::document {
 namespace {
 
-// The more particular before the more general.
-constexpr Form kForms[] = {
-    {"/color", R"("linear")"},
-    {"/ambient", "[0.8, 0.9, 1]"},
-    {"pose.*", "[0, 90, 0]"},
-    {"segments.*", "[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]"},
-    {"materials.*", R"({"color": [0.8, 0.4, 0.2]})"},
-    {"models.*", R"("robot.json")"},
-    {"ambient.ground", "[0.4, 0.3, 0.2]"},
-    {"joints.*", "[1, 1, 1.2]"},
-    {"branches.*", "[1, 1, 1.2]"},
-    {"proportions.joints", R"({"thigh": [1, 1, 1.2]})"},
-    {"proportions.branches", R"({"leg-*": 1.1})"},
-    {"u.ends", R"("clamped")"},
-    {"v.ends", R"("clamped")"},
-    {"limits.x", "[-30, 30]"},
-    {"limits.y", "[-30, 30]"},
-    {"limits.z", "[-30, 30]"},
+using keys::Key;
+using keys::Object;
 
-    {"version", "2"},
-    {"frames", "48"},
-    {"rate", "24"},
-    {"size", "[960, 540]"},
-    {"samples", "4"},
-    {"curve", R"("filmic")"},
-    {"fog", R"({"start": 10, "end": 100})"},
-    {"start", "10"},
-    {"end", "100"},
-    {"sky", "[0.8, 0.9, 1]"},
-    {"background", "[0.1, 0.2, 0.3]"},
-    {"intervals", R"("auto")"},
-    {"camera", R"({"eye": [0, -9, 2], "at": [0, 0, 1]})"},
-    {"lights", R"([{"direction": [-0.4, -0.7, 0.8]}])"},
-    {"materials", R"({"oak": {"color": [0.7, 0.5, 0.3]}})"},
-    {"models", R"({"robot": "robot.json"})"},
-    {"actors", R"([{"name": "anna", "model": "robot"}])"},
-    {"keys", R"([{"frame": 0}, {"frame": 24}])"},
-    {"frame", "24"},
-    {"ease", "[0.4, 0, 0.6, 1]"},
-    {"eye", "[0, -9, 2]"},
-    {"at", "[0, 0, 1]"},
-    {"up", "[0, 0, 1]"},
-    {"fov", "40"},
-    {"exposure", "0.5"},
-    {"near", "0.1"},
-    {"far", "10000"},
-    {"direction", "[-0.4, -0.7, 0.8]"},
-    {"place", "[1, 0, 0.5]"},
-    {"turn", "[0, 0, 90]"},
-    {"attach", R"({"actor": "tom", "joint": "right-hand"})"},
-    {"actor", R"("tom")"},
-    {"joint", R"("right-hand")"},
-    {"offset", "[0, 0, 0.2]"},
-    {"axes", R"("joint")"},
-    {"level", "true"},
-    {"pose", R"({"elbow": [0, 90, 0]})"},
-    {"color", "[0.8, 0.4, 0.2]"},
-    {"intensity", "1"},
-    {"cone", "[30, 40]"},
-    {"reach", "5"},
-    {"ambient", "0.1"},
-    {"diffuse", "0.65"},
-    {"specular", "0.45"},
-    {"exponent", "32"},
-    {"roughness", "0.5"},
-    {"metallic", "1"},
-    {"refraction", "1.5"},
-    {"reflection", R"("phong")"},
-    {"interpolation", R"("phong")"},
-    {"sides", "2"},
-    {"name", R"("anna")"},
-    {"model", R"("robot")"},
-    {"material", R"("oak")"},
-    {"matrices", R"([{"frame": 0, "segments": {"hand": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]}}])"},
-    {"segments", R"({"hand": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]})"},
+// The object that a value of the type is where it is an object at all: "light" of "light", "point" of "place_or_point".
+const Object* object_in(std::string_view type) {
+  if (const Object* const object = keys::find_object(type)) return object;
+  const keys::Type* const known = keys::find_type(type);
+  if (known == nullptr) return nullptr;
+  for (std::size_t at = known->schema.find('#'); at != std::string_view::npos; at = known->schema.find('#', at + 1)) {
+    const std::string_view name = known->schema.substr(at + 1, known->schema.find('"', at) - at - 1);
+    if (const Object* const object = keys::find_object(name)) return object;
+  }
+  return nullptr;
+}
 
-    {"joints", R"([{"name": "foot"}, {"name": "knee", "parent": "foot"}])"},
-    {"parent", R"("foot")"},
-    {"x_axis", "[1, 0, 0]"},
-    {"y_axis", "[0, 1, 0]"},
-    {"limits", R"({"x": [-30, 30]})"},
-    {"segment", R"({"shape": "box"})"},
-    {"shape", R"("box")"},
-    {"sbb", "[[0, 0, 0], [1, 1, 1]]"},
-    {"from", R"("human.json")"},
-    {"proportions", R"({"scale": 1.1})"},
-    {"scale", "[1, 1, 1.2]"},
-    {"height", "1.8"},
-    {"ground", "true"},
+// "light" of "[light]" and of "{light}".
+std::string_view item_of(std::string_view type) { return type.substr(1, type.size() - 2); }
+
+bool is_a_part(const Element& element) { return element.kind() == Kind::object && element.find("value").has_value(); }
+
+// The type of an element by its way from the root, "" where the tables do not know it; its key, of those that have one.
+struct Described {
+  std::string_view type;
+  const Key* key = nullptr;
 };
+
+Described described(const Element& element) {
+  const auto parent = element.parent();
+  if (!parent) {
+    if (element.find("joints") || element.find("from")) return {"model"};
+    return {element.find("camera") || element.find("actors") || element.find("frames") ? "film" : ""};
+  }
+  const Described above = described(*parent);
+  if (above.type.empty()) return {};
+  if (above.type.front() == '[' || above.type.front() == '{') return {item_of(above.type)};
+  if (is_a_part(*parent) && element.key() == "value") return above;
+  const Object* const object = is_a_part(*parent) ? &keys::object("part") : object_in(above.type);
+  const Key* const key = object == nullptr ? nullptr : object->find(element.key());
+  return key == nullptr ? Described{} : Described{key->type, key};
+}
+
+// Of an object of another file: the first key of this name that the tables have.
+Described named(std::string_view key) {
+  for (const auto objects : {keys::film_objects(), keys::model_objects()})
+    for (const Object& object : objects)
+      if (const Key* const found = object.find(key)) return {found->type, found};
+  return {};
+}
+
+std::string example_of(const Described& what) {
+  if (what.key != nullptr) {
+    if (!what.key->example.empty()) return std::string(what.key->example);
+    if (!what.key->json.empty()) return std::string(what.key->json);
+    if (what.key->number) return shown(*what.key->number);
+  }
+  if (const keys::Type* const type = keys::find_type(what.type)) return std::string(type->example);
+  const Object* const object = what.type.empty() ? nullptr : keys::find_object(what.type);
+  return object == nullptr ? "" : std::string(object->example);
+}
 
 // Within a part of a film's key, which are written as the part is without them.
 bool in_a_part(std::string_view key) { return key == "value" || key == "in" || key == "out"; }
 
-// A key, and that of the object it stands in: "" where that is an item of a list, or the file itself.
-struct Named {
-  std::string_view key, above;
-  bool outermost;
-};
-
-bool fits(std::string_view form, const Named& named) {
-  if (form[0] == '/') return named.outermost && form.substr(1) == named.key;
-  const std::size_t dot = form.find('.');
-  if (dot == std::string_view::npos) return form == named.key;
-  return form.substr(0, dot) == named.above && (form.substr(dot + 1) == "*" || form.substr(dot + 1) == named.key);
-}
-
 }  // namespace
-
-std::span<const Form> forms() { return kForms; }
 
 std::string form_of(const Element& element) {
   std::optional<Element> keyed = element;
@@ -122,11 +79,10 @@ std::string form_of(const Element& element) {
   if (!keyed) return "";
   const std::string_view key = keyed->key();
   if (const auto part = keyed->parent(); in_a_part(key) && part && part->parent()) keyed = part;
-  const std::optional<Element> above = keyed->parent();
-  const Named named{keyed->key(), above->key(), !above->parent()};
-  const auto form = std::ranges::find_if(kForms, [&](const Form& each) { return fits(each.key, named); });
-  if (form == std::end(kForms)) return "";
-  return "\"" + std::string(key) + "\": " + std::string(form->value);
+  Described what = described(*keyed);
+  if (what.type.empty()) what = named(keyed->key());
+  const std::string example = example_of(what);
+  return example.empty() ? "" : "\"" + std::string(key) + "\": " + example;
 }
 
 }  // namespace mars::document

@@ -55,11 +55,12 @@ wire::Camera camera_at(const animator::Film& film, std::uint32_t frame, animator
   wire::Camera camera;
   for (int row = 0; row < 3; ++row)
     camera.world_to_eye.m[row] = {axes[row].x, axes[row].y, axes[row].z, -glm::dot(axes[row], eye)};
-  const double half = within(animator::kFieldsOfView, animator::value_at(motion.fov, frame)) * (std::numbers::pi / 360);
+  const double half =
+      within(keys::range_of("camera", "fov"), animator::value_at(motion.fov, frame)) * (std::numbers::pi / 360);
   camera.focal = std::cos(half) / std::sin(half);
   camera.near = motion.near;
   camera.far = motion.far;
-  camera.exposure = std::exp2(within(animator::kExposures, animator::value_at(motion.exposure, frame)));
+  camera.exposure = std::exp2(within(keys::range_of("camera", "exposure"), animator::value_at(motion.exposure, frame)));
   return camera;
 }
 

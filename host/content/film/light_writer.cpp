@@ -26,8 +26,8 @@ glm::dvec3 light_from(const glm::dvec3& color, wire::ColorSpace space) {
 
 // Of half the angle that a cone opens.
 float cosine_of(double angle) {
-  return static_cast<float>(
-      std::cos(std::clamp(angle, animator::kCones.lowest, animator::kCones.highest) * (std::numbers::pi / 360)));
+  const keys::Range& range = keys::range_of("light", "cone");
+  return static_cast<float>(std::cos(std::clamp(angle, range.lowest, range.highest) * (std::numbers::pi / 360)));
 }
 
 class LightWriter {
@@ -63,7 +63,8 @@ class LightWriter {
 
   static float reach_at(const animator::LightMotion& motion, std::uint32_t frame) {
     const double reach = animator::value_at(motion.reach, frame);
-    return static_cast<float>(std::clamp(reach, animator::kReaches.lowest, animator::kReaches.highest));
+    const keys::Range& range = keys::range_of("light", "reach");
+    return static_cast<float>(std::clamp(reach, range.lowest, range.highest));
   }
 
   void aim(const animator::LightMotion& motion, const glm::dvec3& place, std::uint32_t frame,

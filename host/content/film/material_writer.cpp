@@ -46,7 +46,7 @@ wire::Material MaterialWriter::material_at(const animator::MaterialMotion& motio
   for (std::size_t i = 0; i < kMaterialNumbers.size(); ++i) {
     const modeler::MaterialNumber& number = kMaterialNumbers[i];
     material.*number.member = static_cast<float>(
-        std::clamp(animator::value_at(motion.numbers[i], frame), number.range.lowest, number.range.highest));
+        std::clamp(animator::value_at(motion.numbers[i], frame), number.key.range.lowest, number.key.range.highest));
   }
   return material;
 }

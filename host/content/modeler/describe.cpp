@@ -157,7 +157,7 @@ std::vector<MaterialColumn> material_columns() {
        true},
       {"reflection", [](const wire::Material& m) { return std::string(word_of(m.reflection)); }, false}};
   for (const MaterialNumber& each : kMaterialNumbers)
-    columns.push_back({std::string(each.key),
+    columns.push_back({std::string(each.key.name),
                        [&each, number](const wire::Material& m) {
                          return uses(m.reflection, each) ? number(m.*each.member) : std::string();
                        },

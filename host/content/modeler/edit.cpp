@@ -232,7 +232,8 @@ void set_reflection(document::Json& material, const std::string& name) {
   const auto known = std::ranges::find(kReflections, name);
   if (known != std::end(kReflections))
     for (const MaterialNumber& number : kMaterialNumbers)
-      if (!uses(static_cast<wire::Reflection>(known - kReflections), number)) material.erase(std::string(number.key));
+      if (!uses(static_cast<wire::Reflection>(known - kReflections), number))
+        material.erase(std::string(number.key.name));
   material["reflection"] = name;
 }
 
@@ -241,7 +242,7 @@ void change_material(document::Json& material, const MaterialChange& change) {
   if (change.reflection) set_reflection(material, *change.reflection);
   if (change.interpolation) material["interpolation"] = *change.interpolation;
   for (std::size_t i = 0; i < kMaterialNumbers.size(); ++i)
-    if (change.numbers[i]) material[kMaterialNumbers[i].key] = plain_number(*change.numbers[i]);
+    if (change.numbers[i]) material[kMaterialNumbers[i].key.name] = plain_number(*change.numbers[i]);
   if (change.sides) material["sides"] = *change.sides;
 }
 

@@ -8,14 +8,12 @@
 namespace mars::modeler {
 namespace {
 
-constexpr document::Keys kKeys[] = {{"limbs", kLimbsNames}, {"side", kLimbNames}};
-
 class LimbReader {
  public:
   explicit LimbReader(std::span<const Joint> joints) : joints_(joints) {}
 
   Limbs read(const document::Element& element) {
-    const document::Fields fields(element, kKeys[0]);
+    const document::Fields fields(element, keys::object("limbs"));
     Limbs limbs;
     for (std::size_t part = 0; part < limbs.trunk.size(); ++part)
       limbs.trunk[part] = read_joint(fields, kTrunkNames[part]);
@@ -30,7 +28,7 @@ class LimbReader {
   void read_side(const document::Fields& fields, std::string_view side, Joints& found) {
     const auto element = fields.find(side);
     if (!element) return;
-    const document::Fields limbs(*element, kKeys[1]);
+    const document::Fields limbs(*element, keys::object("side"));
     for (std::size_t limb = 0; limb < found.size(); ++limb) found[limb] = read_joint(limbs, kLimbNames[limb]);
     constexpr std::size_t legs = static_cast<std::size_t>(Limb::shoulder);
     require_order(limbs, std::span(found).first(legs), std::span(kLimbNames).first(legs));
@@ -87,7 +85,5 @@ Limbs::Limbs() {
 Limbs read_limbs(const document::Element& element, std::span<const Joint> joints) {
   return LimbReader(joints).read(element);
 }
-
-std::span<const document::Keys> limb_keys() { return kKeys; }
 
 }  // namespace mars::modeler

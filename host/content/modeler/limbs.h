@@ -18,7 +18,6 @@ enum class Limb : std::size_t { hip, knee, ankle, toes, shoulder, elbow, wrist, 
 inline constexpr std::string_view kTrunkNames[] = {"pelvis", "spine", "chest", "neck", "head"};
 inline constexpr std::string_view kLimbNames[] = {"hip",      "knee",  "ankle", "toes",
                                                   "shoulder", "elbow", "wrist", "fingers"};
-inline constexpr std::string_view kLimbsNames[] = {"pelvis", "spine", "chest", "neck", "head", "left", "right"};
 
 // Indices of the model's joints; those that are not named are kNone. A joint is a limb at its upper end: the
 // hip is the joint that turns the thigh.
@@ -35,8 +34,5 @@ struct Limbs {
 
 // A name must be one of the joints', none named twice, and each limb hang below the one before it.
 Limbs read_limbs(const document::Element& element, std::span<const Joint> joints);
-
-// The keys of the objects "limbs" and "side".
-std::span<const document::Keys> limb_keys();
 
 }  // namespace mars::modeler

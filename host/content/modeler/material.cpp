@@ -18,7 +18,7 @@ std::string users_of(const MaterialNumber& number) {
 
 void refuse_unused(const document::Fields& fields, wire::Reflection reflection) {
   for (const MaterialNumber& number : kMaterialNumbers) {
-    const auto element = fields.find(number.key);
+    const auto element = fields.find(number.key.name);
     if (element && !uses(reflection, number))
       element->refuse("is not used by the reflection " + document::in_quotes(word_of(reflection)),
                       "leave it out, or choose a reflection that uses it: " + users_of(number));
@@ -27,8 +27,8 @@ void refuse_unused(const document::Fields& fields, wire::Reflection reflection) 
 
 wire::Material read_shading(const document::Fields& fields) {
   wire::Material material = kDefaultMaterial;
-  material.reflection = static_cast<wire::Reflection>(fields.choice("reflection", 0, kReflections));
-  material.interpolation = static_cast<wire::Interpolation>(fields.choice("interpolation", 0, kInterpolations));
+  material.reflection = static_cast<wire::Reflection>(fields.choice("reflection"));
+  material.interpolation = static_cast<wire::Interpolation>(fields.choice("interpolation"));
   material.sides = fields.count("sides", 2, 1, 2);
   refuse_unused(fields, material.reflection);
   return material;
@@ -39,7 +39,7 @@ wire::Material read_material(const document::Fields& fields) {
   const glm::dvec3 color = fields.color("color", {0.8, 0.8, 0.8});
   for (int i = 0; i < 3; ++i) material.color[i] = static_cast<float>(color[i]);
   for (const MaterialNumber& number : kMaterialNumbers)
-    material.*number.member = static_cast<float>(fields.number(number.key, number.otherwise, number.range));
+    material.*number.member = static_cast<float>(fields.number(number.key.name));
   return material;
 }
 

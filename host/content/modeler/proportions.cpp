@@ -11,8 +11,6 @@
 namespace mars::modeler {
 namespace {
 
-constexpr std::string_view kNames[] = {"joints", "branches", "scale", "height", "ground"};
-constexpr document::Keys kKeys[] = {{"proportions", kNames}};
 constexpr document::Range kFactors{1e-3, 1e3};
 
 // The joints that the pattern fits, and those below if asked.
@@ -131,7 +129,7 @@ void apply(const Proportions& proportions, Model& model) {
 }
 
 Proportions read_proportions(const document::Element& element) {
-  const document::Fields fields(element, kKeys[0]);
+  const document::Fields fields(element, keys::object("proportions"));
   Proportions proportions;
   for (const bool branch : {false, true}) {
     const auto list = fields.find(branch ? "branches" : "joints");
@@ -142,15 +140,10 @@ Proportions read_proportions(const document::Element& element) {
   }
   if (const auto scale = fields.find("scale")) proportions.scale = read_factors(*scale);
   if (const auto height = fields.find("height"))
-    proportions.height = document::read_number(*height, {1e-6, document::kFarthest});
-  if (const auto ground = fields.find("ground")) {
-    document::require_kind(*ground, document::Kind::boolean);
-    proportions.ground = ground->boolean();
-  }
+    proportions.height = document::read_number(*height, fields.key("height"));
+  proportions.ground = fields.flag("ground");
   return proportions;
 }
-
-std::span<const document::Keys> proportions_keys() { return kKeys; }
 
 void scale_model(document::Json& json, const Model& model, const Proportions& proportions) {
   Model scaled = model;

@@ -39,9 +39,6 @@ void apply(const Proportions& proportions, Model& model);
 
 Proportions read_proportions(const document::Element& element);
 
-// The objects' keys: "proportions".
-std::span<const document::Keys> proportions_keys();
-
 // Changes a model's JSON: its joints', or if it is derived from another file, its proportions. `model` is what
 // it is read as.
 void scale_model(document::Json& json, const Model& model, const Proportions& proportions);

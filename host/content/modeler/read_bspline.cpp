@@ -88,9 +88,9 @@ SplineDirection read_direction(const document::Fields& surface, std::string_view
   Ends ends = Ends::clamped;
   std::optional<document::Element> knots;
   if (const auto element = surface.find(key)) {
-    const document::Fields fields(*element, kDirectionKeys);
-    degree = fields.count("degree", kMostDegree, 1, kMostDegree);
-    ends = static_cast<Ends>(fields.choice("ends", 0, kEnds));
+    const document::Fields fields(*element, keys::object("direction"));
+    degree = fields.count("degree");
+    ends = static_cast<Ends>(fields.choice("ends"));
     knots = fields.find("knots");
     if (const auto given = fields.find("ends"); given && knots && ends != Ends::periodic)
       given->refuse("stands beside knots, which say themselves how the surface ends", "take out ends, or the knots");
@@ -109,7 +109,7 @@ SplineDirection read_direction(const document::Fields& surface, std::string_view
 }  // namespace
 
 std::vector<wire::Patch> read_bspline(const document::Element& element) {
-  const document::Fields fields(element, kBSplineKeys);
+  const document::Fields fields(element, keys::object("bspline"));
   const PointGrid points = read_points(fields.required("points"));
   const SplineDirection u = read_direction(fields, "u", points[0].size());
   const SplineDirection v = read_direction(fields, "v", points.size());

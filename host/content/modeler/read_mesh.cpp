@@ -56,14 +56,14 @@ void read_normals(const document::Element& list, const document::Element& faces,
 }  // namespace
 
 Mesh read_mesh(const document::Element& element) {
-  const document::Fields fields(element, kMeshKeys);
+  const document::Fields fields(element, keys::object("mesh"));
   Mesh mesh;
   const document::Element vertices = fields.required("vertices");
   mesh.vertices = read_places(vertices, {0, 1});
   if (mesh.vertices.size() < 3) vertices.refuse("has fewer than 3 vertices", "give at least 3");
   const document::Element faces = fields.required("faces");
   read_faces(faces, mesh);
-  mesh.crease = fields.number("crease", kDefaultCrease, {0, 180});
+  mesh.crease = fields.number("crease");
   if (const auto normals = fields.find("normals")) {
     if (fields.find("crease")) normals->refuse("stands beside a crease", "take one of the two out");
     read_normals(*normals, faces, mesh);

@@ -19,32 +19,8 @@
 namespace mars::modeler {
 namespace {
 
-constexpr std::string_view kModelNames[] = {"joints", "shapes", "materials", "limbs", "from", "proportions"};
-constexpr std::string_view kJointNames[] = {"name", "parent", "place", "x_axis", "y_axis", "limits", "segment"};
-constexpr std::string_view kLimitsNames[] = {"x", "y", "z"};
-constexpr std::string_view kSurfaceNames[] = {"bspline", "mesh"};
-constexpr std::string_view kSegmentNames[] = {"shape", "sbb", "material", "ends", "top", "rim", "tube", "edge", "lid"};
-
-const document::Keys kKeys[] = {{"model", kModelNames},
-                                {"joint", kJointNames},
-                                {"limits", kLimitsNames},
-                                {"segment", kSegmentNames},
-                                {"material", kMaterialKeys},
-                                {"surface", kSurfaceNames},
-                                kBSplineKeys,
-                                kDirectionKeys,
-                                kMeshKeys,
-                                limb_keys()[0],
-                                limb_keys()[1],
-                                proportions_keys()[0]};
-constexpr const document::Keys& kModel = kKeys[0];
-constexpr const document::Keys& kJoint = kKeys[1];
-constexpr const document::Keys& kLimits = kKeys[2];
-constexpr const document::Keys& kSegment = kKeys[3];
-constexpr const document::Keys& kMaterial = kKeys[4];
-constexpr const document::Keys& kSurface = kKeys[5];
-
 constexpr document::Range kDegrees{-1e6, 1e6};
+constexpr std::string_view kAxes[] = {"x", "y", "z"};
 constexpr double kLeastSine = 1e-3;  // between a joint's axes
 
 std::vector<std::string_view> names_of(const auto& items) {
@@ -76,7 +52,7 @@ std::vector<wire::Patch> read_patches(const document::Element& list) {
 
 Shape read_own_shape(const std::string& name, const document::Element& element) {
   if (element.kind() != document::Kind::object) return {name, read_patches(element), {}};
-  const document::Fields fields(element, kSurface);
+  const document::Fields fields(element, keys::object("surface"));
   const auto bspline = fields.find("bspline"), mesh = fields.find("mesh");
   if (bspline.has_value() == mesh.has_value())
     element.refuse(mesh ? "is both a bspline and a mesh" : "is neither a bspline nor a mesh", "give it one of them");
@@ -91,7 +67,7 @@ class ModelReader {
       : material_names_(film_materials.begin(), film_materials.end()), sources_(sources) {}
 
   Model read(const document::Element& element) {
-    const document::Fields fields(element, kModel);
+    const document::Fields fields(element, keys::object("model"));
     if (const auto from = fields.find("from")) return derive(fields, *from);
     if (const auto proportions = fields.find("proportions"))
       proportions->refuse("stands without from", "name the model file they belong to: \"from\": \"human.json\"");
@@ -143,7 +119,8 @@ class ModelReader {
   void read_materials(const document::Element& element) {
     document::require_kind(element, document::Kind::object);
     for (const document::Element item : element)
-      model_.materials.push_back({checked_name(item, item.key()), read_material(document::Fields(item, kMaterial))});
+      model_.materials.push_back(
+          {checked_name(item, item.key()), read_material(document::Fields(item, keys::object("material")))});
     for (const NamedMaterial& material : model_.materials) material_names_.insert(material.name);
   }
 
@@ -217,7 +194,7 @@ class ModelReader {
   }
 
   Segment read_segment(const document::Element& element) {
-    const document::Fields fields(element, kSegment);
+    const document::Fields fields(element, keys::object("segment"));
     Segment segment{read_shape(fields), {}, fields.text("material", "")};
     if (const auto sbb = fields.find("sbb")) segment.sbb = read_box(*sbb);
     if (!segment.material.empty() && !material_names_.contains(segment.material)) {
@@ -230,11 +207,11 @@ class ModelReader {
   }
 
   static std::array<Limits, 3> read_limits(const document::Element& element) {
-    const document::Fields fields(element, kLimits);
+    const document::Fields fields(element, keys::object("limits"));
     std::array<Limits, 3> limits;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       limits[axis] = {0, 0};
-      const auto range = fields.find(kLimitsNames[axis]);
+      const auto range = fields.find(kAxes[axis]);
       if (!range) continue;
       document::require_size(*range, 2);
       auto bound = range->begin();
@@ -242,7 +219,7 @@ class ModelReader {
       limits[axis].upper = document::read_number(*++bound, kDegrees);
       if (limits[axis].lower > limits[axis].upper)
         range->refuse("has its lower limit above its upper",
-                      "write the lower first, degrees: \"" + std::string(kLimitsNames[axis]) + "\": [-30, 30]");
+                      "write the lower first, degrees: \"" + std::string(kAxes[axis]) + "\": [-30, 30]");
     }
     return limits;
   }
@@ -261,7 +238,7 @@ class ModelReader {
   }
 
   Joint read_joint(const document::Element& element) {
-    const document::Fields fields(element, kJoint);
+    const document::Fields fields(element, keys::object("joint"));
     Joint joint;
     joint.name = read_name(fields.required("name"));
     joint.place = fields.vector("place", joint.place);
@@ -337,8 +314,6 @@ class ModelReader {
 };
 
 }  // namespace
-
-std::span<const document::Keys> model_keys() { return kKeys; }
 
 std::string checked_name(const document::Element& element, std::string_view name) {
   if (name.empty()) element.refuse("has an empty name", "write a name");

@@ -21,7 +21,4 @@ Model load_model(const std::filesystem::path& path, std::span<const std::string_
 std::string read_name(const document::Element& element);
 std::string checked_name(const document::Element& element, std::string_view name);
 
-// What the objects of a model file may hold, as docs/schema/model.schema.json names them.
-std::span<const document::Keys> model_keys();
-
 }  // namespace mars::modeler

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "host/content/document/fields.h"
 #include "host/content/modeler/body_shapes.h"
 #include "host/content/modeler/limb_shapes.h"
 #include "host/content/modeler/primitives.h"
@@ -11,12 +12,7 @@ namespace mars::modeler {
 namespace {
 
 constexpr ShapeOption kNothing{};
-constexpr ShapeOption kTop{"top", "radius of its upper end over that of its lower", 1, 0, {0, 1}};
-constexpr ShapeOption kTube{"tube", "radius of its tube over the width of the sbb", 1, 0.125, {0.001, 0.2499}};
-constexpr ShapeOption kEnds{"ends", "height of each round end over that of the sbb", 1, 0.25, {0.001, 0.5}};
-constexpr ShapeOption kRim{"rim", "radius of its rim over the width of the sbb", 1, 0.05, {0.001, 0.49}};
-constexpr ShapeOption kEdge{"edge", "radius of its edges over the sbb's size, along each axis", 3, 0.1, {0.001, 0.5}};
-constexpr ShapeOption kLid{"lid", "how much wider its lid is than Newell's", 1, 1.077, {0.1, 1.5}};
+using keys::kEdge, keys::kEnds, keys::kLid, keys::kRim, keys::kTop, keys::kTube;
 
 template <std::vector<wire::Patch> (*make)()>
 std::vector<wire::Patch> plain(const OptionValues&) {

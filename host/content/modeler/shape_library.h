@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host/content/document/fields.h"
+#include "host/content/keys/shape_options.h"
 #include "node/wire/film.h"
 
 namespace mars::modeler {
@@ -18,15 +18,7 @@ inline constexpr std::size_t kMostNumbers = 3;  // of an option
 // As many as the option's count, then zeros.
 using OptionValues = std::array<double, kMostNumbers>;
 
-// What may be varied in a shape, a key of its segment. Several numbers stand as a list; one number stands for
-// all of them.
-struct ShapeOption {
-  std::string_view key;  // "": there is nothing to vary
-  std::string_view what;
-  std::size_t count = 1;  // of numbers
-  double otherwise = 0;   // each number's default
-  document::Range range{};
-};
+using keys::ShapeOption;
 
 struct LibraryShape {
   std::string_view name;

@@ -1,5 +1,5 @@
 // What `--report FILE` holds: the nodes, and for each frame and node the seconds of every step and the
-// work that was counted, as JSON (docs/rendering.md names the keys).
+// work that was counted, as JSON (docs/watching.md names the keys).
 #pragma once
 
 #include <string>

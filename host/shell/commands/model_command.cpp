@@ -11,6 +11,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/document/text.h"
+#include "host/content/keys/text.h"
 #include "host/content/modeler/describe.h"
 #include "host/content/modeler/edit.h"
 #include "host/content/modeler/model_file.h"
@@ -244,18 +245,14 @@ void add_joint_options(CLI::App& app, Words& words) {
   app.footer(shapes_text());
 }
 
+// "--roughness", with the help that the table has.
 void add_material_numbers(CLI::App& app, modeler::MaterialChange& change) {
-  constexpr std::array helps{"Share of the light from all around. Example: --ambient 0.2",
-                             "Share of a light's light, scattered. Example: --diffuse 0.7",
-                             "Strength of highlights. Example: --specular 0.1",
-                             "Sharpness of highlights. Example: --exponent 16",
-                             "How rough it is, 0 to 1. Example: --roughness 0.3",
-                             "1: a metal; 0: none. Example: --metallic 1",
-                             "Index of refraction. Example: --refraction 1.5"};
-  static_assert(helps.size() == modeler::kMaterialNumbers.size());
-  for (std::size_t i = 0; i < helps.size(); ++i)
-    app.add_option("--" + std::string(modeler::kMaterialNumbers[i].key), change.numbers[i], helps[i])
-        ->type_name(modeler::kMaterialNumbers[i].range.highest == 10 ? "SHARE" : "NUMBER");
+  for (std::size_t i = 0; i < modeler::kMaterialNumbers.size(); ++i) {
+    const keys::Key& key = modeler::kMaterialNumbers[i].key;
+    app.add_option("--" + std::string(key.name), change.numbers[i],
+                   keys::help_of(key, "--" + std::string(key.name) + " "))
+        ->type_name("NUMBER");
+  }
 }
 
 void add_material_options(CLI::App& app, Words& words) {

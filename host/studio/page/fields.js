@@ -142,8 +142,8 @@ export function vectorField({name, key, preview, commit, cancel, ...rest}) {
 }
 
 // A slider and its number.
-export function sliderField({name, letter = "", label = "", axis = letter, unit = "", least, most, step = 1, key, digits = 2, preview, commit, cancel}) {
-  const range = element("input", {type: "range", min: least, max: most, step: "any", "aria-label": name, "data-key": key});
+export function sliderField({name, title = "", letter = "", label = "", axis = letter, unit = "", least, most, step = 1, key, digits = 2, preview, commit, cancel}) {
+  const range = element("input", {type: "range", min: least, max: most, step: "any", "aria-label": name, title, "data-key": key});
   const settling = new Settling();
   let value = 0, byPointer = false, held = false;
   const shareOf = (number) => (clamped(number, least, most) - least) / (most - least || 1);

@@ -12,6 +12,7 @@
 #include "host/content/animator/edit.h"
 #include "host/content/animator/written.h"
 #include "host/content/modeler/edit.h"
+#include "host/content/keys/page_keys.h"
 #include "host/content/modeler/figure_library.h"
 #include "host/content/modeler/limbs.h"
 #include "host/content/modeler/read_model.h"
@@ -112,7 +113,7 @@ Json material_of(const std::string& name, const wire::Material& material) {
   json["sides"] = material.sides;
   for (const modeler::MaterialNumber& number : modeler::kMaterialNumbers)
     if (modeler::uses(material.reflection, number))
-      json[std::string(number.key)] = document::rounded_to(material.*number.member, 6);
+      json[std::string(number.key.name)] = document::rounded_to(material.*number.member, 6);
   return json;
 }
 
@@ -194,7 +195,7 @@ Json material_at(const animator::MaterialMotion& material, std::uint32_t frame) 
   json["reflection"] = modeler::word_of(material.shading.reflection);
   for (std::size_t i = 0; i < modeler::kMaterialNumbers.size(); ++i)
     if (modeler::uses(material.shading.reflection, modeler::kMaterialNumbers[i]))
-      add_part(json, modeler::kMaterialNumbers[i].key, material.numbers[i], frame);
+      add_part(json, modeler::kMaterialNumbers[i].key.name, material.numbers[i], frame);
   return json;
 }
 
@@ -268,6 +269,7 @@ void describe_film(Json& project, const animator::Film& film, const Json& json, 
   Json materials = Json::array();
   for (const animator::MaterialMotion& material : film.materials) materials.push_back(material_at(material, frame));
   project["materials"] = std::move(materials);
+  project["keys"] = keys::keys_of_pages();
   describe_settings(project, film, json);
 }
 
@@ -288,6 +290,7 @@ void describe_model(Json& project, const animator::Film& film, const Json& json,
   for (const modeler::NamedMaterial& material : model.materials)
     project["materials"].push_back(material_of(material.name, material.material));
   project["shapes"] = shapes();
+  project["keys"] = keys::keys_of_pages();
   if (json.contains("shapes"))
     for (const auto& [name, shape] : json["shapes"].items())
       project["shapes"].push_back({{"name", name}, {"own", true}});

@@ -103,25 +103,26 @@ FigureStep read_figure(const Element& element, const document::Keys& keys, std::
 CameraStep read_camera(const Element& element) {
   const Fields fields(element, kCamera);
   return {vector_given(fields, "eye"), vector_given(fields, "at"),
-          number_given(fields, "fov", animator::kFieldsOfView)};
+          number_given(fields, "fov", keys::range_of("camera", "fov"))};
 }
 
 glm::dvec2 read_cone(const Element& element) {
   document::require_size(element, 2);
   auto angle = element.begin();
-  const double inner = animator::rounded(document::read_number(*angle, animator::kCones));
-  return {inner, animator::rounded(document::read_number(*++angle, animator::kCones))};
+  const double inner = animator::rounded(document::read_number(*angle, keys::range_of("light", "cone")));
+  return {inner, animator::rounded(document::read_number(*++angle, keys::range_of("light", "cone")))};
 }
 
 LightStep read_light(const Element& element) {
   const Fields fields(element, kLight);
-  LightStep step{document::read_count(fields.required("light"), 1, animator::kMostLights)};
+  LightStep step{document::read_count(fields.required("light"), 1,
+                                      static_cast<std::uint32_t>(keys::range_of("film", "lights").highest))};
   step.place = vector_given(fields, "place");
   step.at = vector_given(fields, "at");
   step.direction = vector_given(fields, "direction");
   step.color = vector_given(fields, "color", {0, 1});
-  step.intensity = number_given(fields, "intensity", animator::kIntensities);
-  step.reach = number_given(fields, "reach", animator::kReaches);
+  step.intensity = number_given(fields, "intensity", keys::range_of("light", "intensity"));
+  step.reach = number_given(fields, "reach", keys::range_of("light", "reach"));
   if (const auto cone = given(fields, "cone")) step.cone = read_cone(*cone);
   return step;
 }
@@ -201,7 +202,8 @@ modeler::MaterialChange read_material_change(const Fields& fields) {
   modeler::MaterialChange change;
   change.color = vector_given(fields, "color", {0, 1});
   for (std::size_t i = 0; i < change.numbers.size(); ++i)
-    change.numbers[i] = number_given(fields, modeler::kMaterialNumbers[i].key, modeler::kMaterialNumbers[i].range);
+    change.numbers[i] =
+        number_given(fields, modeler::kMaterialNumbers[i].key.name, modeler::kMaterialNumbers[i].key.range);
   if (const auto word = given(fields, "reflection"))
     change.reflection = modeler::kReflections[read_choice(*word, modeler::kReflections)];
   if (const auto word = given(fields, "interpolation"))

@@ -1,24 +1,12 @@
-// Materials: their list, and the one that is chosen. A reflection model says which numbers there are.
+// Materials: their list, and the one that is chosen. The project says which numbers there are, of which reflection
+// models, and their ranges (`keys`: host/content/keys).
 
 import {element, keepingFocus} from "../dom.js";
 import {choice, colorField, line, part, sliderField, textField} from "../fields.js";
 import {icon} from "../icons.js";
 import {hexOf} from "../numbers.js";
 
-const kHighlights = ["phong", "blinn-phong"];
-const kNumbers = [  // as film-format.md has them; `most`: of the slider
-  {key: "ambient", otherwise: 0.1, least: 0, most: 2, of: [...kHighlights, "cook-torrance", "metallic-roughness"]},
-  {key: "diffuse", otherwise: 0.65, least: 0, most: 2, of: [...kHighlights, "cook-torrance"]},
-  {key: "specular", otherwise: 0.45, least: 0, most: 4, of: [...kHighlights, "cook-torrance"]},
-  {key: "exponent", otherwise: 32, least: 0, most: 400, step: 1, of: kHighlights},
-  {key: "roughness", otherwise: 0.5, least: 0, most: 1, of: ["cook-torrance", "metallic-roughness"]},
-  {key: "metallic", otherwise: 0, least: 0, most: 1, of: ["metallic-roughness"]},
-  {key: "refraction", otherwise: 1.5, least: 1.01, most: 4, of: ["cook-torrance"]},
-];
-const kReflections = [["phong", "Phong"], ["blinn-phong", "Blinn-Phong"], ["cook-torrance", "Cook-Torrance"],
-                      ["metallic-roughness", "Metallic, roughness"]];
-const kInterpolations = [["phong", "Phong"], ["gouraud", "Gouraud"], ["flat", "Flat"]];
-const kGrey = [0.8, 0.8, 0.8];
+const titled = (name) => name[0].toUpperCase() + name.slice(1);
 
 export class MaterialsPanel {
   #chosen = null;
@@ -31,6 +19,7 @@ export class MaterialsPanel {
     state.on("selected", () => this.#ofJoint());
   }
 
+  get #keys() { return this.state.project.keys.material; }
   get #material() { return this.state.project.materials.find(({name}) => name === this.#chosen); }
 
   #ofJoint() {
@@ -66,7 +55,7 @@ export class MaterialsPanel {
 
   #swatch({name, color}) {
     const dot = element("span", {class: "dot"});
-    dot.style.background = hexOf(color ?? kGrey);
+    dot.style.background = hexOf(color ?? this.#keys.color.default);
     return element("button", {role: "option", "aria-selected": String(name === this.#chosen), tabindex: name === this.#chosen ? 0 : -1,
                               "data-key": `swatch ${name}`, onclick: () => this.#choose(name)}, dot, element("span", {}, name));
   }
@@ -86,7 +75,7 @@ export class MaterialsPanel {
     let number = 1;
     while (names.includes(`material-${number}`)) ++number;
     this.#chosen = `material-${number}`;
-    this.edits.commit({add: "material", material: this.#chosen, change: {color: kGrey}}, event);
+    this.edits.commit({add: "material", material: this.#chosen, change: {color: this.#keys.color.default}}, event);
   }
 
   #changes(changeOf) {
@@ -104,13 +93,14 @@ export class MaterialsPanel {
   }
 
   #editor() {
-    const reflection = this.#material.reflection ?? "phong";
-    const pick = (text, key, options, otherwise) => line(text, this.#field(
-      choice({name: text, key: `material.${key}`, options, ...this.#changes((value) => ({[key]: value}))}), (now) => now[key] ?? otherwise));
-    const numbers = kNumbers.filter(({of}) => of.includes(reflection)).map(({key, otherwise, least, most, step = 0.05}) =>
-      line(key[0].toUpperCase() + key.slice(1), this.#field(
-        sliderField({name: key, key: `material.${key}`, least, most, step, digits: 3, ...this.#changes((value) => ({[key]: value}))}),
-        (now) => now[key] ?? otherwise)));
+    const reflection = this.#material.reflection ?? this.#keys.reflection.default;
+    const pick = (text, key) => line(text, this.#field(
+      choice({name: text, key: `material.${key}`, options: this.#keys[key].choices.map((each) => [each, titled(each)]),
+              ...this.#changes((value) => ({[key]: value}))}), (now) => now[key] ?? this.#keys[key].default));
+    const numbers = Object.entries(this.#keys).filter(([, {of}]) => of?.includes(reflection)).map(([key, {slider: [least, most], default: usual, meaning}]) =>
+      line(titled(key), this.#field(
+        sliderField({name: key, title: meaning, key: `material.${key}`, least, most, step: most > 100 ? 1 : 0.05, digits: 3, ...this.#changes((value) => ({[key]: value}))}),
+        (now) => now[key] ?? usual)));
     const name = textField({name: "Name of the material", key: "material.name", commit: (to, event) => {
       const step = {set: "material", material: this.#chosen, change: {name: to}};
       this.#chosen = to;
@@ -120,9 +110,9 @@ export class MaterialsPanel {
                           ...this.#changes((value) => ({sides: Number(value)}))});
     return [
       part("Material", line("Name", this.#field(name, (now) => now.name)),
-           line("Colour", this.#field(colorField({name: "Colour", key: "material.color", ...this.#changes((color) => ({color}))}), (now) => now.color ?? kGrey))),
-      part("Reflection", pick("Model", "reflection", kReflections, "phong"), numbers),
-      part("Surface", pick("Shading", "interpolation", kInterpolations, "phong"), line("Sides", this.#field(sides, (now) => String(now.sides ?? 2)))),
+           line("Colour", this.#field(colorField({name: "Colour", key: "material.color", ...this.#changes((color) => ({color}))}), (now) => now.color ?? this.#keys.color.default))),
+      part("Reflection", pick("Model", "reflection"), numbers),
+      part("Surface", pick("Shading", "interpolation"), line("Sides", this.#field(sides, (now) => String(now.sides ?? this.#keys.sides.default)))),
     ];
   }
 }

@@ -1,68 +1,20 @@
-// The published schemas name exactly the keys that the readers know, and every example is read and compiled.
+// The published schemas take what the table of keys shows, and every example is read and compiled.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <set>
 
 #include "host/content/animator/read_film.h"
 #include "host/content/document/file.h"
-#include "host/content/document/forms.h"
 #include "host/content/document/json_file.h"
+#include "host/content/keys/key.h"
 #include "host/content/film/compile.h"
 #include "host/content/modeler/read_model.h"
-#include "host/content/modeler/shape_library.h"
 
 namespace mars::film {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::set<std::string> keys_in(const document::Element& schema) {
-  std::set<std::string> keys;
-  const document::Element properties = *schema.find("properties");
-  for (const document::Element property : properties) keys.emplace(property.key());
-  return keys;
-}
-
-void expect_same_keys(const std::string& name, std::span<const document::Keys> known) {
-  const document::Document schema =
-      document::read_document(fs::path(MARS_SOURCE_DIR) / "docs/schema" / (name + ".schema.json"));
-  const document::Element definitions = *schema.root().find("$defs");
-  std::size_t objects = 1;
-  for (const document::Element definition : definitions) objects += definition.find("properties").has_value();
-  EXPECT_EQ(objects, known.size()) << "objects of " << name;
-  for (const document::Keys& keys : known) {
-    const auto definition = keys.of == name ? schema.root() : definitions.find(keys.of);
-    ASSERT_TRUE(definition) << keys.of;
-    EXPECT_EQ(keys_in(*definition), std::set<std::string>(keys.names.begin(), keys.names.end())) << keys.of;
-  }
-}
-
-TEST(Schema, NamesTheKeysOfAModel) { expect_same_keys("model", modeler::model_keys()); }
-
-TEST(Schema, NamesTheKeysOfAFilm) { expect_same_keys("film", animator::film_keys()); }
-
-TEST(Schema, NamesTheLibrarysShapesAndTheirOptions) {
-  const document::Document schema =
-      document::read_document(fs::path(MARS_SOURCE_DIR) / "docs/schema/model.schema.json");
-  const document::Element definitions = *schema.root().find("$defs");
-  std::vector<std::string_view> named, known;
-  const document::Element names = *definitions.find("library")->find("enum");
-  for (const document::Element name : names) named.push_back(name.text());
-  for (const modeler::LibraryShape& shape : modeler::shape_library()) known.push_back(shape.name);
-  EXPECT_EQ(named, known);
-  const document::Element properties = *definitions.find("segment")->find("properties");
-  for (const modeler::LibraryShape& shape : modeler::shape_library()) {
-    const modeler::ShapeOption& option = shape.option;
-    if (option.key.empty()) continue;
-    const document::Element property = *properties.find(option.key);
-    const document::Element number = option.count == 1 ? property : *property.find("anyOf")->begin();
-    EXPECT_EQ(property.find("default")->number(), option.otherwise) << option.key;
-    EXPECT_EQ(number.find("minimum")->number(), option.range.lowest) << option.key;
-    EXPECT_EQ(number.find("maximum")->number(), option.range.highest) << option.key;
-  }
-}
 
 // Whether a value is as a schema says; of JSON Schema what ours use for values of keys.
 class Schemas {
@@ -82,41 +34,21 @@ class Schemas {
              std::ranges::all_of(value, [&](const document::Json& each) { return takes(schema["items"], each); });
     if (type == "string") return value.is_string();
     if (type == "boolean") return value.is_boolean();
+    if (type == "null") return value.is_null();
     return type == "object" && value.is_object() && takes_object(schema, value);
   }
 
-  // Of a key wherever it may stand; of "above.key" or "above.*" where it stands in that one; of "/key" in the
-  // film itself.
-  std::vector<document::Json> of(const std::string& name) const {
-    std::vector<document::Json> found;
-    if (name[0] == '/') return {film_["properties"][name.substr(1)]};
-    const std::size_t dot = name.find('.');
-    for (const document::Json& object : objects()) {
-      if (!object.contains("properties")) continue;
-      const auto property = object["properties"].find(name.substr(0, dot));
-      if (property == object["properties"].end()) continue;
-      const document::Json schema = dot == std::string::npos ? resolved(*property) : object_of(resolved(*property));
-      if (dot == std::string::npos) found.push_back(schema);
-      if (dot == std::string::npos || schema.value("type", "") != "object") continue;
-      const std::string key = name.substr(dot + 1);
-      if (key == "*" && schema.contains("additionalProperties") && schema["additionalProperties"].is_object())
-        found.push_back(schema["additionalProperties"]);
-      if (key != "*" && schema.contains("properties") && schema["properties"].contains(key))
-        found.push_back(schema["properties"][key]);
+  document::Json of(const keys::Object& object, const keys::Key& key) const {
+    for (const document::Json* file : {&film_, &model_}) {
+      if ((*file)["$id"] == std::string(object.name) + ".schema.json") return (*file)["properties"][key.name];
+      if ((*file)["$defs"].contains(object.name)) return (*file)["$defs"][object.name]["properties"][key.name];
     }
-    return found;
+    return {};
   }
 
  private:
   static document::Json read(const char* name) {
     return document::read_json(fs::path(MARS_SOURCE_DIR) / "docs/schema" / name);
-  }
-
-  std::vector<document::Json> objects() const {
-    std::vector<document::Json> all = {film_, model_};
-    for (const document::Json* schema : {&film_, &model_})
-      for (const auto& definition : (*schema)["$defs"].items()) all.push_back(definition.value());
-    return all;
   }
 
   document::Json resolved(const document::Json& schema) const {
@@ -125,13 +57,6 @@ class Schemas {
     if (name == "model.schema.json") return model_;
     const std::string definition = name.substr(name.rfind('/') + 1);
     return resolved((film_["$defs"].contains(definition) ? film_ : model_)["$defs"][definition]);
-  }
-
-  // Of several forms the one of an object, if there is one.
-  document::Json object_of(const document::Json& schema) const {
-    for (const document::Json& each : schema.value("anyOf", document::Json::array()))
-      if (resolved(each).value("type", "") == "object") return resolved(each);
-    return schema;
   }
 
   bool takes_object(const document::Json& schema, const document::Json& value) const {
@@ -148,24 +73,24 @@ class Schemas {
   const document::Json film_ = read("film.schema.json"), model_ = read("model.schema.json");
 };
 
-TEST(Schema, TakesTheFormsThatMessagesShow) {
+TEST(Schema, TakesTheExamplesThatMessagesShow) {
   const Schemas schemas;
-  for (const document::Form& form : document::forms()) {
-    const auto found = schemas.of(std::string(form.key));
-    const document::Json value = document::Json::parse(form.value);
-    EXPECT_TRUE(std::ranges::any_of(found, [&](const document::Json& schema) { return schemas.takes(schema, value); }))
-        << form.key << ": " << form.value;
-  }
+  for (const auto objects : {keys::film_objects(), keys::model_objects()})
+    for (const keys::Object& object : objects)
+      for (const keys::Key& key : object.keys)
+        for (const std::string_view text : {key.example, key.json})
+          if (!text.empty())
+            EXPECT_TRUE(schemas.takes(schemas.of(object, key), document::Json::parse(text)))
+                << object.name << "." << key.name << ": " << text;
 }
 
-TEST(Schema, EveryKeyOfAFilmHasAForm) {
-  for (const document::Keys& keys : animator::film_keys())
-    for (const std::string_view key : keys.names) {
-      if (key == "dice") continue;                                         // has messages of its own
-      if (keys.of == std::string_view("part") && key != "ease") continue;  // as the part itself
-      EXPECT_TRUE(std::ranges::any_of(document::forms(), [&](const document::Form& form) { return form.key == key; }))
-          << key;
-    }
+TEST(Schema, TypesTakeTheirExamples) {
+  const Schemas schemas;
+  for (const auto types : {keys::film_types(), keys::model_types()})
+    for (const keys::Type& type : types)
+      if (!type.example.empty())
+        EXPECT_TRUE(schemas.takes({{"$ref", "#/$defs/" + std::string(type.name)}}, document::Json::parse(type.example)))
+            << type.name;
 }
 
 std::vector<fs::path> json_files(const char* folder) {
@@ -219,8 +144,8 @@ TEST(Examples, ThoseOfTheDocumentationAreTrue) {
   const document::Document model(worked_example("model-format.md"), "model-format.md");
   EXPECT_EQ(modeler::read_model(model.root()).joints.size(), 3u);
   const document::Document sail(R"({"joints": [{"name": "mast", "segment": {"shape": "sail"}}], )" +
-                                    worked_example("model-format.md", "\"shapes\"") + "}",
-                                "model-format.md");
+                                    worked_example("shapes.md", "\"shapes\"") + "}",
+                                "shapes.md");
   EXPECT_EQ(modeler::read_model(sail.root()).shapes[0].patches.size(), 1u);
 }
 

@@ -3,7 +3,8 @@
 import json
 import pathlib
 
-MODELS = pathlib.Path(__file__).resolve().parents[4] / "examples/models"
+SOURCES = pathlib.Path(__file__).resolve().parents[4]
+MODELS = SOURCES / "examples/models"
 AXES = "xyz"
 FREE = {axis: [-180, 180] for axis in AXES}
 SHAPES = [
@@ -45,6 +46,22 @@ def materials():
     return [{"name": name, **material} for name, material in json.loads((MODELS / "human.json").read_text())["materials"].items()]
 
 
+def key(schema):
+    bounds = {ours: schema[theirs] for ours, theirs in (("least", "minimum"), ("most", "maximum")) if theirs in schema}
+    choices = {"choices": schema["enum"]} if "enum" in schema else {}
+    return bounds | choices | {"default": schema.get("default"), "meaning": schema["description"]}
+
+
+def keys():
+    """As the studio makes them of the table of keys: by the schemas, which come from it too."""
+    schema = json.loads((SOURCES / "docs/schema/film.schema.json").read_text())
+    known = {"film": schema, "camera": schema["$defs"]["camera"], "light": schema["$defs"]["light"], "material": schema["$defs"]["film_material"]}
+    keys = {thing: {name: key(each) for name, each in of["properties"].items()} for thing, of in known.items()}
+    for name in ("ambient", "diffuse", "specular", "exponent"):
+        keys["material"][name] |= {"slider": [0, 2], "of": ["phong", "blinn-phong"]}
+    return keys
+
+
 def limbs():
     sides = ("hip", "knee", "ankle", "toes", "shoulder", "elbow", "wrist")
     return ["pelvis", "spine", "chest", "neck", "head", *(f"{side}.{limb}" for side in ("left", "right") for limb in sides)]
@@ -54,7 +71,7 @@ def model():
     return {
         "kind": "model", "file": "examples/models/human.json", "frames": 1, "rate": 24, "frame": 0, "size": [960, 540],
         "actors": [{"name": "model", "model": "model", "place": [0, 0, 0], "turn": [0, 0, 0], "joints": joints()}],
-        "materials": materials(), "shapes": SHAPES, "bodies": [{"name": name, "what": f"a {name} body"} for name in ("tall", "child", "stout")], "limbs": limbs(),
+        "materials": materials(), "keys": keys(), "shapes": SHAPES, "bodies": [{"name": name, "what": f"a {name} body"} for name in ("tall", "child", "stout")], "limbs": limbs(),
         "undo": None, "redo": None, "problem": None,
     }
 

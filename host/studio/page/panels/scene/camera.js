@@ -1,7 +1,7 @@
 // A film's camera: where it is, where it looks, and whom it looks at or goes along with.
 
 import {choice, line, part} from "../../fields.js";
-import {targetOf} from "./controls.js";
+import {rangeOf, targetOf} from "./controls.js";
 
 export function cameraPart(controls) {
   const now = () => controls.project.camera;
@@ -9,7 +9,7 @@ export function cameraPart(controls) {
   const stepOf = (change) => ({set: "camera", ...change});
   const vector = (label, member) => controls.vector(label, `Camera, ${label.toLowerCase()}`, `camera.${member}`, 0.1,
                                                     (value) => stepOf({[member]: value}), () => now()?.[member]);
-  const angle = {name: "Camera, view angle", unit: "°", least: 0.01, most: 179, step: 1, key: "camera.fov"};
+  const angle = {name: "Camera, view angle", unit: "°", ...rangeOf(controls.project.keys.camera.fov), step: 1, key: "camera.fov"};
   return part("Camera", vector("Eye", "eye"), vector("Looks at", "at"),
               controls.number("View angle", angle, (fov) => stepOf({fov}), () => now()?.fov),
               bound(controls, "Look at", "look"), bound(controls, "Go along", "follow"));

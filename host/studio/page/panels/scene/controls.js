@@ -9,6 +9,9 @@ export const joined = (numbers) => numbers.map((number) => written(number, 4)).j
 // {actor, joint} as commands name it; null: nobody.
 export const targetOf = (bound) => bound ? [bound.actor, bound.joint].filter(Boolean).join("/") : null;
 
+// The bounds of a field, as the table of keys has them.
+export const rangeOf = ({least, most}) => ({least, most});
+
 export class Controls {
   #fields = [];
 

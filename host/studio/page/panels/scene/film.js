@@ -2,7 +2,7 @@
 
 import {element} from "../../dom.js";
 import {line, numberField, part} from "../../fields.js";
-import {joined} from "./controls.js";
+import {joined, rangeOf} from "./controls.js";
 
 export function materialsPart(controls) {
   const materials = controls.project.materials ?? [];
@@ -15,7 +15,7 @@ export function materialsPart(controls) {
 
 export function filmPart(controls) {
   const set = (text) => ["film", "set", text];
-  const number = (label, key) => controls.number(label, {key: `film.${key}`, step: 1, least: 1, digits: 0},
+  const number = (label, key) => controls.number(label, {key: `film.${key}`, step: 1, ...rangeOf(controls.project.keys.film[key]), digits: 0},
                                                  (value) => set(`${key}=${value}`), () => controls.project[key]);
   const side = (name, at) => controls.field(numberField({
     name, key: `film.size${at}`, least: 16, step: 10, digits: 0,

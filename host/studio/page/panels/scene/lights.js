@@ -2,7 +2,7 @@
 
 import {element} from "../../dom.js";
 import {part} from "../../fields.js";
-import {joined} from "./controls.js";
+import {joined, rangeOf} from "./controls.js";
 
 const kKinds = {directional: "Sun", point: "Bulb", spot: "Spot"};
 const kNew = {directional: ["direction=1,-1,2"], point: ["place=0,-3,4"], spot: ["place=0,-4,5", "at=0,0,1"]};
@@ -22,7 +22,7 @@ function ofLight(controls, {thing, kind}) {
   const now = () => controls.project.lights?.find((light) => light.thing === thing);
   const vector = (label, member) => controls.vector(label, `Light, ${label.toLowerCase()}`, `light.${member}`, 0.1,
     (value) => controls.posed(thing, `${member}=${joined(value)}`), () => now()?.[member]);
-  const intensity = {name: "Light, intensity", least: 0, step: 0.1, key: "light.intensity"};
+  const intensity = {name: "Light, intensity", ...rangeOf(controls.project.keys.light.intensity), step: 0.1, key: "light.intensity"};
   return [
     kind === "directional" ? vector("Direction", "direction") : vector("Place", "place"),
     kind === "spot" && vector("Aims at", "at"),

@@ -1,0 +1,467 @@
+#include "host/content/keys/objects.h"
+
+namespace mars::keys {
+namespace {
+
+// In the order of the enumerations that they are read to.
+constexpr std::string_view kColors[] = {"coded", "linear"}, kCurves[] = {"none", "filmic"},
+                           kCuttings[] = {"auto", "keyframes"}, kAxes[] = {"world", "joint"};
+
+constexpr Type kTypes[] = {
+    {"frame", R"({"type": "integer", "minimum": 0, "maximum": 1000000})", "24"},
+    {"size",
+     R"({"type": "array", "minItems": 2, "maxItems": 2, "items": {"type": "integer", "minimum": 1, "maximum": 16384}})",
+     "[960, 540]"},
+    {"samples", R"({"enum": [1, 2, 4, 8, 16]})", "4"},
+    {"dice", R"({"anyOf": [{"const": "adaptive"}, {"type": "integer", "minimum": 1, "maximum": 256}]})", ""},
+    {"color_or_ambient", R"({"anyOf": ["#color", "#ambient"]})", "[0.8, 0.9, 1]"},
+    {"model_or_file", R"({"anyOf": [{"type": "string", "minLength": 1}, "#model"]})", R"("robot.json")"},
+    {"ease",
+     R"({"anyOf": [{"enum": ["linear", "in", "out", "both", "spline"]}, {"type": "array", "minItems": 4, "maxItems": 4,
+         "prefixItems": [{"minimum": 0, "maximum": 1}, {}, {"minimum": 0, "maximum": 1}, {}],
+         "items": {"type": "number", "minimum": -10, "maximum": 10}}]})",
+     "[0.4, 0, 0.6, 1]"},
+    {"numbers",
+     R"({"anyOf": [{"type": "number"}, {"type": "array", "minItems": 2, "maxItems": 3, "items": {"type": "number"}}]})",
+     ""},
+    {"value", R"({"anyOf": ["#numbers", "#point"]})", ""},
+    {"angles",
+     R"({"type": "array", "minItems": 3, "maxItems": 3, "items": {"type": "number", "minimum": -1e6, "maximum": 1e6}})",
+     "[0, 90, 0]"},
+    {"angles_or_part", R"({"anyOf": ["#angles", "#part"]})", "[0, 90, 0]"},
+    {"angle", R"({"type": "number", "minimum": 0.01, "maximum": 180})", "40"},
+    {"cone", R"({"anyOf": ["#angle", {"type": "array", "minItems": 2, "maxItems": 2, "items": "#angle"}]})",
+     "[30, 40]"},
+    {"place_or_point", R"({"anyOf": ["#vector", "#point"]})", "[0, -9, 2]"},
+    {"attach_or_null", R"({"anyOf": [{"type": "null"}, "#attach"]})", R"({"actor": "tom", "joint": "right-hand"})"},
+    {"matrix",
+     R"({"type": "array", "minItems": 3, "maxItems": 3,
+         "items": {"type": "array", "minItems": 4, "maxItems": 4, "items": "#coordinate"}})",
+     "[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]"},
+};
+
+Object film() {
+  return {
+      "film",
+      "Camera, lights, materials, models and actors over frames that count from 0. World: right-handed, z up. Angles "
+      "in degrees, colours 0 to 1.",
+      {{.name = "version",
+        .type = "whole",
+        .meaning = "version of this format",
+        .without = "what the film holds is allowed",
+        .range = {1, 2},
+        .typed = false,
+        .example = "2"},
+       {.name = "frames",
+        .type = "whole",
+        .meaning = "number of frames",
+        .range = {1, 1000000},
+        .required = true,
+        .example = "48"},
+       {.name = "rate", .meaning = "frames per second", .number = 24, .range = {0.001, 1000}},
+       {.name = "size",
+        .type = "size",
+        .meaning = "`[width, height]`, each 1 to 16384",
+        .json = "[960, 540]",
+        .unit = "pixels"},
+       {.name = "samples",
+        .type = "samples",
+        .meaning = "samples of a pixel, 1, 2, 4, 8 or 16: more make smoother edges and take longer",
+        .json = "4"},
+       {.name = "color",
+        .type = "choice",
+        .meaning = "`\"linear\"`: colours are light; `\"coded\"`: numbers as they are shown",
+        .see = "light-and-materials.md#light-and-colour",
+        .json = R"("linear")",
+        .choices = kColors},
+       {.name = "curve",
+        .type = "choice",
+        .meaning = "how light becomes what is shown; in linear films only",
+        .json = R"("filmic")",
+        .choices = kCurves},
+       {.name = "background",
+        .type = "color",
+        .meaning = "colour of the background",
+        .json = "[0, 0, 0]",
+        .example = "[0.1, 0.2, 0.3]"},
+       {.name = "ambient",
+        .type = "color_or_ambient",
+        .meaning = "light from all around: one colour, or `{\"sky\": COLOUR, \"ground\": COLOUR}` from above and below",
+        .without = "`[1, 1, 1]`; without lights a little darker from below"},
+       {.name = "fog",
+        .type = "fog",
+        .meaning = "surfaces take on its colour with distance",
+        .see = "light-and-materials.md#fog",
+        .without = "none",
+        .typed = false,
+        .example = R"({"start": 10, "end": 100})"},
+       {.name = "intervals",
+        .type = "choice",
+        .meaning = "where render intervals are cut: where it saves work, or at keys",
+        .see = "render-intervals.md#render-intervals",
+        .json = R"("auto")",
+        .choices = kCuttings},
+       {.name = "dice",
+        .type = "dice",
+        .meaning = "`\"adaptive\"`, or N to dice every patch into N x N quads, 1 to 256",
+        .json = R"("adaptive")"},
+       {.name = "camera",
+        .type = "camera",
+        .meaning = "where it stands, and where it looks",
+        .see = "#camera",
+        .required = true,
+        .typed = false,
+        .example = R"({"eye": [0, -9, 2], "at": [0, 0, 1]})"},
+       {.name = "lights",
+        .type = "[light]",
+        .meaning = "list of lights",
+        .see = "light-and-materials.md#without-lights",
+        .without = "three lights",
+        .range = {0, 64},
+        .typed = false,
+        .example = R"([{"direction": [-0.4, -0.7, 0.8]}])"},
+       {.name = "materials",
+        .type = "{film_material}",
+        .meaning = "object that maps names to materials",
+        .without = "none",
+        .typed = false,
+        .example = R"({"oak": {"color": [0.7, 0.5, 0.3]}})"},
+       {.name = "models",
+        .type = "{model_or_file}",
+        .meaning =
+            "object that maps names to models: either a file name relative to the film's folder, or a model itself",
+        .see = "model-format.md",
+        .required = true,
+        .typed = false,
+        .example = R"({"robot": "robot.json"})"},
+       {.name = "actors",
+        .type = "[actor]",
+        .meaning = "list of actors",
+        .required = true,
+        .typed = false,
+        .example = R"([{"name": "anna", "model": "robot"}])"}}};
+}
+
+Object camera() {
+  return {"camera",
+          "",
+          {{.name = "eye",
+            .type = "place_or_point",
+            .meaning = "position of the camera, `[x, y, z]` or a point of an actor; required here or in keys",
+            .see = "#points-of-actors",
+            .keyed = true},
+           {.name = "at",
+            .type = "place_or_point",
+            .meaning = "point that the camera looks at, or a point of an actor",
+            .json = "[0, 0, 0]",
+            .keyed = true,
+            .example = "[0, 0, 1]"},
+           {.name = "up",
+            .type = "vector",
+            .meaning = "direction that is up in the picture, of any length",
+            .json = "[0, 0, 1]",
+            .keyed = true},
+           {.name = "fov",
+            .meaning = "vertical field of view",
+            .number = 40,
+            .range = {0.01, 179},
+            .unit = "degrees",
+            .keyed = true},
+           {.name = "exposure",
+            .meaning = "each stop doubles the light; in linear films only",
+            .number = 0,
+            .range = {-16, 16},
+            .unit = "stops",
+            .keyed = true,
+            .example = "0.5"},
+           {.name = "near",
+            .meaning = "distance of the near plane: nothing nearer is drawn",
+            .number = 0.1,
+            .range = {1e-6, 1e9}},
+           {.name = "far",
+            .meaning = "distance of the far plane: nothing farther is drawn",
+            .number = 10000,
+            .range = {1e-6, 1e10}},
+           {.name = "keys",
+            .type = "[camera_key]",
+            .meaning = "list of keys",
+            .without = "none",
+            .typed = false,
+            .example = R"([{"frame": 0}, {"frame": 24}])"}}};
+}
+
+Object light() {
+  return {
+      "light",
+      "Far away with a direction, near with a place; a spot with a place and at. Here or in keys.",
+      {{.name = "direction",
+        .type = "vector",
+        .meaning = "vector towards a far light, of any length",
+        .keyed = true,
+        .example = "[-0.4, -0.7, 0.8]"},
+       {.name = "place", .type = "vector", .meaning = "position of a point light or a spot", .keyed = true},
+       {.name = "at", .type = "vector", .meaning = "point at which a spot aims", .keyed = true, .example = "[0, 0, 1]"},
+       {.name = "cone",
+        .type = "cone",
+        .meaning = "how wide a spot's cone opens, 0.01 to 180: `[inner, outer]`, fully lit within the inner cone and "
+                   "dark outside the outer one; or the outer angle alone, the inner is then 0.8 of it",
+        .json = "[32, 40]",
+        .range = {0.01, 180},
+        .unit = "degrees",
+        .keyed = true,
+        .example = "[30, 40]"},
+       {.name = "reach",
+        .meaning = "distance from a point light or a spot at which it has half its brightness: at distance d it is 1 / "
+                   "(1 + (d / reach)^2)",
+        .without = "the same at all distances",
+        .range = {1e-6, kFarthest},
+        .keyed = true,
+        .example = "5"},
+       {.name = "color", .type = "color", .meaning = "colour of the light", .json = "[1, 1, 1]", .keyed = true},
+       {.name = "intensity",
+        .meaning = "factor for the light of this colour",
+        .number = 1,
+        .range = {0, 1000},
+        .keyed = true},
+       {.name = "keys",
+        .type = "[light_key]",
+        .meaning = "list of keys",
+        .without = "none",
+        .typed = false,
+        .example = R"([{"frame": 0}, {"frame": 24}])"}}};
+}
+
+Object ambient() {
+  return {
+      "ambient",
+      "Light from all around.",
+      {{.name = "sky", .type = "color", .meaning = "from above", .required = true, .example = "[0.8, 0.9, 1]"},
+       {.name = "ground", .type = "color", .meaning = "from below", .required = true, .example = "[0.4, 0.3, 0.2]"}}};
+}
+
+Object fog() {
+  return {"fog",
+          "Surfaces take on its colour evenly from start to end, distances along the camera's view.",
+          {{.name = "color", .type = "color", .meaning = "its colour", .without = "the background's"},
+           {.name = "start", .meaning = "where it begins", .number = 0, .range = {0, kFarthest}, .example = "10"},
+           {.name = "end",
+            .meaning = "where nothing else is seen, beyond start",
+            .range = {0, kFarthest},
+            .required = true,
+            .example = "100"}}};
+}
+
+Object film_material() {
+  Object material{.name = "film_material",
+                  .meaning = "A model's material, with keys.",
+                  .keys = material_keys(),
+                  .example = kMaterialExample};
+  material.keys.push_back({.name = "keys",
+                           .type = "[material_key]",
+                           .meaning = "list of keys",
+                           .without = "none",
+                           .typed = false,
+                           .example = R"([{"frame": 0}, {"frame": 24}])"});
+  return material;
+}
+
+Object actor() {
+  return {
+      "actor",
+      "",
+      {{.name = "name", .type = "name", .meaning = "unique among the actors", .required = true, .example = R"("anna")"},
+       {.name = "model",
+        .type = "text",
+        .meaning = "one of the film's models",
+        .required = true,
+        .example = R"("robot")"},
+       {.name = "place",
+        .type = "vector",
+        .meaning = "position of the model's frame in the world",
+        .json = "[0, 0, 0]",
+        .keyed = true,
+        .example = "[1, 0, 0.5]"},
+       {.name = "turn",
+        .type = "angles",
+        .meaning = "rotation of the model's frame: about x, then about the turned y, then about the turned z",
+        .json = "[0, 0, 0]",
+        .unit = "degrees",
+        .keyed = true,
+        .example = "[0, 0, 90]"},
+       {.name = "pose",
+        .type = "{angles}",
+        .meaning = "object that maps a joint to its three rotations, in the same order",
+        .without = "each as near to 0 as its limits allow",
+        .unit = "degrees",
+        .keyed = true,
+        .keyed_type = "{angles_or_part}",
+        .example = R"({"elbow": [0, 90, 0]})"},
+       {.name = "material",
+        .type = "text",
+        .meaning = "a material of the film for all segments",
+        .without = "the model's materials",
+        .example = R"("oak")"},
+       {.name = "materials",
+        .type = "{text}",
+        .meaning = "object that maps a material of the model to a material of the film that replaces it",
+        .without = "none",
+        .example = R"({"skin": "oak"})"},
+       {.name = "keys",
+        .type = "[actor_key]",
+        .meaning = "list of keys",
+        .without = "none",
+        .example = R"([{"frame": 0}, {"frame": 24}])"},
+       {.name = "attach",
+        .type = "attach_or_null",
+        .meaning = "what carries the actor, or `null` for nothing",
+        .see = "#attached-actors",
+        .json = "null",
+        .keyed = true,
+        .keyed_type = "attach_or_null"},
+       {.name = "matrices",
+        .type = "[matrices_key]",
+        .meaning = "replaces place, turn, pose, attach and keys",
+        .see = "#matrices-of-another-animation-tool",
+        .without = "none",
+        .range = {1, kFarthest},
+        .example = R"([{"frame": 0, "segments": {"hand": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]}}])"}}};
+}
+
+Object part() {
+  return {
+      "part",
+      "A part of a key with more than its value.",
+      {{.name = "value",
+        .type = "value",
+        .meaning = "the part's value, as it would stand without the object",
+        .required = true},
+       {.name = "ease",
+        .type = "ease",
+        .meaning = "from this key to the next that has the part",
+        .without = "the key's `ease`"},
+       {.name = "in",
+        .type = "numbers",
+        .meaning = "slope with which a spline reaches the key: change of the value per frame, written as the value is",
+        .without = "from the neighbouring keys"},
+       {.name = "out",
+        .type = "numbers",
+        .meaning = "slope with which a spline leaves the key",
+        .without = "from the neighbouring keys"}}};
+}
+
+Object point() {
+  return {
+      "point",
+      "A point that goes along with an actor.",
+      {{.name = "actor",
+        .type = "name",
+        .meaning = "an actor that keys move, not matrices",
+        .required = true,
+        .example = R"("tom")"},
+       {.name = "joint",
+        .type = "name",
+        .meaning = "a joint of its model",
+        .without = "the actor's own frame",
+        .example = R"("right-hand")"},
+       {.name = "offset",
+        .type = "vector",
+        .meaning = "from there to the point",
+        .json = "[0, 0, 0]",
+        .example = "[0, 0, 0.2]"},
+       {.name = "axes",
+        .type = "choice",
+        .meaning =
+            "the offset is along the axes of the `\"world\"`, or of the `\"joint\"` (without a joint, of the actor)",
+        .json = R"("world")",
+        .choices = kAxes,
+        .example = R"("joint")"},
+       {.name = "level",
+        .type = "flag",
+        .meaning = "`true`: the point's height is the z of `offset` alone, so that steps do not shake the camera",
+        .json = "false",
+        .example = "true"}}};
+}
+
+Object attach() {
+  return {"attach",
+          "What carries an actor; it stands in the frame of the joint.",
+          {{.name = "actor",
+            .type = "name",
+            .meaning = "the actor that carries it; it may stand later in the list",
+            .required = true,
+            .example = R"("tom")"},
+           {.name = "joint",
+            .type = "name",
+            .meaning = "a joint of that actor's model",
+            .without = "the actor's own frame",
+            .example = R"("right-hand")"},
+           {.name = "place",
+            .type = "vector",
+            .meaning = "where this actor's frame is in that frame",
+            .json = "[0, 0, 0]",
+            .example = "[1, 0, 0.5]"},
+           {.name = "turn",
+            .type = "angles",
+            .meaning = "how it is turned there, as an actor's `turn`",
+            .json = "[0, 0, 0]",
+            .unit = "degrees",
+            .example = "[0, 0, 90]"}}};
+}
+
+Object matrices_key() {
+  return {"matrices_key",
+          "",
+          {{.name = "frame", .type = "frame", .meaning = "the frame", .required = true},
+           {.name = "segments",
+            .type = "{matrix}",
+            .meaning = "joints by name, and the matrices of their segments: three rows `[xx, xy, xz, tx]` from the sbb "
+                       "to the world, held until the next",
+            .required = true,
+            .example = R"({"hand": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]})"}}};
+}
+
+// What keys of the object may have.
+Object keys_of(const Object& object, std::string_view name) {
+  Object keys{name, "", {}};
+  keys.keys.push_back({.name = "frame",
+                       .type = "frame",
+                       .meaning = "from 0, ascending from key to key; may lie behind the film's last",
+                       .required = true});
+  for (Key key : object.keys) {
+    if (!key.keyed) continue;
+    if (!key.keyed_type.empty()) key.type = key.keyed_type;
+    keys.keys.push_back(key);
+  }
+  keys.keys.push_back(
+      {.name = "ease",
+       .type = "ease",
+       .meaning =
+           "how values go from this key to the next: a name, or its timing as the curve [x1, y1, x2, y2], as in CSS",
+       .json = R"("linear")",
+       .example = "[0.4, 0, 0.6, 1]"});
+  return keys;
+}
+
+}  // namespace
+
+std::vector<Object> make_film_objects() {
+  return {film(),
+          camera(),
+          keys_of(camera(), "camera_key"),
+          light(),
+          keys_of(light(), "light_key"),
+          ambient(),
+          fog(),
+          film_material(),
+          keys_of(film_material(), "material_key"),
+          actor(),
+          keys_of(actor(), "actor_key"),
+          matrices_key(),
+          part(),
+          point(),
+          attach()};
+}
+
+std::span<const Type> film_types() { return kTypes; }
+
+}  // namespace mars::keys

@@ -1,0 +1,341 @@
+#include "host/content/keys/material_keys.h"
+#include "host/content/keys/objects.h"
+#include "host/content/keys/shape_options.h"
+
+#include <initializer_list>
+#include <utility>
+
+namespace mars::keys {
+namespace {
+
+constexpr std::string_view kSplineEnds[] = {"clamped", "open", "periodic"};
+
+constexpr Type kTypes[] = {
+    {"name", R"({"type": "string", "minLength": 1, "maxLength": 100, "pattern": "^[^/]*$"})", R"("anna")"},
+    {"coordinate", R"({"type": "number", "minimum": -1e9, "maximum": 1e9})", "1"},
+    {"vector", R"({"type": "array", "minItems": 3, "maxItems": 3, "items": "#coordinate"})", "[1, 0, 0.5]"},
+    {"unit_vector",
+     R"({"type": "array", "minItems": 3, "maxItems": 3, "items": {"type": "number", "minimum": 0, "maximum": 1}})",
+     "[0, 0.5, 1]"},
+    {"color",
+     R"({"type": "array", "minItems": 3, "maxItems": 3, "items": {"type": "number", "minimum": 0, "maximum": 1}})",
+     "[0.8, 0.4, 0.2]"},
+    {"patch", R"({"type": "array", "minItems": 16, "maxItems": 16, "items": "#unit_vector"})", ""},
+    {"shapes",
+     R"({"type": "object", "propertyNames": {"allOf": ["#name", {"not": "#library"}]},
+         "additionalProperties": {"if": {"type": "array"}, "then": {"minItems": 1, "items": "#patch"}, "else": "#surface"}})",
+     ""},
+    {"points",
+     R"({"type": "array", "minItems": 2, "items": {"type": "array", "minItems": 2, "items": "#unit_vector"}})", ""},
+    {"knots", R"({"type": "array", "minItems": 3, "items": "#coordinate"})", ""},
+    {"vertices", R"({"type": "array", "minItems": 3, "items": "#unit_vector"})", ""},
+    {"faces",
+     R"({"type": "array", "minItems": 1, "items": {"type": "array", "minItems": 3, "maxItems": 4096,
+         "items": {"type": "integer", "minimum": 0}}})",
+     ""},
+    {"normals",
+     R"({"type": "array", "minItems": 3, "items": {"type": "array", "minItems": 3, "maxItems": 3,
+         "items": {"type": "number", "minimum": -1e6, "maximum": 1e6}}})",
+     ""},
+    {"factors",
+     R"({"anyOf": [{"type": "number", "minimum": 0.001, "maximum": 1000}, {"type": "array", "minItems": 3, "maxItems": 3,
+         "items": {"type": "number", "minimum": 0.001, "maximum": 1000}}]})",
+     "[1, 1, 1.2]"},
+    {"limit",
+     R"({"type": "array", "minItems": 2, "maxItems": 2, "items": {"type": "number", "minimum": -1e6, "maximum": 1e6}})",
+     "[-30, 30]"},
+    {"sbb", R"({"type": "array", "minItems": 2, "maxItems": 2, "items": "#vector"})", "[[0, 0, 0], [1, 1, 1]]"},
+    {"library_or_name", R"({"anyOf": ["#library", "#name"]})", R"("box")"},
+    {"edge",
+     R"({"anyOf": [{"type": "number", "minimum": 0.001, "maximum": 0.5}, {"type": "array", "minItems": 3, "maxItems": 3,
+         "items": {"type": "number", "minimum": 0.001, "maximum": 0.5}}]})",
+     "0.1"},
+    {"sides", R"({"enum": [1, 2]})", "2"},
+};
+
+Object model() {
+  return {"model",
+          "A tree of joints with base segments. Lengths are in the world's unit, angles in degrees, colours 0 to 1.",
+          {{.name = "joints",
+            .type = "[joint]",
+            .meaning = "list of joints, in any order",
+            .without = "required, unless there is `from`",
+            .range = {1, kFarthest},
+            .example = R"([{"name": "foot"}, {"name": "knee", "parent": "foot"}])"},
+           {.name = "shapes",
+            .type = "shapes",
+            .meaning = "object that maps a name to a list of patches, or to an object with `bspline` or `mesh`",
+            .see = "shapes.md#shapes-of-your-own",
+            .without = "none"},
+           {.name = "limbs",
+            .type = "limbs",
+            .meaning = "object that names the joints that are the figure's limbs",
+            .see = "#limbs",
+            .without = "none"},
+           {.name = "from",
+            .type = "text",
+            .meaning = "replaces `joints`: another model file, from this one's folder",
+            .see = "#other-proportions",
+            .without = "none",
+            .example = R"("human.json")"},
+           {.name = "proportions",
+            .type = "proportions",
+            .meaning = "only with `from`: how this figure differs from it",
+            .see = "#other-proportions",
+            .without = "none",
+            .example = R"({"scale": 1.1})"},
+           {.name = "materials",
+            .type = "{material}",
+            .meaning = "object that maps names to materials, with the keys of a film's, except `keys`",
+            .see = "light-and-materials.md#materials",
+            .without = "none",
+            .example = R"({"oak": {"color": [0.7, 0.5, 0.3]}})"}},
+          R"({"oneOf": [{"required": ["joints"]}, {"required": ["from", "proportions"]}]})"};
+}
+
+Object joint() {
+  return {
+      "joint",
+      "",
+      {{.name = "name",
+        .type = "name",
+        .meaning = "unique among the model's joints, 1 to 100 bytes without `/`",
+        .required = true,
+        .example = R"("anna")"},
+       {.name = "parent",
+        .type = "text",
+        .meaning = "the joint from which this one hangs",
+        .without = "none: the model's frame",
+        .example = R"("foot")"},
+       {.name = "place",
+        .type = "vector",
+        .meaning = "position in the parent's frame",
+        .json = "[0, 0, 0]",
+        .example = "[1, 0, 0.5]"},
+       {.name = "x_axis",
+        .type = "vector",
+        .meaning = "direction of the x axis in the parent's frame, of any length",
+        .json = "[1, 0, 0]"},
+       {.name = "y_axis",
+        .type = "vector",
+        .meaning = "the same for y; need not be perpendicular to `x_axis`. z is x cross y",
+        .json = "[0, 1, 0]"},
+       {.name = "limits",
+        .type = "limits",
+        .meaning =
+            "object that maps `x`, `y`, `z` to `[lower, upper]`; the joint cannot turn about an axis that is left out",
+        .without = "-180 to 180 about each axis",
+        .unit = "degrees",
+        .example = R"({"x": [-30, 30]})"},
+       {.name = "segment",
+        .type = "segment",
+        .meaning = "the base segment",
+        .without = "none",
+        .example = R"({"shape": "box"})"}}};
+}
+
+Object limits() {
+  Object limits{"limits", "Lower and upper limit of the turn about each axis. An axis left out cannot turn.", {}};
+  for (const std::string_view axis : {"x", "y", "z"})
+    limits.keys.push_back({.name = axis,
+                           .type = "limit",
+                           .meaning = "`[lower, upper]`",
+                           .json = "[0, 0]",
+                           .unit = "degrees",
+                           .example = "[-30, 30]"});
+  return limits;
+}
+
+Object segment() {
+  Object segment{
+      "segment",
+      "",
+      {{.name = "shape",
+        .type = "library_or_name",
+        .meaning = "a shape of the library, or one of the model's `shapes`",
+        .see = "shapes.md#the-library-of-shapes",
+        .required = true,
+        .example = R"("box")"},
+       {.name = "sbb",
+        .type = "sbb",
+        .meaning = "segment bounding box in the joint's frame: `[[x, y, z], [x, y, z]]`, minimum and maximum corner",
+        .json = "[[0, 0, 0], [1, 1, 1]]"},
+       {.name = "material",
+        .type = "text",
+        .meaning = "a material of the model or of the film",
+        .without = "grey",
+        .example = R"("oak")"}}};
+  for (const ShapeOption* option : kShapeOptions)
+    segment.keys.push_back({.name = option->key,
+                            .type = option->count > 1 ? "edge" : "number",
+                            .meaning = option->what,
+                            .number = option->otherwise,
+                            .range = option->range});
+  return segment;
+}
+
+Object limb_object(std::string_view name, std::string_view meaning,
+                   std::initializer_list<std::pair<std::string_view, std::string_view>> limbs) {
+  Object object{name, meaning, {}};
+  for (const auto& [limb, function] : limbs)
+    object.keys.push_back({.name = limb, .type = "text", .meaning = function, .without = "none"});
+  return object;
+}
+
+Object limbs() {
+  Object limbs =
+      limb_object("limbs", "Names of joints, from the body outwards; a limb that is left out cannot be driven.",
+                  {{"pelvis", "carries the legs and the spine"},
+                   {"spine", "bends and turns the waist"},
+                   {"chest", "carries arms and neck"},
+                   {"neck", "turns the neck"},
+                   {"head", "turns the head"}});
+  for (const std::string_view side : {"left", "right"})
+    limbs.keys.push_back({.name = side,
+                          .type = "side",
+                          .meaning = "object with the limbs of this side: the keys below",
+                          .without = "none"});
+  return limbs;
+}
+
+Object side() {
+  return limb_object("side", "Limbs of one side.",
+                     {{"hip", "turns the thigh"},
+                      {"knee", "turns the shin"},
+                      {"ankle", "turns the foot"},
+                      {"toes", "bends the foot at its ball"},
+                      {"shoulder", "turns the upper arm"},
+                      {"elbow", "turns the forearm"},
+                      {"wrist", "turns the hand, or of four legs the lower foreleg"},
+                      {"fingers", "bends the hand, or of four legs the front paw or hoof"}});
+}
+
+Object surface() {
+  return {"surface",
+          "",
+          {{.name = "bspline", .type = "bspline", .meaning = "a B-spline surface"},
+           {.name = "mesh", .type = "mesh", .meaning = "a polygon mesh"}},
+          R"({"minProperties": 1, "maxProperties": 1})"};
+}
+
+Object bspline() {
+  Object bspline{"bspline",
+                 "The outside is where d/du x d/dv points.",
+                 {{.name = "points",
+                   .type = "points",
+                   .meaning = "control points `[x, y, z]` within 0 to 1: a list of rows along v, each with the same "
+                              "number of points along u",
+                   .required = true}}};
+  for (const std::string_view way : {"u", "v"})
+    bspline.keys.push_back({.name = way,
+                            .type = "direction",
+                            .meaning = "one of the surface's two directions, an object with the keys below",
+                            .without = "cubic, clamped, uniform"});
+  return bspline;
+}
+
+Object direction() {
+  return {"direction",
+          "",
+          {{.name = "degree",
+            .type = "whole",
+            .meaning = "1 linear, 2 quadratic, 3 cubic; a direction has at least degree + 1 points",
+            .number = 3,
+            .range = {1, 3}},
+           {.name = "ends",
+            .type = "choice",
+            .meaning = "`clamped`: the surface begins and ends at the outermost points; `open`: it ends before them; "
+                       "`periodic`: it closes",
+            .json = R"("clamped")",
+            .choices = kSplineEnds},
+           {.name = "knots",
+            .type = "knots",
+            .meaning = "numbers that never decrease; with `knots`, leave `ends` out or make it `periodic`",
+            .without = "1 apart"}}};
+}
+
+Object mesh() {
+  return {"mesh",
+          "",
+          {{.name = "vertices", .type = "vertices", .meaning = "positions `[x, y, z]` within 0 to 1", .required = true},
+           {.name = "faces",
+            .type = "faces",
+            .meaning = "lists of 3 to 4096 vertex numbers, counted from 0, counter-clockwise as seen from outside",
+            .required = true},
+           {.name = "crease",
+            .meaning = "an edge is sharp if its two faces meet at more than this angle. With 0 every face is flat; "
+                       "with 180 all edges are smooth",
+            .number = 30,
+            .range = {0, 180},
+            .unit = "degrees"},
+           {.name = "normals",
+            .type = "normals",
+            .meaning = "instead of `crease`: one outward vector `[x, y, z]` for each vertex, of any length",
+            .without = "from faces and crease"}}};
+}
+
+Object proportions() {
+  return {
+      "proportions",
+      "Factors of joints along their own axes. They move a joint's sbb and the places of the joints it carries alike.",
+      {{.name = "joints",
+        .type = "{factors}",
+        .meaning = "object that maps a joint's name, in which `*` matches any text, to factors: one number, or `[x, y, "
+                   "z]`, each 0.001 to 1000",
+        .without = "none",
+        .example = R"({"thigh": [1, 1, 1.2]})"},
+       {.name = "branches",
+        .type = "{factors}",
+        .meaning = "the same for a joint and all joints below it",
+        .without = "none",
+        .example = R"({"leg-*": 1.1})"},
+       {.name = "scale", .type = "factors", .meaning = "factors for all joints", .json = "1", .example = "[1, 1, 1.2]"},
+       {.name = "height",
+        .meaning = "height at rest, from the lowest to the highest point; the whole figure is scaled evenly to it",
+        .without = "the resulting height",
+        .range = {1e-6, kFarthest},
+        .example = "1.8"},
+       {.name = "ground",
+        .type = "flag",
+        .meaning = "whether the lowest point at rest keeps the height that it has in the other file",
+        .json = "true"}}};
+}
+
+}  // namespace
+
+std::vector<Key> material_keys() {
+  std::vector<Key> keys{{.name = "color",
+                         .type = "color",
+                         .meaning = "colour of the surface",
+                         .json = "[0.8, 0.8, 0.8]",
+                         .keyed = true,
+                         .example = "[0.8, 0.4, 0.2]"}};
+  for (const MaterialNumber& number : kMaterialNumbers) keys.push_back(number.key);
+  keys.push_back({.name = "reflection",
+                  .type = "choice",
+                  .meaning = "how the surface reflects light",
+                  .json = R"("phong")",
+                  .choices = kReflections});
+  keys.push_back({.name = "interpolation",
+                  .type = "choice",
+                  .meaning = "what is interpolated over a triangle: its normal (phong), the colours of its corners "
+                             "(gouraud), or nothing (flat)",
+                  .json = R"("phong")",
+                  .choices = kInterpolations});
+  keys.push_back(
+      {.name = "sides", .type = "sides", .meaning = "1: visible from outside only; 2: from both sides", .json = "2"});
+  return keys;
+}
+
+std::vector<Object> make_model_objects() {
+  Object material{.name = "material",
+                  .meaning = "How a surface looks. A number that its reflection does not use is an error.",
+                  .keys = material_keys(),
+                  .example = kMaterialExample};
+  return {model(),   joint(),   limits(),    segment(), limbs(),       side(),
+          surface(), bspline(), direction(), mesh(),    proportions(), material};
+}
+
+std::span<const Type> model_types() { return kTypes; }
+
+}  // namespace mars::keys

@@ -1,0 +1,50 @@
+// A number of a material that is planted in the table and in the struct alone (CMakeLists.txt) is there for all: it is
+// read, refused with its range, and stands in help, schemas, tables of docs and the studio's fields.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "hal/failure/failure.h"
+#include "host/content/document/fields.h"
+#include "host/content/keys/page_keys.h"
+#include "host/content/keys/schema.h"
+#include "host/content/keys/text.h"
+#include "host/content/modeler/material.h"
+
+namespace mars::keys {
+namespace {
+
+wire::Material read(const std::string& json) {
+  const document::Document document(json, "planted.json");
+  return modeler::read_material(document::Fields(document.root(), object("material")));
+}
+
+TEST(PlantedKey, IsRead) {
+  EXPECT_EQ(read(R"({"sheen": 0.5})").sheen, 0.5f);
+  EXPECT_EQ(read("{}").sheen, 0.25f);
+}
+
+TEST(PlantedKey, IsRefusedWithItsRange) {
+  try {
+    read(R"({"sheen": 2})");
+    FAIL();
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.problem, "is 2");
+    EXPECT_EQ(failure.remedy, "write a number from 0 to 1");
+  }
+  EXPECT_THROW(read(R"({"reflection": "metallic-roughness", "sheen": 0.5})"), Failure);  // which does not use it
+}
+
+TEST(PlantedKey, StandsInHelpSchemasDocsAndThePage) {
+  EXPECT_NE(names_of(object("material")).find("sheen"), std::string::npos);
+  EXPECT_NE(table_of(object("material")).find("sheen"), std::string::npos);
+  EXPECT_NE(markdown_of(object("film_material")).find("| `sheen` | light at grazing angles (0 to 1) | `0.25` | yes |"),
+            std::string::npos);
+  EXPECT_EQ(film_schema()["$defs"]["film_material"]["properties"]["sheen"]["maximum"], 1);
+  EXPECT_TRUE(film_schema()["$defs"]["material_key"]["properties"].contains("sheen"));
+  EXPECT_EQ(model_schema({})["$defs"]["material"]["properties"]["sheen"]["default"], 0.25);
+  EXPECT_EQ(keys_of_pages()["material"]["sheen"]["slider"], nlohmann::ordered_json({0, 1}));
+}
+
+}  // namespace
+}  // namespace mars::keys
