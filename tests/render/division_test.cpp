@@ -295,7 +295,7 @@ TEST_P(Division, BytesReportedAreBytesSent) {
   }
 }
 
-// The arena holds what docs/performance.md says, at its peak, and little more.
+// The arena holds what docs/floors.md says, at its peak, and little more.
 TEST_P(Division, MemoryIsAsTheFormulaSays) {
   const int nodes = GetParam().nodes;
   for (const int nodes_each : {1, nodes}) {
