@@ -106,6 +106,16 @@ void sync_folder(const fs::path& folder) {
   close(opened);
 }
 
+// Whether files there say that they are frames.
+bool has_frames(const fs::path& folder) {
+  std::error_code none;
+  for (fs::directory_iterator entry(folder, none), end; !none && entry != end; entry.increment(none)) {
+    const fs::path& path = entry->path();
+    if (path.filename().string().starts_with("frame-") && is_frame_file(path) && read_mark(path)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 void write_manifest(const Manifest& manifest, const fs::path& folder, const RunsFolder& runs) {
@@ -318,8 +328,8 @@ Manifest read_manifest(const fs::path& folder) {
     if (std::optional<Manifest> rendered = rendered_by(run)) unfinished.push_back(std::move(*rendered));
   std::optional<Manifest> manifest = read_frames_json(folder);
   std::error_code none;
-  if (!manifest && fs::exists(folder / kFilmName, none))
-    throw Failure("it has a film.mars, but no frames.json any more", folder.string(), repair_remedy(folder));
+  if (!manifest && (fs::exists(folder / kFilmName, none) || has_frames(folder)))
+    throw Failure("it has frames or a film.mars, but no frames.json any more", folder.string(), repair_remedy(folder));
   if (!manifest)
     throw Failure("no folder of frames: it has no frames.json", folder.string(),
                   "name the folder that was given to mars render with -o");

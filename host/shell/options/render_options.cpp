@@ -298,14 +298,13 @@ void refuse_name_of_file(const RenderOptions& options) {
   const bool video = ends_in(name, kVideos);
   if ((!video && !ends_in(name, kPictures)) || std::filesystem::is_directory(name)) return;
   const std::string folder = std::filesystem::path(name).replace_extension().string();
-  const std::string frames = folder + "/frame-*" + images::facts_of(options.format).ending;
-  const char* const pixels = name.extension() == ".gif" ? " " : " -pix_fmt yuv420p ";
-  const std::string ffmpeg = "ffmpeg -framerate 24 -pattern_type glob -i " + document::shell_word(frames) + pixels +
-                             document::shell_word(options.folder);
+  const bool gif = ends_in(name, std::to_array<std::string_view>({".gif"}));
+  const std::string play =
+      "mars play " + document::shell_word(folder) + " -o " + document::shell_word(folder + (gif ? ".gif" : ".mp4"));
   const std::string remedy =
       "give -o " + document::shell_word(folder) + (name.extension() == ".exr" ? " --format exr" : "");
   throw Failure(document::in_quotes(options.folder) + " would be a folder: frames are files of their own", "",
-                video ? remedy + ", then make the video: " + ffmpeg : remedy);
+                video ? remedy + ", then make the video: " + play : remedy);
 }
 
 // Checks that concern several options.

@@ -219,10 +219,10 @@ TEST(RenderOptions, FoldersHaveNoNamesOfVideosAndPictures) {
     const Reading reading = read(Program::mars, words);
     return reading.code == kUsage ? reading.printed : "";
   };
-  EXPECT_TRUE(document::holds(refusal({"film.json", "-o", "out/my film.mp4"}),
-                              "give -o 'out/my film', then make the video: ffmpeg -framerate 24 -pattern_type glob -i "
-                              "'out/my film/frame-*.png' -pix_fmt yuv420p 'out/my film.mp4'"));
-  EXPECT_TRUE(document::holds(refusal({"film.json", "-o", "x.GIF", "--format", "exr"}), "x/frame-*.exr"));
+  EXPECT_TRUE(
+      document::holds(refusal({"film.json", "-o", "out/my film.mp4"}),
+                      "give -o 'out/my film', then make the video: mars play 'out/my film' -o 'out/my film.mp4'"));
+  EXPECT_TRUE(document::holds(refusal({"film.json", "-o", "x.GIF"}), "mars play x -o x.gif"));
   for (const char* name : {"x.mkv", "x.mov", "x.webm", "x.avi", "x.png", "x.exr", "x.jpg"})
     EXPECT_TRUE(document::holds(refusal({"film.json", "-o", name}), "frames are files of their own (give -o x"))
         << name;
