@@ -39,7 +39,7 @@ std::string link_to(std::string_view heading) {
 
 std::string markdown_row(const Key& key, bool keyed) {
   std::string row = "| " + code(std::string(key.name)) + " | " + std::string(key.meaning);
-  if (key.unit == "degrees" && range_of(key).empty()) row += ", in degrees";
+  if (!key.unit.empty() && range_of(key).empty()) row += ", in " + std::string(key.unit);
   if (const std::string range = range_of(key); !range.empty()) row += " (" + range + ")";
   if (!key.see.empty()) row += ", see " + link_to(key.see);
   row += " | " + (is_json(key) ? code(default_of(key)) : default_of(key)) + " |";
@@ -56,6 +56,7 @@ std::string range_of(const Key& key) {
       text += (text.empty() ? "" : ", ") + code("\"" + std::string(each) + "\"");
     return key.meaning.find('`') == std::string_view::npos ? text : "";
   }
+  if (key.type.front() == '[' && key.range.highest < kFarthest) return "at most " + shown(key.range.highest);
   const bool number = key.type == "number" || key.type == "whole";
   const bool bounded = key.range != Range{} && key.range.highest < kFarthest;
   std::string text = number && bounded ? shown(key.range.lowest) + " to " + shown(key.range.highest) : "";
