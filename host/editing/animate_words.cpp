@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <functional>
 #include <memory>
@@ -9,7 +8,7 @@
 #include "host/content/animator/keys_table.h"
 #include "host/content/animator/pose.h"
 #include "host/editing/words.h"
-#include "host/shell/options/command_line.h"
+#include "host/cli/program.h"
 #include "node/wire/film.h"
 
 namespace mars::editing {
@@ -58,57 +57,54 @@ void edit(const Words& words, const std::function<animator::Remarks(document::Js
 // The options that several commands have.
 class Command {
  public:
-  Command(CLI::App& animate, Words& words, const char* name, const char* purpose)
-      : app_(animate.add_subcommand(name, purpose)), words_(words) {}
+  Command(cli::Command animate, Words& words, const char* name, const char* purpose)
+      : app_(animate.add_command(name, purpose)), words_(words) {}
 
   Command& thing(const char* help) {
-    app_->add_option("ACTOR", words_.thing, help);
+    app_.add("ACTOR", words_.thing, help);
     return *this;
   }
   Command& parts(const char* name, const char* help) {
-    app_->add_option(name, words_.parts, help);
+    app_.add(name, words_.parts, help);
     return *this;
   }
   Command& all() {
-    app_->add_flag("--all", words_.all,
-                   "Instead of an actor: all that has keys, camera, lights and materials too. Example: --all");
+    app_.add_flag("--all", words_.all,
+                  "Instead of an actor: all that has keys, camera, lights and materials too. Example: --all");
     return *this;
   }
   Command& frame(const char* help, const char* type) {
-    app_->add_option("-f,--frame", words_.frame, help)->required()->type_name(type);
+    app_.add("-f,--frame", words_.frame, help).required().type(type);
     return *this;
   }
   Command& ease(const char* help) {
-    app_->add_option("--ease", words_.ease, help)->type_name("EASE");
+    app_.add("--ease", words_.ease, help).type("EASE");
     return *this;
   }
   Command& to(const char* help) {
-    app_->add_option("--to", words_.to, help)
-        ->required()
-        ->type_name("FRAME")
-        ->check(CLI::Range(0u, wire::kMostFrames).description(""));
+    app_.add("--to", words_.to, help).required().type("FRAME").range(0u, wire::kMostFrames);
     return *this;
   }
   Command& clamp() {
-    app_->add_flag("--clamp", words_.clamp, "Clamp angles to the limits of their joints. Example: --clamp");
+    app_.add_flag("--clamp", words_.clamp, "Clamp angles to the limits of their joints. Example: --clamp");
     return *this;
   }
   Command& lengthen() {
-    app_->add_flag("--lengthen", words_.lengthen,
-                   "Give the film as many frames as its last key needs. Example: --lengthen");
+    app_.add_flag("--lengthen", words_.lengthen,
+                  "Give the film as many frames as its last key needs. Example: --lengthen");
     return *this;
   }
   void runs(const std::function<void()>& run) {
-    app_->callback([this_words = &words_, run] {
+    app_.runs([this_words = &words_, run] {
       if (this_words->all && !this_words->thing.empty())
         throw Failure("are given both", "--all and '" + this_words->thing + "'", "choose one of them");
       run();
     });
   }
-  CLI::App* app() { return app_; }
+  cli::Command app() { return app_; }
 
  private:
-  CLI::App* app_;
+  cli::Command app_;
   Words& words_;
 };
 
@@ -127,7 +123,7 @@ void require_thing(const Words& words) {
                   "name an actor, camera, light/N or material/NAME, or use --all");
 }
 
-void add_pose(CLI::App& animate, Words& words) {
+void add_pose(cli::Command animate, Words& words) {
   Command command(animate, words, "pose",
                   "Set or turn joints of an actor, its place, the camera, lights and materials");
   command.thing(kThing)
@@ -139,8 +135,8 @@ void add_pose(CLI::App& animate, Words& words) {
       .ease(kEase)
       .clamp()
       .lengthen();
-  command.app()->get_option("ACTOR")->required();
-  command.app()->get_option("PART=NUMBERS")->required();
+  command.app().option("ACTOR").required();
+  command.app().option("PART=NUMBERS").required();
   command.runs([&words] {
     edit(words, [&](document::Json& json, const animator::Film& film) {
       return animator::pose(json, film, words.thing, words.parts, animator::read_frame_range(words.frame),
@@ -150,7 +146,7 @@ void add_pose(CLI::App& animate, Words& words) {
   });
 }
 
-void add_key(CLI::App& animate, Words& words) {
+void add_key(cli::Command animate, Words& words) {
   Command command(animate, words, "key", "Make keys of the pose at a frame");
   command.thing(kThing)
       .parts("PART", kParts)
@@ -167,7 +163,7 @@ void add_key(CLI::App& animate, Words& words) {
   });
 }
 
-void add_displacing(CLI::App& animate, Words& words, const char* name, const char* purpose, bool copies) {
+void add_displacing(cli::Command animate, Words& words, const char* name, const char* purpose, bool copies) {
   Command command(animate, words, name, purpose);
   command.thing(kThing).parts("PART", kParts).all().frame(kRange, "RANGE");
   command.to("Where the range's first frame goes. Example: --to 60").lengthen().runs([&words, copies] {
@@ -179,7 +175,7 @@ void add_displacing(CLI::App& animate, Words& words, const char* name, const cha
   });
 }
 
-void add_delete(CLI::App& animate, Words& words) {
+void add_delete(cli::Command animate, Words& words) {
   Command command(animate, words, "delete", "Delete keys");
   command.thing(kThing).parts("PART", kParts).all().frame(kRange, "RANGE").runs([&words] {
     require_thing(words);
@@ -189,58 +185,56 @@ void add_delete(CLI::App& animate, Words& words) {
   });
 }
 
-animator::Remarks retime(const Words& words, CLI::App& command, document::Json& json, const animator::Film& film) {
+animator::Remarks retime(const Words& words, cli::Command command, document::Json& json, const animator::Film& film) {
   const animator::FrameRange range = animator::read_frame_range(words.frame);
-  if (command.count("--hold"))
+  if (command.given("--hold"))
     return animator::hold(json, film, words.choice(), animator::read_frame(words.frame), words.hold);
-  if (command.count("--shift"))
+  if (command.given("--shift"))
     return animator::shift(json, film, words.choice(), animator::read_frame(words.frame), words.shift);
-  if (command.count("--stretch")) return animator::stretch(json, film, words.choice(), range, words.stretch);
-  if (command.count("--ease"))
+  if (command.given("--stretch")) return animator::stretch(json, film, words.choice(), range, words.stretch);
+  if (command.given("--ease"))
     return animator::ease_keys(json, film, words.choice(), range, *animator::read_typed_ease(words.ease));
   return animator::ease_keys(json, film, words.choice(), range,
                              animator::swinging(words.anticipation / 100, words.overshoot / 100));
 }
 
-void add_time(CLI::App& animate, Words& words) {
+void add_time(cli::Command animate, Words& words) {
   Command command(animate, words, "time", "Change the timing of an actor, of some of its parts or of the film");
   command.thing(kThing).parts("PART", kParts).all().frame(kRange, "RANGE").ease(kEase);
-  CLI::App* app = command.app();
-  app->add_option("--hold", words.hold,
-                  "Stand still for N frames from the frame on; later keys move back. Example: --hold 12")
-      ->type_name("N")
-      ->check(CLI::Range(1u, wire::kMostFrames).description(""));
-  app->add_option("--stretch", words.stretch,
-                  "Multiply the length of the range by FACTOR; later keys move along. Example: --stretch 1.5")
-      ->type_name("FACTOR")
-      ->check(CLI::Range(0.001, 1000.0).description(""));
-  app->add_option("--shift", words.shift,
-                  "Move keys at the frame and after it N frames later, or earlier. Example: --shift -6")
-      ->type_name("N")
-      ->check(CLI::Range(-std::int64_t{wire::kMostFrames}, std::int64_t{wire::kMostFrames}).description(""));
+  const cli::Command app = command.app();
+  app.add("--hold", words.hold, "Stand still for N frames from the frame on; later keys move back. Example: --hold 12")
+      .type("N")
+      .range(1u, wire::kMostFrames);
+  app.add("--stretch", words.stretch,
+          "Multiply the length of the range by FACTOR; later keys move along. Example: --stretch 1.5")
+      .type("FACTOR")
+      .range(0.001, 1000.0);
+  app.add("--shift", words.shift, "Move keys at the frame and after it N frames later, or earlier. Example: --shift -6")
+      .type("N")
+      .range(-std::int64_t{wire::kMostFrames}, std::int64_t{wire::kMostFrames});
   for (const auto& [name, value, help] :
        {std::tuple("--anticipate", &words.anticipation,
                    "Swing back first after the frame's keys, by percent of the way. Example: --anticipate 15"),
         std::tuple("--overshoot", &words.overshoot,
                    "Swing beyond the next keys and back, by percent of the way. Example: --overshoot 10")})
-    app->add_option(name, *value, help)->type_name("PERCENT")->check(CLI::Range(0.0, 100.0).description(""));
+    app.add(name, *value, help).type("PERCENT").range(0.0, 100.0);
   command.lengthen().runs([&words, app] {
     require_thing(words);
     int changes = 0;
-    for (const char* name : {"--ease", "--hold", "--stretch", "--shift"}) changes += app->count(name) > 0;
-    changes += app->count("--anticipate") + app->count("--overshoot") > 0;
+    for (const char* name : {"--ease", "--hold", "--stretch", "--shift"}) changes += app.given(name);
+    changes += app.given("--anticipate") || app.given("--overshoot");
     if (changes != 1)
       throw Failure(changes == 0 ? "is not given" : "is given twice", "the change of timing",
                     "use one of --ease, --hold, --stretch, --shift, or --anticipate and --overshoot");
-    edit(words, [&](document::Json& json, const animator::Film& film) { return retime(words, *app, json, film); });
+    edit(words, [&](document::Json& json, const animator::Film& film) { return retime(words, app, json, film); });
   });
 }
 
-void add_list(CLI::App& animate, Words& words) {
+void add_list(cli::Command animate, Words& words) {
   Command command(animate, words, "list", "Show the keys in a table");
   command.thing("An actor, camera, light/N or material/NAME; default: all that has keys. Example: robot")
       .parts("PART", kParts);
-  command.app()->add_option("-f,--frame", words.frame, kRange)->type_name("RANGE");
+  command.app().add("-f,--frame", words.frame, kRange).type("RANGE");
   command.runs([&words] {
     film::FilmFile file = words.film.read();
     const animator::FrameRange range =
@@ -250,7 +244,7 @@ void add_list(CLI::App& animate, Words& words) {
   });
 }
 
-void add_check(CLI::App& animate, Words& words, int& code) {
+void add_check(cli::Command animate, Words& words, int& code) {
   Command command(animate, words, "check",
                   "Report errors: limits broken between keys, keys after the last frame and more");
   command.runs([&words, &code] {
@@ -258,31 +252,30 @@ void add_check(CLI::App& animate, Words& words, int& code) {
     for (const std::string& line : findings.lines) words.film.print(line + "\n");
     if (findings.lines.empty())
       words.film.print(words.film.path().string() + ": all joints stay within their limits; no errors\n");
-    if (findings.trouble) code = options::kFailed;
+    if (findings.trouble) code = cli::kFailed;
   });
 }
 
 }  // namespace
 
-CLI::App& add_animate(CLI::App& mars, EditedFilm& film, int& code) {
+cli::Command add_animate(cli::Command mars, EditedFilm& film, int& code) {
   const auto words = std::make_shared<Words>(film);
-  CLI::App* animate = mars.add_subcommand("animate", "Set, move, time, list and check the keys of a film");
-  animate->require_subcommand(1);
-  add_pose(*animate, *words);
-  add_key(*animate, *words);
-  add_displacing(*animate, *words, "move", "Move keys to other frames", false);
-  add_displacing(*animate, *words, "copy", "Copy keys to other frames", true);
-  add_delete(*animate, *words);
-  add_time(*animate, *words);
-  add_tangent(*animate, film);
-  add_reduce(*animate, film);
-  add_list(*animate, *words);
-  add_check(*animate, *words, code);
-  add_carrying(*animate, film);
-  add_motion(*animate, film);
-  animate->footer(kFooter);             // last, or each of its commands would have it
-  animate->final_callback([words] {});  // keeps what was typed
-  return *animate;
+  const cli::Command animate = mars.add_command("animate", "Set, move, time, list and check the keys of a film");
+  add_pose(animate, *words);
+  add_key(animate, *words);
+  add_displacing(animate, *words, "move", "Move keys to other frames", false);
+  add_displacing(animate, *words, "copy", "Copy keys to other frames", true);
+  add_delete(animate, *words);
+  add_time(animate, *words);
+  add_tangent(animate, film);
+  add_reduce(animate, film);
+  add_list(animate, *words);
+  add_check(animate, *words, code);
+  add_carrying(animate, film);
+  add_motion(animate, film);
+  animate.footer(kFooter);  // last, or each of its commands would have it
+  animate.keeps(words);
+  return animate;
 }
 
 }  // namespace mars::editing

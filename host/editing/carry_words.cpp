@@ -1,7 +1,7 @@
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "hal/failure/failure.h"
+#include "host/cli/command.h"
 #include "host/content/animator/carry.h"
 #include "host/content/animator/frame_words.h"
 #include "host/editing/words.h"
@@ -24,26 +24,24 @@ std::optional<glm::dvec3> vector_of(const std::vector<double>& numbers) {
   return glm::dvec3(numbers[0], numbers[1], numbers[2]);
 }
 
-void add_frame(CLI::App& app, Words& words) {
-  app.add_option("-f,--frame", words.frame, "From this frame on. Example: --frame 24")->required()->type_name("FRAME");
+void add_frame(cli::Command app, Words& words) {
+  app.add("-f,--frame", words.frame, "From this frame on. Example: --frame 24").required().type("FRAME");
 }
 
-void add_vector(CLI::App& app, const char* name, std::vector<double>& numbers, const char* help) {
-  app.add_option(name, numbers, help)->expected(3)->type_name("X Y Z");
+void add_vector(cli::Command app, const char* name, std::vector<double>& numbers, const char* help) {
+  app.add(name, numbers, help).words(3).type("X Y Z");
 }
 
-void add_attach(CLI::App& animate, const Typed& words) {
-  CLI::App* app = animate.add_subcommand("attach", "Let another actor carry an actor, by one of its joints");
-  app->add_option("ACTOR", words->actor, "What is carried. Example: ball")->required();
-  app->add_option("--to", words->to, "What carries it. Example: --to tom/right-hand")
-      ->required()
-      ->type_name("ACTOR[/JOINT]");
-  add_frame(*app, *words);
-  add_vector(*app, "--place", words->place,
+void add_attach(cli::Command animate, const Typed& words) {
+  const cli::Command app = animate.add_command("attach", "Let another actor carry an actor, by one of its joints");
+  app.add("ACTOR", words->actor, "What is carried. Example: ball").required();
+  app.add("--to", words->to, "What carries it. Example: --to tom/right-hand").required().type("ACTOR[/JOINT]");
+  add_frame(app, *words);
+  add_vector(app, "--place", words->place,
              "Its place in the joint's frame; default: where it is. Example: --place 0 0 0.1");
-  add_vector(*app, "--turn", words->turn,
+  add_vector(app, "--turn", words->turn,
              "Its turn against the joint, degrees; default: as it is. Example: --turn 0 90 0");
-  app->callback([words] {
+  app.runs([words] {
     words->film.change([&](document::Json& json, const animator::Film& film) {
       animator::attach(json, film, words->actor, words->to, animator::read_frame(words->frame),
                        {vector_of(words->place), vector_of(words->turn)});
@@ -51,11 +49,11 @@ void add_attach(CLI::App& animate, const Typed& words) {
   });
 }
 
-void add_detach(CLI::App& animate, const Typed& words) {
-  CLI::App* app = animate.add_subcommand("detach", "Let an actor go: it stays where it is then");
-  app->add_option("ACTOR", words->actor, "What is carried. Example: ball")->required();
-  add_frame(*app, *words);
-  app->callback([words] {
+void add_detach(cli::Command animate, const Typed& words) {
+  const cli::Command app = animate.add_command("detach", "Let an actor go: it stays where it is then");
+  app.add("ACTOR", words->actor, "What is carried. Example: ball").required();
+  add_frame(app, *words);
+  app.runs([words] {
     words->film.change([&](document::Json& json, const animator::Film& film) {
       animator::detach(json, film, words->actor, animator::read_frame(words->frame));
     });
@@ -79,40 +77,40 @@ void change_camera(const Words& words, const animator::Following& following) {
   for (const std::string& remark : remarks) words.film.remark(remark);
 }
 
-CLI::App* add_camera(CLI::App& animate, const Typed& words, const char* name, const char* purpose, const char* end) {
-  CLI::App* app = animate.add_subcommand(name, purpose);
-  app->add_option("ACTOR[/JOINT]", words->to, "Example: tom/head");
-  add_frame(*app, *words);
-  app->add_flag("--end", words->end, end);
+cli::Command add_camera(cli::Command animate, const Typed& words, const char* name, const char* purpose,
+                        const char* end) {
+  const cli::Command app = animate.add_command(name, purpose);
+  app.add("ACTOR[/JOINT]", words->to, "Example: tom/head");
+  add_frame(app, *words);
+  app.add_flag("--end", words->end, end);
   return app;
 }
 
-void add_look(CLI::App& animate, const Typed& words) {
-  CLI::App* app = add_camera(animate, words, "look", "Let the camera look at an actor or a joint, wherever it goes",
-                             "Instead: look on where it looks then. Example: --end");
-  add_vector(*app, "--offset", words->offset,
+void add_look(cli::Command animate, const Typed& words) {
+  const cli::Command app =
+      add_camera(animate, words, "look", "Let the camera look at an actor or a joint, wherever it goes",
+                 "Instead: look on where it looks then. Example: --end");
+  add_vector(app, "--offset", words->offset,
              "From the joint, along the world's axes; default: the joint itself, the middle of an actor. "
              "Example: --offset 0 0 0.2");
-  app->callback([words] { change_camera(*words, {"at", vector_of(words->offset), false, false}); });
+  app.runs([words] { change_camera(*words, {"at", vector_of(words->offset), false, false}); });
 }
 
-void add_follow(CLI::App& animate, const Typed& words) {
-  CLI::App* app = add_camera(animate, words, "follow", "Let the camera go along with an actor or a joint",
-                             "Instead: stay where it is then. Example: --end");
-  add_vector(*app, "--offset", words->offset,
+void add_follow(cli::Command animate, const Typed& words) {
+  const cli::Command app = add_camera(animate, words, "follow", "Let the camera go along with an actor or a joint",
+                                      "Instead: stay where it is then. Example: --end");
+  add_vector(app, "--offset", words->offset,
              "From the actor or joint; default: where it is. Example: --offset 0 -4 1.5");
-  app->add_option("--axes", words->axes, "Axes of the offset: world or joint; default: world. Example: --axes joint")
-      ->type_name("AXES")
-      ->check(CLI::IsMember({"world", "joint"}).description(""));
-  app->add_flag("--level", words->level, "Keep the camera's height, which is then the offset's z. Example: --level");
-  app->callback([words] {
-    change_camera(*words, {"eye", vector_of(words->offset), words->axes == "joint", words->level});
-  });
+  app.add("--axes", words->axes, "Axes of the offset: world or joint; default: world. Example: --axes joint")
+      .type("AXES")
+      .one_of({"world", "joint"});
+  app.add_flag("--level", words->level, "Keep the camera's height, which is then the offset's z. Example: --level");
+  app.runs([words] { change_camera(*words, {"eye", vector_of(words->offset), words->axes == "joint", words->level}); });
 }
 
 }  // namespace
 
-void add_carrying(CLI::App& animate, EditedFilm& film) {
+void add_carrying(cli::Command animate, EditedFilm& film) {
   const auto attaching = std::make_shared<Words>(film), camera = std::make_shared<Words>(film);
   add_attach(animate, attaching);
   add_detach(animate, attaching);

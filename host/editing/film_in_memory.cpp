@@ -1,6 +1,5 @@
 #include "host/editing/film_in_memory.h"
 
-#include <CLI/CLI.hpp>
 #include <utility>
 
 #include "hal/failure/failure.h"
@@ -8,7 +7,7 @@
 #include "host/content/animator/read_film.h"
 #include "host/content/document/file.h"
 #include "host/editing/words.h"
-#include "host/shell/options/command_line.h"
+#include "host/cli/program.h"
 
 namespace mars::editing {
 namespace {
@@ -45,11 +44,11 @@ void FilmInMemory::give_back() {
 void FilmInMemory::obey(std::span<const Command> commands) {
   for (const Command& command : commands) {
     int code = 0;
-    CLI::App mars("", "mars");
+    cli::Program mars("mars", "");
     const std::string program = command.empty() ? "" : command.front();
     if (program != "film") add_animate(mars, *this, code);  // the words of both take longer than most commands
     if (program != "animate") add_film(mars, *this);
-    options::read_words(mars, command);
+    mars.read(command);
   }
 }
 

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
 
@@ -9,7 +8,7 @@
 #include "host/content/keys/text.h"
 #include "host/content/modeler/figure_library.h"
 #include "host/editing/words.h"
-#include "host/shell/options/wrapped.h"
+#include "host/cli/wrapped.h"
 
 namespace mars::editing {
 namespace {
@@ -117,94 +116,36 @@ void run_material_remove(const Words& words) {
 }
 
 // A command of which `run` does the work.
-CLI::App& add_command(CLI::App& film, const std::shared_ptr<Words>& words, const char* name, const char* purpose,
-                      void (*run)(const Words& words)) {
-  CLI::App* command = film.add_subcommand(name, purpose);
-  command->callback([words, run] { run(*words); });
-  return *command;
+cli::Command add_command(cli::Command film, const std::shared_ptr<Words>& words, const char* name, const char* purpose,
+                         void (*run)(const Words& words)) {
+  const cli::Command command = film.add_command(name, purpose);
+  command.runs([words, run] { run(*words); });
+  return command;
 }
 
-CLI::Option* add_fields(CLI::App& command, Words& words, const std::string& help) {
-  return command.add_option("KEY=VALUE", words.fields, help);
+cli::Option add_fields(cli::Command command, Words& words, const std::string& help) {
+  return command.add("KEY=VALUE", words.fields, help);
 }
 
-void add_actor_options(CLI::App& command, Words& words) {
-  command.add_option("ACTOR", words.name, "Its name. Example: tom")->required();
+void add_actor_options(cli::Command command, Words& words) {
+  command.add("ACTOR", words.name, "Its name. Example: tom").required();
   command
-      .add_option("--model", words.model,
-                  "A figure or object of the library, a model file, or a model that the film has. Example: --model man")
-      ->type_name("MODEL")
-      ->required();
-  command.add_option("--place", words.place, "Where it stands. Example: --place 2 0 0")
-      ->expected(3)
-      ->type_name("X Y Z");
+      .add("--model", words.model,
+           "A figure or object of the library, a model file, or a model that the film has. Example: --model man")
+      .type("MODEL")
+      .required();
+  command.add("--place", words.place, "Where it stands. Example: --place 2 0 0").words(3).type("X Y Z");
   command
-      .add_option("--turn", words.turn,
-                  "How it is turned: degrees about the upward axis, or about x, y and z. Example: --turn 90")
-      ->expected(1, 3)
-      ->type_name("DEGREES");
-  command
-      .add_option("--height", words.height, "How high it is at rest, if it is of the library. Example: --height 4.6")
-      ->type_name("LENGTH")
-      ->check(CLI::Range(1e-6, 1e6).description(""));
-  command.parse_complete_callback([&words] {
-    if (words.turn.size() == 2) throw CLI::ValidationError("--turn", "give one angle, or three");
+      .add("--turn", words.turn,
+           "How it is turned: degrees about the upward axis, or about x, y and z. Example: --turn 90")
+      .words(1, 3)
+      .type("DEGREES");
+  command.add("--height", words.height, "How high it is at rest, if it is of the library. Example: --height 4.6")
+      .type("LENGTH")
+      .range(1e-6, 1e6);
+  command.checks([&words] {
+    if (words.turn.size() == 2) throw cli::UsageError("--turn", "give one angle, or three");
   });
-}
-
-void add_actors(CLI::App& film, const std::shared_ptr<Words>& words) {
-  add_actor_options(add_command(film, words, "add", "Add an actor: a figure, an object or another model", run_add),
-                    *words);
-  CLI::App& remove = add_command(film, words, "remove", "Remove an actor", run_remove);
-  remove.add_option("ACTOR", words->name, "The actor. Example: tom")->required();
-  CLI::App& rename = add_command(film, words, "rename", "Give an actor another name", run_rename);
-  rename.add_option("ACTOR", words->name, "The actor. Example: tom")->required();
-  rename.add_option("NAME", words->other, "Its new name. Example: anna")->required();
-}
-
-// What KEY may be, by the table.
-std::string fields_of(const char* object, const std::string& example) {
-  return keys::names_of(keys::object(object)) + "; `mars keys " + object + "` says what each is. Example: " + example;
-}
-
-std::string settings() { return fields_of("film", "frames=120 size=640,360 background=0.6,0.7,0.8"); }
-
-void add_settings(CLI::App& film, const std::shared_ptr<Words>& words) {
-  CLI::App& fresh = add_command(film, words, "new", "Make a film file with a camera", run_new);
-  add_fields(fresh, *words, settings());
-  fresh.add_option("--figure", words->model, "With a figure of the library at its middle. Example: --figure man")
-      ->type_name("FIGURE");
-  add_fields(add_command(film, words, "set", "Change settings of the film", run_set), *words, settings())->required();
-  add_command(film, words, "show", "Show what the film holds, by the names that commands take", run_show);
-}
-
-void add_lights(CLI::App& film, const std::shared_ptr<Words>& words) {
-  CLI::App& light = *film.add_subcommand("light", "Add and remove lights");
-  add_fields(add_command(light, words, "add", "Add a light", run_light_add), *words,
-             fields_of("light", "place=4,-3,6 at=0,0,2 color=1,0.9,0.8 intensity=2"))
-      ->required();
-  CLI::App& remove = add_command(light, words, "remove", "Remove a light", run_light_remove);
-  remove.add_option("N", words->number, "Its number, from 1. Example: 2")->required();
-  add_command(light, words, "rig", "Write the three lights into a film that has none of its own", run_light_rig);
-}
-
-void add_materials(CLI::App& film, const std::shared_ptr<Words>& words) {
-  const std::string fields = fields_of("material", "color=0.9,0.6,0.5 reflection=blinn-phong");
-  CLI::App& material = *film.add_subcommand("material", "Add, change and remove materials of the film");
-  const auto add = [&](const char* name, const char* purpose, void (*run)(const Words&)) -> CLI::App& {
-    CLI::App& command = add_command(material, words, name, purpose, run);
-    command.add_option("NAME", words->name, "The material. Example: skin")->required();
-    return command;
-  };
-  CLI::App& fresh = add("add", "Add a material", run_material_add);
-  add_fields(fresh, *words, fields);
-  fresh
-      .add_option("--actor", words->other,
-                  "Who wears it: where its model wears one of this name, which it begins as, else all over. "
-                  "Example: --actor tom")
-      ->type_name("ACTOR");
-  add_fields(add("set", "Change a material", run_material_set), *words, fields)->required();
-  add("remove", "Remove a material", run_material_remove);
 }
 
 std::string library_text() {
@@ -214,24 +155,80 @@ std::string library_text() {
       texts.push_back(std::string(each.name) + " (" + std::string(each.what) + ")");
     return document::joined(texts);
   };
-  return "Of the library, 2.9 units a metre:\n  " + options::wrapped(list(modeler::figure_library()), 2) + "\n  " +
-         options::wrapped(list(modeler::object_library()), 2) + "\n";
+  return "Of the library, 2.9 units a metre:\n  " + cli::wrapped(list(modeler::figure_library()), 2) + "\n  " +
+         cli::wrapped(list(modeler::object_library()), 2) + "\n";
+}
+
+void add_actors(cli::Command film, const std::shared_ptr<Words>& words) {
+  const cli::Command add =
+      add_command(film, words, "add", "Add an actor: a figure, an object or another model", run_add);
+  add_actor_options(add, *words);
+  add.footer(library_text());
+  cli::Command remove = add_command(film, words, "remove", "Remove an actor", run_remove);
+  remove.add("ACTOR", words->name, "The actor. Example: tom").required();
+  cli::Command rename = add_command(film, words, "rename", "Give an actor another name", run_rename);
+  rename.add("ACTOR", words->name, "The actor. Example: tom").required();
+  rename.add("NAME", words->other, "Its new name. Example: anna").required();
+}
+
+// What KEY may be, by the table.
+std::string fields_of(const char* object, const std::string& example) {
+  return keys::names_of(keys::object(object)) + "; `mars keys " + object + "` says what each is. Example: " + example;
+}
+
+std::string settings() { return fields_of("film", "frames=120 size=640,360 background=0.6,0.7,0.8"); }
+
+void add_settings(cli::Command film, const std::shared_ptr<Words>& words) {
+  cli::Command fresh = add_command(film, words, "new", "Make a film file with a camera", run_new);
+  add_fields(fresh, *words, settings());
+  fresh.add("--figure", words->model, "With a figure of the library at its middle. Example: --figure man")
+      .type("FIGURE");
+  add_fields(add_command(film, words, "set", "Change settings of the film", run_set), *words, settings()).required();
+  add_command(film, words, "show", "Show what the film holds, by the names that commands take", run_show);
+}
+
+void add_lights(cli::Command film, const std::shared_ptr<Words>& words) {
+  cli::Command light = film.add_command("light", "Add and remove lights");
+  add_fields(add_command(light, words, "add", "Add a light", run_light_add), *words,
+             fields_of("light", "place=4,-3,6 at=0,0,2 color=1,0.9,0.8 intensity=2"))
+      .required();
+  cli::Command remove = add_command(light, words, "remove", "Remove a light", run_light_remove);
+  remove.add("N", words->number, "Its number, from 1. Example: 2").required();
+  add_command(light, words, "rig", "Write the three lights into a film that has none of its own", run_light_rig);
+}
+
+void add_materials(cli::Command film, const std::shared_ptr<Words>& words) {
+  const std::string fields = fields_of("material", "color=0.9,0.6,0.5 reflection=blinn-phong");
+  cli::Command material = film.add_command("material", "Add, change and remove materials of the film");
+  const auto add = [&](const char* name, const char* purpose, void (*run)(const Words&)) -> cli::Command {
+    cli::Command command = add_command(material, words, name, purpose, run);
+    command.add("NAME", words->name, "The material. Example: skin").required();
+    return command;
+  };
+  cli::Command fresh = add("add", "Add a material", run_material_add);
+  add_fields(fresh, *words, fields);
+  fresh
+      .add("--actor", words->other,
+           "Who wears it: where its model wears one of this name, which it begins as, else all over. "
+           "Example: --actor tom")
+      .type("ACTOR");
+  add_fields(add("set", "Change a material", run_material_set), *words, fields).required();
+  add("remove", "Remove a material", run_material_remove);
 }
 
 }  // namespace
 
-CLI::App& add_film(CLI::App& mars, EditedFilm& film) {
+cli::Command add_film(cli::Command mars, EditedFilm& film) {
   const auto words = std::make_shared<Words>(film);
-  CLI::App* app = mars.add_subcommand("film", "Begin a film; add actors, lights and materials; change its settings");
-  app->require_subcommand(1);
-  add_settings(*app, words);
-  add_actors(*app, words);
-  add_lights(*app, words);
-  add_materials(*app, words);
-  app->get_subcommand("add")->footer(library_text());
-  app->footer(kWay);                // last, or each of its commands would have it
-  app->final_callback([words] {});  // keeps what was typed
-  return *app;
+  const cli::Command app =
+      mars.add_command("film", "Begin a film; add actors, lights and materials; change its settings");
+  add_settings(app, words);
+  add_actors(app, words);
+  add_lights(app, words);
+  add_materials(app, words);
+  app.footer(kWay);  // last, or each of its commands would have it
+  app.keeps(words);
+  return app;
 }
 
 }  // namespace mars::editing

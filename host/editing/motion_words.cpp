@@ -1,8 +1,8 @@
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <memory>
 
 #include "hal/failure/failure.h"
+#include "host/cli/command.h"
 #include "host/content/animator/motion/action.h"
 #include "host/content/animator/motion/script.h"
 #include "host/content/document/file.h"
@@ -59,43 +59,41 @@ void run_action(EditedFilm& film, const motion::Action& action, const Typed& typ
              (done.report.empty() ? "" : ": " + done.report) + note + "\n");
 }
 
-void add_parameters(CLI::App& command, const motion::Action& action, Typed& typed) {
+void add_parameters(cli::Command command, const motion::Action& action, Typed& typed) {
   typed.values.resize(action.parameters.size());
   for (std::size_t i = 0; i < action.parameters.size(); ++i) {
     const motion::Parameter& parameter = action.parameters[i];
     const std::string name = "--" + std::string(parameter.name);
     std::string help(parameter.meaning);
     help[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(help[0])));
-    command.add_option(name, typed.values[i], help + ". Example: " + name + " " + std::string(parameter.example))
-        ->expected(1, static_cast<int>(parameter.count()))
-        ->type_name(std::string(parameter.value));
+    command.add(name, typed.values[i], help + ". Example: " + name + " " + std::string(parameter.example))
+        .words(1, static_cast<int>(parameter.count()))
+        .type(std::string(parameter.value));
   }
 }
 
-void add_action(CLI::App& animate, EditedFilm& film, const motion::Action& action) {
-  CLI::App* command = animate.add_subcommand(std::string(action.name), std::string(action.purpose));
+void add_action(cli::Command animate, EditedFilm& film, const motion::Action& action) {
+  const cli::Command command = animate.add_command(std::string(action.name), std::string(action.purpose));
   const auto typed = std::make_shared<Typed>();
-  command->add_option("ACTOR", typed->actor, "The actor. Example: anna")->required();
-  add_parameters(*command, action, *typed);
-  const CLI::Option* at =
-      command
-          ->add_option("--at", typed->at,
-                       "The frame at which it begins; default: the actor's last key. Example: --at 24")
-          ->type_name("FRAME")
-          ->check(CLI::Range(0u, wire::kMostFrames).description(""));
-  command->add_flag("--lengthen", typed->lengthen, "Give the film as many frames as this needs. Example: --lengthen");
-  command->callback([&film, &action, typed, at] {
-    run_action(film, action, *typed, at->count() ? std::optional(typed->at) : std::nullopt);
+  command.add("ACTOR", typed->actor, "The actor. Example: anna").required();
+  add_parameters(command, action, *typed);
+  const cli::Option at =
+      command.add("--at", typed->at, "The frame at which it begins; default: the actor's last key. Example: --at 24")
+          .type("FRAME")
+          .range(0u, wire::kMostFrames);
+  command.add_flag("--lengthen", typed->lengthen, "Give the film as many frames as this needs. Example: --lengthen");
+  command.runs([&film, &action, typed, at] {
+    run_action(film, action, *typed, at.given() ? std::optional(typed->at) : std::nullopt);
   });
 }
 
-void add_script(CLI::App& animate, EditedFilm& film) {
-  CLI::App* command = animate.add_subcommand("script", "Run a script: actions of several actors at their times");
+void add_script(cli::Command animate, EditedFilm& film) {
+  const cli::Command command = animate.add_command("script", "Run a script: actions of several actors at their times");
   const auto script = std::make_shared<std::string>();
   const auto lengthen = std::make_shared<bool>(false);
-  command->add_option("SCRIPT", *script, "The script; its form: docs/motion.md. Example: cubes.script")->required();
-  command->add_flag("--lengthen", *lengthen, "Give the film as many frames as the script needs. Example: --lengthen");
-  command->callback([&film, script, lengthen] {
+  command.add("SCRIPT", *script, "The script; its form: docs/motion.md. Example: cubes.script").required();
+  command.add_flag("--lengthen", *lengthen, "Give the film as many frames as the script needs. Example: --lengthen");
+  command.runs([&film, script, lengthen] {
     motion::Played played;
     std::string note;
     film.change([&](document::Json& json, const animator::Film&) {
@@ -109,7 +107,7 @@ void add_script(CLI::App& animate, EditedFilm& film) {
 
 }  // namespace
 
-void add_motion(CLI::App& animate, EditedFilm& film) {
+void add_motion(cli::Command animate, EditedFilm& film) {
   for (const motion::Action& action : motion::actions()) add_action(animate, film, action);
   add_script(animate, film);
 }

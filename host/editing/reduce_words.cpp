@@ -1,6 +1,6 @@
-#include <CLI/CLI.hpp>
 #include <memory>
 
+#include "host/cli/command.h"
 #include "host/content/animator/frame_words.h"
 #include "host/content/animator/reduce.h"
 #include "host/content/document/text.h"
@@ -35,25 +35,25 @@ void reduce(EditedFilm& film, const Words& words) {
 
 }  // namespace
 
-void add_reduce(CLI::App& animate, EditedFilm& film) {
-  CLI::App* app = animate.add_subcommand("reduce", "Make many keys a few, with splines through them");
+void add_reduce(cli::Command animate, EditedFilm& film) {
+  const cli::Command app = animate.add_command("reduce", "Make many keys a few, with splines through them");
   const auto words = std::make_shared<Words>();
-  app->add_option("ACTOR", words->choice.thing, "An actor, or camera. Example: robot")->required();
-  app->add_option("PART", words->choice.parts, "Only these of its joints, place and turn. Example: elbow place");
-  app->add_option("--error", words->error.degrees,
-                  "How far a turn may be from what it was, in every frame. Example: --error 0.5")
-      ->required()
-      ->type_name("DEGREES")
-      ->check(CLI::Range(0.001, 90.0).description(""));
-  CLI::Option* distance =
-      app->add_option("--distance", words->distance,
-                      "The same for places; default: as far as the angle moves a point at the figure's size. "
-                      "Example: --distance 0.01")
-          ->type_name("D")
-          ->check(CLI::Range(1e-6, 1e6).description(""));
-  app->add_option("-f,--frame", words->frame, "Only keys in this range. Example: --frame 24-48")->type_name("RANGE");
-  app->callback([&film, words, distance] {
-    if (distance->count() > 0) words->error.distance = words->distance;
+  app.add("ACTOR", words->choice.thing, "An actor, or camera. Example: robot").required();
+  app.add("PART", words->choice.parts, "Only these of its joints, place and turn. Example: elbow place");
+  app.add("--error", words->error.degrees,
+          "How far a turn may be from what it was, in every frame. Example: --error 0.5")
+      .required()
+      .type("DEGREES")
+      .range(0.001, 90.0);
+  const cli::Option distance =
+      app.add("--distance", words->distance,
+              "The same for places; default: as far as the angle moves a point at the figure's size. "
+              "Example: --distance 0.01")
+          .type("D")
+          .range(1e-6, 1e6);
+  app.add("-f,--frame", words->frame, "Only keys in this range. Example: --frame 24-48").type("RANGE");
+  app.runs([&film, words, distance] {
+    if (distance.given()) words->error.distance = words->distance;
     reduce(film, *words);
   });
 }

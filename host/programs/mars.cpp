@@ -1,5 +1,4 @@
 // mars: what a person types. It knows no MPI: `mars render` starts the programs that do.
-#include <CLI/CLI.hpp>
 #include <csignal>
 #include <exception>
 #include <iostream>
@@ -34,7 +33,7 @@
 #include "host/shell/commands/submit_command.h"
 #include "host/shell/commands/verify_command.h"
 #include "host/shell/launch/background_text.h"
-#include "host/shell/options/command_line.h"
+#include "host/cli/program.h"
 
 namespace mars::programs {
 namespace {
@@ -87,34 +86,33 @@ std::vector<const char*> help_as_option(int argc, char** argv) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app("Models, animates and renders films in parallel", "mars");
-  app.set_version_flag("--version", "mars " MARS_VERSION, "Print the version. Example: --version");
-  app.require_subcommand(0, 1);
+  cli::Program mars("mars", "Models, animates and renders films in parallel");
+  mars.version("mars " MARS_VERSION);
   std::vector<const char*> words = help_as_option(argc, argv);
   int code = 0;
-  commands::add_render(app);
-  commands::add_submit(app);
-  commands::add_folder_commands(app, code);
-  commands::add_compile(app);
-  commands::add_info(app);
-  commands::add_keys(app);
-  commands::add_plan(app, make_node_counter, measure_messages);
-  commands::add_verify(app, code);
-  commands::add_import(app);
-  commands::add_preview(app, [](const film::CompiledFilm& film) { return std::make_unique<SurfaceFrames>(film); });
-  commands::add_play(app);
-  commands::add_studio(app);
-  commands::add_animate(app, code);
-  commands::add_film(app);
-  commands::add_plot(app);
-  commands::add_model(app);
-  commands::add_doctor(app, {.reserved_cores = kCoresForHost, .version = MARS_VERSION}, code);
-  commands::add_calibrate(app, measure_messages);
-  commands::add_bench(app, words);
+  commands::add_render(mars);
+  commands::add_submit(mars);
+  commands::add_folder_commands(mars, code);
+  commands::add_compile(mars);
+  commands::add_info(mars);
+  commands::add_keys(mars);
+  commands::add_plan(mars, make_node_counter, measure_messages);
+  commands::add_verify(mars, code);
+  commands::add_import(mars);
+  commands::add_preview(mars, [](const film::CompiledFilm& film) { return std::make_unique<SurfaceFrames>(film); });
+  commands::add_play(mars);
+  commands::add_studio(mars);
+  commands::add_animate(mars, code);
+  commands::add_film(mars);
+  commands::add_plot(mars);
+  commands::add_model(mars);
+  commands::add_doctor(mars, {.reserved_cores = kCoresForHost, .version = MARS_VERSION}, code);
+  commands::add_calibrate(mars, measure_messages);
+  commands::add_bench(mars, words);
   // Last, or each command would have it.
-  app.footer(std::string("mars COMMAND --help prints every option with an example.\n") + options::kExitCodes);
-  if (const auto ended = options::read_command_line(app, static_cast<int>(words.size()), words.data())) return *ended;
-  if (app.get_subcommands().empty()) std::cout << kWayIn;
+  mars.footer(std::string("mars COMMAND --help prints every option with an example.\n") + cli::kExitCodes);
+  if (const auto ended = mars.read(static_cast<int>(words.size()), words.data())) return *ended;
+  if (mars.no_command_given()) std::cout << kWayIn;
   return code;
 }
 
@@ -129,6 +127,6 @@ int main(int argc, char** argv) {
     return mars::launch::exit_code(run(argc, argv));
   } catch (const std::exception& failure) {
     std::cerr << "mars: " << mars::reason_of(failure) << '\n';
-    return mars::launch::exit_code(mars::options::kFailed);
+    return mars::launch::exit_code(mars::cli::kFailed);
   }
 }

@@ -1,5 +1,4 @@
 // mars-node: a rank of an MPI job that renders. Takes no options: it does what the host says.
-#include <CLI/CLI.hpp>
 #include <exception>
 #include <iostream>
 
@@ -7,18 +6,18 @@
 #include "hal/mpi/start.h"
 #include "host/child/standard_streams.h"
 #include "host/programs/node_job.h"
-#include "host/shell/options/command_line.h"
+#include "host/cli/program.h"
 
 int main(int argc, char** argv) try {
   using namespace mars;
   child::prepare_standard_streams();
-  CLI::App app("A node of a rendering: mpirun -n 1 mars-host FILM -o DIR : -n 4 mars-node", "mars-node");
-  if (const auto code = options::read_command_line(app, argc, argv)) return *code;
+  cli::Program words("mars-node", "A node of a rendering: mpirun -n 1 mars-host FILM -o DIR : -n 4 mars-node");
+  if (const auto code = words.read(argc, argv)) return *code;
   return mpi::run_mpi(argc, argv, mpi::Role::node, [](int, char**) {
     programs::run_node_job();
     return 0;
   });
 } catch (const std::exception& failure) {
   std::cerr << "mars-node: " << mars::reason_of(failure) << '\n';
-  return mars::options::kFailed;
+  return mars::cli::kFailed;
 }

@@ -1,5 +1,4 @@
 // mars-nx: starts programs that are written for NX: one host and its nodes, or nodes alone.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -15,7 +14,7 @@
 #include "host/child/standard_streams.h"
 #include "host/content/document/text.h"
 #include "host/shell/nx/run.h"
-#include "host/shell/options/command_line.h"
+#include "host/cli/program.h"
 
 namespace mars::programs {
 namespace {
@@ -48,7 +47,7 @@ nx_jobs::Over over_of(const std::string& word) {
   if (word == "auto") return nx_jobs::Over::automatic;
   if (word == "processes") return nx_jobs::Over::processes;
   if (word == "mpi") return nx_jobs::Over::mpi;
-  throw CLI::ValidationError("--over", "'" + word + "' is not auto or processes or mpi");
+  throw cli::UsageError("--over", "'" + word + "' is not auto or processes or mpi");
 }
 
 // Nothing, or what is wrong with the word.
@@ -61,13 +60,13 @@ std::string is_count(const std::string& word) {
 
 // In its own process; returns where it cannot.
 int become_program(const std::filesystem::path& file, const std::vector<std::string>& arguments, bool reads) try {
-  if (!reads && std::freopen("/dev/null", "r", stdin) == nullptr) return options::kFailed;
+  if (!reads && std::freopen("/dev/null", "r", stdin) == nullptr) return cli::kFailed;
   child::Command command{{}, {file.string()}};
   command.words.insert(command.words.end(), arguments.begin(), arguments.end());
   child::become(command);
 } catch (const Failure& failure) {
   std::cerr << "mars-nx: " << failure.what() << '\n';
-  return options::kFailed;
+  return cli::kFailed;
 }
 
 int run_processes(const nx_jobs::NxRun& job, const nx_jobs::NxPrograms& programs, std::uint64_t limit) {
@@ -89,33 +88,31 @@ int run_processes(const nx_jobs::NxRun& job, const nx_jobs::NxPrograms& programs
   return processes::Job(plan).run();
 }
 
-void add_run(CLI::App& app, nx_jobs::NxRun& options, int& code) {
-  CLI::App* command = app.add_subcommand("run", "Start a host and its nodes, or nodes alone");
+void add_run(cli::Command app, nx_jobs::NxRun& options, int& code) {
+  const cli::Command command = app.add_command("run", "Start a host and its nodes, or nodes alone");
   command
-      ->add_option("PROGRAM", options.words,
-                   "The host's program and the nodes', or the nodes' alone. Example: ./host ./node")
-      ->required()
-      ->type_name("FILE");
+      .add("PROGRAM", options.words, "The host's program and the nodes', or the nodes' alone. Example: ./host ./node")
+      .required()
+      .type("FILE");
   command
-      ->add_option("-n,--nodes", options.nodes,
-                   "Number of nodes; default: one per processor, or the slots of the hostfile or Slurm job. "
-                   "Example: --nodes 8")
-      ->check(is_count)
-      ->type_name("N");
-  command->add_flag("--host", options.host,
-                    "The first program is the host, also where it is the only one: it loads its nodes "
-                    "itself. Example: --host ./host");
+      .add("-n,--nodes", options.nodes,
+           "Number of nodes; default: one per processor, or the slots of the hostfile or Slurm job. "
+           "Example: --nodes 8")
+      .check(is_count)
+      .type("N");
+  command.add_flag("--host", options.host,
+                   "The first program is the host, also where it is the only one: it loads its nodes "
+                   "itself. Example: --host ./host");
   command
-      ->add_option_function<std::string>(
+      .add_read(
           "--over", [&options](const std::string& word) { options.over = over_of(word); },
           "Processes over shared memory on this machine, or mpi; default: mpi with a hostfile or in a "
           "Slurm job, else processes. Example: --over mpi")
-      ->type_name("auto|processes|mpi");
-  command
-      ->add_option("--hostfile", options.hostfile, "Open MPI's file of the machines to use. Example: --hostfile hosts")
-      ->type_name("FILE");
-  command->footer("Environment variables:\n" + messages::settings_text() + "\n" + kStarts);
-  command->callback([&] { code = nx_jobs::run_nx(options, run_processes); });
+      .type("auto|processes|mpi");
+  command.add("--hostfile", options.hostfile, "Open MPI's file of the machines to use. Example: --hostfile hosts")
+      .type("FILE");
+  command.footer("Environment variables:\n" + messages::settings_text() + "\n" + kStarts);
+  command.runs([&] { code = nx_jobs::run_nx(options, run_processes); });
 }
 
 // What follows -- is not ours.
@@ -129,16 +126,15 @@ std::vector<std::string> take_arguments(std::vector<const char*>& words) {
 }
 
 int run_command(int argc, char** argv) {
-  CLI::App app("Runs programs written for NX", "mars-nx");
-  app.set_version_flag("--version", "mars-nx " MARS_VERSION, "Print the version. Example: --version");
-  app.require_subcommand(0, 1);
+  cli::Program program("mars-nx", "Runs programs written for NX");
+  program.version("mars-nx " MARS_VERSION);
   nx_jobs::NxRun options;
   int code = 0;
   std::vector<const char*> words(argv, argv + argc);
   options.arguments = take_arguments(words);
-  add_run(app, options, code);
-  if (const auto ended = options::read_command_line(app, static_cast<int>(words.size()), words.data())) return *ended;
-  if (app.get_subcommands().empty()) std::cout << kWayIn;
+  add_run(program, options, code);
+  if (const auto ended = program.read(static_cast<int>(words.size()), words.data())) return *ended;
+  if (program.no_command_given()) std::cout << kWayIn;
   return code;
 }
 
@@ -151,6 +147,6 @@ int main(int argc, char** argv) {
     return mars::programs::run_command(argc, argv);
   } catch (const std::exception& failure) {
     std::cerr << "mars-nx: " << mars::reason_of(failure) << '\n';
-    return mars::options::kFailed;
+    return mars::cli::kFailed;
   }
 }

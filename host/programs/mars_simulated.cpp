@@ -15,7 +15,7 @@
 #include "host/programs/foresight.h"
 #include "host/render/sinks/served_sinks.h"
 #include "host/shell/job/render_job.h"
-#include "host/shell/options/command_line.h"
+#include "host/cli/program.h"
 #include "node/firmware.h"
 #include "node/wire/work.h"
 
@@ -85,6 +85,6 @@ int main(int argc, char** argv) {
     return 0;
   } catch (const std::exception& failure) {
     std::cerr << "mars: " << reason_of(failure) << '\n';
-    return options::kFailed;
+    return cli::kFailed;
   }
 }

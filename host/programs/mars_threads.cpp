@@ -8,7 +8,7 @@
 #include "host/programs/foresight.h"
 #include "host/programs/node_job.h"
 #include "host/shell/options/render_options.h"
-#include "host/shell/options/command_line.h"
+#include "host/cli/program.h"
 #include "topology/machine.h"
 
 int main(int argc, char** argv) {
@@ -31,6 +31,6 @@ int main(int argc, char** argv) {
     return 0;
   } catch (const std::exception& failure) {
     std::cerr << "mars: " << reason_of(failure) << '\n';
-    return options::kFailed;
+    return cli::kFailed;
   }
 }

@@ -69,6 +69,10 @@ TEST(Boundaries, OpenExrInOneHostFile) {
   EXPECT_EQ(files_including(std::regex("(^OpenEXR/|(^|/)Imf)")), Files{"host/images/exr_file.cpp"});
 }
 
+TEST(Boundaries, CliInItsHostFolder) {
+  EXPECT_EQ(files_including(std::regex("^CLI/")), (Files{"host/cli/command.cpp", "host/cli/program.cpp"}));
+}
+
 TEST(Boundaries, AssimpInItsHostFolder) {
   expect_within(files_including(std::regex("^assimp/")), "host/content/importer/");
 }
@@ -182,8 +186,9 @@ TEST(Boundaries, HostsToolsStandOnOneAnother) {
   const std::string keys = "host/content/keys/", document = "host/content/document/", modeler = "host/content/modeler/",
                     animator = "host/content/animator/";
   const std::string film = "host/content/film/", preview = "host/preview/", images = "host/images/",
-                    child = "host/child/";
+                    child = "host/child/", cli = "host/cli/";
   below(child, {child});
+  below(cli, {keys, document, cli});
   below(keys, {keys});
   below(document, {keys, document});
   below(modeler, {keys, document, modeler});
@@ -192,8 +197,7 @@ TEST(Boundaries, HostsToolsStandOnOneAnother) {
   below(film, {keys, document, modeler, animator, film});
   below(images, {keys, document, images});
   below(preview, {child, keys, document, modeler, animator, film, images, preview, "host/render/sinks/"});
-  below("host/editing/", {keys, document, modeler, animator, film, "host/shell/options/command_line.h",
-                          "host/shell/options/wrapped.h", "host/editing/"});
+  below("host/editing/", {keys, document, modeler, animator, film, cli, "host/editing/"});
   below("host/studio/project/",
         {keys, document, modeler, animator, film, preview, "host/editing/", "host/studio/project/"});
   for (const Source& source : sources())

@@ -1,12 +1,12 @@
 #include "host/shell/commands/bench_command.h"
 
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 #include <string>
 #include <string_view>
 
 #include "host/child/programs.h"
+#include "host/cli/command.h"
 #include "host/shell/launch/bench.h"
 
 namespace mars::commands {
@@ -34,13 +34,13 @@ void bench(const Words& words) {
 
 }  // namespace
 
-void add_bench(CLI::App& app, std::vector<const char*>& command_line) {
+void add_bench(cli::Command app, std::vector<const char*>& command_line) {
   const auto words = std::make_shared<Words>();
   words->own = take_own_words(command_line);
-  CLI::App* command = app.add_subcommand("bench", "Run a benchmark, or list them");
-  command->add_option("NAME", words->name, "The benchmark; the words after it are its own. Example: peers --scenes s1");
-  command->footer("mars bench NAME --help prints the benchmark's own options.\n");
-  command->callback([words] { bench(*words); });
+  const cli::Command command = app.add_command("bench", "Run a benchmark, or list them");
+  command.add("NAME", words->name, "The benchmark; the words after it are its own. Example: peers --scenes s1");
+  command.footer("mars bench NAME --help prints the benchmark's own options.\n");
+  command.runs([words] { bench(*words); });
 }
 
 }  // namespace mars::commands

@@ -3,13 +3,11 @@
 
 #include <vector>
 
-namespace CLI {
-class App;
-}
+#include "host/cli/command.h"
 
 namespace mars::commands {
 
 // Takes from `command_line` the words after the name of a benchmark: it reads them itself.
-void add_bench(CLI::App& app, std::vector<const char*>& command_line);
+void add_bench(cli::Command app, std::vector<const char*>& command_line);
 
 }  // namespace mars::commands

@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <cerrno>
 #include <ctime>
@@ -17,6 +16,7 @@
 #include "host/child/environment.h"
 #include "host/child/programs.h"
 #include "host/child/standard_streams.h"
+#include "host/cli/command.h"
 #include "host/content/document/whole_file.h"
 #include "host/experiments/calibrate.h"
 #include "host/experiments/platform.h"
@@ -146,25 +146,25 @@ bool calibrate_if_need_be(const MeasureMessages& measure_messages) {
   return trouble.empty();
 }
 
-void add_calibrate(CLI::App& app, const MeasureMessages& measure_messages) {
+void add_calibrate(cli::Command app, const MeasureMessages& measure_messages) {
   const auto words = std::make_shared<Words>();
-  CLI::App* command =
-      app.add_subcommand("calibrate", "Measure what work costs on this machine, for simulated renderings");
+  const cli::Command command =
+      app.add_command("calibrate", "Measure what work costs on this machine, for simulated renderings");
   command
-      ->add_option("-o", words->file,
-                   "Write the platform to FILE; default: your own, which --platform here reads. Example: -o lab.json")
-      ->check([](const std::string& file) { return std::string(file.empty() ? "names no file" : ""); }, "")
-      ->type_name("FILE");
+      .add("-o", words->file,
+           "Write the platform to FILE; default: your own, which --platform here reads. Example: -o lab.json")
+      .check([](const std::string& file) { return std::string(file.empty() ? "names no file" : ""); })
+      .type("FILE");
   command
-      ->add_option("--repeats", words->repeats,
-                   "Render each film N times; the shortest times count. Default: 4. Example: --repeats 10")
-      ->check(CLI::Range(1, 1000).description(""))
-      ->type_name("N");
-  command->footer(
+      .add("--repeats", words->repeats,
+           "Render each film N times; the shortest times count. Default: 4. Example: --repeats 10")
+      .range(1, 1000)
+      .type("N");
+  command.footer(
       "It takes 10 to 30 seconds, in which nothing else should run. Then:\n"
       "  mars render FILM --sink none --backend simulated --platform here --nodes 4\n"
       "  mars render FILM --sink none --backend simulated --platform fat-tree:here ...\n");
-  command->callback([words, measure_messages] { calibrate(*words, measure_messages); });
+  command.runs([words, measure_messages] { calibrate(*words, measure_messages); });
 }
 
 }  // namespace mars::commands

@@ -3,11 +3,8 @@
 
 #include <functional>
 
+#include "host/cli/command.h"
 #include "host/experiments/message_costs.h"
-
-namespace CLI {
-class App;
-}
 
 namespace mars::commands {
 
@@ -18,6 +15,6 @@ using MeasureMessages = std::function<experiments::MessageCosts()>;
 // machine may be too busy for it.
 bool calibrate_if_need_be(const MeasureMessages& measure_messages);
 
-void add_calibrate(CLI::App& app, const MeasureMessages& measure_messages);
+void add_calibrate(cli::Command app, const MeasureMessages& measure_messages);
 
 }  // namespace mars::commands

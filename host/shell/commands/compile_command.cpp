@@ -1,12 +1,12 @@
 #include "host/shell/commands/compile_command.h"
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
 
 #include "hal/failure/failure.h"
+#include "host/cli/command.h"
 #include "host/content/document/whole_file.h"
 #include "host/content/film/film_file.h"
 #include "host/shell/job/film_of.h"
@@ -30,14 +30,12 @@ void compile(const Words& words) {
 
 }  // namespace
 
-void add_compile(CLI::App& app) {
+void add_compile(cli::Command app) {
   const auto words = std::make_shared<Words>();
-  CLI::App* command = app.add_subcommand("compile", "Compute a film's motion once, to a .mars file");
-  options::add_render_options(*command, words->options, options::Program::compile);
-  command->add_option("-o,--output", words->output, "The compiled film. Example: -o film.mars")
-      ->required()
-      ->type_name("FILE");
-  command->callback([words] { compile(*words); });
+  const cli::Command command = app.add_command("compile", "Compute a film's motion once, to a .mars file");
+  options::add_render_options(command, words->options, options::Program::compile);
+  command.add("-o,--output", words->output, "The compiled film. Example: -o film.mars").required().type("FILE");
+  command.runs([words] { compile(*words); });
 }
 
 }  // namespace mars::commands

@@ -1,12 +1,10 @@
 // `mars compile`: a film's motion, computed once.
 #pragma once
 
-namespace CLI {
-class App;
-}
+#include "host/cli/command.h"
 
 namespace mars::commands {
 
-void add_compile(CLI::App& app);
+void add_compile(cli::Command app);
 
 }  // namespace mars::commands

@@ -1,12 +1,10 @@
 // `mars film`: films begun; their actors, lights, materials and settings changed.
 #pragma once
 
-namespace CLI {
-class App;
-}
+#include "host/cli/command.h"
 
 namespace mars::commands {
 
-void add_film(CLI::App& app);
+void add_film(cli::Command app);
 
 }  // namespace mars::commands

@@ -1,6 +1,5 @@
 #include "host/shell/commands/folder_commands.h"
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <iostream>
 #include <memory>
@@ -8,7 +7,7 @@
 
 #include "host/shell/batch/folder_state.h"
 #include "host/shell/batch/follow.h"
-#include "host/shell/options/command_line.h"
+#include "host/cli/program.h"
 
 namespace mars::commands {
 namespace {
@@ -22,7 +21,7 @@ int watch(const std::string& folder) {
   if (batch::follow(folder)) return 0;
   std::cerr << "mars: " << folder << ": nothing renders here, and frames are missing (give mars render or mars submit "
             << "the film and this folder to go on)\n";
-  return options::kFailed;
+  return cli::kFailed;
 }
 
 void cancel(const std::string& folder) {
@@ -30,17 +29,16 @@ void cancel(const std::string& folder) {
   print_state(folder);
 }
 
-void add(CLI::App& app, const char* name, const char* purpose, const std::function<void(const std::string&)>& act) {
+void add(cli::Command app, const char* name, const char* purpose, const std::function<void(const std::string&)>& act) {
   const auto folder = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand(name, purpose);
-  command->add_option("DIR", *folder, "The folder given to mars render or mars submit with -o. Example: build/demo")
-      ->required();
-  command->callback([folder, act] { act(*folder); });
+  const cli::Command command = app.add_command(name, purpose);
+  command.add("DIR", *folder, "The folder given to mars render or mars submit with -o. Example: build/demo").required();
+  command.runs([folder, act] { act(*folder); });
 }
 
 }  // namespace
 
-void add_folder_commands(CLI::App& app, int& code) {
+void add_folder_commands(cli::Command app, int& code) {
   add(app, "status", "Print how far the runs and jobs of a folder are", print_state);
   add(app, "watch", "Follow the runs and jobs of a folder to their end",
       [&code](const std::string& folder) { code = watch(folder); });

@@ -1,12 +1,10 @@
 // `mars import`: a model from a mesh file or a patch file.
 #pragma once
 
-namespace CLI {
-class App;
-}
+#include "host/cli/command.h"
 
 namespace mars::commands {
 
-void add_import(CLI::App& app);
+void add_import(cli::Command app);
 
 }  // namespace mars::commands

@@ -1,10 +1,10 @@
 #include "host/shell/commands/info_command.h"
 
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 #include <string>
 
+#include "host/cli/command.h"
 #include "host/content/film/describe.h"
 #include "host/shell/job/film_of.h"
 #include "host/shell/options/render_options.h"
@@ -23,11 +23,11 @@ std::string info_of(const std::string& path) {
 
 }  // namespace
 
-void add_info(CLI::App& app) {
+void add_info(cli::Command app) {
   const auto film = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("info", "Print what a film holds");
-  command->add_option("FILM", *film, "A .json or .mars file. Example: examples/demo.json")->required();
-  command->callback([film] { std::cout << info_of(*film); });
+  const cli::Command command = app.add_command("info", "Print what a film holds");
+  command.add("FILM", *film, "A .json or .mars file. Example: examples/demo.json").required();
+  command.runs([film] { std::cout << info_of(*film); });
 }
 
 }  // namespace mars::commands

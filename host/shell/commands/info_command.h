@@ -1,12 +1,10 @@
 // `mars info`: what a film holds.
 #pragma once
 
-namespace CLI {
-class App;
-}
+#include "host/cli/command.h"
 
 namespace mars::commands {
 
-void add_info(CLI::App& app);
+void add_info(cli::Command app);
 
 }  // namespace mars::commands

@@ -1,12 +1,12 @@
 #include "host/shell/commands/keys_command.h"
 
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "hal/failure/failure.h"
+#include "host/cli/command.h"
 #include "host/content/document/fields.h"
 #include "host/content/document/json_file.h"
 #include "host/content/keys/schema.h"
@@ -54,18 +54,18 @@ std::string answer(const Words& words) {
 
 }  // namespace
 
-void add_keys(CLI::App& app) {
+void add_keys(cli::Command app) {
   const auto words = std::make_shared<Words>();
-  CLI::App* command = app.add_subcommand("keys", "Print what film and model files may hold");
-  CLI::Option* name =
-      command->add_option("NAME", words->name, "Film, light, material ...; none: their list. Example: light");
+  const cli::Command command = app.add_command("keys", "Print what film and model files may hold");
+  const cli::Option name =
+      command.add("NAME", words->name, "Film, light, material ...; none: their list. Example: light");
   command
-      ->add_option("--schema", words->schema,
-                   "Print the JSON Schema of such files instead, for editors. Example: --schema film")
-      ->type_name("film|model")
-      ->check(CLI::IsMember({"film", "model"}).description(""))
-      ->excludes(name);
-  command->callback([words] { std::cout << answer(*words); });
+      .add("--schema", words->schema,
+           "Print the JSON Schema of such files instead, for editors. Example: --schema film")
+      .type("film|model")
+      .one_of({"film", "model"})
+      .excludes(name);
+  command.runs([words] { std::cout << answer(*words); });
 }
 
 }  // namespace mars::commands

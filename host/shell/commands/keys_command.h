@@ -1,12 +1,10 @@
 // `mars keys`: what film and model files may hold.
 #pragma once
 
-namespace CLI {
-class App;
-}
+#include "host/cli/command.h"
 
 namespace mars::commands {
 
-void add_keys(CLI::App& app);
+void add_keys(cli::Command app);
 
 }  // namespace mars::commands

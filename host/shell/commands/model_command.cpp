@@ -1,6 +1,5 @@
 #include "host/shell/commands/model_command.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <iostream>
@@ -18,8 +17,8 @@
 #include "host/content/modeler/proportions.h"
 #include "host/content/modeler/review.h"
 #include "host/content/modeler/shape_library.h"
-#include "host/shell/options/command_line.h"
-#include "host/shell/options/wrapped.h"
+#include "host/cli/program.h"
+#include "host/cli/wrapped.h"
 
 namespace mars::commands {
 namespace {
@@ -191,30 +190,26 @@ std::string shapes_text() {
     text += (text.empty() ? "" : ", ") + std::string(shape.name);
     if (!shape.option.key.empty()) text += " (" + std::string(shape.option.key) + ")";
   }
-  return "Shapes of the library, and their options for --with:\n  " + options::wrapped(text, 2) + "\n";
+  return "Shapes of the library, and their options for --with:\n  " + cli::wrapped(text, 2) + "\n";
 }
 
-void add_numbers(CLI::App& app, const char* name, std::vector<double>& numbers, int count, const char* type,
+void add_numbers(cli::Command app, const char* name, std::vector<double>& numbers, int count, const char* type,
                  const char* help) {
-  app.add_option(name, numbers, help)->expected(count)->type_name(type);
+  app.add(name, numbers, help).words(count).type(type);
 }
 
 // May be given several times.
 template <typename Value>
-CLI::Option* add_several(CLI::App& app, const char* name, std::vector<Value>& values, const char* type,
-                         const char* help) {
-  return app.add_option(name, values, help)
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->type_name(type);
+cli::Option add_several(cli::Command app, const char* name, std::vector<Value>& values, const char* type,
+                        const char* help) {
+  return app.add(name, values, help).repeated().type(type);
 }
 
-void add_limits(CLI::App& app, Words& words) {
+void add_limits(cli::Command app, Words& words) {
   add_several(app, "--limits", words.limits, "x|y|z LOWER UPPER",
               "Limits of its angle about one of its axes, in degrees; equal: fixed. Once for each axis. "
               "Example: --limits y -30 60")
-      ->check([](const std::string& word) {
+      .check([](const std::string& word) {
         const bool number = word.find_first_of("0123456789") != std::string::npos;
         return number || word == "x" || word == "y" || word == "z" ? std::string()
                                                                    : "'" + word + "' is no axis: write x, y or z";
@@ -223,132 +218,126 @@ void add_limits(CLI::App& app, Words& words) {
   app.add_flag("--free", words.free, "Turns freely about all axes not given by --limits. Example: --free");
 }
 
-void add_joint_options(CLI::App& app, Words& words) {
-  app.add_option("--parent", words.parent, "Its parent joint. Example: --parent body")->type_name("JOINT");
+void add_joint_options(cli::Command app, Words& words) {
+  app.add("--parent", words.parent, "Its parent joint. Example: --parent body").type("JOINT");
   add_numbers(app, "--place", words.place, 3, "X Y Z",
               "Its place in the parent's frame. Example: --place 0.4 0.1 -0.1");
   add_numbers(app, "--x-axis", words.x_axis, 3, "X Y Z", "Its x axis, in the parent's frame. Example: --x-axis 1 1 0");
   add_numbers(app, "--y-axis", words.y_axis, 3, "X Y Z",
               "Its y axis; if not perpendicular to x, the segment is sheared. Example: --y-axis 0.5 1 0");
   add_limits(app, words);
-  app.add_option("--shape", words.shape,
-                 "Its segment: a shape of the library or of the model. Example: --shape capsule")
-      ->type_name("SHAPE");
+  app.add("--shape", words.shape, "Its segment: a shape of the library or of the model. Example: --shape capsule")
+      .type("SHAPE");
   add_several(app, "--with", words.options, "KEY=NUMBER", "An option of the shape. Example: --with top=0.5");
   add_numbers(
       app, "--sbb", words.sbb, 6, "X Y Z X Y Z",
       "The segment's box, least and greatest corner in the joint's frame. Example: --sbb -0.1 -0.1 -0.5 0.1 0.1 0");
-  app.add_option("--limb", words.limb,
-                 "The limb of a figure that it is, for walking and other motion: pelvis, head, left.knee ... Example: "
-                 "--limb left.hip")
-      ->type_name("LIMB");
+  app.add("--limb", words.limb,
+          "The limb of a figure that it is, for walking and other motion: pelvis, head, left.knee ... Example: "
+          "--limb left.hip")
+      .type("LIMB");
   app.footer(shapes_text());
 }
 
 // "--roughness", with the help that the table has.
-void add_material_numbers(CLI::App& app, modeler::MaterialChange& change) {
+void add_material_numbers(cli::Command app, modeler::MaterialChange& change) {
   for (std::size_t i = 0; i < modeler::kMaterialNumbers.size(); ++i) {
     const keys::Key& key = modeler::kMaterialNumbers[i].key;
-    app.add_option("--" + std::string(key.name), change.numbers[i],
-                   keys::help_of(key, "--" + std::string(key.name) + " "))
-        ->type_name("NUMBER");
+    app.add("--" + std::string(key.name), change.numbers[i], keys::help_of(key, "--" + std::string(key.name) + " "))
+        .type("NUMBER");
   }
 }
 
-void add_material_options(CLI::App& app, Words& words) {
-  app.add_option("--material", words.material, "Its material. Example: --material fur")->type_name("NAME");
+void add_material_options(cli::Command app, Words& words) {
+  app.add("--material", words.material, "Its material. Example: --material fur").type("NAME");
   add_numbers(app, "--color", words.color, 3, "R G B",
               "The material's red, green, blue, 0 to 1. Example: --color 0.6 0.4 0.2");
   add_material_numbers(app, words.material_change);
-  app.add_option("--reflection", words.material_change.reflection,
-                 "How it reflects light: phong, blinn-phong, cook-torrance or metallic-roughness. "
-                 "Example: --reflection metallic-roughness")
-      ->type_name("MODEL");
-  app.add_option("--interpolation", words.material_change.interpolation,
-                 "What is interpolated over a triangle: its normal (phong), the colours of its corners (gouraud), or "
-                 "nothing (flat). Example: --interpolation flat")
-      ->type_name("WHAT");
-  app.add_option("--sides", words.material_change.sides, "1: seen from outside only. Example: --sides 1")
-      ->type_name("1|2");
+  app.add("--reflection", words.material_change.reflection,
+          "How it reflects light: phong, blinn-phong, cook-torrance or metallic-roughness. "
+          "Example: --reflection metallic-roughness")
+      .type("MODEL");
+  app.add("--interpolation", words.material_change.interpolation,
+          "What is interpolated over a triangle: its normal (phong), the colours of its corners (gouraud), or "
+          "nothing (flat). Example: --interpolation flat")
+      .type("WHAT");
+  app.add("--sides", words.material_change.sides, "1: seen from outside only. Example: --sides 1").type("1|2");
 }
 
 struct Verb {
   const char* name;
   const char* purpose;
   void (*run)(const Words& words);
-  void (*add)(CLI::App& app, Words& words);
+  void (*add)(cli::Command app, Words& words);
 };
 
 constexpr Verb kVerbs[] = {
     {"new", "Make a model of one joint, or one that differs from another by proportions", run_new,
-     [](CLI::App& app, Words& words) {
-       app.add_option("JOINT", words.joint, "The joint's name; default: body. Example: body");
-       app.add_option("--from", words.from, "Another model file, relative to the new one. Example: --from human.json")
-           ->type_name("MODEL");
+     [](cli::Command app, Words& words) {
+       app.add("JOINT", words.joint, "The joint's name; default: body. Example: body");
+       app.add("--from", words.from, "Another model file, relative to the new one. Example: --from human.json")
+           .type("MODEL");
        add_joint_options(app, words);
        add_material_options(app, words);
      }},
-    {"show", "Show a model's joints, how they turn, and their segments", run_show, [](CLI::App&, Words&) {}},
+    {"show", "Show a model's joints, how they turn, and their segments", run_show, [](cli::Command, Words&) {}},
     {"add", "Add a joint, or a material, or both", run_add,
-     [](CLI::App& app, Words& words) {
-       app.add_option("JOINT", words.joint, "The new joint; none: only a material. Example: leg");
+     [](cli::Command app, Words& words) {
+       app.add("JOINT", words.joint, "The new joint; none: only a material. Example: leg");
        add_joint_options(app, words);
        add_material_options(app, words);
      }},
     {"set", "Change a joint, or a material, or both", run_set,
-     [](CLI::App& app, Words& words) {
-       app.add_option("JOINT", words.joint, "The joint; none: only a material. Example: leg");
-       app.add_option("--name", words.name, "Another name for the joint, else for the material. Example: --name paw")
-           ->type_name("NAME");
+     [](cli::Command app, Words& words) {
+       app.add("JOINT", words.joint, "The joint; none: only a material. Example: leg");
+       app.add("--name", words.name, "Another name for the joint, else for the material. Example: --name paw")
+           .type("NAME");
        add_joint_options(app, words);
        add_several(app, "--reset", words.resets, "WHAT",
                    "Back to its default: parent, place, axes, limits, segment, sbb, material or limb. "
                    "Example: --reset axes")
-           ->check(CLI::IsMember(std::vector<std::string>(std::begin(modeler::kResets), std::end(modeler::kResets)))
-                       .description(""));
+           .one_of({std::begin(modeler::kResets), std::end(modeler::kResets)});
        add_material_options(app, words);
      }},
     {"scale", "Make all, or some joints, larger or smaller along their own axes", run_scale,
-     [](CLI::App& app, Words& words) {
-       app.add_option("FACTOR", words.factors, "One for all axes, or three for x, y and z. Example: 1.2")
-           ->expected(0, 3)
-           ->check(CLI::Range(1e-3, 1e3).description(""));
+     [](cli::Command app, Words& words) {
+       app.add("FACTOR", words.factors, "One for all axes, or three for x, y and z. Example: 1.2")
+           .words(0, 3)
+           .range(1e-3, 1e3);
        add_several(app, "--joint", words.joints, "PATTERN",
                    "Only these joints; * stands for any text. Example: --joint '*-thigh'");
        add_several(app, "--branch", words.branches, "PATTERN",
                    "Only these joints and all below them. Example: --branch head");
-       app.add_option("--height", words.height,
-                      "Then scale all joints alike to this height at rest. Example: --height 1.2")
-           ->type_name("LENGTH");
+       app.add("--height", words.height, "Then scale all joints alike to this height at rest. Example: --height 1.2")
+           .type("LENGTH");
        app.add_flag("--no-ground", words.no_ground,
                     "Do not keep the lowest point at rest at its height. Example: --no-ground");
-       app.parse_complete_callback([&words] {
-         if (words.factors.size() == 2) throw CLI::ValidationError("FACTOR", "give one for all axes, or three");
-         if (words.factors.empty() && !words.height) throw CLI::ValidationError("FACTOR", "give it, or --height");
+       app.checks([&words] {
+         if (words.factors.size() == 2) throw cli::UsageError("FACTOR", "give one for all axes, or three");
+         if (words.factors.empty() && !words.height) throw cli::UsageError("FACTOR", "give it, or --height");
        });
      }},
     {"remove", "Remove a joint, or a material", run_remove,
-     [](CLI::App& app, Words& words) {
-       app.add_option("JOINT", words.joint, "The joint. Example: leg");
+     [](cli::Command app, Words& words) {
+       app.add("JOINT", words.joint, "The joint. Example: leg");
        app.add_flag("--branch", words.branch, "With all joints below it. Example: --branch");
-       app.add_option("--material", words.material, "The material to remove. Example: --material fur")
-           ->type_name("NAME");
+       app.add("--material", words.material, "The material to remove. Example: --material fur").type("NAME");
      }},
-    {"check", "Check a model, and report what is probably a mistake", run_check, [](CLI::App&, Words&) {}},
+    {"check", "Check a model, and report what is probably a mistake", run_check, [](cli::Command, Words&) {}},
 };
 
 }  // namespace
 
-void add_model(CLI::App& app) {
-  CLI::App* model = app.add_subcommand("model", "Make a model, or change it step by step");
+void add_model(cli::Command app) {
+  const cli::Command model = app.add_command("model", "Make a model, or change it step by step");
   for (const Verb& verb : kVerbs) {
     const auto words = std::make_shared<Words>();
-    CLI::App* command = model->add_subcommand(verb.name, verb.purpose);
-    command->add_option("MODEL", words->file, "The model file. Example: dog.json")->required();
-    verb.add(*command, *words);
-    command->callback([words, run = verb.run] { run(*words); });
+    const cli::Command command = model.add_command(verb.name, verb.purpose);
+    command.add("MODEL", words->file, "The model file. Example: dog.json").required();
+    verb.add(command, *words);
+    command.runs([words, run = verb.run] { run(*words); });
   }
-  model->footer(kWay);  // last, or each of its commands would have it
+  model.footer(kWay);  // last, or each of its commands would have it
 }
 
 }  // namespace mars::commands

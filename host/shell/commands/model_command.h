@@ -1,12 +1,10 @@
 // `mars model`: make and change models step by step, at a terminal.
 #pragma once
 
-namespace CLI {
-class App;
-}
+#include "host/cli/command.h"
 
 namespace mars::commands {
 
-void add_model(CLI::App& app);
+void add_model(cli::Command app);
 
 }  // namespace mars::commands

@@ -1,6 +1,5 @@
 #include "host/shell/commands/plan_command.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "host/child/programs.h"
+#include "host/cli/command.h"
 #include "host/content/document/text.h"
 #include "host/experiments/forecast/forecast.h"
 #include "host/images/picture_format.h"
@@ -134,12 +134,12 @@ std::string json_text(const Planned& planned) {
 
 }  // namespace
 
-void add_plan(CLI::App& app, const forecast::MakeCounter& make_counter, const MeasureMessages& measure_messages) {
+void add_plan(cli::Command app, const forecast::MakeCounter& make_counter, const MeasureMessages& measure_messages) {
   const auto words = std::make_shared<Words>();
-  CLI::App* command = app.add_subcommand("plan", "Forecast a rendering's time, memory and bytes");
-  options::add_render_options(*command, words->options, options::Program::plan);
-  command->add_flag("--json", words->json, "Print one JSON object, for programs. Example: --json");
-  command->callback([words, make_counter, measure_messages] {
+  const cli::Command command = app.add_command("plan", "Forecast a rendering's time, memory and bytes");
+  options::add_render_options(command, words->options, options::Program::plan);
+  command.add_flag("--json", words->json, "Print one JSON object, for programs. Example: --json");
+  command.runs([words, make_counter, measure_messages] {
     const Planned planned = plan(words->options, make_counter, measure_messages);
     std::cout << (words->json ? json_text(planned) : text_of(planned));
   });

@@ -1,15 +1,12 @@
 // `mars plan`: what a rendering would take.
 #pragma once
 
+#include "host/cli/command.h"
 #include "host/experiments/forecast/counter.h"
 #include "host/shell/commands/calibrate_command.h"
 
-namespace CLI {
-class App;
-}
-
 namespace mars::commands {
 
-void add_plan(CLI::App& app, const forecast::MakeCounter& make_counter, const MeasureMessages& measure_messages);
+void add_plan(cli::Command app, const forecast::MakeCounter& make_counter, const MeasureMessages& measure_messages);
 
 }  // namespace mars::commands

@@ -1,9 +1,9 @@
 #include "host/shell/commands/plot_command.h"
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "hal/failure/failure.h"
+#include "host/cli/command.h"
 #include "host/content/animator/gnuplot.h"
 #include "host/content/animator/plot.h"
 #include "host/content/document/whole_file.h"
@@ -31,19 +31,19 @@ void plot(const Words& words) {
 
 }  // namespace
 
-void add_plot(CLI::App& app) {
+void add_plot(cli::Command app) {
   const auto words = std::make_shared<Words>();
-  CLI::App* command = app.add_subcommand("plot", "Draw joint angles and places over time, with gnuplot");
-  command->add_option("FILM", words->film, "The film file. Example: film.json")->required();
-  command->add_option("ACTOR", words->thing,
-                      "An actor, camera, light/N or material/NAME; default: all that has keys. Example: robot");
-  command->add_option("PART", words->parts,
-                      "Only these of its joints, place and turn, or all like a pattern. Example: elbow '*-shin'");
-  command->add_option("-o,--output", words->output, "The picture, .png or .svg. Example: -o angles.png")
-      ->required()
-      ->type_name("FILE");
-  command->footer("Dots are keys; the band behind a curve is what its joint's limits allow.\n");
-  command->callback([words] { plot(*words); });
+  const cli::Command command = app.add_command("plot", "Draw joint angles and places over time, with gnuplot");
+  command.add("FILM", words->film, "The film file. Example: film.json").required();
+  command.add("ACTOR", words->thing,
+              "An actor, camera, light/N or material/NAME; default: all that has keys. Example: robot");
+  command.add("PART", words->parts,
+              "Only these of its joints, place and turn, or all like a pattern. Example: elbow '*-shin'");
+  command.add("-o,--output", words->output, "The picture, .png or .svg. Example: -o angles.png")
+      .required()
+      .type("FILE");
+  command.footer("Dots are keys; the band behind a curve is what its joint's limits allow.\n");
+  command.runs([words] { plot(*words); });
 }
 
 }  // namespace mars::commands

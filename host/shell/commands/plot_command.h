@@ -1,12 +1,10 @@
 // `mars plot`: joint angles over time, drawn by gnuplot.
 #pragma once
 
-namespace CLI {
-class App;
-}
+#include "host/cli/command.h"
 
 namespace mars::commands {
 
-void add_plot(CLI::App& app);
+void add_plot(cli::Command app);
 
 }  // namespace mars::commands

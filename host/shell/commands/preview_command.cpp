@@ -1,6 +1,5 @@
 #include "host/shell/commands/preview_command.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdlib>
 #include <functional>
@@ -9,6 +8,7 @@
 
 #include "hal/failure/failure.h"
 #include "hal/messages/settings.h"
+#include "host/cli/command.h"
 #include "host/images/picture_size.h"
 #include "host/preview/film_pictures.h"
 #include "host/preview/folder_pictures.h"
@@ -27,73 +27,42 @@ struct Words {
   preview::Graphics graphics = preview::Graphics::automatic;
 };
 
-// A value that makes no sense is a usage error: it names the option, exit code 2.
-template <typename Take>
-std::function<void(const std::string&)> taking(const char* name, Take take) {
-  return [name, take](const std::string& text) {
-    try {
-      take(text);
-    } catch (const Failure& failure) {
-      throw CLI::ValidationError(name, failure.what());
-    }
-  };
-}
-
-void add_output(CLI::App& command, const std::shared_ptr<Words>& words) {
+void add_output(cli::Command command, const std::shared_ptr<Words>& words) {
   preview::WriteOptions& write = words->write;
+  const auto read_file = [&write](const std::string& word) {
+    preview::check_kind(word);
+    write.file = word;
+  };
+  const auto read_size = [&write](const std::string& word) {
+    const images::PictureSize size = images::read_picture_size(word);
+    write.extent = images::PictureSize{size.width, size.height};
+  };
   command
-      .add_option_function<std::string>(
-          "-o,--output",
-          taking("--output",
-                 [words](const std::string& text) {
-                   preview::check_kind(text);
-                   words->write.file = text;
-                 }),
-          "Write this instead of playing: .gif or .mp4 (by the program ffmpeg), or .png, one "
-          "frame or a contact sheet. Example: -o sheet.png")
-      ->type_name("FILE");
+      .add_read("-o,--output", read_file,
+                "Write this instead of playing: .gif or .mp4 (by the program ffmpeg), or .png, one "
+                "frame or a contact sheet. Example: -o sheet.png")
+      .type("FILE");
   command
-      .add_option_function<std::string>("--size",
-                                        taking("--size",
-                                               [words](const std::string& text) {
-                                                 const images::PictureSize size = images::read_picture_size(text);
-                                                 words->write.extent = images::PictureSize{size.width, size.height};
-                                               }),
-                                        "Pixels of each picture that is written; default: the film's own; on a sheet "
-                                        "320x180, in a GIF at most 960x540. Example: --size 480x270")
-      ->type_name("WxH");
+      .add_read("--size", read_size,
+                "Pixels of each picture that is written; default: the film's own; on a sheet "
+                "320x180, in a GIF at most 960x540. Example: --size 480x270")
+      .type("WxH");
   command
-      .add_option_function<std::string>(
-          "--frames", taking("--frames", [words](const std::string& text) { words->write.frames.emplace(text); }),
+      .add_read(
+          "--frames", [&write](const std::string& word) { write.frames.emplace(word); },
           "Frames that are written; default: all, on a sheet 12. Example: --frames 0-47")
-      ->type_name("LIST");
-  command.add_option("--every", write.every, "Only every Nth of these. Example: --every 8")
-      ->check(CLI::Range(1u, wire::kMostFrames).description(""))
-      ->type_name("N");
-  command.add_option("--columns", write.columns, "Pictures in a row of a sheet. Example: --columns 4")
-      ->check(CLI::Range(1u, wire::kMaxSide).description(""))
-      ->type_name("N");
+      .type("LIST");
+  command.add("--every", write.every, "Only every Nth of these. Example: --every 8")
+      .range(1u, wire::kMostFrames)
+      .type("N");
+  command.add("--columns", write.columns, "Pictures in a row of a sheet. Example: --columns 4")
+      .range(1u, wire::kMaxSide)
+      .type("N");
 }
 
-// An option whose words stand for 0, 1, 2 ...
-void add_choice(CLI::App& command, const char* name, const std::vector<std::string>& words,
-                const std::function<void(std::size_t)>& take, const char* help) {
-  std::string type;
-  for (const std::string& word : words) type += (type.empty() ? "" : "|") + word;
-  command
-      .add_option_function<std::string>(
-          name,
-          [=](const std::string& text) {
-            take(static_cast<std::size_t>(std::find(words.begin(), words.end(), text) - words.begin()));
-          },
-          help)
-      ->check(CLI::IsMember(words).description(""))
-      ->type_name(type);
-}
-
-void add_graphics(CLI::App& command, const std::shared_ptr<Words>& words) {
-  add_choice(
-      command, "--graphics", {"auto", "kitty", "sixel", "blocks", "blocks256"},
+void add_graphics(cli::Command command, const std::shared_ptr<Words>& words) {
+  command.add_choice(
+      "--graphics", {"auto", "kitty", "sixel", "blocks", "blocks256"},
       [words](std::size_t number) { words->graphics = static_cast<preview::Graphics>(number); },
       "How the terminal shows pictures: its own graphics, or two pixels a character in 24-bit or 256 colours; "
       "default: asked of the terminal. Example: --graphics blocks");
@@ -140,36 +109,37 @@ void play_folder(const Words& words) {
 
 }  // namespace
 
-void add_preview(CLI::App& app, const MakeSurface& make_surface) {
+void add_preview(cli::Command app, const MakeSurface& make_surface) {
   const auto words = std::make_shared<Words>();
-  CLI::App* command = app.add_subcommand("preview", "Play a film or a model in the terminal before it is rendered");
+  const cli::Command command =
+      app.add_command("preview", "Play a film or a model in the terminal before it is rendered");
   command
-      ->add_option("FILM", words->source,
-                   "A film (.json, .mars) or a model; loaded again when it changes. Example: examples/demo.json")
-      ->required();
-  add_choice(
-      *command, "--as", {"stick", "vertices", "prisms", "surface", "all"},
+      .add("FILM", words->source,
+           "A film (.json, .mars) or a model; loaded again when it changes. Example: examples/demo.json")
+      .required();
+  command.add_choice(
+      "--as", {"stick", "vertices", "prisms", "surface", "all"},
       [words](std::size_t number) {
         words->look.as = number < 4 ? std::optional(static_cast<preview::As>(number)) : std::nullopt;
       },
       "How models are shown first; default: prisms. Example: --as stick");
-  add_choice(
-      *command, "--view", {"camera", "front", "side", "top"},
+  command.add_choice(
+      "--view", {"camera", "front", "side", "top"},
       [words](std::size_t number) { words->look.from = static_cast<preview::From>(number); },
       "Where it is seen from first; default: the film's camera. Example: --view side");
-  add_graphics(*command, words);
-  add_output(*command, words);
-  command->footer("Keys turn joints and set keys of a film: h lists them. docs/previewing.md\n");
-  command->callback([words, make_surface] { preview(*words, make_surface); });
+  add_graphics(command, words);
+  add_output(command, words);
+  command.footer("Keys turn joints and set keys of a film: h lists them. docs/previewing.md\n");
+  command.runs([words, make_surface] { preview(*words, make_surface); });
 }
 
-void add_play(CLI::App& app) {
+void add_play(cli::Command app) {
   const auto words = std::make_shared<Words>();
-  CLI::App* command = app.add_subcommand("play", "Play rendered frames in the terminal");
-  command->add_option("DIR", words->source, "The folder given to mars render with -o. Example: build/demo")->required();
-  add_graphics(*command, words);
-  add_output(*command, words);
-  command->callback([words] { play_folder(*words); });
+  const cli::Command command = app.add_command("play", "Play rendered frames in the terminal");
+  command.add("DIR", words->source, "The folder given to mars render with -o. Example: build/demo").required();
+  add_graphics(command, words);
+  add_output(command, words);
+  command.runs([words] { play_folder(*words); });
 }
 
 }  // namespace mars::commands

@@ -1,12 +1,10 @@
 // `mars render`: a film to frames.
 #pragma once
 
-namespace CLI {
-class App;
-}
+#include "host/cli/command.h"
 
 namespace mars::commands {
 
-void add_render(CLI::App& app);
+void add_render(cli::Command app);
 
 }  // namespace mars::commands

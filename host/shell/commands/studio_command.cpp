@@ -1,10 +1,9 @@
 #include "host/shell/commands/studio_command.h"
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "host/child/programs.h"
-#include "host/shell/options/command_line.h"
+#include "host/cli/program.h"
 #include "host/shell/options/render_options.h"
 #include "host/studio/run_studio.h"
 
@@ -17,26 +16,23 @@ the link at home. Ctrl-C ends the studio. More: docs/studio.md.
 
 )";
 
-void add_server(CLI::App& command, studio::StudioSettings& settings) {
+void add_server(cli::Command command, studio::StudioSettings& settings) {
   command
-      .add_option("--port", settings.port,
-                  "Port of the link; default: 8640, or a free one where that is taken. Example: --port 9000")
-      ->type_name("N");
+      .add("--port", settings.port,
+           "Port of the link; default: 8640, or a free one where that is taken. Example: --port 9000")
+      .type("N");
   command
-      .add_option("--listen", settings.listen,
-                  "Address at which other machines' browsers come, too; with --certificate and --key, or --insecure. "
-                  "Example: --listen 0.0.0.0:8640")
-      ->type_name("ADDRESS[:PORT]");
+      .add("--listen", settings.listen,
+           "Address at which other machines' browsers come, too; with --certificate and --key, or --insecure. "
+           "Example: --listen 0.0.0.0:8640")
+      .type("ADDRESS[:PORT]");
   command
-      .add_option("--certificate", settings.certificate,
-                  "Certificate for TLS, with its chain, as PEM. Example: --certificate studio.pem")
-      ->type_name("FILE");
-  command.add_option("--key", settings.key, "The certificate's key, as PEM. Example: --key studio.key")
-      ->type_name("FILE");
+      .add("--certificate", settings.certificate,
+           "Certificate for TLS, with its chain, as PEM. Example: --certificate studio.pem")
+      .type("FILE");
+  command.add("--key", settings.key, "The certificate's key, as PEM. Example: --key studio.key").type("FILE");
   command.add_flag("--insecure", settings.insecure,
                    "Let other machines come without TLS: who listens to the network gets in. Example: --insecure");
-  command.add_flag_callback(
-      "--no-browser", [&settings] { settings.browser = false; }, "Open no browser. Example: --no-browser");
 }
 
 // Threads start at once; machines need MPI.
@@ -47,18 +43,21 @@ void choose_backend(options::RenderOptions& renderer) {
 
 }  // namespace
 
-void add_studio(CLI::App& app) {
+void add_studio(cli::Command app) {
   const auto settings = std::make_shared<studio::StudioSettings>();
-  CLI::App* command = app.add_subcommand("studio", "Work on a film or a model in the browser");
-  command->add_option("FILM", settings->file,
-                      "A film or a model, below this folder; a new model where there is none; default: figure.json. "
-                      "Example: examples/demo.json");
-  command->add_flag("--film", settings->film,
-                    "Where there is none, begin a film instead of a model; default: film.json. Example: --film");
-  add_server(*command, *settings);
-  options::add_render_options(*command, settings->renderer, options::Program::studio);
-  command->footer(kAfterwards + std::string(options::kExitCodes));
-  command->callback([settings] {
+  const auto no_browser = std::make_shared<bool>(false);
+  const cli::Command command = app.add_command("studio", "Work on a film or a model in the browser");
+  command.add("FILM", settings->file,
+              "A film or a model, below this folder; a new model where there is none; default: figure.json. "
+              "Example: examples/demo.json");
+  command.add_flag("--film", settings->film,
+                   "Where there is none, begin a film instead of a model; default: film.json. Example: --film");
+  add_server(command, *settings);
+  command.add_flag("--no-browser", *no_browser, "Open no browser. Example: --no-browser");
+  options::add_render_options(command, settings->renderer, options::Program::studio);
+  command.footer(kAfterwards + std::string(cli::kExitCodes));
+  command.runs([settings, no_browser] {
+    settings->browser = !*no_browser;
     settings->page = child::own_file().parent_path().parent_path() / "share" / "mars" / "studio";
     if (settings->film && settings->file.empty()) settings->file = "film.json";
     choose_backend(settings->renderer);

@@ -1,12 +1,10 @@
 // `mars studio`: a film or a model in the browser.
 #pragma once
 
-namespace CLI {
-class App;
-}
+#include "host/cli/command.h"
 
 namespace mars::commands {
 
-void add_studio(CLI::App& app);
+void add_studio(cli::Command app);
 
 }  // namespace mars::commands

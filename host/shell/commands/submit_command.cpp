@@ -1,6 +1,5 @@
 #include "host/shell/commands/submit_command.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -11,6 +10,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/child/programs.h"
+#include "host/cli/command.h"
 #include "host/content/document/shell_line.h"
 #include "host/content/document/text.h"
 #include "host/render/farm/plan.h"
@@ -60,43 +60,41 @@ std::string words_on_a_line(const std::string& text) {
   return "";
 }
 
-void add_job_options(CLI::App& command, Words& words) {
+void add_job_options(cli::Command command, Words& words) {
   command
-      .add_option("--nodes", words.machines,
-                  "Machines, which Slurm calls nodes; default: 4. On each of them several nodes of MARS may run. "
-                  "Example: --nodes 8")
-      ->type_name("N")
-      ->check(CLI::Range(std::uint32_t{1}, kMostMachines).description(""));
+      .add("--nodes", words.machines,
+           "Machines, which Slurm calls nodes; default: 4. On each of them several nodes of MARS may run. "
+           "Example: --nodes 8")
+      .type("N")
+      .range(std::uint32_t{1}, kMostMachines);
   command
-      .add_option("--tasks", words.tasks,
-                  "Processes on all machines: one is the host, each other a node that renders; default: 32. "
-                  "Example: --tasks 128")
-      ->type_name("N")
-      ->check(CLI::Range(std::uint32_t{2}, kMostTasks).description(""));
+      .add("--tasks", words.tasks,
+           "Processes on all machines: one is the host, each other a node that renders; default: 32. "
+           "Example: --tasks 128")
+      .type("N")
+      .range(std::uint32_t{2}, kMostTasks);
   command
-      .add_option("--time", words.time,
-                  "Time limit, as sbatch takes it. The job is queued again before it, until all frames are there. "
-                  "Example: --time 8:00:00")
-      ->type_name("TIME")
-      ->check(one_word);
-  command.add_option("--partition", words.partition, "Slurm's partition. Example: --partition long")
-      ->type_name("NAME")
-      ->check(one_word);
+      .add("--time", words.time,
+           "Time limit, as sbatch takes it. The job is queued again before it, until all frames are there. "
+           "Example: --time 8:00:00")
+      .type("TIME")
+      .check(one_word);
+  command.add("--partition", words.partition, "Slurm's partition. Example: --partition long")
+      .type("NAME")
+      .check(one_word);
   command
-      .add_option("--array", words.parts,
-                  "Jobs side by side, each with the machines and tasks above and about as much of the film's work. "
-                  "Example: --array 10")
-      ->type_name("N")
-      ->check(CLI::Range(std::uint32_t{1}, kMostParts).description(""));
+      .add("--array", words.parts,
+           "Jobs side by side, each with the machines and tasks above and about as much of the film's work. "
+           "Example: --array 10")
+      .type("N")
+      .range(std::uint32_t{1}, kMostParts);
   command
-      .add_option(
-          "--sbatch", words.sbatch,
-          "More options for sbatch, quoted as one word of the shell; they win over those above, the script's "
-          "and the environment's. May be given several times. Example: --sbatch \"--account=physics --qos=long\"")
-      ->type_name("WORDS")
-      ->type_size(1)
-      ->allow_extra_args(false)
-      ->check(words_on_a_line);
+      .add("--sbatch", words.sbatch,
+           "More options for sbatch, quoted as one word of the shell; they win over those above, the script's "
+           "and the environment's. May be given several times. Example: --sbatch \"--account=physics --qos=long\"")
+      .repeated()
+      .type("WORDS")
+      .check(words_on_a_line);
   command.add_flag("--print", words.print, "Print the batch script; submit nothing. Example: --print");
 }
 
@@ -185,26 +183,26 @@ void submit(const Words& words) {
 
 void check_words(const Words& words) {
   if (words.parts > 1 && (!words.render.report.empty() || !words.render.trace.empty()))
-    throw CLI::ValidationError("--array", "its jobs cannot share one file: leave out --report and --trace");
+    throw cli::UsageError("--array", "its jobs cannot share one file: leave out --report and --trace");
   const auto makes_array = [](const std::string& word) { return word.starts_with("--ar") || word.starts_with("-a"); };
   if (words.parts == 1 && std::ranges::any_of(sbatch_words(words), makes_array))
-    throw CLI::ValidationError("--sbatch",
-                               "each job of an array would render all frames: add --array N of mars submit, "
-                               "which cuts the film among them");
+    throw cli::UsageError("--sbatch",
+                          "each job of an array would render all frames: add --array N of mars submit, "
+                          "which cuts the film among them");
 }
 
 }  // namespace
 
-void add_submit(CLI::App& app) {
+void add_submit(cli::Command app) {
   const auto words = std::make_shared<Words>();
-  CLI::App* command = app.add_subcommand("submit", "Render a film by a job of Slurm");
-  options::add_render_options(*command, words->render, options::Program::submit);
-  add_job_options(*command, *words);
-  command->footer(
+  const cli::Command command = app.add_command("submit", "Render a film by a job of Slurm");
+  options::add_render_options(command, words->render, options::Program::submit);
+  add_job_options(command, *words);
+  command.footer(
       "The compiled film lies in DIR when the job is queued. Each start of the job\n"
       "renders it, whatever has become of FILM. What sbatch reads from the environment\n"
       "counts too: SBATCH_ACCOUNT, SBATCH_QOS, SBATCH_EXCLUSIVE and others.\n");
-  command->callback([words] {
+  command.runs([words] {
     check_words(*words);
     submit(*words);
   });

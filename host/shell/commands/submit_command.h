@@ -1,12 +1,10 @@
 // `mars submit`: a job of Slurm that renders.
 #pragma once
 
-namespace CLI {
-class App;
-}
+#include "host/cli/command.h"
 
 namespace mars::commands {
 
-void add_submit(CLI::App& app);
+void add_submit(cli::Command app);
 
 }  // namespace mars::commands

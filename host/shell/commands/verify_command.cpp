@@ -1,6 +1,5 @@
 #include "host/shell/commands/verify_command.h"
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
@@ -15,7 +14,7 @@
 #include "host/render/sinks/verify.h"
 #include "host/shell/doctor/doctor.h"
 #include "host/shell/launch/launch.h"
-#include "host/shell/options/command_line.h"
+#include "host/cli/program.h"
 #include "host/shell/options/render_options.h"
 
 namespace mars::commands {
@@ -48,7 +47,7 @@ int print_verdict(const sinks::Verdict& verdict) {
     std::cout << "frame " << trouble.frame << ": " << trouble.reason << '\n';
   if (!verdict.troubles.empty()) {
     std::cout << verdict.troubles.size() << " of " << verdict.expected << " frames are missing or wrong\n";
-    return options::kFailed;
+    return cli::kFailed;
   }
   std::cout << verdict.expected << " frames, all there";
   std::cout << (verdict.compared ? " and whole" : "; frames.json has no pixel hashes, so pixels were not compared");
@@ -79,23 +78,22 @@ void repair(const sinks::Verdict& verdict, options::RenderOptions render) {
 
 }  // namespace
 
-void add_verify(CLI::App& app, int& code) {
+void add_verify(cli::Command app, int& code) {
   const auto words = std::make_shared<Words>();
-  CLI::App* command = app.add_subcommand("verify", "Check every frame of a folder; print one hash of all pixels");
-  command->add_option("DIR", words->render.folder, "The folder given to mars render with -o. Example: build/demo")
-      ->required();
-  CLI::Option* missing = command->add_flag(
+  const cli::Command command = app.add_command("verify", "Check every frame of a folder; print one hash of all pixels");
+  command.add("DIR", words->render.folder, "The folder given to mars render with -o. Example: build/demo").required();
+  const cli::Option missing = command.add_flag(
       "--missing", words->missing,
       "Print only the missing or wrong frames, in the form of --frames; nothing if there are none. Example: --missing");
-  CLI::Option* repairs = command->add_flag(
+  const cli::Option repairs = command.add_flag(
       "--repair", words->repair,
       "Make frames.json again if it is lost or damaged; remove wrong frames and render what is missing, from "
       "DIR/film.mars; then check again. Example: --repair");
-  repairs->excludes(missing);
-  const std::size_t own = command->get_options().size();
-  options::add_render_options(*command, words->render, options::Program::repair);
-  for (std::size_t i = own; i < command->get_options().size(); ++i) command->get_options()[i]->needs(repairs);
-  command->callback([words, &code] {
+  repairs.excludes(missing);
+  const std::size_t own = command.options().size();
+  options::add_render_options(command, words->render, options::Program::repair);
+  for (std::size_t i = own; i < command.options().size(); ++i) command.options()[i].needs(repairs);
+  command.runs([words, &code] {
     if (words->repair) print_line(sinks::repair_manifest(words->render.folder));
     sinks::Verdict verdict = sinks::verify_folder(words->render.folder);
     if (words->missing) return print_missing(verdict);

@@ -1,13 +1,11 @@
 // `mars verify`: whether a folder has all its frames.
 #pragma once
 
-namespace CLI {
-class App;
-}
+#include "host/cli/command.h"
 
 namespace mars::commands {
 
 // `code` becomes the exit code where it is not 0.
-void add_verify(CLI::App& app, int& code);
+void add_verify(cli::Command app, int& code);
 
 }  // namespace mars::commands

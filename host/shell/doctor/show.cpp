@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "host/shell/options/wrapped.h"
+#include "host/cli/wrapped.h"
 #include "topology/placement.h"
 
 namespace mars::doctor {
@@ -27,9 +27,9 @@ const char* word_of(State state) { return state == State::good ? "ok" : state ==
 
 std::string text_of(const Finding& finding) {
   std::string line = padded(std::string(kStateColumn, ' ') + word_of(finding.state), kAboutColumn);
-  line = padded(line + finding.about, kFoundColumn) + options::wrapped(finding.found, kFoundColumn) + "\n";
+  line = padded(line + finding.about, kFoundColumn) + cli::wrapped(finding.found, kFoundColumn) + "\n";
   if (finding.remedy.empty()) return line;
-  return line + std::string(kFoundColumn, ' ') + "-> " + options::wrapped(finding.remedy, kFoundColumn + 3) + "\n";
+  return line + std::string(kFoundColumn, ' ') + "-> " + cli::wrapped(finding.remedy, kFoundColumn + 3) + "\n";
 }
 
 std::size_t count(std::span<const Finding> findings, State state) {

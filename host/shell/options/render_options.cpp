@@ -1,6 +1,5 @@
 #include "host/shell/options/render_options.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -14,7 +13,7 @@
 #include "hal/failure/failure.h"
 #include "host/content/document/shell_word.h"
 #include "host/content/document/text.h"
-#include "host/shell/options/command_line.h"
+#include "host/cli/program.h"
 #include "node/wire/film.h"
 
 namespace mars::options {
@@ -25,7 +24,7 @@ using Arguments = std::vector<std::string>;
 
 struct Entry {
   unsigned programs;  // Program bits
-  std::function<void(CLI::App&, RenderOptions&)> add;
+  std::function<void(cli::Command, RenderOptions&)> add;
   std::function<Arguments(const RenderOptions&)> write;
 };
 
@@ -104,23 +103,6 @@ std::string text_of(const std::optional<images::PictureSize>& size) {
 
 std::string text_of(const std::optional<std::uint32_t>& number) { return std::to_string(*number); }
 
-// A command line that makes no sense is a usage error: it names what it concerns, exit code 2.
-template <typename Check>
-void as_usage(const std::string& name, Check check) {
-  try {
-    check();
-  } catch (const Failure& failure) {
-    throw CLI::ValidationError(name, failure.what());
-  }
-}
-
-template <typename Read>
-void add_reader(CLI::App& app, const char* names, const char* type, const char* help, Read read_text) {
-  app.add_option_function<std::string>(
-         names, [names, read_text](const std::string& text) { as_usage(names, [&] { read_text(text); }); }, help)
-      ->type_name(type);
-}
-
 // The name the program started next is given: the short one where there is one.
 std::string first_name(const char* names) {
   const std::string_view all = names;
@@ -130,9 +112,9 @@ std::string first_name(const char* names) {
 template <typename Value>
 Entry option(unsigned programs, const char* names, const char* type, Value RenderOptions::*member, const char* help) {
   return {programs,
-          [=](CLI::App& app, RenderOptions& options) {
-            add_reader(app, names, type, help,
-                       [&options, member](const std::string& text) { read(text, options.*member); });
+          [=](cli::Command app, RenderOptions& options) {
+            const auto take = [&options, member](const std::string& text) { read(text, options.*member); };
+            app.add_read(names, take, help).type(type);
           },
           [=](const RenderOptions& options) -> Arguments {
             if (options.*member == RenderOptions().*member) return {};
@@ -142,9 +124,9 @@ Entry option(unsigned programs, const char* names, const char* type, Value Rende
 
 Entry number(unsigned programs, const char* names, const Count& count, const char* help) {
   return {programs,
-          [=](CLI::App& app, RenderOptions& options) {
-            add_reader(app, names, "N", help,
-                       [&options, count](const std::string& text) { read_count(text, count, options); });
+          [=](cli::Command app, RenderOptions& options) {
+            const auto read = [&options, count](const std::string& text) { read_count(text, count, options); };
+            app.add_read(names, read, help).type("N");
           },
           [=](const RenderOptions& options) -> Arguments {
             const std::uint32_t value = options.*count.member;
@@ -154,7 +136,7 @@ Entry number(unsigned programs, const char* names, const Count& count, const cha
 }
 
 Entry flag(unsigned programs, const char* names, bool RenderOptions::*member, const char* help) {
-  return {programs, [=](CLI::App& app, RenderOptions& options) { app.add_flag(names, options.*member, help); },
+  return {programs, [=](cli::Command app, RenderOptions& options) { app.add_flag(names, options.*member, help); },
           [=](const RenderOptions& options) -> Arguments {
             if (!(options.*member)) return {};
             return {first_name(names)};
@@ -164,11 +146,11 @@ Entry flag(unsigned programs, const char* names, bool RenderOptions::*member, co
 // Who serves a studio needs none.
 Entry film(unsigned programs, bool required) {
   return {programs,
-          [required](CLI::App& app, RenderOptions& options) {
-            app.add_option("FILM", options.film,
-                           "The film to render: a .json file, or a .mars file made by mars compile.\n"
-                           "Example: examples/demo.json")
-                ->required(required);
+          [required](cli::Command app, RenderOptions& options) {
+            const cli::Option film = app.add("FILM", options.film,
+                                             "The film to render: a .json file, or a .mars file made by mars compile.\n"
+                                             "Example: examples/demo.json");
+            if (required) film.required();
           },
           [](const RenderOptions& options) {
             return options.serve.empty() ? Arguments{text_of(options.film)} : Arguments{};
@@ -273,12 +255,12 @@ bool takes(Program program, const Entry& entry) { return (entry.programs & stati
 // Names that options had before, by their names now.
 constexpr std::array<std::pair<const char*, const char*>, 1> kFormerNames{{{"--cubes", "--groups"}}};
 
-void refuse_former_names(CLI::App& app) {
+void refuse_former_names(cli::Command app) {
   for (const auto& [former, now] : kFormerNames) {
     const auto refuse = [name = std::string(former), now = std::string(now)](const std::string&) {
-      throw CLI::ValidationError(name, "use " + now);
+      throw cli::UsageError(name, "use " + now);
     };
-    app.add_option_function<std::string>(former, refuse)->group("");  // not in the help
+    app.add_read(former, refuse, "").hidden();
   }
 }
 
@@ -350,23 +332,20 @@ void check_nodes(const RenderOptions& options, std::uint32_t cores) {
 
 std::string word_of_file(const std::string& name) { return name.starts_with('-') || name == ":" ? "./" + name : name; }
 
-void add_render_options(CLI::App& app, RenderOptions& options, Program program) {
+void add_render_options(cli::Command app, RenderOptions& options, Program program) {
   for (const Entry& entry : table()) {
     if (takes(program, entry)) entry.add(app, options);
   }
   if (program == Program::compile || program == Program::plan) return;
   refuse_former_names(app);
-  app.parse_complete_callback([&app, &options, program] {
-    if (app.remaining_size() > 0) return;  // unknown words are reported first
-    as_usage(app.get_name(), [&] { check_together(options, program); });
-  });
+  app.checks([&options, program] { check_together(options, program); });
 }
 
 std::optional<int> read_render_options(Program program, const char* name, const char* purpose, RenderOptions& options,
                                        int argc, const char* const* argv) {
-  CLI::App app(purpose, name);
-  add_render_options(app, options, program);
-  return read_command_line(app, argc, argv);
+  cli::Program words(name, purpose);
+  add_render_options(words, options, program);
+  return words.read(argc, argv);
 }
 
 std::vector<std::string> film_arguments(const RenderOptions& options) {

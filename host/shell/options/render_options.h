@@ -8,14 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "host/cli/command.h"
 #include "host/content/film/frame_set.h"
 #include "host/images/picture_format.h"
 #include "host/images/picture_size.h"
 #include "node/wire/protocol.h"
-
-namespace CLI {
-class App;
-}
 
 namespace mars::options {
 
@@ -73,7 +70,7 @@ enum class Program : unsigned {
 
 // Adds the options `program` takes to its command line, which is then checked as a whole too; `options` must
 // outlive the parsing.
-void add_render_options(CLI::App& app, RenderOptions& options, Program program);
+void add_render_options(cli::Command app, RenderOptions& options, Program program);
 
 // Reads the whole command line of a program that does nothing but render; `purpose` heads its help. As
 // read_command_line.

@@ -13,7 +13,7 @@
 #include "host/shell/launch/command.h"
 #include "host/shell/launch/mpi_words.h"
 #include "host/shell/options/render_options.h"
-#include "host/shell/options/wrapped.h"
+#include "host/cli/wrapped.h"
 #include "tests/fuzz/target.h"
 
 namespace mars::fuzz {
@@ -47,7 +47,7 @@ const std::map<std::string, Reader, std::less<>>& readers() {
       {"words", [](const std::string& text) { launch::meaning_of(text); }},
       {"shell", read_shell_words},
       {"file", [](const std::string& text) { options::word_of_file(text); }},
-      {"wrapped", [](const std::string& text) { options::wrapped(text, 8, 40); }},
+      {"wrapped", [](const std::string& text) { cli::wrapped(text, 8, 40); }},
   };
   return table;
 }

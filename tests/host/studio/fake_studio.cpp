@@ -1,9 +1,9 @@
 // The studio's server with little behind it: what mars studio is to a network.
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 
 #include "hal/failure/explain.h"
+#include "host/cli/program.h"
 #include "host/studio/serve_studio.h"
 #include "tests/host/studio/fakes.h"
 
@@ -24,16 +24,21 @@ studio::Parts make_parts(const std::filesystem::path&, boost::asio::io_context&)
 
 int main(int argc, char** argv) {
   studio::StudioSettings settings;
-  CLI::App app("mars studio with little behind it", "fake-studio");
-  app.add_option("FILM", settings.file);
-  app.add_option("--port", settings.port);
-  app.add_option("--listen", settings.listen);
-  app.add_option("--certificate", settings.certificate);
-  app.add_option("--key", settings.key);
-  app.add_flag("--insecure", settings.insecure);
-  app.add_flag("!--no-browser", settings.browser);
-  app.add_option("--page", settings.page)->required();
-  CLI11_PARSE(app, argc, argv);
+  bool no_browser = false;
+  cli::Program words("fake-studio", "mars studio with little behind it");
+  words.add("FILM", settings.file, "");
+  words.add("--port", settings.port, "");
+  words.add("--listen", settings.listen, "");
+  words.add("--certificate", settings.certificate, "");
+  words.add("--key", settings.key, "");
+  words.add_flag("--insecure", settings.insecure, "");
+  words.add_flag("--no-browser", no_browser, "");
+  words
+      .add_read(
+          "--page", [&](const std::string& folder) { settings.page = folder; }, "")
+      .required();
+  if (const auto code = words.read(argc, argv)) return *code;
+  settings.browser = !no_browser;
   try {
     studio::serve_studio(settings, make_parts);
     return 0;

@@ -2,9 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <CLI/CLI.hpp>
-
-#include "host/shell/options/command_line.h"
+#include "host/cli/program.h"
 #include "tests/host/content/document/failure_of.h"
 #include "tests/host/render/sinks/temporary_folder.h"
 
@@ -23,13 +21,13 @@ struct Reading {
 
 Reading read(Program program, const Words& words) {
   Reading reading;
-  CLI::App app("a test");
+  cli::Program app("test", "a test");
   add_render_options(app, reading.options, program);
   std::vector<const char*> argv{"test"};
   for (const std::string& word : words) argv.push_back(word.c_str());
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
-  reading.code = read_command_line(app, static_cast<int>(argv.size()), argv.data());
+  reading.code = app.read(static_cast<int>(argv.size()), argv.data());
   reading.printed = testing::internal::GetCapturedStderr();
   reading.printed += testing::internal::GetCapturedStdout();
   return reading;
@@ -107,7 +105,7 @@ TEST(RenderOptions, NamesMayBeginWithADash) {
 TEST(RenderOptions, FormerNamesAreRefusedWithTheNewOne) {
   for (const Program program : {Program::mars, Program::host, Program::ranks, Program::threads}) {
     const Reading reading = read(program, {"film.json", "--cubes", "2"});
-    EXPECT_EQ(reading.code, kUsage);
+    EXPECT_EQ(reading.code, cli::kUsage);
     EXPECT_TRUE(document::holds(reading.printed, "--cubes: use --groups")) << reading.printed;
   }
   EXPECT_FALSE(document::holds(read(Program::mars, {"--help"}).printed, "cubes"));
@@ -138,7 +136,7 @@ TEST(RenderOptions, WrongValuesAreUsageErrorsThatNameTheOption) {
   };
   for (const auto& [words, reason] : wrong) {
     const Reading reading = read(Program::mars, {"film.json", words[0], words[1]});
-    EXPECT_EQ(reading.code, kUsage) << words[0] << " " << words[1];
+    EXPECT_EQ(reading.code, cli::kUsage) << words[0] << " " << words[1];
     EXPECT_TRUE(document::holds(reading.printed, words[0])) << reading.printed;
     EXPECT_TRUE(document::holds(reading.printed, reason)) << reading.printed;
   }
@@ -148,8 +146,8 @@ TEST(RenderOptions, UnknownOrMissingWordsAreUsageErrors) {
   EXPECT_TRUE(document::holds(read(Program::mars, {}).printed, "FILM is required"));
   EXPECT_TRUE(document::holds(read(Program::mars, {"film.json", "--bogus"}).printed, "--bogus"));
   EXPECT_TRUE(document::holds(read(Program::mars, {"film.json", "--nodes"}).printed, "--nodes"));
-  EXPECT_EQ(read(Program::mars, {"a.json", "b.json"}).code, kUsage);
-  EXPECT_EQ(read(Program::host, {"film.json", "--nodes", "3"}).code, kUsage) << "MPI knows the nodes";
+  EXPECT_EQ(read(Program::mars, {"a.json", "b.json"}).code, cli::kUsage);
+  EXPECT_EQ(read(Program::host, {"film.json", "--nodes", "3"}).code, cli::kUsage) << "MPI knows the nodes";
 }
 
 // mars compile adds an output of its own.
@@ -157,7 +155,7 @@ TEST(RenderOptions, CompilingTakesWhatShapesTheFilm) {
   const Reading reading = read(Program::compile, {"film.json", "--size", "4x3", "--intervals", "keyframes"});
   EXPECT_EQ(reading.code, std::nullopt) << reading.printed;
   EXPECT_EQ(reading.options.size, (images::PictureSize{4, 3}));
-  EXPECT_EQ(read(Program::compile, {"film.json", "-o", "x"}).code, kUsage);
+  EXPECT_EQ(read(Program::compile, {"film.json", "-o", "x"}).code, cli::kUsage);
 }
 
 TEST(RenderOptions, CubesMayBeAuto) {
@@ -168,13 +166,11 @@ TEST(RenderOptions, CubesMayBeAuto) {
 // Every option's help shows how it is written.
 TEST(RenderOptions, EveryOptionHasAnExample) {
   for (const Program program : kPrograms) {
-    CLI::App app("a test");
+    cli::Program app("test", "a test");
     RenderOptions options;
     add_render_options(app, options, program);
-    for (const CLI::Option* option : app.get_options([](const CLI::Option* each) { return each != nullptr; })) {
-      if (option->get_name() == "--help" || option->get_group().empty()) continue;  // a refused name is in no group
-      EXPECT_TRUE(document::holds(option->get_description(), "Example: ")) << option->get_name();
-    }
+    for (const cli::Option& option : app.options())
+      EXPECT_TRUE(document::holds(option.help(), "Example: ")) << option.name();
   }
   EXPECT_EQ(read(Program::mars, {"--help"}).code, 0);
 }
@@ -185,15 +181,15 @@ TEST(RenderOptions, AStudioIsServedWithoutFilmAndFolder) {
     EXPECT_FALSE(reading.code) << reading.printed;
     EXPECT_EQ(reading.options.serve, "-socket");
     EXPECT_EQ(arguments_for(program, reading.options), (Words{"--mapping", "greedy", "--serve", "./-socket"}));
-    EXPECT_EQ(read(program, {"film.json", "--serve", "socket"}).code, kUsage);
+    EXPECT_EQ(read(program, {"film.json", "--serve", "socket"}).code, cli::kUsage);
   }
-  EXPECT_EQ(read(Program::mars, {"--serve", "socket"}).code, kUsage);
+  EXPECT_EQ(read(Program::mars, {"--serve", "socket"}).code, cli::kUsage);
 }
 
 TEST(RenderOptions, FramesNeedAFolderOrNoSink) {
   for (const Program program : {Program::mars, Program::host, Program::ranks, Program::threads}) {
     const Reading reading = read(program, {"film.json"});
-    EXPECT_EQ(reading.code, kUsage);
+    EXPECT_EQ(reading.code, cli::kUsage);
     EXPECT_TRUE(document::holds(reading.printed, "add -o DIR"));
     EXPECT_EQ(read(program, {"film.json", "--sink", "none"}).code, std::nullopt);
   }
@@ -217,7 +213,7 @@ TEST(RenderOptions, VeryManyNodesOfACoreAskForForce) {
 TEST(RenderOptions, FoldersHaveNoNamesOfVideosAndPictures) {
   const auto refusal = [](const Words& words) {
     const Reading reading = read(Program::mars, words);
-    return reading.code == kUsage ? reading.printed : "";
+    return reading.code == cli::kUsage ? reading.printed : "";
   };
   EXPECT_TRUE(
       document::holds(refusal({"film.json", "-o", "out/my film.mp4"}),

@@ -1,8 +1,8 @@
-#include "host/shell/options/wrapped.h"
+#include "host/cli/wrapped.h"
 
 #include <sstream>
 
-namespace mars::options {
+namespace mars::cli {
 
 std::string wrapped(const std::string& text, std::size_t indent, std::size_t columns) {
   const std::string margin(indent, ' ');
@@ -26,4 +26,4 @@ std::string wrapped(const std::string& text, std::size_t indent, std::size_t col
   return result;
 }
 
-}  // namespace mars::options
+}  // namespace mars::cli

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace mars::options {
+namespace mars::cli {
 
 inline constexpr std::size_t kColumns = 80;
 
@@ -11,4 +11,4 @@ inline constexpr std::size_t kColumns = 80;
 // first begins with as many spaces. Words that are longer stay whole, line ends of its own are kept.
 std::string wrapped(const std::string& text, std::size_t indent, std::size_t columns = kColumns);
 
-}  // namespace mars::options
+}  // namespace mars::cli

@@ -1,4 +1,4 @@
-#include "host/shell/options/command_line.h"
+#include "host/cli/program.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -14,9 +14,9 @@
 #include "hal/messages/settings.h"
 #include "host/content/document/fields.h"
 #include "host/content/document/text.h"
-#include "host/shell/options/wrapped.h"
+#include "host/cli/wrapped.h"
 
-namespace mars::options {
+namespace mars::cli {
 namespace {
 
 std::string line_of(const std::vector<std::string>& fields) {
@@ -206,6 +206,11 @@ std::string swapped(const CLI::App& app) {
 }
 
 // In a line.
+std::string explained(const CLI::App& app, const UsageError& error) {
+  const std::string order = swapped(app);
+  return order.empty() ? error.what() : order;
+}
+
 std::string explained(const CLI::App& app, const CLI::ParseError& error) {
   if (const std::string order = swapped(app); !order.empty()) return order;
   // An unknown word is reported first: what is missing may be what it was meant for.
@@ -227,38 +232,59 @@ bool unfinished(const CLI::App& app) {
 
 }  // namespace
 
-std::optional<int> read_command_line(CLI::App& app, int argc, const char* const* argv) {
-  prepare(app, std::make_shared<Help>());
-  allow_one_command(app);
+Program::Program(const std::string& name, const std::string& purpose)
+    : Program(std::make_unique<Declared>(Declared{std::make_unique<CLI::App>(purpose, name), {}})) {}
+
+Program::Program(std::unique_ptr<Declared> declared)
+    : Command(*declared->app, declared->kept), declared_(std::move(declared)), app_(declared_->app.get()) {}
+
+Program::~Program() = default;
+
+void Program::version(const std::string& text) {
+  app_->set_version_flag("--version", text, "Print the version. Example: --version");
+}
+
+bool Program::no_command_given() const { return app_->get_subcommands().empty(); }
+
+std::optional<int> Program::read(int argc, const char* const* argv) {
+  prepare(*app_, std::make_shared<Help>());
+  allow_one_command(*app_);
+  const auto refuse = [&](const std::string& problem) {
+    app_->exit(CLI::ValidationError(problem), std::cout, std::cerr);
+    return kUsage;
+  };
   if (argc == 2 && std::string_view(argv[1]) == "--list-options") {
-    std::cout << option_list(app);
+    std::cout << option_list(*app_);
     return 0;
   }
   try {
-    app.parse(argc, argv);
-    if (!unfinished(app)) return std::nullopt;
-    std::cout << app.help();
+    app_->parse(argc, argv);
+    if (!unfinished(*app_)) return std::nullopt;
+    std::cout << app_->help();
     return 0;
+  } catch (const UsageError& error) {
+    return refuse(explained(*app_, error));
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error, std::cout, std::cerr);
-    app.exit(CLI::ValidationError(explained(app, error)), std::cout, std::cerr);
-    return kUsage;
+    if (error.get_exit_code() == 0) return app_->exit(error, std::cout, std::cerr);
+    return refuse(explained(*app_, error));
   }
 }
 
-void read_words(CLI::App& app, const std::vector<std::string>& words) {
+void Program::read(const std::vector<std::string>& words) {
   const auto refuse = [&](const std::string& problem) {
     throw Failure(problem, "'" + document::joined(words, " ") + "'", "`mars --help` shows what there is");
   };
-  allow_one_command(app);
+  allow_one_command(*app_);
   try {
-    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // it takes them from the end
+    app_->parse(std::vector<std::string>(words.rbegin(), words.rend()));  // it takes them from the end
   } catch (const CLI::Success&) {
     refuse("asks for help, which is shown in a terminal only");
+  } catch (const UsageError& error) {
+    refuse(explained(*app_, error));
   } catch (const CLI::ParseError& error) {
-    refuse(explained(app, error));
+    refuse(explained(*app_, error));
   }
-  if (app.get_subcommands().empty() || unfinished(app)) refuse("is no whole command");
+  if (no_command_given() || unfinished(*app_)) refuse("is no whole command");
 }
 
-}  // namespace mars::options
+}  // namespace mars::cli

@@ -1,8 +1,8 @@
-#include "host/shell/options/wrapped.h"
+#include "host/cli/wrapped.h"
 
 #include <gtest/gtest.h>
 
-namespace mars::options {
+namespace mars::cli {
 namespace {
 
 TEST(Wrapped, BreaksAtSpacesAndIndentsWhatFollows) {
@@ -18,4 +18,4 @@ TEST(Wrapped, KeepsLongWordsAndLineEnds) {
 }
 
 }  // namespace
-}  // namespace mars::options
+}  // namespace mars::cli

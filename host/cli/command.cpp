@@ -1,0 +1,150 @@
+#include "host/cli/command.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "hal/failure/failure.h"
+
+namespace mars::cli {
+namespace {
+
+template <typename Number>
+Option limited(CLI::Option& option, Number least, Number most) {
+  return Option(*option.check(CLI::Range(least, most).description("")));
+}
+
+// A Failure in `check` is one of the command line, at `word`.
+template <typename Check>
+void as_usage(const std::string& word, Check check) {
+  try {
+    check();
+  } catch (const Failure& failure) {
+    throw UsageError(word, failure.what());
+  }
+}
+
+}  // namespace
+
+Option Option::required() const { return Option(*option_->required()); }
+
+Option Option::type(const std::string& name) const { return Option(*option_->type_name(name)); }
+
+Option Option::words(int least, int most) const {
+  return Option(*(least == most ? option_->expected(least) : option_->expected(least, most)));
+}
+
+Option Option::repeated() const {
+  option_->expected(1)->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  return *this;
+}
+
+Option Option::range(int least, int most) const { return limited(*option_, least, most); }
+
+Option Option::range(std::uint32_t least, std::uint32_t most) const { return limited(*option_, least, most); }
+
+Option Option::range(std::int64_t least, std::int64_t most) const { return limited(*option_, least, most); }
+
+Option Option::range(double least, double most) const { return limited(*option_, least, most); }
+
+Option Option::one_of(const std::vector<std::string>& choices) const {
+  return Option(*option_->check(CLI::IsMember(choices).description("")));
+}
+
+Option Option::check(const std::function<std::string(const std::string& word)>& problem_of) const {
+  return Option(*option_->check([problem_of](const std::string& word) { return problem_of(word); }, ""));
+}
+
+Option Option::excludes(Option other) const { return Option(*option_->excludes(other.option_)); }
+
+Option Option::needs(Option other) const { return Option(*option_->needs(other.option_)); }
+
+Option Option::hidden() const { return Option(*option_->group("")); }
+
+std::size_t Option::times_given() const { return option_->count(); }
+
+std::string Option::name() const { return option_->get_name(false, true); }
+
+std::string Option::type_name() const { return option_->get_type_size() == 0 ? "" : option_->get_type_name(); }
+
+std::string Option::help() const { return option_->get_description(); }
+
+Command Command::add_command(const std::string& name, const std::string& purpose) const {
+  return {*app_->add_subcommand(name, purpose), *kept_};
+}
+
+template <typename Value>
+Option Command::add(const std::string& names, Value& value, const std::string& help) const {
+  return Option(*app_->add_option(names, value, help));
+}
+
+#define MARS_VALUE(...) template Option Command::add(const std::string&, __VA_ARGS__&, const std::string&) const
+MARS_VALUE(std::string);
+MARS_VALUE(std::optional<std::string>);
+MARS_VALUE(std::vector<std::string>);
+MARS_VALUE(std::filesystem::path);
+MARS_VALUE(int);
+MARS_VALUE(std::optional<int>);
+MARS_VALUE(std::optional<std::uint16_t>);
+MARS_VALUE(std::uint32_t);
+MARS_VALUE(std::int64_t);
+MARS_VALUE(std::uint64_t);
+MARS_VALUE(double);
+MARS_VALUE(std::optional<double>);
+MARS_VALUE(std::vector<double>);
+MARS_VALUE(std::vector<std::tuple<std::string, double, double>>);
+#undef MARS_VALUE
+
+Option Command::add_flag(const std::string& names, bool& value, const std::string& help) const {
+  return Option(*app_->add_flag(names, value, help));
+}
+
+Option Command::add_read(const std::string& names, const std::function<void(const std::string& word)>& read,
+                         const std::string& help) const {
+  const auto take = [names, read](const std::string& word) { as_usage(names, [&] { read(word); }); };
+  return Option(*app_->add_option_function<std::string>(names, take, help));
+}
+
+Option Command::add_choice(const std::string& name, const std::vector<std::string>& words,
+                           const std::function<void(std::size_t number)>& take, const std::string& help) const {
+  std::string type;
+  for (const std::string& word : words) type += (type.empty() ? "" : "|") + word;
+  const auto number_of = [words, take](const std::string& word) {
+    take(static_cast<std::size_t>(std::ranges::find(words, word) - words.begin()));
+  };
+  return Option(*app_->add_option_function<std::string>(name, number_of, help)).one_of(words).type(type);
+}
+
+Command Command::footer(const std::string& text) const {
+  app_->footer(text);
+  return *this;
+}
+
+void Command::checks(const std::function<void()>& check) const {
+  app_->parse_complete_callback([app = app_, check] {
+    if (app->remaining_size() > 0) return;  // unknown words are reported first
+    as_usage(app->get_name(), check);
+  });
+}
+
+void Command::runs(const std::function<void()>& run) const { app_->callback(run); }
+
+std::string Command::name() const { return app_->get_name(); }
+
+Option Command::option(const std::string& name) const { return Option(*app_->get_option(name)); }
+
+std::vector<Option> Command::options() const {
+  std::vector<Option> all;
+  for (CLI::Option* option : app_->get_options())
+    if (option != app_->get_help_ptr() && !option->get_group().empty()) all.emplace_back(*option);
+  return all;
+}
+
+std::vector<Command> Command::commands() const {
+  std::vector<Command> all;
+  for (CLI::App* command : app_->get_subcommands({})) all.push_back({*command, *kept_});
+  return all;
+}
+
+}  // namespace mars::cli
