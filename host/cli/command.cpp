@@ -93,6 +93,7 @@ MARS_VALUE(std::uint64_t);
 MARS_VALUE(double);
 MARS_VALUE(std::optional<double>);
 MARS_VALUE(std::vector<double>);
+MARS_VALUE(std::vector<std::uint64_t>);
 MARS_VALUE(std::vector<std::tuple<std::string, double, double>>);
 #undef MARS_VALUE
 

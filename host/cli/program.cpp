@@ -185,7 +185,7 @@ void refuse_signs(CLI::Option& option) {
   option.check(refusal, "");
 }
 
-// Commands may be within commands: `mars model show`.
+// Commands may be within commands: `mars model MODEL show`.
 void prepare(CLI::App& command, const std::shared_ptr<Help>& help) {
   command.formatter(help);
   command.get_help_ptr()->description("Print this help. Example: --help");
@@ -230,6 +230,12 @@ bool unfinished(const CLI::App& app) {
   return given.empty() ? app.get_parent() != nullptr && !commands_in(app).empty() : unfinished(*given.front());
 }
 
+// "mars model": nothing follows a command that holds others.
+bool holds_commands_alone(const CLI::App& app, const std::string& last_word) {
+  const CLI::App& command = innermost(app);
+  return command.get_parent() != nullptr && !commands_in(command).empty() && command.get_name() == last_word;
+}
+
 }  // namespace
 
 Program::Program(const std::string& name, const std::string& purpose)
@@ -260,12 +266,17 @@ std::optional<int> Program::read(int argc, const char* const* argv) {
   try {
     app_->parse(argc, argv);
     if (!unfinished(*app_)) return std::nullopt;
+    if (const std::string order = swapped(*app_); !order.empty()) return refuse(order);
     std::cout << app_->help();
     return 0;
   } catch (const UsageError& error) {
     return refuse(explained(*app_, error));
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app_->exit(error, std::cout, std::cerr);
+    if (holds_commands_alone(*app_, argv[argc - 1])) {
+      std::cout << app_->help();
+      return 0;
+    }
     return refuse(explained(*app_, error));
   }
 }

@@ -1,11 +1,14 @@
-// The words of `mars animate FILM ...` and `mars film FILM ...`, as commands of a program.
+// The words of `mars animate FILM ...`, `mars film FILM ...` and `mars model MODEL ...`, as commands of a program.
 #pragma once
 
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "host/cli/command.h"
 #include "host/editing/edited_film.h"
+#include "host/editing/edited_model.h"
 
 namespace mars::editing {
 
@@ -14,6 +17,10 @@ cli::Command add_animate(cli::Command mars, EditedFilm& film, int& code);
 
 // `mars film`, likewise.
 cli::Command add_film(cli::Command mars, EditedFilm& film);
+
+// `mars model`, without its MODEL.
+cli::Command add_model(cli::Command mars, EditedModel& model);
+std::vector<std::string_view> model_verbs();
 
 // `reduce`.
 void add_reduce(cli::Command animate, EditedFilm& film);

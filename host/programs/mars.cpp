@@ -61,7 +61,7 @@ Commands:
   mars animate FILM list           the keys of a film; pose, key, move, time and more
   mars plot FILM -o FILE.png       joint angles over time, as a picture
   mars import FILE -o MODEL.json   a model from a mesh or patch file
-  mars model new MODEL.json        a model of your own, step by step
+  mars model MODEL.json new        a model of your own, step by step
   mars doctor                      check this machine, with remedies
   mars calibrate                   measure this machine, for simulated renderings
   mars bench NAME                  measure, where MARS was built from its sources
@@ -89,6 +89,7 @@ int run(int argc, char** argv) {
   cli::Program mars("mars", "Models, animates and renders films in parallel");
   mars.version("mars " MARS_VERSION);
   std::vector<const char*> words = help_as_option(argc, argv);
+  commands::put_model_first(words);
   int code = 0;
   commands::add_render(mars);
   commands::add_submit(mars);

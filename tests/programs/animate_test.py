@@ -90,7 +90,7 @@ class Animate(ProgramTest):
     def test_model_files_are_named_as_the_shell_names_them(self):
         (self.folder / "films").mkdir()
         (self.folder / "models").mkdir()
-        self.succeed("mars", "model", "new", "models/pip.json", "hip", "--shape", "box", "--material", "clay",
+        self.succeed("mars", "model", "models/pip.json", "new", "hip", "--shape", "box", "--material", "clay",
                      "--color", 1, 1, 1)
         self.succeed("mars", "film", "films/play.json", "new", "frames=1")
         self.succeed("mars", "film", "films/play.json", "add", "pip", "--model", "models/pip.json")
@@ -110,7 +110,7 @@ class Animate(ProgramTest):
 
     def test_a_model_file_beside_the_film_is_pointed_at(self):
         (self.folder / "films").mkdir()
-        self.succeed("mars", "model", "new", "films/pip.json", "hip", "--shape", "box", "--material", "clay",
+        self.succeed("mars", "model", "films/pip.json", "new", "hip", "--shape", "box", "--material", "clay",
                      "--color", 1, 1, 1)
         self.succeed("mars", "film", "films/play.json", "new", "frames=1")
         self.fail_clearly(1, "film", "films/play.json", "add", "pip", "--model", "pip.json",

@@ -96,12 +96,12 @@ class Films(ProgramTest):
                 self.fail_clearly(1, "compile", name, "-o", "film.mars", says=says)
                 self.fail_clearly(1, "render", name, "--sink", "none", "--backend", "threads", says=says)
                 self.fail_clearly(1, "animate", name, "list")
-                self.fail_clearly(1, "model", "show", name)
+                self.fail_clearly(1, "model", name, "show")
 
     def test_names_that_are_no_text(self):
-        self.succeed("mars", "model", "new", "dog.json", "--shape", "ellipsoid", "--sbb", *"-1 -1 -1 1 1 1".split())
+        self.succeed("mars", "model", "dog.json", "new", "--shape", "ellipsoid", "--sbb", *"-1 -1 -1 1 1 1".split())
         before = (self.folder / "dog.json").read_bytes()
-        self.fail_clearly(1, "model", "add", "dog.json", os.fsdecode(b"leg\xff"), "--parent", "body",
+        self.fail_clearly(1, "model", "dog.json", "add", os.fsdecode(b"leg\xff"), "--parent", "body",
                           says="a name that was given is not UTF-8")
         self.assertEqual((self.folder / "dog.json").read_bytes(), before)
 

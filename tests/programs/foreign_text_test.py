@@ -35,7 +35,7 @@ class ForeignText(ProgramTest):
                       ["compile", film, "-o", f"{NASTY}/x.mars"], ["verify", NASTY], ["status", NASTY],
                       ["animate", film, NASTY], ["animate", film, "list", NASTY], ["film", film, "remove", NASTY],
                       ["preview", NASTY], ["play", NASTY], ["plot", film, NASTY, "-o", "x.png"],
-                      ["import", NASTY, "-o", "x.json"], ["model", "show", NASTY], ["bench", NASTY]]:
+                      ["import", NASTY, "-o", "x.json"], ["model", NASTY, "show"], ["bench", NASTY]]:
             with self.subTest(words=words):
                 done = self.mars(*words)
                 self.assertNotEqual(done.returncode, 0)
@@ -43,8 +43,8 @@ class ForeignText(ProgramTest):
 
     def test_names_of_files_and_folders(self):
         film, model = self.film(f"{NASTY}.json"), self.folder / f"{NASTY}-model.json"
-        self.assertPlain(self.mars("model", "new", model, "hip", "--shape", "box"), shows=False)
-        for words in [["info", film], ["animate", film, "list"], ["animate", film, "check"], ["model", "check", model],
+        self.assertPlain(self.mars("model", model, "new", "hip", "--shape", "box"), shows=False)
+        for words in [["info", film], ["animate", film, "list"], ["animate", film, "check"], ["model", model, "check"],
                       ["render", film, "-o", NASTY, "--size", "16x9", "--frames", "0", "--backend", "threads"],
                       ["verify", NASTY], ["status", NASTY], ["verify", NASTY, "--missing"]]:
             with self.subTest(words=words):

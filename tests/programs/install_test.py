@@ -138,10 +138,10 @@ class Installed(Installation):
     def test_completes_commands_within_commands(self):
         self.write("dog.json", "")
         (self.folder / "notes.txt").touch()
-        self.assertEqual(self.complete("mars", "model", "sh"), ["show"])
-        self.assertEqual(self.complete("mars", "model", "show", ""), ["dog.json"])
-        self.assertEqual(self.complete("mars", "model", "show", "dog.json", ""), [])
-        self.assertEqual(self.complete("mars", "model", "show", "dog.json", "-"), ["-h", "--help"])
+        self.assertEqual(self.complete("mars", "model", "dog.json", "sh"), ["show"])
+        self.assertIn("dog.json", self.complete("mars", "model", ""))
+        self.assertEqual(self.complete("mars", "model", "dog.json", "show", ""), [])
+        self.assertEqual(self.complete("mars", "model", "dog.json", "show", "-"), ["-h", "--help"])
 
     def test_completes_films_and_folders(self):
         for name in ["a film.json", "film.mars", "film.txt"]:
@@ -165,8 +165,8 @@ class Installed(Installation):
     def test_fish_completes_commands_within_commands(self):
         script = self.prefix / "share/fish/vendor_completions.d/mars.fish"
         self.write("dog.json", "")
-        for typed, offered in [("mars mod", ["model"]), ("mars model sh", ["show"]), ("mars model show d", ["dog.json"]),
-                               ("mars render --backend thr", ["threads"]), ("mars model show --h", ["--help"])]:
+        for typed, offered in [("mars mod", ["model"]), ("mars model dog.json sh", ["show"]), ("mars model d", ["dog.json"]),
+                               ("mars render --backend thr", ["threads"]), ("mars model dog.json show --h", ["--help"])]:
             printed = self.succeed("fish", "--no-config", "-c", f"source '{script}'; complete -C '{typed}'",
                                 env=dict(os.environ, PATH=f"{harness.PROGRAMS}:{os.environ['PATH']}",
                                          HOME=str(self.folder)))
@@ -193,9 +193,9 @@ class Installed(Installation):
 
         functions = self.prefix / "share/zsh/site-functions"
         shows(f"fpath=('{functions}' $fpath); autoload -U compinit; compinit -u; echo rea''dy\n", "ready\r\n")
-        for typed, wanted in [("mars mod", "mars model "), ("mars model sh", "mars model show "),
-                              ("mars model show d", "show dog.json "), ("mars render --backend thr", "threads "),
-                              ("mars model set dog.json body --limits x 0 9 --res", "--reset=")]:
+        for typed, wanted in [("mars mod", "mars model "), ("mars model dog.json sh", "dog.json show "),
+                              ("mars model d", "mars model dog.json "), ("mars render --backend thr", "threads "),
+                              ("mars model dog.json set body --limits x 0 9 --res", "--reset=")]:
             shows(typed + "\t", wanted)
             shows("\x15echo do''ne\n", "done\r\n")
 
@@ -225,7 +225,7 @@ class Manual(Installation):
     def test_prints_commands_as_they_are_typed(self):
         text = gzip.decompress(self.page("mars").read_bytes()).decode()
         self.assertIn(".Nm Cm animate Ar FILM Cm walk Oo Ar options Oc Ar ACTOR\n", text)
-        self.assertIn(".Nm Cm model Cm scale Oo Ar options Oc Ar MODEL Oo Ar FACTOR... Oc\n", text)
+        self.assertIn(".Nm Cm model Ar MODEL Cm scale Oo Ar options Oc Oo Ar FACTOR... Oc\n", text)
 
     def test_every_program_has_a_page(self):
         for program in harness.PROGRAMS.iterdir():

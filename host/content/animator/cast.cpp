@@ -52,7 +52,7 @@ std::string model_for(Json& film, const NewActor& actor) {
   if (library && actor.height) return put_model(film, modeler::library_figure(actor.model, actor.height), actor.name);
   if (actor.height && (known || file))
     throw Failure("has a height of its own", document::in_quotes(actor.model),
-                  "leave --height out; mars model scale changes a model file");
+                  "leave --height out; mars model MODEL scale changes a model file");
   if (known) return actor.model;
   if (library) return put_model(film, modeler::library_figure(actor.model), actor.model);
   if (!file) refuse_model(film, actor.model);

@@ -82,7 +82,7 @@ std::vector<std::string> read_of(const MeshFile& file) {
 
 // Of the first joint, whether it has a colour or not.
 std::string set_material(const ImportOptions& options) {
-  return "mars model set " + document::shell_word(options.to.string()) + " " + document::shell_word(options.joint) +
+  return "mars model " + document::shell_word(options.to.string()) + " set " + document::shell_word(options.joint) +
          " --material " + material_name(0);
 }
 

@@ -23,7 +23,7 @@ struct MeshOptions {
   ModelSize size;
   std::optional<double> crease;  // degrees; given: normals follow from the faces, whatever the file says
   std::string joint;             // the first joint's name
-  std::string set_material;      // "mars model set rock.json rock --material color": remedies begin so
+  std::string set_material;      // "mars model rock.json set rock --material color": remedies begin so
 };
 
 struct Surface {

@@ -87,7 +87,7 @@ std::vector<std::string> unread_parts(const aiScene& scene, const TextureMeans& 
     if (count > 0) parts.push_back(document::counted(count, one, several) + remedy);
   };
   const std::string one_color = " (one colour instead: " + set_material + " --color 0.8 0.6 0.4)";
-  add(counts.bones.size(), "bone", "bones", " (mars model add makes joints)");
+  add(counts.bones.size(), "bone", "bones", " (mars model MODEL add makes joints)");
   add(scene.mNumAnimations, "animation", "animations", " (mars animate sets keys)");
   add(counts.targets, "morph target", "morph targets");
   add(counts.textures.size(), "texture", "textures", one_color);

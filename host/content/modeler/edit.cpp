@@ -28,7 +28,8 @@ std::string near(const std::string& wanted, const std::vector<std::string>& name
 document::Json& joints_of(document::Json& model) {
   if (!model.contains("joints"))
     throw Failure("has no joints of its own", "",
-                  "change " + model.value("from", "the other file") + ", or this one's proportions: mars model scale");
+                  "change " + model.value("from", "the other file") +
+                      ", or this one's proportions: mars model MODEL scale");
   return model["joints"];
 }
 
@@ -46,7 +47,7 @@ document::Json* find_joint(document::Json& model, const std::string& name) {
 
 [[noreturn]] void no_such_joint(document::Json& model, const std::string& name) {
   const std::vector<std::string> names = names_of(joints_of(model));
-  throw Failure("is not in the model", joint_of(name), near(name, names, "mars model show lists the joints"));
+  throw Failure("is not in the model", joint_of(name), near(name, names, "mars model MODEL show lists the joints"));
 }
 
 document::Json& joint_named(document::Json& model, const std::string& name) {
@@ -190,7 +191,7 @@ void change_joint(document::Json& model, document::Json& joint, const JointChang
 
 void refuse_known(document::Json& model, const std::string& name) {
   if (find_joint(model, name))
-    throw Failure("is in the model already", joint_of(name), "choose another name, or change it: mars model set");
+    throw Failure("is in the model already", joint_of(name), "choose another name, or change it: mars model MODEL set");
 }
 
 void rename_joint(document::Json& model, const std::string& from, const std::string& to) {
@@ -225,7 +226,8 @@ document::Json& materials_of(document::Json& model) {
 
 void require_known_material(document::Json& model, const std::string& name) {
   if (model.contains("materials") && model["materials"].contains(name)) return;
-  throw Failure("is not in the model", material_of(name), near(name, materials_known(model), "add it: mars model add"));
+  throw Failure("is not in the model", material_of(name),
+                near(name, materials_known(model), "add it: mars model MODEL add"));
 }
 
 void set_reflection(document::Json& material, const std::string& name) {
@@ -275,7 +277,7 @@ void add_joint(document::Json& model, const std::string& name, const JointChange
   if (!change.limb) return;
   if (const std::string other = joint_that_is(model, *change.limb); !other.empty())
     throw Failure("cannot be " + *change.limb + " too: '" + other + "' is", joint_of(name),
-                  "leave --limb out; mars model set ... --limb gives it to another joint");
+                  "leave --limb out; mars model MODEL set ... --limb gives it to another joint");
   name_limb(model, name, *change.limb);
 }
 
@@ -293,7 +295,7 @@ void remove_joint(document::Json& model, const std::string& name, bool branch) {
     const std::vector<std::string> children = children_of(joints, going[at]);
     if (!branch && !children.empty())
       throw Failure("carries " + listed(children), joint_of(name),
-                    "remove them too: --branch; or hang them on another joint: mars model set ... --parent");
+                    "remove them too: --branch; or hang them on another joint: mars model MODEL set ... --parent");
     going.insert(going.end(), children.begin(), children.end());
   }
   if (going.size() == joints.size())
@@ -311,7 +313,7 @@ void add_material(document::Json& model, const std::string& name, const Material
   change_material(material, change);
   document::Json& materials = materials_of(model);
   if (materials.contains(name) && materials[name] != material)
-    throw Failure("is in the model already, and looks otherwise", material_of(name), "change it: mars model set");
+    throw Failure("is in the model already, and looks otherwise", material_of(name), "change it: mars model MODEL set");
   materials[name] = material;
 }
 
@@ -338,7 +340,7 @@ void remove_material(document::Json& model, const std::string& name) {
       if (uses(joint, name)) users.push_back(joint["name"]);
   if (!users.empty())
     throw Failure("is what " + listed(users) + (users.size() == 1 ? " is" : " are") + " made of", material_of(name),
-                  "give them another first: mars model set ... --material");
+                  "give them another first: mars model MODEL set ... --material");
   model["materials"].erase(name);
   if (model["materials"].empty()) model.erase("materials");
 }

@@ -110,7 +110,7 @@ std::vector<ControlPoint> control_points(const Json& model, const Model& meaning
 
 std::string set_point(Json& model, const Model& meaning, const std::string& joint, const ControlPoint& point) {
   const Joint* const found = find_joint(meaning, joint);
-  if (!found) refuse("is not in the model", joint, "mars model show lists the joints");
+  if (!found) refuse("is not in the model", joint, "mars model MODEL show lists the joints");
   if (!model.contains("joints"))
     throw Failure("has no joints of its own", "", "change " + model.value("from", "the other file"));
   if (!found->segment) refuse("has no segment", joint, "give it a shape");

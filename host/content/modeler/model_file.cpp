@@ -45,15 +45,17 @@ Model load_own_model(const std::filesystem::path& path) {
 
 void create_model(const std::filesystem::path& path, const document::Json& model) {
   if (std::filesystem::exists(path))
-    throw Failure("is there already", path.string(), "choose another name, or change it with mars model add or set");
+    throw Failure("is there already", path.string(),
+                  "choose another name, or change it with mars model MODEL add or set");
   document::write_json(path, model, read_own_model);
 }
 
-void change_model(const std::filesystem::path& path, const std::function<void(document::Json& model)>& change) {
-  const auto changed = [&](document::Json& model) {
-    load_own_model(path);
+void change_model(const std::filesystem::path& path,
+                  const std::function<void(document::Json& json, const Model& model)>& change) {
+  const auto changed = [&](document::Json& json) {
+    const Model model = load_own_model(path);
     try {
-      change(model);
+      change(json, model);
     } catch (const Failure& failure) {
       throw Failure(failure.problem, path.string() + (failure.where.empty() ? "" : ": ") + failure.where,
                     failure.remedy);

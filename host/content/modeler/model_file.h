@@ -18,6 +18,7 @@ Model load_own_model(const std::filesystem::path& path);
 void create_model(const std::filesystem::path& path, const document::Json& model);
 
 // Changes a model file; where `change` fails or leaves no valid model, it stays as it was, and the Failure names it.
-void change_model(const std::filesystem::path& path, const std::function<void(document::Json& model)>& change);
+void change_model(const std::filesystem::path& path,
+                  const std::function<void(document::Json& json, const Model& model)>& change);
 
 }  // namespace mars::modeler

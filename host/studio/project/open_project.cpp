@@ -214,7 +214,7 @@ class FileProject : public Project {
   static Json name_of(const HistoryEntry* entry) { return entry ? Json(entry->name) : Json(); }
   static std::string name_of(const Step& step) { return studio::name_of(step); }
 
-  // As `mars model new` begins.
+  // As `mars model MODEL new` begins.
   static Json new_model() {
     Json model = modeler::empty_model();
     modeler::add_joint(model, "body", {});

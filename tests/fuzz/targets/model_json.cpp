@@ -1,4 +1,4 @@
-// Model files, with meshes, B-spline surfaces and limbs; what `mars model show` and `check` say of them.
+// Model files, with meshes, B-spline surfaces and limbs; what `mars model MODEL show` and `check` say of them.
 #include "host/content/document/json_file.h"
 #include "host/content/modeler/describe.h"
 #include "host/content/modeler/edit.h"

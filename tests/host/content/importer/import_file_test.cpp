@@ -221,9 +221,9 @@ TEST_F(ImportTest, ColoursBeyondOneAreCutAndTold) {
   write("bytes.mtl", "newmtl red\nKd 255 20 0\n");
   const modeler::Model model = import(write("two words.obj", "mtllib bytes.mtl\nusemtl red\n" + obj_box()));
   EXPECT_EQ(model.materials[0].material.color, (std::array<float, 3>{1, 1, 0}));
-  EXPECT_EQ(not_read(), std::vector<std::string>{"1 colour beyond 0 to 1: cut to that (another: mars model set " +
+  EXPECT_EQ(not_read(), std::vector<std::string>{"1 colour beyond 0 to 1: cut to that (another: mars model " +
                                                  (folder_ / "model.json").string() +
-                                                 " 'two words' --material color --color 0.8 0.6 0.4)"});
+                                                 " set 'two words' --material color --color 0.8 0.6 0.4)"});
 }
 
 TEST_F(ImportTest, FacesThatCannotBeReadAsTheyStandAreMended) {

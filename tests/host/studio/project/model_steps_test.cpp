@@ -18,7 +18,7 @@ class ModelSteps : public OpenFiles {
   template <typename Change>
   std::string by_command(Change change) const {
     write("copy.json", text("pip.json"));
-    modeler::change_model(path("copy.json"), change);
+    modeler::change_model(path("copy.json"), [&](document::Json& model, const modeler::Model&) { change(model); });
     return text("copy.json");
   }
 
