@@ -132,6 +132,7 @@ class Memory(ProgramTest):
     def within(self, kilobytes, *words):
         limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (kilobytes << 10, kilobytes << 10))
         done = self.run_program(*words, preexec_fn=limit)
+        self.refusal = done.stderr
         if done.returncode != 0:
             self.assertIn("ulimit -v", done.stderr, f"{kilobytes} kB: {words}")
             self.assertClear(done.stderr, "")
@@ -152,7 +153,8 @@ class Memory(ProgramTest):
             draw = ["render", TEAPOT, "--sink", "none", "--nodes", nodes, "--frames", "0", "--backend", "threads"]
             limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (300000 << 10, 300000 << 10))
             printed = self.fail_clearly(1, *draw, says="ulimit -v: the limit of 300000 kB", preexec_fn=limit).stderr
-            self.assertTrue(self.within(int(re.search(r"raise it to (\d+) or more", printed)[1]), "mars", *draw))
+            limit = int(re.search(r"raise it to (\d+) or more", printed)[1])
+            self.assertTrue(self.within(limit, "mars", *draw), f"{limit} kB, {nodes} nodes: {self.refusal}")
 
     def test_nodes_read_each_others_triangles_within_limits(self):
         limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (1000000 << 10, 1000000 << 10))
