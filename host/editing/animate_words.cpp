@@ -14,6 +14,7 @@
 namespace mars::editing {
 namespace {
 
+constexpr const char* kAnimate = "Set, move, time, list and check the keys of a film";
 constexpr const char* kFooter = R"(FILM is changed in place, whole or not at all. Begin with
   mars animate film.json list                              what is keyed
   mars animate film.json pose robot elbow.y=90 --frame 24  the elbow there
@@ -49,7 +50,10 @@ void edit(const Words& words, const std::function<animator::Remarks(document::Js
              std::to_string(film.frames) + (film.frames == 1 ? " frame" : " frames") +
              ": --lengthen, or set its frames to " + std::to_string(last + 1) + "\n";
   };
-  words.film.change(changed);
+  if (words.all || words.lengthen)
+    words.film.change(changed);
+  else
+    words.film.change_thing(words.thing, changed);
   for (const std::string& remark : remarks) words.film.remark(remark);
   if (!note.empty()) words.film.print(note);
 }
@@ -138,10 +142,13 @@ void add_pose(cli::Command animate, Words& words) {
   command.app().option("ACTOR").required();
   command.app().option("PART=NUMBERS").required();
   command.runs([&words] {
+    const animator::FrameRange range = animator::read_frame_range(words.frame);
+    const auto ease = animator::read_typed_ease(words.ease);
+    const auto beyond = words.clamp ? animator::Beyond::clamped : animator::Beyond::refused;
+    const bool plain = range.first == range.last && !ease && !words.lengthen;
+    if (plain && words.film.show_pose(words.thing, words.parts, range.first, beyond)) return;
     edit(words, [&](document::Json& json, const animator::Film& film) {
-      return animator::pose(json, film, words.thing, words.parts, animator::read_frame_range(words.frame),
-                            animator::read_typed_ease(words.ease),
-                            words.clamp ? animator::Beyond::clamped : animator::Beyond::refused);
+      return animator::pose(json, film, words.thing, words.parts, range, ease, beyond);
     });
   });
 }
@@ -258,9 +265,15 @@ void add_check(cli::Command animate, Words& words, int& code) {
 
 }  // namespace
 
+void add_animate_pose(cli::Command mars, EditedFilm& film) {
+  const auto words = std::make_shared<Words>(film);
+  add_pose(mars.add_command("animate", kAnimate), *words);
+  mars.keeps(words);
+}
+
 cli::Command add_animate(cli::Command mars, EditedFilm& film, int& code) {
   const auto words = std::make_shared<Words>(film);
-  const cli::Command animate = mars.add_command("animate", "Set, move, time, list and check the keys of a film");
+  const cli::Command animate = mars.add_command("animate", kAnimate);
   add_pose(animate, *words);
   add_key(animate, *words);
   add_displacing(animate, *words, "move", "Move keys to other frames", false);

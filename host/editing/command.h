@@ -13,6 +13,8 @@ using Command = std::vector<std::string>;
 struct Done {
   std::vector<std::string> remarks;
   std::string report;
+
+  std::vector<std::string> lines() const;  // of both
 };
 
 }  // namespace mars::editing

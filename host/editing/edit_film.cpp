@@ -10,7 +10,7 @@ Done edit_film(document::Json& film, const std::filesystem::path& path, std::spa
   animator::Film meaning = animator::read_film(document.root(), path.parent_path());
   FilmInMemory memory(film, meaning, path, {});
   memory.obey(commands);
-  film = document::Json(memory.json());
+  memory.keep();
   return memory.done();
 }
 

@@ -3,8 +3,10 @@
 
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 
+#include "host/content/animator/within_limits.h"
 #include "host/content/film/film_json.h"
 #include "host/editing/edited.h"
 
@@ -20,6 +22,13 @@ class EditedFilm : public Edited {
   virtual std::string read_script(const std::filesystem::path& path) const = 0;
   // It stays as it was where `change` throws or the result is no film.
   virtual void change(const Change& change) = 0;
+  // The same of one thing (animator/things.h) whose keys alone `change` changes. It may be called twice.
+  virtual void change_thing(const std::string& /*thing*/, const Change& change) { this->change(change); }
+  // Shows keys of a thing (animator/pose.h) where that is all that is wanted; false: change it.
+  virtual bool show_pose(const std::string& /*thing*/, std::span<const std::string> /*settings*/,
+                         std::uint32_t /*frame*/, animator::Beyond /*beyond*/) {
+    return false;
+  }
 };
 
 }  // namespace mars::editing

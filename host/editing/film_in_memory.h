@@ -1,11 +1,16 @@
-// A film that words change in memory while what it began as stays what it is: for steps that may be shown, not written.
-// Fast enough for every move of a hand: models that commands leave as they are are lent, neither read nor copied.
+// A film in memory that words change in place, for as long as they are not kept: what a hand shows, and what is then
+// written. Fast enough for every move of a hand: of a film with one changed thing only that is read again, and models
+// that words leave as they are are neither read nor copied.
 #pragma once
 
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
+#include <variant>
+#include <vector>
 
+#include "host/content/animator/read_film.h"
 #include "host/editing/command.h"
 #include "host/editing/edited_film.h"
 
@@ -13,46 +18,69 @@ namespace mars::editing {
 
 class FilmInMemory final : public EditedFilm {
  public:
-  // `film` is what `json`, the film at `path`, means. Both must outlive this; the film has no models as long as they
-  // are lent. Files that words name must be below `folder`; "": anywhere.
-  FilmInMemory(const document::Json& json, animator::Film& film, std::filesystem::path path,
-               std::filesystem::path folder);
-  ~FilmInMemory() override;
+  // `film` is what `json`, the film at `path`, means; both must outlive this. Files that words name must be below
+  // `folder`; "": anywhere.
+  FilmInMemory(document::Json& json, animator::Film& film, std::filesystem::path path, std::filesystem::path folder);
+  ~FilmInMemory() override { take_back(); }
   FilmInMemory(const FilmInMemory&) = delete;
   FilmInMemory& operator=(const FilmInMemory&) = delete;
 
   // Read in place of the file, which need not be there.
   void give_script(const std::filesystem::path& path, const std::string& text) { scripts_[path] = text; }
+  // Where it throws, what the words before did stays until it is taken back.
   void obey(std::span<const Command> commands);
+  // The same for who looks at the film only: its JSON may stay as it was. Not to be kept.
+  void show(std::span<const Command> commands);
+  void keep();
+  void take_back();
 
-  const document::Json& json() const { return edited_ ? json_ : *begun_as_; }
-  const animator::Film& film() const { return edited_ ? *edited_ : lender_; }
   const Done& done() const { return done_; }
-  bool lends() const { return lends_; }  // no command has changed the models
+  // As it was before words changed more than keys of single things; null: they have not.
+  const animator::Film* film_before() const { return before_ ? &before_->film : nullptr; }
+  bool models_stay() const { return !before_ || before_->lends_models; }
+  bool only_actors_changed() const;
+  std::set<std::size_t> changed_actors() const;
 
   std::filesystem::path path() const override { return path_; }
-  film::FilmFile read() const override { return {json(), film()}; }
+  film::FilmFile read() const override { return {json_, film_}; }
   void create(const document::Json& json) override;
   // Pages name files as the film does.
   std::string name_of_model(const std::string& file) const override { return file; }
   std::string read_script(const std::filesystem::path& path) const override;
   void change(const Change& change) override;
+  void change_thing(const std::string& thing, const Change& change) override;
+  bool show_pose(const std::string& thing, std::span<const std::string> settings, std::uint32_t frame,
+                 animator::Beyond beyond) override;
   void remark(const std::string& line) override { done_.remarks.push_back(line); }
   void print(const std::string& text) override { done_.report += text; }
 
  private:
-  void become(document::Json json);
+  struct Whole {
+    document::Json json;
+    animator::Film film;
+    bool lends_models;  // to the film as it is now
+  };
+  struct Part {
+    animator::FilmPart part;
+    std::optional<document::Json> json;  // where that changes, too
+    std::variant<animator::CameraMotion, std::vector<animator::MaterialMotion>, animator::Actor> motion;
+    std::vector<animator::LightMotion> lights;  // which may stand as the camera does
+  };
+
+  void obey(const Command& command);
+  Part part_as_it_is(animator::FilmPart part, bool with_json) const;
+  void put_back(Part& part);
+  bool changed_part(animator::FilmPart part, const Change& change);
   animator::Film with_other_models(const document::Json& json) const;
   void require_below(const std::filesystem::path& file) const;
-  void give_back();
 
-  const document::Json* begun_as_;
-  document::Json json_;  // what edited_ means
-  animator::Film& lender_;
+  document::Json& json_;
+  animator::Film& film_;
   std::filesystem::path path_, folder_;
   std::map<std::filesystem::path, std::string> scripts_;
-  std::optional<animator::Film> edited_;
-  bool lends_ = true;
+  std::vector<Part> parts_;      // as they were, in the order in which they changed
+  std::optional<Whole> before_;  // after those
+  bool only_shows_ = false;
   Done done_;
 };
 

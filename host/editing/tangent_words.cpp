@@ -47,7 +47,7 @@ void add_tangent(cli::Command animate, EditedFilm& film) {
   app.runs([&film, words, app] {
     const animator::SlopeChange change = change_of(app, *words);
     animator::Remarks remarks;
-    film.change([&](document::Json& json, const animator::Film& meaning) {
+    film.change_thing(words->thing, [&](document::Json& json, const animator::Film& meaning) {
       remarks = animator::set_slopes(json, meaning, words->thing, words->part, animator::read_frame_range(words->frame),
                                      change);
     });

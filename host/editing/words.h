@@ -15,6 +15,9 @@ namespace mars::editing {
 // `mars animate`, without its FILM. `film` must outlive the parser; `code` becomes the exit code where it is not 0.
 cli::Command add_animate(cli::Command mars, EditedFilm& film, int& code);
 
+// `mars animate pose` alone, for who says it at every move of a hand.
+void add_animate_pose(cli::Command mars, EditedFilm& film);
+
 // `mars film`, likewise.
 cli::Command add_film(cli::Command mars, EditedFilm& film);
 

@@ -33,8 +33,8 @@ void bind(const topology::Machine& machine, const messages::Neighbourhood& here)
 }  // namespace
 
 void check_memory_limit(std::uint32_t nodes) {
-  // Measured with films of examples/: 512, 600 and 800 MB do for 1, 2 and 4 nodes, 470 for 1 in four starts of five. The
-  // C library sets 64 MiB aside for each thread, of nodes and sinks, until 16 or more share.
+  // Measured with films of examples/: 512, 600 and 800 MB do for 1, 2 and 4 nodes, 470 for 1 in four starts of five.
+  // The C library sets 64 MiB aside for each thread, of nodes and sinks, until 16 or more share.
   constexpr std::uint64_t kMiB = std::uint64_t{1} << 20, kHost = 384 * kMiB, kNode = 128 * kMiB;
   constexpr std::uint32_t kMost = 16;
   const std::uint64_t limit = process_limit().addresses;

@@ -40,8 +40,10 @@ bool needs_version_2(const Json& film) {
 
 }  // namespace
 
+bool needs_newer_version(const Json& film) { return film.value("version", 0) < 2 && needs_version_2(film); }
+
 void write_version(Json& film) {
-  if (film.value("version", 0) >= 2 || !needs_version_2(film)) return;
+  if (!needs_newer_version(film)) return;
   film.erase("version");
   Json versioned = {{"version", 2}};
   versioned.update(film);

@@ -9,4 +9,7 @@ namespace mars::animator {
 // their own, attachments, points of actors. A film that needs none stays as it is.
 void write_version(document::Json& film);
 
+// Whether that would change it.
+bool needs_newer_version(const document::Json& film);
+
 }  // namespace mars::animator

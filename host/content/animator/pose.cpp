@@ -1,12 +1,16 @@
 #include "host/content/animator/pose.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
 #include <set>
 
 #include "hal/failure/failure.h"
 #include "host/content/animator/attachments.h"
 #include "host/content/animator/edit.h"
 #include "host/content/animator/frame_words.h"
+#include "host/content/animator/set_key.h"
 #include "host/content/animator/tracks.h"
 #include "host/content/animator/written.h"
 #include "host/content/document/fields.h"
@@ -139,6 +143,21 @@ void remark_carried(const Film& meaning, const std::string& name, std::span<cons
       ", where its own place and turn count for nothing (detach it, or attach it with --place and --turn)");
 }
 
+constexpr double kMostDegrees = 1e6;  // as a film file may have
+
+bool is_turn(const glm::dvec3& degrees) {
+  return std::ranges::all_of(std::array{degrees.x, degrees.y, degrees.z},
+                             [](double angle) { return std::abs(angle) <= kMostDegrees; });
+}
+
+void show_key(Actor& actor, const modeler::Model& model, const std::string& part, const glm::dvec3& value,
+              std::uint32_t frame) {
+  if (part == "place") return set_key(actor.motion.place, value, frame, {});
+  if (part == "turn") return set_key(actor.motion.turn, value, frame, {});
+  const auto joint = std::ranges::find(model.joints, part.substr(1), &modeler::Joint::name);
+  set_key(actor.motion.pose[static_cast<std::size_t>(joint - model.joints.begin())], value, frame, joint->rest());
+}
+
 }  // namespace
 
 Remarks pose(document::Json& film, const Film& meaning, const std::string& name, std::span<const PartSetting> settings,
@@ -167,6 +186,30 @@ Remarks pose(document::Json& film, const Film& meaning, const std::string& name,
   Remarks remarks = posing.put();
   remark_carried(meaning, name, all, range.first, remarks);
   return remarks;
+}
+
+bool show_pose(Film& film, document::Json& json, const std::string& name, std::span<const std::string> settings,
+               std::uint32_t frame, Beyond beyond, Remarks& remarks) {
+  const auto actor = std::ranges::find(film.actors, name, &Actor::name);
+  if (actor == film.actors.end()) return false;
+  const Thing thing = std::move(choose(json, film, {false, name, {}}).front().thing);
+  std::set<std::pair<std::string, int>> set;
+  std::map<std::string, glm::dvec3> values;
+  std::vector<PartSetting> all;
+  for (const std::string& text : settings)
+    for (const PartSetting& setting : read_settings(text, thing)) {
+      refuse_twice(setting, text, set);
+      const auto again = values.find(setting.part);
+      const document::Json now =
+          again == values.end() ? thing.part(setting.part).value_at(frame) : written(again->second);
+      values[setting.part] = vector_of(value_after(setting, thing, now, beyond, remarks));
+      all.push_back(setting);
+    }
+  for (const auto& [part, value] : values)
+    if (part == "turn" && !is_turn(value)) return false;
+  for (const auto& [part, value] : values) show_key(*actor, film.models[actor->model], part, value, frame);
+  remark_carried(film, name, all, frame, remarks);
+  return true;
 }
 
 }  // namespace mars::animator

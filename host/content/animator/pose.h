@@ -22,4 +22,10 @@ Remarks pose(document::Json& film, const Film& meaning, const std::string& name,
 Remarks pose(document::Json& film, const Film& meaning, const std::string& name, std::span<const std::string> settings,
              FrameRange range, const std::optional<Ease>& ease, Beyond beyond);
 
+// Shows of an actor in `film`, which was read from `json`, what pose() with these settings and no ease would make of
+// it, without writing: for every move of a hand. False, and nothing is changed, where the name is no actor's or only
+// the file read again says what is wrong.
+bool show_pose(Film& film, document::Json& json, const std::string& name, std::span<const std::string> settings,
+               std::uint32_t frame, Beyond beyond, Remarks& remarks);
+
 }  // namespace mars::animator

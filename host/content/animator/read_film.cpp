@@ -92,6 +92,11 @@ class ActorReader {
     return actors;
   }
 
+  void read_one(const document::Element& element, std::size_t number, std::vector<Actor>& actors) {
+    actors[number] = read(element, number);
+    read_attachments(attachments_, film_models_, actors);
+  }
+
  private:
   Actor read(const document::Element& element, std::size_t number) {
     const document::Fields fields(element, keys::object("actor"));
@@ -348,6 +353,18 @@ Film read_film_with(const document::Element& element, std::vector<modeler::Model
   return film;
 }
 
+void read_actor_again(const document::Element& element, std::size_t number, const document::Json& json, Film& film) {
+  std::vector<std::string> names;
+  for (const auto& model : json.at("models").items()) names.push_back(model.key());
+  Actor before = film.actors[number];
+  try {
+    ActorReader(film, film.models, std::move(names)).read_one(element, number, film.actors);
+  } catch (...) {
+    film.actors[number] = std::move(before);
+    throw;
+  }
+}
+
 }  // namespace
 
 Film read_film(const document::Element& element, const std::filesystem::path& folder) {
@@ -373,6 +390,40 @@ Film read_film(const document::Element& element, std::vector<modeler::Model>& mo
   return read_film_with(element, models, [&](const document::Element& named, const Film&) {
     check(named.size() == models.size(), "a film is read again with all its models");
   });
+}
+
+std::optional<FilmPart> part_of(const Film& film, const std::string& thing) {
+  using Kind = FilmPart::Kind;
+  const auto actor = std::ranges::find(film.actors, thing, &Actor::name);
+  if (actor != film.actors.end()) return FilmPart{Kind::actor, static_cast<std::size_t>(actor - film.actors.begin())};
+  if (thing == "camera") return FilmPart{Kind::camera};
+  if (thing.starts_with("light/")) return FilmPart{Kind::lights};
+  if (thing.starts_with("material/")) return FilmPart{Kind::materials};
+  return std::nullopt;
+}
+
+document::Json::json_pointer pointer_to(FilmPart part) {
+  using Pointer = document::Json::json_pointer;
+  switch (part.kind) {
+    case FilmPart::Kind::camera: return Pointer("/camera");
+    case FilmPart::Kind::lights: return Pointer("/lights");
+    case FilmPart::Kind::materials: return Pointer("/materials");
+    case FilmPart::Kind::actor: break;
+  }
+  return Pointer("/actors") / part.actor;
+}
+
+void read_again(FilmPart part, const document::Json& json, Film& film) {
+  const document::Document document(json.at(pointer_to(part)).dump(), film.source);
+  switch (part.kind) {
+    case FilmPart::Kind::camera:
+      film.camera = read_camera(document.root(), film.color, Carriers(film.actors, film.models));
+      break;
+    case FilmPart::Kind::lights: film.lights = read_lights(document.root()); break;
+    case FilmPart::Kind::materials: film.materials = read_materials(document.root()); break;
+    case FilmPart::Kind::actor: read_actor_again(document.root(), part.actor, json, film); break;
+  }
+  if (!json.contains("lights")) film.lights = rig_lights(film);  // which stand as the camera does
 }
 
 Film read_film(const std::filesystem::path& path) {

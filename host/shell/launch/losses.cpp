@@ -201,6 +201,12 @@ std::optional<Loss> loss_in_words(const Remains& remains, const std::string& wor
   return lost_connection(words);
 }
 
+// libevent, in which mpirun waits, warns of what is closed while it ends.
+bool gives_no_reason(const std::deque<std::string>& lines) {
+  return std::ranges::all_of(lines,
+                             [](const std::string& line) { return line.empty() || line.starts_with("[warn] "); });
+}
+
 // Open MPI has no words for a process that dies while others still start.
 std::optional<Failure> loss_by_ending(const Remains& remains, const std::string& words) {
   const auto [code, signal] = remains.ending;
@@ -210,7 +216,7 @@ std::optional<Failure> loss_by_ending(const Remains& remains, const std::string&
   if (other != 0 && !never_started(words))
     return Failure(killed_by("the host or a node", other), "", remedy_for(other));
   // mpirun ends so when a signal asks it to end.
-  if (code == 1 && words.empty() && !remains.fault)
+  if (code == 1 && gives_no_reason(remains.last_words) && !remains.fault)
     return Failure(program + " ended with exit code 1 and gave no reason", "", remedy_for(SIGTERM));
   return std::nullopt;
 }

@@ -2,6 +2,7 @@
 
 import {kNoEvent} from "./latencies.js";
 import {Unanswered} from "./unanswered.js";
+import {jointStep, poseStep, removeJointStep} from "./words.js";
 
 export class Edits {
   constructor(connection, pace, state) {
@@ -34,9 +35,12 @@ export class Edits {
     this.connection.send({do: "cancel"});
   }
 
-  // Of one joint, a model's JSON.
-  joint(change, joint = this.state.selected.joint) { return {set: "joint", ...this.#actor(), joint, change}; }
-  pose(pose) { return {set: "pose", ...this.#actor(), joint: this.state.selected.joint, pose}; }
+  // Steps of one joint.
+  joint(change, joint = this.state.selected.joint) { return jointStep("set", joint, change); }
+  pose(pose) {
+    const {actor, joint} = this.state.selected;
+    return this.state.isFilm() ? poseStep(actor, {[joint]: pose}, this.state.project.frame) : {pose: {[joint]: pose}};
+  }
 
   select(actor, joint) {
     this.state.select(actor, joint);
@@ -66,7 +70,7 @@ export class Edits {
     const {joint} = this.state.selected;
     if (joint === null) return;
     const parent = this.state.joint()?.parent ?? null;
-    this.commit({remove: "joint", ...this.#actor(), joint, branch: true});
+    this.commit(removeJointStep(joint));
     if (parent) this.select(this.state.selected.actor, parent);
   }
 
@@ -77,7 +81,7 @@ export class Edits {
     const parent = this.state.joint();
     const name = freeName(actor.joints.map((joint) => joint.name));
     const change = parent ? {parent: parent.name, ...placed(parent)} : {};
-    this.commit({add: "joint", ...this.state.ofActor(actor.name), joint: name, change});
+    this.commit(jointStep("add", name, change));
     this.wanted = {actor: actor.name, joint: name};
   }
 
@@ -93,8 +97,6 @@ export class Edits {
     this.unanswered.forget();
     this.connection.send({do: where});
   }
-
-  #actor() { return this.state.ofActor(); }
 }
 
 function freeName(names) {

@@ -63,7 +63,4 @@ export class State {
   joint(name = this.selected.joint, actor = this.selected.actor) {
     return this.actor(actor)?.joints.find((joint) => joint.name === name) ?? null;
   }
-
-  // A step's actor: a model's steps have none.
-  ofActor(actor = this.selected.actor) { return this.isFilm() ? {actor} : {}; }
 }

@@ -8,13 +8,15 @@ export class Unanswered {
   #changes = [];  // {joint, actor, member, value, until}, in their order
 
   // Shown in `state` at once.
-  add({set, actor, joint, change}, state) {
-    if (set !== "joint") return;
-    const shown = state.joint(joint, actor ?? state.selected.actor);
-    for (const member of kMembers) {
-      if (!shown || !change[member]) continue;
-      shown[member] = change[member];
-      this.#changes.push({joint, actor: state.selected.actor, member, value: change[member], until: performance.now() + kPatience});
+  add({commands = []}, state) {
+    for (const [program, verb, joint, ...options] of commands) {
+      const shown = program === "model" && verb === "set" && state.joint(joint, state.selected.actor);
+      for (const member of shown ? kMembers : []) {
+        const value = valueOf(member, options);
+        if (!value) continue;
+        shown[member] = value;
+        this.#changes.push({joint, actor: state.selected.actor, member, value, until: performance.now() + kPatience});
+      }
     }
   }
 
@@ -36,6 +38,14 @@ export class Unanswered {
     this.#changes = this.#changes.filter((change) => !own.slice(0, answered + 1).includes(change));
     if (answered < own.length - 1) each[member] = own.at(-1).value;
   }
+}
+
+// "--place 1 2 3", "--sbb 0 0 0 1 1 1" as the project shows them.
+function valueOf(member, options) {
+  const at = options.indexOf(`--${member}`) + 1;
+  const corner = (from) => options.slice(at + from, at + from + 3).map(Number);
+  if (at === 0) return null;
+  return member === "sbb" ? [corner(0), corner(3)] : corner(0);
 }
 
 const same = (one, other) => JSON.stringify(one) === JSON.stringify(other);

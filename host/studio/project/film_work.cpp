@@ -1,7 +1,6 @@
 #include "host/studio/project/film_work.h"
 
 #include <array>
-#include <sstream>
 #include <utility>
 
 #include "hal/failure/failure.h"
@@ -14,55 +13,6 @@
 
 namespace mars::studio {
 namespace {
-
-using animator::PartSetting;
-
-PartSetting setting_of(const std::string& part, const glm::dvec3& value) { return {part, {value.x, value.y, value.z}}; }
-
-animator::Remarks change(Json& json, const animator::Film& film, const std::string& thing,
-                         const std::vector<PartSetting>& settings, std::uint32_t frame) {
-  return animator::pose(json, film, thing, settings, frame, std::nullopt, animator::Beyond::clamped);
-}
-
-animator::Remarks apply(Json& json, const animator::Film& film, const FigureStep& step, std::uint32_t frame) {
-  const std::size_t number = actor_named(film, step.actor);
-  const animator::Actor& actor = film.actors[number];
-  if (step.place || step.turn) refuse_carried(film, number, frame);
-  std::vector<PartSetting> settings;
-  if (step.place) settings.push_back(setting_of("place", *step.place));
-  if (step.turn) settings.push_back(setting_of("turn", *step.turn));
-  for (const auto& [name, pose] : step.poses) {
-    joint_named(film.models[actor.model], name);
-    settings.push_back(setting_of("/" + name, pose));
-  }
-  return change(json, film, actor.name, settings, frame);
-}
-
-animator::Remarks apply(Json& json, const animator::Film& film, const CameraStep& step, std::uint32_t frame) {
-  std::vector<PartSetting> settings;
-  if (step.eye) settings.push_back(setting_of("eye", *step.eye));
-  if (step.at) settings.push_back(setting_of("at", *step.at));
-  if (step.fov) settings.push_back({"fov", {*step.fov, {}, {}}});
-  return change(json, film, "camera", settings, frame);
-}
-
-animator::Remarks apply(Json& json, const animator::Film& film, const LightStep& step, std::uint32_t frame) {
-  check_light(film, !json.contains("lights"), step);
-  std::vector<PartSetting> settings;
-  if (step.place) settings.push_back(setting_of("place", *step.place));
-  if (step.at) settings.push_back(setting_of("at", *step.at));
-  if (step.direction) settings.push_back(setting_of("direction", *step.direction));
-  if (step.color) settings.push_back(setting_of("color", *step.color));
-  if (step.intensity) settings.push_back({"intensity", {*step.intensity, {}, {}}});
-  if (step.cone) settings.push_back({"cone", {step.cone->x, step.cone->y, {}}});
-  if (step.reach) settings.push_back({"reach", {*step.reach, {}, {}}});
-  return change(json, film, "light/" + std::to_string(step.light), settings, frame);
-}
-
-[[noreturn]] void refuse_model_step(const std::filesystem::path& path) {
-  throw Failure("changes a model, but a film is open: poses, places and the camera can be changed", path.string(),
-                "open the model itself: mars studio MODEL");
-}
 
 // Two films that the same nodes' copy of shapes and segments serves. `models_same`: they are known to be.
 bool same_for_nodes(const animator::Film& one, const animator::Film& two, bool models_same) {
@@ -78,19 +28,9 @@ bool same_for_nodes(const animator::Film& one, const animator::Film& two, bool m
   return settings(one) == settings(two) && (models_same ? same_actors(one, two) : same_shapes(one, two));
 }
 
-// None: it is a step of another kind.
-std::optional<std::vector<editing::Command>> commands_of(const Step& step, const std::filesystem::path& folder) {
-  if (const auto* const commands = std::get_if<CommandsStep>(&step)) return commands->commands;
-  const auto* const script = std::get_if<ScriptStep>(&step);
-  if (!script) return std::nullopt;
-  return {{{"animate", "script", (folder / script->name).string(), "--lengthen"}}};
-}
-
-animator::Remarks remarks_of(const editing::Done& done) {
-  animator::Remarks remarks = done.remarks;
-  std::istringstream report(done.report);
-  for (std::string line; std::getline(report, line);) remarks.push_back(line);
-  return remarks;
+[[noreturn]] void refuse_model_step(const std::filesystem::path& path) {
+  throw Failure("changes a model, but a film is open: its keys, actors, lights and settings can be changed",
+                path.string(), "open the model itself: mars studio MODEL");
 }
 
 }  // namespace
@@ -126,89 +66,68 @@ void FilmWork::reject() {
   prepared_.reset();
 }
 
-// Null: of another kind of step.
-std::unique_ptr<editing::FilmInMemory> FilmWork::edited_by(const Step& step) {
-  const auto commands = commands_of(step, path_.parent_path());
-  if (!commands) return nullptr;
-  auto edited = std::make_unique<editing::FilmInMemory>(json_, film_, path_, folder_);
-  if (const auto* const script = std::get_if<ScriptStep>(&step))
-    edited->give_script(path_.parent_path() / script->name, script->text);
-  edited->obey(*commands);
-  return edited;
-}
-
-std::string FilmWork::text_after(const Step& step, std::uint32_t frame, animator::Remarks& remarks) {
-  if (const auto edited = edited_by(step)) {
-    remarks = remarks_of(edited->done());
-    return document::laid_out(edited->json());
+void FilmWork::obey(const Step& step, For what) {
+  if (const auto* const script = std::get_if<ScriptStep>(&step)) {
+    const std::filesystem::path file = path_.parent_path() / script->name;
+    edited_->give_script(file, script->text);
+    return edited_->obey({{{"animate", "script", file.string(), "--lengthen"}}});
   }
-  Json json = json_;
-  const auto done = [&](const auto& each) {
-    if constexpr (requires { apply(json, film_, each, frame); })
-      remarks = apply(json, film_, each, frame);
-    else
-      refuse_model_step(path_);
-  };
-  std::visit(done, step);
-  animator::write_version(json);
-  return document::laid_out(json);
+  const auto* const step_of_commands = std::get_if<CommandsStep>(&step);
+  if (!step_of_commands) refuse_model_step(path_);
+  for (const editing::Command& command : step_of_commands->commands)
+    if (command.front() == "model") refuse_model_step(path_);
+  what == For::eyes ? edited_->show(step_of_commands->commands) : edited_->obey(step_of_commands->commands);
 }
 
-void FilmWork::show(const Step& step, std::uint32_t frame) {
+animator::Remarks FilmWork::show(const Step& step, For what) {
   take_back();
-  if (auto edited = edited_by(step)) return show_edited(std::move(edited));
-  const auto done = [&](const auto& each) {
-    if constexpr (requires { gesture_.show(film_, true, each, frame); })
-      gesture_.show(film_, rig_lights(), each, frame);
-    else
-      refuse_model_step(path_);
-  };
-  std::visit(done, step);
-}
-
-void FilmWork::show_edited(std::unique_ptr<editing::FilmInMemory> edited) {
-  film::check_camera(edited->film());
-  edited_ = std::move(edited);
+  edited_ = std::make_unique<editing::FilmInMemory>(json_, film_, path_, folder_);
+  try {
+    obey(step, what);
+    film::check_camera(film_);
+  } catch (...) {
+    edited_.reset();
+    throw;
+  }
+  shown_ = step;
   if (shows_other_shapes()) ++shapes_revision_;
+  return edited_->done().lines();
 }
 
-bool FilmWork::shows_other_shapes() const { return !same_for_nodes(film_, edited_->film(), edited_->lends()); }
+bool FilmWork::shows_other_shapes() const {
+  const animator::Film* const before = edited_->film_before();
+  return before && !same_for_nodes(*before, film_, edited_->models_stay());
+}
 
 void FilmWork::take_back() {
-  gesture_.take_back(film_);
-  if (edited_ && shows_other_shapes()) ++shapes_revision_;
+  if (!shows()) return;
+  if (shows_other_shapes()) ++shapes_revision_;
   edited_.reset();
+  shown_.reset();
 }
 
-// Of those that commands change; where they change which actors there are, all.
-std::set<std::size_t> FilmWork::shown_actors() const {
-  if (!edited_) return gesture_.actors();
-  const Json& before = json_.at("actors");
-  const Json& now = edited_->json().at("actors");
-  std::set<std::size_t> changed;
-  for (std::size_t actor = 0; actor < now.size(); ++actor)
-    if (now.size() != before.size() || now[actor] != before[actor]) changed.insert(actor);
-  return changed;
+void FilmWork::keep() {
+  edited_->keep();
+  edited_.reset();
+  shown_.reset();
 }
 
-// Of the file, whose film may have lent its models.
+// Keys are those of the file, values those that are shown.
 Json FilmWork::channels(const std::vector<std::string>& things) {
-  if (!edited_ || !edited_->lends()) return channels_of(json_, film_, things);
-  animator::Film film = film_;
-  film.models = edited_->film().models;
-  return channels_of(json_, film, things);
+  if (!shows()) return channels_of(json_, film_, things);
+  const Step again = *shown_;
+  take_back();
+  Json channels = channels_of(json_, film_, things);
+  show(again, For::eyes);
+  return channels;
 }
 
-Json FilmWork::curves(const CurvesWanted& wanted) {
-  if (!edited_) return curves_of(json_, film_, wanted);
-  Json shown = edited_->json();
-  return curves_of(shown, edited_->film(), wanted);
-}
+Json FilmWork::curves(const CurvesWanted& wanted) { return curves_of(json_, film_, wanted); }
 
-void FilmWork::describe(Json& project, std::uint32_t frame) const { describe_film(project, film(), json(), frame); }
+void FilmWork::describe(Json& project, std::uint32_t frame) const { describe_film(project, film_, json_, frame); }
 
 void FilmWork::describe_shown(Json& poses, std::uint32_t frame) const {
-  if (edited_ || gesture_.actors().empty()) describe_camera_and_lights(poses, film(), json(), frame);
+  if (!edited_->only_actors_changed()) describe_camera_and_lights(poses, film_, json_, frame);
 }
 
 }  // namespace mars::studio

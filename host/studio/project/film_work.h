@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "host/editing/film_in_memory.h"
-#include "host/studio/project/film_gesture.h"
 #include "host/studio/project/work.h"
 
 namespace mars::studio {
@@ -18,22 +17,23 @@ class FilmWork : public Work {
   FilmWork(std::filesystem::path path, std::filesystem::path folder)
       : path_(std::move(path)), folder_(std::move(folder)) {}
 
-  const animator::Film& film() const override { return edited_ ? edited_->film() : film_; }
+  const animator::Film& film() const override { return film_; }
   std::uint64_t shapes_revision() const override { return shapes_revision_; }
 
   void prepare(const std::string& text, bool models_stay) override;
   void accept() override;
   void reject() override;
-  std::string text_after(const Step& step, std::uint32_t frame, animator::Remarks& remarks) override;
 
-  void show(const Step& step, std::uint32_t frame) override;
+  animator::Remarks show(const Step& step, For what) override;
   void take_back() override;
-  bool shows() const override { return gesture_.shows() || edited_; }
-  std::set<std::size_t> shown_actors() const override;
+  void keep() override;
+  bool shows() const override { return shown_.has_value(); }
+  std::string text() const override { return document::laid_out(json_); }
+  std::set<std::size_t> shown_actors() const override { return edited_->changed_actors(); }
 
   Json channels(const std::vector<std::string>& things) override;
   Json curves(const CurvesWanted& wanted) override;
-  bool rig_lights() const override { return !json().contains("lights"); }
+  bool rig_lights() const override { return !json_.contains("lights"); }
   void describe(Json& project, std::uint32_t frame) const override;
   void describe_shown(Json& poses, std::uint32_t frame) const override;
 
@@ -44,10 +44,8 @@ class FilmWork : public Work {
     bool models_lent;  // they are film_'s own
   };
 
-  const Json& json() const { return edited_ ? edited_->json() : json_; }  // what film() means
   animator::Film read(const document::Element& root, bool models_stay);
-  std::unique_ptr<editing::FilmInMemory> edited_by(const Step& step);
-  void show_edited(std::unique_ptr<editing::FilmInMemory> edited);
+  void obey(const Step& step, For what);
   bool shows_other_shapes() const;
 
   std::filesystem::path path_, folder_;
@@ -55,8 +53,8 @@ class FilmWork : public Work {
   animator::Film film_;
   std::optional<Prepared> prepared_;
   std::uint64_t shapes_revision_ = 0;
-  FilmGesture gesture_;
-  std::unique_ptr<editing::FilmInMemory> edited_;  // what commands show; else null
+  std::optional<Step> shown_;
+  std::unique_ptr<editing::FilmInMemory> edited_;  // while a step is shown
 };
 
 }  // namespace mars::studio

@@ -2,22 +2,35 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
+#include "hal/failure/failure.h"
 #include "host/content/animator/angles.h"
+#include "host/content/document/fields.h"
 #include "host/content/modeler/model_file.h"
+#include "host/editing/model_in_memory.h"
 #include "host/studio/project/describe.h"
-#include "host/studio/project/film_gesture.h"
 #include "host/studio/project/model_film.h"
-#include "host/studio/project/model_steps.h"
 #include "host/studio/project/same_shapes.h"
 
 namespace mars::studio {
 namespace {
 
-// Which no model's file has; null: it is another step.
-const FigureStep* only_poses(const Step& step) {
-  const auto* const figure = std::get_if<FigureStep>(&step);
-  return figure && !figure->place && !figure->turn ? figure : nullptr;
+[[noreturn]] void refuse(const char* what) {
+  throw Failure(std::string("a model has no ") + what, "", "set it in a film: mars studio FILM");
+}
+
+bool pulls_points(const CommandsStep& step) {
+  return std::ranges::all_of(step.commands,
+                             [](const editing::Command& words) { return words.size() > 1 && words[1] == "point"; });
+}
+
+void require_joint(const modeler::Model& model, const std::string& name) {
+  std::vector<std::string_view> names;
+  for (const modeler::Joint& joint : model.joints) names.push_back(joint.name);
+  if (std::ranges::find(names, name) == names.end())
+    throw Failure("is no joint of the model", document::in_quotes(name),
+                  document::did_you_mean(name, names, "choose another"));
 }
 
 }  // namespace
@@ -42,21 +55,6 @@ void ModelWork::accept() {
   take_shapes(false);
 }
 
-std::string ModelWork::text_after(const Step& step, std::uint32_t, animator::Remarks& remarks) {
-  Json json = json_;
-  remarks = change_model(json, model(), step);
-  return document::laid_out(json);
-}
-
-bool ModelWork::kept_in_memory(const Step& step) {
-  const FigureStep* const pose = only_poses(step);
-  if (!pose) return false;
-  for (const auto& [joint, turns] : pose->poses) joint_named(model(), joint);
-  for (const auto& [joint, turns] : pose->poses) poses_[joint] = turns;
-  apply_poses(pose->poses);
-  return true;
-}
-
 void ModelWork::apply_poses(const std::map<std::string, glm::dvec3>& poses) {
   const modeler::Model& shown = film_.models[kModelActor];
   for (std::size_t joint = 0; joint < shown.joints.size(); ++joint)
@@ -65,30 +63,50 @@ void ModelWork::apply_poses(const std::map<std::string, glm::dvec3>& poses) {
           animator::constant(animator::clamped(shown.joints[joint], pose->second));
 }
 
-void ModelWork::show_pose(const FigureStep& step) {
-  for (const auto& [joint, turns] : step.poses) joint_named(model(), joint);
-  take_back();
-  shows_ = true;
-  apply_poses(step.poses);
+animator::Remarks ModelWork::show(const Step& step, For) {
+  if (std::holds_alternative<ScriptStep>(step)) refuse("actors, whom a script could move");
+  if (const auto* const commands = std::get_if<CommandsStep>(&step)) return show_commands(*commands);
+  show_pose(std::get<PoseStep>(step));
+  return {};
 }
 
-void ModelWork::show(const Step& step, std::uint32_t) {
-  if (const FigureStep* const pose = only_poses(step)) return show_pose(*pose);
-  Json json = json_;
-  change_model(json, model(), step);
-  const document::Document document(json.dump(), path_.string());
-  modeler::Model changed = modeler::read_own_model(document.root());
+void ModelWork::show_pose(const PoseStep& step) {
+  for (const auto& [joint, turns] : step.pose) require_joint(model(), joint);
+  take_back();
+  shows_ = true;
+  shown_poses_ = step.pose;
+  apply_poses(step.pose);
+}
+
+animator::Remarks ModelWork::show_commands(const CommandsStep& step) {
+  for (const editing::Command& words : step.commands)
+    if (words.front() != "model") refuse("keys, actors and lights, which this command could change");
+  editing::ModelInMemory edited(json_, model(), path_, folder_);
+  edited.obey(step.commands);
+  modeler::Model changed = edited.model();
   exchange_model(film_, changed);
   if (!before_) before_ = std::move(changed);
-  shown_json_ = std::move(json);
+  shown_json_ = edited.json();
   shows_ = true;
   apply_poses(poses_);
-  take_shapes(std::holds_alternative<PointStep>(step));
+  take_shapes(pulls_points(step));
+  return edited.done().lines();
+}
+
+void ModelWork::keep() {
+  for (const auto& [joint, turns] : shown_poses_) poses_[joint] = turns;
+  shown_poses_.clear();
+  shows_ = false;
+  if (!before_) return;
+  prepared_ = Prepared{std::move(shown_json_), film_.models[kModelActor]};
+  before_.reset();
+  accept();
 }
 
 void ModelWork::take_back() {
   if (!shows_) return;
   shows_ = false;
+  shown_poses_.clear();
   pulled_.reset();
   if (before_) {
     exchange_model(film_, *before_);
@@ -114,11 +132,11 @@ void ModelWork::take_shapes(bool pulls) {
 }
 
 std::vector<modeler::ControlPoint> ModelWork::control_points(const std::string& joint) const {
-  return modeler::control_points(before_ ? shown_json_ : json_, film_.models[kModelActor], joint);
+  return modeler::control_points(shown_json(), film_.models[kModelActor], joint);
 }
 
 void ModelWork::describe(Json& project, std::uint32_t frame) const {
-  describe_model(project, film_, before_ ? shown_json_ : json_, frame);
+  describe_model(project, film_, shown_json(), frame);
 }
 
 }  // namespace mars::studio

@@ -11,6 +11,7 @@
 #include "host/content/document/whole_file.h"
 #include "host/content/film/film_file.h"
 #include "host/content/modeler/edit.h"
+#include "host/editing/edit_film.h"
 #include "host/preview/watched_files.h"
 #include "host/studio/project/describe.h"
 #include "host/studio/project/film_work.h"
@@ -54,7 +55,7 @@ class FileProject : public Project {
   FileProject(std::filesystem::path path, bool model, std::filesystem::path folder)
       : path_(std::move(path)), is_model_(model), journal_(path_), scripts_(path_, folder) {
     if (model)
-      work_ = std::make_unique<ModelWork>(path_);
+      work_ = std::make_unique<ModelWork>(path_, std::move(folder));
     else
       work_ = std::make_unique<FilmWork>(path_, std::move(folder));
     document::RecordedReads reads;
@@ -93,7 +94,7 @@ class FileProject : public Project {
   void preview(const Json& step) override {
     const Step read = read_step(step);
     ++revision_;
-    work_->show(read, frame_);
+    work_->show(read, Work::For::eyes);
   }
 
   void cancel() override {
@@ -106,21 +107,22 @@ class FileProject : public Project {
     const Step step = read_step(json);
     cancel();
     remarks_.clear();
-    if (work_->kept_in_memory(step)) {
-      ++revision_;
-      return;
+    ++revision_;
+    if (std::holds_alternative<PoseStep>(step)) {
+      work_->show(step, Work::For::file);
+      return work_->keep();
     }
     const document::FolderLock lock(path_);
     look_at_disk();
     refuse_while_broken();
-    const std::string after = work_->text_after(step, frame_, remarks_);
-    if (const auto* const script = std::get_if<ScriptStep>(&step)) scripts_.write(*script);
-    if (after == text_ && on_disk_) return;
-    const HistoryEntry entry{time_now(), name_of(step), change_between(text_, after)};
-    replace(after, [&] { journal_.write_step(entry, text_, after); });
-    history_.add(entry);
-    journal_.shorten(history_, text_);
-    say_trouble();
+    remarks_ = work_->show(step, Work::For::file);
+    try {
+      write(step);
+    } catch (...) {
+      work_->take_back();
+      throw;
+    }
+    work_->keep();
   }
 
   void undo() override {
@@ -163,7 +165,8 @@ class FileProject : public Project {
     animator::Remarks report;
     std::optional<Problem> problem;
     try {
-      work_->text_after(ScriptStep{checked_script_name(name), text}, frame_, report);
+      report = work_->show(ScriptStep{checked_script_name(name), text}, Work::For::eyes);
+      work_->take_back();
     } catch (const std::exception& reason) {
       problem = problem_in(reason, path_.parent_path() / name);
     }
@@ -238,10 +241,32 @@ class FileProject : public Project {
     ++keys_revision_;
   }
 
+  // What the step shows, where it changes anything.
+  void write(const Step& step) {
+    const std::string after = work_->text();
+    if (const auto* const script = std::get_if<ScriptStep>(&step)) scripts_.write(*script);
+    if (after == text_ && on_disk_) return;
+    require_writable();
+    const HistoryEntry entry{time_now(), name_of(step), change_between(text_, after)};
+    journal_.write_step(entry, text_, after);
+    document::write_whole_file(path_, after);
+    on_disk_ = true;
+    text_ = after;
+    frame_ = std::min(frame_, film().frames - 1);
+    ++keys_revision_;
+    history_.add(entry);
+    journal_.shorten(history_, text_);
+    say_trouble();
+  }
+
+  void require_writable() const {
+    if (on_disk_ && access(path_.c_str(), W_OK) != 0) document::fail_file("write", path_, errno);
+  }
+
   // The file and what is open become this text, or stay as they are.
   template <typename Record>
   void replace(const std::string& text, Record record) {
-    if (on_disk_ && access(path_.c_str(), W_OK) != 0) document::fail_file("write", path_, errno);
+    require_writable();
     work_->prepare(text, others_are_as_read());
     try {
       record();

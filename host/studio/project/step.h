@@ -1,83 +1,20 @@
-// A step as a page says it (docs/studio-protocol.md), read: kinds, ranges and names of its keys are checked here, what
-// it names in a film or model is not.
+// A step as a page or a hand says it (docs/studio-protocol.md): words of commands, and two things that no command has.
 #pragma once
 
-#include <array>
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <map>
-#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "host/content/document/json_file.h"
-#include "host/content/modeler/edit.h"
-#include "host/content/modeler/edit_shapes.h"
-#include "host/content/modeler/limbs.h"
-#include "host/content/modeler/proportions.h"
-#include "host/editing/edit_film.h"
+#include "host/editing/command.h"
 
 namespace mars::studio {
 
 using document::Json;
 
-// A figure as a whole, and its joints' turns, degrees, within any limits or not.
-struct FigureStep {
-  std::string actor;
-  std::optional<glm::dvec3> place{}, turn{};
-  std::map<std::string, glm::dvec3> poses{};
-};
-
-struct CameraStep {
-  std::optional<glm::dvec3> eye, at;
-  std::optional<double> fov;
-};
-
-// Of the lights that the film has.
-struct LightStep {
-  std::size_t light;  // from 1
-  std::optional<glm::dvec3> place{}, at{}, direction{}, color{};
-  std::optional<double> intensity{}, reach{};
-  std::optional<glm::dvec2> cone{};  // inner and outer, degrees
-};
-
-enum class Verb { set, add, remove };
-
-struct JointStep {
-  Verb verb;
-  std::string joint;
-  modeler::JointChange change;
-  bool branch = false;  // removed with all that hangs on it
-};
-
-struct MaterialStep {
-  Verb verb;
-  std::string material;
-  modeler::MaterialChange change;
-  std::optional<std::string> name;  // a new one
-};
-
-struct PointStep {
-  std::string joint;
-  modeler::ControlPoint point;
-};
-
-struct MirrorStep {
-  modeler::Side from;
-  std::string joint;  // where the branch begins; "": all
-};
-
-struct ScaleStep {
-  modeler::Proportions proportions;
-};
-
-struct BodyStep {
-  std::string body;
-  std::optional<double> height;
-};
-
-// Words after `mars`, without the film.
+// Words after `mars`, without the file.
 struct CommandsStep {
   std::vector<editing::Command> commands;
 };
@@ -87,8 +24,12 @@ struct ScriptStep {
   std::string name, text;
 };
 
-using Step = std::variant<FigureStep, CameraStep, LightStep, JointStep, MaterialStep, PointStep, MirrorStep, ScaleStep,
-                          BodyStep, CommandsStep, ScriptStep>;
+// How joints of a model that is open are turned, degrees: for trying out, no file has it.
+struct PoseStep {
+  std::map<std::string, glm::dvec3> pose;
+};
+
+using Step = std::variant<CommandsStep, ScriptStep, PoseStep>;
 
 // Throws Failure where it is no file's name that ends in ".script".
 std::string checked_script_name(const std::string& name);

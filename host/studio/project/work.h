@@ -29,15 +29,14 @@ class Work {
   virtual void accept() = 0;
   virtual void reject() = 0;
 
-  // The text after the step, at the frame. Throws Failure where it makes no sense.
-  virtual std::string text_after(const Step& step, std::uint32_t frame, animator::Remarks& remarks) = 0;
-  // A step that no file has: done, and true.
-  virtual bool kept_in_memory(const Step& /*step*/) { return false; }
-
-  // Changes film() as the step would; what an earlier one showed is taken back, at the latest when it throws.
-  virtual void show(const Step& step, std::uint32_t frame) = 0;
+  // Changes film() by the step; what an earlier one showed is taken back first. Throws Failure where it makes no sense:
+  // nothing is shown then. A hand's moves are for eyes alone: they cannot be kept.
+  enum class For { eyes, file };
+  virtual animator::Remarks show(const Step& step, For what) = 0;
   virtual void take_back() = 0;
+  virtual void keep() = 0;  // what is shown is what is open
   virtual bool shows() const = 0;
+  virtual std::string text() const = 0;                    // of a file with what is shown
   virtual std::set<std::size_t> shown_actors() const = 0;  // that move while it shows
 
   // As Project's; a model has no keys.

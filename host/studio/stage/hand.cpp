@@ -6,8 +6,8 @@
 #include <glm/matrix.hpp>
 
 #include "host/content/animator/angles.h"
-#include "host/content/modeler/edit.h"
 #include "host/content/modeler/frames.h"
+#include "host/studio/stage/hand_words.h"
 
 namespace mars::studio {
 namespace {
@@ -25,11 +25,6 @@ glm::dmat3 linear_of(const wire::Matrix& matrix) {
 }
 
 }  // namespace
-
-Json listed(const glm::dvec3& vector) {
-  return Json::array(
-      {modeler::plain_number(vector.x), modeler::plain_number(vector.y), modeler::plain_number(vector.z)});
-}
 
 Hand::Hand(const Project& project, const Selection& selection, const Screen& screen, const glm::dvec2& mouse)
     : project_(project), selection_(selection), mouse_(screen, mouse) {}
@@ -92,17 +87,18 @@ std::optional<Json> Hand::follow(const glm::dvec2& mouse, bool shift) {
   return std::nullopt;
 }
 
-Json Hand::step(const char* what) const {
-  Json step = {{"set", what}};
-  if (!project_.is_model()) step["actor"] = project_.film().actors[*selection_.actor].name;
-  if (selection_.joint) step["joint"] = model_of(project_, *selection_.actor).joints[*selection_.joint].name;
-  return step;
+const std::string& Hand::actor_name() const { return project_.film().actors[*selection_.actor].name; }
+
+const std::string& Hand::joint_name() const {
+  return model_of(project_, *selection_.actor).joints[*selection_.joint].name;
 }
 
-Json Hand::pose_step(const glm::dvec3& pose) const {
-  Json made = step(selection_.joint ? "pose" : "turn");
-  made[selection_.joint ? "pose" : "turn"] = listed(pose);
-  return made;
+// Of the joint, or of the actor as a whole.
+Json Hand::turn_step(const glm::dvec3& turn) const {
+  if (project_.is_model()) return posed_model({{joint_name(), turn}});
+  if (selection_.joint) return pose_step(project_, actor_name(), {joint_setting(joint_name(), turn)});
+  refuse_carried(project_, *selection_.actor);
+  return pose_step(project_, actor_name(), {"turn=" + shown_numbers(turn)});
 }
 
 // Degrees about the ring's axis, by the mouse's way round its center; where the ring is seen from its edge, by the way
@@ -126,12 +122,12 @@ std::optional<Json> Hand::follow_ring() {
   glm::dvec3 pose = posed_.pose;
   const modeler::Limits& limits = posed_.joint->limits[static_cast<std::size_t>(grip_->axis)];
   pose[grip_->axis] = std::clamp(pose[grip_->axis] + wound_, limits.lower, limits.upper);
-  return pose_step(pose);
+  return turn_step(pose);
 }
 
 std::optional<Json> Hand::follow_limb() {
   pose_ = pose_towards(posed_, held_->place, pose_, mouse_.screen(), mouse_.at());
-  return pose_step(pose_);
+  return turn_step(pose_);
 }
 
 std::optional<Json> Hand::follow_place() {
@@ -142,14 +138,13 @@ std::optional<Json> Hand::follow_place() {
   const auto by = grip_->what == Grip::What::plane ? mouse_.across(world_) : mouse_.along(world_, way);
   if (!by) return std::nullopt;
   const glm::dvec3 place = place_ + (of_joint ? glm::transpose(posed_.parent.turn) * *by : *by);
-  Json made = step(of_joint ? "joint" : "place");
-  if (of_joint) {
-    made["change"] = {{"place", listed(place)}};
-  } else {
-    made.erase("joint");
-    made["place"] = listed(place);
+  if (!of_joint) {
+    refuse_carried(project_, *selection_.actor);
+    return pose_step(project_, actor_name(), {"place=" + shown_numbers(place)});
   }
-  return made;
+  std::vector<std::string> options;
+  add_option(options, "--place", {place.x, place.y, place.z});
+  return joint_step("set", joint_name(), options);
 }
 
 // The face opposite stays.
@@ -165,9 +160,9 @@ std::optional<Json> Hand::follow_face() {
     sbb.min[axis] = std::min(sbb.min[axis] + length, sbb.max[axis] - least);
   else
     sbb.max[axis] = std::max(sbb.max[axis] + length, sbb.min[axis] + least);
-  Json made = step("joint");
-  made["change"] = {{"sbb", Json::array({listed(sbb.min), listed(sbb.max)})}};
-  return made;
+  std::vector<std::string> options;
+  add_option(options, "--sbb", {sbb.min.x, sbb.min.y, sbb.min.z, sbb.max.x, sbb.max.y, sbb.max.z});
+  return joint_step("set", joint_name(), options);
 }
 
 // In the plane parallel to the screen, or along the surface's axis that is nearest to the mouse's way.
@@ -186,11 +181,11 @@ std::optional<Json> Hand::follow_point(bool along_axis) {
     by = mouse_.along(world_, linear[nearest]);
   }
   if (!by) return std::nullopt;
-  Json made = step("point");
-  made["patch"] = grip_->patch;
-  made["point"] = {grip_->i, grip_->j};
-  made["to"] = listed(place_ + glm::inverse(linear) * *by);
-  return made;
+  const glm::dvec3 to = place_ + glm::inverse(linear) * *by;
+  std::vector<std::string> options{"--patch", std::to_string(grip_->patch), "--at", std::to_string(grip_->i),
+                                   std::to_string(grip_->j)};
+  add_option(options, "--to", {to.x, to.y, to.z});
+  return joint_step("point", joint_name(), options);
 }
 
 glm::dvec3 pose_towards(const Posed& joint, const glm::dvec3& place, const glm::dvec3& from, const Screen& screen,

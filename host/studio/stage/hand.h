@@ -14,9 +14,6 @@
 
 namespace mars::studio {
 
-// In a step.
-Json listed(const glm::dvec3& vector);
-
 // A place in a joint's own frame that is to follow the mouse.
 struct Held {
   std::size_t joint;  // which turns
@@ -37,13 +34,14 @@ class Hand {
   std::optional<Json> follow(const glm::dvec2& mouse, bool shift);
 
  private:
-  Json step(const char* what) const;
+  const std::string& actor_name() const;
+  const std::string& joint_name() const;
   std::optional<Json> follow_ring();
   std::optional<Json> follow_limb();
   std::optional<Json> follow_place();
   std::optional<Json> follow_face();
   std::optional<Json> follow_point(bool along_axis);
-  Json pose_step(const glm::dvec3& pose) const;
+  Json turn_step(const glm::dvec3& turn) const;
   double turned_by(const glm::dvec2& before, const glm::dvec2& now) const;
 
   const Project& project_;

@@ -5,10 +5,9 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "host/content/animator/edit.h"
 #include "host/content/animator/joint_frames.h"
 #include "host/content/modeler/frames.h"
-#include "host/studio/stage/hand.h"
+#include "host/studio/stage/hand_words.h"
 
 namespace mars::studio {
 namespace {
@@ -23,9 +22,9 @@ std::optional<Json> MarkHand::follow(const glm::dvec2& mouse, bool shift) {
   return grip_.what == Grip::What::size ? sized() : moved();
 }
 
-Json MarkHand::step() const {
-  if (!grip_.mark->light) return {{"set", "camera"}};
-  return {{"set", "light"}, {"light", *grip_.mark->light + 1}};
+Json MarkHand::step(const std::string& setting) const {
+  const auto& light = grip_.mark->light;
+  return pose_step(project_, light ? "light/" + std::to_string(*light + 1) : "camera", {setting});
 }
 
 // Of a point of the camera that goes along with an actor, its offset in the key that rules there: none where it stands
@@ -46,11 +45,12 @@ std::optional<Json> MarkHand::offset_step(const glm::dvec3& to) const {
   const bool whole = point.joint == modeler::kNone;
   const std::uint32_t frame = stretch.from == stretch.to ? points[stretch.from].frame : project_.frame();
   const std::string target = actor.name + (whole ? "" : "/" + film.models[actor.model].joints[point.joint].name);
-  Json words = {"animate", grip_.aim ? "look" : "follow", target, "--frame", std::to_string(frame), "--offset"};
-  for (int axis = 0; axis < 3; ++axis) words.push_back(document::shown(animator::rounded(offset[axis])));
+  editing::Command words{"animate", grip_.aim ? "look" : "follow", target,
+                         "--frame", std::to_string(frame),         "--offset"};
+  for (int axis = 0; axis < 3; ++axis) words.push_back(shown_number(offset[axis]));
   if (joint_axes) words.insert(words.end(), {"--axes", "joint"});
   if (level) words.push_back("--level");
-  return Json{{"commands", Json::array({std::move(words)})}};
+  return step_of(words);
 }
 
 std::optional<Json> MarkHand::moved() const {
@@ -61,29 +61,20 @@ std::optional<Json> MarkHand::moved() const {
   if (!by) return std::nullopt;
   const glm::dvec3 to = from + *by;
   if (auto made = offset_step(to)) return made;
-  Json made = step();
-  if (grip_.aim)
-    made["at"] = listed(to);
-  else if (!grip_.mark->light)
-    made["eye"] = listed(to);
-  else if (!state_.far)
-    made["place"] = listed(to);
-  else if (glm::length(to - state_.center) > 0)
-    made["direction"] = listed(glm::normalize(to - state_.center));
-  else
-    return std::nullopt;
-  return made;
+  if (grip_.aim) return step("at=" + shown_numbers(to));
+  if (!grip_.mark->light) return step("eye=" + shown_numbers(to));
+  if (!state_.far) return step("place=" + shown_numbers(to));
+  if (!(glm::length(to - state_.center) > 0)) return std::nullopt;
+  return step("direction=" + shown_numbers(glm::normalize(to - state_.center)));
 }
 
 // What is pulled is the edge of a circle: as far from the axis at what it aims at, or from the place.
 std::optional<Json> MarkHand::sized() const {
-  Json made = step();
   if (state_.angle == 0) {
     const glm::dvec3& way = mouse_.screen().right();
     const auto by = mouse_.along(state_.place + state_.reach * way, way);
     if (!by) return std::nullopt;
-    made["reach"] = std::max(state_.reach + glm::dot(*by, way), kLeastReach);
-    return made;
+    return step("reach=" + shown_number(std::max(state_.reach + glm::dot(*by, way), kLeastReach)));
   }
   const double distance = glm::length(*state_.aim - state_.place);
   const double radius = distance * std::tan(state_.angle / 2 * modeler::kDegree);
@@ -91,11 +82,8 @@ std::optional<Json> MarkHand::sized() const {
   if (!by || distance == 0) return std::nullopt;
   const double wide = 2 * std::atan((radius + glm::dot(*by, state_.up)) / distance) / modeler::kDegree;
   const double angle = std::clamp(wide, kLeastAngle, kMostAngle);
-  if (grip_.mark->light)
-    made["cone"] = {angle * state_.inner / state_.angle, angle};
-  else
-    made["fov"] = angle;
-  return made;
+  if (!grip_.mark->light) return step("fov=" + shown_number(angle));
+  return step("cone=" + shown_numbers({angle * state_.inner / state_.angle, angle}));
 }
 
 }  // namespace mars::studio

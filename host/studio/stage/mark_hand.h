@@ -19,7 +19,7 @@ class MarkHand {
   std::optional<Json> follow(const glm::dvec2& mouse, bool shift);
 
  private:
-  Json step() const;
+  Json step(const std::string& setting) const;
   std::optional<Json> offset_step(const glm::dvec3& to) const;
   std::optional<Json> moved() const;
   std::optional<Json> sized() const;

@@ -6,7 +6,7 @@
 
 #include "host/content/animator/angles.h"
 #include "host/content/animator/attachments.h"
-#include "host/studio/stage/hand.h"
+#include "host/studio/stage/hand_words.h"
 #include "host/studio/stage/reach_place.h"
 
 namespace mars::studio {
@@ -68,14 +68,16 @@ std::optional<Json> ReachHand::follow(const glm::dvec2& mouse, bool shift) {
 
 // All that is no more as it was.
 Json ReachHand::step() const {
-  Json step = {{"set", "figure"}, {"poses", Json::object()}};
-  if (!project_.is_model()) step["actor"] = project_.film().actors[actor_].name;
-  if (posture_.place != rest_.place) step["place"] = listed(posture_.place);
-  if (posture_.turn != rest_.turn) step["turn"] = listed(posture_.turn);
+  std::map<std::string, glm::dvec3> pose;
   for (std::size_t joint = 0; joint < posture_.pose.size(); ++joint)
-    if (posture_.pose[joint] != rest_.pose[joint])
-      step["poses"][model().joints[joint].name] = listed(posture_.pose[joint]);
-  return step;
+    if (posture_.pose[joint] != rest_.pose[joint]) pose[model().joints[joint].name] = posture_.pose[joint];
+  if (project_.is_model()) return posed_model(pose);
+  std::vector<std::string> settings;
+  if (posture_.place != rest_.place) settings.push_back("place=" + shown_numbers(posture_.place));
+  if (!settings.empty() || posture_.turn != rest_.turn) refuse_carried(project_, actor_);
+  if (posture_.turn != rest_.turn) settings.push_back("turn=" + shown_numbers(posture_.turn));
+  for (const auto& [joint, turns] : pose) settings.push_back(joint_setting(joint, turns));
+  return pose_step(project_, project_.film().actors[actor_].name, settings);
 }
 
 std::vector<Handle> pin_handles(const Project& project, const Selection& selection,

@@ -1,4 +1,4 @@
-// Steps that pages preview and commit on a film, each kind but for commands.
+// What hands do to a film, as steps that pages preview and commit; and scripts.
 #include "tests/fuzz/steps.h"
 #include "tests/fuzz/target.h"
 
@@ -6,14 +6,11 @@ namespace mars::fuzz {
 namespace {
 
 constexpr const char* kSteps = R"(
-{"set": "pose", "actor": "pip", "joint": "left-leg", "pose": [10, 0, 0]}
-{"set": "poses", "actor": "pip", "poses": {"hip": [1, 2, 3], "head": [0, 0, 9]}}
-{"set": "place", "actor": "pip", "place": [1, 2, 3]}
-{"set": "turn", "actor": "pip", "turn": [0, 0, 90]}
-{"set": "figure", "actor": "pip", "place": [1, 2, 3], "turn": [0, 0, 9], "poses": {"hip": [1, 2, 3]}}
-{"set": "camera", "eye": [5, 5, 5], "at": [0, 0, 0], "fov": 30}
-{"set": "light", "light": 1, "direction": [1, 0, 1], "color": [1, 0.5, 0], "intensity": 2}
-{"set": "light", "light": 2, "place": [1, 2, 3], "at": [0, 0, 0], "cone": [10, 30], "reach": 2}
+{"commands": [["animate", "pose", "pip", "left-leg=10,0,0", "--frame", "3", "--clamp"]]}
+{"commands": [["animate", "pose", "pip", "hip=1,2,3", "head=0,0,9", "place=1,2,3", "turn=0,0,90", "--frame", "0", "--clamp"]]}
+{"commands": [["animate", "pose", "camera", "eye=5,5,5", "at=0,0,0", "fov=30", "--frame", "4", "--clamp"]]}
+{"commands": [["animate", "pose", "light/1", "direction=1,0,1", "color=1,0.5,0", "intensity=2", "--frame", "0"]]}
+{"commands": [["animate", "pose", "light/2", "place=1,2,3", "at=0,0,0", "cone=10,30", "reach=2", "--frame", "0"]]}
 {"script": {"name": "play.script", "text": "at 0 pip spin degrees 90 until 5\nthen pip go to 1 2 3\nat 8 cut\n"}}
 )";
 

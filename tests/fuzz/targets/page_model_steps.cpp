@@ -6,24 +6,22 @@ namespace mars::fuzz {
 namespace {
 
 constexpr const char* kSteps = R"(
-{"set": "pose", "joint": "left-leg", "pose": [10, 0, 0]}
-{"set": "poses", "poses": {"hip": [1, 2, 3], "head": [0, 0, 9]}}
-{"set": "joint", "joint": "left-leg", "change": {"place": [0, 0.5, -0.1], "x_axis": [1, 0, 0], "y_axis": [0, 1, 0], "freedom": "free", "limits": {"x": [-20, 20]}, "shape": "cone", "options": {"top": 0.5}, "sbb": [[-1, -1, -1], [1, 1, 1]], "limb": "left.knee", "material": "shirt"}}
-{"set": "joint", "joint": "head", "change": {"name": "skull", "parent": "left-leg", "freedom": "fixed"}}
-{"set": "joint", "joint": "left-leg", "change": {"reset": ["limits"]}}
-{"add": "joint", "joint": "tail", "change": {"parent": "hip", "shape": "torus", "options": {"tube": 0.2}, "freedom": "fixed"}}
-{"set": "point", "joint": "hip", "patch": 2, "point": [0, 3], "to": [0.5, 0.5, 0.5]}
-{"mirror": "left"}
-{"mirror": "left", "joint": "left-leg"}
-{"set": "material", "material": "shirt", "change": {"color": [0, 0, 1], "name": "coat", "reflection": "blinn-phong", "exponent": 9, "sides": 2, "interpolation": "phong"}}
-{"add": "material", "material": "gold", "change": {"color": [1, 1, 0], "reflection": "metallic-roughness", "roughness": 0.3, "metallic": 1}}
-{"remove": "material", "material": "gold"}
-{"remove": "joint", "joint": "tail", "branch": true}
-{"scale": {"branches": {"hip": 2}, "joints": {"hip": [1, 1, 2]}, "height": 3, "ground": true}}
-{"body": "dog", "height": 1}
+{"pose": {"left-leg": [10, 0, 0]}}
+{"pose": {"hip": [1, 2, 3], "head": [0, 0, 9]}}
+{"commands": [["model", "set", "left-leg", "--place", "0", "0.5", "-0.1", "--x-axis", "1", "0", "0", "--y-axis", "0", "1", "0", "--free", "--limits", "x", "-20", "20", "--shape", "cone", "--with", "top=0.5", "--sbb", "-1", "-1", "-1", "1", "1", "1", "--limb", "left.knee", "--material", "shirt"]]}
+{"commands": [["model", "set", "head", "--name", "skull", "--parent", "left-leg", "--fixed"]]}
+{"commands": [["model", "set", "left-leg", "--reset", "limits"], ["model", "check"]]}
+{"commands": [["model", "add", "tail", "--parent", "hip", "--shape", "torus", "--with", "tube=0.2", "--fixed"], ["model", "remove", "tail", "--branch"]]}
+{"commands": [["model", "point", "hip", "--patch", "2", "--at", "0", "3", "--to", "0.5", "0.5", "0.5"]]}
+{"commands": [["model", "mirror", "left"], ["model", "mirror", "left", "left-leg"]]}
+{"commands": [["model", "set", "--material", "shirt", "--color", "0", "0", "1", "--name", "coat", "--reflection", "blinn-phong", "--exponent", "9", "--sides", "2", "--interpolation", "phong"]]}
+{"commands": [["model", "add", "--material", "gold", "--color", "1", "1", "0", "--reflection", "metallic-roughness", "--roughness", "0.3", "--metallic", "1"], ["model", "remove", "--material", "gold"]]}
+{"commands": [["model", "scale", "2", "--branch", "hip", "--height", "3"], ["model", "scale", "1", "1", "2", "--joint", "hip", "--no-ground"], ["model", "show"]]}
+{"commands": [["model", "new", "--figure", "dog", "--height", "1"]]}
 )";
 constexpr const char* kOthers = R"(
-{"set": "point", "joint": "head", "point": [1, 1], "to": [0.5, 0.5, 0.5]}
+{"commands": [["model", "point", "head", "--at", "1", "1", "--to", "0.5", "0.5", "0.5"]]}
+{"commands": [["model", "new", "--from", "../other.json"]]}
 )";
 
 }  // namespace

@@ -39,7 +39,7 @@ constexpr const char* kSound = R"(
 {"do": "script", "text": "at 0 pip spin degrees 90 until 5", "name": "play.script"}
 {"do": "scripts"}
 {"do": "preview", "edit": 13, "step": {"commands": [["animate", "bounce", "pip", "--velocity", "1", "0", "2"]]}}
-{"do": "preview", "edit": 14, "step": {"set": "pose", "actor": "pip", "joint": "left-leg", "pose": [10, 0, 0]}}
+{"do": "preview", "edit": 14, "step": {"commands": [["animate", "pose", "pip", "left-leg=10,0,0", "--frame", "0", "--clamp"]]}}
 {"do": "preview", "edit": 15, "step": {"commands": [["film", "remove", "pip"]]}}
 {"do": "unview", "view": 2}
 {"do": "select", "thing": "camera"}

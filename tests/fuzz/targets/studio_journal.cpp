@@ -14,7 +14,7 @@ void take(std::string_view input) {
   constexpr int kMost = 20;
   for (int i = 0; i < kMost && project->describe()["undo"].is_string(); ++i) project->undo();
   for (int i = 0; i < kMost && project->describe()["redo"].is_string(); ++i) project->redo();
-  project->commit({{"set", "joint"}, {"joint", "b"}, {"change", {{"place", {1, 2, 3}}}}});
+  project->commit({{"commands", {{"model", "set", "b", "--place", "1", "2", "3"}}}});
 }
 
 }  // namespace mars::fuzz

@@ -4,6 +4,7 @@ import {element, keepingFocus} from "../dom.js";
 import {choice, line, numberField, part, sliderField, textField, toggle, vectorField} from "../fields.js";
 import {icon} from "../icons.js";
 import {keysOf} from "../shortcuts.js";
+import {mirrorStep} from "../words.js";
 import {shapeLines} from "./shape_lines.js";
 
 const kAxes = ["x", "y", "z"];
@@ -176,7 +177,7 @@ export class JointPanel {
     const {edits} = this;
     const action = (glyph, text, tip, act) => element("button", {title: tip, onclick: act}, icon(glyph), text);
     const mirror = (side, other) => action("mirror", `${side === "left" ? "Left" : "Right"} to ${other}`, `Put the ${side} limbs on the ${other}`,
-      (event) => edits.commit({mirror: side, joint: this.state.selected.joint}, event));
+      (event) => edits.commit(mirrorStep(side, this.state.selected.joint), event));
     return part("Joint", element("div", {class: "actions"},
       action("add", "Add below", `Add a joint below this one (${keysOf("addJoint")})`, () => edits.addJoint()),
       action("remove", "Remove", `Remove it and those below it (${keysOf("removeJoint")})`, () => edits.removeJoint()),

@@ -5,6 +5,7 @@ import {element, keepingFocus} from "../dom.js";
 import {choice, colorField, line, part, sliderField, textField} from "../fields.js";
 import {icon} from "../icons.js";
 import {hexOf} from "../numbers.js";
+import {materialStep, removeMaterialStep} from "../words.js";
 
 const titled = (name) => name[0].toUpperCase() + name.slice(1);
 
@@ -48,7 +49,7 @@ export class MaterialsPanel {
     const list = element("div", {class: "swatches", role: "listbox", "aria-label": "Materials"}, materials.map((each) => this.#swatch(each)));
     list.addEventListener("keydown", (event) => this.#key(event, materials));
     const add = element("button", {onclick: (event) => this.#add(event)}, icon("add"), "Add");
-    const remove = element("button", {disabled: !this.#material, onclick: (event) => this.edits.commit({remove: "material", material: this.#chosen}, event)},
+    const remove = element("button", {disabled: !this.#material, onclick: (event) => this.edits.commit(removeMaterialStep(this.#chosen), event)},
                            icon("remove"), "Remove");
     this.place.replaceChildren(list, element("div", {class: "actions"}, add, remove), ...(this.#material ? this.#editor() : []));
   }
@@ -75,11 +76,11 @@ export class MaterialsPanel {
     let number = 1;
     while (names.includes(`material-${number}`)) ++number;
     this.#chosen = `material-${number}`;
-    this.edits.commit({add: "material", material: this.#chosen, change: {color: this.#keys.color.default}}, event);
+    this.edits.commit(materialStep("add", this.#chosen, {color: this.#keys.color.default}), event);
   }
 
   #changes(changeOf) {
-    const step = (value) => ({set: "material", material: this.#chosen, change: changeOf(value)});
+    const step = (value) => materialStep("set", this.#chosen, changeOf(value));
     return {
       preview: (value, event) => this.edits.preview(step(value), event),
       commit: (value, event) => this.edits.commit(step(value), event),
@@ -102,7 +103,7 @@ export class MaterialsPanel {
         sliderField({name: key, title: meaning, key: `material.${key}`, least, most, step: most > 100 ? 1 : 0.05, digits: 3, ...this.#changes((value) => ({[key]: value}))}),
         (now) => now[key] ?? usual)));
     const name = textField({name: "Name of the material", key: "material.name", commit: (to, event) => {
-      const step = {set: "material", material: this.#chosen, change: {name: to}};
+      const step = materialStep("set", this.#chosen, {name: to});
       this.#chosen = to;
       this.edits.commit(step, event);
     }});

@@ -3,6 +3,7 @@
 
 import {element, keepingFocus} from "../dom.js";
 import {part} from "../fields.js";
+import {bodyStep} from "../words.js";
 import {actorPart, castPart} from "./scene/actors.js";
 import {cameraPart} from "./scene/camera.js";
 import {Controls} from "./scene/controls.js";
@@ -33,7 +34,7 @@ export class ScenePanel {
   #bodies() {
     const bodies = this.state.project?.bodies ?? [];
     if (bodies.length === 0) return [element("p", {class: "nothing"}, "This model has no other bodies.")];
-    const button = ({name, what}) => element("button", {title: what, onclick: (event) => this.edits.commit({body: name}, event)}, name);
+    const button = ({name, what}) => element("button", {title: what, onclick: (event) => this.edits.commit(bodyStep(name), event)}, name);
     return [part("Bodies", element("p", {class: "hint"}, "The same segments with other proportions."),
                  element("div", {class: "actions"}, bodies.map(button)))];
   }

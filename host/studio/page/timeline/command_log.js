@@ -15,7 +15,7 @@ export class CommandLog {
     this.last = element("code", {});
     this.root = element("button", {class: "quiet commands", "data-key": "commands", title: "What would be typed",
                                    onclick: () => this.#open()}, icon("prompt"), this.last);
-    edits.onCommit = (step) => { if (state.isFilm()) this.#add(commandsOf(step, state.project.frame)); };
+    edits.onCommit = (step) => this.#add(commandsOf(step));
     this.#show();
   }
 

@@ -147,6 +147,8 @@ TEST(Diagnosis, OfWhatIsNotUnderstoodTheLastWords) {
   EXPECT_TRUE(document::holds(message(killed), "mpirun was killed by signal 11 (Segmentation fault)"));
   Remains ended = failed_with({});
   EXPECT_TRUE(document::holds(message(ended), "mpirun ended with exit code 1 and gave no reason"));
+  Remains warned = failed_with({"[warn] Epoll MOD(1) on fd 19 failed. Old events were 6: Bad file descriptor"});
+  EXPECT_TRUE(document::holds(message(warned), "mpirun ended with exit code 1 and gave no reason"));
   Remains silent = failed_with({});
   silent.ending = {};
   EXPECT_TRUE(document::holds(message(silent), "ended before all frames were there"));

@@ -163,11 +163,11 @@ class MockStudio:
             self.news.notify_all()
 
     def _commit(self, step):
-        self.project["undo"] = f"set {step.get('set') or step.get('add') or step.get('remove') or 'body'}"
+        self.project["undo"] = " ".join(step["commands"][0][:3]) if "commands" in step else "pose"
         for actor in self.project["actors"]:
             for joint in actor["joints"]:
-                if step.get("set") == "pose" and joint["name"] == step["joint"]:
-                    joint["pose"] = step["pose"]
+                if joint["name"] in step.get("pose", {}):
+                    joint["pose"] = step["pose"][joint["name"]]
 
     # Straight from a value to itself: flat curves at the first key's values.
     def _curves(self, asked):

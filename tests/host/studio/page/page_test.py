@@ -41,6 +41,13 @@ def one_browser():
     return browser
 
 
+def numbers(words, option):
+    """Those after an option of a command, up to the next one."""
+    values = words[words.index(option) + 1:]
+    end = next((at for at, word in enumerate(values) if word.startswith("--")), len(values))
+    return [float(word) for word in values[:end]]
+
+
 class Page(unittest.TestCase):
     kind = projects.model
 
@@ -101,15 +108,22 @@ class Page(unittest.TestCase):
         self.js("document.querySelector(arguments[0]).click()", f'[data-key$="/{joint}"] > .row')
         self.studio.wait_for("select", joint=joint)
 
-    def commit(self, **parts):
-        """The last step that was committed and has these parts."""
+    def commit(self, begin):
+        """The words of the last command that was committed and begins so."""
+        return self.committed(lambda step: [words for words in step.get("commands", []) if " ".join(words).startswith(begin)], begin)
+
+    def posed(self, joint):
+        """How the last committed pose of a model turns the joint."""
+        return self.committed(lambda step: [step["pose"][joint]] if joint in step.get("pose", {}) else [], joint)
+
+    def committed(self, found_in, wanted):
         end = time.monotonic() + PATIENCE
         while True:
             steps = [each["step"] for each in self.studio.heard if each["do"] == "commit"]
-            found = [step for step in steps if parts.items() <= step.items()]
+            found = [each for step in steps for each in found_in(step)]
             if found:
                 return found[-1]
-            self.assertLess(time.monotonic(), end, f"no commit with {parts} among {steps}")
+            self.assertLess(time.monotonic(), end, f"no commit of {wanted} among {steps}")
             time.sleep(0.01)
 
     def canvas(self, view):
@@ -249,13 +263,13 @@ class Controls(Page):
         slider = self.find('[data-key="pose.y"]')
         limits = [float(slider.get_attribute(end)) for end in ("min", "max")]
         slider.send_keys(Keys.ARROW_RIGHT, Keys.ARROW_RIGHT)
-        self.assertEqual(self.commit(set="pose")["pose"], [0, 2, 0])
-        previews = [each["step"]["pose"][1] for each in self.studio.heard if each["do"] == "preview"]
+        self.assertEqual(self.posed("left-shin"), [0, 2, 0])
+        previews = [each["step"]["pose"]["left-shin"][1] for each in self.studio.heard if each["do"] == "preview"]
         self.assertEqual(previews[-1], 2)
         self.assertEqual(len([each for each in self.studio.heard if each["do"] == "commit"]), 1)
         self.studio.forget()
         self.find('[data-key="pose.y"]').send_keys(Keys.END)
-        self.assertEqual(self.commit(set="pose", joint="left-shin")["pose"], [0, limits[1], 0])
+        self.assertEqual(self.posed("left-shin"), [0, limits[1], 0])
         self.studio.forget()
         self.find('[data-key="pose.y"]').send_keys(Keys.HOME, Keys.ESCAPE)
         self.studio.wait_for("cancel")
@@ -264,24 +278,25 @@ class Controls(Page):
     def test_numbers_are_written_stepped_and_given_up(self):
         self.select("left-thigh")
         self.find('[data-key="place.y"]').send_keys(Keys.CONTROL, "a", Keys.NULL, "0,5", Keys.ENTER)
-        self.assertEqual(self.commit(set="joint", joint="left-thigh")["change"]["place"][1], 0.5)
+        self.assertEqual(numbers(self.commit("model set left-thigh"), "--place")[1], 0.5)
         self.studio.forget()
         self.find('[data-key="place.z"]').send_keys(Keys.ARROW_UP, Keys.ESCAPE)
         self.studio.wait_for("cancel")
         self.find('[data-key="sbb.1.x"]').send_keys(Keys.SHIFT, Keys.ARROW_UP, Keys.NULL, Keys.ENTER)
         thigh = next(joint for joint in self.studio.project["actors"][0]["joints"] if joint["name"] == "left-thigh")
-        changed = self.commit(set="joint")["change"]["sbb"]
-        self.assertAlmostEqual(changed[1][0], thigh["sbb"][1][0] + 0.2)
-        self.assertEqual(changed[0], thigh["sbb"][0])
+        changed = numbers(self.commit("model set left-thigh"), "--sbb")
+        self.assertAlmostEqual(changed[3], thigh["sbb"][1][0] + 0.2)
+        self.assertEqual(changed[:3], thigh["sbb"][0])
 
     def test_numbers_written_before_the_answer_to_those_before_are_kept(self):
         self.select("left-thigh")  # the stand-in answers with the project as it was: the studio's slowest
         for key, text in (("sbb.0.x", "-0.7"), ("sbb.0.y", "-0.8"), ("sbb.1.x", "0.9"), ("place.x", "0.3"), ("place.y", "0.4")):
             self.find(f'[data-key="{key}"]').send_keys(Keys.CONTROL, "a", Keys.NULL, text, Keys.TAB)
         self.until(lambda: len([each for each in self.studio.heard if each["do"] == "commit"]), 5)
-        steps = [each["step"]["change"] for each in self.studio.heard if each["do"] == "commit"]
-        self.assertEqual([steps[2]["sbb"][0][:2], steps[2]["sbb"][1][0]], [[-0.7, -0.8], 0.9])
-        self.assertEqual(steps[4]["place"][:2], [0.3, 0.4])
+        steps = [each["step"]["commands"][0] for each in self.studio.heard if each["do"] == "commit"]
+        box = numbers(steps[2], "--sbb")
+        self.assertEqual([box[:2], box[3]], [[-0.7, -0.8], 0.9])
+        self.assertEqual(numbers(steps[4], "--place")[:2], [0.3, 0.4])
 
     def test_a_double_click_in_the_tree_renames(self):
         ActionChains(self.browser).double_click(self.find('[data-key$="/left-thigh"] > .row > .name')).perform()
@@ -291,38 +306,37 @@ class Controls(Page):
         self.select("left-shin")
         self.js("document.querySelector('[data-key=\"free.x\"]').click()")
         shin = next(joint for joint in self.studio.project["actors"][0]["joints"] if joint["name"] == "left-shin")
-        self.assertEqual(self.commit(set="joint")["change"],
-                         {"freedom": "fixed", "limits": {"x": [-180, 180], "y": shin["limits"][1]}})
+        lower, upper = (f"{angle:g}" for angle in shin["limits"][1])
+        self.commit(f"model set left-shin --fixed --limits x -180 180 --limits y {lower} {upper}")
         self.find('[data-key="shape"]').send_keys("cap")
-        self.assertEqual(self.commit(set="joint", change={"shape": "capsule"})["joint"], "left-shin")
+        self.commit("model set left-shin --shape capsule")
         self.find('[data-key="material"]').send_keys("rub")
-        self.commit(change={"material": "rubber"})
+        self.commit("model set left-shin --material rubber")
         self.find("[role=tab]:nth-child(2)").click()
         self.assertEqual(self.find('[role="option"][aria-selected="true"]').text, "trousers")
         self.find('[data-key="material.diffuse"]').send_keys(Keys.ARROW_RIGHT)
-        self.commit(set="material", material="trousers", change={"diffuse": 0.8})
+        self.commit("model set --material trousers --diffuse 0.8")
         self.js("""const color = document.querySelector('[data-key="material.color"]');
                    color.value = "#ff0080";
                    color.dispatchEvent(new Event("change", {bubbles: true}));""")
-        self.commit(set="material", change={"color": [1, 0, 0.502]})
+        self.commit("model set --material trousers --color 1 0 0.502")
         self.find("[role=tab]:nth-child(2)").send_keys(Keys.ARROW_RIGHT)
         self.js("[...document.querySelectorAll('.panel:not([hidden]) button')].find((each) => each.textContent === 'child').click()")
-        self.commit(body="child")
+        self.commit("model new --figure child")
 
     def test_joints_are_added_renamed_mirrored_and_removed_by_keys(self):
         self.select("left-hand")
         self.press(Keys.INSERT)
-        added = self.commit(add="joint", joint="joint-1")["change"]
-        self.assertEqual(added["parent"], "left-hand")
+        self.commit("model add joint-1 --parent left-hand --place ")
         self.press(Keys.F2)
         self.assertEqual(self.js("return document.activeElement.dataset.key"), "name")
         self.press(Keys.CONTROL, "a", Keys.NULL, "left-paw", Keys.ENTER)
-        self.commit(set="joint", joint="left-hand", change={"name": "left-paw"})
+        self.commit("model set left-hand --name left-paw")
         self.js("[...document.querySelectorAll('.actions button')].find((each) => each.textContent === 'Left to right').click()")
-        self.commit(mirror="left", joint="left-hand")
+        self.commit("model mirror left left-hand")
         self.js("document.querySelector('[aria-selected=true][role=treeitem]').focus()")
         self.press(Keys.DELETE)
-        self.commit(remove="joint", joint="left-hand", branch=True)
+        self.commit("model remove left-hand --branch")
         self.studio.wait_for("select", joint="left-forearm")
 
     def test_menu_of_a_view_by_keyboard(self):
@@ -455,13 +469,13 @@ class Films(Page):
         self.studio.wait_for("select", actor="watcher", joint="head")
         self.assertEqual(self.find(".keyed-state.on").text, "Key at this frame")
         self.find('[data-key="pose.z"]').send_keys(Keys.ARROW_RIGHT)
-        self.assertEqual(self.commit(set="pose"), {"set": "pose", "actor": "watcher", "joint": "head", "pose": [0, 0, 1]})
+        self.commit("animate pose watcher head=0,0,1 --frame 24 --clamp")
         self.js("document.querySelector('[data-key=\"walker\"] > .row').click()")
         self.until(lambda: self.find('[role="tab"][aria-selected="true"]').text, "Scene")
         self.find('[data-key="actor.place.x"]').send_keys(Keys.ARROW_UP, Keys.ENTER)
-        self.commit(set="place", actor="walker", place=[0.1, 0, 0])
+        self.commit("animate pose walker place=0.1,0,0 --frame 24")
         self.find('[data-key="camera.fov"]').send_keys(Keys.ARROW_UP, Keys.ENTER)
-        self.assertEqual(self.commit(set="camera"), {"set": "camera", "fov": 41})
+        self.commit("animate pose camera fov=41 --frame 24")
 
     def test_a_rendering_is_started_shown_and_stopped(self):
         self.chord(Keys.F9)

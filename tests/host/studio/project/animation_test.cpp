@@ -22,7 +22,7 @@ TEST_F(AnimationTold, ChannelsHaveTheKeysAsTheFilmHasThem) {
     {"thing": "two", "kind": "actor", "parts": [{"name": "left-leg", "axes": ["x", "y"], "keys": [
       {"frame": 0, "value": [0, 0, 0], "ease": "both"}, {"frame": 24, "value": [10, 20, 0], "ease": "linear"}]}]}]})"));
   EXPECT_EQ(project->channels({"one", "camera", "nobody"})["things"].size(), 2u);
-  project->commit(step(R"({"set": "camera", "fov": 30})"));
+  project->commit(pose("camera", "fov=30", project->frame()));
   const Json camera = told_of(project->channels({"*"}), "camera");
   EXPECT_EQ(camera["parts"], Json::parse(R"([{"name": "fov", "axes": ["value"],
                                               "keys": [{"frame": 0, "value": 30, "ease": "linear"}]}])"));
@@ -53,13 +53,14 @@ TEST_F(AnimationTold, CurvesGoAlongWithGesturesAndChannelsDoNot) {
     return project->curves({"two", {"left-leg"}, 12, 12})["parts"][0]["values"][1][0].get<double>();
   };
   const double before = at_12();
-  project->preview(step(R"({"commands": [["animate", "pose", "two", "left-leg.y=80", "--frame", "12", "--clamp"]]})"));
+  project->preview(
+      Json::parse(R"({"commands": [["animate", "pose", "two", "left-leg.y=80", "--frame", "12", "--clamp"]]})"));
   EXPECT_EQ(at_12(), 80);
   EXPECT_EQ(project->channels({"*"}), channels);
   project->cancel();
   EXPECT_EQ(at_12(), before);
   project->set_frame(12);
-  project->preview(step(R"({"set": "pose", "actor": "two", "joint": "left-leg", "pose": [0, 70, 0]})"));
+  project->preview(pose("two", "left-leg=0,70,0", project->frame()));
   EXPECT_EQ(at_12(), 70);
 }
 

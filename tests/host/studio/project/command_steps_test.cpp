@@ -82,7 +82,7 @@ TEST_F(CommandSteps, APreviewThatIsTakenBackLeavesNoTrace) {
   const std::string before = state(*project);
   const Json described = project->describe();
   for (const auto& commands : kSteps) project->preview(step_of(commands));
-  project->preview(step(R"({"set": "place", "actor": "one", "place": [1, 2, 3]})"));
+  project->preview(pose("one", "place=1,2,3", project->frame()));
   project->preview(step_of(kSteps[0]));
   EXPECT_NE(state(*project), before);
   refusal([&] { project->preview(step_of({{"animate", "walk", "one", "--frame", "999"}})); });
@@ -108,7 +108,7 @@ TEST_F(CommandSteps, HaveNamesInTheHistory) {
     project->commit(step_of(commands));
     return project->describe()["undo"].get<std::string>();
   };
-  EXPECT_EQ(name_after(kSteps[0]), "pose one");
+  EXPECT_EQ(name_after(kSteps[0]), "turn head of one");
   EXPECT_EQ(name_after(kSteps[1]), "move keys of two");
   EXPECT_EQ(name_after({kSteps[2][0], kSteps[5][0]}), "key two and 1 more");
 }

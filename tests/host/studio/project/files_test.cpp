@@ -30,7 +30,7 @@ TEST_F(Files, AnOutsideChangeShowsAndCanBeUndone) {
 }
 
 TEST_F(Files, AChangeWhileNothingIsOpenIsAnEntryToo) {
-  open("pip.json")->commit(step(R"({"remove": "joint", "joint": "head"})"));
+  open("pip.json")->commit(step("model remove head"));
   const std::string before = text("pip.json");
   write("pip.json", replaced(kPip, "40", "45"));
   const auto project = open("pip.json");
@@ -47,7 +47,7 @@ TEST_F(Files, ACommandsChangeIsNotLostByAStep) {
     const std::vector<std::string> settings{"head.y=5"};
     animator::pose(json, film, "one", settings, {0, 0}, std::nullopt, animator::Beyond::refused);
   });
-  project->commit(step(R"({"set": "place", "actor": "one", "place": [7, 7, 7]})"));
+  project->commit(pose("one", "place=7,7,7", project->frame()));
   EXPECT_TRUE(holds(text("film.json"), R"("head": [0, 5, 0])"));
   EXPECT_TRUE(holds(text("film.json"), "[7, 7, 7]"));
   project->undo();
@@ -64,8 +64,8 @@ TEST_F(Files, ABrokenFileIsAProblemWithItsLineAndTheLastGoodStateStays) {
   EXPECT_EQ(project->problem()->line, 5u) << project->problem()->text;
   EXPECT_EQ(project->describe()["problem"]["line"], 5);
   EXPECT_EQ(project->film().models[0].joints.size(), 4u);
-  EXPECT_TRUE(holds(refusal([&] { project->commit(step(R"({"remove": "joint", "joint": "head"})")); }), "hop"));
-  project->preview(step(R"({"set": "pose", "joint": "head", "pose": [0, 5, 0]})"));
+  EXPECT_TRUE(holds(refusal([&] { project->commit(step("model remove head")); }), "hop"));
+  project->preview(Json{{"pose", {{"head", {0, 5, 0}}}}});
   project->cancel();
   write("pip.json", "{");
   EXPECT_TRUE(look(*project));
@@ -77,7 +77,7 @@ TEST_F(Files, ABrokenFileIsAProblemWithItsLineAndTheLastGoodStateStays) {
 
 TEST_F(Files, UndoPutsTheLastGoodStateBack) {
   const auto project = open("pip.json");
-  project->commit(step(R"({"remove": "joint", "joint": "head"})"));
+  project->commit(step("model remove head"));
   const std::string good = text("pip.json");
   write("pip.json", "{\"joints\": [}");
   look(*project);
@@ -105,16 +105,16 @@ TEST_F(Files, TheModelsOfAFilmAreWatched) {
   ASSERT_TRUE(project->problem());
   EXPECT_TRUE(holds(project->problem()->text, "pip.json"));
   EXPECT_FALSE(look(*project));
-  refusal([&] { project->commit(step(R"({"set": "place", "actor": "one", "place": [7, 7, 7]})")); });
+  refusal([&] { project->commit(pose("one", "place=7,7,7", project->frame())); });
   write("pip.json", kPip);
   EXPECT_TRUE(look(*project));
   EXPECT_FALSE(project->problem());
-  project->commit(step(R"({"set": "place", "actor": "one", "place": [7, 7, 7]})"));
+  project->commit(pose("one", "place=7,7,7", project->frame()));
 }
 
 TEST_F(Files, AnOutsideChangeEndsAGesture) {
   const auto project = open("film.json");
-  project->preview(step(R"({"set": "place", "actor": "one", "place": [7, 7, 7]})"));
+  project->preview(pose("one", "place=7,7,7", project->frame()));
   write("film.json", replaced(kFilm, "\"frames\": 48", "\"frames\": 24"));
   EXPECT_TRUE(look(*project));
   EXPECT_FALSE(project->in_gesture());

@@ -8,32 +8,35 @@ namespace {
 
 using Histories = OpenFiles;
 
-Json random_film_step(std::mt19937& random) {
+Json random_film_step(std::mt19937& random, std::uint32_t frame) {
   const auto number = [&](int least, int most) { return std::uniform_int_distribution(least, most)(random); };
   const char* const actors[] = {"one", "two"};
   const char* const joints[] = {"hip", "head", "left-leg", "left-foot"};
-  const Json vector{number(-60, 60), number(-60, 60), number(-60, 60)};
+  std::string vector = std::to_string(number(-60, 60));
+  for (int axis = 1; axis < 3; ++axis) vector += "," + std::to_string(number(-60, 60));
   const char* const actor = actors[number(0, 1)];
   switch (number(0, 3)) {
-    case 0: return {{"set", "place"}, {"actor", actor}, {"place", vector}};
-    case 1: return {{"set", "turn"}, {"actor", actor}, {"turn", vector}};
-    case 2: return {{"set", "camera"}, {"fov", number(10, 90)}};
-    default: return {{"set", "pose"}, {"actor", actor}, {"joint", joints[number(0, 3)]}, {"pose", vector}};
+    case 0: return pose(actor, "place=" + vector, frame);
+    case 1: return pose(actor, "turn=" + vector, frame);
+    case 2: return pose("camera", "fov=" + std::to_string(number(10, 90)), frame);
+    default: return pose(actor, std::string(joints[number(0, 3)]) + "=" + vector, frame);
   }
 }
 
 Json random_model_step(std::mt19937& random) {
-  const auto number = [&](int least, int most) { return std::uniform_int_distribution(least, most)(random); };
+  const auto number = [&](int least, int most) {
+    return std::to_string(std::uniform_int_distribution(least, most)(random));
+  };
   const char* const joints[] = {"hip", "head", "left-leg", "left-foot"};
   const char* const shapes[] = {"box", "sphere", "cone"};
-  const char* const joint = joints[number(0, 3)];
-  switch (number(0, 5)) {
-    case 0: return {{"set", "joint"}, {"joint", joint}, {"change", {{"place", {number(0, 9), number(0, 9), 1}}}}};
-    case 1: return {{"set", "joint"}, {"joint", joint}, {"change", {{"shape", shapes[number(0, 2)]}}}};
-    case 2: return {{"set", "joint"}, {"joint", joint}, {"change", {{"limits", {{"x", {-number(0, 90), 90}}}}}}};
-    case 3: return {{"set", "material"}, {"material", "red"}, {"change", {{"color", {0.1 * number(0, 10), 0, 1}}}}};
-    case 4: return {{"mirror", "left"}};
-    default: return {{"add", "joint"}, {"joint", "j" + std::to_string(random())}, {"change", {{"parent", joint}}}};
+  const std::string joint = joints[random() % 4];
+  switch (random() % 6) {
+    case 0: return step("model set " + joint + " --place " + number(0, 9) + " " + number(0, 9) + " 1");
+    case 1: return step("model set " + joint + " --shape " + shapes[random() % 3]);
+    case 2: return step("model set " + joint + " --limits x " + number(-90, 0) + " 90");
+    case 3: return step("model set --material red --color 0." + number(0, 9) + " 0 1");
+    case 4: return step("model mirror left");
+    default: return step("model add j" + std::to_string(random()) + " --parent " + joint);
   }
 }
 
@@ -44,7 +47,7 @@ TEST_F(Histories, TwoHundredStepsGoBackToTheFirstByteAndForwardAgain) {
     std::vector<std::string> texts{text(name)};
     while (texts.size() <= 200) {
       if (!project->is_model()) project->set_frame(static_cast<std::uint32_t>(random() % 48));
-      project->commit(project->is_model() ? random_model_step(random) : random_film_step(random));
+      project->commit(project->is_model() ? random_model_step(random) : random_film_step(random, project->frame()));
       if (text(name) != texts.back()) texts.push_back(text(name));
     }
     for (std::size_t i = texts.size() - 1; i-- > 0;) {
@@ -67,11 +70,11 @@ TEST_F(Histories, TwoHundredStepsGoBackToTheFirstByteAndForwardAgain) {
 
 TEST_F(Histories, AfterAnUndoAnotherStepCutsWhatCouldBeRedone) {
   const auto project = open("pip.json");
-  project->commit(step(R"({"set": "joint", "joint": "hip", "change": {"place": [1, 0, 0]}})"));
+  project->commit(step("model set hip --place 1 0 0"));
   project->undo();
   EXPECT_EQ(text("pip.json"), kPip);
   EXPECT_EQ(project->describe()["redo"], "change hip's place");
-  project->commit(step(R"({"remove": "joint", "joint": "head"})"));
+  project->commit(step("model remove head"));
   EXPECT_EQ(project->describe()["redo"], Json());
   EXPECT_EQ(project->describe()["undo"], "remove head");
   EXPECT_EQ(open("pip.json")->describe()["undo"], "remove head");
@@ -79,8 +82,8 @@ TEST_F(Histories, AfterAnUndoAnotherStepCutsWhatCouldBeRedone) {
 
 TEST_F(Histories, UndoDuringAGestureGivesTheGestureUp) {
   const auto project = open("pip.json");
-  project->commit(step(R"({"remove": "joint", "joint": "head"})"));
-  project->preview(step(R"({"set": "joint", "joint": "hip", "change": {"place": [1, 0, 0]}})"));
+  project->commit(step("model remove head"));
+  project->preview(step("model set hip --place 1 0 0"));
   project->undo();
   EXPECT_FALSE(project->in_gesture());
   EXPECT_EQ(text("pip.json"), kPip);
@@ -89,11 +92,11 @@ TEST_F(Histories, UndoDuringAGestureGivesTheGestureUp) {
 
 TEST_F(Histories, TwoStudiosShareOne) {
   const auto here = open("pip.json"), there = open("pip.json");
-  here->commit(step(R"({"remove": "joint", "joint": "head"})"));
+  here->commit(step("model remove head"));
   EXPECT_TRUE(look(*there));
   EXPECT_EQ(there->describe()["undo"], "remove head");
-  there->commit(step(R"({"set": "joint", "joint": "hip", "change": {"place": [1, 0, 0]}})"));
-  here->commit(step(R"({"set": "joint", "joint": "hip", "change": {"name": "pelvis"}})"));  // without a look
+  there->commit(step("model set hip --place 1 0 0"));
+  here->commit(step("model set hip --name pelvis"));  // without a look
   EXPECT_TRUE(holds(text("pip.json"), R"("name": "pelvis",)"));
   EXPECT_TRUE(holds(text("pip.json"), R"("place": [1, 0, 0])"));
   look(*there);
@@ -107,7 +110,7 @@ TEST_F(Histories, AnUnwritableFolderRefusesStepsAndLeavesAllAsItWas) {
   const auto project = open("pip.json");
   std::filesystem::remove(path("pip.json"));
   std::filesystem::create_directory(path("pip.json"));
-  refusal([&] { project->commit(step(R"({"remove": "joint", "joint": "head"})")); });
+  refusal([&] { project->commit(step("model remove head")); });
   EXPECT_EQ(project->film().models[0].joints.size(), 4u);
   EXPECT_TRUE(project->problem());
 }

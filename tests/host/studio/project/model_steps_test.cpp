@@ -39,9 +39,9 @@ TEST_F(ModelSteps, AJointsStepWritesWhatTheCommandWrites) {
   change.sbb = modeler::Box{{-1, -2, -3}, {1, 2, 3.5}};
   change.reset = {"axes"};
   const std::string expected = by_command([&](Json& model) { modeler::set_joint(model, "left-leg", change); });
-  const Json wanted = step(R"({"set": "joint", "joint": "left-leg", "change": {"place": [0, 0.5, -0.125],
-    "limits": {"x": [-20, 20]}, "shape": "cone", "options": {"top": 0.5}, "sbb": [[-1, -2, -3], [1, 2, 3.5]],
-    "reset": ["axes"]}})");
+  const Json wanted = step(
+      "model set left-leg --place 0 0.5 -0.125 --limits x -20 20 --shape cone --with top=0.5 --sbb -1 -2 -3 1 2 3.5 "
+      "--reset axes");
   project->preview(wanted);
   EXPECT_EQ(joint(*project, "left-leg").limits[0].upper, 20);
   EXPECT_EQ(text("pip.json"), kPip);
@@ -64,30 +64,28 @@ TEST_F(ModelSteps, OtherStepsWriteWhatTheCommandsWrite) {
   blue.numbers[2] = 0.25;
   modeler::Proportions larger;
   larger.joints = {{"left-*", false, {1, 1, 2}}};
-  const std::pair<const char*, std::function<void(Json&)>> cases[] = {
-      {R"({"add": "joint", "joint": "tail", "change": {"parent": "hip", "shape": "cone", "freedom": "fixed", "limb": "spine"}})",
+  const std::pair<Json, std::function<void(Json&)>> cases[] = {
+      {step("model add tail --parent hip --shape cone --fixed --limb spine"),
        [&](Json& model) { modeler::add_joint(model, "tail", tail); }},
-      {R"({"set": "joint", "joint": "left-leg", "change": {"name": "leg"}})",
-       [&](Json& model) { modeler::set_joint(model, "left-leg", renamed); }},
-      {R"({"add": "material", "material": "blue", "change": {"color": [0, 0, 1], "diffuse": null, "specular": 0.25}})",
+      {step("model set left-leg --name leg"), [&](Json& model) { modeler::set_joint(model, "left-leg", renamed); }},
+      {step("model add --material blue --color 0 0 1 --specular 0.25"),
        [&](Json& model) { modeler::add_material(model, "blue", blue); }},
-      {R"({"set": "material", "material": "red", "change": {"color": [0, 0, 1], "specular": 0.25, "name": "rose"}})",
+      {step("model set --material red --color 0 0 1 --specular 0.25 --name rose"),
        [&](Json& model) { modeler::set_material(model, "red", blue, "rose"); }},
-      {R"({"remove": "material", "material": "blue"})", [](Json& model) { modeler::remove_material(model, "blue"); }},
-      {R"({"scale": {"joints": {"left-*": [1, 1, 2]}}})",
+      {step("model remove --material blue"), [](Json& model) { modeler::remove_material(model, "blue"); }},
+      {step("model scale 1 1 2 --joint left-*"),
        [&](Json& model) { modeler::scale_model(model, modeler::load_own_model(path("pip.json")), larger); }},
-      {R"({"remove": "joint", "joint": "left-foot"})",
-       [](Json& model) { modeler::remove_joint(model, "left-foot", false); }}};
+      {step("model remove left-foot"), [](Json& model) { modeler::remove_joint(model, "left-foot", false); }}};
   for (const auto& [each, change] : cases) {
     const std::string expected = by_command(change);
-    project->commit(step(each));
+    project->commit(each);
     EXPECT_EQ(text("pip.json"), expected) << each;
   }
 }
 
 TEST_F(ModelSteps, TheOtherSideIsMadeAndChangedAsInAMirror) {
   const auto project = open("pip.json");
-  project->commit(step(R"({"mirror": "left"})"));
+  project->commit(step("model mirror left"));
   EXPECT_TRUE(holds(text("pip.json"), R"("right": {"knee": "right-leg"})")) << text("pip.json");
   const modeler::Joint leg = joint(*project, "right-leg");
   EXPECT_EQ(leg.place, glm::dvec3(0, -0.5, 0));
@@ -98,8 +96,11 @@ TEST_F(ModelSteps, TheOtherSideIsMadeAndChangedAsInAMirror) {
   EXPECT_EQ(project->film().models[0].shapes[joint(*project, "right-foot").segment->shape].name, "right_hand");
   EXPECT_FALSE(project->take_remarks().empty());
   // In mirrored poses every corner of every segment stands mirrored.
-  project->commit(step(R"({"set": "poses", "poses": {"left-leg": [20, 30, 0], "right-leg": [-20, 30, 0],
-                                                     "left-foot": [0, 0, 20], "right-foot": [0, 0, -20]}})"));
+  project->commit(Json{{"pose",
+                        {{"left-leg", {20, 30, 0}},
+                         {"right-leg", {-20, 30, 0}},
+                         {"left-foot", {0, 0, 20}},
+                         {"right-foot", {0, 0, -20}}}}});
   const auto state = animator::state_at(project->film(), 0, 0);
   const auto& joints = project->film().models[0].joints;
   const auto corner = [](const wire::Matrix& matrix, double x, double y, double z) {
@@ -124,9 +125,9 @@ TEST_F(ModelSteps, TheOtherSideIsMadeAndChangedAsInAMirror) {
       EXPECT_NEAR(a.z, b.z, 1e-12);
     }
   }
-  project->commit(step(R"({"mirror": "right"})"));
+  project->commit(step("model mirror right"));
   const std::string mirrored = text("pip.json");
-  project->commit(step(R"({"mirror": "left"})"));
+  project->commit(step("model mirror left"));
   EXPECT_EQ(text("pip.json"), mirrored) << "a mirrored figure's mirror image is itself";
 }
 
@@ -134,11 +135,11 @@ TEST_F(ModelSteps, JointsWithoutSideWordsAreFoundWhereTheyStand) {
   write("crab.json", R"({"joints": [{"name": "shell"}, {"name": "arm", "parent": "shell", "place": [1, 1, 0]},
     {"name": "claw", "parent": "arm", "place": [1, 0, 0]}, {"name": "other", "parent": "shell", "place": [1, -1, 0]}]})");
   const auto project = open("crab.json");
-  project->commit(step(R"({"set": "joint", "joint": "arm", "change": {"limits": {"z": [-10, 20]}}})"));
-  project->commit(step(R"({"mirror": "left", "joint": "arm"})"));
+  project->commit(step("model set arm --limits z -10 20"));
+  project->commit(step("model mirror left arm"));
   EXPECT_EQ(joint(*project, "other").limits[2].lower, -20);
   EXPECT_EQ(joint(*project, "right-claw").parent, 3u);
-  EXPECT_TRUE(holds(refusal([&] { project->commit(step(R"({"mirror": "left", "joint": "shel"})")); }), "side"));
+  EXPECT_TRUE(holds(refusal([&] { project->commit(step("model mirror left shel")); }), "side"));
 }
 
 TEST_F(ModelSteps, OwnShapesAreMirroredToo) {
@@ -149,7 +150,7 @@ TEST_F(ModelSteps, OwnShapesAreMirroredToo) {
     "joints": [{"name": "a"}, {"name": "left-a", "parent": "a", "segment": {"shape": "sail"}},
                {"name": "left-b", "parent": "a", "segment": {"shape": "stone"}}]})");
   const auto project = open("own.json");
-  project->commit(step(R"({"mirror": "left"})"));
+  project->commit(step("model mirror left"));
   const modeler::Model& model = project->film().models[0];
   const modeler::Shape& sail = model.shapes[joint(*project, "left-a").segment->shape];
   const modeler::Shape& mirrored = model.shapes[joint(*project, "right-a").segment->shape];
@@ -174,11 +175,7 @@ TEST_F(ModelSteps, OwnShapesAreMirroredToo) {
 
 TEST_F(ModelSteps, APulledPointTakesItsNeighboursAlong) {
   const auto project = open("pip.json");
-  const auto pull = [](double z) {
-    Json pulled = step(R"({"set": "point", "joint": "hip", "patch": 0, "point": [0, 0], "to": [0.1, 0.1, 0]})");
-    pulled["to"][2] = z;
-    return pulled;
-  };
+  const auto pull = [](double z) { return step("model point hip --at 0 0 --to 0.1 0.1 " + std::to_string(z)); };
   const auto points = project->control_points("hip");
   ASSERT_EQ(points.size(), 6u * 16);
   const auto own = project->shapes_revision();
@@ -210,9 +207,9 @@ TEST_F(ModelSteps, PointsOfBSplinesArePulledThemselves) {
       "u": {"degree": 1}, "v": {"degree": 1}}}}, "joints": [{"name": "mast", "segment": {"shape": "sail"}}]})");
   const auto project = open("sail.json");
   ASSERT_EQ(project->control_points("mast").size(), 4u);
-  project->commit(step(R"({"set": "point", "joint": "mast", "point": [1, 0], "to": [0.5, 0.5, 0]})"));
+  project->commit(step("model point mast --at 1 0 --to 0.5 0.5 0"));
   EXPECT_TRUE(holds(text("sail.json"), "[[0, 0, 0], [0.5, 0.5, 0]]")) << text("sail.json");
-  refusal([&] { project->commit(step(R"({"set": "point", "joint": "mast", "point": [2, 0], "to": [0, 0, 0]})")); });
+  refusal([&] { project->commit(step("model point mast --at 2 0 --to 0 0 0")); });
 }
 
 TEST_F(ModelSteps, ANewModelBeginsAsAnyBody) {
@@ -223,21 +220,30 @@ TEST_F(ModelSteps, ANewModelBeginsAsAnyBody) {
   const Json bodies = project->describe()["bodies"];
   EXPECT_GE(bodies.size(), 5u);
   for (const Json& body : bodies) {
-    project->commit({{"body", body["name"]}});
+    project->commit(step("model new --figure " + body["name"].get<std::string>()));
     EXPECT_GT(project->film().models[0].joints.size(), 10u) << body;
     modeler::load_own_model(path("new.json"));
   }
-  project->commit(step(R"({"body": "child", "height": 1.25})"));
+  project->commit(step("model new --figure child --height 1.25"));
   const auto bounds = modeler::rest_bounds(project->film().models[0]);
   EXPECT_NEAR(bounds->max.z - bounds->min.z, 1.25, 2e-3);
-  EXPECT_TRUE(holds(refusal([&] { project->commit(step(R"({"body": "chield"})")); }), "child"));
+  EXPECT_TRUE(holds(refusal([&] { project->commit(step("model new --figure chield")); }), "child"));
   while (project->describe()["undo"].is_string()) project->undo();
   EXPECT_EQ(project->film().models[0].joints.size(), 1u);
 }
 
+TEST_F(ModelSteps, FilesElsewhereAreNotRead) {
+  const auto project = open("pip.json");
+  for (const char* words : {"model new --from ../secret.json", "model new --from /etc/passwd"})
+    EXPECT_TRUE(holds(refusal([&] { project->commit(step(words)); }), "below")) << words;
+  for (const char* words : {"film add ball --model ball", "animate check", "render pip.json"})
+    refusal([&] { project->commit(step(words)); });
+  EXPECT_EQ(text("pip.json"), kPip);
+}
+
 TEST_F(ModelSteps, PosesAreShownAndInNoFile) {
   const auto project = open("pip.json");
-  const Json pose = step(R"({"set": "pose", "joint": "head", "pose": [0, 99, 0]})");
+  const Json pose = Json{{"pose", {{"head", {0, 99, 0}}}}};
   project->preview(pose);
   EXPECT_EQ(project->describe_poses()["actors"][0]["joints"][1], Json::parse("[0, 40, 0]"));
   project->cancel();
@@ -245,27 +251,25 @@ TEST_F(ModelSteps, PosesAreShownAndInNoFile) {
   project->commit(pose);
   EXPECT_EQ(text("pip.json"), kPip);
   EXPECT_EQ(project->describe()["undo"], Json());
-  project->commit(step(R"({"set": "joint", "joint": "head", "change": {"limits": {"y": [-30, 20]}}})"));
+  project->commit(step("model set head --limits y -30 20"));
   EXPECT_EQ(project->describe_poses()["actors"][0]["joints"][1], Json::parse("[0, 20, 0]"));
 }
 
 TEST_F(ModelSteps, NodesNeedTheFilmAgainWhereSegmentsChangeOnly) {
   const auto project = open("pip.json");
   const auto revision = project->shapes_revision();
-  project->commit(step(R"({"set": "material", "material": "red", "change": {"color": [0, 1, 0]}})"));
-  project->commit(step(R"({"set": "joint", "joint": "hip", "change": {"sbb": [[-1, -1, 0], [1, 1, 2]]}})"));
+  project->commit(step("model set --material red --color 0 1 0"));
+  project->commit(step("model set hip --sbb -1 -1 0 1 1 2"));
   EXPECT_EQ(project->shapes_revision(), revision);
-  project->preview(step(R"({"set": "joint", "joint": "hip", "change": {"shape": "sphere"}})"));
+  project->preview(step("model set hip --shape sphere"));
   EXPECT_GT(project->shapes_revision(), revision);
 }
 
 TEST_F(ModelSteps, ADerivedModelSaysWhoseJointsItHas) {
   write("kid.json", R"({"from": "pip.json", "proportions": {"scale": 0.5}})");
   const auto project = open("kid.json");
-  EXPECT_TRUE(holds(
-      refusal([&] { project->commit(step(R"({"set": "joint", "joint": "hip", "change": {"place": [0, 0, 2]}})")); }),
-      "pip.json"));
-  project->commit(step(R"({"scale": {"branches": {"head": 1.5}}})"));
+  EXPECT_TRUE(holds(refusal([&] { project->commit(step("model set hip --place 0 0 2")); }), "pip.json"));
+  project->commit(step("model scale 1.5 --branch head"));
   EXPECT_TRUE(holds(text("kid.json"), R"("branches": {"head": 1.5})"));
 }
 

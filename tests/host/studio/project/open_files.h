@@ -11,6 +11,7 @@
 #include "host/content/document/file.h"
 #include "host/studio/project/project.h"
 #include "tests/host/render/sinks/temporary_folder.h"
+#include "tests/host/studio/step_words.h"
 
 namespace mars::studio {
 
@@ -71,7 +72,5 @@ class OpenFiles : public testing::Test {
  private:
   sinks::TemporaryFolder folder_;
 };
-
-inline Json step(const char* text) { return Json::parse(text); }
 
 }  // namespace mars::studio

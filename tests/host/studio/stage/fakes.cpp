@@ -4,10 +4,13 @@
 #include <filesystem>
 
 #include "hal/failure/failure.h"
+#include "host/content/animator/angles.h"
 #include "host/content/animator/read_film.h"
+#include "host/content/animator/rig.h"
+#include "host/content/animator/set_key.h"
 #include "host/content/modeler/read_model.h"
 #include "host/preview/viewpoint.h"
-#include "host/studio/project/film_gesture.h"
+#include "tests/host/studio/step_words.h"
 
 namespace mars::studio {
 namespace {
@@ -32,45 +35,63 @@ void FakeProject::apply(const Json& step) {
   film_ = saved_;
   pulled_.reset();
   ++revision_;
-  if (step.contains("commands")) return;  // of the film's text, which it has not
-  if (const std::string what = step.at("set"); what == "figure" || what == "camera" || what == "light") {
-    const auto show = [&](const auto& each) {
-      if constexpr (requires { FilmGesture().show(film_, rig_lights_, each, frame_); })
-        FilmGesture().show(film_, rig_lights_, each, frame_);
-    };
-    return std::visit(show, read_step(step));
-  }
-  animator::Actor* actor = &film_.actors.at(0);
-  if (!model_)
-    for (animator::Actor& each : film_.actors)
-      if (each.name == step.at("actor").get<std::string>()) actor = &each;
-  modeler::Model& model = film_.models[actor->model];
-  std::size_t joint = 0;
-  while (step.contains("joint") && model.joints.at(joint).name != step["joint"].get<std::string>()) ++joint;
-  const std::string what = step.at("set").get<std::string>();
-  if (what == "pose") {
-    const glm::dvec3 pose = vector_of(step.at("pose"));
-    if (const auto broken = animator::broken_limit(model.joints[joint], pose)) throw Failure(*broken, "", "");
-    set_key(actor->motion.pose[joint], frame_, pose);
-  } else if (what == "place") {
-    set_key(actor->motion.place, frame_, vector_of(step.at("place")));
-  } else if (what == "turn") {
-    set_key(actor->motion.turn, frame_, vector_of(step.at("turn")));
-  } else if (what == "joint") {
-    const Json& change = step.at("change");
-    if (change.contains("place")) model.joints[joint].place = vector_of(change["place"]);
-    if (change.contains("sbb"))
-      model.joints[joint].segment->sbb = {vector_of(change["sbb"][0]), vector_of(change["sbb"][1])};
-  } else if (what == "point") {
-    const std::size_t shape = model.joints[joint].segment->shape;
-    const glm::dvec3 to = vector_of(step.at("to"));
-    model.shapes[shape]
-        .patches.at(step.at("patch"))
-        .points[4 * step.at("point")[1].get<std::size_t>() + step["point"][0].get<std::size_t>()] = {
+  if (step.contains("commands") && step["commands"][0][1] != "pose" && step["commands"][0][0] != "model")
+    return;  // of the film's text, which it has not
+  const Json said = told(step);
+  if (said["does"] == "turn") return pose(film_.actors.at(0), said);
+  if (said["does"] != "pose") return change_model(said);
+  const std::string thing = said.at("of").get<std::string>();
+  if (thing == "camera") return move_camera(said);
+  if (thing.starts_with("light/")) return move_light(film_.lights.at(std::stoul(thing.substr(6)) - 1), said);
+  for (animator::Actor& actor : film_.actors)
+    if (actor.name == thing) pose(actor, said);
+}
+
+void FakeProject::pose(animator::Actor& actor, const Json& said) {
+  if (said.contains("place")) set_key(actor.motion.place, frame_, vector_of(said["place"]));
+  if (said.contains("turn")) set_key(actor.motion.turn, frame_, vector_of(said["turn"]));
+  const modeler::Model& model = film_.models[actor.model];
+  for (std::size_t joint = 0; joint < model.joints.size(); ++joint)
+    if (const auto turns = said.find(model.joints[joint].name); turns != said.end())
+      set_key(actor.motion.pose[joint], frame_, animator::clamped(model.joints[joint], vector_of(*turns)));
+}
+
+void FakeProject::move_camera(const Json& said) {
+  const auto set_point = [&](animator::Channel<animator::Point>& points, const char* name) {
+    if (said.contains(name)) animator::set_key(points, animator::Point{vector_of(said[name])}, frame_, {});
+  };
+  set_point(film_.camera.eye, "eye");
+  set_point(film_.camera.at, "at");
+  if (said.contains("fov")) animator::set_key(film_.camera.fov, said["fov"].get<double>(), frame_, 0.0);
+  if (rig_lights_) film_.lights = animator::rig_lights(film_);
+}
+
+void FakeProject::move_light(animator::LightMotion& light, const Json& said) {
+  for (const char* name : {"place", "direction"})
+    if (said.contains(name)) animator::set_key(light.vector, vector_of(said[name]), frame_, {});
+  if (said.contains("at")) animator::set_key(light.at, vector_of(said["at"]), frame_, {});
+  if (said.contains("reach")) animator::set_key(light.reach, said["reach"].get<double>(), frame_, 0.0);
+  if (said.contains("cone"))
+    animator::set_key(light.cone, glm::dvec2(said["cone"][0].get<double>(), said["cone"][1].get<double>()), frame_, {});
+}
+
+void FakeProject::change_model(const Json& said) {
+  const std::size_t number = film_.actors.at(0).model;
+  modeler::Model& model = film_.models[number];
+  modeler::Joint& joint = *std::ranges::find(model.joints, said.at("of").get<std::string>(), &modeler::Joint::name);
+  if (said["does"] == "point") {
+    const glm::dvec3 to = vector_of(said.at("to"));
+    const std::size_t point = 4 * said.at("at")[1].get<std::size_t>() + said["at"][0].get<std::size_t>();
+    model.shapes[joint.segment->shape].patches.at(said.at("patch").get<std::size_t>()).points[point] = {
         float(to.x), float(to.y), float(to.z)};
-    pulled_ = Pulled{actor->model, shape};
-  } else {
-    throw Failure("is '" + what + "'", "set", "");
+    pulled_ = Pulled{number, joint.segment->shape};
+    return;
+  }
+  if (said.contains("place")) joint.place = vector_of(said["place"]);
+  if (!said.contains("sbb")) return;
+  for (int axis = 0; axis < 3; ++axis) {
+    joint.segment->sbb.min[axis] = said["sbb"][axis].get<double>();
+    joint.segment->sbb.max[axis] = said["sbb"][3 + axis].get<double>();
   }
 }
 

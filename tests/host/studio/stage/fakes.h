@@ -51,6 +51,10 @@ class FakeProject : public Project {
 
  private:
   void apply(const Json& step);
+  void pose(animator::Actor& actor, const Json& said);
+  void move_camera(const Json& said);
+  void move_light(animator::LightMotion& light, const Json& said);
+  void change_model(const Json& said);
 
   animator::Film saved_, film_;
   bool model_;

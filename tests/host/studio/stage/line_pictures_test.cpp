@@ -6,6 +6,7 @@
 #include "host/preview/film_drawing.h"
 #include "tests/host/content/film/small_film.h"
 #include "tests/host/studio/stage/fakes.h"
+#include "tests/host/studio/step_words.h"
 
 namespace mars::studio {
 namespace {
@@ -97,7 +98,7 @@ TEST(LinePictures, OnlyWhatDiffersIsSent) {
   EXPECT_TRUE(on.link.asked.empty()) << "lines are drawn here";
   images::Image page{200, 200, on.pictures[0].pixels};
   on.paint();
-  on.project.preview({{"set", "pose"}, {"actor", "a"}, {"joint", "near"}, {"pose", {0, 0, 4}}});
+  on.project.preview(pose("a", "near=0,0,4", 0));
   on.stage->project_changed();
   ASSERT_EQ(on.pictures.size(), 2u);
   const ViewPicture& next = on.pictures[1];
@@ -141,7 +142,7 @@ TEST(LinePictures, ControlVerticesFollowAPulledShape) {
   OnStage on(model_film("robot-arm.json"), true);
   on.view(0, 200, 200, "free", "vertices");
   on.paint();
-  on.project.preview({{"set", "point"}, {"joint", "elbow"}, {"patch", 0}, {"point", {1, 2}}, {"to", {2.5, 0.3, 0.5}}});
+  on.project.preview(step("model point elbow --patch 0 --at 1 2 --to 2.5 0.3 0.5"));
   on.stage->project_changed();
   ASSERT_EQ(on.pictures.size(), 2u);
   EXPECT_FALSE(on.pictures[1].rects.empty());

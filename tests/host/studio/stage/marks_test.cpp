@@ -12,6 +12,7 @@
 #include "host/studio/stage/eye.h"
 #include "tests/host/content/film/small_film.h"
 #include "tests/host/studio/stage/fakes.h"
+#include "tests/host/studio/step_words.h"
 
 namespace mars::studio {
 namespace {
@@ -65,7 +66,7 @@ struct Scene : OnStage {
   }
   Json drop() {
     take(R"({"do": "drop"})");
-    return project.commits.back();
+    return studio::told(project.commits.back());
   }
 };
 
@@ -134,7 +135,7 @@ TEST(Marks, TheCameraIsPulled) {
   scene.pull(eye, eye + by);
   EXPECT_LT(glm::length(scene.project.film().camera.eye[0].value.offset - eye - by), 1e-5) << "it shows at once";
   Json step = scene.drop();
-  EXPECT_EQ(step["set"], "camera");
+  EXPECT_EQ(step["of"], "camera");
   EXPECT_LT(glm::length(vector_of(step["eye"]) - eye - by), 1e-5);
   EXPECT_FALSE(step.contains("at"));
   scene.pull(at, at + by);
@@ -194,7 +195,7 @@ TEST(Marks, LightsArePulled) {
   scene.pull({-2, 0, 3}, glm::dvec3(-2, 0, 3) + by);
   EXPECT_LT(glm::length(scene.project.film().lights[1].vector[0].value - glm::dvec3(-2, 0, 3) - by), 1e-5);
   Json step = scene.drop();
-  EXPECT_EQ(step["light"], 2);
+  EXPECT_EQ(step["of"], "light/2");
   EXPECT_LT(glm::length(vector_of(step["place"]) - glm::dvec3(-2, 0, 3) - by), 1e-5);
   const glm::dvec3 edge = glm::dvec3(-2, 0, 3) + by + 1.5 * scene.screen().right();
   scene.pull(edge, edge + 0.5 * scene.screen().right());
@@ -202,7 +203,7 @@ TEST(Marks, LightsArePulled) {
   scene.select("light/3");
   scene.pull({4, 0, 1}, glm::dvec3(4, 0, 1) + by);
   step = scene.drop();
-  EXPECT_EQ(step["light"], 3);
+  EXPECT_EQ(step["of"], "light/3");
   EXPECT_LT(glm::length(vector_of(step["at"]) - glm::dvec3(4, 0, 1) - by), 1e-5);
 }
 

@@ -9,6 +9,7 @@
 #include "host/preview/viewpoint.h"
 #include "host/studio/stage/eye.h"
 #include "tests/host/studio/stage/fakes.h"
+#include "tests/host/studio/step_words.h"
 #include "tests/render/film_run.h"
 
 namespace mars::studio {
@@ -31,7 +32,7 @@ std::string robot_name(const animator::Film& film) {
 }
 
 Json elbow(const OnStage& on, double angle) {
-  return {{"set", "pose"}, {"actor", robot_name(on.project.film())}, {"joint", "elbow"}, {"pose", {0, angle, 0}}};
+  return pose(robot_name(on.project.film()), "elbow=0," + std::to_string(angle) + ",0", on.project.frame());
 }
 
 void preview(OnStage& on, double angle) {
@@ -244,7 +245,7 @@ TEST(Scenes, OtherShapesAreLoadedAndPulledOnesAreNot) {
   ASSERT_EQ(on.link.films.size(), 1u);
   const wire::FilmView film(*on.link.films[0], "film");
   const auto pull = [&](double to) {
-    return Json{{"set", "point"}, {"joint", "elbow"}, {"patch", 0}, {"point", {1, 2}}, {"to", {0.5, to, 0.5}}};
+    return step("model point elbow --patch 0 --at 1 2 --to 0.5 " + std::to_string(to) + " 0.5");
   };
   on.project.preview(pull(0.3));
   on.stage->project_changed();

@@ -12,7 +12,7 @@ export function actorPart(controls) {
                           commit: (to, event) => controls.commit(["film", "rename", actor, to], event)});
   name.set(actor);
   const ofActor = (label, member, step) => controls.vector(label, `${label} of the actor`, `actor.${member}`, step,
-    (value) => ({set: member, actor, [member]: value}), () => controls.state.actor()?.[member]);
+    (value) => controls.posed(actor, `${member}=${value.join(",")}`), () => controls.state.actor()?.[member]);
   return part(`Actor ${actor}`, line("Name", name.root), ofActor("Place", "place", 0.1), ofActor("Turn", "turn", 5),
               carrier(controls, actor),
               element("div", {class: "actions"}, controls.button("Remove", "actor.remove", () => ["film", "remove", actor])));

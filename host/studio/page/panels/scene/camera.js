@@ -6,12 +6,11 @@ import {rangeOf, targetOf} from "./controls.js";
 export function cameraPart(controls) {
   const now = () => controls.project.camera;
   if (!now()) return null;
-  const stepOf = (change) => ({set: "camera", ...change});
   const vector = (label, member) => controls.vector(label, `Camera, ${label.toLowerCase()}`, `camera.${member}`, 0.1,
-                                                    (value) => stepOf({[member]: value}), () => now()?.[member]);
+                                                    (value) => controls.posed("camera", `${member}=${value.join(",")}`), () => now()?.[member]);
   const angle = {name: "Camera, view angle", unit: "°", ...rangeOf(controls.project.keys.camera.fov), step: 1, key: "camera.fov"};
   return part("Camera", vector("Eye", "eye"), vector("Looks at", "at"),
-              controls.number("View angle", angle, (fov) => stepOf({fov}), () => now()?.fov),
+              controls.number("View angle", angle, (fov) => controls.posed("camera", `fov=${fov}`), () => now()?.fov),
               bound(controls, "Look at", "look"), bound(controls, "Go along", "follow"));
 }
 

@@ -1,0 +1,35 @@
+#include "host/editing/model_in_memory.h"
+
+#include <utility>
+
+#include "host/cli/program.h"
+#include "host/content/document/file.h"
+#include "host/content/modeler/model_file.h"
+#include "host/editing/words.h"
+
+namespace mars::editing {
+
+void ModelInMemory::obey(std::span<const Command> commands) {
+  for (const Command& command : commands) {
+    cli::Program mars("mars", "");
+    add_model(mars, *this);
+    mars.read(command);
+  }
+}
+
+void ModelInMemory::create(const document::Json& json) {
+  const auto from = json.find("from");
+  if (!folder_.empty() && from != json.end() && from->is_string() && json_.value("from", document::Json()) != *from)
+    document::path_below(folder_, (std::filesystem::absolute(path_).parent_path() / from->get<std::string>()).string());
+  const document::Document document(document::laid_out(json), path_.string());
+  model_ = modeler::read_own_model(document.root());
+  json_ = json;
+}
+
+void ModelInMemory::change(const Change& change) {
+  document::Json changed = json_;
+  change(changed, model_);
+  create(changed);
+}
+
+}  // namespace mars::editing
