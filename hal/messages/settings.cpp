@@ -146,9 +146,10 @@ std::vector<std::string> unknown_settings() {
   return lines;
 }
 
-std::string settings_text() {
+std::string settings_text(bool of_nx) {
   std::string text;
   for (const Setting& each : kTable) {
+    if (each.of_nx() != of_nx) continue;
     text += std::string(each.name) + "\n    " + each.meaning + ";\n    without it: " + each.fallback + "\n";
   }
   return text;

@@ -16,6 +16,9 @@ struct Setting {
   const char* name;
   const char* meaning;
   const char* fallback;  // what happens without it, for people
+
+  // Of programs written for NX alone; else of whatever renders.
+  bool of_nx() const { return std::string_view(name).starts_with("MARS_NX_"); }
 };
 
 std::span<const Setting> settings_table();
@@ -52,6 +55,6 @@ TerminalKind terminal_kind();
 std::vector<std::string> unknown_settings();
 
 // The table as text, for help and documentation.
-std::string settings_text();
+std::string settings_text(bool of_nx);
 
 }  // namespace mars::messages

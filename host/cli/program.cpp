@@ -86,7 +86,7 @@ const CLI::App* meant_by(const CLI::App& app) {
   return within == nullptr ? nullptr : command_named(*within, app.get_name());
 }
 
-// Help as wide as a terminal, each example on a line of its own.
+// Help as wide as a terminal.
 class Help : public CLI::Formatter {
  public:
   std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
@@ -103,11 +103,13 @@ class Help : public CLI::Formatter {
   }
 
   std::string make_option_desc(const CLI::Option* option) const override {
-    const std::string& text = option->get_description();
-    const std::size_t example = text.find("Example: ");
-    if (example == std::string::npos) return wrapped(text, 0, text_columns());
-    return wrapped(text.substr(0, example), 0, text_columns()) + "\n" +
-           wrapped(text.substr(example), 0, text_columns());
+    const std::string& help = option->get_description();
+    const std::size_t at = std::min(help.find("Example: "), help.size());
+    const std::string text = wrapped(help.substr(0, at), 0, text_columns()), example = help.substr(at);
+    const std::size_t last_line = text.size() - (text.rfind('\n') + 1);
+    if (example.empty() || text.empty()) return text + wrapped(example, 0, text_columns());
+    const bool fits = last_line + 1 + example.size() < text_columns();
+    return text + (fits ? " " : "\n") + wrapped(example, 0, text_columns());
   }
 
   // "X Y Z" shows how many words follow.

@@ -111,7 +111,7 @@ void add_run(cli::Command app, nx_jobs::NxRun& options, int& code) {
       .type("auto|processes|mpi");
   command.add("--hostfile", options.hostfile, "Open MPI's file of the machines to use. Example: --hostfile hosts")
       .type("FILE");
-  command.footer("Environment variables:\n" + messages::settings_text() + "\n" + kStarts);
+  command.footer("Environment variables:\n" + messages::settings_text(true) + "\n" + kStarts);
   command.runs([&] { code = nx_jobs::run_nx(options, run_processes); });
 }
 

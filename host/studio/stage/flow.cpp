@@ -169,17 +169,24 @@ bool Flow::is_exact(const PageView& view) {
   return own && std::equal(own->begin(), own->end(), view.interval->moving().begin(), view.interval->moving().end());
 }
 
-wire::FilmData Flow::scene_of(const PageView& view, const Shown& now) const {
-  wire::FilmData scene = moments_.now();
-  scene.cameras = {now.camera};
-  scene.settings.width = view.width;
-  scene.settings.height = view.height;
-  return scene;
+Scene Flow::scene_of(const PageView& view, const Shown& now) const {
+  return {moments_.shared_now(), now.camera, view.width, view.height};
+}
+
+// As nodes take it.
+std::vector<std::byte> Flow::packed(const Scene& scene, const std::vector<std::uint32_t>& moving) {
+  wire::FilmData film = *scene.moment;
+  film.cameras = {scene.camera};
+  film.settings.width = scene.width;
+  film.settings.height = scene.height;
+  film.moving = moving;
+  film.intervals = {{0, 1, 0, static_cast<std::uint32_t>(moving.size())}};
+  return wire::pack_scene(film);
 }
 
 // Why a picture that rests must have the film's own interval: docs/exactness.md, "Where intervals are cut".
 void Flow::ask(PageView& view, const Shown& now, bool rests) {
-  wire::FilmData scene = scene_of(view, now);
+  Scene scene = scene_of(view, now);
   const bool exact = rests && is_own(view) && moments_.own_moving().has_value();
   Asked asked{++picture_, pages_.edit_of(view.page), rests, exact, pages_.controls(view)};
   view.shown = now;
@@ -192,11 +199,10 @@ void Flow::ask(PageView& view, const Shown& now, bool rests) {
     link_.draw(view.link, picture, moved->segments, moved->patches);
     return;
   }
-  scene.moving = moving_of(view, scene, exact);
-  scene.intervals = {{0, 1, 0, static_cast<std::uint32_t>(scene.moving.size())}};
-  std::vector<std::byte> block = wire::pack_scene(scene);
+  std::vector<std::uint32_t> moving = moving_of(view, scene, exact);
+  std::vector<std::byte> block = packed(scene, moving);
   view.scene = scene;
-  view.interval.emplace(std::move(scene));
+  view.interval.emplace(std::move(scene), std::move(moving));
   view.begun = picture;
   view.moved = !rests;
   view.known = true;
@@ -205,7 +211,7 @@ void Flow::ask(PageView& view, const Shown& now, bool rests) {
 }
 
 // What an inbetween must move; none: a new interval begins.
-std::optional<Moved> Flow::inbetween(PageView& view, const wire::FilmData& scene, bool exact) {
+std::optional<Moved> Flow::inbetween(PageView& view, const Scene& scene, bool exact) {
   if (!view.interval || (exact && !is_exact(view))) return std::nullopt;
   if (view.interval->alone() && !exact) return std::nullopt;
   auto moved = view.interval->moved_to(scene);
@@ -214,14 +220,14 @@ std::optional<Moved> Flow::inbetween(PageView& view, const wire::FilmData& scene
 }
 
 // What changes now, and what did since something is in motion.
-std::vector<std::uint32_t> Flow::moving_of(PageView& view, const wire::FilmData& scene, bool exact) {
+std::vector<std::uint32_t> Flow::moving_of(PageView& view, const Scene& scene, bool exact) {
   if (exact) {
     const auto own = *moments_.own_moving();
     return {own.begin(), own.end()};
   }
   if (!view.interval) return {};
   std::vector<std::uint32_t> changed = changed_segments(view.scene, scene);
-  if (view.moved && !view.interval->alone() && view.scene.segments.size() == scene.segments.size())
+  if (view.moved && !view.interval->alone() && view.scene.moment->segments.size() == scene.moment->segments.size())
     return joined(changed, view.interval->moving());
   return changed;
 }

@@ -13,10 +13,6 @@ bool same_bits(const Value& one, const Value& other) {
   return std::memcmp(&one, &other, sizeof one) == 0;
 }
 
-const wire::Camera& camera_of(const wire::FilmData& scene) {
-  return scene.cameras[scene.changes[scene.settings.camera.first].value];
-}
-
 const wire::Material& material_of(const wire::FilmData& scene, std::size_t segment) {
   return scene.materials[scene.changes[scene.segments[segment].material.first].value];
 }
@@ -28,6 +24,11 @@ const wire::Matrix& matrix_of(const wire::FilmData& scene, std::size_t segment) 
 bool same_settings(wire::FilmSettings one, const wire::FilmSettings& other) {
   one.camera = other.camera;
   return same_bits(one, other);
+}
+
+bool same_view(const Scene& one, const Scene& other) {
+  return one.width == other.width && one.height == other.height && one.camera == other.camera &&
+         same_settings(one.moment->settings, other.moment->settings);
 }
 
 bool same_lights(const wire::FilmData& one, const wire::FilmData& other) {
@@ -46,9 +47,8 @@ bool same_segments(const wire::FilmData& one, const wire::FilmData& other) {
                     [](const wire::Segment& a, const wire::Segment& b) { return a.shape == b.shape; });
 }
 
-bool same_surroundings(const wire::FilmData& one, const wire::FilmData& other) {
-  return same_settings(one.settings, other.settings) && camera_of(one) == camera_of(other) && same_lights(one, other) &&
-         same_segments(one, other);
+bool same_surroundings(const Scene& one, const Scene& other) {
+  return same_view(one, other) && same_lights(*one.moment, *other.moment) && same_segments(*one.moment, *other.moment);
 }
 
 bool same_patches(const wire::FilmData& one, const wire::FilmData& other) {
@@ -67,29 +67,32 @@ bool has_own_shape(const wire::FilmData& scene, std::size_t segment) {
 
 }  // namespace
 
-Interval::Interval(wire::FilmData scene) : scene_(std::move(scene)), moves_(scene_.segments.size(), char{0}) {
-  for (const std::uint32_t segment : scene_.moving) moves_[segment] = 1;
+Interval::Interval(Scene scene, std::vector<std::uint32_t> moving)
+    : scene_(std::move(scene)), moving_(std::move(moving)), moves_(scene_.moment->segments.size(), char{0}) {
+  for (const std::uint32_t segment : moving_) moves_[segment] = 1;
 }
 
 std::optional<std::uint32_t> Interval::material_like(const wire::Material& material, std::uint32_t likely) const {
-  if (scene_.materials[likely] == material) return likely;
-  const auto found = std::find(scene_.materials.begin(), scene_.materials.end(), material);
-  if (found == scene_.materials.end()) return std::nullopt;
-  return static_cast<std::uint32_t>(found - scene_.materials.begin());
+  const std::vector<wire::Material>& materials = scene_.moment->materials;
+  if (materials[likely] == material) return likely;
+  const auto found = std::find(materials.begin(), materials.end(), material);
+  if (found == materials.end()) return std::nullopt;
+  return static_cast<std::uint32_t>(found - materials.begin());
 }
 
-std::optional<Moved> Interval::moved_to(const wire::FilmData& now) const {
-  if (!same_surroundings(scene_, now)) return std::nullopt;
+std::optional<Moved> Interval::moved_to(const Scene& scene) const {
+  if (!same_surroundings(scene_, scene)) return std::nullopt;
+  const wire::FilmData &was = *scene_.moment, &now = *scene.moment;
   Moved moved;
   for (std::uint32_t segment = 0; segment < now.segments.size(); ++segment) {
-    const std::uint32_t before = scene_.changes[scene_.segments[segment].material.first].value;
+    const std::uint32_t before = was.changes[was.segments[segment].material.first].value;
     const auto material = material_like(material_of(now, segment), before);
     if (!material) return std::nullopt;
-    if (material == before && same_bits(matrix_of(scene_, segment), matrix_of(now, segment))) continue;
+    if (material == before && same_bits(matrix_of(was, segment), matrix_of(now, segment))) continue;
     moved.segments.push_back({segment, *material, matrix_of(now, segment)});
   }
   for (std::uint32_t patch = 0; patch < now.patches.size(); ++patch)
-    if (!same_bits(now.patches[patch], scene_.patches[patch])) moved.patches.push_back({patch, 0, now.patches[patch]});
+    if (!same_bits(now.patches[patch], was.patches[patch])) moved.patches.push_back({patch, 0, now.patches[patch]});
   return moved;
 }
 
@@ -98,18 +101,18 @@ bool Interval::holds(const Moved& moved) const {
     if (moves_[segment.segment] == 0) return false;
   if (moved.patches.empty()) return true;
   for (std::size_t segment = 0; segment < moves_.size(); ++segment)
-    if (moves_[segment] == 0 && has_own_shape(scene_, segment)) return false;
+    if (moves_[segment] == 0 && has_own_shape(*scene_.moment, segment)) return false;
   return true;
 }
 
-bool same_picture(const wire::FilmData& one, const wire::FilmData& other) {
+bool same_picture(const Scene& one, const Scene& other) {
   return same_surroundings(one, other) && changed_segments(one, other).empty();
 }
 
-std::vector<std::uint32_t> changed_segments(const wire::FilmData& before, const wire::FilmData& now) {
+std::vector<std::uint32_t> changed_segments(const Scene& one, const Scene& other) {
+  const wire::FilmData &before = *one.moment, &now = *other.moment;
   std::vector<std::uint32_t> changed;
-  const bool all = before.segments.size() != now.segments.size() || !same_settings(before.settings, now.settings) ||
-                   !(camera_of(before) == camera_of(now)) || !same_lights(before, now);
+  const bool all = before.segments.size() != now.segments.size() || !same_view(one, other) || !same_lights(before, now);
   const bool pulled = before.patches.size() != now.patches.size() || !same_patches(before, now);
   for (std::uint32_t segment = 0; segment < now.segments.size(); ++segment)
     if (all || before.segments[segment].shape != now.segments[segment].shape ||

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -12,6 +13,13 @@
 
 namespace mars::studio {
 
+// A moment of the film, which views share, as one of them sees it.
+struct Scene {
+  std::shared_ptr<const wire::FilmData> moment{};
+  wire::Camera camera{};
+  std::uint32_t width = 0, height = 0;
+};
+
 // All that differs from the keyframe.
 struct Moved {
   std::vector<wire::MovedSegment> segments;
@@ -20,33 +28,32 @@ struct Moved {
 
 class Interval {
  public:
-  // `scene`: with its interval's moving segments.
-  explicit Interval(wire::FilmData scene);
+  // `moving`: the segments that may move, ascending.
+  Interval(Scene scene, std::vector<std::uint32_t> moving);
 
-  const wire::FilmData& scene() const { return scene_; }
-  std::span<const std::uint32_t> moving() const { return scene_.moving; }
+  std::span<const std::uint32_t> moving() const { return moving_; }
   // Everything moves, so that nothing is kept for inbetweens.
-  bool alone() const { return scene_.moving.size() == scene_.segments.size(); }
+  bool alone() const { return moving_.size() == scene_.moment->segments.size(); }
 
   // None: something differs that no inbetween can show. Others than the moving segments may be among those moved.
-  std::optional<Moved> moved_to(const wire::FilmData& now) const;
+  std::optional<Moved> moved_to(const Scene& now) const;
   // Whether an inbetween may show it.
   bool holds(const Moved& moved) const;
 
  private:
-  bool same_setting(const wire::FilmData& now) const;
   std::optional<std::uint32_t> material_like(const wire::Material& material, std::uint32_t likely) const;
 
-  wire::FilmData scene_;
-  std::vector<char> moves_;
+  Scene scene_;
+  std::vector<std::uint32_t> moving_;
+  std::vector<char> moves_;  // of each segment
 };
 
 // Whether both look the same.
-bool same_picture(const wire::FilmData& one, const wire::FilmData& other);
+bool same_picture(const Scene& one, const Scene& other);
 
 // The numbers of the segments that the two show differently, ascending; of all where camera, lights or the segments
 // themselves differ.
-std::vector<std::uint32_t> changed_segments(const wire::FilmData& before, const wire::FilmData& now);
+std::vector<std::uint32_t> changed_segments(const Scene& before, const Scene& now);
 
 // Ascending numbers in either.
 std::vector<std::uint32_t> joined(std::span<const std::uint32_t> one, std::span<const std::uint32_t> other);

@@ -59,7 +59,7 @@ void Moments::load_shapes() {
 void Moments::take_moment() {
   wire::FilmData moment = film::moment_of(project_.film(), shapes_.numbers, project_.frame());
   put_pulled(moment);
-  now_ = std::move(moment);
+  now_ = std::make_shared<const wire::FilmData>(std::move(moment));
   owners_.clear();
   const animator::Film& film = project_.film();
   for (std::size_t actor = 0; actor < film.actors.size(); ++actor) {
@@ -87,11 +87,11 @@ void Moments::put_pulled(wire::FilmData& moment) const {
 }
 
 std::span<const wire::Patch> Moments::patches_of(std::size_t segment) const {
-  const std::uint32_t number = now_.segments[segment].shape;
+  const std::uint32_t number = now_->segments[segment].shape;
   const std::size_t of_film = shapes_.parts.shapes.size();
   const bool own = number >= of_film;
-  const wire::Shape& shape = own ? now_.shapes[number - of_film] : shapes_.parts.shapes[number];
-  return std::span(own ? now_.patches : shapes_.parts.patches).subspan(shape.first_patch, shape.patch_count);
+  const wire::Shape& shape = own ? now_->shapes[number - of_film] : shapes_.parts.shapes[number];
+  return std::span(own ? now_->patches : shapes_.parts.patches).subspan(shape.first_patch, shape.patch_count);
 }
 
 preview::Ball Moments::subject() const {
@@ -110,7 +110,7 @@ preview::Ball Moments::subject() const {
     for (int corner = 0; corner < 8; ++corner) {
       glm::dvec3 at;
       for (int row = 0; row < 3; ++row) {
-        const auto& m = now_.matrices[segment].m[static_cast<std::size_t>(row)];
+        const auto& m = now_->matrices[segment].m[static_cast<std::size_t>(row)];
         at[row] = m[3] + (corner & 1 ? m[0] : 0) + (corner & 2 ? m[1] : 0) + (corner & 4 ? m[2] : 0);
       }
       low = glm::min(low, at);

@@ -44,10 +44,11 @@ class Moments {
   std::uint64_t number() const { return number_; }
 
   // With the film's own camera and size. A shape that is being pulled is the scene's own, behind the film's.
-  const wire::FilmData& now() const { return now_; }
+  const wire::FilmData& now() const { return *now_; }
+  const std::shared_ptr<const wire::FilmData>& shared_now() const { return now_; }
   const wire::FilmData& shapes() const { return shapes_.parts; }
   const std::vector<Owner>& owners() const { return owners_; }  // of now()'s segments
-  const wire::Matrix& matrix_of(std::size_t segment) const { return now_.matrices[segment]; }
+  const wire::Matrix& matrix_of(std::size_t segment) const { return now_->matrices[segment]; }
   // The patches of a segment's shape, wherever they are.
   std::span<const wire::Patch> patches_of(std::size_t segment) const;
   // What moves or is a model; else figures; else everything. Of a film that is not shown the ball of one unit.
@@ -70,7 +71,7 @@ class Moments {
   std::uint32_t frame_ = 0;
   film::FilmShapes shapes_;
   std::shared_ptr<const std::vector<std::byte>> film_block_;
-  wire::FilmData now_;
+  std::shared_ptr<const wire::FilmData> now_ = std::make_shared<wire::FilmData>();
   std::vector<Owner> owners_;
   std::optional<film::Cut> cut_;  // of the film as it is at cut_revision_
   std::uint64_t cut_revision_ = 0;

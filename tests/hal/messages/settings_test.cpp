@@ -92,8 +92,9 @@ TEST_F(SettingsTest, ThatAreUnknownAreReportedWithTheNearestName) {
 
 TEST_F(SettingsTest, TextNamesEach) {
   for (const Setting& each : settings_table()) {
-    EXPECT_NE(settings_text().find(each.name), std::string::npos);
-    EXPECT_NE(settings_text().find(each.meaning), std::string::npos);
+    EXPECT_NE(settings_text(each.of_nx()).find(each.name), std::string::npos);
+    EXPECT_NE(settings_text(each.of_nx()).find(each.meaning), std::string::npos);
+    EXPECT_EQ(settings_text(!each.of_nx()).find(each.name), std::string::npos);
   }
 }
 
