@@ -1,0 +1,50 @@
+"""Random films are films, hold what a film can hold, and follow from their seed; mars bench identity finds a way of other
+pixels.
+
+Started as: identity_test.py BUILD_FOLDER."""
+import json
+import pathlib
+import random
+import sys
+import tempfile
+import unittest
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path += [str(HERE.parent.parent), str(HERE)]
+import cases  # noqa: E402
+import identity  # noqa: E402
+from random_film import RandomFilm  # noqa: E402
+
+BUILD = pathlib.Path(sys.argv[1])
+FILMS = 60
+
+
+class Identity(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.films = identity.Films(BUILD, folder.name)
+
+    def test_a_film_follows_from_its_seed(self):
+        self.assertEqual(RandomFilm(5).json, RandomFilm(5).json)
+        self.assertNotEqual(RandomFilm(5).json, RandomFilm(6).json)
+
+    def test_films_hold_what_a_film_can_hold(self):
+        text = "".join(json.dumps(RandomFilm(seed).json) for seed in range(FILMS))
+        for word in ["attach", "ambient", "fog", "cone", "exposure", "spline", "bspline", "mesh", "metallic", "gouraud", "flat",
+                     "coded", '"samples": 16', '"samples": 1,', "dice", "reach", "x_axis", '"at": {']:
+            self.assertIn(word, text)
+        commands = [command for seed in range(FILMS) for command in RandomFilm(seed).commands]
+        self.assertTrue({"walk", "wave", "reduce"} <= {command[2] for command in commands})
+
+    def test_films_are_alike_in_all_ways_and_others_are_told(self):
+        for seed in (3, 11):
+            path = self.films.write(seed)
+            ways = [identity.random_way(random.Random(seed), False) for _ in range(2)]
+            pixels, wrong = identity.compare(self.films, path, [*ways, ({"--samples": "16", "--size": "40x40"}, {})])
+            self.assertEqual(len(pixels), 32)
+            self.assertEqual([" --samples 16 --size 40x40" in command for command in wrong], [True])
+
+
+if __name__ == "__main__":
+    cases.main()
