@@ -297,7 +297,7 @@ TEST_F(SetUpTest, CountsOnWhenMemoryIsShort) {
       const Emitted all = set_up(patch, rate);
       Shortage shortage;
       const std::size_t most = bytes_of(all) + samples * kHeight * sizeof(UnsortedEdgeBox) + sizeof(Triangle);
-      for (std::size_t bytes = 0; bytes < most + 500; bytes += bytes < 600 ? 4 : 4 * (1 + most / 1200))
+      for (std::size_t bytes = 0; bytes < most + 500; bytes += bytes < 600 ? 4 : 4 * (1 + most / 600))
         for (const Way way : {Way::at_a_time, Way::plainly}) {
           expect_counted(all, bytes, way, shortage);
           if (HasFailure()) return;
