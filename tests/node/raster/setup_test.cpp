@@ -34,6 +34,12 @@ struct Emitted : Made {
   std::vector<std::uint32_t> indices;  // in the patch's dicing
 };
 
+// A triangle with its edge boxes.
+struct Whole {
+  Triangle triangle;
+  std::vector<UnsortedEdgeBox> boxes;
+};
+
 // How often memory was short, and how often something was stored nevertheless.
 struct Shortage {
   int short_of_memory = 0;
@@ -56,8 +62,9 @@ class SetUpTest : public testing::Test {
     EXPECT_EQ(emitted.corners.size(), emitted.triangles.size());
     return emitted;
   }
-  // With so much memory counts go on, what is stored of `all` is stored whole, and nothing is written elsewhere.
-  void expect_counted(const Made& all, std::size_t bytes, Way way, Shortage& out);
+  // With that many bytes counts go on, what is stored of `all` is stored whole (`whole`: its triangles), and nothing
+  // is written elsewhere.
+  void expect_counted(const Made& all, const std::vector<Whole>& whole, std::size_t bytes, Way way, Shortage& out);
   // Batches in which decided triangles follow undecided ones.
   int mixed_batches() const;
 
@@ -227,11 +234,6 @@ std::size_t bytes_of(const Made& made) {
   return made.triangles.size() * sizeof(Triangle) + made.boxes.size() * sizeof(UnsortedEdgeBox);
 }
 
-// A triangle with its edge boxes.
-struct Whole {
-  Triangle triangle;
-  std::vector<UnsortedEdgeBox> boxes;
-};
 std::vector<Whole> by_triangle(const Made& made) {
   std::vector<Whole> out;
   for (const Triangle& t : made.triangles) out.push_back({t, {}});
@@ -244,7 +246,8 @@ bool same_but_for_number(const UnsortedEdgeBox& a, const UnsortedEdgeBox& b) {
          a.line == b.line && a.moving == b.moving;
 }
 
-void SetUpTest::expect_counted(const Made& all, std::size_t bytes, Way way, Shortage& out) {
+void SetUpTest::expect_counted(const Made& all, const std::vector<Whole>& whole, std::size_t bytes, Way way,
+                               Shortage& out) {
   SCOPED_TRACE(std::to_string(bytes) + (way == Way::plainly ? " bytes, plainly" : " bytes, at a time"));
   const Made some = raster::set_up(set, picture(), dicer, {5, 3, false, false, false}, way, {}, bytes);
   ASSERT_EQ(some.touching, all.touching);
@@ -255,7 +258,6 @@ void SetUpTest::expect_counted(const Made& all, std::size_t bytes, Way way, Shor
   ASSERT_TRUE(bytes >= bytes_of(all) || !some.all_stored);
   ASSERT_TRUE(bytes < bytes_of(all) + samples * kHeight * sizeof(UnsortedEdgeBox) + sizeof(Triangle) ||
               some.all_stored);
-  const auto whole = by_triangle(all);
   auto next = whole.begin();  // what is stored is some of all triangles, in order
   for (const Whole& one : by_triangle(some)) {
     while (next != whole.end() && std::memcmp(&next->triangle, &one.triangle, sizeof(Triangle)) != 0) ++next;
@@ -295,11 +297,12 @@ TEST_F(SetUpTest, CountsOnWhenMemoryIsShort) {
     for (const int rate : {0, 2, 9}) {
       samples = rate == 2 ? 4 : 1;
       const Emitted all = set_up(patch, rate);
+      const std::vector<Whole> whole = by_triangle(all);
       Shortage shortage;
       const std::size_t most = bytes_of(all) + samples * kHeight * sizeof(UnsortedEdgeBox) + sizeof(Triangle);
       for (std::size_t bytes = 0; bytes < most + 500; bytes += bytes < 600 ? 4 : 4 * (1 + most / 600))
         for (const Way way : {Way::at_a_time, Way::plainly}) {
-          expect_counted(all, bytes, way, shortage);
+          expect_counted(all, whole, bytes, way, shortage);
           if (HasFailure()) return;
         }
       EXPECT_GT(shortage.partly_stored, 100);
