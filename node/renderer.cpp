@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "hal/failure/failure.h"
-#include "hal/messages/process.h"
 #include "hal/nx/nx_messages.h"
+#include "node/charges.h"
 #include "node/group/mapping.h"
 #include "node/shading/shading_of.h"
 
@@ -70,9 +70,7 @@ void Renderer::begin(View& view, const Frame& frame, const HasEnded& has_ended) 
   contributors_ = static_cast<std::size_t>(frame.contributors);
   heartbeat_.begin_frame(frame.number);
   report_.begin(frame.kind, frame.number, frame.interval);
-  report_.charge(wire::Work::first_frame, std::exchange(is_first_, false) ? 1 : 0);
-  report_.charge(wire::Work::frame, 1);
-  report_.charge(wire::Work::segment, scene().film().segments().size());
+  charge_begin(report_, scene(), std::exchange(is_first_, false));
 }
 
 // Every line is wanted, so that all edge boxes are counted.
@@ -96,14 +94,13 @@ Tessellation Renderer::tessellate_part(const group::Pass& pass) {
   const Tessellation own = tessellate();
   check(own.all_stored, "a pass's triangles fit the memory planned for it");
   fill_own_lines(own.polygons);
-  heartbeat_.enter(wire::Phase::sum);
+  const PhaseScope sum = phase(wire::Phase::sum);
   group::wait_for_all(group_);
-  report_.clock(wire::Phase::sum);
   return own;
 }
 
 Tessellation Renderer::tessellate() {
-  heartbeat_.enter(wire::Phase::dice);
+  const PhaseScope dice = phase(wire::Phase::dice);
   const Scatter scatter{static_cast<std::uint32_t>(member()), static_cast<std::uint32_t>(contributors_)};
   const LineTable lines{view_->wanted_lines, report_.is_keyframe() ? view_->wanted_lines : unkept_lines(),
                         view_->line_loads};
@@ -111,24 +108,9 @@ Tessellation Renderer::tessellate() {
                                                    report_.strip().work);
   std::transform_inclusive_scan(view_->line_loads.begin(), view_->line_loads.end(), view_->line_totals.begin() + 1,
                                 std::plus<>(), [](const raster::LineLoad& load) { return load.boxes(); });
-  charge_tessellation(own);
+  charge_tessellation(report_, scene(), own);
   report_.charge(wire::Work::fresh_byte, memory_.arena().take_fresh());
-  report_.clock(wire::Phase::dice);
   return own;
-}
-
-void Renderer::charge_tessellation(const Tessellation& own) {
-  const auto charge = [&](wire::Work kind, std::uint64_t units) { report_.charge(kind, units); };
-  charge(wire::Work::patch, own.surfaces.patches);
-  charge(wire::Work::meshlet, own.surfaces.meshlets);
-  charge(wire::Work::vertex, own.surfaces.vertices);
-  charge(wire::Work::mesh_vertex, own.surfaces.mesh_vertices);
-  charge(wire::Work::triangle_tested, report_.strip().work.triangles_tested);
-  charge(wire::Work::row_tested,
-         report_.strip().work.triangles_tested * static_cast<std::uint64_t>(scene().pattern().count));
-  charge(wire::Work::triangle, own.made.triangles);
-  charge(wire::Work::edge_box_made, own.made.edge_boxes);
-  charge(wire::Work::vertex_light, own.surfaces.colored * scene().lights().size());
 }
 
 // Those of the pass on which an inbetween needs stationary parts; none where all are kept.
@@ -150,23 +132,18 @@ bool Renderer::can_fill(const Tessellation& own) const {
 }
 
 void Renderer::fill_own_lines(const raster::Polygons& own) {
-  heartbeat_.enter(wire::Phase::fill);
+  const PhaseScope fill = phase(wire::Phase::fill);
   raster::LineFiller filler({0, static_cast<std::uint32_t>(view_->line_loads.size())}, view_->line_totals,
                             memory_.first_triangle(), memory_.arena());
   filler.add(own);
   parts_.assign(1, filler.finish());
   memory_.publish(parts_.front());
   report_.charge(wire::Work::edge_box_filled, view_->line_totals.back());
-  report_.clock(wire::Phase::fill);
 }
 
 std::uint32_t Renderer::map_to_homes(const group::MadeCounts& made) {
-  const bool large = group::is_large(group::own_bytes(made, triangles_travel()), memory_.frame_bytes());
-  heartbeat_.enter(wire::Phase::sum);
-  view_->sums.add_up(group_, {view_->line_loads, made.edge_boxes, large});
-  report_.strip().edge_box_total = view_->sums.ebc().back();
-  report_.clock(wire::Phase::sum);
-  heartbeat_.enter(wire::Phase::map);
+  sum_up(made);
+  const PhaseScope map = phase(wire::Phase::map);
   const auto weights = view_->sums.weights(mapping_);
   const auto drawing = homes().first(contributors_);
   group::map_lines(mapping_, weights, drawing);
@@ -179,25 +156,34 @@ std::uint32_t Renderer::map_to_homes(const group::MadeCounts& made) {
       memory_.frame_bytes());
   report_.strip().work.passes = passes;
   report_.charge(wire::Work::line_mapped, view_->line_loads.size());
-  report_.clock(wire::Phase::map);
   return passes;
+}
+
+void Renderer::sum_up(const group::MadeCounts& made) {
+  const bool large = group::is_large(group::own_bytes(made, triangles_travel()), memory_.frame_bytes());
+  const PhaseScope sum = phase(wire::Phase::sum);
+  view_->sums.add_up(group_, {view_->line_loads, made.edge_boxes, large});
+  report_.strip().edge_box_total = view_->sums.ebc().back();
 }
 
 // Neighbours read each other's edge boxes where they lie; the others' are sent.
 geometry::LineRange Renderer::exchange_triangles(const raster::Polygons& own, const group::Pass& pass) {
-  heartbeat_.enter(wire::Phase::exchange);
   const auto homes_now = std::span(pass_homes_).first(homes().size());
   std::ranges::transform(homes(), homes_now.begin(),
                          [&](const geometry::LineRange& home) { return group::part_of(home, pass); });
   const geometry::LineRange lines = homes_now[member()];
   if (group_.count > 1) {
-    view_->triangle_exchange.send_triangles(group_, own, homes_now, view_->line_loads, memory_);
-    memory_.read_published(parts_);
-    report_.clock(wire::Phase::exchange);
+    send_triangles(own, homes_now);
     if (triangles_travel()) receive_triangles(lines);
   }
   for (const raster::LineBoxes& part : parts_) report_.strip().work.edge_boxes += part.count(lines);
   return lines;
+}
+
+void Renderer::send_triangles(const raster::Polygons& own, std::span<const geometry::LineRange> homes_now) {
+  const PhaseScope exchange = phase(wire::Phase::exchange);
+  view_->triangle_exchange.send_triangles(group_, own, homes_now, view_->line_loads, memory_);
+  memory_.read_published(parts_);
 }
 
 // As many edge boxes as EBC counts on `lines` beside those that are there.
@@ -217,16 +203,20 @@ void Renderer::receive_triangles(const geometry::LineRange& lines) {
                                   film.settings().samples, film.materials().size()};
   raster::LineFiller filler(lines, totals, memory_.first_triangle(), memory_.arena());
   for (std::uint64_t left = totals.back(); left > 0;) {
-    const raster::Polygons others = view_->triangle_exchange.receive_triangles(memory_, awaited);
-    report_.clock(wire::Phase::exchange);
+    const raster::Polygons others = receive_some(awaited);
     heartbeat_.look();
+    const PhaseScope fill = phase(wire::Phase::fill);
     const std::uint64_t came = others.stationary.size() + others.moving.size();
     left -= came;
     filler.add(others);
     report_.charge(wire::Work::edge_box_filled, came);
-    report_.clock(wire::Phase::fill);
   }
   parts_.push_back(filler.finish());
+}
+
+raster::Polygons Renderer::receive_some(group::AwaitedTriangles& awaited) {
+  const PhaseScope exchange = phase(wire::Phase::exchange);
+  return view_->triangle_exchange.receive_triangles(memory_, awaited);
 }
 
 void Renderer::draw_lines(const geometry::LineRange& lines, const group::Pass& pass) {
@@ -235,45 +225,24 @@ void Renderer::draw_lines(const geometry::LineRange& lines, const group::Pass& p
   const bool constant = report_.is_keyframe() && raster::any_stationary(parts_, lines);
   geometry::LineRange strip{lines.first, lines.first};
   for (bool drawn = false; !drawn;) {
-    heartbeat_.enter(wire::Phase::credit);
-    raster::StripBuffer& buffer = outbox_.begin(scene().film().settings().width, constant, report_.strip().work);
-    report_.clock(wire::Phase::credit);
-    heartbeat_.enter(wire::Phase::scanline);
+    raster::StripBuffer& buffer = begin_strip(constant);
     strip = {strip.last, draw_strip({strip.last, lines.last}, shading, buffer)};
-    charge_strip(strip, buffer);
-    report_.clock(wire::Phase::scanline);
     drawn = strip.last == lines.last || report_.is_cut();
     if (drawn) finish_exchange(pass);
-    if (drawn && pass.is_last()) charge_file();
+    if (drawn && pass.is_last()) charge_file(scene(), pixel_format_, homes()[member()].count());
     send_strip(strip, drawn && pass.is_last());
   }
 }
 
-void Renderer::charge_strip(const geometry::LineRange& lines, const raster::StripBuffer& strip) {
-  const auto charge = [&](wire::Work kind, std::uint64_t units) { report_.charge(kind, units); };
-  std::uint64_t boxes = 0;
-  for (const raster::LineBoxes& part : parts_) boxes += part.count(lines);
-  const raster::DrawnCounts drawn = view_->z_buffer.take_counts();
-  charge(wire::Work::line, drawn.lines);
-  charge(wire::Work::edge_box, boxes);
-  charge(wire::Work::sample, view_->sums.samples_on(lines));
-  charge(wire::Work::shaded, drawn.shaded.samples);
-  charge(wire::Work::light, drawn.shaded.highlights * scene().lights().size());
-  charge(wire::Work::facet_light, drawn.shaded.facets * scene().lights().size());
-  charge(wire::Work::pixel, strip.pixel_count());
-  charge(wire::Work::still_byte, drawn.still_bytes);
-}
-
-// Its own lines of a keyframe, an inbetween whole.
-void Renderer::charge_file() {
-  const std::uint64_t lines = homes()[member()].count();
-  const std::uint64_t bytes = lines * scene().film().settings().width * wire::pixel_bytes(pixel_format_);
-  messages::charge(static_cast<int>(wire::Work::node_frame), 1);
-  messages::charge(static_cast<int>(wire::Work::node_frame_byte), bytes);
+// Waits for the host's credit.
+raster::StripBuffer& Renderer::begin_strip(bool constant) {
+  const PhaseScope credit = phase(wire::Phase::credit);
+  return outbox_.begin(scene().film().settings().width, constant, report_.strip().work);
 }
 
 std::uint32_t Renderer::draw_strip(const geometry::LineRange& lines, const shading::Shading& shading,
                                    raster::StripBuffer& out) {
+  const PhaseScope scanline = phase(wire::Phase::scanline);
   std::uint32_t line = lines.first;
   while (line < lines.last && out.lines_that_fit() > 0) {
     heartbeat_.look();
@@ -289,17 +258,22 @@ std::uint32_t Renderer::draw_strip(const geometry::LineRange& lines, const shadi
           view_->z_buffer.draw_inbetween(parts_, some, shading, view_->still, out);
     line = some.last;
   }
+  const geometry::LineRange drawn{lines.first, line};
+  charge_lines(report_, scene(),
+               {drawn, parts_, view_->sums.samples_on(drawn), out.pixel_count(), view_->z_buffer.take_counts()});
   return line;
 }
 
 void Renderer::finish_exchange(const group::Pass& pass) {
-  heartbeat_.enter(wire::Phase::exchange);
-  view_->triangle_exchange.finish();
-  report_.clock(wire::Phase::exchange);
+  finish_triangles();
   if (!pass.is_last() || !report_.is_keyframe() || group_.count == 1) return;
-  heartbeat_.enter(wire::Phase::depth);
+  const PhaseScope depth = phase(wire::Phase::depth);
   view_->still_exchange.complete({group_, homes(), view_->contributes}, view_->still);
-  report_.clock(wire::Phase::depth);
+}
+
+void Renderer::finish_triangles() {
+  const PhaseScope exchange = phase(wire::Phase::exchange);
+  view_->triangle_exchange.finish();
 }
 
 void Renderer::send_strip(const geometry::LineRange& lines, bool last) {

@@ -16,6 +16,7 @@
 #include "node/group/outbox.h"
 #include "node/group/passes.h"
 #include "node/heartbeat.h"
+#include "node/phase_scope.h"
 #include "node/raster/neighbours.h"
 #include "node/tessellator.h"
 #include "node/tracer.h"
@@ -64,31 +65,34 @@ class Renderer {
   Tessellation tessellate_all();
   Tessellation tessellate_part(const group::Pass& pass);
   Tessellation tessellate();
-  // What was done, for machines that are simulated (wire/work.h).
-  void charge_tessellation(const Tessellation& own);
-  void charge_strip(const geometry::LineRange& lines, const raster::StripBuffer& strip);
-  void charge_file();
   std::span<const std::uint8_t> unkept_lines();
   // Whether own triangles are all there and can be put into their lines. Else several passes follow, or a Failure where
   // a line has more than can be counted.
   bool can_fill(const Tessellation& own) const;
   // Puts own edge boxes into their lines, where other nodes may read them.
   void fill_own_lines(const raster::Polygons& own);
+  // Of EBC and what each mapping weighs lines by, over the group.
+  void sum_up(const group::MadeCounts& made);
   // Returns the number of passes.
   std::uint32_t map_to_homes(const group::MadeCounts& made);
   // Sets parts_; returns the lines to be drawn.
   geometry::LineRange exchange_triangles(const raster::Polygons& own, const group::Pass& pass);
+  void send_triangles(const raster::Polygons& own, std::span<const geometry::LineRange> homes_now);
   void receive_triangles(const geometry::LineRange& lines);
+  raster::Polygons receive_some(group::AwaitedTriangles& awaited);
   void draw_lines(const geometry::LineRange& lines, const group::Pass& pass);
+  raster::StripBuffer& begin_strip(bool constant);
   // Draws `lines` from the first on until the strip is full, all are drawn or the view has ended; one past the last of
   // them.
   std::uint32_t draw_strip(const geometry::LineRange& lines, const shading::Shading& shading, raster::StripBuffer& out);
   // Waits until what was sent to nodes is gone; after the last pass of a keyframe nodes give each other CZB.
   void finish_exchange(const group::Pass& pass);
+  void finish_triangles();
   void send_strip(const geometry::LineRange& lines, bool last);
   // EBC of each; none where nobody watches.
   std::span<const std::uint32_t> watched_edge_boxes(const geometry::LineRange& lines);
 
+  PhaseScope phase(wire::Phase phase) { return {phase, heartbeat_, report_}; }
   geometry::Scene& scene() const { return view_->scene; }
   bool has_ended() const { return *has_ended_ && (*has_ended_)(); }
   std::size_t member() const;  // the caller's index in the group

@@ -1,5 +1,5 @@
-// Linked into a node program with --wrap: a node that begins the frame named in the file "deadly", beside the program,
-// fails: "throw 57" or "kill 57".
+// In node/phase_scope.cpp's place in a node program: a node that begins the frame named in the file "deadly", beside
+// the program, fails: "throw 57" or "kill 57".
 #include <signal.h>
 
 #include <filesystem>
@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "node/frame_report.h"
+#include "node/phase_scope.h"
 
 namespace {
 
@@ -22,18 +22,13 @@ void fail_at(std::uint32_t frame) {
 
 }  // namespace
 
-// FrameReport::begin by its linker's name, and in its place.
-// NOLINTBEGIN(bugprone-reserved-identifier): --wrap makes these names.
-extern "C" {
-void __real__ZN4mars4node11FrameReport5beginENS_4wire9FrameKindEjj(mars::node::FrameReport* report,
-                                                                   mars::wire::FrameKind kind, std::uint32_t frame,
-                                                                   std::uint32_t interval);
+namespace mars::node {
 
-void __wrap__ZN4mars4node11FrameReport5beginENS_4wire9FrameKindEjj(mars::node::FrameReport* report,
-                                                                   mars::wire::FrameKind kind, std::uint32_t frame,
-                                                                   std::uint32_t interval) {
-  __real__ZN4mars4node11FrameReport5beginENS_4wire9FrameKindEjj(report, kind, frame, interval);
-  fail_at(frame);
+PhaseScope::PhaseScope(wire::Phase phase, Heartbeat& heartbeat, FrameReport& report) : phase_(phase), report_(report) {
+  heartbeat.enter(phase);
+  if (phase == wire::Phase::dice) fail_at(report.strip().frame);
 }
-}
-// NOLINTEND(bugprone-reserved-identifier)
+
+PhaseScope::~PhaseScope() { report_.clock(phase_); }
+
+}  // namespace mars::node

@@ -1,7 +1,7 @@
-// Linked into a node program with --wrap: notes every frame that a node begins, and obeys a plan. Both are files in the
-// program's folder. In `begun` a line is: seconds (CLOCK_MONOTONIC), job, process, frame. `plan`, if it is there, is
-// one line: "die 57" kills every node that begins frame 57; "garble 57" makes the first one send the host noise as a
-// strip.
+// In node/phase_scope.cpp's place in a node program: notes every frame that a node begins, and follows a plan. Both are
+// files in the program's folder. In `begun` a line is: seconds (CLOCK_MONOTONIC), job, process, frame. `plan`, if it is
+// there, is one line: "die 57" kills every node that begins frame 57; "garble 57" makes the first one send the host
+// noise as a strip.
 #include <fcntl.h>
 #include <signal.h>
 #include <unistd.h>
@@ -12,10 +12,11 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 
 #include "hal/nx/nx_messages.h"
-#include "node/frame_report.h"
+#include "node/phase_scope.h"
 
 namespace {
 
@@ -51,7 +52,7 @@ void garble() {
   csend(mars::wire::kStrip, noise.data(), static_cast<long>(noise.size()), myhost(), 0);
 }
 
-void obey_plan(std::uint32_t frame) {
+void follow_plan(std::uint32_t frame) {
   const fs::path plan = beside_program("plan");
   std::ifstream file(plan);
   std::string action;
@@ -62,21 +63,24 @@ void obey_plan(std::uint32_t frame) {
   if (action == "garble" && fs::remove(plan, taken)) garble();
 }
 
+// A frame that takes several passes begins once.
+void begin_frame(std::uint32_t frame) {
+  static std::optional<std::uint32_t> begun;
+  if (begun == frame) return;
+  begun = frame;
+  note(frame);
+  follow_plan(frame);
+}
+
 }  // namespace
 
-// FrameReport::begin by its linker's name, and in its place.
-// NOLINTBEGIN(bugprone-reserved-identifier): --wrap makes these names.
-extern "C" {
-void __real__ZN4mars4node11FrameReport5beginENS_4wire9FrameKindEjj(mars::node::FrameReport* report,
-                                                                   mars::wire::FrameKind kind, std::uint32_t frame,
-                                                                   std::uint32_t interval);
+namespace mars::node {
 
-void __wrap__ZN4mars4node11FrameReport5beginENS_4wire9FrameKindEjj(mars::node::FrameReport* report,
-                                                                   mars::wire::FrameKind kind, std::uint32_t frame,
-                                                                   std::uint32_t interval) {
-  note(frame);
-  obey_plan(frame);
-  __real__ZN4mars4node11FrameReport5beginENS_4wire9FrameKindEjj(report, kind, frame, interval);
+PhaseScope::PhaseScope(wire::Phase phase, Heartbeat& heartbeat, FrameReport& report) : phase_(phase), report_(report) {
+  if (phase == wire::Phase::dice) begin_frame(report.strip().frame);
+  heartbeat.enter(phase);
 }
-}
-// NOLINTEND(bugprone-reserved-identifier)
+
+PhaseScope::~PhaseScope() { report_.clock(phase_); }
+
+}  // namespace mars::node

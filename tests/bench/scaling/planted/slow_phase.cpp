@@ -1,17 +1,19 @@
-// Linked into a test's node program with --wrap: in every frame the step SLOW_PHASE takes 20 milliseconds longer.
+// In node/phase_scope.cpp's place in a test's node program: in every frame the step SLOW_PHASE takes 20 milliseconds
+// longer.
 #include <chrono>
 #include <thread>
 
-#include "node/frame_report.h"
+#include "node/phase_scope.h"
 
-// FrameReport::clock by its linker's name, and in its place.
-// NOLINTBEGIN(bugprone-reserved-identifier): --wrap makes these names.
-extern "C" {
-void __real__ZN4mars4node11FrameReport5clockENS_4wire5PhaseE(mars::node::FrameReport* report, mars::wire::Phase phase);
+namespace mars::node {
 
-void __wrap__ZN4mars4node11FrameReport5clockENS_4wire5PhaseE(mars::node::FrameReport* report, mars::wire::Phase phase) {
-  if (phase == mars::wire::Phase::SLOW_PHASE) std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  __real__ZN4mars4node11FrameReport5clockENS_4wire5PhaseE(report, phase);
+PhaseScope::PhaseScope(wire::Phase phase, Heartbeat& heartbeat, FrameReport& report) : phase_(phase), report_(report) {
+  heartbeat.enter(phase);
 }
+
+PhaseScope::~PhaseScope() {
+  if (phase_ == wire::Phase::SLOW_PHASE) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  report_.clock(phase_);
 }
-// NOLINTEND(bugprone-reserved-identifier)
+
+}  // namespace mars::node

@@ -1,0 +1,47 @@
+#include "node/charges.h"
+
+#include "hal/messages/process.h"
+
+namespace mars::node {
+
+void charge_begin(FrameReport& report, const geometry::Scene& scene, bool is_first_frame) {
+  report.charge(wire::Work::first_frame, is_first_frame ? 1 : 0);
+  report.charge(wire::Work::frame, 1);
+  report.charge(wire::Work::segment, scene.film().segments().size());
+}
+
+void charge_tessellation(FrameReport& report, const geometry::Scene& scene, const Tessellation& own) {
+  const auto charge = [&](wire::Work kind, std::uint64_t units) { report.charge(kind, units); };
+  const std::uint64_t tested = report.strip().work.triangles_tested;
+  charge(wire::Work::patch, own.surfaces.patches);
+  charge(wire::Work::meshlet, own.surfaces.meshlets);
+  charge(wire::Work::vertex, own.surfaces.vertices);
+  charge(wire::Work::mesh_vertex, own.surfaces.mesh_vertices);
+  charge(wire::Work::triangle_tested, tested);
+  charge(wire::Work::row_tested, tested * static_cast<std::uint64_t>(scene.pattern().count));
+  charge(wire::Work::triangle, own.made.triangles);
+  charge(wire::Work::edge_box_made, own.made.edge_boxes);
+  charge(wire::Work::vertex_light, own.surfaces.colored * scene.lights().size());
+}
+
+void charge_lines(FrameReport& report, const geometry::Scene& scene, const LinesDrawn& drawn) {
+  const auto charge = [&](wire::Work kind, std::uint64_t units) { report.charge(kind, units); };
+  std::uint64_t boxes = 0;
+  for (const raster::LineBoxes& part : drawn.parts) boxes += part.count(drawn.lines);
+  charge(wire::Work::line, drawn.counts.lines);
+  charge(wire::Work::edge_box, boxes);
+  charge(wire::Work::sample, drawn.samples);
+  charge(wire::Work::shaded, drawn.counts.shaded.samples);
+  charge(wire::Work::light, drawn.counts.shaded.highlights * scene.lights().size());
+  charge(wire::Work::facet_light, drawn.counts.shaded.facets * scene.lights().size());
+  charge(wire::Work::pixel, drawn.pixels);
+  charge(wire::Work::still_byte, drawn.counts.still_bytes);
+}
+
+void charge_file(const geometry::Scene& scene, wire::PixelFormat format, std::uint32_t lines) {
+  const std::uint64_t pixels = std::uint64_t{lines} * scene.film().settings().width;
+  messages::charge(static_cast<int>(wire::Work::node_frame), 1);
+  messages::charge(static_cast<int>(wire::Work::node_frame_byte), pixels * wire::pixel_bytes(format));
+}
+
+}  // namespace mars::node

@@ -1,0 +1,32 @@
+// The work of a frame's phases, counted by kind (wire/work.h): what it costs is a platform's, for simulated machines
+// and forecasts.
+#pragma once
+
+#include <cstdint>
+
+#include "node/frame_report.h"
+#include "node/geometry/line_range.h"
+#include "node/geometry/scene.h"
+#include "node/raster/scanline.h"
+#include "node/tessellator.h"
+#include "node/wire/protocol.h"
+
+namespace mars::node {
+
+void charge_begin(FrameReport& report, const geometry::Scene& scene, bool is_first_frame);
+
+void charge_tessellation(FrameReport& report, const geometry::Scene& scene, const Tessellation& own);
+
+struct LinesDrawn {
+  geometry::LineRange lines;
+  raster::LineParts parts;  // their edge boxes
+  std::uint64_t samples;    // those edge boxes cover
+  std::uint64_t pixels;     // in the strip that has the lines
+  raster::DrawnCounts counts;
+};
+void charge_lines(FrameReport& report, const geometry::Scene& scene, const LinesDrawn& drawn);
+
+// A frame's file, by whoever writes it: a node's part of it is the lines that it drew.
+void charge_file(const geometry::Scene& scene, wire::PixelFormat format, std::uint32_t lines);
+
+}  // namespace mars::node
