@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "hal/failure/failure.h"
+#include "host/content/document/text.h"
 
 namespace mars::cli {
 namespace {
@@ -30,6 +31,11 @@ void as_usage(const std::string& word, Check check) {
 Option Option::required() const { return Option(*option_->required()); }
 
 Option Option::type(const std::string& name) const { return Option(*option_->type_name(name)); }
+
+Option Option::offers(const std::vector<std::string>& beginnings) const {
+  option_->option_text(option_->get_items_expected_max() > 1 ? "..." : "");
+  return type(document::joined(beginnings, "|"));
+}
 
 Option Option::words(int least, int most) const {
   return Option(*(least == most ? option_->expected(least) : option_->expected(least, most)));

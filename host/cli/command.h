@@ -32,6 +32,8 @@ class Option {
   Option required() const;
   // What helps call its value: "FILE", "X Y Z".
   Option type(const std::string& name) const;
+  // Beginnings of its words that shells complete.
+  Option offers(const std::vector<std::string>& beginnings) const;
   // How many words it takes.
   Option words(int count) const { return words(count, count); }
   Option words(int least, int most) const;

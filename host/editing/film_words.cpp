@@ -1,9 +1,9 @@
 #include <memory>
 #include <optional>
 
-#include "host/content/animator/cast.h"
-#include "host/content/animator/film_settings.h"
-#include "host/content/animator/film_summary.h"
+#include "host/content/animator/settings/cast.h"
+#include "host/content/animator/settings/film_settings.h"
+#include "host/content/animator/listing/film_summary.h"
 #include "host/content/document/text.h"
 #include "host/content/keys/text.h"
 #include "host/content/modeler/figure_library.h"
@@ -123,8 +123,14 @@ cli::Command add_command(cli::Command film, const std::shared_ptr<Words>& words,
   return command;
 }
 
-cli::Option add_fields(cli::Command command, Words& words, const std::string& help) {
-  return command.add("KEY=VALUE", words.fields, help);
+// What KEY may be, by the table of keys.
+cli::Option add_fields(cli::Command command, Words& words, std::string_view object, const std::string& example) {
+  const keys::Object& described = keys::object(object);
+  return command
+      .add("KEY=VALUE", words.fields,
+           keys::names_of(described) + "; `mars keys " + std::string(object) +
+               "` says what each is. Example: " + example)
+      .offers(keys::typed_forms(described));
 }
 
 void add_actor_options(cli::Command command, Words& words) {
@@ -171,26 +177,21 @@ void add_actors(cli::Command film, const std::shared_ptr<Words>& words) {
   rename.add("NAME", words->other, "Its new name. Example: anna").required();
 }
 
-// What KEY may be, by the table.
-std::string fields_of(const char* object, const std::string& example) {
-  return keys::names_of(keys::object(object)) + "; `mars keys " + object + "` says what each is. Example: " + example;
-}
-
-std::string settings() { return fields_of("film", "frames=120 size=640,360 background=0.6,0.7,0.8"); }
-
 void add_settings(cli::Command film, const std::shared_ptr<Words>& words) {
+  const char* const example = "frames=120 size=640,360 background=0.6,0.7,0.8";
   cli::Command fresh = add_command(film, words, "new", "Make a film file with a camera", run_new);
-  add_fields(fresh, *words, settings());
+  add_fields(fresh, *words, "film", example);
   fresh.add("--figure", words->model, "With a figure of the library at its middle. Example: --figure man")
       .type("FIGURE");
-  add_fields(add_command(film, words, "set", "Change settings of the film", run_set), *words, settings()).required();
+  add_fields(add_command(film, words, "set", "Change settings of the film", run_set), *words, "film", example)
+      .required();
   add_command(film, words, "show", "Show what the film holds, by the names that commands take", run_show);
 }
 
 void add_lights(cli::Command film, const std::shared_ptr<Words>& words) {
   cli::Command light = film.add_command("light", "Add and remove lights");
-  add_fields(add_command(light, words, "add", "Add a light", run_light_add), *words,
-             fields_of("light", "place=4,-3,6 at=0,0,2 color=1,0.9,0.8 intensity=2"))
+  add_fields(add_command(light, words, "add", "Add a light", run_light_add), *words, "light",
+             "place=4,-3,6 at=0,0,2 color=1,0.9,0.8 intensity=2")
       .required();
   cli::Command remove = add_command(light, words, "remove", "Remove a light", run_light_remove);
   remove.add("N", words->number, "Its number, from 1. Example: 2").required();
@@ -198,7 +199,7 @@ void add_lights(cli::Command film, const std::shared_ptr<Words>& words) {
 }
 
 void add_materials(cli::Command film, const std::shared_ptr<Words>& words) {
-  const std::string fields = fields_of("material", "color=0.9,0.6,0.5 reflection=blinn-phong");
+  const char* const example = "color=0.9,0.6,0.5 reflection=blinn-phong";
   cli::Command material = film.add_command("material", "Add, change and remove materials of the film");
   const auto add = [&](const char* name, const char* purpose, void (*run)(const Words&)) -> cli::Command {
     cli::Command command = add_command(material, words, name, purpose, run);
@@ -206,13 +207,13 @@ void add_materials(cli::Command film, const std::shared_ptr<Words>& words) {
     return command;
   };
   cli::Command fresh = add("add", "Add a material", run_material_add);
-  add_fields(fresh, *words, fields);
+  add_fields(fresh, *words, "material", example);
   fresh
       .add("--actor", words->other,
            "Who wears it: where its model wears one of this name, which it begins as, else all over. "
            "Example: --actor tom")
       .type("ACTOR");
-  add_fields(add("set", "Change a material", run_material_set), *words, fields).required();
+  add_fields(add("set", "Change a material", run_material_set), *words, "material", example).required();
   add("remove", "Remove a material", run_material_remove);
 }
 

@@ -143,6 +143,15 @@ class Installed(Installation):
         self.assertEqual(self.complete("mars", "model", "dog.json", "show", ""), [])
         self.assertEqual(self.complete("mars", "model", "dog.json", "show", "-"), ["-h", "--help"])
 
+    def test_completes_keys_and_their_choices(self):
+        add = ["mars", "film", "a.json", "material", "add", "skin"]
+        self.assertEqual(self.complete(*add, "rou"), ["roughness="])
+        self.assertEqual(self.complete(*add, "interp"), [f"interpolation={each}" for each in ["phong", "gouraud", "flat"]])
+        # Bash takes "=" for a word of its own.
+        self.assertEqual(self.complete(*add, "roughness", "=", "0.5", "interpolation", "=", "fl"), ["flat"])
+        self.assertEqual(self.complete(*add, "interpolation", "="), ["phong", "gouraud", "flat"])
+        self.assertEqual(self.complete(*add, "roughness", "="), [])
+
     def test_completes_films_and_folders(self):
         for name in ["a film.json", "film.mars", "film.txt"]:
             self.write(name, "")
@@ -166,7 +175,9 @@ class Installed(Installation):
         script = self.prefix / "share/fish/vendor_completions.d/mars.fish"
         self.write("dog.json", "")
         for typed, offered in [("mars mod", ["model"]), ("mars model dog.json sh", ["show"]), ("mars model d", ["dog.json"]),
-                               ("mars render --backend thr", ["threads"]), ("mars model dog.json show --h", ["--help"])]:
+                               ("mars render --backend thr", ["threads"]), ("mars model dog.json show --h", ["--help"]),
+                               ("mars film dog.json material add x rou", ["roughness="]),
+                               ("mars film dog.json material add x interpolation=fl", ["interpolation=flat"])]:
             printed = self.succeed("fish", "--no-config", "-c", f"source '{script}'; complete -C '{typed}'",
                                 env=dict(os.environ, PATH=f"{harness.PROGRAMS}:{os.environ['PATH']}",
                                          HOME=str(self.folder)))
@@ -195,7 +206,9 @@ class Installed(Installation):
         shows(f"fpath=('{functions}' $fpath); autoload -U compinit; compinit -u; echo rea''dy\n", "ready\r\n")
         for typed, wanted in [("mars mod", "mars model "), ("mars model dog.json sh", "dog.json show "),
                               ("mars model d", "mars model dog.json "), ("mars render --backend thr", "threads "),
-                              ("mars model dog.json set body --limits x 0 9 --res", "--reset=")]:
+                              ("mars model dog.json set body --limits x 0 9 --res", "--reset="),
+                              ("mars film dog.json material add x rou", "roughness="),
+                              ("mars film dog.json material add x interpolation=fl", "interpolation=flat")]:
             shows(typed + "\t", wanted)
             shows("\x15echo do''ne\n", "done\r\n")
 

@@ -1,14 +1,17 @@
 # Completion for bash. The programs say themselves what they take (--list-options, which is described in
 # host/shell/options/command_line.h), so this file knows no option.
 
-# _mars_values VALUE WORD: candidates for a value that help calls VALUE, where WORD is typed so far.
+# _mars_values VALUE WORD: candidates for a value that help calls VALUE, where WORD is typed so far; after "KEY=", which
+# bash takes for words of their own, $key is that.
 _mars_values() {
   case $1 in
     FILM) compgen -d -- "$2"; compgen -f -X '!*.json' -- "$2"; compgen -f -X '!*.mars' -- "$2" ;;
     MODEL) compgen -d -- "$2"; compgen -f -X '!*.json' -- "$2" ;;
     FILE) compgen -f -- "$2" ;;
     DIR) compgen -d -- "$2" ;;
-    *'|'*) compgen -W "${1//|/ }" -- "$2" ;;
+    *'|'*)
+      local each
+      for each in ${1//|/ }; do [[ $each != "$key"* ]] || compgen -W "${each#"$key"}" -- "$2"; done ;;
   esac
 }
 
@@ -20,7 +23,9 @@ _mars() {
       command)
         program=${program:-$of} arguments[$of]='' options[$of]='' commands[$of]=''
         [ "$of" = "$program" ] || commands[${of% *}]+=" ${of##* }" ;;
-      argument) arguments[$of]+=" $names" ;;
+      argument)
+        [[ $value != *'|'* ]] || names=$value${names##*[!.]}
+        arguments[$of]+=" $names" ;;
       option)
         options[$of]+=" ${names//,/ }"
         for name in ${names//,/ }; do values["$of $name"]=${value#-}; done ;;
@@ -42,6 +47,9 @@ _mars() {
 
   local current=${COMP_WORDS[COMP_CWORD]} expected=(${arguments[$command]})
   [ "$current" != = ] || current=''
+  local key='' at=$((COMP_CWORD - 1))
+  [ "${COMP_WORDS[COMP_CWORD]}" != = ] || at=$COMP_CWORD
+  [ "${COMP_WORDS[at]}" != = ] || [[ ${COMP_WORDS[at - 1]} = -* ]] || key=${COMP_WORDS[at - 1]}=
   if [ ${#asked[@]} -gt 0 ]; then value=${asked[0]}
   elif [[ $current = -* ]]; then value='' names=${options[$command]}
   else
@@ -53,6 +61,8 @@ _mars() {
   mapfile -t COMPREPLY < <(
     [ ${#asked[@]} -gt 0 ] || compgen -W "$names" -- "$current"
     _mars_values "$value" "$current")
+  [ "${COMPREPLY[*]}" = "${COMPREPLY[0]-}" ] && [[ ${COMPREPLY[0]-} = *= ]] && compopt -o nospace 2>/dev/null
+  return 0
 }
 
 complete -F _mars mars mars-host mars-ranks mars-threads mars-simulated mars-nx

@@ -62,7 +62,9 @@ function __mars
         end
         set -l arguments
         for row in (__mars_rows argument $command)
-            set -a arguments (string split \t -- $row)[3]
+            set -l fields (string split \t -- $row)
+            string match -q '*|*' -- $fields[4]; and set fields[3] $fields[4](string match -r '\.\.\.$' -- $fields[3])
+            set -a arguments $fields[3]
         end
         if set -q arguments[1]
             set -l at (math min $given + 1, (count $arguments))

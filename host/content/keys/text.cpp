@@ -85,6 +85,17 @@ std::string names_of(const Object& object) {
   return joined(std::span(names).first(names.size() - 1)) + " or " + std::string(names.back());
 }
 
+std::vector<std::string> typed_forms(const Object& object) {
+  std::vector<std::string> forms;
+  for (const Key& key : object.keys) {
+    if (!key.typed) continue;
+    const std::string begun = std::string(key.name) + "=";
+    if (key.choices.empty()) forms.push_back(begun);
+    for (const std::string_view choice : key.choices) forms.push_back(begun + std::string(choice));
+  }
+  return forms;
+}
+
 std::string table_of(const Object& object) {
   std::string text;
   for (const Key& key : object.keys) {

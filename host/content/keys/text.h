@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "host/content/keys/key.h"
 
@@ -19,6 +20,9 @@ std::string help_of(const Key& key, std::string_view before);
 
 // "color, reflection, ... or sides": the keys that `mars film` takes.
 std::string names_of(const Object& object);
+
+// What may be typed of it, for completion: "roughness=", "reflection=phong", "reflection=blinn-phong".
+std::vector<std::string> typed_forms(const Object& object);
 
 // Its rows for a terminal: the key, then what it means, its range and its default.
 std::string table_of(const Object& object);
