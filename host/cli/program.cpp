@@ -226,6 +226,18 @@ std::string explained(const CLI::App& app, const CLI::ParseError& error) {
   return error.what();
 }
 
+// "mars film set": what help is asked of.
+std::string full_name(const CLI::App& command) {
+  const CLI::App* parent = command.get_parent();
+  return (parent == nullptr ? "" : full_name(*parent) + " ") + command.get_name();
+}
+
+// As a Failure reads: the problem, and in parentheses what to do.
+std::string with_remedy(const CLI::App& app, const std::string& problem) {
+  return problem.ends_with(')') ? problem
+                                : problem + " (`" + full_name(innermost(app)) + " --help` shows what there is)";
+}
+
 // Whether the command given only holds others and none of them is named.
 bool unfinished(const CLI::App& app) {
   const std::vector<CLI::App*> given = app.get_subcommands();
@@ -258,7 +270,7 @@ std::optional<int> Program::read(int argc, const char* const* argv) {
   prepare(*app_, std::make_shared<Help>());
   allow_one_command(*app_);
   const auto refuse = [&](const std::string& problem) {
-    app_->exit(CLI::ValidationError(problem), std::cout, std::cerr);
+    std::cerr << app_->get_name() << ": " << with_remedy(*app_, problem) << "\n";
     return kUsage;
   };
   if (argc == 2 && std::string_view(argv[1]) == "--list-options") {
@@ -285,7 +297,7 @@ std::optional<int> Program::read(int argc, const char* const* argv) {
 
 void Program::read(const std::vector<std::string>& words) {
   const auto refuse = [&](const std::string& problem) {
-    throw Failure(problem, "'" + document::joined(words, " ") + "'", "`mars --help` shows what there is");
+    throw Failure(with_remedy(*app_, problem), "'" + document::joined(words, " ") + "'", "");
   };
   allow_one_command(*app_);
   try {

@@ -32,7 +32,7 @@ std::string keys_of(const std::string& name) {
   if (const keys::Object* const object = keys::find_object(name)) return keys::table_of(*object);
   std::vector<std::string_view> names = names_of(keys::film_objects());
   for (const std::string_view each : names_of(keys::model_objects())) names.push_back(each);
-  throw Failure("is nothing that a film or a model holds", document::in_quotes(name),
+  throw Failure("is no object of film or model files", document::in_quotes(name),
                 document::did_you_mean(name, names, "`mars keys` lists what they hold"));
 }
 
