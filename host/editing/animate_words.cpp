@@ -3,10 +3,10 @@
 #include <memory>
 
 #include "hal/failure/failure.h"
-#include "host/content/animator/check.h"
-#include "host/content/animator/frame_words.h"
-#include "host/content/animator/keys_table.h"
-#include "host/content/animator/pose.h"
+#include "host/content/animator/pose/check.h"
+#include "host/content/animator/keys/frame_words.h"
+#include "host/content/animator/listing/keys_table.h"
+#include "host/content/animator/keys/pose.h"
 #include "host/editing/words.h"
 #include "host/cli/program.h"
 #include "node/wire/film.h"

@@ -2,8 +2,8 @@
 
 #include "hal/failure/failure.h"
 #include "host/cli/command.h"
-#include "host/content/animator/carry.h"
-#include "host/content/animator/frame_words.h"
+#include "host/content/animator/keys/carry.h"
+#include "host/content/animator/keys/frame_words.h"
 #include "host/editing/words.h"
 
 namespace mars::editing {

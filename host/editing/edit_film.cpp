@@ -1,6 +1,6 @@
 #include "host/editing/edit_film.h"
 
-#include "host/content/animator/read_film.h"
+#include "host/content/animator/reading/read_film.h"
 #include "host/editing/film_in_memory.h"
 
 namespace mars::editing {

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "host/content/animator/within_limits.h"
+#include "host/content/animator/pose/within_limits.h"
 #include "host/content/film/film_json.h"
 #include "host/editing/edited.h"
 

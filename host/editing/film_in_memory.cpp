@@ -4,10 +4,10 @@
 #include <utility>
 
 #include "hal/failure/failure.h"
-#include "host/content/animator/film_version.h"
-#include "host/content/animator/pose.h"
-#include "host/content/animator/read_film.h"
-#include "host/content/animator/rig.h"
+#include "host/content/animator/reading/film_version.h"
+#include "host/content/animator/keys/pose.h"
+#include "host/content/animator/reading/read_film.h"
+#include "host/content/animator/reading/rig.h"
 #include "host/content/document/file.h"
 #include "host/editing/words.h"
 #include "host/cli/program.h"

@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "host/content/animator/read_film.h"
+#include "host/content/animator/reading/read_film.h"
 #include "host/editing/command.h"
 #include "host/editing/edited_film.h"
 

@@ -3,8 +3,8 @@
 
 #include "hal/failure/failure.h"
 #include "host/cli/command.h"
-#include "host/content/animator/motion/action.h"
-#include "host/content/animator/motion/script.h"
+#include "host/content/animator/motion/script/action.h"
+#include "host/content/animator/motion/script/script.h"
 #include "host/content/document/file.h"
 #include "host/editing/words.h"
 #include "node/wire/film.h"

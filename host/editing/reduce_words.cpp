@@ -1,8 +1,8 @@
 #include <memory>
 
 #include "host/cli/command.h"
-#include "host/content/animator/frame_words.h"
-#include "host/content/animator/reduce.h"
+#include "host/content/animator/keys/frame_words.h"
+#include "host/content/animator/keys/reduce.h"
 #include "host/content/document/text.h"
 #include "host/editing/words.h"
 #include "node/wire/film.h"

@@ -2,8 +2,8 @@
 
 #include "hal/failure/failure.h"
 #include "host/cli/command.h"
-#include "host/content/animator/frame_words.h"
-#include "host/content/animator/tangent.h"
+#include "host/content/animator/keys/frame_words.h"
+#include "host/content/animator/keys/tangent.h"
 #include "host/editing/words.h"
 
 namespace mars::editing {

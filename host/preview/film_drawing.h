@@ -4,7 +4,7 @@
 #include <map>
 #include <span>
 
-#include "host/content/animator/actor_state.h"
+#include "host/content/animator/pose/actor_state.h"
 #include "host/preview/drawing.h"
 #include "host/preview/view.h"
 

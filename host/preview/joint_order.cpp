@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "host/content/animator/figure.h"
+#include "host/content/animator/pose/figure.h"
 
 namespace mars::preview {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "host/content/animator/film.h"
+#include "host/content/animator/pose/film.h"
 #include "host/preview/view.h"
 
 namespace mars::preview {

@@ -4,7 +4,7 @@
 #include <iterator>
 
 #include "hal/failure/failure.h"
-#include "host/content/animator/pose.h"
+#include "host/content/animator/keys/pose.h"
 #include "host/content/document/file.h"
 #include "host/content/document/folder_lock.h"
 #include "host/content/document/whole_file.h"

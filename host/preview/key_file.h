@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/content/animator/within_limits.h"
+#include "host/content/animator/pose/within_limits.h"
 #include "host/preview/pose_under_way.h"
 
 namespace mars::preview {

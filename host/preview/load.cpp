@@ -1,6 +1,6 @@
 #include "host/preview/load.h"
 
-#include "host/content/animator/read_film.h"
+#include "host/content/animator/reading/read_film.h"
 #include "host/content/document/document.h"
 #include "host/content/film/film_file.h"
 #include "host/content/modeler/model_file.h"

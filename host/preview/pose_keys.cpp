@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "hal/failure/explain.h"
-#include "host/content/animator/edit.h"
+#include "host/content/animator/keys/edit.h"
 #include "host/content/document/text.h"
 
 namespace mars::preview {

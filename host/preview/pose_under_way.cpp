@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <set>
 
-#include "host/content/animator/angles.h"
-#include "host/content/animator/attachments.h"
-#include "host/content/animator/set_key.h"
+#include "host/content/animator/pose/angles.h"
+#include "host/content/animator/pose/attachments.h"
+#include "host/content/animator/keys/set_key.h"
 
 namespace mars::preview {
 namespace {

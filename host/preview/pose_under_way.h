@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/content/animator/film.h"
+#include "host/content/animator/pose/film.h"
 #include "host/preview/film_drawing.h"
 
 namespace mars::preview {

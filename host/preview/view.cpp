@@ -6,8 +6,8 @@
 #include <limits>
 #include <optional>
 
-#include "host/content/animator/figure.h"
-#include "host/content/animator/joint_frames.h"
+#include "host/content/animator/pose/figure.h"
+#include "host/content/animator/pose/joint_frames.h"
 #include "host/content/film/light_writer.h"
 #include "host/preview/shape_lines.h"
 

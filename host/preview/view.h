@@ -12,7 +12,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "host/content/animator/film.h"
+#include "host/content/animator/pose/film.h"
 #include "host/content/film/compile.h"
 #include "host/preview/lines.h"
 #include "node/wire/film.h"

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "host/content/animator/read_materials.h"
-#include "host/content/animator/rig.h"
+#include "host/content/animator/reading/read_materials.h"
+#include "host/content/animator/reading/rig.h"
 #include "host/content/modeler/frames.h"
 
 namespace mars::preview {

@@ -211,16 +211,27 @@ TEST(Boundaries, HostsToolsStandOnOneAnother) {
     }
 }
 
-// Of node/, each folder knows only those before it; firmware, renderer and tessellator know them all.
-TEST(Boundaries, NodesFoldersStandOnOneAnother) {
+// Each of these folders of `parent` includes, of `parent`, only itself and those before it.
+void expect_one_way(const std::string& parent, const std::vector<std::string>& folders) {
   std::vector<std::string> known;
-  for (const char* folder : {"wire", "simd", "color", "shape", "geometry", "shading", "raster", "group"}) {
-    known.push_back("node/" + std::string(folder) + "/");
+  for (const std::string& folder : folders) {
+    known.push_back(parent + folder + "/");
     expect_includes(known.back(), [&](const std::string& include) {
-      return !begins(include, "node/") ||
-             std::any_of(known.begin(), known.end(), [&](const auto& folder) { return begins(include, folder); });
+      return !begins(include, parent) ||
+             std::any_of(known.begin(), known.end(), [&](const auto& before) { return begins(include, before); });
     });
   }
+}
+
+// firmware, renderer and tessellator know all of these.
+TEST(Boundaries, NodesFoldersStandOnOneAnother) {
+  expect_one_way("node/", {"wire", "simd", "color", "shape", "geometry", "shading", "raster", "group"});
+}
+
+TEST(Boundaries, TheAnimatorsRoomsStandOnOneAnother) {
+  const std::string animator = "host/content/animator/";
+  expect_one_way(animator, {"pose", "reading", "keys", "settings", "listing"});
+  expect_one_way(animator + "motion/", {"body", "scene", "gaits", "laws", "goals", "script"});
 }
 
 // What a file of ours includes, and what that includes, and so on.

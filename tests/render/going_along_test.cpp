@@ -2,7 +2,7 @@
 // what stands still.
 #include <gtest/gtest.h>
 
-#include "host/content/animator/read_film.h"
+#include "host/content/animator/reading/read_film.h"
 #include "host/content/film/compile.h"
 #include "tests/render/film_run.h"
 

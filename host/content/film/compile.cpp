@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "hal/failure/failure.h"
-#include "host/content/animator/read_film.h"
+#include "host/content/animator/reading/read_film.h"
 #include "host/content/film/film_file.h"
 #include "host/content/film/film_writer.h"
 #include "host/content/film/intervals.h"

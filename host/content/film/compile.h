@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "host/content/animator/film.h"
+#include "host/content/animator/pose/film.h"
 #include "host/content/film/compiled_film.h"
 
 namespace mars::film {

@@ -1,8 +1,8 @@
 #include "host/content/film/film_json.h"
 
 #include "hal/failure/failure.h"
-#include "host/content/animator/film_version.h"
-#include "host/content/animator/read_film.h"
+#include "host/content/animator/reading/film_version.h"
+#include "host/content/animator/reading/read_film.h"
 #include "host/content/film/compile.h"
 #include "host/content/film/film_file.h"
 

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "hal/failure/failure.h"
-#include "host/content/animator/camera_points.h"
+#include "host/content/animator/pose/camera_points.h"
 #include "host/content/film/light_writer.h"
 #include "host/content/film/shape_writer.h"
 

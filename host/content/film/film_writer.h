@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "host/content/animator/film.h"
-#include "host/content/animator/joint_frames.h"
+#include "host/content/animator/pose/film.h"
+#include "host/content/animator/pose/joint_frames.h"
 #include "host/content/film/material_writer.h"
 #include "host/content/film/track_writer.h"
 #include "node/wire/film.h"

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <span>
 
-#include "host/content/animator/film.h"
+#include "host/content/animator/pose/film.h"
 #include "node/wire/film.h"
 
 namespace mars::film {

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "hal/failure/failure.h"
-#include "host/content/animator/direction.h"
-#include "host/content/animator/read_lights.h"
+#include "host/content/animator/pose/direction.h"
+#include "host/content/animator/reading/read_lights.h"
 #include "host/content/document/shown_color.h"
 
 namespace mars::film {

@@ -5,7 +5,7 @@
 #include <array>
 #include <glm/vec3.hpp>
 
-#include "host/content/animator/film.h"
+#include "host/content/animator/pose/film.h"
 #include "host/content/film/track_writer.h"
 #include "node/wire/film.h"
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <unordered_map>
 
-#include "host/content/animator/film.h"
+#include "host/content/animator/pose/film.h"
 #include "host/content/film/track_writer.h"
 #include "node/wire/film.h"
 

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <utility>
 
-#include "host/content/animator/actor_state.h"
+#include "host/content/animator/pose/actor_state.h"
 #include "host/content/film/motion_writer.h"
 
 namespace mars::film {

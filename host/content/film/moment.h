@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "host/content/animator/film.h"
+#include "host/content/animator/pose/film.h"
 #include "host/content/film/compiled_film.h"
 #include "host/content/film/film_writer.h"
 #include "node/wire/film.h"

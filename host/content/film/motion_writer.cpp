@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "hal/failure/failure.h"
-#include "host/content/animator/joint_frames.h"
+#include "host/content/animator/pose/joint_frames.h"
 #include "host/content/document/text.h"
 #include "topology/memory_limit.h"
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "host/content/animator/film.h"
+#include "host/content/animator/pose/film.h"
 #include "host/content/film/compiled_film.h"
 #include "node/wire/film.h"
 

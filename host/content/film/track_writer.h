@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "hal/failure/failure.h"
-#include "host/content/animator/channel.h"
+#include "host/content/animator/pose/channel.h"
 #include "node/wire/film.h"
 
 namespace mars::film {

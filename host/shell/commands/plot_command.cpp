@@ -4,8 +4,8 @@
 
 #include "hal/failure/failure.h"
 #include "host/cli/command.h"
-#include "host/content/animator/gnuplot.h"
-#include "host/content/animator/plot.h"
+#include "host/content/animator/listing/gnuplot.h"
+#include "host/content/animator/listing/plot.h"
 #include "host/content/document/whole_file.h"
 #include "host/content/film/film_json.h"
 

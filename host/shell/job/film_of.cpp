@@ -1,7 +1,7 @@
 #include "host/shell/job/film_of.h"
 
-#include "host/content/animator/check.h"
-#include "host/content/animator/read_film.h"
+#include "host/content/animator/pose/check.h"
+#include "host/content/animator/reading/read_film.h"
 #include "host/content/film/film_file.h"
 
 namespace mars::job {

@@ -4,11 +4,11 @@
 #include <optional>
 
 #include "hal/failure/failure.h"
-#include "host/content/animator/things.h"
-#include "host/content/animator/tracks.h"
-#include "host/content/animator/written.h"
+#include "host/content/animator/keys/things.h"
+#include "host/content/animator/keys/tracks.h"
+#include "host/content/animator/keys/written.h"
 #include "host/content/document/text.h"
-#include "host/content/animator/motion/action.h"
+#include "host/content/animator/motion/script/action.h"
 
 namespace mars::studio {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host/content/animator/film.h"
+#include "host/content/animator/pose/film.h"
 #include "host/content/document/json_file.h"
 
 namespace mars::studio {

@@ -5,12 +5,12 @@
 #include <span>
 #include <string_view>
 
-#include "host/content/animator/actor_state.h"
-#include "host/content/animator/attachments.h"
-#include "host/content/animator/camera_points.h"
-#include "host/content/animator/direction.h"
-#include "host/content/animator/edit.h"
-#include "host/content/animator/written.h"
+#include "host/content/animator/pose/actor_state.h"
+#include "host/content/animator/pose/attachments.h"
+#include "host/content/animator/pose/camera_points.h"
+#include "host/content/animator/pose/direction.h"
+#include "host/content/animator/keys/edit.h"
+#include "host/content/animator/keys/written.h"
 #include "host/content/modeler/edit.h"
 #include "host/content/keys/page_keys.h"
 #include "host/content/modeler/figure_library.h"

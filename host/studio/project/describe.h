@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "host/content/animator/film.h"
+#include "host/content/animator/pose/film.h"
 #include "host/content/document/json_file.h"
 
 namespace mars::studio {

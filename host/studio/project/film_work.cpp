@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "hal/failure/failure.h"
-#include "host/content/animator/film_version.h"
-#include "host/content/animator/pose.h"
-#include "host/content/animator/read_film.h"
+#include "host/content/animator/reading/film_version.h"
+#include "host/content/animator/keys/pose.h"
+#include "host/content/animator/reading/read_film.h"
 #include "host/content/film/compile.h"
 #include "host/studio/project/describe.h"
 #include "host/studio/project/same_shapes.h"

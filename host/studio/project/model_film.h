@@ -2,7 +2,7 @@
 // "ground", a disc under it that is seen from above only.
 #pragma once
 
-#include "host/content/animator/film.h"
+#include "host/content/animator/pose/film.h"
 
 namespace mars::studio {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "hal/failure/failure.h"
-#include "host/content/animator/angles.h"
+#include "host/content/animator/pose/angles.h"
 #include "host/content/document/fields.h"
 #include "host/content/modeler/model_file.h"
 #include "host/editing/model_in_memory.h"

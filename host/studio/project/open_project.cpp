@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "hal/failure/explain.h"
-#include "host/content/animator/film_settings.h"
+#include "host/content/animator/settings/film_settings.h"
 #include "host/content/document/file.h"
 #include "host/content/document/folder_lock.h"
 #include "host/content/document/whole_file.h"

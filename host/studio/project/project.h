@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "host/content/animator/film.h"
+#include "host/content/animator/pose/film.h"
 #include "host/content/document/json_file.h"
 #include "host/content/modeler/edit_shapes.h"
 #include "host/studio/project/animation.h"

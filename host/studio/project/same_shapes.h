@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "host/content/animator/film.h"
+#include "host/content/animator/pose/film.h"
 
 namespace mars::studio {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "host/content/animator/film.h"
-#include "host/content/animator/within_limits.h"
+#include "host/content/animator/pose/film.h"
+#include "host/content/animator/pose/within_limits.h"
 #include "host/studio/project/project.h"
 #include "host/studio/project/step.h"
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "host/content/animator/actor_state.h"
+#include "host/content/animator/pose/actor_state.h"
 #include "host/studio/stage/handles.h"
 #include "host/studio/stage/moments.h"
 #include "host/studio/stage/screen.h"

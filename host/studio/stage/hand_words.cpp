@@ -1,8 +1,8 @@
 #include "host/studio/stage/hand_words.h"
 
 #include "hal/failure/failure.h"
-#include "host/content/animator/attachments.h"
-#include "host/content/animator/edit.h"
+#include "host/content/animator/pose/attachments.h"
+#include "host/content/animator/keys/edit.h"
 #include "host/content/document/text.h"
 
 namespace mars::studio {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "host/content/animator/actor_state.h"
+#include "host/content/animator/pose/actor_state.h"
 #include "host/studio/project/project.h"
 #include "host/studio/stage/screen.h"
 #include "host/studio/stage/selected.h"

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "host/content/animator/joint_frames.h"
+#include "host/content/animator/pose/joint_frames.h"
 #include "host/content/modeler/frames.h"
 #include "host/studio/stage/hand_words.h"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "host/content/animator/camera_points.h"
-#include "host/content/animator/direction.h"
+#include "host/content/animator/pose/camera_points.h"
+#include "host/content/animator/pose/direction.h"
 #include "host/content/document/text.h"
 #include "host/content/modeler/frames.h"
 

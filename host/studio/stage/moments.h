@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "host/content/animator/actor_state.h"
+#include "host/content/animator/pose/actor_state.h"
 #include "host/content/film/moment.h"
 #include "host/preview/view.h"
 #include "host/studio/project/project.h"

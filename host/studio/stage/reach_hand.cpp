@@ -4,8 +4,8 @@
 #include <glm/matrix.hpp>
 #include <utility>
 
-#include "host/content/animator/angles.h"
-#include "host/content/animator/attachments.h"
+#include "host/content/animator/pose/angles.h"
+#include "host/content/animator/pose/attachments.h"
 #include "host/studio/stage/hand_words.h"
 #include "host/studio/stage/reach_place.h"
 

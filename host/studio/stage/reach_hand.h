@@ -1,12 +1,12 @@
 // A gesture that pulls a figure at one place: the limb there turns within its limits, or the figure moves, by inverse
-// kinematics (host/content/animator/motion/pull.h). Pinned joints stay where they were when it began.
+// kinematics (host/content/animator/motion/body/pull.h). Pinned joints stay where they were when it began.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "host/content/animator/motion/pull.h"
+#include "host/content/animator/motion/body/pull.h"
 #include "host/studio/stage/handles.h"
 #include "host/studio/stage/mouse_way.h"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "host/content/animator/actor_state.h"
-#include "host/content/animator/attachments.h"
+#include "host/content/animator/pose/actor_state.h"
+#include "host/content/animator/pose/attachments.h"
 #include "host/content/modeler/frames.h"
 
 namespace mars::studio {

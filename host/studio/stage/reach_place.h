@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "host/content/animator/motion/pull.h"
+#include "host/content/animator/motion/body/pull.h"
 #include "host/studio/project/project.h"
 #include "host/studio/stage/selected.h"
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "hal/failure/explain.h"
-#include "host/content/animator/read_film.h"
+#include "host/content/animator/reading/read_film.h"
 #include "host/preview/film_drawing.h"
 #include "host/preview/terminal_picture.h"
 #include "host/preview/view.h"

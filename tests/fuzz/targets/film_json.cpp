@@ -1,8 +1,8 @@
 // Film files: read, looked over as `mars animate check` and `keys` do, compiled where small, and laid out again.
-#include "host/content/animator/check.h"
-#include "host/content/animator/film_version.h"
-#include "host/content/animator/keys_table.h"
-#include "host/content/animator/read_film.h"
+#include "host/content/animator/pose/check.h"
+#include "host/content/animator/reading/film_version.h"
+#include "host/content/animator/listing/keys_table.h"
+#include "host/content/animator/reading/read_film.h"
 #include "host/content/document/json_file.h"
 #include "host/content/film/compile.h"
 #include "host/content/film/describe.h"

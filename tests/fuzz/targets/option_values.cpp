@@ -4,7 +4,7 @@
 #include <string>
 
 #include "hal/failure/failure.h"
-#include "host/content/animator/frame_words.h"
+#include "host/content/animator/keys/frame_words.h"
 #include "host/content/document/shell_line.h"
 #include "host/content/document/shell_word.h"
 #include "host/content/film/frame_set.h"

@@ -1,5 +1,5 @@
 // Steps of commands: the words of each `mars animate`, edited.
-#include "host/content/animator/motion/action.h"
+#include "host/content/animator/motion/script/action.h"
 #include "tests/fuzz/steps.h"
 #include "tests/fuzz/target.h"
 

@@ -1,5 +1,5 @@
 // Motion scripts, played on a film with a figure and a ball.
-#include "host/content/animator/motion/script.h"
+#include "host/content/animator/motion/script/script.h"
 #include "host/content/document/json_file.h"
 #include "tests/fuzz/scratch.h"
 #include "tests/fuzz/target.h"

@@ -2,12 +2,12 @@
 
 #include <glm/geometric.hpp>
 
-#include "host/content/animator/film_version.h"
-#include "host/content/animator/actor_state.h"
-#include "host/content/animator/camera_points.h"
-#include "host/content/animator/check.h"
-#include "host/content/animator/motion/script.h"
-#include "host/content/animator/read_film.h"
+#include "host/content/animator/reading/film_version.h"
+#include "host/content/animator/pose/actor_state.h"
+#include "host/content/animator/pose/camera_points.h"
+#include "host/content/animator/pose/check.h"
+#include "host/content/animator/motion/script/script.h"
+#include "host/content/animator/reading/read_film.h"
 #include "host/editing/edit_film.h"
 #include "tests/host/content/document/failure_of.h"
 

@@ -1,7 +1,7 @@
 // `mars film` on a film in memory.
 #include <gtest/gtest.h>
 
-#include "host/content/animator/film_settings.h"
+#include "host/content/animator/settings/film_settings.h"
 #include "host/content/modeler/figure_library.h"
 #include "host/editing/edit_film.h"
 #include "tests/host/content/document/failure_of.h"

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "host/content/animator/read_film.h"
+#include "host/content/animator/reading/read_film.h"
 #include "host/content/document/document.h"
 #include "host/content/film/compile.h"
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "host/content/animator/pose.h"
+#include "host/content/animator/keys/pose.h"
 #include "host/content/document/file.h"
 #include "host/content/document/whole_file.h"
 #include "host/content/film/film_file.h"

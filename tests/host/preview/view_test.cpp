@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 #include <set>
 
-#include "host/content/animator/figure.h"
-#include "host/content/animator/read_film.h"
+#include "host/content/animator/pose/figure.h"
+#include "host/content/animator/reading/read_film.h"
 #include "host/preview/load.h"
 #include "host/preview/shape_lines.h"
 

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <glm/geometric.hpp>
 
-#include "host/content/animator/read_film.h"
+#include "host/content/animator/reading/read_film.h"
 #include "host/content/modeler/read_model.h"
 #include "host/preview/film_pictures.h"
 

@@ -10,7 +10,7 @@ const kThird = 1 / 3;  // of the way to the neighbour: Bezier's control point of
 
 const fourOf = (ease) => Array.isArray(ease) ? ease : kEases[ease ?? "linear"];
 
-// As host/content/animator/channel.h: from the key before to the key after.
+// As host/content/animator/pose/channel.h: from the key before to the key after.
 function slopeAt(keys, index) {
   const before = keys[Math.max(0, index - 1)], after = keys[Math.min(keys.length - 1, index + 1)];
   return before === after ? 0 : (after.value - before.value) / (after.key.frame - before.key.frame);

@@ -1,12 +1,12 @@
 // From orientations back to poses: round trips over all poses, known answers where two ways lead there.
-#include "host/content/animator/angles.h"
+#include "host/content/animator/pose/angles.h"
 
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "host/content/animator/figure.h"
+#include "host/content/animator/pose/figure.h"
 
 namespace mars::animator {
 namespace {

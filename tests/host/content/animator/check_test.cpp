@@ -1,5 +1,5 @@
 // Joints that leave their limits between keys, found where they are known to; and what else is worth a word.
-#include "host/content/animator/check.h"
+#include "host/content/animator/pose/check.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "host/content/animator/angles.h"
-#include "host/content/animator/limits_left.h"
-#include "host/content/animator/read_film.h"
+#include "host/content/animator/pose/angles.h"
+#include "host/content/animator/pose/limits_left.h"
+#include "host/content/animator/reading/read_film.h"
 #include "tests/host/content/document/failure_of.h"
 
 namespace mars::animator {

@@ -1,10 +1,10 @@
-#include "host/content/animator/ease.h"
+#include "host/content/animator/pose/ease.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "host/content/animator/channel.h"
+#include "host/content/animator/pose/channel.h"
 
 namespace mars::animator {
 namespace {

@@ -1,9 +1,9 @@
 // Keys put into a film file's JSON: what stands there afterwards, word for word.
-#include "host/content/animator/edit.h"
+#include "host/content/animator/keys/edit.h"
 
 #include <gtest/gtest.h>
 
-#include "host/content/animator/read_film.h"
+#include "host/content/animator/reading/read_film.h"
 #include "tests/host/content/document/failure_of.h"
 
 namespace mars::animator {

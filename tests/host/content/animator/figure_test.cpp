@@ -1,4 +1,4 @@
-#include "host/content/animator/figure.h"
+#include "host/content/animator/pose/figure.h"
 
 #include <gtest/gtest.h>
 

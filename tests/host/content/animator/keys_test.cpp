@@ -1,13 +1,13 @@
 // Keys made, moved, copied, deleted and timed: what the film does afterwards, and what its file says.
-#include "host/content/animator/keys.h"
+#include "host/content/animator/keys/keys.h"
 
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
 
-#include "host/content/animator/keys_table.h"
-#include "host/content/animator/pose.h"
-#include "host/content/animator/read_film.h"
+#include "host/content/animator/listing/keys_table.h"
+#include "host/content/animator/keys/pose.h"
+#include "host/content/animator/reading/read_film.h"
 #include "tests/host/content/document/failure_of.h"
 
 namespace mars::animator {

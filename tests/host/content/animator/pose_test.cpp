@@ -1,10 +1,10 @@
 // Settings as people type them: relative ones, over ranges, by patterns, of lights and materials.
-#include "host/content/animator/pose.h"
+#include "host/content/animator/keys/pose.h"
 
 #include <gtest/gtest.h>
 
-#include "host/content/animator/check.h"
-#include "host/content/animator/read_film.h"
+#include "host/content/animator/pose/check.h"
+#include "host/content/animator/reading/read_film.h"
 #include "tests/host/content/document/failure_of.h"
 
 namespace mars::animator {

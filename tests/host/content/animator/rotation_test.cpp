@@ -1,5 +1,5 @@
 // Turns between orientations, with quaternion slerp as the oracle.
-#include "host/content/animator/rotation.h"
+#include "host/content/animator/pose/rotation.h"
 
 #include <gtest/gtest.h>
 

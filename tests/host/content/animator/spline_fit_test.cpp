@@ -1,11 +1,11 @@
-#include "host/content/animator/spline_fit.h"
+#include "host/content/animator/keys/spline_fit.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "host/content/animator/channel.h"
+#include "host/content/animator/pose/channel.h"
 
 namespace mars::animator {
 namespace {

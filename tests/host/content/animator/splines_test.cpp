@@ -4,15 +4,15 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "host/content/animator/actor_state.h"
-#include "host/content/animator/direction.h"
-#include "host/content/animator/edit.h"
-#include "host/content/animator/film_version.h"
-#include "host/content/animator/keys.h"
-#include "host/content/animator/keys_table.h"
-#include "host/content/animator/limits_left.h"
-#include "host/content/animator/read_film.h"
-#include "host/content/animator/tangent.h"
+#include "host/content/animator/pose/actor_state.h"
+#include "host/content/animator/pose/direction.h"
+#include "host/content/animator/keys/edit.h"
+#include "host/content/animator/reading/film_version.h"
+#include "host/content/animator/keys/keys.h"
+#include "host/content/animator/listing/keys_table.h"
+#include "host/content/animator/pose/limits_left.h"
+#include "host/content/animator/reading/read_film.h"
+#include "host/content/animator/keys/tangent.h"
 #include "host/content/document/file.h"
 #include "tests/host/content/document/failure_of.h"
 

@@ -1,5 +1,5 @@
 // How an actor stands at a frame, asked alone, is what the compiled film has.
-#include "host/content/animator/actor_state.h"
+#include "host/content/animator/pose/actor_state.h"
 
 #include <gtest/gtest.h>
 

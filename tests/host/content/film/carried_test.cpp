@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include "host/content/animator/actor_state.h"
-#include "host/content/animator/camera_points.h"
-#include "host/content/animator/check.h"
-#include "host/content/animator/joint_frames.h"
+#include "host/content/animator/pose/actor_state.h"
+#include "host/content/animator/pose/camera_points.h"
+#include "host/content/animator/pose/check.h"
+#include "host/content/animator/pose/joint_frames.h"
 #include "host/content/film/film_writer.h"
 #include "host/content/film/moment.h"
 #include "tests/host/content/document/failure_of.h"

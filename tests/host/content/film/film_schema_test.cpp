@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "host/content/animator/read_film.h"
+#include "host/content/animator/reading/read_film.h"
 #include "host/content/document/file.h"
 #include "host/content/document/json_file.h"
 #include "host/content/keys/key.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "host/content/animator/rig.h"
+#include "host/content/animator/reading/rig.h"
 #include "host/content/film/light_writer.h"
 #include "tests/host/content/document/failure_of.h"
 #include "tests/host/content/film/small_film.h"

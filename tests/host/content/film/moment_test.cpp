@@ -6,7 +6,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "host/content/animator/read_film.h"
+#include "host/content/animator/reading/read_film.h"
 #include "host/content/film/compile.h"
 #include "tests/host/content/film/small_film.h"
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <string>
 
-#include "host/content/animator/actor_state.h"
-#include "host/content/animator/read_film.h"
+#include "host/content/animator/pose/actor_state.h"
+#include "host/content/animator/reading/read_film.h"
 #include "host/content/film/compile.h"
 #include "tests/host/content/document/failure_of.h"
 

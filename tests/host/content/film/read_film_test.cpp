@@ -1,4 +1,4 @@
-#include "host/content/animator/read_film.h"
+#include "host/content/animator/reading/read_film.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "host/content/animator/read_film.h"
+#include "host/content/animator/reading/read_film.h"
 #include "host/content/film/compile.h"
 
 namespace mars::film {

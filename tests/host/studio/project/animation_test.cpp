@@ -1,7 +1,7 @@
 // What pages are told of keys, curves and actions.
 #include "host/studio/project/animation.h"
 
-#include "host/content/animator/motion/action.h"
+#include "host/content/animator/motion/script/action.h"
 #include "tests/host/studio/project/open_files.h"
 
 namespace mars::studio {

@@ -1,7 +1,7 @@
 // Steps of commands and scripts: what they write, show and say, and what is refused.
 #include <chrono>
 
-#include "host/content/animator/actor_state.h"
+#include "host/content/animator/pose/actor_state.h"
 #include "host/editing/edit_film.h"
 #include "tests/host/studio/project/open_files.h"
 

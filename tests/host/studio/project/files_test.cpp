@@ -1,5 +1,5 @@
 // What others do to the files that are open: it shows, is an entry of the history, or a problem with its line.
-#include "host/content/animator/pose.h"
+#include "host/content/animator/keys/pose.h"
 #include "host/content/film/film_json.h"
 #include "tests/host/studio/project/open_files.h"
 

@@ -1,7 +1,7 @@
 // Steps of films: what a gesture shows, what is written, and that commands write the same.
-#include "host/content/animator/actor_state.h"
-#include "host/content/animator/camera_points.h"
-#include "host/content/animator/pose.h"
+#include "host/content/animator/pose/actor_state.h"
+#include "host/content/animator/pose/camera_points.h"
+#include "host/content/animator/keys/pose.h"
 #include "host/content/film/film_json.h"
 #include "tests/host/studio/project/open_files.h"
 

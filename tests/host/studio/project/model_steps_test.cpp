@@ -3,7 +3,7 @@
 #include <glm/geometric.hpp>
 #include <set>
 
-#include "host/content/animator/actor_state.h"
+#include "host/content/animator/pose/actor_state.h"
 #include "host/content/modeler/edit.h"
 #include "host/content/modeler/model_file.h"
 #include "host/content/modeler/proportions.h"

@@ -4,10 +4,10 @@
 #include <filesystem>
 
 #include "hal/failure/failure.h"
-#include "host/content/animator/angles.h"
-#include "host/content/animator/read_film.h"
-#include "host/content/animator/rig.h"
-#include "host/content/animator/set_key.h"
+#include "host/content/animator/pose/angles.h"
+#include "host/content/animator/reading/read_film.h"
+#include "host/content/animator/reading/rig.h"
+#include "host/content/animator/keys/set_key.h"
 #include "host/content/modeler/read_model.h"
 #include "host/preview/viewpoint.h"
 #include "tests/host/studio/step_words.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "host/content/animator/actor_state.h"
+#include "host/content/animator/pose/actor_state.h"
 #include "host/content/film/moment.h"
 #include "host/preview/drawing.h"
 #include "host/preview/viewpoint.h"

@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <set>
 
-#include "host/content/animator/camera_points.h"
-#include "host/content/animator/direction.h"
+#include "host/content/animator/pose/camera_points.h"
+#include "host/content/animator/pose/direction.h"
 #include "host/editing/edit_film.h"
 #include "host/studio/stage/eye.h"
 #include "tests/host/content/film/small_film.h"

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "host/content/animator/actor_state.h"
+#include "host/content/animator/pose/actor_state.h"
 #include "host/studio/stage/eye.h"
 #include "host/studio/stage/hand.h"
 #include "host/studio/stage/reach_place.h"

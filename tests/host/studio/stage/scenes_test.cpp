@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "hal/failure/failure.h"
-#include "host/content/animator/actor_state.h"
+#include "host/content/animator/pose/actor_state.h"
 #include "host/content/film/compile.h"
 #include "host/preview/viewpoint.h"
 #include "host/studio/stage/eye.h"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "host/content/animator/motion/action.h"
-#include "host/content/animator/read_film.h"
+#include "host/content/animator/motion/script/action.h"
+#include "host/content/animator/reading/read_film.h"
 
 namespace mars::motion {
 

@@ -8,8 +8,8 @@
 #include <map>
 #include <string_view>
 
-#include "host/content/animator/motion/body.h"
-#include "host/content/animator/reduce.h"
+#include "host/content/animator/motion/body/body.h"
+#include "host/content/animator/keys/reduce.h"
 #include "host/content/film/compile.h"
 #include "tests/host/content/animator/motion/bodies.h"
 #include "tests/host/content/modeler/surface.h"

@@ -1,11 +1,11 @@
 // Kinematic laws against known answers: apex, impacts in geometric series, the end, what friction leaves.
-#include "host/content/animator/motion/flight.h"
+#include "host/content/animator/motion/laws/flight.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "host/content/animator/figure.h"
+#include "host/content/animator/pose/figure.h"
 #include "tests/host/content/animator/motion/bodies.h"
 
 namespace mars::motion {

@@ -6,10 +6,10 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "host/content/animator/actor_state.h"
-#include "host/content/animator/joint_frames.h"
-#include "host/content/animator/motion/body.h"
-#include "host/content/animator/motion/hand.h"
+#include "host/content/animator/pose/actor_state.h"
+#include "host/content/animator/pose/joint_frames.h"
+#include "host/content/animator/motion/body/body.h"
+#include "host/content/animator/motion/body/hand.h"
 #include "tests/host/content/animator/motion/bodies.h"
 #include "tests/host/content/document/failure_of.h"
 

@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "host/content/animator/motion/body.h"
-#include "host/content/animator/motion/stance.h"
+#include "host/content/animator/motion/body/body.h"
+#include "host/content/animator/motion/body/stance.h"
 #include "tests/host/content/animator/motion/bodies.h"
 #include "tests/host/content/document/failure_of.h"
 

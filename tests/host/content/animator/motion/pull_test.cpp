@@ -1,5 +1,5 @@
 // What a hand pulls comes along: to the place, within limits, with what is pinned where it was, without a jump.
-#include "host/content/animator/motion/pull.h"
+#include "host/content/animator/motion/body/pull.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "host/content/animator/motion/body.h"
+#include "host/content/animator/motion/body/body.h"
 #include "tests/host/content/animator/motion/bodies.h"
 #include "tests/sanitizers/sanitized.h"
 

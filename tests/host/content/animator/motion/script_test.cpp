@@ -1,10 +1,10 @@
-#include "host/content/animator/motion/script.h"
+#include "host/content/animator/motion/script/script.h"
 
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
 
-#include "host/content/animator/camera_points.h"
+#include "host/content/animator/pose/camera_points.h"
 #include "host/content/document/file.h"
 #include "tests/host/content/animator/motion/bodies.h"
 #include "tests/host/content/document/failure_of.h"

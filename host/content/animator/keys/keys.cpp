@@ -1,0 +1,266 @@
+#include "host/content/animator/keys/keys.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "hal/failure/failure.h"
+#include "host/content/animator/pose/channel.h"
+#include "host/content/animator/keys/edit.h"
+#include "host/content/animator/keys/frame_words.h"
+#include "host/content/animator/keys/side_effects.h"
+#include "host/content/animator/keys/track_splines.h"
+#include "host/content/animator/keys/written.h"
+#include "host/content/document/fields.h"
+#include "node/wire/film.h"
+
+namespace mars::animator {
+namespace {
+
+using wire::kMostFrames;
+
+std::string listed_frames(const std::set<std::uint32_t>& frames) {
+  std::string text;
+  for (const std::uint32_t frame : frames) {
+    if (text.size() > 60) return text + " ...";
+    text += (text.empty() ? "" : ", ") + std::to_string(frame);
+  }
+  return text;
+}
+
+void append(Remarks& remarks, const Remarks& more) { remarks.insert(remarks.end(), more.begin(), more.end()); }
+
+std::string name_of(const std::vector<Chosen>& chosen, const Film& meaning) {
+  return chosen.size() == 1 ? chosen[0].thing.name : meaning.source;
+}
+
+std::vector<std::string> left_out(const Film& meaning, const Choice& choice) {
+  std::vector<std::string> remarks;
+  for (const Actor& actor : meaning.actors)
+    if (choice.all && !actor.matrices.empty())
+      remarks.push_back("actor '" + actor.name + "' is moved by matrices and stays as it is");
+  return remarks;
+}
+
+// Changes tracks by `change(chosen, part, track)`, all of them in memory before the film changes. `change` returns
+// whether the choice names any key of the track; if none does, that is an error.
+template <typename Change>
+Remarks change_tracks(document::Json& film, const Film& meaning, const Choice& choice, const std::string& sought,
+                      Change change) {
+  std::vector<Chosen> chosen = choose(film, meaning, choice);
+  std::vector<Tracks> changed;
+  std::set<std::uint32_t> standing;
+  bool any = false;
+  for (const Chosen& one : chosen) {
+    Tracks& tracks = changed.emplace_back(tracks_of(*one.thing.json));
+    for (const std::string& part : one.parts) {
+      const auto track = tracks.find(part);
+      if (track == tracks.end()) continue;
+      for (const TrackKey& key : track->second) standing.insert(key.frame);
+      if (change(one, part, track->second)) any = true;
+    }
+  }
+  if (!any)
+    throw Failure("has no key " + sought, name_of(chosen, meaning),
+                  standing.empty() ? "it has no keys at all: make some with pose or key"
+                                   : "its keys stand at " + listed_frames(standing));
+  Remarks remarks = left_out(meaning, choice);
+  for (std::size_t i = 0; i < chosen.size(); ++i) append(remarks, put(chosen[i], changed[i]));
+  return remarks;
+}
+
+// Takes the keys in the range out of the track.
+Track taken(Track& track, FrameRange range) {
+  Track keys;
+  for (const TrackKey& key : track)
+    if (range.holds(key.frame)) keys.push_back(key);
+  std::erase_if(track, [&](const TrackKey& key) { return range.holds(key.frame); });
+  return keys;
+}
+
+std::uint32_t frame_from(std::int64_t frame, const std::string& where) {
+  if (frame < 0 || frame > kMostFrames)
+    throw Failure("would have a key at frame " + std::to_string(frame), where,
+                  "keys stand at frames 0 to " + std::to_string(kMostFrames));
+  return static_cast<std::uint32_t>(frame);
+}
+
+Remarks displace(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range, std::uint32_t to,
+                 bool copies) {
+  const std::int64_t by = std::int64_t{to} - range.first;
+  return change_tracks(film, meaning, choice, shown_range(range),
+                       [&](const Chosen& one, const std::string&, Track& track) {
+                         const Track whole = track;
+                         const Track moved = taken(track, range);
+                         if (copies) track = whole;
+                         for (TrackKey key : moved) {
+                           key.frame = frame_from(key.frame + by, one.thing.name);
+                           put_key(track, key);
+                         }
+                         return !moved.empty();
+                       });
+}
+
+// The frames of a track's keys by `map`, which never goes back. Two keys on one frame are an error.
+template <typename Map>
+void remap(Track& track, const std::string& thing, Map map) {
+  for (std::size_t i = track.size(); i-- > 0;) {
+    const std::uint32_t was = track[i].frame;
+    track[i].frame = frame_from(map(was), thing);
+    if (i + 1 < track.size() && track[i].frame >= track[i + 1].frame)
+      throw Failure("would lose keys: two would stand at frame " + std::to_string(track[i + 1].frame), thing,
+                    "move less, or delete the key at frame " + std::to_string(was) + " first");
+  }
+}
+
+Ease rounded(const Ease& ease) {
+  return {animator::rounded(ease.x1), animator::rounded(ease.y1), animator::rounded(ease.x2),
+          animator::rounded(ease.y2)};
+}
+
+void split_ease(TrackKey& before, std::uint32_t next, TrackKey& key) {
+  const double time = double(key.frame - before.frame) / double(next - before.frame);
+  if (const auto halves = split(before.ease, time)) {
+    before.ease = rounded(halves->first);
+    key.ease = rounded(halves->second);
+  }
+}
+
+}  // namespace
+
+void split_way(Track& track, std::uint32_t frame, document::Json value) {
+  const auto next = std::find_if(track.begin(), track.end(), [&](const TrackKey& k) { return k.frame >= frame; });
+  if (next != track.end() && next->frame == frame) {
+    next->value = std::move(value);
+    return;
+  }
+  TrackKey key{frame, std::move(value), kLinear};
+  if (next != track.begin() && next != track.end()) {
+    TrackKey& before = *std::prev(next);
+    before.ease.spline ? split_spline(track, static_cast<std::size_t>(next - track.begin()) - 1, key)
+                       : split_ease(before, next->frame, key);
+  }
+  put_key(track, std::move(key));
+}
+
+Remarks put(const Chosen& chosen, const Tracks& tracks) {
+  const Thing& thing = chosen.thing;
+  const Tracks before = tracks_of(*thing.json, chosen.parts);
+  put_tracks(*thing.json, tracks);
+  return side_effects(chosen, before, tracks_of(*thing.json, chosen.parts));
+}
+
+Remarks make_keys(document::Json& film, const Film& meaning, const Choice& choice, std::uint32_t frame,
+                  const std::optional<Ease>& ease, Beyond beyond) {
+  std::vector<Chosen> chosen = choose(film, meaning, choice);
+  std::vector<Tracks> changed;
+  Remarks remarks = left_out(meaning, choice);
+  for (const Chosen& one : chosen) {
+    Tracks& tracks = changed.emplace_back(tracks_of(*one.thing.json));
+    for (const std::string& name : one.parts) {
+      const KeyedPart& part = one.thing.part(name);
+      if (part.joint ? part.joint->freedoms() == 0 : choice.all && !one.thing.actor && !tracks.contains(name)) continue;
+      if (name == "attach" && !tracks.contains(name)) continue;
+      document::Json value = part.key_at(frame);
+      if (part.joint) value = written(within_limits(one.thing.name, *part.joint, vector_of(value), beyond, remarks));
+      split_way(tracks[name], frame, std::move(value));
+    }
+    if (ease) set_ease(tracks, {one.parts.begin(), one.parts.end()}, frame, *ease);
+  }
+  for (std::size_t i = 0; i < chosen.size(); ++i) append(remarks, put(chosen[i], changed[i]));
+  return remarks;
+}
+
+Remarks move_keys(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range, std::uint32_t to) {
+  return displace(film, meaning, choice, range, to, false);
+}
+
+Remarks copy_keys(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range, std::uint32_t to) {
+  return displace(film, meaning, choice, range, to, true);
+}
+
+Remarks delete_keys(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range) {
+  return change_tracks(film, meaning, choice, shown_range(range),
+                       [&](const Chosen&, const std::string&, Track& track) { return !taken(track, range).empty(); });
+}
+
+Remarks ease_keys(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range, const Ease& ease) {
+  return change_tracks(film, meaning, choice, shown_range(range), [&](const Chosen&, const std::string&, Track& track) {
+    bool any = false;
+    for (TrackKey& key : track)
+      if (range.holds(key.frame)) {
+        key.ease = ease;
+        key.own_ease = true;
+        any = true;
+      }
+    return any;
+  });
+}
+
+Remarks hold(document::Json& film, const Film& meaning, const Choice& choice, std::uint32_t frame,
+             std::uint32_t frames) {
+  Remarks none;
+  return change_tracks(film, meaning, choice, "to hold", [&](const Chosen& one, const std::string& name, Track& track) {
+    const bool moves_there = track.front().frame <= frame && frame < track.back().frame;
+    if (moves_there) {
+      const KeyedPart& part = one.thing.part(name);
+      document::Json value = part.key_at(frame);
+      if (part.joint)
+        value = written(within_limits(one.thing.name, *part.joint, vector_of(value), Beyond::refused, none));
+      split_way(track, frame, std::move(value));
+      keep_slopes(track, frame);
+    }
+    remap(track, one.thing.name, [&](std::uint32_t f) { return std::int64_t{f} + (f > frame ? frames : 0); });
+    if (moves_there) {
+      TrackKey& start = *key_at(track, frame);
+      TrackKey end = start;
+      end.frame = frame_from(std::int64_t{frame} + frames, one.thing.name);
+      if (start.ease.spline) start.ease = kLinear;
+      start.out = end.in = nullptr;
+      put_key(track, end);
+    }
+    return true;
+  });
+}
+
+Remarks stretch(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range, double factor) {
+  if (range.last <= range.first || !(factor > 0))
+    throw Failure("cannot be stretched " + document::shown(factor) + " times", "what is keyed " + shown_range(range),
+                  "name two frames and a factor above 0, like 24-48 and 1.5");
+  const double length = double(range.last) - range.first;
+  const auto added = static_cast<std::int64_t>(std::llround(length * factor - length));
+  return change_tracks(film, meaning, choice, shown_range({range.first, kMostFrames}),
+                       [&](const Chosen& one, const std::string&, Track& track) {
+                         scale_slopes(track, range.first, range.last, length / (length + added));
+                         remap(track, one.thing.name, [&](std::uint32_t f) -> std::int64_t {
+                           if (f <= range.first) return f;
+                           if (f >= range.last) return f + added;
+                           return range.first + std::llround((f - range.first) * (length + added) / length);
+                         });
+                         return track.back().frame > range.first;
+                       });
+}
+
+Remarks shift(document::Json& film, const Film& meaning, const Choice& choice, std::uint32_t frame, std::int64_t by) {
+  return change_tracks(film, meaning, choice, shown_range({frame, kMostFrames}),
+                       [&](const Chosen& one, const std::string&, Track& track) {
+                         const bool any = track.back().frame >= frame;
+                         remap(track, one.thing.name, [&](std::uint32_t f) { return f + (f >= frame ? by : 0); });
+                         return any;
+                       });
+}
+
+std::uint32_t last_key(const document::Json& film) {
+  std::uint32_t last = 0;
+  const auto look = [&](const document::Json& thing) {
+    if (const auto keys = thing.find("keys"); keys != thing.end() && !keys->empty())
+      last = std::max(last, keys->back().at("frame").get<std::uint32_t>());
+  };
+  look(film.at("camera"));
+  for (const char* group : {"lights", "materials", "actors"})
+    if (const auto found = film.find(group); found != film.end())
+      for (const document::Json& thing : *found) look(thing);
+  return last;
+}
+
+}  // namespace mars::animator

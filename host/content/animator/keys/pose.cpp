@@ -1,0 +1,215 @@
+#include "host/content/animator/keys/pose.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "hal/failure/failure.h"
+#include "host/content/animator/pose/attachments.h"
+#include "host/content/animator/keys/edit.h"
+#include "host/content/animator/keys/frame_words.h"
+#include "host/content/animator/keys/set_key.h"
+#include "host/content/animator/keys/tracks.h"
+#include "host/content/animator/keys/written.h"
+#include "host/content/document/fields.h"
+
+namespace mars::animator {
+namespace {
+
+double number_after(const PartSetting& setting, std::size_t axis, double now) {
+  if (!setting.numbers[axis]) return now;
+  return setting.relative ? rounded(now + *setting.numbers[axis]) : *setting.numbers[axis];
+}
+
+// A point that goes along with an actor (`now`) goes on along with it: its offset changes.
+document::Json point_after(const PartSetting& setting, document::Json now) {
+  glm::dvec3 offset = now.contains("offset") ? vector_of(now.at("offset")) : glm::dvec3(0);
+  for (int axis = 0; axis < 3; ++axis) offset[axis] = number_after(setting, axis, offset[axis]);
+  now["offset"] = written(offset);
+  return now;
+}
+
+// What the part is to be: its numbers `now`, those given exchanged.
+document::Json value_after(const PartSetting& setting, const Thing& thing, document::Json now, Beyond beyond,
+                           Remarks& remarks) {
+  if (now.is_object()) return point_after(setting, std::move(now));
+  if (!now.is_array()) return written(number_after(setting, 0, now.get<double>()));
+  for (std::size_t axis = 0; axis < now.size(); ++axis)
+    now[axis] = written(number_after(setting, axis, now[axis].get<double>()));
+  const KeyedPart& part = thing.part(setting.part);
+  return part.joint ? written(within_limits(thing.name, *part.joint, vector_of(now), beyond, remarks)) : now;
+}
+
+// Refuses an axis that an earlier setting has set; `set` are the parts and axes of those.
+void refuse_twice(const PartSetting& setting, const std::string& text, std::set<std::pair<std::string, int>>& set) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (setting.numbers[axis] && !set.emplace(setting.part, axis).second)
+      throw Failure("sets what an earlier word has set", "'" + text + "'", "give each part and axis once");
+}
+
+// A new key goes on as the way did on which it stands.
+Ease ease_there(const Track& track, std::uint32_t frame) {
+  for (std::size_t i = 0; i + 1 < track.size(); ++i)
+    if (track[i].frame <= frame && frame < track[i + 1].frame) return track[i].ease;
+  return kLinear;
+}
+
+// Gathers settings of one thing, then makes them its keys.
+class Posing {
+ public:
+  Posing(document::Json& film, const Film& meaning, const std::string& name, const std::optional<Ease>& ease,
+         Beyond beyond)
+      : chosen_(std::move(choose(film, meaning, {false, name, {}}).front())),
+        tracks_(tracks_of(*chosen_.thing.json)),
+        ease_(ease),
+        beyond_(beyond) {}
+
+  const Thing& thing() const { return chosen_.thing; }
+
+  void set(const PartSetting& setting, std::uint32_t frame) {
+    const KeyedPart& part = thing().part(setting.part);
+    Track& track = tracks_[part.name];
+    if (track.empty() && frame > 0) track.push_back({0, part.key_at(0), kLinear});
+    TrackKey* key = key_at(track, frame);
+    // A second setting for the part keeps what the first one set.
+    const bool again = !touched_.insert(part.name).second;
+    const document::Json now = again ? key->value : setting.relative ? part.key_at(frame) : part.value_at(frame);
+    document::Json value = value_after(setting, thing(), now, beyond_, remarks_);
+    if (key != nullptr)
+      key->value = std::move(value);
+    else
+      put_key(track, {frame, std::move(value), ease_there(track, frame)});
+    frames_.insert(frame);
+  }
+
+  // All keys that the part has there; whether it has any.
+  bool turn_keys(const PartSetting& setting, FrameRange range) {
+    const auto track = tracks_.find(setting.part);
+    if (track == tracks_.end()) return false;
+    bool any = false;
+    for (TrackKey& key : track->second) {
+      if (!range.holds(key.frame)) continue;
+      key.value = value_after(setting, thing(), key.value, beyond_, remarks_);
+      frames_.insert(key.frame);
+      any = true;
+    }
+    if (any) touched_.insert(setting.part);
+    return any;
+  }
+
+  Remarks put() {
+    for (const std::uint32_t frame : frames_)
+      if (ease_) set_ease(tracks_, touched_, frame, *ease_);
+    chosen_.parts.assign(touched_.begin(), touched_.end());
+    const Remarks more = animator::put(chosen_, tracks_);
+    remarks_.insert(remarks_.end(), more.begin(), more.end());
+    return std::move(remarks_);
+  }
+
+ private:
+  Chosen chosen_;
+  Tracks tracks_;
+  const std::optional<Ease>& ease_;
+  Beyond beyond_;
+  std::set<std::string> touched_;
+  std::set<std::uint32_t> frames_;
+  Remarks remarks_;
+};
+
+void turn_all_keys(Posing& posing, const std::vector<PartSetting>& settings, FrameRange range,
+                   const std::string& text) {
+  if (!settings.front().relative)
+    throw Failure("sets numbers " + shown_range(range), "'" + text + "'",
+                  "name one frame, or turn what is keyed there by += or -=");
+  bool any = false;
+  for (const PartSetting& setting : settings) any |= posing.turn_keys(setting, range);
+  if (!any)
+    throw Failure("finds no key of " + posing.thing().name + " " + shown_range(range), "'" + text + "'",
+                  "name one frame to make a key there; `mars animate FILM list` shows what is keyed");
+}
+
+// Keys of its place and turn may be meant for later; there they count for nothing.
+void remark_carried(const Film& meaning, const std::string& name, std::span<const PartSetting> settings,
+                    std::uint32_t frame, Remarks& remarks) {
+  const auto actor = std::ranges::find(meaning.actors, name, &Actor::name);
+  const Attachment* const carrier = actor == meaning.actors.end() ? nullptr : attachment_at(*actor, frame);
+  const auto moves = [](const PartSetting& setting) { return setting.part == "place" || setting.part == "turn"; };
+  if (!carrier || std::ranges::none_of(settings, moves)) return;
+  remarks.push_back(
+      "actor '" + name + "': '" + meaning.actors[carrier->actor].name + "' carries it at frame " +
+      std::to_string(frame) +
+      ", where its own place and turn count for nothing (detach it, or attach it with --place and --turn)");
+}
+
+constexpr double kMostDegrees = 1e6;  // as a film file may have
+
+bool is_turn(const glm::dvec3& degrees) {
+  return std::ranges::all_of(std::array{degrees.x, degrees.y, degrees.z},
+                             [](double angle) { return std::abs(angle) <= kMostDegrees; });
+}
+
+void show_key(Actor& actor, const modeler::Model& model, const std::string& part, const glm::dvec3& value,
+              std::uint32_t frame) {
+  if (part == "place") return set_key(actor.motion.place, value, frame, {});
+  if (part == "turn") return set_key(actor.motion.turn, value, frame, {});
+  const auto joint = std::ranges::find(model.joints, part.substr(1), &modeler::Joint::name);
+  set_key(actor.motion.pose[static_cast<std::size_t>(joint - model.joints.begin())], value, frame, joint->rest());
+}
+
+}  // namespace
+
+Remarks pose(document::Json& film, const Film& meaning, const std::string& name, std::span<const PartSetting> settings,
+             std::uint32_t frame, const std::optional<Ease>& ease, Beyond beyond) {
+  Posing posing(film, meaning, name, ease, beyond);
+  for (const PartSetting& setting : settings) posing.set(setting, frame);
+  Remarks remarks = posing.put();
+  remark_carried(meaning, name, settings, frame, remarks);
+  return remarks;
+}
+
+Remarks pose(document::Json& film, const Film& meaning, const std::string& name, std::span<const std::string> settings,
+             FrameRange range, const std::optional<Ease>& ease, Beyond beyond) {
+  Posing posing(film, meaning, name, ease, beyond);
+  std::set<std::pair<std::string, int>> set;
+  std::vector<PartSetting> all;
+  for (const std::string& text : settings) {
+    const std::vector<PartSetting> parts = read_settings(text, posing.thing());
+    for (const PartSetting& part : parts) refuse_twice(part, text, set);
+    all.insert(all.end(), parts.begin(), parts.end());
+    if (range.first != range.last)
+      turn_all_keys(posing, parts, range, text);
+    else
+      for (const PartSetting& part : parts) posing.set(part, range.first);
+  }
+  Remarks remarks = posing.put();
+  remark_carried(meaning, name, all, range.first, remarks);
+  return remarks;
+}
+
+bool show_pose(Film& film, document::Json& json, const std::string& name, std::span<const std::string> settings,
+               std::uint32_t frame, Beyond beyond, Remarks& remarks) {
+  const auto actor = std::ranges::find(film.actors, name, &Actor::name);
+  if (actor == film.actors.end()) return false;
+  const Thing thing = std::move(choose(json, film, {false, name, {}}).front().thing);
+  std::set<std::pair<std::string, int>> set;
+  std::map<std::string, glm::dvec3> values;
+  std::vector<PartSetting> all;
+  for (const std::string& text : settings)
+    for (const PartSetting& setting : read_settings(text, thing)) {
+      refuse_twice(setting, text, set);
+      const auto again = values.find(setting.part);
+      const document::Json now =
+          again == values.end() ? thing.part(setting.part).value_at(frame) : written(again->second);
+      values[setting.part] = vector_of(value_after(setting, thing, now, beyond, remarks));
+      all.push_back(setting);
+    }
+  for (const auto& [part, value] : values)
+    if (part == "turn" && !is_turn(value)) return false;
+  for (const auto& [part, value] : values) show_key(*actor, film.models[actor->model], part, value, frame);
+  remark_carried(film, name, all, frame, remarks);
+  return true;
+}
+
+}  // namespace mars::animator

@@ -1,0 +1,31 @@
+// Posing: a figure, the camera, a light or a material, set at a frame by what a person wants of its parts; the limits
+// of joints are held. The thesis's quadruple (model, segment, axis, angle) is one of these settings.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "host/content/animator/keys/keys.h"
+#include "host/content/animator/keys/part_setting.h"
+
+namespace mars::animator {
+
+// Sets the thing `name` (Choice::thing) at the frame, with an ease from there if given. A part without keys also gets
+// one at frame 0, as it was, so that it moves from there.
+Remarks pose(document::Json& film, const Film& meaning, const std::string& name, std::span<const PartSetting> settings,
+             std::uint32_t frame, const std::optional<Ease>& ease, Beyond beyond);
+
+// The same as people type the settings. Over several frames settings must be relative: all keys that the parts have
+// there change. Throws where a setting finds none.
+Remarks pose(document::Json& film, const Film& meaning, const std::string& name, std::span<const std::string> settings,
+             FrameRange range, const std::optional<Ease>& ease, Beyond beyond);
+
+// Shows of an actor in `film`, which was read from `json`, what pose() with these settings and no ease would make of
+// it, without writing: for every move of a hand. False, and nothing is changed, where the name is no actor's or only
+// the file read again says what is wrong.
+bool show_pose(Film& film, document::Json& json, const std::string& name, std::span<const std::string> settings,
+               std::uint32_t frame, Beyond beyond, Remarks& remarks);
+
+}  // namespace mars::animator

@@ -1,0 +1,64 @@
+#include "host/content/animator/motion/body/hand.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "host/content/animator/motion/body/stance.h"
+
+namespace mars::motion {
+namespace {
+
+constexpr double kAlong = 0.45;  // of the hand, where its palm is
+constexpr double kThick = 0.45;  // of how far its box is out on the inner side
+
+// How far a joint's own segment reaches from it, as drawn, along a direction.
+double extent(const modeler::Joint& joint, const glm::dvec3& direction) {
+  if (!joint.segment) return 0;
+  double most = 0;
+  const modeler::Axes frame = modeler::segment_frame({}, joint);
+  const modeler::Box& box = joint.segment->sbb;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 point(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                           corner & 4 ? box.max.z : box.min.z);
+    most = std::max(most, glm::dot(frame.turn * point, direction));
+  }
+  return most;
+}
+
+glm::dmat3 frame_along(const glm::dvec3& first, const glm::dvec3& about) {
+  const glm::dvec3 third = glm::normalize(glm::cross(first, about));
+  return {first, glm::cross(third, first), third};
+}
+
+}  // namespace
+
+std::vector<std::size_t> Hand::joints() const {
+  return end == elbow ? std::vector{shoulder, elbow} : std::vector{shoulder, elbow, end};
+}
+
+Hand hand_of(const Body& body, modeler::Side side, const std::string& command) {
+  const std::size_t shoulder = needed(body, modeler::Limb::shoulder, side, command);
+  const std::size_t elbow = needed(body, modeler::Limb::elbow, side, command);
+  const std::size_t wrist = body.find(modeler::Limb::wrist, side);
+  const Posture drawn = drawn_posture(*body.model);
+  const auto place = [&](std::size_t joint) { return frame_in(*body.model, drawn, joint).place; };
+  Hand hand{side, shoulder, elbow, wrist == modeler::kNone ? elbow : wrist, {}, {}, {}, 0, 0};
+  hand.fingers = glm::normalize(wrist == modeler::kNone ? place(elbow) - place(shoulder) : place(wrist) - place(elbow));
+  // Of an arm that hangs the palm faces the body.
+  const glm::dmat3 hang = body.axes * hanging_shoulder(body, side, {0, 0, 0}) * glm::transpose(body.axes);
+  hand.palm = glm::transpose(hang) * body.axes[1] * -sign_of(side);
+  hand.palm = glm::normalize(hand.palm - glm::dot(hand.palm, hand.fingers) * hand.fingers);
+  const modeler::Joint& end = body.model->joints[hand.end];
+  hand.grip = kAlong * extent(end, hand.fingers) * hand.fingers + kThick * extent(end, hand.palm) * hand.palm;
+  hand.upper = glm::distance(place(shoulder), place(elbow));
+  hand.fore =
+      (wrist == modeler::kNone ? 0 : glm::distance(place(elbow), place(wrist))) + glm::dot(hand.grip, hand.fingers);
+  return hand;
+}
+
+glm::dmat3 hand_turn(const Hand& hand, const glm::dvec3& palm, const glm::dvec3& fingers) {
+  return frame_along(palm, fingers) * glm::transpose(frame_along(hand.palm, hand.fingers));
+}
+
+}  // namespace mars::motion

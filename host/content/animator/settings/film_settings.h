@@ -1,0 +1,37 @@
+// A film's settings, lights and materials, as people type them: KEY=VALUE. As values: `film` is the JSON of what
+// read_film accepts, and made `meaning` of; it also checks the result.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "host/content/animator/pose/film.h"
+#include "host/content/document/json_file.h"
+
+namespace mars::animator {
+
+// A film of two seconds without actors; its camera sees a figure of the library that stands at the origin, from before
+// its right.
+document::Json new_film();
+
+using TypedFields = std::span<const std::string>;
+
+// "frames=120", "size=640,360".
+void set_film(document::Json& film, TypedFields settings);
+
+// The lights of a film without any, and their ambient light, become its own.
+void write_rig(document::Json& film, const Film& meaning);
+// Its number, from 1. A film without lights of its own gets those first that it was shown with.
+std::size_t add_light(document::Json& film, const Film& meaning, TypedFields fields);
+void remove_light(document::Json& film, const Film& meaning, std::size_t number);
+
+// With an actor, that one wears it: where its model's material of this name is, which it begins as, else all over.
+void add_material(document::Json& film, const Film& meaning, const std::string& name, TypedFields fields,
+                  const std::string& actor);
+void set_material(document::Json& film, const std::string& name, TypedFields fields);
+// Actors that wore it wear what their models give them.
+void remove_material(document::Json& film, const std::string& name);
+
+}  // namespace mars::animator
