@@ -1,4 +1,4 @@
-// The host's commands in the order in which they came. Those of live views are received while one is obeyed, where it
+// The host's commands in the order in which they came. Those of live views are received while one is executed, where it
 // asks whether it is still wanted.
 #pragma once
 
@@ -18,7 +18,7 @@ class CommandQueue {
   std::span<const std::byte> receive();
   void reserve(std::size_t bytes) { command_.reserve(bytes); }
 
-  // Whether a View or CloseView of this view has come behind the command being obeyed, or a Load.
+  // Whether a View or CloseView of this view has come behind the command being executed, or a Load.
   bool ends(std::uint32_t view);
 
  private:
@@ -29,7 +29,7 @@ class CommandQueue {
 
   void receive_ahead();
 
-  std::deque<Ahead> ahead_;  // not obeyed yet
+  std::deque<Ahead> ahead_;  // not executed yet
   bool load_comes_ = false;  // behind these
   long type_ = 0;            // of the command that was waited for
   std::vector<std::byte> command_;

@@ -39,7 +39,7 @@ class Firmware {
  public:
   explicit Firmware(const NodeIdentity& identity);
 
-  void obey();
+  void run();
   // The last message of a node that has failed.
   void report_fault(const std::string& reason);
 
@@ -86,7 +86,7 @@ Firmware::Firmware(const NodeIdentity& identity)
   csend(wire::kHello, &hello, sizeof hello, myhost(), 0);
 }
 
-void Firmware::obey() {
+void Firmware::run() {
   for (;;) {
     led(0);
     heartbeat_.rest();
@@ -182,7 +182,7 @@ void Firmware::report_fault(const std::string& reason) {
 void run_node(const NodeIdentity& identity) {
   Firmware firmware(identity);
   try {
-    firmware.obey();
+    firmware.run();
   } catch (const HostLost&) {
     throw;
   } catch (const std::exception& failure) {

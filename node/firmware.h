@@ -1,4 +1,4 @@
-// The node program: boots, introduces itself (Hello), then obeys the host's commands until Stop.
+// The node program: boots, introduces itself (Hello), then executes the host's commands until Stop.
 #pragma once
 
 #include "node/node_identity.h"

@@ -58,14 +58,14 @@ class FrameCounter {
   const geometry::ShapeBoxes boxes_;
   Tessellator tessellator_;
   const raster::RasterKernels& kernels_;
-  const std::uint32_t step_;    // every so many lines one is sampled
+  const std::uint32_t step_;    // one of `step_` lines is sampled
   const std::uint32_t stride_;  // of a row of samples, with what kernels need behind it
   messages::PrivateMemory memory_;
   std::vector<std::uint8_t> all_lines_;
   std::vector<raster::LineLoad> share_loads_;
   std::vector<raster::LineLoad> loads_;  // of all shares
   std::vector<Columns> moving_columns_;
-  std::vector<raster::LineLoad> moving_loads_;  // of these, moving parts'
+  std::vector<raster::LineLoad> moving_loads_;  // of the edge boxes, moving parts'
   std::vector<geometry::Triangle> triangles_;   // of the sampled lines
   std::vector<SampledLine> sampled_;
   std::vector<std::uint32_t> ids_;

@@ -18,13 +18,13 @@ class FrameReport {
  public:
   // A new frame. Its clock starts.
   void begin(wire::FrameKind kind, std::uint32_t frame, std::uint32_t interval);
-  // The node did so many units of a kind of work, in the phase that is clocked next.
+  // The node did `units` of a kind of work, in the phase that is clocked next.
   void charge(wire::Work kind, std::uint64_t units);
   // Adds the time since the last call to `phase`, and records it as a span.
   void clock(wire::Phase phase);
   // Leaves the time since the last call out: it belongs to no phase.
   void skip_clock();
-  // The frame had so many bytes in use.
+  // The frame had `bytes` bytes in use.
   void note_memory(std::uint64_t bytes);
   // Lines of the frame are left out.
   void cut() { is_cut_ = true; }

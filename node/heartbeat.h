@@ -53,7 +53,7 @@ class Heartbeat {
   wire::Beat host_{};
   bool begun_ = false;  // the host beats
   double looked_ = 0;   // when
-  double spoken_ = 0;   // likewise
+  double spoken_ = 0;   // when it beat last
   double unheard_ = 0;  // seconds in which nothing came from the host, as far as the node ran in them
   unsigned turns_ = 0;
 };

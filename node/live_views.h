@@ -23,7 +23,7 @@ class LiveViews {
   // The film's block and `renderer` outlive it.
   LiveViews(const wire::FilmView& film, simd::InstructionSet set, Renderer& renderer, HasEnded has_ended);
 
-  // Each obeys a command of this kind.
+  // Each executes a command of this kind.
   void begin(std::span<const std::byte> view_command);
   void draw(std::span<const std::byte> draw_command);
   void close(std::span<const std::byte> close_command);

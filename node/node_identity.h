@@ -1,4 +1,4 @@
-// What a node is told of itself and of its machine by the program that it runs in.
+// What a node learns of itself and of its machine from the program that it runs in.
 #pragma once
 
 #include <array>

@@ -28,7 +28,7 @@ struct Scatter {
 // One a line of the picture.
 struct LineTable {
   std::span<const std::uint8_t> wanted;        // 1: edge boxes of moving parts there are stored and counted
-  std::span<const std::uint8_t> wanted_still;  // likewise of stationary ones, which are not made where it is empty
+  std::span<const std::uint8_t> wanted_still;  // of stationary ones, which are not made where it is empty
   std::span<raster::LineLoad> loads;
 };
 

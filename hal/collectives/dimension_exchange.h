@@ -27,7 +27,7 @@ class DimensionExchange {
   bool folded() const { return position_ >= corners_; }               // has a partner below
   bool folds() const { return position_ + corners_ < group_.count; }  // has a partner above
 
-  // One message of just so many bytes. A receive is there for each send, of the same length.
+  // One message of exactly `bytes` bytes. A receive is there for each send, of the same length.
   void send(int to, const void* data, std::size_t bytes);
   void receive(int from, void* data, std::size_t bytes);
   // One each way; `out` and `in` do not overlap.

@@ -14,7 +14,7 @@ namespace mars::collectives {
 // same order, with equal lengths; `work` is as long as `values`. Sums are modulo 2^64.
 void group_sum(const Group& group, std::span<std::uint64_t> values, std::span<std::uint64_t> work);
 
-// Element-wise maximum, likewise.
+// Element-wise maximum, in the same way.
 void group_high(const Group& group, std::span<std::uint64_t> values, std::span<std::uint64_t> work);
 
 }  // namespace mars::collectives

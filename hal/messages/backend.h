@@ -93,7 +93,7 @@ class Backend {
   virtual double seconds() const { return machine_seconds(); }
   // Whether it is that of the machine.
   virtual bool has_machine_clock() const { return true; }
-  // The rank has just done so many units of work of a kind, by the program's own numbers: where ranks live by another
+  // The rank has just done `units` of a kind of work, by the program's own numbers: where ranks live by another
   // clock, it goes on by what they cost.
   virtual void charge(int /*kind*/, std::uint64_t /*units*/) {}
   // From now on the rank waits for messages of ranks [first, first + count) alone, itself among them: what others do

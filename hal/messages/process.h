@@ -125,10 +125,10 @@ void find_process_by(FindProcess find);
 // By the clock of the calling thread's process; the machine's where it has none.
 double seconds();
 
-// The calling process has done so many units of work of a kind (Backend::charge).
+// The calling process has done `units` of a kind of work (Backend::charge).
 void charge(int kind, std::uint64_t units);
 
-// As the Backend's of these names.
+// As the Backend's calls of the same names.
 void keep_to(int first, int count);
 void keep_to_nobody();
 void discard(std::span<std::byte> bytes);

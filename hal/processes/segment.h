@@ -57,8 +57,8 @@ struct alignas(64) Slot {
   std::atomic<Waiting> waiting;
   alignas(64) BlockStack returned;   // blocks of this rank's heap
   alignas(64) Offset carved;         // bytes of its heap that are blocks; changed by the owner alone
-  std::atomic<Offset> seen;          // messages taken from `arrived`, the next one first; likewise
-  std::atomic<std::uint64_t> taken;  // messages; likewise
+  std::atomic<Offset> seen;          // messages taken from `arrived`, the next one first; by the receiver
+  std::atomic<std::uint64_t> taken;  // messages
   std::atomic<Life> life;
   std::atomic<std::int32_t> code;  // of an ended one; minus the signal of one that died
   // The job's age when its process began, and when the one before that or, where none runs, the last ended.
@@ -82,7 +82,7 @@ struct alignas(64) Header {
   std::atomic<std::uint32_t> age;       // begins and ends of processes so far
   std::uint64_t heap_capacity;          // addresses that each heap has
   std::uint64_t limit;                  // bytes that messages under way may take in all heaps
-  std::atomic<std::uint64_t> used;      // of these
+  std::atomic<std::uint64_t> used;      // bytes in use
   std::atomic<std::int32_t> finished;   // ranks that have come to their orderly end
   std::atomic<std::uint32_t> stopped;   // 1: the reason is not there yet; 2: `reason` can be read
   std::atomic<std::uint32_t> stopping;  // the process that adds first writes the reason

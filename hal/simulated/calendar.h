@@ -8,7 +8,7 @@ namespace mars::simulated {
 
 class Calendar {
  public:
-  // When work of so many seconds begins that could begin at `time`. Nothing comes that begins before `floor`.
+  // When work of `seconds` begins that could begin at `time`. Nothing comes that begins before `floor`.
   double book(double time, double seconds, double floor);
 
   // When it is free for ever.

@@ -10,7 +10,7 @@ namespace mars::simulated {
 
 // What a message costs the processor at one of its ends, by its length.
 struct EndCost {
-  std::size_t from = 0;  // bytes: of messages of so many and more
+  std::size_t from = 0;  // bytes: of messages as long as this or longer
   double seconds = 0;
 };
 

@@ -135,7 +135,7 @@ class World {
   messages::MessagePool pool_;  // of messages on their way, and all ranks'
   std::vector<std::unique_ptr<Rank>> ranks_;
   Queue queue_;                                  // all that neither run nor wait for ever
-  std::map<int, Queue> communities_;             // of these, by their first rank
+  std::map<int, Queue> communities_;             // communities by their first rank
   bool ordered_;                                 // ranks share what they must use in the order of time
   std::vector<std::vector<double>> processors_;  // by computer: busy until
   std::uint64_t messages_ = 0;                   // sent so far

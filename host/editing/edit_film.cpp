@@ -9,7 +9,7 @@ Done edit_film(document::Json& film, const std::filesystem::path& path, std::spa
   const document::Document document(document::laid_out(film), path.string());
   animator::Film meaning = animator::read_film(document.root(), path.parent_path());
   FilmInMemory memory(film, meaning, path, {});
-  memory.obey(commands);
+  memory.execute(commands);
   memory.keep();
   return memory.done();
 }

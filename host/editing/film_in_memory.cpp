@@ -38,12 +38,12 @@ animator::Film meaning_of(const Json& json, const fs::path& path, Read read) {
 FilmInMemory::FilmInMemory(Json& json, animator::Film& film, fs::path path, fs::path folder)
     : json_(json), film_(film), path_(std::move(path)), folder_(std::move(folder)) {}
 
-void FilmInMemory::obey(std::span<const Command> commands) {
-  for (const Command& command : commands) obey(command);
+void FilmInMemory::execute(std::span<const Command> commands) {
+  for (const Command& command : commands) execute(command);
 }
 
-// Of the many words only those that it may need are made, which takes longer than to obey most of them.
-void FilmInMemory::obey(const Command& command) {
+// Of the many words only those that it may need are made, which takes longer than to execute most of them.
+void FilmInMemory::execute(const Command& command) {
   int code = 0;
   cli::Program mars("mars", "");
   const std::string program = command.empty() ? "" : command[0], verb = command.size() < 2 ? "" : command[1];
@@ -57,7 +57,7 @@ void FilmInMemory::obey(const Command& command) {
 
 void FilmInMemory::show(std::span<const Command> commands) {
   only_shows_ = commands.size() == 1;  // others need the JSON that it leaves
-  obey(commands);
+  execute(commands);
 }
 
 void FilmInMemory::keep() {

@@ -28,7 +28,7 @@ class FilmInMemory final : public EditedFilm {
   // Read in place of the file, which need not be there.
   void give_script(const std::filesystem::path& path, const std::string& text) { scripts_[path] = text; }
   // Where it throws, what the words before did stays until it is taken back.
-  void obey(std::span<const Command> commands);
+  void execute(std::span<const Command> commands);
   // The same for who looks at the film only: its JSON may stay as it was. Not to be kept.
   void show(std::span<const Command> commands);
   void keep();
@@ -67,7 +67,7 @@ class FilmInMemory final : public EditedFilm {
     std::vector<animator::LightMotion> lights;  // which may stand as the camera does
   };
 
-  void obey(const Command& command);
+  void execute(const Command& command);
   Part part_as_it_is(animator::FilmPart part, bool with_json) const;
   void put_back(Part& part);
   bool changed_part(animator::FilmPart part, const Change& change);

@@ -9,7 +9,7 @@
 
 namespace mars::editing {
 
-void ModelInMemory::obey(std::span<const Command> commands) {
+void ModelInMemory::execute(std::span<const Command> commands) {
   for (const Command& command : commands) {
     cli::Program mars("mars", "");
     add_model(mars, *this);

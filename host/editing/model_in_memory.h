@@ -15,7 +15,7 @@ class ModelInMemory final : public EditedModel {
   ModelInMemory(document::Json json, modeler::Model model, std::filesystem::path path, std::filesystem::path folder)
       : json_(std::move(json)), model_(std::move(model)), path_(std::move(path)), folder_(std::move(folder)) {}
 
-  void obey(std::span<const Command> commands);
+  void execute(std::span<const Command> commands);
 
   const document::Json& json() const { return json_; }
   const modeler::Model& model() const { return model_; }

@@ -18,7 +18,7 @@ cli::Command add_animate(cli::Command mars, EditedFilm& film, int& code);
 // `mars animate pose` alone, for who says it at every move of a hand.
 void add_animate_pose(cli::Command mars, EditedFilm& film);
 
-// `mars film`, likewise.
+// Adds `mars film` in the same way.
 cli::Command add_film(cli::Command mars, EditedFilm& film);
 
 // `mars model`, without its MODEL.

@@ -19,7 +19,7 @@ constexpr std::array kReflections{"phong", "blinn-phong", "cook-torrance"};
 struct Bodies {
   const char* name;
   const char* shape;
-  int side;  // so many rows of so many bodies
+  int side;  // rows, and bodies in each row
   double size;
   int dice;  // 0: adaptive
   const char* reflection;

@@ -122,7 +122,7 @@ bool FilmPictures::look_from(From from) {
   return true;
 }
 
-bool FilmPictures::obey(const KeyPress& key, std::uint32_t frame) {
+bool FilmPictures::handle_key(const KeyPress& key, std::uint32_t frame) {
   switch (key.special) {
     case Special::left: return turn(-kStep, 0, frame);
     case Special::right: return turn(kStep, 0, frame);

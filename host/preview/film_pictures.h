@@ -36,7 +36,7 @@ class FilmPictures : public Pictures {
   images::PictureSize extent() const override { return {view_->width, view_->height}; }
   SharedImage picture(std::uint32_t frame, images::PictureSize extent) override;
   bool complete() const override { return complete_; }
-  bool obey(const KeyPress& key, std::uint32_t frame) override;
+  bool handle_key(const KeyPress& key, std::uint32_t frame) override;
   std::string state() const override;
   std::string keys() const override;
 

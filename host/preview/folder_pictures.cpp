@@ -19,7 +19,7 @@ SharedImage FolderPictures::picture(std::uint32_t place, images::PictureSize ext
       scaled(images::read_picture(images::PictureFormat::png, file), fitted(this->extent(), extent)));
 }
 
-bool FolderPictures::obey(const KeyPress& key, std::uint32_t) {
+bool FolderPictures::handle_key(const KeyPress& key, std::uint32_t) {
   note_ = is_pose_key(key) ? "rendered frames have no joints to pose: preview their film" : "";
   return is_pose_key(key);
 }

@@ -20,7 +20,7 @@ class FolderPictures : public Pictures {
   // By its place among the folder's frames, from 0. Throws Failure where its file is missing or torn.
   SharedImage picture(std::uint32_t place, images::PictureSize extent) override;
   // Refuses keys for posing.
-  bool obey(const KeyPress& key, std::uint32_t frame) override;
+  bool handle_key(const KeyPress& key, std::uint32_t frame) override;
   std::string note(std::uint32_t) const override { return note_; }
   std::string state() const override { return folder_.string(); }
 

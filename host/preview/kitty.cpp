@@ -6,7 +6,7 @@
 namespace mars::preview {
 namespace {
 
-constexpr std::size_t kChunk = 4096;  // bytes of text at a time, as the protocol wants
+constexpr std::size_t kChunk = 4096;  // bytes of text at a time, the protocol's limit
 
 std::string base64(std::span<const std::byte> bytes) {
   constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

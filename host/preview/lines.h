@@ -10,7 +10,7 @@ namespace mars::preview {
 struct Lines {
   std::vector<float> points;        // x, y, z of each
   std::vector<std::uint32_t> ends;  // two points a line
-  std::uint32_t dots = 0;           // so many points, from the first, are marked: joints, control vertices
+  std::uint32_t dots = 0;           // the first `dots` points are marked: joints, control vertices
 };
 
 // Triangles between points, which hide lines behind them.

@@ -33,14 +33,14 @@ class Pictures {
   // Why they cannot follow it now, in one line; "": they do.
   virtual std::string trouble() const { return ""; }
 
-  // Obeys a key that is pressed at a frame: true if it changes the picture or what is said.
-  virtual bool obey(const KeyPress&, std::uint32_t) { return false; }
+  // Handles a key that is pressed at a frame: true if it changes the picture or the text.
+  virtual bool handle_key(const KeyPress&, std::uint32_t) { return false; }
   // Whether time is to stand still: a person tries something at the frame.
   virtual bool holds() const { return false; }
-  // What is to be said at a frame above the status line; "": nothing.
+  // What is to be shown at a frame above the status line; "": nothing.
   virtual std::string note(std::uint32_t) const { return ""; }
   virtual std::string state() const { return ""; }  // in a few words, for a status line
-  virtual std::string keys() const { return ""; }   // what obey() knows, in lines of 80 characters at most
+  virtual std::string keys() const { return ""; }   // what handle_key() knows, in lines of 80 characters at most
 };
 
 // The film's picture as large as fits into `space`, at least one pixel each way.

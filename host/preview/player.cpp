@@ -39,7 +39,7 @@ class Player {
       if (events.ended_by != 0) return events.ended_by;
       if (events.redraw) empty();
       for (const KeyPress& key : events.keys)
-        if (!obey(key)) return 0;
+        if (!handle_key(key)) return 0;
     }
   }
 
@@ -142,7 +142,7 @@ class Player {
   }
 
   // False: the person has seen enough.
-  bool obey(const KeyPress& key) {
+  bool handle_key(const KeyPress& key) {
     const double at = due();
     switch (key.special == Special::none ? key.character : 0) {
       case 'q':
@@ -170,7 +170,8 @@ class Player {
       default:
         if (key.special == Special::home) go_on_from(0);
         if (key.special == Special::end) go_on_from(pictures_.frames() - 1);
-        if (key.special != Special::home && key.special != Special::end && !pictures_.obey(key, frame())) return true;
+        if (key.special != Special::home && key.special != Special::end && !pictures_.handle_key(key, frame()))
+          return true;
     }
     if (pictures_.holds()) hold();
     shown_ = false;

@@ -1,5 +1,5 @@
 // Plays pictures in the terminal at their rate: those that cannot be shown in time are left out, so that time is always
-// right. Obeys keys.
+// right. Handles keys.
 #pragma once
 
 #include "host/preview/terminal.h"

@@ -59,7 +59,7 @@ const modeler::Joint& PoseKeys::joint() const {
   return film.models[film.actors[selected_->actor].model].joints[selected_->joint];
 }
 
-bool PoseKeys::obey(const KeyPress& key, std::uint32_t frame) {
+bool PoseKeys::handle_key(const KeyPress& key, std::uint32_t frame) {
   said_.clear();
   if (!is_pose_key(key)) return false;
   if (!film_->source)
@@ -71,7 +71,7 @@ bool PoseKeys::obey(const KeyPress& key, std::uint32_t frame) {
   return true;
 }
 
-// What there is to be said about it.
+// What there is to report about it.
 std::string PoseKeys::done_by(const KeyPress& key, std::uint32_t frame) {
   if (key.special == Special::escape) return give_up();
   if (key.special == Special::back_tab || key.character == '\t') {
@@ -116,14 +116,14 @@ std::string PoseKeys::rest(std::uint32_t frame) {
 std::string PoseKeys::set_key(std::uint32_t frame) {
   if (!under_way()) return "no joint has been turned";
   if (film_->is_model) return "a model has no keys: its poses are only shown";
-  std::string said = "key set at frame " + std::to_string(frame);
+  std::string report = "key set at frame " + std::to_string(frame);
   try {
-    for (const std::string& remark : file_.set(pose_, frame)) said += "; " + remark;
+    for (const std::string& remark : file_.set(pose_, frame)) report += "; " + remark;
   } catch (const std::exception& failure) {
     return "no key is set: " + reason_of(failure);
   }
   written_ = pose_.angles();
-  return said;
+  return report;
 }
 
 std::string PoseKeys::undo() {

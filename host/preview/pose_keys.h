@@ -23,7 +23,7 @@ class PoseKeys {
   void change_film(Previewed& film);
 
   // False: it is no key for posing.
-  bool obey(const KeyPress& key, std::uint32_t frame);
+  bool handle_key(const KeyPress& key, std::uint32_t frame);
   // Whether there are angles that are no keys yet.
   bool under_way() const { return pose_.angles() != written_; }
 
@@ -31,7 +31,8 @@ class PoseKeys {
   const PoseUnderWay& pose() const { return pose_; }
   Posed posed_at(std::uint32_t frame) const;
 
-  // The selected joint with its angles and limits, and what the last key did; "": nothing is selected or to be said.
+  // The selected joint with its angles and limits, and what the last key did; "": nothing is selected or there is
+  // nothing to report.
   std::string note(std::uint32_t frame) const;
   static std::string keys();
 

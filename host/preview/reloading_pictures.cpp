@@ -32,8 +32,8 @@ SharedImage ReloadingPictures::picture(std::uint32_t frame, images::PictureSize 
   return pictures_.picture(frame, extent);
 }
 
-bool ReloadingPictures::obey(const KeyPress& key, std::uint32_t frame) {
-  return pose_keys_.obey(key, frame) || pictures_.obey(key, frame);
+bool ReloadingPictures::handle_key(const KeyPress& key, std::uint32_t frame) {
+  return pose_keys_.handle_key(key, frame) || pictures_.handle_key(key, frame);
 }
 
 std::string ReloadingPictures::state() const {

@@ -22,7 +22,7 @@ class ReloadingPictures : public Pictures {
   bool complete() const override { return pictures_.complete(); }
   bool renew() override;
   std::string trouble() const override { return reloader_.trouble(); }
-  bool obey(const KeyPress& key, std::uint32_t frame) override;
+  bool handle_key(const KeyPress& key, std::uint32_t frame) override;
   bool holds() const override { return pose_keys_.under_way(); }
   std::string note(std::uint32_t frame) const override { return pose_keys_.note(frame); }
   std::string state() const override;

@@ -207,7 +207,7 @@ void Terminal::read_signals() {
 }
 
 // The shell that continues us may have changed the terminal's modes and screen meanwhile.
-void Terminal::obey_signals() {
+void Terminal::handle_signals() {
   if (stop_) suspend();
   if (ended_by_ != 0) return;
   if (stop_ || continued_) {
@@ -235,7 +235,7 @@ TerminalEvents Terminal::wait(std::chrono::nanoseconds time) {
   read_signals();
   TerminalEvents events;
   events.redraw = stop_ || continued_ || resized_;
-  obey_signals();
+  handle_signals();
   if (sources[0].revents != 0) read_keys();
   if ((sources[0].revents & POLLHUP) != 0) ended_by_ = SIGHUP;
   events.keys = take_keys(unread_);

@@ -22,7 +22,7 @@ enum class Graphics { automatic, kitty, sixel, blocks, blocks256 };
 struct TerminalEvents {
   std::vector<KeyPress> keys;
   bool redraw = false;  // resized, or back from a suspension: the screen is empty
-  int ended_by = 0;     // a signal that wants us to end
+  int ended_by = 0;     // the signal that asked for the end
 };
 
 class Terminal {
@@ -37,8 +37,8 @@ class Terminal {
   Graphics graphics() const { return graphics_; }
   images::PictureSize cells() const { return cells_; }
   images::PictureSize cell() const { return cell_; }  // pixels of one, where graphics have pixels
-  // Waits while the terminal takes nothing, but for no longer than until a signal wants us to end; what is left is then
-  // dropped.
+  // Waits while the terminal takes nothing, but for no longer than until a signal asks for the end; what is left is
+  // then dropped.
   void write(std::string_view bytes);
 
   // What happens within `time`; returns as soon as something does.
@@ -47,7 +47,7 @@ class Terminal {
  private:
   void block_signals();
   void read_signals();
-  void obey_signals();
+  void handle_signals();
   void ask(bool colors24);
   void set_modes(const termios& modes);
   void enter();
@@ -67,7 +67,7 @@ class Terminal {
   int signals_ = -1;  // a signalfd
   int output_ = -1;   // standard output's terminal, never waited for by the system
   bool entered_ = false;
-  bool stop_ = false, continued_ = false, resized_ = false;  // what signals ask for, until it is obeyed
+  bool stop_ = false, continued_ = false, resized_ = false;  // what signals ask for, until it is handled
   int ended_by_ = 0;                                         // as in TerminalEvents; nothing is played any more
   std::string unread_;                                       // of a key that is not complete
   std::chrono::steady_clock::time_point read_at_;            // when the last of it came

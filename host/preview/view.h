@@ -20,7 +20,7 @@
 namespace mars::preview {
 
 enum class As { stick, vertices, prisms, surface };
-inline constexpr std::size_t kOfLines = 3;  // representations before `surface`, which the renderer draws
+inline constexpr std::size_t kLineRepresentations = 3;  // representations before `surface`, which the renderer draws
 
 // A joint of a film by the numbers of its actor and, in the actor's model, of its own.
 struct JointNumber {
@@ -56,14 +56,14 @@ struct View {
   std::uint32_t width = 0, height = 0;
   Color background{};
   std::vector<Lines> lines;
-  std::array<std::vector<Part>, kOfLines> parts;  // by As
+  std::array<std::vector<Part>, kLineRepresentations> parts;  // by As
   std::vector<Placing> matrices;
   std::vector<Color> colors;
   std::vector<wire::Camera> cameras;
   std::vector<wire::Change> changes;
   wire::Track camera{};           // numbers of `cameras`
   Ball whole;                     // holds every segment at every frame
-  Ball subject;                   // likewise what moves, or everything where nothing does
+  Ball subject;                   // around what moves, or around everything where nothing does
   bool sticks_of_prisms = false;  // a .mars file knows no joints: each stick is its prism's long axis
 
   // The number that a track has at `frame`.

@@ -14,7 +14,7 @@ namespace mars::preview {
 struct WriteOptions {
   std::filesystem::path file;                 // .png, .gif or .mp4
   std::optional<film::FrameSet> frames;       // none: all, or for a sheet kSheetFrames at most
-  std::uint32_t every = 1;                    // of these, only each Nth
+  std::uint32_t every = 1;                    // of the frames only each Nth
   std::uint32_t columns = 0;                  // of a sheet; 0: about as many as rows
   std::optional<images::PictureSize> extent;  // of each picture; none: the film's, smaller on a sheet and in a GIF
 };

@@ -1,7 +1,7 @@
 // mars-host: the rank of an MPI job that reads the film, gives out the work and writes the frames.
 #include "hal/mpi/start.h"
 #include "host/child/standard_streams.h"
-#include "host/programs/foresight.h"
+#include "host/programs/prediction.h"
 #include "host/shell/options/render_options.h"
 
 int main(int argc, char** argv) {

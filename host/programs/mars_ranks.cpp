@@ -2,7 +2,7 @@
 #include "hal/mpi/start.h"
 #include "hal/nx/nx_messages.h"
 #include "host/child/standard_streams.h"
-#include "host/programs/foresight.h"
+#include "host/programs/prediction.h"
 #include "host/programs/node_job.h"
 #include "host/shell/options/render_options.h"
 

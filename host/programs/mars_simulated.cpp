@@ -12,7 +12,7 @@
 #include "hal/simulated/run_simulated.h"
 #include "host/child/standard_streams.h"
 #include "host/experiments/platform.h"
-#include "host/programs/foresight.h"
+#include "host/programs/prediction.h"
 #include "host/render/sinks/served_sinks.h"
 #include "host/shell/job/render_job.h"
 #include "host/cli/program.h"
@@ -44,7 +44,7 @@ void run(const options::RenderOptions& options, const experiments::Platform& pla
     job.make_sinks = [serve](sinks::Sink& sink, const sinks::SinkPool::Shape& shape) {
       return std::make_unique<sinks::ServedSinks>(sink, shape, serve);
     };
-    foresee_on(platform, job);
+    predict_on(platform, job);
     session::run_session(job);
   };
   const auto node = [&] {

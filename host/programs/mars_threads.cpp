@@ -5,7 +5,7 @@
 #include "hal/failure/explain.h"
 #include "hal/threads/run_threads.h"
 #include "host/child/standard_streams.h"
-#include "host/programs/foresight.h"
+#include "host/programs/prediction.h"
 #include "host/programs/node_job.h"
 #include "host/shell/options/render_options.h"
 #include "host/cli/program.h"

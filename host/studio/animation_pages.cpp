@@ -45,29 +45,29 @@ void AnimationPages::take(PageNumber page, const Json& message) {
   Wanted wanted = pages_[page];
   if (what == "channels") {
     wanted.things = names_in(message, "things");
-    tell_channels(page, wanted);
+    send_channels(page, wanted);
   } else {
     wanted.curves = curves_in(message);
-    tell_curves(page, wanted);
+    send_curves(page, wanted);
   }
   pages_[page] = std::move(wanted);  // a list that failed is not sent again at each change
 }
 
-void AnimationPages::tell_channels(PageNumber page, const Wanted& wanted) {
+void AnimationPages::send_channels(PageNumber page, const Wanted& wanted) {
   if (!wanted.things.empty()) tell_(page, project_.channels(wanted.things));
 }
 
-void AnimationPages::tell_curves(PageNumber page, const Wanted& wanted) {
+void AnimationPages::send_curves(PageNumber page, const Wanted& wanted) {
   if (wanted.curves) tell_(page, project_.curves(*wanted.curves));
 }
 
 void AnimationPages::keys_changed() {
-  for (const auto& [page, wanted] : pages_) tell_channels(page, wanted);
+  for (const auto& [page, wanted] : pages_) send_channels(page, wanted);
   values_changed();
 }
 
 void AnimationPages::values_changed() {
-  for (const auto& [page, wanted] : pages_) tell_curves(page, wanted);
+  for (const auto& [page, wanted] : pages_) send_curves(page, wanted);
 }
 
 }  // namespace mars::studio

@@ -33,8 +33,8 @@ class AnimationPages {
     std::optional<CurvesWanted> curves;
   };
 
-  void tell_channels(PageNumber page, const Wanted& wanted);
-  void tell_curves(PageNumber page, const Wanted& wanted);
+  void send_channels(PageNumber page, const Wanted& wanted);
+  void send_curves(PageNumber page, const Wanted& wanted);
 
   Project& project_;
   Tell tell_;

@@ -53,7 +53,7 @@ class Serving {
  private:
   web::PageListener page_listener() {
     return {.opened = [this](PageNumber page) { studio_->page_opened(page); },
-            .said = [this](PageNumber page, const Json& message) { studio_->page_said(page, message); },
+            .received = [this](PageNumber page, const Json& message) { studio_->handle_message(page, message); },
             .closed = [this](PageNumber page) { studio_->page_closed(page); }};
   }
 

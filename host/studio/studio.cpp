@@ -87,10 +87,10 @@ void Studio::page_opened(PageNumber page) {
   });
 }
 
-void Studio::page_said(PageNumber page, const Json& message) {
+void Studio::handle_message(PageNumber page, const Json& message) {
   const Shown before = shown();
   bool step_done = false;
-  answer_failure(page, message, [&] { step_done = obey(page, message); });
+  answer_failure(page, message, [&] { step_done = execute(page, message); });
   answer_failure(page, message, [&] {
     for (const std::string& remark : project_->take_remarks()) pages_.tell(page, {{"is", "said"}, {"text", remark}});
     if (project_->in_gesture() && shown() != before) gesture_of_ = page;
@@ -110,7 +110,7 @@ void Studio::answer_failure(PageNumber page, const Json& message, const std::fun
 }
 
 // Whether the history may be another.
-bool Studio::obey(PageNumber page, const Json& message) {
+bool Studio::execute(PageNumber page, const Json& message) {
   if (Rendering::is_for_it(message)) {
     rendering_->take(page, message);
     return false;
@@ -119,13 +119,13 @@ bool Studio::obey(PageNumber page, const Json& message) {
     animation_.take(page, message);
     return false;
   }
-  const bool is_step = obey_step(message);
+  const bool is_step = execute_step(message);
   stage_->take(page, message);
   return is_step && message["do"] != "preview";
 }
 
 // False: it is not for the project.
-bool Studio::obey_step(const Json& message) {
+bool Studio::execute_step(const Json& message) {
   for (const Step& step : kSteps) {
     if (message["do"] != step.name) continue;
     step.take(*project_, message);

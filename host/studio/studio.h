@@ -1,5 +1,5 @@
 // The studio: one project, seen and worked on by pages. Pages' messages become steps of the project, work of the
-// stage and of a rendering; what changes is told to all pages. It has no thread: whoever runs it calls it.
+// stage and of a rendering; all pages receive what changes. It has no thread: whoever runs it calls it.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ class Studio {
   // None of these throws. A message that fails or makes no sense is answered with `refused`; what fails otherwise is a
   // remark to the page, or to all.
   void page_opened(PageNumber page);
-  void page_said(PageNumber page, const Json& message);
+  void handle_message(PageNumber page, const Json& message);
   void page_closed(PageNumber page);
   // Somebody else may have changed the files; called a few times a second.
   void look_at_files();
@@ -48,8 +48,8 @@ class Studio {
   };
 
   Shown shown() const;
-  bool obey(PageNumber page, const Json& message);
-  bool obey_step(const Json& message);
+  bool execute(PageNumber page, const Json& message);
+  bool execute_step(const Json& message);
   void announce(const Shown& before, bool step_done);
   void announce_keys(const Shown& before, const Shown& now);
   void answer_failure(PageNumber page, const Json& message, const std::function<void()>& work);

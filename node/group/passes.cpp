@@ -21,7 +21,7 @@ std::uint64_t fixed_bytes(const FrameLoad& load) {
   return group::fixed_bytes(load.line_loads.size(), load.homes.size());
 }
 
-// Of a home on whose lines all nodes have so many edge boxes, at most.
+// At most, of a home on whose lines all nodes together have `boxes` edge boxes.
 std::uint64_t received_bytes(const FrameLoad& load, std::uint64_t boxes) {
   return load.travels ? boxes * (kTravelling + kInLine) : 0;
 }

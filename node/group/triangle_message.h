@@ -20,7 +20,7 @@ struct AwaitedTriangles {
   std::size_t materials;           // of the film
 };
 
-// Where the parts of a message with so many edge boxes begin.
+// Where the parts of a message begin.
 constexpr std::size_t whole_cache_lines(std::size_t bytes) { return (bytes + 63) / 64 * 64; }
 inline constexpr std::size_t kBoxesAt = whole_cache_lines(2 * sizeof(std::uint64_t));
 constexpr std::size_t triangles_at(std::size_t edge_boxes) {

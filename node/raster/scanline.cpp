@@ -84,7 +84,7 @@ std::uint32_t ZBuffer::draw_inbetween(LineParts parts, const geometry::LineRange
   for (std::uint32_t line = lines.first; line < lines.last; ++line) {
     shading::Extent extent = moving_extent(parts, line);
     if (is_empty(extent)) continue;
-    check(still.foresees(line), "moving parts stay on the lines that were foreseen");
+    check(still.has_memory_for(line), "moving parts stay on the lines that were given memory");
     const bool kept = still.keeps(line);
     ++counts_.lines;
     drawn_again += kept ? 0 : 1;

@@ -79,7 +79,7 @@ class ZBuffer {
   shape::SamplePattern pattern_;
   std::uint32_t stride_;        // samples of a row, with kVectorSlack to spare
   std::vector<Depths> depths_;  // row by row; 0 between lines
-  std::vector<Ids> ids_;        // likewise; kNoTriangle between lines
+  std::vector<Ids> ids_;        // of the same samples; kNoTriangle between lines
   PixelGroups groups_;          // of the kind that is being drawn
   // The line's still groups, where inbetweens do not need them or they are not kept.
   std::vector<std::uint32_t> still_end_;

@@ -36,7 +36,7 @@ bool add_boxes(const Outline& outline, bool moving, SetUps& out) {
   return fits && boxes > 0;
 }
 
-// Memory that a batch does not exceed in a picture of so many lines and samples a pixel.
+// Memory that a batch does not exceed in a picture of this height and number of samples a pixel.
 std::size_t most_bytes(const Classified& c, std::int32_t height, std::int32_t samples) {
   const std::int32_t rows = samples * (c.undecided == 0 ? kMostExtent : std::max(kMostExtent, height));
   return shape::kBatchTriangles *

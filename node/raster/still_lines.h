@@ -47,7 +47,7 @@ class StillLines {
   void begin_moving_interval(std::uint32_t number);
   const geometry::LineRange& lines() const { return lines_; }
   // Whether moving parts may be on the line.
-  bool foresees(std::uint32_t line) const { return all_move_ || lines_.has(line); }
+  bool has_memory_for(std::uint32_t line) const { return all_move_ || lines_.has(line); }
 
   // Writing a line: its depths, row by row of the pattern; then its groups, of which there are `count`, unless they
   // are more than fit. Whether the line is kept.

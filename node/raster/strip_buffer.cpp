@@ -10,7 +10,7 @@ namespace mars::raster {
 namespace {
 
 constexpr std::uint32_t kLines = 8;  // drawn at most between one look at the space left and the next
-// A strip with so many bytes goes to the host: few enough to stay in a core's cache on their way, and the host puts
+// A strip of this size goes to the host: few enough to stay in a core's cache on their way, and the host puts
 // them in place while the node draws on.
 constexpr std::size_t kFullBytes = std::size_t{512} << 10;
 constexpr std::size_t kMaxPixelBytes = 8;

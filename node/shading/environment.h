@@ -6,7 +6,7 @@
 namespace mars::shading {
 
 struct EnvironmentTable {
-  // By N.V, evenly from 0 to 1 within a row, and by roughness, likewise from row to row.
+  // By N.V, evenly from 0 to 1 within a row, and by roughness, evenly from 0 to 1 from row to row.
   static constexpr int kSide = 16;
   float colored[kSide * kSide];
   float white[kSide * kSide];

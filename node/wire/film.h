@@ -61,7 +61,7 @@ class FilmView {
   // Checks every count, index and range, so that no later access can go wrong, and that numbers are finite;
   // throws Failure("...", where, ...) otherwise. `trusted`: the block was checked before (by the host).
   FilmView(std::span<const std::byte> block, const std::string& where, bool trusted = false);
-  // A scene block (scene.h) of `base`, whose block outlives it too. Checked likewise.
+  // A scene block (scene.h) of `base`, whose block outlives it too. It is checked as well.
   FilmView(std::span<const std::byte> block, const FilmView& base, const std::string& where);
 
   const FilmSettings& settings() const { return *settings_; }

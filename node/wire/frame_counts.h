@@ -12,8 +12,8 @@
 
 namespace mars::wire {
 
-// Patches and meshlets of a frame are counted in so many shares, by their number modulo it: a node of a group of 1, 2,
-// 4 ... makes the triangles of whole shares.
+// Patches and meshlets of a frame are counted in this number of shares, by their number modulo it: a node of a group of
+// 1, 2, 4 ... makes the triangles of whole shares.
 inline constexpr std::uint32_t kCountedShares = 64;
 
 // Units of a node's work by kind.
@@ -29,7 +29,7 @@ struct SeenCounts {
   double pixels = 0;
   double runs = 0;          // of neighbouring pixels
   double shaded = 0;        // groups of a pixel's samples that show the same triangle
-  double highlights = 0;    // of these, lit by models of highlights
+  double highlights = 0;    // samples lit by models of highlights
   double facets = 0;        // and of rough surfaces
   double block_pixels = 0;  // of the compositor's blocks on this line, where the pixels do not fill them
 
@@ -47,7 +47,7 @@ struct SeenCounts {
 struct LineCounts {
   double edge_boxes = 0;
   double samples = 0;            // that these cover
-  double moving_edge_boxes = 0;  // of these, moving parts'
+  double moving_edge_boxes = 0;  // of the edge boxes, moving parts'
   double moving_samples = 0;
   double moving_width = 0;  // in pixels, from the first edge box of moving parts to the last
   SeenCounts constant;
@@ -58,7 +58,7 @@ struct FrameCounts {
   FrameKind kind = FrameKind::keyframe;
   std::uint32_t frame = 0;
   std::vector<UnitCounts> shares;      // kCountedShares: what triangles take; an inbetween's of moving parts only
-  std::vector<LineCounts> lines;       // of the picture, likewise
+  std::vector<LineCounts> lines;       // of the picture
   std::uint32_t first_still_line = 0;  // of those that inbetweens may touch (keyframes)
   std::uint32_t last_still_line = 0;
 };

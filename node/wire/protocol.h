@@ -1,7 +1,7 @@
 // The messages between host and node: their types and their bodies, plain little-endian structs followed by arrays
 // where said. The node owns this page; the host includes it and nothing else of the firmware. A node boots, sends Hello
-// and then only obeys. Hello and Load begin with a stamp that tells versions apart (stamp.h). Stop may come while nodes
-// draw: each then finishes the keyframes it was given, for the others of its group wait for it, draws no more
+// and then only executes. Hello and Load begin with a stamp that tells versions apart (stamp.h). Stop may come while
+// nodes draw: each then finishes the keyframes it was given, for the others of its group wait for it, draws no more
 // inbetweens, sends no more strips and ends. Both sides check a message's size, counts and ranges before they use
 // anything of it: the node in commands.h, the host in host/render/farm/node_inbox.h.
 //
@@ -234,13 +234,13 @@ struct CloseView {
 struct WorkCounts {
   std::uint64_t patches;  // diced, and meshlets
   std::uint64_t vertices;
-  std::uint64_t triangles_tested;   // of these surfaces
-  std::uint64_t triangles;          // of these, touching a sample
+  std::uint64_t triangles_tested;   // made of these surfaces
+  std::uint64_t triangles;          // triangles that touch a sample
   std::uint64_t edge_boxes_diced;   // of those triangles
   std::uint64_t edge_boxes;         // drawn on its own lines
   std::uint64_t samples;            // that these cover
   std::uint64_t pixels;             // shaded
-  std::uint64_t lines_drawn_again;  // stationary parts of these in an inbetween, as they were not kept
+  std::uint64_t lines_drawn_again;  // lines of an inbetween whose stationary parts were not kept
   std::uint64_t bytes_to_nodes;
   std::uint64_t bytes_to_host;   // in strips, whether by slot or by message
   std::uint64_t memory;          // bytes of the frame's arena in use at the peak

@@ -20,9 +20,9 @@ enum class Work : int {
   vertex,           // of patches
   mesh_vertex,      // of meshlets
   triangle_tested,  // of all these
-  row_tested,       // likewise, times a pixel's samples
+  row_tested,       // triangles tested, times a pixel's samples
   triangle,         // set up: it touches a sample
-  edge_box_made,    // of these
+  edge_box_made,    // edge boxes of these triangles
   vertex_light,     // for each vertex, or flat triangle, that is shaded
   edge_box_filled,  // put into its line
   line_mapped,      // to its home
@@ -31,7 +31,7 @@ enum class Work : int {
   sample,           // that these cover
   shaded,           // samples, or groups of a pixel's that show the same triangle
   light,            // for each of them
-  facet_light,      // likewise, of rough surfaces
+  facet_light,      // lights times samples of rough surfaces
   pixel,            // sent
   still_byte,       // kept for inbetweens, or taken from what is kept
   // Of the host.
@@ -42,8 +42,8 @@ enum class Work : int {
   host_frame,     // that it begins and finishes
   // Of its sinks.
   sink_frame,       // taken to a file
-  sink_byte,        // of these, as PNG
-  sink_png16_byte,  // likewise of 16 bits
+  sink_byte,        // a byte of the frame's PNG file
+  sink_png16_byte,  // a byte of PNG files of 16 bits
   sink_exr_byte,    // as EXR
   // Of a node that would write its frames' files itself.
   node_frame,

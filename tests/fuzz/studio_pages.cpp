@@ -228,7 +228,7 @@ class StudioPages::Open {
 
  private:
   void hear(PageNumber page, const Json& message) {
-    if (pages_.hear(page, message)) studio_->page_said(page, message);
+    if (pages_.hear(page, message)) studio_->handle_message(page, message);
   }
 
   boost::asio::io_context context_;

@@ -43,7 +43,7 @@ std::uint32_t read_count(const Element& element, const keys::Key& key);
 std::size_t read_choice(const Element& element, const keys::Key& key);
 
 void require_kind(const Element& element, Kind kind);
-void require_size(const Element& element, std::size_t size);  // a list of so many
+void require_size(const Element& element, std::size_t size);  // a list of `size` elements
 
 // The name of `names` most like `wanted`, if any is near.
 std::optional<std::string> near_name(std::string_view wanted, std::span<const std::string_view> names);

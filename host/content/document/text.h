@@ -42,7 +42,7 @@ std::string counted(std::uint64_t count, std::string_view one);
 // "12.5": up to nine digits.
 std::string shown(double number);
 
-// The nearest number of so many decimal digits.
+// The nearest number of `digits` decimal digits.
 double rounded_to(double number, int digits);
 
 // The number that the whole text is, as std::from_chars reads it; none where the text is anything else.

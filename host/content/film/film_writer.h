@@ -23,7 +23,7 @@ ShapeNumbers write_shapes(const animator::Film& film, wire::FilmData& data);
 // Throws where the camera sees nothing: it looks at its own place, or along its up vector. `joints` are the film's.
 wire::Camera camera_at(const animator::Film& film, std::uint32_t frame, animator::JointFrames& joints);
 
-// Frames from 0, of so many, at which the camera may differ from the frame before.
+// How many of the first `frames` frames are needed to see all changes of the camera.
 std::uint32_t camera_frames(const animator::CameraMotion& motion, std::uint32_t frames);
 
 class FilmWriter {

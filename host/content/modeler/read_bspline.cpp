@@ -62,7 +62,7 @@ void check_times(const document::Element& element, const SplineDirection& direct
   }
 }
 
-// Reads them as bspline.h wants them.
+// Reads them in the form of bspline.h.
 std::vector<double> read_knots(const document::Element& element, SplineDirection direction, std::size_t points) {
   document::require_kind(element, document::Kind::list);
   check_count(element, direction, points);
@@ -82,7 +82,7 @@ std::vector<double> read_knots(const document::Element& element, SplineDirection
   return knots;
 }
 
-// The direction `key` of the surface, which has so many points along it.
+// The direction `key` of the surface, which has `points` points along it.
 SplineDirection read_direction(const document::Fields& surface, std::string_view key, std::size_t points) {
   std::uint32_t degree = kMostDegree;
   Ends ends = Ends::clamped;

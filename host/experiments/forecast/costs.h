@@ -17,7 +17,7 @@ class Costs {
   double of(wire::Work kind, double units) const { return machine_.work[static_cast<std::size_t>(kind)] * units; }
   double of(const wire::UnitCounts& units) const;
 
-  // Seconds that a message of so many bytes takes a node's processor, or the host's.
+  // Seconds that a message of `bytes` takes a node's processor, or the host's.
   double to_send(double bytes) const { return end(machine_.network.send, bytes); }
   double to_receive(double bytes) const { return end(machine_.network.receive, bytes); }
   double host_to_send(double bytes) const { return host_end(machine_.network.send, bytes); }

@@ -19,7 +19,7 @@ constexpr double kShortSum = 64 << 10;    // hal/collectives/reduction.cpp
 // What each of `nodes` nodes makes: whole shares where these divide evenly, else equal parts of several.
 std::vector<wire::UnitCounts> made_by(const std::vector<wire::UnitCounts>& shares, int nodes) {
   std::vector<wire::UnitCounts> made(static_cast<std::size_t>(nodes));
-  // Numbers that are `share` modulo so many shares are on nodes that are the same modulo `step`.
+  // Numbers that are `share` modulo the number of shares are on nodes that are the same modulo `step`.
   const std::size_t step = std::gcd(shares.size(), made.size());
   const double part = static_cast<double>(step) / static_cast<double>(nodes);
   for (std::size_t node = 0; node < made.size(); ++node)
@@ -353,7 +353,7 @@ FrameCosts::StillLines FrameCosts::still_lines(const geometry::LineRange& home, 
   return still;
 }
 
-// Of a group of so many nodes.
+// Of a group of `nodes` nodes.
 int FrameCosts::nodes_on_a_computer(int nodes) const { return std::min(nodes, setting_.platform.machine.nodes); }
 
 }  // namespace mars::forecast

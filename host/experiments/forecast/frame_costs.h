@@ -29,7 +29,7 @@ struct NodePart {
   double still_wait = 0;  // for the network, beyond
   double bytes_to_nodes = 0;
   double memory = 0;       // bytes of its arena
-  double made_memory = 0;  // of these, of what it makes itself
+  double made_memory = 0;  // of this memory, what the node makes itself
 };
 
 struct GroupKeyframe {
@@ -42,9 +42,9 @@ class FrameCosts {
  public:
   explicit FrameCosts(const Setting& setting) : setting_(setting), costs_(setting.platform) {}
 
-  // Of a group of so many nodes, of which so many contribute, and which then draw so many inbetweens.
+  // Of a group of `nodes`, of which `contributors` contribute, and which then draw `inbetweens`.
   GroupKeyframe keyframe(const wire::FrameCounts& counts, int nodes, int contributors, std::size_t inbetweens) const;
-  // After such a keyframe, on a node of a group of so many.
+  // After such a keyframe, on a node of a group of `nodes`.
   NodePart inbetween(const FrameTotals& totals, const wire::FrameCounts& keyframe, int nodes) const;
   // Seconds of the host, of a buffer that shows the keyframe's background for the first time.
   double background(const wire::FrameCounts& keyframe) const;

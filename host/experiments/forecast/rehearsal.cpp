@@ -40,7 +40,7 @@ class Rehearsal {
   };
   struct GroupState {
     collectives::Group nodes;
-    int come = 0;  // of its nodes, to where they meet
+    int come = 0;  // of its nodes, to where all wait
   };
 
   const GroupKeyframe& keyframe_of(std::size_t task, const collectives::Group& group);
@@ -48,13 +48,13 @@ class Rehearsal {
   double fresh_seconds(Node& node);
   void receive_task(std::size_t group, std::size_t task);
   void begin_task(int n);
-  void meet(int n, const std::function<double(int)>& wait, void (Rehearsal::*then)(int));
+  void wait_for_all(int n, const std::function<double(int)>& wait, void (Rehearsal::*then)(int));
   void sum(int n);
   void exchange(int n);
   void begin_strips(int n);
   void draw_strip(int n);
   void finish_strip(int n);
-  void meet_for_still(int n);
+  void wait_for_group(int n);
   void send_strip(int n);
   void end_frame(int n);
   void receive_credit(int n);
@@ -183,8 +183,8 @@ void Rehearsal::begin_task(int n) {
   work(n, part_of(node).dice + fresh_seconds(node), &Rehearsal::sum);
 }
 
-// Once all of the group have come, each goes on so many seconds later.
-void Rehearsal::meet(int n, const std::function<double(int)>& wait, void (Rehearsal::*then)(int)) {
+// Once all nodes of the group have come, each goes on after its own wait.
+void Rehearsal::wait_for_all(int n, const std::function<double(int)>& wait, void (Rehearsal::*then)(int)) {
   GroupState& group = groups_[nodes_[static_cast<std::size_t>(n)].group];
   if (++group.come < group.nodes.count) return;
   group.come = 0;
@@ -195,7 +195,7 @@ void Rehearsal::meet(int n, const std::function<double(int)>& wait, void (Rehear
 void Rehearsal::sum(int n) {
   const GroupKeyframe& keyframe = *nodes_[static_cast<std::size_t>(n)].keyframe;
   if (keyframe.nodes.size() == 1) return exchange(n);
-  meet(
+  wait_for_all(
       n, [&](int) { return keyframe.sum; }, &Rehearsal::exchange);
 }
 
@@ -232,11 +232,11 @@ void Rehearsal::finish_strip(int n) {
   const Node& node = nodes_[static_cast<std::size_t>(n)];
   const bool several = node.keyframe->nodes.size() > 1;
   if (node.strips_left > 1 || node.frame > 0 || !several || inbetweens_[node.task].empty()) return send_strip(n);
-  work(n, part_of(node).still, &Rehearsal::meet_for_still);
+  work(n, part_of(node).still, &Rehearsal::wait_for_group);
 }
 
-void Rehearsal::meet_for_still(int n) {
-  meet(
+void Rehearsal::wait_for_group(int n) {
+  wait_for_all(
       n, [this](int node) { return part_of(nodes_[static_cast<std::size_t>(node)]).still_wait; },
       &Rehearsal::send_strip);
 }

@@ -19,7 +19,7 @@ struct Setting {
   images::PictureFormat picture = images::PictureFormat::png;
   bool files = true;  // else frames go nowhere
   std::uint32_t sink_threads = 2;
-  std::uint64_t host_budget = std::uint64_t{1} << 30;  // bytes, as share_host_memory wants it
+  std::uint64_t host_budget = std::uint64_t{1} << 30;  // bytes, as share_host_memory takes it
 
   wire::PixelFormat pixels() const { return images::facts_of(picture).pixels; }
 };

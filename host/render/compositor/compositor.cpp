@@ -68,7 +68,7 @@ void copy_run(const std::uint32_t* from, std::size_t count, std::uint32_t* to) {
     *to = *from;
 }
 
-// Copies the runs' pixels of so many words, which begin at `source`; where they end.
+// Copies the runs' pixels, each of `pixel_words` words, which begin at `source`; returns where they end.
 template <std::size_t pixel_words>
 const std::uint32_t* copy_runs(std::span<const wire::Run> runs, const std::uint32_t* source, std::size_t width,
                                std::uint32_t* picture) {

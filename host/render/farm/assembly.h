@@ -36,7 +36,7 @@ class Assembly {
 
   // Whether it is a strip that is still to come: of a frame of the task, from a node that draws it.
   bool wants(const wire::Strip& strip) const;
-  // A strip it wants.
+  // A strip that it waits for.
   void receive(StripMessage strip);
 
   // From here on it has the group's compositor, whose interval has begun and which nobody else uses until all
@@ -51,7 +51,7 @@ class Assembly {
     compositor::Frame* whole;    // the finished frame; nullptr while strips of it are to come
     std::vector<NodeSlot> free;  // slots of strips that were pasted now and were not their node's last of the frame
     std::vector<NodeSlot> held;  // those of the nodes' last strips, where it is whole
-    std::int32_t first_node;     // so many from this one on draw it
+    std::int32_t first_node;     // the first of `nodes` that draw it
     std::int32_t nodes;
   };
   // Pastes the strips that came of one frame, if there are any and it has a buffer or gets one; their memory
@@ -93,7 +93,7 @@ class Assembly {
   std::map<std::uint32_t, Parts> parts_;   // of frames that are not finished
   std::deque<std::uint32_t> waiting_;      // those with strips to be pasted, as they came
   std::size_t not_begun_;                  // those without a picture
-  compositor::Frame* prepared_ = nullptr;  // begun for one of these
+  compositor::Frame* prepared_ = nullptr;  // begun for the next frame
 };
 
 }  // namespace mars::farm

@@ -47,7 +47,7 @@ class Farm {
   FarmReport run();
 
  private:
-  bool greet_nodes();
+  bool shake_hands();
   bool load_film();
   NodeMemory node_memory() const;
   void render();
@@ -124,13 +124,13 @@ Farm::~Farm() {
 }
 
 FarmReport Farm::run() {
-  if (greet_nodes() && load_film()) render();
+  if (shake_hands() && load_film()) render();
   stop_nodes();
   report_.cancelled = frames_left_ > 0;
   return std::move(report_);
 }
 
-bool Farm::greet_nodes() {
+bool Farm::shake_hands() {
   if (heartbeats_ != nullptr) heartbeats_->set_doing("waiting for nodes");
   if (!inbox_.receive_hellos()) return false;
   report_.nodes = inbox_.hellos();

@@ -27,7 +27,7 @@ namespace mars::farm {
 struct FarmOptions {
   wire::Mapping mapping = wire::Mapping::cost;
   std::uint64_t memory = 0;                    // bytes on a node; 0: as the node with the least offers
-  std::optional<std::uint64_t> still_memory;   // of these, as in NodeMemory; none: as share_node_memory says
+  std::optional<std::uint64_t> still_memory;   // bytes, as in NodeMemory; none: as share_node_memory says
   std::int32_t credits = wire::kMaxCredits;    // strips a node may have on the way
   bool each_frame = false;                     // report what is known of each frame, which grows with the film
   bool adapts = false;                         // slow nodes get fewer inbetweens; long tasks are given in portions
@@ -42,8 +42,8 @@ struct FinishedFrame {
   std::uint32_t interval;
   wire::FrameKind kind;
   double seconds;               // since the first command, when its last strip had come and it was composed
-  double given = 0;             // likewise, when its task was given to a group
-  std::int32_t first_node = 0;  // so many from this one on drew it
+  double given = 0;             // seconds, when its task was given to a group
+  std::int32_t first_node = 0;  // the first of `nodes` that drew it
   std::int32_t nodes = 0;
 };
 
@@ -70,7 +70,7 @@ struct FarmReport {
   double load_seconds = 0;           // from the last node's Hello until all have the film
   double render_seconds = 0;         // from the first command until the last frame was composed
   double total_seconds = 0;          // until the sinks had taken it
-  double busy_seconds = 0;           // of these, the host took and composed strips
+  double busy_seconds = 0;           // of those, in which the host took and composed strips
   double sink_seconds = 0;           // of all threads that hand frames to the sink
   wire::HostUnits charged{};         // what the host did, by kind
   std::vector<SlowTime> slow_times;  // since the first command; of runs that adapt

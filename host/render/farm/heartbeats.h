@@ -91,8 +91,8 @@ class Heartbeats {
   std::optional<NodeWatch> watch_;
   bool nodes_listen_ = true;
   double looked_;    // when
-  double spoken_;    // likewise
-  double reported_;  // likewise
+  double spoken_;    // when it beat last
+  double reported_;  // when it reported last
 };
 
 }  // namespace mars::farm

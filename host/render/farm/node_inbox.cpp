@@ -82,14 +82,14 @@ NodeInbox::NodeInbox(std::uint32_t width, std::uint32_t height, wire::PixelForma
       watched_(watched),
       nodes_(static_cast<int>(numnodes())),
       hellos_(static_cast<std::size_t>(nodes_)),
-      greeted_(hellos_.size()),
+      is_known_(hellos_.size()),
       loaded_(hellos_.size()),
       apart_(hellos_.size()),
       ended_(hellos_.size()) {}
 
 std::string NodeInbox::name_of(int node) const {
   const auto index = static_cast<std::size_t>(node);
-  return with_machine(greeted_.at(index) ? hellos_[index].host.data() : "", node);
+  return with_machine(is_known_.at(index) ? hellos_[index].host.data() : "", node);
 }
 
 void NodeInbox::refuse(int node, const std::string& what) const {
@@ -134,9 +134,9 @@ void NodeInbox::receive_hello() {
   require(is_text(hello.host) && is_text(hello.binding) && is_text(hello.simd) && is_text(hello.apart), node,
           "names that are no text");
   const auto index = static_cast<std::size_t>(node);
-  require(hello.node == node && !greeted_[index], node, "another node's greeting");
+  require(hello.node == node && !is_known_[index], node, "another node's greeting");
   hellos_[index] = hello;
-  greeted_[index] = true;
+  is_known_[index] = true;
 }
 
 // The lowest of a machine's nodes gets the film for all.

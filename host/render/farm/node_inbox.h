@@ -97,7 +97,7 @@ class NodeInbox {
   const bool watched_;
   const int nodes_;
   std::vector<wire::Hello> hellos_;
-  std::vector<bool> greeted_;
+  std::vector<bool> is_known_;
   std::vector<bool> loaded_;
   std::vector<std::string> apart_;  // why, as each node says
   std::vector<bool> ended_;         // its trace

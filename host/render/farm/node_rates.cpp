@@ -13,7 +13,7 @@ constexpr int kInbetweens = 2;
 constexpr double kSeconds = 2;
 
 constexpr double kSlow = 1.5;       // from here on a node may be slow
-constexpr std::size_t kDoubts = 3;  // and is, after so many times
+constexpr std::size_t kDoubts = 3;  // and is, after this number of times
 constexpr double kUsual = 1.25;     // up to here it no longer is
 constexpr int kPassedOver = 32;     // portions
 

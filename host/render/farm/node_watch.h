@@ -26,7 +26,7 @@ class NodeWatch {
   void look(double now);
 
   double silence(int node) const { return of(node).silence; }
-  // That have said nothing for so many seconds.
+  // That have been silent for `seconds`.
   std::vector<int> silent(double seconds) const;
   // That have said nothing for longer than they may.
   std::vector<int> hanging() const;

@@ -18,7 +18,7 @@ struct Picture {
   std::uint32_t view = 0;
   std::uint32_t asked = 0;  // its number for the studio
   wire::FrameKind kind = wire::FrameKind::keyframe;
-  compositor::Frame* frame = nullptr;  // where it is put together; nullptr: nobody wants it any more
+  compositor::Frame* frame = nullptr;  // where it is put together; nullptr: it is needed no more
   std::size_t nodes_left = 0;          // that have not sent their last strip of it
   double begun = 0;
   PictureHead head{};  // as far as it is known

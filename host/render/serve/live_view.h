@@ -42,7 +42,7 @@ class LiveView {
   compositor::Compositor compositor_;
   bool alone_ = false;
   std::list<compositor::Frame> frames_;
-  std::vector<compositor::Frame*> free_;  // of these; what was used last is last
+  std::vector<compositor::Frame*> free_;  // frames to draw into; the one used last is last
 };
 
 }  // namespace mars::serve

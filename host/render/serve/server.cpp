@@ -61,7 +61,7 @@ std::vector<std::byte> answer(Kind kind, std::uint32_t view, std::uint32_t pictu
 // What the host knows of a view.
 struct View {
   std::optional<Request> scene;            // asked for, and has not begun
-  std::optional<Request> draw;             // likewise; of that scene, if there is one
+  std::optional<Request> draw;             // the newest; of that scene, if there is one
   std::vector<std::byte> block;            // the interval's scene
   std::optional<wire::FilmView> interval;  // it, read
   wire::MovingParts moving;                // of it
@@ -77,7 +77,7 @@ class Server {
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  void greet_nodes(const farm::FarmListener& listener);
+  void shake_hands(const farm::FarmListener& listener);
   // Until the studio has closed its socket; how many pictures it got.
   std::uint32_t serve();
 
@@ -133,7 +133,7 @@ Server::Server(const Serving& serving, StudioSocket& studio, farm::Heartbeats& h
   heartbeats_.ask_for_drawing([this](int node, std::int32_t) { return drawing_.drawn_by(node); });
 }
 
-void Server::greet_nodes(const farm::FarmListener& listener) {
+void Server::shake_hands(const farm::FarmListener& listener) {
   heartbeats_.set_doing("waiting for nodes");
   inbox_.receive_hellos();
   heartbeats_.watch(inbox_.hellos());
@@ -332,7 +332,7 @@ void Server::receive_strip() {
   if (const std::optional<Picture> whole = drawing_.end(header.node, header.frame)) finish(header.frame, *whole);
 }
 
-// All strips came. Where a newer one was quicker, nobody wants it any more.
+// All strips came. Where a newer one was quicker, it is needed no more.
 void Server::finish(std::uint32_t number, const Picture& picture) {
   if (picture.frame == nullptr) return;
   View& view = views_.at(picture.view);
@@ -409,7 +409,7 @@ void serve(const Serving& serving) {
     farm::Heartbeats heartbeats(session::host_name(), getpid(), heartbeat_listener(reporter, termination));
     studio.emplace(serving.socket);
     Server server(serving, *studio, heartbeats);
-    server.greet_nodes(reporter.listener(0));
+    server.shake_hands(reporter.listener(0));
     const double begun = dclock();
     const std::uint32_t pictures = server.serve();
     reporter.report(events::Done{pictures, dclock() - begun, ""});

@@ -1,4 +1,4 @@
-// What every host does while it beats: it reports, and ends when it is told to.
+// What every host does while it beats: it reports, and ends on SIGTERM.
 #pragma once
 
 #include <string>

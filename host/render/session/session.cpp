@@ -147,18 +147,18 @@ resume::Opened load_film(const RenderJob& job, const EventReporter& reporter, fa
   return std::move(*opened);
 }
 
-// By what is foreseen of it, unless the person says how many groups.
+// By what is predicted of it, unless the person says how many groups.
 farm::Plan plan_of(const wire::FilmView& film, const std::vector<std::uint32_t>& frames, const RenderJob& job,
                    EventReporter& reporter, farm::Heartbeats& heartbeats) {
   const auto nodes = static_cast<int>(numnodes());
   farm::PlanRequest request{frames, job.coherence, job.groups};
-  if (job.foresee) {
-    Foresight foresight;
-    heartbeats.during("loading", [&] { foresight = job.foresee(film, request, nodes); });
-    if (request.groups == 0) request.groups = foresight.groups;
-    request.contributors = foresight.contributors;
-    if (!foresight.warning.empty()) reporter.report(events::Warning{foresight.warning});
-    reporter.expect(std::move(foresight.course));
+  if (job.predict) {
+    Prediction prediction;
+    heartbeats.during("loading", [&] { prediction = job.predict(film, request, nodes); });
+    if (request.groups == 0) request.groups = prediction.groups;
+    request.contributors = prediction.contributors;
+    if (!prediction.warning.empty()) reporter.report(events::Warning{prediction.warning});
+    reporter.expect(std::move(prediction.course));
   }
   return farm::make_plan(film, request, nodes);
 }

@@ -25,11 +25,11 @@ struct HostMachine {
 };
 
 // What is known of a rendering before it begins.
-struct Foresight {
+struct Prediction {
   std::uint32_t groups = 0;       // that make it shortest; 0: as make_groups says
   std::int32_t contributors = 0;  // to keyframes, with these groups, as in farm::Plan
   events::Course course;          // of its frames
-  std::string warning;            // why nothing is foreseen; "": none
+  std::string warning;            // why nothing is predicted; "": none
 };
 
 struct RenderJob {
@@ -56,8 +56,8 @@ struct RenderJob {
   HostMachine host;                    // that the host has
   // Makes the pool of sinks; none: threads take frames.
   std::function<std::unique_ptr<sinks::SinkPool>(sinks::Sink& sink, const sinks::SinkPool::Shape& shape)> make_sinks;
-  // Asked once, before the film goes to nodes; none, or 0 groups and no course: nothing is foreseen.
-  std::function<Foresight(const wire::FilmView& film, const farm::PlanRequest& request, int nodes)> foresee;
+  // Asked once, before the film goes to nodes; none, or 0 groups and no course: nothing is predicted.
+  std::function<Prediction(const wire::FilmView& film, const farm::PlanRequest& request, int nodes)> predict;
   // The command that renders again, all frames or one, with this number of nodes.
   std::function<std::string(std::uint32_t nodes, std::optional<std::uint32_t> frame)> replay;
 };

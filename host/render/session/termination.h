@@ -1,4 +1,4 @@
-// A host that is told to end (SIGTERM) first says what its nodes were drawing: while one lives, the signal is only
+// A host that receives SIGTERM first reports what its nodes were drawing: while one lives, the signal is only
 // noted, and end() is for when that is said.
 #pragma once
 

@@ -64,7 +64,7 @@ void remove_parts(const RunFiles& run) {
 
 // The claim last, so that whatever is left of a run is known to be its.
 void remove_files(const RunFiles& run, const FolderTurn& turn) {
-  std::error_code ignored;  // likewise
+  std::error_code ignored;
   for (const bool claims : {false, true})
     for (const fs::path& file : run.files)
       if ((file.extension() == kClaimEnding) == claims && file != turn.file()) fs::remove(file, ignored);

@@ -31,7 +31,7 @@ class Record {
   const nlohmann::json& list(std::string_view key) const;
   std::uint64_t whole_number(std::string_view key, std::uint64_t lowest, std::uint64_t highest) const;
   double positive_number(std::string_view key) const;
-  // Of at most so many bytes.
+  // Of at most `longest` bytes.
   std::string text(std::string_view key, std::size_t longest) const;
   std::string checksum(std::string_view key) const;
 

@@ -11,7 +11,7 @@ namespace mars::sinks {
 
 class ServedSinks : public SinkPool {
  public:
-  // `serve`: when a frame of so many bytes that is submitted now will have been taken, in seconds of dclock().
+  // `serve`: when a frame of `bytes` that is submitted now will have been taken, in seconds of dclock().
   using Serve = std::function<double(std::uint64_t bytes)>;
 
   ServedSinks(Sink& sink, const Shape& shape, Serve serve) : SinkPool(sink, shape, NoThreads()), serve_(serve) {}

@@ -32,7 +32,7 @@ struct Status {
 
   ProcessName process;       // the host's
   std::int64_t since = 0;    // seconds since 1970, by the host's clock
-  std::int64_t written = 0;  // likewise
+  std::int64_t written = 0;  // frames
   std::string film;
   std::string doing;       // as in events::Beat; "" before it is known
   std::uint32_t done = 0;  // frames of this run

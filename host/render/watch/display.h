@@ -17,7 +17,7 @@ class Display {
 
   // What comes is of this frame. Whether it is shown otherwise than the frame before.
   bool begin_frame(std::uint32_t frame);
-  // Words of pixels to so many pixels, whose highest byte is 0.
+  // Words of pixels to as many pixels, whose highest byte is 0.
   void show(std::span<const std::uint32_t> words, std::uint32_t* pixels) const;
 
  private:

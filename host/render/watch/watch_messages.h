@@ -79,7 +79,7 @@ struct DrawnHead {
   std::uint32_t parts;
   std::uint32_t unused = 0;
   double given;       // since the first command, when nodes were given the frame's task
-  double seconds;     // likewise, when it was whole
+  double seconds;     // by the same clock, when it was whole
   double load_ratio;  // as in wire::Strip
 };
 

@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::int64_t kLate = 15;   // seconds; a status is written every 2
-constexpr std::int64_t kLost = 60;   // likewise; then its claim ends, too
-constexpr double kNamedSilence = 5;  // likewise
+constexpr std::int64_t kLost = 60;   // seconds; then its claim ends, too
+constexpr double kNamedSilence = 5;  // seconds
 constexpr double kSlow = 1.25;       // times as long as usual
 
 std::vector<FolderState::Run> runs_in(const fs::path& folder) {

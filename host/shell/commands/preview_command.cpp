@@ -98,7 +98,7 @@ void preview(Words& words, const MakeSurface& make_surface) {
     pictures.emplace(words.source, std::move(film), reads.stamps(), make_surface, words.look);
     return preview::play(*pictures, terminal);
   });
-  if (pictures->stop()) std::quick_exit(0);  // nobody wants the film any more: its end is not waited for
+  if (pictures->stop()) std::quick_exit(0);  // the film is needed no more: its end is not waited for
 }
 
 void play_folder(const Words& words) {

@@ -167,7 +167,7 @@ void add(std::vector<Slots>& hosts, const Slots& slots, const Line& line) {
   known->count += slots.count;
 }
 
-// Open MPI's reader wants an end of each comment's line.
+// Open MPI's reader needs an end of each comment's line.
 void check_last_comment(std::string_view line, const std::string& where) {
   if (line.find('#') != std::string_view::npos || line.find("//") != std::string_view::npos)
     throw Failure("the file ends within a comment", where, "end its last line");

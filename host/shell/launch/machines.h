@@ -1,4 +1,4 @@
-// Which machines a job is started on again: those that answer, with as many nodes as their slots are worth. Asked anew
+// Which machines a job is started on again: those that answer, with as many nodes as their slots are worth. Asked again
 // before each start, so that a machine which comes back is used again.
 #pragma once
 

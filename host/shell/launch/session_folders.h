@@ -23,7 +23,7 @@ void remove_session_of(pid_t mpirun);
 
 class SessionFolders {
  public:
-  // First removes what this user's jobs left that have ended on this machine. Then, where `command` wants them, makes
+  // First removes what this user's jobs left that have ended on this machine. Then, where `command` needs them, makes
   // the folders and names them in its environment; without those that cannot be made or that a person named.
   explicit SessionFolders(child::Command& command);
   ~SessionFolders() = default;  // removes them

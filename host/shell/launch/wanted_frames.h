@@ -1,5 +1,5 @@
 // Which of the frames that a person asked for are there, which are set aside, and which a next job is to bring. What is
-// there the folder knows best: each job says it anew (events::Resumed) and draws the others.
+// there the folder knows best: each job reports it again (events::Resumed) and draws the others.
 #pragma once
 
 #include <cstdint>

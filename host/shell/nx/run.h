@@ -24,7 +24,7 @@ struct NxRun {
 
 struct NxPrograms {
   std::filesystem::path host;  // empty: none
-  std::filesystem::path node;  // likewise
+  std::filesystem::path node;  // as `host`
 };
 
 // Runs the programs as processes of this machine, with at most `limit` bytes of messages in flight; their highest exit

@@ -176,7 +176,7 @@ class HostConnection::Wire : public std::enable_shared_from_this<Wire> {
     });
   }
 
-  // Reads so many bytes, then does `next`.
+  // Reads `bytes` bytes, then does `next`.
   template <typename Next>
   void read(void* to, std::size_t bytes, Next next) {
     asio::async_read(socket_, asio::buffer(to, bytes), [self = shared_from_this(), next](Error error, std::size_t) {

@@ -35,8 +35,8 @@ class HostJob {
  public:
   // Throws Failure where no process can be started.
   HostJob(const child::Command& command, const options::RenderOptions& options);
-  // It is told to end, and waited for some seconds. Mostly it has ended: its host has seen that the studio closed the
-  // socket.
+  // Ends it by a signal, and waits for it for some seconds. Mostly it has ended: its host has seen that the studio
+  // closed the socket.
   ~HostJob();
   HostJob(const HostJob&) = delete;
   HostJob& operator=(const HostJob&) = delete;

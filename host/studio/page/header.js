@@ -7,7 +7,7 @@ import {keysOf} from "./shortcuts.js";
 
 export const kTools = [["none", "Select", "toolNone"], ["turn", "Turn", "toolTurn"], ["move", "Move", "toolMove"],
                        ["box", "Box", "toolBox"], ["points", "Control points", "toolPoints"], ["reach", "Reach", "toolReach"]];
-const kOfModels = ["box", "points"], kOfFilms = ["reach"];
+const kToolsOfModels = ["box", "points"], kToolsOfFilms = ["reach"];
 const kWorkspaces = [["scene", "Scene", "scene"], ["rendering", "Rendering", "render"]];
 
 export class Header {
@@ -63,7 +63,7 @@ export class Header {
   #shown() {
     const {ghosts, marks, pins, selected} = this.state;
     this.film.hidden = !this.state.isFilm();
-    this.tools.without(this.state.isFilm() ? kOfModels : kOfFilms);
+    this.tools.without(this.state.isFilm() ? kToolsOfModels : kToolsOfFilms);
     this.ghosts.setAttribute("aria-pressed", String(ghosts !== null));
     this.marks.setAttribute("aria-pressed", String(marks));
     this.pin.disabled = selected.joint === null;

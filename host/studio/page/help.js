@@ -12,12 +12,12 @@ export class Help {
   toggle() {
     if (this.#dialog?.open) return this.#dialog.close();
     this.#dialog?.remove();
-    this.#dialog = this.#made();
+    this.#dialog = this.#makeDialog();
     document.body.append(this.#dialog);
     this.#dialog.showModal();
   }
 
-  #made() {
+  #makeDialog() {
     const close = element("button", {class: "quiet icon", "aria-label": "Close", onclick: () => this.#dialog.close()}, icon("close"));
     const dialog = element("dialog", {class: "help", "aria-labelledby": "help-title"},
                            element("header", {}, element("h2", {id: "help-title"}, "Keys and mouse"), close),

@@ -74,8 +74,8 @@ const rename = inModel(() => {
 
 function showProblem() {
   const {problem, file} = state.project;
-  const said = !problem?.line || problem.text.includes(`:${problem.line}:`);
-  const detail = `${said ? "" : `${file}, line ${problem.line}. `}The last good state stays.`;
+  const isPlaceNamed = !problem?.line || problem.text.includes(`:${problem.line}:`);
+  const detail = `${isPlaceNamed ? "" : `${file}, line ${problem.line}. `}The last good state stays.`;
   notices.banner("file", problem?.text ?? "", {detail, kind: "error"});
 }
 

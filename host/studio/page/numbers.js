@@ -1,6 +1,6 @@
 // Numbers as people read and write them.
 
-// At most so many digits behind the point, none that say nothing.
+// At most `digits` digits behind the point, without zeros at the end.
 export function written(number, digits = 4) {
   const text = Number(number).toFixed(digits);
   const short = text.includes(".") ? text.replace(/\.?0+$/, "") : text;

@@ -16,7 +16,7 @@ export class Painter {
     this.#afterPaint.port1.onmessage = () => this.#acknowledge();
   }
 
-  // `surface` has `context` and is told by `painting(picture)` just before a picture is painted.
+  // `surface` has `context`; its `painting(picture)` is called just before a picture is painted.
   add(view, surface) { this.#surfaces.set(view, {surface, last: null}); }
 
   #take(buffer) {

@@ -16,7 +16,7 @@ export const poseStep = (actor, pose, frame) =>
   command(["animate", "pose"], [actor, ...Object.entries(pose).map(([joint, angles]) => setting(joint, angles))], ["--frame", `${frame}`, "--clamp"]);
 
 // How each part of a joint's change is written.
-const kOfJoint = {
+const kJointOptions = {
   name: (value) => option("--name", value),
   parent: (value) => option("--parent", value),
   place: (value) => numbers("--place", value),
@@ -34,7 +34,7 @@ const kOfJoint = {
 
 // "add" or "set".
 export const jointStep = (verb, joint, change) =>
-  command(["model", verb], [joint], Object.entries(change).flatMap(([part, value]) => kOfJoint[part](value)));
+  command(["model", verb], [joint], Object.entries(change).flatMap(([part, value]) => kJointOptions[part](value)));
 
 export const removeJointStep = (joint) => command(["model", "remove"], [joint], ["--branch"]);
 

@@ -66,24 +66,24 @@ void FilmWork::reject() {
   prepared_.reset();
 }
 
-void FilmWork::obey(const Step& step, For what) {
+void FilmWork::execute(const Step& step, For what) {
   if (const auto* const script = std::get_if<ScriptStep>(&step)) {
     const std::filesystem::path file = path_.parent_path() / script->name;
     edited_->give_script(file, script->text);
-    return edited_->obey({{{"animate", "script", file.string(), "--lengthen"}}});
+    return edited_->execute({{{"animate", "script", file.string(), "--lengthen"}}});
   }
   const auto* const step_of_commands = std::get_if<CommandsStep>(&step);
   if (!step_of_commands) refuse_model_step(path_);
   for (const editing::Command& command : step_of_commands->commands)
     if (command.front() == "model") refuse_model_step(path_);
-  what == For::eyes ? edited_->show(step_of_commands->commands) : edited_->obey(step_of_commands->commands);
+  what == For::eyes ? edited_->show(step_of_commands->commands) : edited_->execute(step_of_commands->commands);
 }
 
 animator::Remarks FilmWork::show(const Step& step, For what) {
   take_back();
   edited_ = std::make_unique<editing::FilmInMemory>(json_, film_, path_, folder_);
   try {
-    obey(step, what);
+    execute(step, what);
     film::check_camera(film_);
   } catch (...) {
     edited_.reset();

@@ -45,7 +45,7 @@ class FilmWork : public Work {
   };
 
   animator::Film read(const document::Element& root, bool models_stay);
-  void obey(const Step& step, For what);
+  void execute(const Step& step, For what);
   bool shows_other_shapes() const;
 
   std::filesystem::path path_, folder_;

@@ -33,7 +33,7 @@ class History {
   void redo();
 
   const std::vector<HistoryEntry>& entries() const { return entries_; }
-  std::size_t done() const { return done_; }    // so many of the entries
+  std::size_t done() const { return done_; }    // entries that are done
   std::size_t bytes() const { return bytes_; }  // of their changes
 
  private:

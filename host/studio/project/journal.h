@@ -21,7 +21,7 @@ class Journal {
 
   // The history of the file, which has this text. What others did to it since the journal was written is an entry
   // "changed outside", which is in the journal then. None where the journal is missing, or knows nothing of such a
-  // file: then it begins anew with the next line.
+  // file: then it begins again with the next line.
   std::optional<History> read(const std::string& text);
 
   // Before the file is written. Where the journal cannot be written, `trouble()` says why, and work goes on without.
@@ -29,7 +29,7 @@ class Journal {
   void write_undo(const std::string& before, const std::string& after);
   void write_redo(const std::string& before, const std::string& after);
 
-  // Writes it anew where it is much longer than the history, which ends in a file of this text.
+  // Writes it again where it is much longer than the history, which ends in a file of this text.
   void shorten(const History& history, const std::string& text);
 
   const std::filesystem::path& path() const { return path_; }

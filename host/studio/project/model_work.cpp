@@ -82,7 +82,7 @@ animator::Remarks ModelWork::show_commands(const CommandsStep& step) {
   for (const editing::Command& words : step.commands)
     if (words.front() != "model") refuse("keys, actors and lights, which this command could change");
   editing::ModelInMemory edited(json_, model(), path_, folder_);
-  edited.obey(step.commands);
+  edited.execute(step.commands);
   modeler::Model changed = edited.model();
   exchange_model(film_, changed);
   if (!before_) before_ = std::move(changed);

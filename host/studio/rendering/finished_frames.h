@@ -14,7 +14,7 @@ namespace mars::studio {
 
 struct FolderLook {
   std::vector<std::uint32_t> frames;    // that are there, ascending
-  std::optional<std::uint32_t> newest;  // of these
+  std::optional<std::uint32_t> newest;  // of the frames
   bool runs = false;                    // somebody renders into it
   std::optional<sinks::Status> status;  // of the one that said something last
   std::string problem;                  // why it cannot be looked at; "": it can

@@ -40,7 +40,7 @@ struct Job {
   std::optional<watch::Begin> begin;  // of its last host
   std::uint32_t there = 0, of = 0;    // frames that the folder had, of those asked for; 0: not known
   std::uint32_t drawn = 0;            // since that host began
-  double seconds = 0;                 // of these
+  double seconds = 0;                 // for the frames above
   bool stopping = false;
 };
 
@@ -109,8 +109,8 @@ class LiveRendering : public Rendering {
   std::filesystem::path folder_;  // of the frames; "": none yet
   Json nodes_ = Json::array();
   std::uint32_t done_ = 0, of_ = 0;      // of a run of somebody else
-  double rate_ = 0;                      // likewise, frames a second
-  std::optional<std::uint32_t> newest_;  // likewise, that was shown
+  double rate_ = 0;                      // its last, frames a second
+  std::optional<std::uint32_t> newest_;  // the newest frame that was shown
   std::vector<std::uint32_t> finished_;  // frames in the folder
   int ticks_ = 0;
   bool ticking_ = false, looking_ = false;

@@ -88,9 +88,9 @@ class RenderProcess::Streams : public std::enable_shared_from_this<Streams> {
     std::istream from(&streams_[number].rest);
     std::string line;
     if (!std::getline(from, line) || line.empty()) return;
-    if (number == 0) return listener_.said(line);
+    if (number == 0) return listener_.warned(line);
     const std::string own = line.starts_with("mars: ") ? line.substr(6) : line;
-    if (own.starts_with("warning: ")) return listener_.said(own);
+    if (own.starts_with("warning: ")) return listener_.warned(own);
     if (reason_.empty()) reason_ = own;
   }
 

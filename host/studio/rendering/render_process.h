@@ -17,7 +17,7 @@ namespace mars::studio {
 class RenderProcess {
  public:
   struct Listener {
-    std::function<void(const std::string& line)> said;
+    std::function<void(const std::string& line)> warned;
     std::function<void(const child::Ending& ending, const std::string& reason)> ended;  // reason: one line; "" if well
   };
 

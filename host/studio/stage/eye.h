@@ -24,7 +24,7 @@ preview::Orbit chosen_orbit(From from, const preview::Ball& subject, double aspe
 // The eye's camera, not of From::camera, with the film's exposure.
 wire::Camera camera_from(const Eye& eye, double exposure);
 
-// By pixels of a mouse in a picture of this height, right and down; zoom by a wheel's, about the spot so many pixels
+// By pixels of a mouse in a picture of this height, right and down; zoom by a wheel's, about the spot at these pixels
 // from the picture's middle.
 void turn(preview::Orbit& orbit, const glm::dvec2& by);
 void pan(preview::Orbit& orbit, const glm::dvec2& by, double height);

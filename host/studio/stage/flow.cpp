@@ -80,9 +80,9 @@ void Flow::serve() {
 
 void Flow::follow_film() {
   moments_.renew();
-  if (moments_.problem() != told_problem_) {
-    told_problem_ = moments_.problem();
-    if (!told_problem_.empty()) pages_.tell_all({{"is", "said"}, {"text", told_problem_}});
+  if (moments_.problem() != sent_problem_) {
+    sent_problem_ = moments_.problem();
+    if (!sent_problem_.empty()) pages_.send_to_all({{"is", "said"}, {"text", sent_problem_}});
   }
   if (moments_.film_number() == film_number_) return;
   film_number_ = moments_.film_number();
@@ -153,7 +153,7 @@ void Flow::advance_surface(PageView& view, const Shown& now) {
 bool Flow::looks_the_same(PageView& view, const Shown& now) {
   if (!view.interval || view.lost || !same_picture(view.scene, scene_of(view, now))) return false;
   view.shown = now;
-  if (view.rested) pages_.tell_handles(view);
+  if (view.rested) pages_.send_handles(view);
   return true;
 }
 

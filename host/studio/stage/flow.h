@@ -29,8 +29,8 @@ class Flow {
     std::function<std::uint64_t(PageNumber)> edit_of;  // its last message's
     std::function<std::optional<HandPlace>()> hand;
     std::function<Json(const PageView&)> controls;
-    std::function<void(PageView&)> tell_handles;
-    std::function<void(const Json& message)> tell_all;
+    std::function<void(PageView&)> send_handles;
+    std::function<void(const Json& message)> send_to_all;
     std::function<void(ViewPicture)> picture;
   };
 
@@ -74,7 +74,7 @@ class Flow {
   Pages pages_;
   std::uint32_t picture_ = 0;  // of all views, at the renderer
   std::uint64_t film_number_ = 0;
-  std::string told_problem_;
+  std::string sent_problem_;
   bool serving_ = false, again_ = false;
 };
 

@@ -74,11 +74,11 @@ const std::vector<Handle>& Ghosts::handles(std::uint32_t view, const GhostFrames
   const auto known = shown_.find(view);
   if (known != shown_.end() && known->second.first == seen) return known->second.second;
   follow_project();
-  std::vector<Handle> handles = made(seen);
+  std::vector<Handle> handles = make_handles(seen);
   return (shown_.insert_or_assign(view, std::pair(std::move(seen), std::move(handles))).first)->second.second;
 }
 
-std::vector<Handle> Ghosts::made(const Seen& seen) {
+std::vector<Handle> Ghosts::make_handles(const Seen& seen) {
   const auto& [moment, frames, selection, screen] = seen;
   const std::int64_t now = project_.frame(), count = project_.film().frames;
   std::vector<Placed> ghosts;

@@ -13,7 +13,7 @@
 
 namespace mars::studio {
 
-// So many ghosts before and after the frame that is shown, so many frames apart.
+// How many ghosts are shown before and after the frame, and how many frames apart.
 struct GhostFrames {
   int before = 0, after = 0, step = 1;
 
@@ -47,7 +47,7 @@ class Ghosts {
     bool operator==(const Seen&) const = default;
   };
 
-  std::vector<Handle> made(const Seen& seen);
+  std::vector<Handle> make_handles(const Seen& seen);
   void follow_project();
   const animator::ActorState& state_of(std::size_t actor, std::uint32_t frame);
   std::vector<std::size_t> actors_near(const Selection& selection) const;

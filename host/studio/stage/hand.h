@@ -53,7 +53,7 @@ class Hand {
   double wound_ = 0;           // degrees, of a ring
   glm::dvec3 pose_{0, 0, 0};   // of the limb, as it was shown last
   glm::dvec3 place_{0, 0, 0};  // at the beginning: what is moved, in its own coordinates
-  glm::dvec3 world_{0, 0, 0};  // likewise in the world
+  glm::dvec3 world_{0, 0, 0};  // the same place in the world
   modeler::Axes frame_{};      // of the segment
   modeler::Box sbb_{};
   wire::Matrix matrix_{};

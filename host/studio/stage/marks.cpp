@@ -89,10 +89,10 @@ class Maker {
 
  private:
   void add_line(const std::vector<glm::dvec3>& places) {
-    for (Polyline& line : screen_.polylines(places)) handles_.push_back(made(name_, std::move(line)));
+    for (Polyline& line : screen_.polylines(places)) handles_.push_back(handle(name_, std::move(line)));
   }
 
-  Handle made(const std::string& id, Polyline points) const {
+  Handle handle(const std::string& id, Polyline points) const {
     Handle handle{id, kind_, std::move(points)};
     handle.selected = selected_;
     return handle;
@@ -101,7 +101,7 @@ class Maker {
   void add_point(const std::string& id, const glm::dvec3& place, const Grip& grip) {
     const auto pixel = screen_.pixel_of(place);
     if (!pixel) return;
-    handles_.push_back(made(id, {*pixel}));
+    handles_.push_back(handle(id, {*pixel}));
     handles_.back().grip = grip;
   }
 
@@ -151,7 +151,7 @@ class Maker {
     const auto from = screen_.pixel_of(state_.place), to = screen_.pixel_of(state_.center);
     if (!from || !to || glm::length(*to - *from) < 1) return;
     const glm::dvec2 way = kBulbPixels * glm::normalize(*to - *from), side(-way.y, way.x);
-    handles_.push_back(made(name_, {*to - way + 0.5 * side, *to, *to - way - 0.5 * side}));
+    handles_.push_back(handle(name_, {*to - way + 0.5 * side, *to, *to - way - 0.5 * side}));
   }
 
   void add_bulb() {

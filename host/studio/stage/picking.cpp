@@ -47,7 +47,7 @@ std::optional<double> entry(const Ray& ray, const Bounds& box) {
 glm::dvec3 vector(const Point& point) { return {point[0], point[1], point[2]}; }
 
 // Moeller and Trumbore, "Fast, minimum storage ray/triangle intersection", 1997; either side.
-std::optional<double> meeting(const Ray& ray, const Point& a, const Point& b, const Point& c) {
+std::optional<double> distance_to_triangle(const Ray& ray, const Point& a, const Point& b, const Point& c) {
   const glm::dvec3 corner = vector(a), u = vector(b) - corner, v = vector(c) - corner;
   const glm::dvec3 p = glm::cross(ray.way, v);
   const double determinant = glm::dot(u, p);
@@ -98,8 +98,8 @@ class NearestHit {
     diced_.corners.clear();
     add_diced(patch, kPatchSteps, diced_);
     for (std::size_t i = 0; i < diced_.corners.size(); i += 3)
-      take(meeting(ray, diced_.points[diced_.corners[i]], diced_.points[diced_.corners[i + 1]],
-                   diced_.points[diced_.corners[i + 2]]));
+      take(distance_to_triangle(ray, diced_.points[diced_.corners[i]], diced_.points[diced_.corners[i + 1]],
+                                diced_.points[diced_.corners[i + 2]]));
   }
 
   void look(const wire::Meshlet& meshlet, const Ray& ray) {
@@ -111,7 +111,7 @@ class NearestHit {
     const Point* const points = &shapes_.mesh_places[meshlet.first_vertex];
     for (std::uint32_t i = 0; i < meshlet.triangle_count; ++i) {
       const wire::MeshTriangle& triangle = shapes_.mesh_triangles[meshlet.first_triangle + i];
-      take(meeting(ray, points[triangle[0]], points[triangle[1]], points[triangle[2]]));
+      take(distance_to_triangle(ray, points[triangle[0]], points[triangle[1]], points[triangle[2]]));
     }
   }
 

@@ -22,8 +22,8 @@
 namespace mars::studio {
 namespace {
 
-constexpr const char* kHows[] = {"turn", "pan", "zoom"};
-constexpr std::string_view kOfProject[] = {"preview", "commit", "cancel", "undo", "redo", "frame"};
+constexpr const char* kOrbitKinds[] = {"turn", "pan", "zoom"};
+constexpr std::string_view kProjectVerbs[] = {"preview", "commit", "cancel", "undo", "redo", "frame"};
 constexpr double kMostEdit = 9e15;
 constexpr double kMuchLarger = 1.3;  // less is what a pose does
 
@@ -50,9 +50,9 @@ struct Gesture {
   std::optional<Json> step{};
 };
 
-class TheStage : public Stage {
+class StageOfPages : public Stage {
  public:
-  TheStage(Project& project, RendererLink& link, Listener listener)
+  StageOfPages(Project& project, RendererLink& link, Listener listener)
       : project_(project),
         link_(link),
         listener_(std::move(listener)),
@@ -68,14 +68,14 @@ class TheStage : public Stage {
     moments_.renew();
     let_go_of_what_changed();
     const std::string what = word_in(message, "do");
-    static const std::map<std::string, void (TheStage::*)(PageNumber, const Json&)> deeds = {
-        {"view", &TheStage::view},       {"orbit", &TheStage::orbit}, {"unview", &TheStage::unview},
-        {"painted", &TheStage::painted}, {"hover", &TheStage::hover}, {"select", &TheStage::select},
-        {"grab", &TheStage::grab},       {"drag", &TheStage::drag},   {"drop", &TheStage::drop},
-        {"let_go", &TheStage::let_go},   {"pin", &TheStage::pin}};
-    if (const auto deed = deeds.find(what); deed != deeds.end())
-      (this->*deed->second)(page, message);
-    else if (std::find(std::begin(kOfProject), std::end(kOfProject), what) == std::end(kOfProject))
+    static const std::map<std::string, void (StageOfPages::*)(PageNumber, const Json&)> handlers = {
+        {"view", &StageOfPages::view},       {"orbit", &StageOfPages::orbit}, {"unview", &StageOfPages::unview},
+        {"painted", &StageOfPages::painted}, {"hover", &StageOfPages::hover}, {"select", &StageOfPages::select},
+        {"grab", &StageOfPages::grab},       {"drag", &StageOfPages::drag},   {"drop", &StageOfPages::drop},
+        {"let_go", &StageOfPages::let_go},   {"pin", &StageOfPages::pin}};
+    if (const auto handler = handlers.find(what); handler != handlers.end())
+      (this->*handler->second)(page, message);
+    else if (std::find(std::begin(kProjectVerbs), std::end(kProjectVerbs), what) == std::end(kProjectVerbs))
       throw Failure("is '" + what + "'", "the message's 'do'", "see docs/studio-protocol.md");
     flow_.serve();
   }
@@ -104,31 +104,31 @@ class TheStage : public Stage {
   // ---- messages
 
   void view(PageNumber page, const Json& message) {
-    const ViewMessage said = read_view(message);
-    const bool chosen = !said.orbit && said.from != From::camera;
-    Eye eye{said.from, said.orbit.value_or(preview::Orbit{})};
-    if (chosen) eye.orbit = chosen_orbit(eye.from, moments_.subject(), double(said.width) / said.height);
-    PageView& view = made(page, said.number);
+    const ViewMessage request = read_view(message);
+    const bool chosen = !request.orbit && request.from != From::camera;
+    Eye eye{request.from, request.orbit.value_or(preview::Orbit{})};
+    if (chosen) eye.orbit = chosen_orbit(eye.from, moments_.subject(), double(request.width) / request.height);
+    PageView& view = view_or_new(page, request.number);
     view.framed = eye.from != From::camera && (chosen || (view.framed && is_same(eye, view.eye)));
-    const bool other_size = view.width != said.width || view.height != said.height;
-    if (other_size || view.look.as != said.look.as) restart(view, said.look.as);
-    if (view.look.hidden != said.look.hidden || view.look.ground != said.look.ground) view.shown.reset();
-    view.width = said.width;
-    view.height = said.height;
+    const bool other_size = view.width != request.width || view.height != request.height;
+    if (other_size || view.look.as != request.look.as) restart(view, request.look.as);
+    if (view.look.hidden != request.look.hidden || view.look.ground != request.look.ground) view.shown.reset();
+    view.width = request.width;
+    view.height = request.height;
     view.eye = eye;
-    view.look = said.look;
-    view.tool = said.tool;
-    view.ghosts = said.ghosts;
-    view.marks = said.marks;
+    view.look = request.look;
+    view.tool = request.tool;
+    view.ghosts = request.ghosts;
+    view.marks = request.marks;
     view.orbiting = false;
-    if (chosen) tell_orbit(view);
-    if (view.sent > 0) tell_handles(view);
+    if (chosen) send_orbit(view);
+    if (view.sent > 0) send_handles(view);
   }
 
   void orbit(PageNumber page, const Json& message) {
     PageView& view = seen_view_in(page, message);
     const glm::dvec2 by = pair_in(message, "by");
-    const std::size_t how = choice_in(message, "how", kHows);
+    const std::size_t how = choice_in(message, "how", kOrbitKinds);
     if (view.eye.from == From::camera)
       view.eye = {From::free, preview::orbit_near(flow_.camera_of(view), moments_.subject())};
     if (how == 0) turn(view.eye.orbit, by);
@@ -136,7 +136,7 @@ class TheStage : public Stage {
     if (how == 2) zoom(view.eye.orbit, by, from_middle(message, view), view.height);
     view.framed = false;
     view.orbiting = flag_in(message, "moving", false);
-    if (!view.orbiting) tell_orbit(view);
+    if (!view.orbiting) send_orbit(view);
   }
 
   // Of what the message names; of none: 0.
@@ -189,7 +189,7 @@ class TheStage : public Stage {
     const std::string hot = handle != nullptr ? handle->id : "";
     if (hot == view.hot) return;
     view.hot = hot;
-    tell_handles(view);
+    send_handles(view);
   }
 
   void grab(PageNumber page, const Json& message) {
@@ -267,7 +267,7 @@ class TheStage : public Stage {
     for (const Pin& each : pins) answer["pins"].push_back({{"actor", each.actor}, {"joint", each.joint}});
     listener_.tell(page, answer);
     for (PageView& view : views_)
-      if (view.page == page && view.sent > 0) tell_handles(view);
+      if (view.page == page && view.sent > 0) send_handles(view);
   }
 
   // By another page, a command or a step: the hand's joints may be no more.
@@ -302,7 +302,7 @@ class TheStage : public Stage {
     return found == views_.end() ? nullptr : &*found;
   }
 
-  PageView& made(PageNumber page, std::uint32_t number) {
+  PageView& view_or_new(PageNumber page, std::uint32_t number) {
     if (PageView* const known = view_of(page, number)) return *known;
     std::uint32_t link = 0;
     while (flow_.view_of_link(link) != nullptr) ++link;
@@ -324,7 +324,7 @@ class TheStage : public Stage {
     const double growth = orbit.distance / view.eye.orbit.distance;
     if (growth < kMuchLarger && growth > 1 / kMuchLarger) return;
     view.eye.orbit = orbit;
-    tell_orbit(view);
+    send_orbit(view);
   }
 
   void restart(PageView& view, preview::As as) {
@@ -349,12 +349,12 @@ class TheStage : public Stage {
     return handles;
   }
 
-  void tell_handles(PageView& view) {
+  void send_handles(PageView& view) {
     listener_.tell(view.page,
                    {{"is", "handles"}, {"view", view.number}, {"picture", view.sent}, {"shapes", controls(view)}});
   }
 
-  void tell_orbit(const PageView& view) {
+  void send_orbit(const PageView& view) {
     const preview::Orbit& orbit = view.eye.orbit;
     listener_.tell(view.page, {{"is", "orbit"},
                                {"view", view.number},
@@ -372,8 +372,8 @@ class TheStage : public Stage {
                   return gesture_ ? std::optional(Flow::HandPlace{gesture_->page, gesture_->view}) : std::nullopt;
                 },
             .controls = [this](const PageView& view) { return controls(view); },
-            .tell_handles = [this](PageView& view) { tell_handles(view); },
-            .tell_all = [this](const Json& message) { listener_.tell(kAllPages, message); },
+            .send_handles = [this](PageView& view) { send_handles(view); },
+            .send_to_all = [this](const Json& message) { listener_.tell(kAllPages, message); },
             .picture = listener_.picture};
   }
 
@@ -408,7 +408,7 @@ class TheStage : public Stage {
     put_names(project_, selected_by(page), message);
     listener_.tell(page, message);
     for (PageView& view : views_)
-      if (view.page == page && view.sent > 0) tell_handles(view);
+      if (view.page == page && view.sent > 0) send_handles(view);
   }
 
   Project& project_;
@@ -425,7 +425,7 @@ class TheStage : public Stage {
 }  // namespace
 
 std::unique_ptr<Stage> make_stage(Project& project, RendererLink& link, Stage::Listener listener) {
-  return std::make_unique<TheStage>(project, link, std::move(listener));
+  return std::make_unique<StageOfPages>(project, link, std::move(listener));
 }
 
 }  // namespace mars::studio

@@ -26,7 +26,7 @@ class Stage {
   virtual ~Stage() = default;
 
   // A page's message that concerns views or hands: view, orbit, unview, painted, grab, drag, drop, let_go, hover,
-  // select. Of messages that the project has obeyed, such as preview, commit, undo and frame, it notes the number of
+  // select. Of messages that the project has executed, such as preview, commit, undo and frame, it notes the number of
   // the edit alone. Throws Failure where it makes no sense.
   virtual void take(PageNumber page, const Json& message) = 0;
   virtual void page_closed(PageNumber page) = 0;

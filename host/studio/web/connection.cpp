@@ -96,7 +96,7 @@ class Visit final : public Newcomer, public std::enable_shared_from_this<Visit<S
     answer_.keep_alive(keep_alive);
     answer_.body() = std::move(answer.body);
     answer_.prepare_payload();
-    if (request.method() == http::verb::head) answer_.body().clear();  // its length is told
+    if (request.method() == http::verb::head) answer_.body().clear();  // its length is in the head
     beast::get_lowest_layer(stream_).expires_after(site_.patience().request);
     http::async_write(stream_, answer_, [self = this->shared_from_this(), keep_alive](Error error, std::size_t) {
       if (error || !keep_alive) return self->end();

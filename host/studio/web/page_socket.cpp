@@ -112,7 +112,7 @@ class Socket final : public PageSocket, public std::enable_shared_from_this<Sock
   void hear(const std::string& text) {
     try {
       const Json message = read_page_message(text);
-      if (outbox_.hear(message, Clock::now())) site_.said(*number_, message);
+      if (outbox_.hear(message, Clock::now())) site_.received(*number_, message);
     } catch (const std::exception& failure) {  // what the studio makes of a message, it answers itself
       outbox_.tell({{"is", "refused"}, {"text", reason_of(failure)}});
     }

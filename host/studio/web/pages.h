@@ -1,4 +1,4 @@
-// The pages that are open, as the studio sees them: what it says to them, and what it hears of them.
+// The pages that are open, as the studio sees them: what it sends them, and what it receives from them.
 #pragma once
 
 #include <functional>
@@ -22,7 +22,7 @@ class Pages {
 // Pages are numbered from 1, and no number comes twice.
 struct PageListener {
   std::function<void(PageNumber page)> opened;
-  std::function<void(PageNumber page, const Json& message)> said;  // an object with a text `do`
+  std::function<void(PageNumber page, const Json& message)> received;  // an object with a text `do`
   std::function<void(PageNumber page)> closed;
 };
 

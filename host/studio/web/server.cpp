@@ -129,7 +129,7 @@ class TcpServer final : public Server, private Site {
     return number;
   }
 
-  void said(PageNumber page, const Json& message) override { listener_.said(page, message); }
+  void received(PageNumber page, const Json& message) override { listener_.received(page, message); }
 
   void left(PageNumber page) override {
     pages_.erase(page);

@@ -43,7 +43,7 @@ class Site {
   // Answers once pages that do not answer have given way; at once where a later one waits.
   virtual void wait_for_room(std::shared_ptr<Newcomer> newcomer) = 0;
   virtual PageNumber enter(std::shared_ptr<PageSocket> page) = 0;
-  virtual void said(PageNumber page, const Json& message) = 0;
+  virtual void received(PageNumber page, const Json& message) = 0;
   virtual void left(PageNumber page) = 0;
 };
 

@@ -1,4 +1,4 @@
-// The secret in the printed link: who has it may work in the studio.
+// The secret in the printed link, which lets its holder work in the studio.
 #pragma once
 
 #include <string>

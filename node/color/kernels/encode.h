@@ -55,7 +55,7 @@ void show(const Encoding& encoding, Floats* color) {
 
 inline Ints nearest(Floats value) { return hn::ConvertTo(kInts, hn::Add(value, constant(0.5f))); }
 
-// Its level of 0..most, or where in the table of so many steps it stands.
+// Its level of 0..most, or where it stands in the table of `steps` steps.
 template <wire::ColorSpace kSpace>
 Ints place(Floats shown, float most, float steps) {
   if constexpr (kSpace == wire::ColorSpace::coded) return nearest(hn::Mul(shown, constant(most)));

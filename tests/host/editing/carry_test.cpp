@@ -25,7 +25,7 @@ class Carry : public testing::Test {
  protected:
   document::Json json = document::Json::parse(kFilm);
 
-  void obey(std::initializer_list<const char*> words) {
+  void execute(std::initializer_list<const char*> words) {
     Command command{"animate"};
     for (const char* word : words) command.emplace_back(word);
     edit_film(json, "/nowhere/f.json", std::span(&command, 1));
@@ -45,7 +45,7 @@ void expect_near(const modeler::Axes& a, const modeler::Axes& b) {
 
 TEST_F(Carry, AttachedNothingJumpsAndThenItGoesAlong) {
   const modeler::Axes before = root(6);
-  obey({"attach", "ball", "--to", "tom/b", "--frame", "6"});
+  execute({"attach", "ball", "--to", "tom/b", "--frame", "6"});
   expect_near(root(5), before);
   expect_near(root(6), before);
   EXPECT_GT(glm::distance(root(24).place, before.place), 1);
@@ -53,50 +53,50 @@ TEST_F(Carry, AttachedNothingJumpsAndThenItGoesAlong) {
 }
 
 TEST_F(Carry, AttachedAtAPlaceOfItsOwn) {
-  obey({"attach", "ball", "--to", "tom/b", "--frame", "6", "--place", "0", "0", "0.5", "--turn", "0", "0", "0"});
+  execute({"attach", "ball", "--to", "tom/b", "--frame", "6", "--place", "0", "0", "0.5", "--turn", "0", "0", "0"});
   EXPECT_EQ(json["actors"][0]["keys"][0],
             document::Json::parse(R"({"frame": 6, "attach": {"actor": "tom", "joint": "b", "place": [0, 0, 0.5]}})"));
 }
 
 TEST_F(Carry, DetachedItStaysAndWhatWasBeforeIsAsItWas) {
   const modeler::Axes before = root(3);
-  obey({"attach", "ball", "--to", "tom/b", "--frame", "6"});
+  execute({"attach", "ball", "--to", "tom/b", "--frame", "6"});
   const modeler::Axes carried = root(12), there = root(15);
-  obey({"detach", "ball", "--frame", "15"});
+  execute({"detach", "ball", "--frame", "15"});
   for (const std::uint32_t frame : {0, 3, 5}) expect_near(root(frame), before);
   expect_near(root(12), carried);
   expect_near(root(15), there);
   expect_near(root(29), there);
   EXPECT_TRUE(animator::check_film(film()).lines.empty());
   EXPECT_TRUE(document::holds(document::failure_of([&] {
-                                obey({"detach", "ball", "--frame", "20"});
+                                execute({"detach", "ball", "--frame", "20"});
                               }),
                               "is not attached at frame 20"));
 }
 
 TEST_F(Carry, FromHandToHand) {
-  obey({"attach", "ball", "--to", "tom/b", "--frame", "6"});
-  obey({"attach", "ball", "--to", "tom", "--frame", "12"});
+  execute({"attach", "ball", "--to", "tom/b", "--frame", "6"});
+  execute({"attach", "ball", "--to", "tom", "--frame", "12"});
   const modeler::Axes there = root(20);
-  obey({"detach", "ball", "--frame", "20"});
+  execute({"detach", "ball", "--frame", "20"});
   expect_near(root(20), there);
   EXPECT_EQ(root(2).place, glm::dvec3(1, 1, 0));
   EXPECT_TRUE(document::holds(document::failure_of([&] {
-                                obey({"attach", "tom", "--to", "ball", "--frame", "14"});
+                                execute({"attach", "tom", "--to", "ball", "--frame", "14"});
                               }),
                               "would be carried by itself"));
 }
 
 TEST_F(Carry, AnActionWhoseKeysWouldCountForNothingIsRefused) {
-  obey({"attach", "ball", "--to", "tom/b", "--frame", "6"});
+  execute({"attach", "ball", "--to", "tom/b", "--frame", "6"});
   EXPECT_TRUE(document::holds(document::failure_of([&] {
-                                obey({"go", "ball", "--at", "8", "--to", "0", "0", "0"});
+                                execute({"go", "ball", "--at", "8", "--to", "0", "0", "0"});
                               }),
                               "is carried by 'tom'"));
 }
 
 TEST_F(Carry, APlaceThatCountsForNothingIsRemarked) {
-  obey({"attach", "ball", "--to", "tom/b", "--frame", "6"});
+  execute({"attach", "ball", "--to", "tom/b", "--frame", "6"});
   const Command pose{"animate", "pose", "ball", "place=1,2,3", "--frame", "8"};
   const Done done = edit_film(json, "/nowhere/f.json", std::span(&pose, 1));
   ASSERT_EQ(done.remarks.size(), 1u);
@@ -109,10 +109,10 @@ TEST_F(Carry, ScriptsHaveTheSameCommands) {
   document::Json by_script = json;
   motion::play_script(by_script, "/nowhere/f.json", script, "a.script");
   animator::write_version(by_script);
-  obey({"attach", "ball", "--to", "tom/b", "--frame", "6"});
-  obey({"detach", "ball", "--frame", "15"});
-  obey({"follow", "tom/b", "--frame", "8", "--level"});
-  obey({"look", "tom", "--frame", "8", "--offset", "0", "0", "1"});
+  execute({"attach", "ball", "--to", "tom/b", "--frame", "6"});
+  execute({"detach", "ball", "--frame", "15"});
+  execute({"follow", "tom/b", "--frame", "8", "--level"});
+  execute({"look", "tom", "--frame", "8", "--offset", "0", "0", "1"});
   EXPECT_EQ(document::laid_out(by_script), document::laid_out(json));
   motion::play_script(by_script, "/nowhere/f.json", script, "a.script");
   animator::write_version(by_script);
@@ -125,7 +125,7 @@ TEST_F(Carry, ScriptsHaveTheSameCommands) {
 }
 
 TEST_F(Carry, TheCameraFollowsWithoutAJump) {
-  obey({"follow", "tom/b", "--frame", "8", "--level"});
+  execute({"follow", "tom/b", "--frame", "8", "--level"});
   const glm::dvec3 way =
       animator::state_at(film(), 1, 16).joints[1].place - animator::state_at(film(), 1, 8).joints[1].place;
   EXPECT_EQ(eye(0), glm::dvec3(0, -9, 2));
@@ -133,31 +133,31 @@ TEST_F(Carry, TheCameraFollowsWithoutAJump) {
   EXPECT_LT(glm::distance(eye(8), glm::dvec3(0, -9, 2)), 1e-7);
   EXPECT_LT(glm::distance(eye(16), glm::dvec3(way.x, way.y - 9, 2)), 1e-7);
   const glm::dvec3 there = eye(20), on_the_way = eye(17);
-  obey({"follow", "--end", "--frame", "20"});
+  execute({"follow", "--end", "--frame", "20"});
   EXPECT_EQ(eye(17), on_the_way);
   EXPECT_LT(glm::distance(eye(20), there), 1e-7);
   EXPECT_LT(glm::distance(eye(29), there), 1e-7);
 }
 
 TEST_F(Carry, TheCameraLooksAtAJoint) {
-  obey({"look", "tom/b", "--frame", "0", "--offset", "0", "0", "0.2"});
+  execute({"look", "tom/b", "--frame", "0", "--offset", "0", "0", "0.2"});
   EXPECT_EQ(animator::at_at(film(), 9), animator::state_at(film(), 1, 9).joints[1].place + glm::dvec3(0, 0, 0.2));
   Command list{"animate", "list", "camera"};
   EXPECT_TRUE(document::holds(edit_film(json, "/nowhere/f.json", std::span(&list, 1)).report, "tom/b + 0 0 0.2"));
   EXPECT_TRUE(document::holds(document::failure_of([&] {
-                                obey({"look", "tom/hand", "--frame", "0"});
+                                execute({"look", "tom/hand", "--frame", "0"});
                               }),
                               "is no joint of 'tom'"));
-  EXPECT_TRUE(document::holds(document::failure_of([&] { obey({"look", "--frame", "0"}); }), "is not given"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { execute({"look", "--frame", "0"}); }), "is not given"));
 }
 
 // Turning one of its axes, a point that follows becomes a place.
 TEST_F(Carry, KeysAndPosesOfACameraThatFollows) {
-  obey({"follow", "tom", "--frame", "0"});
+  execute({"follow", "tom", "--frame", "0"});
   const glm::dvec3 there = eye(12);
-  obey({"key", "camera", "eye", "--frame", "12"});
+  execute({"key", "camera", "eye", "--frame", "12"});
   EXPECT_EQ(eye(20), animator::state_at(film(), 1, 20).place + glm::dvec3(0, -9, 2));
-  obey({"pose", "camera", "eye.z=7", "--frame", "12"});
+  execute({"pose", "camera", "eye.z=7", "--frame", "12"});
   EXPECT_LT(glm::distance(eye(12), glm::dvec3(there.x, there.y, 7)), 1e-7);
 }
 

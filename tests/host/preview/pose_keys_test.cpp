@@ -41,7 +41,8 @@ class Posing : public testing::Test {
 
   // What is said at last.
   static std::string press(PoseKeys& keys, std::string_view characters, std::uint32_t frame = 10) {
-    for (const char character : characters) EXPECT_TRUE(keys.obey({character, Special::none}, frame)) << character;
+    for (const char character : characters)
+      EXPECT_TRUE(keys.handle_key({character, Special::none}, frame)) << character;
     return keys.note(frame);
   }
 
@@ -57,7 +58,7 @@ TEST_F(Posing, StepsThroughTheTreesOfJointsThatMoveFirst) {
   EXPECT_EQ(press(keys, "\t"), "lamp arm  y 50 (0..150)");
   EXPECT_EQ(press(keys, "\t"), "lamp tail  z 0 (-9..9)");
   EXPECT_EQ(press(keys, "\t"), "still stem  x 0 (-40..40)  y 0 (-60..60)");
-  EXPECT_TRUE(keys.obey(kBackTab, 10));
+  EXPECT_TRUE(keys.handle_key(kBackTab, 10));
   EXPECT_EQ(keys.note(10), "lamp tail  z 0 (-9..9)");
   EXPECT_EQ(press(keys, "\t\t\t\t"), "lamp stem  x 0 (-40..40)  y 0 (-60..60)");
   EXPECT_EQ(press(keys, "i"), "lamp arm  y 50 (0..150)");
@@ -65,10 +66,10 @@ TEST_F(Posing, StepsThroughTheTreesOfJointsThatMoveFirst) {
   EXPECT_EQ(press(keys, "o"), "lamp stem  x 0 (-40..40)  y 0 (-60..60)");
   EXPECT_EQ(press(keys, "o"), "lamp stem  x 0 (-40..40)  y 0 (-60..60)");
   EXPECT_FALSE(keys.under_way());
-  EXPECT_TRUE(keys.obey(kLeave, 10));
+  EXPECT_TRUE(keys.handle_key(kLeave, 10));
   EXPECT_EQ(keys.note(10), "");
   EXPECT_EQ(press(keys, "x"), "Tab selects a joint");
-  EXPECT_FALSE(keys.obey({'f', Special::none}, 10));
+  EXPECT_FALSE(keys.handle_key({'f', Special::none}, 10));
   EXPECT_EQ(keys.note(10), "");
 }
 
@@ -83,7 +84,7 @@ TEST_F(Posing, TurnsWithinLimits) {
   EXPECT_EQ(press(keys, "z"), "lamp stem  x 40 (-40..40)  y -5 (-60..60)  does not turn about z");
   EXPECT_EQ(press(keys, "0"), "lamp stem  x 0 (-40..40)  y 0 (-60..60)" + hint);
   EXPECT_TRUE(keys.under_way());
-  EXPECT_TRUE(keys.obey(kLeave, 10));
+  EXPECT_TRUE(keys.handle_key(kLeave, 10));
   EXPECT_FALSE(keys.under_way());
   EXPECT_EQ(document::read_file(path_), kFilm);
 }

@@ -29,7 +29,7 @@ struct Screen {
       if (text[at] == '\x1b') {
         std::size_t end = at + 2;
         while (text[end] < '@') ++end;
-        obey(text.substr(at + 2, end - at - 2), text[end]);
+        handle_key(text.substr(at + 2, end - at - 2), text[end]);
         at = end + 1;
       } else if (text[at] == ' ') {
         cells[{row, column++}] = {back, back};
@@ -42,7 +42,7 @@ struct Screen {
     }
   }
 
-  void obey(const std::string& words, char what) {
+  void handle_key(const std::string& words, char what) {
     int a = 0, b = 0, red = 0, green = 0, blue = 0;
     if (what == 'H' && std::sscanf(words.c_str(), "%d;%d", &a, &b) == 2) row = a, column = b;
     if (what == 'm' && std::sscanf(words.c_str(), "%d;2;%d;%d;%d", &a, &red, &green, &blue) == 4)

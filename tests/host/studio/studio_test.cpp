@@ -51,7 +51,7 @@ class StudioTest : public testing::Test {
     studio_.emplace(Parts{std::move(project), make_link, make_stage, make_rendering}, pages_);
   }
 
-  void say(PageNumber page, const char* message) { studio_->page_said(page, Json::parse(message)); }
+  void say(PageNumber page, const char* message) { studio_->handle_message(page, Json::parse(message)); }
 
   RecordingPages pages_;
   test::FakeProject* project_ = nullptr;

@@ -35,7 +35,7 @@ Remarks delete_keys(document::Json& film, const Film& meaning, const Choice& cho
 
 // The ease from the keys in the range, each to the next.
 Remarks ease_keys(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range, const Ease& ease);
-// From `frame` on all stands still for so many frames; what follows is that much later.
+// From `frame` on all stands still for `frames` frames; later keys move by as many.
 Remarks hold(document::Json& film, const Film& meaning, const Choice& choice, std::uint32_t frame,
              std::uint32_t frames);
 // The range takes `factor` times as long, to whole frames; what follows is that much later or earlier.

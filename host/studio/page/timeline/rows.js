@@ -86,13 +86,13 @@ export class Rows {
   }
 
   marks(row) {
-    if (!this.#marks.has(row.id)) this.#marks.set(row.id, this.#made(row));
+    if (!this.#marks.has(row.id)) this.#marks.set(row.id, this.#makeRow(row));
     return this.#marks.get(row.id);
   }
 
   keysOf(row) { return this.marks(row).flatMap(({keys}) => keys); }
 
-  #made({thing, part}) {
+  #makeRow({thing, part}) {
     const marks = new Map();
     for (const each of this.things) {
       if (thing !== null && each.thing !== thing) continue;

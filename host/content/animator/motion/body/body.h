@@ -33,7 +33,7 @@ struct Sole {
   glm::dvec3 heel, ball;  // on what the foot comes down, and on what it leaves
   bool on_toes = false;   // of four legs: the toes alone stand
 
-  // How high the ankle is over the floor when the foot, pitched with its toes down by so many degrees and the
+  // How high the ankle is over the floor when the foot, pitched with its toes down by `pitch` degrees and the
   // toes bent against it, touches it.
   double height(double pitch, double bent) const;
 };

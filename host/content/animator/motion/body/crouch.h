@@ -13,7 +13,7 @@ class Crouch {
   // Of a body as it stands; one that sits, or whose legs have no knees, bends its trunk alone.
   Crouch(const Body& body, const Posture& start, const std::string& where);
 
-  // From 0, as it stood, to 1, as low as it gets; the trunk twisted by so many degrees to the left. Arms
+  // From 0, as it stood, to 1, as low as it gets; the trunk twisted to the left, in degrees. Arms
   // hang from it, otherwise as they were. `posture` is that of the moment before, or any. Throws where feet cannot
   // stay.
   void take(double depth, double twist, Posture& posture) const;

@@ -32,7 +32,7 @@ void begin_at(const modeler::Model& model, const Posture& start, double frames, 
 std::vector<animator::ActorKey> keys_of(const Body& body, std::span<const std::size_t> joints,
                                         std::span<const Posture> postures, std::uint32_t first);
 
-// Keys of joints alone, which stray so many degrees at most.
+// Keys of joints alone, which stray `degrees` at most.
 std::vector<animator::ActorKey> keys_of_joints(const modeler::Model& model, std::span<const std::size_t> joints,
                                                std::span<const Posture> postures, std::uint32_t first,
                                                double tolerance);

@@ -64,7 +64,7 @@ Hinge hinge_of(const Body& body, const Leg& leg) {
   return best;
 }
 
-// A leg that is straight does not know which way to bend: the knee begins where the hip's distance wants it.
+// A leg that is straight does not know which way to bend: the knee begins where the hip's distance puts it.
 void bend_knee(const Body& body, const Leg& leg, const Hinge& hinge, double distance, Posture& posture) {
   const double cosine =
       (leg.thigh * leg.thigh + leg.shin * leg.shin - distance * distance) / (2 * leg.thigh * leg.shin);

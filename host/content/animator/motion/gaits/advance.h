@@ -7,7 +7,7 @@ namespace mars::motion {
 
 class Advance {
  public:
-  // All frames; setting out and stopping take so many of them at most.
+  // All frames; setting out takes at most `sets_out` of them, stopping `stops`.
   Advance(double length, double begin, double end, double sets_out, double stops)
       : begin_(begin),
         end_(end),

@@ -207,7 +207,7 @@ class Strider {
   double lands_, stops_;  // frames: phase 0 of the first stride; the trunk stands
   Advance advance_;
   double long_;                                    // from hips to shoulders
-  double pelvis_;                                  // before the middle of these
+  double pelvis_;                                  // before the middle of the four feet
   double height_;                                  // of the hips
   std::array<std::array<glm::dvec2, 2>, 2> rest_;  // ankles before and beside the middle: hind and fore
   Stand began_;

@@ -34,7 +34,7 @@ struct FourLegStyle {
   double bounce = 1, lift = 1;  // times an ordinary one's
 };
 
-// How far the trunk turns or goes, in so many strides.
+// How far the trunk turns or goes, in a number of strides.
 struct Errand {
   Path path;
   double turn;  // degrees on the spot; then the path is not gone

@@ -62,7 +62,7 @@ class Planner {
 // Postures so far, and the body that goes on from the last.
 class Going {
  public:
-  // `pace` in steps a second, where nobody says another.
+  // `pace` in steps a second, where the script gives none.
   Going(const Scene& scene, const char* command, double pace);
 
   Stance now() const { return stance_of(body_, postures_.back()); }
@@ -96,8 +96,8 @@ struct Way {
   bool may_shorten;  // nobody has said how many or how long the steps are of a bow
 };
 
-// Turns the figure first where `to` wants it; nothing if it is there. `ordinary` is a step's length; setting out and
-// stopping cost so many steps' lengths.
+// Turns the figure first where `to` asks for it; nothing if it is there. `ordinary` is a step's length; setting out and
+// stopping cost that number of steps' lengths.
 std::optional<Way> way_of(const Scene& scene, Going& going, double ordinary, double lost = 0);
 
 // Goes by `gait(steps)`: in twice as many shorter steps, where limits want it and the way allows it.

@@ -54,7 +54,7 @@ class Striding {
     go(four_leg_walk(), {{stand(), 0, 0}, by, strides});
   }
 
-  // Turns first where `to` wants it.
+  // Turns first where `to` asks for it.
   void go_as_asked() {
     const Arguments& arguments = scene_.arguments;
     refuse_contradictions(arguments, counted_.count, counted_.length);

@@ -7,7 +7,7 @@ namespace mars::motion {
 
 Motion walk_on_four(const Scene& scene);
 Motion turn_on_four(const Scene& scene);
-Motion trot(const Scene& scene);    // refuses figures with two legs
-Motion gallop(const Scene& scene);  // likewise
+Motion trot(const Scene& scene);  // refuses figures with two legs
+Motion gallop(const Scene& scene);
 
 }  // namespace mars::motion

@@ -57,7 +57,7 @@ class Handling {
 
   double depth() const { return depth_; }
 
-  // From the start down to the place, within so many frames.
+  // From the start down to the place, within that number of frames.
   std::vector<Posture> there(int frames) const {
     std::vector<Posture> postures;
     Posture posture = start_;

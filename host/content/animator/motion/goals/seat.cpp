@@ -20,7 +20,7 @@ namespace {
 constexpr double kOnSeat = 0.45;             // of the thigh, from the seat's edge to the hips
 constexpr double kBeside = 0.2;              // of the leg, from the hips to the seat's end
 constexpr double kNear = 0.12;               // of the leg: so near to where it should stand it stays
-constexpr double kAskew = 12;                // degrees, likewise
+constexpr double kAskew = 12;                // degrees
 constexpr double kRest = 0.15;               // of the leg: what rises so far above a seat is a back or an arm
 constexpr double kLow = 0.15, kHigh = 0.95;  // of the leg: heights of seats
 constexpr double kClear = 0.12;              // of the leg, between a way and the seat

@@ -46,7 +46,7 @@ struct Throw {
   std::uint32_t frames;  // to the place
 };
 
-// The slowest that gets there, or the one that takes so many seconds; there at a whole frame.
+// The slowest throw that gets there, or the one that takes the seconds asked for; it arrives at a whole frame.
 Throw throw_to(const glm::dvec3& from, const glm::dvec3& to, double gravity, double rate,
                const std::optional<double>& seconds) {
   const glm::dvec3 way = to - from;

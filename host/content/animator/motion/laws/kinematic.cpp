@@ -51,7 +51,7 @@ class Sampled {
         [&](std::size_t at) { keys_[at].place = animator::rounded(places[at]); });
   }
 
-  // About an axis of the world, at so many degrees a second.
+  // About an axis of the world; the rate in degrees a second.
   void add_turns(const glm::dvec3& spin, const Turns& turned_at) {
     const double speed = glm::length(spin);
     if (speed == 0) return;

@@ -25,7 +25,8 @@ struct Scene {
   std::string where() const { return "actor '" + actor.name + "', " + std::string(action); }  // for messages
   const modeler::Model& model() const { return film.models[actor.model]; }
   double frames(double seconds) const { return seconds * film.rate; }
-  // The frame so many later. Throws where a film has no such frame: to be asked before any work for it is done.
+  // The frame that is `frames` later. Throws where a film has no such frame: to be asked before any work for it is
+  // done.
   std::uint32_t last_after(double frames) const;
 };
 

@@ -1,4 +1,4 @@
-// What is foreseen of a rendering, by a forecast of its frames as nodes' code counts them.
+// What is predicted of a rendering, by a forecast of its frames as nodes' code counts them.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@
 namespace mars::programs {
 
 // On simulated machines.
-void foresee_on(const experiments::Platform& platform, session::RenderJob& job);
+void predict_on(const experiments::Platform& platform, session::RenderJob& job);
 
-// Renders on this machine, as its host. What is foreseen follows from what mars calibrate measured on a machine
+// Renders on this machine, as its host. What is predicted follows from what mars calibrate measured on a machine
 // that was not too busy; else from what work
-// costs on a typical machine, and groups are not chosen by that. Nothing is foreseen of renderings that soon end. Or
+// costs on a typical machine, and groups are not chosen by that. Nothing is predicted of renderings that soon end. Or
 // serves a studio, where the options say so.
 void render_here(const options::RenderOptions& options, const std::string& backend);
 

@@ -1,4 +1,4 @@
-#include "host/programs/foresight.h"
+#include "host/programs/prediction.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -30,8 +30,8 @@ forecast::Setting setting_of(const session::RenderJob& job, const wire::FilmView
   return setting;
 }
 
-session::Foresight foresee(const session::RenderJob& job, const experiments::Platform& platform,
-                           const wire::FilmView& film, const farm::PlanRequest& request, int nodes) {
+session::Prediction predict(const session::RenderJob& job, const experiments::Platform& platform,
+                            const wire::FilmView& film, const farm::PlanRequest& request, int nodes) {
   const std::vector<farm::Task> tasks = farm::make_tasks(film, request.frames, request.coherence);
   const forecast::FilmCounts counts =
       forecast::count_film(film, tasks, *make_node_counter(film), {kMostCounting, kCountedPart / nodes});
@@ -52,8 +52,8 @@ std::optional<experiments::Platform> calibrated_here() {
 }
 
 // Of a rendering on this machine, and perhaps on others: then it is not known how these are joined.
-session::Foresight foresee_here(const session::RenderJob& job, const wire::FilmView& film,
-                                const farm::PlanRequest& request, int nodes) {
+session::Prediction predict_here(const session::RenderJob& job, const wire::FilmView& film,
+                                 const farm::PlanRequest& request, int nodes) {
   const std::optional<experiments::Platform> calibrated = calibrated_here();
   const experiments::Platform platform = calibrated ? *calibrated : like_here("reference");
   farm::PlanRequest known = request;
@@ -61,9 +61,9 @@ session::Foresight foresee_here(const session::RenderJob& job, const wire::FilmV
   const bool chooses = calibrated && nodes <= platform.machine.processors;
   if (request.groups == 0 && !chooses)
     known.groups = static_cast<std::uint32_t>(farm::make_groups(nodes, 0, tasks).size());
-  session::Foresight foresight = foresee(job, platform, film, known, nodes);
-  if (!chooses) foresight.contributors = 0;
-  return foresight;
+  session::Prediction prediction = predict(job, platform, film, known, nodes);
+  if (!chooses) prediction.contributors = 0;
+  return prediction;
 }
 
 // Seconds that nodes work, very roughly.
@@ -78,24 +78,24 @@ double rough_seconds(const wire::FilmView& film, const std::vector<farm::Task>& 
 
 }  // namespace
 
-void foresee_on(const experiments::Platform& platform, session::RenderJob& job) {
-  job.foresee = [platform, job](const wire::FilmView& film, const farm::PlanRequest& request, int nodes) {
-    session::Foresight foresight = foresee(job, platform, film, request, nodes);
-    foresight.warning = experiments::doubt_text(platform);
-    return foresight;
+void predict_on(const experiments::Platform& platform, session::RenderJob& job) {
+  job.predict = [platform, job](const wire::FilmView& film, const farm::PlanRequest& request, int nodes) {
+    session::Prediction prediction = predict(job, platform, film, request, nodes);
+    prediction.warning = experiments::doubt_text(platform);
+    return prediction;
   };
 }
 
 void render_here(const options::RenderOptions& options, const std::string& backend) {
   if (!options.serve.empty()) return serve::serve({options.serve, backend, options.mapping, options.block});
   session::RenderJob job = job::job_of(options, backend);
-  job.foresee = [job](const wire::FilmView& film, const farm::PlanRequest& request, int nodes) {
+  job.predict = [job](const wire::FilmView& film, const farm::PlanRequest& request, int nodes) {
     const std::vector<farm::Task> tasks = farm::make_tasks(film, request.frames, request.coherence);
-    if (rough_seconds(film, tasks) / nodes < kSoon) return session::Foresight();
+    if (rough_seconds(film, tasks) / nodes < kSoon) return session::Prediction();
     try {
-      return foresee_here(job, film, request, nodes);
+      return predict_here(job, film, request, nodes);
     } catch (const Failure& failure) {  // of a platform's file: the rendering needs no forecast
-      return session::Foresight{.warning = failure.what()};
+      return session::Prediction{.warning = failure.what()};
     }
   };
   session::run_session(job);
