@@ -16,6 +16,7 @@
 #include "host/content/modeler/mirror.h"
 #include "host/content/modeler/proportions.h"
 #include "host/content/modeler/review.h"
+#include "host/content/modeler/scale_model.h"
 #include "host/content/modeler/shape_library.h"
 #include "host/editing/words.h"
 

@@ -5,7 +5,7 @@
 #include "hal/failure/failure.h"
 #include "host/content/modeler/figure_texts.h"
 #include "host/content/modeler/model_file.h"
-#include "host/content/modeler/proportions.h"
+#include "host/content/modeler/scale_model.h"
 
 namespace mars::modeler {
 namespace {

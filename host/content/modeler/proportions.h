@@ -39,8 +39,4 @@ void apply(const Proportions& proportions, Model& model);
 
 Proportions read_proportions(const document::Element& element);
 
-// Changes a model's JSON: its joints', or if it is derived from another file, its proportions. `model` is what
-// it is read as.
-void scale_model(document::Json& json, const Model& model, const Proportions& proportions);
-
 }  // namespace mars::modeler

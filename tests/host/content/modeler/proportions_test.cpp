@@ -8,6 +8,7 @@
 #include "host/content/document/whole_file.h"
 #include "host/content/modeler/frames.h"
 #include "host/content/modeler/read_model.h"
+#include "host/content/modeler/scale_model.h"
 #include "tests/host/content/document/failure_of.h"
 
 namespace mars::modeler {

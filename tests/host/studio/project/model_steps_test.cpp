@@ -7,6 +7,7 @@
 #include "host/content/modeler/edit.h"
 #include "host/content/modeler/model_file.h"
 #include "host/content/modeler/proportions.h"
+#include "host/content/modeler/scale_model.h"
 #include "tests/host/studio/project/open_files.h"
 
 namespace mars::studio {
