@@ -46,6 +46,7 @@ Child::Child(const Command& command) {
   strangers_ = children_of_ours();
   const Descriptor nothing = null_device();
   Pipe output = make_pipe(), error = make_pipe();
+  relay_.emplace();  // first: a signal that comes while the program starts would end us alone
   // What was started in a shell's background ignores SIGINT, but not when it is we who pass it on.
   process_.emplace(
       command,
@@ -53,7 +54,7 @@ Child::Child(const Command& command) {
                    .own_group = true,
                    .signal_at_our_end = SIGTERM,
                    .default_signals = {SIGINT, SIGTERM, SIGHUP}});
-  relay_.emplace(process_->id());
+  relay_->relay_to(process_->id());
   output_.descriptor = std::move(output.reading);
   error_.descriptor = std::move(error.reading);
 }

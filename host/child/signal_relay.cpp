@@ -52,10 +52,9 @@ void signal_group(pid_t group, int signal) {
   kill(-group, SIGCONT);
 }
 
-SignalRelay::SignalRelay(pid_t group) {
+SignalRelay::SignalRelay() {
   check(!relay_here.exchange(true), "one child at a time");
   relay_count = relay_first = 0;
-  relay_group = group;
   const struct sigaction ending = handled_by(end_here), relaying = handled_by(relay);
   sigaction(SIGALRM, &ending, nullptr);
   for (std::size_t i = 0; i < kSignals.size(); ++i) {
@@ -73,6 +72,12 @@ SignalRelay::~SignalRelay() {
 
 int SignalRelay::count() const { return relay_count; }
 int SignalRelay::first() const { return relay_first; }
+
+void SignalRelay::relay_to(pid_t group) {
+  relay_group = group;
+  if (const int came_before = relay_first; came_before != 0) signal_group(group, came_before);
+}
+
 void SignalRelay::forget_group() { relay_group = 0; }
 
 }  // namespace mars::child

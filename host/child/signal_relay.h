@@ -18,9 +18,9 @@ class SignalRelay {
   // The same from the second signal: then a person does not want to wait.
   static constexpr std::chrono::seconds kLongestOnceMore{6};
 
-  // `group`: the process group that gets the signals. One relay at a time in a process. A SIGHUP that is ignored, as
-  // under nohup, stays ignored.
-  explicit SignalRelay(pid_t group);
+  // From now on signals are counted and kept; `relay_to` says where they go. One relay at a time in a process. A SIGHUP
+  // that is ignored, as under nohup, stays ignored.
+  SignalRelay();
   // The signals are again what they were. A stop that was asked for stays asked for: the alarm stays set.
   ~SignalRelay();
   SignalRelay(const SignalRelay&) = delete;
@@ -29,6 +29,9 @@ class SignalRelay {
   // How many signals have come, and which came first; 0: none.
   int count() const;
   int first() const;
+
+  // `group`: the process group that gets the signals, also the one that came before this call.
+  void relay_to(pid_t group);
 
   // The group is gone: signals go nowhere from now on.
   void forget_group();

@@ -90,6 +90,16 @@ TEST_F(ChildTest, WhoDoesNotListenIsKilled) {
   EXPECT_LT(once.seconds, 12);
 }
 
+// A start takes a while on a busy machine.
+TEST_F(ChildTest, ASignalThatComesBeforeTheProgramRunsIsPassedOn) {
+  SignalRelay relay;
+  raise(SIGTERM);
+  Process process(Command{{}, {"/bin/sleep", "60"}}, {.own_group = true, .default_signals = {SIGTERM}});
+  relay.relay_to(process.id());
+  EXPECT_EQ(process.wait().signal, SIGTERM);
+  EXPECT_EQ(relay.first(), SIGTERM);
+}
+
 TEST_F(ChildTest, ASecondSignalKillsAtOnce) {
   const Outcome outcome = run("trap '' TERM; echo ready; while :; do sleep 0.05; done", [] {
     kill(getpid(), SIGTERM);
