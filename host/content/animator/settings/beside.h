@@ -1,0 +1,16 @@
+// A place for an actor where it stands inside no other.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "host/content/animator/pose/film.h"
+#include "host/content/document/json_file.h"
+
+namespace mars::animator {
+
+// Moves the actor along x to the first place from its own on where no box of its segments meets one of another actor's at
+// the frame. Grounds, flat as they are, may lie in one another. `meaning` is what `film` was read as.
+void place_beside(document::Json& film, const Film& meaning, const std::string& actor, std::uint32_t frame);
+
+}  // namespace mars::animator
