@@ -14,7 +14,7 @@ export function pressed({key, ctrlKey, metaKey, altKey, shiftKey}) {
 const kOwnKeys = new Set(["Space", "Enter", "ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Home", "End"]);
 
 function where(target) {
-  if (target.closest("dialog, .menu")) return {shut: true};
+  if (target.closest("dialog, .menu, .popover")) return {shut: true};
   const text = target.matches("input:not([type=range], [type=checkbox], [type=color]), textarea");
   return {
     text,
