@@ -37,7 +37,7 @@ export class Tree {
     const {actors, kind} = this.state.project;
     const shape = JSON.stringify([kind, actors.map(({name, joints}) => [name, joints.map(({name, parent, keyed}) => [name, parent, keyed])])]);
     if (shape === this.#shape) return;
-    if (this.#shape === "" && this.state.isFilm()) for (const {name} of actors) this.#closed.add(keyOf(name, null));
+    if (this.state.isFilm()) for (const {name} of actors) if (!this.#items.has(keyOf(name, null))) this.#closed.add(keyOf(name, null));
     this.#shape = shape;
     const had = this.root.contains(document.activeElement);
     this.#items.clear();

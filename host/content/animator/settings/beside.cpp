@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <utility>
 #include <vector>
 
 #include "host/content/animator/keys/edit.h"
@@ -14,8 +16,9 @@ namespace {
 using modeler::Box;
 
 constexpr double kFlat = 0.05;  // height against the shorter side of what is flat
-constexpr double kMeet = 0.01;  // of a box's height and width: what meets less only stands on the other, or touches it
-constexpr double kGap = 0.15;   // of the actor's width
+constexpr double kMeet = 0.01;  // of the actor's longest side: what meets by less only stands there, or touches
+constexpr double kGap = 0.3;    // of its width
+constexpr double kStage = 5;    // times as wide and as deep: another may stand in it, between its segments
 
 // Around the unit cube that the matrix moves, along the world's axes.
 Box around(const wire::Matrix& matrix) {
@@ -28,9 +31,20 @@ Box around(const wire::Matrix& matrix) {
   return box;
 }
 
-void add_boxes(const Film& film, std::size_t actor, std::uint32_t frame, std::vector<Box>& boxes) {
+struct Standing {
+  std::vector<Box> segments;
+  Box all;
+};
+
+Standing standing(const Film& film, std::size_t actor, std::uint32_t frame) {
+  Standing found;
   for (const auto& segment : state_at(film, actor, frame).segments)
-    if (segment) boxes.push_back(around(*segment));
+    if (segment) found.segments.push_back(around(*segment));
+  if (found.segments.empty()) return found;
+  found.all = found.segments.front();
+  for (const Box& box : found.segments)
+    found.all = {glm::min(found.all.min, box.min), glm::max(found.all.max, box.max)};
+  return found;
 }
 
 bool flat(const Box& box) {
@@ -38,51 +52,68 @@ bool flat(const Box& box) {
   return size.z < kFlat * std::min(size.x, size.y);
 }
 
-// `by` units along x.
-bool meet(const Box& box, double by, const Box& other) {
-  const glm::dvec3 spare = kMeet * (box.max - box.min);
+// What of an actor may not meet another one; what stands on a ground may have its own.
+std::vector<Box> obstacles(const Standing& of, const Standing& other) {
+  const glm::dvec3 size = of.all.max - of.all.min, least = kStage * (other.all.max - other.all.min);
+  const bool stage = size.x > least.x && size.y > least.y;
+  return stage || flat(other.all) ? of.segments : std::vector{of.all};
+}
+
+// A box of the actor, and one in which it may not stand.
+using Pairs = std::vector<std::pair<Box, Box>>;
+
+void add_pairs(const Standing& actor, const Standing& other, Pairs& pairs) {
+  for (const Box& box : obstacles(actor, other))
+    for (const Box& obstacle : obstacles(other, actor))
+      if (!flat(box) || !flat(obstacle)) pairs.emplace_back(box, obstacle);
+}
+
+// By more than `spare`, with `box` `by` units along y.
+bool meet(const Box& box, double by, const Box& other, double spare) {
   const auto apart = [&](int axis, double shift) {
-    return box.max[axis] + shift - spare[axis] <= other.min[axis] || box.min[axis] + shift + spare[axis] >= other.max[axis];
+    return box.max[axis] + shift - spare <= other.min[axis] || box.min[axis] + shift + spare >= other.max[axis];
   };
-  return !(flat(box) && flat(other)) && !apart(0, by) && !apart(1, 0) && !apart(2, 0);
+  return !apart(0, 0) && !apart(1, by) && !apart(2, 0);
 }
 
-// The least way along x to where none of them meets any other. It only grows, past one of the others at a time.
-double way_aside(const std::vector<Box>& boxes, const std::vector<Box>& others, double gap) {
+// Whether the boxes of any pair meet; `by` is then the way past those that were met so far.
+bool any_meet(const Pairs& pairs, double spare, double& by) {
+  bool met = false;
+  for (const auto& [box, other] : pairs) {
+    if (!meet(box, by, other, spare)) continue;
+    by = other.max.y - box.min.y;
+    met = true;
+  }
+  return met;
+}
+
+// How far along y the actor stands beside all others; 0 where it stands in none.
+double way_aside(Pairs pairs, const glm::dvec3& size) {
+  const double spare = kMeet * std::max({size.x, size.y, size.z});
   double by = 0;
-  for (bool moved = true; moved;) {
-    moved = false;
-    for (const Box& box : boxes)
-      for (const Box& other : others)
-        if (meet(box, by, other)) {
-          by = std::ceil((other.max.x - box.min.x + gap) * 100) / 100;
-          moved = true;
-        }
+  if (!any_meet(pairs, spare, by)) return 0;
+  for (auto& [box, other] : pairs) box.min.y -= kGap * size.y;
+  while (any_meet(pairs, spare, by)) {
   }
-  return by;
-}
-
-double width_of(const std::vector<Box>& boxes) {
-  double least = boxes.front().min.x, most = boxes.front().max.x;
-  for (const Box& box : boxes) {
-    least = std::min(least, box.min.x);
-    most = std::max(most, box.max.x);
-  }
-  return most - least;
+  return std::ceil(by * 100) / 100;
 }
 
 }  // namespace
 
 void place_beside(document::Json& film, const Film& meaning, const std::string& name, std::uint32_t frame) {
-  std::vector<Box> boxes, others;
-  for (std::size_t actor = 0; actor < meaning.actors.size(); ++actor)
-    add_boxes(meaning, actor, frame, meaning.actors[actor].name == name ? boxes : others);
-  if (boxes.empty()) return;
-  const double by = way_aside(boxes, others, kGap * width_of(boxes));
+  const auto number = std::ranges::find(meaning.actors, name, &Actor::name) - meaning.actors.begin();
+  const Standing own = standing(meaning, static_cast<std::size_t>(number), frame);
+  if (own.segments.empty()) return;
+  Pairs pairs;
+  for (std::size_t other = 0; other < meaning.actors.size(); ++other)
+    if (const Standing there = standing(meaning, other, frame);
+        other != static_cast<std::size_t>(number) && !there.segments.empty())
+      add_pairs(own, there, pairs);
+  const double by = way_aside(std::move(pairs), own.all.max - own.all.min);
   if (by == 0) return;
   document::Json& actor = actor_of(film, name);
   glm::dvec3 place = actor.contains("place") ? vector_of(actor.at("place")) : glm::dvec3(0);
-  place.x = rounded(place.x + by);
+  place.y = rounded(place.y + by);
   actor["place"] = written(place);
 }
 

@@ -9,8 +9,9 @@
 
 namespace mars::animator {
 
-// Moves the actor along x to the first place from its own on where no box of its segments meets one of another actor's at
-// the frame. Grounds, flat as they are, may lie in one another. `meaning` is what `film` was read as.
+// Moves the actor along y to the first place from its own on where its box meets none of the others' at the frame. In a
+// stage, which is much larger, an actor may stand between its segments; grounds may lie in one another. `meaning` is
+// what `film` was read as.
 void place_beside(document::Json& film, const Film& meaning, const std::string& actor, std::uint32_t frame);
 
 }  // namespace mars::animator

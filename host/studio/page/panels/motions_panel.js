@@ -83,7 +83,7 @@ export class MotionsPanel {
     const starts = [["frame", "At the frame that shows"], ["last", "At its last key"]];
     const start = choice({name: "Begins", options: starts, key: "motion.start", commit: () => this.#changed()});
     this.start = start.root.querySelector("select");
-    const lengthen = toggle({name: "Lengthen the film", text: "Lengthen the film where this ends later", key: "motion.lengthen",
+    const lengthen = toggle({name: "Lengthen the film", text: "May lengthen the film", key: "motion.lengthen",
                              commit: (on) => { this.#lengthens = on; this.#changed(); }});
     lengthen.set(this.#lengthens);
     this.problem = element("p", {class: "motion-problem", role: "status"});

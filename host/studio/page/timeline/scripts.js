@@ -17,7 +17,7 @@ export class Scripts {
     Object.assign(this, {connection, state, edits, shown: false});
     this.files = choice({name: "Script", options: [], key: "script.file", commit: (name) => this.#open(name ?? "")});
     this.nameField = textField({name: "Name of the script", key: "script.name", hint: "new.script", commit: (name) => { this.#name = name; this.#check(); }});
-    this.lengthen = toggle({name: "Lengthen the film", text: "Lengthen the film", key: "script.lengthen", commit: (on) => { this.#lengthens = on; }});
+    this.lengthen = toggle({name: "Lengthen the film", text: "May lengthen the film", key: "script.lengthen", commit: (on) => { this.#lengthens = on; }});
     this.lengthen.set(true);
     this.apply = element("button", {class: "primary", "data-key": "script.apply", onclick: (event) => this.#apply(event)}, "Apply");
     this.numbers = element("ol", {class: "line-numbers", "aria-hidden": "true"});
