@@ -47,8 +47,9 @@ void edit(const Words& words, const std::function<animator::Remarks(document::Js
     const std::uint32_t last = animator::last_key(json);
     const std::string length = fit_length(json, last, words.lengthen);
     if (length.empty() || (!words.lengthen && last <= before)) return;
-    note = "the last key is at frame " + std::to_string(last) + "; " + length +
-           (words.lengthen ? "" : ": --lengthen, or set its frames to " + std::to_string(last + 1)) + "\n";
+    note = words.lengthen ? length + "\n"
+                          : "the last key is at frame " + std::to_string(last) + "; " + length +
+                                ": --lengthen, or set its frames to " + std::to_string(last + 1) + "\n";
   };
   if (words.all || words.lengthen)
     words.film.change(changed);
@@ -172,9 +173,12 @@ void add_key(cli::Command animate, Words& words) {
 }
 
 void add_cut(cli::Command animate, Words& words) {
-  Command command(animate, words, "cut", "Let the camera or another thing jump: what is before the frame stays as it is");
-  command.thing(kThing).parts("PART", kParts).all().frame(
-      "The frame at which it may be elsewhere at once: pose it there. Example: --frame 24", "FRAME");
+  Command command(animate, words, "cut",
+                  "Let the camera or another thing jump: what is before the frame stays as it is");
+  command.thing(kThing)
+      .parts("PART", kParts)
+      .all()
+      .frame("The frame at which it may be elsewhere at once: pose it there. Example: --frame 24", "FRAME");
   command.lengthen().runs([&words] {
     require_thing(words);
     edit(words, [&](document::Json& json, const animator::Film& film) {
