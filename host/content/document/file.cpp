@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
-const char* remedy_for(int error) {
+const char* remedy_for_reading(int error) {
   switch (error) {
     case ELOOP: return "its links lead in a circle: replace it";
     case EMFILE:
@@ -33,7 +33,7 @@ const char* remedy_for(int error) {
 }
 
 [[noreturn]] void fail_to_read(const fs::path& path, int error) {
-  throw FileFailure("cannot be read: " + reason(error), path.string(), remedy_for(error), error);
+  throw FileFailure("cannot be read: " + reason(error), path.string(), remedy_for_reading(error), error);
 }
 
 // Opened so that neither opening nor reading waits: a pipe has perhaps nobody at its other end.

@@ -65,7 +65,7 @@ class Descriptor {
   int number_;
 };
 
-const char* remedy_for(int error) {
+const char* remedy_for_writing(int error) {
   switch (error) {
     case ENOSPC:
     case EDQUOT: return "free some space or choose a folder on another disk";
@@ -90,7 +90,8 @@ const char* remedy_for(int error) {
 // `path` is what failures name.
 void refuse_all_but_files(const struct stat& thing, const std::filesystem::path& path) {
   if (S_ISDIR(thing.st_mode)) fail_file("write", path, EISDIR);
-  if (!S_ISREG(thing.st_mode)) throw Failure("cannot write: is not a regular file", path.string(), remedy_for(EEXIST));
+  if (!S_ISREG(thing.st_mode))
+    throw Failure("cannot write: is not a regular file", path.string(), remedy_for_writing(EEXIST));
 }
 
 // A new file under a temporary name, which becomes the file `path` when it is renamed; removed unless it was. The file
@@ -242,8 +243,8 @@ void refuse_same_file(const std::filesystem::path& from, const std::filesystem::
 }
 
 void fail_file(const char* act, const std::filesystem::path& path, int error) {
-  throw FileFailure(std::string("cannot ") + act + ": " + std::strerror(error), path.string(), remedy_for(error),
-                    error);
+  throw FileFailure(std::string("cannot ") + act + ": " + std::strerror(error), path.string(),
+                    remedy_for_writing(error), error);
 }
 
 }  // namespace mars::document

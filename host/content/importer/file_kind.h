@@ -7,6 +7,8 @@ namespace mars::importer {
 
 enum class FileKind { obj, stl, ply, gltf, glb, patches };
 
+constexpr bool is_gltf(FileKind kind) { return kind == FileKind::gltf || kind == FileKind::glb; }
+
 // By the ending, in capitals or not. Refuses every other: for files of well-known programs with the way from them to
 // one that can be read.
 FileKind kind_of_name(const std::filesystem::path& path);

@@ -29,8 +29,6 @@ struct Imported {
   std::string model;
 };
 
-bool is_gltf(FileKind kind) { return kind == FileKind::gltf || kind == FileKind::glb; }
-
 // y up is glTF's rule and OBJ's custom.
 std::string usual_up(FileKind kind) { return kind == FileKind::obj || is_gltf(kind) ? "y" : "z"; }
 

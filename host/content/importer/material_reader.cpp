@@ -24,7 +24,7 @@ double rounded(double number) { return std::round(number * 1000) / 1000; }
 // Assimp puts a material of its own behind those of a glTF file, for meshes without one.
 bool MaterialReader::is_given(const aiMesh& mesh) const {
   if (kind_ == FileKind::stl) return false;
-  if (is_gltf()) return mesh.mMaterialIndex + 1 < scene_.mNumMaterials;
+  if (is_gltf(kind_)) return mesh.mMaterialIndex + 1 < scene_.mNumMaterials;
   return scene_.mMaterials[mesh.mMaterialIndex]->GetName() != aiString(AI_DEFAULT_MATERIAL_NAME);
 }
 
@@ -41,7 +41,7 @@ std::optional<std::size_t> MaterialReader::number_of(const aiMesh& mesh) {
 
 // The extension of specular and glossy materials has a diffuse colour of its own.
 std::optional<ImportedMaterial> MaterialReader::read(const aiMaterial& material) {
-  const bool glossy = is_gltf() && importer::number_of(material, AI_MATKEY_GLOSSINESS_FACTOR);
+  const bool glossy = is_gltf(kind_) && importer::number_of(material, AI_MATKEY_GLOSSINESS_FACTOR);
   aiColor4D given;
   if (!glossy && material.Get(AI_MATKEY_BASE_COLOR, given) == AI_SUCCESS)
     return ImportedMaterial{color_of(given, material, aiTextureType_BASE_COLOR), surface_of(material)};
@@ -66,7 +66,7 @@ std::array<double, 3> MaterialReader::color_of(const aiColor4D& given, const aiM
   const images::PictureMean* mean = mean_of(material, texture, colors_);
   for (std::size_t i = 0; i < 3; ++i) {
     const double factor = within_one(color[i]);
-    double light = is_gltf() ? factor : document::light_of_shown(factor);
+    double light = is_gltf(kind_) ? factor : document::light_of_shown(factor);
     if (mean != nullptr) light *= mean->light[i];
     color[i] = rounded(document::shown_of_light(light));
   }
@@ -75,13 +75,13 @@ std::array<double, 3> MaterialReader::color_of(const aiColor4D& given, const aiM
 
 // In the texture, green is roughness and blue metal.
 std::optional<Surface> MaterialReader::surface_of(const aiMaterial& material) {
-  if (const auto gloss = importer::number_of(material, AI_MATKEY_GLOSSINESS_FACTOR); is_gltf() && gloss)
+  if (const auto gloss = importer::number_of(material, AI_MATKEY_GLOSSINESS_FACTOR); is_gltf(kind_) && gloss)
     return Surface{rounded(1 - within_one(*gloss)), 0};
   const auto roughness = importer::number_of(material, AI_MATKEY_ROUGHNESS_FACTOR),
              metallic = importer::number_of(material, AI_MATKEY_METALLIC_FACTOR);
   if (!roughness && !metallic) return {};
   Surface surface{within_one(roughness.value_or(0.5f)), within_one(metallic.value_or(0))};
-  if (is_gltf())
+  if (is_gltf(kind_))
     if (const images::PictureMean* mean = mean_of(material, aiTextureType_METALNESS, surfaces_)) {
       surface.roughness *= mean->values[1];
       surface.metallic *= mean->values[2];

@@ -33,7 +33,6 @@ class MaterialReader {
   std::size_t cut_colors() const { return cut_colors_; }
 
  private:
-  bool is_gltf() const { return kind_ == FileKind::gltf || kind_ == FileKind::glb; }
   bool is_given(const aiMesh& mesh) const;
   std::optional<ImportedMaterial> read(const aiMaterial& material);
   std::array<double, 3> color_of(const aiColor4D& given, const aiMaterial& material, aiTextureType texture);

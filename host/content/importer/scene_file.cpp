@@ -29,8 +29,6 @@
 namespace mars::importer {
 namespace {
 
-bool is_gltf(FileKind kind) { return kind == FileKind::gltf || kind == FileKind::glb; }
-
 void append(std::vector<std::string>& list, const std::vector<std::string>& more) {
   list.insert(list.end(), more.begin(), more.end());
 }

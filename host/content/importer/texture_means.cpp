@@ -42,8 +42,7 @@ std::optional<images::PictureMean> TextureMeans::read(const std::string& texture
     return mean_of_bytes({reinterpret_cast<const char*>(picture.pcData), picture.mWidth},
                          "picture " + std::to_string(*number + 1));
   }
-  const bool is_gltf = kind_ == FileKind::gltf || kind_ == FileKind::glb;
-  const std::filesystem::path path = mesh_.parent_path() / (is_gltf ? percent_decoded(texture) : texture);
+  const std::filesystem::path path = mesh_.parent_path() / (is_gltf(kind_) ? percent_decoded(texture) : texture);
   std::error_code none;
   if (!std::filesystem::is_regular_file(path, none)) {
     not_read_.push_back("texture " + document::printable(texture) + " (no such file beside the mesh)");

@@ -7,7 +7,7 @@ namespace {
 constexpr std::string_view kColors[] = {"coded", "linear"}, kCurves[] = {"none", "filmic"},
                            kCuttings[] = {"auto", "keyframes"}, kAxes[] = {"world", "joint"};
 
-constexpr Type kTypes[] = {
+constexpr Type kFilmTypes[] = {
     {"frame", R"({"type": "integer", "minimum": 0, "maximum": 1000000})", "24"},
     {"size",
      R"({"type": "array", "minItems": 2, "maxItems": 2, "items": {"type": "integer", "minimum": 1, "maximum": 16384}})",
@@ -462,6 +462,6 @@ std::vector<Object> make_film_objects() {
           attach()};
 }
 
-std::span<const Type> film_types() { return kTypes; }
+std::span<const Type> film_types() { return kFilmTypes; }
 
 }  // namespace mars::keys

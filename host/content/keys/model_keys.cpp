@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::string_view kSplineEnds[] = {"clamped", "open", "periodic"};
 
-constexpr Type kTypes[] = {
+constexpr Type kModelTypes[] = {
     {"name", R"({"type": "string", "minLength": 1, "maxLength": 100, "pattern": "^[^/]*$"})", R"("anna")"},
     {"coordinate", R"({"type": "number", "minimum": -1e9, "maximum": 1e9})", "1"},
     {"vector", R"({"type": "array", "minItems": 3, "maxItems": 3, "items": "#coordinate"})", "[1, 0, 0.5]"},
@@ -337,6 +337,6 @@ std::vector<Object> make_model_objects() {
           surface(), bspline(), direction(), mesh(),    proportions(), material};
 }
 
-std::span<const Type> model_types() { return kTypes; }
+std::span<const Type> model_types() { return kModelTypes; }
 
 }  // namespace mars::keys

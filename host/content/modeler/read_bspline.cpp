@@ -8,7 +8,7 @@
 namespace mars::modeler {
 namespace {
 
-constexpr std::string_view kEnds[] = {"clamped", "open", "periodic"};  // as in Ends
+constexpr std::string_view kEndWords[] = {"clamped", "open", "periodic"};  // as in Ends
 
 PointGrid read_points(const document::Element& element) {
   document::require_kind(element, document::Kind::list);

@@ -16,7 +16,7 @@ namespace mars::animator {
 namespace {
 
 constexpr double kGrains = 20;  // of an allowed error: what keys are rounded to
-constexpr std::size_t kMostFrames = 100'000;
+constexpr std::size_t kMostReduced = 100'000;
 
 // A power of ten, so that keys have few digits.
 double grain_for(double error) { return std::pow(10, std::floor(std::log10(error / kGrains))); }
@@ -152,9 +152,9 @@ FrameRange span_of(const Tracks& tracks, const std::vector<std::string>& parts, 
   for (const std::string& part : parts)
     for (const TrackKey& key : tracks.at(part))
       if (range.holds(key.frame)) span = {std::min(span.first, key.frame), std::max(span.last, key.frame)};
-  if (span.last - span.first > kMostFrames)
+  if (span.last - span.first > kMostReduced)
     throw Failure("has keys in " + std::to_string(span.last - span.first + 1) + " frames", "what is to be reduced",
-                  "reduce " + std::to_string(kMostFrames) + " frames at a time (--frame)");
+                  "reduce " + std::to_string(kMostReduced) + " frames at a time (--frame)");
   return span;
 }
 

@@ -20,7 +20,7 @@ glm::dvec3 grained(const glm::dvec3& value, double grain) {
 }
 
 // A cubic from one frame of a curve to another.
-struct Way {
+struct Cubic {
   glm::dvec3 leave, reach;  // slopes
 };
 
@@ -28,11 +28,11 @@ class CurveFit {
  public:
   explicit CurveFit(const DenseCurve& curve) : curve_(curve) {}
 
-  std::optional<Way> way(std::size_t from, std::size_t to) const {
-    const Way smooth{slope(from), slope(to)};
+  std::optional<Cubic> cubic(std::size_t from, std::size_t to) const {
+    const Cubic smooth{slope(from), slope(to)};
     if (to == from + 1) return smooth;  // no frame lies between
     if (holds(from, to, smooth)) return smooth;
-    const Way nearest = least_squares(from, to, smooth);
+    const Cubic nearest = least_squares(from, to, smooth);
     if (holds(from, to, nearest)) return nearest;
     return std::nullopt;
   }
@@ -42,9 +42,9 @@ class CurveFit {
     Keys keys = {key_at(frames.front())};
     for (std::size_t from = 0; from + 1 < frames.size();) {
       std::size_t to = from + 1;
-      Way found = way(frames[from], frames[to]).value();
+      Cubic found = cubic(frames[from], frames[to]).value();
       for (std::size_t next = to + 1; next < frames.size(); ++next) {
-        const std::optional<Way> longer = way(frames[from], frames[next]);
+        const std::optional<Cubic> longer = cubic(frames[from], frames[next]);
         if (!longer) break;
         to = next;
         found = *longer;
@@ -73,7 +73,7 @@ class CurveFit {
     return (curve_.values[after] - curve_.values[before]) / double(after - before);
   }
 
-  bool holds(std::size_t from, std::size_t to, const Way& way) const {
+  bool holds(std::size_t from, std::size_t to, const Cubic& way) const {
     Keys keys = {key_at(from), key_at(to)};
     keys[0].out = grained_slope(way.leave);
     keys[1].in = grained_slope(way.reach);
@@ -90,7 +90,7 @@ class CurveFit {
   }
 
   // The slopes with which the cubic is nearest to the curve, of an axis like of the others.
-  Way least_squares(std::size_t from, std::size_t to, const Way& near) const {
+  Cubic least_squares(std::size_t from, std::size_t to, const Cubic& near) const {
     const double frames = double(to - from);
     const glm::dvec3 first = curve_.values[from], last = curve_.values[to];
     double aa = 0, ab = 0, bb = 0;
@@ -130,7 +130,7 @@ class CurveFit {
 // The farthest frame to which every curve has a way: tried twice as far each time, then by halves.
 std::size_t farthest_from(std::size_t from, std::size_t last, std::span<const CurveFit> fits) {
   const auto good = [&](std::size_t to) {
-    return std::ranges::all_of(fits, [&](const CurveFit& fit) { return fit.way(from, to).has_value(); });
+    return std::ranges::all_of(fits, [&](const CurveFit& fit) { return fit.cubic(from, to).has_value(); });
   };
   std::size_t reached = from + 1, bound = last + 1;
   for (std::size_t step = 2; from + step < bound; step *= 2) (good(from + step) ? reached : bound) = from + step;

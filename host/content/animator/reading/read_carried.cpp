@@ -8,8 +8,6 @@
 namespace mars::animator {
 namespace {
 
-constexpr document::Range kDegrees{-1e6, 1e6};
-
 std::optional<Attachment> read_attachment(const document::Element& element, const Carriers& carriers) {
   if (element.kind() == document::Kind::null) return std::nullopt;
   const document::Fields fields(element, keys::object("attach"));

@@ -18,9 +18,7 @@
 namespace mars::animator {
 namespace {
 
-constexpr document::Range kDegrees{-1e6, 1e6};
 // Readers of one value, as settle() and add_key() want them.
-glm::dvec3 place_of(const document::Element& element) { return document::read_vector(element); }
 glm::dvec3 angles_of(const document::Element& element) { return document::read_vector(element, kDegrees); }
 double fov_of(const document::Element& element) {
   return document::read_number(element, keys::range_of("camera", "fov"));

@@ -31,6 +31,12 @@ void read_slope(const document::Element& element, glm::dvec2& slope);
 void read_slope(const document::Element& element, glm::dvec3& slope);
 void read_slope(const document::Element& element, Point& slope);  // of its place in the world
 
+// Of turns and poses.
+inline constexpr document::Range kDegrees{-1e6, 1e6};
+
+// A reader of one value, as settle() and add_key() want it.
+inline glm::dvec3 place_of(const document::Element& element) { return document::read_vector(element); }
+
 // Calls take(fields, frame, ease) for each item of the list, whose frames must ascend.
 template <typename Take>
 void read_keys(const document::Element& list, const document::Keys& keys, Take take) {

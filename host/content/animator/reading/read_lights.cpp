@@ -11,7 +11,6 @@ constexpr double kCone = 40;       // degrees
 constexpr double kFullyLit = 0.8;  // of a cone of which one number is given
 
 // Readers of one value, as settle() and add_key() want them.
-glm::dvec3 place_of(const document::Element& element) { return document::read_vector(element); }
 double intensity_of(const document::Element& element) {
   return document::read_number(element, keys::range_of("light", "intensity"));
 }
