@@ -2,7 +2,7 @@
 # Proves MARS on a bare Debian 12. Needs root, debootstrap and a network:
 #   tests/bare/bare_debian.sh [--base FILE.tar] [--keep-build] [test]
 # In one bare system: ./bootstrap demo, test and deb. In a second: the .deb, installed by apt, used by root and
-# by an ordinary user, removed. With the word test: ./bootstrap test alone. No test may be skipped there but those
+# by an ordinary user, removed. With the word test: ./bootstrap demo and test alone. No test may be skipped there but those
 # of tests/bare/skips.txt. What is committed is what is tested. --base keeps the bare system itself: FILE is
 # written where it is missing, and spares the next run debootstrap. --keep-build leaves what was built there as
 # this checkout's build folder, where it has none: a Debian 12 need not build it again. Takes ten minutes and
@@ -185,6 +185,7 @@ run() {
   [ -f "$base" ] || make_base
   unpack_build
   if [ "$only" = test ]; then
+    step "./bootstrap demo" build root 'mars/bootstrap demo'
     prove_tests
   else
     prove_bootstrap

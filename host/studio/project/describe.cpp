@@ -136,6 +136,7 @@ void add_part(Json& thing, std::string_view part, const animator::Channel<Value>
 
 Json light_of(const animator::LightMotion& light, std::size_t number, const Json& file, std::uint32_t frame) {
   constexpr const char* kKinds[] = {"directional", "point", "spot"};
+  static_assert(std::size(kKinds) == std::size_t(wire::kLastLightKind) + 1);
   Json json{{"thing", "light/" + std::to_string(number + 1)}, {"kind", kKinds[std::size_t(light.kind)]}};
   if (light.kind == wire::LightKind::directional)
     json["direction"] = shown(animator::direction_at(light.vector, frame));
