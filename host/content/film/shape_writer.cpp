@@ -37,7 +37,7 @@ std::uint32_t ShapeWriter::add_mesh(const modeler::Mesh& mesh) {
     if (*known == mesh) return number;
   modeler::Meshlets cut = modeler::cut_meshlets(mesh);
   const std::size_t vertices = film_.mesh_places.size(), triangles = film_.mesh_triangles.size();
-  if (vertices + cut.places.size() > kMostOfMeshes || triangles + cut.triangles.size() > kMost)
+  if (vertices + cut.places.size() > kMostOfMeshes || triangles + cut.triangles.size() > kMostOfMeshes)
     throw Failure("have more than 4294967295 vertices or triangles", "meshes", "use fewer or smaller meshes");
   for (wire::Meshlet& meshlet : cut.meshlets) {
     meshlet.first_vertex += static_cast<std::uint32_t>(vertices);
