@@ -1,4 +1,5 @@
-// Proportions as a step that changes a model's JSON: its joints, or if it is derived from another file, its proportions.
+// Proportions as a step that changes a model's JSON: its joints, or if it is derived from another file, its
+// proportions.
 #pragma once
 
 #include "host/content/document/json_file.h"
