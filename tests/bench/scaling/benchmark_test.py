@@ -14,13 +14,12 @@ from xml.etree import ElementTree
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.append(os.path.join(HERE, "..", ".."))
 import cases  # noqa: E402
-import runs  # noqa: E402
 import scaling  # noqa: E402
-import study  # noqa: E402
 
 if scaling.PLOTTED:
     import findings
     import results
+    import verdicts
 
 BUILD = os.path.abspath(sys.argv[1])
 TEAPOT = os.path.join(HERE, "..", "..", "..", "examples", "teapot.json")
@@ -50,6 +49,15 @@ class Study(unittest.TestCase):
         return header, lines
 
 
+    def page(self, folder):
+        with open(self.path(folder, "report.html")) as file:
+            return file.read()
+
+
+def program_of(run):
+    return run["series"]["settings"].get("program")
+
+
 class Command(Study):
     @needs_matplotlib
     def test_a_study_and_its_report(self):
@@ -72,10 +80,6 @@ class Command(Study):
         for picture in pictures:
             ElementTree.parse(self.path("study", picture))
 
-    def page(self, folder):
-        with open(self.path(folder, "report.html")) as file:
-            return file.read()
-
     def check(self, run):
         self.assertEqual(len(run["per_node"]), run["nodes"])
         self.assertEqual(run["frames"], {"keyframe": 5, "inbetween": 0})
@@ -84,6 +88,8 @@ class Command(Study):
         computed = max(sum(node["keyframe"]["seconds"].values()) for node in run["per_node"])
         self.assertLessEqual(computed, run["seconds"])
         self.assertTrue(run["environment"]["cpu"] and run["environment"]["mars"]["version"])
+        self.assertGreater(run["processor_seconds"], 0)
+        self.assertGreaterEqual(min(run["involuntary_switches"], run["others_seconds"]), 0)
 
     def check_page(self, page):
         self.assertEqual(set(re.findall(r"\w+://[^\s\"'<>]*", page)), NAMESPACES)
@@ -99,6 +105,29 @@ class Command(Study):
         self.assertEqual({(run["film"], run["nodes"]) for run in runs}, {("one.json", 1), ("two.json", 2)})
         self.assertEqual({run["series"]["kind"] for run in runs}, {"weak"})
 
+    @needs_matplotlib
+    def test_two_programs_take_turns(self):
+        mars = os.path.join(BUILD, "bin", "mars")
+        printed = self.bench("scaling", TEAPOT, *SMALL, "--nodes", "1,2", "--against", mars, "--repeats", "2", "-o", "turns",
+                             *WHOLE)
+        _, runs = self.runs("turns")
+        self.assertEqual(len(runs), 3 * 2 * 2)
+        for first, second in zip(runs[::2], runs[1::2]):
+            self.assertEqual({program_of(first), program_of(second)}, {"A", "B"})
+            self.assertEqual((first["repeat"], first["nodes"]), (second["repeat"], second["nodes"]))
+        for text in (printed, self.bench("compare", "turns", code=3)):
+            self.assertIn("Film's time: cannot tell; 2 repeats are too few at level 0.001: take 13.", text)
+            self.assertRegex(text, r"B.*: load average [\d.]+ to [\d.]+ on \d+ cores, other programs took \d+ %")
+        self.assertIn("a study of two programs is compared alone", self.bench("compare", "turns", "turns", code=2))
+
+    @needs_matplotlib
+    def test_wrong_answers_are_counted(self):
+        printed = self.bench("verdicts", "--equal", "1", "--planted", "1", "--repeats", "1", "--load", "1", code=1)
+        self.assertRegex(printed, r"equal 1 of 1: film's time none, cannot tell; processors' seconds none, cannot tell; load")
+        self.assertIn("0 of 1 pairs of equals were told apart, 0 of 1 with a tenth more were", printed)
+        printed = self.bench("verdicts", "--apart", "--equal", "1", "--planted", "0", "--repeats", "1")
+        self.assertIn("0 of 1 pairs of equals were told apart, 0 of 0 with a tenth more were", printed)
+
     def test_what_cannot_be_done(self):
         one = ["--nodes", "1", "--repeats", "1", "--warm-up", "0", "--study", "strong"]
         self.assertIn("no run succeeded", self.bench("scaling", "missing.json", *one, "-o", "failed", code=1))
@@ -107,6 +136,7 @@ class Command(Study):
         self.assertIn("leave --nodes out", self.bench("scaling", "1:" + TEAPOT, *one, code=1))
         self.assertIn("960x540", self.bench("scaling", TEAPOT, *one, "--size", "large", code=1))
         self.assertIn("no file of a scaling study", self.bench("compare", TEAPOT, TEAPOT, code=2))
+        self.assertIn("there is none at", self.bench("scaling", TEAPOT, *one, "--against", "missing", code=2))
 
 
 @needs_matplotlib
@@ -114,43 +144,23 @@ class Planted(Study):
     """Slowdowns in copies of mars-threads that no option could make."""
 
     def planted(self, name):
-        """A build's folder with a slow program in it."""
-        binaries = self.path(name, "bin")
-        os.makedirs(binaries)
-        shutil.copy(os.path.join(BUILD, "bin", "mars"), binaries)
-        shutil.copy(os.path.join(BUILD, "bench", "scaling", name, "bin", "mars-threads"), binaries)
-        return self.path(name)
-
-    def measure(self, builds, nodes, repeats):
-        """A study's file for each build. Builds take turns: what else the machine does meets all alike."""
-        configurations = list(study.strong([TEAPOT], nodes, {"backend": ["threads"], "size": ["160x90"]}))
-        runners = {build: runs.Runner(build, self.folder, options=WHOLE[1:]) for build in builds}
-        lines = {build: [] for build in builds}
-        for configuration, repeat in study.turns(configurations, 0, repeats, seed=1):
-            for build, runner in runners.items():
-                lines[build].append(json.dumps(runner.run(configuration, repeat)))
-        header = json.dumps({"format": runs.FORMAT})
-        return [self.write(f"{k}.jsonl", [header, *own]) for k, own in enumerate(lines.values())]
-
-    def write(self, name, lines):
-        with open(self.path(name), "w") as file:
-            file.write("\n".join(lines))
-        return file.name
+        return verdicts.planted(BUILD, name, self.folder)
 
     def test_a_sleep_in_a_phase_is_found_and_named(self):
-        phases = ("dice", "exchange")
-        before, *after = self.measure([BUILD, *(self.planted(f"slow-{phase}") for phase in phases)], [1, 2], 6)
-        self.assertIn("no change of the film's time beyond noise", self.bench("compare", before, before))
-        for phase, slow in zip(phases, after):
-            # On a busy machine the film's time, and so the exit code, may hide in noise.
-            told = subprocess.run([os.path.join(BUILD, "bin", "mars"), "bench", "compare", before, slow], capture_output=True,
-                                  text=True)
-            self.assertIn(f"Step: {phase}, slower", told.stdout, told.stderr)
+        for phase in ("dice", "exchange"):
+            slow = os.path.join(self.planted(f"slow-{phase}"), "bin", "mars")
+            self.bench("scaling", TEAPOT, *SMALL, "--nodes", "2", "--against", slow, "--repeats", "15", "-o", phase, *WHOLE)
+            # Weaker than by default: the test shall find it on a busy machine too.
+            printed = self.bench("compare", phase, "--level", "0.05")
+            self.assertIn("Film's time: B is faster than A, by", printed)
+            self.assertIn(f"Step: {phase}, faster by", printed)
 
     @unittest.skipUnless(len(os.sched_getaffinity(0)) > 1, "one processor, which nodes share")
     def test_a_slow_node_is_named_by_the_report(self):
-        path, = self.measure([self.planted("slow-node")], [2], 12)
-        told = " ".join(findings.all_of(results.Results([runs.read(path)])))
+        slow = os.path.join(self.planted("slow-node"), "bin", "mars")
+        self.bench("scaling", TEAPOT, *SMALL, "--nodes", "2", "--against", slow, "--repeats", "8", "-o", "study", *WHOLE)
+        header, runs = self.runs("study")
+        told = " ".join(findings.all_of(results.Results([(header, [run for run in runs if program_of(run) == "A"])])))
         self.assertRegex(told, r"node 1 on \S+ is slow: it takes \d+\.\d\d times as long")
         self.assertNotIn("node 0 on", told)
 

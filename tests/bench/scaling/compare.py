@@ -1,10 +1,14 @@
 #!/usr/bin/env python3
-"""What changed beyond noise between two studies of mars bench scaling (folders, or
-their files runs.jsonl): the time of each configuration, the time by step, and
-the machines.
+"""What differs beyond noise: between A and B of one study of mars bench scaling
+--against, which took turns, or between two studies, A and B, made one after the
+other (folders, or their files runs.jsonl). The film's time and the processors'
+seconds are compared; where they differ, the steps and the machines too.
 
-Exit code: 0 nothing became slower; 1 something did; 2 the files cannot be
-compared."""
+Answers: slower or faster and by how much, the same within so much, or cannot
+tell. Two studies are only compared where the machine was quiet during both.
+
+Exit code: 0 B is not slower; 1 it is; 2 the files cannot be compared; 3 cannot
+tell."""
 import argparse
 import sys
 
@@ -12,10 +16,10 @@ import runs
 import study
 
 try:
+    import answers
     import changes
     import results
-    from table import fraction_text, seconds_text
-except ModuleNotFoundError as missing:  # exit code 1 would say that something became slower
+except ModuleNotFoundError as missing:  # exit code 1 would say that B is slower
     print(f"mars bench compare: {missing} (Debian: python3-numpy)", file=sys.stderr)
     sys.exit(2)
 
@@ -24,65 +28,39 @@ def read_command_line():
     parser = argparse.ArgumentParser(prog="mars bench compare", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", help=argparse.SUPPRESS)
-    parser.add_argument("before", metavar="A.jsonl")
-    parser.add_argument("after", metavar="B.jsonl")
-    parser.add_argument("--level", type=float, default=0.05,
-                        help="probability with which noise alone may be reported; default: 0.05")
-    return parser.parse_args()
+    parser.add_argument("a", metavar="A", help="a study; one with --against alone")
+    parser.add_argument("b", metavar="B", nargs="?", help="a study that was made later")
+    parser.add_argument("--level", type=float, default=changes.LEVEL,
+                        help="probability with which noise alone may be reported; default: %(default)s")
+    wanted = parser.parse_args()
+    if not 0 < wanted.level < 1:
+        parser.error("--level lies between 0 and 1")
+    return wanted
 
 
-def verdict(change, level):
-    if change.holds(level):
-        return "slower" if change.slower else "faster"
-    return f"needs {change.wanted} repeats" if change.wanted else ""
+def compared(wanted):
+    found = [results.Results([runs.read(path)]) for path in (wanted.a, wanted.b) if path]
+    if len(found) == 1:
+        if not found[0].compares:
+            raise study.Trouble(f"{wanted.a} is of one program: name a second study, or measure with --against")
+        return changes.of_programs(found[0], wanted.level)
+    if any(each.compares for each in found):
+        raise study.Trouble("a study of two programs is compared alone: mars bench compare STUDY")
+    return changes.of_studies(*found, wanted.level)
 
 
-def rows(title, compared, level):
-    width = max(len(title), *(len(change.name) for change in compared))
-    yield f"{title.ljust(width)}  {'before':>9}  {'after':>9}  {'median':>7}  {'best':>6}  {'chance':>7}"
-    for change in compared:
-        yield (f"{change.name.ljust(width)}  {seconds_text(change.before):>9}  {seconds_text(change.after):>9}  "
-               f"{change.ratio:7.3f}  {change.best:6.3f}  {change.probability:7.4f}  {verdict(change, level)}").rstrip()
-
-
-def summary(comparison):
-    film, cause = comparison.times[0], comparison.cause()
-    if film.holds(comparison.level):
-        how = "slower" if film.slower else "faster"
-        yield f"Over all configurations: {how}, {film.ratio:.3f} of the time before."
-    else:
-        yield "Over all configurations: no change of the film's time beyond noise."
-    if cause:
-        yield (f"Step: {cause.name}, {'slower' if cause.slower else 'faster'}: {seconds_text(cause.before)} to "
-               f"{seconds_text(cause.after)} of a mean node.")
-
-
-def slow_machines(after):
-    for slow in after.slow:
-        yield f"Slow in B: {slow.name}, {slow.times:.2f} times as long as the others for the same work."
-
-
-def caveats(comparison):
-    for title, nodes in comparison.only_one:
-        yield f"Only in one of the files: {title}, nodes {nodes}."
-    for title, nodes in comparison.other_films:
-        yield f"Other films, sizes or samples of the same name: {title}, nodes {nodes}."
-    yield (f"Level {comparison.level}; chance: rank tests with Holm's correction within each table. Changes below "
-           f"{fraction_text(changes.LEAST)} are not reported.")
+def exit_code(comparison):
+    if any(change.slower for change in comparison.times):
+        return 1
+    film = comparison.times[0]
+    return 0 if film.holds or film.within is not None else 3
 
 
 def main():
-    wanted = read_command_line()
-    before, after = (results.Results([runs.read(path)]) for path in (wanted.before, wanted.after))
-    comparison = changes.Comparison(before, after, wanted.level)
-    if not comparison.pairs:
-        raise study.Trouble("the two files have no configuration in common")
-    tables = [("configuration", comparison.times), ("step", comparison.steps)]
-    tables += [("machine, computing", comparison.machines)] if len(comparison.machines) > 1 else []
-    for title, compared in tables:
-        print("\n".join(rows(title, compared, wanted.level)) + "\n")
-    print("\n".join([*summary(comparison), *slow_machines(after), *caveats(comparison)]))
-    return int(any(change.holds(wanted.level) and change.slower for change in comparison.times))
+    comparison = compared(read_command_line())
+    print(answers.tables(comparison))
+    print("\n".join(answers.sentences(comparison)))
+    return exit_code(comparison)
 
 
 if __name__ == "__main__":

@@ -5,9 +5,10 @@ import re
 import socket
 import subprocess
 
-SOURCES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..")
 SETTINGS = ("MARS_", "OMPI_MCA_", "PRTE_MCA_", "SLURM_JOB_ID", "SLURM_JOB_NODELIST", "SLURM_NTASKS",
             "SLURM_JOB_PARTITION", "SLURM_CPUS_PER_TASK")
+
+OWN = "processors of this machine"
 
 
 def content(path):
@@ -49,18 +50,20 @@ def processors(hostfile=None):
         return sum(hosts_in(hostfile).values()), "slots of the hostfile"
     if os.environ.get("SLURM_NTASKS"):
         return int(os.environ["SLURM_NTASKS"]), "tasks of the Slurm job"
-    return len(os.sched_getaffinity(0)), "processors of this machine"
+    return len(os.sched_getaffinity(0)), OWN
 
 
-def build_of(build):
-    cache = content(os.path.join(build, "CMakeCache.txt"))
-    return {"version": first_line(os.path.join(build, "bin", "mars"), "--version"),
-            "commit": first_line("git", "-C", SOURCES, "describe", "--always", "--dirty", "--abbrev=12"),
+def build_of(mars):
+    """Of the program `mars`. One that is not in a build's folder says its version alone."""
+    cache = content(os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(mars))), "CMakeCache.txt"))
+    sources = found(r"^CMAKE_HOME_DIRECTORY:\w+=(.*)", cache)
+    return {"program": mars, "version": first_line(mars, "--version"),
+            "commit": sources and first_line("git", "-C", sources, "describe", "--always", "--dirty", "--abbrev=12"),
             "build_type": found(r"^CMAKE_BUILD_TYPE:\w+=(.*)", cache),
-            "compiler": first_line(found(r"^CMAKE_CXX_COMPILER:\w+=(.*)", cache) or "c++", "--version")}
+            "compiler": cache and first_line(found(r"^CMAKE_CXX_COMPILER:\w+=(.*)", cache) or "c++", "--version")}
 
 
-def environment(build, hostfile=None):
+def environment(mars, hostfile=None):
     """All that stays the same through a study, of the machine that starts it."""
     count, counted = processors(hostfile)
     return {
@@ -73,7 +76,7 @@ def environment(build, hostfile=None):
         "memory_kib": int(found(r"^MemTotal:\s*(\d+)", content("/proc/meminfo")) or 0) or None,
         "system": f"{platform.system()} {platform.release()}",
         "mpi": first_line("mpirun", "--version"),
-        "mars": build_of(build),
+        "mars": build_of(mars),
         "hosts": hosts_in(hostfile) if hostfile else None,
         "variables": {name: value for name, value in sorted(os.environ.items()) if name.startswith(SETTINGS)},
     }

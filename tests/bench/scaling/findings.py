@@ -1,4 +1,7 @@
 """What stands out in a study, in plain sentences: for the terminal and the top of the report."""
+import answers
+import changes
+import conditions
 import machines
 import results as of
 from fits import karp_flatt
@@ -12,7 +15,7 @@ def nodes_text(count):
 
 
 def all_of(results):
-    return [finding for kind in (failures, busy, noise, oversubscription, slow, outcomes, laws) for finding in kind(results)]
+    return [finding for kind in (failures, programs, busy, noise, oversubscription, slow, outcomes, laws) for finding in kind(results)]
 
 
 def failures(results):
@@ -21,12 +24,19 @@ def failures(results):
         yield f"A run of {run['film']} on {nodes_text(run['nodes'])} failed and does not count: {why}"
 
 
+def programs(results):
+    """What differs between two that took turns."""
+    if results.compares:
+        yield from answers.sentences(changes.of_programs(results))
+
+
 def slow(results):
     """Names the machines, or what was needed to know."""
+    doubt = " Other programs, which had part of the processors, may be why." if conditions_of(results).busy else ""
     for each in results.slow:
         steps = ", ".join(f"{step} {times:.2f}" for step, times in each.steps.items())
         yield (f"{each.name} is slow: it takes {each.times:.2f} times as long as the others for the same work ({steps}; "
-               f"{each.runs} runs, probability by chance below {max(each.probability, 0.0002):.2g}).")
+               f"{each.runs} runs, probability by chance below {max(each.probability, 0.0002):.2g}).{doubt}")
     if results.slow or len(results.hosts) == 1:
         return
     if not machines.can_tell(results.runs, results.hosts):
@@ -102,8 +112,16 @@ def noise(results):
                f"{nodes_text(point.nodes)}). More repeats or a quieter machine would help.")
 
 
+def conditions_of(results):
+    return conditions.of([point.runs for line in results.lines for point in line.points])
+
+
 def busy(results):
-    here = results.environments[0]
-    if results.before > 0.25 * here["cores"]:
-        yield (f"The machine was busy before the study began: a load average of {results.before} on {here['cores']} "
-               f"processors. Trust the best times and ratios more than the medians.")
+    here = conditions_of(results)
+    trust = "Trust the best times and ratios more than the medians."
+    if here.busy:
+        yield (f"The machine was busy: a load average up to {here.load[1]} on {here.cores} processors, of which other "
+               f"programs took {100 * here.others:.0f} %. {trust}")
+    elif here.others is None and results.before > 0.25 * here.cores:
+        yield (f"The machine was busy before the study began: a load average of {results.before} on {here.cores} "
+               f"processors. {trust}")

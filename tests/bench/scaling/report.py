@@ -82,8 +82,8 @@ def environment_section(here):
         ("processors to use", f"{here['processors']} ({here['processors_are']})"),
         ("governor", here["governor"] or "not told by this machine"),
         ("memory", f"{memory / 2**20:.1f} GiB" if memory else "not known"), ("system", here["system"]),
-        ("MPI", here["mpi"] or "none"), ("MARS", f"{mars['version']}, sources {mars['commit'] or 'not known'}"),
-        ("built", f"{mars['build_type']}, {mars['compiler']}"),
+        ("MPI", here["mpi"] or "none"), ("MARS", f"{mars['program']}, {mars['version']}, sources {mars['commit'] or 'not known'}"),
+        ("built", ", ".join(filter(None, [mars["build_type"], mars["compiler"]])) or "not known"),
         ("machines", listed(here["hosts"]) if here["hosts"] else "none named"), ("variables", listed(here["variables"]))])
 
 

@@ -28,6 +28,11 @@ def computing(run):
             for node in run["per_node"]]
 
 
+def computing_on(run, host):
+    """Seconds that the machine's nodes compute together."""
+    return sum(seconds for node, seconds in zip(run["per_node"], computing(run)) if node["host"] == host)
+
+
 class Point:
     """One configuration: its runs that count."""
 
@@ -120,14 +125,14 @@ class Results:
 
     def __init__(self, files):
         self.headers = [header for header, _ in files]
-        every = [run for _, runs in files for run in runs]
+        every = [{**run, "block": (number, run["repeat"])} for number, (_, runs) in enumerate(files) for run in runs]
         self.failures = [run for run in every if "failure" in run]
         self.runs = [run for run in every if "failure" not in run and run["repeat"] > 0]
         if not self.runs:
             raise study.Trouble("no run succeeded" + "".join(f"\n{run['failure']}" for run in self.failures[:1]))
         self.environments = list({str(run["environment"]): run["environment"] for run in every}.values())
         self.before = every[0]["load_average"]
-        self.varied = [axis for axis in study.AXES
+        self.varied = [axis for axis in (*study.AXES, "program")
                        if len({run["series"]["settings"].get(axis) for run in self.runs}) > 1]
         self.lines = [self.line(series) for series in sorted(set(map(series_of, self.runs)))]
 
@@ -135,6 +140,11 @@ class Results:
         own = [run for run in self.runs if series_of(run) == series]
         points = [Point([run for run in own if run["nodes"] == nodes]) for nodes in {run["nodes"] for run in own}]
         return Line(series, points, self.varied)
+
+    @property
+    def compares(self):
+        """Whether programs took turns."""
+        return "program" in self.varied
 
     @cached_property
     def hosts(self):

@@ -3,35 +3,36 @@ lines: a header, then one line a run, which says all of its own environment."""
 import json
 import os
 import pathlib
-import subprocess
 import time
 
 import environment
+import usage
 from study import Trouble
 
-FORMAT = "mars-scaling 1"
+FORMAT = "mars-scaling 2"
 PHASES = ("dice", "sum", "map", "exchange", "fill", "scanline", "depth", "credit")
 PEAKS = ("memory", "passes")  # of the work counts; all others are sums
 KINDS = ("keyframe", "inbetween")
 
-EVERY_RUN = {"series", "nodes", "repeat", "environment", "load_average"}
+EVERY_RUN = {"series", "nodes", "repeat", "environment", "load_average", "load_average_after", "wall_seconds",
+             "processor_seconds", "involuntary_switches", "others_seconds"}
 REPORTED = {"film", "size", "checksum", "seconds", "frames", "frame_seconds", "per_node"}  # of a run that did not fail
+NO_OPTIONS = ("size", "dice", "program")  # settings that are no option of mars render of the same name and value
 
 
 class Runner:
-    """Renders configurations with the programs of `build`. Its files lie in `folder`, which the film's machine sees."""
+    """Renders configurations with a program `mars`. Its files lie in `folder`, which the film's machine sees."""
 
-    def __init__(self, build, folder, hostfile=None, options=()):
-        self.mars = os.path.join(build, "bin", "mars")
-        self.folder, self.hostfile, self.options = folder, hostfile, list(options)
-        self.environment = environment.environment(build, hostfile)
+    def __init__(self, mars, folder, hostfile=None, options=()):
+        self.mars, self.folder, self.hostfile, self.options = mars, folder, hostfile, list(options)
+        self.environment = environment.environment(mars, hostfile)
 
     def command(self, configuration, report):
         words = [self.mars, "render", self.film(configuration), "--nodes", str(configuration.nodes)]
         if configuration.size:
             words += ["--size", "x".join(map(str, configuration.size))]
         for axis, value in configuration.series.settings:
-            words += [] if axis in ("size", "dice") else [f"--{axis}", str(value)]
+            words += [] if axis in NO_OPTIONS else [f"--{axis}", str(value)]
         words += ["--hostfile", self.hostfile] if self.hostfile else []
         frames_are_kept = any(word.startswith(("-o", "--output", "--sink")) for word in self.options)
         words += ["--overwrite"] if frames_are_kept else ["--sink", "none"]
@@ -50,16 +51,22 @@ class Runner:
                            "settings": dict(configuration.series.settings)},
                 "film": configuration.film, "nodes": configuration.nodes, "repeat": repeat, "command": command,
                 "began": time.strftime("%Y-%m-%dT%H:%M:%S%z"), "load_average": environment.load_average()}
-        begin = time.monotonic()
-        done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-        line["wall_seconds"] = time.monotonic() - begin
-        if done.returncode != 0:
-            line["failure"] = done.stderr.strip() or f"ended with {done.returncode}"
+        used = usage.run(command)
+        line.update(self.used(used), load_average_after=environment.load_average())
+        if used.failure:
+            line["failure"] = used.failure
         else:
             with open(report) as file:
                 line.update(condensed(json.load(file)))
             os.remove(report)
         return {**line, "environment": self.environment}
+
+    def used(self, used):
+        """Processes on other machines, and those that Slurm starts, are not the command's own: nothing is known of them."""
+        known = self.environment["processors_are"] == environment.OWN
+        return {"wall_seconds": used.wall_seconds, "processor_seconds": used.processor_seconds if known else None,
+                "involuntary_switches": used.involuntary_switches if known else None,
+                "others_seconds": used.others_seconds if known else None}
 
 
 def diced(film, dice, folder):

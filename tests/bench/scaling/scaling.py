@@ -5,6 +5,9 @@ becomes a line of DIR/runs.jsonl, at once. Then a table is printed, and a report
 with pictures is made: DIR/report.html (this takes Matplotlib).
 docs/experiments.md says what it shows.
 
+With --against PROGRAM, another mars, each run is made by both in turns: A is
+PROGRAM, B is this mars. Then it says what differs (mars bench compare DIR).
+
 Words after -- are options of mars render, for every run:
   mars bench scaling FILM -- --frames 0-9 --no-coherence"""
 import argparse
@@ -12,6 +15,7 @@ import importlib.util
 import json
 import os
 import shlex
+import shutil
 import subprocess
 import sys
 import time
@@ -40,14 +44,15 @@ def read_command_line(arguments):
     parser.add_argument("films", nargs="*", metavar="FILM",
                         help="a film; or NODES:FILM for a weak study with a film for each number of nodes")
     parser.add_argument("--nodes", type=words(int), metavar="N,N", help="default: 1, 2, 4, ... up to the processors")
-    parser.add_argument("--study", type=words(), default=list(study.KINDS), metavar="strong,weak",
+    parser.add_argument("--study", type=words(), metavar="strong,weak",
                         help="strong: the same film on all numbers of nodes; weak: pictures of as many pixels a node; "
-                             "default: both")
+                             "default: both, with --against strong")
     parser.add_argument("--hostfile", help="machines to use, as for mars render")
     for axis in study.AXES:
         where = "a film's key" if axis == "dice" else "as for mars render"
         parser.add_argument(f"--{axis}", type=words(), metavar="A,B", help=f"each in turn; {where}")
-    parser.add_argument("--repeats", type=int, default=5, help="runs of each configuration that count; default: 5")
+    parser.add_argument("--against", metavar="PROGRAM", help="compare with another mars, which takes turns with this one")
+    parser.add_argument("--repeats", type=int, help="runs of each configuration that count; default: 5, with --against 20")
     parser.add_argument("--warm-up", type=int, default=1, help="runs of each before, that do not; default: 1")
     parser.add_argument("--seed", type=int, default=1, help="of the order in which configurations take turns")
     parser.add_argument("-o", dest="folder", metavar="DIR", default="scaling",
@@ -57,8 +62,13 @@ def read_command_line(arguments):
     wanted.options = arguments[split + 1:]
     if bool(wanted.films) == bool(wanted.read):
         parser.error("name the films to render, or with --read the runs to report")
+    wanted.study = wanted.study or (["strong"] if wanted.against else study.KINDS)
     if not set(wanted.study) <= set(study.KINDS):
         parser.error(f"--study takes {', '.join(study.KINDS)}")
+    if wanted.against and not shutil.which(wanted.against):
+        parser.error(f"--against takes a program mars: there is none at {wanted.against}")
+    if wanted.repeats is None:
+        wanted.repeats = 20 if wanted.against else 5
     if wanted.repeats < 1 or wanted.warm_up < 0 or min(wanted.nodes or [1]) < 1:
         parser.error("--repeats and --nodes count from 1, --warm-up from 0")
     return wanted
@@ -110,19 +120,27 @@ def progress(done, count, began, line):
           f"{left:.0f} s left", flush=True)
 
 
+def programs(wanted):
+    """By the setting `program`, which a study of one program does not have."""
+    own = os.path.join(wanted.build, "bin", "mars")
+    return dict(zip(study.PROGRAMS, (shutil.which(wanted.against), own))) if wanted.against else {None: own}
+
+
 def measure(wanted, arguments):
     """Runs all, and writes each run as it ends. Returns the file's name."""
     os.makedirs(wanted.folder, exist_ok=True)
     path = os.path.join(wanted.folder, "runs.jsonl")
     if os.path.exists(path):
         raise Trouble(f"{path} has a study already: name another folder with -o, or report it with --read {path}")
-    turns = list(study.turns(configurations(wanted), wanted.warm_up, wanted.repeats, wanted.seed))
-    runner = runs.Runner(wanted.build, os.path.abspath(wanted.folder), wanted.hostfile, wanted.options)
+    turns = study.turns(configurations(wanted), wanted.warm_up, wanted.repeats, wanted.seed)
+    turns = list(study.in_pairs(turns, wanted.seed) if wanted.against else turns)
+    runners = {program: runs.Runner(mars, os.path.abspath(wanted.folder), wanted.hostfile, wanted.options)
+               for program, mars in programs(wanted).items()}
     began = time.monotonic()
     with open(path, "w") as file:
         print(json.dumps(header_of(wanted, arguments)), file=file)
         for done, (configuration, repeat) in enumerate(turns, 1):
-            line = runner.run(configuration, repeat)
+            line = runners[configuration.setting("program")].run(configuration, repeat)
             print(json.dumps(line), file=file, flush=True)
             progress(done, len(turns), began, line)
     return path
@@ -134,12 +152,16 @@ def show(paths, folder):
         print(f"Without Matplotlib no table and report are made (Debian: python3-matplotlib). Where it is:\n"
               f"  mars bench scaling --read {' '.join(paths)} -o {folder}")
         return 0
+    import answers
+    import changes
     import findings
     import report
     import results
     import table
     found = results.Results([runs.read(path) for path in paths])
     print("\n" + table.text(found))
+    if found.compares:
+        print(answers.tables(changes.of_programs(found)))
     print("\n\n".join(findings.all_of(found)))
     print(f"\nReport: {report.write(found, folder)}")
     return 1 if found.failures else 0

@@ -5,11 +5,12 @@ import itertools
 import math
 import os
 import random
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 # The settings that a study may vary, as options of `mars render`; `dice` is a key of the film.
 AXES = ("backend", "mapping", "block", "groups", "samples", "size", "dice")
 KINDS = ("strong", "weak")
+PROGRAMS = ("A", "B")  # values of the setting `program` where a study compares two
 
 
 class Trouble(Exception):
@@ -44,6 +45,10 @@ class Configuration:
 
     def setting(self, axis):
         return dict(self.series.settings).get(axis)
+
+    def by(self, program):
+        """The same of one of PROGRAMS."""
+        return replace(self, series=replace(self.series, settings=(*self.series.settings, ("program", program))))
 
 
 def combinations(axes):
@@ -99,3 +104,16 @@ def turns(configurations, warm_ups, repeats, seed):
         shuffled = list(configurations)
         chance.shuffle(shuffled)
         yield from ((configuration, repeat) for configuration in shuffled)
+
+
+def in_pairs(turns, seed):
+    """Each turn as two, one of each of PROGRAMS. Chance decides which is first, each equally often of a configuration, so
+    that what happens on the machine meets both alike."""
+    turns, chance, orders = list(turns), random.Random(seed), {}
+    for configuration, repeat in turns:
+        if configuration not in orders:
+            count = sum(other == configuration for other, _ in turns)
+            orders[configuration] = [PROGRAMS[::step] for step in (1, -1)] * ((count + 1) // 2)
+            chance.shuffle(orders[configuration])
+        for program in orders[configuration].pop():
+            yield configuration.by(program), repeat
