@@ -27,6 +27,14 @@ FLAGS = ("--headless=new", "--no-sandbox", "--disable-quic", "--no-first-run", "
          "--disable-component-update", "--disable-sync", "--disable-gpu")
 SIZE = {"width": 1280, "height": 720, "deviceScaleFactor": 1, "mobile": False}
 PATIENCE = 5  # seconds
+# Rows of the tree that are out of sight are no elements.
+SHOW_IN_TREE = """
+const tree = document.querySelector("#tree [role=tree]");
+for (let top = 0; !document.querySelector(arguments[0]) && top < tree.scrollHeight; top += tree.clientHeight / 2) {
+  tree.scrollTop = top;
+  tree.dispatchEvent(new Event("scroll"));
+}
+"""
 
 
 @functools.cache
@@ -105,7 +113,9 @@ class Page(unittest.TestCase):
         self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": features})
 
     def select(self, joint):
-        self.js("document.querySelector(arguments[0]).click()", f'[data-key$="/{joint}"] > .row')
+        row = f'[data-key$="/{joint}"] > .row'
+        self.js(SHOW_IN_TREE, row)
+        self.js("document.querySelector(arguments[0]).click()", row)
         self.studio.wait_for("select", joint=joint)
 
     def commit(self, begin):
@@ -240,13 +250,13 @@ class Hands(Page):
 
 class Controls(Page):
     def test_tree_by_keyboard(self):
-        tree = '[role="tree"] [tabindex="0"]'
-        self.js("document.querySelector(arguments[0]).focus()", tree)
+        self.js("document.querySelector('#tree [role=tree]').focus()")
         self.press(Keys.ARROW_DOWN)
         self.studio.wait_for("select", actor="model", joint="spine")
         self.press("left-sh")
         self.studio.wait_for("select", joint="left-shin")
-        shut = lambda: self.js("return document.activeElement.getAttribute('aria-expanded')")  # noqa: E731
+        shut = lambda: self.js(  # noqa: E731
+            "return document.getElementById(document.activeElement.getAttribute('aria-activedescendant')).ariaExpanded")
         self.assertEqual(shut(), "true")
         self.press(Keys.ARROW_LEFT)
         self.assertEqual(shut(), "false")
@@ -256,7 +266,9 @@ class Controls(Page):
         self.studio.wait_for("select", joint="pelvis")
         self.press(Keys.END)
         self.studio.wait_for("select", joint="right-toe-sole")
-        self.assertEqual(len(self.browser.find_elements(By.CSS_SELECTOR, '[role="tree"] [tabindex="0"]')), 1)
+        current = self.js("return document.activeElement.getAttribute('aria-activedescendant')")
+        self.assertEqual(self.find(f"#{current}").get_attribute("data-key"), "model/right-toe-sole")
+        self.assertTrue(self.find(f"#{current}").is_displayed())
 
     def test_sliders_stop_at_limits_and_commit_once(self):
         self.select("left-shin")
@@ -298,6 +310,18 @@ class Controls(Page):
         self.assertEqual([box[:2], box[3]], [[-0.7, -0.8], 0.9])
         self.assertEqual(numbers(steps[4], "--place")[:2], [0.3, 0.4])
 
+    def test_first_steps_are_of_what_there_is(self):
+        shown = lambda: self.find(".nothing dl").text  # noqa: E731
+        self.assertIn("a limb in a view", shown())
+        body = {**self.studio.project["actors"][0]["joints"][0], "shape": None, "sbb": None, "name": "body"}
+        actors = [{**self.studio.project["actors"][0], "joints": [body]}]
+        self.studio.tell({"is": "project", **self.studio.project, "actors": actors})
+        self.until(lambda: "a limb in a view" in shown(), False)
+        for words in ("a joint in the tree", "Shift+A\nadds a joint", "Bodies\nbegins with a whole figure"):
+            self.assertIn(words, shown())
+        self.studio.tell({"is": "project", **self.studio.project, "kind": "film", "actors": []})
+        self.until(lambda: "Scene\nadds actors" in shown())
+
     def test_a_double_click_in_the_tree_renames(self):
         ActionChains(self.browser).double_click(self.find('[data-key$="/left-thigh"] > .row > .name')).perform()
         self.until(lambda: self.js("return document.activeElement.dataset.key + ' ' + document.activeElement.value"), "name left-thigh")
@@ -334,7 +358,7 @@ class Controls(Page):
         self.commit("model set left-hand --name left-paw")
         self.js("[...document.querySelectorAll('.actions button')].find((each) => each.textContent === 'Left to right').click()")
         self.commit("model mirror left left-hand")
-        self.js("document.querySelector('[aria-selected=true][role=treeitem]').focus()")
+        self.js("document.querySelector('#tree [role=tree]').focus()")
         self.press(Keys.DELETE)
         self.commit("model remove left-hand --branch")
         self.studio.wait_for("select", joint="left-forearm")
@@ -351,6 +375,8 @@ class Controls(Page):
         for key, change in (("g", {"ground": False}), ("h", {"hidden": False}), ("s", {"as": "vertices"}), ("a", {"orbit": None})):
             self.press(key)
             self.studio.wait_for("view", view=1, **change)
+        self.press("z")
+        self.studio.wait_for("orbit", view=1, how="selected", moving=False)
         self.press("r")
         self.studio.wait_for("view", view=2, handles="box")
 
@@ -454,6 +480,19 @@ class Trouble(Page):
 class Films(Page):
     kind = projects.film
 
+    def test_titles_leave_the_middle_of_narrow_views_free(self):
+        """1440 x 900 at 150 percent."""
+        self.addCleanup(self.browser.execute_cdp_cmd, "Emulation.setDeviceMetricsOverride", SIZE)
+        self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", SIZE | {"width": 960, "height": 600, "deviceScaleFactor": 1.5})
+        self.js("document.querySelector('.title').click()")
+        self.js("[...document.querySelectorAll('.menu button')].find((each) => each.textContent === \"Film's camera\").click()")
+        ends = lambda: self.js("""return [...document.querySelectorAll(".view")].map((view) => {  // noqa: E731
+            const [all, title] = [view, view.querySelector(".title")].map((each) => each.getBoundingClientRect());
+            return title.width > 40 && title.right < all.x + 0.44 * all.width;
+        });""")
+        self.until(ends, [True, True, True, True])
+        self.assertEqual(self.find(".title strong").text, "Film's camera")
+
     def test_frames_are_scrubbed_and_played(self):
         self.find(".ruler").send_keys(Keys.ARROW_RIGHT)
         self.studio.wait_for("frame", frame=25)
@@ -465,17 +504,25 @@ class Films(Page):
         self.chord(Keys.SPACE)
 
     def test_steps_name_their_actor_and_keys_show(self):
+        self.js("document.querySelector('[data-key=watcher] .twist').click()")
+        self.js(SHOW_IN_TREE, '[data-key="watcher/head"]')
         self.js("document.querySelector('[data-key=\"watcher/head\"] > .row').click()")
         self.studio.wait_for("select", actor="watcher", joint="head")
         self.assertEqual(self.find(".keyed-state.on").text, "Key at this frame")
         self.find('[data-key="pose.z"]').send_keys(Keys.ARROW_RIGHT)
         self.commit("animate pose watcher head=0,0,1 --frame 24 --clamp")
+        self.find('[aria-label="Blend poses into the frames around"]').click()
+        self.js("[...document.querySelectorAll('.menu button')].find((each) => each.textContent === '8 frames to both sides').click()")
+        self.find('[data-key="pose.z"]').send_keys(Keys.ARROW_RIGHT)
+        self.commit("animate pose watcher head=0,0,1 --falloff 8 --frame 24 --clamp")
+        self.picture().click()
+        self.studio.wait_for("grab", falloff=8)
         self.js("document.querySelector('[data-key=\"walker\"] > .row').click()")
         self.until(lambda: self.find('[role="tab"][aria-selected="true"]').text, "Scene")
         self.find('[data-key="actor.place.x"]').send_keys(Keys.ARROW_UP, Keys.ENTER)
-        self.commit("animate pose walker place=0.1,0,0 --frame 24")
+        self.commit("animate pose walker place=0.1,0,0 --falloff 8 --frame 24")
         self.find('[data-key="camera.fov"]').send_keys(Keys.ARROW_UP, Keys.ENTER)
-        self.commit("animate pose camera fov=41 --frame 24")
+        self.commit("animate pose camera fov=41 --falloff 8 --frame 24")
 
     def test_a_rendering_is_started_shown_and_stopped(self):
         self.chord(Keys.F9)
