@@ -1,19 +1,18 @@
-// The tree of joints (ARIA's tree pattern): one stop for Tab, arrows go and select, letters find. What is in sight alone
-// is elements (rows_in_sight.js).
+// The tree of joints (ARIA's tree pattern): one stop for Tab, arrows go and select. Letters are the page's shortcuts; a
+// field beside the title finds by the first letters. What is in sight alone is elements (rows_in_sight.js).
 
 import {element, newId} from "./dom.js";
 import {icon} from "./icons.js";
 import {RowsInSight} from "./rows_in_sight.js";
 import {keysOf} from "./shortcuts.js";
 
-const kTypeAhead = 700;  // ms between letters of one word
 const kRow = 23;         // pixels
 
 export class Tree {
-  #closed = null;        // keys of entries that are shut; null: nothing was shown yet
+  #closed = new Set();   // keys of entries that are shut
+  #known = new Set();    // actors that were shown: a film's are shut at first
   #entries = [];         // those that are in no shut one
   #at = 0;               // where the keyboard is among them: the selected one, or else the first
-  #word = {text: "", time: 0};
 
   constructor(place, {state, edits, rename}) {
     Object.assign(this, {state, edits, rename});
@@ -23,10 +22,15 @@ export class Tree {
     this.root = element("div", {role: "tree", tabindex: 0, "aria-label": "Joints", "data-key": "tree"});
     const add = element("button", {class: "quiet icon", "aria-label": "Add a joint", title: `Add a joint (${keysOf("addJoint")})`,
                                    onclick: () => edits.addJoint()}, icon("add"));
-    place.append(element("div", {class: "panel-title"}, this.title, this.count, add), this.root);
+    this.find = element("input", {type: "text", class: "find", "aria-label": "Find by the first letters", placeholder: `Find (${keysOf("find")})`,
+                                  "data-key": "tree.find", autocomplete: "off", spellcheck: "false"});
+    place.append(element("div", {class: "panel-title"}, this.title, this.count, this.find, add), this.root);
     this.add = add;
     this.rows = new RowsInSight(this.root, kRow, {make: (entry, index) => this.#item(entry, index), look: (entry) => this.#look(entry)});
     this.root.addEventListener("keydown", (event) => this.#key(event));
+    this.find.addEventListener("input", () => this.#find(this.find.value.trim().toLowerCase()));
+    this.find.addEventListener("keydown", (event) => this.#found(event));
+    this.find.addEventListener("blur", () => { this.find.value = ""; });
     this.root.addEventListener("click", (event) => this.#click(event));
     this.root.addEventListener("dblclick", ({target}) => { if (target.closest(".row") && !target.closest(".twist")) this.rename(); });
     state.on("project", () => this.#project());
@@ -35,7 +39,10 @@ export class Tree {
 
   #project() {
     const {actors} = this.state.project, film = this.state.isFilm();
-    this.#closed ??= new Set(film ? actors.map(({name}) => keyOf(name, null)) : []);
+    for (const {name} of actors) {
+      if (film && !this.#known.has(name)) this.#closed.add(keyOf(name, null));
+      this.#known.add(name);
+    }
     this.title.textContent = film ? "Actors" : "Joints";
     this.count.textContent = film ? actors.length : actors.reduce((sum, actor) => sum + actor.joints.length, 0);
     this.add.hidden = film;
@@ -137,18 +144,30 @@ export class Tree {
       ArrowLeft: () => entry.open ? this.#open(entry, false) : this.#choose(entries.slice(0, at).findLast(({level}) => level < entry.level)),
       Enter: () => this.#choose(entry),
     };
-    if (acts[event.key]) acts[event.key]();
-    else if (/^[\p{L}\p{N}_-]$/u.test(event.key) && !(event.shiftKey && event.key === "A")) this.#find(event.key, at, event.timeStamp);
-    else return;
+    if (!acts[event.key]) return;
+    acts[event.key]();
     event.preventDefault();
   }
 
-  #find(letter, at, time) {
-    const goesOn = time - this.#word.time < kTypeAhead;
-    this.#word = {text: (goesOn ? this.#word.text : "") + letter.toLowerCase(), time};
-    const {text} = this.#word, entries = this.#entries;
-    const order = [...entries.slice(at + (text.length > 1 ? 0 : 1)), ...entries.slice(0, at + 1)];
-    this.#choose(order.find(({name}) => name.toLowerCase().startsWith(text)));
+  // The first from the selected one on, also where it does not show yet.
+  #find(text) {
+    if (text === "") return;
+    const all = this.state.project.actors.flatMap((actor) => this.#ofAll(actor));
+    const at = Math.max(0, all.findIndex((each) => this.#isSelected(each)));
+    const found = [...all.slice(at), ...all.slice(0, at)].find(({name}) => name.toLowerCase().startsWith(text));
+    this.find.setAttribute("aria-invalid", String(found === undefined));
+    this.#choose(found);
+  }
+
+  #ofAll({name, joints}) {
+    const own = joints.map((joint) => ({actor: name, joint: joint.name, name: joint.name}));
+    return this.state.isFilm() ? [{actor: name, joint: null, name}, ...own] : own;
+  }
+
+  #found(event) {
+    if (!["Enter", "Escape", "ArrowDown"].includes(event.key)) return;
+    event.preventDefault();
+    this.root.focus();
   }
 }
 

@@ -96,6 +96,7 @@ void find_jumps(const Film& film, const Actor& actor, std::vector<std::string>& 
   const double size = size_of(film.models[actor.model]);
   const auto& place = actor.motion.place;
   for (std::size_t i = 0; i + 1 < place.size(); ++i) {
+    if (place[i].ease.hold) continue;  // it is meant to jump
     const glm::dvec3 step = place[i + 1].value - place[i].value;
     const double way = glm::length(step);
     if (place[i + 1].frame != place[i].frame + 1 || way <= size || size == 0) continue;
