@@ -178,9 +178,12 @@ void add_key(cli::Command animate, Words& words) {
 }
 
 void add_cut(cli::Command animate, Words& words) {
-  Command command(animate, words, "cut", "Let the camera or another thing jump: what is before the frame stays as it is");
-  command.thing(kThing).parts("PART", kParts).all().frame(
-      "The frame at which it may be elsewhere at once: pose it there. Example: --frame 24", "FRAME");
+  Command command(animate, words, "cut",
+                  "Let the camera or another thing jump: what is before the frame stays as it is");
+  command.thing(kThing)
+      .parts("PART", kParts)
+      .all()
+      .frame("The frame at which it may be elsewhere at once: pose it there. Example: --frame 24", "FRAME");
   command.lengthen().runs([&words] {
     require_thing(words);
     edit(words, [&](document::Json& json, const animator::Film& film) {

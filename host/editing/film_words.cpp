@@ -67,9 +67,8 @@ void run_add(const Words& words) {
     animator::add_actor(film, {words.name, model_of(words, film), place_of(words), turn_of(words), words.height});
   });
   if (!words.beside) return;
-  words.film.change([&](Json& film, const Meaning& meaning) {
-    animator::place_beside(film, meaning, words.name, *words.beside);
-  });
+  words.film.change(
+      [&](Json& film, const Meaning& meaning) { animator::place_beside(film, meaning, words.name, *words.beside); });
 }
 
 void run_remove(const Words& words) {

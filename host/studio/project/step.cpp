@@ -45,7 +45,8 @@ ScriptStep read_script(const Json& script) {
   const auto is_text = [&](const char* key) { return script.contains(key) && script.at(key).is_string(); };
   const bool says_length = script.contains("lengthen") && script.at("lengthen").is_boolean();
   if (!script.is_object() || script.size() != (says_length ? 3 : 2) || !is_text("name") || !is_text("text"))
-    refuse("has not the form of a script", "script", R"(write {"script": {"name": ..., "text": ..., "lengthen": true}})");
+    refuse("has not the form of a script", "script",
+           R"(write {"script": {"name": ..., "text": ..., "lengthen": true}})");
   return {checked_script_name(script.at("name").get<std::string>()), script.at("text").get<std::string>(),
           !says_length || script.at("lengthen").get<bool>()};
 }

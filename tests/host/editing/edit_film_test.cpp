@@ -53,9 +53,7 @@ TEST(EditFilm, ExplainsWordsThatItDoesNotKnow) {
 TEST(EditFilm, TellsTheFilmsLength) {
   document::Json film = document::read_json(kFilm);
   const std::string before = film.at("frames").dump();
-  const auto report_of = [&](const Command& command) {
-    return edit_film(film, kFilm, std::span(&command, 1)).report;
-  };
+  const auto report_of = [&](const Command& command) { return edit_film(film, kFilm, std::span(&command, 1)).report; };
   EXPECT_EQ(report_of({"animate", "pose", "camera", "fov=30", "--frame", "500"}),
             "the last key is at frame 500; the film shows only its " + before +
                 " frames: --lengthen, or set its frames to 501\n");

@@ -55,7 +55,8 @@ Stretch stretch_at(const Channel<Value>& channel, std::uint32_t frame) {
 // keys that are not evenly spaced); at the first and the last key, and where the value jumps, to its only neighbour.
 template <typename Value>
 Value slope_at(const Channel<Value>& channel, std::size_t key) {
-  const bool begins = key == 0 || channel[key - 1].ease.hold, ends = key + 1 == channel.size() || channel[key].ease.hold;
+  const bool begins = key == 0 || channel[key - 1].ease.hold,
+             ends = key + 1 == channel.size() || channel[key].ease.hold;
   const Key<Value>& before = channel[begins ? key : key - 1];
   const Key<Value>& after = channel[ends ? key : key + 1];
   if (before.frame == after.frame) return before.value - before.value;

@@ -26,12 +26,8 @@ inline constexpr Ease kSpline{0, 0, 1, 1, true};
 inline constexpr Ease kHold{0, 0, 1, 1, false, true};
 
 // As files and people name them.
-inline constexpr std::array<std::pair<std::string_view, Ease>, 6> kNamedEases{{{"linear", kLinear},
-                                                                               {"in", kIn},
-                                                                               {"out", kOut},
-                                                                               {"both", kBoth},
-                                                                               {"spline", kSpline},
-                                                                               {"hold", kHold}}};
+inline constexpr std::array<std::pair<std::string_view, Ease>, 6> kNamedEases{
+    {{"linear", kLinear}, {"in", kIn}, {"out", kOut}, {"both", kBoth}, {"spline", kSpline}, {"hold", kHold}}};
 
 // `time` in 0..1; exactly 0 and 1 at the ends, exactly `time` where the curve is straight.
 double eased(const Ease& ease, double time);
