@@ -77,7 +77,7 @@ def remaining(programs, name, nodes):
     seconds = [sum(event[kind]["seconds"] for kind in kinds) for event in progress]
     for event, at in list(zip(progress, seconds))[1:-1]:
         done, of = (sum(event[kind][key] for kind in kinds) for key in ("done", "of"))
-        shown = sum(event["left"].values()) if "left" in event else None
+        shown = sum(event["left"][kind] for kind in kinds) if "left" in event else None
         yield seconds[-1] - at, shown, at / done * (of - done), seconds[-1]
 
 
@@ -111,8 +111,7 @@ def main():
         return random_forecasts.compare(words.build, words.random, numbers, words.seed, words.platform)
     programs = os.path.join(words.build, "bin")
     with tempfile.TemporaryDirectory() as folder:
-        compare(programs, words.films.split(","), numbers, words.repeats, folder,
-                words.backend)
+        compare(programs, words.films.split(","), numbers, words.repeats, folder, words.backend)
     compare_remaining(programs, 2, words.repeats)
 
 
