@@ -173,11 +173,26 @@ TEST(Check, WhatNobodySeesIsOneLineAndNoTrouble) {
 }
 
 TEST(Check, TellsJumps) {
-  const Film film = film_of(R"("limits": {"x": [0, 9]})", R"("keys": [{"frame": 3, "place": [1, 1, 1]},
-      {"frame": 4, "place": [1, 1, 4]}, {"frame": 9, "place": [1, 1, 40]}])");
-  const auto lines = check_film(film).lines;
+  const auto lines_of = [](const char* keys) {
+    return check_film(film_of(R"("limits": {"x": [0, 9]})", "\"keys\": [" + std::string(keys) + "]")).lines;
+  };
+  const std::vector<std::string> lines = lines_of(R"({"frame": 3, "place": [1, 1, 1]},
+      {"frame": 4, "place": [1, 1, 4]}, {"frame": 9, "place": [1, 1, 5]})");
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_EQ(lines[0], "actor 'a b': jumps 3 from frame 3 to the next, farther than it is long");
+  // There and back.
+  EXPECT_EQ(lines_of(R"({"frame": 3, "place": [1, 1, 1]}, {"frame": 4, "place": [1, 1, 4]},
+      {"frame": 5, "place": [1, 1, 1]})")
+                .size(),
+            2u);
+}
+
+TEST(Check, CallsNoFlightAJump) {
+  // Thrown from rest at three units a frame, against a wall between two frames, and caught.
+  const Film film = film_of(R"("limits": {"x": [0, 9]})", R"("keys": [{"frame": 2, "place": [0, 0, 0]},
+      {"frame": 3, "place": [3, 0, 1]}, {"frame": 4, "place": [6, 0, 1.5]}, {"frame": 5, "place": [9, 0, 1.6]},
+      {"frame": 6, "place": [10.3, 0, 1.5]}, {"frame": 7, "place": [7.9, 0, 1]}, {"frame": 8, "place": [5.5, 0, 0]}])");
+  EXPECT_EQ(check_film(film).lines, std::vector<std::string>{});
 }
 
 }  // namespace
