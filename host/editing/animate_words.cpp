@@ -29,7 +29,7 @@ struct Words {
   std::string thing{}, frame{}, ease{};
   std::vector<std::string> parts{};
   bool all = false, clamp = false, lengthen = false;
-  std::uint32_t to = 0, hold = 0;
+  std::uint32_t to = 0, hold = 0, falloff = 0;
   std::int64_t shift = 0;
   double stretch = 0, anticipation = 0, overshoot = 0;
 
@@ -139,16 +139,22 @@ void add_pose(cli::Command animate, Words& words) {
       .ease(kEase)
       .clamp()
       .lengthen();
+  command.app()
+      .add("--falloff", words.falloff,
+           "Blend the change over N frames to both sides: where keys are dense, one alone would pop. "
+           "Example: --falloff 8")
+      .type("N")
+      .range(1u, wire::kMostFrames);
   command.app().option("ACTOR").required();
   command.app().option("PART=NUMBERS").required();
   command.runs([&words] {
     const animator::FrameRange range = animator::read_frame_range(words.frame);
     const auto ease = animator::read_typed_ease(words.ease);
     const auto beyond = words.clamp ? animator::Beyond::clamped : animator::Beyond::refused;
-    const bool plain = range.first == range.last && !ease && !words.lengthen;
+    const bool plain = range.first == range.last && !ease && !words.lengthen && words.falloff == 0;
     if (plain && words.film.show_pose(words.thing, words.parts, range.first, beyond)) return;
     edit(words, [&](document::Json& json, const animator::Film& film) {
-      return animator::pose(json, film, words.thing, words.parts, range, ease, beyond);
+      return animator::pose(json, film, words.thing, words.parts, range, {ease, beyond, words.falloff});
     });
   });
 }

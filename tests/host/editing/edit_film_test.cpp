@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/host/content/document/failure_of.h"
 
 namespace mars::editing {
@@ -21,6 +23,18 @@ TEST(EditFilm, ObeysCommandsOneAfterTheOther) {
   for (const document::Json& key : film.at("camera").at("keys"))
     if (key.at("frame") == 9) found = key.at("fov") == 30;
   EXPECT_TRUE(found) << document::laid_out(film.at("camera"));
+}
+
+TEST(EditFilm, BlendsAPoseIntoTheFramesAround) {
+  document::Json film = document::read_json(kFilm);
+  const Command pose = {"animate", "pose", "camera", "fov+=9", "--frame", "7", "--falloff", "3"};
+  edit_film(film, kFilm, std::span(&pose, 1));
+  std::vector<std::uint32_t> frames;
+  for (const document::Json& key : film.at("camera").at("keys")) frames.push_back(key.at("frame"));
+  for (const std::uint32_t frame : {4u, 7u, 10u}) EXPECT_NE(std::ranges::find(frames, frame), frames.end()) << frame;
+  const Command none = {"animate", "pose", "camera", "fov+=9", "--frame", "7", "--falloff", "0"};
+  EXPECT_NE(document::failure_of([&] { edit_film(film, kFilm, std::span(&none, 1)); }).find("--falloff"),
+            std::string::npos);
 }
 
 TEST(EditFilm, DoesAllOrNothing) {
