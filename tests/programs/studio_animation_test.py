@@ -53,6 +53,12 @@ class AnimationTest(StudioInBrowser):
     def box_of(self, selector):
         return self.browser.run("const at = document.querySelector(arguments[0]).getBoundingClientRect(); return [at.x, at.y, at.width, at.height]", selector)
 
+    def is_seen(self, selector):
+        """Whether the mouse would find its middle there, as the page stands."""
+        return self.browser.run("""
+            const it = document.querySelector(arguments[0]), at = it.getBoundingClientRect();
+            return it.contains(document.elementFromPoint(at.x + at.width / 2, at.y + at.height / 2));""", selector)
+
     def at(self, row, frame):
         left, _, width, _ = self.box_of(".ruler")
         _, top, _, height = self.box_of(f"[data-row='{row}']")
@@ -124,10 +130,16 @@ class AnimationTest(StudioInBrowser):
         self.click('[data-key="motion.steps"]')
         self.browser.command("Input.insertText", text="3")
         before = self.film.read_text()
+        self.assertTrue(self.is_seen('[data-key="motion.apply"]'), "below the fold")
         self.click('[data-key="motion.preview"]')
         self.assertEqual(self.film.read_text(), before)
         self.changed_by(lambda: self.click('[data-key="motion.apply"]'))
-        self.same_as_commands("walk tom --steps 3 --at 0 --lengthen")
+        self.same_as_commands("walk tom --steps 3 --lengthen")
+        walked = json.loads(self.film.read_text())["actors"][0]["keys"]
+        self.click("[data-motion=nod]")
+        self.changed_by(lambda: self.click('[data-key="motion.apply"]'))
+        self.same_as_commands("nod tom --lengthen")
+        self.assertEqual(json.loads(self.film.read_text())["actors"][0]["keys"][:len(walked) - 1], walked[:-1], "the walk stays")
         self.no_complaint()
 
     def test_a_script_says_what_is_wrong_at_its_line(self):
