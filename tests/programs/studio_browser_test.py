@@ -9,7 +9,7 @@ import signal
 from selenium.webdriver.support.ui import Select
 
 from harness import *
-from studio_browser import CTRL, SHIFT, Browser, Proxy, Studio, tree_of
+from studio_browser import CTRL, SHIFT, SHOW_IN_TREE, Browser, Proxy, Studio, tree_of
 
 # Counts what the studio says and what the page paints; a person sees both.
 PROBE = """
@@ -111,6 +111,7 @@ class StudioInBrowser(ProgramTest):
         self.until("the project's change", f"window.seen.projects > {before}")
 
     def click(self, selector):
+        self.browser.run(SHOW_IN_TREE, selector)
         self.until(selector, f"document.querySelector('{selector}') !== null")
         self.browser.run("document.querySelector(arguments[0]).scrollIntoView({block: 'nearest'})", selector)
         self.browser.click(*self.browser.center(selector))

@@ -1,7 +1,7 @@
 // A film's camera: where it is, where it looks, and whom it looks at or goes along with.
 
-import {choice, line, part} from "../../fields.js";
-import {rangeOf, targetOf} from "./controls.js";
+import {part} from "../../fields.js";
+import {rangeOf} from "./controls.js";
 
 export function cameraPart(controls) {
   const now = () => controls.project.camera;
@@ -16,8 +16,7 @@ export function cameraPart(controls) {
 
 // `word`: of the command, and of what the project says.
 function bound(controls, label, word) {
-  const made = choice({name: `Camera: ${label.toLowerCase()} an actor`, options: [[null, "Nobody"], ...controls.targets()], key: `camera.${word}`,
-                       commit: (target, event) => controls.commit(["animate", word, target ?? "--end", ...controls.atFrame()], event)});
-  controls.whenSet(() => made.set(targetOf(controls.project.camera?.[word])));
-  return line(label, made.root);
+  return controls.target(label, `Camera: ${label.toLowerCase()} an actor`, `camera.${word}`,
+                         (target, event) => controls.commit(["animate", word, target ?? "--end", ...controls.atFrame()], event),
+                         () => controls.project.camera?.[word]);
 }
