@@ -310,6 +310,18 @@ class Controls(Page):
         self.assertEqual([box[:2], box[3]], [[-0.7, -0.8], 0.9])
         self.assertEqual(numbers(steps[4], "--place")[:2], [0.3, 0.4])
 
+    def test_first_steps_are_of_what_there_is(self):
+        shown = lambda: self.find(".nothing dl").text  # noqa: E731
+        self.assertIn("a limb in a view", shown())
+        body = {**self.studio.project["actors"][0]["joints"][0], "shape": None, "sbb": None, "name": "body"}
+        actors = [{**self.studio.project["actors"][0], "joints": [body]}]
+        self.studio.tell({"is": "project", **self.studio.project, "actors": actors})
+        self.until(lambda: "a limb in a view" in shown(), False)
+        for words in ("a joint in the tree", "Shift+A\nadds a joint", "Bodies\nbegins with a whole figure"):
+            self.assertIn(words, shown())
+        self.studio.tell({"is": "project", **self.studio.project, "kind": "film", "actors": []})
+        self.until(lambda: "Scene\nadds actors" in shown())
+
     def test_a_double_click_in_the_tree_renames(self):
         ActionChains(self.browser).double_click(self.find('[data-key$="/left-thigh"] > .row > .name')).perform()
         self.until(lambda: self.js("return document.activeElement.dataset.key + ' ' + document.activeElement.value"), "name left-thigh")
@@ -479,6 +491,19 @@ class Films(Page):
         self.js("document.querySelector('[data-key=walker-299] > .row').click()")
         self.studio.wait_for("select", actor="walker-299")
         self.assertLess(self.js("return document.querySelectorAll('*').length"), 2000)
+
+    def test_titles_leave_the_middle_of_narrow_views_free(self):
+        """1440 x 900 at 150 percent."""
+        self.addCleanup(self.browser.execute_cdp_cmd, "Emulation.setDeviceMetricsOverride", SIZE)
+        self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", SIZE | {"width": 960, "height": 600, "deviceScaleFactor": 1.5})
+        self.js("document.querySelector('.title').click()")
+        self.js("[...document.querySelectorAll('.menu button')].find((each) => each.textContent === \"Film's camera\").click()")
+        ends = lambda: self.js("""return [...document.querySelectorAll(".view")].map((view) => {  // noqa: E731
+            const [all, title] = [view, view.querySelector(".title")].map((each) => each.getBoundingClientRect());
+            return title.width > 40 && title.right < all.x + 0.44 * all.width;
+        });""")
+        self.until(ends, [True, True, True, True])
+        self.assertEqual(self.find(".title strong").text, "Film's camera")
 
     def test_frames_are_scrubbed_and_played(self):
         self.find(".ruler").send_keys(Keys.ARROW_RIGHT)
