@@ -39,7 +39,7 @@ export class Edits {
   joint(change, joint = this.state.selected.joint) { return jointStep("set", joint, change); }
   pose(pose) {
     const {actor, joint} = this.state.selected;
-    return this.state.isFilm() ? poseStep(actor, {[joint]: pose}, this.state.project.frame) : {pose: {[joint]: pose}};
+    return this.state.isFilm() ? poseStep(actor, {[joint]: pose}, this.state.project.frame, this.state.falloff) : {pose: {[joint]: pose}};
   }
 
   select(actor, joint) {

@@ -166,6 +166,7 @@ new Keys({
   goToView: (keys) => views.go(Number(keys) - 1),
   maximise: () => views.maximise(),
   showAll: (_, event) => views.showAll(event),
+  showSelected: (_, event) => views.showSelected(event),
   nextDisplay: (_, event) => views.nextDisplay(event),
   hidden: (_, event) => views.flip("hidden", event),
   ground: (_, event) => views.flip("ground", event),

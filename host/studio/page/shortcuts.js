@@ -24,6 +24,7 @@ export const kShortcuts = [
   {group: "Views", keys: ["1", "2", "3", "4"], name: "goToView", text: "Go to a view", at: "page"},
   {group: "Views", keys: ["F"], name: "maximise", text: "Maximise the view, and back", at: "page"},
   {group: "Views", keys: ["A"], name: "showAll", text: "Show the whole scene in the view", at: "page"},
+  {group: "Views", keys: ["Z"], name: "showSelected", text: "Show what is selected in the view", at: "page"},
   {group: "Views", keys: ["S"], name: "nextDisplay", text: "Surface, control vertices, prisms, stick in turn", at: "page"},
   {group: "Views", keys: ["H"], name: "hidden", text: "Hidden lines on and off", at: "page"},
   {group: "Views", keys: ["G"], name: "ground", text: "Ground on and off", at: "page"},

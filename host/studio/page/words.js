@@ -12,8 +12,11 @@ function command(verb, names, options) {
 const setting = (part, value) => `${part === "place" || part === "turn" || part.startsWith("-") ? "/" : ""}${part}=${[value].flat().join(",")}`;
 
 // Joints of a film's actor, {name: [x, y, z]}.
-export const poseStep = (actor, pose, frame) =>
-  command(["animate", "pose"], [actor, ...Object.entries(pose).map(([joint, angles]) => setting(joint, angles))], ["--frame", `${frame}`, "--clamp"]);
+export const poseStep = (actor, pose, frame, falloff) =>
+  command(["animate", "pose"], [actor, ...Object.entries(pose).map(([joint, angles]) => setting(joint, angles))], [...blended(falloff), "--frame", `${frame}`, "--clamp"]);
+
+// A pose's options that blend it over frames to both sides; 0: none.
+export const blended = (falloff) => falloff > 0 ? ["--falloff", `${falloff}`] : [];
 
 // How each part of a joint's change is written.
 const kJointOptions = {

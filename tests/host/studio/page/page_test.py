@@ -375,6 +375,8 @@ class Controls(Page):
         for key, change in (("g", {"ground": False}), ("h", {"hidden": False}), ("s", {"as": "vertices"}), ("a", {"orbit": None})):
             self.press(key)
             self.studio.wait_for("view", view=1, **change)
+        self.press("z")
+        self.studio.wait_for("orbit", view=1, how="selected", moving=False)
         self.press("r")
         self.studio.wait_for("view", view=2, handles="box")
 
@@ -523,12 +525,18 @@ class Films(Page):
         self.assertEqual(self.find(".keyed-state.on").text, "Key at this frame")
         self.find('[data-key="pose.z"]').send_keys(Keys.ARROW_RIGHT)
         self.commit("animate pose watcher head=0,0,1 --frame 24 --clamp")
+        self.find('[aria-label="Blend poses into the frames around"]').click()
+        self.js("[...document.querySelectorAll('.menu button')].find((each) => each.textContent === '8 frames to both sides').click()")
+        self.find('[data-key="pose.z"]').send_keys(Keys.ARROW_RIGHT)
+        self.commit("animate pose watcher head=0,0,1 --falloff 8 --frame 24 --clamp")
+        self.picture().click()
+        self.studio.wait_for("grab", falloff=8)
         self.js("document.querySelector('[data-key=\"walker\"] > .row').click()")
         self.until(lambda: self.find('[role="tab"][aria-selected="true"]').text, "Scene")
         self.find('[data-key="actor.place.x"]').send_keys(Keys.ARROW_UP, Keys.ENTER)
-        self.commit("animate pose walker place=0.1,0,0 --frame 24")
+        self.commit("animate pose walker place=0.1,0,0 --falloff 8 --frame 24")
         self.find('[data-key="camera.fov"]').send_keys(Keys.ARROW_UP, Keys.ENTER)
-        self.commit("animate pose camera fov=41 --frame 24")
+        self.commit("animate pose camera fov=41 --falloff 8 --frame 24")
 
     def test_a_rendering_is_started_shown_and_stopped(self):
         self.chord(Keys.F9)

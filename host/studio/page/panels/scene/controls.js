@@ -3,6 +3,7 @@
 import {element} from "../../dom.js";
 import {colorField, line, longChoice, numberField, vectorField} from "../../fields.js";
 import {written} from "../../numbers.js";
+import {blended} from "../../words.js";
 
 export const joined = (numbers) => numbers.map((number) => written(number, 4)).join(",");
 
@@ -47,7 +48,7 @@ export class Controls {
   }
 
   atFrame() { return ["--frame", `${this.project.frame}`]; }
-  posed(thing, text) { return ["animate", "pose", thing, text, ...this.atFrame()]; }
+  posed(thing, text) { return ["animate", "pose", thing, text, ...blended(this.state.falloff), ...this.atFrame()]; }
   commit(words, event) { this.edits.commit({commands: [words]}, event); }
 
   // `words()` gives those of the command.
