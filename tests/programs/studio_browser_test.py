@@ -373,7 +373,10 @@ class FilmTest(StudioInBrowser):
             self.assertLess(time.monotonic(), last, "the renderer lives on")
             time.sleep(0.05)
         self.no_complaint("WebSocket connection")
-        self.start(file)
+        port = re.search(r":(\d+)/", studio.link)[1]
+        again = self.enterContext(Studio(PROGRAMS, file, "--port", port))
+        self.banner("connection", "Open the link that it has printed")
+        self.show(again.link)
         self.pictures_in_all_views()
         self.assertEqual(file.read_text(), changed)
         self.changed_by(lambda: self.keys("z", modifiers=CTRL))

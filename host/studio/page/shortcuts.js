@@ -1,8 +1,8 @@
 // All shortcuts, in one table: keys.js acts on it, help.js lists it, menus and tips name its keys.
 //
 // `at`: where they hold: "page" (not while text is written), "always" (also then), "view" (a view has the focus),
-// "timeline" (it has the focus; before those of the page), "tree". Letters at "page" leave alone the tree and lists,
-// where letters find an entry. `film`: in films only.
+// "timeline" (it has the focus; before those of the page), "tree". Letters at "page" leave alone lists of choices, where
+// letters find an entry. `film`: in films only.
 
 export const kShortcuts = [
   {group: "Edit", keys: ["Ctrl+Z"], name: "undo", text: "Undo", at: "always"},
@@ -61,7 +61,7 @@ export const kShortcuts = [
   {group: "Tree of joints", keys: ["ArrowUp", "ArrowDown"], text: "Joint before, next joint", at: "tree"},
   {group: "Tree of joints", keys: ["ArrowRight", "ArrowLeft"], text: "Open or go in, close or go out", at: "tree"},
   {group: "Tree of joints", keys: ["Home", "End"], text: "First joint, last joint", at: "tree"},
-  {group: "Tree of joints", keys: ["A-Z"], text: "Find by the first letters", at: "tree"},
+  {group: "Tree of joints", keys: ["/"], name: "find", text: "Find by the first letters", at: "page"},
 
   {group: "Numbers", keys: ["ArrowUp", "ArrowDown"], text: "One step; with Shift ten, with Alt a tenth", at: "number"},
   {group: "Numbers", keys: ["Enter"], text: "Done", at: "number"},

@@ -1,16 +1,14 @@
-// The tree of joints (ARIA's tree pattern): one stop for Tab, arrows go and select, letters find.
+// The tree of joints (ARIA's tree pattern): one stop for Tab, arrows go and select. Letters are the page's shortcuts; a
+// field beside the title finds by the first letters.
 
 import {element} from "./dom.js";
 import {icon} from "./icons.js";
 import {keysOf} from "./shortcuts.js";
 
-const kTypeAhead = 700;  // ms between letters of one word
-
 export class Tree {
   #closed = new Set();   // keys of items that are shut
   #items = new Map();    // key -> element
   #shape = "";           // what the tree shows now
-  #word = {text: "", time: 0};
 
   constructor(place, {state, edits, rename}) {
     Object.assign(this, {state, edits, rename});
@@ -19,9 +17,14 @@ export class Tree {
     this.root = element("ul", {role: "tree", "aria-label": "Joints"});
     const add = element("button", {class: "quiet icon", "aria-label": "Add a joint", title: `Add a joint (${keysOf("addJoint")})`,
                                    onclick: () => edits.addJoint()}, icon("add"));
-    place.append(element("div", {class: "panel-title"}, this.title, this.count, add), this.root);
+    this.find = element("input", {type: "text", class: "find", "aria-label": "Find by the first letters", placeholder: `Find (${keysOf("find")})`,
+                                  "data-key": "tree.find", autocomplete: "off", spellcheck: "false"});
+    place.append(element("div", {class: "panel-title"}, this.title, this.count, this.find, add), this.root);
     this.add = add;
     this.root.addEventListener("keydown", (event) => this.#key(event));
+    this.find.addEventListener("input", () => this.#find(this.find.value.trim().toLowerCase()));
+    this.find.addEventListener("keydown", (event) => this.#found(event));
+    this.find.addEventListener("blur", () => { this.find.value = ""; });
     this.root.addEventListener("click", (event) => this.#click(event));
     this.root.addEventListener("dblclick", ({target}) => { if (target.closest(".row") && !target.closest(".twist")) this.rename(); });
     state.on("project", () => this.#project());
@@ -34,7 +37,7 @@ export class Tree {
     const {actors, kind} = this.state.project;
     const shape = JSON.stringify([kind, actors.map(({name, joints}) => [name, joints.map(({name, parent, keyed}) => [name, parent, keyed])])]);
     if (shape === this.#shape) return;
-    if (this.#shape === "" && this.state.isFilm()) for (const {name} of actors) this.#closed.add(keyOf(name, null));
+    if (this.state.isFilm()) for (const {name} of actors) if (!this.#items.has(keyOf(name, null))) this.#closed.add(keyOf(name, null));
     this.#shape = shape;
     const had = this.root.contains(document.activeElement);
     this.#items.clear();
@@ -127,19 +130,24 @@ export class Tree {
       ArrowLeft: () => open === "true" ? this.#open(item, false) : this.#choose(item.parentElement.closest("[role=treeitem]")),
       Enter: () => this.#choose(item),
     };
-    if (acts[event.key]) acts[event.key]();
-    else if (/^[\p{L}\p{N}_-]$/u.test(event.key) && !(event.shiftKey && event.key === "A")) this.#find(event.key, visible, at, event.timeStamp);
-    else return;
+    if (!acts[event.key]) return;
+    acts[event.key]();
     event.preventDefault();
   }
 
-  #find(letter, visible, at, time) {
-    const goesOn = time - this.#word.time < kTypeAhead;
-    this.#word = {text: (goesOn ? this.#word.text : "") + letter.toLowerCase(), time};
-    const {text} = this.#word;
-    const order = [...visible.slice(at + (text.length > 1 ? 0 : 1)), ...visible.slice(0, at + 1)];
-    this.#choose(order.find((item) => partsOf(item.dataset.key).at(-1)?.toLowerCase().startsWith(text) ||
-                                      partsOf(item.dataset.key)[0]?.toLowerCase().startsWith(text) && partsOf(item.dataset.key)[1] === null));
+  // The first from the selected one on, also where it does not show yet.
+  #find(text) {
+    if (text === "") return;
+    const keys = [...this.#items.values()].sort(inDocument).map((item) => item.dataset.key), at = Math.max(0, keys.indexOf(this.#current()?.dataset.key));
+    const found = [...keys.slice(at), ...keys.slice(0, at)].find((key) => key.split("/").at(-1).toLowerCase().startsWith(text));
+    this.find.setAttribute("aria-invalid", String(found === undefined));
+    if (found !== undefined) this.edits.select(...partsOf(found));
+  }
+
+  #found(event) {
+    if (!["Enter", "Escape", "ArrowDown"].includes(event.key)) return;
+    event.preventDefault();
+    this.focus();
   }
 }
 

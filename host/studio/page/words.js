@@ -46,4 +46,4 @@ export const removeMaterialStep = (material) => command(["model", "remove"], [],
 
 export const mirrorStep = (side, joint) => command(["model", "mirror"], [side, ...(joint ? [joint] : [])], []);
 
-export const bodyStep = (name) => command(["model", "new"], [], ["--figure", name]);
+export const bodyStep = (name) => command(["model", "new"], [], ["--figure", name, "--replace"]);

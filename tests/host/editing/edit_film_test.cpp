@@ -50,6 +50,18 @@ TEST(EditFilm, ExplainsWordsThatItDoesNotKnow) {
   EXPECT_NE(failure_of({"animate", "walk", "robot", "--help"}).find("asks for help"), std::string::npos);
 }
 
+TEST(EditFilm, TellsTheFilmsLength) {
+  document::Json film = document::read_json(kFilm);
+  const std::string before = film.at("frames").dump();
+  const auto report_of = [&](const Command& command) { return edit_film(film, kFilm, std::span(&command, 1)).report; };
+  EXPECT_EQ(report_of({"animate", "pose", "camera", "fov=30", "--frame", "500"}),
+            "the last key is at frame 500; the film shows only its " + before +
+                " frames: --lengthen, or set its frames to 501\n");
+  EXPECT_EQ(report_of({"animate", "pose", "camera", "fov=31", "--frame", "500", "--lengthen"}),
+            "the film has 501 frames now, not " + before + "\n");
+  EXPECT_EQ(report_of({"animate", "pose", "camera", "fov=32", "--frame", "500", "--lengthen"}), "");
+}
+
 TEST(EditFilm, ReducesNoKeysOfLights) {
   document::Json film = document::read_json(kFilm);
   film["lights"] = {{{"direction", {0, 0, 1}}, {"keys", {{{"frame", 0}, {"intensity", 1}}}}}};

@@ -86,6 +86,7 @@ void find_jumps(const Film& film, const Actor& actor, std::vector<std::string>& 
   const auto& place = actor.motion.place;
   for (std::size_t i = 0; i + 1 < place.size(); ++i) {
     const double way = glm::length(place[i + 1].value - place[i].value);
+    if (place[i].ease.hold) continue;  // it is meant to jump
     if (place[i + 1].frame != place[i].frame + 1 || way <= size || size == 0) continue;
     if (attachment_at(actor, place[i].frame) || attachment_at(actor, place[i + 1].frame)) continue;
     lines.push_back("actor '" + actor.name + "': jumps " + document::shown(std::round(way * 1000) / 1000) +

@@ -8,6 +8,6 @@ export function typed([program, ...words], film) {
 
 // Of a step; nothing where it is no command's, as a model's pose for trying out.
 export function commandsOf(step) {
-  if (step.script) return [["animate", "script", step.script.name, "--lengthen"]];
+  if (step.script) return [["animate", "script", step.script.name, ...(step.script.lengthen ? ["--lengthen"] : [])]];
   return step.commands ?? [];
 }

@@ -112,7 +112,7 @@ TEST(LimitsLeft, TheWorstIsFoundWithoutLookingAtEveryFrame) {
                                 R"("limits": {"x": [-60, 120], "y": [0, 170], "z": [-200, 200]})",
                                 R"("limits": {"x": [-90, 90], "y": [-90, 90], "z": [20, 20]})",
                                 R"("y_axis": [0.3, 1, 0], "limits": {"x": [-90, 90], "y": [-80, 80], "z": [-90, 90]})"};
-  const Ease eases[] = {kLinear, kBoth, swinging(0.2, 0.3)};
+  const Ease eases[] = {kLinear, kBoth, kHold, swinging(0.2, 0.3)};
   int outside = 0;
   for (int trial = 0; trial < 400; ++trial) {
     Film film = film_of(limits[trial % 4], R"("keys": [{"frame": 0, "pose": {"j": [0, 10, 20]}}])");
@@ -123,7 +123,7 @@ TEST(LimitsLeft, TheWorstIsFoundWithoutLookingAtEveryFrame) {
     for (std::uint32_t frame = 0; frame < 80; frame += 1 + std::uint32_t(number(0, 40))) {
       glm::dvec3 pose;
       for (int axis = 0; axis < 3; ++axis) pose[axis] = number(joint.limits[axis].lower, joint.limits[axis].upper);
-      poses.push_back({frame, pose, eases[trial % 3]});
+      poses.push_back({frame, pose, eases[trial / 4 % 4]});
     }
     const auto all = limits_left(film);
     const auto worst = worst_excesses(film);

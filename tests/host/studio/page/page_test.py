@@ -244,8 +244,10 @@ class Controls(Page):
         self.js("document.querySelector(arguments[0]).focus()", tree)
         self.press(Keys.ARROW_DOWN)
         self.studio.wait_for("select", actor="model", joint="spine")
+        self.press("/")
         self.press("left-sh")
         self.studio.wait_for("select", joint="left-shin")
+        self.press(Keys.ENTER)
         shut = lambda: self.js("return document.activeElement.getAttribute('aria-expanded')")  # noqa: E731
         self.assertEqual(shut(), "true")
         self.press(Keys.ARROW_LEFT)
@@ -257,6 +259,14 @@ class Controls(Page):
         self.press(Keys.END)
         self.studio.wait_for("select", joint="right-toe-sole")
         self.assertEqual(len(self.browser.find_elements(By.CSS_SELECTOR, '[role="tree"] [tabindex="0"]')), 1)
+
+    def test_letters_are_shortcuts_after_a_click_in_the_tree(self):
+        self.find('[data-key$="/left-shin"] > .row > .name').click()
+        self.studio.wait_for("select", joint="left-shin")
+        self.press("s")
+        self.studio.wait_for("view", view=0, **{"as": "vertices"})
+        self.press("2")
+        self.until(lambda: self.js("return document.activeElement === document.querySelectorAll('.picture')[1]"))
 
     def test_sliders_stop_at_limits_and_commit_once(self):
         self.select("left-shin")
@@ -321,8 +331,25 @@ class Controls(Page):
                    color.dispatchEvent(new Event("change", {bubbles: true}));""")
         self.commit("model set --material trousers --color 1 0 0.502")
         self.find("[role=tab]:nth-child(2)").send_keys(Keys.ARROW_RIGHT)
-        self.js("[...document.querySelectorAll('.panel:not([hidden]) button')].find((each) => each.textContent === 'child').click()")
-        self.commit("model new --figure child")
+
+    def test_a_body_takes_the_models_place_only_where_somebody_agrees(self):
+        self.find("[role=tab]:nth-child(3)").click()
+        body = lambda name: self.js(  # noqa: E731
+            "[...document.querySelectorAll('.panel:not([hidden]) button')].find((each) => each.textContent === arguments[0]).click()", name)
+        body("child")
+        self.assertIn(f"Its {len(self.studio.project['actors'][0]['joints'])} joints go", self.find(".popover").text)
+        self.press(Keys.ESCAPE)
+        self.until(lambda: self.browser.find_elements(By.CSS_SELECTOR, ".popover"), [])
+        body("tall")
+        self.find('[data-key="ask.yes"]').click()
+        self.commit("model new --figure tall --replace")
+        self.assertEqual(len([each for each in self.studio.heard if each["do"] == "commit"]), 1)
+        self.studio.forget()
+        new = {**self.studio.project["actors"][0], "joints": self.studio.project["actors"][0]["joints"][:1]}
+        self.studio.tell({"is": "project", **self.studio.project, "actors": [new], "undo": None})
+        self.until(lambda: self.find("#tree .count").text, "1")
+        body("child")
+        self.commit("model new --figure child --replace")
 
     def test_joints_are_added_renamed_mirrored_and_removed_by_keys(self):
         self.select("left-hand")
@@ -440,10 +467,33 @@ class Trouble(Page):
         self.studio.tell({"is": "state", "renderer": "The renderer ended.", "nodes": 0, "machines": 0})
         self.until(lambda: "The renderer ended." in self.find("#banners").text)
         self.studio.tell({"is": "refused", "do": "commit", "text": "is no joint"})
-        self.until(lambda: "is no joint" in self.find("#toasts").text)
+        self.until(lambda: "is no joint" in self.find("#messages").text)
         self.studio.tell({"is": "project", **self.studio.project, "problem": None})
         self.studio.tell({"is": "state", "renderer": "", "nodes": 2, "machines": 1})
         self.until(lambda: self.find("#banners").text, "")
+
+    def test_messages_cover_nothing_and_stay_to_be_read(self):
+        for number in range(3):
+            self.studio.tell({"is": "said", "text": f"Message {number} " + "of many words " * 30})
+        self.until(lambda: "Message 2" in self.find("#messages").text)
+        covers = """const at = document.querySelector("#messages .message").getBoundingClientRect();
+                    return ["views", "panels", "tree"].filter((id) => {
+                      const other = document.getElementById(id).getBoundingClientRect();
+                      return at.left < other.right && at.right > other.left && at.top < other.bottom && at.bottom > other.top;
+                    });"""
+        self.assertEqual(self.js(covers), [])
+        self.assertEqual(self.js("return document.documentElement.scrollWidth"), 1280)
+        self.find("#messages .message").click()
+        self.assertEqual([line.text[:9] for line in self.browser.find_elements(By.CSS_SELECTOR, ".message-lines li")],
+                         ["Message 0", "Message 1", "Message 2"])
+
+    def test_a_page_of_a_studio_that_was_started_again_says_what_to_do(self):
+        self.allowed = "/ws?token"
+        port, project = self.studio.port, self.studio.project
+        self.studio.stop()
+        self.until(lambda: "does not answer" in self.find("#banners").text)
+        self.studio = MockStudio(project, token="another").start(port)
+        self.until(lambda: "Open the link that it has printed" in self.find("#banners").text)
 
     def test_what_is_no_picture_is_left_alone(self):
         self.studio.tell(b"nonsense")
@@ -476,6 +526,35 @@ class Films(Page):
         self.commit("animate pose walker place=0.1,0,0 --frame 24")
         self.find('[data-key="camera.fov"]').send_keys(Keys.ARROW_UP, Keys.ENTER)
         self.commit("animate pose camera fov=41 --frame 24")
+
+    def test_a_new_actor_is_placed_beside_others_and_selected(self):
+        self.js("document.querySelector('[data-key=\"walker\"] > .row').click()")
+        self.find('[data-key="cast.model"]').send_keys("ball")
+        self.find('[data-key="cast.add"]').click()
+        self.commit("film add ball --model ball --beside 24")
+        ball = {**self.studio.project["actors"][0], "name": "ball", "joints": []}
+        self.studio.tell({"is": "project", **self.studio.project, "actors": [*self.studio.project["actors"], ball]})
+        self.studio.wait_for("select", actor="ball", joint=None)
+        self.assertEqual(self.find('[data-key="actor.name"]').get_attribute("value"), "ball")
+
+    def test_the_camera_is_cut_at_the_frame(self):
+        self.js("document.querySelector('[data-key=\"walker\"] > .row').click()")
+        self.find('[data-key="camera.cut"]').click()
+        self.commit("animate cut camera --frame 24")
+
+    def test_a_motion_lengthens_the_film_where_it_may(self):
+        walk = {"name": "walk", "purpose": "Walk", "group": "figure", "needs": "hips", "parameters": []}
+        self.studio.tell({"is": "actions", "actions": [walk]})
+        self.js("document.querySelector('[data-key=\"walker\"] > .row').click()")
+        self.js("[...document.querySelectorAll('[role=tab]')].find((each) => each.textContent === 'Motions').click()")
+        self.find("[data-motion=walk]").click()
+        self.assertTrue(self.find('[data-key="motion.lengthen"]').is_selected())
+        self.find('[data-key="motion.apply"]').click()
+        self.assertEqual(self.commit("animate walk walker")[-1], "--lengthen")
+        self.studio.forget()
+        self.find('[data-key="motion.lengthen"]').click()
+        self.find('[data-key="motion.apply"]').click()
+        self.assertNotIn("--lengthen", self.commit("animate walk walker"))
 
     def test_a_rendering_is_started_shown_and_stopped(self):
         self.chord(Keys.F9)

@@ -115,6 +115,30 @@ class Timeline(Page):
         self.press(Keys.DELETE)
         self.assertEqual(self.commands(), ["animate delete --all --frame 0-60"])
 
+    def choose(self, text):
+        self.until(lambda: self.js("return document.activeElement.role ?? ''").startswith("menuitem"))
+        [item] = [each for each in self.browser.find_elements(By.CSS_SELECTOR, ".menu button") if each.text == text]
+        item.click()
+
+    def test_keys_hold_and_many_are_reduced_to_few(self):
+        self.click("walker left-shin", 20)
+        self.press("e")
+        self.choose("Hold, then jump")
+        self.assertEqual(self.commands(), ["animate time walker left-shin --frame 20 --ease hold"])
+        self.studio.forget()
+        self.pull((self.x(-1), self.y("walker left-shin") - 8), (self.x(45), self.y("walker head") + 8))
+        self.press("t")
+        self.choose("Reduce\u2026")
+        self.press(Keys.CONTROL, "a", Keys.NULL, "0.5", Keys.ENTER)
+        self.assertEqual(self.commands(), ["animate reduce walker left-shin head --error 0.5 --frame 0-40"])
+        self.studio.forget()
+        self.find(".drawing").click()
+        self.press(Keys.CONTROL, "a")
+        self.press("t")
+        self.choose("Reduce\u2026")
+        self.press(Keys.ENTER)
+        self.assertEqual(self.commands(), ["animate reduce camera --error 1 --frame 0-60", "animate reduce walker --error 1 --frame 0-60"])
+
     def test_copies_are_put_at_the_frame_and_keys_inserted(self):
         self.click("walker head", 20)
         self.press(Keys.CONTROL, "c")

@@ -209,9 +209,11 @@ class Player {
     const auto end = static_cast<std::uint32_t>(last);
     in_line(line, [&] {
       // It stays as it is until the cut, or until it moves.
-      if (const std::uint32_t before = verb == "cut" ? at - 1 : at; verb == "move" || at > 0)
-        animator::make_keys(film_, meaning(), {false, kCamera, parts_of(settings)}, before,
-                            verb == "cut" ? animator::kLinear : animator::kBoth, animator::Beyond::refused);
+      const animator::Choice moved{false, kCamera, parts_of(settings)};
+      if (verb == "move")
+        animator::make_keys(film_, meaning(), moved, at, animator::kBoth, animator::Beyond::refused);
+      else if (at > 0)
+        animator::cut(film_, meaning(), moved, at);
       animator::pose(film_, meaning(), kCamera, settings, {end, end}, animator::kLinear, animator::Beyond::refused);
       return meaning().frames;
     });

@@ -37,7 +37,7 @@ export function castPart(controls) {
     const of = model.value.trim();
     if (of === "") return model.focus();
     const called = name.value.trim() || freeName(controls.project.actors, of.split("/").at(-1).replace(/\..*$/, ""));
-    controls.commit(["film", "add", called, "--model", of], event);
+    controls.edits.addActor(called, of, event);
   };
   return part("Add an actor", line("Model", model, list), line("Name", name),
               element("div", {class: "actions"}, element("button", {"data-key": "cast.add", onclick: add}, "Add")));
