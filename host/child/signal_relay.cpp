@@ -24,10 +24,9 @@ static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_alw
 // Nothing but system calls and the atomics above.
 void relay(int signal) {
   const int error = errno;
-  const pid_t group = relay_group;
   const bool again = relay_count++ > 0;
   if (!again) relay_first = signal;
-  if (group > 0) signal_group(group, again ? SIGKILL : signal);
+  if (const pid_t group = relay_group; group > 0) signal_group(group, again ? SIGKILL : signal);
   alarm(static_cast<unsigned>((again ? SignalRelay::kLongestOnceMore : SignalRelay::kLongest).count()));
   errno = error;
 }
@@ -73,9 +72,12 @@ SignalRelay::~SignalRelay() {
 int SignalRelay::count() const { return relay_count; }
 int SignalRelay::first() const { return relay_first; }
 
+// The group before what came, where the handler has what came before the group: so one of them sends it, also where
+// the signal is handled by another thread.
 void SignalRelay::relay_to(pid_t group) {
   relay_group = group;
-  if (const int came_before = relay_first; came_before != 0) signal_group(group, came_before);
+  if (const int came_before = relay_first; came_before != 0)
+    signal_group(group, relay_count > 1 ? SIGKILL : came_before);
 }
 
 void SignalRelay::forget_group() { relay_group = 0; }

@@ -30,7 +30,7 @@ class SignalRelay {
   int count() const;
   int first() const;
 
-  // `group`: the process group that gets the signals, also the one that came before this call.
+  // `group`: the process group that gets the signals, also those that came before this call: several as one SIGKILL.
   void relay_to(pid_t group);
 
   // The group is gone: signals go nowhere from now on.

@@ -61,7 +61,7 @@ def program_of(run):
 class Command(Study):
     @needs_matplotlib
     def test_a_study_and_its_report(self):
-        told = self.bench("scaling", TEAPOT, *SMALL, "--nodes", "1,2", "--mapping", "cost,greedy", "--dice", "4",
+        printed = self.bench("scaling", TEAPOT, *SMALL, "--nodes", "1,2", "--mapping", "cost,greedy", "--dice", "4",
                           "--repeats", "2", "-o", "study", *WHOLE)
         header, runs = self.runs("study")
         self.assertEqual((header["repeats"], header["seed"]), (2, 1))
@@ -71,7 +71,7 @@ class Command(Study):
         for run in runs:
             self.check(run)
         for title in ("teapot, strong, mapping cost\n", "teapot, weak, mapping greedy\n"):
-            self.assertIn(title, told)
+            self.assertIn(title, printed)
         self.check_page(self.page("study"))
         self.bench("scaling", "--read", "study/runs.jsonl", "-o", "again")
         self.assertEqual(self.page("again"), self.page("study"))
@@ -160,9 +160,9 @@ class Planted(Study):
         slow = os.path.join(self.planted("slow-node"), "bin", "mars")
         self.bench("scaling", TEAPOT, *SMALL, "--nodes", "2", "--against", slow, "--repeats", "8", "-o", "study", *WHOLE)
         header, runs = self.runs("study")
-        told = " ".join(findings.all_of(results.Results([(header, [run for run in runs if program_of(run) == "A"])])))
-        self.assertRegex(told, r"node 1 on \S+ is slow: it takes \d+\.\d\d times as long")
-        self.assertNotIn("node 0 on", told)
+        printed = " ".join(findings.all_of(results.Results([(header, [run for run in runs if program_of(run) == "A"])])))
+        self.assertRegex(printed, r"node 1 on \S+ is slow: it takes \d+\.\d\d times as long")
+        self.assertNotIn("node 0 on", printed)
 
 
 if __name__ == "__main__":

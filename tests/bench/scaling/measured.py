@@ -40,7 +40,7 @@ def run(nodes, repeat, chance, host_of=lambda node: "n1", times=lambda host, pha
 
 
 def quiet(chance, count):
-    """How many times as long each of so many runs takes by the clock, one after the other; as do the next three."""
+    """How many times as long each run takes by the clock, for a number of runs one after the other; as do the next three."""
     return numpy.ones(count)
 
 

@@ -346,9 +346,9 @@ class Machines(unittest.TestCase):
         self.assertEqual([self.slow(seed) for seed in range(20)], [[]] * 20)
 
     def test_the_report_says_whether_runs_sufficed(self):
-        told = lambda repeats: " ".join(findings.all_of(results.Results([measured.study(1, repeats=repeats, **FOUR_HOSTS)])))
-        self.assertIn("No machine of n1, n2, n3, n4 is slower", told(5))
-        self.assertIn("Too few runs on all of n1, n2, n3, n4", told(2))
+        findings_of = lambda repeats: " ".join(findings.all_of(results.Results([measured.study(1, repeats=repeats, **FOUR_HOSTS)])))
+        self.assertIn("No machine of n1, n2, n3, n4 is slower", findings_of(5))
+        self.assertIn("Too few runs on all of n1, n2, n3, n4", findings_of(2))
 
     def test_waiting_for_a_slow_machine_is_not_slow(self):
         self.assertEqual(self.slow(1, times=lambda host, phase: 9 if phase == "sum" and host != "n1" else 1), [])

@@ -99,7 +99,7 @@ def line(comparison):
 
 
 def count_called_different(pairs, kind, count, other):
-    """Prints each comparison. Returns how many of them told A and B apart."""
+    """Prints each comparison. Returns how many of them found A and B to differ."""
     found = 0
     for number in range(1, count + 1):
         comparison = pairs.compared(other)
