@@ -26,7 +26,8 @@ More: docs/animating.md.
 // What a person typed, of all the commands.
 struct Words {
   EditedFilm& film;
-  std::string thing{}, frame{}, ease{};
+  std::string thing{}, frame{};
+  std::optional<animator::Ease> ease{};
   std::vector<std::string> parts{};
   bool all = false, clamp = false, lengthen = false;
   std::uint32_t to = 0, hold = 0;
@@ -82,7 +83,8 @@ class Command {
     return *this;
   }
   Command& ease(const char* help) {
-    app_.add("--ease", words_.ease, help).type("EASE");
+    const auto read = [&words = words_](const std::string& word) { words.ease = animator::read_typed_ease(word); };
+    app_.add_read("--ease", read, help).type("EASE");
     return *this;
   }
   Command& to(const char* help) {
@@ -143,12 +145,11 @@ void add_pose(cli::Command animate, Words& words) {
   command.app().option("PART=NUMBERS").required();
   command.runs([&words] {
     const animator::FrameRange range = animator::read_frame_range(words.frame);
-    const auto ease = animator::read_typed_ease(words.ease);
     const auto beyond = words.clamp ? animator::Beyond::clamped : animator::Beyond::refused;
-    const bool plain = range.first == range.last && !ease && !words.lengthen;
+    const bool plain = range.first == range.last && !words.ease && !words.lengthen;
     if (plain && words.film.show_pose(words.thing, words.parts, range.first, beyond)) return;
     edit(words, [&](document::Json& json, const animator::Film& film) {
-      return animator::pose(json, film, words.thing, words.parts, range, ease, beyond);
+      return animator::pose(json, film, words.thing, words.parts, range, words.ease, beyond);
     });
   });
 }
@@ -163,8 +164,7 @@ void add_key(cli::Command animate, Words& words) {
   command.clamp().lengthen().runs([&words] {
     require_thing(words);
     edit(words, [&](document::Json& json, const animator::Film& film) {
-      return animator::make_keys(json, film, words.choice(), animator::read_frame(words.frame),
-                                 animator::read_typed_ease(words.ease),
+      return animator::make_keys(json, film, words.choice(), animator::read_frame(words.frame), words.ease,
                                  words.clamp ? animator::Beyond::clamped : animator::Beyond::refused);
     });
   });
@@ -199,8 +199,7 @@ animator::Remarks retime(const Words& words, cli::Command command, document::Jso
   if (command.given("--shift"))
     return animator::shift(json, film, words.choice(), animator::read_frame(words.frame), words.shift);
   if (command.given("--stretch")) return animator::stretch(json, film, words.choice(), range, words.stretch);
-  if (command.given("--ease"))
-    return animator::ease_keys(json, film, words.choice(), range, *animator::read_typed_ease(words.ease));
+  if (words.ease) return animator::ease_keys(json, film, words.choice(), range, *words.ease);
   return animator::ease_keys(json, film, words.choice(), range,
                              animator::swinging(words.anticipation / 100, words.overshoot / 100));
 }

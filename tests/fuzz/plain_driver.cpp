@@ -119,7 +119,8 @@ Wanted read_words(int argc, char** argv) {
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
-// The clock is read, and the time of inputs limited, only now and then.
+// The clock is read, and the time of inputs limited, only now and then. What is left of a short input is often nothing,
+// one input that the corpus has where it says something.
 void mutate(const Wanted& wanted, Clock::time_point begin) {
   Mutation mutation(wanted.seed);
   const auto some_input = [&]() -> const std::string& {
@@ -130,7 +131,8 @@ void mutate(const Wanted& wanted, Clock::time_point begin) {
     if (i % 16 == 0) limit_time();
     if (wanted.seconds > 0 && i % 16 == 0 && seconds_since(begin) > wanted.seconds) break;
     if (mutation.below(8) > 0) input = some_input();  // else changed further
-    input = kForm == Form::text ? mutation.of_text(input, some_input()) : mutation.of_bytes(input, some_input());
+    do input = kForm == Form::text ? mutation.of_text(input, some_input()) : mutation.of_bytes(input, some_input());
+    while (input.empty());
     run_one(input);
   }
 }

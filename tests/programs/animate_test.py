@@ -34,11 +34,11 @@ class Animate(ProgramTest):
     def actor(self):
         return json.loads((self.folder / "film.json").read_text())["actors"][0]
 
-    def refused(self, *words):
+    def refused(self, *words, code=1):
         """What is printed; the film stays, byte for byte."""
         before = (self.folder / "film.json").read_bytes()
         ended = self.animate(*words)
-        self.assertEqual(ended.returncode, 1, ended.stderr)
+        self.assertEqual(ended.returncode, code, ended.stderr)
         self.assertEqual((self.folder / "film.json").read_bytes(), before)
         self.assertEqual(len(ended.stderr.splitlines()), 1)
         return ended.stderr
@@ -250,10 +250,11 @@ class Animate(ProgramTest):
         self.assertIn("use one of --ease", self.refused("time", "robot", "--frame", 0))
         self.assertIn("is no frame", self.refused("key", "robot", "--frame", "twelve"))
         self.assertIn("ends before it begins", self.refused("delete", "robot", "--frame", "12-3"))
-        self.assertIn("did you mean 'both'", self.refused("time", "robot", "--frame", 0, "--ease", "boht"))
-        for typed, says in [("0.4,0,0.6", "has 3 numbers (write --ease 0.4,0,0.6,1)"), ("0.4,0,0.6,x", "is '0.4,0,0.6,x' ("),
+        for typed, says in [("", "is empty (write --ease 0.4,0,0.6,1)"), ("boht", "is 'boht' (did you mean 'both'?)"),
+                            ("0.4,0,0.6", "has 3 numbers (write --ease 0.4,0,0.6,1)"), ("0.4,0,0.6,x", "is '0.4,0,0.6,x' ("),
                             ("5,0,0.6,1", "is 5 (write a number from 0 to 1)")]:
-            self.assertIn("mars: --ease: " + says, self.refused("time", "robot", "--frame", 0, "--ease", typed))
+            self.assertIn("mars: --ease: " + says,
+                          self.refused("time", "robot", "--frame", 0, "--ease", typed, code=2))
         self.assertIn("camera, frame 3: has its eye where it looks at",
                       self.refused("pose", "camera", "at=0,0,0", "eye=0,0,0", "--frame", 3))
         self.assertIn("looks along its up vector", self.refused("pose", "camera", "eye=0,0,5", "--frame", 3))

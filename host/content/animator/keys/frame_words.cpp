@@ -47,24 +47,24 @@ std::uint32_t read_frame(const std::string& text) {
   return range.first;
 }
 
-std::optional<Ease> read_typed_ease(const std::string& text) {
-  if (text.empty()) return std::nullopt;
+Ease read_typed_ease(const std::string& text) {
+  if (text.empty()) throw Failure("is empty", "", kEaseRemedy);
   const bool named = std::isalpha(static_cast<unsigned char>(text[0]));
   const auto numbers = std::count(text.begin(), text.end(), ',') + 1;
   if (!named && numbers != 4)
-    throw Failure("has " + document::counted(static_cast<std::uint64_t>(numbers), "number"), "--ease", kEaseRemedy);
+    throw Failure("has " + document::counted(static_cast<std::uint64_t>(numbers), "number"), "", kEaseRemedy);
   const std::string json =
       R"({"ease": )" +
       (named ? document::Json(text).dump(-1, ' ', false, document::Json::error_handler_t::replace) : "[" + text + "]") +
       "}";
   if ((!named && text.find_first_not_of("+-.0123456789eE, ") != text.npos) || !document::Json::accept(json))
-    throw Failure("is '" + text + "'", "--ease", kEaseRemedy);
+    throw Failure("is '" + text + "'", "", kEaseRemedy);
   try {
     const document::Document document(json, "--ease");
     constexpr std::string_view names[] = {"ease"};
     return read_ease(document::Fields(document.root(), document::Keys{"option", names}));
   } catch (const Failure& failure) {
-    throw Failure(failure.problem, "--ease", failure.remedy);  // nobody has typed a line and a key
+    throw Failure(failure.problem, "", failure.remedy);  // nobody has typed a line and a key
   }
 }
 

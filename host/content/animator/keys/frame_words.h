@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 
 #include "host/content/animator/pose/ease.h"
@@ -17,7 +16,7 @@ std::string shown_range(FrameRange range);
 // "24".
 std::uint32_t read_frame(const std::string& text);
 
-// "both" or "0.4,0,0.6,1"; none of an empty text. Throws Failure about --ease.
-std::optional<Ease> read_typed_ease(const std::string& text);
+// "both" or "0.4,0,0.6,1". Throws Failure without a place.
+Ease read_typed_ease(const std::string& text);
 
 }  // namespace mars::animator
