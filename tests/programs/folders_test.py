@@ -2,12 +2,15 @@
 
 import json
 import os
+import re
+import shlex
 import shutil
 import signal
 import subprocess
 import time
 
-from harness import ENVIRONMENT, OWN_MPIRUN, PROGRAMS, SECONDS, ProgramTest, family, main, spinning_teapot, wait_until
+from harness import (ENVIRONMENT, EXAMPLES, OWN_MPIRUN, PROGRAMS, SECONDS, ProgramTest, family, main, spinning_teapot,
+                     wait_until)
 
 LONG = 30000  # frames: more than are rendered while a test looks on
 SMALL = ["--nodes", 1, "--backend", "threads", "--quiet"]
@@ -296,8 +299,67 @@ class GoingOn(ProgramTest):
         self.assertIn("24 frames, all there", self.succeed("mars", "verify", "out", "--repair"))
         (self.out / "frame-0003.png").unlink()
         (self.out / "film.mars").unlink()
-        self.assertClear(self.mars("verify", "out", "--repair").stderr, "has no film.mars of its frames")
         self.assertIn("--repair", self.mars("verify", "out", "--nodes", 2).stderr)
+
+    def advised(self, text):
+        """The command in what a program printed, run as it stands there."""
+        command = re.search(r"\bmars ((?:render|verify) [^;()\n]*)", text)[1]
+        return self.succeed("mars", *shlex.split(command))
+
+    def test_what_is_advised_makes_the_folder_whole(self):
+        asked = ["--size", "80x60", "--samples", 2, "--frames", "3,5-9"]
+        self.render(*asked)
+        expected = self.verified_hash("out")
+        for lost in (["frame-0005.png"], ["frame-0005.png", "frame-0006.png"],
+                     ["film.mars", "frame-0007.png"], ["film.mars", "frame-0003.png", "frame-0009.png"]):
+            with self.subTest(lost=lost):
+                for name in lost:
+                    (self.out / name).unlink()
+                self.assertIn("(render again: mars verify --repair out)", self.mars("verify", "out").stdout)
+                done = self.mars("verify", "--repair", "out")
+                self.assertEqual(done.returncode, 1 if "film.mars" in lost else 0)
+                if done.returncode != 0:
+                    self.assertClear(done.stderr, "has no film.mars, from which frames can be rendered again")
+                    self.advised(done.stderr)
+                self.assertEqual(self.verified_hash("out"), expected)
+
+    def test_frames_in_a_row_are_one_line(self):
+        self.render("--size", "80x60")
+        for frame in (2, 3, 4, 8):
+            (self.out / f"frame-{frame:04}.png").unlink()
+        self.assertEqual(self.mars("verify", "out").stdout, "frames 2-4: missing\nframe 8: missing\n"
+                         "4 of 24 frames are missing or wrong (render again: mars verify --repair out)\n")
+
+    def test_the_manifest_of_another_folder(self):
+        self.render("--size", "80x60")
+        expected = self.verified_hash("out")
+        other = self.write("other.json", {**spinning_teapot(24, [80, 60]), "background": [1, 0, 0]})
+        self.succeed("mars-threads", other, "-o", "other")
+        shutil.copy(self.folder / "other/frames.json", self.out)
+        self.assertClear(self.mars("verify", "--repair", "out").stderr,
+                         f"is of another film than film.mars is, {other} (if it is another folder's, remove it")
+        (self.out / "frames.json").unlink()
+        self.succeed("mars", "verify", "--repair", "out")
+        self.assertEqual(self.verified_hash("out"), expected)
+
+    def test_what_options_change_is_not_the_film_that_changed(self):
+        film = EXAMPLES / "cubes.json"
+        self.render("--size", "80x60", film=film)
+        printed = self.render("--size", "80x60", "--intervals", "keyframes", film=film)
+        self.assertIn("cubes.json is asked for with other options: frame 48 is to be rendered again", printed)
+
+    def test_frames_that_are_listed_no_more_are_counted(self):
+        self.render("--size", "80x60")
+        other = self.write("other.json", spinning_teapot(3, [80, 60]))
+        printed = self.render("--overwrite", film=other)
+        self.assertIn(f"frames.json lists no more frames 3-23 of {self.film}, whose files stay\n", printed)
+
+    def test_a_forgotten_option_is_named(self):
+        self.render("--size", "80x60", "--samples", 2)
+        (self.out / "film.mars").unlink()
+        refused = self.render(code=1)
+        self.assertClear(refused, "they were rendered by: mars render ")
+        self.assertIn(" --size 80x60 --samples 2 -o out; else", refused)
 
     def test_pieces_that_start_at_once(self):
         runs = [subprocess.Popen([PROGRAMS / "mars-threads", self.film, "-o", "out", "--nodes", "1", "--frames",

@@ -68,12 +68,12 @@ void add_kept_frames(const sinks::Manifest& there, const Edit& edit, sinks::Mani
 }
 
 std::string edit_text(const sinks::Manifest& there, const Edit& edit, const film::CompiledFilm& now,
-                      const std::string& film) {
+                      const std::string& what) {
   const wire::FilmView view = now.view();
   Numbers again;
   std::ranges::copy_if(edit.frames, std::back_inserter(again),
                        [&](std::uint32_t frame) { return !sinks::hash_of(there, frame).empty(); });
-  std::string text = film + " has changed: ";
+  std::string text = what + ": ";
   if (again.empty()) {
     text += "all frames that are there stay";
   } else {
@@ -84,6 +84,14 @@ std::string edit_text(const sinks::Manifest& there, const Edit& edit, const film
   if (!there.frames.empty() && there.frames.back() >= frames)
     text += "; the film ends before frame " + std::to_string(frames) + " now, files of later frames stay";
   return text;
+}
+
+std::string unlisted_text(const sinks::Manifest& there, const sinks::Manifest& now) {
+  Numbers gone;
+  std::ranges::set_difference(there.frames, now.frames, std::back_inserter(gone));
+  if (gone.empty()) return "";
+  return "frames.json lists no more " + list_text(gone, "frame") + " of " + sinks::film_text(there) +
+         ", whose files stay";
 }
 
 }  // namespace mars::resume

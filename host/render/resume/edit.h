@@ -22,8 +22,12 @@ Edit edit_of(const film::CompiledFilm& before, const film::CompiledFilm& now, co
 // The hashes of frames that stay, added to those of `all`, which is the manifest of the film as it is now.
 void add_kept_frames(const sinks::Manifest& there, const Edit& edit, sinks::Manifest& all);
 
-// "film.json has changed: frames 24-35 are to be rendered again (interval 3 of 6)", of frames that had been rendered.
+// "film.json has changed: frames 24-35 are to be rendered again (interval 3 of 6)", of frames that had been rendered;
+// `what`: "film.json has changed".
 std::string edit_text(const sinks::Manifest& there, const Edit& edit, const film::CompiledFilm& now,
-                      const std::string& film);
+                      const std::string& what);
+
+// "frames.json lists no more frames 3-8 of walk.json, whose files stay"; "": it lists all that it had.
+std::string unlisted_text(const sinks::Manifest& there, const sinks::Manifest& now);
 
 }  // namespace mars::resume

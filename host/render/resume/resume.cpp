@@ -7,6 +7,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/document/checksum.h"
+#include "host/content/document/shell_word.h"
 #include "host/content/film/film_file.h"
 #include "host/render/resume/edit.h"
 #include "host/render/resume/sources.h"
@@ -46,6 +47,13 @@ std::optional<film::CompiledFilm> load_kept_film(const std::string& folder, cons
   return std::nullopt;
 }
 
+bool is_sound_film(const fs::path& file) try {
+  film::load_compiled_film(file);
+  return true;
+} catch (const Failure&) {
+  return false;
+}
+
 bool are_of_one_folder(const std::optional<Manifest>& a, const std::optional<Manifest>& b) {
   return a.has_value() == b.has_value() && (!a || sinks::are_of_one_folder(*a, *b));
 }
@@ -74,9 +82,14 @@ Failure other_pixels(const Manifest& there, const Wish& wish) {
 
 // It cannot be compared.
 void refuse_unknown_film(const Manifest& there, const Wish& wish) {
-  throw Failure("the frames in this folder are of another film, or of another version of it, " + film_text(there) +
-                    ", and film.mars, which would tell, is not there or not sound",
-                wish.folder, "give another folder with -o, or replace them with --overwrite");
+  throw Failure(
+      "the frames in this folder are of another film, or of another version of it, " + film_text(there) +
+          ", and film.mars, which would tell, is not there or not sound",
+      wish.folder,
+      (there.options == wish.options
+           ? ""
+           : "they were rendered by: " + command_for(wish.folder, there, film::FrameSet(there.frames)) + "; else ") +
+          std::string("give another folder with -o, or replace them with --overwrite"));
 }
 
 // They would be lost.
@@ -189,8 +202,23 @@ class Opening {
         wish_.folder, wanted, [&](const std::optional<Manifest>& there) { return go_on(there, wanted); }, bounds_);
     std::vector<std::uint32_t> frames = folder->frames();
     if (frames.empty()) folder.reset();
-    std::string changed = edit_ && !wish_.overwrite ? edit_text(*seen_, *edit_, film(), wish_.film) : "";
+    std::string changed = changed_text(wanted);
     return {std::move(kept_ ? *kept_ : *compiled_), std::move(folder), asked, std::move(frames), std::move(changed)};
+  }
+
+  // A line about what becomes of frames that are there; "": nothing that is not asked for.
+  std::string changed_text(const Manifest& wanted) const {
+    if (!seen_) return "";
+    if (!wish_.overwrite) return edit_ ? edit_text(*seen_, *edit_, film(), what_differs()) : "";
+    Manifest listed = wanted;
+    listed.pixel_hashes.assign(listed.frames.size(), "");
+    keep_frames(*seen_, listed);
+    return unlisted_text(*seen_, listed);
+  }
+
+  std::string what_differs() const {
+    const bool only_options = seen_->options != wish_.options && are_unchanged(seen_->sources);
+    return wish_.film + (only_options ? " is asked for with other options" : " has changed");
   }
 
   sinks::Continuation go_on(const std::optional<Manifest>& there, const Manifest& wanted) const {
@@ -238,9 +266,22 @@ std::optional<std::uint32_t> count_if_complete(const Wish& wish) try {
   return std::nullopt;
 }
 
-bool keeps_its_film(const std::string& folder) {
-  const std::optional<Manifest> there = sinks::read_frames_json(folder);
-  return there && load_kept_film(folder, *there);
+std::string command_for(const std::string& folder, const Manifest& there, const film::FrameSet& frames) {
+  std::string line = "mars render " + document::shell_word(there.sources.empty() ? there.film : there.sources[0].path);
+  for (const std::string& option : there.options) line += " " + document::shell_word(option);
+  if (there.format != images::PictureFormat::png) line += " --format " + format_name(there.format);
+  if (frames.of_film(there.film_frames).size() < there.film_frames) line += " --frames " + frames.text();
+  return line + " -o " + document::shell_word(folder);
+}
+
+void require_kept_film(const std::string& folder, const Manifest& there, const film::FrameSet& frames) {
+  if (load_kept_film(folder, there)) return;
+  const std::string remedy = "render them from its file: " + command_for(folder, there, frames);
+  if (!is_sound_film(kept_film(folder)))
+    throw Failure("has no film.mars, from which frames can be rendered again", folder, remedy);
+  throw Failure("frames.json is of another film than film.mars is, " + film_text(there), folder,
+                "if it is another folder's, remove it: --repair makes it again from film.mars and the frames; else " +
+                    remedy);
 }
 
 Opened open(const Wish& wish, const std::function<film::CompiledFilm()>& compile,

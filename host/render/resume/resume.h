@@ -35,8 +35,12 @@ struct Wish {
 // without compiling the film, or from this machine.
 std::optional<std::uint32_t> count_if_complete(const Wish& wish);
 
-// Whether the folder keeps the film that its frames show.
-bool keeps_its_film(const std::string& folder);
+// A command line that renders these frames of the folder as those that are there were rendered.
+std::string command_for(const std::string& folder, const sinks::Manifest& there, const film::FrameSet& frames);
+
+// Throws Failure, which says how to get `frames` all the same, where the folder does not keep the film that its
+// manifest names.
+void require_kept_film(const std::string& folder, const sinks::Manifest& there, const film::FrameSet& frames);
 
 struct Opened {
   film::CompiledFilm film;

@@ -4,11 +4,14 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "hal/failure/failure.h"
 #include "host/child/programs.h"
+#include "host/content/document/shell_word.h"
+#include "host/content/document/text.h"
 #include "host/content/film/frame_set.h"
 #include "host/render/resume/resume.h"
 #include "host/render/sinks/verify.h"
@@ -41,15 +44,34 @@ void print_missing(const sinks::Verdict& verdict) {
   if (!verdict.troubles.empty()) std::cout << frames_of(verdict).text() << '\n';
 }
 
+// "frame 7: missing", "frames 104-347: missing": each line of frames that follow one another.
+void print_troubles(std::span<const sinks::Verdict::Trouble> troubles) {
+  while (!troubles.empty()) {
+    std::vector<std::uint32_t> frames;
+    for (const auto& [frame, reason] : troubles) {
+      if (reason != troubles[0].reason || frame != troubles[0].frame + frames.size()) break;
+      frames.push_back(frame);
+    }
+    std::cout << (frames.size() == 1 ? "frame " : "frames ") << film::FrameSet(frames).text() << ": "
+              << troubles[0].reason << '\n';
+    troubles = troubles.subspan(frames.size());
+  }
+}
+
+std::string count_text(const sinks::Verdict& verdict) {
+  return std::to_string(verdict.troubles.size()) + " of " + document::counted(verdict.expected, "frame") +
+         (verdict.troubles.size() == 1 ? " is missing or wrong" : " are missing or wrong");
+}
+
 // Returns the exit code.
-int print_verdict(const sinks::Verdict& verdict) {
-  for (const sinks::Verdict::Trouble& trouble : verdict.troubles)
-    std::cout << "frame " << trouble.frame << ": " << trouble.reason << '\n';
+int print_verdict(const sinks::Verdict& verdict, const std::string& folder) {
   if (!verdict.troubles.empty()) {
-    std::cout << verdict.troubles.size() << " of " << verdict.expected << " frames are missing or wrong\n";
+    print_troubles(verdict.troubles);
+    std::cout << count_text(verdict) << " (render again: mars verify --repair " << document::shell_word(folder)
+              << ")\n";
     return cli::kFailed;
   }
-  std::cout << verdict.expected << " frames, all there";
+  std::cout << document::counted(verdict.expected, "frame") << ", all there";
   std::cout << (verdict.compared ? " and whole" : "; frames.json has no pixel hashes, so pixels were not compared");
   if (verdict.expected < verdict.film_frames) std::cout << " (the film has " << verdict.film_frames << ")";
   std::cout << '\n';
@@ -61,18 +83,16 @@ int print_verdict(const sinks::Verdict& verdict) {
 void repair(const sinks::Verdict& verdict, options::RenderOptions render) {
   render.frames = frames_of(verdict);
   const std::string& folder = render.folder;
-  if (!resume::keeps_its_film(folder))
-    throw Failure("has no film.mars of its frames, from which they can be rendered again", folder,
-                  "render them with: mars render FILM -o DIR --overwrite --frames " + render.frames.text());
   const sinks::Manifest manifest = sinks::read_manifest(folder);
+  resume::require_kept_film(folder, manifest, render.frames);
   if (manifest.pixel_version != wire::kPixelVersion)
-    throw Failure("its frames were rendered by a MARS that draws other pixels, which this one would mix with its own",
-                  folder, "render all with: mars render FILM -o DIR --overwrite");
+    throw Failure(
+        "its frames were rendered by a MARS that draws other pixels, which this one would mix with its own", folder,
+        "render all with: " + resume::command_for(folder, manifest, film::FrameSet(manifest.frames)) + " --overwrite");
   render.film = std::filesystem::path(folder) / sinks::kFilmName;
   render.format = manifest.format;
   sinks::remove_wrong_files(folder, verdict);
-  if (!render.quiet)
-    std::cout << verdict.troubles.size() << " of " << verdict.expected << " frames are missing or wrong" << std::endl;
+  if (!render.quiet) std::cout << count_text(verdict) << std::endl;
   launch::launch_render(render, child::own_file(), doctor::adviser(child::own_file()));
 }
 
@@ -101,7 +121,7 @@ void add_verify(cli::Command app, int& code) {
       repair(verdict, words->render);
       verdict = sinks::verify_folder(words->render.folder);
     }
-    code = print_verdict(verdict);
+    code = print_verdict(verdict, words->render.folder);
   });
 }
 

@@ -90,7 +90,10 @@ Failure stopped(const Remains& remains, const options::RenderOptions& options) {
   return Failure("stopped by " + std::string(strsignal(remains.passed_on)) + " after " +
                      std::to_string(remains.progress.done()) + " of " + std::to_string(remains.progress.of()) +
                      " frames",
-                 options.folder, "");
+                 options.folder,
+                 options.folder.empty() ? ""
+                 : options.overwrite    ? "the same command without --overwrite goes on"
+                                        : "the same command goes on");
 }
 
 Diagnosis diagnose(const Remains& remains, const options::RenderOptions& options, const Advice& advice) {

@@ -58,6 +58,7 @@ std::string progress_text(const events::Progress& progress) {
 
 std::string resumed_text(const events::Resumed& resumed) {
   const bool all = resumed.there == resumed.of;
+  if (resumed.there == 0 && !resumed.changed.empty()) return resumed.changed;
   const std::string changed = resumed.changed.empty() ? "" : resumed.changed + "\n";
   return changed + std::to_string(resumed.there) + " of " + document::counted(resumed.of, "frame") +
          (resumed.of == 1 ? " is" : " are") + " there already" + (all ? ": nothing is left to render" : "");

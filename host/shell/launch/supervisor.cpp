@@ -130,8 +130,9 @@ void Supervisor::choose_machines(std::chrono::seconds pause) {
   const std::string host_before = chosen_.use.empty() ? names.front() : chosen_.use.front().host;
   chosen_ = machines_->choose(answering);
   if (chosen_.use.empty())
-    throw Failure("none of the machines answers: " + document::joined(names) + "; " + account(), options_.folder,
-                  "the same command goes on once they do");
+    throw Failure("none of the machines answers: " + document::joined(names) +
+                      (frames_.of() > 0 ? "; " + account() : ""),
+                  options_.folder, "check their names, and that ssh NAME true works; the same command goes on then");
   const std::string& host = chosen_.use.front().host;
   if (host == host_before) return;
   host_moved_ = true;

@@ -343,7 +343,7 @@ TEST_F(Resume, TheKeptFilmIsTakenWhateverBecomesOfItsFiles) {
   render(wish(), 5);
   Wish kept = wish();
   kept.kept_film = true;
-  for (const std::string text : {film_text(12, 3), film_text(12).substr(0, 100), std::string()}) {
+  for (const std::string& text : {film_text(12, 3), film_text(12).substr(0, 100), std::string()}) {
     if (text.empty())
       fs::remove(folder_ / "film.json");
     else

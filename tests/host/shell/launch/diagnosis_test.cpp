@@ -36,7 +36,7 @@ TEST(Diagnosis, APersonWhoStopsItKnowsWhy) {
   Remains remains = failed_with({"mars: abort", "noise"});
   remains.passed_on = SIGINT;
   remains.progress.keyframes = {2, 3, 1};
-  EXPECT_EQ(message(remains), "out: stopped by Interrupt after 2 of 3 frames");
+  EXPECT_EQ(message(remains), "out: stopped by Interrupt after 2 of 3 frames (the same command goes on)");
 }
 
 TEST(Diagnosis, OfAKilledRank) {
