@@ -93,6 +93,8 @@ void Studio::handle_message(PageNumber page, const Json& message) {
   answer_failure(page, message, [&] { step_done = execute(page, message); });
   answer_failure(page, message, [&] {
     for (const std::string& remark : project_->take_remarks()) pages_.tell(page, {{"is", "said"}, {"text", remark}});
+    if (const Json done = project_->take_commands(); !done.empty())
+      pages_.tell(page, {{"is", "done"}, {"commands", done}});
     if (project_->in_gesture() && shown() != before) gesture_of_ = page;
     announce(before, step_done);
   });

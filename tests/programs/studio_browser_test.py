@@ -393,6 +393,8 @@ class FilmTest(StudioInBrowser):
         self.no_banner("connection")
         self.until("pictures of all views", f"window.seen.painted >= {painted + 4}")
         self.changed_by(lambda: self.browser.drag(at, (at[0] + 40, at[1] + 20)))
+        self.until("the drag as a command", "document.querySelector('.commands code').textContent.startsWith("
+                   "'mars animate film.json pose ')")
         self.no_complaint("WebSocket connection")
         self.assertEqual(studio.end(), (0, ""))
 

@@ -12,7 +12,6 @@ export class Edits {
   }
 
   #previews = false;
-  onCommit = () => {};  // hears each step
   unanswered = new Unanswered();
 
   preview(step, event) {
@@ -25,7 +24,6 @@ export class Edits {
     this.unanswered.add(step, this.state);
     this.pace.drop("preview");
     this.pace.now({do: "commit", step}, event ?? kNoEvent);
-    this.onCommit(step);
   }
 
   cancel() {

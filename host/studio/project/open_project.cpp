@@ -82,6 +82,7 @@ class FileProject : public Project {
     return work_->control_points(joint);
   }
   std::vector<std::string> take_remarks() override { return std::exchange(remarks_, {}); }
+  std::vector<editing::Command> take_commands() override { return std::exchange(commands_, {}); }
 
   void set_frame(std::uint32_t frame) override {
     frame = std::min(frame, film().frames - 1);
@@ -123,6 +124,7 @@ class FileProject : public Project {
       throw;
     }
     work_->keep();
+    commands_ = commands_of(step);
   }
 
   void undo() override {
@@ -361,6 +363,7 @@ class FileProject : public Project {
   std::uint64_t revision_ = 1, keys_revision_ = 1;
   std::optional<Problem> problem_;
   std::vector<std::string> remarks_;
+  std::vector<editing::Command> commands_;
 };
 
 bool is_model(const document::Element& root) {

@@ -17,6 +17,7 @@
 #include "host/content/animator/pose/film.h"
 #include "host/content/document/json_file.h"
 #include "host/content/modeler/edit_shapes.h"
+#include "host/editing/command.h"
 #include "host/studio/project/animation.h"
 
 namespace mars::studio {
@@ -66,6 +67,8 @@ class Project {
   virtual std::vector<modeler::ControlPoint> control_points(const std::string& /*joint*/) const { return {}; }
   // For the person, about the last step: what was mirrored, clamped. Each once.
   virtual std::vector<std::string> take_remarks() { return {}; }
+  // The commands that do what the last step did that was committed, a page's or a hand's. Each once.
+  virtual std::vector<editing::Command> take_commands() { return {}; }
 
   // Looks whether somebody else changed the files: true if something changed here (the film, or the problem).
   virtual bool look_at_files() = 0;

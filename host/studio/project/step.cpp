@@ -84,4 +84,10 @@ Step read_step(const Json& json) {
   refuse("is no step", "what the page says", "write one of commands, script and pose");
 }
 
+std::vector<editing::Command> commands_of(const Step& step) {
+  if (const auto* commands = std::get_if<CommandsStep>(&step)) return commands->commands;
+  if (const auto* script = std::get_if<ScriptStep>(&step)) return {{"animate", "script", script->name, "--lengthen"}};
+  return {};
+}
+
 }  // namespace mars::studio

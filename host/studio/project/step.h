@@ -37,6 +37,9 @@ std::string checked_script_name(const std::string& name);
 // Throws Failure.
 Step read_step(const Json& json);
 
+// The commands that do the same; none of a pose for trying out.
+std::vector<editing::Command> commands_of(const Step& step);
+
 // What it does, as people would name it in a history: "turn left-knee".
 std::string name_of(const Step& step);
 

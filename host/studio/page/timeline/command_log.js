@@ -3,19 +3,19 @@
 import {element} from "../dom.js";
 import {icon} from "../icons.js";
 import {openPopover} from "../popover.js";
-import {commandsOf, typed} from "./typed.js";
+import {typed} from "./typed.js";
 
 const kKept = 100;
 
 export class CommandLog {
   #lines = [];
 
-  constructor({edits, state}) {
+  constructor({connection, state}) {
     this.state = state;
     this.last = element("code", {});
     this.root = element("button", {class: "quiet commands", "data-key": "commands", title: "What would be typed",
                                    onclick: () => this.#open()}, icon("prompt"), this.last);
-    edits.onCommit = (step) => this.#add(commandsOf(step));
+    connection.on("done", ({commands}) => this.#add(commands));
     this.#show();
   }
 

@@ -5,9 +5,3 @@ export function typed([program, ...words], film) {
   const quoted = (word) => /^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
   return ["mars", program, film, ...words].map(quoted).join(" ");
 }
-
-// Of a step; nothing where it is no command's, as a model's pose for trying out.
-export function commandsOf(step) {
-  if (step.script) return [["animate", "script", step.script.name, "--lengthen"]];
-  return step.commands ?? [];
-}

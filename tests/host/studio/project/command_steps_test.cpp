@@ -122,6 +122,19 @@ TEST_F(CommandSteps, SayWhatCommandsSay) {
   EXPECT_TRUE(project->take_remarks().empty());
 }
 
+TEST_F(CommandSteps, AreHandedOverOnceTheyAreInTheFile) {
+  const auto project = open("film.json");
+  project->preview(step_of(kSteps[0]));
+  EXPECT_TRUE(project->take_commands().empty());
+  project->commit(step_of(kSteps[0]));
+  EXPECT_EQ(project->take_commands(), kSteps[0]);
+  EXPECT_TRUE(project->take_commands().empty());
+  refusal([&] { project->commit(step_of({{"film", "add", "nobody", "--model", "mann"}})); });
+  EXPECT_TRUE(project->take_commands().empty());
+  project->commit(Json{{"script", {{"name", "a.script"}, {"text", "at 0 one spin degrees 90 until 5\n"}}}});
+  EXPECT_EQ(project->take_commands(), (std::vector<Command>{{"animate", "script", "a.script", "--lengthen"}}));
+}
+
 TEST_F(CommandSteps, AreRefusedWholeWhereOneIsWrong) {
   const auto project = open("film.json");
   const auto refused = [&](const Json& commands) {
