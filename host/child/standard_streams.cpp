@@ -3,12 +3,15 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <iostream>
 #include <mutex>
 #include <streambuf>
 #include <string>
 #include <string_view>
 
+#include "hal/failure/failure.h"
 #include "hal/failure/plain_text.h"
 
 namespace mars::child {
@@ -76,6 +79,13 @@ void prepare_standard_streams() {
   open_those_closed();
   pass_on_plain_text(std::cout, raw_output());
   pass_on_plain_text(std::cerr, raw_error());
+}
+
+void finish_output() {
+  errno = 0;
+  if (std::cout.flush()) return;
+  throw Failure(std::string("cannot be written") + (errno != 0 ? std::string(": ") + std::strerror(errno) : ""),
+                "standard output", "see where it goes");
 }
 
 }  // namespace mars::child

@@ -11,6 +11,9 @@ namespace mars::child {
 // other machines cannot act on a terminal.
 void prepare_standard_streams();
 
+// To end a program with: what was printed is written. Throws Failure where it cannot be.
+void finish_output();
+
 // The same streams for what moves a terminal's cursor: foreign text in it has to be made plain by its writer.
 std::ostream& raw_output();
 std::ostream& raw_error();

@@ -1,6 +1,7 @@
 #include "host/editing/film_in_memory.h"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "hal/failure/failure.h"
@@ -19,6 +20,7 @@ namespace fs = std::filesystem;
 using document::Json;
 
 constexpr std::uintmax_t kLargestScript = 1 << 20;
+constexpr std::chrono::seconds kLongestStep{10};
 
 // Reads the film from a text that is quickly made; where it is wrong, from one whose lines are the file's.
 template <typename Read>
@@ -38,8 +40,14 @@ animator::Film meaning_of(const Json& json, const fs::path& path, Read read) {
 FilmInMemory::FilmInMemory(Json& json, animator::Film& film, fs::path path, fs::path folder)
     : json_(json), film_(film), path_(std::move(path)), folder_(std::move(folder)) {}
 
+// Each command has a bound of its own; many must not keep others waiting for their sum.
 void FilmInMemory::execute(std::span<const Command> commands) {
-  for (const Command& command : commands) execute(command);
+  const auto begun = std::chrono::steady_clock::now();
+  for (const Command& command : commands) {
+    if (std::chrono::steady_clock::now() - begun > kLongestStep)
+      throw Failure("take longer together than one step may", "these commands", "give them in several steps");
+    execute(command);
+  }
 }
 
 // Of the many words only those that it may need are made, which takes longer than to execute most of them.

@@ -125,7 +125,9 @@ int main(int argc, char** argv) {
   mars::child::prepare_standard_streams();
   std::signal(SIGXFSZ, SIG_IGN);  // beyond ulimit -f a write fails then, and MARS says so
   try {
-    return mars::launch::exit_code(run(argc, argv));
+    const int code = run(argc, argv);
+    mars::child::finish_output();
+    return mars::launch::exit_code(code);
   } catch (const std::exception& failure) {
     std::cerr << "mars: " << mars::reason_of(failure) << '\n';
     return mars::launch::exit_code(mars::cli::kFailed);

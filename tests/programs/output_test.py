@@ -27,6 +27,37 @@ class Output(ProgramTest):
             self.assertIn('"event":"done"', events)
             self.assertEqual(self.verified_hash("a b"), expected)
 
+    def test_what_cannot_be_printed_is_a_failure(self):
+        self.succeed("mars", "render", TEAPOT, "-o", "out", "--quiet")
+        for words in (["verify", "out"], ["info", TEAPOT], ["keys"], ["--help"]):
+            with open("/dev/full", "w") as full:
+                done = subprocess.run([PROGRAMS / "mars", *words], stdout=full, stderr=subprocess.PIPE, text=True,
+                                      env=ENVIRONMENT, cwd=self.folder)
+            self.assertEqual(done.returncode, 1, words)
+            self.assertClear(done.stderr, "standard output: cannot be written: No space left on device")
+
+    def test_nothing_is_written_over_what_is_read(self):
+        film = self.write("film.json", {**spinning_teapot(2, [40, 30]), "models": {"box": "box.json"},
+                                        "actors": [{"name": "box", "model": "box"}]})
+        self.succeed("mars", "model", "box.json", "new", "--figure", "box")
+        (self.folder / "link.json").symlink_to("film.json")
+        (self.folder / "link.mars").symlink_to("box.json")
+        (self.folder / "link.png").symlink_to("film.json")
+        render = ["render", film, "-o", "out", "--backend", "threads", "--overwrite"]
+        self.succeed("mars", *render)
+        before = {path: path.read_bytes() for path in self.folder.rglob("*") if path.is_file()}
+        for words in ([*render, "--report", film], [*render, "--trace", "link.json"], [*render, "--report", "box.json"],
+                      [*render, "--report", "out/frames.json"], [*render, "--trace", "out/frame-0001.png"],
+                      [*render, "--trace", "./out/film.mars"], ["compile", film, "-o", "link.mars"],
+                      ["preview", film, "-o", "link.png"], ["plot", film, "-o", "link.png"]):
+            with self.subTest(words=words):
+                done = self.mars(*words)
+                self.assertEqual(done.returncode, 1)
+                self.assertRegex(done.stderr, "is the file that is read|is the name of a file that the folder of frames keeps")
+                for name in ("film.json", "box.json", "out/frame-0001.png"):
+                    self.assertEqual((self.folder / name).read_bytes(), before[self.folder / name])
+        self.assertClear(self.mars(*render, "--report", "r", "--trace", "r").stderr, "for the report and for the trace")
+
     def test_plain_lines_in_a_pipe(self):
         film = self.write("film.json", spinning_teapot(1500, [160, 90]))
         printed = self.succeed("mars", "render", film, "-o", "out", "--nodes", 1, "--backend", "threads",

@@ -207,6 +207,20 @@ class StudioTest(ProgramTest):
                 self.assertEqual((code, errors), (0, ""))
                 self.assertLess(seconds, 3)
 
+    def test_signals_end_it_in_the_middle_of_a_step(self):
+        for signals, longest in ((1, 8), (2, 3)):
+            with self.subTest(signals=signals), Studio(self.folder, "--port", "0") as studio, Page(studio.link) as page:
+                page.hear("state")
+                page.say(do="commit", step={"set": "long"})
+                time.sleep(0.5)
+                for _ in range(signals - 1):
+                    studio.process.send_signal(signal.SIGTERM)
+                    time.sleep(0.5)
+                code, errors, seconds = studio.end()
+                self.assertEqual(code, 1)
+                self.assertEqual(errors, "mars: the studio ends in the middle of a step, which is not done\n")
+                self.assertLess(seconds, longest)
+
 
 class StartTest(ProgramTest):
     def refused(self, *arguments):

@@ -13,8 +13,6 @@
 namespace mars::document {
 namespace {
 
-constexpr std::uintmax_t kLargestFile = std::uintmax_t{1} << 30;
-
 // Walks the text for the parser and knows how far it has come.
 struct Reader {
   using value_type = char;
@@ -228,13 +226,13 @@ Document::Document(std::string_view json, std::string name) : name_(std::move(na
 }
 
 Document read_document(const std::filesystem::path& path) {
-  return Document(read_file(path, kLargestFile), path.string());
+  return Document(read_file(path, kLargestDocument), path.string());
 }
 
 Document read_document(const Element& name, const std::filesystem::path& path) {
   std::string text;
   try {
-    text = read_file(path, kLargestFile);
+    text = read_file(path, kLargestDocument);
   } catch (const Failure& failure) {
     throw Failure(failure.problem, name.where() + ": " + failure.where, failure.remedy);
   }

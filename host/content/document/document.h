@@ -15,7 +15,8 @@
 
 namespace mars::document {
 
-inline constexpr std::size_t kMaxDepth = 64;  // of lists and objects within each other
+inline constexpr std::uintmax_t kLargestDocument = std::uintmax_t{1} << 30;  // bytes of its file
+inline constexpr std::size_t kMaxDepth = 64;                                 // of lists and objects within each other
 inline constexpr std::size_t kMaxElements = 60'000'000;
 inline constexpr std::size_t kMaxText = 4096;  // bytes of one string or key
 

@@ -2,6 +2,8 @@
 
 #include <sys/stat.h>
 
+#include "host/content/document/whole_file.h"
+
 namespace mars::document {
 namespace {
 
@@ -24,7 +26,13 @@ FileStamp stamp_of(const std::filesystem::path& path) {
 }
 
 void RecordedReads::record(const std::filesystem::path& path) {
-  if (innermost_ != nullptr && !innermost_->stamps_.contains(path)) innermost_->stamps_.emplace(path, stamp_of(path));
+  for (RecordedReads* each = innermost_; each != nullptr; each = each->outer_)
+    if (!each->stamps_.contains(path)) each->stamps_.emplace(path, stamp_of(path));
+}
+
+void RecordedReads::refuse_output(const std::filesystem::path& output) const {
+  for (const auto& [path, stamp] : stamps_)
+    if (stamp.exists) refuse_same_file(path, output);
 }
 
 }  // namespace mars::document

@@ -26,7 +26,7 @@ FileStamp stamp_of(const std::filesystem::path& path);
 
 using FileStamps = std::map<std::filesystem::path, FileStamp>;
 
-// While it lives, records what this thread reads through file.h, also in vain.
+// While it lives, records what this thread reads through file.h, also in vain; others that live longer record it, too.
 class RecordedReads {
  public:
   RecordedReads() : outer_(innermost_) { innermost_ = this; }
@@ -36,6 +36,9 @@ class RecordedReads {
 
   // As they stood before they were read for the first time.
   const FileStamps& stamps() const { return stamps_; }
+
+  // Throws Failure where `output` is one of the files that were read: writing it would destroy what it is made of.
+  void refuse_output(const std::filesystem::path& output) const;
 
   // For readers, before they look at a file.
   static void record(const std::filesystem::path& path);

@@ -16,6 +16,7 @@
 #include "host/content/document/file.h"
 #include "host/content/document/text.h"
 #include "host/content/importer/assimp_matrix.h"
+#include "host/content/importer/gltf_bounds.h"
 #include "host/content/importer/gltf_skins.h"
 #include "host/content/importer/joint_frame.h"
 #include "host/content/importer/material_reader.h"
@@ -71,6 +72,7 @@ struct FileItself {
     const std::string bytes = document::read_file(path, kLargestMeshFile);
     Tree gltf;
     if (is_gltf(kind)) gltf = gltf_json(bytes, kind);
+    require_within_buffers(path, gltf);
     promised = promised_by(path, kind, bytes, gltf);
     if (is_gltf(kind)) skins = gltf_skins(path, gltf);
   }

@@ -16,6 +16,7 @@
 #include "hal/messages/process.h"
 #include "hal/nx/nx_messages.h"
 #include "host/content/document/checksum.h"
+#include "host/content/document/recorded_reads.h"
 #include "host/content/document/whole_file.h"
 #include "host/content/film/frame_content.h"
 #include "host/render/farm/farm.h"
@@ -28,6 +29,7 @@
 #include "host/render/session/status_board.h"
 #include "host/render/session/termination.h"
 #include "host/render/sinks/frame_folder.h"
+#include "host/render/sinks/restore.h"
 #include "host/render/sinks/sink_pool.h"
 #include "host/render/trace/trace_file.h"
 #include "topology/machine.h"
@@ -106,6 +108,25 @@ farm::FarmOptions farm_options(const RenderJob& job, const farm::HostMemory& mem
   return farm;
 }
 
+// What takes the place of the film or of what the folder keeps would destroy it.
+void refuse_outputs(const RenderJob& job) {
+  namespace fs = std::filesystem;
+  if (!job.report.empty() && job.report == job.trace)
+    throw Failure("is named for the report and for the trace", job.report, "give each a file of its own");
+  for (const fs::path output : {job.report, job.trace}) {
+    document::refuse_same_file(job.film, output);
+    std::error_code none;
+    const fs::path folder = output.has_parent_path() ? output.parent_path() : ".";
+    if (fs::equivalent(folder, job.folder, none) && sinks::is_own_name(output.filename().string()))
+      throw Failure("is the name of a file that the folder of frames keeps", output.string(), "name it otherwise");
+  }
+}
+
+// Its models, too.
+void refuse_outputs_among(const document::RecordedReads& reads, const RenderJob& job) {
+  for (const std::string& output : {job.report, job.trace}) reads.refuse_output(output);
+}
+
 // Fails early where the trace is not writable, not after the last frame.
 std::unique_ptr<trace::Trace> begin_trace(const RenderJob& job) {
   if (job.trace.empty()) return nullptr;
@@ -124,7 +145,12 @@ std::unique_ptr<watch::Watch> begin_watch(const RenderJob& job, const EventRepor
 // The film, and which of its frames are to be rendered.
 resume::Opened open_film(const RenderJob& job, const EventReporter& reporter) {
   const sinks::Patience::Bounds bounds = bounds_of(reporter);
-  const auto compile = [&] { return job.load_film(bounds.warn); };
+  const auto compile = [&] {
+    const document::RecordedReads reads;
+    film::CompiledFilm film = job.load_film(bounds.warn);
+    refuse_outputs_among(reads, job);
+    return film;
+  };
   if (!job.folder.empty())
     return resume::open({job.folder, job.film, job.film_options, job.format, job.frames, job.overwrite, job.kept_film},
                         compile, bounds);
@@ -138,7 +164,11 @@ resume::Opened load_film(const RenderJob& job, const EventReporter& reporter, fa
   reporter.report(events::Loading{job.film});
   const double started = dclock();
   std::optional<resume::Opened> opened;
-  heartbeats.during("loading", [&] { opened.emplace(open_film(job, reporter)); });
+  heartbeats.during("loading", [&] {
+    const document::RecordedReads reads;
+    opened.emplace(open_film(job, reporter));
+    refuse_outputs_among(reads, job);
+  });
   const auto left = static_cast<std::uint32_t>(opened->frames.size());
   if (left < opened->asked || !opened->changed.empty())
     reporter.report(events::Resumed{opened->asked - left, opened->asked, opened->changed});
@@ -183,6 +213,7 @@ void write_report(const RenderJob& job, const film::CompiledFilm& film, const fa
 }
 
 void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace, Output& output) {
+  refuse_outputs(job);
   if (!job.report.empty()) document::check_can_write(job.report);  // early too
   Termination termination(messages::process().backend().has_machine_clock());
   farm::Heartbeats heartbeats(host_name(), getpid(), heartbeat_listener(reporter, termination));

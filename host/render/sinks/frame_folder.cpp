@@ -15,6 +15,7 @@
 #include "host/content/document/text.h"
 #include "host/content/document/whole_file.h"
 #include "host/content/film/film_file.h"
+#include "host/content/film/frame_set.h"
 #include "host/images/picture_file.h"
 #include "host/render/sinks/claim.h"
 #include "host/render/sinks/frame_mark.h"
@@ -251,6 +252,7 @@ FrameFolder::~FrameFolder() {
 void FrameFolder::finish() try {
   if (std::exchange(finished_, true)) return;
   patience_.write(path_ / kManifestName, [this] { finish_within(FolderTurn::kPatience); });
+  refuse_lost_frames();
 } catch (const Failure&) {
   refuse_gone(path_);
   throw;
@@ -268,6 +270,16 @@ void FrameFolder::finish_within(std::chrono::milliseconds patience) {
     if (run.run == runs_.own_name()) remove_files(run, turn);
   lease_.reset();
   sync_folder(path_);
+}
+
+// Of what this run wrote, somebody may have removed files meanwhile.
+void FrameFolder::refuse_lost_frames() const {
+  std::vector<std::uint32_t> lost;
+  for (const std::uint32_t frame : missing_frames(path_, rendered_, rendered_.frames))
+    if (!hash_of(rendered_, frame).empty()) lost.push_back(frame);
+  if (lost.empty()) return;
+  throw Failure("frames that were rendered are gone: " + film::FrameSet(lost).text(), path_.string(),
+                "the same command renders them again");
 }
 
 // All that stands in for a manifest that is lost.

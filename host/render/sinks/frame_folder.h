@@ -98,6 +98,7 @@ class FrameFolder {
   void give_back_claim();
   void remove_frames(const std::vector<std::uint32_t>& frames) const;
   void finish_within(std::chrono::milliseconds patience);
+  void refuse_lost_frames() const;
   void record(std::uint32_t frame, const std::string& pixel_hash);
   Manifest known() const;
 

@@ -189,6 +189,9 @@ std::optional<Restored> restore_manifest(const fs::path& folder, const Manifest*
 
 std::optional<Manifest> read_frames_json(const fs::path& folder) {
   const fs::path path = folder / kManifestName;
+  std::error_code none;
+  if (fs::exists(fs::symlink_status(path, none)) && !fs::is_regular_file(path, none))
+    throw Failure("is not a regular file", path.string(), "remove it; " + repair_remedy(folder));
   const std::optional<std::string> text = document::read_file_if_there(path, kLargestRecord);
   if (!text) return std::nullopt;
   try {
@@ -237,6 +240,10 @@ bool add_marked_frames(const fs::path& folder, Manifest& manifest) {
     some_of_it = some_of_it || mark.film == manifest.checksum;
   }
   return !files.marked.empty() && !some_of_it;
+}
+
+bool is_own_name(const std::string& name) {
+  return name == kManifestName || name == kFilmName || name.starts_with("frame-");
 }
 
 }  // namespace mars::sinks

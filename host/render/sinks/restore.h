@@ -16,6 +16,8 @@ namespace mars::sinks {
 
 inline constexpr const char* kManifestName = "frames.json";
 inline constexpr const char* kFilmName = "film.mars";
+// Whether a folder of frames has a file of this name, or may have.
+bool is_own_name(const std::string& name);
 
 // What frames.json says is not what a run wrote.
 class DamagedManifest : public Failure {

@@ -7,7 +7,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/cli/command.h"
-#include "host/content/document/whole_file.h"
+#include "host/content/document/recorded_reads.h"
 #include "host/content/film/film_file.h"
 #include "host/shell/job/film_of.h"
 #include "host/shell/options/render_options.h"
@@ -21,11 +21,13 @@ struct Words {
 };
 
 void compile(const Words& words) {
-  document::refuse_same_file(words.options.film, words.output);
   if (std::filesystem::path(words.output).extension() == ".json")
     throw Failure("has the name of a film or model as people write it", words.output, "name it like film.mars");
   const auto warn = [](const std::string& line) { std::cerr << "mars: warning: " << line << '\n'; };
-  film::save_film(job::load_film_of(words.options, warn), words.output);
+  const document::RecordedReads reads;
+  const film::CompiledFilm film = job::load_film_of(words.options, warn);
+  reads.refuse_output(words.output);
+  film::save_film(film, words.output);
 }
 
 }  // namespace

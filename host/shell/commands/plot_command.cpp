@@ -6,6 +6,7 @@
 #include "host/cli/command.h"
 #include "host/content/animator/listing/gnuplot.h"
 #include "host/content/animator/listing/plot.h"
+#include "host/content/document/recorded_reads.h"
 #include "host/content/document/whole_file.h"
 #include "host/content/film/film_json.h"
 
@@ -21,7 +22,9 @@ void plot(const Words& words) {
   const std::filesystem::path output = words.output;
   if (output.extension() != ".png" && output.extension() != ".svg")
     throw Failure("is neither .png nor .svg", words.output, "name the picture like angles.png or angles.svg");
+  const document::RecordedReads reads;
   film::FilmFile file = film::open_film(words.film);
+  reads.refuse_output(output);
   const animator::Choice choice{words.thing.empty(), words.thing, words.parts};
   const animator::PlotAs as = output.extension() == ".png" ? animator::PlotAs::png : animator::PlotAs::svg;
   document::check_can_write(output);

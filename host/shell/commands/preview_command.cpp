@@ -90,7 +90,10 @@ void write_preview(Words& words, const preview::Previewed& film, const MakeSurfa
 void preview(Words& words, const MakeSurface& make_surface) {
   document::RecordedReads reads;
   auto film = std::make_unique<preview::Previewed>(preview::load_previewed(words.source));
-  if (!words.write.file.empty()) return write_preview(words, *film, make_surface);
+  if (!words.write.file.empty()) {
+    reads.refuse_output(words.write.file);
+    return write_preview(words, *film, make_surface);
+  }
   std::optional<preview::ReloadingPictures> pictures;
   play_in_terminal(words, [&](preview::Terminal& terminal) {
     words.look.smooth =

@@ -23,7 +23,11 @@ std::string frames_text(const std::set<std::uint32_t>& frames) {
 }  // namespace
 
 Supervisor::Supervisor(options::RenderOptions options, World world)
-    : options_(std::move(options)), world_(std::move(world)), frames_(options_.frames), restarts_(options_.restarts) {
+    : options_(std::move(options)),
+      world_(std::move(world)),
+      film_(document::stamp_of(options_.film)),
+      frames_(options_.frames),
+      restarts_(options_.restarts) {
   chosen_.nodes = options_.nodes;
 }
 
@@ -112,7 +116,15 @@ void Supervisor::explain_death() {
   world_.print("frame " + std::to_string(*frame) + " killed the nodes that drew it: it is set aside");
 }
 
+// Until a job has left its compiled film in the folder, the next would compile what has become of the file.
+void Supervisor::refuse_edited_film() const {
+  if (options_.kept_film || entered_ || document::stamp_of(options_.film) == film_) return;
+  throw Failure("has changed since this command began, and no job has kept it compiled yet", options_.film,
+                "the same command renders what it is now");
+}
+
 void Supervisor::start_again() {
+  refuse_edited_film();
   const Diagnosis diagnosis = diagnose(last_, options_, {});
   const auto pause = restarts_.again(!last_.taken.empty());
   if (!pause)

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "host/content/document/recorded_reads.h"
 #include "host/shell/launch/deadly_frames.h"
 #include "host/shell/launch/diagnosis.h"
 #include "host/shell/launch/machines.h"
@@ -58,6 +59,7 @@ class Supervisor {
   Failure failure(const std::string& more = "") const;
   void explain_death();
   void start_again();
+  void refuse_edited_film() const;
   void choose_machines(std::chrono::seconds pause);
   void print_choice() const;
   void try_alone(std::uint32_t frame);
@@ -66,6 +68,7 @@ class Supervisor {
 
   const options::RenderOptions options_;
   const World world_;
+  const document::FileStamp film_;  // when this began
   WantedFrames frames_;
   DeadlyFrames deadly_;
   Restarts restarts_;

@@ -59,7 +59,7 @@ class FileProject : public Project {
     else
       work_ = std::make_unique<FilmWork>(path_, std::move(folder));
     document::RecordedReads reads;
-    const auto text = document::read_file_if_there(path_, document::kLargestFileRead);
+    const auto text = document::read_file_if_there(path_, document::kLargestDocument);
     on_disk_ = text.has_value();
     const std::string content = text ? *text : document::laid_out(model ? new_model() : new_film(path_));
     work_->prepare(content, false);
@@ -326,7 +326,7 @@ class FileProject : public Project {
   }
 
   void read_disk() {
-    const auto text = document::read_file_if_there(path_, document::kLargestFileRead);
+    const auto text = document::read_file_if_there(path_, document::kLargestDocument);
     if (!text && !on_disk_) return;
     if (!text) throw Failure("is not there any more", path_.string(), "undo puts it back");
     const bool others_stay = others_are_as_read();

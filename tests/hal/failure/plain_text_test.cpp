@@ -23,6 +23,11 @@ TEST(PlainText, ControlCharactersAreWrittenAsJsonWritesThem) {
   EXPECT_EQ(plain_line("a\n\tb"), R"(a\u000a\u0009b)");
 }
 
+TEST(PlainText, APlaceIsOneLine) {
+  EXPECT_STREQ(Failure("is missing", "a\nmars: all is well.json", "").what(),
+               "a\\u000amars: all is well.json: is missing");
+}
+
 TEST(PlainText, DoesNotTurnAround) {
   EXPECT_EQ(plain_text("a\u202egnp.\u202c \u2066\u2069 \u2065\u206a"),
             "a\\u202egnp.\\u202c \\u2066\\u2069 \u2065\u206a");

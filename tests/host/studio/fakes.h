@@ -1,11 +1,13 @@
 // A project, a stage and a renderer's link that do as little as the studio can do with.
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -18,7 +20,7 @@ using studio::Json;
 using studio::PageNumber;
 
 // Steps are {"set": TEXT}; "bad" makes no sense, "line" has a wrong line, "disk" cannot be written, "unshown" not be
-// described.
+// described, "long" takes a minute.
 class FakeProject final : public studio::Project {
  public:
   bool is_model() const override { return true; }
@@ -78,6 +80,7 @@ class FakeProject final : public studio::Project {
     if (text == "bad") throw Failure("the step makes no sense", "joint 'arm'", "");
     if (text == "line") throw Failure("is no action", "play.script:4: walk", "");
     if (text == "disk") throw std::system_error(std::make_error_code(std::errc::no_space_on_device));
+    if (text == "long") std::this_thread::sleep_for(std::chrono::minutes(1));
     shown_ = text;
     ++revision_;
   }

@@ -15,7 +15,7 @@ namespace {
 
 TEST(RecordedReads, HoldWhatIsReadWhileTheyLiveAlsoInVain) {
   const sinks::TemporaryFolder folder;
-  for (const char* name : {"before", "read", "start", "exists", "inner", "pieces"})
+  for (const char* name : {"before", "read", "start", "exists", "inner", "elsewhere", "pieces"})
     write_whole_file(folder / name, name);
   read_file(folder / "before");
   RecordedReads reads;
@@ -35,9 +35,9 @@ TEST(RecordedReads, HoldWhatIsReadWhileTheyLiveAlsoInVain) {
     read_file(folder / "inner");
     EXPECT_EQ(inner.stamps(), (FileStamps{{folder / "inner", stamp_of(folder / "inner")}}));
   }
-  std::thread([&] { read_file(folder / "inner"); }).join();
+  std::thread([&] { read_file(folder / "elsewhere"); }).join();
   FileStamps expected;
-  for (const char* name : {"read", "start", "none", "exists", "no/file", "pieces", "no pieces"})
+  for (const char* name : {"read", "start", "none", "exists", "no/file", "pieces", "no pieces", "inner"})
     expected.emplace(folder / name, stamp_of(folder / name));
   expected.emplace(folder.path(), stamp_of(folder.path()));
   EXPECT_EQ(reads.stamps(), expected);

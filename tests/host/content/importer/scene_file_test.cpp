@@ -348,6 +348,23 @@ TEST_F(SceneFileTest, WhatPointsUpAndForwardIsAsked) {
             "--front -z: is the axis that points up, or down (choose another, or what points up with --up)");
 }
 
+// Sums of these wrap, or products, or are beyond the end.
+TEST_F(SceneFileTest, NumbersOutsideOfTheirBufferAreRefused) {
+  const auto expect_refused = [&](const char* list, std::size_t index, const char* key, std::uint64_t value) {
+    test::Glb glb = figure();
+    glb.json[list][index][key] = value;
+    EXPECT_TRUE(document::holds(failure(glb), "file.glb: has numbers beyond the end of their buffer ("))
+        << list << " " << key << " " << value << ": " << failure(glb);
+  };
+  for (const std::uint64_t beyond : std::vector<std::uint64_t>{18446744073709551604u, 4294967296u, 1000000u}) {
+    expect_refused("accessors", 2, "byteOffset", beyond);
+    expect_refused("accessors", 2, "count", beyond);
+    expect_refused("bufferViews", 2, "byteOffset", beyond);
+    expect_refused("bufferViews", 2, "byteLength", beyond);
+    expect_refused("bufferViews", 2, "byteStride", beyond);
+  }
+}
+
 // Files of others, where they lie beside the project. What is expected was computed from their buffers by glTF's rules,
 // without MARS and Assimp.
 TEST_F(SceneFileTest, FilesOfOthers) {

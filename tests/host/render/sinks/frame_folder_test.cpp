@@ -109,6 +109,19 @@ TEST(FrameFolder, AtItsEndOnlyFramesAndManifestAreThere) {
   EXPECT_EQ(read_manifest(folder.path()).pixel_hashes[1], pixel_hash(std::vector<std::uint32_t>(24, 8)));
 }
 
+TEST(FrameFolder, AFrameThatIsGoneAtTheEndIsAFailure) {
+  const TemporaryFolder folder;
+  FrameFolder frames(folder.path(), small_manifest());
+  put_frames(frames, small_manifest(), 7);
+  const std::uint32_t lost = small_manifest().frames[1];
+  fs::remove(folder / frame_file_name(small_manifest(), lost));
+  EXPECT_EQ(document::failure_of([&] { frames.finish(); }),
+            folder.path().string() + ": frames that were rendered are gone: " + std::to_string(lost) +
+                " (the same command renders them again)");
+  EXPECT_EQ(missing_frames(folder.path(), read_manifest(folder.path()), small_manifest().frames),
+            std::vector<std::uint32_t>{lost});
+}
+
 // The file `ending` of the only run in the folder.
 fs::path file_of_run(const fs::path& folder, const std::string& ending) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder / ".runs"))
@@ -134,7 +147,7 @@ TEST(FrameFolder, ARunThatCannotRecordItsHashesFails) {
   fs::remove(folder / "frames.json");
   fs::create_directory(folder / "frames.json");
   const std::string failure = document::failure_of([&] { frames.finish(); });
-  EXPECT_TRUE(document::holds(failure, "frames.json: is a directory")) << failure;
+  EXPECT_TRUE(document::holds(failure, "frames.json: is not a regular file")) << failure;
   EXPECT_TRUE(fs::exists(file_of_run(folder.path(), ".hashes")));
 }
 
@@ -516,9 +529,9 @@ TEST(FrameFolder, WhatIsNoFileIsNamedAtOnceAndChangesNothing) {
   fs::create_symlink("/dev/zero", manifest);
   refused("is not a regular file");
   fs::create_directory(manifest);
-  refused("is a directory");
+  refused("is not a regular file (remove it; mars verify --repair ");
   fs::create_symlink("frames.json", manifest);
-  refused("cannot be read: Too many levels");
+  refused("is not a regular file");
   document::write_whole_file(manifest, "");
   fs::resize_file(manifest, std::uintmax_t{1} << 40);
   refused("has 1099511627776 bytes, too many");

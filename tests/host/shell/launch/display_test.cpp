@@ -86,7 +86,7 @@ TEST(Display, SilentIsSilent) {
 TEST(Display, WhatIsThereAlready) {
   EXPECT_EQ(resumed_text({12, 72, ""}), "12 of 72 frames are there already");
   EXPECT_EQ(resumed_text({72, 72, ""}), "72 of 72 frames are there already: nothing is left to render");
-  EXPECT_EQ(resumed_text({0, 1, "a.json has changed"}), "a.json has changed\n0 of 1 frame is there already");
+  EXPECT_EQ(resumed_text({0, 1, "a.json has changed"}), "a.json has changed");
 }
 
 TEST(Display, OtherLines) {

@@ -5,7 +5,9 @@
 
 #include <deque>
 
+#include "host/content/document/whole_file.h"
 #include "tests/host/content/document/failure_of.h"
+#include "tests/host/render/sinks/temporary_folder.h"
 
 namespace mars::launch {
 namespace {
@@ -119,6 +121,28 @@ TEST_F(SupervisorOf, AJobThatIsKilledBeforeItBeginsIsStartedAgain) {
   Supervisor supervisor = supervise({killed_early, lost_a_node, done({0, 1}, 2)});
   supervisor.render();
   EXPECT_EQ(starts_.size(), 3u);
+}
+
+// The next job would compile the edit, and nothing would say so.
+TEST_F(SupervisorOf, AFilmEditedBeforeAnyJobHasCompiledItIsNotStartedAgain) {
+  const sinks::TemporaryFolder folder;
+  options_.film = (folder / "film.json").string();
+  document::write_whole_file(options_.film, "{}");
+  Remains killed_early = never_began();
+  killed_early.ending = {0, 9};
+  Supervisor early = supervise({killed_early, done({0, 1}, 2)});
+  document::write_whole_file(options_.film, "{ }");
+  EXPECT_EQ(document::failure_of([&] { early.render(); }),
+            options_.film +
+                ": has changed since this command began, and no job has kept it compiled yet (the same command "
+                "renders what it is now)");
+  EXPECT_EQ(starts_.size(), 1u);
+  Remains entered = killed(1, {}, {0}, 2);
+  entered.run = "w1";
+  Supervisor late = supervise({entered, done({1}, 2, 1)});
+  document::write_whole_file(options_.film, "{  }");
+  late.render();
+  EXPECT_TRUE(starts_.back().kept_film);
 }
 
 // However mpirun ends, with however few words.

@@ -10,7 +10,7 @@
 
 namespace mars::motion {
 
-inline constexpr std::uint32_t kMostSteps = 10000;
+inline constexpr std::uint32_t kMostSteps = 2000;
 inline constexpr double kUpright = 0.8;     // of its height: what is lower sits
 inline constexpr double kWalkLead = 0.35;   // of a period: weight goes to one foot before the first step
 inline constexpr double kWalkSettle = 0.5;  // and to both after the last

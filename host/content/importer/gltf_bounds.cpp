@@ -1,0 +1,56 @@
+#include "host/content/importer/gltf_bounds.h"
+
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "hal/failure/failure.h"
+
+namespace mars::importer {
+namespace {
+
+// Their products and sums do not wrap.
+constexpr std::size_t kMost = std::size_t{1} << 31;
+
+// glTF 2.0, 3.6.2.2 and 3.6.2.3: components of an element, bytes of a component; 0 of what is unknown.
+std::size_t components_of(const Tree& type) {
+  static const std::map<std::string_view, std::size_t> kComponents = {
+      {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}};
+  const auto found = kComponents.find(type.is_string() ? type.get_ref<const std::string&>() : "");
+  return found == kComponents.end() ? 0 : found->second;
+}
+
+std::size_t bytes_of(std::size_t component_type) {
+  constexpr std::size_t kBytes[] = {1, 1, 2, 2, 4, 4, 4};  // from 5120: byte, ..., int (not allowed), ..., float
+  return component_type >= 5120 && component_type <= 5126 ? kBytes[component_type - 5120] : 0;
+}
+
+bool is_within(const Tree& part, std::size_t length, const Tree& whole) {
+  const std::size_t begin = number(at(part, "byteOffset"), 0), end = number(at(whole, "byteLength"), 0);
+  return begin <= kMost && length <= kMost && begin + length <= end;
+}
+
+// Views and accessors of nothing are Assimp's to refuse.
+bool is_accessor_sound(const Tree& accessor, const Tree& views) {
+  const Tree& view = item(views, at(accessor, "bufferView"));
+  const std::size_t element = components_of(at(accessor, "type")) * bytes_of(number(at(accessor, "componentType"), 0));
+  const std::size_t count = number(at(accessor, "count"), 0);
+  if (view.is_null() || element == 0 || count == 0) return true;
+  const std::size_t stride = number(at(view, "byteStride"), element);
+  return stride <= kMost && count <= kMost && is_within(accessor, stride * (count - 1) + element, view);
+}
+
+}  // namespace
+
+void require_within_buffers(const std::filesystem::path& path, const Tree& gltf) {
+  const Tree &views = at(gltf, "bufferViews"), &buffers = at(gltf, "buffers");
+  bool sound = true;
+  for (const Tree& view : views) {
+    const Tree& buffer = item(buffers, at(view, "buffer"));
+    sound = sound && (buffer.is_null() || is_within(view, number(at(view, "byteLength"), 0), buffer));
+  }
+  for (const Tree& accessor : at(gltf, "accessors")) sound = sound && is_accessor_sound(accessor, views);
+  if (!sound) throw Failure("has numbers beyond the end of their buffer", path.string(), "export it again");
+}
+
+}  // namespace mars::importer
