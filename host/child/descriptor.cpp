@@ -33,7 +33,7 @@ Pipe make_pipe() {
   return {Descriptor(ends[0]), Descriptor(ends[1])};
 }
 
-Descriptor null_device() { return opened(open("/dev/null", O_RDONLY | O_CLOEXEC)); }
+Descriptor null_device() { return opened(open("/dev/null", O_RDWR | O_CLOEXEC)); }
 
 Descriptor file_in_memory(std::string_view content) {
   Descriptor file = opened(memfd_create("mars", MFD_CLOEXEC));

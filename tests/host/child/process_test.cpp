@@ -16,6 +16,13 @@ namespace {
 
 Command shell(const std::string& script) { return {{{"GREETING", "good day"}}, {"/bin/sh", "-c", script}}; }
 
+TEST(Descriptor, TheNullDeviceIsReadAndWritten) {
+  const Descriptor nothing = null_device();
+  EXPECT_TRUE(write_all(nothing, "x"));
+  char byte = 0;
+  EXPECT_EQ(read(nothing.number(), &byte, 1), 0);
+}
+
 TEST(Process, HasTheStreamsThatItIsGiven) {
   const Descriptor input = file_in_memory("from us"), output = file_in_memory(), errors = file_in_memory();
   // Numbers that are descriptors of ours, too: each stream is still its own.
