@@ -71,6 +71,7 @@ class LiveRendering : public Rendering {
   void start(const Json& options);
   void stop();
   void watch(const Json& message);
+  void look_at_folder(const std::filesystem::path& folder);
   void scrub(PageNumber page, const Json& message);
   void painted(PageNumber page, const Json& message);
 
@@ -157,9 +158,16 @@ void LiveRendering::start(const Json& options) {
           [this](const std::string& line) { heard(line); },
           [this](const child::Ending& ending, const std::string& reason) { ended(ending, reason); }});
   job_ = std::move(job);
+  look_at_folder(folder);
+}
+
+// From the beginning: what was there of another is no part of it.
+void LiveRendering::look_at_folder(const std::filesystem::path& folder) {
   folder_ = folder;
   finished_.clear();
   nodes_ = Json::array();
+  done_ = of_ = 0;
+  rate_ = 0;
   become("starting", "");
   tick();
 }
@@ -173,14 +181,10 @@ void LiveRendering::stop() {
 
 void LiveRendering::watch(const Json& message) {
   if (is_busy()) throw Failure("a rendering is under way", folder_.string(), "stop it first");
-  folder_ = frames_folder(message, settings_.folder);
+  const std::filesystem::path folder = frames_folder(message, settings_.folder);
   job_ = {};
   newest_.reset();
-  finished_.clear();
-  nodes_ = Json::array();
-  done_ = of_ = 0;
-  become("starting", "");
-  tick();
+  look_at_folder(folder);
 }
 
 void LiveRendering::scrub(PageNumber page, const Json& message) {

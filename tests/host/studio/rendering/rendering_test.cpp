@@ -164,6 +164,9 @@ TEST_F(RenderingTest, WatchesAFolderThatIsComplete) {
   say({{"do", "watch"}, {"folder", "out"}});
   ASSERT_TRUE(run_until([&] { return is("done") && page_.pictures > before; })) << last("rendering");
   EXPECT_EQ(last("rendering")["there"], Json({{0, 4}}));
+  render({{"frames", "5-6"}});
+  EXPECT_TRUE(is("starting"));
+  EXPECT_EQ(last("rendering")["done"], 0) << "of this rendering, not of what was watched";
 }
 
 TEST_F(RenderingTest, TouchesNothingOutsideOfItsFolder) {
