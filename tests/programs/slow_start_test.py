@@ -6,7 +6,8 @@ import signal
 import subprocess
 import time
 
-from harness import ENVIRONMENT, EXAMPLES, OWN_MPIRUN, PROGRAMS, ProgramTest, family, living, main, needs_mpi, wait_until
+from harness import (ENVIRONMENT, EXAMPLES, OWN_MPIRUN, PROGRAMS, SECONDS, ProgramTest, family, living, main, needs_mpi,
+                     wait_until)
 
 TEAPOT = EXAMPLES / "teapot.json"
 HINT_AFTER = 20  # seconds, as mars waits
@@ -57,14 +58,14 @@ class SlowStart(ProgramTest):
         unended = self.start("unended", '"$real" "$@"; sleep 60', "--frames", "0-3")
         printed = {}
         for name, process in runs.items():
-            printed[name], complaint = process.communicate(timeout=60)
+            printed[name], complaint = process.communicate(timeout=SECONDS)
             self.assertEqual((process.returncode, complaint), (0, ""), printed[name])
             self.assertIn("4 frames in ", printed[name])
         self.assertGreater(time.monotonic() - began, HINT_AFTER)
         self.assertIn("no node has answered for 20 seconds", printed["late"])
         self.assertIn("for more run mars doctor", printed["late"])
         self.assertNotIn("no node has answered", printed["compiling"])
-        _, complaint = unended.communicate(timeout=60)
+        _, complaint = unended.communicate(timeout=SECONDS)
         self.assertEqual(unended.returncode, 0, complaint)
         self.assertClear(complaint, "warning: all frames are there, but the job has not ended 10 seconds after its last word")
         self.assertIn("loading long.json ...\nloaded in 0:22", printed["compiling"])

@@ -3,7 +3,7 @@ come late and go early; nobody waits for it."""
 
 import subprocess
 
-from harness import ENVIRONMENT, EXAMPLES, PROGRAMS, ProgramTest, main
+from harness import ENVIRONMENT, EXAMPLES, PROGRAMS, SECONDS, ProgramTest, main
 from watcher import MOVING, Watcher, pixels_of_png
 
 ARM = EXAMPLES / "robot-arm.json"
@@ -136,7 +136,7 @@ class Watched(ProgramTest):
         self.assertIn("nobody watches yet", warning)
         seen = []
         watcher = Watcher(self.folder / "socket", lambda w: seen.append(w.copy()))
-        self.assertEqual(run.communicate(timeout=60)[1], "")
+        self.assertEqual(run.communicate(timeout=SECONDS)[1], "")
         self.assertEqual(run.returncode, 0)
         watcher.end()
         self.assertShown(seen[-1:])
