@@ -154,6 +154,8 @@ class MockStudio:
             await self._tell({"is": "curves", "thing": message["thing"], "first": 0, "parts": self._curves(message)})
         if does == "commit":
             self._commit(message["step"])
+            if "commands" in message["step"]:
+                await self._tell({"is": "done", "commands": message["step"]["commands"]})
             await self._tell({"is": "project", **self.project})
         if does in ANSWERED_BY_PICTURES:
             for view in list(self.views):

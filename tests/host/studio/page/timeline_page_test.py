@@ -73,7 +73,8 @@ class Timeline(Page):
         self.drag("walker left-shin", 20, 24)
         self.assertEqual(self.commands(), ["animate move walker left-shin --frame 20 --to 24"])
         self.studio.wait_for("preview", step={"commands": [["animate", "move", "walker", "left-shin", "--frame", "20", "--to", "24"]]})
-        self.assertEqual(self.find(".commands").text, "mars animate examples/demo.json move walker left-shin --frame 20 --to 24")
+        self.until(lambda: self.find(".commands").text,
+                   "mars animate examples/demo.json move walker left-shin --frame 20 --to 24")
 
     def test_escape_gives_a_drag_up(self):
         self.drag("walker left-shin", 20, 24, drop=False)

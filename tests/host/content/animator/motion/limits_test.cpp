@@ -114,14 +114,14 @@ TEST(Actions, ThatCannotBeAreRefusedBeforeAnyWorkIsDone) {
   };
   const auto start = std::chrono::steady_clock::now();
   for (const auto& [words, reported, rate, at] : {
-           Impossible{"walk steps 1e6", "'steps' is 1e6 (give a number from 1 to 10000)"},
-           Impossible{"walk steps -3", "'steps' is -3 (give a number from 1 to 10000)"},
+           Impossible{"walk steps 1e6", "'steps' is 1e6 (give a number from 1 to 2000)"},
+           Impossible{"walk steps -3", "'steps' is -3 (give a number from 1 to 2000)"},
            Impossible{"run pace 99", "'pace' is 99 (give a number from 0.1 to 10)"},
            Impossible{"walk distance 1e6", "'distance' is 1000000 away, which takes"},
-           Impossible{"walk to 1e6 1e6", "a way has at most 10000: go to a nearer place"},
+           Impossible{"walk to 1e6 1e6", "a way has at most 2000: go to a nearer place"},
            Impossible{"walk steps 4 distance 1e6", "would take a step of 250000, where two legs of"},
            Impossible{"walk step-length 100", "take shorter steps"},
-           Impossible{"walk steps 10000 pace 0.1", "would end at frame 24004440", 240},
+           Impossible{"walk steps 2000 pace 0.1", "would end at frame 4804440", 240},
            Impossible{"turn by 3600 pace 0.1", "a film has at most 1000000 frames", 1000},
            Impossible{"nod times 1000 seconds 60",
                       "nod: would end at frame 1440000 (begin earlier, or make it shorter"},
@@ -279,7 +279,7 @@ TEST(Actions, SayWhatIsInTheWay) {
   EXPECT_EQ(refused(human(), "nod depth 100"),
             "nod: 'depth' is 100 degrees, but 'neck' and 'head' can bend 70 from where they are "
             "(nod less, or widen the joint's limits in its model)");
-  EXPECT_EQ(refused(human(), "walk steps 0"), "walk: 'steps' is 0 (give a number from 1 to 10000)");
+  EXPECT_EQ(refused(human(), "walk steps 0"), "walk: 'steps' is 0 (give a number from 1 to 2000)");
   EXPECT_EQ(refused(human(), "walk to 1 1 distance 3"), "walk: 'to' stands beside distance (give one of them)");
   EXPECT_EQ(refused(human(), "wave hand lft"), "wave: 'hand' is 'lft' (did you mean 'left'?)");
 }
