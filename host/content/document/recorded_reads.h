@@ -44,10 +44,23 @@ class RecordedReads {
   static void record(const std::filesystem::path& path);
 
  private:
+  friend class UnrecordedReads;
   static thread_local RecordedReads* innermost_;
 
   RecordedReads* outer_;
   FileStamps stamps_;
+};
+
+// While it lives, nobody records what this thread reads.
+class UnrecordedReads {
+ public:
+  UnrecordedReads() : outer_(RecordedReads::innermost_) { RecordedReads::innermost_ = nullptr; }
+  ~UnrecordedReads() { RecordedReads::innermost_ = outer_; }
+  UnrecordedReads(const UnrecordedReads&) = delete;
+  UnrecordedReads& operator=(const UnrecordedReads&) = delete;
+
+ private:
+  RecordedReads* outer_;
 };
 
 }  // namespace mars::document

@@ -199,7 +199,7 @@ Journal::Journal(const std::filesystem::path& file)
 
 std::optional<History> Journal::read(const std::string& text) try {
   begin_ = true;
-  const document::RecordedReads apart;  // it is none of the files that make the film
+  const document::UnrecordedReads apart;  // it is none of the files that make the film
   const std::optional<std::string> lines = document::read_file_if_there(path_, 2 * kLongest);
   if (!lines) return std::nullopt;
   Replay replay;
