@@ -348,7 +348,7 @@ TEST_F(SceneFileTest, WhatPointsUpAndForwardIsAsked) {
             "--front -z: is the axis that points up, or down (choose another, or what points up with --up)");
 }
 
-// Sums of these wrap, or products, or are beyond the end.
+// Places and sizes whose sum or product wraps, or that are beyond the end.
 TEST_F(SceneFileTest, NumbersOutsideOfTheirBufferAreRefused) {
   const auto expect_refused = [&](const char* list, std::size_t index, const char* key, std::uint64_t value) {
     test::Glb glb = figure();

@@ -109,19 +109,6 @@ TEST(FrameFolder, AtItsEndOnlyFramesAndManifestAreThere) {
   EXPECT_EQ(read_manifest(folder.path()).pixel_hashes[1], pixel_hash(std::vector<std::uint32_t>(24, 8)));
 }
 
-TEST(FrameFolder, AFrameThatIsGoneAtTheEndIsAFailure) {
-  const TemporaryFolder folder;
-  FrameFolder frames(folder.path(), small_manifest());
-  put_frames(frames, small_manifest(), 7);
-  const std::uint32_t lost = small_manifest().frames[1];
-  fs::remove(folder / frame_file_name(small_manifest(), lost));
-  EXPECT_EQ(document::failure_of([&] { frames.finish(); }),
-            folder.path().string() + ": frames that were rendered are gone: " + std::to_string(lost) +
-                " (the same command renders them again)");
-  EXPECT_EQ(missing_frames(folder.path(), read_manifest(folder.path()), small_manifest().frames),
-            std::vector<std::uint32_t>{lost});
-}
-
 // The file `ending` of the only run in the folder.
 fs::path file_of_run(const fs::path& folder, const std::string& ending) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder / ".runs"))
