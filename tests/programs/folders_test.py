@@ -157,6 +157,22 @@ class Folders(ProgramTest):
             self.assertIn("1000 frames, all there and whole", self.succeed("mars", "verify", "out"))
             self.assertOnlyFrames()
 
+    def test_frames_that_somebody_removes_while_a_run_renders(self):
+        run = self.start("0-999")
+        kin = family(run.pid)
+        for each in kin:
+            os.kill(each, signal.SIGSTOP)
+        self.assertTrue((self.out / ".runs").exists(), "it has ended already")
+        there = sorted(self.out.glob("*.png"))
+        self.assertTrue(there, "it has only begun")
+        there[0].unlink()
+        for each in kin:
+            os.kill(each, signal.SIGCONT)
+        printed = run.communicate(timeout=SECONDS)[1]
+        self.assertEqual(run.returncode, 0, printed)
+        self.assertIn("1000 frames, all there and whole", self.succeed("mars", "verify", "out"))
+        self.assertOnlyFrames()
+
     def test_missing_is_what_frames_takes(self):
         self.assertEqual(self.render(self.film, "0-9").returncode, 0)
         self.assertEqual(self.missing(), "")

@@ -116,6 +116,7 @@ struct Fault {
   std::optional<std::int32_t> node;   // that failed; none: the host
   std::optional<std::int32_t> frame;  // it was drawing
   std::string replay;                 // a command that does it again, or ""
+  std::uint32_t lost = 0;             // frames that were rendered and are gone: another run renders them again
 
   bool operator==(const Fault&) const = default;
 };

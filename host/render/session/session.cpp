@@ -250,6 +250,7 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace, 
 events::Fault fault_of(const std::exception& reason, const RenderJob& job) {
   const Failure failure = explain(reason);
   events::Fault fault{failure.problem, failure.where, failure.remedy, {}, {}, ""};
+  if (const auto* gone = dynamic_cast<const sinks::LostFrames*>(&reason)) fault.lost = gone->frames;
   const auto* at_node = dynamic_cast<const farm::NodeFailure*>(&reason);
   if (at_node == nullptr) return fault;
   fault.node = at_node->node;

@@ -241,6 +241,11 @@ void FrameFolder::remove_frames(const std::vector<std::uint32_t>& frames) const 
   if (removed) sync_folder(path_);
 }
 
+LostFrames::LostFrames(const std::vector<std::uint32_t>& lost, const fs::path& folder)
+    : Failure("frames that were rendered are gone: " + film::FrameSet(lost).text(), folder.string(),
+              "the same command renders them again"),
+      frames(static_cast<std::uint32_t>(lost.size())) {}
+
 FrameFolder::~FrameFolder() {
   if (finished_) return;
   try {
@@ -277,9 +282,7 @@ void FrameFolder::refuse_lost_frames() const {
   std::vector<std::uint32_t> lost;
   for (const std::uint32_t frame : missing_frames(path_, rendered_, rendered_.frames))
     if (!hash_of(rendered_, frame).empty()) lost.push_back(frame);
-  if (lost.empty()) return;
-  throw Failure("frames that were rendered are gone: " + film::FrameSet(lost).text(), path_.string(),
-                "the same command renders them again");
+  if (!lost.empty()) throw LostFrames(lost, path_);
 }
 
 // All that stands in for a manifest that is lost.

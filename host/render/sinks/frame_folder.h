@@ -47,6 +47,14 @@ using Continue = std::function<Continuation(const std::optional<Manifest>& there
 // Frames of the same compiled film in the same format stay, others do not.
 Continue keep_same_film(const Manifest& wanted);
 
+// Of frames that a run has rendered or found, somebody has removed some before the run ended.
+class LostFrames : public Failure {
+ public:
+  LostFrames(const std::vector<std::uint32_t>& lost, const std::filesystem::path& folder);
+
+  std::uint32_t frames;
+};
+
 class FrameFolder {
  public:
   // Creates the folder where it is missing, adds to its manifest what ended runs have rendered and clears away what

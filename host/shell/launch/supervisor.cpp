@@ -63,7 +63,7 @@ void Supervisor::count_frames() {
   frames_.set_count(last_.resumed ? last_.resumed->of : last_.progress.of());
   if (there < frames_.there()) world_.print(loss_text(there));
   host_moved_ = false;
-  frames_.count(there, static_cast<std::uint32_t>(last_.taken.size()));
+  frames_.count(there, static_cast<std::uint32_t>(last_.taken.size()) - lost());
 }
 
 // A host that fails after the last frame, though no node is to blame, could not record what it has rendered.
@@ -86,7 +86,7 @@ bool Supervisor::may_help() const {
   if (last_.passed_on != 0 || options_.restarts == 0 || options_.sink == options::SinkKind::none) return false;
   if (options_.backend == options::Backend::simulated) return false;
   if (diagnose(last_, options_, {}).died) return true;
-  if (last_.fault) return booted_ && last_.fault->node.has_value();
+  if (last_.fault) return booted_ && (last_.fault->node || lost() > 0);
   return booted_ || !last_.ended_for.empty();
 }
 
@@ -126,11 +126,11 @@ void Supervisor::refuse_edited_film() const {
 void Supervisor::start_again() {
   refuse_edited_film();
   const Diagnosis diagnosis = diagnose(last_, options_, {});
-  const auto pause = restarts_.again(!last_.taken.empty());
+  const auto pause = restarts_.again(advanced());
   if (!pause)
     throw failure("; gave up after " + document::counted(restarts_.most(), "restart") + " without a new frame");
   if (!machines_) machines_.emplace(world_.machines(), options_.nodes);
-  machines_->blame(diagnosis.machine, diagnosis.machine_lost, !last_.taken.empty());
+  machines_->blame(diagnosis.machine, diagnosis.machine_lost, advanced());
   choose_machines(*pause);
   print_choice();
 }
@@ -172,7 +172,7 @@ options::RenderOptions Supervisor::next_options() const {
 // In jobs of its own: where several nodes died at this frame by chance, it is there then.
 void Supervisor::try_alone(std::uint32_t frame) {
   for (int tries = 0; tries < kTriesAlone && (tries == 0 || may_help()); ++tries) {
-    const auto pause = restarts_.again(!last_.taken.empty());
+    const auto pause = restarts_.again(advanced());
     if (!pause) return;
     world_.print("frame " + std::to_string(frame) + " is tried by itself");
     choose_machines(*pause);

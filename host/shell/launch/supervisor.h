@@ -52,6 +52,8 @@ class Supervisor {
  private:
   void run_job(const options::RenderOptions& options);
   void count_frames();
+  std::uint32_t lost() const { return last_.fault ? last_.fault->lost : 0; }  // frames, before the job ended
+  bool advanced() const { return last_.taken.size() > lost(); }
   std::string loss_text(std::uint32_t there) const;
   bool all_there() const;
   bool may_help() const;

@@ -209,17 +209,16 @@ class Soak:
         say(f"round {self.report['rounds']}: {count} frames are taken away, {self.schedule.left()} faults are left")
 
     def note_end(self):
-        """A mars that was killed is no failure; a start soon afterwards may find the old job still at work; a frame at
-        which two nodes were killed may be left out; and a frame that was taken away is missed at the end."""
+        """A mars that was killed is no failure; a start soon afterwards may find the old job still at work; and a frame
+        at which two nodes were killed may be left out."""
         lines, code = self.rendering.text(), self.rendering.code
         began, ended = (seconds - self.began for seconds in (self.rendering.began, time.monotonic()))
         killed = self.killed >= self.rendering.began and (code < 0 or code > 128 or "stopped by" in lines)
         claimed = "another run" in lines and self.rendering.began - self.killed < 120
         aside = "were killed each time" in lines
         faults = [fault for fault in self.report["faults"] if fault["seconds"] >= began]
-        lost = "frames that were rendered are gone" in lines and any(fault["kind"] == "frame" for fault in faults)
         how = ("well" if code == 0 else "killed" if killed else "claimed" if claimed else "aside" if aside
-               else "lost" if lost else "failed")
+               else "failed")
         hit = [fault["number"] for fault in faults]
         self.report["starts"].append({"began": began, "ended": ended, "code": code, "how": how, "faults": hit,
                                       "last": last_words(lines)})

@@ -24,6 +24,7 @@ std::vector<Event> one_of_each() {
       FrameTaken{0, 0, FrameKind::keyframe},
       Fault{"a \"problem\"\nof two lines", "film.json:3", "mend it", {}, {}, ""},
       Fault{"out of memory", "node 3, frame 12", "", 3, 12, "mars render x.json --frames 12"},
+      Fault{"frames that were rendered are gone: 3-4", "out", "", {}, {}, "", 2},
       Resumed{12, 72, "film.json has changed: frames 24-35 are rendered again"},
       Beat{"rendering", {{3, "n2", 17, "scanline", 11.5}}},
       Drawing{{{0, 4}, {3, 17}}},

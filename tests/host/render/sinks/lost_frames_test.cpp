@@ -21,9 +21,14 @@ TEST(LostFrames, AreAFailureAtTheEnd) {
   put_frames(frames, small_manifest(), 7);
   const std::uint32_t lost = small_manifest().frames[1];
   fs::remove(folder / frame_file_name(small_manifest(), lost));
-  EXPECT_EQ(document::failure_of([&] { frames.finish(); }),
-            folder.path().string() + ": frames that were rendered are gone: " + std::to_string(lost) +
-                " (the same command renders them again)");
+  try {
+    frames.finish();
+    ADD_FAILURE() << "the run does not miss frame " << lost;
+  } catch (const LostFrames& gone) {
+    EXPECT_EQ(gone.frames, 1u);
+    EXPECT_EQ(gone.where, folder.path().string());
+    EXPECT_EQ(gone.problem, "frames that were rendered are gone: " + std::to_string(lost));
+  }
   EXPECT_EQ(missing_frames(folder.path(), read_manifest(folder.path()), small_manifest().frames),
             std::vector<std::uint32_t>{lost});
 }

@@ -113,6 +113,32 @@ TEST_F(SupervisorOf, AHostThatFailsAfterTheLastFrameIsAFailure) {
   EXPECT_EQ(starts_.size(), 1u);
 }
 
+// Somebody has removed a frame that was there before, and two that the job had rendered.
+Remains missing_at_its_end() {
+  Remains failed = booted({1, 2, 3}, 4, 1);
+  failed.ending.code = 1;
+  failed.fault = events::Fault{"frames that were rendered are gone: 0-2", "out", "", {}, {}, "", 3};
+  return failed;
+}
+
+TEST_F(SupervisorOf, FramesThatAreGoneAtTheEndAreRenderedByAnotherJob) {
+  Supervisor supervisor = supervise({missing_at_its_end(), done({0, 1, 2}, 4, 1)});
+  supervisor.render();
+  EXPECT_EQ(starts_.size(), 2u);
+  EXPECT_EQ(printed_,
+            "out: frames that were rendered are gone: 0-2\n"
+            "starting again (1 of 5) with 8 nodes; 1 of 4 frames are there\n");
+  EXPECT_EQ(supervisor.frames().there(), 4u);
+}
+
+// Each job renders as many as somebody removes.
+TEST_F(SupervisorOf, FramesThatAreGoneAtEveryEndAreGivenUp) {
+  options_.restarts = 2;
+  Supervisor supervisor = supervise({missing_at_its_end(), missing_at_its_end(), missing_at_its_end()});
+  EXPECT_TRUE(document::holds(document::failure_of([&] { supervisor.render(); }),
+                              "gone: 0-2; gave up after 2 restarts without a new frame; 1 of 4 frames are there"));
+}
+
 TEST_F(SupervisorOf, AJobThatIsKilledBeforeItBeginsIsStartedAgain) {
   Remains killed_early = never_began();
   killed_early.ending = {0, 9};
