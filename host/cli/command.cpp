@@ -16,6 +16,8 @@ Option limited(CLI::Option& option, Number least, Number most) {
   return Option(*option.check(CLI::Range(least, most).description("")));
 }
 
+std::string is_empty(const std::string& word) { return word.empty() ? "is empty" : ""; }
+
 // A Failure in `check` is one of the command line, at `word`.
 template <typename Check>
 void as_usage(const std::string& word, Check check) {
@@ -82,7 +84,8 @@ Command Command::add_command(const std::string& name, const std::string& purpose
 
 template <typename Value>
 Option Command::add(const std::string& names, Value& value, const std::string& help) const {
-  return Option(*app_->add_option(names, value, help));
+  const Option option(*app_->add_option(names, value, help));
+  return names.starts_with('-') ? option : option.check(is_empty);
 }
 
 #define MARS_VALUE(...) template Option Command::add(const std::string&, __VA_ARGS__&, const std::string&) const

@@ -28,6 +28,7 @@ class CommandLine(ProgramTest):
 
     def test_missing_words(self):
         self.fail_clearly(2, "render", says="FILM is required")
+        self.fail_clearly(2, "info", "", says="FILM: is empty")
         self.fail_clearly(2, "render", TEAPOT, says="add -o DIR, or --sink none")
         self.fail_clearly(2, "compile", TEAPOT, says="--output is required")
         self.fail_clearly(2, "paint", says="paint")
