@@ -147,7 +147,7 @@ void Child::stop() {
 }
 
 void fail_if_stopped(const Child& child) {
-  if (child.passed_on() != 0) throw Failure("stopped by " + std::string(strsignal(child.passed_on())), "", "");
+  if (child.passed_on() != 0) throw Stopped("stopped by " + std::string(strsignal(child.passed_on())), "", "");
 }
 
 }  // namespace mars::child

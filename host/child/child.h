@@ -74,7 +74,13 @@ class Child {
   Clock::time_point deadline_ = Clock::time_point::max();  // of the stage
 };
 
-// Throws Failure where a signal to us ended the child.
+// A signal to us ended a child.
+class Stopped : public Failure {
+ public:
+  using Failure::Failure;
+};
+
+// Throws Stopped where that is so.
 void fail_if_stopped(const Child& child);
 
 }  // namespace mars::child

@@ -248,6 +248,18 @@ class GoingOn(ProgramTest):
         changed = {name for name, time in self.times().items() if before[name] != time}
         self.assertEqual(changed, {"frame-0003.png", "frame-0017.png"})
 
+    def test_what_has_the_name_of_the_kept_film_gives_way(self):
+        self.render("--frames", "0-3")
+        expected = self.verified_hash("out")
+        for make in (os.mkfifo, os.mkdir, lambda path: os.symlink("nowhere", path)):
+            (self.out / "film.mars").unlink()
+            make(self.out / "film.mars")
+            (self.out / "frames.json").unlink()
+            (self.out / "frame-0002.png").unlink()
+            self.render("--frames", "0-3")
+            self.assertTrue((self.out / "film.mars").is_file())
+            self.assertEqual(self.verified_hash("out"), expected)
+
     def test_the_kept_film_in_another_size_is_another_film(self):
         self.render()
         expected = self.verified_hash("out")

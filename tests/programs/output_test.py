@@ -48,6 +48,7 @@ class Output(ProgramTest):
         before = {path: path.read_bytes() for path in self.folder.rglob("*") if path.is_file()}
         for words in ([*render, "--report", film], [*render, "--trace", "link.json"], [*render, "--report", "box.json"],
                       [*render, "--report", "out/frames.json"], [*render, "--trace", "out/frame-0001.png"],
+                      [*render, "--report", "out/.runs"],
                       [*render, "--trace", "./out/film.mars"], ["compile", film, "-o", "link.mars"],
                       ["preview", film, "-o", "link.png"], ["plot", film, "-o", "link.png"]):
             with self.subTest(words=words):
@@ -56,7 +57,8 @@ class Output(ProgramTest):
                 self.assertRegex(done.stderr, "is the file that is read|is the name of a file that the folder of frames keeps")
                 for name in ("film.json", "box.json", "out/frame-0001.png"):
                     self.assertEqual((self.folder / name).read_bytes(), before[self.folder / name])
-        self.assertClear(self.mars(*render, "--report", "r", "--trace", "r").stderr, "for the report and for the trace")
+        for other in ("r", "./r"):
+            self.assertClear(self.mars(*render, "--report", "r", "--trace", other).stderr, "for the report and for the trace")
 
     def test_plain_lines_in_a_pipe(self):
         film = self.write("film.json", spinning_teapot(1500, [160, 90]))

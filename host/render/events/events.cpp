@@ -71,12 +71,8 @@ json to_json(const Drawing& drawing) {
 }
 
 json to_json(const Fault& fault) {
-  json to = {{"event", "fault"},
-             {"problem", fault.problem},
-             {"where", fault.where},
-             {"remedy", fault.remedy},
-             {"replay", fault.replay},
-             {"lost", fault.lost}};
+  json to = {{"event", "fault"},       {"problem", fault.problem}, {"where", fault.where},
+             {"remedy", fault.remedy}, {"replay", fault.replay},   {"lost", fault.lost}};
   if (fault.node) to["node"] = *fault.node;
   if (fault.frame) to["frame"] = *fault.frame;
   return to;
@@ -126,7 +122,8 @@ Drawing read_drawing(const json& from) {
 }
 
 Fault read_fault(const json& from) {
-  Fault fault{from.at("problem"), from.at("where"), from.at("remedy"), {}, {}, from.at("replay"), from.value("lost", 0u)};
+  Fault fault{from.at("problem"), from.at("where"),      from.at("remedy"), {}, {},
+              from.at("replay"),  from.value("lost", 0u)};
   if (from.contains("node")) fault.node = from["node"].get<std::int32_t>();
   if (from.contains("frame")) fault.frame = from["frame"].get<std::int32_t>();
   return fault;

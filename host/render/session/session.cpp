@@ -111,13 +111,15 @@ farm::FarmOptions farm_options(const RenderJob& job, const farm::HostMemory& mem
 // What takes the place of the film or of what the folder keeps would destroy it.
 void refuse_outputs(const RenderJob& job) {
   namespace fs = std::filesystem;
-  if (!job.report.empty() && job.report == job.trace)
+  const auto place_of = [](const std::string& file) { return fs::weakly_canonical(fs::absolute(file)); };
+  std::error_code none;
+  if (!job.report.empty() && !job.trace.empty() && place_of(job.report) == place_of(job.trace))
     throw Failure("is named for the report and for the trace", job.report, "give each a file of its own");
   for (const fs::path output : {job.report, job.trace}) {
     document::refuse_same_file(job.film, output);
-    std::error_code none;
     const fs::path folder = output.has_parent_path() ? output.parent_path() : ".";
-    if (fs::equivalent(folder, job.folder, none) && sinks::is_own_name(output.filename().string()))
+    const bool own = fs::equivalent(folder, job.folder, none) && sinks::is_own_name(output.filename().string());
+    if (own || fs::equivalent(folder, fs::path(job.folder) / sinks::kRunsName, none))
       throw Failure("is the name of a file that the folder of frames keeps", output.string(), "name it otherwise");
   }
 }

@@ -135,7 +135,7 @@ std::vector<std::uint32_t> missing_frames(const fs::path& folder, const Manifest
   return missing;
 }
 
-void remove_frame(const fs::path& file) {
+void clear_name(const fs::path& file) {
   if (unlink(file.c_str()) == 0 || errno == ENOENT) return;
   if (errno == EISDIR && rmdir(file.c_str()) == 0) return;
   document::fail_file("remove", file, errno);
@@ -149,7 +149,12 @@ Continue keep_same_film(const Manifest& wanted) {
 
 FrameFolder::FrameFolder(fs::path path, const Manifest& wanted, const Continue& go_on, Patience::Bounds bounds,
                          const ProcessName& self)
-    : path_(std::move(path)), warn_(bounds.warn), patience_(bounds), rendered_(wanted), runs_(path_, self) {
+    : path_(std::move(path)),
+      warn_(bounds.warn),
+      patience_(bounds),
+      rendered_(wanted),
+      wanted_(wanted.frames),
+      runs_(path_, self) {
   UnseenRivals unseen(bounds.warn);
   patience_.begin(path_, [&] {
     create_folder(path_);
@@ -214,6 +219,8 @@ bool FrameFolder::must_wait(const FolderTurn& turn, bool another_film, UnseenRiv
 // That may take long: the turn stays this run's meanwhile.
 void FrameFolder::write_film(const film::CompiledFilm& film, const FolderTurn& turn) const {
   const Lease held(turn.file());
+  std::error_code none;
+  if (!fs::is_regular_file(fs::symlink_status(path_ / kFilmName, none))) clear_name(path_ / kFilmName);
   film::save_film(film, path_ / kFilmName, runs_.own_file(".film.mars.part"));
   sync_folder(path_);
 }
@@ -235,7 +242,7 @@ void FrameFolder::remove_frames(const std::vector<std::uint32_t>& frames) const 
   bool removed = false;
   for (const std::uint32_t frame : frames) {
     if (!names.contains(frame_file_name(rendered_, frame))) continue;
-    remove_frame(file_of(frame));
+    clear_name(file_of(frame));
     removed = true;
   }
   if (removed) sync_folder(path_);
@@ -254,13 +261,15 @@ FrameFolder::~FrameFolder() {
   }
 }
 
-void FrameFolder::finish() try {
+void FrameFolder::finish() {
   if (std::exchange(finished_, true)) return;
-  patience_.write(path_ / kManifestName, [this] { finish_within(FolderTurn::kPatience); });
+  try {
+    patience_.write(path_ / kManifestName, [this] { finish_within(FolderTurn::kPatience); });
+  } catch (const Failure&) {
+    refuse_gone(path_);
+    throw;
+  }
   refuse_lost_frames();
-} catch (const Failure&) {
-  refuse_gone(path_);
-  throw;
 }
 
 void FrameFolder::finish_within(std::chrono::milliseconds patience) {
@@ -277,11 +286,12 @@ void FrameFolder::finish_within(std::chrono::milliseconds patience) {
   sync_folder(path_);
 }
 
-// Of what this run wrote, somebody may have removed files meanwhile.
+// Of what this run wrote or found, somebody may have removed files meanwhile.
 void FrameFolder::refuse_lost_frames() const {
+  const Manifest all = known();
   std::vector<std::uint32_t> lost;
-  for (const std::uint32_t frame : missing_frames(path_, rendered_, rendered_.frames))
-    if (!hash_of(rendered_, frame).empty()) lost.push_back(frame);
+  for (const std::uint32_t frame : missing_frames(path_, all, wanted_))
+    if (!hash_of(all, frame).empty()) lost.push_back(frame);
   if (!lost.empty()) throw LostFrames(lost, path_);
 }
 
@@ -318,6 +328,7 @@ void FrameFolder::put(std::uint32_t frame, const std::string& pixel_hash, std::s
   });
 } catch (const Failure&) {
   refuse_gone(path_);
+  lease_->confirm();
   throw;
 }
 

@@ -115,7 +115,8 @@ class FrameFolder {
   Patience patience_;
   std::mutex mutex_;  // guards the hashes of rendered_
   Manifest rendered_;
-  Manifest begun_;  // the folder's when the run began
+  Manifest begun_;                     // the folder's when the run began
+  std::vector<std::uint32_t> wanted_;  // frames, also those that were there
   RunsFolder runs_;
   std::optional<Lease> lease_;
   std::optional<HashLog> hashes_;
@@ -134,8 +135,9 @@ Manifest read_manifest(const std::filesystem::path& folder);
 std::vector<std::uint32_t> missing_frames(const std::filesystem::path& folder, const Manifest& manifest,
                                           const std::vector<std::uint32_t>& frames);
 
-// What has a frame's name, where something has it: a file, a link, a pipe, a device, an empty folder. Opens nothing.
-void remove_frame(const std::filesystem::path& file);
+// What has the name of a file to come, where something has it: a file, a link, a pipe, a device, an empty folder. Opens
+// nothing.
+void clear_name(const std::filesystem::path& file);
 
 // In the folder's turn, which `runs` has.
 void write_manifest(const Manifest& manifest, const std::filesystem::path& folder, const RunsFolder& runs);

@@ -243,7 +243,7 @@ bool add_marked_frames(const fs::path& folder, Manifest& manifest) {
 }
 
 bool is_own_name(const std::string& name) {
-  return name == kManifestName || name == kFilmName || name.starts_with("frame-");
+  return name == kManifestName || name == kFilmName || name == kRunsName || name.starts_with("frame-");
 }
 
 }  // namespace mars::sinks

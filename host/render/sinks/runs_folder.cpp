@@ -21,8 +21,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kRunsName = ".runs";
-
 // Letters, digits and dashes only: a run's name ends at the first dot.
 std::string run_name(const ProcessName& self) {
   std::string host = self.host;

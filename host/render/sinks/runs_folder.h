@@ -17,6 +17,7 @@
 
 namespace mars::sinks {
 
+inline constexpr std::string_view kRunsName = ".runs";
 inline constexpr std::string_view kClaimEnding = ".claim";
 inline constexpr std::string_view kHashesEnding = ".hashes";
 inline constexpr std::string_view kStatusEnding = ".status";

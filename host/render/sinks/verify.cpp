@@ -119,7 +119,7 @@ void remove_wrong_files(const fs::path& folder, const Verdict& verdict) {
   document::Checksum pixels;
   for (const Verdict::Trouble& trouble : verdict.troubles) {
     const fs::path file = folder / frame_file_name(manifest, trouble.frame);
-    if (!trouble_with(file, manifest, expected_hash(manifest, trouble.frame), pixels).empty()) remove_frame(file);
+    if (!trouble_with(file, manifest, expected_hash(manifest, trouble.frame), pixels).empty()) clear_name(file);
   }
 }
 

@@ -86,14 +86,16 @@ Diagnosis cause(const Remains& remains, const std::string& words, const std::opt
 
 }  // namespace
 
+std::string way_to_go_on(const options::RenderOptions& options) {
+  if (options.folder.empty()) return "";
+  return options.overwrite ? "the same command without --overwrite goes on" : "the same command goes on";
+}
+
 Failure stopped(const Remains& remains, const options::RenderOptions& options) {
   return Failure("stopped by " + std::string(strsignal(remains.passed_on)) + " after " +
                      std::to_string(remains.progress.done()) + " of " + std::to_string(remains.progress.of()) +
                      " frames",
-                 options.folder,
-                 options.folder.empty() ? ""
-                 : options.overwrite    ? "the same command without --overwrite goes on"
-                                        : "the same command goes on");
+                 options.folder, way_to_go_on(options));
 }
 
 Diagnosis diagnose(const Remains& remains, const options::RenderOptions& options, const Advice& advice) {

@@ -16,6 +16,9 @@ namespace mars::launch {
 // What is wrong with the surroundings, as lines without the last one's end; none: it is not asked for.
 using Advice = std::function<std::string()>;
 
+// What a person does to go on after a signal.
+std::string way_to_go_on(const options::RenderOptions& options);
+
 // Of a run that a person's signal ended.
 Failure stopped(const Remains& remains, const options::RenderOptions& options);
 

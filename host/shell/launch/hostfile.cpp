@@ -14,7 +14,7 @@
 namespace mars::launch {
 namespace {
 
-constexpr std::uint32_t kMostSlots = 999999;  // more count as these
+constexpr std::uint32_t kMostSlots = 999999;
 constexpr std::size_t kLongestName = 255;     // bytes
 constexpr std::uintmax_t kLargest = 1 << 26;  // bytes
 constexpr const char* kForm = "write a line a host, like: n1 slots=4";
@@ -151,7 +151,9 @@ class Line {
     const std::string digits = given ? take() : "";
     if (digits.empty() || digits.find_first_not_of("0123456789") != std::string::npos)
       refuse(word + " has no number", kForm);
-    return std::min(document::number_in<std::uint32_t>(digits).value_or(kMostSlots), kMostSlots);
+    const auto number = document::number_in<std::uint32_t>(digits);
+    if (!number || *number > kMostSlots) refuse(word + " is " + digits + ", more than any machine has", kForm);
+    return *number;
   }
 
   std::string where_;

@@ -114,6 +114,12 @@ Remains show_job(const child::Command& command, const options::RenderOptions& op
   return job.remains();
 }
 
+std::optional<std::uint32_t> count_there(const std::string& folder, const std::vector<std::uint32_t>& frames) try {
+  return frames.size() - sinks::missing_frames(folder, sinks::read_manifest(folder), frames).size();
+} catch (const Failure&) {
+  return std::nullopt;
+}
+
 Supervisor::World world_of(const options::RenderOptions& options, const Starting& starting, Display& display,
                            const Adviser& adviser) {
   return {[&](const options::RenderOptions& job, const std::vector<Slots>& machines) {
@@ -129,6 +135,7 @@ Supervisor::World world_of(const options::RenderOptions& options, const Starting
             if (question == Question::slurm) fail_if_preempted(options, starting);
             return answering;
           },
+          [&](const std::vector<std::uint32_t>& frames) { return count_there(options.folder, frames); },
           [&](const std::string& line) { display.print(line); },
           [&] { return adviser.after_a_failed_start(options); }};
 }

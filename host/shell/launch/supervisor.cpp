@@ -1,7 +1,9 @@
 #include "host/shell/launch/supervisor.h"
 
+#include <algorithm>
 #include <utility>
 
+#include "host/child/child.h"
 #include "host/content/document/text.h"
 
 namespace mars::launch {
@@ -58,12 +60,21 @@ void Supervisor::run_job(const options::RenderOptions& options) {
 
 // A job that did not come so far as to look into the folder says nothing.
 void Supervisor::count_frames() {
+  advanced_ = false;
   if (!last_.resumed && !last_.booted) return;
   const std::uint32_t there = last_.resumed ? last_.resumed->there : 0;
   frames_.set_count(last_.resumed ? last_.resumed->of : last_.progress.of());
   if (there < frames_.there()) world_.print(loss_text(there));
   host_moved_ = false;
   frames_.count(there, static_cast<std::uint32_t>(last_.taken.size()) - lost());
+  if (frames_.complete() && !last_.well()) look_for_frames();
+  advanced_ = frames_.there() > most_there_;
+  most_there_ = std::max(most_there_, frames_.there());
+}
+
+// A job that did not end well has not looked whether all that it had is there still.
+void Supervisor::look_for_frames() {
+  if (const auto there = world_.count(frames_.next().first_frames(frames_.of()))) frames_.count(*there, 0);
 }
 
 // A host that fails after the last frame, though no node is to blame, could not record what it has rendered.
@@ -94,7 +105,7 @@ bool Supervisor::may_help() const {
 bool Supervisor::a_machine_is_gone() {
   if (last_.passed_on != 0 || options_.restarts == 0 || last_.fault || booted_) return false;
   const std::vector<std::string> names = Machines(world_.machines(), 1).names();
-  return !names.empty() && world_.ask(std::chrono::seconds(0), names).size() < names.size();
+  return !names.empty() && ask(std::chrono::seconds(0), names).size() < names.size();
 }
 
 Failure Supervisor::failure(const std::string& more) const {
@@ -126,18 +137,18 @@ void Supervisor::refuse_edited_film() const {
 void Supervisor::start_again() {
   refuse_edited_film();
   const Diagnosis diagnosis = diagnose(last_, options_, {});
-  const auto pause = restarts_.again(advanced());
+  const auto pause = restarts_.again(advanced_);
   if (!pause)
     throw failure("; gave up after " + document::counted(restarts_.most(), "restart") + " without a new frame");
   if (!machines_) machines_.emplace(world_.machines(), options_.nodes);
-  machines_->blame(diagnosis.machine, diagnosis.machine_lost, advanced());
+  machines_->blame(diagnosis.machine, diagnosis.machine_lost, advanced_);
   choose_machines(*pause);
   print_choice();
 }
 
 void Supervisor::choose_machines(std::chrono::seconds pause) {
   const std::vector<std::string> names = machines_ ? machines_->names() : std::vector<std::string>();
-  const std::set<std::string> answering = world_.ask(pause, names);
+  const std::set<std::string> answering = ask(pause, names);
   if (names.empty()) return;
   const std::string host_before = chosen_.use.empty() ? names.front() : chosen_.use.front().host;
   chosen_ = machines_->choose(answering);
@@ -150,6 +161,13 @@ void Supervisor::choose_machines(std::chrono::seconds pause) {
   host_moved_ = true;
   world_.print("the host runs on " + host + " now, no more on " + host_before + ": both must see the folder " +
                options_.folder);
+}
+
+std::set<std::string> Supervisor::ask(std::chrono::seconds pause, const std::vector<std::string>& machines) const try {
+  return world_.ask(pause, machines);
+} catch (const child::Stopped& stop) {
+  throw Failure(stop.problem + " before the job was started again" + (frames_.of() > 0 ? "; " + account() : ""),
+                options_.folder, way_to_go_on(options_));
 }
 
 void Supervisor::print_choice() const {
@@ -172,7 +190,7 @@ options::RenderOptions Supervisor::next_options() const {
 // In jobs of its own: where several nodes died at this frame by chance, it is there then.
 void Supervisor::try_alone(std::uint32_t frame) {
   for (int tries = 0; tries < kTriesAlone && (tries == 0 || may_help()); ++tries) {
-    const auto pause = restarts_.again(advanced());
+    const auto pause = restarts_.again(!last_.taken.empty());
     if (!pause) return;
     world_.print("frame " + std::to_string(frame) + " is tried by itself");
     choose_machines(*pause);

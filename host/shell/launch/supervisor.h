@@ -32,8 +32,10 @@ class Supervisor {
     std::function<void(const std::string& run)> clear;
     // The machines of the job; none where it knows only this one.
     std::function<std::vector<Slots>()> machines;
-    // Waits, and gives those of the machines that answer. Throws Failure where a person stops it.
+    // Waits, and gives those of the machines that answer. Throws child::Stopped where a person stops it.
     std::function<std::set<std::string>(std::chrono::seconds pause, const std::vector<std::string>& machines)> ask;
+    // How many of these frames the folder has; none: it cannot be read here.
+    std::function<std::optional<std::uint32_t>(const std::vector<std::uint32_t>& frames)> count;
     std::function<void(const std::string& line)> print;
     Advice advice;
   };
@@ -52,8 +54,8 @@ class Supervisor {
  private:
   void run_job(const options::RenderOptions& options);
   void count_frames();
+  void look_for_frames();
   std::uint32_t lost() const { return last_.fault ? last_.fault->lost : 0; }  // frames, before the job ended
-  bool advanced() const { return last_.taken.size() > lost(); }
   std::string loss_text(std::uint32_t there) const;
   bool all_there() const;
   bool may_help() const;
@@ -63,6 +65,7 @@ class Supervisor {
   void start_again();
   void refuse_edited_film() const;
   void choose_machines(std::chrono::seconds pause);
+  std::set<std::string> ask(std::chrono::seconds pause, const std::vector<std::string>& machines) const;
   void print_choice() const;
   void try_alone(std::uint32_t frame);
   options::RenderOptions next_options() const;
@@ -78,9 +81,11 @@ class Supervisor {
   Machines::Choice chosen_;           // for the next job
   bool host_moved_ = false;           // to another machine, since frames were counted last
   Remains last_;
-  bool entered_ = false;   // some job did: the folder has its film
-  bool booted_ = false;    // some job came so far
-  bool rendered_ = false;  // some job brought a frame
+  std::uint32_t most_there_ = 0;  // frames, after any job
+  bool advanced_ = false;         // more frames are there than ever before
+  bool entered_ = false;          // some job did: the folder has its film
+  bool booted_ = false;           // some job came so far
+  bool rendered_ = false;         // some job brought a frame
 };
 
 }  // namespace mars::launch

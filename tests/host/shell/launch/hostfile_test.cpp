@@ -46,7 +46,7 @@ TEST_F(Hostfile, IsWhatMpirunTakes) {
   EXPECT_EQ(machines("rank 0=n1 slot=0:1\nrank 1=n2 slot=1\nrank 2=n1\n"), "n1:2 n2:1 ");
   EXPECT_EQ(machines("n1 slots=0\nn2 slots=1\n"), "n2:1 ");
   EXPECT_EQ(machines("n1 slots=0\nn2 slots=0\n"), "n1:1 n2:1 ");
-  EXPECT_EQ(machines("n1 slots=99999999999\n"), "n1:999999 ");
+  EXPECT_EQ(machines("n1 slots=999999\n"), "n1:999999 ");
   EXPECT_EQ(machines("+n0 slots=2\nn1\n"), "") << "mpirun alone knows which these are";
 }
 
@@ -59,6 +59,8 @@ TEST_F(Hostfile, NamesTheLineThatIsWrong) {
       {"n1\nn2 slots 2\n", "hosts:2: slots has no number"},
       {"n1 slots=-1\n", "hosts:1: slots has no number"},
       {"n1 slots=2.5\n", "slots has no number"},
+      {"n1 slots=1000000\n", "hosts:1: slots is 1000000, more than any machine has"},
+      {"n1 slots=99999999999\n", "slots is 99999999999, more than any machine has"},
       {"n1 slots==2\n", "slots has no number"},
       {"n1 slots=2,\n", "slots has no number"},
       {"n1 port=x\n", "port has no number"},

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <deque>
+#include <set>
 
 #include "host/content/document/whole_file.h"
 #include "tests/host/content/document/failure_of.h"
@@ -79,7 +81,12 @@ class SupervisorOf : public testing::Test {
          [this](const std::string& run) { cleared_.push_back(run); }, [this] { return machines_; },
          [this](std::chrono::seconds pause, const std::vector<std::string>&) {
            pauses_.push_back(pause.count());
+           if (stops_) throw child::Stopped("stopped by Terminated", "", "");
            return answering_;
+         },
+         [this](const std::vector<std::uint32_t>& frames) -> std::optional<std::uint32_t> {
+           if (!seen_) return std::nullopt;
+           return std::ranges::count_if(frames, [this](std::uint32_t frame) { return seen_->contains(frame); });
          },
          [this](const std::string& line) { printed_ += line + "\n"; }, [] { return std::string("advice"); }});
   }
@@ -90,8 +97,10 @@ class SupervisorOf : public testing::Test {
   std::set<std::string> answering_;
   std::vector<Start> starts_;
   std::vector<long> pauses_;
+  bool stops_ = false;  // a person, in the pause
   std::string printed_;
-  std::vector<std::string> cleared_;  // runs
+  std::vector<std::string> cleared_;             // runs
+  std::optional<std::set<std::uint32_t>> seen_;  // frames in the folder
 };
 
 TEST_F(SupervisorOf, AJobThatEndsWellIsStartedOnce) {
@@ -258,6 +267,29 @@ TEST_F(SupervisorOf, AJobThatDiesIsStartedAgainWithWhatIsMissing) {
 TEST_F(SupervisorOf, AJobThatDiesAfterItsLastFrameIsNotStartedAgain) {
   supervise({killed(1, {}, {0, 1, 2}, 3)}).render();
   EXPECT_EQ(starts_.size(), 1u);
+}
+
+TEST_F(SupervisorOf, AJobThatDiesAfterItsLastFrameIsStartedAgainWhereFramesAreGone) {
+  seen_ = {0, 2};
+  supervise({killed(1, {}, {0, 1, 2}, 3), done({1}, 3, 2)}).render();
+  EXPECT_EQ(starts_.size(), 2u);
+  EXPECT_TRUE(document::holds(printed_, "starting again (1 of 5) with 8 nodes; 2 of 3 frames are there\n"));
+}
+
+// Somebody removes between two jobs what the first has brought.
+TEST_F(SupervisorOf, JobsThatBringWhatWasThereBeforeAreGivenUp) {
+  options_.restarts = 2;
+  Supervisor supervisor = supervise({killed(1, {}, {0}, 5), killed(1, {}, {1}, 5), killed(1, {}, {0}, 5)});
+  EXPECT_TRUE(document::holds(document::failure_of([&] { supervisor.render(); }),
+                              "gave up after 2 restarts without a new frame; 1 of 5 frames are there"));
+}
+
+TEST_F(SupervisorOf, AStopInThePauseSaysHowFarItCame) {
+  stops_ = true;
+  Supervisor supervisor = supervise({killed(1, {}, {0}, 5)});
+  EXPECT_EQ(document::failure_of([&] { supervisor.render(); }),
+            "out: stopped by Terminated before the job was started again; 1 of 5 frames are there (the same command "
+            "goes on)");
 }
 
 TEST_F(SupervisorOf, ManyJobsWithFramesAreFollowedByAnother) {
