@@ -1,8 +1,10 @@
 #include "host/preview/folder_pictures.h"
 
 #include "hal/failure/failure.h"
+#include "host/content/document/shell_word.h"
 #include "host/images/picture_file.h"
 #include "host/preview/pose_keys.h"
+#include "host/render/sinks/frame_mark.h"
 
 namespace mars::preview {
 
@@ -15,6 +17,9 @@ FolderPictures::FolderPictures(std::filesystem::path folder)
 
 SharedImage FolderPictures::picture(std::uint32_t place, images::PictureSize extent) {
   const std::filesystem::path file = folder_ / sinks::frame_file_name(manifest_, manifest_.frames.at(place));
+  if (!sinks::is_frame_file(file))
+    throw Failure("frame " + std::to_string(manifest_.frames.at(place)) + " is missing", folder_.string(),
+                  "mars verify --repair " + document::shell_word(folder_.string()) + " renders it again");
   return std::make_shared<const images::Image>(
       scaled(images::read_picture(images::PictureFormat::png, file), fitted(this->extent(), extent)));
 }

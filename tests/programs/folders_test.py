@@ -158,7 +158,7 @@ class Folders(ProgramTest):
             self.assertOnlyFrames()
 
     def test_frames_that_somebody_removes_while_a_run_renders(self):
-        run = self.start("0-999")
+        run = self.start("0-399")
         kin = family(run.pid)
         for each in kin:
             os.kill(each, signal.SIGSTOP)
@@ -170,7 +170,7 @@ class Folders(ProgramTest):
             os.kill(each, signal.SIGCONT)
         printed = run.communicate(timeout=SECONDS)[1]
         self.assertEqual(run.returncode, 0, printed)
-        self.assertIn("1000 frames, all there and whole", self.succeed("mars", "verify", "out"))
+        self.assertIn("400 frames, all there and whole", self.succeed("mars", "verify", "out"))
         self.assertOnlyFrames()
 
     def test_missing_is_what_frames_takes(self):
@@ -351,6 +351,41 @@ class GoingOn(ProgramTest):
                     self.advised(done.stderr)
                 self.assertEqual(self.verified_hash("out"), expected)
 
+    def test_repair_names_what_left_nothing(self):
+        self.render()
+        expected = self.verified_hash("out")
+        for lost, says in ((["frame-0003.png"], r"frame 3 of the film left nothing; if you had rendered it: mars"),
+                           (["frame-0003.png", "frame-0023.png"], r"frames 3,23 of the film left nothing; if you had")):
+            for name in ["frames.json", *lost]:
+                (self.out / name).unlink()
+            printed = self.succeed("mars", "verify", "out", "--repair")
+            self.assertIn(says, printed)
+            self.advised(printed)
+            self.assertEqual(self.verified_hash("out"), expected)
+
+    def test_frames_of_several_films_and_nothing_that_tells(self):
+        self.render()
+        expected = self.verified_hash("out")
+        other = self.write("other.json", {**spinning_teapot(24, [64, 36]), "background": [1, 0, 0]})
+        self.succeed("mars-threads", other, "-o", "other", "--frames", "3")
+        for name in ("frames.json", "film.mars"):
+            (self.out / name).unlink()
+        shutil.copy(self.folder / "other/frame-0003.png", self.out)
+        self.assertClear(self.mars("verify", "--repair", "out").stderr,
+                         "out: its frames are of several films, and neither frames.json nor film.mars says which belongs")
+        self.render()
+        self.assertEqual(self.verified_hash("out"), expected)
+
+    def test_a_damaged_film_is_not_called_missing(self):
+        self.render()
+        expected = self.verified_hash("out")
+        (self.out / "film.mars").write_bytes((self.out / "film.mars").read_bytes()[:-100])
+        (self.out / "frame-0003.png").unlink()
+        done = self.mars("verify", "--repair", "out")
+        self.assertClear(done.stderr, "its film.mars is damaged, so that no frame can be rendered from it")
+        self.advised(done.stderr)
+        self.assertEqual(self.verified_hash("out"), expected)
+
     def test_frames_in_a_row_are_one_line(self):
         self.render("--size", "80x60")
         for frame in (2, 3, 4, 8):
@@ -366,6 +401,7 @@ class GoingOn(ProgramTest):
         shutil.copy(self.folder / "other/frames.json", self.out)
         self.assertClear(self.mars("verify", "--repair", "out").stderr,
                          f"is of another film than film.mars is, {other} (if it is another folder's, remove it")
+        self.assertIn("frames.json is of another film than film.mars is, ", self.render(code=1))
         (self.out / "frames.json").unlink()
         self.succeed("mars", "verify", "--repair", "out")
         self.assertEqual(self.verified_hash("out"), expected)

@@ -66,10 +66,21 @@ std::string reason_in_our_words(std::string_view message) {
   return "";
 }
 
+// Of a face that need not be plane, by Newell's sum; of length 1 where it has an area.
+glm::dvec3 flat_normal(const std::vector<glm::dvec3>& places) {
+  glm::dvec3 sum(0);
+  for (std::size_t i = 1; i + 1 < places.size(); ++i)
+    sum += glm::cross(places[i] - places[0], places[i + 1] - places[0]);
+  const double length = glm::length(sum);
+  return length > 0 ? sum / length : sum;
+}
+
 // What the file says without Assimp.
 struct FileItself {
   FileItself(const std::filesystem::path& path, FileKind kind) {
     const std::string bytes = document::read_file(path, kLargestMeshFile);
+    if (kind == FileKind::glb && bytes.size() >= 4 && !bytes.starts_with("glTF"))
+      throw Failure("is no GLB file: it does not begin with glTF", path.string(), "name it by what it is");
     Tree gltf;
     if (is_gltf(kind)) gltf = gltf_json(bytes, kind);
     require_within_buffers(path, gltf);
@@ -149,11 +160,12 @@ class SceneReader {
     }
   }
 
-  // STL's are its facets'.
+  // STL's are its facets'. A glTF mesh without normals has flat faces (glTF 2.0, 3.7.2.1), whatever others have.
   bool has_normals() const {
-    bool all = kind_ != FileKind::stl;
-    for (unsigned i = 0; i < scene_.mNumMeshes; ++i) all &= scene_.mMeshes[i]->HasNormals();
-    return all;
+    const std::span meshes(scene_.mMeshes, scene_.mNumMeshes);
+    if (kind_ == FileKind::stl) return false;
+    return is_gltf(kind_) ? std::ranges::any_of(meshes, &aiMesh::HasNormals)
+                          : std::ranges::all_of(meshes, &aiMesh::HasNormals);
   }
 
   void check_faces() const {
@@ -255,17 +267,24 @@ class SceneReader {
     MeshBuilder& builder = builder_.mesh(joint);
     const std::size_t part = builder.part_of(materials_.number_of(mesh));
     std::vector<std::uint32_t> face;
+    std::vector<glm::dvec3> places;
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
       const std::span corners(mesh.mFaces[f].mIndices, mesh.mFaces[f].mNumIndices);
       if (corners.size() < 3) continue;  // a point, a line
+      const auto matrix_at = [&](unsigned corner) { return matrices.size() == 1 ? 0 : corner; };
+      const bool mirrored = glm::determinant(across[matrix_at(corners[0])]) < 0;
+      places.clear();
+      for (const unsigned corner : corners)
+        places.emplace_back(matrices[matrix_at(corner)] * glm::dvec4(dvec3_of(mesh.mVertices[corner]), 1));
+      const glm::dvec3 flat = mesh.HasNormals() ? glm::dvec3(0) : flat_normal(places) * (mirrored ? -1.0 : 1.0);
       face.clear();
-      for (const unsigned corner : corners) {
-        const std::size_t at = matrices.size() == 1 ? 0 : corner;
-        const glm::dvec3 place(matrices[at] * glm::dvec4(dvec3_of(mesh.mVertices[corner]), 1));
-        const glm::dvec3 normal = mesh.HasNormals() ? across[at] * dvec3_of(mesh.mNormals[corner]) : glm::dvec3(0);
-        face.push_back(builder.vertex(part, place, normal));
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        const unsigned corner = corners[i];
+        const glm::dvec3 normal =
+            mesh.HasNormals() ? across[matrix_at(corner)] * dvec3_of(mesh.mNormals[corner]) : flat;
+        face.push_back(builder.vertex(part, places[i], normal));
       }
-      if (glm::determinant(across[matrices.size() == 1 ? 0 : corners[0]]) < 0) std::ranges::reverse(face);  // mirrored
+      if (mirrored) std::ranges::reverse(face);
       builder.add_face(part, face);
     }
   }

@@ -82,6 +82,11 @@ Failure other_pixels(const Manifest& there, const Wish& wish) {
 
 // It cannot be compared.
 void refuse_unknown_film(const Manifest& there, const Wish& wish) {
+  if (is_sound_film(kept_film(wish.folder)))
+    throw Failure("frames.json is of another film than film.mars is, " + film_text(there), wish.folder,
+                  "if it is another folder's, remove it: mars verify --repair " + document::shell_word(wish.folder) +
+                      " makes it again from film.mars and the frames; else give another folder with -o, or replace "
+                      "all with --overwrite");
   throw Failure(
       "the frames in this folder are of another film, or of another version of it, " + film_text(there) +
           ", and film.mars, which would tell, is not there or not sound",
@@ -278,7 +283,9 @@ void require_kept_film(const std::string& folder, const Manifest& there, const f
   if (load_kept_film(folder, there)) return;
   const std::string remedy = "render them from its file: " + command_for(folder, there, frames);
   if (!is_sound_film(kept_film(folder)))
-    throw Failure("has no film.mars, from which frames can be rendered again", folder, remedy);
+    throw Failure(fs::exists(kept_film(folder)) ? "its film.mars is damaged, so that no frame can be rendered from it"
+                                                : "has no film.mars, from which frames can be rendered again",
+                  folder, remedy);
   throw Failure("frames.json is of another film than film.mars is, " + film_text(there), folder,
                 "if it is another folder's, remove it: --repair makes it again from film.mars and the frames; else " +
                     remedy);

@@ -107,16 +107,6 @@ void sync_folder(const fs::path& folder) {
   close(opened);
 }
 
-// Whether files there say that they are frames.
-bool has_frames(const fs::path& folder) {
-  std::error_code none;
-  for (fs::directory_iterator entry(folder, none), end; !none && entry != end; entry.increment(none)) {
-    const fs::path& path = entry->path();
-    if (path.filename().string().starts_with("frame-") && is_frame_file(path) && read_mark(path)) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 void write_manifest(const Manifest& manifest, const fs::path& folder, const RunsFolder& runs) {
@@ -345,6 +335,15 @@ void clear_ended_runs(const fs::path& folder, const std::string& ended) {
     settle_ended_runs(folder, runs, FolderTurn(runs, kShortPatience), ended);
   } catch (const std::exception&) {
   }
+}
+
+bool has_frames(const fs::path& folder) {
+  std::error_code none;
+  for (fs::directory_iterator entry(folder, none), end; !none && entry != end; entry.increment(none)) {
+    const fs::path& path = entry->path();
+    if (path.filename().string().starts_with("frame-") && is_frame_file(path) && read_mark(path)) return true;
+  }
+  return false;
 }
 
 Manifest read_manifest(const fs::path& folder) {

@@ -129,6 +129,9 @@ class FrameFolder {
 // the caller knows to have ended, on whichever machine; "": none.
 void clear_ended_runs(const std::filesystem::path& folder, const std::string& ended = "");
 
+// Whether files there say that they are frames.
+bool has_frames(const std::filesystem::path& folder);
+
 // With what runs that are not finished have rendered so far. Throws Failure where there is none, or no sound one.
 Manifest read_manifest(const std::filesystem::path& folder);
 // Those of `frames` that are not there: `manifest` has no hash of theirs, or the folder no file with something in it.

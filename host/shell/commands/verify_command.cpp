@@ -1,5 +1,6 @@
 #include "host/shell/commands/verify_command.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
@@ -63,6 +64,21 @@ std::string count_text(const sinks::Verdict& verdict) {
          (verdict.troubles.size() == 1 ? " is missing or wrong" : " are missing or wrong");
 }
 
+// Of frames that left nothing, a manifest that is made again cannot know whether they were asked for.
+std::string text_of_unlisted(const std::string& folder) {
+  sinks::Manifest manifest = sinks::read_manifest(folder);
+  std::vector<std::uint32_t> unlisted;
+  for (std::uint32_t frame = 0; frame < manifest.film_frames; ++frame)
+    if (!std::ranges::binary_search(manifest.frames, frame)) unlisted.push_back(frame);
+  if (unlisted.empty()) return "";
+  const film::FrameSet frames(unlisted);
+  const std::filesystem::path film = std::filesystem::path(folder) / sinks::kFilmName;
+  manifest.film = std::filesystem::exists(film) ? film.string() : "FILM";
+  const bool one = unlisted.size() == 1;
+  return (one ? "frame " : "frames ") + frames.text() + " of the film left nothing; if you had rendered " +
+         (one ? "it: " : "them: ") + resume::command_for(folder, manifest, frames);
+}
+
 // Returns the exit code.
 int print_verdict(const sinks::Verdict& verdict, const std::string& folder) {
   if (!verdict.troubles.empty()) {
@@ -114,7 +130,9 @@ void add_verify(cli::Command app, int& code) {
   options::add_render_options(command, words->render, options::Program::repair);
   for (std::size_t i = own; i < command.options().size(); ++i) command.options()[i].needs(repairs);
   command.runs([words, &code] {
-    if (words->repair) print_line(sinks::repair_manifest(words->render.folder));
+    const std::string repaired = words->repair ? sinks::repair_manifest(words->render.folder) : "";
+    print_line(repaired);
+    if (!repaired.empty()) print_line(text_of_unlisted(words->render.folder));
     sinks::Verdict verdict = sinks::verify_folder(words->render.folder);
     if (words->missing) return print_missing(verdict);
     if (words->repair && !verdict.troubles.empty()) {

@@ -1,8 +1,5 @@
 #include "host/shell/launch/between_jobs.h"
 
-#include <unistd.h>
-
-#include <array>
 #include <functional>
 
 #include "host/child/child.h"
@@ -26,15 +23,6 @@ wait)";
 
 // The words: seconds of the pause, sinfo, the machines between commas.
 constexpr const char* kAskSlurm = R"(sleep "$1" & "$2" --noheader --Node --nodes="$3" --format="%N %T"; wait)";
-
-// mpirun starts this machine's processes without ssh.
-bool is_here(const std::string& machine) {
-  std::array<char, 256> host{};
-  gethostname(host.data(), host.size() - 1);
-  const std::string own = host.data();
-  const auto short_name = [](const std::string& name) { return name.substr(0, name.find('.')); };
-  return machine == "localhost" || machine.starts_with("127.") || short_name(machine) == short_name(own);
-}
 
 // What it writes, line by line, until it ends or the longest time is over.
 void run_for(const std::vector<std::string>& words, Clock::duration longest,

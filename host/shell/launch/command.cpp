@@ -166,9 +166,13 @@ std::vector<std::uint32_t> tasks_of_machines(const std::string& tasks_per_node) 
 
 namespace {
 
+std::vector<Slots> machines_of(const options::RenderOptions& options) {
+  return options.hostfile.empty() ? std::vector<Slots>() : read_hostfile(options.hostfile);
+}
+
 // Of the hostfile or the batch system; 0: there is none.
 std::uint32_t slots_of(const options::RenderOptions& options, const Surroundings& surroundings) {
-  const std::vector<Slots> machines = options.hostfile.empty() ? std::vector<Slots>() : read_hostfile(options.hostfile);
+  const std::vector<Slots> machines = machines_of(options);
   if (machines.empty()) return surroundings.tasks;
   return std::accumulate(machines.begin(), machines.end(), 0u,
                          [](std::uint32_t sum, const Slots& slots) { return sum + slots.count; });
@@ -184,8 +188,11 @@ std::uint32_t default_nodes(const options::RenderOptions& options, const Surroun
 }
 
 std::uint32_t cores_in_use(const options::RenderOptions& options, const Surroundings& surroundings) {
-  const std::uint32_t slots = options.backend == options::Backend::mpi ? slots_of(options, surroundings) : 0;
-  return slots != 0 ? slots : surroundings.cores;
+  if (options.backend != options::Backend::mpi) return surroundings.cores;
+  if (slots_of(options, surroundings) == 0) return surroundings.cores;
+  std::uint32_t cores = 0;
+  for (const Slots& machine : machines_of(options)) cores += is_here(machine.host) ? surroundings.cores : machine.count;
+  return cores != 0 ? cores : surroundings.tasks;
 }
 
 options::Backend choose_backend(options::Backend asked, const Programs& programs) {

@@ -13,4 +13,7 @@ struct Slots {
   bool operator==(const Slots&) const = default;
 };
 
+// Whether it is this machine: mpirun starts processes there without ssh.
+bool is_here(const std::string& machine);
+
 }  // namespace mars::launch

@@ -145,6 +145,27 @@ TEST_F(SceneFileTest, SkinsThatCannotBeReadAreRefused) {
   EXPECT_TRUE(document::holds(failure(same), "is no sound mesh file: two of its bones have one name ("));
 }
 
+TEST_F(SceneFileTest, OnlyTheMeshWithoutNormalsHasFlatFaces) {
+  test::Glb glb;
+  const int normals = glb.floats("VEC3", {0.6f, 0, 0.8f, 0, 0.6f, 0.8f, 0, 0, 1});
+  const int smooth = glb.triangle({0, 0, 0, 1, 0, 0, 0, 1, 0}, {{"NORMAL", normals}});
+  const int flat = glb.triangle({0, 0, 0, 1, 0, 0, 0, 1, 0});
+  glb.json["nodes"] = {{{"name", "smooth"}, {"mesh", smooth}, {"children", {1, 2}}},
+                       {{"name", "flat"}, {"mesh", flat}},
+                       {{"name", "mirrored"}, {"mesh", flat}, {"scale", {-1, 1, 1}}}};
+  const modeler::Model model = import(glb);
+  const auto normals_of = [&](const modeler::Joint& joint) { return model.shapes[joint.segment->shape].mesh->normals; };
+  const auto curved = normals_of(model.joints[0]);
+  ASSERT_EQ(curved.size(), 3u);
+  EXPECT_GT(curved[0][0], 0.1f);
+  EXPECT_GT(curved[1][2], 0.1f) << "the file's y is our z";
+  for (const char* name : {"flat", "mirrored"}) {
+    ASSERT_EQ(normals_of(joint_named(model, name)).size(), 3u);
+    for (const auto& normal : normals_of(joint_named(model, name)))
+      EXPECT_EQ(normal, (modeler::Mesh::Place{0, -1, 0})) << name;
+  }
+}
+
 // A truck that is turned and twice as large, with four wheels of one mesh, the third mirrored, the fourth larger.
 test::Glb truck() {
   test::Glb glb;

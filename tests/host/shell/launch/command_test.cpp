@@ -179,6 +179,8 @@ TEST(Command, SlotsStandForTheCoresOfOtherMachines) {
   EXPECT_EQ(cores_in_use(options, batch_job(16)), 16u);
   options.hostfile = write_hostfile(folder, "n1 slots=2\nn2\n").string();
   EXPECT_EQ(cores_in_use(options, batch_job(16)), 3u);
+  options.hostfile = write_hostfile(folder, "n1 slots=2\nlocalhost slots=5000\n").string();
+  EXPECT_EQ(cores_in_use(options, alone(4)), 6u) << "how many there are here is known";
   options = {};
   options.backend = options::Backend::threads;
   EXPECT_EQ(cores_in_use(options, batch_job(16)), 2u);
