@@ -372,7 +372,7 @@ class GoingOn(ProgramTest):
             (self.out / name).unlink()
         shutil.copy(self.folder / "other/frame-0003.png", self.out)
         self.assertClear(self.mars("verify", "--repair", "out").stderr,
-                         "out: its frames are of several films, and neither frames.json nor film.mars says which belongs")
+                         "out: its frames are of several films or damaged, and neither frames.json nor film.mars says which")
         self.render()
         self.assertEqual(self.verified_hash("out"), expected)
 

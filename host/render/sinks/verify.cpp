@@ -108,10 +108,11 @@ std::string repair_manifest(const fs::path& folder) {
     return repair_text(damaged ? damaged->problem : "it is gone") + ": " + frames_text(*restored);
   }
   if (!damaged && !restored && has_frames(folder))
-    throw Failure("its frames are of several films, and neither frames.json nor film.mars says which belongs there",
-                  folder.string(),
-                  "render that film again with -o " + document::shell_word(folder.string()) +
-                      ": its frames stay, and the others are replaced");
+    throw Failure(
+        "its frames are of several films or damaged, and neither frames.json nor film.mars says which belongs there",
+        folder.string(),
+        "render that film again with -o " + document::shell_word(folder.string()) +
+            ": its frames stay, and the others are replaced");
   if (!damaged) return "";
   throw Failure(damaged->problem + "; and neither film.mars nor the frames say of which film these are", damaged->where,
                 "remove it, and render all frames of the folder again");
