@@ -8,7 +8,7 @@ lines. A block ```c is a file, named in its first line: /* name.c */.
 import re
 import subprocess
 
-from harness import ENVIRONMENT, SOURCES, ProgramTest
+from harness import ENVIRONMENT, SECONDS, SOURCES, ProgramTest
 
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
@@ -30,7 +30,7 @@ class PageTest(ProgramTest):
 
     def run_commands(self, commands, where):
         done = subprocess.run(["bash", "-euc", commands], cwd=self.folder, env=self.environment(), capture_output=True,
-                              text=True, timeout=120)
+                              text=True, timeout=2 * SECONDS)
         self.assertEqual((done.returncode, done.stderr), (0, ""), f"{where}\n{commands}\n{done.stdout}")
         return "\n".join(line.rstrip() for line in done.stdout.rstrip().split("\n"))
 
