@@ -171,7 +171,8 @@ class ProgramTest(unittest.TestCase):
         out = self.folder / "out"
         begun = lambda: process.poll() is not None or len(list(out.glob("*.png"))) > 3
         wait_until(begun, SECONDS, "no frame")
-        self.assertIsNone(process.poll(), "it ended too soon")
+        if process.poll() is not None:
+            self.fail(f"it ended too soon: {process.communicate()[1]}")
         return process
 
     @staticmethod
