@@ -85,7 +85,8 @@ class Traces(ProgramTest):
 
     def test_of_a_film_too_long_for_it(self):
         film = self.write("film.json", spinning_teapot(40000, [8, 8]))
-        done = self.mars("render", film, "--sink", "none", "--backend", "threads", "--nodes", 2, "--trace", "trace.json")
+        done = self.mars("render", film, "--sink", "none", "--backend", "threads", "--nodes", 2,
+                         "--trace", "trace.json")
         self.assertEqual(done.returncode, 0, done.stderr)
         if not SANITIZED:  # whose nodes and storage are slow enough to be warned of
             self.assertEqual(done.stderr, "")
