@@ -42,7 +42,7 @@ struct Words {
   std::vector<std::string> options{}, resets{}, joints{}, branches{};
   std::optional<double> height{};
   modeler::MaterialChange material_change{};
-  bool fixed = false, free = false, branch = false, no_ground = false;
+  bool fixed = false, free = false, branch = false, no_ground = false, replace = false;
 };
 
 std::string where(const Words& words) { return words.model.path().string(); }
@@ -132,7 +132,12 @@ document::Json new_model(const Words& words) {
   return model;
 }
 
-void run_new(const Words& words) { words.model.create(new_model(words)); }
+void run_new(const Words& words) {
+  if (words.replace)
+    words.model.change([&](document::Json& model, const modeler::Model&) { model = new_model(words); });
+  else
+    words.model.create(new_model(words));
+}
 
 void run_add(const Words& words) {
   require_sense(words);
@@ -307,6 +312,8 @@ constexpr Verb kVerbs[] = {
        app.add("--height", words.height, "How high that is at rest. Example: --height 4.6")
            .type("LENGTH")
            .range(1e-6, 1e6);
+       app.add_flag("--replace", words.replace,
+                    "In place of the model that the file holds, all of whose joints go. Example: --replace");
        add_joint_options(app, words);
        add_material_options(app, words);
      }},

@@ -122,7 +122,7 @@ void find_other_ways(const Thing& thing, const KeyedPart& part, const Track& bef
                      std::vector<std::string>& lines) {
   for (std::size_t i = 0; i + 1 < after.size(); ++i) {
     const Way way{after[i], after[i + 1]};
-    if (way.from.ease.spline) continue;  // goes as its numbers say
+    if (way.from.ease.spline || way.from.ease.hold) continue;  // goes as its numbers say
     if (largest(way.change()) < 180) continue;
     const std::string goes = other_way(*part.turns, way);
     if (goes.empty() || went_so(part, way, before)) continue;

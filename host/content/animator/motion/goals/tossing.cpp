@@ -16,6 +16,7 @@
 #include "host/content/animator/motion/body/glide.h"
 #include "host/content/animator/motion/laws/kinematic.h"
 #include "host/content/animator/motion/goals/picking.h"
+#include "host/content/animator/motion/scene/gravity.h"
 #include "host/content/animator/motion/scene/rehearsal.h"
 #include "host/content/animator/motion/scene/target.h"
 
@@ -27,13 +28,12 @@ constexpr Parameter kToss[] = {
     {"velocity", "X Y Z", "with which it leaves the hand, units a second, instead of to", "4 0 5"},
     {"what", "ACTOR", "default: what it holds", "ball"},
     {"flight", "S", "seconds to the place; default: as few as the least speed needs", "1.2"},
-    {"gravity", "G", "units a second and second; default: 9.81, a unit being a metre", "28.4"},
+    {"gravity", "G", kGravityMeaning, "28.4"},
     {"floor", "Z", "height of the floor on which it bounces; default: 0", "0.5"},
     {"restitution", "N", "of the speed upward that an impact leaves, 0 to 0.99; default: 0.7", "0.5"},
     {"friction", "N", "of the speed along the floor that an impact takes, 0 to 1; default: 0.1", "0.3"},
     {"spin", "X Y Z", "degrees a second about the world's axes; default: none", "0 360 0"}};
 
-constexpr double kGravity = 9.81;
 constexpr double kBack = 0.55, kThrough = 0.3, kRest = 0.8;  // seconds: back, past the release, and to rest
 constexpr double kBackward = 42;                             // degrees that the arm swings back
 constexpr double kFollow = 32;                               // degrees beyond the release
@@ -180,7 +180,7 @@ Motion toss(const Scene& scene) {
   require_two_legs(scene.model(), scene.actor.name, "toss");
   const Body body = body_of(scene.model(), scene.actor.name, "toss");
   const Holding holding = holding_of(scene, body);
-  const double gravity = arguments.number("gravity", kGravity, {1e-6, 1e9});
+  const double gravity = arguments.number("gravity", gravity_in(scene.film), {1e-6, 1e9});
   const double floor = arguments.number("floor", 0, {-document::kFarthest, document::kFarthest});
   const ArmSwing swing(scene, body, holding);
 

@@ -7,6 +7,7 @@
 #include "host/content/animator/motion/goals/gesture.h"
 #include "host/content/animator/motion/gaits/jumping.h"
 #include "host/content/animator/motion/laws/kinematic.h"
+#include "host/content/animator/motion/scene/gravity.h"
 #include "host/content/animator/motion/goals/picking.h"
 #include "host/content/animator/motion/goals/reaching.h"
 #include "host/content/animator/motion/gaits/running.h"
@@ -80,7 +81,7 @@ constexpr Parameter kJump[] = {
     {"height", "H", "that the hips rise after the feet have left; default: 0.35 of the leg", "1"},
     {"distance", "D", "forward, negative backward; default: 0", "2.5"},
     {"turn", "DEGREES", "to the left while it flies; default: 0", "180"},
-    {"gravity", "G", "units a second and second; default: 9.81 where a leg is 0.835 long, in proportion", "28"}};
+    {"gravity", "G", "units a second and second; default: by its legs, 9.81 where they are 0.835 long", "28"}};
 constexpr Parameter kTurn[] = {
     {"by", "DEGREES", "to the left; default: 90", "-90"}, {"to", "X Y", "to face a place of the floor", "2 -1"}, kPace};
 constexpr Parameter kSit[] = {
@@ -98,14 +99,15 @@ constexpr Parameter kWave[] = {{"hand", "SIDE", "left or right; default: right",
                                {"seconds", "S", "to and fro; default: 0.5", "0.4"}};
 constexpr Parameter kSpinning{"spin", "X Y Z", "degrees a second about the world's axes; default: none", "0 360 0"};
 constexpr Parameter kVelocity{"velocity", "X Y Z", "units a second; default: none", "2 0 5"};
-constexpr Parameter kThrow[] = {
-    kVelocity,
-    {"acceleration", "X Y Z", "units a second and second; default: 0 0 -9.81, a unit being a metre", "0 0 -28"},
-    kSpinning,
-    {"seconds", "S", "default: 1", "1.5"}};
+constexpr Parameter kThrow[] = {kVelocity,
+                                {"acceleration", "X Y Z",
+                                 "units a second and second; default: straight down, by the same gravity as bounce",
+                                 "0 0 -28"},
+                                kSpinning,
+                                {"seconds", "S", "default: 1", "1.5"}};
 constexpr Parameter kBounce[] = {
     kVelocity,
-    {"gravity", "G", "units a second and second; default: 9.81, a unit being a metre", "28"},
+    {"gravity", "G", kGravityMeaning, "28"},
     {"floor", "Z", "height of the floor, which the figure's lowest point meets; default: 0", "0.5"},
     {"restitution", "N", "of the speed upward that an impact leaves, 0 to 0.99; default: 0.7", "0.8"},
     {"friction", "N", "of the speed along the floor and of the spin that an impact takes, 0 to 1; default: 0.1", "0.3"},

@@ -1,7 +1,8 @@
 // A film's camera: where it is, where it looks, and whom it looks at or goes along with.
 
-import {choice, line, part} from "../../fields.js";
-import {rangeOf, targetOf} from "./controls.js";
+import {element} from "../../dom.js";
+import {part} from "../../fields.js";
+import {rangeOf} from "./controls.js";
 
 export function cameraPart(controls) {
   const now = () => controls.project.camera;
@@ -11,13 +12,19 @@ export function cameraPart(controls) {
   const angle = {name: "Camera, view angle", unit: "°", ...rangeOf(controls.project.keys.camera.fov), step: 1, key: "camera.fov"};
   return part("Camera", vector("Eye", "eye"), vector("Looks at", "at"),
               controls.number("View angle", angle, (fov) => controls.posed("camera", `fov=${fov}`), () => now()?.fov),
-              bound(controls, "Look at", "look"), bound(controls, "Go along", "follow"));
+              bound(controls, "Look at", "look"), bound(controls, "Go along", "follow"),
+              element("div", {class: "actions"}, cut(controls)));
+}
+
+function cut(controls) {
+  const made = controls.button("Cut here", "camera.cut", () => ["animate", "cut", "camera", ...controls.atFrame()]);
+  made.title = "From this frame on the camera may be elsewhere at once; what is before stays as it is";
+  return made;
 }
 
 // `word`: of the command, and of what the project says.
 function bound(controls, label, word) {
-  const made = choice({name: `Camera: ${label.toLowerCase()} an actor`, options: [[null, "Nobody"], ...controls.targets()], key: `camera.${word}`,
-                       commit: (target, event) => controls.commit(["animate", word, target ?? "--end", ...controls.atFrame()], event)});
-  controls.whenSet(() => made.set(targetOf(controls.project.camera?.[word])));
-  return line(label, made.root);
+  return controls.target(label, `Camera: ${label.toLowerCase()} an actor`, `camera.${word}`,
+                         (target, event) => controls.commit(["animate", word, target ?? "--end", ...controls.atFrame()], event),
+                         () => controls.project.camera?.[word]);
 }
