@@ -31,8 +31,8 @@ class PageTest(ProgramTest):
     def run_commands(self, commands, where):
         done = subprocess.run(["bash", "-euc", commands], cwd=self.folder, env=self.environment(), capture_output=True,
                               text=True, timeout=2 * SECONDS)
-        told = "" if SANITIZED else done.stderr  # sanitized nodes are slow enough to be warned of
-        self.assertEqual((done.returncode, told), (0, ""), f"{where}\n{commands}\n{done.stdout}{done.stderr}")
+        warned = "" if SANITIZED else done.stderr  # sanitized nodes are slow enough to be warned of
+        self.assertEqual((done.returncode, warned), (0, ""), f"{where}\n{commands}\n{done.stdout}{done.stderr}")
         return "\n".join(line.rstrip() for line in done.stdout.rstrip().split("\n"))
 
     def run_page(self, name):
