@@ -98,4 +98,8 @@ std::vector<std::uint32_t> FrameSet::first_frames(std::uint32_t count) const {
   return first;
 }
 
+std::string frames_text(std::span<const std::uint32_t> frames) {
+  return (frames.size() == 1 ? "frame " : "frames ") + FrameSet(frames).text();
+}
+
 }  // namespace mars::film

@@ -41,4 +41,7 @@ class FrameSet {
   std::vector<Stretch> stretches_;  // as written
 };
 
+// For people: "frame 7", "frames 3,5-9". The frames ascend.
+std::string frames_text(std::span<const std::uint32_t> frames);
+
 }  // namespace mars::film

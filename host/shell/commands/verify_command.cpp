@@ -53,8 +53,7 @@ void print_troubles(std::span<const sinks::Verdict::Trouble> troubles) {
       if (reason != troubles[0].reason || frame != troubles[0].frame + frames.size()) break;
       frames.push_back(frame);
     }
-    std::cout << (frames.size() == 1 ? "frame " : "frames ") << film::FrameSet(frames).text() << ": "
-              << troubles[0].reason << '\n';
+    std::cout << film::frames_text(frames) << ": " << troubles[0].reason << '\n';
     troubles = troubles.subspan(frames.size());
   }
 }
@@ -75,8 +74,8 @@ std::string text_of_unlisted(const std::string& folder) {
   const std::filesystem::path film = std::filesystem::path(folder) / sinks::kFilmName;
   manifest.film = std::filesystem::exists(film) ? film.string() : "FILM";
   const bool one = unlisted.size() == 1;
-  return (one ? "frame " : "frames ") + frames.text() + " of the film left nothing; if you had rendered " +
-         (one ? "it: " : "them: ") + resume::command_for(folder, manifest, frames);
+  return film::frames_text(unlisted) + " of the film left nothing; if you had rendered " + (one ? "it: " : "them: ") +
+         resume::command_for(folder, manifest, frames);
 }
 
 // Returns the exit code.

@@ -17,11 +17,6 @@ std::string what_happened(const Diagnosis& diagnosis) {
   return failure.where.empty() ? failure.problem : failure.where + ": " + failure.problem;
 }
 
-std::string frames_text(const std::set<std::uint32_t>& frames) {
-  const std::vector<std::uint32_t> list(frames.begin(), frames.end());
-  return (list.size() == 1 ? "frame " : "frames ") + film::FrameSet(list).text();
-}
-
 }  // namespace
 
 Supervisor::Supervisor(options::RenderOptions options, World world)
@@ -45,8 +40,9 @@ void Supervisor::render() {
     count_frames();
   }
   for (const std::uint32_t frame : std::set(frames_.aside())) try_alone(frame);
-  if (!frames_.aside().empty())
-    throw Failure("the nodes that drew " + frames_text(frames_.aside()) + " were killed each time; " + account(),
+  const std::vector<std::uint32_t> aside(frames_.aside().begin(), frames_.aside().end());
+  if (!aside.empty())
+    throw Failure("the nodes that drew " + film::frames_text(aside) + " were killed each time; " + account(),
                   options_.folder, "please report it with the film");
 }
 

@@ -34,7 +34,7 @@ class Supervisor {
     std::function<std::vector<Slots>()> machines;
     // Waits, and gives those of the machines that answer. Throws child::Stopped where a person stops it.
     std::function<std::set<std::string>(std::chrono::seconds pause, const std::vector<std::string>& machines)> ask;
-    // How many of these frames the folder has; none: it cannot be read here.
+    // How many of `frames` the folder has; none: it cannot be read here.
     std::function<std::optional<std::uint32_t>(const std::vector<std::uint32_t>& frames)> count;
     std::function<void(const std::string& line)> print;
     Advice advice;
