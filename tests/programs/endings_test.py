@@ -6,7 +6,7 @@ import shutil
 import signal
 import time
 
-from harness import MPICH, PROGRAMS, ProgramTest, family, living, main, needs_mpi, spinning_teapot, wait_until
+from harness import ENDLESS, MPICH, PROGRAMS, ProgramTest, family, living, main, needs_mpi, spinning_teapot, wait_until
 
 SOON = 15  # seconds; two in practice
 
@@ -14,7 +14,7 @@ SOON = 15  # seconds; two in practice
 class Endings(ProgramTest):
     def start(self, backend):
         shutil.rmtree(self.folder / "out", ignore_errors=True)
-        film = self.write("film.json", spinning_teapot(100000, [160, 90]))
+        film = self.write("film.json", spinning_teapot(ENDLESS, [160, 90]))
         self.process = self.start_mars("render", film, "-o", "out", "--nodes", 3, "--backend", backend, "--restarts", 0)
         self.family = family(self.process.pid)
 

@@ -8,7 +8,8 @@ import subprocess
 import threading
 import time
 
-from harness import ENVIRONMENT, OWN_MPIRUN, PROGRAMS, ProgramTest, family, living, main, needs_mpi, spinning_teapot, wait_until
+from harness import (ENDLESS, ENVIRONMENT, OWN_MPIRUN, PROGRAMS, ProgramTest, family, living, main, needs_mpi,
+                     spinning_teapot, wait_until)
 
 NAMED = 12  # seconds until a silent node is named; six to eight in practice
 
@@ -17,7 +18,7 @@ NAMED = 12  # seconds until a silent node is named; six to eight in practice
 class Hanging(ProgramTest):
     def setUp(self):
         super().setUp()
-        film = self.write("film.json", spinning_teapot(100000, [160, 90]))
+        film = self.write("film.json", spinning_teapot(ENDLESS, [160, 90]))
         self.job = subprocess.Popen(
             [*OWN_MPIRUN, "-n", "1", PROGRAMS / "mars-host", film, "--sink", "none", ":", "-n", "2",
              PROGRAMS / "mars-node"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=ENVIRONMENT)

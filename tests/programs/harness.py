@@ -26,6 +26,7 @@ HAVE_MPI = (PROGRAMS / "mars-host").exists()
 MPICH = HAVE_MPI and b"libmpich" in (PROGRAMS / "mars-host").read_bytes()
 SANITIZED = re.search(rb"__[at]san_init", (PROGRAMS / "mars-threads").read_bytes()) is not None
 SECONDS = 600 if SANITIZED else 60  # for any one program
+ENDLESS = 10000 if SANITIZED else 100000  # frames: more than a program renders while a test looks on
 
 # For a person's own mpirun line: the tests may run as root, with more ranks than cores.
 OWN_MPIRUN = ["mpirun.mpich"] if MPICH else ["mpirun", "--oversubscribe", "--bind-to", "none"]

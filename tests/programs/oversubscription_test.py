@@ -9,7 +9,7 @@ import time
 
 import unittest
 
-from harness import EXAMPLES, MPICH, ProgramTest, family, main, needs_mpi, spinning_teapot
+from harness import ENDLESS, EXAMPLES, MPICH, ProgramTest, family, main, needs_mpi, spinning_teapot
 
 MANY = 32
 NUMBERS = [1, 2, 3, 4, 5, 6, 7, 8, 9, 15, 16, 17, 24, 31, MANY]  # around powers of two, and between
@@ -46,7 +46,7 @@ class Oversubscription(ProgramTest):
                 self.assertEqual(self.pixels(film, MANY, *few), self.pixels(film, 1, *few, backend="threads"))
 
     def start_many(self):
-        film = self.write("film.json", spinning_teapot(100000, [160, 90]))
+        film = self.write("film.json", spinning_teapot(ENDLESS, [160, 90]))
         process = self.start_mars("render", film, "-o", "out", "--nodes", 16, "--backend", "mpi")
         ours = {"mars-host": [], "mars-node": []}
         for each, (_, _, program) in family(process.pid).items():

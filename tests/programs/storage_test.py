@@ -9,7 +9,7 @@ import tempfile
 import time
 import unittest
 
-from harness import (ENVIRONMENT, PROGRAMS, SECONDS, ProgramTest, family, living, main, needs, spinning_teapot,
+from harness import (ENDLESS, ENVIRONMENT, PROGRAMS, SECONDS, ProgramTest, family, living, main, needs, spinning_teapot,
                      wait_until)
 
 SOON = 16  # seconds from a signal to the end, and a little
@@ -182,7 +182,7 @@ class Storage(ProgramTest):
         self.assertNothingTorn(self.out)
 
     def test_a_folder_that_is_removed(self):
-        self.film = self.write("film.json", spinning_teapot(100000, [160, 90]))
+        self.film = self.write("film.json", spinning_teapot(ENDLESS, [160, 90]))
         for backend in self.backends():
             with self.subTest(backend=backend):
                 process = self.start(backend=backend)
@@ -221,12 +221,12 @@ class Storage(ProgramTest):
         if not self.mounts.runs("mount", "-o", "loop", image, self.disk):
             self.skipTest("may not mount a disk image")
         self.before = self.mounts.enter
-        self.film = self.write("film.json", spinning_teapot(100000, [160, 90]))
+        self.film = self.write("film.json", spinning_teapot(ENDLESS, [160, 90]))
         guard = self.mounts.thaws_at_last(self.disk)
         self.addCleanup(self.end, guard)
         self.addCleanup(self.mounts.runs, "fsfreeze", "-u", self.disk)
         process = self.start()
-        wait_until(lambda: "frame-00003.png" in self.inside("ls out 2>/dev/null || true"), SECONDS, "no frame")
+        wait_until(lambda: "0003.png" in self.inside("ls out 2>/dev/null || true"), SECONDS, "no frame")
         self.mounts.run("fsfreeze", "-f", self.disk)
         self.hears(process, "storage has given no answer for 10 seconds, or is slow; the run goes on by itself")
         self.mounts.run("fsfreeze", "-u", self.disk)

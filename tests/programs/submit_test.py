@@ -4,7 +4,7 @@ lines in place of Slurm's."""
 import signal
 import subprocess
 
-from harness import ENVIRONMENT, SECONDS, SOURCES, ProgramTest, main, spinning_teapot, wait_until
+from harness import ENDLESS, ENVIRONMENT, SECONDS, SOURCES, ProgramTest, main, spinning_teapot, wait_until
 
 SCRIPTS = [SOURCES / "cluster/slurm" / name for name in ("render.sbatch", "mpirun.sbatch", "srun.sbatch")]
 
@@ -118,11 +118,11 @@ class Commands(FakeSlurm):
 
     def test_a_run_without_slurm(self):
         self.refused(1, "status", "out", says="no folder of frames")
-        self.write("film.json", spinning_teapot(100000, [64, 36]))
+        self.write("film.json", spinning_teapot(ENDLESS, [64, 36]))
         process = self.start_mars("render", "film.json", "-o", "out", "--backend", "threads", "--nodes", 2)
         wait_until(lambda: " 2 nodes, " in self.slurm("status", "out"), SECONDS, "no status")
-        self.assertRegex(self.slurm("status", "out"), r"out: \d+ of 100000 frames of film.json\n"
-                         r"run on .* \(process \d+\): frame \d+ of 100000, .* left\n  .*  2 nodes, \d+ frames\n$")
+        self.assertRegex(self.slurm("status", "out"), rf"out: \d+ of {ENDLESS} frames of film.json\n"
+                         rf"run on .* \(process \d+\): frame \d+ of {ENDLESS}, .* left\n  .*  2 nodes, \d+ frames\n$")
         self.refused(1, "cancel", "out", says="no job was submitted for this folder")
         process.send_signal(signal.SIGTERM)
         process.wait(SECONDS)
