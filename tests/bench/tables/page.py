@@ -1,10 +1,12 @@
-"""The tables as Markdown and as one HTML page, from the cells of any number of sources."""
+"""The tables as pages of Markdown and as one HTML page, from the cells of any number of sources."""
 import html
 
 import cells
 
 PREDICTS = "simulated-thesis"  # sources of this name show by how much they miss the thesis
 NEAR = 0.05
+PAGES = {**{f"table-{table}": f"Table {table}: {title}" for table, title in cells.TITLES.items()},
+         "comparisons": "Positions, patches, mappings, blocks", "parameters": "Parameters of the runs and simulations"}
 STYLE = """body{font:15px/1.45 system-ui,sans-serif;max-width:70rem;margin:2rem auto;padding:0 1rem;color:#222}
 table{border-collapse:collapse;margin:.6rem 0 1.6rem}td,th{padding:.15rem .6rem}
 td,th{text-align:right;border-bottom:1px solid #ddd}
@@ -38,7 +40,7 @@ def sheet_of(table, kind):
             rows.append([row if place == 0 else "", source] + [cell_text(table, source, row, kind, n) for n in nodes] +
                         [table.best_nodes(source, row, kind)])
     return {"title": f"Table {table.table}: {cells.TITLES[table.table]}; {kind}s, ms a frame",
-            "note": summary(table, kind), "picture": f"table-{table.table}-{kind}s",
+            "note": summary(table, kind), "picture": f"table-{table.table}-{kind}s", "page": f"table-{table.table}",
             "header": [cells.ROWS[table.table], "source"] + [f"P = {n}" for n in nodes] + ["best P"], "rows": rows}
 
 
@@ -68,14 +70,14 @@ def sheets_of(parts):
     sheets = [sheet_of(cells.Cells(table, parts), kind) for table in tables for kind in cells.KINDS[table]]
     if "4.3" in tables:
         sheets.append({"title": "Figure 4.12: nodes, polygons and milliseconds", "note": "Table 4.3, drawn.",
-                       "picture": "figure-4.12", "header": [], "rows": []})
+                       "picture": "figure-4.12", "page": "table-4.3", "header": [], "rows": []})
     return sheets
 
 
 def parameters_of(parts):
     """What simulations were fitted with, once for each source."""
     rows = {(part["source"], name): value for part in parts for name, value in part.get("parameters", {}).items()}
-    return [{"title": "Parameters", "note": "", "header": ["source", "parameter", "value"],
+    return [{"title": "Parameters", "note": "", "page": "parameters", "header": ["source", "parameter", "value"],
              "rows": [[source, name, value if isinstance(value, (int, float)) else str(value)]
                       for (source, name), value in rows.items()]}] if rows else []
 
@@ -86,11 +88,11 @@ def is_text(sheet, column):
     return bool(values) and isinstance(values[0], str) and not values[0][0].isdigit()
 
 
-def markdown(intro, sheets, pictures):
-    """`pictures`: by name."""
-    text = intro + "\n\n"
+def markdown(title, sheets, pictures):
+    """One page. `pictures`: by name."""
+    text = f"# {title}\n\n[All tables](tables.md) explains the sources.\n\n"
     for sheet in sheets:
-        text += f"### {sheet['title']}\n\n" + (sheet["note"] + "\n\n" if sheet["note"] else "")
+        text += f"## {sheet['title']}\n\n" + (sheet["note"] + "\n\n" if sheet["note"] else "")
         if sheet.get("picture") in pictures:
             text += f"![{sheet['title']}]({sheet['picture']}.svg)\n\n"
         if sheet["rows"]:
@@ -98,6 +100,19 @@ def markdown(intro, sheets, pictures):
             lines = [[number(value) for value in row] for row in [sheet["header"], sides, *sheet["rows"]]]
             text += "".join("| " + " | ".join(line) + " |\n" for line in lines) + "\n"
     return text.rstrip() + "\n"
+
+
+def markdown_pages(intro, sheets, pictures):
+    """The text of each file: a page for each table and topic, and tables.md, which leads to them."""
+    shown = {}
+    for sheet in sheets:
+        shown.setdefault(sheet.get("page", "comparisons"), []).append(sheet)
+    files, links = {}, []
+    for name, title in PAGES.items():
+        if name in shown:
+            files[f"{name}.md"] = markdown(title.split(":")[0], shown[name], pictures)
+            links.append(f"- [{title}]({name}.md)\n")
+    return {"tables.md": f"# The tables of 1992, all cells\n\n{intro}\n\n{''.join(links)}", **files}
 
 
 def html_table(sheet):

@@ -66,7 +66,8 @@ class Study:
                 rows.append([name, count, frames[-1]["edge_box_total"], total(frames[-1], "pixels"),
                              runs.busy_of_keyframe(frames)])
         return {"title": "Figure 4.11: one limb of 1300 polygons, vertical and horizontal",
-                "note": "The same limb, turned by 90 degrees in the picture's plane.",
+                "note": "All rows draw the same limb. In the horizontal rows it is turned by 90 degrees in the "
+                        "picture's plane.",
                 "header": ["limb", "nodes", "edge boxes", "pixels", "own work, ms"], "rows": rows}
 
     def distribution(self, nodes):
@@ -81,10 +82,10 @@ class Study:
                 rows.append([count, name, runs.load_ratio(frames[-1], lambda node: node["work"]["edge_boxes_diced"]),
                              max(times) * len(times) / sum(times), max(times)])
         return {"title": "Figure 4.4: patches scattered and in tiles",
-                "note": "The 208 patches of table 4.2's man as one segment. MARS gives node i the patches i, i + P, "
-                        "...: scattered is their order along the body; tiled, another order gives each node "
-                        "neighbours. Load ratio: greatest over average of the nodes, in edge boxes made and in the "
-                        "time of making them.",
+                "note": "The film draws the 208 patches of table 4.2's man as one segment. Node i gets the patches i, "
+                        "i + P, i + 2P, ... Scattered: the patches are in their order along the body. Tiled: they are "
+                        "in an order that gives each node neighbouring patches. Load ratio: the busiest node's number "
+                        "of edge boxes, or time to make them, divided by the average of the nodes.",
                 "header": ["nodes", "patches", "load ratio, edge boxes", "load ratio, time", "slowest node, ms"],
                 "rows": rows}
 
@@ -101,8 +102,9 @@ class Study:
                                  runs.load_ratio(frames[-1], lambda node: node["work"]["edge_boxes"]),
                                  max(times) * len(times) / sum(times), runs.busy_of_keyframe(frames)])
         return {"title": "Mapping of scanlines: the thesis's heuristic and the exact ones",
-                "note": "greedy is figure 4.7's; optimal has the least possible load ratio in edge boxes; cost, MARS's "
-                        "own choice, weighs pixels too. Load ratio: greatest over average of the nodes.",
+                "note": "greedy is the heuristic of figure 4.7. optimal has the least possible load ratio in edge "
+                        "boxes. cost is MARS's default, which counts pixels, too. Load ratio: the busiest node's "
+                        "number of edge boxes, or time, divided by the average of the nodes.",
                 "header": ["film", "nodes", "mapping", "load ratio, edge boxes", "load ratio, time", "own work, ms"],
                 "rows": rows}
 
@@ -131,7 +133,8 @@ class Study:
                 side, *measured = line.split()
                 rows.append([film, int(side), *map(float, measured)])
         return {"title": "Blocks of the host's flags",
-                "note": "An inbetween on the host, on average. Flags: setting and checking them. All: that, pasting "
-                        "the moving pixels, and restoring flagged blocks that they do not fill again.",
+                "note": "The average costs of an inbetween on the host. Flags: the host sets and checks the flags. "
+                        "All: it also pastes the moving pixels, and restores those flagged blocks that the moving "
+                        "pixels do not fill again.",
                 "header": ["film", "block side", "blocks flagged", "pixels restored", "flags, µs", "all, µs"],
                 "rows": rows}

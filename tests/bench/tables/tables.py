@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """The tables and figures of 1992's thesis (chapter 4), measured on this machine,
-beside the thesis's own numbers and those of other sources. It writes tables.md,
-tables.html, results.json (what was measured) and pictures into a folder.
+beside the thesis's own numbers and those of other sources. It writes a page of
+Markdown for each table, tables.md, which links to these pages, tables.html,
+results.json (what was measured) and pictures into a folder.
 
-With more nodes than cores, times on the wall say little about a machine with so
-many cores: "own work" says what the slowest node computes, without waiting and
-messages. README.md beside this program tells more."""
+If there are more nodes than cores, wall-clock times show how the nodes share the
+cores. "own work" is the computing time of the slowest node, without waiting and
+messages. README.md beside this program explains the times."""
 import argparse
 import os
 import platform
@@ -60,10 +61,11 @@ def studied(wanted, machine, folder):
     return [makers[part]() for part in wanted.parts if part in STUDIES]
 
 
-ABOUT = ("Data size is read as polygons, and pictures have 512x480 pixels. \"here, best\" and \"here, median\" are "
-         "times on the wall; with more nodes than cores they say how so many nodes share these cores. \"here, own "
-         "work\" is what the slowest node computes, without waiting and messages: a lower bound for a machine with a "
-         "core for each node.")
+ABOUT = ("The benchmark takes the thesis's \"data size\" as a number of polygons. Pictures have 512x480 pixels. "
+         "\"here, best\" and \"here, median\" are wall-clock times; if there are more nodes than cores, they show how "
+         "the nodes share the cores. \"here, own work\" is the computing time of the slowest node, without waiting and "
+         "messages: a lower bound of the time on a machine with a core for each node. \"simulated-thesis\" is a "
+         "simulation of the thesis's program; the percentages say by how much its cells differ from the thesis's.")
 
 
 def write_results(wanted, measured):
@@ -76,14 +78,15 @@ def write_results(wanted, measured):
         print("mars bench tables: no pictures, as Python's matplotlib is missing (./bootstrap bench)", file=sys.stderr)
     os.makedirs(wanted.output, exist_ok=True)
     files = {name + ".svg": svg for name, svg in drawn.items()}
-    files["tables.md"] = page.markdown(ABOUT, sheets, drawn)
+    pages = page.markdown_pages(ABOUT, sheets, drawn)
+    files |= pages
     files["tables.html"] = page.page(ABOUT, sheets, drawn)
     if measured:
         files["results.json"] = cells.text_of(measured)
     for name, text in files.items():
         with open(os.path.join(wanted.output, name), "w") as file:
             file.write(text)
-    print(f"{files['tables.md']}\n{wanted.output}/tables.html shows this with pictures.")
+    print("\n".join(pages.values()) + f"\n{wanted.output}/tables.html shows the tables with pictures.")
 
 
 def read_command_line():

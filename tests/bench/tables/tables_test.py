@@ -145,7 +145,7 @@ class Rendering(unittest.TestCase):
 
     def test_markdown_and_html_have_the_same_fields(self):
         sheets = page.sheets_of(self.parts) + page.parameters_of(self.parts)
-        text = page.markdown("Intro.", sheets, {})
+        text = "".join(page.markdown_pages("Intro.", sheets, {}).values())
         marked = page.page("Intro.", sheets, {"table-4.1-keyframes": "<svg></svg>"})
         self.assertIn("|  | simulated-thesis | 2694 (+10 %) | 1845 (-20 %) | 2486 (+0 %) |  |  | 4 |", text)
         self.assertIn("| simulated-thesis | speed | 1.25 |", text)
@@ -153,6 +153,16 @@ class Rendering(unittest.TestCase):
         self.assertEqual(set(fields.open.values()) - {0}, {1}, "only meta has no end")
         self.assertEqual(marked.count("<td"), sum(len(row) for sheet in sheets for row in sheet["rows"]))
         self.assertEqual((marked.count("<svg>"), marked.count("src="), marked.count("href=")), (1, 0, 0))
+
+    def test_each_table_and_topic_has_a_page_and_the_first_page_leads_to_it(self):
+        study = {"title": "Blocks", "note": "", "header": ["side"], "rows": [[16]]}
+        files = page.markdown_pages("Intro.", page.sheets_of(self.parts) + [study] + page.parameters_of(self.parts), {})
+        self.assertEqual(list(files), ["tables.md", "table-4.1.md", "comparisons.md", "parameters.md"])
+        self.assertEqual(re.findall(r"\]\((.*?)\)", files["tables.md"]), list(files)[1:])
+        self.assertIn("## Blocks", files["comparisons.md"])
+        self.assertIn("| simulated-thesis | speed |", files["parameters.md"])
+        for text in files.values():
+            self.assertRegex(text, r"\A# .+\n\n")
 
     def test_results_read_back_and_others_are_refused(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -197,7 +207,7 @@ class Command(unittest.TestCase):
         for table in cells.TITLES:
             filled = cells.Cells(table, [part for part in self.results if "cells" in part])
             for kind in cells.KINDS[table]:
-                self.assertIn(f"### Table {table}: {cells.TITLES[table]}; {kind}s", self.shown)
+                self.assertIn(f"## Table {table}: {cells.TITLES[table]}; {kind}s", self.shown)
                 for source in ("here, best", "here, median", "here, own work"):
                     for row in filled.rows(kind):
                         for nodes in (1, 2):
