@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Holds the pages that people read to three rules: no page of docs/ is longer than 250 lines; every link to a file or
-a heading leads there; every file that CONTRIBUTING.md and MAP.md name exists."""
+"""Holds the pages that people read to four rules: no page of docs/ is longer than 250 lines; every link to a file or a
+heading leads there; every file that CONTRIBUTING.md and MAP.md name exists; so does every name of the code that
+CONTRIBUTING.md's recipes tell people to change."""
 
 import pathlib
 import re
@@ -11,11 +12,40 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 LONGEST = 250
 CODE = re.compile(r"```.*?```", re.S)
 LINK = re.compile(r"\[([^\]]*)\]\(([^)\s]+)\)")
+FOLDERS = ("host", "node", "hal", "topology", "tests", "cluster", "docs", "examples")
+FOREIGN = {"mpi.h", "hwloc.h", "png.h"}
+SPAN = re.compile(r"`([^`]+)`")
+PAGE = re.compile(r"\bdocs/[\w/-]+\.md\b")
+SOURCE = re.compile(r"[\w/-]+\.(?:h|cpp|py|js|txt|\*)")
+NAME_OF_CODE = re.compile(r"(k[A-Z]\w+|[A-Z][a-z]\w*|[a-z]\w*_\w+|\w+(?=\(\)))(?:::\w+)?(?:\(\))?")
 NAMED = re.compile(r"`((?:host|node|hal|topology|tests|cluster|docs|examples)/[\w./-]*[\w/])`")
 
 
 def pages():
     return [*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md"), *ROOT.glob("tests/**/README.md"), *ROOT.glob("cluster/**/*.md")]
+
+
+def files():
+    """Paths below the sources' root."""
+    return [file.relative_to(ROOT).as_posix() for folder in FOLDERS for file in (ROOT / folder).rglob("*") if file.is_file()]
+
+
+def is_placeholder(name):
+    return re.search(r"YOURS|NAME|FILE|FILM|your_|\.\.", name)
+
+
+def missing_sources(text, paths):
+    """Files that a page names without their whole path, such as `scene.cpp`, `kernels/shade.cpp` or `process.*`."""
+    names = {name for name in SPAN.findall(text) if SOURCE.fullmatch(name) and not is_placeholder(name)}
+    rooted = ["/" + path for path in paths]
+    return sorted(name for name in names - FOREIGN
+                  if not any(path.endswith("/" + name) or name.endswith(".*") and f"/{name[:-1]}" in path for path in rooted))
+
+
+def missing_names(text, code):
+    """Names of types, functions and constants that a page has and `code`, a set of words, has not."""
+    names = {found[1] for found in map(NAME_OF_CODE.fullmatch, SPAN.findall(text)) if found}
+    return sorted(name for name in names if name not in code)
 
 
 def anchors(page):
@@ -53,6 +83,26 @@ class Pages(unittest.TestCase):
                     continue
                 there = any((ROOT / below / name).exists() for below in ("", "tests")) or list(ROOT.glob(name + ".*"))
                 self.assertTrue(there, f"{page}: {name}")
+
+    def test_of_recipes_name_sources_and_pages_that_there_are(self):
+        paths = files()
+        for page in ("CONTRIBUTING.md", "MAP.md"):
+            text = (ROOT / page).read_text()
+            self.assertEqual(missing_sources(text, paths), [], page)
+            self.assertEqual(sorted(name for name in set(PAGE.findall(text)) if name not in paths), [], page)
+        self.assertEqual(missing_sources("`scene.cpp` `sceme.cpp` `kernels/shade.cpp` `process.*` `proces.*`",
+                                         ["node/scene.cpp", "node/kernels/shade.cpp", "hal/process.h"]),
+                         ["proces.*", "sceme.cpp"])
+
+    def test_of_recipes_name_code_that_there_is(self):
+        code = set()
+        for path in files():
+            if path.endswith((".h", ".cpp", ".py", ".txt", ".cmake", ".js")):
+                code.update(re.findall(r"\w+", (ROOT / path).read_text(errors="replace")))
+        recipes = (ROOT / "CONTRIBUTING.md").read_text().partition("## Recipes")[2]
+        self.assertEqual(missing_names(recipes, code), [])
+        self.assertEqual(missing_names("`kSizes` `kSizez` `check_together()` `Renderer::draw` `run_it()` `a word`",
+                                       {"kSizes", "check_together", "Renderer"}), ["kSizez", "run_it"])
 
 
 if __name__ == "__main__":
