@@ -42,7 +42,7 @@ RULE(csendrecv_round_a_ring, "all nodes may csendrecv at once, long messages too
 }
 
 RULE(csendrecv_takes_what_waits, "csendrecv takes an earlier message that its typesel selects for the answer",
-     "it does not know whose answer it is") {
+     "it cannot know to which message an answer belongs") {
   if (is_host()) return;
   long answer = 0, question = 5;
   send_long(63, 1, mynode());
@@ -52,7 +52,7 @@ RULE(csendrecv_takes_what_waits, "csendrecv takes an earlier message that its ty
   expect_equal(receive_long(64), 5);
 }
 
-RULE(isendrecv_is_one_id, "isendrecv is one id, done when the answer is there", "msgdone is 0 before") {
+RULE(isendrecv_is_one_id, "isendrecv is one id, done when the answer is there", "before that, msgdone is 0") {
   if (is_host()) {
     for (long node = 0; node < numnodes(); ++node) receive_empty(65);
     answer_all(1);
@@ -70,7 +70,7 @@ RULE(isendrecv_is_one_id, "isendrecv is one id, done when the answer is there", 
 }
 
 RULE(wrong_arguments_of_answers, "both parts of csendrecv and isendrecv are checked before anything is sent",
-     "EQTYPE, EQNODE, EQPID, EQLEN, EQPBUF, and no question has gone") {
+     "EQTYPE, EQNODE, EQPID, EQLEN, EQPBUF, and nothing has been sent") {
   long x = 0;
   REFUSED(EQTYPE, csendrecv, (1'000'000'000, &x, 8, mynode(), 0, 1, &x, 8), "1000000000");
   REFUSED(EQTYPE, csendrecv, (1, &x, 8, mynode(), 0, 1'000'000'001, &x, 8), "1000000001");
@@ -85,7 +85,7 @@ RULE(wrong_arguments_of_answers, "both parts of csendrecv and isendrecv are chec
   expect_equal(iprobe(1), 0);
 }
 
-RULE(answers_too_long, "an answer longer than the buffer is EQMSGLONG", "it stays to be received by a longer one") {
+RULE(answers_too_long, "an answer longer than the buffer is EQMSGLONG", "a longer receive can still get it") {
   if (is_host()) {
     answer_all(1);
     return;
@@ -99,7 +99,7 @@ RULE(answers_too_long, "an answer longer than the buffer is EQMSGLONG", "it stay
 
 RULE(answers_that_wait_too_long,
      "an answer that waits already and is too long fails csendrecv, and isendrecv at its msgwait",
-     "EQMSGLONG each time; it goes on waiting, and the questions have gone") {
+     "EQMSGLONG each time; the answer goes on waiting, and the messages have been sent") {
   if (is_host()) return;
   char in = 'x';
   send_long(66, 1, mynode());

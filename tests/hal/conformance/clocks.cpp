@@ -27,8 +27,8 @@ RULE(clocks_go_on, "dclock counts seconds and mclock milliseconds", "neither sta
   expect(mclock() - milliseconds >= 4, "mclock went on");
 }
 
-RULE(hwclock_is_dclock, "hwclock counts nanoseconds in two parts of 32 bits, of the same time as dclock",
-     "it is not before or after it") {
+RULE(hwclock_is_dclock, "hwclock counts the same time as dclock, in nanoseconds, in two parts of 32 bits",
+     "neither clock is ahead of the other") {
   const double before = dclock();
   esize_t ticks = {-1, -1};
   hwclock(&ticks);
@@ -42,7 +42,7 @@ RULE(hwclock_is_dclock, "hwclock counts nanoseconds in two parts of 32 bits, of 
 bool there_are_few() { return numnodes() == 1 || numnodes() == 3; }
 
 RULE(waiting_costs_little, "a rank that waits for a message leaves the processor to others",
-     "0.2 s of waiting take less than 0.07 s of it") {
+     "0.2 s of waiting take less than 0.07 s of the processor") {
   if (!there_are_few()) return;
   const double before = processor_seconds();
   if (mynode() == 0) {
@@ -55,7 +55,7 @@ RULE(waiting_costs_little, "a rank that waits for a message leaves the processor
   }
 }
 
-RULE(flick_gives_time_away, "flick gives the processor away", "a loop of it does not keep a processor busy") {
+RULE(flick_gives_time_away, "flick yields the processor", "a loop of flick does not keep a processor busy") {
   if (!there_are_few()) return;
   const double before = processor_seconds();
   const double end = dclock() + 0.15;

@@ -34,7 +34,8 @@ RULE(gsync_waits_for_all, "gsync returns when all nodes have called it", "no nod
   expect(left >= last_to_come, "no one left before the last came");
 }
 
-RULE(results_have_the_same_bits, "what rounds is the same bits on every node", "also where order matters") {
+RULE(results_have_the_same_bits, "rounded results have the same bits on every node",
+     "also if the order of operations matters") {
   if (is_host()) return;
   const double awkward = 1.0 / (3 + static_cast<double>(mynode())) + 1e10 * static_cast<double>(mynode() % 3);
   double sum = awkward, product = 1 / awkward + 1, work = 0;
@@ -70,8 +71,8 @@ std::string part_of(long node, long scale) {
 }
 
 RULE(gcol_in_node_order,
-     "gcol and gcolx put the parts of all nodes together in node order, of different lengths, empty too",
-     "nothing is written behind the last") {
+     "gcol and gcolx join the parts of all nodes in node order; parts may have different lengths, or be empty",
+     "nothing is written behind the last part") {
   if (is_host()) return;
   for (const long scale : {0L, 1L, 5000L}) {
     std::string all;
@@ -91,8 +92,8 @@ RULE(gcol_in_node_order,
   }
 }
 
-RULE(gcol_that_does_not_fit, "gcol into a buffer shorter than all parts fails",
-     "EQMSGLONG, on every node, also where the buffer of one alone is too short") {
+RULE(gcol_that_does_not_fit, "gcol into a buffer shorter than all parts together fails",
+     "EQMSGLONG on every node, also if the buffer of only one node is too short") {
   if (is_host()) return;
   const std::string mine = "part";
   const long all = 4 * numnodes();
@@ -104,8 +105,8 @@ RULE(gcol_that_does_not_fit, "gcol into a buffer shorter than all parts fails",
   expect_in_step();
 }
 
-RULE(wrong_on_one_node, "what is wrong on one node fails on all that wait for it",
-     "EQLEN on every node, whichever it is; afterwards all goes on") {
+RULE(wrong_on_one_node, "a wrong argument on one node fails the call on all nodes that wait for this node",
+     "EQLEN on every node, whichever node is wrong; later calls work") {
   if (is_host()) return;
   double x = 1, work = 0;
   for (const long wrong : some_nodes())
@@ -114,7 +115,7 @@ RULE(wrong_on_one_node, "what is wrong on one node fails on all that wait for it
 }
 
 RULE(different_lengths, "a vector of another length on one node is EQLEN on all",
-     "nothing is written behind the shorter one; afterwards all goes on") {
+     "nothing is written behind the shorter one; later calls work") {
   if (is_host() || numnodes() == 1) return;
   struct Lengths {
     long usual, odd;
@@ -131,8 +132,8 @@ RULE(different_lengths, "a vector of another length on one node is EQLEN on all"
     }
 }
 
-RULE(different_lists_of_lengths, "gcolx with another list on one node is EQLEN",
-     "not on all, for not all can see it, but on one at least") {
+RULE(different_lists_of_lengths, "another list on one node fails gcolx with EQLEN",
+     "on one node at least; not on all, because not all can notice it") {
   if (is_host() || numnodes() == 1) return;
   std::vector<char> x(16), y(static_cast<std::size_t>(16 * numnodes()));
   for (const long other : some_nodes()) {

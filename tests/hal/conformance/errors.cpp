@@ -12,8 +12,8 @@ namespace {
 
 long x = 0;  // never sent from, never received into
 
-RULE(reserved_types, "1000000000 to 1073741823, 2000000000 and up, and negative ones are no types: EQTYPE",
-     "the edges beside them are good types") {
+RULE(reserved_types, "1000000000 to 1073741823, 2000000000 and up, and negative numbers are no types: EQTYPE",
+     "the numbers next to them are types") {
   REFUSED(EQTYPE, csend, (1'000'000'000, &x, 8, 0, 0), "1000000000", "reserved");
   REFUSED(EQTYPE, csend, (1'073'741'823, &x, 8, 0, 0), "1073741823");
   REFUSED(EQTYPE, csend, (-1, &x, 8, 0, 0), "type -1");
@@ -60,7 +60,7 @@ RULE(negative_lengths, "lengths are not negative", "EQLEN") {
   REFUSED(EQLEN, crecv, (1, &x, -2), "length -2");
 }
 
-RULE(null_buffers, "a null pointer is a buffer of no bytes", "where there are bytes it is EQPBUF") {
+RULE(null_buffers, "a null pointer is a buffer of no bytes", "with a length above 0 it is EQPBUF") {
   REFUSED(EQPBUF, csend, (1, nullptr, 8, 0, 0), "8 bytes", "null");
   REFUSED(EQPBUF, isend, (1, nullptr, 1, 0, 0), "1 byte", "null");
   REFUSED(EQPBUF, irecv, (1, nullptr, 8), "8 bytes", "null");
@@ -70,7 +70,7 @@ RULE(null_buffers, "a null pointer is a buffer of no bytes", "where there are by
 }
 
 RULE(what_was_refused_did_nothing, "a refused call sends nothing, posts nothing and uses no id",
-     "the next message is the next call's") {
+     "the next message that arrives is that of the next call") {
   if (is_host()) return;
   expect_errno(EQLEN, [] { return _csend(2, &x, -1, next_node(), 0); });
   expect_errno(EQNODE, [] { return _isend(2, &x, 8, -9, 0); });

@@ -52,7 +52,7 @@ RULE(cancelled_when_done, "msgcancel of a receive that has its message already g
 }
 
 RULE(cancelled_at_once, "msgcancel of a receive that is not done does not look for its message first",
-     "the next receive does not get the second message instead of the first, also where a handler waits") {
+     "the next receive does not get the second message instead of the first, also if a handler waits") {
   if (is_host()) return;
   long first = 0, second = 0;
   hrecv(52, nullptr, 0, [](long, long, long, long) {});
@@ -70,7 +70,7 @@ RULE(cancelled_at_once, "msgcancel of a receive that is not done does not look f
 
 RULE(cancelled_for_another,
      "a message that a cancelled receive gives back goes to the next posted receive that selects it",
-     "it does not wait beside it") {
+     "the message does not wait while that receive waits") {
   if (is_host()) return;
   long first = 0, second = 0;
   const long mid = irecv(42, &first, sizeof first);
@@ -104,7 +104,8 @@ RULE(cancelled_force, "a force message that a cancelled receive gives back goes 
   msgcancel(later);
 }
 
-RULE(cancelled_sends, "msgcancel of a send frees its id and its buffer", "a message that has gone is not called back") {
+RULE(cancelled_sends, "msgcancel of a send frees its id and its buffer",
+     "a message that has been sent is not called back") {
   if (is_host()) return;
   for (const std::size_t size : {8, 300'000}) {
     Bytes mine = pattern(size, 4), theirs(size);
@@ -117,13 +118,13 @@ RULE(cancelled_sends, "msgcancel of a send frees its id and its buffer", "a mess
   }
 }
 
-RULE(cancel_takes_ids, "msgcancel takes message ids alone", "EQMID for what never was one") {
+RULE(cancel_takes_ids, "msgcancel accepts only message ids", "EQMID for a number that was never an id") {
   REFUSED(EQMID, msgcancel, (-1), "no message id -1");
   REFUSED(EQMID, msgcancel, (0x7fffffff), "no message id 2147483647");
 }
 
 RULE(ids_run_out, "a process has 65,536 message ids: when all are in use the next call is EQNOMID",
-     "an id that is freed can be used again, and so can all; the call that failed posted and sent nothing") {
+     "ids that are freed can be used again, all of them; the call that failed posted and sent nothing") {
   if (mynode() != 0) return;
   for (int again = 0; again < 2; ++again) {
     std::vector<long> mids = {isend(45, nullptr, 0, 0, 0)};
@@ -183,8 +184,8 @@ RULE(flush_by_node, "flushmsg throws away messages of one sender, or of all with
   send_empty(49, myhost());
 }
 
-RULE(flush_spares_the_posted, "flushmsg does not touch posted receives, nor what they have got",
-     "a receive that is done still has its message; one that is not gets the next") {
+RULE(flush_spares_the_posted, "flushmsg changes neither posted receives nor the messages that they have received",
+     "a receive that is done keeps its message; a receive that is not done gets the next message") {
   if (is_host()) return;
   long done = 0, later = 0;
   const long first = irecv(50, &done, sizeof done);

@@ -48,7 +48,7 @@ void await_calls(std::size_t calls, const Place& at = Place::current()) {
 
 RULE(hrecv_calls_once,
      "hrecv calls its handler once, with type, length, sender and pid, when the buffer holds the message",
-     "not before it has come; a second message waits for a receive of its own") {
+     "not before the message has come; a second message waits for a receive of its own") {
   if (is_host()) {
     for (long node = 0; node < numnodes(); ++node) receive_empty(4);
     send_long(50, 1, -1);
@@ -70,8 +70,8 @@ RULE(hrecv_calls_once,
   expect_equal(here.calls.size(), 1);
 }
 
-RULE(hrecv_of_what_waits, "hrecv of a message that waits already calls its handler in this or the next NX calls",
-     "another type that waits does not call it") {
+RULE(hrecv_of_what_waits, "hrecv of a message that waits already calls its handler in this NX call or one of the next",
+     "a waiting message of another type does not call it") {
   if (is_host()) return;
   Seen& here = forget();
   send_long(52, 1, mynode());
@@ -107,8 +107,8 @@ void count_and_post_again(long, long, long node, long) {
   if (--here.left > 0) hrecv(55, &here.value, sizeof(long), count_and_post_again);
 }
 
-RULE(handlers_post_again, "a handler may post itself again: a counter that all nodes use",
-     "no message is lost while none is posted, and each node's stay in order") {
+RULE(handlers_post_again, "a handler may post itself again, as in a counter that all nodes use",
+     "no message is lost while no handler is posted, and the messages of each node stay in order") {
   constexpr long kTimes = 20;
   if (!is_host()) {
     for (long i = 0; i < kTimes; ++i) send_long(55, i, myhost());
@@ -123,7 +123,7 @@ RULE(handlers_post_again, "a handler may post itself again: a counter that all n
 }
 
 RULE(hsend_calls_once, "hsend calls its handler once, with type, length, receiver and pid, when the buffer is free",
-     "the receiver sees nothing of what is written then") {
+     "the receiver does not see what is written to the buffer after that") {
   if (is_host()) return;
   forget();
   Bytes mine = pattern(300'000, 1);
@@ -139,7 +139,7 @@ RULE(hsend_calls_once, "hsend calls its handler once, with type, length, receive
 }
 
 RULE(hsendrecv_calls_for_the_answer, "hsendrecv sends, and calls its handler when the answer is in the buffer",
-     "not for the sending") {
+     "not when the message has been sent") {
   if (is_host()) {
     std::vector<long> questions;
     for (long node = 0; node < numnodes(); ++node) questions.push_back(receive_long(100 + node));
@@ -158,8 +158,8 @@ RULE(hsendrecv_calls_for_the_answer, "hsendrecv sends, and calls its handler whe
   expect_equal(here.value, 2 * question);
 }
 
-RULE(masktrap_holds_back, "masktrap(1) holds handlers back until masktrap(0), and returns what was before",
-     "a message that came meanwhile does not call its handler before, and does after") {
+RULE(masktrap_holds_back, "masktrap(1) holds handlers back until masktrap(0), and returns the previous state",
+     "a message that comes meanwhile calls its handler after masktrap(0), not before") {
   if (is_host()) return;
   Seen& here = forget();
   expect_equal(masktrap(1), 0);
@@ -192,7 +192,7 @@ RULE(too_long_for_an_hrecv, "a message too long for an hrecv fails the call in w
 }
 
 RULE(a_handler_fails_a_crecv, "a crecv that fails because an hrecv's message is too long takes nothing",
-     "the message that it waited for goes to the next crecv") {
+     "the message for which the crecv waited goes to the next crecv") {
   if (is_host()) {
     for (long node = 0; node < numnodes(); ++node) receive_empty(4);
     let_pass(0.002);  // the crecvs wait by now
@@ -212,8 +212,7 @@ RULE(a_handler_fails_a_crecv, "a crecv that fails because an hrecv's message is 
 
 void note_info(long, long, long, long) { note(infotype(), infocount(), infonode(), infopid()); }
 
-RULE(info_in_handlers, "in a handler info* describe its own message",
-     "the program that it interrupts does not see it") {
+RULE(info_in_handlers, "in a handler info* describe its own message", "the interrupted program's info* do not change") {
   if (is_host()) return;
   Seen& here = forget();
   csend(72, "abc", 3, next_node(), 0);
@@ -256,7 +255,7 @@ void answer(long type, long len, long node, long pid) {
 }
 
 RULE(nx_calls_in_handlers, "a handler may send, receive and post; handlers run one at a time",
-     "no handler runs within another, though messages for it come") {
+     "no handler runs within another, even if messages for it come") {
   constexpr long kTimes = 10;
   if (!is_host()) {
     for (long i = 0; i < kTimes; ++i) send_long(66, i, myhost());
@@ -281,7 +280,8 @@ RULE(handlers_run_in_waits, "a handler runs while its process waits in crecv",
   expect_equal(infotype(), 70);
 }
 
-RULE(handlers_run_in_probes, "a handler runs while its process waits in cprobe", "what it sends itself is found") {
+RULE(handlers_run_in_probes, "a handler runs while its process waits in cprobe",
+     "the cprobe finds what the handler sends to its own process") {
   if (is_host()) return;
   hrecv(71, &forget().value, sizeof(long), pass_on);
   send_long(71, 6, next_node());
@@ -291,7 +291,7 @@ RULE(handlers_run_in_probes, "a handler runs while its process waits in cprobe",
 }
 
 RULE(handlers_run_in_global_operations, "a handler runs while its process waits in a global operation",
-     "no deadlock where the others come only when it has answered them") {
+     "no deadlock if the other nodes call it only after the handler has answered them") {
   if (is_host()) return;
   Seen& here = forget();
   const std::size_t questions = 3 * static_cast<std::size_t>(numnodes() - 1);

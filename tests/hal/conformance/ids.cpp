@@ -51,7 +51,7 @@ RULE(posted_before_blocking, "a posted receive comes before a crecv called later
   expect_equal(posted, 1);
 }
 
-RULE(ids_end_once_done, "msgwait, and msgdone that was 1, free the id", "using it again is EQMID") {
+RULE(ids_end_once_done, "msgwait, and a msgdone that returns 1, free the id", "using it again is EQMID") {
   if (is_host()) return;
   const Bytes out = pattern(400'000, 1);
   Bytes in(out.size());
@@ -68,7 +68,7 @@ RULE(ids_end_once_done, "msgwait, and msgdone that was 1, free the id", "using i
   }
 }
 
-RULE(ids_are_not_used_again_soon, "an id that was freed stands for nothing, also when others have been given out since",
+RULE(ids_are_not_used_again_soon, "an id that was freed stands for nothing, even after other ids have been given out",
      "it does not stand for a later receive") {
   if (is_host()) return;
   const long freed = irecv(44, nullptr, 0);
@@ -79,8 +79,8 @@ RULE(ids_are_not_used_again_soon, "an id that was freed stands for nothing, also
   for (const long mid : later) msgcancel(mid);
 }
 
-RULE(msgdone_does_not_wait, "msgdone is 0 while nothing came, and the id stays in use",
-     "an id whose msgdone was 0 is still good") {
+RULE(msgdone_does_not_wait, "msgdone is 0 while no message has come, and the id stays in use",
+     "such an id can still be used") {
   if (is_host()) {
     for (long node = 0; node < numnodes(); ++node) receive_empty(4);
     send_long(43, 7, -1);
@@ -115,7 +115,7 @@ RULE(a_thousand_ids, "a thousand ids at once, done in any order", "none stands f
 }
 
 RULE(info_is_of_what_was_asked,
-     "info* describe the message whose msgwait, msgdone that was 1, receive or probe was last",
+     "info* describe the message of the last msgwait, msgdone that returned 1, receive or probe",
      "messages that arrive meanwhile, and sends, do not change them") {
   if (is_host()) return;
   long first = 0, second = 0;

@@ -23,8 +23,8 @@ RULE(zero_length, "a message may be empty, and be received into no buffer",
   expect_equal(untouched, 'x');
 }
 
-RULE(lengths_about_thresholds, "every length arrives whole, also about 100, 256, 4096 and 65536 bytes",
-     "what lies behind a message's end stays untouched") {
+RULE(lengths_about_thresholds, "messages of every length arrive whole, also of about 100, 256, 4096 and 65536 bytes",
+     "what lies behind the end of a message stays untouched") {
   const std::vector<long> about = {1, 3, 99, 100, 101, 255, 256, 257, 4095, 4096, 4097, 65535, 65536, 65537};
   if (is_host()) return;
   for (const long length : about) {
@@ -90,7 +90,7 @@ RULE(too_long_after_shorter, "a receive that is too short for the first message 
 
 RULE(too_long_for_the_posted,
      "a posted receive that is too short fails at its msgwait or msgdone, and the message goes on",
-     "EQMSGLONG not before; its buffer stays untouched; the next receive gets the message") {
+     "EQMSGLONG not before that; its buffer stays untouched; the next receive gets the message") {
   if (is_host()) return;
   long untouched = -7, also = -7, value = 0;
   const long waited = irecv(73, &untouched, 7);

@@ -52,8 +52,8 @@ void sum_in(const collectives::Group& group) {
   expect_equal(high[1], 1);
 }
 
-RULE(parts_of_the_machine_sum, "group_sum and group_high work in any run of nodes, on integers of 64 bits",
-     "EBC's sums would be wrong") {
+RULE(parts_of_the_machine_sum, "group_sum and group_high work on any range of nodes, on integers of 64 bits",
+     "otherwise EBC's sums would be wrong") {
   if (is_host()) return;
   const int nodes = static_cast<int>(numnodes());
   const int step = std::max(1, nodes / 8);
@@ -170,8 +170,8 @@ void expect_called(const std::function<void()>& wait, const std::function<void()
   expect(infotype() != 97, "info* are not of the message that was received meanwhile");
 }
 
-RULE(called_while_waiting, "while_waiting is called in a call that waits, and may send and receive",
-     "no simulated rank is called; the waiting call's info* stay") {
+RULE(called_while_waiting, "a call that waits calls while_waiting, which may send and receive",
+     "not on simulated ranks; the info* of the waiting call do not change") {
   constexpr long kGo = 95;
   const auto all_go = [] {
     send_empty(kGo, -1);
@@ -208,7 +208,7 @@ RULE(called_while_waiting, "while_waiting is called in a call that waits, and ma
   wait_in(gsync);
 }
 
-RULE(called_while_waiting_may_throw, "what while_waiting throws ends the call that waits",
+RULE(called_while_waiting_may_throw, "an exception of while_waiting ends the call that waits",
      "the call can be made again") {
   if (mynode() == 0) {
     for (long rank = numnodes(); rank > 0; --rank) receive_empty(96);

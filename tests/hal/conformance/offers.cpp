@@ -62,7 +62,7 @@ bool exchange_sights(bool seen) {
   return receive_long(kSeen) != 0;
 }
 
-RULE(an_offer_is_attached, "memory that one rank offers is another's too, the host's and the nodes'",
+RULE(an_offer_is_attached, "a rank can attach memory that another rank, the host or a node, offers",
      "not across machines; it is zeroed and begins at a page") {
   const OfferedMemory mine(kBytes);
   expect(std::all_of(mine.bytes().begin(), mine.bytes().end(), [](std::byte byte) { return byte == std::byte{}; }),
@@ -81,8 +81,8 @@ RULE(an_offer_is_attached, "memory that one rank offers is another's too, the ho
     expect(is_full(mine.bytes(), 1000 + next_rank()), "it has what the other wrote back");
 }
 
-RULE(an_attached_block_stays, "memory that was attached is seen even when the rank that offered it has let it go",
-     "its name is of nothing any more") {
+RULE(an_attached_block_stays, "attached memory can be used even after the rank that offered it has released it",
+     "nobody can attach it by its name any more") {
   std::optional<OfferedMemory> mine(kBytes);
   fill(mine->bytes(), mynode());
   const MemoryName name = exchange_names(mine->name());
@@ -96,7 +96,7 @@ RULE(an_attached_block_stays, "memory that was attached is seen even when the ra
   expect(!attach(previous_rank(), name), "its name is refused");
 }
 
-RULE(false_names_are_refused, "a rank attaches its own memory too, by its rank, name and size alone",
+RULE(false_names_are_refused, "a rank can attach its own memory, too; rank, name and size are enough for that",
      "a name with any bit changed, or with another rank or size, is refused") {
   const OfferedMemory mine(kBytes);
   expect(attach(static_cast<int>(mynode()), mine.name()).has_value(), "one's own is seen");
@@ -112,7 +112,7 @@ RULE(false_names_are_refused, "a rank attaches its own memory too, by its rank, 
   expect(!attach(static_cast<int>(mynode()), MemoryName{}), "no name is refused");
 }
 
-RULE(an_offer_may_be_empty, "memory of no bytes can be offered and attached", "it has none") {
+RULE(an_offer_may_be_empty, "memory of no bytes can be offered and attached", "it has no bytes") {
   const OfferedMemory mine(0);
   const std::optional<AttachedMemory> same = attach(static_cast<int>(mynode()), mine.name(), 0);
   expect(same && same->bytes().empty() && mine.bytes().empty(), "it is empty");

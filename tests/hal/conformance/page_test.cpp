@@ -1,4 +1,4 @@
-// docs/nx-conformance.md is the table of the rules that the tests hold.
+// docs/nx-conformance.md is the table of the rules that the tests check.
 #include <filesystem>
 #include <fstream>
 #include <iterator>

@@ -13,7 +13,7 @@ namespace {
 
 using Info = std::array<long, 8>;
 
-RULE(crecvx_by_sender, "crecvx receives from the node it names, -1 being any",
+RULE(crecvx_by_sender, "crecvx receives from the node that it names; -1 is any node",
      "an earlier message of another sender stays") {
   if (!is_host()) {
     send_long(80, 100 + mynode(), myhost());
@@ -31,8 +31,8 @@ RULE(crecvx_by_sender, "crecvx receives from the node it names, -1 being any",
   }
 }
 
-RULE(irecvx_by_sender, "irecvx likewise; its array is filled when the id is done",
-     "not before, and not by another's message") {
+RULE(irecvx_by_sender, "irecvx receives from the node that it names, too; its array is filled when the id is done",
+     "not before, and not by a message of another node") {
   if (is_host()) {
     send_long(81, 1, -1);
     return;
@@ -52,7 +52,8 @@ RULE(irecvx_by_sender, "irecvx likewise; its array is filled when the id is done
   expect(info == Info{81, sizeof(long), mynode()}, "the array describes the message");
 }
 
-RULE(probes_by_sender, "cprobex and iprobex find messages of the node they name", "0 where only others' wait") {
+RULE(probes_by_sender, "cprobex and iprobex find messages of the node that they name",
+     "0 if only messages of other nodes wait") {
   if (is_host()) send_long(82, 1, -1);
   if (is_host()) return;
   Info info = {};
@@ -63,7 +64,8 @@ RULE(probes_by_sender, "cprobex and iprobex find messages of the node they name"
   receive_long(82);
 }
 
-RULE(merged_ids, "msgmerge makes one id of two, done when both are; the other is free; -1 is neutral",
+RULE(merged_ids,
+     "msgmerge makes one id of two, which is done when both are, and frees the other; merging with -1 changes nothing",
      "it is not done with one of them, and the other id is EQMID") {
   if (is_host()) return;
   long first = 0, second = 0;
@@ -84,7 +86,7 @@ RULE(merged_ids, "msgmerge makes one id of two, done when both are; the other is
   REFUSED(EQMID, msgwait, (two), "no message id");
 }
 
-RULE(wrong_merges, "msgmerge takes two ids in use", "EQMID for others, and for one and the same") {
+RULE(wrong_merges, "msgmerge takes two ids in use", "EQMID for other numbers, and for the same id twice") {
   const long mid = irecv(85, nullptr, 0);
   REFUSED(EQMID, msgmerge, (mid, 0x7fffffff), "no message id");
   REFUSED(EQMID, msgmerge, (mid, mid), "message ids");
@@ -92,7 +94,7 @@ RULE(wrong_merges, "msgmerge takes two ids in use", "EQMID for others, and for o
   msgcancel(mid);
 }
 
-RULE(ignored_ids, "msgignore frees the id, and what it stands for goes on",
+RULE(ignored_ids, "msgignore frees the id, and its send or receive goes on",
      "the message does not wait for another receive") {
   if (is_host()) return;
   long value = 0;
@@ -116,7 +118,7 @@ void note_parameter(long type, long len, long node, long ptype, long parameter) 
   if (ptype == 0 && len == 0 && node == mynode()) parameters().push_back(1000 * type + parameter);
 }
 
-RULE(handlers_with_a_parameter, "hrecvx and hsendx give their parameter to the handler", "each its own") {
+RULE(handlers_with_a_parameter, "hrecvx and hsendx give their parameter to the handler", "each handler gets its own") {
   if (is_host()) return;
   parameters().clear();
   masktrap(1);
@@ -132,7 +134,7 @@ RULE(handlers_with_a_parameter, "hrecvx and hsendx give their parameter to the h
   expect(parameters() == std::vector<long>{88'005, 89'006, 90'007}, "each handler got its own");
 }
 
-RULE(wrong_arguments_of_forms_with_x, "the forms with x check as those without, and the sender they name",
+RULE(wrong_arguments_of_forms_with_x, "calls with x check what those without x check, and the sender that they name",
      "EQTYPE, EQNODE, EQPID, EQLEN, EQPBUF") {
   long x = 0;
   REFUSED(EQTYPE, crecvx, (1'000'000'000, &x, 8, -1, -1, nullptr), "reserved");

@@ -7,7 +7,8 @@
 namespace mars::conformance {
 namespace {
 
-RULE(probes_describe, "a probe sets info* to the first pending message that it selects", "and does not take it") {
+RULE(probes_describe, "a probe sets info* to the first pending message that it selects",
+     "it does not take the message") {
   const Bytes data = pattern(4000, 3);
   if (is_host()) {
     csend(60, data.data(), 4000, -1, 0);
@@ -31,7 +32,7 @@ RULE(probes_describe, "a probe sets info* to the first pending message that it s
   expect_equal(infocount(), 400);
 }
 
-RULE(iprobe_does_not_wait, "iprobe of what is not there is 0", "info* stay as they were") {
+RULE(iprobe_does_not_wait, "iprobe is 0 if it finds no message", "info* stay as they were") {
   if (is_host()) send_long(62, 1, -1);
   if (is_host()) return;
   receive_long(62);
@@ -41,7 +42,7 @@ RULE(iprobe_does_not_wait, "iprobe of what is not there is 0", "info* stay as th
   expect_equal(infocount(), sizeof(long));
 }
 
-RULE(cprobe_waits, "cprobe waits until a message that it selects has come", "others do not end it") {
+RULE(cprobe_waits, "cprobe waits until a message that it selects has come", "other messages do not end the wait") {
   if (is_host()) {
     send_empty(63, -1);
     let_pass(0.002);
@@ -75,7 +76,7 @@ RULE(posted_receives_come_before_probes, "a probe does not see a message that a 
 }
 
 RULE(the_probed_is_received, "the receive after a probe gets the message that the probe found",
-     "also while others send to the same rank") {
+     "also while other ranks send to the same rank") {
   constexpr int kMessages = 50;
   if (!is_host()) {
     for (int i = 0; i < kMessages; ++i) csend(67, pattern(100 * i, 1).data(), 100 * i, myhost(), 0);

@@ -18,7 +18,7 @@ RULE(numbers_of_ranks, "nodes are 0 to numnodes() - 1; myhost() is none of them;
   expect(numnodes() == 1 || 1L << (nodedim() - 1) < numnodes(), "the cube is the smallest");
 }
 
-RULE(every_node_is_one, "every id is one node's", "the sum of the ids would differ") {
+RULE(every_node_is_one, "each id belongs to one node", "otherwise the sum of the ids would differ") {
   if (!is_host()) {
     send_long(5, mynode(), myhost());
     return;
@@ -32,7 +32,8 @@ RULE(every_node_is_one, "every id is one node's", "the sum of the ids would diff
   expect_equal(sum, numnodes() * (numnodes() - 1) / 2);
 }
 
-RULE(the_host_talks_with_every_node, "the host and each node send to each other by id", "no node gets another's") {
+RULE(the_host_talks_with_every_node, "the host and each node send to each other by id",
+     "no node gets a message for another node") {
   if (!is_host()) {
     send_long(20 + mynode(), receive_long(100 + mynode()) * 2, myhost());
     expect_equal(infonode(), myhost());
@@ -43,7 +44,7 @@ RULE(the_host_talks_with_every_node, "the host and each node send to each other 
 }
 
 RULE(gray_codes, "gray(n) and gray(n + 1) are neighbours in the cube, and ginv is the inverse of gray",
-     "no two n have one code; the last and the first of 2^d are neighbours too") {
+     "no two n have the same code; the last and the first of 2^d are neighbours too") {
   for (const long size : {2L, 8L, 32L, 1024L}) {
     std::set<long> codes;
     for (long n = 0; n < size; ++n) {
@@ -57,7 +58,7 @@ RULE(gray_codes, "gray(n) and gray(n + 1) are neighbours in the cube, and ginv i
   }
 }
 
-RULE(the_host_takes_no_part, "global operations are the nodes'", "the host's call of one is EQNODE") {
+RULE(the_host_takes_no_part, "only nodes take part in global operations", "if the host calls one, it is EQNODE") {
   if (!is_host()) {
     gsync();
     return;

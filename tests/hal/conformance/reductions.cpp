@@ -138,13 +138,12 @@ void reduce_truths() {
 }
 
 RULE(truths, "gland, glor and glxor take what is not 0 for true and give 0 or 1",
-     "never another number, not on one node either") {
+     "never another number, not even on a single node") {
   reduce_truths();
 }
 
-RULE(reductions_by_the_network,
-     "all of them give the same where MARS_NX_COLLECTIVES=mpi has the network reduce by itself",
-     "not one is another operation of the network's") {
+RULE(reductions_by_the_network, "all of them give the same results if MARS_NX_COLLECTIVES=mpi makes the network reduce",
+     "none becomes another operation of the network") {
   messages::process().set_collectives(messages::CollectiveMethod::network);
   reduce_doubles();
   reduce_floats();
@@ -167,7 +166,7 @@ long higher_peak(void* x, void* work) {
   return 0;
 }
 
-RULE(gopf_of_a_struct, "gopf combines with an operation of one's own, the result on every node",
+RULE(gopf_of_a_struct, "gopf combines with an operation of the program, and every node gets the result",
      "ties do not depend on the node") {
   if (is_host()) return;
   Peak x{static_cast<double>(mynode() * 5 % 3), mynode()}, work{};
@@ -181,8 +180,8 @@ RULE(gopf_of_a_struct, "gopf combines with an operation of one's own, the result
   expect_equal(x.node, wanted.node);
 }
 
-RULE(wrong_arguments_of_reductions, "what is wrong on all nodes fails on all, plain and twin",
-     "EQLEN, EQPBUF; afterwards all goes on") {
+RULE(wrong_arguments_of_reductions, "an argument that is wrong on all nodes fails the call and its twin on all nodes",
+     "EQLEN, EQPBUF; later calls work") {
   if (is_host()) return;
   double x = 0, work = 0;
   long whole = 0, whole_work = 0, count = 0;
@@ -197,7 +196,8 @@ RULE(wrong_arguments_of_reductions, "what is wrong on all nodes fails on all, pl
   gsync();
 }
 
-RULE(gsendx_to_a_list, "gsendx sends to each node of a list; those receive by crecv", "nodes not in it get nothing") {
+RULE(gsendx_to_a_list, "gsendx sends to each node of a list; these nodes receive by crecv",
+     "nodes that are not in the list get nothing") {
   if (is_host()) return;
   std::vector<long> odd;
   for (long node = 1; node < numnodes(); node += 2) odd.push_back(node);
@@ -210,8 +210,8 @@ RULE(gsendx_to_a_list, "gsendx sends to each node of a list; those receive by cr
   expect_equal(iprobe(73), 0);
 }
 
-RULE(wrong_arguments_of_gsendx, "gsendx checks all its list before it sends",
-     "EQNODE, EQTYPE, EQLEN, EQPBUF, and nothing has gone") {
+RULE(wrong_arguments_of_gsendx, "gsendx checks its whole list before it sends",
+     "EQNODE, EQTYPE, EQLEN, EQPBUF, and nothing has been sent") {
   long x = 0;
   const long list[2] = {mynode(), numnodes() + 1};
   REFUSED(EQNODE, gsendx, (73, &x, 8, list, 2), "no node");

@@ -72,9 +72,9 @@ void run_rules() {
 
 std::string table_of_rules() {
   std::string text =
-      "# The rules of NX that tests hold\n\n"
-      "Each rule is one test body, run on every backend by a host and 1, 2, 3, 4, 7, 8, 16 and 32 nodes\n"
-      "(`tests/hal/conformance/`, a file a topic). This page is made from the tests, and one of them compares it.\n";
+      "# The rules of NX that tests check\n\n"
+      "Each rule is one test body. A host and 1, 2, 3, 4, 7, 8, 16 and 32 nodes run it on every backend\n"
+      "(`tests/hal/conformance/`, one file for each topic). The tests make this page, and compare it.\n";
   std::string topic;
   for (const Rule& rule : rules()) {
     if (rule.topic() != topic) {

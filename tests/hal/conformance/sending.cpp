@@ -21,7 +21,7 @@ RULE(round_a_ring, "csend and crecv carry a message; info* give its sender, type
   expect_equal(infopid(), 0);
 }
 
-RULE(to_oneself, "a rank, the host too, sends to itself", "the message is not lost behind others'") {
+RULE(to_oneself, "a rank, the host too, can send to itself", "the message is not lost behind messages of others") {
   send_long(8, 80 + mynode(), mynode());
   expect_equal(receive_long(8), 80 + mynode());
   expect_equal(infonode(), mynode());
@@ -93,8 +93,8 @@ RULE(long_and_short_keep_their_order, "a short message does not overtake a long 
   for (const long mid : mids) msgwait(mid);
 }
 
-RULE(head_to_head, "csend of long messages head to head never waits for the receive: 8 MB each way, then crecv",
-     "no deadlock, also where all nodes of a larger cube do it with 200 kB") {
+RULE(head_to_head, "csend of long messages both ways at once never waits for the receive: 8 MB each way, then crecv",
+     "no deadlock, also if all nodes of a larger cube do so with 200 kB") {
   if (is_host()) return;
   const long length = numnodes() <= 3 ? 8'000'000 : 200'000;
   const long other = mynode() ^ 1;
@@ -116,8 +116,8 @@ RULE(long_to_oneself, "csend of 8 MB to oneself returns before the receive", "no
   expect(theirs == mine, "the message is whole");
 }
 
-RULE(the_buffer_is_free_after_csend, "after csend the buffer may be written to, after isend when its id is done",
-     "the receiver does not see what was written later") {
+RULE(the_buffer_is_free_after_csend, "after csend, and after isend when its id is done, the buffer may be written to",
+     "the receiver does not see what is written after that") {
   if (is_host()) return;
   Bytes mine = pattern(300'000, 1);
   csend(52, mine.data(), length_of(mine), next_node(), 0);

@@ -38,7 +38,7 @@ RULE(minus_one, "typesel -1 selects the first message of any ordinary type", "it
   select_in_turn({5, 0, 999'999'999, 29, 30}, {{-1, 5}, {-1, 0}, {-1, 999'999'999}, {-1, 29}, {-1, 30}});
 }
 
-RULE(low_bits, "another negative typesel is a set: bit k, 0 to 29, selects type k",
+RULE(low_bits, "any other negative typesel is a set: bit k, 0 to 29, selects type k",
      "types whose bits are not set stay") {
   select_in_turn({29, 1, 30, 0, 16}, {{-0x80000000L | 1 << 16 | 1, 0},
                                       {-0x80000000L | 1 << 16 | 1, 16},
@@ -47,7 +47,8 @@ RULE(low_bits, "another negative typesel is a set: bit k, 0 to 29, selects type 
                                       {-1, 30}});
 }
 
-RULE(bit_30, "bit 30 of a set selects all types from 30 to 999999999", "it does not select 29; bit 29 not 30") {
+RULE(bit_30, "bit 30 of a set selects all types from 30 to 999999999",
+     "bit 30 does not select type 29, and bit 29 not type 30") {
   select_in_turn({29, 30, 29, 999'999'999, 31}, {{-0x80000000L | 1 << 30, 30},
                                                  {-0x80000000L | 1 << 30, 999'999'999},
                                                  {-0x80000000L | 1 << 29, 29},
@@ -55,13 +56,15 @@ RULE(bit_30, "bit 30 of a set selects all types from 30 to 999999999", "it does 
                                                  {-1, 29}});
 }
 
-RULE(positive_sets, "a typesel is cut to 32 bits: 0x80000007, positive in a long of 64, is types 0, 1 and 2",
+RULE(positive_sets,
+     "only the lower 32 bits of a typesel count: 0x80000007, positive as a long of 64, selects types 0, 1 and 2",
      "type 3 stays") {
   select_in_turn({3, 2, 0, 1, 31, 7},
                  {{0x80000007, 2}, {0x80000007, 0}, {0x80000007, 1}, {0xc0000000, 31}, {0xffffffff, 3}, {-1, 7}});
 }
 
-RULE(sets_do_not_probe_others, "iprobe takes a set as receives do", "0 where only types outside it wait") {
+RULE(sets_do_not_probe_others, "iprobe accepts a set as receives do",
+     "0 if only messages of types outside the set wait") {
   if (is_host()) send_empty(4, -1);
   if (is_host()) return;
   cprobe(4);
@@ -71,7 +74,7 @@ RULE(sets_do_not_probe_others, "iprobe takes a set as receives do", "0 where onl
   expect_equal(infotype(), 4);
 }
 
-RULE(force_is_discarded, "a force message is discarded where no receive is posted",
+RULE(force_is_discarded, "a force message is discarded if no receive is posted for it",
      "a receive posted later does not get it; iprobe finds none, and cprobe, which would wait for ever, is EQTYPE") {
   if (is_host()) {
     send_empty(kForce, -1);
@@ -96,7 +99,7 @@ RULE(force_is_discarded, "a force message is discarded where no receive is poste
 }
 
 RULE(force_is_not_ordinary, "no wildcard selects a force message: a posted receive of -1 or of all bits lets it pass",
-     "it is discarded in spite of them") {
+     "it is discarded although they are posted") {
   if (is_host()) {
     for (long node = 0; node < numnodes(); ++node) receive_empty(2);
     send_empty(1'999'999'999, -1);
@@ -114,8 +117,8 @@ RULE(force_is_not_ordinary, "no wildcard selects a force message: a posted recei
   expect_equal(infotype(), 4);
 }
 
-RULE(force_is_awaited, "crecv of a force type is a posted receive: what comes while it waits is its own",
-     "what comes before or after is discarded, so the host sends until all have one") {
+RULE(force_is_awaited, "crecv of a force type is a posted receive: it takes the message that comes while it waits",
+     "a message that comes before or after is discarded, so the host sends until all have one") {
   constexpr long kOften = kForce + 7;
   if (!is_host()) {
     expect_equal(receive_long(kOften), 5);
