@@ -15,11 +15,11 @@ namespace mars::editing {
 namespace {
 
 constexpr const char* kAnimate = "Set, move, time, list and check the keys of a film";
-constexpr const char* kFooter = R"(FILM is changed in place, whole or not at all. Begin with
-  mars animate film.json list                              what is keyed
-  mars animate film.json pose robot elbow.y=90 --frame 24  the elbow there
-  mars animate film.json pose robot elbow.y+=5 --frame 0-48  a little more
-  mars animate film.json time robot --frame 0 --ease both  begin and end slowly
+constexpr const char* kFooter = R"(A command changes FILM in place, or leaves it as it was. Begin with
+  mars animate film.json list                              show its keys
+  mars animate film.json pose robot elbow.y=90 --frame 24  bend the elbow
+  mars animate film.json pose robot elbow.y+=5 --frame 0-48  bend it more
+  mars animate film.json time robot --frame 0 --ease both  start and end slowly
 More: docs/animating.md.
 )";
 
@@ -75,7 +75,7 @@ class Command {
   }
   Command& all() {
     app_.add_flag("--all", words_.all,
-                  "Instead of an actor: all that has keys, camera, lights and materials too. Example: --all");
+                  "Instead of an actor: everything that has keys, also camera, lights and materials. Example: --all");
     return *this;
   }
   Command& frame(const char* help, const char* type) {
@@ -96,8 +96,7 @@ class Command {
     return *this;
   }
   Command& lengthen() {
-    app_.add_flag("--lengthen", words_.lengthen,
-                  "Give the film as many frames as its last key needs. Example: --lengthen");
+    app_.add_flag("--lengthen", words_.lengthen, "Make the film long enough for its last key. Example: --lengthen");
     return *this;
   }
   void runs(const std::function<void()>& run) {
@@ -116,12 +115,13 @@ class Command {
 
 constexpr const char* kThing = "An actor, camera, light/N (from 1) or material/NAME. Example: robot";
 constexpr const char* kParts =
-    "Only these of its joints, place and turn (camera: eye, at, up, fov), or all like a pattern. "
-    "Example: elbow place '*-shin'";
+    "Only these joints, place or turn (camera: eye, at, up, fov), or all that match a pattern. Example: elbow place "
+    "'*-shin'";
 constexpr const char* kOneFrame = "The frame. Example: --frame 24";
 constexpr const char* kRange = "The frame, or a range of frames, both ends included. Example: --frame 24-48";
 constexpr const char* kEase =
-    "From this key to the next: linear, in, out, both, spline or a curve. Example: --ease both or --ease 0.4,0,0.6,1";
+    "Ease from this key to the next: linear, in, out, both, spline or a curve. Example: --ease both or --ease "
+    "0.4,0,0.6,1";
 
 void require_thing(const Words& words) {
   if (words.thing.empty() && !words.all)
@@ -134,9 +134,9 @@ void add_pose(cli::Command animate, Words& words) {
                   "Set or turn joints of an actor, its place, the camera, lights and materials");
   command.thing(kThing)
       .parts("PART=NUMBERS",
-             "One axis or all: degrees, or a place; other parts stay as they are. += and -= add to what it is there; "
-             "* stands for any text. Example: elbow.y=90 place=2,0,0 turn.z+=45 '*-shin.y-=10'")
-      .frame("The frame; with += or -= also a range, of which all keys of the part change. Example: --frame 24",
+             "One axis of a part, or all: degrees, or a place; other parts keep their values. += and -= add to the "
+             "value at the frame; * stands for any text. Example: elbow.y=90 place=2,0,0 turn.z+=45 '*-shin.y-=10'")
+      .frame("The frame; with += or -= also a range, in which all keys of the part change. Example: --frame 24",
              "FRAME")
       .ease(kEase)
       .clamp()
@@ -155,12 +155,12 @@ void add_pose(cli::Command animate, Words& words) {
 }
 
 void add_key(cli::Command animate, Words& words) {
-  Command command(animate, words, "key", "Make keys of the pose at a frame");
+  Command command(animate, words, "key", "Make keys with the values that parts have at a frame");
   command.thing(kThing)
       .parts("PART", kParts)
       .all()
       .frame(kOneFrame, "FRAME")
-      .ease("From this key to the next; without it the film moves as before. Example: --ease both");
+      .ease("Ease from this key to the next; default: the motion stays the same. Example: --ease both");
   command.clamp().lengthen().runs([&words] {
     require_thing(words);
     edit(words, [&](document::Json& json, const animator::Film& film) {
@@ -173,7 +173,7 @@ void add_key(cli::Command animate, Words& words) {
 void add_displacing(cli::Command animate, Words& words, const char* name, const char* purpose, bool copies) {
   Command command(animate, words, name, purpose);
   command.thing(kThing).parts("PART", kParts).all().frame(kRange, "RANGE");
-  command.to("Where the range's first frame goes. Example: --to 60").lengthen().runs([&words, copies] {
+  command.to("The frame to which the range's first frame moves. Example: --to 60").lengthen().runs([&words, copies] {
     require_thing(words);
     edit(words, [&](document::Json& json, const animator::Film& film) {
       return (copies ? animator::copy_keys : animator::move_keys)(json, film, words.choice(),
@@ -208,21 +208,23 @@ void add_time(cli::Command animate, Words& words) {
   Command command(animate, words, "time", "Change the timing of an actor, of some of its parts or of the film");
   command.thing(kThing).parts("PART", kParts).all().frame(kRange, "RANGE").ease(kEase);
   const cli::Command app = command.app();
-  app.add("--hold", words.hold, "Stand still for N frames from the frame on; later keys move back. Example: --hold 12")
+  app.add("--hold", words.hold,
+          "Stand still for N frames from the frame on; later keys come N frames later. Example: --hold 12")
       .type("N")
       .range(1u, wire::kMostFrames);
   app.add("--stretch", words.stretch,
-          "Multiply the length of the range by FACTOR; later keys move along. Example: --stretch 1.5")
+          "Multiply the length of the range by FACTOR; later keys move with its end. Example: --stretch 1.5")
       .type("FACTOR")
       .range(0.001, 1000.0);
-  app.add("--shift", words.shift, "Move keys at the frame and after it N frames later, or earlier. Example: --shift -6")
+  app.add("--shift", words.shift,
+          "Move the keys from the frame on N frames later; a negative N: earlier. Example: --shift -6")
       .type("N")
       .range(-std::int64_t{wire::kMostFrames}, std::int64_t{wire::kMostFrames});
   for (const auto& [name, value, help] :
        {std::tuple("--anticipate", &words.anticipation,
-                   "Swing back first after the frame's keys, by percent of the way. Example: --anticipate 15"),
+                   "After the frame's keys, first swing back, by PERCENT of the motion. Example: --anticipate 15"),
         std::tuple("--overshoot", &words.overshoot,
-                   "Swing beyond the next keys and back, by percent of the way. Example: --overshoot 10")})
+                   "Swing beyond the next keys and back, by PERCENT of the motion. Example: --overshoot 10")})
     app.add(name, *value, help).type("PERCENT").range(0.0, 100.0);
   command.lengthen().runs([&words, app] {
     require_thing(words);
@@ -238,7 +240,7 @@ void add_time(cli::Command animate, Words& words) {
 
 void add_list(cli::Command animate, Words& words) {
   Command command(animate, words, "list", "Show the keys in a table");
-  command.thing("An actor, camera, light/N or material/NAME; default: all that has keys. Example: robot")
+  command.thing("An actor, camera, light/N or material/NAME; default: everything that has keys. Example: robot")
       .parts("PART", kParts);
   command.app().add("-f,--frame", words.frame, kRange).type("RANGE");
   command.runs([&words] {

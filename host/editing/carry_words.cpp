@@ -33,14 +33,16 @@ void add_vector(cli::Command app, const char* name, std::vector<double>& numbers
 }
 
 void add_attach(cli::Command animate, const Typed& words) {
-  const cli::Command app = animate.add_command("attach", "Let another actor carry an actor, by one of its joints");
-  app.add("ACTOR", words->actor, "What is carried. Example: ball").required();
-  app.add("--to", words->to, "What carries it. Example: --to tom/right-hand").required().type("ACTOR[/JOINT]");
+  const cli::Command app = animate.add_command("attach", "Attach an actor to another actor, or to a joint of it");
+  app.add("ACTOR", words->actor, "The actor that is carried. Example: ball").required();
+  app.add("--to", words->to, "The actor or joint that carries it. Example: --to tom/right-hand")
+      .required()
+      .type("ACTOR[/JOINT]");
   add_frame(app, *words);
   add_vector(app, "--place", words->place,
-             "Its place in the joint's frame; default: where it is. Example: --place 0 0 0.1");
+             "Its place in the joint's frame; default: its present place. Example: --place 0 0 0.1");
   add_vector(app, "--turn", words->turn,
-             "Its turn against the joint, degrees; default: as it is. Example: --turn 0 90 0");
+             "Its turn relative to the joint, in degrees; default: its present turn. Example: --turn 0 90 0");
   app.runs([words] {
     words->film.change([&](document::Json& json, const animator::Film& film) {
       animator::attach(json, film, words->actor, words->to, animator::read_frame(words->frame),
@@ -50,8 +52,8 @@ void add_attach(cli::Command animate, const Typed& words) {
 }
 
 void add_detach(cli::Command animate, const Typed& words) {
-  const cli::Command app = animate.add_command("detach", "Let an actor go: it stays where it is then");
-  app.add("ACTOR", words->actor, "What is carried. Example: ball").required();
+  const cli::Command app = animate.add_command("detach", "Detach an actor: it stays where it is at that frame");
+  app.add("ACTOR", words->actor, "The actor that is carried. Example: ball").required();
   add_frame(app, *words);
   app.runs([words] {
     words->film.change([&](document::Json& json, const animator::Film& film) {
@@ -88,23 +90,23 @@ cli::Command add_camera(cli::Command animate, const Typed& words, const char* na
 
 void add_look(cli::Command animate, const Typed& words) {
   const cli::Command app =
-      add_camera(animate, words, "look", "Let the camera look at an actor or a joint, wherever it goes",
-                 "Instead: look on where it looks then. Example: --end");
+      add_camera(animate, words, "look", "Make the camera look at an actor or a joint while it moves",
+                 "End this: the camera keeps looking at the place where it looks at that frame. Example: --end");
   add_vector(app, "--offset", words->offset,
-             "From the joint, along the world's axes; default: the joint itself, the middle of an actor. "
+             "Vector from the joint, along the world's axes; default: the joint itself, or the middle of the actor. "
              "Example: --offset 0 0 0.2");
   app.runs([words] { change_camera(*words, {"at", vector_of(words->offset), false, false}); });
 }
 
 void add_follow(cli::Command animate, const Typed& words) {
-  const cli::Command app = add_camera(animate, words, "follow", "Let the camera go along with an actor or a joint",
-                                      "Instead: stay where it is then. Example: --end");
+  const cli::Command app = add_camera(animate, words, "follow", "Make the camera move with an actor or a joint",
+                                      "End this: the camera stays where it is at that frame. Example: --end");
   add_vector(app, "--offset", words->offset,
-             "From the actor or joint; default: where it is. Example: --offset 0 -4 1.5");
+             "Vector from the actor or joint to the camera; default: the present one. Example: --offset 0 -4 1.5");
   app.add("--axes", words->axes, "Axes of the offset: world or joint; default: world. Example: --axes joint")
       .type("AXES")
       .one_of({"world", "joint"});
-  app.add_flag("--level", words->level, "Keep the camera's height, which is then the offset's z. Example: --level");
+  app.add_flag("--level", words->level, "Keep the camera at one height, the z of the offset. Example: --level");
   app.runs([words] { change_camera(*words, {"eye", vector_of(words->offset), words->axes == "joint", words->level}); });
 }
 

@@ -21,7 +21,7 @@ constexpr const char* kWay = R"(A film from nothing:
   mars film play.json add ball --model ball --place 1.2 -1 0.275
   mars animate play.json walk man --to 4 0 --lengthen
   mars render play.json -o play
-FILM is changed in place, whole or not at all. More: docs/filming.md.
+A command changes FILM in place, or leaves it as it was. More: docs/filming.md.
 )";
 
 // What a person typed after any of the commands.
@@ -128,8 +128,7 @@ cli::Option add_fields(cli::Command command, Words& words, std::string_view obje
   const keys::Object& described = keys::object(object);
   return command
       .add("KEY=VALUE", words.fields,
-           keys::names_of(described) + "; `mars keys " + std::string(object) +
-               "` says what each is. Example: " + example)
+           keys::names_of(described) + "; `mars keys " + std::string(object) + "` explains them. Example: " + example)
       .offers(keys::typed_forms(described));
 }
 
@@ -146,7 +145,7 @@ void add_actor_options(cli::Command command, Words& words) {
            "How it is turned: degrees about the upward axis, or about x, y and z. Example: --turn 90")
       .words(1, 3)
       .type("DEGREES");
-  command.add("--height", words.height, "How high it is at rest, if it is of the library. Example: --height 4.6")
+  command.add("--height", words.height, "Its height at rest; only for a model of the library. Example: --height 4.6")
       .type("LENGTH")
       .range(1e-6, 1e6);
   command.checks([&words] {
@@ -161,8 +160,8 @@ std::string library_text() {
       texts.push_back(std::string(each.name) + " (" + std::string(each.what) + ")");
     return document::joined(texts);
   };
-  return "Of the library, 2.9 units a metre:\n  " + cli::wrapped(list(modeler::figure_library()), 2) + "\n  " +
-         cli::wrapped(list(modeler::object_library()), 2) + "\n";
+  return "Models of the library (2.9 units are a metre):\n  " + cli::wrapped(list(modeler::figure_library()), 2) +
+         "\n  " + cli::wrapped(list(modeler::object_library()), 2) + "\n";
 }
 
 void add_actors(cli::Command film, const std::shared_ptr<Words>& words) {
@@ -181,11 +180,11 @@ void add_settings(cli::Command film, const std::shared_ptr<Words>& words) {
   const char* const example = "frames=120 size=640,360 background=0.6,0.7,0.8";
   cli::Command fresh = add_command(film, words, "new", "Make a film file with a camera", run_new);
   add_fields(fresh, *words, "film", example);
-  fresh.add("--figure", words->model, "With a figure of the library at its middle. Example: --figure man")
+  fresh.add("--figure", words->model, "Also add this figure of the library, at the origin. Example: --figure man")
       .type("FIGURE");
   add_fields(add_command(film, words, "set", "Change settings of the film", run_set), *words, "film", example)
       .required();
-  add_command(film, words, "show", "Show what the film holds, by the names that commands take", run_show);
+  add_command(film, words, "show", "List what the film contains, by the names that commands accept", run_show);
 }
 
 void add_lights(cli::Command film, const std::shared_ptr<Words>& words) {
@@ -195,7 +194,8 @@ void add_lights(cli::Command film, const std::shared_ptr<Words>& words) {
       .required();
   cli::Command remove = add_command(light, words, "remove", "Remove a light", run_light_remove);
   remove.add("N", words->number, "Its number, from 1. Example: 2").required();
-  add_command(light, words, "rig", "Write the three lights into a film that has none of its own", run_light_rig);
+  add_command(light, words, "rig", "Write the three default lights into a film that has no lights of its own",
+              run_light_rig);
 }
 
 void add_materials(cli::Command film, const std::shared_ptr<Words>& words) {
@@ -210,8 +210,8 @@ void add_materials(cli::Command film, const std::shared_ptr<Words>& words) {
   add_fields(fresh, *words, "material", example);
   fresh
       .add("--actor", words->other,
-           "Who wears it: where its model wears one of this name, which it begins as, else all over. "
-           "Example: --actor tom")
+           "The actor that wears it: instead of its model's material of this name, which it copies at first; or, "
+           "without such a material, on all segments. Example: --actor tom")
       .type("ACTOR");
   add_fields(add("set", "Change a material", run_material_set), *words, "material", example).required();
   add("remove", "Remove a material", run_material_remove);

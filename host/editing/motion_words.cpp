@@ -78,10 +78,12 @@ void add_action(cli::Command animate, EditedFilm& film, const motion::Action& ac
   command.add("ACTOR", typed->actor, "The actor. Example: anna").required();
   add_parameters(command, action, *typed);
   const cli::Option at =
-      command.add("--at", typed->at, "The frame at which it begins; default: the actor's last key. Example: --at 24")
+      command
+          .add("--at", typed->at,
+               "The frame at which the motion begins; default: the actor's last key. Example: --at 24")
           .type("FRAME")
           .range(0u, wire::kMostFrames);
-  command.add_flag("--lengthen", typed->lengthen, "Give the film as many frames as this needs. Example: --lengthen");
+  command.add_flag("--lengthen", typed->lengthen, "Make the film long enough for the motion. Example: --lengthen");
   command.runs([&film, &action, typed, at] {
     run_action(film, action, *typed, at.given() ? std::optional(typed->at) : std::nullopt);
   });
@@ -91,8 +93,9 @@ void add_script(cli::Command animate, EditedFilm& film) {
   const cli::Command command = animate.add_command("script", "Run a script: actions of several actors at their times");
   const auto script = std::make_shared<std::string>();
   const auto lengthen = std::make_shared<bool>(false);
-  command.add("SCRIPT", *script, "The script; its form: docs/motion.md. Example: cubes.script").required();
-  command.add_flag("--lengthen", *lengthen, "Give the film as many frames as the script needs. Example: --lengthen");
+  command.add("SCRIPT", *script, "The script, in the form that docs/motion.md describes. Example: cubes.script")
+      .required();
+  command.add_flag("--lengthen", *lengthen, "Make the film long enough for the script. Example: --lengthen");
   command.runs([&film, script, lengthen] {
     motion::Played played;
     std::string note;

@@ -36,21 +36,20 @@ void reduce(EditedFilm& film, const Words& words) {
 }  // namespace
 
 void add_reduce(cli::Command animate, EditedFilm& film) {
-  const cli::Command app = animate.add_command("reduce", "Make many keys a few, with splines through them");
+  const cli::Command app = animate.add_command("reduce", "Replace many keys by splines through a few keys");
   const auto words = std::make_shared<Words>();
   app.add("ACTOR", words->choice.thing, "An actor, or camera. Example: robot").required();
-  app.add("PART", words->choice.parts, "Only these of its joints, place and turn. Example: elbow place");
+  app.add("PART", words->choice.parts, "Only these joints, place or turn. Example: elbow place");
   app.add("--error", words->error.degrees,
-          "How far a turn may be from what it was, in every frame. Example: --error 0.5")
+          "How far a turn may deviate from the present motion, at every frame. Example: --error 0.5")
       .required()
       .type("DEGREES")
       .range(0.001, 90.0);
-  const cli::Option distance =
-      app.add("--distance", words->distance,
-              "The same for places; default: as far as the angle moves a point at the figure's size. "
-              "Example: --distance 0.01")
-          .type("D")
-          .range(1e-6, 1e6);
+  const cli::Option distance = app.add("--distance", words->distance,
+                                       "How far a place may deviate; default: as far as a turn by --error moves a "
+                                       "point at a distance of the figure's size. Example: --distance 0.01")
+                                   .type("D")
+                                   .range(1e-6, 1e6);
   app.add("-f,--frame", words->frame, "Only keys in this range. Example: --frame 24-48").type("RANGE");
   app.runs([&film, words, distance] {
     if (distance.given()) words->error.distance = words->distance;

@@ -30,12 +30,12 @@ void add_options(cli::Command app, Words& words) {
   app.add("PART[.AXIS]", words.part, "One of its parts, or one axis of it. Example: elbow.y").required();
   app.add("-f,--frame", words.frame, "The frame of the key, or a range. Example: --frame 24").required().type("RANGE");
   app.add("--in", words.in,
-          "Change a frame with which the value reaches the key; of a whole part one number for each axis. "
-          "Example: --in 2.5")
+          "Change per frame with which the value reaches the key; for a whole part, one number for each axis. Example: "
+          "--in 2.5")
       .type("V");
-  app.add("--out", words.out, "Change a frame with which it leaves the key. Example: --out 2.5").type("V");
-  app.add_flag("--flat", words.flat, "Neither rise nor fall at the key. Example: --flat");
-  app.add_flag("--auto", words.automatic, "As the keys before and after say. Example: --auto");
+  app.add("--out", words.out, "Change per frame with which the value leaves the key. Example: --out 2.5").type("V");
+  app.add_flag("--flat", words.flat, "Set both slopes to 0. Example: --flat");
+  app.add_flag("--auto", words.automatic, "Compute both slopes from the keys before and after. Example: --auto");
 }
 
 }  // namespace

@@ -42,31 +42,31 @@ constexpr const char* kWayIn = R"(MARS models, animates and renders films in par
 
 Begin with:
   mars doctor                                  check that films can be rendered
-  mars render examples/demo.json -o demo       the demonstration, as PNG files
-  mars render --help                           every option, with an example
+  mars render examples/demo.json -o demo       render a film to PNG files
+  mars render --help                           all options, with examples
 
 Commands:
   mars render FILM -o DIR          render a film to PNG or EXR files
-  mars submit FILM -o DIR          render it by a job of Slurm
-  mars status DIR                  how far it is; watch follows it, cancel ends jobs
-  mars compile FILM -o FILM.mars   compute all its motion once
-  mars info FILM                   print what a film holds
-  mars keys [NAME]                 what film and model files may hold
-  mars plan FILM                   forecast its time, memory and bytes
-  mars preview FILM                play a film or a model in the terminal, before it is rendered
+  mars submit FILM -o DIR          render a film in a job of Slurm
+  mars status DIR                  print its progress; also: watch, cancel
+  mars compile FILM -o FILM.mars   compute all motion of a film once
+  mars info FILM                   print what a film contains
+  mars keys [NAME]                 print the keys of film and model files
+  mars plan FILM                   forecast time, memory, bytes of a rendering
+  mars preview FILM                play a film or a model in the terminal
   mars play DIR                    play rendered frames in the terminal
   mars studio [FILM]               work on a film or a model in the browser
   mars verify DIR                  check that all frames are there and whole
-  mars film FILM new               a film of figures, objects and lights, step by step
-  mars animate FILM list           the keys of a film; pose, key, move, time and more
-  mars plot FILM -o FILE.png       joint angles over time, as a picture
-  mars import FILE -o MODEL.json   a model from a mesh or patch file
-  mars model MODEL.json new        a model of your own, step by step
+  mars film FILM new               make a film of figures, step by step
+  mars animate FILM list           show the keys of a film; also: pose, time ...
+  mars plot FILM -o FILE.png       draw joint angles over time
+  mars import FILE -o MODEL.json   make a model from a mesh or patch file
+  mars model MODEL.json new        make a model of your own, step by step
   mars doctor                      check this machine, with remedies
-  mars calibrate                   measure this machine, for simulated renderings
-  mars bench NAME                  measure, where MARS was built from its sources
+  mars calibrate                   measure this machine for simulations
+  mars bench NAME                  run a benchmark, if MARS was built with it
 
-A film is a JSON file: mars film writes one, docs/film-format.md says how to.
+A film is a JSON file. mars film writes one; docs/film-format.md describes it.
 )";
 
 experiments::MessageCosts measure_messages() {

@@ -28,19 +28,19 @@ constexpr const char* kWayIn = R"(Runs programs that are written for NX, the mes
 )";
 
 constexpr const char* kStarts =
-    R"(What follows -- goes to every program as its arguments; after two programs the --
-can be left out. The nodes of a host begin when it loads them, when it sends or
-receives for the first time, or when it has ended. What the programs write is
-what mars-nx writes; the host reads its input, without a host node 0 does.
+    R"(The words after -- are arguments of every program; after two programs you can
+leave out the --. The nodes of a host begin when the host loads them, when it
+sends or receives for the first time, or when it has ended. mars-nx prints what
+the programs print. Its input goes to the host, or without a host to node 0.
 
-When a program dies, the others' message calls fail, unless the host kills and
-loads the nodes again. Where every process waits for a message and none is on
-its way, all fail over processes; over MPI they do once a process has ended with
-a code above 0, else they wait for ever: MARS_NX_STRICT=yes prints
-who waits. Nothing is left behind, however mars-nx ends.
+When a program dies, message calls of the other programs fail, unless the host
+kills the nodes and loads them again. If every process waits for a message and
+no message is on its way, all of them fail. Over MPI they fail only if a process
+has ended with an exit code above 0; otherwise they wait for ever:
+MARS_NX_STRICT=yes prints who waits. However mars-nx ends, no process remains.
 
-Exit codes: the highest of all programs', 128 and the signal for one that died
-of it, 1 where a message call failed; 2 the command line is wrong.
+Exit codes: the highest of all programs; 128 and the signal if a signal ended a
+program; 1 if a message call failed; 2 if the command line is wrong.
 )";
 
 nx_jobs::Over over_of(const std::string& word) {
@@ -91,7 +91,8 @@ int run_processes(const nx_jobs::NxRun& job, const nx_jobs::NxPrograms& programs
 void add_run(cli::Command app, nx_jobs::NxRun& options, int& code) {
   const cli::Command command = app.add_command("run", "Start a host and its nodes, or nodes alone");
   command
-      .add("PROGRAM", options.words, "The host's program and the nodes', or the nodes' alone. Example: ./host ./node")
+      .add("PROGRAM", options.words,
+           "The programs of the host and of the nodes, or that of the nodes alone. Example: ./host ./node")
       .required()
       .type("FILE");
   command
@@ -101,13 +102,13 @@ void add_run(cli::Command app, nx_jobs::NxRun& options, int& code) {
       .check(is_count)
       .type("N");
   command.add_flag("--host", options.host,
-                   "The first program is the host, also where it is the only one: it loads its nodes "
-                   "itself. Example: --host ./host");
+                   "The first program is the host, even if it is the only one: then it loads its nodes itself. "
+                   "Example: --host ./host");
   command
       .add_read(
           "--over", [&options](const std::string& word) { options.over = over_of(word); },
-          "Processes over shared memory on this machine, or mpi; default: mpi with a hostfile or in a "
-          "Slurm job, else processes. Example: --over mpi")
+          "Processes over shared memory on this machine, or mpi; default: mpi with a hostfile or in a Slurm job, "
+          "otherwise processes. Example: --over mpi")
       .type("auto|processes|mpi");
   command.add("--hostfile", options.hostfile, "Open MPI's file of the machines to use. Example: --hostfile hosts")
       .type("FILE");

@@ -71,6 +71,12 @@ class Commands(ProgramTest):
             self.assertIn("Exit codes: 0", self.succeed("mars", *words))
         self.assertIn("MARS_MEMORY", self.succeed("mars", "render", "--help"))
 
+    def test_help_fits_screens(self):
+        for words, most in [([], 40), (["render", "--help"], 100)]:  # two screens of 50 lines
+            lines = self.succeed("mars", *words).splitlines()
+            self.assertLessEqual(len(lines), most, words)
+            self.assertEqual([line for line in lines if len(line) > 80], [], words)
+
     @needs_mpi
     def test_programs_of_a_job_print_what_they_are(self):
         for program in ["mars-host", "mars-node", "mars-ranks"]:

@@ -1,4 +1,4 @@
-"""A rendering whose job dies goes on by itself, to the same pixels, whatever has become of the film's file meanwhile."""
+"""A rendering whose job dies goes on by itself, to the same pixels, even if the film's file has changed or is gone."""
 
 import os
 import shutil

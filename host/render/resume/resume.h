@@ -27,7 +27,7 @@ struct Wish {
   images::PictureFormat format = images::PictureFormat::png;
   film::FrameSet frames;
   bool overwrite = false;  // render them all, whatever is there
-  bool kept_film = false;  // the folder's film, whatever has become of `film`, which counts where the folder keeps none
+  bool kept_film = false;  // the folder's film, even if `film` has changed or is gone; `film` if the folder has none
   bool renders = true;     // no: the film is left in the folder for runs to come, and no frame is claimed
 };
 

@@ -38,7 +38,7 @@ void add_bench(cli::Command app, std::vector<const char*>& command_line) {
   const auto words = std::make_shared<Words>();
   words->own = take_own_words(command_line);
   const cli::Command command = app.add_command("bench", "Run a benchmark, or list them");
-  command.add("NAME", words->name, "The benchmark; the words after it are its own. Example: peers --scenes s1");
+  command.add("NAME", words->name, "The benchmark; the words that follow are its options. Example: peers --scenes s1");
   command.footer("mars bench NAME --help prints the benchmark's own options.\n");
   command.runs([words] { bench(*words); });
 }

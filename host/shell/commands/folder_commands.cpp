@@ -39,7 +39,7 @@ void add(cli::Command app, const char* name, const char* purpose, const std::fun
 }  // namespace
 
 void add_folder_commands(cli::Command app, int& code) {
-  add(app, "status", "Print how far the runs and jobs of a folder are", print_state);
+  add(app, "status", "Print the progress of the runs and jobs of a folder", print_state);
   add(app, "watch", "Follow the runs and jobs of a folder to their end",
       [&code](const std::string& folder) { code = watch(folder); });
   add(app, "cancel", "End the jobs that mars submit began for a folder", cancel);

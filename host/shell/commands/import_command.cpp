@@ -14,10 +14,10 @@
 namespace mars::commands {
 namespace {
 
-constexpr const char* kAfterwards = R"(Prints at the end what was read, what was made of it, and what was not read,
-such as bones and animations. More: docs/importing.md.
+constexpr const char* kAfterwards = R"(Prints what it read from the file, what it made, and what it left out, such as
+bones and animations. More: docs/importing.md.
 
-A glTF figure of any size, made to stand 5 units high and look forward:
+For example, scale a glTF figure to 5 units, and make it look forward:
   mars import figure.glb -o figure.json --height 5 --front z
 )";
 
@@ -71,16 +71,15 @@ void add_import(cli::Command app) {
   command.add("--joint", options->joint, "Name of its first joint; default: the file's. Example: --joint body")
       .type("NAME");
   add_axis(command, "--up", options->up,
-           "The file's axis that points up, z in MARS; default: y for OBJ and glTF, z for others. Example: --up -y");
-  add_axis(
-      command, "--front", options->front,
-      "The file's axis along which the model looks, x in MARS; z in glTF as its makers mean it; default: the file's "
-      "x stays x, if it does not point up or down. Example: --front z");
+           "The file's axis that points up; it becomes z. Default: y for OBJ and glTF, z for others. Example: --up -y");
+  add_axis(command, "--front", options->front,
+           "The file's axis along which the model looks; it becomes x. Figures in glTF look along z. Default: the "
+           "file's x, if it does not point up or down. Example: --front z");
   add_size(command, options->size);
   command
       .add("--crease", options->crease,
-           "Edges whose faces meet at a larger angle are sharp, others smooth, instead of the file's "
-           "normals; default: its normals, else 30, for glTF 0. Example: --crease 60")
+           "Make edges sharp whose faces meet at a larger angle, and all others smooth, instead of using the file's "
+           "normals; default: the file's normals; without them 30, in glTF 0. Example: --crease 60")
       .check(number_from(0, 180, "no such angle: write degrees from 0 to 180"))
       .type("DEGREES");
   command.add_flag("--force", options->force, "Replace a model file that is there already. Example: --force");

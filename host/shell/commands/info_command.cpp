@@ -25,7 +25,7 @@ std::string info_of(const std::string& path) {
 
 void add_info(cli::Command app) {
   const auto film = std::make_shared<std::string>();
-  const cli::Command command = app.add_command("info", "Print what a film holds");
+  const cli::Command command = app.add_command("info", "Print what a film contains");
   command.add("FILM", *film, "A .json or .mars file. Example: examples/demo.json").required();
   command.runs([film] { std::cout << info_of(*film); });
 }

@@ -56,9 +56,9 @@ std::string answer(const Words& words) {
 
 void add_keys(cli::Command app) {
   const auto words = std::make_shared<Words>();
-  const cli::Command command = app.add_command("keys", "Print what film and model files may hold");
+  const cli::Command command = app.add_command("keys", "Print the keys of film and model files");
   const cli::Option name =
-      command.add("NAME", words->name, "Film, light, material ...; none: their list. Example: light");
+      command.add("NAME", words->name, "Film, light, material ...; default: list these names. Example: light");
   command
       .add("--schema", words->schema,
            "Print the JSON Schema of such files instead, for editors. Example: --schema film")

@@ -39,13 +39,13 @@ void add_plot(cli::Command app) {
   const cli::Command command = app.add_command("plot", "Draw joint angles and places over time, with gnuplot");
   command.add("FILM", words->film, "The film file. Example: film.json").required();
   command.add("ACTOR", words->thing,
-              "An actor, camera, light/N or material/NAME; default: all that has keys. Example: robot");
+              "An actor, camera, light/N or material/NAME; default: everything that has keys. Example: robot");
   command.add("PART", words->parts,
-              "Only these of its joints, place and turn, or all like a pattern. Example: elbow '*-shin'");
+              "Only these joints, place or turn, or all that match a pattern. Example: elbow '*-shin'");
   command.add("-o,--output", words->output, "The picture, .png or .svg. Example: -o angles.png")
       .required()
       .type("FILE");
-  command.footer("Dots are keys; the band behind a curve is what its joint's limits allow.\n");
+  command.footer("Dots are keys; the band behind a curve is the range of its joint's limits.\n");
   command.runs([words] { plot(*words); });
 }
 

@@ -39,8 +39,8 @@ void add_output(cli::Command command, const std::shared_ptr<Words>& words) {
   };
   command
       .add_read("-o,--output", read_file,
-                "Write this instead of playing: .gif or .mp4 (by the program ffmpeg), or .png, one "
-                "frame or a contact sheet. Example: -o sheet.png")
+                "Write this file instead of playing: .gif or .mp4 (by the program ffmpeg), or .png, one frame or a "
+                "contact sheet. Example: -o sheet.png")
       .type("FILE");
   command
       .add_read("--size", read_size,
@@ -52,7 +52,7 @@ void add_output(cli::Command command, const std::shared_ptr<Words>& words) {
           "--frames", [&write](const std::string& word) { write.frames.emplace(word); },
           "Frames that are written; default: all, on a sheet 12. Example: --frames 0-47")
       .type("LIST");
-  command.add("--every", write.every, "Only every Nth of these. Example: --every 8")
+  command.add("--every", write.every, "Only every Nth of these frames. Example: --every 8")
       .range(1u, wire::kMostFrames)
       .type("N");
   command.add("--columns", write.columns, "Pictures in a row of a sheet. Example: --columns 4")
@@ -64,8 +64,8 @@ void add_graphics(cli::Command command, const std::shared_ptr<Words>& words) {
   command.add_choice(
       "--graphics", {"auto", "kitty", "sixel", "blocks", "blocks256"},
       [words](std::size_t number) { words->graphics = static_cast<preview::Graphics>(number); },
-      "How the terminal shows pictures: its own graphics, or two pixels a character in 24-bit or 256 colours; "
-      "default: asked of the terminal. Example: --graphics blocks");
+      "How the terminal shows pictures: its own graphics, or two pixels a character in 24-bit or 256 colours; default: "
+      "what the terminal says it can show. Example: --graphics blocks");
 }
 
 // Plays until a person or a signal ends it; the signal then ends the program too, the terminal being given back.
@@ -125,11 +125,11 @@ void add_preview(cli::Command app, const MakeSurface& make_surface) {
       [words](std::size_t number) {
         words->look.as = number < 4 ? std::optional(static_cast<preview::As>(number)) : std::nullopt;
       },
-      "How models are shown first; default: prisms. Example: --as stick");
+      "How models are shown at first; default: prisms. Example: --as stick");
   command.add_choice(
       "--view", {"camera", "front", "side", "top"},
       [words](std::size_t number) { words->look.from = static_cast<preview::From>(number); },
-      "Where it is seen from first; default: the film's camera. Example: --view side");
+      "From where the film is seen at first; default: the film's camera. Example: --view side");
   add_graphics(command, words);
   add_output(command, words);
   command.footer("Keys turn joints and set keys of a film: h lists them. docs/previewing.md\n");

@@ -75,8 +75,8 @@ void add_job_options(cli::Command command, Words& words) {
       .range(std::uint32_t{2}, kMostTasks);
   command
       .add("--time", words.time,
-           "Time limit, as sbatch takes it. The job is queued again before it, until all frames are there. "
-           "Example: --time 8:00:00")
+           "Time limit, in the form of sbatch. Before the limit the job queues itself again, until all frames are "
+           "there. Example: --time 8:00:00")
       .type("TIME")
       .check(one_word);
   command.add("--partition", words.partition, "Slurm's partition. Example: --partition long")
@@ -84,14 +84,15 @@ void add_job_options(cli::Command command, Words& words) {
       .check(one_word);
   command
       .add("--array", words.parts,
-           "Jobs side by side, each with the machines and tasks above and about as much of the film's work. "
+           "Number of jobs side by side; each has the machines and tasks above, and an equal share of the film's work. "
            "Example: --array 10")
       .type("N")
       .range(std::uint32_t{1}, kMostParts);
   command
       .add("--sbatch", words.sbatch,
-           "More options for sbatch, quoted as one word of the shell; they win over those above, the script's "
-           "and the environment's. May be given several times. Example: --sbatch \"--account=physics --qos=long\"")
+           "More options for sbatch, quoted as one word of the shell; they override the options above and those of the "
+           "script and the environment. You can give this option several times. Example: --sbatch \"--account=physics "
+           "--qos=long\"")
       .repeated()
       .type("WORDS")
       .check(words_on_a_line);
@@ -199,9 +200,9 @@ void add_submit(cli::Command app) {
   options::add_render_options(command, words->render, options::Program::submit);
   add_job_options(command, *words);
   command.footer(
-      "The compiled film lies in DIR when the job is queued. Each start of the job\n"
-      "renders it, whatever has become of FILM. What sbatch reads from the environment\n"
-      "counts too: SBATCH_ACCOUNT, SBATCH_QOS, SBATCH_EXCLUSIVE and others.\n");
+      "mars submit writes the compiled film into DIR. Each start of the job renders this\nfilm, even if FILM has "
+      "changed or is gone. The variables that sbatch reads work,\ntoo: SBATCH_ACCOUNT, SBATCH_QOS, SBATCH_EXCLUSIVE "
+      "and others.\n");
   command.runs([words] {
     check_words(*words);
     submit(*words);

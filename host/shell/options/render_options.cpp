@@ -182,16 +182,15 @@ std::vector<Entry> table() {
       option(submits, "-o,--output", "DIR", &RenderOptions::folder,
              "Folder for the frames; created if it is missing. Example: -o build/demo"),
       flag(submits, "--overwrite", &RenderOptions::overwrite,
-           "Render all frames, also those that the folder has already, of whichever film. Example: --overwrite"),
-      flag(
-          submits, "--kept-film", &RenderOptions::kept_film,
-          "Render the compiled film that DIR keeps, film.mars, whatever has become of FILM; FILM where DIR keeps none. "
-          "Example: --kept-film"),
+           "Render all requested frames, even if the folder has them, or frames of another film. Example: --overwrite"),
+      flag(submits, "--kept-film", &RenderOptions::kept_film,
+           "Render the compiled film in DIR, film.mars, even if FILM has changed or is gone; FILM if DIR has none. "
+           "Example: --kept-film"),
       number(counts_nodes, "--nodes", {&RenderOptions::nodes, false, many},
              "Nodes that render; default: one per processor, or the slots of the batch job or hostfile less one "
              "for the host. Example: --nodes 4"),
       flag(forces, "--force", &RenderOptions::force,
-           "Start more than 64 nodes a core all the same. Example: --nodes 1000 --force"),
+           "Start the nodes even if they are more than 64 a core. Example: --nodes 1000 --force"),
       option(starts, "--backend", "auto|mpi|threads|simulated", &RenderOptions::backend,
              "MPI processes, or threads of one process; auto uses MPI where it is installed; simulated: nodes of "
              "--platform, whose times are counted, not measured. Example: --backend threads"),
@@ -226,8 +225,8 @@ std::vector<Entry> table() {
       number(submits, "--block", {&RenderOptions::block, false, wire::kMaxSide},
              "Side of the compositor's blocks in pixels: same pictures. Example: --block 32"),
       number(plans, "--groups", {&RenderOptions::groups, true, many},
-             "Groups of nodes, each rendering its own interval; 1: all nodes share one, as in the thesis. Example: "
-             "--groups 1"),
+             "Groups of nodes; each renders intervals of its own. 1: all nodes work on the same interval, as in the "
+             "thesis. Example: --groups 1"),
       option(plans, "--format", "png|png16|exr", &RenderOptions::format,
              "Files of the frames: PNG of 8 or 16 bits, or EXR: half floats of light before exposure and curve; "
              "default: png. Example: --format exr"),
@@ -238,14 +237,14 @@ std::vector<Entry> table() {
       option(submits, "--trace", "FILE", &RenderOptions::trace,
              "Write a timeline of all ranks, for ui.perfetto.dev or chrome://tracing. Example: --trace trace.json"),
       option(all & ~bit(Program::simulated), "--watch", "SOCKET", &RenderOptions::watch,
-             "Show frames as they are drawn to the program that listens at this Unix socket; it may come and go. "
-             "Example: --watch /tmp/watcher"),
+             "Send the frames that nodes draw to the program that listens at this Unix socket; you can start and end "
+             "it at any time. Example: --watch /tmp/watcher"),
       number(persons | starts, "--restarts", {&RenderOptions::restarts, false, 1000, 0},
-             "How often a job that dies is started again without a new frame between; 0: never; default: 5. Example: "
-             "--restarts 0"),
+             "How often in a row a job that dies is started again if no new frame comes; 0: never; default: 5. "
+             "Example: --restarts 0"),
       option(serves, "--serve", "SOCKET", &RenderOptions::serve,
-             "Draw what a studio asks for at this local socket instead of a film; mars studio starts it so. Example: "
-             "--serve /tmp/studio/socket"),
+             "Render no film: draw what a studio requests over this local socket. mars studio uses this option. "
+             "Example: --serve /tmp/studio/socket"),
       flag(persons | starts, "-q,--quiet", &RenderOptions::quiet, "Print only errors. Example: --quiet"),
   };
 }

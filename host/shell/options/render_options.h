@@ -40,13 +40,13 @@ struct RenderOptions {
   std::uint32_t block = 16;   // side of the compositor's blocks, pixels
   std::uint32_t groups = 0;   // intervals rendered at a time; 0: chosen by the plan
   bool overwrite = false;     // render frames that the folder has already, too
-  bool kept_film = false;     // the folder's film.mars, whatever has become of `film`; that where there is none
+  bool kept_film = false;     // the folder's film.mars, even if `film` has changed; `film` if the folder has none
   SinkKind sink = SinkKind::files;
   images::PictureFormat format = images::PictureFormat::png;  // of the files
   std::string report;                                         // file for the measurements; "": none
   std::string trace;                                          // file for a picture of the run; "": none
   std::string watch;                                          // socket of who watches; "": nobody does
-  std::uint32_t restarts = 5;                                 // of a job that dies, without a new frame between them
+  std::uint32_t restarts = 5;                                 // in a row of a job that dies, if no new frame comes
   bool quiet = false;
   std::string serve;  // a studio's socket, at which its pictures are drawn; "": a film is rendered to files
 

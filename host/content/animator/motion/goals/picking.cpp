@@ -22,12 +22,12 @@
 namespace mars::motion {
 namespace {
 
-constexpr Parameter kSeconds{"seconds", "S", "down and up again; default: 1.2, more where it bends down", "2.5"};
-constexpr Parameter kPick[] = {{"what", "ACTOR", "the actor that is picked up; needed", "ball"},
+constexpr Parameter kSeconds{"seconds", "S", "down and up again; default: 1.2, more if the figure bends down", "2.5"};
+constexpr Parameter kPick[] = {{"what", "ACTOR", "the actor that the figure picks up; required", "ball"},
                                {"hand", "SIDE", "left or right; default: the nearer one", "left"},
                                kSeconds};
-constexpr Parameter kPut[] = {{"to", "X Y Z", "the actor's place then; needed", "1.2 -0.4 2.1"},
-                              {"what", "ACTOR", "default: what it holds", "ball"},
+constexpr Parameter kPut[] = {{"to", "X Y Z", "the place at which the thing stands or lies; required", "1.2 -0.4 2.1"},
+                              {"what", "ACTOR", "the thing; default: what the hand holds", "ball"},
                               kSeconds};
 
 constexpr double kSeconds0 = 1.2, kSecondsDown = 1.1;  // and so much more for the lowest

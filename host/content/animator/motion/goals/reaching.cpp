@@ -20,10 +20,10 @@ constexpr Parameter kReach[] = {
     {"limb", "LIMB", "left-hand, right-hand, left-foot, right-foot, head, or a joint; default: right-hand",
      "left-foot"},
     {"to", "X Y Z", "where the palm, the ankle or the joint goes", "1.2 -0.4 3"},
-    {"of", "ACTOR[/JOINT]", "to an actor, or to a joint of it; a hand lies on the actor", "ball"},
+    {"of", "ACTOR[/JOINT]", "instead of to: an actor, or one of its joints; a hand touches the actor", "ball"},
     {"along", "PART",
-     "what goes along where the limb is too short: limb (nothing), trunk, or body, which bends its "
-     "knees; default: trunk",
+     "what moves, too, if the limb is too short: limb (nothing), trunk, or body, whose knees bend; "
+     "default: trunk",
      "body"},
     {"seconds", "S", "default: 1", "1.5"}};
 constexpr Parameter kPlant[] = {

@@ -23,14 +23,16 @@ namespace mars::motion {
 namespace {
 
 constexpr Parameter kToss[] = {
-    {"to", "X Y Z", "the place to which it flies, or above it where the floor is in the way", "4 -1 0"},
-    {"velocity", "X Y Z", "with which it leaves the hand, units a second, instead of to", "4 0 5"},
-    {"what", "ACTOR", "default: what it holds", "ball"},
+    {"to", "X Y Z", "the place to which the thing flies; if the floor is in the way, it flies above the place",
+     "4 -1 0"},
+    {"velocity", "X Y Z", "instead of to: the velocity with which the thing leaves the hand, in units a second",
+     "4 0 5"},
+    {"what", "ACTOR", "the thing; default: what the hand holds", "ball"},
     {"flight", "S", "seconds to the place; default: as few as the least speed needs", "1.2"},
-    {"gravity", "G", "units a second and second; default: 9.81, a unit being a metre", "28.4"},
-    {"floor", "Z", "height of the floor on which it bounces; default: 0", "0.5"},
-    {"restitution", "N", "of the speed upward that an impact leaves, 0 to 0.99; default: 0.7", "0.5"},
-    {"friction", "N", "of the speed along the floor that an impact takes, 0 to 1; default: 0.1", "0.3"},
+    {"gravity", "G", "units per second squared; default: 9.81, for a unit of one metre", "28.4"},
+    {"floor", "Z", "height of the floor on which the thing bounces; default: 0", "0.5"},
+    {"restitution", "N", "part of the upward speed that an impact leaves, 0 to 0.99; default: 0.7", "0.5"},
+    {"friction", "N", "part of the speed along the floor that an impact removes, 0 to 1; default: 0.1", "0.3"},
     {"spin", "X Y Z", "degrees a second about the world's axes; default: none", "0 360 0"}};
 
 constexpr double kGravity = 9.81;

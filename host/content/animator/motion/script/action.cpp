@@ -27,12 +27,12 @@ constexpr Parameter kSteps{
     "number of steps, without the last that brings the feet together; default: 4, or as the distance needs", "6"};
 constexpr Parameter kDistance{"distance", "D", "length of the way; default: from the number of steps", "3.5"};
 constexpr Parameter kTo{"to", "X Y", "a place on the floor; the figure turns to it first", "2 -1"};
-constexpr Parameter kBow{"turn", "DEGREES", "go a bow of this angle to the left; default: straight on", "90"};
+constexpr Parameter kBow{"turn", "DEGREES", "go along an arc, to the left by this angle; default: straight on", "90"};
 constexpr Parameter kFirst{
-    "first", "SIDE", "the foot that steps first, left or right; default: the inner one of a bow, else right", "left"};
-constexpr Parameter kArmSwing{"arm-swing", "N", "times an ordinary one's, 0 to 3; default: 1", "1.5"};
-constexpr Parameter kUpAndDown{"bounce", "N", "up and down, times an ordinary one's, 0 to 3; default: 1", "0.5"};
-constexpr Parameter kKneeLift{"knee-lift", "N", "of the swinging leg, times an ordinary one's, 0 to 3; default: 1",
+    "first", "SIDE", "the foot that steps first, left or right; default: right, along an arc the inner foot", "left"};
+constexpr Parameter kArmSwing{"arm-swing", "N", "times the ordinary one, 0 to 3; default: 1", "1.5"};
+constexpr Parameter kUpAndDown{"bounce", "N", "up and down, times the ordinary one, 0 to 3; default: 1", "0.5"};
+constexpr Parameter kKneeLift{"knee-lift", "N", "of the swinging leg, times the ordinary one, 0 to 3; default: 1",
                               "1.4"};
 constexpr Parameter kLean{"lean", "DEGREES", "of the trunk, forward; default: 0", "8"};
 
@@ -77,14 +77,16 @@ constexpr Parameter kGallop[] = {kStrides,
                                  kUpAndDown,
                                  kKneeLift};
 constexpr Parameter kJump[] = {
-    {"height", "H", "that the hips rise after the feet have left; default: 0.35 of the leg", "1"},
+    {"height", "H", "how far the hips rise after the feet have left the floor; default: 0.35 of the leg", "1"},
     {"distance", "D", "forward, negative backward; default: 0", "2.5"},
     {"turn", "DEGREES", "to the left while it flies; default: 0", "180"},
-    {"gravity", "G", "units a second and second; default: 9.81 where a leg is 0.835 long, in proportion", "28"}};
-constexpr Parameter kTurn[] = {
-    {"by", "DEGREES", "to the left; default: 90", "-90"}, {"to", "X Y", "to face a place of the floor", "2 -1"}, kPace};
+    {"gravity", "G", "units per second squared; default: 9.81 for a leg of 0.835 units, for others in proportion",
+     "28"}};
+constexpr Parameter kTurn[] = {{"by", "DEGREES", "to the left; default: 90", "-90"},
+                               {"to", "X Y", "to face this place on the floor", "2 -1"},
+                               kPace};
 constexpr Parameter kSit[] = {
-    {"on", "ACTOR[/JOINT]", "a seat: an actor, or a joint of it whose segment it is; the figure walks there first",
+    {"on", "ACTOR[/JOINT]", "the seat: an actor, or the segment of one of its joints; the figure walks there first",
      "bench"},
     {"seat-height", "H", "height of the seat above the floor; default: thighs are level", "0.45"},
     {"back", "D", "distance of the hips behind the feet; default: shins are upright", "0.4"},
@@ -100,40 +102,42 @@ constexpr Parameter kSpinning{"spin", "X Y Z", "degrees a second about the world
 constexpr Parameter kVelocity{"velocity", "X Y Z", "units a second; default: none", "2 0 5"};
 constexpr Parameter kThrow[] = {
     kVelocity,
-    {"acceleration", "X Y Z", "units a second and second; default: 0 0 -9.81, a unit being a metre", "0 0 -28"},
+    {"acceleration", "X Y Z", "units per second squared; default: 0 0 -9.81, for a unit of one metre", "0 0 -28"},
     kSpinning,
     {"seconds", "S", "default: 1", "1.5"}};
 constexpr Parameter kBounce[] = {
     kVelocity,
-    {"gravity", "G", "units a second and second; default: 9.81, a unit being a metre", "28"},
-    {"floor", "Z", "height of the floor, which the figure's lowest point meets; default: 0", "0.5"},
-    {"restitution", "N", "of the speed upward that an impact leaves, 0 to 0.99; default: 0.7", "0.8"},
-    {"friction", "N", "of the speed along the floor and of the spin that an impact takes, 0 to 1; default: 0.1", "0.3"},
+    {"gravity", "G", "units per second squared; default: 9.81, for a unit of one metre", "28"},
+    {"floor", "Z", "height of the floor that the figure's lowest point hits; default: 0", "0.5"},
+    {"restitution", "N", "part of the upward speed that an impact leaves, 0 to 0.99; default: 0.7", "0.8"},
+    {"friction", "N",
+     "part of the speed along the floor, and of the spin, that an impact removes, 0 to 1; default: 0.1", "0.3"},
     kSpinning,
-    {"seconds", "S", "default: until it lies", "3"}};
+    {"seconds", "S", "default: until the actor is at rest", "3"}};
 constexpr Parameter kSpin[] = {{"axis", "AXIS", "of the world: x, y or z; default: z", "x"},
                                {"degrees", "DEGREES", "default: 360", "-720"},
                                {"seconds", "S", "default: 2", "4"}};
-constexpr Parameter kGo[] = {{"to", "X Y Z", "the actor's place then; needed", "2 0 0"},
+constexpr Parameter kGo[] = {{"to", "X Y Z", "the place to which the actor goes; required", "2 0 0"},
                              {"seconds", "S", "default: 1", "2"},
                              {"ease", "EASE", "linear, in, out or both; default: both", "out"}};
 
 const Action kActions[] = {
-    {"walk", "Walk: some steps, a distance, to a place, or along a bow", "hips, ankles", kWalk, walk},
-    {"run", "Run: some steps, a distance, to a place, or along a bow", "hips, knees, ankles", kRun, run},
+    {"walk", "Walk: some steps, a distance, to a place, or along an arc", "hips, ankles", kWalk, walk},
+    {"run", "Run: some steps, a distance, to a place, or along an arc", "hips, knees, ankles", kRun, run},
     {"jump", "Jump from both feet to both feet, up, forward or turning", "hips, knees, ankles", kJump, jump},
     {"trot", "Trot, on four legs", "hips, ankles, shoulders", kTrot, trot},
     {"gallop", "Gallop, on four legs", "hips, ankles, shoulders", kGallop, gallop},
     {"turn", "Turn on the spot, by stepping", "hips, ankles", kTurn, turn},
-    {"sit", "Sit down on a seat behind, or on one of the film", "hips, knees, ankles", kSit, sit},
+    {"sit", "Sit down on a seat behind the figure, or on a seat of the film", "hips, knees, ankles", kSit, sit},
     {"stand", "Stand up from sitting", "hips, knees, ankles", kStand, stand},
     {"reach", "Bring a hand, a foot or another joint to a place", "the limb that reaches", reach_parameters(), reach},
-    {"plant", "Keep feet or hands where they are, whatever the rest does", "the limbs that stay", plant_parameters(),
-     plant},
+    {"plant", "Keep feet or hands where they are, while the rest of the body moves", "the limbs that stay",
+     plant_parameters(), plant},
     {"pick", "Bend down or reach out for an actor and take it", "hips, ankles, shoulder, elbow", pick_parameters(),
      pick},
-    {"put", "Put down at a place what a hand holds", "hips, ankles, shoulder, elbow", put_parameters(), put},
-    {"toss", "Toss what a hand holds to a place; it bounces", "hips, ankles, shoulder, elbow", toss_parameters(), toss},
+    {"put", "Put down at a place the thing that a hand holds", "hips, ankles, shoulder, elbow", put_parameters(), put},
+    {"toss", "Toss the thing that a hand holds to a place, where it bounces", "hips, ankles, shoulder, elbow",
+     toss_parameters(), toss},
     {"nod", "Nod with head and neck", "head or neck", kNod, nod},
     {"wave", "Raise a hand, wave and lower it", "shoulder, elbow", kWave, wave},
     {"throw", "Fly with a velocity and an acceleration", "", kThrow, fling},
