@@ -4,8 +4,13 @@
 nodes in any groups, with and without coherence, by each instruction set, with little memory, by every
 mapping. One way of a film draws it from nothing with one node.
 
-Of each film: its seed, what it is, and its pixels' hash; of a way that gives others the command that
-shows it. Exit code 1 where there is one."""
+Then commands edit each film at random (random_edits.py), and it is rendered in as many ways again. One
+more way renders the edited film into the folder of the film before its edits, where mars render draws
+only the frames that have changed.
+
+For each film, the command prints its seed, its pixels' hash and what it is; for an edited film the
+edits; for a way that gives other pixels the command that shows them. The exit code is 1 if there is
+one."""
 import argparse
 import json
 import os
@@ -18,8 +23,10 @@ import subprocess
 import sys
 import tempfile
 
+from random_edits import random_edit
 from random_film import RandomFilm
 
+CONTINUED = {"--backend": "threads", "--nodes": "2"}
 PLAIN = {"--backend": "threads", "--nodes": "1", "--no-coherence": None}
 LONGEST = 120  # seconds of one rendering
 
@@ -30,6 +37,7 @@ def arguments(words=None):
     parser.add_argument("--build", required=True, type=pathlib.Path, help=argparse.SUPPRESS)
     parser.add_argument("--films", type=int, default=20, metavar="N", help="how many films; default: %(default)s")
     parser.add_argument("--ways", type=int, default=10, metavar="N", help="ways to render each; default: %(default)s")
+    parser.add_argument("--edits", type=int, default=3, metavar="N", help="edits of each film; default: %(default)s")
     parser.add_argument("--seed", type=int, default=1, metavar="N", help="of the first film; default: %(default)s")
     parser.add_argument("--keep", type=pathlib.Path, metavar="DIR", help="write the films there, to look at them")
     return parser.parse_args(words)
@@ -55,6 +63,10 @@ def random_way(choose, mpi):
     return way, environment
 
 
+class Refused(RuntimeError):
+    """A command that ended with exit code 1."""
+
+
 class Films:
     def __init__(self, build, folder):
         self.mars = os.path.abspath(build / "bin" / "mars")
@@ -64,7 +76,7 @@ class Films:
         done = subprocess.run([self.mars, *words], capture_output=True, text=True, timeout=LONGEST,
                               env={**os.environ, **(environment or {})})
         if done.returncode != 0:
-            raise RuntimeError(f"{shown([self.mars, *words], environment)}: {done.stderr.strip()}")
+            raise (Refused if done.returncode == 1 else RuntimeError)(f"{shown([self.mars, *words], environment)}: {done.stderr.strip()}")
         return done.stdout
 
     def write(self, seed):
@@ -72,17 +84,44 @@ class Films:
         film, path = RandomFilm(seed), self.folder / f"film-{seed}.json"
         path.write_text(json.dumps(film.json, indent=1))
         for command in film.commands:
-            self.run([str(path) if word == "FILM" else word for word in command])
+            self.change(path, command)
         return path
 
-    def words(self, path, way):
-        options = [word for name, value in way.items() for word in ([name] if value is None else [name, value])]
-        return ["render", str(path), "-o", str(self.folder / "frames"), "--quiet", "--force", *options]
+    def change(self, path, command):
+        self.run([str(path) if word == "FILM" else word for word in command])
 
-    def hash(self, path, way, environment):
-        shutil.rmtree(self.folder / "frames", ignore_errors=True)
-        self.run(self.words(path, way), environment)
-        return re.search(r"^pixels \(.*\) (\w+)$", self.run(["verify", str(self.folder / "frames")]), re.MULTILINE)[1]
+    def edit(self, path, choose):
+        """Edits the film; the words of the command. MARS may refuse it: then there are none, and the film is as it was."""
+        before = path.read_bytes()
+        command = random_edit(choose, json.loads(before))
+        try:
+            self.change(path, command)
+        except Refused as refused:
+            if path.read_bytes() != before:
+                raise RuntimeError(f"a command that failed has changed the film: {refused}") from refused
+            return []
+        return command
+
+    def words(self, path, way, frames="frames"):
+        options = [word for name, value in way.items() for word in ([name] if value is None else [name, value])]
+        return ["render", str(path), "-o", str(self.folder / frames), "--quiet", "--force", *options]
+
+    def hash(self, path, way, environment, frames="frames"):
+        """Of the pixels in the folder `frames`, into which the film is rendered; what is in it stays, except in "frames"."""
+        if frames == "frames":
+            shutil.rmtree(self.folder / frames, ignore_errors=True)
+        self.run(self.words(path, way, frames), environment)
+        return re.search(r"^pixels \(.*\) (\w+)$", self.run(["verify", str(self.folder / frames)]), re.MULTILINE)[1]
+
+    def edited(self, path, choose, count):
+        """Edits the film `count` times. The commands, and the hash of its pixels in the folder of the film before."""
+        before = json.loads(path.read_text())
+        shutil.rmtree(self.folder / "before", ignore_errors=True)
+        self.hash(path, CONTINUED, {}, "before")
+        commands = [command for command in (self.edit(path, choose) for _ in range(count)) if command]
+        after = json.loads(path.read_text())
+        replaced = any(before.get(key) != after.get(key) for key in ("size", "samples"))
+        return commands, self.hash(path, CONTINUED | ({"--overwrite": None} if replaced else {}), {}, "before")
 
 
 def shown(words, environment):
@@ -104,24 +143,43 @@ def compare(films, path, ways):
     return expected, wrong
 
 
+def keep(path, name, folder):
+    if folder:
+        folder.mkdir(parents=True, exist_ok=True)
+        shutil.copy(path, folder / name)
+
+
+def examine(films, seed, options, mpi):
+    """Renders a film, and the same film with edits; prints both. How many ways gave other pixels."""
+    choose = random.Random(f"ways of {seed}")
+
+    def examined(name):
+        pixels, wrong = compare(films, path, [random_way(choose, mpi) for _ in range(options.ways - 1)])
+        print(f"{name:>8}  {pixels}  {described(json.loads(path.read_text()))}", flush=True)
+        return pixels, wrong
+
+    path = films.write(seed)
+    keep(path, path.name, options.keep)
+    wrong = examined(str(seed))[1]
+    if options.edits:
+        commands, continued = films.edited(path, random.Random(f"edits of {seed}"), options.edits)
+        keep(path, f"{path.stem}-edited.json", options.keep)
+        pixels, others = examined("edited")
+        for command in commands:
+            print(" " * 10 + shown(["mars", *command], {}), flush=True)
+        wrong += others + ([f"{continued} in the folder of the film before its edits"] if continued != pixels else [])
+    for text in wrong:
+        print(f"WRONG: {text}", flush=True)
+    return len(wrong)
+
+
 def main():
     options = arguments()
     mpi = shutil.which("mpirun") is not None and (options.build / "bin" / "mars-host").exists()
     print("over threads and MPI" if mpi else "over threads: there is no MPI here", flush=True)
-    failures = 0
     with tempfile.TemporaryDirectory(prefix="mars-identity-") as folder:
         films = Films(options.build, folder)
-        for seed in range(options.seed, options.seed + options.films):
-            choose = random.Random(f"ways of {seed}")
-            path = films.write(seed)
-            if options.keep:
-                options.keep.mkdir(parents=True, exist_ok=True)
-                shutil.copy(path, options.keep)
-            pixels, wrong = compare(films, path, [random_way(choose, mpi) for _ in range(options.ways - 1)])
-            print(f"{seed:6}  {pixels}  {described(json.loads(path.read_text()))}", flush=True)
-            for command in wrong:
-                print(f"WRONG: {command}", flush=True)
-            failures += len(wrong)
+        failures = sum(examine(films, seed, options, mpi) for seed in range(options.seed, options.seed + options.films))
     print(f"{options.films} films in {options.ways} ways each: " + (f"{failures} gave other pixels" if failures else "all alike"))
     sys.exit(1 if failures else 0)
 
