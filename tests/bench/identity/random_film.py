@@ -42,6 +42,8 @@ class RandomFilm:
         if self.version > 1:
             self.json = {"version": self.version, **self.json}
         self.add_figure()
+        self.add_settings()
+        self.add_slopes()
 
     def chance(self, part):
         return self.random.random() < part
@@ -198,6 +200,22 @@ class RandomFilm:
         if self.chance(0.15):
             self.version = 2
             self.json["camera"]["at"] = {"actor": self.json["actors"][0]["name"]}
+
+    def add_settings(self):
+        if self.json["color"] == "linear" and self.chance(0.2):
+            self.json["curve"] = "none"
+        if self.chance(0.2):
+            self.json["intervals"] = "keyframes"
+        if self.chance(0.2):
+            self.json["camera"]["up"] = [self.number(-0.5, 0.5), 0, 1]
+
+    # Keys of places that have slopes of their own.
+    def add_slopes(self):
+        for actor in self.json["actors"]:
+            for key in actor.get("keys", []):
+                if "place" in key and self.chance(0.2):
+                    key["place"] = {"value": key["place"], "ease": "spline", "out": self.place(0.3), "in": self.place(0.3)}
+                    self.json["version"] = 2
 
     # A figure of the library that does something, and a few edits.
     def add_figure(self):
