@@ -46,7 +46,7 @@ def sheet_of(table, kind):
 
 def summary(table, kind):
     """One sentence for each source beside the thesis."""
-    said = []
+    sentences = []
     for source in table.sources:
         deviations = table.deviations(source, kind)
         if source == "thesis" or not deviations:
@@ -55,13 +55,14 @@ def summary(table, kind):
             (row, nodes), worst = max(deviations.items(), key=lambda item: abs(item[1]))
             regrets = table.regrets(source, kind).values()
             near = sum(regret <= NEAR for regret in regrets)
-            said.append(f"{source}: median error {100 * table.median_error(source, kind):.0f} %, at most "
-                        f"{100 * worst:+.0f} % (row {row}, P = {nodes}); its best P takes within {100 * NEAR:.0f} % of "
-                        f"the thesis's least time in {near} of {len(regrets)} rows.")
+            sentences.append(f"\"{source}\" differs from the thesis by {100 * table.median_error(source, kind):.0f} % in "
+                             f"the median, and by at most {100 * worst:+.0f} % (row {row}, P = {nodes}). In {near} of "
+                             f"{len(regrets)} rows, its best P took at most {100 * NEAR:.0f} % more than the least time "
+                             f"in the thesis.")
         else:
             factors = sorted(1 / (1 + deviation) for deviation in deviations.values())
-            said.append(f"{source}: {number(factors[0])} to {number(factors[-1])} times as fast as the thesis.")
-    return " ".join(said)
+            sentences.append(f"\"{source}\" is {number(factors[0])} to {number(factors[-1])} times as fast as the thesis.")
+    return " ".join(sentences)
 
 
 def sheets_of(parts):

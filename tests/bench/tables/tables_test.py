@@ -132,9 +132,10 @@ class Rendering(unittest.TestCase):
             [1300, "thesis", "2449", "2306", "2486", "2917", "3711", 4],
             ["", "simulated-thesis", "2694 (+10 %)", "1845 (-20 %)", "2486 (+0 %)", "", "", 4],
             ["", "here", "2.45", "", "", "", "", 2]])
-        self.assertEqual(sheet["note"], "simulated-thesis: median error 10 %, at most -20 % (row 1300, P = 4); its "
-                                        "best P takes within 5 % of the thesis's least time in 1 of 1 rows. "
-                                        "here: 1000 to 1000 times as fast as the thesis.")
+        self.assertEqual(sheet["note"], "\"simulated-thesis\" differs from the thesis by 10 % in the median, and by at "
+                                        "most -20 % (row 1300, P = 4). In 1 of 1 rows, its best P took at most 5 % more "
+                                        "than the least time in the thesis. \"here\" is 1000 to 1000 times as fast as "
+                                        "the thesis.")
 
     def test_a_wrong_best_number_of_nodes_costs_what_it_takes_in_the_thesis(self):
         part = self.parts[-2]
