@@ -333,7 +333,7 @@ Object part() {
       "A part of a key with more than its value.",
       {{.name = "value",
         .type = "value",
-        .meaning = "the part's value, as it would stand without the object",
+        .meaning = "the part's value, written as it would be without the object",
         .required = true},
        {.name = "ease",
         .type = "ease",

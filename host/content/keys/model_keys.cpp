@@ -207,8 +207,8 @@ Object side() {
                       {"toes", "bends the foot at its ball"},
                       {"shoulder", "turns the upper arm"},
                       {"elbow", "turns the forearm"},
-                      {"wrist", "turns the hand, or of four legs the lower foreleg"},
-                      {"fingers", "bends the hand, or of four legs the front paw or hoof"}});
+                      {"wrist", "turns the hand; on four legs, the lower foreleg"},
+                      {"fingers", "bends the hand; on four legs, the front paw or hoof"}});
 }
 
 Object surface() {

@@ -17,20 +17,23 @@ struct ShapeOption {
   Range range{};
 };
 
-inline constexpr ShapeOption kTop{"top", "of a cone: radius of its upper end over that of its lower", 1, 0, {0, 1}};
+inline constexpr ShapeOption kTop{
+    "top", "of a cone: radius of its upper end divided by that of its lower end", 1, 0, {0, 1}};
 inline constexpr ShapeOption kEnds{
-    "ends", "of a capsule: height of each round end over that of the sbb", 1, 0.25, {0.001, 0.5}};
+    "ends", "of a capsule: height of each round end divided by that of the sbb", 1, 0.25, {0.001, 0.5}};
 inline constexpr ShapeOption kRim{
-    "rim", "of a disc: radius of its rim over the width of the sbb", 1, 0.05, {0.001, 0.49}};
-inline constexpr ShapeOption kEdge{"edge",
-                                   "of a rounded box: radius of its edges over the size of the sbb, one number or one "
-                                   "for each axis, 0.001 to 0.5",
-                                   3,
-                                   0.1,
-                                   {0.001, 0.5}};
+    "rim", "of a disc: radius of its rim divided by the width of the sbb", 1, 0.05, {0.001, 0.49}};
+inline constexpr ShapeOption kEdge{
+    "edge",
+    "of a rounded box: radius of its edges divided by the size of the sbb, one number or one "
+    "for each axis, 0.001 to 0.5",
+    3,
+    0.1,
+    {0.001, 0.5}};
 inline constexpr ShapeOption kTube{
-    "tube", "of a torus: radius of its tube over the width of the sbb", 1, 0.125, {0.001, 0.2499}};
-inline constexpr ShapeOption kLid{"lid", "of the teapot: width of its lid over that of Newell's", 1, 1.077, {0.1, 1.5}};
+    "tube", "of a torus: radius of its tube divided by the width of the sbb", 1, 0.125, {0.001, 0.2499}};
+inline constexpr ShapeOption kLid{
+    "lid", "of the teapot: width of its lid divided by that of Newell's lid", 1, 1.077, {0.1, 1.5}};
 
 inline constexpr const ShapeOption* kShapeOptions[] = {&kTop, &kEnds, &kRim, &kEdge, &kTube, &kLid};
 
