@@ -24,7 +24,7 @@ More: docs/animating.md.
 )";
 
 // What a person typed, of all the commands.
-struct Words {
+struct AnimateWords {
   EditedFilm& film;
   std::string thing{}, frame{};
   std::optional<animator::Ease> ease{};
@@ -38,7 +38,8 @@ struct Words {
 };
 
 // Changes the film by `change`; it stays as it was where that fails or the result is no film.
-void edit(const Words& words, const std::function<animator::Remarks(document::Json&, const animator::Film&)>& change) {
+void edit(const AnimateWords& words,
+          const std::function<animator::Remarks(document::Json&, const animator::Film&)>& change) {
   animator::Remarks remarks;
   std::string note;
   const auto changed = [&](document::Json& json, const animator::Film& film) {
@@ -62,7 +63,7 @@ void edit(const Words& words, const std::function<animator::Remarks(document::Js
 // The options that several commands have.
 class Command {
  public:
-  Command(cli::Command animate, Words& words, const char* name, const char* purpose)
+  Command(cli::Command animate, AnimateWords& words, const char* name, const char* purpose)
       : app_(animate.add_command(name, purpose)), words_(words) {}
 
   Command& thing(const char* help) {
@@ -111,7 +112,7 @@ class Command {
 
  private:
   cli::Command app_;
-  Words& words_;
+  AnimateWords& words_;
 };
 
 constexpr const char* kThing = "An actor, camera, light/N (from 1) or material/NAME. Example: robot";
@@ -123,13 +124,13 @@ constexpr const char* kRange = "The frame, or a range of frames, both ends inclu
 constexpr const char* kEase =
     "From this key to the next: linear, in, out, both, spline or a curve. Example: --ease both or --ease 0.4,0,0.6,1";
 
-void require_thing(const Words& words) {
+void require_thing(const AnimateWords& words) {
   if (words.thing.empty() && !words.all)
     throw Failure("is not given", "whose keys to change",
                   "name an actor, camera, light/N or material/NAME, or use --all");
 }
 
-void add_pose(cli::Command animate, Words& words) {
+void add_pose(cli::Command animate, AnimateWords& words) {
   Command command(animate, words, "pose",
                   "Set or turn joints of an actor, its place, the camera, lights and materials");
   command.thing(kThing)
@@ -154,7 +155,7 @@ void add_pose(cli::Command animate, Words& words) {
   });
 }
 
-void add_key(cli::Command animate, Words& words) {
+void add_key(cli::Command animate, AnimateWords& words) {
   Command command(animate, words, "key", "Make keys of the pose at a frame");
   command.thing(kThing)
       .parts("PART", kParts)
@@ -170,7 +171,7 @@ void add_key(cli::Command animate, Words& words) {
   });
 }
 
-void add_displacing(cli::Command animate, Words& words, const char* name, const char* purpose, bool copies) {
+void add_displacing(cli::Command animate, AnimateWords& words, const char* name, const char* purpose, bool copies) {
   Command command(animate, words, name, purpose);
   command.thing(kThing).parts("PART", kParts).all().frame(kRange, "RANGE");
   command.to("Where the range's first frame goes. Example: --to 60").lengthen().runs([&words, copies] {
@@ -182,7 +183,7 @@ void add_displacing(cli::Command animate, Words& words, const char* name, const 
   });
 }
 
-void add_delete(cli::Command animate, Words& words) {
+void add_delete(cli::Command animate, AnimateWords& words) {
   Command command(animate, words, "delete", "Delete keys");
   command.thing(kThing).parts("PART", kParts).all().frame(kRange, "RANGE").runs([&words] {
     require_thing(words);
@@ -192,7 +193,8 @@ void add_delete(cli::Command animate, Words& words) {
   });
 }
 
-animator::Remarks retime(const Words& words, cli::Command command, document::Json& json, const animator::Film& film) {
+animator::Remarks retime(const AnimateWords& words, cli::Command command, document::Json& json,
+                         const animator::Film& film) {
   const animator::FrameRange range = animator::read_frame_range(words.frame);
   if (command.given("--hold"))
     return animator::hold(json, film, words.choice(), animator::read_frame(words.frame), words.hold);
@@ -204,7 +206,7 @@ animator::Remarks retime(const Words& words, cli::Command command, document::Jso
                              animator::swinging(words.anticipation / 100, words.overshoot / 100));
 }
 
-void add_time(cli::Command animate, Words& words) {
+void add_time(cli::Command animate, AnimateWords& words) {
   Command command(animate, words, "time", "Change the timing of an actor, of some of its parts or of the film");
   command.thing(kThing).parts("PART", kParts).all().frame(kRange, "RANGE").ease(kEase);
   const cli::Command app = command.app();
@@ -236,7 +238,7 @@ void add_time(cli::Command animate, Words& words) {
   });
 }
 
-void add_list(cli::Command animate, Words& words) {
+void add_list(cli::Command animate, AnimateWords& words) {
   Command command(animate, words, "list", "Show the keys in a table");
   command.thing("An actor, camera, light/N or material/NAME; default: all that has keys. Example: robot")
       .parts("PART", kParts);
@@ -250,7 +252,7 @@ void add_list(cli::Command animate, Words& words) {
   });
 }
 
-void add_check(cli::Command animate, Words& words, int& code) {
+void add_check(cli::Command animate, AnimateWords& words, int& code) {
   Command command(animate, words, "check",
                   "Report errors: limits broken between keys, keys after the last frame and more");
   command.runs([&words, &code] {
@@ -265,13 +267,13 @@ void add_check(cli::Command animate, Words& words, int& code) {
 }  // namespace
 
 void add_animate_pose(cli::Command mars, EditedFilm& film) {
-  const auto words = std::make_shared<Words>(film);
+  const auto words = std::make_shared<AnimateWords>(film);
   add_pose(mars.add_command("animate", kAnimate), *words);
   mars.keeps(words);
 }
 
 cli::Command add_animate(cli::Command mars, EditedFilm& film, int& code) {
-  const auto words = std::make_shared<Words>(film);
+  const auto words = std::make_shared<AnimateWords>(film);
   const cli::Command animate = mars.add_command("animate", kAnimate);
   add_pose(animate, *words);
   add_key(animate, *words);
