@@ -61,42 +61,42 @@ void edit(const AnimateWords& words,
 }
 
 // The options that several commands have.
-class Command {
+class AnimateCommand {
  public:
-  Command(cli::Command animate, AnimateWords& words, const char* name, const char* purpose)
+  AnimateCommand(cli::Command animate, AnimateWords& words, const char* name, const char* purpose)
       : app_(animate.add_command(name, purpose)), words_(words) {}
 
-  Command& thing(const char* help) {
+  AnimateCommand& thing(const char* help) {
     app_.add("ACTOR", words_.thing, help);
     return *this;
   }
-  Command& parts(const char* name, const char* help) {
+  AnimateCommand& parts(const char* name, const char* help) {
     app_.add(name, words_.parts, help);
     return *this;
   }
-  Command& all() {
+  AnimateCommand& all() {
     app_.add_flag("--all", words_.all,
                   "Instead of an actor: all that has keys, camera, lights and materials too. Example: --all");
     return *this;
   }
-  Command& frame(const char* help, const char* type) {
+  AnimateCommand& frame(const char* help, const char* type) {
     app_.add("-f,--frame", words_.frame, help).required().type(type);
     return *this;
   }
-  Command& ease(const char* help) {
+  AnimateCommand& ease(const char* help) {
     const auto read = [&words = words_](const std::string& word) { words.ease = animator::read_typed_ease(word); };
     app_.add_read("--ease", read, help).type("EASE");
     return *this;
   }
-  Command& to(const char* help) {
+  AnimateCommand& to(const char* help) {
     app_.add("--to", words_.to, help).required().type("FRAME").range(0u, wire::kMostFrames);
     return *this;
   }
-  Command& clamp() {
+  AnimateCommand& clamp() {
     app_.add_flag("--clamp", words_.clamp, "Clamp angles to the limits of their joints. Example: --clamp");
     return *this;
   }
-  Command& lengthen() {
+  AnimateCommand& lengthen() {
     app_.add_flag("--lengthen", words_.lengthen,
                   "Give the film as many frames as its last key needs. Example: --lengthen");
     return *this;
@@ -131,7 +131,7 @@ void require_thing(const AnimateWords& words) {
 }
 
 void add_pose(cli::Command animate, AnimateWords& words) {
-  Command command(animate, words, "pose",
+  AnimateCommand command(animate, words, "pose",
                   "Set or turn joints of an actor, its place, the camera, lights and materials");
   command.thing(kThing)
       .parts("PART=NUMBERS",
@@ -156,7 +156,7 @@ void add_pose(cli::Command animate, AnimateWords& words) {
 }
 
 void add_key(cli::Command animate, AnimateWords& words) {
-  Command command(animate, words, "key", "Make keys of the pose at a frame");
+  AnimateCommand command(animate, words, "key", "Make keys of the pose at a frame");
   command.thing(kThing)
       .parts("PART", kParts)
       .all()
@@ -172,7 +172,7 @@ void add_key(cli::Command animate, AnimateWords& words) {
 }
 
 void add_displacing(cli::Command animate, AnimateWords& words, const char* name, const char* purpose, bool copies) {
-  Command command(animate, words, name, purpose);
+  AnimateCommand command(animate, words, name, purpose);
   command.thing(kThing).parts("PART", kParts).all().frame(kRange, "RANGE");
   command.to("Where the range's first frame goes. Example: --to 60").lengthen().runs([&words, copies] {
     require_thing(words);
@@ -184,7 +184,7 @@ void add_displacing(cli::Command animate, AnimateWords& words, const char* name,
 }
 
 void add_delete(cli::Command animate, AnimateWords& words) {
-  Command command(animate, words, "delete", "Delete keys");
+  AnimateCommand command(animate, words, "delete", "Delete keys");
   command.thing(kThing).parts("PART", kParts).all().frame(kRange, "RANGE").runs([&words] {
     require_thing(words);
     edit(words, [&](document::Json& json, const animator::Film& film) {
@@ -207,7 +207,7 @@ animator::Remarks retime(const AnimateWords& words, cli::Command command, docume
 }
 
 void add_time(cli::Command animate, AnimateWords& words) {
-  Command command(animate, words, "time", "Change the timing of an actor, of some of its parts or of the film");
+  AnimateCommand command(animate, words, "time", "Change the timing of an actor, of some of its parts or of the film");
   command.thing(kThing).parts("PART", kParts).all().frame(kRange, "RANGE").ease(kEase);
   const cli::Command app = command.app();
   app.add("--hold", words.hold, "Stand still for N frames from the frame on; later keys move back. Example: --hold 12")
@@ -239,7 +239,7 @@ void add_time(cli::Command animate, AnimateWords& words) {
 }
 
 void add_list(cli::Command animate, AnimateWords& words) {
-  Command command(animate, words, "list", "Show the keys in a table");
+  AnimateCommand command(animate, words, "list", "Show the keys in a table");
   command.thing("An actor, camera, light/N or material/NAME; default: all that has keys. Example: robot")
       .parts("PART", kParts);
   command.app().add("-f,--frame", words.frame, kRange).type("RANGE");
@@ -253,7 +253,7 @@ void add_list(cli::Command animate, AnimateWords& words) {
 }
 
 void add_check(cli::Command animate, AnimateWords& words, int& code) {
-  Command command(animate, words, "check",
+  AnimateCommand command(animate, words, "check",
                   "Report errors: limits broken between keys, keys after the last frame and more");
   command.runs([&words, &code] {
     const animator::Findings findings = animator::check_film(words.film.read().film);
