@@ -5,8 +5,6 @@
 #include <unordered_set>
 #include <vector>
 
-#include "host/content/modeler/model.h"
-
 namespace mars::modeler {
 namespace {
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -33,8 +32,5 @@ struct Model {
   std::vector<NamedMaterial> materials;
   Limbs limbs{};
 };
-
-// Whether the joint is `above`, or hangs below it; false if there is no `above` (kNone).
-bool is_at_or_below(std::span<const Joint> joints, std::size_t joint, std::size_t above);
 
 }  // namespace mars::modeler
