@@ -132,7 +132,7 @@ void require_thing(const AnimateWords& words) {
 
 void add_pose(cli::Command animate, AnimateWords& words) {
   AnimateCommand command(animate, words, "pose",
-                  "Set or turn joints of an actor, its place, the camera, lights and materials");
+                         "Set or turn joints of an actor, its place, the camera, lights and materials");
   command.thing(kThing)
       .parts("PART=NUMBERS",
              "One axis or all: degrees, or a place; other parts stay as they are. += and -= add to what it is there; "
@@ -254,7 +254,7 @@ void add_list(cli::Command animate, AnimateWords& words) {
 
 void add_check(cli::Command animate, AnimateWords& words, int& code) {
   AnimateCommand command(animate, words, "check",
-                  "Report errors: limits broken between keys, keys after the last frame and more");
+                         "Report errors: limits broken between keys, keys after the last frame and more");
   command.runs([&words, &code] {
     const animator::Findings findings = animator::check_film(words.film.read().film);
     for (const std::string& line : findings.lines) words.film.print(line + "\n");
