@@ -27,8 +27,8 @@ FrameCounter::FrameCounter(const wire::FilmView& film, simd::InstructionSet set)
       all_lines_(film.settings().height, 1),
       share_loads_(film.settings().height),
       loads_(film.settings().height),
-      moving_loads_(film.settings().height),
       moving_columns_(film.settings().height),
+      moving_loads_(film.settings().height),
       sampled_((film.settings().height + step_ - 1) / step_),
       ids_(std::size_t{stride_} * film.settings().samples),
       depths_(ids_.size()) {}

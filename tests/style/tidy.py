@@ -17,6 +17,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -33,9 +34,9 @@ def program():
     return None
 
 
-def check(clang_tidy, build, source, seconds):
+def check(clang_tidy, commands, source, seconds):
     """What clang-tidy says of one source; a word about its time where that is over."""
-    words = [clang_tidy, "--quiet", f"--config-file={ROOT / '.clang-tidy'}", "-p", build,
+    words = [clang_tidy, "--quiet", f"--config-file={ROOT / '.clang-tidy'}", "-p", commands,
              f"--extra-arg-before=-isystem{ROOT / 'tests/style/clang14'}", source]
     try:
         done = subprocess.run(words, capture_output=True, text=True, timeout=max(seconds, 0.001))
@@ -46,8 +47,18 @@ def check(clang_tidy, build, source, seconds):
     return done.stdout
 
 
-def sources_below(build, folders):
-    commands = json.loads((pathlib.Path(build) / "compile_commands.json").read_text())
+def commands_of(build):
+    """How each source is compiled: one that is compiled together with others, as if alone."""
+    for command in json.loads((pathlib.Path(build) / "compile_commands.json").read_text()):
+        compiled = pathlib.Path(command["directory"], command["file"])
+        if compiled.parent.name != "Unity":
+            yield command
+            continue
+        for source in re.findall(r'^#include "(.*)"$', compiled.read_text(), re.M):
+            yield command | {"file": source, "command": command["command"].replace(str(compiled), source)}
+
+
+def sources_below(commands, folders):
     files = {pathlib.Path(command["directory"], command["file"]) for command in commands}
     folders = [ROOT / folder for folder in folders]
     return sorted(file for file in files if any(folder in file.parents for folder in folders) and file.suffix == ".cpp")
@@ -64,12 +75,12 @@ def is_ours(finding, source):
     return finding.startswith((f"{ROOT}/", f"{source}:"))
 
 
-def check_all(clang_tidy, build, sources, seconds):
+def check_all(clang_tidy, commands, sources, seconds):
     """Prints each finding once, as it comes; the number of findings."""
     end = time.monotonic() + seconds
     seen = set()
     with concurrent.futures.ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
-        texts = pool.map(lambda source: check(clang_tidy, build, source, end - time.monotonic()), sources)
+        texts = pool.map(lambda source: check(clang_tidy, commands, source, end - time.monotonic()), sources)
         for source, text in zip(sources, texts):
             for finding in [each for each in findings_of(text) if is_ours(each, source)]:
                 if finding not in seen:
@@ -87,10 +98,13 @@ def main():
     clang_tidy = program()
     if not clang_tidy:
         sys.exit("tidy: clang-tidy 14 is not here (Debian 12: apt-get install clang-tidy)")
-    sources = sources_below(words.build, words.folders)
+    commands = list(commands_of(words.build))
+    sources = sources_below(commands, words.folders)
     if not sources:
         sys.exit(f"tidy: {words.build} compiles nothing below {', '.join(words.folders)}")
-    count = check_all(clang_tidy, words.build, sources, words.seconds)
+    with tempfile.TemporaryDirectory(prefix="mars-tidy-") as folder:
+        (pathlib.Path(folder) / "compile_commands.json").write_text(json.dumps(commands))
+        count = check_all(clang_tidy, folder, sources, words.seconds)
     print(f"tidy: {len(sources)} files, {count} findings")
     sys.exit(count > 0)
 

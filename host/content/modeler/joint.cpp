@@ -20,4 +20,9 @@ int Joint::freedoms() const {
   return static_cast<int>(std::count_if(limits.begin(), limits.end(), [](const Limits& l) { return l.free(); }));
 }
 
+bool is_at_or_below(std::span<const Joint> joints, std::size_t joint, std::size_t above) {
+  while (joint != kNone && joint != above) joint = joints[joint].parent;
+  return above != kNone && joint == above;
+}
+
 }  // namespace mars::modeler

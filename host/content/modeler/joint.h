@@ -13,6 +13,7 @@
 #include <glm/vec3.hpp>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace mars::modeler {
@@ -56,5 +57,8 @@ struct Joint {
   glm::dvec3 rest() const;  // the pose nearest to zero that the limits allow
   int freedoms() const;     // axes about which it can turn
 };
+
+// Whether the joint is `above`, or hangs below it; false if there is no `above` (kNone).
+bool is_at_or_below(std::span<const Joint> joints, std::size_t joint, std::size_t above);
 
 }  // namespace mars::modeler

@@ -28,8 +28,8 @@ struct HostMachine {
 struct Prediction {
   std::uint32_t groups = 0;       // that make it shortest; 0: as make_groups says
   std::int32_t contributors = 0;  // to keyframes, with these groups, as in farm::Plan
-  events::Course course;          // of its frames
-  std::string warning;            // why nothing is predicted; "": none
+  events::Course course{};        // of its frames
+  std::string warning{};          // why nothing is predicted; "": none
 };
 
 struct RenderJob {

@@ -105,7 +105,9 @@ TEST(Reaching, AHandIsPulledByItsWholeArm) {
   EXPECT_TRUE(step.contains("left-upper-arm"));
   EXPECT_TRUE(step.contains("left-forearm"));
   for (const auto& [name, value] : step.items()) {
-    if (value.is_array()) EXPECT_TRUE(name.starts_with("left-")) << name;
+    if (value.is_array()) {
+      EXPECT_TRUE(name.starts_with("left-")) << name;
+    }
   }
   EXPECT_TRUE(scene.project.commits.empty());
   scene.take(R"({"do": "drop"})");
