@@ -38,8 +38,9 @@ export function numberField({name, letter = "", axis = letter, unit = "", step =
   const settling = new Settling();
   let value = 0, held = null;
 
+  const textOf = (number, places) => number === null ? "" : written(number, places);
   const show = (number) => {
-    input.value = number === null ? "" : written(number, document.activeElement === input ? kAllDigits : digits);
+    input.value = textOf(number, document.activeElement === input ? kAllDigits : digits);
     input.setAttribute("aria-valuenow", input.value);
   };
   const change = (number, event) => {
@@ -77,7 +78,7 @@ export function numberField({name, letter = "", axis = letter, unit = "", step =
   input.addEventListener("blur", (event) => {
     input.removeAttribute("aria-invalid");
     done(event);
-    input.value = value === null ? "" : written(value, digits);
+    input.value = textOf(value, digits);
   });
   input.addEventListener("keydown", (event) => {
     const direction = {ArrowUp: 1, ArrowDown: -1}[event.key];
@@ -258,8 +259,8 @@ export function textField({name, key, hint = "", commit}) {
   }};
 }
 
-// Without a colour (null) it is white and shows the hint.
-export function colorField({name, key, hint = "", preview, commit}) {
+// Without a colour (null) it is white and says so.
+export function colorField({name, key, preview, commit}) {
   const input = element("input", {type: "color", "aria-label": name, "data-key": key});
   const hex = element("output", {class: "hex"});
   let held = false;
@@ -270,7 +271,7 @@ export function colorField({name, key, hint = "", preview, commit}) {
     if (held) return;
     input.value = hexOf(color ?? [1, 1, 1]);
     show();
-    if (!color) hex.textContent = hint;
+    if (!color) hex.textContent = "default";
   }};
 }
 

@@ -50,7 +50,7 @@ void read_value(const document::Element& element, const keys::Key& key, glm::dve
 template <typename Value>
 auto reader_of(const keys::Key& key, const Channel<Value>&) {
   return [&key](const document::Element& element) {
-    Value value;
+    Value value{};
     read_value(element, key, value);
     return value;
   };

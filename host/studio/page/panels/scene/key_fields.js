@@ -22,11 +22,11 @@ const titled = (name) => name[0].toUpperCase() + name.slice(1).replaceAll("_", "
 
 const textOf = (value) => [value].flat().map((each) => typeof each === "number" ? written(each, 6) : each).join(",");
 
-// A tenth of the power of ten below what is usual.
+// A tenth of the power of ten below what is usual: 1 for 40, 0.1 for 1.
 function stepOf({type, default: usual}) {
   const size = Math.abs([usual].flat()[0]);
   if (type === "whole") return 1;
-  return size >= 1 ? 10 ** (Math.floor(Math.log10(size)) - 1) : 0.1;
+  return size > 0 ? 10 ** (Math.floor(Math.log10(size)) - 1) : 0.1;
 }
 
 function meaningOf({meaning, unit, least, most, without, default: usual}) {
@@ -54,7 +54,7 @@ export function keyFields(controls, {of, kind, now, words}) {
     const label = key.label ?? titled(name);
     const made = controlOf(key)({
       name: `${titled(of)}, ${label.toLowerCase()}`, key: `${of}.${name}`, unit: kUnits[key.unit], least: key.least, most: key.most,
-      step: stepOf(key), hint: key.without, ...controls.gestures((value) => words(name, key, textOf(value))),
+      step: stepOf(key), hint: key.without?.replaceAll("`", ""), ...controls.gestures((value) => words(name, key, textOf(value))),
     });
     controls.whenSet(() => made.set(now()?.[name] ?? null));
     const shown = line(label, made.root);
