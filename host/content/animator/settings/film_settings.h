@@ -1,5 +1,5 @@
-// A film's settings, camera, lights and materials, as people type them: KEY=VALUE. As values: `film` is the JSON of what
-// read_film accepts, and made `meaning` of; it also checks the result.
+// A film's settings, camera, lights and materials, as people type them: KEY=VALUE. As values: `film` is the JSON of
+// what read_film accepts, and made `meaning` of; it also checks the result.
 #pragma once
 
 #include <cstddef>
