@@ -1,5 +1,5 @@
 // The words of a command line, as the programs of MARS declare them: commands within commands, each with arguments,
-// options and flags. CLI11 reads them; only this folder knows it.
+// options and flags. The library that reads them is known to this folder alone.
 #pragma once
 
 #include <cstdint>

@@ -10,21 +10,21 @@ namespace mars::editing {
 namespace {
 
 // What a person typed; callbacks keep it.
-struct Words {
+struct CarryWords {
   EditedFilm& film;
   std::string actor{}, to{}, frame{};
   std::vector<double> place{}, turn{}, offset{};
   std::string axes = "world";
   bool level = false, end = false;
 };
-using Typed = std::shared_ptr<Words>;
+using Typed = std::shared_ptr<CarryWords>;
 
 std::optional<glm::dvec3> vector_of(const std::vector<double>& numbers) {
   if (numbers.empty()) return std::nullopt;
   return glm::dvec3(numbers[0], numbers[1], numbers[2]);
 }
 
-void add_frame(cli::Command app, Words& words) {
+void add_frame(cli::Command app, CarryWords& words) {
   app.add("-f,--frame", words.frame, "From this frame on. Example: --frame 24").required().type("FRAME");
 }
 
@@ -60,7 +60,7 @@ void add_detach(cli::Command animate, const Typed& words) {
   });
 }
 
-animator::Remarks change_camera(const Words& words, document::Json& json, const animator::Film& film,
+animator::Remarks change_camera(const CarryWords& words, document::Json& json, const animator::Film& film,
                                 const animator::Following& following) {
   if (words.end != words.to.empty())
     throw Failure(words.end ? "are given both" : "is not given", words.end ? "an actor and --end" : "the actor",
@@ -70,7 +70,7 @@ animator::Remarks change_camera(const Words& words, document::Json& json, const 
                    : animator::follow(json, film, words.to, frame, following);
 }
 
-void change_camera(const Words& words, const animator::Following& following) {
+void change_camera(const CarryWords& words, const animator::Following& following) {
   animator::Remarks remarks;
   words.film.change(
       [&](document::Json& json, const animator::Film& film) { remarks = change_camera(words, json, film, following); });
@@ -111,7 +111,7 @@ void add_follow(cli::Command animate, const Typed& words) {
 }  // namespace
 
 void add_carrying(cli::Command animate, EditedFilm& film) {
-  const auto attaching = std::make_shared<Words>(film), camera = std::make_shared<Words>(film);
+  const auto attaching = std::make_shared<CarryWords>(film), camera = std::make_shared<CarryWords>(film);
   add_attach(animate, attaching);
   add_detach(animate, attaching);
   add_look(animate, camera);

@@ -25,7 +25,7 @@ FILM is changed in place, whole or not at all. More: docs/filming.md.
 )";
 
 // What a person typed after any of the commands.
-struct Words {
+struct FilmWords {
   EditedFilm& film;
   std::string name{}, other{}, model{};
   std::vector<std::string> fields{};
@@ -36,57 +36,57 @@ struct Words {
 
 using Meaning = animator::Film;
 
-std::optional<glm::dvec3> place_of(const Words& words) {
+std::optional<glm::dvec3> place_of(const FilmWords& words) {
   if (words.place.empty()) return std::nullopt;
   return glm::dvec3(words.place[0], words.place[1], words.place[2]);
 }
 
-std::optional<glm::dvec3> turn_of(const Words& words) {
+std::optional<glm::dvec3> turn_of(const FilmWords& words) {
   if (words.turn.empty()) return std::nullopt;
   if (words.turn.size() == 1) return glm::dvec3(0, 0, words.turn[0]);
   return glm::dvec3(words.turn[0], words.turn[1], words.turn[2]);
 }
 
 // As the film names it.
-std::string model_of(const Words& words, const Json& film) {
+std::string model_of(const FilmWords& words, const Json& film) {
   return animator::is_model_file(film, words.model) ? words.film.name_of_model(words.model) : words.model;
 }
 
-void run_new(const Words& words) {
+void run_new(const FilmWords& words) {
   Json film = animator::new_film();
   animator::set_film(film, words.fields);
   if (!words.model.empty()) animator::add_actor(film, {words.model, words.model});
   words.film.create(film);
 }
 
-void run_add(const Words& words) {
+void run_add(const FilmWords& words) {
   words.film.change([&](Json& film, const Meaning&) {
     animator::add_actor(film, {words.name, model_of(words, film), place_of(words), turn_of(words), words.height});
   });
 }
 
-void run_remove(const Words& words) {
+void run_remove(const FilmWords& words) {
   words.film.change([&](Json& film, const Meaning&) { animator::remove_actor(film, words.name); });
 }
 
-void run_rename(const Words& words) {
+void run_rename(const FilmWords& words) {
   words.film.change([&](Json& film, const Meaning&) { animator::rename_actor(film, words.name, words.other); });
 }
 
-void run_set(const Words& words) {
+void run_set(const FilmWords& words) {
   words.film.change([&](Json& film, const Meaning&) { animator::set_film(film, words.fields); });
 }
 
-void run_camera(const Words& words) {
+void run_camera(const FilmWords& words) {
   words.film.change([&](Json& film, const Meaning&) { animator::set_camera(film, words.fields); });
 }
 
-void run_show(const Words& words) {
+void run_show(const FilmWords& words) {
   film::FilmFile file = words.film.read();
   words.film.print(animator::film_summary(file.json, file.film));
 }
 
-void run_light_add(const Words& words) {
+void run_light_add(const FilmWords& words) {
   bool own = false;
   std::size_t number = 0;
   words.film.change([&](Json& film, const Meaning& meaning) {
@@ -99,36 +99,36 @@ void run_light_add(const Words& words) {
            : ", beside those that the film was shown with: light/1 to light/" + std::to_string(number - 1) + "\n"));
 }
 
-void run_light_remove(const Words& words) {
+void run_light_remove(const FilmWords& words) {
   words.film.change([&](Json& film, const Meaning& meaning) { animator::remove_light(film, meaning, words.number); });
 }
 
-void run_light_rig(const Words& words) { words.film.change(animator::write_rig); }
+void run_light_rig(const FilmWords& words) { words.film.change(animator::write_rig); }
 
-void run_material_add(const Words& words) {
+void run_material_add(const FilmWords& words) {
   words.film.change([&](Json& film, const Meaning& meaning) {
     animator::add_material(film, meaning, words.name, words.fields, words.other);
   });
 }
 
-void run_material_set(const Words& words) {
+void run_material_set(const FilmWords& words) {
   words.film.change([&](Json& film, const Meaning&) { animator::set_material(film, words.name, words.fields); });
 }
 
-void run_material_remove(const Words& words) {
+void run_material_remove(const FilmWords& words) {
   words.film.change([&](Json& film, const Meaning&) { animator::remove_material(film, words.name); });
 }
 
 // A command of which `run` does the work.
-cli::Command add_command(cli::Command film, const std::shared_ptr<Words>& words, const char* name, const char* purpose,
-                         void (*run)(const Words& words)) {
+cli::Command add_command(cli::Command film, const std::shared_ptr<FilmWords>& words, const char* name,
+                         const char* purpose, void (*run)(const FilmWords& words)) {
   const cli::Command command = film.add_command(name, purpose);
   command.runs([words, run] { run(*words); });
   return command;
 }
 
 // What KEY may be, by the table of keys.
-cli::Option add_fields(cli::Command command, Words& words, std::string_view object, const std::string& example) {
+cli::Option add_fields(cli::Command command, FilmWords& words, std::string_view object, const std::string& example) {
   const keys::Object& described = keys::object(object);
   return command
       .add("KEY=VALUE", words.fields,
@@ -137,7 +137,7 @@ cli::Option add_fields(cli::Command command, Words& words, std::string_view obje
       .offers(keys::typed_forms(described));
 }
 
-void add_actor_options(cli::Command command, Words& words) {
+void add_actor_options(cli::Command command, FilmWords& words) {
   command.add("ACTOR", words.name, "Its name. Example: tom").required();
   command
       .add("--model", words.model,
@@ -169,7 +169,7 @@ std::string library_text() {
          cli::wrapped(list(modeler::object_library()), 2) + "\n";
 }
 
-void add_actors(cli::Command film, const std::shared_ptr<Words>& words) {
+void add_actors(cli::Command film, const std::shared_ptr<FilmWords>& words) {
   const cli::Command add =
       add_command(film, words, "add", "Add an actor: a figure, an object or another model", run_add);
   add_actor_options(add, *words);
@@ -181,7 +181,7 @@ void add_actors(cli::Command film, const std::shared_ptr<Words>& words) {
   rename.add("NAME", words->other, "Its new name. Example: anna").required();
 }
 
-void add_settings(cli::Command film, const std::shared_ptr<Words>& words) {
+void add_settings(cli::Command film, const std::shared_ptr<FilmWords>& words) {
   const char* const example = "frames=120 size=640,360 background=0.6,0.7,0.8";
   cli::Command fresh = add_command(film, words, "new", "Make a film file with a camera", run_new);
   add_fields(fresh, *words, "film", example);
@@ -195,7 +195,7 @@ void add_settings(cli::Command film, const std::shared_ptr<Words>& words) {
   add_command(film, words, "show", "Show what the film holds, by the names that commands take", run_show);
 }
 
-void add_lights(cli::Command film, const std::shared_ptr<Words>& words) {
+void add_lights(cli::Command film, const std::shared_ptr<FilmWords>& words) {
   cli::Command light = film.add_command("light", "Add and remove lights");
   add_fields(add_command(light, words, "add", "Add a light", run_light_add), *words, "light",
              "place=4,-3,6 at=0,0,2 color=1,0.9,0.8 intensity=2")
@@ -205,10 +205,10 @@ void add_lights(cli::Command film, const std::shared_ptr<Words>& words) {
   add_command(light, words, "rig", "Write the three lights into a film that has none of its own", run_light_rig);
 }
 
-void add_materials(cli::Command film, const std::shared_ptr<Words>& words) {
+void add_materials(cli::Command film, const std::shared_ptr<FilmWords>& words) {
   const char* const example = "color=0.9,0.6,0.5 reflection=blinn-phong";
   cli::Command material = film.add_command("material", "Add, change and remove materials of the film");
-  const auto add = [&](const char* name, const char* purpose, void (*run)(const Words&)) -> cli::Command {
+  const auto add = [&](const char* name, const char* purpose, void (*run)(const FilmWords&)) -> cli::Command {
     cli::Command command = add_command(material, words, name, purpose, run);
     command.add("NAME", words->name, "The material. Example: skin").required();
     return command;
@@ -227,7 +227,7 @@ void add_materials(cli::Command film, const std::shared_ptr<Words>& words) {
 }  // namespace
 
 cli::Command add_film(cli::Command mars, EditedFilm& film) {
-  const auto words = std::make_shared<Words>(film);
+  const auto words = std::make_shared<FilmWords>(film);
   const cli::Command app =
       mars.add_command("film", "Begin a film; add actors, lights and materials; change its settings");
   add_settings(app, words);

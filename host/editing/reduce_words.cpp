@@ -10,7 +10,7 @@
 namespace mars::editing {
 namespace {
 
-struct Words {
+struct ReduceWords {
   animator::Choice choice;
   std::string frame;
   animator::ReductionError error{0, {}};
@@ -22,7 +22,7 @@ std::string report_of(const animator::Reduction& done) {
          " became " + std::to_string(done.keys_after) + " in " + std::to_string(done.frames_after) + "\n";
 }
 
-void reduce(EditedFilm& film, const Words& words) {
+void reduce(EditedFilm& film, const ReduceWords& words) {
   const animator::FrameRange range =
       words.frame.empty() ? animator::FrameRange{0, wire::kMostFrames} : animator::read_frame_range(words.frame);
   animator::Reduction done;
@@ -37,7 +37,7 @@ void reduce(EditedFilm& film, const Words& words) {
 
 void add_reduce(cli::Command animate, EditedFilm& film) {
   const cli::Command app = animate.add_command("reduce", "Make many keys a few, with splines through them");
-  const auto words = std::make_shared<Words>();
+  const auto words = std::make_shared<ReduceWords>();
   app.add("ACTOR", words->choice.thing, "An actor, or camera. Example: robot").required();
   app.add("PART", words->choice.parts, "Only these of its joints, place and turn. Example: elbow place");
   app.add("--error", words->error.degrees,

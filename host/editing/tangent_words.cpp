@@ -9,12 +9,12 @@
 namespace mars::editing {
 namespace {
 
-struct Words {
+struct TangentWords {
   std::string thing, part, frame, in, out;
   bool flat = false, automatic = false;
 };
 
-animator::SlopeChange change_of(cli::Command app, const Words& words) {
+animator::SlopeChange change_of(cli::Command app, const TangentWords& words) {
   const bool numbers = app.given("--in") || app.given("--out");
   if (numbers + words.flat + words.automatic != 1)
     throw Failure(numbers || words.flat || words.automatic ? "is given twice" : "is not given", "the slope",
@@ -25,7 +25,7 @@ animator::SlopeChange change_of(cli::Command app, const Words& words) {
   return change;
 }
 
-void add_options(cli::Command app, Words& words) {
+void add_options(cli::Command app, TangentWords& words) {
   app.add("ACTOR", words.thing, "An actor, camera, light/N (from 1) or material/NAME. Example: robot").required();
   app.add("PART[.AXIS]", words.part, "One of its parts, or one axis of it. Example: elbow.y").required();
   app.add("-f,--frame", words.frame, "The frame of the key, or a range. Example: --frame 24").required().type("RANGE");
@@ -42,7 +42,7 @@ void add_options(cli::Command app, Words& words) {
 
 void add_tangent(cli::Command animate, EditedFilm& film) {
   const cli::Command app = animate.add_command("tangent", "Set the slopes of a spline at a key");
-  const auto words = std::make_shared<Words>();
+  const auto words = std::make_shared<TangentWords>();
   add_options(app, *words);
   app.runs([&film, words, app] {
     const animator::SlopeChange change = change_of(app, *words);

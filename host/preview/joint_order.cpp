@@ -32,7 +32,7 @@ JointOrder::JointOrder(const animator::Film& film) : film_(film) {
 }
 
 void JointOrder::add(std::size_t actor) {
-  const modeler::Model& model = film_.models[film_.actors[actor].model];
+  const modeler::Model& model = film_.model_of(actor);
   std::vector<std::size_t> order;
   add_below(model, modeler::kNone, order);
   for (const std::size_t joint : order)
@@ -46,7 +46,7 @@ JointNumber JointOrder::beside(const std::optional<JointNumber>& from, int by) c
 }
 
 JointNumber JointOrder::above(const JointNumber& joint) const {
-  const modeler::Model& model = film_.models[film_.actors[joint.actor].model];
+  const modeler::Model& model = film_.model_of(joint.actor);
   for (std::size_t up = model.joints[joint.joint].parent; up != modeler::kNone; up = model.joints[up].parent)
     if (model.joints[up].freedoms() > 0) return {joint.actor, up};
   return joint;
@@ -55,7 +55,7 @@ JointNumber JointOrder::above(const JointNumber& joint) const {
 JointNumber JointOrder::below(const JointNumber& joint) const {
   const auto next = std::ranges::find(joints_, joint) + 1;
   if (next == joints_.end() || next->actor != joint.actor) return joint;
-  const modeler::Model& model = film_.models[film_.actors[joint.actor].model];
+  const modeler::Model& model = film_.model_of(joint.actor);
   return is_below(model, next->joint, joint.joint) ? *next : joint;
 }
 

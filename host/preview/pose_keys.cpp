@@ -56,7 +56,7 @@ void PoseKeys::change_film(Previewed& film) {
 
 const modeler::Joint& PoseKeys::joint() const {
   const animator::Film& film = *film_->source;
-  return film.models[film.actors[selected_->actor].model].joints[selected_->joint];
+  return film.model_of(selected_->actor).joints[selected_->joint];
 }
 
 bool PoseKeys::handle_key(const KeyPress& key, std::uint32_t frame) {

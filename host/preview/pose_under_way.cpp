@@ -11,7 +11,7 @@ namespace mars::preview {
 namespace {
 
 const modeler::Joint& joint_of(const animator::Film& film, const JointNumber& number) {
-  return film.models[film.actors[number.actor].model].joints[number.joint];
+  return film.model_of(number.actor).joints[number.joint];
 }
 
 std::pair<std::string, std::string> names_of(const animator::Film& film, const JointNumber& number) {

@@ -92,7 +92,7 @@ class Maker {
   // The film's segments come actor by actor, joint by joint.
   void find_joints() {
     for (std::size_t actor = 0; actor < source_->actors.size(); ++actor) {
-      const modeler::Model& model = source_->models[source_->actors[actor].model];
+      const modeler::Model& model = source_->model_of(actor);
       for (std::size_t joint = 0; joint < model.joints.size(); ++joint)
         if (model.joints[joint].segment) joints_.push_back({actor, joint});
     }

@@ -25,4 +25,6 @@ inline constexpr FloatTag kFloats;
 inline constexpr IntTag kInts;
 inline constexpr int kLanes = static_cast<int>(hn::MaxLanes(FloatTag()));
 
+inline Floats constant(float number) { return hn::Set(kFloats, number); }
+
 }  // namespace mars::simd::MARS_SET

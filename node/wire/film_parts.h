@@ -192,8 +192,8 @@ struct FilmSettings {
   std::uint32_t samples = 1;  // a pixel: 1, 2, 4, 8 or 16
   ColorSpace color_space = ColorSpace::coded;
   Curve curve = Curve::none;  // of linear films
-  AmbientLight ambient;
-  Fog fog;
+  AmbientLight ambient{};
+  Fog fog{};
 };
 
 }  // namespace mars::wire

@@ -14,7 +14,7 @@ namespace mars::film {
 
 // What a person may choose against the film file.
 struct CompileOptions {
-  std::optional<animator::Cutting> cutting;
+  std::optional<animator::Cutting> cutting{};
   std::optional<std::array<std::uint32_t, 2>> size{};  // pixels, each 1..wire::kMaxSide
   std::optional<std::uint32_t> samples{};              // of a pixel: 1, 2, 4, 8 or 16
 };

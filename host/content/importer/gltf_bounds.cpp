@@ -1,6 +1,7 @@
 #include "host/content/importer/gltf_bounds.h"
 
 #include <map>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 

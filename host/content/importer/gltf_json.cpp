@@ -1,6 +1,7 @@
 #include "host/content/importer/gltf_json.h"
 
 #include <charconv>
+#include <nlohmann/json.hpp>
 
 #include "host/content/document/file.h"
 

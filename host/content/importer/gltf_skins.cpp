@@ -1,6 +1,7 @@
 #include "host/content/importer/gltf_skins.h"
 
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "hal/failure/failure.h"
 

@@ -1,6 +1,7 @@
 #include "host/content/importer/promised.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
 

@@ -1,6 +1,7 @@
 #include "host/content/importer/texture_means.h"
 
 #include <cstring>
+#include <nlohmann/json.hpp>
 
 #include "hal/failure/failure.h"
 #include "host/content/document/file.h"

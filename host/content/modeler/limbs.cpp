@@ -5,6 +5,8 @@
 #include <unordered_set>
 #include <vector>
 
+#include "host/content/modeler/model.h"
+
 namespace mars::modeler {
 namespace {
 
@@ -57,18 +59,13 @@ class LimbReader {
     std::size_t before = kNone, before_name = 0;
     for (std::size_t i = 0; i < chain.size(); ++i) {
       if (chain[i] == kNone) continue;
-      if (before != kNone && !hangs_below(chain[i], before))
+      if (before != kNone && !is_at_or_below(joints_, chain[i], before))
         fields.find(names[i])->refuse("is '" + joints_[chain[i]].name + "', which does not hang below the " +
                                           std::string(names[before_name]) + " '" + joints_[before].name + "'",
                                       "name joints from the body outwards");
       before = chain[i];
       before_name = i;
     }
-  }
-
-  bool hangs_below(std::size_t joint, std::size_t ancestor) const {
-    while (joint != kNone && joint != ancestor) joint = joints_[joint].parent;
-    return joint == ancestor;
   }
 
   std::span<const Joint> joints_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,5 +33,8 @@ struct Model {
   std::vector<NamedMaterial> materials;
   Limbs limbs{};
 };
+
+// Whether the joint is `above`, or hangs below it; false if there is no `above` (kNone).
+bool is_at_or_below(std::span<const Joint> joints, std::size_t joint, std::size_t above);
 
 }  // namespace mars::modeler

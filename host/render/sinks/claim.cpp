@@ -25,7 +25,6 @@ using nlohmann::json;
 namespace {
 
 constexpr std::chrono::seconds kSyncPeriod{1};
-constexpr std::uint64_t kLastSecond = 253402300799;  // of the year 9999
 
 std::optional<fs::path> file_of(const RunFiles& run, std::string_view ending) {
   const auto found = std::ranges::find_if(run.files, [&](const fs::path& file) { return file.extension() == ending; });

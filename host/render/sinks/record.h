@@ -14,6 +14,8 @@ namespace mars::sinks {
 // Bytes of any one file there: enough for the longest film's 1,000,000 frames, with a hash each.
 inline constexpr std::uintmax_t kLargestRecord = std::uintmax_t{64} << 20;
 
+inline constexpr std::uint64_t kLastSecond = 253402300799;  // of the year 9999
+
 inline constexpr std::uint32_t kMostVersion = 1'000'000;  // of anything that has a version
 
 // Throws Failure where `text` is no JSON.

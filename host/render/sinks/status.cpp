@@ -19,7 +19,6 @@ namespace {
 
 constexpr std::uint64_t kMostNodes = 1 << 20;
 constexpr std::size_t kLongestText = 4096;
-constexpr std::uint64_t kLastSecond = 253402300799;  // of the year 9999
 
 // What is as usual is left out: a large machine's status stays small.
 json to_json(const Status::Node& node) {

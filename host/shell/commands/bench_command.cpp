@@ -12,7 +12,7 @@
 namespace mars::commands {
 namespace {
 
-struct Words {
+struct BenchWords {
   std::string name;
   std::vector<std::string> own;  // of the benchmark
 };
@@ -25,7 +25,7 @@ std::vector<std::string> take_own_words(std::vector<const char*>& words) {
   return own;
 }
 
-void bench(const Words& words) {
+void bench(const BenchWords& words) {
   if (words.name.empty())
     std::cout << launch::list_benchmarks(child::own_file());
   else
@@ -35,7 +35,7 @@ void bench(const Words& words) {
 }  // namespace
 
 void add_bench(cli::Command app, std::vector<const char*>& command_line) {
-  const auto words = std::make_shared<Words>();
+  const auto words = std::make_shared<BenchWords>();
   words->own = take_own_words(command_line);
   const cli::Command command = app.add_command("bench", "Run a benchmark, or list them");
   command.add("NAME", words->name, "The benchmark; the words after it are its own. Example: peers --scenes s1");

@@ -30,7 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Words {
+struct CalibrateWords {
   std::string file;
   int repeats = 4;
 };
@@ -106,7 +106,7 @@ void write(const fs::path& file, const Measured& measured) {
                              experiments::platform_text(measured.calibration, measured.messages, this_machine(file)));
 }
 
-void calibrate(const Words& words, const MeasureMessages& measure_messages) {
+void calibrate(const CalibrateWords& words, const MeasureMessages& measure_messages) {
   const fs::path file = words.file.empty() ? file_of_here() : fs::path(words.file);
   document::check_can_write(file);
   const Measured measured = measure(words.repeats, measure_messages);
@@ -147,7 +147,7 @@ bool calibrate_if_need_be(const MeasureMessages& measure_messages) {
 }
 
 void add_calibrate(cli::Command app, const MeasureMessages& measure_messages) {
-  const auto words = std::make_shared<Words>();
+  const auto words = std::make_shared<CalibrateWords>();
   const cli::Command command =
       app.add_command("calibrate", "Measure what work costs on this machine, for simulated renderings");
   command

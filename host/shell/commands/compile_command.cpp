@@ -15,12 +15,12 @@
 namespace mars::commands {
 namespace {
 
-struct Words {
+struct CompileWords {
   options::RenderOptions options;
   std::string output;
 };
 
-void compile(const Words& words) {
+void compile(const CompileWords& words) {
   if (std::filesystem::path(words.output).extension() == ".json")
     throw Failure("has the name of a film or model as people write it", words.output, "name it like film.mars");
   const auto warn = [](const std::string& line) { std::cerr << "mars: warning: " << line << '\n'; };
@@ -33,7 +33,7 @@ void compile(const Words& words) {
 }  // namespace
 
 void add_compile(cli::Command app) {
-  const auto words = std::make_shared<Words>();
+  const auto words = std::make_shared<CompileWords>();
   const cli::Command command = app.add_command("compile", "Compute a film's motion once, to a .mars file");
   options::add_render_options(command, words->options, options::Program::compile);
   command.add("-o,--output", words->output, "The compiled film. Example: -o film.mars").required().type("FILE");

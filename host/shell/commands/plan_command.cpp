@@ -26,7 +26,7 @@ namespace {
 constexpr double kCounting = 0.7;  // seconds, about
 constexpr double kWorthIt = 1.05;  // times the shortest: more nodes than that takes are not worth it
 
-struct Words {
+struct PlanWords {
   options::RenderOptions options;
   bool json = false;
 };
@@ -135,7 +135,7 @@ std::string json_text(const Planned& planned) {
 }  // namespace
 
 void add_plan(cli::Command app, const forecast::MakeCounter& make_counter, const MeasureMessages& measure_messages) {
-  const auto words = std::make_shared<Words>();
+  const auto words = std::make_shared<PlanWords>();
   const cli::Command command = app.add_command("plan", "Forecast a rendering's time, memory and bytes");
   options::add_render_options(command, words->options, options::Program::plan);
   command.add_flag("--json", words->json, "Print one JSON object, for programs. Example: --json");

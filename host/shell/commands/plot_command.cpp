@@ -13,12 +13,12 @@
 namespace mars::commands {
 namespace {
 
-struct Words {
+struct PlotWords {
   std::string film, thing, output;
   std::vector<std::string> parts;
 };
 
-void plot(const Words& words) {
+void plot(const PlotWords& words) {
   const std::filesystem::path output = words.output;
   if (output.extension() != ".png" && output.extension() != ".svg")
     throw Failure("is neither .png nor .svg", words.output, "name the picture like angles.png or angles.svg");
@@ -35,7 +35,7 @@ void plot(const Words& words) {
 }  // namespace
 
 void add_plot(cli::Command app) {
-  const auto words = std::make_shared<Words>();
+  const auto words = std::make_shared<PlotWords>();
   const cli::Command command = app.add_command("plot", "Draw joint angles and places over time, with gnuplot");
   command.add("FILM", words->film, "The film file. Example: film.json").required();
   command.add("ACTOR", words->thing,

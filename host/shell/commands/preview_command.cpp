@@ -20,14 +20,14 @@
 namespace mars::commands {
 namespace {
 
-struct Words {
+struct PreviewWords {
   std::string source;
   preview::WriteOptions write;
   preview::Look look;
   preview::Graphics graphics = preview::Graphics::automatic;
 };
 
-void add_output(cli::Command command, const std::shared_ptr<Words>& words) {
+void add_output(cli::Command command, const std::shared_ptr<PreviewWords>& words) {
   preview::WriteOptions& write = words->write;
   const auto read_file = [&write](const std::string& word) {
     preview::check_kind(word);
@@ -60,7 +60,7 @@ void add_output(cli::Command command, const std::shared_ptr<Words>& words) {
       .type("N");
 }
 
-void add_graphics(cli::Command command, const std::shared_ptr<Words>& words) {
+void add_graphics(cli::Command command, const std::shared_ptr<PreviewWords>& words) {
   command.add_choice(
       "--graphics", {"auto", "kitty", "sixel", "blocks", "blocks256"},
       [words](std::size_t number) { words->graphics = static_cast<preview::Graphics>(number); },
@@ -69,7 +69,7 @@ void add_graphics(cli::Command command, const std::shared_ptr<Words>& words) {
 }
 
 // Plays until a person or a signal ends it; the signal then ends the program too, the terminal being given back.
-void play_in_terminal(const Words& words, const std::function<int(preview::Terminal&)>& play_in) {
+void play_in_terminal(const PreviewWords& words, const std::function<int(preview::Terminal&)>& play_in) {
   int ended_by = 0;
   {
     const messages::TerminalKind kind = messages::terminal_kind();
@@ -79,7 +79,7 @@ void play_in_terminal(const Words& words, const std::function<int(preview::Termi
   if (ended_by != 0 && ended_by != SIGINT) raise(ended_by);
 }
 
-void write_preview(Words& words, const preview::Previewed& film, const MakeSurface& make_surface) {
+void write_preview(PreviewWords& words, const preview::Previewed& film, const MakeSurface& make_surface) {
   const auto surface = make_surface(film.film);
   words.look.frames = preview::frames_to_write(words.write, film.view.frames);
   words.look.smooth = words.look.wait = true;
@@ -87,7 +87,7 @@ void write_preview(Words& words, const preview::Previewed& film, const MakeSurfa
   preview::write_pictures(pictures, words.write);
 }
 
-void preview(Words& words, const MakeSurface& make_surface) {
+void preview(PreviewWords& words, const MakeSurface& make_surface) {
   document::RecordedReads reads;
   auto film = std::make_unique<preview::Previewed>(preview::load_previewed(words.source));
   if (!words.write.file.empty()) {
@@ -104,7 +104,7 @@ void preview(Words& words, const MakeSurface& make_surface) {
   if (pictures->stop()) std::quick_exit(0);  // the film is needed no more: its end is not waited for
 }
 
-void play_folder(const Words& words) {
+void play_folder(const PreviewWords& words) {
   preview::FolderPictures pictures(words.source);
   if (!words.write.file.empty()) return preview::write_pictures(pictures, words.write);
   play_in_terminal(words, [&](preview::Terminal& terminal) { return preview::play(pictures, terminal); });
@@ -113,7 +113,7 @@ void play_folder(const Words& words) {
 }  // namespace
 
 void add_preview(cli::Command app, const MakeSurface& make_surface) {
-  const auto words = std::make_shared<Words>();
+  const auto words = std::make_shared<PreviewWords>();
   const cli::Command command =
       app.add_command("preview", "Play a film or a model in the terminal before it is rendered");
   command
@@ -137,7 +137,7 @@ void add_preview(cli::Command app, const MakeSurface& make_surface) {
 }
 
 void add_play(cli::Command app) {
-  const auto words = std::make_shared<Words>();
+  const auto words = std::make_shared<PreviewWords>();
   const cli::Command command = app.add_command("play", "Play rendered frames in the terminal");
   command.add("DIR", words->source, "The folder given to mars render with -o. Example: build/demo").required();
   add_graphics(command, words);

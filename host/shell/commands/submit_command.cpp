@@ -33,7 +33,7 @@ constexpr std::uint32_t kMostTasks = 1 << 20;
 constexpr std::uint32_t kMostParts = 1000;  // Slurm's MaxArraySize is 1001 by default
 constexpr double kWorthSaying = 0.005;      // of more work
 
-struct Words {
+struct SubmitWords {
   options::RenderOptions render;
   std::uint32_t machines = 0;  // 0, "": as the script says
   std::uint32_t tasks = 0;
@@ -60,7 +60,7 @@ std::string words_on_a_line(const std::string& text) {
   return "";
 }
 
-void add_job_options(cli::Command command, Words& words) {
+void add_job_options(cli::Command command, SubmitWords& words) {
   command
       .add("--nodes", words.machines,
            "Machines, which Slurm calls nodes; default: 4. On each of them several nodes of MARS may run. "
@@ -102,7 +102,7 @@ void warn(const std::string& line) { std::cerr << "mars: warning: " << line << '
 
 // What is wrong with the film shows now, not when the job begins. Where the job is submitted, the film lies in the
 // folder from then on, for every start of the job to take, whatever becomes of the film's files.
-film::CompiledFilm film_of(const Words& words) {
+film::CompiledFilm film_of(const SubmitWords& words) {
   const options::RenderOptions& render = words.render;
   const auto compile = [&] { return job::load_film_of(render, warn); };
   const resume::Wish wish{.folder = render.folder,
@@ -120,7 +120,7 @@ film::CompiledFilm film_of(const Words& words) {
 }
 
 // More than one frame set: without the option --frames.
-batch::ArrayParts parts_of(const Words& words, const film::CompiledFilm& film) {
+batch::ArrayParts parts_of(const SubmitWords& words, const film::CompiledFilm& film) {
   if (words.parts == 1) return {};
   const wire::FilmView view = film.view();
   const std::vector<std::uint32_t> frames = words.render.frames.of_film(view.settings().frames);
@@ -135,14 +135,14 @@ batch::ArrayParts parts_of(const Words& words, const film::CompiledFilm& film) {
 }
 
 // More words for sbatch.
-std::vector<std::string> sbatch_words(const Words& words) {
+std::vector<std::string> sbatch_words(const SubmitWords& words) {
   std::vector<std::string> all;
   for (const std::string& text : words.sbatch)
     for (std::string& word : document::shell_words(text)) all.push_back(std::move(word));
   return all;
 }
 
-batch::BatchJob job_of(const Words& words, std::vector<film::FrameSet> parts, const fs::path& self) {
+batch::BatchJob job_of(const SubmitWords& words, std::vector<film::FrameSet> parts, const fs::path& self) {
   batch::BatchJob job{{}, sbatch_words(words), {}, std::move(parts), self.parent_path()};
   if (words.machines != 0) job.options.emplace_back("nodes", std::to_string(words.machines));
   if (words.tasks != 0) job.options.emplace_back("ntasks", std::to_string(words.tasks));
@@ -163,7 +163,7 @@ std::string array_text(const batch::ArrayParts& parts) {
   return tasks + document::formatted(", with %.0f %% more work than one job's", 100 * parts.more_work);
 }
 
-void submit(const Words& words) {
+void submit(const SubmitWords& words) {
   const fs::path self = child::own_file();
   if (!words.print) batch::check_slurm();
   const batch::ArrayParts parts = parts_of(words, film_of(words));
@@ -181,7 +181,7 @@ void submit(const Words& words) {
             << options::word_of_file(words.render.folder) << '\n';
 }
 
-void check_words(const Words& words) {
+void check_words(const SubmitWords& words) {
   if (words.parts > 1 && (!words.render.report.empty() || !words.render.trace.empty()))
     throw cli::UsageError("--array", "its jobs cannot share one file: leave out --report and --trace");
   const auto makes_array = [](const std::string& word) { return word.starts_with("--ar") || word.starts_with("-a"); };
@@ -194,7 +194,7 @@ void check_words(const Words& words) {
 }  // namespace
 
 void add_submit(cli::Command app) {
-  const auto words = std::make_shared<Words>();
+  const auto words = std::make_shared<SubmitWords>();
   const cli::Command command = app.add_command("submit", "Render a film by a job of Slurm");
   options::add_render_options(command, words->render, options::Program::submit);
   add_job_options(command, *words);

@@ -24,7 +24,7 @@
 namespace mars::commands {
 namespace {
 
-struct Words {
+struct VerifyWords {
   options::RenderOptions render;  // of --repair, in the folder to verify
   bool missing = false;
   bool repair = false;
@@ -114,7 +114,7 @@ void repair(const sinks::Verdict& verdict, options::RenderOptions render) {
 }  // namespace
 
 void add_verify(cli::Command app, int& code) {
-  const auto words = std::make_shared<Words>();
+  const auto words = std::make_shared<VerifyWords>();
   const cli::Command command = app.add_command("verify", "Check every frame of a folder; print one hash of all pixels");
   command.add("DIR", words->render.folder, "The folder given to mars render with -o. Example: build/demo").required();
   const cli::Option missing = command.add_flag(

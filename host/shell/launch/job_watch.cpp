@@ -6,14 +6,14 @@
 namespace mars::launch {
 namespace {
 
-std::string seconds_text(double seconds) { return std::to_string(std::lround(seconds)) + " seconds"; }
+std::string whole_seconds(double seconds) { return std::to_string(std::lround(seconds)) + " seconds"; }
 
-std::string seconds_text(std::chrono::seconds seconds) { return std::to_string(seconds.count()) + " seconds"; }
+std::string whole_seconds(std::chrono::seconds seconds) { return std::to_string(seconds.count()) + " seconds"; }
 
 // "node 3 on n2 has said nothing for 11 seconds; it was drawing frame 12 (scanline)"
 std::string line_of(const events::Beat::Node& node) {
   std::string text =
-      "node " + std::to_string(node.node) + " on " + node.host + " has said nothing for " + seconds_text(node.silent);
+      "node " + std::to_string(node.node) + " on " + node.host + " has said nothing for " + whole_seconds(node.silent);
   if (node.frame >= 0) text += "; it was drawing frame " + std::to_string(node.frame);
   if (!node.doing.empty()) text += (node.frame >= 0 ? " (" : "; last: ") + node.doing + (node.frame >= 0 ? ")" : "");
   return text;
@@ -54,16 +54,16 @@ JobWatch::Findings JobWatch::look(Clock::time_point now) {
   Findings found{std::exchange(lines_, {}), ""};
   const Clock::duration silence = since(heard_);
   if (last_word_) {
-    if (silence >= kLastWord) found.end = "the job has not ended " + seconds_text(kLastWord) + " after its last word";
+    if (silence >= kLastWord) found.end = "the job has not ended " + whole_seconds(kLastWord) + " after its last word";
     return found;
   }
   if (!booted_ && !loading_ && since(waiting_since_) >= kNobodyBoots)
-    found.end = "not all nodes have answered for " + seconds_text(kNobodyBoots);
+    found.end = "not all nodes have answered for " + whole_seconds(kNobodyBoots);
   if (!beats_) return found;
   if (silence >= kNamed && !std::exchange(host_named_, true))
-    found.lines.push_back("the host has said nothing for " + seconds_text(kNamed) + "; it was " + host_doing_);
+    found.lines.push_back("the host has said nothing for " + whole_seconds(kNamed) + "; it was " + host_doing_);
   if (silence >= kHostHangs)
-    found.end = "the host has said nothing for " + seconds_text(kHostHangs) + "; it was " + host_doing_;
+    found.end = "the host has said nothing for " + whole_seconds(kHostHangs) + "; it was " + host_doing_;
   return found;
 }
 

@@ -122,7 +122,7 @@ std::vector<std::size_t> Ghosts::actors_near(const Selection& selection) const {
   for (std::size_t actor = 0; actor < film.actors.size(); ++actor) {
     if (!moves(film.actors[actor])) continue;
     actors.push_back(actor);
-    joints += film.models[film.actors[actor].model].joints.size();
+    joints += film.model_of(actor).joints.size();
   }
   return joints > kMostJoints ? std::vector<std::size_t>() : actors;
 }

@@ -15,10 +15,6 @@ namespace {
 constexpr double kEdgeOn = 0.12;       // cosine between a ring's axis and the way to the eye: it is seen as a line
 constexpr double kLeastExtent = 1e-3;  // of a box, of its extent before
 
-const modeler::Model& model_of(const Project& project, std::size_t actor) {
-  return project.film().models[project.film().actors[actor].model];
-}
-
 glm::dmat3 linear_of(const wire::Matrix& matrix) {
   const auto& m = matrix.m;
   return {m[0][0], m[1][0], m[2][0], m[0][1], m[1][1], m[2][1], m[0][2], m[1][2], m[2][2]};
@@ -40,14 +36,14 @@ void Hand::take(const Grip& grip) {
   }
   if (grip.what == Grip::What::face) {
     frame_ = segment_frame_of(project_, selection_).value();
-    sbb_ = model_of(project_, *selection_.actor).joints[*selection_.joint].segment->sbb;
+    sbb_ = project_.film().model_of(*selection_.actor).joints[*selection_.joint].segment->sbb;
     glm::dvec3 middle = 0.5 * (sbb_.min + sbb_.max);
     middle[grip.axis] = grip.side == 0 ? sbb_.min[grip.axis] : sbb_.max[grip.axis];
     world_ = frame_.turn * middle + frame_.place;
   }
   if (grip.what == Grip::What::point) {
     matrix_ = state.segments[*selection_.joint].value();
-    const modeler::Model& model = model_of(project_, *selection_.actor);
+    const modeler::Model& model = project_.film().model_of(*selection_.actor);
     const auto& patch = model.shapes[model.joints[*selection_.joint].segment->shape].patches[grip.patch];
     const auto& point = patch.points[4 * grip.j + grip.i];
     place_ = {point[0], point[1], point[2]};
@@ -56,7 +52,7 @@ void Hand::take(const Grip& grip) {
 }
 
 bool Hand::take(const Hit& hit) {
-  const auto& joints = model_of(project_, *selection_.actor).joints;
+  const auto& joints = project_.film().model_of(*selection_.actor).joints;
   std::size_t joint = *selection_.joint;
   while (joint != modeler::kNone && joints[joint].freedoms() == 0) joint = joints[joint].parent;
   if (joint == modeler::kNone) return false;
@@ -90,7 +86,7 @@ std::optional<Json> Hand::follow(const glm::dvec2& mouse, bool shift) {
 const std::string& Hand::actor_name() const { return project_.film().actors[*selection_.actor].name; }
 
 const std::string& Hand::joint_name() const {
-  return model_of(project_, *selection_.actor).joints[*selection_.joint].name;
+  return project_.film().model_of(*selection_.actor).joints[*selection_.joint].name;
 }
 
 // Of the joint, or of the actor as a whole.

@@ -20,10 +20,6 @@ constexpr double kNearPixels = 9;   // from a place, which is before lines
 constexpr std::size_t kMostPoints = 4000;
 constexpr const char* kAxes[] = {"x", "y", "z"};
 
-const modeler::Model& model_of(const Project& project, std::size_t actor) {
-  return project.film().models[project.film().actors[actor].model];
-}
-
 glm::dvec3 unit(int axis) {
   glm::dvec3 vector(0);
   vector[axis] = 1;
@@ -68,7 +64,7 @@ class Maker {
   }
 
   void add_joints() {
-    const auto& joints = model_of(project_, *selection_.actor).joints;
+    const auto& joints = project_.film().model_of(*selection_.actor).joints;
     const animator::ActorState state = animator::state_at(project_.film(), *selection_.actor, project_.frame());
     for (std::size_t joint = 0; joint < state.joints.size(); ++joint) {
       Handle handle{"joint:" + joints[joint].name, "joint", {}};
@@ -128,7 +124,7 @@ class Maker {
   void add_box() {
     const auto frame = segment_frame_of(project_, selection_);
     if (!frame) return;
-    const modeler::Box& sbb = model_of(project_, *selection_.actor).joints[*selection_.joint].segment->sbb;
+    const modeler::Box& sbb = project_.film().model_of(*selection_.actor).joints[*selection_.joint].segment->sbb;
     const auto at = [&](const glm::dvec3& part) {
       return frame->turn * (sbb.min + part * (sbb.max - sbb.min)) + frame->place;
     };
@@ -151,7 +147,7 @@ class Maker {
   // Of points of several patches that are at one place, the first.
   void add_points() {
     if (!selection_.joint) return;
-    const modeler::Model& model = model_of(project_, *selection_.actor);
+    const modeler::Model& model = project_.film().model_of(*selection_.actor);
     const auto& segment = model.joints[*selection_.joint].segment;
     if (!segment) return;
     const animator::ActorState state = animator::state_at(project_.film(), *selection_.actor, project_.frame());
@@ -199,14 +195,14 @@ std::optional<Posed> posed(const Project& project, const Selection& selection) {
   if (state.joints.empty()) return std::nullopt;
   const modeler::Axes root{modeler::orientation(animator::free_joint(), state.turn), state.place};
   if (!selection.joint) return Posed{&animator::free_joint(), {glm::dmat3(1), {0, 0, 0}}, state.place, state.turn};
-  const modeler::Joint& joint = model_of(project, *selection.actor).joints[*selection.joint];
+  const modeler::Joint& joint = project.film().model_of(*selection.actor).joints[*selection.joint];
   const modeler::Axes& parent = joint.parent == modeler::kNone ? root : state.joints[joint.parent];
   return Posed{&joint, parent, state.joints[*selection.joint].place, state.pose[*selection.joint]};
 }
 
 std::optional<modeler::Axes> segment_frame_of(const Project& project, const Selection& selection) {
   if (!selection.actor || !selection.joint) return std::nullopt;
-  const modeler::Joint& joint = model_of(project, *selection.actor).joints[*selection.joint];
+  const modeler::Joint& joint = project.film().model_of(*selection.actor).joints[*selection.joint];
   const animator::ActorState state = animator::state_at(project.film(), *selection.actor, project.frame());
   if (!joint.segment || state.joints.empty()) return std::nullopt;
   return modeler::segment_frame(state.joints[*selection.joint], joint);

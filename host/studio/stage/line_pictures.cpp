@@ -129,7 +129,7 @@ void LinePictures::take_sticks(preview::View& view) {
   view.colors.push_back({0.7f, 0.7f, 0.7f});  // of joints that no segment lends its colour
   std::size_t segment = 0;
   for (std::size_t number = 0; number < film.actors.size(); ++number) {
-    const modeler::Model& model = film.models[film.actors[number].model];
+    const modeler::Model& model = film.model_of(number);
     const animator::ActorState state = animator::state_at(film, number, project_.frame());
     const std::vector<preview::Lines> sticks = preview::sticks_of(model);
     std::vector<std::size_t> colors;

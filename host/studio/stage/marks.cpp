@@ -15,12 +15,12 @@ namespace {
 constexpr double kBulbPixels = 9, kRayPixels = 15, kBodyPixels = 22, kArrowPixels = 60;
 constexpr double kSunDistance = 1.5;  // radii of the subject
 constexpr int kCircleSteps = 36;
-constexpr double kMostAngle = 170;  // degrees, of a cone or field of view that is shown
+constexpr double kMostShownAngle = 170;  // degrees, of a cone or field of view that is shown
 constexpr const char* kAxes[] = {"x", "y", "z"};
 
 double half_width(const MarkState& state) {
   const double distance = state.aim ? glm::length(*state.aim - state.place) : 0;
-  return distance * std::tan(std::min(state.angle, kMostAngle) / 2 * modeler::kDegree);
+  return distance * std::tan(std::min(state.angle, kMostShownAngle) / 2 * modeler::kDegree);
 }
 
 // A unit vector across `axis`, towards `wanted` where that is not along it.

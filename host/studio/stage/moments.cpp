@@ -63,7 +63,7 @@ void Moments::take_moment() {
   owners_.clear();
   const animator::Film& film = project_.film();
   for (std::size_t actor = 0; actor < film.actors.size(); ++actor) {
-    const auto& joints = film.models[film.actors[actor].model].joints;
+    const auto& joints = film.model_of(actor).joints;
     for (std::size_t joint = 0; joint < joints.size(); ++joint)
       if (joints[joint].segment) owners_.push_back({actor, joint});
   }

@@ -12,13 +12,9 @@
 namespace mars::studio {
 namespace {
 
-const modeler::Model& model_of(const Project& project, std::size_t actor) {
-  return project.film().models[project.film().actors[actor].model];
-}
-
 motion::Posture posture_of(const Project& project, std::size_t actor) {
   animator::ActorState state = animator::state_at(project.film(), actor, project.frame());
-  const auto& joints = model_of(project, actor).joints;
+  const auto& joints = project.film().model_of(actor).joints;
   for (std::size_t joint = 0; joint < joints.size(); ++joint)
     state.pose[joint] = animator::clamped(joints[joint], state.pose[joint]);
   return {state.place, state.turn, std::move(state.pose)};
@@ -53,7 +49,7 @@ ReachHand::ReachHand(const Project& project, const Selection& selection, std::ve
   grip_ = grip;
 }
 
-const modeler::Model& ReachHand::model() const { return model_of(project_, actor_); }
+const modeler::Model& ReachHand::model() const { return project_.film().model_of(actor_); }
 
 std::optional<Json> ReachHand::follow(const glm::dvec2& mouse, bool shift) {
   mouse_.follow(mouse, shift);
@@ -88,7 +84,7 @@ std::vector<Handle> pin_handles(const Project& project, const Selection& selecti
   for (const std::size_t joint : pins) {
     const auto pixel = state.joints.empty() ? std::nullopt : screen.pixel_of(state.joints[joint].place);
     if (!pixel) continue;
-    const std::string& name = model_of(project, *selection.actor).joints[joint].name;
+    const std::string& name = project.film().model_of(*selection.actor).joints[joint].name;
     handles.push_back({"pin:" + name, "pin", {*pixel}, "", name});
     handles.back().selected = selection.joint == joint;
   }

@@ -10,10 +10,6 @@
 namespace mars::studio {
 namespace {
 
-const modeler::Model& model_of(const Project& project, std::size_t actor) {
-  return project.film().models[project.film().actors[actor].model];
-}
-
 bool is_on(const modeler::Model& model, std::size_t joint, std::size_t above) {
   while (joint != above && joint != modeler::kNone) joint = model.joints[joint].parent;
   return joint == above;
@@ -32,7 +28,7 @@ std::optional<std::size_t> ankle_of(const modeler::Model& model, std::size_t joi
 // A foot is pulled at its ankle: pulled elsewhere it would rather turn than bend the knee. On pinned feet the whole
 // figure goes along. A model, and who is carried, has no place of its own.
 motion::Chain reach_chain(const Project& project, const Selection& selection, const std::vector<std::size_t>& pins) {
-  const modeler::Model& model = model_of(project, *selection.actor);
+  const modeler::Model& model = project.film().model_of(*selection.actor);
   const bool stays =
       project.is_model() || animator::attachment_at(project.film().actors[*selection.actor], project.frame());
   const bool stands = std::ranges::any_of(pins, [&](std::size_t pin) { return ankle_of(model, pin).has_value(); });
@@ -46,7 +42,7 @@ motion::Chain reach_chain(const Project& project, const Selection& selection, co
 
 bool can_reach(const Project& project, const Selection& selection) {
   if (!selection.actor || !project.film().actors[*selection.actor].matrices.empty()) return false;
-  if (model_of(project, *selection.actor).joints.empty()) return false;
+  if (project.film().model_of(*selection.actor).joints.empty()) return false;
   const motion::Chain chain = reach_chain(project, selection, {});
   return chain.moves_actor || !chain.joints.empty();
 }
@@ -56,7 +52,7 @@ std::optional<glm::dvec3> reach_place(const Project& project, const Selection& s
   const animator::ActorState state = animator::state_at(project.film(), *selection.actor, project.frame());
   if (!selection.joint) return state.place;
   const modeler::Axes& frame = state.joints[*selection.joint];
-  return frame.turn * end_of(model_of(project, *selection.actor).joints[*selection.joint]) + frame.place;
+  return frame.turn * end_of(project.film().model_of(*selection.actor).joints[*selection.joint]) + frame.place;
 }
 
 glm::dvec3 end_of(const modeler::Joint& joint) {

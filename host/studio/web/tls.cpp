@@ -1,5 +1,7 @@
 #include "host/studio/web/tls.h"
 
+#include <boost/asio/ssl/context.hpp>
+
 #include "hal/failure/failure.h"
 
 namespace mars::web {

@@ -1,9 +1,12 @@
 // The certificate that the studio shows over TLS.
 #pragma once
 
-#include <boost/asio/ssl/context.hpp>
 #include <memory>
 #include <string>
+
+namespace boost::asio::ssl {
+class context;
+}
 
 namespace mars::web {
 

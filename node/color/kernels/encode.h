@@ -9,13 +9,13 @@ namespace mars::color::MARS_SET {
 
 namespace vectors = simd::MARS_SET;
 namespace hn = vectors::hn;
+using vectors::constant;
 using vectors::Floats;
 using vectors::Ints;
 using vectors::kFloats;
 using vectors::kInts;
 using vectors::kLanes;
 
-inline Floats constant(float number) { return hn::Set(kFloats, number); }
 inline Ints whole(std::uint32_t number) { return hn::Set(kInts, static_cast<std::int32_t>(number)); }
 
 inline void apply_filmic_curve(Floats* color) {

@@ -31,7 +31,7 @@ void put(std::uint32_t number, std::uint32_t part, std::uint32_t line_and_moving
 }
 
 // Rows [first, last) of a line.
-struct Rows {
+struct RowRange {
   std::uint32_t first;
   std::uint32_t last;
 };
@@ -45,7 +45,7 @@ struct BoxesOfLine {
 };
 
 // The edge boxes of one line. Without a branch: which rows are covered is not foreseen.
-[[gnu::always_inline]] inline void emit_line(const Classified& c, std::uint32_t lane, Rows rows,
+[[gnu::always_inline]] inline void emit_line(const Classified& c, std::uint32_t lane, RowRange rows,
                                              const BoxesOfLine& common, SetUpSpace& space) {
   const std::uint32_t wanted = -std::uint32_t{space.wanted_lines[common.line]};
   const std::uint32_t line_and_moving = common.line | std::uint32_t{common.moving} << 16;

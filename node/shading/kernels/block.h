@@ -13,7 +13,6 @@ namespace mars::shading::MARS_SET {
 
 using namespace simd::MARS_SET;
 
-inline Floats constant(float number) { return hn::Set(kFloats, number); }
 inline Floats zero() { return hn::Zero(kFloats); }
 
 inline Floats dot(const Floats* a, const Floats* b) {

@@ -7,8 +7,6 @@ using namespace simd::MARS_SET;
 
 namespace {
 
-Floats constant(float number) { return hn::Set(kFloats, number); }
-
 struct Vector {
   Floats x, y, z;
 };

@@ -10,8 +10,6 @@ using namespace simd::MARS_SET;
 
 namespace {
 
-Floats constant(float number) { return hn::Set(kFloats, number); }
-
 Floats sum_of_squares(Floats x, Floats y, Floats z) {
   return hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
 }

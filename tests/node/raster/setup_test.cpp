@@ -300,12 +300,12 @@ TEST_F(SetUpTest, CountsOnWhenMemoryIsShort) {
       const std::vector<Whole> whole = by_triangle(all);
       Shortage shortage;
       const std::size_t most = bytes_of(all) + samples * kHeight * sizeof(UnsortedEdgeBox) + sizeof(Triangle);
-      for (std::size_t bytes = 0; bytes < most + 500; bytes += bytes < 600 ? 4 : 4 * (1 + most / 600))
+      for (std::size_t bytes = 0; bytes < most + 500; bytes += bytes < 600 ? 12 : 4 * (1 + most / 200))
         for (const Way way : {Way::at_a_time, Way::plainly}) {
           expect_counted(all, whole, bytes, way, shortage);
           if (HasFailure()) return;
         }
-      EXPECT_GT(shortage.partly_stored, 100);
+      EXPECT_GT(shortage.partly_stored, 30);
     }
 }
 

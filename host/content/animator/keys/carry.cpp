@@ -37,7 +37,7 @@ Target target_named(const Film& film, const std::string& text) {
   const std::size_t slash = text.find('/');
   const std::size_t actor = actor_named(film, text.substr(0, slash));
   if (slash == std::string::npos) return {actor, modeler::kNone};
-  const auto& joints = film.models[film.actors[actor].model].joints;
+  const auto& joints = film.model_of(actor).joints;
   const std::string name = text.substr(slash + 1);
   const auto found = std::ranges::find(joints, name, &modeler::Joint::name);
   if (found != joints.end()) return {actor, static_cast<std::size_t>(found - joints.begin())};
@@ -48,7 +48,7 @@ Target target_named(const Film& film, const std::string& text) {
 }
 
 std::string joint_name(const Film& film, const Target& target) {
-  return target.joint == modeler::kNone ? "" : film.models[film.actors[target.actor].model].joints[target.joint].name;
+  return target.joint == modeler::kNone ? "" : film.model_of(target.actor).joints[target.joint].name;
 }
 
 glm::dvec3 turn_of(const glm::dmat3& turn) { return rounded(pose_of(free_joint(), turn, glm::dvec3(0))); }
@@ -123,7 +123,7 @@ namespace {
 // What to look at: the joint itself, or of a whole figure the middle of its height, not the feet.
 glm::dvec3 middle_of(const Film& meaning, const Target& target) {
   if (target.joint != modeler::kNone) return glm::dvec3(0);
-  const auto bounds = modeler::rest_bounds(meaning.models[meaning.actors[target.actor].model]);
+  const auto bounds = modeler::rest_bounds(meaning.model_of(target.actor));
   return bounds ? glm::dvec3(0, 0, document::rounded_to((bounds->min.z + bounds->max.z) / 2, 3)) : glm::dvec3(0);
 }
 

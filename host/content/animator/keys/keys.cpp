@@ -113,16 +113,15 @@ void remap(Track& track, const std::string& thing, Map map) {
   }
 }
 
-Ease rounded(const Ease& ease) {
-  return {animator::rounded(ease.x1), animator::rounded(ease.y1), animator::rounded(ease.x2),
-          animator::rounded(ease.y2)};
+Ease rounded_curve(const Ease& ease) {
+  return {rounded(ease.x1), rounded(ease.y1), rounded(ease.x2), rounded(ease.y2)};
 }
 
 void split_ease(TrackKey& before, std::uint32_t next, TrackKey& key) {
   const double time = double(key.frame - before.frame) / double(next - before.frame);
   if (const auto halves = split(before.ease, time)) {
-    before.ease = rounded(halves->first);
-    key.ease = rounded(halves->second);
+    before.ease = rounded_curve(halves->first);
+    key.ease = rounded_curve(halves->second);
   }
 }
 

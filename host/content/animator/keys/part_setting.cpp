@@ -43,7 +43,7 @@ double number_of(std::string_view digits, const std::string& text) {
   return *number;
 }
 
-std::vector<double> numbers_of(const std::string& list, const std::string& text) {
+std::vector<double> typed_numbers(const std::string& list, const std::string& text) {
   std::vector<double> numbers;
   for (std::size_t at = 0; at <= list.size();) {
     const std::size_t comma = std::min(list.find(',', at), list.size());
@@ -69,7 +69,7 @@ Typed taken_apart(const std::string& text, const Thing& thing) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (typed.part.size() > 2 && typed.part.ends_with(kAxes[axis]) && !has_part(thing, typed.part)) typed.axis = axis;
   if (typed.axis) typed.part.resize(typed.part.size() - 2);
-  typed.numbers = numbers_of(text.substr(equals + 1), text);
+  typed.numbers = typed_numbers(text.substr(equals + 1), text);
   if (typed.relative && sign == '-')
     for (double& number : typed.numbers) number = -number;
   return typed;

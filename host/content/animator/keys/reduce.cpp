@@ -9,6 +9,7 @@
 #include "host/content/animator/pose/angles.h"
 #include "host/content/animator/pose/rotation.h"
 #include "host/content/animator/keys/spline_fit.h"
+#include "host/content/animator/keys/track_splines.h"
 #include "host/content/animator/keys/written.h"
 #include "host/content/modeler/frames.h"
 
@@ -20,10 +21,6 @@ constexpr std::size_t kMostReduced = 100'000;
 
 // A power of ten, so that keys have few digits.
 double grain_for(double error) { return std::pow(10, std::floor(std::log10(error / kGrains))); }
-
-glm::dvec3 numbers_of(const document::Json& value) {
-  return value.is_array() ? vector_of(value) : glm::dvec3(value.get<double>(), 0, 0);
-}
 
 document::Json like(const document::Json& value, const glm::dvec3& numbers) {
   return value.is_array() ? written(numbers) : written(numbers.x);

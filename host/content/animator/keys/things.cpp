@@ -82,22 +82,22 @@ KeyedPart point(std::string_view name, const Film& film, const Channel<Point>& c
           }};
 }
 
-KeyedPart part_of(const keys::Key& key, const Channel<glm::dvec3>& channel) {
+KeyedPart keyed_part(const keys::Key& key, const Channel<glm::dvec3>& channel) {
   return key.name == "direction" ? direction(channel) : plain(key.name, channel);
 }
 
 template <typename Value>
-KeyedPart part_of(const keys::Key& key, const Channel<Value>& channel) {
+KeyedPart keyed_part(const keys::Key& key, const Channel<Value>& channel) {
   return plain(key.name, channel);
 }
 
-KeyedPart part_of(const keys::Key& key, const Film& film, const Channel<Point>& channel) {
+KeyedPart keyed_part(const keys::Key& key, const Film& film, const Channel<Point>& channel) {
   return point(key.name, film, channel);
 }
 
 template <typename Value>
-KeyedPart part_of(const keys::Key& key, const Film&, const Channel<Value>& channel) {
-  return part_of(key, channel);
+KeyedPart keyed_part(const keys::Key& key, const Film&, const Channel<Value>& channel) {
+  return keyed_part(key, channel);
 }
 
 Thing thing_of(std::string name, document::Json& json, std::vector<KeyedPart> parts) {
@@ -223,7 +223,7 @@ std::vector<std::string> parts_that_change(const Thing& thing) {
                 "its parts are: " + document::joined(names) + (more ? " ..." : ""));
 }
 
-const KeyedPart* find(const std::vector<KeyedPart>& parts, const std::string& name) {
+const KeyedPart* part_in(const std::vector<KeyedPart>& parts, const std::string& name) {
   const auto found = std::ranges::find(parts, name, &KeyedPart::name);
   return found == parts.end() ? nullptr : &*found;
 }
@@ -236,23 +236,24 @@ const KeyedPart* find(const std::vector<KeyedPart>& parts, const std::string& na
 }  // namespace
 
 const KeyedPart& Thing::part(const std::string& wanted) const {
-  const KeyedPart* const found = find(parts, wanted) ? find(parts, wanted) : find(unset, wanted);
+  const KeyedPart* const found = part_in(parts, wanted) ? part_in(parts, wanted) : part_in(unset, wanted);
   check(found != nullptr, "a thing has the part it was asked for");
   return *found;
 }
 
-bool Thing::can_get(const std::string& wanted) const { return find(unset, wanted) != nullptr; }
+bool Thing::can_get(const std::string& wanted) const { return part_in(unset, wanted) != nullptr; }
 
 std::vector<KeyedPart> camera_parts(const Film& film) {
   std::vector<KeyedPart> parts;
   for_each_channel(film.camera, film.color,
-                   [&](const keys::Key& key, const auto& channel) { parts.push_back(part_of(key, film, channel)); });
+                   [&](const keys::Key& key, const auto& channel) { parts.push_back(keyed_part(key, film, channel)); });
   return parts;
 }
 
 std::vector<KeyedPart> light_parts(const LightMotion& light) {
   std::vector<KeyedPart> parts;
-  for_each_channel(light, [&](const keys::Key& key, const auto& channel) { parts.push_back(part_of(key, channel)); });
+  for_each_channel(light,
+                   [&](const keys::Key& key, const auto& channel) { parts.push_back(keyed_part(key, channel)); });
   return parts;
 }
 

@@ -113,6 +113,8 @@ struct Film {
   std::vector<MaterialMotion> materials;
   std::vector<modeler::Model> models;
   std::vector<Actor> actors;
+
+  const modeler::Model& model_of(std::size_t actor) const { return models[actors[actor].model]; }
 };
 
 }  // namespace mars::animator

@@ -31,7 +31,7 @@ JointMotion& JointFrames::motion_of(std::size_t actor, std::size_t joint) {
 
 modeler::Axes JointFrames::in_figure(const modeler::Axes& root, std::size_t actor, std::size_t joint,
                                      std::uint32_t frame) {
-  const auto& joints = film_.models[film_.actors[actor].model].joints;
+  const auto& joints = film_.model_of(actor).joints;
   std::vector<std::size_t> way;
   for (std::size_t at = joint; at != modeler::kNone; at = joints[at].parent) way.push_back(at);
   modeler::Axes axes = root;

@@ -36,7 +36,7 @@ bool may_leave(const modeler::Joint& joint, const Poses& poses) {
 template <typename Look>
 void for_each_that_may_leave(const Film& film, Look look) {
   for (std::size_t actor = 0; actor < film.actors.size(); ++actor) {
-    const auto& joints = film.models[film.actors[actor].model].joints;
+    const auto& joints = film.model_of(actor).joints;
     for (std::size_t joint = 0; joint < joints.size(); ++joint)
       if (const Poses& poses = film.actors[actor].motion.pose[joint]; may_leave(joints[joint], poses))
         look(actor, joint, joints[joint], poses);

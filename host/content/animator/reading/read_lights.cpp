@@ -57,7 +57,7 @@ auto reader_of(const keys::Key& key, const Channel<Value>&) {
 }
 
 // Names of what the light has, in itself or in its keys.
-std::set<std::string_view> keys_of(const document::Fields& fields) {
+std::set<std::string_view> given_keys(const document::Fields& fields) {
   std::set<std::string_view> given;
   const auto add = [&](const document::Fields& object) {
     for (const keys::Key& key : keys::object("light").keys)
@@ -110,7 +110,7 @@ void settle_by_table(Channel<Value>& channel, const document::Fields& fields, co
 
 LightMotion read_light(const document::Element& element) {
   const document::Fields fields(element, keys::object("light"));
-  const std::set<std::string_view> given = keys_of(fields);
+  const std::set<std::string_view> given = given_keys(fields);
   LightMotion light;
   light.kind = kind_of(element, given.contains("direction"), given.contains("place"), given.contains("at"));
   refuse_keys_of_others(element, light.kind, given);

@@ -79,18 +79,20 @@ TEST(Schema, TakesTheExamplesThatMessagesShow) {
     for (const keys::Object& object : objects)
       for (const keys::Key& key : object.keys)
         for (const std::string_view text : {key.example, key.json})
-          if (!text.empty())
+          if (!text.empty()) {
             EXPECT_TRUE(schemas.takes(schemas.of(object, key), document::Json::parse(text)))
                 << object.name << "." << key.name << ": " << text;
+          }
 }
 
 TEST(Schema, TypesTakeTheirExamples) {
   const Schemas schemas;
   for (const auto types : {keys::film_types(), keys::model_types()})
     for (const keys::Type& type : types)
-      if (!type.example.empty())
+      if (!type.example.empty()) {
         EXPECT_TRUE(schemas.takes({{"$ref", "#/$defs/" + std::string(type.name)}}, document::Json::parse(type.example)))
             << type.name;
+      }
 }
 
 std::vector<fs::path> json_files(const char* folder) {

@@ -15,6 +15,7 @@ namespace {
 constexpr int kGrid = 4;          // points along each side of a patch, of which a sole's shape is known
 constexpr double kStrikes = -15;  // degrees of pitch at which the heel is what touches
 constexpr double kLeaves = 25;    // and the tip of a foot without toes
+constexpr double kUpright = 0.8;  // of its height: what is lower sits
 
 glm::dvec3 patch_point(const wire::Patch& patch, double u, double v) {
   const auto weights = [](double t) {
@@ -46,11 +47,6 @@ void add_points(const modeler::Model& model, const Posture& posture, std::size_t
     for (const modeler::Mesh::Place& vertex : shape.mesh->vertices) add({vertex[0], vertex[1], vertex[2]});
 }
 
-bool is_below(const modeler::Model& model, std::size_t joint, std::size_t ancestor) {
-  while (joint != modeler::kNone && joint != ancestor) joint = model.joints[joint].parent;
-  return ancestor != modeler::kNone && joint == ancestor;
-}
-
 double lowest(std::span<const glm::dvec3> points, const glm::dmat3& turn, const glm::dvec3& from) {
   double least = 0;
   for (const glm::dvec3& point : points) least = std::min(least, (turn * point + from).z);
@@ -69,7 +65,8 @@ Sole sole_of(const modeler::Model& model, const Posture& drawn, const glm::dmat3
              std::size_t toes) {
   std::vector<glm::dvec3> foot, front;
   for (std::size_t joint = 0; joint < model.joints.size(); ++joint)
-    if (is_below(model, joint, ankle)) add_points(model, drawn, joint, is_below(model, joint, toes) ? front : foot);
+    if (modeler::is_at_or_below(model.joints, joint, ankle))
+      add_points(model, drawn, joint, modeler::is_at_or_below(model.joints, joint, toes) ? front : foot);
   const glm::dmat3 back = glm::transpose(axes);
   const glm::dvec3 origin = frame_in(model, drawn, ankle).place;
   Sole sole;
@@ -148,7 +145,8 @@ void stand_on_toes(Leg& leg) {
 double lowest_below(const modeler::Model& model, const Posture& drawn, modeler::Limb limb, modeler::Side side) {
   std::vector<glm::dvec3> points;
   for (std::size_t joint = 0; joint < model.joints.size(); ++joint)
-    if (is_below(model, joint, model.limbs.of(limb, side))) add_points(model, drawn, joint, points);
+    if (modeler::is_at_or_below(model.joints, joint, model.limbs.of(limb, side)))
+      add_points(model, drawn, joint, points);
   double least = 1e300;
   for (const glm::dvec3& point : points) least = std::min(least, point.z);
   return least;
@@ -168,6 +166,8 @@ glm::dvec3 down_between_feet(const modeler::Model& model, const Posture& drawn, 
 }
 
 }  // namespace
+
+glm::dvec2 ahead_of(double heading) { return {std::cos(glm::radians(heading)), std::sin(glm::radians(heading))}; }
 
 bool has_four_legs(const modeler::Model& model) {
   constexpr double kNear = 0.1;  // of the hip's height: how far front and hind feet are from one level
@@ -226,6 +226,10 @@ double Body::heading_of(const Posture& posture) const {
 
 glm::dmat3 Body::turn_of(const Posture& posture, std::size_t joint) const {
   return frame_in(*model, posture, joint).turn * axes;
+}
+
+bool Body::is_upright(const Posture& posture) const {
+  return frame_in(*model, posture, pelvis).place.z - floor_under(posture) >= kUpright * height;
 }
 
 double Body::floor_under(const Posture& posture) const {

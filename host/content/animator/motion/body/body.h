@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <glm/vec2.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,6 +20,10 @@ constexpr modeler::Side other(modeler::Side side) {
   return side == modeler::Side::left ? modeler::Side::right : modeler::Side::left;
 }
 constexpr double sign_of(modeler::Side side) { return side == modeler::Side::left ? 1 : -1; }
+
+// On the floor: the direction of a heading, in degrees from x to y, and what is left of a direction.
+glm::dvec2 ahead_of(double heading);
+constexpr glm::dvec2 left_of(const glm::dvec2& ahead) { return {-ahead.y, ahead.x}; }
 
 // Rot(x, a) Rot(y, b) Rot(z, c), degrees: about forward, left and up. Positive y nods, positive z turns left.
 glm::dmat3 canonical_turn(double a, double b, double c);
@@ -73,6 +78,7 @@ struct Body {
   glm::dmat3 turn_of(const Posture& posture, std::size_t joint) const;
   // Of the posture's lower sole.
   double floor_under(const Posture& posture) const;
+  bool is_upright(const Posture& posture) const;  // or it sits
 };
 
 // The least z of all segments in the world.

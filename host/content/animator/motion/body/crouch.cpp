@@ -8,11 +8,10 @@
 namespace mars::motion {
 namespace {
 
-constexpr double kLean = 100;     // degrees of the trunk at the lowest
-constexpr double kThigh = 84;     // degrees of the thighs from upright, and
-constexpr double kShin = 24;      // of the shins, the other way
-constexpr double kHang = 0.7;     // of the lean, that arms hang forward
-constexpr double kUpright = 0.8;  // of its height: what is lower sits
+constexpr double kLean = 100;  // degrees of the trunk at the lowest
+constexpr double kThigh = 84;  // degrees of the thighs from upright, and
+constexpr double kShin = 24;   // of the shins, the other way
+constexpr double kHang = 0.7;  // of the lean, that arms hang forward
 constexpr const char* kRemedy = "let it stand nearer, or widen the joint's limits in its model";
 
 struct Share {
@@ -28,7 +27,7 @@ constexpr Share kShares[] = {{modeler::Trunk::spine, 0.28, 0.3},
 
 Crouch::Crouch(const Body& body, const Posture& start, const std::string& where)
     : body_(body), start_(start), where_(where), stance_(stance_of(body, start)) {
-  const bool upright = stance_.pelvis.z - body.floor_under(start) >= kUpright * body.height;
+  const bool upright = body.is_upright(start);
   knees_ = upright && !body.stiff();
   for (Foot& foot : stance_.feet) {
     foot.askew = 10;

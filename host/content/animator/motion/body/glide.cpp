@@ -79,14 +79,9 @@ class Keying {
   std::vector<animator::ActorKey> keys_;
 };
 
-bool is_above(const modeler::Model& model, std::size_t ancestor, std::size_t joint) {
-  while (joint != modeler::kNone && joint != ancestor) joint = model.joints[joint].parent;
-  return joint == ancestor;
-}
-
 bool carries_legs(const Body& body, std::size_t joint) {
   const auto carries = [&](const Leg& leg) {
-    return is_above(*body.model, joint, leg.toes == modeler::kNone ? leg.ankle : leg.toes);
+    return modeler::is_at_or_below(body.model->joints, leg.toes == modeler::kNone ? leg.ankle : leg.toes, joint);
   };
   return std::any_of(body.legs.begin(), body.legs.end(), carries) ||
          (body.forelegs && std::any_of(body.forelegs->begin(), body.forelegs->end(), carries));

@@ -25,11 +25,6 @@ using modeler::kNone;
 using modeler::Limb;
 using modeler::Trunk;
 
-bool is_at_or_below(const modeler::Model& model, std::size_t joint, std::size_t above) {
-  while (joint != kNone && joint != above) joint = model.joints[joint].parent;
-  return above != kNone && joint == above;
-}
-
 // From `top` down to `joint`, both included.
 std::vector<std::size_t> path(const modeler::Model& model, std::size_t top, std::size_t joint) {
   std::vector<std::size_t> joints{joint};
@@ -49,7 +44,7 @@ Member first_of(const modeler::Model& model, std::size_t joint, std::span<const 
   for (const std::size_t part : limb) {
     if (part == kNone) continue;
     if (member.top == kNone) member.top = part;
-    if (is_at_or_below(model, joint, part)) member.last = part;
+    if (modeler::is_at_or_below(model.joints, joint, part)) member.last = part;
   }
   if (member.last == kNone) member.top = kNone;
   return member;
@@ -137,7 +132,7 @@ class Pulling {
   bool moves(std::size_t pin) const {
     if (chain_.moves_actor) return true;
     return std::any_of(joints_.begin(), joints_.end(),
-                       [&](std::size_t joint) { return is_at_or_below(model_, pin, joint); });
+                       [&](std::size_t joint) { return modeler::is_at_or_below(model_.joints, pin, joint); });
   }
 
   void hold(std::size_t pin) {

@@ -33,11 +33,6 @@ double number(const Posture& posture, const Freedom& freedom) {
   return freedom.shifts() ? posture.place[freedom.axis] : posture.pose[freedom.joint][freedom.axis];
 }
 
-bool is_above(const modeler::Model& model, std::size_t ancestor, std::size_t joint) {
-  while (joint != modeler::kNone && joint != ancestor) joint = model.joints[joint].parent;
-  return joint == ancestor;
-}
-
 // Frames of joints in a posture, each computed once.
 class Frames {
  public:
@@ -149,7 +144,9 @@ class Equations {
     }
   }
 
-  bool moves(const Freedom& f, const Goal& goal) const { return f.shifts() || is_above(*model_, f.joint, goal.joint); }
+  bool moves(const Freedom& f, const Goal& goal) const {
+    return f.shifts() || modeler::is_at_or_below(model_->joints, goal.joint, f.joint);
+  }
 
   const modeler::Model* model_;
 

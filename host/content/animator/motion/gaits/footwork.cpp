@@ -10,15 +10,13 @@ namespace mars::motion {
 namespace {
 
 constexpr double kLiftTime = 0.12;  // of a swing, until a foot is as high as it must be
-constexpr double kUpright = 0.02;   // of a swing, at either end, that a foot moves up or down alone
-
-glm::dvec2 ahead(double heading) { return {std::cos(glm::radians(heading)), std::sin(glm::radians(heading))}; }
+constexpr double kVertical = 0.02;  // of a swing, at either end, that a foot moves up or down alone
 
 // A foot goes up before it goes forward, and comes down when it is there.
 double carried(double from, double leaves, double to, double lands, double u) {
-  if (u < kUpright) return from + leaves * u;
-  if (u > 1 - kUpright) return to - lands * (1 - u);
-  return hermite({kUpright, from + leaves * kUpright}, {1 - kUpright, to - lands * kUpright}, leaves, lands, u);
+  if (u < kVertical) return from + leaves * u;
+  if (u > 1 - kVertical) return to - lands * (1 - u);
+  return hermite({kVertical, from + leaves * kVertical}, {1 - kVertical, to - lands * kVertical}, leaves, lands, u);
 }
 
 // A course times `times` that begins and ends elsewhere.
@@ -46,7 +44,7 @@ double Footwork::off_pitch(const Step& step, const Footprint& from) const {
 
 double Footwork::strike_pitch(const Step& step, const Footprint& from) const {
   if (footing_.leg.knee == modeler::kNone) return 0;
-  const double forward = glm::dot(step.to.place - from.place, ahead(step.to.heading)) /
+  const double forward = glm::dot(step.to.place - from.place, ahead_of(step.to.heading)) /
                          (2 * footing_.tread.stride * footing_.leg.length());
   return footing_.tread.strike * std::clamp(forward * 1.25 - 0.25, 0.0, 1.0);
 }
@@ -54,7 +52,7 @@ double Footwork::strike_pitch(const Step& step, const Footprint& from) const {
 // A foot on its print, rolled about a point of its sole that stays where it is.
 Foot Footwork::rolled(const Footprint& print, const glm::dvec3& pivot, double pitch, double bent) const {
   const glm::dvec3 shift = pivot - canonical_turn(0, pitch, 0) * pivot;
-  const glm::dvec2 place = print.place + shift.x * ahead(print.heading);
+  const glm::dvec2 place = print.place + shift.x * ahead_of(print.heading);
   return {{place.x, place.y, footing_.floor + footing_.leg.sole.height(pitch, bent)}, print.heading, pitch, bent, true};
 }
 
@@ -90,7 +88,7 @@ Foot Footwork::swinging(const Footprint& from, const Step& step, double time) co
   foot.pitch = way > 0 ? way * off.pitch / tread.off : way * land.pitch / tread.strike;
   foot.bent = off.bent == 0 ? 0 : bent_to(tread.bends, -off.bent / tread.off, off.bent, land.bent, u);
   foot.stands = false;
-  const glm::dvec2 forward = ahead(foot.heading);
+  const glm::dvec2 forward = ahead_of(foot.heading);
   const double aside = footing_.aside * std::sin(std::numbers::pi * u);
   foot.ankle += glm::dvec3(-forward.y * aside, forward.x * aside, 0);
   const double clear = std::min({1.0, u / kLiftTime, (1 - u) / kLiftTime}) * tread.clearance * footing_.leg.length();

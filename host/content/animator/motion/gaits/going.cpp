@@ -25,8 +25,6 @@ constexpr const char* kBowRemedy =
 constexpr const char* kTurnRemedy =
     "widen the joint's limits in its model, or key its turn: mars animate FILM pose ACTOR turn.z=90";
 
-glm::dvec2 left_of(const glm::dvec2& v) { return {-v.y, v.x}; }
-
 // As many steps as the way takes, if it is so long.
 std::uint32_t steps_for(const Arguments& arguments, double way, double step) {
   const double steps = std::max(1.0, std::round(way / step));
@@ -61,14 +59,12 @@ Gait turn_gait(const Body& body, const Stance& from, double by, double at_once, 
 }  // namespace
 
 void require_upright(const Scene& scene, const Body& body, const Posture& posture) {
-  if (frame_in(*body.model, posture, body.pelvis).place.z - body.floor_under(posture) >= kUpright * body.height) return;
+  if (body.is_upright(posture)) return;
   throw Failure(
       "does not stand at frame " + std::to_string(scene.at), scene.where(),
       "let it stand up first, by the action stand; to do it again otherwise, give --at with the frame where it "
       "began");
 }
-
-glm::dvec2 ahead_of(double heading) { return {std::cos(glm::radians(heading)), std::sin(glm::radians(heading))}; }
 
 Stand stand_of(const Stance& stance) {
   const glm::dvec3 middle = 0.5 * (stance.feet[0].ankle + stance.feet[1].ankle);

@@ -11,11 +11,8 @@
 namespace mars::motion {
 
 inline constexpr std::uint32_t kMostSteps = 2000;
-inline constexpr double kUpright = 0.8;     // of its height: what is lower sits
 inline constexpr double kWalkLead = 0.35;   // of a period: weight goes to one foot before the first step
 inline constexpr double kWalkSettle = 0.5;  // and to both after the last
-
-glm::dvec2 ahead_of(double heading);
 
 // Refuses a figure that sits at the scene's frame.
 void require_upright(const Scene& scene, const Body& body, const Posture& posture);

@@ -13,7 +13,7 @@
 namespace mars::motion {
 namespace {
 
-constexpr double kGravity = 9.81 / 0.835;          // for a leg of length 1: the leg of a man of 1.75 m in metres
+constexpr double kGravityOfLegs = 9.81 / 0.835;    // for a leg of length 1: the leg of a man of 1.75 m in metres
 constexpr double kHeight = 0.35;                   // of the leg, that the hips rise after the feet have left
 constexpr double kCrouch = 0.26;                   // of the leg, before it leaves
 constexpr double kAbsorb = 0.22;                   // and after it has landed
@@ -47,11 +47,11 @@ class Jumper {
     require_upright(scene, body_, start_);
     const Arguments& arguments = scene.arguments;
     const double leg = body_.leg_length(), rate = scene.film.rate;
-    gravity_ = arguments.number("gravity", kGravity * leg, {1e-6, document::kFarthest}) / (rate * rate);
+    gravity_ = arguments.number("gravity", kGravityOfLegs * leg, {1e-6, document::kFarthest}) / (rate * rate);
     height_ = arguments.number("height", kHeight * leg, {1e-6, document::kFarthest});
     distance_ = arguments.number("distance", 0, {-document::kFarthest, document::kFarthest});
     turn_ = arguments.number("turn", 0, {-3600, 3600});
-    pace_ = std::sqrt(kGravity * leg / (rate * rate) / gravity_);
+    pace_ = std::sqrt(kGravityOfLegs * leg / (rate * rate) / gravity_);
     plan();
     scene.last_after(plan_.end);
   }

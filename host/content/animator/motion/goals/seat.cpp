@@ -27,7 +27,6 @@ constexpr double kClear = 0.12;              // of the leg, between a way and th
 constexpr double kAround = 0.4;              // of the leg, from the seat's corners to who walks around it
 
 glm::dvec2 flat(const glm::dvec3& v) { return {v.x, v.y}; }
-glm::dvec2 left_of(const glm::dvec2& v) { return {-v.y, v.x}; }
 
 // A seat from above.
 struct Seat {
@@ -111,7 +110,7 @@ class Approach {
   // Backs and arms of seats: other parts of the actor that rise on that side.
   bool is_closed(const Target& target, const glm::dvec2& side) const {
     if (target.joint == modeler::kNone) return false;
-    const modeler::Model& model = scene_.film.models[scene_.film.actors[target.actor].model];
+    const modeler::Model& model = scene_.film.model_of(target.actor);
     for (std::size_t joint = 0; joint < model.joints.size(); ++joint) {
       if (joint == target.joint || !model.joints[joint].segment) continue;
       const Block part = block_of(scene_, {target.actor, joint}, scene_.at);
@@ -175,7 +174,7 @@ std::vector<std::string> numbers(const glm::dvec2& v) {
 // Of an actor of which no joint is named: the largest top at a height for sitting.
 Target seat_part(const Scene& scene, const Target& target, const Body& body) {
   if (target.joint != modeler::kNone) return target;
-  const modeler::Model& model = scene.film.models[scene.film.actors[target.actor].model];
+  const modeler::Model& model = scene.film.model_of(target.actor);
   const double floor = body.floor_under(posture_of(scene));
   Target best = target;
   double most = 0;

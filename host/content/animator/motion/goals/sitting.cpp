@@ -19,7 +19,6 @@ namespace {
 
 constexpr double kSeconds = 1.6;
 constexpr double kLean = 44;        // degrees of the trunk, so that its weight stays over the feet
-constexpr double kUpright = 0.8;    // of its height: what is lower sits
 constexpr double kHandAlong = 0.6;  // of the thigh, where a wrist lies
 constexpr double kHandOut = 0.6;    // of the way from above the hip to below the shoulder
 constexpr double kAskew = 10;       // degrees: see Foot
@@ -67,7 +66,7 @@ class Chair {
     scene.last_after(frames_);
   }
 
-  bool upright() const { return from_.pelvis.z - floor_ >= kUpright * body_.height; }
+  bool upright() const { return body_.is_upright(start_); }
   const Body& body() const { return body_; }
   const Stance& from() const { return from_; }
   double floor() const { return floor_; }

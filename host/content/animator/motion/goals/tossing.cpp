@@ -14,6 +14,7 @@
 #include "host/content/animator/motion/body/curve.h"
 #include "host/content/animator/motion/gaits/gait.h"
 #include "host/content/animator/motion/body/glide.h"
+#include "host/content/animator/motion/laws/flight.h"
 #include "host/content/animator/motion/laws/kinematic.h"
 #include "host/content/animator/motion/goals/picking.h"
 #include "host/content/animator/motion/scene/rehearsal.h"
@@ -33,7 +34,6 @@ constexpr Parameter kToss[] = {
     {"friction", "N", "of the speed along the floor that an impact takes, 0 to 1; default: 0.1", "0.3"},
     {"spin", "X Y Z", "degrees a second about the world's axes; default: none", "0 360 0"}};
 
-constexpr double kGravity = 9.81;
 constexpr double kBack = 0.55, kThrough = 0.3, kRest = 0.8;  // seconds: back, past the release, and to rest
 constexpr double kBackward = 42;                             // degrees that the arm swings back
 constexpr double kFollow = 32;                               // degrees beyond the release

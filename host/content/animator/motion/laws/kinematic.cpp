@@ -14,7 +14,6 @@
 namespace mars::motion {
 namespace {
 
-constexpr double kGravity = 9.81;         // a unit of the film being a metre
 constexpr double kPlaceTolerance = 5e-4;  // of the flight's extent
 constexpr double kTurnTolerance = 0.05;   // degrees
 constexpr double kLow = 1e-3;             // of the first height: bounces that nobody sees

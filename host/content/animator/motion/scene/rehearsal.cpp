@@ -76,7 +76,7 @@ void Rehearsal::attach(std::size_t actor, std::uint32_t frame, const animator::A
   std::optional<animator::Attachment> carrier;
   if (!to.actor.empty()) {
     const std::size_t by = index_of(film_.actors, to.actor);
-    carrier = {by, joint_of(film_.models[film_.actors[by].model], to.joint), to.place, to.turn};
+    carrier = {by, joint_of(film_.model_of(by), to.joint), to.place, to.turn};
   }
   put(film_, {key}, other);
   put(other.attach, frame, carrier, animator::kLinear);

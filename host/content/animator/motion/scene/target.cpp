@@ -58,7 +58,7 @@ std::optional<Target> target_of(const Scene& scene, std::string_view parameter) 
     if (!scene.film.actors[actor].matrices.empty())
       scene.arguments.refuse(parameter, "names '" + name + "', which is moved by matrices", "name another actor");
     if (slash == std::string::npos) return Target{actor};
-    const modeler::Model& model = scene.film.models[scene.film.actors[actor].model];
+    const modeler::Model& model = scene.film.model_of(actor);
     return Target{actor, joint_named(scene, model, parameter, word->substr(slash + 1))};
   }
   scene.arguments.refuse(parameter, "names '" + name + "', which is no actor of the film",
