@@ -77,6 +77,10 @@ void run_set(const FilmWords& words) {
   words.film.change([&](Json& film, const Meaning&) { animator::set_film(film, words.fields); });
 }
 
+void run_camera(const FilmWords& words) {
+  words.film.change([&](Json& film, const Meaning&) { animator::set_camera(film, words.fields); });
+}
+
 void run_show(const FilmWords& words) {
   film::FilmFile file = words.film.read();
   words.film.print(animator::film_summary(file.json, file.film));
@@ -183,6 +187,9 @@ void add_settings(cli::Command film, const std::shared_ptr<FilmWords>& words) {
   fresh.add("--figure", words->model, "Also add this figure of the library, at the origin. Example: --figure man")
       .type("FIGURE");
   add_fields(add_command(film, words, "set", "Change settings of the film", run_set), *words, "film", example)
+      .required();
+  add_fields(add_command(film, words, "camera", "Change the camera, the same at all frames", run_camera), *words,
+             "camera", "fov=30 near=0.5 far=500")
       .required();
   add_command(film, words, "show", "List what the film contains, by the names that commands accept", run_show);
 }

@@ -343,6 +343,30 @@ class FilmTest(StudioInBrowser):
         self.assertEqual(different, 0)
         self.no_complaint("willReadFrequently")
 
+    def test_fields_of_the_table_change_the_file(self):
+        spot = {"place": [3, -4, 5], "at": [0, 0, 1]}
+        file = self.film()
+        file.write_text(json.dumps(dict(FILM, lights=FILM["lights"] + [spot])))
+        studio = self.start(file)
+        self.tab("Scene")
+        self.click('[data-key="light/2"]')
+        keys = self.project()["keys"]["light"]
+        for name in (name for name, key in keys.items() if "spot" in key.get("of", ["spot"])):
+            self.until(name, f"document.querySelector('[data-key^=\"light.{name}\"]') !== null")
+        self.write("light.reach", 5.0)
+        self.write("light.cone.outer", 60.0)
+        self.write("camera.exposure", 0.5)
+        self.click('[data-key="more Camera"]')
+        self.write("camera.near", 0.25)
+        self.write("film.rate", 25.0)
+        self.choose("film.samples", "1")
+        film = json.loads(file.read_text())
+        self.assertEqual(film["lights"][1], spot | {"keys": [{"frame": 0, "reach": 5, "cone": [32, 60]}]})
+        self.assertEqual([film["camera"]["near"], film["camera"]["keys"]], [0.25, [{"frame": 0, "exposure": 0.5}]])
+        self.assertEqual([film["rate"], film["samples"]], [25, 1])
+        self.no_complaint()
+        self.assertEqual(studio.end(), (0, ""))
+
     def test_renderer_dies_in_a_drag(self):
         studio = self.start(self.film())
         at = self.show_limb()

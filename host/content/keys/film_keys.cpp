@@ -1,4 +1,7 @@
+#include <iterator>
+
 #include "host/content/keys/objects.h"
+#include "node/wire/film_parts.h"
 
 namespace mars::keys {
 namespace {
@@ -7,11 +10,27 @@ namespace {
 constexpr std::string_view kColors[] = {"coded", "linear"}, kCurves[] = {"none", "filmic"},
                            kCuttings[] = {"auto", "keyframes"}, kAxes[] = {"world", "joint"};
 
+// Kinds of a film, and so of its camera, in the order of wire::ColorSpace.
+constexpr Kind kColorSpaces[] = {{"coded", "Coded"}, {"linear", "Linear"}};
+constexpr unsigned kOfLinear = 1u << static_cast<unsigned>(wire::ColorSpace::linear);
+
+constexpr unsigned bit_of(wire::LightKind kind) { return 1u << static_cast<unsigned>(kind); }
+constexpr unsigned kFar = bit_of(wire::LightKind::directional), kSpot = bit_of(wire::LightKind::spot),
+                   kNear = bit_of(wire::LightKind::point) | kSpot;
+constexpr std::string_view kNewSun[] = {"direction=1,-1,2"}, kNewBulb[] = {"place=0,-3,4"},
+                           kNewSpot[] = {"place=0,-4,5", "at=0,0,1"};
+// In the order of wire::LightKind.
+constexpr Kind kLightKinds[] = {
+    {"directional", "Sun", kNewSun}, {"point", "Bulb", kNewBulb}, {"spot", "Spot", kNewSpot}};
+static_assert(std::size(kLightKinds) == static_cast<std::size_t>(wire::kLastLightKind) + 1);
+
+constexpr std::string_view kSides[] = {"width", "height"}, kAngles[] = {"inner", "outer"};
+
 constexpr Type kFilmTypes[] = {
     {"frame", R"({"type": "integer", "minimum": 0, "maximum": 1000000})", "24"},
     {"size",
      R"({"type": "array", "minItems": 2, "maxItems": 2, "items": {"type": "integer", "minimum": 1, "maximum": 16384}})",
-     "[960, 540]"},
+     "[960, 540]", kSides},
     {"samples", R"({"enum": [1, 2, 4, 8, 16]})", "4"},
     {"dice", R"({"anyOf": [{"const": "adaptive"}, {"type": "integer", "minimum": 1, "maximum": 256}]})", ""},
     {"color_or_ambient", R"({"anyOf": ["#color", "#ambient"]})", "[0.8, 0.9, 1]"},
@@ -30,8 +49,8 @@ constexpr Type kFilmTypes[] = {
      "[0, 90, 0]"},
     {"angles_or_part", R"({"anyOf": ["#angles", "#part"]})", "[0, 90, 0]"},
     {"angle", R"({"type": "number", "minimum": 0.01, "maximum": 180})", "40"},
-    {"cone", R"({"anyOf": ["#angle", {"type": "array", "minItems": 2, "maxItems": 2, "items": "#angle"}]})",
-     "[30, 40]"},
+    {"cone", R"({"anyOf": ["#angle", {"type": "array", "minItems": 2, "maxItems": 2, "items": "#angle"}]})", "[30, 40]",
+     kAngles},
     {"place_or_point", R"({"anyOf": ["#vector", "#point"]})", "[0, -9, 2]"},
     {"attach_or_null", R"({"anyOf": [{"type": "null"}, "#attach"]})", R"({"actor": "tom", "joint": "right-hand"})"},
     {"matrix",
@@ -63,6 +82,7 @@ Object film() {
         .type = "size",
         .meaning = "`[width, height]`, each 1 to 16384",
         .json = "[960, 540]",
+        .range = {1, 16384},
         .unit = "pixels"},
        {.name = "samples",
         .type = "samples",
@@ -73,12 +93,16 @@ Object film() {
         .meaning = "`\"linear\"`: colours are light; `\"coded\"`: numbers as they are shown",
         .see = "light-and-materials.md#light-and-colour",
         .json = R"("linear")",
-        .choices = kColors},
+        .choices = kColors,
+        .label = "Colours",
+        .rare = true},
        {.name = "curve",
         .type = "choice",
         .meaning = "how light becomes what is shown; in linear films only",
         .json = R"("filmic")",
-        .choices = kCurves},
+        .choices = kCurves,
+        .of = kOfLinear,
+        .rare = true},
        {.name = "background",
         .type = "color",
         .meaning = "colour of the background",
@@ -100,11 +124,13 @@ Object film() {
         .meaning = "where render intervals are cut: where it saves work, or at keys",
         .see = "render-intervals.md#render-intervals",
         .json = R"("auto")",
-        .choices = kCuttings},
+        .choices = kCuttings,
+        .rare = true},
        {.name = "dice",
         .type = "dice",
         .meaning = "`\"adaptive\"`, or N to dice every patch into N x N quads, 1 to 256",
-        .json = R"("adaptive")"},
+        .json = R"("adaptive")",
+        .rare = true},
        {.name = "camera",
         .type = "camera",
         .meaning = "where the camera stands and looks",
@@ -155,33 +181,39 @@ Object camera() {
             .meaning = "point that the camera looks at, or a point of an actor",
             .json = "[0, 0, 0]",
             .keyed = true,
-            .example = "[0, 0, 1]"},
+            .example = "[0, 0, 1]",
+            .label = "Looks at"},
            {.name = "up",
             .type = "vector",
             .meaning = "direction that is up in the picture, of any length",
             .json = "[0, 0, 1]",
-            .keyed = true},
+            .keyed = true,
+            .rare = true},
            {.name = "fov",
             .meaning = "vertical field of view",
             .number = 40,
             .range = {0.01, 179},
             .unit = "degrees",
-            .keyed = true},
+            .keyed = true,
+            .label = "View angle"},
            {.name = "exposure",
             .meaning = "each stop doubles the light; in linear films only",
             .number = 0,
             .range = {-16, 16},
             .unit = "stops",
             .keyed = true,
-            .example = "0.5"},
+            .example = "0.5",
+            .of = kOfLinear},
            {.name = "near",
             .meaning = "distance of the near plane: nothing nearer is drawn",
             .number = 0.1,
-            .range = {1e-6, 1e9}},
+            .range = {1e-6, 1e9},
+            .rare = true},
            {.name = "far",
             .meaning = "distance of the far plane: nothing farther is drawn",
             .number = 10000,
-            .range = {1e-6, 1e10}},
+            .range = {1e-6, 1e10},
+            .rare = true},
            {.name = "keys",
             .type = "[camera_key]",
             .meaning = "list of keys",
@@ -198,9 +230,20 @@ Object light() {
         .type = "vector",
         .meaning = "vector towards a far light, of any length",
         .keyed = true,
-        .example = "[-0.4, -0.7, 0.8]"},
-       {.name = "place", .type = "vector", .meaning = "position of a point light or a spot", .keyed = true},
-       {.name = "at", .type = "vector", .meaning = "point at which a spot aims", .keyed = true, .example = "[0, 0, 1]"},
+        .example = "[-0.4, -0.7, 0.8]",
+        .of = kFar},
+       {.name = "place",
+        .type = "vector",
+        .meaning = "position of a point light or a spot",
+        .keyed = true,
+        .of = kNear},
+       {.name = "at",
+        .type = "vector",
+        .meaning = "point at which a spot aims",
+        .keyed = true,
+        .example = "[0, 0, 1]",
+        .of = kSpot,
+        .label = "Aims at"},
        {.name = "cone",
         .type = "cone",
         .meaning = "how wide a spot's cone opens, 0.01 to 180: `[inner, outer]`, fully lit within the inner cone and "
@@ -209,15 +252,22 @@ Object light() {
         .range = {0.01, 180},
         .unit = "degrees",
         .keyed = true,
-        .example = "[30, 40]"},
+        .example = "[30, 40]",
+        .of = kSpot},
        {.name = "reach",
         .meaning = "distance from a point light or a spot at which it has half its brightness: at distance d it is 1 / "
                    "(1 + (d / reach)^2)",
         .without = "the same at all distances",
         .range = {1e-6, kFarthest},
         .keyed = true,
-        .example = "5"},
-       {.name = "color", .type = "color", .meaning = "colour of the light", .json = "[1, 1, 1]", .keyed = true},
+        .example = "5",
+        .of = kNear},
+       {.name = "color",
+        .type = "color",
+        .meaning = "colour of the light",
+        .json = "[1, 1, 1]",
+        .keyed = true,
+        .label = "Colour"},
        {.name = "intensity",
         .meaning = "factor for the light of this colour",
         .number = 1,
@@ -420,6 +470,11 @@ Object matrices_key() {
             .example = R"({"hand": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]})"}}};
 }
 
+Object of_kinds(std::span<const Kind> kinds, Object object) {
+  object.kinds = kinds;
+  return object;
+}
+
 // What keys of the object may have.
 Object keys_of(const Object& object, std::string_view name) {
   Object keys{name, "", {}};
@@ -445,10 +500,10 @@ Object keys_of(const Object& object, std::string_view name) {
 }  // namespace
 
 std::vector<Object> make_film_objects() {
-  return {film(),
-          camera(),
+  return {of_kinds(kColorSpaces, film()),
+          of_kinds(kColorSpaces, camera()),
           keys_of(camera(), "camera_key"),
-          light(),
+          of_kinds(kLightKinds, light()),
           keys_of(light(), "light_key"),
           ambient(),
           fog(),

@@ -19,6 +19,15 @@ struct Range {
   bool operator==(const Range&) const = default;
 };
 
+// What an object can be: a light a spot, a film one of linear colours.
+struct Kind {
+  std::string_view name;                               // "spot"
+  std::string_view label;                              // in the studio: "Spot"
+  std::span<const std::string_view> begins_with = {};  // the words, KEY=VALUE, with which the studio makes one
+};
+
+inline constexpr unsigned kEveryKind = ~0u;
+
 // One of `type`: "number", "whole" (a number), "choice" (of `choices`), "text", "flag" (true or false); a type of
 // types(), such as "color"; an object of objects(), such as "light"; "[light]": a list of them; "{material}": an object
 // of them by their names.
@@ -38,6 +47,11 @@ struct Key {
   bool required = false;
   bool typed = true;              // `mars film` takes it as KEY=VALUE
   std::string_view example = {};  // how it is written, for messages; none: as the default
+  unsigned of = kEveryKind;       // bits of those of its object's kinds that have it
+  std::string_view label = {};    // of the studio's field; none: its name
+  bool rare = false;              // the studio's field is in a part that is shut at first
+
+  constexpr bool is_of(unsigned kind) const { return (of >> kind & 1u) != 0; }
 };
 
 // What values of several keys look like.
@@ -45,14 +59,16 @@ struct Type {
   std::string_view name;
   std::string_view schema;   // JSON Schema, in which "#name" stands for the type or object of that name
   std::string_view example;  // as Key's
+  std::span<const std::string_view> parts = {};  // of a list of numbers, what each is: "width", "height"
 };
 
 struct Object {
   std::string_view name;  // "light"; "light_key" what keys of a light may have
   std::string_view meaning;
   std::vector<Key> keys;
-  std::string_view rules = {};    // more of its JSON Schema
-  std::string_view example = {};  // as Key's, where it stands under a name of its own
+  std::string_view rules = {};       // more of its JSON Schema
+  std::string_view example = {};     // as Key's, where it stands under a name of its own
+  std::span<const Kind> kinds = {};  // none: all are of one kind
 
   std::vector<std::string_view> names = {};  // of its keys
 

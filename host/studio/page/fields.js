@@ -29,17 +29,18 @@ class Settling {
 }
 
 // A number to write, to step with arrows, to drag by its letter. `name` is for screen readers, `letter` is shown. All its
-// digits show only while somebody writes it.
-export function numberField({name, letter = "", axis = letter, unit = "", step = 0.1, least, most, digits = 3, key, preview, commit, cancel}) {
-  const input = element("input", {type: "text", inputmode: "decimal", role: "spinbutton", "aria-label": name, autocomplete: "off",
+// digits show only while somebody writes it. Without a number (null) it shows the hint.
+export function numberField({name, letter = "", axis = letter, unit = "", step = 0.1, least, most, digits = 3, hint, key, preview, commit, cancel}) {
+  const input = element("input", {type: "text", inputmode: "decimal", placeholder: hint, role: "spinbutton", "aria-label": name, autocomplete: "off",
                                   spellcheck: "false", "data-key": key, "aria-valuemin": least, "aria-valuemax": most});
   const handle = element("span", {class: `letter axis-${axis}`, "aria-hidden": "true"}, letter);
   const root = element("span", {class: "number"}, handle, input, unit && element("span", {class: "unit", "aria-hidden": "true"}, unit));
   const settling = new Settling();
   let value = 0, held = null;
 
+  const textOf = (number, places) => number === null ? "" : written(number, places);
   const show = (number) => {
-    input.value = written(number, document.activeElement === input ? kAllDigits : digits);
+    input.value = textOf(number, document.activeElement === input ? kAllDigits : digits);
     input.setAttribute("aria-valuenow", input.value);
   };
   const change = (number, event) => {
@@ -77,7 +78,7 @@ export function numberField({name, letter = "", axis = letter, unit = "", step =
   input.addEventListener("blur", (event) => {
     input.removeAttribute("aria-invalid");
     done(event);
-    input.value = written(value, digits);
+    input.value = textOf(value, digits);
   });
   input.addEventListener("keydown", (event) => {
     const direction = {ArrowUp: 1, ArrowDown: -1}[event.key];
@@ -123,23 +124,25 @@ function dragged(handle, {by, done, giveUp}) {
   handle.addEventListener("lostpointercapture", () => { if (from !== null) { from = null; giveUp(); } });
 }
 
-// Three numbers in a row.
-export function vectorField({name, key, preview, commit, cancel, ...rest}) {
-  let values = [0, 0, 0];
-  const changed = (axis, number) => values.map((each, i) => i === axis ? number : each);
-  const fields = [..."xyz"].map((letter, axis) => numberField({
-    ...rest, name: `${name} ${letter}`, letter, key: `${key}.${letter}`, cancel,
-    preview: preview && ((number, event) => preview(changed(axis, number), event)),
-    commit: (number, event) => { values = changed(axis, number); commit(values, event); },
+// Numbers in a row; `parts` says what each is. With `letters` each shows that.
+export function severalField({name, key, parts, letters = false, preview, commit, ...rest}) {
+  let values = parts.map(() => 0);
+  const changed = (at, number) => values.map((each, i) => i === at ? number : each);
+  const fields = parts.map((part, at) => numberField({
+    ...rest, name: `${name} ${part}`, letter: letters ? part : "", key: `${key}.${part}`,
+    preview: preview && ((number, event) => preview(changed(at, number), event)),
+    commit: (number, event) => { values = changed(at, number); commit(values, event); },
   }));
   return {
-    root: element("div", {class: "vector", role: "group", "aria-label": name}, fields.map(({root}) => root)),
+    root: element("div", {class: letters ? "vector" : "several", role: "group", "aria-label": name}, fields.map(({root}) => root)),
     set: (list) => {
-      values = [...list];
-      fields.forEach((field, axis) => field.set(list[axis]));
+      if (list) values = [...list];
+      fields.forEach((field, at) => field.set(list?.[at] ?? null));
     },
   };
 }
+
+export const vectorField = (options) => severalField({...options, parts: [..."xyz"], letters: true});
 
 // A slider and its number.
 export function sliderField({name, title = "", letter = "", label = "", axis = letter, unit = "", least, most, step = 1, key, digits = 2, preview, commit, cancel}) {
@@ -256,6 +259,7 @@ export function textField({name, key, hint = "", commit}) {
   }};
 }
 
+// Without a colour (null) it is white and says so.
 export function colorField({name, key, preview, commit}) {
   const input = element("input", {type: "color", "aria-label": name, "data-key": key});
   const hex = element("output", {class: "hex"});
@@ -265,8 +269,9 @@ export function colorField({name, key, preview, commit}) {
   input.addEventListener("change", (event) => { held = false; show(); commit(colorOf(input.value), event); });
   return {root: element("label", {class: "color"}, input, hex), set: (color) => {
     if (held) return;
-    input.value = hexOf(color);
+    input.value = hexOf(color ?? [1, 1, 1]);
     show();
+    if (!color) hex.textContent = "default";
   }};
 }
 
@@ -275,11 +280,15 @@ export const line = (label, ...controls) =>
   element("div", {class: "line"}, element("span", {class: "label", "aria-hidden": "true"}, label), element("div", {class: "controls"}, controls));
 
 // A part of a panel that shuts. Which are shut is kept in this tab.
-export function part(title, ...children) {
+export const part = (title, ...children) => folded({kept: `part ${title}`, title, heading: "h3", usually: "open"}, children);
+
+// What is seldom needed within a part, shut at first. `of`: what it is of.
+export const more = (of, ...children) => folded({kept: `more ${of}`, title: "More", heading: "h4", usually: "shut"}, children);
+
+function folded({kept, title, heading, usually}, children) {
   const id = newId("part");
-  const kept = `part ${title}`;
-  const summary = element("summary", {id, "data-key": kept}, element("h3", {}, title));
-  const details = element("details", {class: "part", open: sessionStorage.getItem(kept) !== "shut"}, summary,
+  const summary = element("summary", {id, "data-key": kept}, element(heading, {}, title));
+  const details = element("details", {class: heading === "h4" ? "part more" : "part", open: (sessionStorage.getItem(kept) ?? usually) === "open"}, summary,
                           element("div", {class: "body", role: "group", "aria-labelledby": id}, children));
   details.addEventListener("toggle", () => sessionStorage.setItem(kept, details.open ? "open" : "shut"));
   return details;

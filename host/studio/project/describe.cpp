@@ -7,9 +7,8 @@
 
 #include "host/content/animator/pose/actor_state.h"
 #include "host/content/animator/pose/attachments.h"
-#include "host/content/animator/pose/camera_points.h"
-#include "host/content/animator/pose/direction.h"
 #include "host/content/animator/keys/edit.h"
+#include "host/content/animator/keys/things.h"
 #include "host/content/animator/keys/written.h"
 #include "host/content/modeler/edit.h"
 #include "host/content/keys/page_keys.h"
@@ -134,19 +133,28 @@ void add_part(Json& thing, std::string_view part, const animator::Channel<Value>
   if (!channel.empty()) thing[std::string(part)] = written(animator::rounded(animator::value_at(channel, frame)));
 }
 
+// Those of the keys of the table that the object's kind has: what the file says or the default.
+void add_values(Json& json, const keys::Object& object, unsigned kind, const Json& file) {
+  for (const keys::Key& key : object.keys) {
+    if (!key.typed || !key.is_of(kind)) continue;
+    const std::string name(key.name);
+    if (Json value = file.contains(name) ? file[name] : keys::default_of_pages(key); !value.is_null())
+      json[name] = std::move(value);
+  }
+}
+
+// Those that keys of the film may change, as they are at the frame.
+void add_values(Json& json, std::span<const animator::KeyedPart> parts, std::uint32_t frame) {
+  for (const animator::KeyedPart& part : parts)
+    if (!part.unset) json[part.name] = part.value_at(frame);
+}
+
 Json light_of(const animator::LightMotion& light, std::size_t number, const Json& file, std::uint32_t frame) {
-  constexpr const char* kKinds[] = {"directional", "point", "spot"};
-  static_assert(std::size(kKinds) == std::size_t(wire::kLastLightKind) + 1);
-  Json json{{"thing", "light/" + std::to_string(number + 1)}, {"kind", kKinds[std::size_t(light.kind)]}};
-  if (light.kind == wire::LightKind::directional)
-    json["direction"] = shown(animator::direction_at(light.vector, frame));
-  else
-    json["place"] = shown(animator::value_at(light.vector, frame));
-  add_part(json, "at", light.at, frame);
-  add_part(json, "cone", light.cone, frame);
-  add_part(json, "reach", light.reach, frame);
-  add_part(json, "color", light.color, frame);
-  add_part(json, "intensity", light.intensity, frame);
+  const keys::Object& object = keys::object("light");
+  const auto kind = static_cast<unsigned>(light.kind);
+  Json json{{"thing", "light/" + std::to_string(number + 1)}, {"kind", object.kinds[kind].name}};
+  add_values(json, object, kind, file);
+  add_values(json, animator::light_parts(light), frame);
   json["keyed"] = keyed_of(file, frame);
   return json;
 }
@@ -200,14 +208,6 @@ Json material_at(const animator::MaterialMotion& material, std::uint32_t frame) 
   return json;
 }
 
-void describe_settings(Json& project, const animator::Film& film, const Json& json) {
-  project["version"] = json.value("version", Json());
-  project["samples"] = film.samples;
-  project["color"] = film.color == wire::ColorSpace::linear ? "linear" : "coded";
-  project["background"] = shown(film.background);
-  project["library"] = library();
-}
-
 Json limb_names() {
   Json names = Json::array();
   for (const std::string_view part : modeler::kTrunkNames) names.push_back(part);
@@ -231,9 +231,8 @@ Json poses_of(const animator::Film& film, std::size_t actor, std::uint32_t frame
 
 void describe_camera_and_lights(Json& project, const animator::Film& film, const Json& json, std::uint32_t frame) {
   Json camera{{"keyed", keyed_of(json.at("camera"), frame)}};
-  camera["eye"] = shown(animator::eye_at(film, frame));
-  camera["at"] = shown(animator::at_at(film, frame));
-  add_part(camera, "fov", film.camera.fov, frame);
+  add_values(camera, keys::object("camera"), static_cast<unsigned>(film.color), json.at("camera"));
+  add_values(camera, animator::camera_parts(film), frame);
   camera["follow"] = followed(film, film.camera.eye, frame);
   camera["look"] = followed(film, film.camera.at, frame);
   project["camera"] = std::move(camera);
@@ -271,7 +270,8 @@ void describe_film(Json& project, const animator::Film& film, const Json& json, 
   for (const animator::MaterialMotion& material : film.materials) materials.push_back(material_at(material, frame));
   project["materials"] = std::move(materials);
   project["keys"] = keys::keys_of_pages();
-  describe_settings(project, film, json);
+  add_values(project["settings"], keys::object("film"), static_cast<unsigned>(film.color), json);
+  project["library"] = library();
 }
 
 void describe_model(Json& project, const animator::Film& film, const Json& json, std::uint32_t frame) {

@@ -83,6 +83,16 @@ TEST_F(FilmWords, ChangeSettings) {
   EXPECT_NE(failure({"new"}).find("is open already"), std::string::npos);
 }
 
+TEST_F(FilmWords, ChangeTheCamera) {
+  json_["camera"]["keys"] = document::Json::parse(R"([{"frame": 0, "exposure": 1}])");
+  film({"camera", "near=0.5", "far=500", "fov=35"});
+  EXPECT_EQ(json_["camera"], document::Json::parse(R"({"eye": [14, -8, 4.5], "at": [0, 0, 2.3], "fov": 35, "near": 0.5,
+      "far": 500, "keys": [{"frame": 0, "exposure": 1}]})"));
+  EXPECT_NE(failure({"camera", "exposure=2"}).find("also set by keys"), std::string::npos);
+  EXPECT_NE(failure({"camera", "far=0.1"}).find("not beyond near"), std::string::npos);
+  EXPECT_NE(failure({"camera", "nera=1"}).find("did you mean 'near'?"), std::string::npos);
+}
+
 TEST_F(FilmWords, AddAndRemoveLights) {
   EXPECT_EQ(film({"light", "add", "place=1,2,3", "intensity=2"}).report,
             "light/4, beside those that the film was shown with: light/1 to light/3\n");

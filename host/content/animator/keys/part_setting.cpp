@@ -106,6 +106,11 @@ PartSetting setting_of(const std::string& part, const Typed& typed) {
                 thing.name + ", '" + text + "'", "like it are: " + document::joined(names));
 }
 
+[[noreturn]] void refuse_relative(const Typed& typed, const std::string& text, const Thing& thing) {
+  throw Failure("has no " + typed.part + " yet, to which a number could be added", thing.name + ", '" + text + "'",
+                "write what it is to be: " + typed.part + "=NUMBER");
+}
+
 }  // namespace
 
 std::vector<PartSetting> read_axes(const std::string& text, const Thing& thing) {
@@ -117,7 +122,9 @@ std::vector<PartSetting> read_axes(const std::string& text, const Thing& thing) 
 
 std::vector<PartSetting> read_settings(const std::string& text, const Thing& thing) {
   const Typed typed = taken_apart(text, thing);
-  const std::vector<std::string> names = parts_named(thing, typed.part);
+  const bool unset = thing.can_get(typed.part);
+  if (unset && typed.relative) refuse_relative(typed, text, thing);
+  const std::vector<std::string> names = unset ? std::vector{typed.part} : parts_named(thing, typed.part);
   std::vector<PartSetting> settings;
   for (const std::string& name : names) {
     const KeyedPart& part = thing.part(name);

@@ -71,7 +71,7 @@ class Posing {
   void set(const PartSetting& setting, std::uint32_t frame) {
     const KeyedPart& part = thing().part(setting.part);
     Track& track = tracks_[part.name];
-    if (track.empty() && frame > 0) track.push_back({0, part.key_at(0), kLinear});
+    if (track.empty() && frame > 0 && !part.unset) track.push_back({0, part.key_at(0), kLinear});
     TrackKey* key = key_at(track, frame);
     // A second setting for the part keeps what the first one set.
     const bool again = !touched_.insert(part.name).second;

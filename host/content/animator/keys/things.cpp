@@ -9,6 +9,7 @@
 #include "hal/failure/failure.h"
 #include "host/content/animator/pose/camera_points.h"
 #include "host/content/animator/pose/direction.h"
+#include "host/content/animator/pose/keyed_channels.h"
 #include "host/content/animator/keys/edit.h"
 #include "host/content/animator/keys/tracks.h"
 #include "host/content/animator/keys/written.h"
@@ -23,6 +24,12 @@ constexpr std::size_t kMostNames = 40;  // in a message
 
 template <typename Value>
 KeyedPart plain(std::string_view name, const Channel<Value>& channel) {
+  if (channel.empty())
+    return {.name = std::string(name),
+            .joint = nullptr,
+            .turns = nullptr,
+            .value_at = [](std::uint32_t) { return written(Value{}); },
+            .unset = true};
   return {std::string(name), nullptr, nullptr, [&channel](std::uint32_t frame) {
             const Stretch stretch = stretch_at(channel, frame);
             if (stretch.from == stretch.to) return written(channel[stretch.from].value);
@@ -75,26 +82,37 @@ KeyedPart point(std::string_view name, const Film& film, const Channel<Point>& c
           }};
 }
 
+KeyedPart keyed_part(const keys::Key& key, const Channel<glm::dvec3>& channel) {
+  return key.name == "direction" ? direction(channel) : plain(key.name, channel);
+}
+
+template <typename Value>
+KeyedPart keyed_part(const keys::Key& key, const Channel<Value>& channel) {
+  return plain(key.name, channel);
+}
+
+KeyedPart keyed_part(const keys::Key& key, const Film& film, const Channel<Point>& channel) {
+  return point(key.name, film, channel);
+}
+
+template <typename Value>
+KeyedPart keyed_part(const keys::Key& key, const Film&, const Channel<Value>& channel) {
+  return keyed_part(key, channel);
+}
+
+Thing thing_of(std::string name, document::Json& json, std::vector<KeyedPart> parts) {
+  Thing thing{std::move(name), &json, false, {}};
+  for (KeyedPart& part : parts) (part.unset ? thing.unset : thing.parts).push_back(std::move(part));
+  return thing;
+}
+
 Thing camera_of(document::Json& film, const Film& meaning) {
-  const CameraMotion& camera = meaning.camera;
-  std::vector<KeyedPart> parts{point("eye", meaning, camera.eye), point("at", meaning, camera.at),
-                               plain("up", camera.up), plain("fov", camera.fov)};
-  if (meaning.color == wire::ColorSpace::linear) parts.push_back(plain("exposure", camera.exposure));
-  return {"camera", &film.at("camera"), false, std::move(parts)};
+  return thing_of("camera", film.at("camera"), camera_parts(meaning));
 }
 
 // `number` counts from 1.
-Thing light_of(document::Json& json, const LightMotion& light, std::size_t number) {
-  const bool far = light.kind == wire::LightKind::directional;
-  std::vector<KeyedPart> parts{far ? direction(light.vector) : plain("place", light.vector)};
-  if (light.kind == wire::LightKind::spot) {
-    parts.push_back(plain("at", light.at));
-    parts.push_back(plain("cone", light.cone));
-  }
-  if (!light.reach.empty()) parts.push_back(plain("reach", light.reach));
-  parts.push_back(plain("color", light.color));
-  parts.push_back(plain("intensity", light.intensity));
-  return {std::string(kLight) + std::to_string(number), &json, false, std::move(parts)};
+Thing light_of(document::Json& json, const Film& film, std::size_t number) {
+  return thing_of(std::string(kLight) + std::to_string(number), json, light_parts(film.lights[number - 1]));
 }
 
 Thing material_of(document::Json& json, const MaterialMotion& material) {
@@ -129,8 +147,7 @@ Chosen whole(Thing thing) {
 std::vector<Chosen> everything(document::Json& film, const Film& meaning) {
   std::vector<Chosen> all = {whole(camera_of(film, meaning))};
   if (const auto lights = film.find("lights"); lights != film.end())
-    for (std::size_t i = 0; i < lights->size(); ++i)
-      all.push_back(whole(light_of((*lights)[i], meaning.lights[i], i + 1)));
+    for (std::size_t i = 0; i < lights->size(); ++i) all.push_back(whole(light_of((*lights)[i], meaning, i + 1)));
   for (const MaterialMotion& material : meaning.materials)
     all.push_back(whole(material_of(film["materials"][material.name], material)));
   for (std::size_t i = 0; i < meaning.actors.size(); ++i) {
@@ -157,7 +174,7 @@ Thing light_named(document::Json& film, const Film& meaning, const std::string& 
     throw Failure("is no light of the film", "'" + name + "'",
                   lights->empty() ? "it has none: mars film FILM light add"
                                   : "its lights are light/1 to light/" + std::to_string(lights->size()));
-  return light_of((*lights)[*number - 1], meaning.lights[*number - 1], *number);
+  return light_of((*lights)[*number - 1], meaning, *number);
 }
 
 Thing material_named(document::Json& film, const Film& meaning, const std::string& name) {
@@ -206,12 +223,38 @@ std::vector<std::string> parts_that_change(const Thing& thing) {
                 "its parts are: " + document::joined(names) + (more ? " ..." : ""));
 }
 
+const KeyedPart* part_in(const std::vector<KeyedPart>& parts, const std::string& name) {
+  const auto found = std::ranges::find(parts, name, &KeyedPart::name);
+  return found == parts.end() ? nullptr : &*found;
+}
+
+[[noreturn]] void refuse_unset(const Thing& thing, const std::string& part) {
+  throw Failure("has no " + part + " yet", thing.name,
+                "set it: mars animate FILM pose " + thing.name + " " + part + "=NUMBER");
+}
+
 }  // namespace
 
 const KeyedPart& Thing::part(const std::string& wanted) const {
-  const auto found = std::find_if(parts.begin(), parts.end(), [&](const KeyedPart& p) { return p.name == wanted; });
-  check(found != parts.end(), "a thing has the part it was asked for");
+  const KeyedPart* const found = part_in(parts, wanted) ? part_in(parts, wanted) : part_in(unset, wanted);
+  check(found != nullptr, "a thing has the part it was asked for");
   return *found;
+}
+
+bool Thing::can_get(const std::string& wanted) const { return part_in(unset, wanted) != nullptr; }
+
+std::vector<KeyedPart> camera_parts(const Film& film) {
+  std::vector<KeyedPart> parts;
+  for_each_channel(film.camera, film.color,
+                   [&](const keys::Key& key, const auto& channel) { parts.push_back(keyed_part(key, film, channel)); });
+  return parts;
+}
+
+std::vector<KeyedPart> light_parts(const LightMotion& light) {
+  std::vector<KeyedPart> parts;
+  for_each_channel(light,
+                   [&](const keys::Key& key, const auto& channel) { parts.push_back(keyed_part(key, channel)); });
+  return parts;
 }
 
 bool is_pattern(const Thing& thing, const std::string& name) {
@@ -232,8 +275,10 @@ std::vector<std::string> parts_named(const Thing& thing, const std::string& name
   for (const std::string& candidate : {name, "/" + name})
     for (const KeyedPart& part : thing.parts)
       if (part.name == candidate) return {part.name};
+  if (thing.can_get(name)) refuse_unset(thing, name);
   std::vector<std::string> names;
   for (const KeyedPart& part : thing.parts) names.push_back(shown_part(part.name));
+  for (const KeyedPart& part : thing.unset) names.push_back(part.name);
   throw Failure("has no part '" + name + "'", thing.name,
                 document::did_you_mean(name, std::vector<std::string_view>(names.begin(), names.end()),
                                        thing.actor ? "its parts are place, turn and the joints of its model"

@@ -21,6 +21,7 @@ struct KeyedPart {
   // Where a key may hold more than numbers - a point of an actor, what carries an actor -, that; `value_at` is then the
   // place in the world, or null.
   std::function<document::Json(std::uint32_t frame)> held_at{};
+  bool unset = false;  // the thing can have it and does not: its value is then 0, of as many numbers as it would have
 
   // What a key there holds, so that all stays as it is.
   document::Json key_at(std::uint32_t frame) const { return held_at ? held_at(frame) : value_at(frame); }
@@ -30,10 +31,17 @@ struct Thing {
   std::string name;  // for messages: "actor 'robot'", "camera", "light/2", "material/skin"
   document::Json* json;
   bool actor;
-  std::vector<KeyedPart> parts;  // of an actor: place, turn and all joints
+  std::vector<KeyedPart> parts;       // of an actor: place, turn and all joints
+  std::vector<KeyedPart> unset = {};  // such as the reach of a light that does not fall off
 
-  const KeyedPart& part(const std::string& wanted) const;  // which it has
+  const KeyedPart& part(const std::string& wanted) const;  // one of `parts` or `unset`
+  bool can_get(const std::string& wanted) const;           // whether it is one of `unset`
 };
+
+// Those of the keys of the table that may be keyed, in its order, with those that are unset. The film must outlive
+// them.
+std::vector<KeyedPart> camera_parts(const Film& film);
+std::vector<KeyedPart> light_parts(const LightMotion& light);
 
 // Either everything in the film, or an actor, "camera", "light/2" (from 1) or "material/skin", and of it these parts:
 // all if none are named. A joint is named as in its model, or with a slash before it where it is called place or turn;

@@ -1,22 +1,16 @@
 #include "host/content/animator/reading/read_lights.h"
 
 #include <glm/geometric.hpp>
+#include <set>
 
+#include "host/content/animator/pose/keyed_channels.h"
 #include "host/content/animator/reading/read_keys.h"
+#include "host/content/keys/text.h"
 
 namespace mars::animator {
 namespace {
 
-constexpr double kCone = 40;       // degrees
 constexpr double kFullyLit = 0.8;  // of a cone of which one number is given
-
-// Readers of one value, as settle() and add_key() want them.
-double intensity_of(const document::Element& element) {
-  return document::read_number(element, keys::range_of("light", "intensity"));
-}
-double reach_of(const document::Element& element) {
-  return document::read_number(element, keys::range_of("light", "reach"));
-}
 
 glm::dvec3 direction_of(const document::Element& element) {
   const glm::dvec3 direction = document::read_vector(element);
@@ -25,32 +19,55 @@ glm::dvec3 direction_of(const document::Element& element) {
   return direction / length;
 }
 
-glm::dvec2 cone_of(const document::Element& element) {
+glm::dvec2 cone_of(const document::Element& element, const keys::Key& key) {
   if (element.kind() != document::Kind::list) {
-    const double outer = document::read_number(element, keys::range_of("light", "cone"));
+    const double outer = document::read_number(element, key.range);
     return {kFullyLit * outer, outer};
   }
   document::require_size(element, 2);
   auto angle = element.begin();
-  const double inner = document::read_number(*angle, keys::range_of("light", "cone")),
-               outer = document::read_number(*++angle, keys::range_of("light", "cone"));
+  const double inner = document::read_number(*angle, key.range), outer = document::read_number(*++angle, key.range);
   if (inner > outer)
     element.refuse("is " + document::shown(inner) + " degrees wide inside and " + document::shown(outer) + " outside",
                    "write the inner angle first");
   return {inner, outer};
 }
 
-void read_light_keys(const document::Element& list, LightMotion& light, Channel<glm::dvec3>& direction,
-                     Channel<glm::dvec3>& place) {
-  read_keys(list, keys::object("light_key"), [&](const document::Fields& key, std::uint32_t frame, const Ease& ease) {
-    add_key(direction, key, "direction", frame, ease, direction_of);
-    add_key(place, key, "place", frame, ease, place_of);
-    add_key(light.at, key, "at", frame, ease, place_of);
-    add_key(light.cone, key, "cone", frame, ease, cone_of);
-    add_key(light.reach, key, "reach", frame, ease, reach_of);
-    add_key(light.color, key, "color", frame, ease, document::read_color);
-    add_key(light.intensity, key, "intensity", frame, ease, intensity_of);
-  });
+// Readers of a key's value for its channel.
+void read_value(const document::Element& element, const keys::Key& key, double& value) {
+  value = document::read_number(element, key.range);
+}
+void read_value(const document::Element& element, const keys::Key& key, glm::dvec2& value) {
+  value = cone_of(element, key);
+}
+void read_value(const document::Element& element, const keys::Key& key, glm::dvec3& value) {
+  value = key.type == "color"       ? document::read_color(element)
+          : key.name == "direction" ? direction_of(element)
+                                    : place_of(element);
+}
+
+// As settle() and add_key() want it.
+template <typename Value>
+auto reader_of(const keys::Key& key, const Channel<Value>&) {
+  return [&key](const document::Element& element) {
+    Value value{};
+    read_value(element, key, value);
+    return value;
+  };
+}
+
+// Names of what the light has, in itself or in its keys.
+std::set<std::string_view> given_keys(const document::Fields& fields) {
+  std::set<std::string_view> given;
+  const auto add = [&](const document::Fields& object) {
+    for (const keys::Key& key : keys::object("light").keys)
+      if (key.keyed && object.find(key.name)) given.insert(key.name);
+  };
+  add(fields);
+  if (const auto keys = fields.find("keys"))
+    read_keys(*keys, keys::object("light_key"),
+              [&](const document::Fields& key, std::uint32_t, const Ease&) { add(key); });
+  return given;
 }
 
 wire::LightKind kind_of(const document::Element& element, bool direction, bool place, bool at) {
@@ -63,27 +80,48 @@ wire::LightKind kind_of(const document::Element& element, bool direction, bool p
   return direction ? wire::LightKind::directional : at ? wire::LightKind::spot : wire::LightKind::point;
 }
 
+// "point and spot lights have it".
+std::string owners_of(const keys::Object& light, const keys::Key& key) {
+  std::string owners;
+  for (unsigned kind = 0; kind < light.kinds.size(); ++kind)
+    if (key.is_of(kind)) owners += (owners.empty() ? "" : " and ") + std::string(light.kinds[kind].name);
+  return owners + " lights have it";
+}
+
+void refuse_keys_of_others(const document::Element& element, wire::LightKind kind,
+                           const std::set<std::string_view>& given) {
+  const keys::Object& light = keys::object("light");
+  const auto number = static_cast<unsigned>(kind);
+  for (const std::string_view name : given)
+    if (const keys::Key& key = light.key(name); !key.is_of(number))
+      element.refuse("is a " + std::string(light.kinds[number].name) + " light and has a " + std::string(name),
+                     "leave " + std::string(name) + " out: " + owners_of(light, key));
+}
+
+// A channel that no key names; of a key with neither a value nor a default it stays empty.
+template <typename Value>
+void settle_by_table(Channel<Value>& channel, const document::Fields& fields, const keys::Key& key) {
+  const auto read = reader_of(key, channel);
+  if (fields.find(key.name)) return settle(channel, fields, key.name, Value{}, read);
+  if (!channel.empty() || (!key.number && key.json.empty())) return;
+  const document::Document otherwise(keys::default_of(key), "");
+  channel = constant(read(otherwise.root()));
+}
+
 LightMotion read_light(const document::Element& element) {
   const document::Fields fields(element, keys::object("light"));
+  const std::set<std::string_view> given = given_keys(fields);
   LightMotion light;
-  Channel<glm::dvec3> direction, place;
-  if (const auto keys = fields.find("keys")) read_light_keys(*keys, light, direction, place);
-  const auto has = [&](const auto& channel, std::string_view key) { return !channel.empty() || fields.find(key); };
-  light.kind = kind_of(element, has(direction, "direction"), has(place, "place"), has(light.at, "at"));
-  if (light.kind != wire::LightKind::spot && has(light.cone, "cone"))
-    element.refuse("has a cone, but no point at which it shines", "make a spot of it: give place and at");
-  if (light.kind == wire::LightKind::directional && has(light.reach, "reach"))
-    element.refuse("has a direction, so it is far away, and a reach", "leave reach out, or give its place instead");
-  settle(direction, fields, "direction", {}, direction_of);
-  settle(place, fields, "place", {}, place_of);
-  light.vector = light.kind == wire::LightKind::directional ? direction : place;
-  if (light.kind == wire::LightKind::spot) {
-    settle(light.at, fields, "at", {}, place_of);
-    settle(light.cone, fields, "cone", {kFullyLit * kCone, kCone}, cone_of);
-  }
-  if (has(light.reach, "reach")) settle(light.reach, fields, "reach", {}, reach_of);
-  settle(light.color, fields, "color", {1, 1, 1}, document::read_color);
-  settle(light.intensity, fields, "intensity", fields.key("intensity").number.value(), intensity_of);
+  light.kind = kind_of(element, given.contains("direction"), given.contains("place"), given.contains("at"));
+  refuse_keys_of_others(element, light.kind, given);
+  if (const auto keys = fields.find("keys"))
+    read_keys(*keys, keys::object("light_key"),
+              [&](const document::Fields& at_frame, std::uint32_t frame, const Ease& ease) {
+                for_each_channel(light, [&](const keys::Key& key, auto& channel) {
+                  add_key(channel, at_frame, key.name, frame, ease, reader_of(key, channel));
+                });
+              });
+  for_each_channel(light, [&](const keys::Key& key, auto& channel) { settle_by_table(channel, fields, key); });
   return light;
 }
 

@@ -17,6 +17,7 @@ namespace {
 using document::Json;
 
 constexpr std::string_view kBelowSettings[] = {"camera", "lights", "materials", "models", "actors"};
+constexpr std::string_view kBelowCameraSettings[] = {"keys"};
 constexpr std::string_view kBelowAmbient[] = {"lights", "materials", "models", "actors"};
 constexpr std::string_view kBelowLights[] = {"materials", "models", "actors"};
 constexpr std::string_view kBelowMaterials[] = {"models", "actors"};
@@ -80,6 +81,13 @@ void take_off(Json& actor, const std::string& material) {
   left.empty() ? void(actor.erase("materials")) : void(actor["materials"] = std::move(left));
 }
 
+void put_settings(Json& json, TypedFields settings, const keys::Object& object,
+                  std::span<const std::string_view> below) {
+  Json values = Json::object();
+  set_fields(values, settings, object.typed_names(), "a " + std::string(object.name));
+  for (const auto& [key, value] : values.items()) put_before(json, key, value, below);
+}
+
 }  // namespace
 
 Json new_film() {
@@ -92,10 +100,10 @@ Json new_film() {
           {"models", Json::object()}};
 }
 
-void set_film(Json& film, TypedFields settings) {
-  Json values = Json::object();
-  set_fields(values, settings, keys::object("film").typed_names(), "a film");
-  for (const auto& [key, value] : values.items()) put_before(film, key, value, kBelowSettings);
+void set_film(Json& film, TypedFields settings) { put_settings(film, settings, keys::object("film"), kBelowSettings); }
+
+void set_camera(Json& film, TypedFields settings) {
+  put_settings(film.at("camera"), settings, keys::object("camera"), kBelowCameraSettings);
 }
 
 void write_rig(Json& film, const Film& meaning) {

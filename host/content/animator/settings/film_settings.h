@@ -1,5 +1,5 @@
-// A film's settings, lights and materials, as people type them: KEY=VALUE. As values: `film` is the JSON of what
-// read_film accepts, and made `meaning` of; it also checks the result.
+// A film's settings, camera, lights and materials, as people type them: KEY=VALUE. As values: `film` is the JSON of
+// what read_film accepts, and made `meaning` of; it also checks the result.
 #pragma once
 
 #include <cstddef>
@@ -20,6 +20,8 @@ using TypedFields = std::span<const std::string>;
 
 // "frames=120", "size=640,360".
 void set_film(document::Json& film, TypedFields settings);
+// "near=0.5": what the camera has at all frames.
+void set_camera(document::Json& film, TypedFields settings);
 
 // The lights of a film without any, and their ambient light, become its own.
 void write_rig(document::Json& film, const Film& meaning);

@@ -42,9 +42,9 @@ export class ScenePanel {
   // What decides which controls there are.
   #shape() {
     const {project, selected} = this.state;
-    return [selected.actor, selected.thing, Boolean(project.camera), project.actors.map(({name, place}) => [name, Boolean(place)]),
+    return [selected.actor, selected.thing, Boolean(project.camera), project.settings.color, project.actors.map(({name, place}) => [name, Boolean(place)]),
             project.library, (project.lights ?? []).map(({thing, kind}) => [thing, kind]),
-            (project.materials ?? []).map(({name}) => name), Boolean(project.background)];
+            (project.materials ?? []).map(({name}) => name)];
   }
 
   // What is selected comes first.

@@ -87,6 +87,23 @@ TEST_F(Poses, OfLightsAndMaterials) {
   EXPECT_NE(failure("light/2", {"intensity=3000"}, {24, 24}).find("from 0 to 1000"), std::string::npos);
 }
 
+// A light without a reach has the same brightness at all distances, which no number says: no key is made before.
+TEST_F(Poses, GiveALightWhatItDoesNotHaveYet) {
+  EXPECT_NE(failure("light/2", {"reach+=2"}, {24, 24}).find("has no reach yet"), std::string::npos);
+  EXPECT_NE(failure("light/2", {"reech=2"}, {24, 24}).find("did you mean 'reach'?"), std::string::npos);
+  EXPECT_NE(failure("light/1", {"reach=2"}, {24, 24}).find("direction, color, intensity"), std::string::npos);
+  read();
+  EXPECT_NE(document::failure_of([&] {
+              choose(json_, film_, {false, "light/2", {"reach"}});
+            }).find("no reach yet"),
+            std::string::npos);
+  pose("light/2", {"reach=5"}, {24, 24});
+  EXPECT_EQ(json_["lights"][1]["keys"], document::Json::parse(R"([{"frame": 24, "reach": 5}])"));
+  EXPECT_EQ(film_.lights[1].reach.size(), 1u);
+  pose("light/2", {"reach+=2"}, {30, 30});
+  EXPECT_EQ(json_["lights"][1]["keys"][1]["reach"], 7);
+}
+
 TEST_F(Poses, NameLightsAndMaterialsThatThereAre) {
   EXPECT_NE(failure("light/3", {"intensity=3"}, {0, 0}).find("light/1 to light/2"), std::string::npos);
   EXPECT_NE(failure("light/1", {"cone=3,4"}, {0, 0}).find("direction, color, intensity"), std::string::npos);

@@ -164,7 +164,7 @@ TEST(Lighting, RefusesLightsThatMakeNoSense) {
   const auto refused = [](const std::string& light) { return refusal(lit(light)); };
   EXPECT_TRUE(document::holds(refused(R"("direction": [0, 0, 1], "at": [0, 0, 0])"), "for a spot give place and at"));
   EXPECT_TRUE(document::holds(refused(R"("at": [0, 0, 0])"), "neither a direction nor a place"));
-  EXPECT_TRUE(document::holds(refused(R"("place": [0, 0, 1], "cone": 30)"), "has a cone, but no point"));
+  EXPECT_TRUE(document::holds(refused(R"("place": [0, 0, 1], "cone": 30)"), "is a point light and has a cone"));
   EXPECT_TRUE(document::holds(refused(R"("direction": [0, 0, 1], "reach": 3)"), "leave reach out"));
   EXPECT_TRUE(document::holds(refused(R"("place": [0, 0, 1], "reach": 0)"), "from 1e-06"));
   EXPECT_TRUE(document::holds(refused(R"("place": [0, 0, 1], "at": [0, 0, 0], "cone": [40, 30])"),

@@ -41,6 +41,22 @@ TEST(Keys, SayWhatTheyMeanAndWhatHoldsWithoutThem) {
   });
 }
 
+TEST(Keys, AreOfKindsThatTheirObjectHas) {
+  for_each_key([](const Object& object, const Key& key, const std::string& name) {
+    if (key.of == kEveryKind || object.name.ends_with("_key")) return;
+    EXPECT_NE(key.of, 0u) << name;
+    EXPECT_EQ(key.of >> object.kinds.size(), 0u) << name;
+  });
+}
+
+// A light of each kind begins with keys that it has.
+TEST(Kinds, BeginWithTheirKeys) {
+  const Object& light = object("light");
+  for (unsigned kind = 0; kind < light.kinds.size(); ++kind)
+    for (const std::string_view word : light.kinds[kind].begins_with)
+      EXPECT_TRUE(light.key(word.substr(0, word.find('='))).is_of(kind)) << word;
+}
+
 TEST(Keys, HaveDefaultsWithinTheirRanges) {
   for_each_key([](const Object&, const Key& key, const std::string& name) {
     if (!key.number) return;

@@ -1,5 +1,6 @@
 // A number of a material that is planted in the table and in the struct alone (CMakeLists.txt) is there for all: it is
-// read, refused with its range, and stands in help, schemas, tables of docs and the studio's fields.
+// read, refused with its range, and stands in help, schemas, tables of docs and the studio's fields. So are keys of
+// lights and of films that are planted in the table, but for their readers.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -44,6 +45,34 @@ TEST(PlantedKey, StandsInHelpSchemasDocsAndThePage) {
   EXPECT_TRUE(film_schema()["$defs"]["material_key"]["properties"].contains("sheen"));
   EXPECT_EQ(model_schema({})["$defs"]["material"]["properties"]["sheen"]["default"], 0.25);
   EXPECT_EQ(keys_of_pages()["material"]["sheen"]["slider"], nlohmann::ordered_json({0, 1}));
+}
+
+TEST(PlantedKey, OfALightIsThePagesWithTheKindsThatHaveIt) {
+  const nlohmann::ordered_json keys = keys_of_pages();
+  EXPECT_EQ(keys["light"]["softness"], nlohmann::ordered_json::parse(R"({"type": "number",
+      "meaning": "how soft the edge of its cone is", "least": 0.0, "most": 1.0, "default": 0.5, "keyed": true,
+      "of": ["spot"]})"));
+  EXPECT_TRUE(film_schema()["$defs"]["light_key"]["properties"].contains("softness"));
+  EXPECT_NE(names_of(object("light")).find("softness"), std::string::npos);
+  EXPECT_EQ(keys["kinds"]["light"][2], nlohmann::ordered_json::parse(R"({"name": "spot", "label": "Spot",
+      "begins_with": ["place=0,-4,5", "at=0,0,1"]})"));
+}
+
+TEST(PlantedKey, OfAFilmIsThePages) {
+  EXPECT_EQ(keys_of_pages()["film"]["grain"],
+            nlohmann::ordered_json::parse(R"({"type": "number", "meaning": "noise of the picture", "least": 0.0,
+                "most": 1.0, "default": 0.0, "rare": true})"));
+}
+
+// What a type's values are comes with it.
+TEST(PagesKeys, HaveChoicesAndPartsOfTheirTypes) {
+  const nlohmann::ordered_json keys = keys_of_pages();
+  EXPECT_EQ(keys["film"]["samples"]["choices"], nlohmann::ordered_json({1, 2, 4, 8, 16}));
+  EXPECT_EQ(keys["film"]["size"]["parts"], nlohmann::ordered_json({"width", "height"}));
+  EXPECT_EQ(keys["light"]["cone"]["most"], 180);
+  EXPECT_EQ(keys["light"]["reach"]["of"], nlohmann::ordered_json({"point", "spot"}));
+  EXPECT_EQ(keys["light"]["reach"]["without"], "the same at all distances");
+  EXPECT_EQ(keys["camera"]["exposure"]["of"], nlohmann::ordered_json({"linear"}));
 }
 
 }  // namespace

@@ -477,6 +477,67 @@ class Films(Page):
         self.find('[data-key="camera.fov"]').send_keys(Keys.ARROW_UP, Keys.ENTER)
         self.commit("animate pose camera fov=41 --frame 24")
 
+    def scene(self):
+        """The tab, with all that is shut at first."""
+        self.find("[role=tab]:nth-child(3)").click()
+        self.js("for (const each of document.querySelectorAll('.more')) each.open = true")
+
+    def write(self, key, text):
+        self.find(f'[data-key="{key}"]').send_keys(Keys.CONTROL, "a", Keys.NULL, text, Keys.ENTER)
+
+    def choose(self, key, value):
+        self.js("""const field = document.querySelector(arguments[0]);
+                   field.value = arguments[1];
+                   field.dispatchEvent(new Event("change"));""", f'[data-key="{key}"]', value)
+
+    def keys_shown(self, of):
+        return self.js(f"return [...document.querySelectorAll('[data-key^=\"{of}.\"]')].map((each) => each.dataset.key.split('.')[1])")
+
+    def test_a_light_has_a_field_for_each_of_its_keys(self):
+        self.scene()
+        self.find('[data-key="light/2"]').click()
+        keys = projects.keys()["light"]
+        fields = lambda: list(dict.fromkeys(name for name in self.keys_shown("light") if name in keys))  # noqa: E731
+        self.until(fields, [name for name, key in keys.items() if "spot" in key.get("of", ["spot"])])
+        reach = self.find('[data-key="light.reach"]')
+        self.assertEqual([reach.get_attribute("value"), reach.get_attribute("placeholder")], ["", "the same at all distances"])
+        for key, text, posed in (("reach", "5", "reach=5"), ("cone.inner", "20", "cone=20,40"), ("at.z", "2", "at=0,0,2"),
+                                 ("softness", "0.75", "softness=0.75")):
+            self.write(f"light.{key}", text)
+            self.commit(f"animate pose light/2 {posed} --frame 24")
+        self.find('[data-key="light/1"]').click()
+        self.until(fields, ["direction", "color", "intensity"])
+        self.find('[data-key="light.add.spot"]').click()
+        self.commit("film light add place=0,-4,5 at=0,0,1")
+
+    def test_camera_and_film_have_fields_for_their_keys(self):
+        self.scene()
+        keys = projects.keys()
+        self.assertLessEqual(set(keys["camera"]), set(self.keys_shown("camera")))
+        self.assertLessEqual(set(keys["film"]), set(self.keys_shown("film")))
+        for key, text, words in (("camera.exposure", "1.5", "animate pose camera exposure=1.5 --frame 24"),
+                                 ("camera.up.y", "1", "animate pose camera up=0,1,1 --frame 24"),
+                                 ("camera.near", "0.5", "film camera near=0.5"),
+                                 ("film.rate", "23.976", "film set rate=23.976"),
+                                 ("film.size.height", "600", "film set size=960,600"),
+                                 ("film.dice", "8", "film set dice=8"),
+                                 ("film.grain", "0.25", "film set grain=0.25")):
+            self.write(key, text)
+            self.commit(words)
+        self.choose("film.samples", "16")
+        self.commit("film set samples=16")
+        self.choose("film.curve", "none")
+        self.commit("film set curve=none")
+        self.assertIn("frames per second", self.find(".line:has([data-key='film.rate'])").get_attribute("title").lower())
+
+    def test_what_is_seldom_needed_is_shut_at_first(self):
+        self.find("[role=tab]:nth-child(3)").click()
+        self.assertEqual(self.js("""const near = document.querySelector('[data-key="camera.near"]');
+                                    return near.closest('details:not([open])').querySelector('summary').dataset.key;"""), "more Camera")
+        self.find('[data-key="more Camera"]').click()
+        self.write("camera.near", "0.5")
+        self.commit("film camera near=0.5")
+
     def test_a_rendering_is_started_shown_and_stopped(self):
         self.chord(Keys.F9)
         self.until(lambda: self.find("#rendering").is_displayed())

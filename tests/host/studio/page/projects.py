@@ -49,14 +49,40 @@ def materials():
 def key(schema):
     bounds = {ours: schema[theirs] for ours, theirs in (("least", "minimum"), ("most", "maximum")) if theirs in schema}
     choices = {"choices": schema["enum"]} if "enum" in schema else {}
-    return bounds | choices | {"default": schema.get("default"), "meaning": schema["description"]}
+    plain = "whole" if schema.get("type") == "integer" else schema.get("type")
+    return bounds | choices | {"type": schema["$ref"].split("/")[-1] if "$ref" in schema else plain, "meaning": schema["description"]} | {
+        name: schema[name] for name in ("default",) if name in schema}
+
+
+# What schemas do not say, and keys that they do not have.
+OF = {"direction": ["directional"], "place": ["point", "spot"], "at": ["spot"], "cone": ["spot"], "reach": ["point", "spot"],
+      "softness": ["spot"]}
+NOT_TYPED = {"film": ["version", "fog", "camera", "lights", "materials", "models", "actors"]}
+PLANTED = {"light": {"softness": {"type": "number", "meaning": "how soft its edge is", "least": 0, "most": 1, "default": 0.5, "keyed": True}},
+           "film": {"grain": {"type": "number", "meaning": "noise of the picture", "least": 0, "most": 1, "default": 0, "rare": True}}}
 
 
 def keys():
-    """As the studio makes them of the table of keys: by the schemas, which come from it too."""
+    """As the studio makes them of the table of keys: by the schemas, which come from it too; and keys that are planted."""
     schema = json.loads((SOURCES / "docs/schema/film.schema.json").read_text())
     known = {"film": schema, "camera": schema["$defs"]["camera"], "light": schema["$defs"]["light"], "material": schema["$defs"]["film_material"]}
-    keys = {thing: {name: key(each) for name, each in of["properties"].items()} for thing, of in known.items()}
+    keys = {thing: {name: key(each) for name, each in of["properties"].items() if name not in NOT_TYPED.get(thing, ["keys"])}
+            for thing, of in known.items()}
+    for thing in ("camera", "light"):
+        for name in keys[thing]:
+            if name in schema["$defs"][f"{thing}_key"]["properties"]:
+                keys[thing][name]["keyed"] = True
+    for thing, planted in PLANTED.items():
+        keys[thing] |= planted
+    for name, kinds in OF.items():
+        keys["light"][name]["of"] = kinds
+    keys["light"]["reach"]["without"] = "the same at all distances"
+    keys["light"]["cone"]["parts"], keys["film"]["size"]["parts"] = ["inner", "outer"], ["width", "height"]
+    keys["film"]["samples"]["choices"] = schema["$defs"]["samples"]["enum"]
+    keys["camera"]["near"]["rare"] = True
+    keys["kinds"] = {"light": [{"name": name, "label": label, "begins_with": words} for name, label, words in
+                               (("directional", "Sun", ["direction=1,-1,2"]), ("point", "Bulb", ["place=0,-3,4"]),
+                                ("spot", "Spot", ["place=0,-4,5", "at=0,0,1"]))]}
     for name in ("ambient", "diffuse", "specular", "exponent"):
         keys["material"][name] |= {"slider": [0, 2], "of": ["phong", "blinn-phong"]}
     return keys
@@ -81,4 +107,10 @@ def film():
                "joints": joints(keyed=("left-thigh", "right-thigh", "head"))} for name, x in (("walker", 0), ("watcher", 2))]
     return {key: value for key, value in model().items() if key not in ("shapes", "bodies", "limbs")} | {"kind": "film", "file": "examples/demo.json", "frames": 120, "frame": 24, "actors": actors,
                       "materials": [{"name": each["name"], "color": each["color"]} for each in materials()],
-                      "camera": {"eye": [6, -4, 3], "at": [0, 0, 2], "fov": 40}}
+                      "camera": {"eye": [6, -4, 3], "at": [0, 0, 2], "up": [0, 0, 1], "fov": 40, "exposure": 0, "near": 0.1, "far": 10000},
+                      "lights": [{"thing": "light/1", "kind": "directional", "direction": [0, 0, 1], "color": [1, 1, 1], "intensity": 1, "keyed": []},
+                                 {"thing": "light/2", "kind": "spot", "place": [0, -4, 5], "at": [0, 0, 1], "cone": [32, 40], "softness": 0.25,
+                                  "color": [1, 1, 1], "intensity": 1, "keyed": []}],
+                      "settings": {"frames": 120, "rate": 24, "size": [960, 540], "samples": 4, "color": "linear", "curve": "filmic",
+                                   "background": [0, 0, 0], "ambient": {"sky": [1, 1, 1], "ground": [0.7, 0.7, 0.6]}, "intervals": "auto",
+                                   "dice": "adaptive", "grain": 0}}

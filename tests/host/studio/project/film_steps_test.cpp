@@ -116,6 +116,39 @@ TEST_F(FilmSteps, LightsAreSetAsTheCommandSetsThem) {
   }
 }
 
+TEST_F(FilmSteps, CameraLightsAndSettingsHaveTheKeysOfTheTable) {
+  Json film = Json::parse(kFilm);
+  film["lights"] = Json::parse(R"([{"place": [4, 0, 4], "at": [4, 0, 1]}])");
+  film["samples"] = 8;
+  film["camera"]["near"] = 0.25;
+  write("film.json", document::laid_out(film));
+  const auto project = open("film.json");
+  const auto names = [](const Json& described) {
+    std::vector<std::string> names;
+    for (const auto& item : described.items()) names.push_back(item.key());
+    return names;
+  };
+  using Names = std::vector<std::string>;
+  const Json light = project->describe()["lights"][0];
+  EXPECT_EQ(names(light), (Names{"thing", "kind", "place", "at", "cone", "color", "intensity", "keyed"}));
+  EXPECT_EQ(light["cone"], Json::parse("[32, 40]"));
+  const Json camera = project->describe()["camera"];
+  for (const char* name : {"eye", "at", "up", "fov", "exposure", "near", "far"})
+    EXPECT_TRUE(camera.contains(name)) << name;
+  EXPECT_EQ(camera["near"], 0.25);
+  EXPECT_EQ(camera["far"], 10000);
+  const Json settings = project->describe()["settings"];
+  EXPECT_EQ(names(settings),
+            (Names{"frames", "rate", "size", "samples", "color", "curve", "background", "intervals", "dice"}));
+  EXPECT_EQ(settings["samples"], 8);
+  EXPECT_EQ(settings["dice"], "adaptive");
+  project->commit(pose("light/1", "reach=5", 8));
+  EXPECT_EQ(project->describe()["lights"][0]["reach"], 5);
+  project->commit(step_of({{"film", "set", "color=coded"}}));
+  EXPECT_FALSE(project->describe()["camera"].contains("exposure"));
+  EXPECT_FALSE(project->describe()["settings"].contains("curve"));
+}
+
 TEST_F(FilmSteps, RigLightsAreNoThings) {
   const auto project = open("film.json");
   EXPECT_TRUE(project->rig_lights());

@@ -1,17 +1,15 @@
-// A film's camera: where it is, where it looks, and whom it looks at or goes along with.
+// A film's camera: its keys of the table, and whom it looks at or goes along with.
 
 import {choice, line, part} from "../../fields.js";
-import {rangeOf, targetOf} from "./controls.js";
+import {targetOf} from "./controls.js";
+import {keyFields} from "./key_fields.js";
 
 export function cameraPart(controls) {
   const now = () => controls.project.camera;
   if (!now()) return null;
-  const vector = (label, member) => controls.vector(label, `Camera, ${label.toLowerCase()}`, `camera.${member}`, 0.1,
-                                                    (value) => controls.posed("camera", `${member}=${value.join(",")}`), () => now()?.[member]);
-  const angle = {name: "Camera, view angle", unit: "°", ...rangeOf(controls.project.keys.camera.fov), step: 1, key: "camera.fov"};
-  return part("Camera", vector("Eye", "eye"), vector("Looks at", "at"),
-              controls.number("View angle", angle, (fov) => controls.posed("camera", `fov=${fov}`), () => now()?.fov),
-              bound(controls, "Look at", "look"), bound(controls, "Go along", "follow"));
+  const words = (name, {keyed}, text) => keyed ? controls.posed("camera", `${name}=${text}`) : ["film", "camera", `${name}=${text}`];
+  const [usual, rare] = keyFields(controls, {of: "camera", kind: controls.project.settings.color, now, words});
+  return part("Camera", usual, bound(controls, "Look at", "look"), bound(controls, "Go along", "follow"), rare);
 }
 
 // `word`: of the command, and of what the project says.

@@ -1,16 +1,13 @@
 // Controls of a film's scene: each shows a value of the project and changes it by a step, most by one command.
 
 import {element} from "../../dom.js";
-import {colorField, line, numberField, vectorField} from "../../fields.js";
+import {colorField, line, vectorField} from "../../fields.js";
 import {written} from "../../numbers.js";
 
 export const joined = (numbers) => numbers.map((number) => written(number, 4)).join(",");
 
 // {actor, joint} as commands name it; null: nobody.
 export const targetOf = (bound) => bound ? [bound.actor, bound.joint].filter(Boolean).join("/") : null;
-
-// The bounds of a field, as the table of keys has them.
-export const rangeOf = ({least, most}) => ({least, most});
 
 export class Controls {
   #fields = [];
@@ -55,10 +52,6 @@ export class Controls {
 
   vector(label, name, key, step, stepOf, of) {
     return line(label, this.field(vectorField({name, key, step, ...this.gestures(stepOf)}), of));
-  }
-
-  number(label, {name = label, ...options}, stepOf, of) {
-    return line(label, this.field(numberField({name, ...options, ...this.gestures(stepOf)}), of));
   }
 
   color(label, name, key, stepOf, of) {

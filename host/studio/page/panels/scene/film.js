@@ -1,8 +1,9 @@
-// A film's materials, whose colours are keyed, and its settings.
+// A film's materials, whose colours are keyed, and its settings, the keys of the table.
 
 import {element} from "../../dom.js";
-import {line, numberField, part} from "../../fields.js";
-import {joined, rangeOf} from "./controls.js";
+import {part} from "../../fields.js";
+import {joined} from "./controls.js";
+import {keyFields} from "./key_fields.js";
 
 export function materialsPart(controls) {
   const materials = controls.project.materials ?? [];
@@ -14,15 +15,6 @@ export function materialsPart(controls) {
 }
 
 export function filmPart(controls) {
-  const set = (text) => ["film", "set", text];
-  const number = (label, key) => controls.number(label, {key: `film.${key}`, step: 1, ...rangeOf(controls.project.keys.film[key]), digits: 0},
-                                                 (value) => set(`${key}=${value}`), () => controls.project[key]);
-  const side = (name, at) => controls.field(numberField({
-    name, key: `film.size${at}`, least: 16, step: 10, digits: 0,
-    ...controls.gestures((value) => set(`size=${controls.project.size.map((each, i) => i === at ? value : each).join(",")}`)),
-  }), () => controls.project.size[at]);
-  const background = controls.project.background &&
-    controls.color("Background", "Background", "film.background", (value) => set(`background=${joined(value)}`), () => controls.project.background);
-  return part("Film", number("Frames", "frames"), number("Rate", "rate"),
-              line("Size", element("div", {class: "several"}, side("Width", 0), side("Height", 1))), background);
+  const now = () => controls.project.settings;
+  return part("Film", keyFields(controls, {of: "film", kind: now().color, now, words: (name, _, text) => ["film", "set", `${name}=${text}`]}));
 }
