@@ -5,8 +5,8 @@
 #include "host/content/animator/settings/film_settings.h"
 #include "host/content/animator/listing/film_summary.h"
 #include "host/content/document/text.h"
-#include "host/content/keys/text.h"
 #include "host/content/modeler/figure_library.h"
+#include "host/editing/key_words.h"
 #include "host/editing/words.h"
 #include "host/cli/wrapped.h"
 
@@ -54,7 +54,7 @@ std::string model_of(const Words& words, const Json& film) {
 
 void run_new(const Words& words) {
   Json film = animator::new_film();
-  animator::set_film(film, words.fields);
+  animator::set_film(film, values_of(words.fields, keys::object("film")));
   if (!words.model.empty()) animator::add_actor(film, {words.model, words.model});
   words.film.create(film);
 }
@@ -74,7 +74,8 @@ void run_rename(const Words& words) {
 }
 
 void run_set(const Words& words) {
-  words.film.change([&](Json& film, const Meaning&) { animator::set_film(film, words.fields); });
+  words.film.change(
+      [&](Json& film, const Meaning&) { animator::set_film(film, values_of(words.fields, keys::object("film"))); });
 }
 
 void run_show(const Words& words) {
@@ -87,7 +88,7 @@ void run_light_add(const Words& words) {
   std::size_t number = 0;
   words.film.change([&](Json& film, const Meaning& meaning) {
     own = film.contains("lights");
-    number = animator::add_light(film, meaning, words.fields);
+    number = animator::add_light(film, meaning, values_of(words.fields, keys::object("light")));
   });
   words.film.print(
       "light/" + std::to_string(number) +
@@ -103,12 +104,14 @@ void run_light_rig(const Words& words) { words.film.change(animator::write_rig);
 
 void run_material_add(const Words& words) {
   words.film.change([&](Json& film, const Meaning& meaning) {
-    animator::add_material(film, meaning, words.name, words.fields, words.other);
+    animator::add_material(film, meaning, words.name, values_of(words.fields, keys::object("material")), words.other);
   });
 }
 
 void run_material_set(const Words& words) {
-  words.film.change([&](Json& film, const Meaning&) { animator::set_material(film, words.name, words.fields); });
+  words.film.change([&](Json& film, const Meaning&) {
+    animator::set_material(film, words.name, values_of(words.fields, keys::object("material")));
+  });
 }
 
 void run_material_remove(const Words& words) {
@@ -123,14 +126,8 @@ cli::Command add_command(cli::Command film, const std::shared_ptr<Words>& words,
   return command;
 }
 
-// What KEY may be, by the table of keys.
 cli::Option add_fields(cli::Command command, Words& words, std::string_view object, const std::string& example) {
-  const keys::Object& described = keys::object(object);
-  return command
-      .add("KEY=VALUE", words.fields,
-           keys::names_of(described) + "; `mars keys " + std::string(object) +
-               "` says what each is. Example: " + example)
-      .offers(keys::typed_forms(described));
+  return add_key_values(command, keys::object(object), words.fields, example);
 }
 
 void add_actor_options(cli::Command command, Words& words) {
@@ -146,9 +143,9 @@ void add_actor_options(cli::Command command, Words& words) {
            "How it is turned: degrees about the upward axis, or about x, y and z. Example: --turn 90")
       .words(1, 3)
       .type("DEGREES");
-  command.add("--height", words.height, "How high it is at rest, if it is of the library. Example: --height 4.6")
-      .type("LENGTH")
-      .range(1e-6, 1e6);
+  limit(command.add("--height", words.height, "How high it is at rest, if it is of the library. Example: --height 4.6")
+            .type("LENGTH"),
+        keys::object("proportions").key("height"));
   command.checks([&words] {
     if (words.turn.size() == 2) throw cli::UsageError("--turn", "give one angle, or three");
   });

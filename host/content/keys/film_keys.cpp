@@ -1,4 +1,5 @@
 #include "host/content/keys/objects.h"
+#include "node/wire/film_parts.h"
 
 namespace mars::keys {
 namespace {
@@ -55,7 +56,7 @@ Object film() {
        {.name = "frames",
         .type = "whole",
         .meaning = "number of frames",
-        .range = {1, 1000000},
+        .range = {1, wire::kMostFrames},
         .required = true,
         .example = "48"},
        {.name = "rate", .meaning = "frames per second", .number = 24, .range = {0.001, 1000}},
@@ -243,9 +244,13 @@ Object fog() {
   return {"fog",
           "Surfaces take on its colour evenly from start to end, distances along the camera's view.",
           {{.name = "color", .type = "color", .meaning = "its colour", .without = "the background's"},
-           {.name = "start", .meaning = "where it begins", .number = 0, .range = {0, kFarthest}, .example = "10"},
+           {.name = "start",
+            .meaning = "distance at which it begins",
+            .number = 0,
+            .range = {0, kFarthest},
+            .example = "10"},
            {.name = "end",
-            .meaning = "where nothing else is seen, beyond start",
+            .meaning = "distance from which nothing else is seen, beyond start",
             .range = {0, kFarthest},
             .required = true,
             .example = "100"}}};

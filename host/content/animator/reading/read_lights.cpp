@@ -7,7 +7,6 @@
 namespace mars::animator {
 namespace {
 
-constexpr double kCone = 40;       // degrees
 constexpr double kFullyLit = 0.8;  // of a cone of which one number is given
 
 // Readers of one value, as settle() and add_key() want them.
@@ -74,16 +73,18 @@ LightMotion read_light(const document::Element& element) {
     element.refuse("has a cone, but no point at which it shines", "make a spot of it: give place and at");
   if (light.kind == wire::LightKind::directional && has(light.reach, "reach"))
     element.refuse("has a direction, so it is far away, and a reach", "leave reach out, or give its place instead");
-  settle(direction, fields, "direction", {}, direction_of);
-  settle(place, fields, "place", {}, place_of);
+  if (light.kind == wire::LightKind::directional)
+    settle(direction, fields, "direction", direction_of);
+  else
+    settle(place, fields, "place", place_of);
   light.vector = light.kind == wire::LightKind::directional ? direction : place;
   if (light.kind == wire::LightKind::spot) {
-    settle(light.at, fields, "at", {}, place_of);
-    settle(light.cone, fields, "cone", {kFullyLit * kCone, kCone}, cone_of);
+    settle(light.at, fields, "at", place_of);
+    settle(light.cone, fields, "cone", cone_of);
   }
-  if (has(light.reach, "reach")) settle(light.reach, fields, "reach", {}, reach_of);
-  settle(light.color, fields, "color", {1, 1, 1}, document::read_color);
-  settle(light.intensity, fields, "intensity", fields.key("intensity").number.value(), intensity_of);
+  if (has(light.reach, "reach")) settle(light.reach, fields, "reach", reach_of);
+  settle(light.color, fields, "color", document::read_color);
+  settle(light.intensity, fields, "intensity", intensity_of);
   return light;
 }
 
@@ -110,7 +111,8 @@ Ambient read_ambient(const document::Element& element) {
 
 Fog read_fog(const document::Element& element, const glm::dvec3& background) {
   const document::Fields fields(element, keys::object("fog"));
-  const Fog fog{fields.color("color", background), fields.number("start"),
+  const auto color = fields.find("color");
+  const Fog fog{color ? document::read_color(*color) : background, fields.number("start"),
                 document::read_number(fields.required("end"), fields.key("end"))};
   if (fog.end <= fog.start)
     element.refuse("ends at " + document::shown(fog.end) + ", not beyond its start " + document::shown(fog.start),

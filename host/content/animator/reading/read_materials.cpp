@@ -27,10 +27,9 @@ MaterialMotion read_material(const document::Element& element) {
                   add_key(material.numbers[i], key, kMaterialNumbers[i].key.name, frame, ease,
                           reader_of(kMaterialNumbers[i]));
               });
-  settle(material.color, fields, "color", {0.8, 0.8, 0.8}, document::read_color);
+  settle(material.color, fields, "color", document::read_color);
   for (std::size_t i = 0; i < kMaterialNumbers.size(); ++i)
-    settle(material.numbers[i], fields, kMaterialNumbers[i].key.name, kMaterialNumbers[i].key.number.value(),
-           reader_of(kMaterialNumbers[i]));
+    settle(material.numbers[i], fields, kMaterialNumbers[i].key.name, reader_of(kMaterialNumbers[i]));
   return material;
 }
 
