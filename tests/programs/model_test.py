@@ -157,7 +157,7 @@ class Model(ProgramTest):
                 (["dog.json", "add", "--place", 0, 0, 0, "--material", "fur"], "no joint is named"),
                 (["dog.json", "add", "tail", "--color", 1, 0, 0], "no material is named"),
                 (["dog.json", "add", "--material", "fur", "--color", 1, 0, 0], "material 'fur': is in the model already"),
-                (["dog.json", "set", "leg", "--color", 1, 0, 0, "--material", "fur", "--limits", "y", 5, 1], "lower one first"),
+                (["dog.json", "set", "leg", "--color", 1, 0, 0, "--material", "fur", "--limits", "y", 5, 1], "write the lower first"),
                 (["dog.json", "set", "lge", "--fixed"], "did you mean 'leg'?"),
                 (["dog.json", "set", "leg", "--parent", "paw"], "own ancestor"),
                 (["dog.json", "set", "leg", "--y-axis", 2, 0, 0], "parallel x and y axes"),

@@ -39,14 +39,10 @@ document::Json* find_joint(document::Json& model, const std::string& name) {
   return nullptr;
 }
 
-[[noreturn]] void no_such_joint(document::Json& model, const std::string& name) {
-  const std::vector<std::string> names = names_of(joints_of(model));
-  throw Failure("is not in the model", joint_of(name), near(name, names, "mars model MODEL show lists the joints"));
-}
-
 document::Json& joint_named(document::Json& model, const std::string& name) {
   if (document::Json* joint = find_joint(model, name)) return *joint;
-  no_such_joint(model, name);
+  const std::vector<std::string> names = names_of(joints_of(model));
+  throw Failure("is not in the model", joint_of(name), near(name, names, "mars model MODEL show lists the joints"));
 }
 
 // As the table lists its keys, then any others.
@@ -65,36 +61,17 @@ void change_limits(document::Json& joint, const JointChange& change) {
   if (change.limits.empty()) return;
   if (!joint.contains("limits")) joint["limits"] = {{"x", {-180, 180}}, {"y", {-180, 180}}, {"z", {-180, 180}}};
   document::Json& limits = joint["limits"];
-  for (const auto& [axis, range] : change.limits) {
-    if (range.lower > range.upper)
-      throw Failure("has limits about " + std::string(1, axis) + " from " + document::shown(range.lower) + " to " +
-                        document::shown(range.upper) + " degrees",
-                    joint_of(joint["name"]), "give the lower one first");
+  for (const auto& [axis, range] : change.limits)
     limits[std::string(1, axis)] = {plain_number(range.lower), plain_number(range.upper)};
-  }
   put_in_order(limits, "limits");
 }
 
-void set_shape(document::Json& segment, const std::string& shape) {
+// But for that of the shape.
+void forget_options(document::Json& segment, const std::string& shape) {
   const LibraryShape* const known = find_library_shape(shape);
   const keys::Key* const own = known ? known->option : nullptr;
   for (const keys::Key* const option : keys::kShapeOptions)
     if (option != own) segment.erase(std::string(option->name));
-  segment["shape"] = shape;
-}
-
-std::vector<std::string> own_shapes(const document::Json& model) {
-  std::vector<std::string> names;
-  if (const auto shapes = model.find("shapes"); shapes != model.end())
-    for (auto shape = shapes->begin(); shape != shapes->end(); ++shape) names.push_back(shape.key());
-  return names;
-}
-
-void require_shape(const document::Json& model, const std::string& shape, const std::string& joint) {
-  const std::vector<std::string> own = own_shapes(model);
-  if (find_library_shape(shape) || std::ranges::count(own, shape)) return;
-  throw Failure("is given the shape '" + shape + "', which is neither in the library nor the model's", joint_of(joint),
-                likely_shape(shape, std::vector<std::string_view>(own.begin(), own.end())));
 }
 
 bool uses(const document::Json& joint, const std::string& material) {
@@ -122,13 +99,12 @@ void require_material(document::Json& model, const std::string& material, const 
 
 void change_segment(document::Json& model, document::Json& joint, const document::Json& values) {
   if (values.empty()) return;
-  const std::string name = joint["name"], shape = values.value("shape", ""), material = values.value("material", "");
-  if (!joint.contains("segment") && shape.empty())
-    throw Failure("has no segment", joint_of(name), "give it a shape: --shape box");
-  if (values.contains("shape")) require_shape(model, shape, name);
-  if (values.contains("material")) require_material(model, material, name);
+  const auto shape = values.find("shape"), material = values.find("material");
+  if (!joint.contains("segment") && shape == values.end())
+    throw Failure("has no segment", joint_of(joint["name"]), "give it a shape: --shape box");
+  if (material != values.end()) require_material(model, *material, joint["name"]);
   document::Json& segment = joint["segment"];
-  if (values.contains("shape")) set_shape(segment, shape);
+  if (shape != values.end()) forget_options(segment, *shape);
   segment.update(values);
   put_in_order(segment, "segment");
 }
@@ -147,8 +123,6 @@ void reset(document::Json& joint, const std::string& what) {
 // Everything but the name.
 void change_joint(document::Json& model, document::Json& joint, const JointChange& change) {
   for (const std::string& what : change.reset) what == "limb" ? forget_limb(model, joint["name"]) : reset(joint, what);
-  if (const auto parent = change.joint.find("parent"); parent != change.joint.end())
-    if (!find_joint(model, *parent)) no_such_joint(model, *parent);
   joint.update(change.joint);
   change_limits(joint, change);
   change_segment(model, joint, change.segment);

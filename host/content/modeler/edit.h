@@ -1,6 +1,6 @@
 // Steps by which commands, and later the studio, change a model: each on the JSON of a model that read_model() took
-// (model_file.h reads and writes it), so that what a person wrote stays as written. What only read_model() finds,
-// such as a cycle of parents, is refused when the file is written. Failures name the joint, axis or material.
+// (model_file.h reads and writes it), so that what a person wrote stays as written. What read_model() finds, such as
+// an unknown shape, is refused when the file is written. Failures name the joint or material.
 #pragma once
 
 #include <glm/vec3.hpp>

@@ -99,6 +99,9 @@ TEST_F(ModelWordsTest, AreRefusedByTheTable) {
   holds({"set", "body", "--shape", "cone", "--with", "top=2"}, "write a number from 0 to 1");
   holds({"set", "body", "--with", "tpo=1"}, "'tpo': is no key of a shape (did you mean 'top'?)");
   holds({"set", "body", "--sbb", "0", "0", "0", "1", "1", "0"}, "has no extent along z");
+  holds({"set", "body", "--shape", "spere"}, "did you mean 'sphere'?");
+  holds({"set", "body", "--limits", "y", "3", "2"}, "write the lower first");
+  holds({"add", "tail", "--parent", "bdoy"}, "did you mean 'body'?");
   holds({"scale", "--height", "0"}, "--height");
 }
 

@@ -18,14 +18,7 @@
 namespace mars::animator {
 namespace {
 
-// Readers of one value, as settle() and add_key() want them.
 glm::dvec3 angles_of(const document::Element& element) { return document::read_vector(element, keys::kDegrees); }
-double fov_of(const document::Element& element) {
-  return document::read_number(element, keys::range_of("camera", "fov"));
-}
-double exposure_of(const document::Element& element) {
-  return document::read_number(element, keys::range_of("camera", "exposure"));
-}
 
 void read_size(const document::Element& element, Film& film) {
   document::require_size(element, 2);
@@ -53,18 +46,18 @@ CameraMotion read_camera(const document::Element& element, wire::ColorSpace colo
                 add_key(camera.eye, key, "eye", frame, ease, point_of);
                 add_key(camera.at, key, "at", frame, ease, point_of);
                 add_key(camera.up, key, "up", frame, ease, place_of);
-                add_key(camera.fov, key, "fov", frame, ease, fov_of);
-                add_key(camera.exposure, key, "exposure", frame, ease, exposure_of);
+                add_key(camera.fov, key, "fov", frame, ease, number_of(key, "fov"));
+                add_key(camera.exposure, key, "exposure", frame, ease, number_of(key, "exposure"));
               });
   if (camera.eye.empty()) fields.required("eye");
   settle(camera.eye, fields, "eye", point_of);
   settle(camera.at, fields, "at", point_of);
   settle(camera.up, fields, "up", place_of);
-  settle(camera.fov, fields, "fov", fov_of);
+  settle(camera.fov, fields, "fov", number_of(fields, "fov"));
   if (const bool given = !camera.exposure.empty() || fields.find("exposure"); given && color == wire::ColorSpace::coded)
     element.refuse("has an exposure, but the film's colours are coded, as they are shown",
                    "leave exposure out, or \"color\": \"coded\"");
-  settle(camera.exposure, fields, "exposure", exposure_of);
+  settle(camera.exposure, fields, "exposure", number_of(fields, "exposure"));
   camera.near = fields.number("near");
   camera.far = fields.number("far");
   if (camera.far <= camera.near)

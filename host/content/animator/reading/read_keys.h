@@ -31,8 +31,11 @@ void read_slope(const document::Element& element, glm::dvec2& slope);
 void read_slope(const document::Element& element, glm::dvec3& slope);
 void read_slope(const document::Element& element, Point& slope);  // of its place in the world
 
-// A reader of one value, as settle() and add_key() want it.
+// Readers of one value, as settle() and add_key() want them: of a vector; of a number, within the range of its key.
 inline glm::dvec3 place_of(const document::Element& element) { return document::read_vector(element); }
+inline auto number_of(const document::Fields& fields, std::string_view key) {
+  return [&row = fields.key(key)](const document::Element& element) { return document::read_number(element, row); };
+}
 
 // Calls take(fields, frame, ease) for each item of the list, whose frames must ascend.
 template <typename Take>

@@ -9,14 +9,6 @@ namespace {
 
 constexpr double kFullyLit = 0.8;  // of a cone of which one number is given
 
-// Readers of one value, as settle() and add_key() want them.
-double intensity_of(const document::Element& element) {
-  return document::read_number(element, keys::range_of("light", "intensity"));
-}
-double reach_of(const document::Element& element) {
-  return document::read_number(element, keys::range_of("light", "reach"));
-}
-
 glm::dvec3 direction_of(const document::Element& element) {
   const glm::dvec3 direction = document::read_vector(element);
   const double length = glm::length(direction);
@@ -46,9 +38,9 @@ void read_light_keys(const document::Element& list, LightMotion& light, Channel<
     add_key(place, key, "place", frame, ease, place_of);
     add_key(light.at, key, "at", frame, ease, place_of);
     add_key(light.cone, key, "cone", frame, ease, cone_of);
-    add_key(light.reach, key, "reach", frame, ease, reach_of);
+    add_key(light.reach, key, "reach", frame, ease, number_of(key, "reach"));
     add_key(light.color, key, "color", frame, ease, document::read_color);
-    add_key(light.intensity, key, "intensity", frame, ease, intensity_of);
+    add_key(light.intensity, key, "intensity", frame, ease, number_of(key, "intensity"));
   });
 }
 
@@ -82,9 +74,9 @@ LightMotion read_light(const document::Element& element) {
     settle(light.at, fields, "at", place_of);
     settle(light.cone, fields, "cone", cone_of);
   }
-  if (has(light.reach, "reach")) settle(light.reach, fields, "reach", reach_of);
+  if (has(light.reach, "reach")) settle(light.reach, fields, "reach", number_of(fields, "reach"));
   settle(light.color, fields, "color", document::read_color);
-  settle(light.intensity, fields, "intensity", intensity_of);
+  settle(light.intensity, fields, "intensity", number_of(fields, "intensity"));
   return light;
 }
 

@@ -114,7 +114,7 @@ glm::dvec3 vector_of(float* const columns[3], std::uint32_t vertex) {
 
 // The sbb in which what is rounded by an option is round.
 glm::dvec3 round_box(const Variant& variant) {
-  const std::string_view option = variant.shape->option.key;
+  const std::string_view option = variant.shape->option == nullptr ? "" : variant.shape->option->name;
   const double value = variant.values[0];
   if (option == "ends") return {1, 1, 0.5 / value};
   if (option == "rim" || option == "tube") return {1, 1, 2 * value};
