@@ -100,11 +100,12 @@ void require_material(document::Json& model, const std::string& material, const 
 void change_segment(document::Json& model, document::Json& joint, const document::Json& values) {
   if (values.empty()) return;
   const auto shape = values.find("shape"), material = values.find("material");
-  if (!joint.contains("segment") && shape == values.end())
+  const bool is_new = !joint.contains("segment");
+  if (is_new && shape == values.end())
     throw Failure("has no segment", joint_of(joint["name"]), "give it a shape: --shape box");
   if (material != values.end()) require_material(model, *material, joint["name"]);
   document::Json& segment = joint["segment"];
-  if (shape != values.end()) forget_options(segment, *shape);
+  if (!is_new && shape != values.end()) forget_options(segment, *shape);
   segment.update(values);
   put_in_order(segment, "segment");
 }
