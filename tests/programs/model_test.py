@@ -95,6 +95,10 @@ class Model(ProgramTest):
         self.assertEqual(materials["blue"], {"color": [0, 0, 1], "exponent": 8})
         self.assertEqual(self.joints()["thigh"]["segment"]["material"], "blue")
 
+    def test_keys_are_printed_from_their_table(self):
+        self.assertRegex(self.succeed("mars", "keys"), r"Of a model: model, joint, .*, shape\n")
+        self.assertRegex(self.succeed("mars", "keys", "shape"), r"\n  ends +of a capsule: .* \(0.001 to 0.5\); default: 0.25\n")
+
     def test_remove(self):
         self.dog()
         self.refuse("dog.json", "remove", "leg", says="joint 'leg': carries 'paw' (remove them too: --branch")
