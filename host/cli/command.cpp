@@ -116,6 +116,11 @@ Option Command::add_read(const std::string& names, const std::function<void(cons
   return Option(*app_->add_option_function<std::string>(names, take, help));
 }
 
+Option Command::add_read(const std::string& names, const std::function<void(const std::vector<double>& numbers)>& read,
+                         const std::string& help) const {
+  return Option(*app_->add_option_function<std::vector<double>>(names, read, help));
+}
+
 Option Command::add_choice(const std::string& name, const std::vector<std::string>& words,
                            const std::function<void(std::size_t number)>& take, const std::string& help) const {
   std::string type;

@@ -80,6 +80,8 @@ class Command {
   // `read` takes the word that is typed; a Failure that it throws is a UsageError of this option.
   Option add_read(const std::string& names, const std::function<void(const std::string& word)>& read,
                   const std::string& help) const;
+  Option add_read(const std::string& names, const std::function<void(const std::vector<double>& numbers)>& read,
+                  const std::string& help) const;
   // Of words that stand for 0, 1, 2 ...
   Option add_choice(const std::string& name, const std::vector<std::string>& words,
                     const std::function<void(std::size_t number)>& take, const std::string& help) const;

@@ -5,8 +5,8 @@
 #include "host/content/animator/settings/film_settings.h"
 #include "host/content/animator/listing/film_summary.h"
 #include "host/content/document/text.h"
-#include "host/content/keys/text.h"
 #include "host/content/modeler/figure_library.h"
+#include "host/editing/key_words.h"
 #include "host/editing/words.h"
 #include "host/cli/wrapped.h"
 
@@ -54,7 +54,7 @@ std::string model_of(const FilmWords& words, const Json& film) {
 
 void run_new(const FilmWords& words) {
   Json film = animator::new_film();
-  animator::set_film(film, words.fields);
+  animator::set_film(film, values_of(words.fields, keys::object("film")));
   if (!words.model.empty()) animator::add_actor(film, {words.model, words.model});
   words.film.create(film);
 }
@@ -74,11 +74,13 @@ void run_rename(const FilmWords& words) {
 }
 
 void run_set(const FilmWords& words) {
-  words.film.change([&](Json& film, const Meaning&) { animator::set_film(film, words.fields); });
+  words.film.change(
+      [&](Json& film, const Meaning&) { animator::set_film(film, values_of(words.fields, keys::object("film"))); });
 }
 
 void run_camera(const FilmWords& words) {
-  words.film.change([&](Json& film, const Meaning&) { animator::set_camera(film, words.fields); });
+  words.film.change(
+      [&](Json& film, const Meaning&) { animator::set_camera(film, values_of(words.fields, keys::object("camera"))); });
 }
 
 void run_show(const FilmWords& words) {
@@ -91,7 +93,7 @@ void run_light_add(const FilmWords& words) {
   std::size_t number = 0;
   words.film.change([&](Json& film, const Meaning& meaning) {
     own = film.contains("lights");
-    number = animator::add_light(film, meaning, words.fields);
+    number = animator::add_light(film, meaning, values_of(words.fields, keys::object("light")));
   });
   words.film.print(
       "light/" + std::to_string(number) +
@@ -107,12 +109,14 @@ void run_light_rig(const FilmWords& words) { words.film.change(animator::write_r
 
 void run_material_add(const FilmWords& words) {
   words.film.change([&](Json& film, const Meaning& meaning) {
-    animator::add_material(film, meaning, words.name, words.fields, words.other);
+    animator::add_material(film, meaning, words.name, values_of(words.fields, keys::object("material")), words.other);
   });
 }
 
 void run_material_set(const FilmWords& words) {
-  words.film.change([&](Json& film, const Meaning&) { animator::set_material(film, words.name, words.fields); });
+  words.film.change([&](Json& film, const Meaning&) {
+    animator::set_material(film, words.name, values_of(words.fields, keys::object("material")));
+  });
 }
 
 void run_material_remove(const FilmWords& words) {
@@ -127,13 +131,8 @@ cli::Command add_command(cli::Command film, const std::shared_ptr<FilmWords>& wo
   return command;
 }
 
-// What KEY may be, by the table of keys.
 cli::Option add_fields(cli::Command command, FilmWords& words, std::string_view object, const std::string& example) {
-  const keys::Object& described = keys::object(object);
-  return command
-      .add("KEY=VALUE", words.fields,
-           keys::names_of(described) + "; `mars keys " + std::string(object) + "` explains them. Example: " + example)
-      .offers(keys::typed_forms(described));
+  return add_key_values(command, keys::object(object), words.fields, example);
 }
 
 void add_actor_options(cli::Command command, FilmWords& words) {
@@ -149,9 +148,10 @@ void add_actor_options(cli::Command command, FilmWords& words) {
            "How it is turned: degrees about the upward axis, or about x, y and z. Example: --turn 90")
       .words(1, 3)
       .type("DEGREES");
-  command.add("--height", words.height, "Its height at rest; only for a model of the library. Example: --height 4.6")
-      .type("LENGTH")
-      .range(1e-6, 1e6);
+  limit(command
+            .add("--height", words.height, "Its height at rest; only for a model of the library. Example: --height 4.6")
+            .type("LENGTH"),
+        keys::object("proportions").key("height"));
   command.checks([&words] {
     if (words.turn.size() == 2) throw cli::UsageError("--turn", "give one angle, or three");
   });

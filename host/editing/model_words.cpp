@@ -1,6 +1,4 @@
-#include <algorithm>
 #include <memory>
-#include <sstream>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -8,7 +6,6 @@
 #include "hal/failure/failure.h"
 #include "host/cli/wrapped.h"
 #include "host/content/document/text.h"
-#include "host/content/keys/text.h"
 #include "host/content/modeler/describe.h"
 #include "host/content/modeler/edit.h"
 #include "host/content/modeler/edit_shapes.h"
@@ -18,6 +15,7 @@
 #include "host/content/modeler/review.h"
 #include "host/content/modeler/scale_model.h"
 #include "host/content/modeler/shape_library.h"
+#include "host/editing/key_words.h"
 #include "host/editing/words.h"
 
 namespace mars::editing {
@@ -32,83 +30,53 @@ A file is changed whole or not at all. docs/modeling.md goes on from here.
 )";
 
 // What a person typed after any of the commands; what was not typed is empty.
-struct Words {
+struct ModelWords {
   EditedModel& model;
-  std::string joint{}, from{}, figure{}, side{}, parent{}, shape{}, material{}, name{}, limb{};
-  std::vector<double> place{}, x_axis{}, y_axis{}, sbb{}, color{}, factors{}, to{};
+  std::string joint{}, from{}, figure{}, side{};
+  modeler::JointChange change{};
+  document::Json material = document::Json::object();  // values of its keys
+  std::vector<double> factors{}, to{};
   std::vector<std::size_t> at{};
   std::size_t patch = 0;
   std::vector<std::tuple<std::string, double, double>> limits{};
-  std::vector<std::string> options{}, resets{}, joints{}, branches{};
+  std::vector<std::string> options{}, joints{}, branches{};
   std::optional<double> height{};
-  modeler::MaterialChange material_change{};
   bool fixed = false, free = false, branch = false, no_ground = false;
 };
 
-std::string where(const Words& words) { return words.model.path().string(); }
+std::string where(const ModelWords& words) { return words.model.path().string(); }
 
-std::optional<std::string> given(const std::string& word) { return word.empty() ? std::nullopt : std::optional(word); }
+glm::dvec3 vector_of(const std::vector<double>& numbers) { return {numbers[0], numbers[1], numbers[2]}; }
 
-std::optional<glm::dvec3> vector_of(const std::vector<double>& numbers) {
-  if (numbers.empty()) return std::nullopt;
-  return glm::dvec3(numbers[0], numbers[1], numbers[2]);
-}
+std::string material_of(const ModelWords& words) { return words.change.segment.value("material", ""); }
 
-// "top=0.5", or "edge=0.1,0.1,0.2".
-std::pair<std::string, std::vector<double>> option_of(const std::string& text) {
-  const std::size_t equals = std::min(text.find('='), text.size());
-  std::pair<std::string, std::vector<double>> option{text.substr(0, equals), {}};
-  std::string rest = equals < text.size() ? text.substr(equals + 1) : "";
-  std::replace(rest.begin(), rest.end(), ',', ' ');
-  std::istringstream numbers(rest);
-  for (double number; numbers >> number;) option.second.push_back(number);
-  if (option.second.empty() || !numbers.eof())
-    throw Failure("is no option of a shape", "'" + text + "'", "write it like top=0.5");
-  return option;
-}
-
-modeler::JointChange change_of(const Words& words) {
-  modeler::JointChange change;
-  change.reset = words.resets;
-  change.name = given(words.name);
-  change.parent = given(words.parent);
-  change.place = vector_of(words.place);
-  change.x_axis = vector_of(words.x_axis);
-  change.y_axis = vector_of(words.y_axis);
+modeler::JointChange change_of(const ModelWords& words) {
+  modeler::JointChange change = words.change;
   if (words.fixed) change.freedom = modeler::Freedom::fixed;
   if (words.free) change.freedom = modeler::Freedom::free;
   for (const auto& [axis, lower, upper] : words.limits) change.limits.push_back({axis[0], {lower, upper}});
-  change.shape = given(words.shape);
-  for (const std::string& text : words.options) change.options.push_back(option_of(text));
-  if (!words.sbb.empty())
-    change.sbb = modeler::Box{{words.sbb[0], words.sbb[1], words.sbb[2]}, {words.sbb[3], words.sbb[4], words.sbb[5]}};
-  change.material = given(words.material);
-  change.limb = given(words.limb);
+  change.segment.update(values_of(words.options, keys::object("shape")));
   return change;
 }
 
-modeler::MaterialChange material_change_of(const Words& words) {
-  modeler::MaterialChange change = words.material_change;
-  change.color = vector_of(words.color);
-  return change;
+// A material alone is not.
+bool of_a_joint(const ModelWords& words) {
+  const modeler::JointChange& change = words.change;
+  const bool of_segment = change.segment.size() > change.segment.count("material") || !words.options.empty();
+  return words.fixed || words.free || !words.limits.empty() || of_segment || !change.joint.empty() || change.limb ||
+         !change.reset.empty();
 }
 
-bool of_a_joint(const Words& words) {
-  return words.fixed || words.free || !(words.parent + words.shape + words.limb).empty() || !words.place.empty() ||
-         !words.x_axis.empty() || !words.y_axis.empty() || !words.sbb.empty() || !words.limits.empty() ||
-         !words.options.empty() || !words.resets.empty();
-}
-
-void require_sense_of_options(const Words& words) {
+void require_sense_of_options(const ModelWords& words) {
   if (words.fixed && words.free) throw Failure("cannot be both fixed and free", where(words), "leave one of them out");
-  if (words.material.empty() && material_change_of(words).any())
+  if (material_of(words).empty() && !words.material.empty())
     throw Failure("no material is named", where(words), "colours and light are a material's: name it, --material NAME");
 }
 
 // Without a joint's name, words are about a material.
-void require_sense(const Words& words) {
+void require_sense(const ModelWords& words) {
   require_sense_of_options(words);
-  if (words.joint.empty() && words.material.empty())
+  if (words.joint.empty() && material_of(words).empty())
     throw Failure("no joint and no material is named", where(words), "name a joint, or --material NAME");
   if (words.joint.empty() && of_a_joint(words))
     throw Failure("no joint is named", where(words), "name it before its options");
@@ -118,58 +86,58 @@ bool has_material(const document::Json& model, const std::string& name) {
   return model.contains("materials") && model["materials"].contains(name);
 }
 
-document::Json new_model(const Words& words) {
+document::Json new_model(const ModelWords& words) {
   const bool made_whole = !words.from.empty() || !words.figure.empty();
-  if (made_whole && (of_a_joint(words) || !words.joint.empty() || !words.material.empty() ||
+  if (made_whole && (of_a_joint(words) || !words.joint.empty() || !material_of(words).empty() ||
                      (!words.from.empty() && !words.figure.empty())))
     throw Failure("a model made from another has that one's joints", where(words), "give only --from, or --figure");
   if (!words.from.empty()) return modeler::derived_model(words.from);
   if (!words.figure.empty()) return modeler::library_figure(words.figure, words.height);
   require_sense_of_options(words);
   document::Json model = modeler::empty_model();
-  if (material_change_of(words).any()) modeler::add_material(model, words.material, material_change_of(words));
+  if (!words.material.empty()) modeler::add_material(model, material_of(words), words.material);
   modeler::add_joint(model, words.joint.empty() ? "body" : words.joint, change_of(words));
   return model;
 }
 
-void run_new(const Words& words) { words.model.create(new_model(words)); }
+void run_new(const ModelWords& words) { words.model.create(new_model(words)); }
 
-void run_add(const Words& words) {
+void run_add(const ModelWords& words) {
   require_sense(words);
   words.model.change([&](document::Json& model, const modeler::Model&) {
-    if (words.joint.empty() || material_change_of(words).any())
-      modeler::add_material(model, words.material, material_change_of(words));
+    if (words.joint.empty() || !words.material.empty())
+      modeler::add_material(model, material_of(words), words.material);
     if (!words.joint.empty()) modeler::add_joint(model, words.joint, change_of(words));
   });
 }
 
-void run_set(const Words& words) {
+void run_set(const ModelWords& words) {
   require_sense(words);
   words.model.change([&](document::Json& model, const modeler::Model&) {
-    if (words.joint.empty())
-      return modeler::set_material(model, words.material, material_change_of(words), given(words.name));
-    if (material_change_of(words).any() && !has_material(model, words.material))
-      modeler::add_material(model, words.material, material_change_of(words));
-    else if (material_change_of(words).any())
-      modeler::set_material(model, words.material, material_change_of(words), std::nullopt);
+    const std::string material = material_of(words);
+    if (words.joint.empty()) return modeler::set_material(model, material, words.material, words.change.name);
+    if (!words.material.empty() && !has_material(model, material))
+      modeler::add_material(model, material, words.material);
+    else if (!words.material.empty())
+      modeler::set_material(model, material, words.material, std::nullopt);
     modeler::set_joint(model, words.joint, change_of(words));
   });
 }
 
-void run_remove(const Words& words) {
+void run_remove(const ModelWords& words) {
   require_sense(words);
   words.model.change([&](document::Json& model, const modeler::Model&) {
     if (!words.joint.empty()) modeler::remove_joint(model, words.joint, words.branch);
-    if (!words.material.empty()) modeler::remove_material(model, words.material);
+    if (const std::string material = material_of(words); !material.empty()) modeler::remove_material(model, material);
   });
 }
 
-void run_scale(const Words& words) {
+void run_scale(const ModelWords& words) {
   modeler::Proportions proportions;
   const bool alike = words.factors.size() == 1;
   const glm::dvec3 factors = words.factors.empty() ? glm::dvec3(1)
                              : alike               ? glm::dvec3(words.factors[0])
-                                                   : *vector_of(words.factors);
+                                                   : vector_of(words.factors);
   for (const std::string& pattern : words.joints) proportions.joints.push_back({pattern, false, factors});
   for (const std::string& pattern : words.branches) proportions.joints.push_back({pattern, true, factors});
   if (proportions.joints.empty()) proportions.scale = factors;
@@ -179,7 +147,7 @@ void run_scale(const Words& words) {
       [&](document::Json& json, const modeler::Model& model) { modeler::scale_model(json, model, proportions); });
 }
 
-void run_mirror(const Words& words) {
+void run_mirror(const ModelWords& words) {
   modeler::Mirrored done;
   const modeler::Side from = words.side == "left" ? modeler::Side::left : modeler::Side::right;
   words.model.change([&](document::Json& json, const modeler::Model& model) {
@@ -189,18 +157,18 @@ void run_mirror(const Words& words) {
   if (!done.added.empty()) words.model.remark("added as in a mirror: " + document::joined(done.added));
 }
 
-void run_point(const Words& words) {
+void run_point(const ModelWords& words) {
   std::string own;
-  const modeler::ControlPoint point{words.patch, {words.at[0], words.at[1]}, *vector_of(words.to)};
+  const modeler::ControlPoint point{words.patch, {words.at[0], words.at[1]}, vector_of(words.to)};
   words.model.change([&](document::Json& json, const modeler::Model& model) {
     own = modeler::set_point(json, model, words.joint, point);
   });
   if (!own.empty()) words.model.remark("the shape of '" + words.joint + "' is the model's own now: '" + own + "'");
 }
 
-void run_show(const Words& words) { words.model.print(modeler::describe_model(words.model.read())); }
+void run_show(const ModelWords& words) { words.model.print(modeler::describe_model(words.model.read())); }
 
-void run_check(const Words& words) {
+void run_check(const ModelWords& words) {
   const modeler::Model model = words.model.read();
   const std::vector<std::string> doubts = modeler::doubts_about(model);
   for (const std::string& doubt : doubts) words.model.print(where(words) + ": " + doubt + "\n");
@@ -212,14 +180,9 @@ std::string shapes_text() {
   std::string text;
   for (const modeler::LibraryShape& shape : modeler::shape_library()) {
     text += (text.empty() ? "" : ", ") + std::string(shape.name);
-    if (!shape.option.key.empty()) text += " (" + std::string(shape.option.key) + ")";
+    if (shape.option != nullptr) text += " (" + std::string(shape.option->name) + ")";
   }
   return "Shapes of the library, and their options for --with:\n  " + cli::wrapped(text, 2) + "\n";
-}
-
-void add_numbers(cli::Command app, const char* name, std::vector<double>& numbers, int count, const char* type,
-                 const char* help) {
-  app.add(name, numbers, help).words(count).type(type);
 }
 
 // May be given several times.
@@ -229,7 +192,7 @@ cli::Option add_several(cli::Command app, const char* name, std::vector<Value>& 
   return app.add(name, values, help).repeated().type(type);
 }
 
-void add_limits(cli::Command app, Words& words) {
+void add_limits(cli::Command app, ModelWords& words) {
   add_several(app, "--limits", words.limits, "x|y|z LOWER UPPER",
               "Limits of its angle about one of its axes, in degrees; equal: fixed. Once for each axis. "
               "Example: --limits y -30 60")
@@ -242,104 +205,68 @@ void add_limits(cli::Command app, Words& words) {
   app.add_flag("--free", words.free, "Turns freely about all axes not given by --limits. Example: --free");
 }
 
-void add_joint_options(cli::Command app, Words& words) {
-  app.add("--parent", words.parent, "Its parent joint. Example: --parent body").type("JOINT");
-  add_numbers(app, "--place", words.place, 3, "X Y Z",
-              "Its place in the parent's frame. Example: --place 0.4 0.1 -0.1");
-  add_numbers(app, "--x-axis", words.x_axis, 3, "X Y Z", "Its x axis, in the parent's frame. Example: --x-axis 1 1 0");
-  add_numbers(app, "--y-axis", words.y_axis, 3, "X Y Z",
-              "Its y axis; if not perpendicular to x, the segment is sheared. Example: --y-axis 0.5 1 0");
+void add_options(cli::Command app, ModelWords& words) {
+  add_key_options(app, keys::object("joint"), words.change.joint);
   add_limits(app, words);
-  app.add("--shape", words.shape, "Its segment: a shape of the library or of the model. Example: --shape capsule")
-      .type("SHAPE");
+  add_key_options(app, keys::object("segment"), words.change.segment);
   add_several(app, "--with", words.options, "KEY=NUMBER", "An option of the shape. Example: --with top=0.5");
-  add_numbers(
-      app, "--sbb", words.sbb, 6, "X Y Z X Y Z",
-      "The segment's box, least and greatest corner in the joint's frame. Example: --sbb -0.1 -0.1 -0.5 0.1 0.1 0");
-  app.add("--limb", words.limb,
+  app.add("--limb", words.change.limb,
           "The limb of a figure that it is, for walking and other motion: pelvis, head, left.knee ... Example: "
           "--limb left.hip")
       .type("LIMB");
+  add_key_options(app, keys::object("material"), words.material);
   app.footer(shapes_text());
 }
 
-// "--roughness", with the help that the table has.
-void add_material_numbers(cli::Command app, modeler::MaterialChange& change) {
-  for (std::size_t i = 0; i < modeler::kMaterialNumbers.size(); ++i) {
-    const keys::Key& key = modeler::kMaterialNumbers[i].key;
-    app.add("--" + std::string(key.name), change.numbers[i], keys::help_of(key, "--" + std::string(key.name) + " "))
-        .type("NUMBER");
-  }
-}
-
-void add_material_options(cli::Command app, Words& words) {
-  app.add("--material", words.material, "Its material. Example: --material fur").type("NAME");
-  add_numbers(app, "--color", words.color, 3, "R G B",
-              "The material's red, green, blue, 0 to 1. Example: --color 0.6 0.4 0.2");
-  add_material_numbers(app, words.material_change);
-  app.add("--reflection", words.material_change.reflection,
-          "How it reflects light: phong, blinn-phong, cook-torrance or metallic-roughness. "
-          "Example: --reflection metallic-roughness")
-      .type("MODEL");
-  app.add("--interpolation", words.material_change.interpolation,
-          "What is interpolated over a triangle: its normal (phong), the colours of its corners (gouraud), or "
-          "nothing (flat). Example: --interpolation flat")
-      .type("WHAT");
-  app.add("--sides", words.material_change.sides, "1: seen from outside only. Example: --sides 1").type("1|2");
+void add_height(cli::Command app, ModelWords& words, const char* help) {
+  limit(app.add("--height", words.height, help).type("LENGTH"), keys::object("proportions").key("height"));
 }
 
 struct Verb {
   const char* name;
   const char* purpose;
-  void (*run)(const Words& words);
-  void (*add)(cli::Command app, Words& words);
+  void (*run)(const ModelWords& words);
+  void (*add)(cli::Command app, ModelWords& words);
 };
 
 constexpr Verb kVerbs[] = {
     {"new", "Make a model of one joint, or one that differs from another by proportions", run_new,
-     [](cli::Command app, Words& words) {
+     [](cli::Command app, ModelWords& words) {
        app.add("JOINT", words.joint, "The joint's name; default: body. Example: body");
        app.add("--from", words.from, "Another model file, relative to the new one. Example: --from human.json")
            .type("MODEL");
        app.add("--figure", words.figure,
                "A figure or object of the library, with joints of its own. Example: --figure man")
            .type("FIGURE");
-       app.add("--height", words.height, "How high that is at rest. Example: --height 4.6")
-           .type("LENGTH")
-           .range(1e-6, 1e6);
-       add_joint_options(app, words);
-       add_material_options(app, words);
+       add_height(app, words, "How high that is at rest. Example: --height 4.6");
+       add_options(app, words);
      }},
-    {"show", "Show a model's joints, how they turn, and their segments", run_show, [](cli::Command, Words&) {}},
+    {"show", "Show a model's joints, how they turn, and their segments", run_show, [](cli::Command, ModelWords&) {}},
     {"add", "Add a joint, or a material, or both", run_add,
-     [](cli::Command app, Words& words) {
+     [](cli::Command app, ModelWords& words) {
        app.add("JOINT", words.joint, "The new joint; none: only a material. Example: leg");
-       add_joint_options(app, words);
-       add_material_options(app, words);
+       add_options(app, words);
      }},
     {"set", "Change a joint, or a material, or both", run_set,
-     [](cli::Command app, Words& words) {
+     [](cli::Command app, ModelWords& words) {
        app.add("JOINT", words.joint, "The joint; none: only a material. Example: leg");
-       app.add("--name", words.name, "Another name for the joint, else for the material. Example: --name paw")
+       app.add("--name", words.change.name, "Another name for the joint, else for the material. Example: --name paw")
            .type("NAME");
-       add_joint_options(app, words);
-       add_several(app, "--reset", words.resets, "WHAT",
+       add_options(app, words);
+       add_several(app, "--reset", words.change.reset, "WHAT",
                    "Back to its default: parent, place, axes, limits, segment, sbb, material or limb. "
                    "Example: --reset axes")
            .one_of({std::begin(modeler::kResets), std::end(modeler::kResets)});
-       add_material_options(app, words);
      }},
     {"scale", "Make all, or some joints, larger or smaller along their own axes", run_scale,
-     [](cli::Command app, Words& words) {
-       app.add("FACTOR", words.factors, "One for all axes, or three for x, y and z. Example: 1.2")
-           .words(0, 3)
-           .range(1e-3, 1e3);
+     [](cli::Command app, ModelWords& words) {
+       limit(app.add("FACTOR", words.factors, "One for all axes, or three for x, y and z. Example: 1.2").words(0, 3),
+             keys::object("proportions").key("scale"));
        add_several(app, "--joint", words.joints, "PATTERN",
                    "Only these joints; * stands for any text. Example: --joint '*-thigh'");
        add_several(app, "--branch", words.branches, "PATTERN",
                    "Only these joints and all below them. Example: --branch head");
-       app.add("--height", words.height, "Then scale all joints alike to this height at rest. Example: --height 1.2")
-           .type("LENGTH");
+       add_height(app, words, "Then scale all joints alike to this height at rest. Example: --height 1.2");
        app.add_flag("--no-ground", words.no_ground,
                     "Do not keep the lowest point at rest at its height. Example: --no-ground");
        app.checks([&words] {
@@ -348,20 +275,21 @@ constexpr Verb kVerbs[] = {
        });
      }},
     {"remove", "Remove a joint, or a material", run_remove,
-     [](cli::Command app, Words& words) {
+     [](cli::Command app, ModelWords& words) {
        app.add("JOINT", words.joint, "The joint. Example: leg");
        app.add_flag("--branch", words.branch, "With all joints below it. Example: --branch");
-       app.add("--material", words.material, "The material to remove. Example: --material fur").type("NAME");
+       const auto read = [&words](const std::string& name) { words.change.segment["material"] = name; };
+       app.add_read("--material", read, "The material to remove. Example: --material fur").type("NAME");
      }},
     {"mirror", "Put the limbs of one side on the other", run_mirror,
-     [](cli::Command app, Words& words) {
+     [](cli::Command app, ModelWords& words) {
        app.add("SIDE", words.side, "The side that is as it should be: left or right. Example: left")
            .required()
            .one_of({"left", "right"});
        app.add("JOINT", words.joint, "Only this joint and all below it. Example: left-shoulder");
      }},
     {"point", "Move a control point of a joint's shape; a shape of the library becomes the model's own", run_point,
-     [](cli::Command app, Words& words) {
+     [](cli::Command app, ModelWords& words) {
        app.add("JOINT", words.joint, "The joint. Example: leg").required();
        app.add("--patch", words.patch, "Which of its patches, from 0; default: 0. Example: --patch 2").type("N");
        app.add("--at", words.at, "The point's column and row in the patch, from 0. Example: --at 1 2")
@@ -373,7 +301,7 @@ constexpr Verb kVerbs[] = {
            .type("X Y Z")
            .required();
      }},
-    {"check", "Check a model, and report what is probably a mistake", run_check, [](cli::Command, Words&) {}},
+    {"check", "Check a model, and report what is probably a mistake", run_check, [](cli::Command, ModelWords&) {}},
 };
 
 }  // namespace
@@ -381,7 +309,7 @@ constexpr Verb kVerbs[] = {
 cli::Command add_model(cli::Command mars, EditedModel& model) {
   const cli::Command app = mars.add_command("model", "Make a model, or change it step by step");
   for (const Verb& verb : kVerbs) {
-    const auto words = std::make_shared<Words>(model);
+    const auto words = std::make_shared<ModelWords>(model);
     const cli::Command command = app.add_command(verb.name, verb.purpose);
     verb.add(command, *words);
     command.runs([words, run = verb.run] { run(*words); });

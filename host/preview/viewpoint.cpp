@@ -73,7 +73,8 @@ std::vector<animator::MaterialMotion> lent_materials(const modeler::Model& model
     if (joint.segment && !joint.segment->material.empty()) names.insert(joint.segment->material);
   for (const modeler::NamedMaterial& own : model.materials) names.erase(own.name);
   std::vector<animator::MaterialMotion> materials;
-  for (const std::string& name : names) materials.push_back(animator::still_material(name, modeler::kDefaultMaterial));
+  for (const std::string& name : names)
+    materials.push_back(animator::still_material(name, modeler::default_material()));
   return materials;
 }
 

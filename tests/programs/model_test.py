@@ -95,6 +95,10 @@ class Model(ProgramTest):
         self.assertEqual(materials["blue"], {"color": [0, 0, 1], "exponent": 8})
         self.assertEqual(self.joints()["thigh"]["segment"]["material"], "blue")
 
+    def test_keys_are_printed_from_their_table(self):
+        self.assertRegex(self.succeed("mars", "keys"), r"Of a model: model, joint, .*, shape\n")
+        self.assertRegex(self.succeed("mars", "keys", "shape"), r"\n  ends +of a capsule: .* \(0.001 to 0.5\); default: 0.25\n")
+
     def test_remove(self):
         self.dog()
         self.refuse("dog.json", "remove", "leg", says="joint 'leg': carries 'paw' (remove them too: --branch")
@@ -149,7 +153,7 @@ class Model(ProgramTest):
                 (["dog.json", "add", "tail", "--parent", "bdoy"], "did you mean 'body'?"),
                 (["dog.json", "add", "tail", "--shape", "spere"], "did you mean 'sphere'?"),
                 (["dog.json", "add", "tail", "--shape", "box", "--material", "furr"], "did you mean 'fur'?"),
-                (["dog.json", "add", "tail", "--shape", "box", "--with", "top=1"], "which has no 'top'"),
+                (["dog.json", "add", "tail", "--shape", "box", "--with", "top=1"], "belongs to the shape cone, not to box"),
                 (["dog.json", "add", "tail", "--shape", "cone", "--with", "top"], "write it like top=0.5"),
                 (["dog.json", "add", "tail", "--shape", "cone", "--with", "top=2"], "write a number from 0 to 1"),
                 (["dog.json", "add", "a/b"], "use '-' or '_' instead"),
@@ -157,12 +161,12 @@ class Model(ProgramTest):
                 (["dog.json", "add", "--place", 0, 0, 0, "--material", "fur"], "no joint is named"),
                 (["dog.json", "add", "tail", "--color", 1, 0, 0], "no material is named"),
                 (["dog.json", "add", "--material", "fur", "--color", 1, 0, 0], "material 'fur': is in the model already"),
-                (["dog.json", "set", "leg", "--color", 1, 0, 0, "--material", "fur", "--limits", "y", 5, 1], "lower one first"),
+                (["dog.json", "set", "leg", "--color", 1, 0, 0, "--material", "fur", "--limits", "y", 5, 1], "write the lower first"),
                 (["dog.json", "set", "lge", "--fixed"], "did you mean 'leg'?"),
                 (["dog.json", "set", "leg", "--parent", "paw"], "own ancestor"),
                 (["dog.json", "set", "leg", "--y-axis", 2, 0, 0], "parallel x and y axes"),
                 (["dog.json", "set", "leg", "--name", "paw"], "joint 'paw': is in the model already"),
-                (["dog.json", "set", "leg", "--sbb", 0, 0, 0, 1, 1, 0], "without extent along z"),
+                (["dog.json", "set", "leg", "--sbb", 0, 0, 0, 1, 1, 0], "no extent along z"),
                 (["dog.json", "set", "leg", "--fixed", "--free"], "both fixed and free"),
                 (["dog.json", "set", "--material", "fru", "--color", 1, 0, 0], "did you mean 'fur'?"),
                 (["dog.json", "set", "--material", "fur", "--color", 1, 0, 2], "is 2"),
@@ -174,7 +178,7 @@ class Model(ProgramTest):
                             (["dog.json", "set", "leg", "--limits", "y"],
                              "--limits: write x|y|z LOWER UPPER, as in --limits y -30 60"),
                             (["dog.json", "set", "--material", "fur", "--color", 1],
-                             "--color: write R G B, as in --color 0.6 0.4 0.2"),
+                             "--color: write R G B, as in --color 0.8 0.4 0.2"),
                             (["dog.json", "set", "leg", "--place", 0, 1], "--place: write X Y Z, as in"),
                             (["dog.json", "set", "leg", "--reset", "plcae"], "plcae"),
                             (["dog.json", "set", "leg", "--plcae", 0, 1, 0], "did you mean '--place'?"),

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <numeric>
 #include <vector>
 
@@ -43,6 +44,23 @@ std::string with_article(std::string_view name) {
   if (name.ends_with("_key")) return "a key of " + with_article(name.substr(0, name.size() - 4));
   const bool several = name.ends_with('s'), vowel = std::string_view("aeiou").find(name.front()) != name.npos;
   return (several ? "" : vowel ? "an " : "a ") + std::string(name);
+}
+
+std::string default_text(const keys::Key& key) { return key.number ? shown(*key.number) : std::string(key.json); }
+
+// As a file would write it.
+Element written_default(const keys::Key& key) {
+  static const auto defaults = [] {
+    std::map<const keys::Key*, Document> documents;
+    for (const auto objects : {keys::film_objects(), keys::model_objects()})
+      for (const keys::Object& object : objects)
+        for (const keys::Key& each : object.keys)
+          if (const std::string text = default_text(each); !text.empty()) documents.try_emplace(&each, text, "");
+    return documents;
+  }();
+  const auto found = defaults.find(&key);
+  check(found != defaults.end(), "a reader asks for a default that the table has");
+  return found->second.root();
 }
 
 std::string form_or(const Element& element, const std::string& otherwise) {
@@ -163,31 +181,26 @@ const keys::Key& Fields::key(std::string_view name) const {
   return keys_.object->key(name);
 }
 
-double Fields::number(std::string_view name) const {
-  const keys::Key& row = key(name);
+Element Fields::value(std::string_view name) const {
   const auto found = find(name);
-  return found ? read_number(*found, row) : row.number.value();
+  return found ? *found : written_default(key(name));
 }
 
-std::uint32_t Fields::count(std::string_view name) const {
-  const keys::Key& row = key(name);
-  const auto found = find(name);
-  return found ? read_count(*found, row) : static_cast<std::uint32_t>(row.number.value());
-}
+double Fields::number(std::string_view name) const { return read_number(value(name), key(name)); }
 
-std::size_t Fields::choice(std::string_view name) const {
-  const keys::Key& row = key(name);
-  if (const auto found = find(name)) return read_choice(*found, row);
-  const auto otherwise = std::ranges::find(row.choices, row.json.substr(1, row.json.size() - 2));
-  return static_cast<std::size_t>(otherwise - row.choices.begin());
-}
+std::uint32_t Fields::count(std::string_view name) const { return read_count(value(name), key(name)); }
+
+std::size_t Fields::choice(std::string_view name) const { return read_choice(value(name), key(name)); }
 
 bool Fields::flag(std::string_view name) const {
-  const auto found = find(name);
-  if (!found) return key(name).json == "true";
-  require_kind(*found, Kind::boolean);
-  return found->boolean();
+  const Element flag = value(name);
+  require_kind(flag, Kind::boolean);
+  return flag.boolean();
 }
+
+glm::dvec3 Fields::vector(std::string_view name, Range range) const { return read_vector(value(name), range); }
+
+glm::dvec3 Fields::color(std::string_view name) const { return read_color(value(name)); }
 
 Element Fields::required(std::string_view key) const {
   const auto found = find(key);
@@ -204,16 +217,6 @@ std::uint32_t Fields::count(std::string_view key, std::uint32_t otherwise, std::
                             std::uint32_t highest) const {
   const auto found = find(key);
   return found ? read_count(*found, lowest, highest) : otherwise;
-}
-
-glm::dvec3 Fields::color(std::string_view key, const glm::dvec3& otherwise) const {
-  const auto found = find(key);
-  return found ? read_color(*found) : otherwise;
-}
-
-glm::dvec3 Fields::vector(std::string_view key, const glm::dvec3& otherwise, Range range) const {
-  const auto found = find(key);
-  return found ? read_vector(*found, range) : otherwise;
 }
 
 std::string Fields::text(std::string_view key, const std::string& otherwise) const {

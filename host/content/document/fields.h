@@ -64,17 +64,18 @@ class Fields {
   // What the table of an object says of one of its keys.
   const keys::Key& key(std::string_view name) const;
 
-  // The key's value; where it is not there, the table's default.
+  // The key's value; where it is not there, the table's default, which lasts.
+  Element value(std::string_view key) const;
   double number(std::string_view key) const;
   std::uint32_t count(std::string_view key) const;
   std::size_t choice(std::string_view key) const;
   bool flag(std::string_view key) const;
+  glm::dvec3 vector(std::string_view key, Range range = {}) const;
+  glm::dvec3 color(std::string_view key) const;
 
   // The key's value, or `otherwise` if it is not there.
   double number(std::string_view key, double otherwise, Range range = {}) const;
   std::uint32_t count(std::string_view key, std::uint32_t otherwise, std::uint32_t lowest, std::uint32_t highest) const;
-  glm::dvec3 vector(std::string_view key, const glm::dvec3& otherwise, Range range = {}) const;
-  glm::dvec3 color(std::string_view key, const glm::dvec3& otherwise) const;
   std::string text(std::string_view key, const std::string& otherwise) const;
   std::size_t choice(std::string_view key, std::size_t otherwise, std::span<const std::string_view> choices) const;
 

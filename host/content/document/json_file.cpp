@@ -3,10 +3,13 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cmath>
+#include <cstdint>
 
 #include "hal/failure/failure.h"
 #include "host/content/document/file.h"
 #include "host/content/document/folder_lock.h"
+#include "host/content/document/text.h"
 #include "host/content/document/whole_file.h"
 
 namespace mars::document {
@@ -55,6 +58,12 @@ Json read_json(const std::filesystem::path& path) {
   const std::string text = read_file(path);
   const Document checked(text, path.string());
   return Json::parse(text);
+}
+
+Json plain_number(double number) {
+  const double rounded = rounded_to(number, 10);
+  if (rounded == std::floor(rounded) && std::abs(rounded) < 1e15) return static_cast<std::int64_t>(rounded);
+  return rounded;
 }
 
 std::string laid_out(const Json& json) try {

@@ -16,6 +16,9 @@ using Json = nlohmann::ordered_json;
 // Refuses what read_document() refuses, with the line.
 Json read_json(const std::filesystem::path& path);
 
+// A number as a person would write it: 2, not 2.0; ten digits.
+Json plain_number(double number);
+
 // As a person would write it: a list or object that fits in 110 columns stands on one line.
 std::string laid_out(const Json& json);
 

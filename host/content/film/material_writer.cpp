@@ -23,7 +23,7 @@ wire::Track MaterialWriter::track_of(const animator::Actor& actor, std::string n
     name = instead->second;
     of_film = true;
   }
-  if (name.empty()) return shared("", modeler::kDefaultMaterial);
+  if (name.empty()) return shared("", modeler::default_material());
   if (!of_film)
     for (const modeler::NamedMaterial& own : film_.models[actor.model].materials)
       if (own.name == name) return shared(std::to_string(actor.model) + "/" + name, own.material);

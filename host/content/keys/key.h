@@ -19,6 +19,8 @@ struct Range {
   bool operator==(const Range&) const = default;
 };
 
+inline constexpr Range kDegrees{-1e6, 1e6};  // of turns and their limits
+
 // What an object can be: a light a spot, a film one of linear colours.
 struct Kind {
   std::string_view name;                               // "spot"
@@ -45,7 +47,7 @@ struct Key {
   bool keyed = false;                // keys of the film may change it
   std::string_view keyed_type = {};  // its type there, if it is not the same or a part
   bool required = false;
-  bool typed = true;              // `mars film` takes it as KEY=VALUE
+  bool typed = true;              // `mars film` takes it as KEY=VALUE, `mars model` as --key
   std::string_view example = {};  // how it is written, for messages; none: as the default
   unsigned of = kEveryKind;       // bits of those of its object's kinds that have it
   std::string_view label = {};    // of the studio's field; none: its name
@@ -60,6 +62,7 @@ struct Type {
   std::string_view schema;   // JSON Schema, in which "#name" stands for the type or object of that name
   std::string_view example;  // as Key's
   std::span<const std::string_view> parts = {};  // of a list of numbers, what each is: "width", "height"
+  std::string_view words = {};                   // what options take in place of a list's numbers: "X Y Z"
 };
 
 struct Object {
@@ -72,7 +75,7 @@ struct Object {
 
   std::vector<std::string_view> names = {};  // of its keys
 
-  std::vector<std::string_view> typed_names() const;  // of keys that `mars film` takes
+  std::vector<std::string_view> typed_names() const;  // of keys that commands take
   const Key* find(std::string_view key) const;        // null where there is none
   const Key& key(std::string_view name) const;        // checked
 };
@@ -83,9 +86,10 @@ std::span<const Object> model_objects();
 std::span<const Type> film_types();
 std::span<const Type> model_types();
 
+// Of files, or "shape": the options of shapes, which stand in segments. Null where there is none.
+const Object* find_object(std::string_view name);
 const Object& object(std::string_view name);  // checked
 const Range& range_of(std::string_view object, std::string_view key);
-const Object* find_object(std::string_view name);  // null where there is none
 const Type* find_type(std::string_view name);
 
 }  // namespace mars::keys

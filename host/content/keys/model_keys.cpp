@@ -13,13 +13,13 @@ constexpr std::string_view kSplineEnds[] = {"clamped", "open", "periodic"};
 constexpr Type kModelTypes[] = {
     {"name", R"({"type": "string", "minLength": 1, "maxLength": 100, "pattern": "^[^/]*$"})", R"("anna")"},
     {"coordinate", R"({"type": "number", "minimum": -1e9, "maximum": 1e9})", "1"},
-    {"vector", R"({"type": "array", "minItems": 3, "maxItems": 3, "items": "#coordinate"})", "[1, 0, 0.5]"},
+    {"vector", R"({"type": "array", "minItems": 3, "maxItems": 3, "items": "#coordinate"})", "[1, 0, 0.5]", "X Y Z"},
     {"unit_vector",
      R"({"type": "array", "minItems": 3, "maxItems": 3, "items": {"type": "number", "minimum": 0, "maximum": 1}})",
      "[0, 0.5, 1]"},
     {"color",
      R"({"type": "array", "minItems": 3, "maxItems": 3, "items": {"type": "number", "minimum": 0, "maximum": 1}})",
-     "[0.8, 0.4, 0.2]"},
+     "[0.8, 0.4, 0.2]", "R G B"},
     {"patch", R"({"type": "array", "minItems": 16, "maxItems": 16, "items": "#unit_vector"})", ""},
     {"shapes",
      R"({"type": "object", "propertyNames": {"allOf": ["#name", {"not": "#library"}]},
@@ -44,13 +44,14 @@ constexpr Type kModelTypes[] = {
     {"limit",
      R"({"type": "array", "minItems": 2, "maxItems": 2, "items": {"type": "number", "minimum": -1e6, "maximum": 1e6}})",
      "[-30, 30]"},
-    {"sbb", R"({"type": "array", "minItems": 2, "maxItems": 2, "items": "#vector"})", "[[0, 0, 0], [1, 1, 1]]"},
+    {"sbb", R"({"type": "array", "minItems": 2, "maxItems": 2, "items": "#vector"})", "[[0, 0, 0], [1, 1, 1]]",
+     "X Y Z X Y Z"},
     {"library_or_name", R"({"anyOf": ["#library", "#name"]})", R"("box")"},
     {"edge",
      R"({"anyOf": [{"type": "number", "minimum": 0.001, "maximum": 0.5}, {"type": "array", "minItems": 3, "maxItems": 3,
          "items": {"type": "number", "minimum": 0.001, "maximum": 0.5}}]})",
      "0.1"},
-    {"sides", R"({"enum": [1, 2]})", "2"},
+    {"sides", R"({"enum": [1, 2]})", "2", "1|2"},
 };
 
 Object model() {
@@ -101,6 +102,7 @@ Object joint() {
         .type = "name",
         .meaning = "unique among the model's joints, 1 to 100 bytes without `/`",
         .required = true,
+        .typed = false,
         .example = R"("anna")"},
        {.name = "parent",
         .type = "text",
@@ -115,23 +117,27 @@ Object joint() {
        {.name = "x_axis",
         .type = "vector",
         .meaning = "direction of the x axis in the parent's frame, of any length",
-        .json = "[1, 0, 0]"},
+        .json = "[1, 0, 0]",
+        .example = "[1, 1, 0]"},
        {.name = "y_axis",
         .type = "vector",
         .meaning =
             "direction of the y axis in the parent's frame; need not be perpendicular to `x_axis`. z is x cross y",
-        .json = "[0, 1, 0]"},
+        .json = "[0, 1, 0]",
+        .example = "[0.5, 1, 0]"},
        {.name = "limits",
         .type = "limits",
         .meaning =
             "object that maps `x`, `y`, `z` to `[lower, upper]`; the joint cannot turn about an axis that is left out",
         .without = "-180 to 180 about each axis",
         .unit = "degrees",
+        .typed = false,
         .example = R"({"x": [-30, 30]})"},
        {.name = "segment",
         .type = "segment",
         .meaning = "the base segment",
         .without = "none",
+        .typed = false,
         .example = R"({"shape": "box"})"}}};
 }
 
@@ -148,30 +154,28 @@ Object limits() {
 }
 
 Object segment() {
-  Object segment{
-      "segment",
-      "",
-      {{.name = "shape",
-        .type = "library_or_name",
-        .meaning = "a shape of the library, or one of the model's `shapes`",
-        .see = "shapes.md#the-library-of-shapes",
-        .required = true,
-        .example = R"("box")"},
-       {.name = "sbb",
-        .type = "sbb",
-        .meaning = "segment bounding box in the joint's frame: `[[x, y, z], [x, y, z]]`, minimum and maximum corner",
-        .json = "[[0, 0, 0], [1, 1, 1]]"},
-       {.name = "material",
-        .type = "text",
-        .meaning = "a material of the model or of the film",
-        .without = "grey",
-        .example = R"("oak")"}}};
-  for (const ShapeOption* option : kShapeOptions)
-    segment.keys.push_back({.name = option->key,
-                            .type = option->count > 1 ? "edge" : "number",
-                            .meaning = option->what,
-                            .number = option->otherwise,
-                            .range = option->range});
+  Object segment{"segment",
+                 "",
+                 {{.name = "shape",
+                   .type = "library_or_name",
+                   .meaning = "a shape of the library, or one of the model's `shapes`",
+                   .see = "shapes.md#the-library-of-shapes",
+                   .required = true,
+                   .example = R"("box")"},
+                  {.name = "sbb",
+                   .type = "sbb",
+                   .meaning = "minimum and maximum corner of the segment bounding box, in the joint's frame",
+                   .json = "[[0, 0, 0], [1, 1, 1]]",
+                   .example = "[[-0.1, -0.1, -0.5], [0.1, 0.1, 0]]"},
+                  {.name = "material",
+                   .type = "text",
+                   .meaning = "a material of the model or of the film",
+                   .without = "grey",
+                   .example = R"("oak")"}}};
+  for (Key key : shape_options().keys) {
+    key.typed = false;  // but in `--with`
+    segment.keys.push_back(key);
+  }
   return segment;
 }
 
@@ -231,7 +235,9 @@ Object bspline() {
     bspline.keys.push_back({.name = way,
                             .type = "direction",
                             .meaning = "one of the surface's two directions, an object with the keys below",
-                            .without = "cubic, clamped, uniform"});
+                            .json = "{}",
+                            .without = "cubic, clamped, uniform",
+                            .example = R"({"degree": 2})"});
   return bspline;
 }
 
@@ -290,7 +296,12 @@ Object proportions() {
         .meaning = "the same for a joint and all joints below it",
         .without = "none",
         .example = R"({"leg-*": 1.1})"},
-       {.name = "scale", .type = "factors", .meaning = "factors for all joints", .json = "1", .example = "[1, 1, 1.2]"},
+       {.name = "scale",
+        .type = "factors",
+        .meaning = "factors for all joints",
+        .json = "1",
+        .range = {1e-3, 1e3},
+        .example = "[1, 1, 1.2]"},
        {.name = "height",
         .meaning = "height at rest, from the lowest to the highest point; the whole figure is scaled evenly to it",
         .without = "the resulting height",
@@ -316,16 +327,27 @@ std::vector<Key> material_keys() {
                   .type = "choice",
                   .meaning = "how the surface reflects light",
                   .json = R"("phong")",
-                  .choices = kReflections});
+                  .choices = kReflections,
+                  .example = R"("blinn-phong")"});
   keys.push_back({.name = "interpolation",
                   .type = "choice",
                   .meaning = "what is interpolated over a triangle: its normal (phong), the colours of its corners "
                              "(gouraud), or nothing (flat)",
                   .json = R"("phong")",
-                  .choices = kInterpolations});
-  keys.push_back(
-      {.name = "sides", .type = "sides", .meaning = "1: visible from outside only; 2: from both sides", .json = "2"});
+                  .choices = kInterpolations,
+                  .example = R"("flat")"});
+  keys.push_back({.name = "sides",
+                  .type = "sides",
+                  .meaning = "1: visible from outside only; 2: from both sides",
+                  .json = "2",
+                  .example = "1"});
   return keys;
+}
+
+Object shape_options() {
+  Object shape{"shape", "What may be varied in shapes of the library: keys of segments.", {}};
+  for (const Key* option : kShapeOptions) shape.keys.push_back(*option);
+  return shape;
 }
 
 std::vector<Object> make_model_objects() {

@@ -33,8 +33,10 @@ std::span<const Object> model_objects() {
 }
 
 const Object* find_object(std::string_view name) {
-  const Object* const of_film = find_in(film_objects(), name);
-  return of_film != nullptr ? of_film : find_in(model_objects(), name);
+  static const std::vector<Object> beside_files = with_names({shape_options()});
+  for (const std::span<const Object> objects : {film_objects(), model_objects(), std::span(beside_files)})
+    if (const Object* const found = find_in(objects, name)) return found;
+  return nullptr;
 }
 
 const Object& object(std::string_view name) {

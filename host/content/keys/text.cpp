@@ -27,7 +27,7 @@ std::string plain(std::string_view markdown) {
   return text;
 }
 
-bool is_json(const Key& key) { return key.number || !key.json.empty(); }
+bool is_json(const Key& key) { return key.without.empty() && (key.number || !key.json.empty()); }
 
 std::string code(const std::string& text) { return "`" + text + "`"; }
 
@@ -71,13 +71,18 @@ std::string default_of(const Key& key) {
   return key.number ? shown(*key.number) : "";
 }
 
+std::string words_of_example(const Key& key) {
+  std::string words = key.example.empty() ? default_of(key) : std::string(key.example);
+  std::erase_if(words, [](char c) { return std::string_view("[],\"").find(c) != std::string_view::npos; });
+  return words;
+}
+
 std::string help_of(const Key& key, std::string_view before) {
   std::string text = plain(key.meaning);
   if (std::islower(static_cast<unsigned char>(text.front())))
     text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
   if (const std::string range = plain(range_of(key)); !range.empty()) text += " (" + range + ")";
-  return text + ". Example: " + std::string(before) +
-         (key.example.empty() ? default_of(key) : std::string(key.example));
+  return text + ". Example: " + std::string(before) + words_of_example(key);
 }
 
 std::string names_of(const Object& object) {

@@ -15,10 +15,13 @@ std::string range_of(const Key& key);
 // "0.5", "[0, 0, 0]", "required", or in words.
 std::string default_of(const Key& key);
 
-// Help of an option: "Share of ... (0 to 10). Example: --ambient 0.1", with `before` the example's value.
+// "1 0 0.5": its example as words.
+std::string words_of_example(const Key& key);
+
+// Help of an option: "Share of ... (0 to 10). Example: --ambient 0.1", with `before` the example's words.
 std::string help_of(const Key& key, std::string_view before);
 
-// "color, reflection, ... or sides": the keys that `mars film` takes.
+// "color, reflection, ... or sides": the keys that commands take.
 std::string names_of(const Object& object);
 
 // What may be typed of it, for completion: "roughness=", "reflection=phong", "reflection=blinn-phong".

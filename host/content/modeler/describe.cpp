@@ -169,7 +169,7 @@ std::vector<MaterialColumn> material_columns() {
 }
 
 bool tells(const MaterialColumn& column, const Model& model) {
-  const std::string usual = column.always ? "" : column.cell(kDefaultMaterial);
+  const std::string usual = column.always ? "" : column.cell(default_material());
   return std::ranges::any_of(model.materials, [&](const NamedMaterial& m) { return column.cell(m.material) != usual; });
 }
 

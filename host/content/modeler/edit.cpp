@@ -1,22 +1,16 @@
 #include "host/content/modeler/edit.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <functional>
 #include <set>
-#include <span>
 
 #include "hal/failure/failure.h"
 #include "host/content/document/fields.h"
 #include "host/content/modeler/edit_limbs.h"
+#include "host/content/modeler/edit_material.h"
 #include "host/content/modeler/shape_library.h"
 
 namespace mars::modeler {
 namespace {
-
-constexpr std::string_view kJointOrder[] = {"name", "parent", "place", "x_axis", "y_axis", "limits", "segment"};
 
 std::string joint_of(const std::string& name) { return "joint '" + name + "'"; }
 std::string material_of(const std::string& name) { return "material '" + name + "'"; }
@@ -45,20 +39,16 @@ document::Json* find_joint(document::Json& model, const std::string& name) {
   return nullptr;
 }
 
-[[noreturn]] void no_such_joint(document::Json& model, const std::string& name) {
+document::Json& joint_named(document::Json& model, const std::string& name) {
+  if (document::Json* joint = find_joint(model, name)) return *joint;
   const std::vector<std::string> names = names_of(joints_of(model));
   throw Failure("is not in the model", joint_of(name), near(name, names, "mars model MODEL show lists the joints"));
 }
 
-document::Json& joint_named(document::Json& model, const std::string& name) {
-  if (document::Json* joint = find_joint(model, name)) return *joint;
-  no_such_joint(model, name);
-}
-
-// Keys that `order` names come first, in its order.
-void put_in_order(document::Json& object, std::span<const std::string_view> order) {
+// As the table lists its keys, then any others.
+void put_in_order(document::Json& object, std::string_view name) {
   document::Json sorted = document::Json::object();
-  for (const std::string_view key : order)
+  for (const std::string_view key : keys::object(name).names)
     if (const auto found = object.find(key); found != object.end()) sorted[std::string(key)] = *found;
   for (auto item = object.begin(); item != object.end(); ++item)
     if (!sorted.contains(item.key())) sorted[item.key()] = item.value();
@@ -71,49 +61,17 @@ void change_limits(document::Json& joint, const JointChange& change) {
   if (change.limits.empty()) return;
   if (!joint.contains("limits")) joint["limits"] = {{"x", {-180, 180}}, {"y", {-180, 180}}, {"z", {-180, 180}}};
   document::Json& limits = joint["limits"];
-  for (const auto& [axis, range] : change.limits) {
-    if (range.lower > range.upper)
-      throw Failure("has limits about " + std::string(1, axis) + " from " + document::shown(range.lower) + " to " +
-                        document::shown(range.upper) + " degrees",
-                    joint_of(joint["name"]), "give the lower one first");
+  for (const auto& [axis, range] : change.limits)
     limits[std::string(1, axis)] = {plain_number(range.lower), plain_number(range.upper)};
-  }
-  constexpr std::string_view axes[] = {"x", "y", "z"};
-  put_in_order(limits, axes);
+  put_in_order(limits, "limits");
 }
 
-std::string option_of(const std::string& shape) {
-  const LibraryShape* known = find_library_shape(shape);
-  return known ? std::string(known->option.key) : "";
-}
-
-void change_options(document::Json& segment, const JointChange& change, const std::string& joint) {
-  const std::string shape = segment["shape"];
-  const std::string own = option_of(shape);
-  for (const LibraryShape& other : shape_library())
-    if (change.shape && other.option.key != own) segment.erase(std::string(other.option.key));
-  for (const auto& [key, numbers] : change.options) {
-    if (key != own || own.empty())
-      throw Failure("has a " + shape + ", which has no '" + key + "'", joint_of(joint),
-                    own.empty() ? "leave it out" : "its own is '" + own + "'");
-    document::Json list = document::Json::array();
-    for (const double number : numbers) list.push_back(plain_number(number));
-    segment[key] = numbers.size() == 1 ? list[0] : list;
-  }
-}
-
-std::vector<std::string> own_shapes(const document::Json& model) {
-  std::vector<std::string> names;
-  if (const auto shapes = model.find("shapes"); shapes != model.end())
-    for (auto shape = shapes->begin(); shape != shapes->end(); ++shape) names.push_back(shape.key());
-  return names;
-}
-
-void require_shape(const document::Json& model, const std::string& shape, const std::string& joint) {
-  const std::vector<std::string> own = own_shapes(model);
-  if (find_library_shape(shape) || std::ranges::count(own, shape)) return;
-  throw Failure("is given the shape '" + shape + "', which is neither in the library nor the model's", joint_of(joint),
-                likely_shape(shape, std::vector<std::string_view>(own.begin(), own.end())));
+// But for that of the shape.
+void forget_options(document::Json& segment, const std::string& shape) {
+  const LibraryShape* const known = find_library_shape(shape);
+  const keys::Key* const own = known ? known->option : nullptr;
+  for (const keys::Key* const option : keys::kShapeOptions)
+    if (option != own) segment.erase(std::string(option->name));
 }
 
 bool uses(const document::Json& joint, const std::string& material) {
@@ -139,28 +97,17 @@ void require_material(document::Json& model, const std::string& material, const 
                 near(material, known, "add it: give --color R G B too"));
 }
 
-void change_segment(document::Json& model, document::Json& joint, const JointChange& change) {
-  const bool any = change.shape || !change.options.empty() || change.sbb || change.material;
-  if (!any) return;
-  const std::string name = joint["name"];
-  if (!joint.contains("segment") && !change.shape)
-    throw Failure("has no segment", joint_of(name), "give it a shape: --shape box");
-  if (change.shape) require_shape(model, *change.shape, name);
-  if (change.material) require_material(model, *change.material, name);
+void change_segment(document::Json& model, document::Json& joint, const document::Json& values) {
+  if (values.empty()) return;
+  const auto shape = values.find("shape"), material = values.find("material");
+  const bool is_new = !joint.contains("segment");
+  if (is_new && shape == values.end())
+    throw Failure("has no segment", joint_of(joint["name"]), "give it a shape: --shape box");
+  if (material != values.end()) require_material(model, *material, joint["name"]);
   document::Json& segment = joint["segment"];
-  if (change.shape) segment["shape"] = *change.shape;
-  change_options(segment, change, name);
-  if (change.sbb) {
-    for (int axis = 0; axis < 3; ++axis)
-      if (!(change.sbb->min[axis] < change.sbb->max[axis]))
-        throw Failure(std::string("has an sbb without extent along ") + "xyz"[axis], joint_of(name),
-                      "give the least x y z, then the greatest X Y Z");
-    segment["sbb"] = {plain_vector(change.sbb->min), plain_vector(change.sbb->max)};
-  }
-  if (change.material) segment["material"] = *change.material;
-  const std::string option = option_of(segment["shape"]);
-  const std::string_view order[] = {"shape", option, "sbb", "material"};
-  put_in_order(segment, order);
+  if (!is_new && shape != values.end()) forget_options(segment, *shape);
+  segment.update(values);
+  put_in_order(segment, "segment");
 }
 
 void reset(document::Json& joint, const std::string& what) {
@@ -177,16 +124,10 @@ void reset(document::Json& joint, const std::string& what) {
 // Everything but the name.
 void change_joint(document::Json& model, document::Json& joint, const JointChange& change) {
   for (const std::string& what : change.reset) what == "limb" ? forget_limb(model, joint["name"]) : reset(joint, what);
-  if (change.parent) {
-    if (!find_joint(model, *change.parent)) no_such_joint(model, *change.parent);
-    joint["parent"] = *change.parent;
-  }
-  if (change.place) joint["place"] = plain_vector(*change.place);
-  if (change.x_axis) joint["x_axis"] = plain_vector(*change.x_axis);
-  if (change.y_axis) joint["y_axis"] = plain_vector(*change.y_axis);
+  joint.update(change.joint);
   change_limits(joint, change);
-  change_segment(model, joint, change);
-  put_in_order(joint, kJointOrder);
+  change_segment(model, joint, change.segment);
+  put_in_order(joint, "joint");
 }
 
 void refuse_known(document::Json& model, const std::string& name) {
@@ -230,37 +171,13 @@ void require_known_material(document::Json& model, const std::string& name) {
                 near(name, materials_known(model), "add it: mars model MODEL add"));
 }
 
-void set_reflection(document::Json& material, const std::string& name) {
-  const auto known = std::ranges::find(kReflections, name);
-  if (known != std::end(kReflections))
-    for (const MaterialNumber& number : kMaterialNumbers)
-      if (!uses(static_cast<wire::Reflection>(known - kReflections), number))
-        material.erase(std::string(number.key.name));
-  material["reflection"] = name;
-}
-
-void change_material(document::Json& material, const MaterialChange& change) {
-  if (change.color) material["color"] = plain_vector(*change.color);
-  if (change.reflection) set_reflection(material, *change.reflection);
-  if (change.interpolation) material["interpolation"] = *change.interpolation;
-  for (std::size_t i = 0; i < kMaterialNumbers.size(); ++i)
-    if (change.numbers[i]) material[kMaterialNumbers[i].key.name] = plain_number(*change.numbers[i]);
-  if (change.sides) material["sides"] = *change.sides;
-}
-
 }  // namespace
-
-document::Json plain_number(double number) {
-  const double rounded = document::rounded_to(number, 10);
-  if (rounded == std::floor(rounded) && std::abs(rounded) < 1e15) return static_cast<std::int64_t>(rounded);
-  return rounded;
-}
 
 document::Json plain_vector(const glm::dvec3& vector) {
   return {plain_number(vector.x), plain_number(vector.y), plain_number(vector.z)};
 }
 
-void put_in_order(document::Json& joint) { put_in_order(joint, kJointOrder); }
+void put_in_order(document::Json& joint) { put_in_order(joint, "joint"); }
 
 document::Json empty_model() { return {{"joints", document::Json::array()}}; }
 
@@ -308,19 +225,19 @@ void remove_joint(document::Json& model, const std::string& name, bool branch) {
   model["joints"] = std::move(left);
 }
 
-void add_material(document::Json& model, const std::string& name, const MaterialChange& change) {
+void add_material(document::Json& model, const std::string& name, const document::Json& values) {
   document::Json material = document::Json::object();
-  change_material(material, change);
+  change_material(material, values);
   document::Json& materials = materials_of(model);
   if (materials.contains(name) && materials[name] != material)
     throw Failure("is in the model already, and looks otherwise", material_of(name), "change it: mars model MODEL set");
   materials[name] = material;
 }
 
-void set_material(document::Json& model, const std::string& name, const MaterialChange& change,
+void set_material(document::Json& model, const std::string& name, const document::Json& values,
                   const std::optional<std::string>& new_name) {
   require_known_material(model, name);
-  change_material(model["materials"][name], change);
+  change_material(model["materials"][name], values);
   if (!new_name || *new_name == name) return;
   if (model["materials"].contains(*new_name))
     throw Failure("is in the model already", material_of(*new_name), "choose another name");

@@ -1,9 +1,8 @@
 // Steps by which commands, and later the studio, change a model: each on the JSON of a model that read_model() took
-// (model_file.h reads and writes it), so that what a person wrote stays as written. What only read_model() finds,
-// such as a cycle of parents, is refused when the file is written. Failures name the joint, axis or material.
+// (model_file.h reads and writes it), so that what a person wrote stays as written. What read_model() finds, such as
+// an unknown shape, is refused when the file is written. Failures name the joint or material.
 #pragma once
 
-#include <array>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
@@ -21,32 +20,15 @@ enum class Freedom { as_it_was, fixed, free };
 struct JointChange {
   std::vector<std::string> reset;  // of kResets, to their defaults
   std::optional<std::string> name;
-  std::optional<std::string> parent;
-  std::optional<glm::dvec3> place;
-  std::optional<glm::dvec3> x_axis;
-  std::optional<glm::dvec3> y_axis;
+  document::Json joint = document::Json::object();    // values of its keys, as a file writes them: place, x_axis ...
+  document::Json segment = document::Json::object();  // the same; another shape loses the options of that before
   Freedom freedom = Freedom::as_it_was;
-  std::vector<std::pair<char, Limits>> limits;                       // of x, y or z; after `freedom`
-  std::optional<std::string> shape;                                  // another one loses the options of that before
-  std::vector<std::pair<std::string, std::vector<double>>> options;  // of the shape: top, ...
-  std::optional<Box> sbb;
-  std::optional<std::string> material;
-  std::optional<std::string> limb;  // it becomes the figure's "pelvis", "left.knee", ...
+  std::vector<std::pair<char, Limits>> limits;  // of x, y or z; after `freedom`
+  std::optional<std::string> limb;              // it becomes the figure's "pelvis", "left.knee", ...
 };
 
 inline constexpr std::string_view kResets[] = {"parent",  "place", "axes",     "limits",
                                                "segment", "sbb",   "material", "limb"};
-
-struct MaterialChange {
-  std::optional<glm::dvec3> color;
-  std::array<std::optional<double>, kMaterialNumbers.size()> numbers;  // as in kMaterialNumbers
-  std::optional<std::string> reflection;                               // numbers that it does not use go
-  std::optional<std::string> interpolation;
-  std::optional<int> sides;
-
-  bool any() const { return *this != MaterialChange(); }
-  bool operator==(const MaterialChange&) const = default;
-};
 
 // A model without joints, to which the first is added at once.
 document::Json empty_model();
@@ -60,18 +42,17 @@ void set_joint(document::Json& model, const std::string& name, const JointChange
 // Joints that hang on it are removed too if `branch`, else they are in the way.
 void remove_joint(document::Json& model, const std::string& name, bool branch);
 
-// One that is there already must look the same.
-void add_material(document::Json& model, const std::string& name, const MaterialChange& change);
+// With these values (edit_material.h). One that is there already must look the same.
+void add_material(document::Json& model, const std::string& name, const document::Json& values);
 // `new_name` is also put into the segments made of it.
-void set_material(document::Json& model, const std::string& name, const MaterialChange& change,
+void set_material(document::Json& model, const std::string& name, const document::Json& values,
                   const std::optional<std::string>& new_name);
 void remove_material(document::Json& model, const std::string& name);
 
 // The keys of a joint in the order in which people read them.
 void put_in_order(document::Json& joint);
 
-// A number as a person would write it: 2, not 2.0; ten digits.
-document::Json plain_number(double number);
+using document::plain_number;
 document::Json plain_vector(const glm::dvec3& vector);
 
 }  // namespace mars::modeler

@@ -88,7 +88,7 @@ std::string make_own(Json& model, const Shape& shape, const std::string& joint) 
   const std::string name = free_name(model, joint);
   model["shapes"][name] = written(shape.patches);
   JointChange change;
-  change.shape = name;
+  change.segment["shape"] = name;
   set_joint(model, joint, change);
   return name;
 }

@@ -26,20 +26,26 @@ void refuse_unused(const document::Fields& fields, wire::Reflection reflection) 
 }
 
 wire::Material read_shading(const document::Fields& fields) {
-  wire::Material material = kDefaultMaterial;
+  wire::Material material{};
   material.reflection = static_cast<wire::Reflection>(fields.choice("reflection"));
   material.interpolation = static_cast<wire::Interpolation>(fields.choice("interpolation"));
-  material.sides = fields.count("sides", 2, 1, 2);
+  material.sides = document::read_count(fields.value("sides"), 1, 2);
   refuse_unused(fields, material.reflection);
   return material;
 }
 
 wire::Material read_material(const document::Fields& fields) {
   wire::Material material = read_shading(fields);
-  const glm::dvec3 color = fields.color("color", {0.8, 0.8, 0.8});
+  const glm::dvec3 color = fields.color("color");
   for (int i = 0; i < 3; ++i) material.color[i] = static_cast<float>(color[i]);
   for (const MaterialNumber& number : kMaterialNumbers)
     material.*number.member = static_cast<float>(fields.number(number.key.name));
+  return material;
+}
+
+const wire::Material& default_material() {
+  static const wire::Material material =
+      read_material(document::Fields(document::Document("{}", "").root(), keys::object("material")));
   return material;
 }
 

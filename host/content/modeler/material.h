@@ -23,14 +23,8 @@ constexpr std::string_view word_of(wire::Reflection reflection) {
   return kReflections[static_cast<unsigned>(reflection)];
 }
 
-constexpr wire::Material default_material() {
-  wire::Material material{{0.8f, 0.8f, 0.8f}, 0, 0, 0, 0, 2};
-  for (const MaterialNumber& number : kMaterialNumbers)
-    material.*number.member = static_cast<float>(number.key.number.value());
-  return material;
-}
-
-inline constexpr wire::Material kDefaultMaterial = default_material();
+// One of whose keys none is written.
+const wire::Material& default_material();
 
 // The object under its material keys; others than those of `fields` are refused.
 wire::Material read_material(const document::Fields& fields);

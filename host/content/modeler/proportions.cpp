@@ -10,8 +10,6 @@
 namespace mars::modeler {
 namespace {
 
-constexpr document::Range kFactors{1e-3, 1e3};
-
 // The joints that the pattern fits, and those below if asked.
 std::vector<bool> chosen(const Scaling& scaling, const std::vector<Joint>& joints) {
   std::vector<bool> some(joints.size());
@@ -64,8 +62,9 @@ void keep_ground(Model& model, double ground) {
 
 // One number, or one for each axis.
 glm::dvec3 read_factors(const document::Element& element) {
-  return element.kind() == document::Kind::list ? document::read_vector(element, kFactors)
-                                                : glm::dvec3(document::read_number(element, kFactors));
+  const document::Range& range = keys::range_of("proportions", "scale");
+  return element.kind() == document::Kind::list ? document::read_vector(element, range)
+                                                : glm::dvec3(document::read_number(element, range));
 }
 
 }  // namespace
@@ -111,7 +110,7 @@ Proportions read_proportions(const document::Element& element) {
     for (const document::Element item : *list)
       proportions.joints.push_back({std::string(item.key()), branch, read_factors(item)});
   }
-  if (const auto scale = fields.find("scale")) proportions.scale = read_factors(*scale);
+  proportions.scale = read_factors(fields.value("scale"));
   if (const auto height = fields.find("height"))
     proportions.height = document::read_number(*height, fields.key("height"));
   proportions.ground = fields.flag("ground");

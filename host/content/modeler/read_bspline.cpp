@@ -8,8 +8,6 @@
 namespace mars::modeler {
 namespace {
 
-constexpr std::string_view kEndWords[] = {"clamped", "open", "periodic"};  // as in Ends
-
 PointGrid read_points(const document::Element& element) {
   document::require_kind(element, document::Kind::list);
   if (element.size() == 0) element.refuse("is empty", "write rows of points");
@@ -84,17 +82,12 @@ std::vector<double> read_knots(const document::Element& element, SplineDirection
 
 // The direction `key` of the surface, which has `points` points along it.
 SplineDirection read_direction(const document::Fields& surface, std::string_view key, std::size_t points) {
-  std::uint32_t degree = kMostDegree;
-  Ends ends = Ends::clamped;
-  std::optional<document::Element> knots;
-  if (const auto element = surface.find(key)) {
-    const document::Fields fields(*element, keys::object("direction"));
-    degree = fields.count("degree");
-    ends = static_cast<Ends>(fields.choice("ends"));
-    knots = fields.find("knots");
-    if (const auto given = fields.find("ends"); given && knots && ends != Ends::periodic)
-      given->refuse("stands beside knots, which say themselves how the surface ends", "take out ends, or the knots");
-  }
+  const document::Fields fields(surface.value(key), keys::object("direction"));
+  const std::uint32_t degree = fields.count("degree");
+  const Ends ends = static_cast<Ends>(fields.choice("ends"));
+  const auto knots = fields.find("knots");
+  if (const auto given = fields.find("ends"); given && knots && ends != Ends::periodic)
+    given->refuse("stands beside knots, which say themselves how the surface ends", "take out ends, or the knots");
   if (points <= degree)
     surface.required("points").refuse("has " + std::to_string(points) + " points along " + std::string(key) +
                                           ", degree " + std::to_string(degree) + " needs at least " +

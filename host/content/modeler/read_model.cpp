@@ -19,7 +19,6 @@
 namespace mars::modeler {
 namespace {
 
-constexpr document::Range kDegrees{-1e6, 1e6};
 constexpr std::string_view kAxes[] = {"x", "y", "z"};
 constexpr double kLeastSine = 1e-3;  // between a joint's axes
 
@@ -140,7 +139,7 @@ class ModelReader {
     const document::Element element = fields.required("shape");
     const std::string name = document::read_text(element);
     const LibraryShape* known = find_library_shape(name);
-    refuse_other_options(fields, known ? known->option.key : "", name);
+    refuse_other_options(fields, known, name);
     if (!known) return find_own_shape(element, name);
     const OptionValues values = read_option(fields, *known);
     const auto [made, is_new] = library_.try_emplace({known->name, values}, model_.shapes.size());
@@ -149,17 +148,16 @@ class ModelReader {
   }
 
   static OptionValues read_option(const document::Fields& fields, const LibraryShape& shape) {
-    const ShapeOption& option = shape.option;
-    OptionValues values = shape.defaults();
-    const auto given = fields.find(option.key);
-    if (!given) return values;
-    const auto numbers = std::span(values).first(option.count);
-    if (option.count > 1 && given->kind() == document::Kind::list) {
-      document::require_size(*given, option.count);
+    OptionValues values{};
+    if (shape.option == nullptr) return values;
+    const document::Element given = fields.value(shape.option->name);
+    const auto numbers = std::span(values).first(keys::count_of(*shape.option));
+    if (numbers.size() > 1 && given.kind() == document::Kind::list) {
+      document::require_size(given, numbers.size());
       std::size_t at = 0;
-      for (const document::Element item : *given) numbers[at++] = document::read_number(item, option.range);
+      for (const document::Element item : given) numbers[at++] = document::read_number(item, *shape.option);
     } else {
-      std::ranges::fill(numbers, document::read_number(*given, option.range));
+      std::ranges::fill(numbers, document::read_number(given, *shape.option));
     }
     return values;
   }
@@ -174,10 +172,12 @@ class ModelReader {
                    likely_shape(name, own));
   }
 
-  static void refuse_other_options(const document::Fields& fields, std::string_view own, const std::string& shape) {
-    for (const LibraryShape& other : shape_library())
-      if (const auto option = fields.find(other.option.key); option && other.option.key != own)
+  static void refuse_other_options(const document::Fields& fields, const LibraryShape* own, const std::string& shape) {
+    for (const LibraryShape& other : shape_library()) {
+      if (other.option == nullptr || (own != nullptr && other.option == own->option)) continue;
+      if (const auto option = fields.find(other.option->name))
         option->refuse("belongs to the shape " + std::string(other.name) + ", not to " + shape, "take it out");
+    }
   }
 
   static Box read_box(const document::Element& element) {
@@ -195,8 +195,7 @@ class ModelReader {
 
   Segment read_segment(const document::Element& element) {
     const document::Fields fields(element, keys::object("segment"));
-    Segment segment{read_shape(fields), {}, fields.text("material", "")};
-    if (const auto sbb = fields.find("sbb")) segment.sbb = read_box(*sbb);
+    Segment segment{read_shape(fields), read_box(fields.value("sbb")), fields.text("material", "")};
     if (!segment.material.empty() && !material_names_.contains(segment.material)) {
       const std::vector<std::string_view> names(material_names_.begin(), material_names_.end());
       fields.find("material")
@@ -210,29 +209,27 @@ class ModelReader {
     const document::Fields fields(element, keys::object("limits"));
     std::array<Limits, 3> limits;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      limits[axis] = {0, 0};
-      const auto range = fields.find(kAxes[axis]);
-      if (!range) continue;
-      document::require_size(*range, 2);
-      auto bound = range->begin();
-      limits[axis].lower = document::read_number(*bound, kDegrees);
-      limits[axis].upper = document::read_number(*++bound, kDegrees);
+      const document::Element range = fields.value(kAxes[axis]);
+      document::require_size(range, 2);
+      auto bound = range.begin();
+      limits[axis].lower = document::read_number(*bound, keys::kDegrees);
+      limits[axis].upper = document::read_number(*++bound, keys::kDegrees);
       if (limits[axis].lower > limits[axis].upper)
-        range->refuse("has its lower limit above its upper",
-                      "write the lower first, degrees: \"" + std::string(kAxes[axis]) + "\": [-30, 30]");
+        range.refuse("has its lower limit above its upper",
+                     "write the lower first, degrees: \"" + std::string(kAxes[axis]) + "\": [-30, 30]");
     }
     return limits;
   }
 
   static void read_axes(const document::Fields& fields, Joint& joint) {
-    const auto unit = [&](std::string_view key, const glm::dvec3& otherwise) {
-      const glm::dvec3 axis = fields.vector(key, otherwise);
+    const auto unit = [&](std::string_view key) {
+      const glm::dvec3 axis = fields.vector(key);
       const double length = glm::length(axis);
       if (length < 1e-9) fields.find(key)->refuse("has no length", "write a vector of the joint's axis");
       return axis / length;
     };
-    joint.x_axis = unit("x_axis", joint.x_axis);
-    joint.y_axis = unit("y_axis", joint.y_axis);
+    joint.x_axis = unit("x_axis");
+    joint.y_axis = unit("y_axis");
     if (glm::length(glm::cross(joint.x_axis, joint.y_axis)) < kLeastSine)
       fields.element().refuse("has parallel x and y axes", "give x_axis and y_axis different directions");
   }
@@ -241,7 +238,7 @@ class ModelReader {
     const document::Fields fields(element, keys::object("joint"));
     Joint joint;
     joint.name = read_name(fields.required("name"));
-    joint.place = fields.vector("place", joint.place);
+    joint.place = fields.vector("place");
     read_axes(fields, joint);
     if (const auto limits = fields.find("limits")) joint.limits = read_limits(*limits);
     if (const auto segment = fields.find("segment")) joint.segment = read_segment(*segment);

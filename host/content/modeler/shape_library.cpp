@@ -11,7 +11,7 @@
 namespace mars::modeler {
 namespace {
 
-constexpr ShapeOption kNothing{};
+constexpr const keys::Key* kNothing = nullptr;
 using keys::kEdge, keys::kEnds, keys::kLid, keys::kRim, keys::kTop, keys::kTube;
 
 template <std::vector<wire::Patch> (*make)()>
@@ -31,15 +31,15 @@ std::vector<wire::Patch> of_body(const OptionValues&) {
 
 constexpr LibraryShape kLibrary[] = {
     {"box", "six flat sides", kNothing, plain<make_box>},
-    {"rounded_box", "a box with round edges and corners", kEdge, make_rounded_box},
+    {"rounded_box", "a box with round edges and corners", &kEdge, make_rounded_box},
     {"sphere", "a ball", kNothing, plain<make_sphere>},
     {"ellipsoid", "a sphere by the name it has in an sbb that is no cube", kNothing, plain<make_sphere>},
     {"cylinder", "round about z, closed by flat ends", kNothing, plain<make_cylinder>},
-    {"capsule", "a cylinder with round ends", kEnds, varied<make_capsule>},
-    {"cone", "pointed or blunt, round about z", kTop, varied<make_cone>},
-    {"disc", "a flat round body with a round rim: a wheel, a coin", kRim, varied<make_disc>},
-    {"torus", "a ring round about z", kTube, varied<make_torus>},
-    {"teapot", "Newell's, z up, its spout towards x", kLid, varied<make_teapot>},
+    {"capsule", "a cylinder with round ends", &kEnds, varied<make_capsule>},
+    {"cone", "pointed or blunt, round about z", &kTop, varied<make_cone>},
+    {"disc", "a flat round body with a round rim: a wheel, a coin", &kRim, varied<make_disc>},
+    {"torus", "a ring round about z", &kTube, varied<make_torus>},
+    {"teapot", "Newell's, z up, its spout towards x", &kLid, varied<make_teapot>},
     {"upper_limb", "an upper arm or thigh of any creature", kNothing, plain<make_upper_limb>},
     {"lower_limb", "a forearm or shin of any creature", kNothing, plain<make_lower_limb>},
     {"hand", "a mitten, left or right, thumb forward", kNothing, plain<make_hand>},
@@ -61,12 +61,6 @@ constexpr LibraryShape kLibrary[] = {
 };
 
 }  // namespace
-
-OptionValues LibraryShape::defaults() const {
-  OptionValues values{};
-  if (!option.key.empty()) std::fill_n(values.begin(), option.count, option.otherwise);
-  return values;
-}
 
 std::span<const LibraryShape> shape_library() { return kLibrary; }
 

@@ -18,15 +18,11 @@ inline constexpr std::size_t kMostNumbers = 3;  // of an option
 // As many as the option's count, then zeros.
 using OptionValues = std::array<double, kMostNumbers>;
 
-using keys::ShapeOption;
-
 struct LibraryShape {
   std::string_view name;
   std::string_view what;
-  ShapeOption option;
+  const keys::Key* option;  // null: there is nothing to vary
   std::vector<wire::Patch> (*make)(const OptionValues& values);
-
-  OptionValues defaults() const;
 };
 
 // In the order in which a person would list them.

@@ -22,16 +22,22 @@ std::vector<std::string_view> names_of(std::span<const keys::Object> objects) {
   return names;
 }
 
+std::vector<std::string_view> names_of_models() {
+  std::vector<std::string_view> names = names_of(keys::model_objects());
+  names.push_back("shape");
+  return names;
+}
+
 std::string list() {
   return "Of a film: " + document::joined(names_of(keys::film_objects())) +
-         "\nOf a model: " + document::joined(names_of(keys::model_objects())) +
+         "\nOf a model: " + document::joined(names_of_models()) +
          "\n`mars keys NAME` prints the keys of one of them.\n";
 }
 
 std::string keys_of(const std::string& name) {
   if (const keys::Object* const object = keys::find_object(name)) return keys::table_of(*object);
   std::vector<std::string_view> names = names_of(keys::film_objects());
-  for (const std::string_view each : names_of(keys::model_objects())) names.push_back(each);
+  for (const std::string_view each : names_of_models()) names.push_back(each);
   throw Failure("is no object of film or model files", document::in_quotes(name),
                 document::did_you_mean(name, names, "`mars keys` lists what they hold"));
 }

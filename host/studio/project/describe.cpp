@@ -73,9 +73,9 @@ Json segment_in(const Json& model, const std::string& joint) {
 Json options_of(const Json& segment, const std::string& shape) {
   Json options = Json::object();
   const modeler::LibraryShape* const known = modeler::find_library_shape(shape);
-  if (!known || known->option.key.empty()) return options;
-  const std::string key(known->option.key);
-  options[key] = segment.contains(key) ? segment[key] : written(known->option.otherwise);
+  if (!known || known->option == nullptr) return options;
+  const std::string key(known->option->name);
+  options[key] = segment.contains(key) ? segment[key] : written(*known->option->number);
   return options;
 }
 
@@ -163,13 +163,12 @@ Json shapes() {
   Json shapes = Json::array();
   for (const modeler::LibraryShape& shape : modeler::shape_library()) {
     Json options = Json::array();
-    const modeler::ShapeOption& option = shape.option;
-    if (!option.key.empty())
-      options.push_back({{"key", option.key},
-                         {"what", option.what},
-                         {"count", option.count},
-                         {"default", option.otherwise},
-                         {"range", {option.range.lowest, option.range.highest}}});
+    if (const keys::Key* const option = shape.option)
+      options.push_back({{"key", option->name},
+                         {"what", option->meaning},
+                         {"count", keys::count_of(*option)},
+                         {"default", *option->number},
+                         {"range", {option->range.lowest, option->range.highest}}});
     shapes.push_back({{"name", shape.name}, {"what", shape.what}, {"options", std::move(options)}});
   }
   return shapes;

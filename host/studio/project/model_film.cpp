@@ -30,7 +30,7 @@ wire::Patch flat_patch() {
 modeler::Model ground_under(const modeler::Box& bounds) {
   const double radius = radius_of(bounds), side = kGroundSize * radius;
   modeler::Model ground;
-  wire::Material material = modeler::kDefaultMaterial;
+  wire::Material material = modeler::default_material();
   material.color[0] = material.color[1] = material.color[2] = 0.36f;
   material.specular = 0;
   material.sides = 1;

@@ -29,7 +29,7 @@ void take(std::string_view input) {
   modeler::doubts_about(model);
   document::Json json = document::read_json(path);
   modeler::JointChange change;
-  change.place = {1, 2, 3};
+  change.joint["place"] = {1, 2, 3};
   change.freedom = modeler::Freedom::free;
   modeler::set_joint(json, model.joints.front().name, change);
   if (model.joints.size() > 1) modeler::remove_joint(json, model.joints.back().name, true);

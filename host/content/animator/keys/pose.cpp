@@ -143,11 +143,9 @@ void remark_carried(const Film& meaning, const std::string& name, std::span<cons
       ", where its own place and turn count for nothing (detach it, or attach it with --place and --turn)");
 }
 
-constexpr double kMostDegrees = 1e6;  // as a film file may have
-
 bool is_turn(const glm::dvec3& degrees) {
   return std::ranges::all_of(std::array{degrees.x, degrees.y, degrees.z},
-                             [](double angle) { return std::abs(angle) <= kMostDegrees; });
+                             [](double angle) { return std::abs(angle) <= keys::kDegrees.highest; });
 }
 
 void show_key(Actor& actor, const modeler::Model& model, const std::string& part, const glm::dvec3& value,

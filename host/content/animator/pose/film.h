@@ -55,7 +55,7 @@ struct MaterialMotion {
   std::string name;
   Channel<glm::dvec3> color;
   std::array<Channel<double>, modeler::kMaterialNumbers.size()> numbers;  // as in kMaterialNumbers
-  wire::Material shading = modeler::kDefaultMaterial;                     // reflection, interpolation and sides
+  wire::Material shading = modeler::default_material();                   // reflection, interpolation and sides
 };
 
 // Light from all around, from above and from below.

@@ -12,8 +12,7 @@ std::optional<Attachment> read_attachment(const document::Element& element, cons
   if (element.kind() == document::Kind::null) return std::nullopt;
   const document::Fields fields(element, keys::object("attach"));
   const Carriers::Named named = carriers.read(fields);
-  return Attachment{named.actor, named.joint, fields.vector("place", {0, 0, 0}),
-                    fields.vector("turn", {0, 0, 0}, kDegrees)};
+  return Attachment{named.actor, named.joint, fields.vector("place"), fields.vector("turn", keys::kDegrees)};
 }
 
 // "tom is carried by ball, ball by tom"
@@ -82,8 +81,7 @@ Point read_point(const document::Element& element, const Carriers& carriers) {
   require_version_2(element);
   const document::Fields fields(element, keys::object("point"));
   const Carriers::Named named = carriers.read(fields);
-  return {fields.vector("offset", {0, 0, 0}), named.actor, named.joint, fields.choice("axes") == 1,
-          fields.flag("level")};
+  return {fields.vector("offset"), named.actor, named.joint, fields.choice("axes") == 1, fields.flag("level")};
 }
 
 void read_attachments(const std::vector<WrittenAttachment>& written, const std::vector<modeler::Model>& models,

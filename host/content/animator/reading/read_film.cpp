@@ -18,14 +18,7 @@
 namespace mars::animator {
 namespace {
 
-// Readers of one value, as settle() and add_key() want them.
-glm::dvec3 angles_of(const document::Element& element) { return document::read_vector(element, kDegrees); }
-double fov_of(const document::Element& element) {
-  return document::read_number(element, keys::range_of("camera", "fov"));
-}
-double exposure_of(const document::Element& element) {
-  return document::read_number(element, keys::range_of("camera", "exposure"));
-}
+glm::dvec3 angles_of(const document::Element& element) { return document::read_vector(element, keys::kDegrees); }
 
 void read_size(const document::Element& element, Film& film) {
   document::require_size(element, 2);
@@ -53,18 +46,18 @@ CameraMotion read_camera(const document::Element& element, wire::ColorSpace colo
                 add_key(camera.eye, key, "eye", frame, ease, point_of);
                 add_key(camera.at, key, "at", frame, ease, point_of);
                 add_key(camera.up, key, "up", frame, ease, place_of);
-                add_key(camera.fov, key, "fov", frame, ease, fov_of);
-                add_key(camera.exposure, key, "exposure", frame, ease, exposure_of);
+                add_key(camera.fov, key, "fov", frame, ease, number_of(key, "fov"));
+                add_key(camera.exposure, key, "exposure", frame, ease, number_of(key, "exposure"));
               });
   if (camera.eye.empty()) fields.required("eye");
-  settle(camera.eye, fields, "eye", {}, point_of);
-  settle(camera.at, fields, "at", {}, point_of);
-  settle(camera.up, fields, "up", {0, 0, 1}, place_of);
-  settle(camera.fov, fields, "fov", fields.key("fov").number.value(), fov_of);
+  settle(camera.eye, fields, "eye", point_of);
+  settle(camera.at, fields, "at", point_of);
+  settle(camera.up, fields, "up", place_of);
+  settle(camera.fov, fields, "fov", number_of(fields, "fov"));
   if (const bool given = !camera.exposure.empty() || fields.find("exposure"); given && color == wire::ColorSpace::coded)
     element.refuse("has an exposure, but the film's colours are coded, as they are shown",
                    "leave exposure out, or \"color\": \"coded\"");
-  settle(camera.exposure, fields, "exposure", fields.key("exposure").number.value(), exposure_of);
+  settle(camera.exposure, fields, "exposure", number_of(fields, "exposure"));
   camera.near = fields.number("near");
   camera.far = fields.number("far");
   if (camera.far <= camera.near)
@@ -161,8 +154,8 @@ class ActorReader {
       if (attachments_.size() > attached_before) refuse_still(*attach);
       add_attachment(*attach, 0, number);
     }
-    settle(actor.motion.place, fields, "place", {}, place_of);
-    settle(actor.motion.turn, fields, "turn", {}, angles_of);
+    settle(actor.motion.place, fields, "place", place_of);
+    settle(actor.motion.turn, fields, "turn", angles_of);
     if (const auto pose = fields.find("pose")) read_still_pose(*pose, actor);
   }
 
@@ -195,7 +188,7 @@ class ActorReader {
   }
 
   static glm::dvec3 pose_of(const document::Element& element, const modeler::Joint& joint) {
-    const glm::dvec3 pose = document::read_vector(element, kDegrees);
+    const glm::dvec3 pose = document::read_vector(element, keys::kDegrees);
     if (const auto broken = broken_limit(joint, pose))
       element.refuse("joint '" + joint.name + "' " + *broken, "keep it within the limits, or widen them in its model");
     return pose;
@@ -290,7 +283,7 @@ void read_colors(const document::Fields& fields, Film& film) {
     curve->refuse("stands in a film whose colours are coded, as they are shown",
                   "leave curve out, or \"color\": \"coded\"");
   film.curve = coded ? wire::Curve::none : static_cast<wire::Curve>(fields.choice("curve"));
-  film.background = fields.color("background", film.background);
+  film.background = fields.color("background");
   if (const auto fog = fields.find("fog")) film.fog = read_fog(*fog, film.background);
 }
 
@@ -319,9 +312,9 @@ void read_settings(const document::Fields& fields, Film& film) {
   film.frames = document::read_count(fields.required("frames"), fields.key("frames"));
   film.rate = fields.number("rate");
   read_colors(fields, film);
-  if (const auto size = fields.find("size")) read_size(*size, film);
-  if (const auto samples = fields.find("samples")) film.samples = read_samples(*samples);
-  if (const auto dice = fields.find("dice")) film.dice = read_dice(*dice);
+  read_size(fields.value("size"), film);
+  film.samples = read_samples(fields.value("samples"));
+  film.dice = read_dice(fields.value("dice"));
   film.cutting = static_cast<Cutting>(fields.choice("intervals"));
 }
 

@@ -31,11 +31,11 @@ void read_slope(const document::Element& element, glm::dvec2& slope);
 void read_slope(const document::Element& element, glm::dvec3& slope);
 void read_slope(const document::Element& element, Point& slope);  // of its place in the world
 
-// Of turns and poses.
-inline constexpr document::Range kDegrees{-1e6, 1e6};
-
-// A reader of one value, as settle() and add_key() want it.
+// Readers of one value, as settle() and add_key() want them: of a vector; of a number, within the range of its key.
 inline glm::dvec3 place_of(const document::Element& element) { return document::read_vector(element); }
+inline auto number_of(const document::Fields& fields, std::string_view key) {
+  return [&row = fields.key(key)](const document::Element& element) { return document::read_number(element, row); };
+}
 
 // Calls take(fields, frame, ease) for each item of the list, whose frames must ascend.
 template <typename Take>
@@ -84,13 +84,12 @@ void add_key(Channel<Value>& channel, const document::Fields& fields, std::strin
   if (const auto element = fields.find(part)) channel.push_back(read_part(*element, frame, ease, read));
 }
 
-// A channel that no key names takes the object's own value, else `otherwise`.
+// A channel that no key names takes the object's own value, else the table's default.
 template <typename Value, typename Read>
-void settle(Channel<Value>& channel, const document::Fields& fields, std::string_view key, const Value& otherwise,
-            Read read) {
+void settle(Channel<Value>& channel, const document::Fields& fields, std::string_view key, Read read) {
   const auto element = fields.find(key);
   if (element && !channel.empty()) element->refuse("is also set by keys", "take it out here, or out of every key");
-  if (channel.empty()) channel = constant(element ? read(*element) : otherwise);
+  if (channel.empty()) channel = constant(read(fields.value(key)));
 }
 
 }  // namespace mars::animator

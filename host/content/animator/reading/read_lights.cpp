@@ -98,14 +98,11 @@ void refuse_keys_of_others(const document::Element& element, wire::LightKind kin
                      "leave " + std::string(name) + " out: " + owners_of(light, key));
 }
 
-// A channel that no key names; of a key with neither a value nor a default it stays empty.
+// A channel of a key with neither a value nor a default stays empty.
 template <typename Value>
 void settle_by_table(Channel<Value>& channel, const document::Fields& fields, const keys::Key& key) {
-  const auto read = reader_of(key, channel);
-  if (fields.find(key.name)) return settle(channel, fields, key.name, Value{}, read);
-  if (!channel.empty() || (!key.number && key.json.empty())) return;
-  const document::Document otherwise(keys::default_of(key), "");
-  channel = constant(read(otherwise.root()));
+  const bool has_default = key.number || !key.json.empty();
+  if (has_default || fields.find(key.name)) settle(channel, fields, key.name, reader_of(key, channel));
 }
 
 LightMotion read_light(const document::Element& element) {
@@ -148,7 +145,8 @@ Ambient read_ambient(const document::Element& element) {
 
 Fog read_fog(const document::Element& element, const glm::dvec3& background) {
   const document::Fields fields(element, keys::object("fog"));
-  const Fog fog{fields.color("color", background), fields.number("start"),
+  const auto color = fields.find("color");
+  const Fog fog{color ? document::read_color(*color) : background, fields.number("start"),
                 document::read_number(fields.required("end"), fields.key("end"))};
   if (fog.end <= fog.start)
     element.refuse("ends at " + document::shown(fog.end) + ", not beyond its start " + document::shown(fog.start),

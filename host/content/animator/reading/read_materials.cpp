@@ -7,11 +7,6 @@ namespace mars::animator {
 namespace {
 
 using modeler::kMaterialNumbers;
-using modeler::MaterialNumber;
-
-auto reader_of(const MaterialNumber& number) {
-  return [&number](const document::Element& element) { return document::read_number(element, number.key); };
-}
 
 MaterialMotion read_material(const document::Element& element) {
   const document::Fields fields(element, keys::object("film_material"));
@@ -23,14 +18,16 @@ MaterialMotion read_material(const document::Element& element) {
               [&](const document::Fields& key, std::uint32_t frame, const Ease& ease) {
                 modeler::refuse_unused(key, material.shading.reflection);
                 add_key(material.color, key, "color", frame, ease, document::read_color);
-                for (std::size_t i = 0; i < kMaterialNumbers.size(); ++i)
-                  add_key(material.numbers[i], key, kMaterialNumbers[i].key.name, frame, ease,
-                          reader_of(kMaterialNumbers[i]));
+                for (std::size_t i = 0; i < kMaterialNumbers.size(); ++i) {
+                  const std::string_view name = kMaterialNumbers[i].key.name;
+                  add_key(material.numbers[i], key, name, frame, ease, number_of(key, name));
+                }
               });
-  settle(material.color, fields, "color", {0.8, 0.8, 0.8}, document::read_color);
-  for (std::size_t i = 0; i < kMaterialNumbers.size(); ++i)
-    settle(material.numbers[i], fields, kMaterialNumbers[i].key.name, kMaterialNumbers[i].key.number.value(),
-           reader_of(kMaterialNumbers[i]));
+  settle(material.color, fields, "color", document::read_color);
+  for (std::size_t i = 0; i < kMaterialNumbers.size(); ++i) {
+    const std::string_view name = kMaterialNumbers[i].key.name;
+    settle(material.numbers[i], fields, name, number_of(fields, name));
+  }
   return material;
 }
 

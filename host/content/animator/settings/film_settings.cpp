@@ -6,9 +6,9 @@
 #include "host/content/animator/keys/edit.h"
 #include "host/content/animator/reading/read_lights.h"
 #include "host/content/animator/reading/rig.h"
-#include "host/content/animator/settings/typed_fields.h"
 #include "host/content/animator/keys/written.h"
 #include "host/content/document/fields.h"
+#include "host/content/modeler/edit_material.h"
 #include "host/content/modeler/material.h"
 
 namespace mars::animator {
@@ -41,15 +41,28 @@ Json& material_named(Json& film, const std::string& name) {
 Json material_of(const wire::Material& material) {
   const auto number = [](float value) { return written(document::rounded_to(value, 6)); };
   Json json = {{"color", {number(material.color[0]), number(material.color[1]), number(material.color[2])}}};
-  if (material.reflection != modeler::kDefaultMaterial.reflection)
+  if (material.reflection != modeler::default_material().reflection)
     json["reflection"] = modeler::word_of(material.reflection);
-  if (material.interpolation != modeler::kDefaultMaterial.interpolation)
+  if (material.interpolation != modeler::default_material().interpolation)
     json["interpolation"] = modeler::word_of(material.interpolation);
   for (const modeler::MaterialNumber& each : modeler::kMaterialNumbers)
-    if (uses(material.reflection, each) && material.*each.member != modeler::kDefaultMaterial.*each.member)
+    if (uses(material.reflection, each) && material.*each.member != modeler::default_material().*each.member)
       json[std::string(each.key.name)] = number(material.*each.member);
-  if (material.sides != modeler::kDefaultMaterial.sides) json["sides"] = material.sides;
+  if (material.sides != modeler::default_material().sides) json["sides"] = material.sides;
   return json;
+}
+
+// As object[key] = value; a new key stands before those in `others` that are there.
+void put_before(Json& object, const std::string& key, Json value, std::span<const std::string_view> others) {
+  if (object.contains(key)) return void(object[key] = std::move(value));
+  Json ordered = Json::object();
+  for (const auto& [name, item] : object.items()) {
+    if (!ordered.contains(key) && std::ranges::find(others, std::string_view(name)) != others.end())
+      ordered[key] = value;
+    ordered[name] = item;
+  }
+  ordered[key] = std::move(value);
+  object = std::move(ordered);
 }
 
 bool segments_wear(const modeler::Model& model, const std::string& material) {
@@ -81,11 +94,8 @@ void take_off(Json& actor, const std::string& material) {
   left.empty() ? void(actor.erase("materials")) : void(actor["materials"] = std::move(left));
 }
 
-void put_settings(Json& json, TypedFields settings, const keys::Object& object,
-                  std::span<const std::string_view> below) {
-  Json values = Json::object();
-  set_fields(values, settings, object.typed_names(), "a " + std::string(object.name));
-  for (const auto& [key, value] : values.items()) put_before(json, key, value, below);
+void put_settings(Json& object, const Json& settings, std::span<const std::string_view> below) {
+  for (const auto& [key, value] : settings.items()) put_before(object, key, value, below);
 }
 
 }  // namespace
@@ -100,11 +110,9 @@ Json new_film() {
           {"models", Json::object()}};
 }
 
-void set_film(Json& film, TypedFields settings) { put_settings(film, settings, keys::object("film"), kBelowSettings); }
+void set_film(Json& film, const Json& settings) { put_settings(film, settings, kBelowSettings); }
 
-void set_camera(Json& film, TypedFields settings) {
-  put_settings(film.at("camera"), settings, keys::object("camera"), kBelowCameraSettings);
-}
+void set_camera(Json& film, const Json& settings) { put_settings(film.at("camera"), settings, kBelowCameraSettings); }
 
 void write_rig(Json& film, const Film& meaning) {
   if (film.contains("lights") && !film["lights"].empty())
@@ -117,11 +125,9 @@ void write_rig(Json& film, const Film& meaning) {
   put_before(film, "ambient", {{"sky", written(ambient.sky)}, {"ground", written(ambient.ground)}}, kBelowAmbient);
 }
 
-std::size_t add_light(Json& film, const Film& meaning, TypedFields fields) {
-  Json light = Json::object();
-  set_fields(light, fields, keys::object("light").typed_names(), "a light");
+std::size_t add_light(Json& film, const Film& meaning, const Json& light) {
   if (!film.contains("lights")) write_rig(film, meaning);
-  film["lights"].push_back(std::move(light));
+  film["lights"].push_back(light);
   return film["lights"].size();
 }
 
@@ -136,20 +142,20 @@ void remove_light(Json& film, const Film& meaning, std::size_t number) {
   lights.erase(number - 1);
 }
 
-void add_material(Json& film, const Film& meaning, const std::string& name, TypedFields fields,
+void add_material(Json& film, const Film& meaning, const std::string& name, const Json& values,
                   const std::string& actor) {
   if (film.contains("materials") && film["materials"].contains(name))
     throw Failure("is a material of the film already", document::in_quotes(name),
                   "change it: mars film FILM material set");
   Json material = actor.empty() ? Json::object() : put_on(film, meaning, name, actor);
-  set_fields(material, fields, keys::object("material").typed_names(), "a material");
+  modeler::change_material(material, values);
   Json materials = film.value("materials", Json::object());
   materials[name] = std::move(material);
   put_before(film, "materials", std::move(materials), kBelowMaterials);
 }
 
-void set_material(Json& film, const std::string& name, TypedFields fields) {
-  set_fields(material_named(film, name), fields, keys::object("material").typed_names(), "a material");
+void set_material(Json& film, const std::string& name, const Json& values) {
+  modeler::change_material(material_named(film, name), values);
 }
 
 void remove_material(Json& film, const std::string& name) {

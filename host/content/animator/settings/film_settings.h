@@ -1,9 +1,8 @@
-// A film's settings, camera, lights and materials, as people type them: KEY=VALUE. As values: `film` is the JSON of
-// what read_film accepts, and made `meaning` of; it also checks the result.
+// A film's settings, camera, lights and materials. As values: `film` is the JSON of what read_film accepts, and made
+// `meaning` of; it also checks the result. What is given is an object of values of keys, as a film file writes them.
 #pragma once
 
 #include <cstddef>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -16,23 +15,20 @@ namespace mars::animator {
 // its right.
 document::Json new_film();
 
-using TypedFields = std::span<const std::string>;
-
-// "frames=120", "size=640,360".
-void set_film(document::Json& film, TypedFields settings);
-// "near=0.5": what the camera has at all frames.
-void set_camera(document::Json& film, TypedFields settings);
+void set_film(document::Json& film, const document::Json& settings);
+// What the camera has at all frames.
+void set_camera(document::Json& film, const document::Json& settings);
 
 // The lights of a film without any, and their ambient light, become its own.
 void write_rig(document::Json& film, const Film& meaning);
 // Its number, from 1. A film without lights of its own gets those first that it was shown with.
-std::size_t add_light(document::Json& film, const Film& meaning, TypedFields fields);
+std::size_t add_light(document::Json& film, const Film& meaning, const document::Json& light);
 void remove_light(document::Json& film, const Film& meaning, std::size_t number);
 
 // With an actor, that one wears it: where its model's material of this name is, which it begins as, else all over.
-void add_material(document::Json& film, const Film& meaning, const std::string& name, TypedFields fields,
+void add_material(document::Json& film, const Film& meaning, const std::string& name, const document::Json& values,
                   const std::string& actor);
-void set_material(document::Json& film, const std::string& name, TypedFields fields);
+void set_material(document::Json& film, const std::string& name, const document::Json& values);
 // Actors that wore it wear what their models give them.
 void remove_material(document::Json& film, const std::string& name);
 

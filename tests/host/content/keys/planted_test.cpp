@@ -6,11 +6,14 @@
 #include <nlohmann/json.hpp>
 
 #include "hal/failure/failure.h"
+#include "host/cli/program.h"
 #include "host/content/document/fields.h"
 #include "host/content/keys/page_keys.h"
 #include "host/content/keys/schema.h"
 #include "host/content/keys/text.h"
+#include "host/content/modeler/edit_material.h"
 #include "host/content/modeler/material.h"
+#include "host/editing/key_words.h"
 
 namespace mars::keys {
 namespace {
@@ -34,6 +37,23 @@ TEST(PlantedKey, IsRefusedWithItsRange) {
     EXPECT_EQ(failure.remedy, "write a number from 0 to 1");
   }
   EXPECT_THROW(read(R"({"reflection": "metallic-roughness", "sheen": 0.5})"), Failure);  // which does not use it
+}
+
+TEST(PlantedKey, IsAnOptionOfMarsModel) {
+  document::Json values = document::Json::object(), material{{"exponent", 8}};
+  const auto type = [&](const std::string& number) {
+    cli::Program program("mars", "");
+    const cli::Command set = program.add_command("set", "");
+    editing::add_key_options(set, object("material"), values);
+    EXPECT_EQ(set.option("--sheen").help(), "Light at grazing angles (0 to 1). Example: --sheen 0.25");
+    program.read({"set", "--reflection", "phong", "--sheen", number});
+    modeler::change_material(material, values);
+    return material.dump();
+  };
+  EXPECT_EQ(type("0.5"), R"({"exponent":8,"sheen":0.5,"reflection":"phong"})");
+  EXPECT_EQ(read(material.dump()).sheen, 0.5f);
+  EXPECT_THROW(read(type("2")), Failure);
+  EXPECT_EQ(editing::values_of(std::vector<std::string>{"sheen=0.5"}, object("material")).dump(), R"({"sheen":0.5})");
 }
 
 TEST(PlantedKey, StandsInHelpSchemasDocsAndThePage) {

@@ -28,13 +28,16 @@ std::vector<Variant> variants() {
   std::vector<Variant> all;
   for (const LibraryShape& shape : shape_library()) {
     const std::string name(shape.name);
-    all.push_back({&shape, shape.defaults(), name});
-    if (shape.option.key.empty()) continue;
-    for (const bool most : {false, true}) {
+    const keys::Key* const option = shape.option;
+    const auto add = [&](double value, const std::string& label) {
       OptionValues values{};
-      std::fill_n(values.begin(), shape.option.count, most ? shape.option.range.highest : shape.option.range.lowest);
-      all.push_back({&shape, values, name + (most ? "_most_" : "_least_") + std::string(shape.option.key)});
-    }
+      std::fill_n(values.begin(), option == nullptr ? 0 : keys::count_of(*option), value);
+      all.push_back({&shape, values, label});
+    };
+    add(option == nullptr ? 0 : *option->number, name);
+    if (option == nullptr) continue;
+    add(option->range.lowest, name + "_least_" + std::string(option->name));
+    add(option->range.highest, name + "_most_" + std::string(option->name));
   }
   const LibraryShape* box = find_library_shape("rounded_box");
   all.push_back({box, {0.5, 0.001, 0.2}, "rounded_box_uneven_edge"});
@@ -111,7 +114,7 @@ glm::dvec3 vector_of(float* const columns[3], std::uint32_t vertex) {
 
 // The sbb in which what is rounded by an option is round.
 glm::dvec3 round_box(const Variant& variant) {
-  const std::string_view option = variant.shape->option.key;
+  const std::string_view option = variant.shape->option == nullptr ? "" : variant.shape->option->name;
   const double value = variant.values[0];
   if (option == "ends") return {1, 1, 0.5 / value};
   if (option == "rim" || option == "tube") return {1, 1, 2 * value};

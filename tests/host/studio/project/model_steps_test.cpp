@@ -33,11 +33,9 @@ class ModelSteps : public OpenFiles {
 TEST_F(ModelSteps, AJointsStepWritesWhatTheCommandWrites) {
   const auto project = open("pip.json");
   modeler::JointChange change;
-  change.place = {0, 0.5, -0.125};
+  change.joint["place"] = {0, 0.5, -0.125};
   change.limits = {{'x', {-20, 20}}};
-  change.shape = "cone";
-  change.options = {{"top", {0.5}}};
-  change.sbb = modeler::Box{{-1, -2, -3}, {1, 2, 3.5}};
+  change.segment = {{"shape", "cone"}, {"top", 0.5}, {"sbb", {{-1, -2, -3}, {1, 2, 3.5}}}};
   change.reset = {"axes"};
   const std::string expected = by_command([&](Json& model) { modeler::set_joint(model, "left-leg", change); });
   const Json wanted = step(
@@ -54,15 +52,13 @@ TEST_F(ModelSteps, AJointsStepWritesWhatTheCommandWrites) {
 TEST_F(ModelSteps, OtherStepsWriteWhatTheCommandsWrite) {
   const auto project = open("pip.json");
   modeler::JointChange tail;
-  tail.parent = "hip";
-  tail.shape = "cone";
+  tail.joint["parent"] = "hip";
+  tail.segment["shape"] = "cone";
   tail.freedom = modeler::Freedom::fixed;
   tail.limb = "spine";
   modeler::JointChange renamed;
   renamed.name = "leg";
-  modeler::MaterialChange blue;
-  blue.color = {0, 0, 1};
-  blue.numbers[2] = 0.25;
+  const Json blue{{"color", {0, 0, 1}}, {"specular", 0.25}};
   modeler::Proportions larger;
   larger.joints = {{"left-*", false, {1, 1, 2}}};
   const std::pair<Json, std::function<void(Json&)>> cases[] = {

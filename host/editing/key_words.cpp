@@ -1,0 +1,133 @@
+#include "host/editing/key_words.h"
+
+#include <algorithm>
+#include <cctype>
+#include <optional>
+#include <string_view>
+
+#include "hal/failure/failure.h"
+#include "host/content/document/fields.h"
+#include "host/content/keys/text.h"
+
+namespace mars::editing {
+namespace {
+
+using document::Json;
+
+std::string option_name(const keys::Key& key) {
+  std::string name = "--" + std::string(key.name);
+  std::ranges::replace(name, '_', '-');
+  return name;
+}
+
+std::string upper(std::string_view word) {
+  std::string text(word);
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return text;
+}
+
+// How the key's value is typed: what help calls its words and, if they are numbers, a value with a place for each.
+struct Typing {
+  std::string words;
+  std::optional<Json> numbers{};
+};
+
+Typing typing_of(const keys::Key& key) {
+  if (key.type == "number" || key.type == "whole") return {"NUMBER", Json(0)};
+  if (key.type == "choice") return {document::joined(key.choices, "|")};
+  const keys::Type* const type = keys::find_type(key.type);
+  if (type == nullptr || type->words.empty()) return {upper(key.name)};
+  return {std::string(type->words), Json::parse(type->example)};
+}
+
+std::size_t places_in(const Json& value) {
+  if (!value.is_array()) return 1;
+  std::size_t places = 0;
+  for (const Json& each : value) places += places_in(each);
+  return places;
+}
+
+void fill(Json& value, std::span<const double>& numbers) {
+  if (value.is_array()) {
+    for (Json& each : value) fill(each, numbers);
+    return;
+  }
+  value = document::plain_number(numbers.front());
+  numbers = numbers.subspan(1);
+}
+
+void add_key_option(cli::Command command, const keys::Key& key, Json& values) {
+  const std::string option = option_name(key), help = keys::help_of(key, option + " "), name(key.name);
+  const Typing typing = typing_of(key);
+  if (!typing.numbers) {
+    command
+        .add_read(
+            option, [&values, name](const std::string& word) { values[name] = word; }, help)
+        .type(typing.words);
+    return;
+  }
+  const auto read = [&values, name, places = *typing.numbers](const std::vector<double>& typed) {
+    std::span<const double> numbers(typed);
+    Json value = places;
+    fill(value, numbers);
+    values[name] = std::move(value);
+  };
+  command.add_read(option, read, help).words(static_cast<int>(places_in(*typing.numbers))).type(typing.words);
+}
+
+// "0.5" is a number, "1,0.8,0.6" a list, anything else a text.
+Json value_of(const std::string& text) {
+  Json list = Json::array();
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', at), text.size());
+    const auto number = document::number_in<double>(std::string_view(text).substr(at, comma - at));
+    if (!number) return text;
+    list.push_back(document::plain_number(*number));
+    at = comma + 1;
+  }
+  return list.size() == 1 ? list[0] : list;
+}
+
+// "color=0.8,0.4,0.2"
+std::string example_of(const keys::Key& key) {
+  std::string words = keys::words_of_example(key);
+  std::ranges::replace(words, ' ', ',');
+  return std::string(key.name) + "=" + words;
+}
+
+}  // namespace
+
+void add_key_options(cli::Command command, const keys::Object& object, Json& values) {
+  for (const keys::Key& key : object.keys)
+    if (key.typed) add_key_option(command, key, values);
+}
+
+cli::Option add_key_values(cli::Command command, const keys::Object& object, std::vector<std::string>& words,
+                           const std::string& example) {
+  return command
+      .add("KEY=VALUE", words,
+           keys::names_of(object) + "; `mars keys " + std::string(object.name) +
+               "` explains them. Example: " + example)
+      .offers(keys::typed_forms(object));
+}
+
+Json values_of(std::span<const std::string> words, const keys::Object& object) {
+  const std::vector<std::string_view> names = object.typed_names();
+  Json values = Json::object();
+  for (const std::string& word : words) {
+    const std::size_t equals = word.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == word.size())
+      throw Failure("is not KEY=VALUE", "'" + word + "'", "write it like " + example_of(object.key(names.front())));
+    const std::string key = word.substr(0, equals);
+    if (std::ranges::find(names, std::string_view(key)) == names.end())
+      throw Failure("is no key of a " + std::string(object.name), document::in_quotes(key),
+                    document::did_you_mean(key, names, "choose " + document::joined(names)));
+    if (values.contains(key)) throw Failure("is given twice", document::in_quotes(key), "give each key once");
+    values[key] = value_of(word.substr(equals + 1));
+  }
+  return values;
+}
+
+void limit(cli::Option option, const keys::Key& key) { option.range(key.range.lowest, key.range.highest); }
+
+}  // namespace mars::editing
