@@ -59,10 +59,10 @@ struct Key {
 // What values of several keys look like.
 struct Type {
   std::string_view name;
-  std::string_view schema;   // JSON Schema, in which "#name" stands for the type or object of that name
-  std::string_view example;  // as Key's
+  std::string_view schema;      // JSON Schema, in which "#name" stands for the type or object of that name
+  std::string_view example;     // as Key's
+  std::string_view words = {};  // what options take in place of a list's numbers: "X Y Z"
   std::span<const std::string_view> parts = {};  // of a list of numbers, what each is: "width", "height"
-  std::string_view words = {};                   // what options take in place of a list's numbers: "X Y Z"
 };
 
 struct Object {
