@@ -144,7 +144,7 @@ TEST_F(FilmSteps, CameraLightsAndSettingsHaveTheKeysOfTheTable) {
   EXPECT_EQ(settings["dice"], "adaptive");
   project->commit(pose("light/1", "reach=5", 8));
   EXPECT_EQ(project->describe()["lights"][0]["reach"], 5);
-  project->commit(step_of({{"film", "set", "color=coded"}}));
+  project->commit(Json::parse(R"({"commands": [["film", "set", "color=coded"]]})"));
   EXPECT_FALSE(project->describe()["camera"].contains("exposure"));
   EXPECT_FALSE(project->describe()["settings"].contains("curve"));
 }
