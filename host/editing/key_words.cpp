@@ -106,8 +106,7 @@ cli::Option add_key_values(cli::Command command, const keys::Object& object, std
                            const std::string& example) {
   return command
       .add("KEY=VALUE", words,
-           keys::names_of(object) + "; `mars keys " + std::string(object.name) +
-               "` explains them. Example: " + example)
+           keys::names_of(object) + "; `mars keys " + std::string(object.name) + "` explains them. Example: " + example)
       .offers(keys::typed_forms(object));
 }
 
