@@ -17,7 +17,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <semaphore>
 #include <set>
 #include <utility>
 #include <vector>
@@ -26,6 +25,7 @@
 #include "hal/messages/message_pool.h"
 #include "hal/simulated/machine.h"
 #include "hal/simulated/routes.h"
+#include "hal/simulated/turn.h"
 
 namespace mars::simulated {
 
@@ -103,7 +103,7 @@ class World {
     std::deque<Message> arrived;  // and noted
     std::multiset<double> alarms;
     Queue* community = nullptr;  // none: it is of no community
-    std::binary_semaphore turn{0};
+    Turn turn;
   };
   struct Block {
     std::shared_ptr<std::byte> bytes;
