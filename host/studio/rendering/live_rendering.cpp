@@ -377,7 +377,7 @@ void LiveRendering::read(PageNumber page, std::uint32_t frame) {
   };
   read_files(work, [this, page](const Read& read) {
     if (read.problem.empty()) return show_frame(page, read.image);
-    if (pages_.contains(page)) listener_.tell(page, {{"is", "said"}, {"text", read.problem}});
+    if (pages_.contains(page)) listener_.tell(page, {{"is", "remark"}, {"text", read.problem}});
   });
 }
 

@@ -289,7 +289,7 @@ TEST(Scenes, AFilmThatShowsNothingLeavesWhatWas) {
   on.paint();
   on.project.change([](animator::Film& film) { film.camera.at = film.camera.eye; });
   on.stage->project_changed();
-  EXPECT_NE(on.last("said").dump().find("has its eye where it looks at"), std::string::npos);
+  EXPECT_NE(on.last("remark").dump().find("has its eye where it looks at"), std::string::npos);
   EXPECT_EQ(on.link.asked.size(), 1u);
 }
 
