@@ -5,7 +5,7 @@ usage: node_memory.py BINARIES [--nodes 1,2,8] [--size WxH]
 
 Renders s2 (keyframes alone) and s3 (thirty frames, one interval) with adaptive dicing over MPI, without files, and looks
 at the processes in /proc while they run. Printed, in MB: the largest node, all nodes, the host.
-docs/floors.md has a table of these."""
+docs/floors.md has a table of the results."""
 import argparse
 import json
 import os

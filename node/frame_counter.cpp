@@ -152,7 +152,7 @@ void FrameCounter::spread(const std::vector<wire::SeenCounts>& seen, std::vector
   }
 }
 
-// What is seen of these boxes in front of `depths`, which become theirs.
+// What is seen of `boxes` in front of `depths`, which become the boxes' depths.
 wire::SeenCounts FrameCounter::draw(std::span<const raster::EdgeBox> boxes, std::uint32_t line,
                                     std::vector<float>& depths) {
   if (boxes.empty()) return {};

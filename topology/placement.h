@@ -34,7 +34,7 @@ struct Location {
 
 Closeness closeness(const Location& a, const Location& b);
 
-// The closeness of the furthest neighbours across dimension 0, 1, 2 ... of the hypercube of these nodes, by id.
+// The closeness of the furthest neighbours across dimension 0, 1, 2 ... of the hypercube of `nodes`, by id.
 std::vector<Closeness> dimensions(std::span<const Location> nodes);
 
 // Where a process runs before it has a node id.

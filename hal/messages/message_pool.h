@@ -59,7 +59,7 @@ class MessagePool {
 
   // A message with `envelope` and as many bytes; give it back by release. Throws std::bad_alloc.
   Message* acquire(const Envelope& envelope);
-  // Likewise, with a copy of the bytes at `data`.
+  // As acquire(), with a copy of the bytes at `data`.
   Message* copy(const Envelope& envelope, const void* data);
   void release(Message* message);
 

@@ -27,7 +27,7 @@ struct Announcement {
   static std::optional<std::size_t> read(const void* message);
 };
 
-// So many bytes as one element. May be destroyed while a message of it is under way.
+// `bytes` bytes as one element. May be destroyed while a message of this type is under way.
 class BytesType {
  public:
   explicit BytesType(std::size_t bytes);

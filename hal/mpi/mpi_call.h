@@ -10,7 +10,7 @@ namespace mars::mpi {
 // Throws a Failure naming `call` and MPI's own reason for `code`.
 [[noreturn]] void fail_in_mpi(int code, const char* call);
 
-// Likewise, unless `code` is success.
+// Calls fail_in_mpi() unless `code` is success.
 inline void succeed(int code, const char* call) {
   if (code != MPI_SUCCESS) [[unlikely]]
     fail_in_mpi(code, call);

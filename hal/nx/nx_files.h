@@ -45,8 +45,8 @@ long iseof(int fd);
  * lower 32 bits of a place, `shigh` what is above. In modes 2 and 3 all nodes call, for the same place. */
 esize_t eseek(int fd, esize_t offset, int whence);
 
-/* Makes a file at least `offset` bytes long (SIZE_SET), or so many beyond its pointer (SIZE_CUR) or its end
- * (SIZE_END); never shorter. Returns the file's size. */
+/* Makes a file at least `offset` bytes long (SIZE_SET), or `offset` bytes beyond its pointer (SIZE_CUR) or its
+ * end (SIZE_END); never shorter. Returns the file's size. */
 long lsize(int fd, long offset, int whence);
 
 /* All nodes call, with the same mode. Their pointers stay where they are: at the same place, but for mode 0. */

@@ -39,7 +39,7 @@ typedef long (*nx_operation)(void* x, void* work);
 void gopf(void* x, long xlen, void* work, nx_operation fn);
 
 /* Concatenation in node order. gcol: the bytes of all into `y` (of `ylen` bytes), their number into *ncnt.
- * gcolx: likewise, where every node already knows each node's length in bytes, xlens[numnodes()]. */
+ * gcolx: as gcol, where every node already knows each node's length in bytes, xlens[numnodes()]. */
 void gcol(const void* x, long xlen, void* y, long ylen, long* ncnt);
 void gcolx(const void* x, const long xlens[], void* y);
 

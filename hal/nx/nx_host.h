@@ -3,8 +3,8 @@
  * started with (mars-nx run --nodes 8 ..., or mpirun). A host that loads none itself lets all begin with the
  * program they were started for when it first sends, receives, waits or ends; after a load none begins by itself.
  *
- * pid is 0, node and pid -1 mean all. Failures are as in nx_messages.h. A node calls none of these but killproc and
- * killcube, which there end the whole job. */
+ * pid is 0, node and pid -1 mean all. Failures are as in nx_messages.h. Of the calls here, a node may use only
+ * killproc and killcube, which there end the whole job. */
 #pragma once
 
 #include "nx_errno.h"

@@ -14,7 +14,8 @@ namespace mars::simulated {
 
 class Routes {
  public:
-  // Of `computers`; the host's has the number `host`, which is one of these, or `computers` where it is apart.
+  // Of `computers` computers, numbered from 0. `host`: the number of the host's computer; `computers` where that is
+  // another one.
   Routes(const Network& network, int computers, int host);
 
   // When the last byte of a message arrives that `from` begins to send at `time`. Between two computers messages

@@ -18,7 +18,7 @@ bool runnable(const std::filesystem::path& file);
 // The program of that name in `path`, folders separated by colons; none: in none of them.
 std::optional<std::filesystem::path> find_program(const std::string& name, const std::string& path);
 
-// In the first folder of `path` that has any of `names`, the first of these.
+// In the first folder of `path` that has any of `names`, the program whose name comes first in `names`.
 std::optional<std::filesystem::path> find_first_program(std::span<const std::string_view> names, std::string_view path);
 
 }  // namespace mars::child

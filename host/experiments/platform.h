@@ -25,8 +25,8 @@ struct Platform {
   int host_processors() const { return machine.host_apart ? machine.host_processors : machine.processors; }
 };
 
-// `name`: a file, or the name of one in `folder` without its ending, or two of these, A:B: A with B's costs of work.
-// Throws Failure.
+// `name`: a file, or the name of one in `folder` without its ending, or two such names, A:B: A with the costs of work
+// of B. Throws Failure.
 Platform read_platform(const std::string& name, const std::filesystem::path& folder);
 
 // That its costs cannot be trusted, and why; "" where they can.

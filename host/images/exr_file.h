@@ -12,7 +12,7 @@
 
 namespace mars::images {
 
-// The bytes of an EXR file of these pixels, two words each. `note`: ASCII that the file carries, in the string
+// The bytes of an EXR file of `pixels`, two words each. `note`: ASCII that the file carries, in the string
 // attribute `mars`; "": no such attribute.
 std::vector<std::byte> encode_exr(std::uint32_t width, std::uint32_t height, std::span<const std::uint32_t> pixels,
                                   const std::string& note = "");

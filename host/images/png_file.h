@@ -12,7 +12,7 @@
 
 namespace mars::images {
 
-// The bytes of a PNG file of these pixels, made fast rather than small. `note`: ASCII that the file carries, in a tEXt
+// The bytes of a PNG file of `pixels`, made fast rather than small. `note`: ASCII that the file carries, in a tEXt
 // chunk of the keyword MARS before the pixels; "": no such chunk.
 std::vector<std::byte> encode_png(std::uint32_t width, std::uint32_t height, std::span<const std::uint32_t> pixels,
                                   const std::string& note = "");
@@ -25,7 +25,7 @@ std::optional<std::string> note_in_png(std::span<const std::byte> start);
 
 // Decodes an opaque PNG of any depth to 8 bits a channel. Throws Failure naming the file where it is torn or no PNG.
 Image decode_png(std::span<const std::byte> bytes, const std::string& name);
-// Likewise to 16 bits a channel, two words a pixel.
+// Decodes it to 16 bits a channel, two words a pixel.
 Image decode_png16(std::span<const std::byte> bytes, const std::string& name);
 // To 8 bits a channel, with alpha in the highest byte: 255 where the file has none.
 Image decode_png_with_alpha(std::span<const std::byte> bytes, const std::string& name);

@@ -55,7 +55,7 @@ class PosedFilm {
   std::vector<std::pair<animator::Channel<glm::dvec3>*, animator::Channel<glm::dvec3>>> before_;
 };
 
-// The joint of these names, if the film has it and keys can move it.
+// The joint with the names `names`, if the film has it and keys can move it.
 std::optional<JointNumber> joint_named(const animator::Film& film, const std::pair<std::string, std::string>& names);
 
 }  // namespace mars::preview

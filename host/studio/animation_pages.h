@@ -1,4 +1,4 @@
-// What pages want to know of a film's keys and curves, told when they ask and whenever it changes.
+// What pages ask for of a film's keys and curves, sent when they ask and whenever it changes.
 #pragma once
 
 #include <functional>

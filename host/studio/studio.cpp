@@ -92,7 +92,7 @@ void Studio::handle_message(PageNumber page, const Json& message) {
   bool step_done = false;
   answer_failure(page, message, [&] { step_done = execute(page, message); });
   answer_failure(page, message, [&] {
-    for (const std::string& remark : project_->take_remarks()) pages_.tell(page, {{"is", "said"}, {"text", remark}});
+    for (const std::string& remark : project_->take_remarks()) pages_.tell(page, {{"is", "remark"}, {"text", remark}});
     if (const Json done = project_->take_commands(); !done.empty())
       pages_.tell(page, {{"is", "done"}, {"commands", done}});
     if (project_->in_gesture() && shown() != before) gesture_of_ = page;
@@ -137,7 +137,7 @@ bool Studio::execute_step(const Json& message) {
 }
 
 void Studio::refuse(PageNumber page, const Json& message, const Failure& why) {
-  if (message.is_null()) return pages_.tell(page, {{"is", "said"}, {"text", why.what()}});
+  if (message.is_null()) return pages_.tell(page, {{"is", "remark"}, {"text", why.what()}});
   Json refused{{"is", "refused"}, {"text", why.what()}, {"do", message["do"]}};
   if (const std::uint32_t line = line_in(why.where)) refused["line"] = line;
   pages_.tell(page, refused);

@@ -28,8 +28,8 @@ class Studio {
   // `pages` must outlive it.
   Studio(Parts parts, web::Pages& pages);
 
-  // None of these throws. A message that fails or makes no sense is answered with `refused`; what fails otherwise is a
-  // remark to the page, or to all.
+  // These calls never throw. A message that fails or makes no sense is answered with `refused`; what fails otherwise is
+  // a remark to the page, or to all.
   void page_opened(PageNumber page);
   void handle_message(PageNumber page, const Json& message);
   void page_closed(PageNumber page);
@@ -37,7 +37,7 @@ class Studio {
   void look_at_files();
 
  private:
-  // What pages are told of when it changes.
+  // What pages receive when it changes.
   struct Shown {
     std::uint64_t revision, keys_revision;
     std::uint32_t frame;

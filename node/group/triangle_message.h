@@ -14,7 +14,7 @@ namespace mars::group {
 // What may still come.
 struct AwaitedTriangles {
   geometry::LineRange lines;
-  std::span<std::uint64_t> boxes;  // of each of these lines
+  std::span<std::uint64_t> boxes;  // of each line
   std::uint32_t width;             // of the picture, pixels
   std::uint32_t samples;           // of a pixel
   std::size_t materials;           // of the film

@@ -37,7 +37,7 @@ struct Classified {
   alignas(64) std::int32_t first_line[shape::kBatchTriangles];
   alignas(64) std::int32_t first_row[shape::kBatchTriangles];
   alignas(64) std::int32_t last_row[shape::kBatchTriangles];
-  // Of these rows: first | last << 16, or 0. A triangle that begins within a line reaches one more.
+  // Of each such row: first | last << 16, or 0. A triangle that begins within a line reaches one more.
   alignas(64) std::uint32_t columns[(kMostExtent + 1) * shape::kMostSamples][shape::kBatchTriangles];
   // b - a and c - a, 1/256 pixel, and 1 / twice the area.
   alignas(64) float x1[shape::kBatchTriangles];

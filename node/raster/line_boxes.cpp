@@ -46,7 +46,7 @@ LineFiller::LineFiller(const geometry::LineRange& lines, std::span<const std::ui
 
 void LineFiller::add(const Polygons& polygons) {
   const auto first_triangle = static_cast<std::uint32_t>(polygons.triangles - first_);
-  // put(place, box) for each edge box of these lines, at its line's place. A triangle's boxes on one line follow each
+  // put(place, box) for each edge box of the lines, at its line's place. A triangle's boxes on one line follow each
   // other, so that the place stays at hand.
   const auto for_each = [this, first_triangle](std::span<const UnsortedEdgeBox> all, std::uint64_t* places,
                                                const auto& put) {

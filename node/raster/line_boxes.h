@@ -28,7 +28,7 @@ struct LineBoxes {
   std::span<const EdgeBox> of(std::uint32_t line) const;
   std::span<const EdgeBox> stationary(std::uint32_t line) const;
   std::span<const EdgeBox> moving(std::uint32_t line) const;
-  // How many are on some of these lines.
+  // How many are on the lines `some`.
   std::uint64_t count(const geometry::LineRange& some) const;
 
  private:

@@ -1,7 +1,7 @@
 // Shading once for several samples: the samples of a pixel that show the same triangle are a group, which is shaded
 // once, at its sample nearest to the pixel's centre (SamplePattern). Still samples are grouped among still samples
 // alone, the moving ones that are seen among themselves. A pixel is the sum of its groups' light by their numbers of
-// samples: moving groups in the order of these samples, then still ones for the samples that no moving one covers, then
+// samples: moving groups in the order of their samples, then still ones for the samples that no moving one covers, then
 // the background.
 #pragma once
 
@@ -30,7 +30,7 @@ class PixelGroups {
   // Copies the groups, of a whole line.
   void copy_to(const StillGroups& still) const;
 
-  // Each of these uses the groups up.
+  // Both resolve() and resolve_over() use the groups up.
 
   // Makes pixels of them and of the background.
   void resolve(const shading::Shading& shading, std::uint32_t line, StripBuffer::Layer& out);

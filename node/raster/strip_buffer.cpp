@@ -76,7 +76,7 @@ std::span<const std::byte> StripBuffer::finish(wire::Strip& header, std::span<co
   end = put(moving_.pixels(), put(constant_.pixels(), end));
   end = put(edge_boxes, put(moving_.runs(), put(constant_.runs(), end)));
   const auto size = static_cast<std::size_t>(end - slot_);
-  check(size <= wire::kMaxStripBytes, "a strip has at most so many bytes");
+  check(size <= wire::kMaxStripBytes, "a strip has at most kMaxStripBytes bytes");
   header.work.pixels += header.pixels;
   header.work.bytes_to_host += size;
   std::memcpy(slot_, &header, sizeof header);

@@ -41,7 +41,7 @@ struct Extent {
   std::uint32_t last;
 };
 
-// Samples shaded; of these, those lit by models of highlights and of rough surfaces. Others had their colours.
+// Samples shaded, and among them those lit by models of highlights and of rough surfaces. Others had their colours.
 struct ShadedCounts {
   std::uint64_t samples = 0;
   std::uint64_t highlights = 0;

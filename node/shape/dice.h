@@ -31,7 +31,7 @@ class Dicer : public Surface {
   };
 
   void lay_out(const Rates& wanted);
-  // Whether all of these vertices have a normal.
+  // Whether all vertices that the function computes have a normal.
   bool evaluate_inside(const EyePatch& patch);
   bool evaluate_side(const EyePatch& patch, Side side);
   void mend_normals(const EyePatch& patch);

@@ -31,7 +31,7 @@ struct RenderCommand {
     return frames.first(render.drawn).subspan(render.goes_on == 1 ? 0 : 1);
   }
   std::span<const std::uint32_t> left() const { return frames.subspan(render.drawn); }
-  // That draws the k-th of these, counted from the group's first.
+  // The node that draws inbetweens()[k], counted from the group's first.
   std::int32_t contributor(std::size_t k) const {
     return contributor_of_inbetween(render.first_inbetween + k, render.group_count, cycle);
   }

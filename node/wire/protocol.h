@@ -234,7 +234,7 @@ struct CloseView {
 struct WorkCounts {
   std::uint64_t patches;  // diced, and meshlets
   std::uint64_t vertices;
-  std::uint64_t triangles_tested;   // made of these surfaces
+  std::uint64_t triangles_tested;   // made of patches and meshlets
   std::uint64_t triangles;          // triangles that touch a sample
   std::uint64_t edge_boxes_diced;   // of those triangles
   std::uint64_t edge_boxes;         // drawn on its own lines

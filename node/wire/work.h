@@ -19,10 +19,10 @@ enum class Work : int {
   meshlet,          // placed
   vertex,           // of patches
   mesh_vertex,      // of meshlets
-  triangle_tested,  // of all these
+  triangle_tested,  // of patches and meshlets
   row_tested,       // triangles tested, times a pixel's samples
   triangle,         // set up: it touches a sample
-  edge_box_made,    // edge boxes of these triangles
+  edge_box_made,    // edge boxes of triangles set up
   vertex_light,     // for each vertex, or flat triangle, that is shaded
   edge_box_filled,  // put into its line
   line_mapped,      // to its home

@@ -211,7 +211,7 @@ TEST(Boundaries, HostsToolsStandOnOneAnother) {
     }
 }
 
-// Each of these folders of `parent` includes, of `parent`, only itself and those before it.
+// Each folder of `folders` in `parent` includes, of `parent`, only itself and those before it.
 void expect_one_way(const std::string& parent, const std::vector<std::string>& folders) {
   std::vector<std::string> known;
   for (const std::string& folder : folders) {
@@ -223,7 +223,7 @@ void expect_one_way(const std::string& parent, const std::vector<std::string>& f
   }
 }
 
-// firmware, renderer and tessellator know all of these.
+// firmware, renderer and tessellator know all folders of the list.
 TEST(Boundaries, NodesFoldersStandOnOneAnother) {
   expect_one_way("node/", {"wire", "simd", "color", "shape", "geometry", "shading", "raster", "group"});
 }

@@ -33,13 +33,13 @@ class Losses(ClusterTest):
 
     def assertEnds(self, says, seconds, hosts):
         """One clear message that holds `says`, given back; nothing of ours goes on on `hosts`, and no frame is torn."""
-        _, told = self.process.communicate(timeout=seconds)
-        self.assertEqual(self.process.returncode, 1, told)
-        self.assertClear(told, says)
+        _, output = self.process.communicate(timeout=seconds)
+        self.assertEqual(self.process.returncode, 1, output)
+        self.assertClear(output, says)
         for host in hosts:
             wait_until(lambda: not self.processes(host, *OUR_PROGRAMS), seconds, f"something still runs on {host}")
         self.assertNothingTorn(self.folder / "out")
-        return told
+        return output
 
     def assertGoesOn(self, says, hosts=HOSTS):
         """All frames with the pixels of one process; nothing of ours goes on on `hosts`."""

@@ -77,14 +77,14 @@ class Rendering(ClusterTest):
     def test_the_doctor_sees_every_machine(self):
         look = lambda code: self.on("n0", "salloc", "--quiet", "--nodes=4", "--ntasks=8", "mars", "doctor",
                                     code=code).stdout
-        told = look(0)
-        self.assertIn("on n1-n4", told)
-        self.assertIn("7 nodes on 4 machines (mpi)", " ".join(told.split()))
+        output = look(0)
+        self.assertIn("on n1-n4", output)
+        self.assertIn("7 nodes on 4 machines (mpi)", " ".join(output.split()))
         testbed("exec", "n3", "mount", "-o", "remount,size=8m", "/dev/shm")
         self.addCleanup(testbed, "exec", "n3", "mount", "-o", "remount,size=1g", "/dev/shm")
-        told = look(1)
-        self.assertRegex(told, r"TROUBLE +/dev/shm +n3: 8 MiB")
-        self.assertRegex(told, r"/dev/shm +n1,n2,n4: ")
+        output = look(1)
+        self.assertRegex(output, r"TROUBLE +/dev/shm +n3: 8 MiB")
+        self.assertRegex(output, r"/dev/shm +n1,n2,n4: ")
 
 
 class Checkout(ProgramTest):

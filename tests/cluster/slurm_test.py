@@ -61,8 +61,8 @@ class Jobs(ClusterTest):
 
     def assertCompletes(self, folder):
         """Its job goes on to the last frame, with the pixels that one process draws."""
-        told = self.on("n0", "mars", "watch", folder).stdout
-        self.assertIn("120 of 120 frames", told)
+        output = self.on("n0", "mars", "watch", folder).stdout
+        self.assertIn("120 of 120 frames", output)
         self.assertEqual(self.verified_hash(folder), self.pixels())
 
     def pixels(self):
@@ -98,9 +98,9 @@ class Jobs(ClusterTest):
         self.wait_for_frames("out")
         self.on("n0", "scontrol", "update", "NodeName=n2", "State=DRAIN", "Reason=test")
         self.addCleanup(testbed, "exec", "n0", "scontrol", "update", "NodeName=n2", "State=RESUME")
-        told = self.on("n0", "mars", "status", "out").stdout
-        self.assertRegex(told, rf"job {job}_0: running on n\[(1-2|3-4)\] for ")
-        self.assertRegex(told, r"run on n[13] \(process \d+\): ")
+        output = self.on("n0", "mars", "status", "out").stdout
+        self.assertRegex(output, rf"job {job}_0: running on n\[(1-2|3-4)\] for ")
+        self.assertRegex(output, r"run on n[13] \(process \d+\): ")
         for host in ["n1", "n3"]:
             self.full_speed(host)
         self.assertCompletes("out")
@@ -112,9 +112,9 @@ class Jobs(ClusterTest):
         self.crawl("n1")
         job = self.submit("out")
         self.wait_for_frames("out")
-        told = self.on("n0", "mars", "cancel", "out").stdout
-        self.assertIn(f"job {job} has ended\nout: ", told)
-        self.assertRegex(told, r"out: \d+ of 120 frames of ")
+        output = self.on("n0", "mars", "cancel", "out").stdout
+        self.assertIn(f"job {job} has ended\nout: ", output)
+        self.assertRegex(output, r"out: \d+ of 120 frames of ")
         self.assertEqual(self.facts(job)["JobState"], "CANCELLED")
         for host in HOSTS:
             self.assertEqual(testbed("exec", host, "pgrep", "-f", OUR_PROGRAMS).stdout, "", host)

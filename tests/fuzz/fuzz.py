@@ -2,7 +2,7 @@
 """Runs fuzz targets, one after another, and prints how many inputs each took, how many a second, and what was found:
 
   fuzz.py BUILD                      every target for --seconds (default: 20)
-  fuzz.py BUILD --runs N TARGET ...  these, for so many inputs
+  fuzz.py BUILD --runs N TARGET ...  these targets, for N inputs each
 
 BUILD has the targets: build/fuzz with libFuzzer, other builds with MARS's own driver. Inputs that reach further stay in
 BUILD/fuzz/TARGET and are used again; what was found lies in BUILD/fuzz/found-TARGET-*. Exit code 1 where anything was.

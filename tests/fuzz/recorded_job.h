@@ -16,7 +16,7 @@ inline constexpr int kNodes = 2;
 
 class RecordedJob {
  public:
-  // So many samples a pixel, of pixels of this format.
+  // Of a film with `samples` samples a pixel, and of pixels of `format`.
   RecordedJob(std::uint32_t samples, wire::PixelFormat format, bool traced);
 
   const test::FilmBlock& film() const { return film_; }

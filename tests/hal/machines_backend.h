@@ -1,4 +1,4 @@
-// Nodes of one process as if they lay on several machines: on each machine so many, in order of their ids. The host is
+// Nodes of one process as if they lay on several machines: an equal number on each, in order of their ids. The host is
 // on the first one.
 #pragma once
 

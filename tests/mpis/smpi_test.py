@@ -22,10 +22,10 @@ def simulate(nodes, program):
     return done.stdout
 
 
-def times_in(told):
+def times_in(output):
     """By what was measured and its bytes, in microseconds."""
     times = {}
-    for line in told.splitlines():
+    for line in output.splitlines():
         what, bytes_, microseconds = line.rsplit(None, 2)
         times[what, int(bytes_)] = float(microseconds)
     return times
@@ -38,8 +38,8 @@ class Simulated(unittest.TestCase):
                 self.assertRegex(simulate(nodes, RULES), r"types/force_is_awaited, \d+ ms\n$")
 
     def test_times(self):
-        told = simulate(8, TIMES)
-        times = times_in(told)
+        output = simulate(8, TIMES)
+        times = times_in(output)
         for what, hops, length, ends in [("to a neighbour", 1, 0, SHORT), ("to a neighbour", 1, 100, SHORT),
                                          ("to a neighbour", 1, 101, LONG), ("to a neighbour", 1, 10000, LONG),
                                          ("across the cube", 3, 0, SHORT)]:
@@ -48,7 +48,7 @@ class Simulated(unittest.TestCase):
                 self.assertGreaterEqual(times[what, length], 0.999 * least)
                 self.assertLess(times[what, length], 1.1 * least)
         self.assertGreater(times["gsync", 0], 3 * times["to a neighbour", 0] * 0.9)  # a message a dimension
-        self.assertEqual(simulate(8, TIMES), told)  # to the last digit
+        self.assertEqual(simulate(8, TIMES), output)  # to the last digit
 
     def test_both_simulators_agree(self):
         own = subprocess.run([OWN_TIMES, "8"], capture_output=True, text=True, timeout=20, check=True).stdout

@@ -45,9 +45,9 @@ class Model(ProgramTest):
 
     def test_the_order_of_former_versions_is_understood(self):
         self.dog()
-        told = subprocess.run([PROGRAMS / "mars", "model", "show", "dog.json"], cwd=self.folder, capture_output=True, text=True)
-        self.assertEqual(told.stderr, "mars: the model comes first now: mars model dog.json show\n")
-        self.assertEqual(told.stdout, self.model("dog.json", "show"))
+        done = subprocess.run([PROGRAMS / "mars", "model", "show", "dog.json"], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(done.stderr, "mars: the model comes first now: mars model dog.json show\n")
+        self.assertEqual(done.stdout, self.model("dog.json", "show"))
 
     def test_what_the_studio_does_a_command_does(self):
         self.model("man.json", "new", "--figure", "man", "--height", 5)

@@ -24,7 +24,7 @@ class NxInstallation(ProgramTest):
                             "--prefix", work / "first", "--strip"], check=True, capture_output=True)
         cls.prefix = (work / "first").rename(work / "moved")
         if harness.SANITIZED:
-            raise unittest.SkipTest("a sanitized library is for programs built likewise")
+            raise unittest.SkipTest("a sanitized library is for programs that are sanitized too")
         cls.headers = sorted((cls.prefix / "include/mars-nx").iterdir())
 
     def prototypes(self):

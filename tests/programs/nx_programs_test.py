@@ -17,7 +17,7 @@ def corners(nodes):
 
 class NxProgramsTest(ProgramTest):
     def check(self, says, *programs):
-        """`says`: what it must print on so many nodes."""
+        """`says`: what it must print on each number of nodes in PROCESSES."""
         words = [NX / program for program in programs]
         for nodes in PROCESSES:
             with self.subTest(programs=programs, nodes=nodes):

@@ -82,7 +82,7 @@ static long squares(void) {
   for (i = 0; i < numnodes(); i++) { crecv(11, &x, sizeof x); sum += x; }
   return sum;
 }
-static void tell_ends(void) {
+static void print_ends(void) {
   long i, node, pid, code;
   for (i = 0; i < numnodes(); i++) { waitone(-1, 0, &node, &pid, &code); printf("node %ld pid %ld code %ld\n", node, pid, code); }
 }
@@ -125,7 +125,7 @@ int main(int argc, char** argv) {
     waitall(-1, 0);
     printf("two %ld\n", n);
   }
-  if (!strcmp(what, "ends")) tell_ends();
+  if (!strcmp(what, "ends")) print_ends();
   if (!strcmp(what, "rounds")) for (n = 0; n < 30; n++) {
     for (i = 0; i < (n % 2 ? numnodes() : 1); i++) load("talk", n % 2 ? i : -1, 0);
     waitall(-1, 0);
@@ -136,7 +136,7 @@ int main(int argc, char** argv) {
     waitall(-1, 0);
   }
   if (!strcmp(what, "busy")) { load("loop", -1, 0); sleep(1); killcube(-1, -1); load("busy", -1, 0); waitall(-1, 0); }
-  if (!strcmp(what, "ends-and-again")) { load("node", -1, 0); tell_ends(); killcube(-1, -1); load("square", -1, 0); printf("sum %ld\n", squares()); }
+  if (!strcmp(what, "ends-and-again")) { load("node", -1, 0); print_ends(); killcube(-1, -1); load("square", -1, 0); printf("sum %ld\n", squares()); }
   if (!strcmp(what, "more")) getcube("mine", "16", NULL, 0);
   if (!strcmp(what, "long-name")) getcube("sixteen-letters-", "2", NULL, 0);
   if (!strcmp(what, "twin")) printf("%ld %ld %ld\n", _load("none", 0, 0), _getcube("mine", "16", NULL, 0), _relcube("other"));

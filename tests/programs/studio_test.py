@@ -175,7 +175,7 @@ class StudioTest(ProgramTest):
             page.say(do="undo")
             self.assertIn("is", page.hear("project", "picture"))  # the third waits
             page.say(do="painted", view=3, picture=1)
-            self.assertEqual(page.hear("said")["text"], "painted 1")
+            self.assertEqual(page.hear("remark")["text"], "painted 1")
             self.assertEqual(decoded(page.hear("picture"))["edit"], 3)
 
     def test_a_page_that_ends_gives_room(self):

@@ -186,7 +186,7 @@ class Scripts(FakeSlurm):
     def setUp(self):
         super().setUp()
         for name in ["mars", "mpirun"]:
-            self.program(name, "trap 'echo term >told; sleep 0.2; exit 1' TERM; echo \"$@\" >words; touch begun\n"
+            self.program(name, "trap 'echo term >terminated; sleep 0.2; exit 1' TERM; echo \"$@\" >words; touch begun\n"
                          "[ -e go ] || exit $(cat code)\n"
                          "while :; do sleep 0.05; done")
         self.program("mars-host", "")
@@ -199,7 +199,7 @@ class Scripts(FakeSlurm):
                         SLURMD_NODENAME="n1")
 
     def start(self, script):
-        for name in ["begun", "told", "requeued"]:
+        for name in ["begun", "terminated", "requeued"]:
             (self.folder / name).unlink(missing_ok=True)
         process = subprocess.Popen(["bash", script, "film.json", "-o", "out"], env=self.job, cwd=self.folder,
                                    stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
@@ -219,7 +219,7 @@ class Scripts(FakeSlurm):
         process = self.start(script)
         for each in signals:
             process.send_signal(each)
-        wait_until((self.folder / "told").exists, SECONDS, "the film is not told to end")
+        wait_until((self.folder / "terminated").exists, SECONDS, "the job of the film did not receive TERM")
         code = process.wait(SECONDS)
         (self.folder / "go").unlink()
         return code, self.read("requeued") if (self.folder / "requeued").exists() else ""

@@ -91,8 +91,8 @@ class Traces(ProgramTest):
         if not SANITIZED:  # whose nodes and storage are slow enough to be warned of
             self.assertEqual(done.stderr, "")
         with open(self.folder / "trace.json") as file:  # its first line says what is in it
-            told_by_file = json.loads(file.readline().removesuffix(',"traceEvents":[\n') + "}")
-        lacks = told_by_file["otherData"]["events_beyond_bound"]
+            head_of_file = json.loads(file.readline().removesuffix(',"traceEvents":[\n') + "}")
+        lacks = head_of_file["otherData"]["events_beyond_bound"]
         self.assertGreater(lacks, 0)
         self.assertIn(f"the trace was full: it lacks {lacks} later events", done.stdout.splitlines()[-1])
         self.assertLess((self.folder / "trace.json").stat().st_size, 200e6)

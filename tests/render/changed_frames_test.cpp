@@ -23,7 +23,7 @@ using wire::FilmData;
 
 const Frames kAll{0, 1, 2, 3}, kNone{};
 
-// A further member of these structs fails to compile here: compare it in changed_frames(), and change it below.
+// A further member of a struct below fails to compile here: compare it in changed_frames(), and change it below.
 [[maybe_unused]] void name_members(const FilmData& film) {
   [[maybe_unused]] const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15, a16, a17] = film;
   [[maybe_unused]] const auto& [b1, b2, b3, b4, b5, b6, b7, b8, b9, b10, b11, b12] = film.settings;

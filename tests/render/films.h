@@ -18,7 +18,7 @@ wire::Matrix placed(const Vec3& place, double size, double angle = 0);
 // A camera at `eye` that looks at `at`, z up, `fov` degrees vertically.
 wire::Camera looking(const Vec3& eye, const Vec3& at, double fov, double near = 0.05, double far = 1000);
 
-// A closed ball in the unit cube: so many rows of quads between two rows of triangles. `crease` as in model files.
+// A closed ball in the unit cube: `rows` rows of quads between two rows of triangles. `crease` as in model files.
 modeler::Mesh mesh_ball(std::uint32_t rows, double crease);
 
 class FilmMaker {

@@ -31,7 +31,7 @@ struct Reference {
   std::vector<raster::PlainTriangle> triangles;
   std::vector<bool> moving;             // of each triangle
   std::vector<ReferenceSample> still;   // rows of pixels from the top, of each pixel its samples
-  std::vector<ReferenceSample> movers;  // likewise, where one is nearer than what stands still
+  std::vector<ReferenceSample> movers;  // as `still`; only where a mover is nearer than what stands still
   std::uint32_t width = 0;
   shape::SamplePattern pattern{};
 
@@ -39,7 +39,7 @@ struct Reference {
   std::size_t first_sample(std::uint32_t column, std::uint32_t row) const {
     return (std::size_t{row} * width + column) * static_cast<std::size_t>(pattern.count);
   }
-  // Still groups, then moving ones, each in order of these samples.
+  // Still groups, then moving ones, each in order of their samples.
   std::vector<ReferenceGroup> groups(std::uint32_t column, std::uint32_t row) const;
 };
 

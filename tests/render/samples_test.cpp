@@ -99,7 +99,7 @@ int half_covered(const Reference& reference) {
   return count;
 }
 
-// Where colours are pure, the mean of samples is exact and all of them are told apart.
+// Where colours are pure, the mean of samples is exact and all samples can be distinguished.
 void expect_same_samples(const wire::FilmData& film, int nodes, bool has_edges_of_movers) {
   const FilmBlock block(film);
   const FilmRun run = draw(film, nodes);

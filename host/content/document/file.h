@@ -16,10 +16,10 @@ inline constexpr std::uintmax_t kLargestFileRead = std::uintmax_t{1} << 34;  // 
 
 // Refuses what is missing, no regular file, or larger than `largest` bytes.
 std::string read_file(const std::filesystem::path& path, std::uintmax_t largest = kLargestFileRead);
-// Likewise; none where it is missing.
+// As read_file(); none where it is missing.
 std::optional<std::string> read_file_if_there(const std::filesystem::path& path, std::uintmax_t largest);
 
-// Likewise piece by piece, of a file of any size; false where it is missing.
+// Reads a file of any size piece by piece; false where it is missing. Refuses what is no regular file.
 bool read_pieces(const std::filesystem::path& path, const std::function<void(std::string_view piece)>& take);
 
 // The first bytes of a regular file: fewer where it is shorter, none where it cannot be read.

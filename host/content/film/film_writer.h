@@ -32,7 +32,7 @@ class FilmWriter {
   FilmWriter(const animator::Film& film, WrittenFrames frames, wire::FilmData& data);
 
   void write_settings();  // and camera and lights
-  // Without their motion. `data` has the shapes of these numbers.
+  // Without their motion. `data` has the shapes with the numbers `shapes`.
   void write_segments(const ShapeNumbers& shapes);
 
   // Whether a segment is made of the film's material.

@@ -74,7 +74,8 @@ Promised promised_by_stl(std::string_view bytes) {
   return promised;
 }
 
-// Without the shapes of these, the file cannot be read; other extensions are about what models do not have.
+// These extensions pack shapes, without which the file cannot be read; other extensions are about what models do not
+// have.
 void refuse_extensions(const std::filesystem::path& path, const Tree& required) {
   for (const char* extension : {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_mesh_quantization"})
     if (std::find(required.begin(), required.end(), extension) != required.end())

@@ -57,7 +57,8 @@ Json reversed_knots(const Json& knots) {
   return reversed;
 }
 
-// Likewise; where u is periodic, point i of n points and degree d becomes point n - 1 - d - i of the reversed knots.
+// Reversed along u, as a patch is; where u is periodic, point i of n points and degree d becomes point n - 1 - d - i of
+// the reversed knots.
 Json mirrored_bspline(Json bspline) {
   Json& u = bspline["u"];
   const std::size_t degree = u.is_null() ? 3 : u.value("degree", std::size_t{3});

@@ -16,7 +16,7 @@ class Computers {
   int of(int rank) const;
   // When a rank has done work that it begins now. Ranks with a processor each never wait for one.
   double work(int rank, double now, double seconds);
-  // Likewise for work that is none of a rank's.
+  // When a processor of the rank's computer has done work that is none of a rank's.
   double reserve(int rank, double now, double seconds);
 
  private:

@@ -307,7 +307,7 @@ void FrameCosts::add_exchange(GroupKeyframe& keyframe, const Homes& homes, const
 }
 
 // CZB, and with several samples shaded groups, of the lines that inbetweens may touch: to all other computers that
-// draw some. All send to the first of these first.
+// draw inbetweens. All send to the first such computer first.
 void FrameCosts::add_still(GroupKeyframe& keyframe, const Homes& homes, const wire::FrameCounts& counts,
                            std::size_t inbetweens) const {
   const auto nodes = keyframe.nodes.size();

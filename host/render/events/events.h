@@ -94,7 +94,7 @@ struct Beat {
   bool operator==(const Beat&) const = default;
 };
 
-// The host was told to end before its last frame: the frame that each node was drawing then.
+// The host was asked to end before its last frame: the frame that each node was drawing then.
 struct Drawing {
   struct Node {
     std::int32_t node = 0;

@@ -59,7 +59,7 @@ void Heartbeats::look() {
   looked_ = now;
   if (watch_) watch_->look(now);
   receive();
-  if (listener_.told_to_end()) listener_.end(drawing());
+  if (listener_.asked_to_end()) listener_.end(drawing());
   if (nodes_listen_ && now >= spoken_ + kSpeak) {
     spoken_ = now;
     speak();

@@ -36,8 +36,8 @@ struct NodeFrame {
 struct HeartbeatListener {
   // Every two seconds: what the host does, and nodes that have been silent for five seconds or more.
   std::function<void(const std::string& doing, const std::vector<SilentNode>&)> beat;
-  // Whether the host was told to end, and how it does.
-  std::function<bool()> told_to_end;
+  // Whether the host was asked to end, and how it does.
+  std::function<bool()> asked_to_end;
   std::function<void(const std::vector<NodeFrame>& drawing)> end;
   // Whether a debugger has a process of the host's machine.
   std::function<bool(std::int32_t process)> is_traced;
@@ -63,7 +63,7 @@ class Heartbeats {
   void watch(std::span<const wire::Hello> hellos);
   // A strip came.
   void hear(const wire::Strip& strip);
-  // Nodes are told to end: they need not hear the host, nor speak.
+  // The host has sent nodes the command to end: they need not hear the host, nor speak.
   void forget_nodes();
   // The frame that a node draws, by those that it was given and by the one that it said last it had begun; -1: none.
   using Drawing = std::function<std::optional<std::uint32_t>(int node, std::int32_t begun)>;

@@ -8,7 +8,8 @@
 namespace mars::farm {
 namespace {
 
-// Of these a pace is taken, so that neither single inbetweens nor what else a machine does for a moment decide it.
+// A pace is taken over at least this many inbetweens and seconds, so that neither single inbetweens nor what else a
+// machine does for a moment decide it.
 constexpr int kInbetweens = 2;
 constexpr double kSeconds = 2;
 

@@ -17,7 +17,7 @@ namespace mars::farm {
 struct SlowTime {
   std::int32_t node;
   double slowness;              // how many times as long it took, at most
-  double begin;                 // in the seconds that NodeRates was told
+  double begin;                 // in seconds, as `now` of NodeRates
   std::optional<double> end{};  // none: it was slow until the last frame
 };
 

@@ -29,7 +29,7 @@ bool asks_for_kept_film(const Wish& wish) {
   return fs::equivalent(wish.film, kept_film(wish.folder), none);
 }
 
-// Whether the film of the folder is the one asked for, as far as can be told without compiling it.
+// Whether the film of the folder is the one asked for, as far as can be seen without compiling it.
 bool is_asked_for(const Manifest& there, const Wish& wish) {
   if (wish.kept_film) return true;
   if (wish.overwrite) return false;

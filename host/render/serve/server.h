@@ -18,9 +18,9 @@ struct Serving {
   std::uint32_t block = 16;  // side of the compositor's blocks, pixels
 };
 
-// The calling HAL process is the host. Returns when the studio has closed the socket and nodes are told to end. Reports
-// events on standard output. A failure is reported as a fault event and to the studio, and thrown for the caller, which
-// ends the run.
+// The calling HAL process is the host. Returns when the studio has closed the socket and nodes have been sent the
+// command to end. Reports events on standard output. A failure is reported as a fault event and to the studio, and
+// thrown for the caller, which ends the run.
 void serve(const Serving& serving);
 
 }  // namespace mars::serve

@@ -12,7 +12,7 @@ namespace mars::session {
 farm::HeartbeatListener heartbeat_listener(const EventReporter& reporter, Termination& termination) {
   farm::HeartbeatListener listener;
   listener.beat = [&](const std::string& doing, const auto& silent) { reporter.report_beat(doing, silent); };
-  listener.told_to_end = [&] { return termination.asked(); };
+  listener.asked_to_end = [&] { return termination.asked(); };
   listener.end = [&](const std::vector<farm::NodeFrame>& drawing) {
     reporter.report_drawing(drawing);
     termination.end();

@@ -61,7 +61,7 @@ class FrameFolder {
   // else they left, decides by `go_on` which frames stay, claims those of `wanted` that are not there, removes files
   // under their names, and writes the manifest and film.mars. Throws Failure, and has changed nothing of others', where
   // another run's claim is in the way. What cannot be written for a while is waited for as `bounds` say, here and
-  // later, which are told too that it is waited for whether a run still lives.
+  // later; `bounds.warn` also reports a wait until it is known whether a run still lives.
   FrameFolder(std::filesystem::path path, const Manifest& wanted, const Continue& go_on, Patience::Bounds bounds = {},
               const ProcessName& self = this_process());
   FrameFolder(std::filesystem::path path, const Manifest& wanted, const ProcessName& self = this_process(),

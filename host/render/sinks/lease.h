@@ -29,7 +29,7 @@ class Lease {
   // Renews it. Throws Failure where the file is gone, and FileFailure where it could not be renewed for half the time
   // after which others give it up: once it can be, and still is there, all is well again.
   void confirm();
-  // Likewise, but looks only where the last renewal is as long ago as that.
+  // As confirm(), but only if the last renewal is half that time ago, or the file is gone.
   void check();
 
  private:

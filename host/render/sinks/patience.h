@@ -39,8 +39,8 @@ class Patience {
   // Calls `write`, from several threads at once, until it throws no FileFailure of a kind that may pass, or for as long
   // as the bounds say. Then throws it, with how to go on. `file`: what is written, for people.
   void write(const std::filesystem::path& file, const Write& write) { repeat({file}, write); }
-  // Likewise where nothing has been written yet: permissions that are lacking then are no reason to wait, but likely to
-  // be the wrong folder's.
+  // As write(), where nothing has been written yet: permissions that are lacking then are no reason to wait, but likely
+  // to be the wrong folder's.
   void begin(const std::filesystem::path& file, const Write& write) { repeat({file, false}, write); }
   // Where what is written waits for something else than storage.
   void note_answer();

@@ -1,7 +1,7 @@
 // A fixed number of frame buffers and of threads that hand finished frames to a sink: the host's memory is
 // bounded, and its loop never waits for a file. The loop (one thread) asks for a free frame, composes it,
 // submits it, and asks now and then which frames were taken, to give their credit back to the nodes.
-// A sink's failure reaches the loop as an exception from whichever of these calls comes next.
+// A sink's failure reaches the loop as an exception from whichever call of the loop comes next.
 #pragma once
 
 #include <condition_variable>
@@ -41,7 +41,7 @@ class SinkPool {
   // A frame to compose, the caller's until submitted, preferably one that shows the saved background of that
   // name; nullptr when all are with the sink.
   compositor::Frame* free_frame(std::uint64_t background = 0);
-  // Likewise for a frame that is long in the making: nullptr also where that left less than half of all, or
+  // As free_frame(), for a frame that is long in the making: nullptr also where that left less than half of all, or
   // none, to frames that are soon submitted.
   compositor::Frame* early_frame(std::uint64_t background = 0);
   virtual void submit(compositor::Frame* frame);

@@ -33,7 +33,7 @@ void check_slurm();
 // Returns the job's number. `output` is sbatch's pattern; `more` are a person's options for sbatch.
 std::string submit_job(const std::filesystem::path& script, const std::string& output,
                        const std::vector<std::string>& more);
-// Of these jobs, those that have not ended.
+// The jobs with the numbers `numbers` that have not ended.
 std::vector<QueuedJob> queued_jobs(const std::vector<std::string>& numbers);
 void cancel_jobs(const std::vector<std::string>& numbers);
 

@@ -42,8 +42,8 @@ class HostConnection {
 
   // Once it is connected. `body` may be nullptr.
   void send(serve::Kind kind, std::uint32_t view, std::uint32_t picture, Body body);
-  // Forgets what was not sent yet of a view: inbetweens, and with `scenes` its scenes too. The numbers of these
-  // pictures.
+  // Forgets what was not sent yet of a view: inbetweens, and with `scenes` its scenes too. Returns the numbers
+  // of their pictures.
   std::vector<std::uint32_t> take_back(std::uint32_t view, bool scenes);
 
  private:

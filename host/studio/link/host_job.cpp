@@ -26,7 +26,7 @@ namespace {
 constexpr int kReason = 3;                               // the job's descriptor for it
 constexpr std::chrono::seconds kPatience{20};            // with nodes that do not answer: of no use here
 constexpr std::chrono::milliseconds kLongestEnd{2000};   // of a host whose studio has closed the socket
-constexpr std::chrono::milliseconds kLongestStop{4000};  // of one that was told to end
+constexpr std::chrono::milliseconds kLongestStop{4000};  // of one that was asked to end
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 

@@ -111,7 +111,7 @@ connection.on("refused", (message) => {
   if (motions.refused(message)) return;
   notices.toast(line ? `${text} (line ${line})` : text);
 });
-connection.on("said", ({text}) => notices.toast(text, "info"));
+connection.on("remark", ({text}) => notices.toast(text, "info"));
 connection.on("pinned", ({pins}) => state.set("pins", pins));
 connection.on("connected", () => {
   edits.unanswered.forget();

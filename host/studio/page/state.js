@@ -1,4 +1,4 @@
-// What the page knows: the project as the studio told it, and what is selected here. Others listen to what concerns
+// What the page knows: the project as the studio sent it, and what is selected here. Others listen to what concerns
 // them: "project", "poses", "selected", "tool", "view" (the active one), "renderer", "workspace"; of films "frame", "range", "keys", "rows",
 // "curves", "ghosts", "marks", "pins".
 

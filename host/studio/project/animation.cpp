@@ -14,12 +14,12 @@ namespace mars::studio {
 namespace {
 
 // Frames with keys, of all things: more would be too much for a page at each change.
-constexpr std::size_t kMostFramesTold = 5000;
+constexpr std::size_t kMostKeysSent = 5000;
 
 using animator::KeyedPart;
 using animator::Thing;
 
-constexpr std::size_t kMostValues = 200'000;  // of curves that are told at once
+constexpr std::size_t kMostValues = 200'000;  // of curves that are sent at once
 
 // As a person types it.
 std::string word_of(const Thing& thing) { return thing.actor ? thing.json->at("name").get<std::string>() : thing.name; }
@@ -126,19 +126,19 @@ Json described(const motion::Parameter& parameter) {
 }  // namespace
 
 Json channels_of(Json& json, const animator::Film& film, const std::vector<std::string>& things) {
-  Json told = Json::array();
+  Json sent = Json::array();
   const bool all = things == std::vector<std::string>{"*"};
   std::size_t keys = 0;
   if (all)
     for (const animator::Chosen& each : animator::choose(json, film, {true, "", {}})) {
       if (!each.thing.json->contains("keys")) continue;
       keys += each.thing.json->at("keys").size();
-      told.push_back(keys <= kMostFramesTold ? described(each.thing) : named(each.thing));
+      sent.push_back(keys <= kMostKeysSent ? described(each.thing) : named(each.thing));
     }
   else
     for (const std::string& name : things)
-      if (const auto thing = thing_named(json, film, name)) told.push_back(described(*thing));
-  return {{"is", "channels"}, {"things", std::move(told)}};
+      if (const auto thing = thing_named(json, film, name)) sent.push_back(described(*thing));
+  return {{"is", "channels"}, {"things", std::move(sent)}};
 }
 
 Json curves_of(Json& json, const animator::Film& film, const CurvesWanted& wanted) {
@@ -153,17 +153,17 @@ Json curves_of(Json& json, const animator::Film& film, const CurvesWanted& wante
 }
 
 Json actions() {
-  Json told = Json::array();
+  Json sent = Json::array();
   for (const motion::Action& action : motion::actions()) {
     Json parameters = Json::array();
     for (const motion::Parameter& parameter : action.parameters) parameters.push_back(described(parameter));
-    told.push_back({{"name", action.name},
+    sent.push_back({{"name", action.name},
                     {"purpose", action.purpose},
                     {"group", action.needs.empty() ? "kinematic" : "figure"},
                     {"needs", action.needs},
                     {"parameters", std::move(parameters)}});
   }
-  return {{"is", "actions"}, {"actions", std::move(told)}};
+  return {{"is", "actions"}, {"actions", std::move(sent)}};
 }
 
 }  // namespace mars::studio

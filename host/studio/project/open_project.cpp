@@ -209,7 +209,7 @@ class FileProject : public Project {
   std::string fitting(std::optional<std::string> text) {
     if (text) return std::move(*text);
     history_ = History();
-    throw Failure("does not fit the file", journal_.path().string(), "remove it; the history begins anew");
+    throw Failure("does not fit the file", journal_.path().string(), "remove it; the history then starts empty");
   }
 
   static Json described(const std::optional<Problem>& problem) {

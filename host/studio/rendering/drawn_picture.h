@@ -1,4 +1,4 @@
-// The picture that is drawn now, as put together from what the host sent, and what pages are told of it.
+// The picture that is drawn now, as put together from what the host sent, and what pages receive of it.
 #pragma once
 
 #include <cstdint>

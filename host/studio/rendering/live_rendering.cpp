@@ -176,7 +176,7 @@ void LiveRendering::stop() {
   if (!is_busy()) return;
   job_.stopping = true;
   job_.process->stop();
-  become(state_, "it is told to end");
+  become(state_, "it was asked to end");
 }
 
 void LiveRendering::watch(const Json& message) {
@@ -211,7 +211,7 @@ void LiveRendering::painted(PageNumber page, const Json& message) {
   show(page, view);
 }
 
-// Of these lines only one tells numbers: how much of the folder is there.
+// A line that the host printed. Only one has numbers: how much of the folder is there.
 void LiveRendering::heard(const std::string& line) {
   static const std::regex resumed("([0-9]+) of ([0-9]+) frames? (is|are) there already.*");
   std::smatch found;
@@ -377,7 +377,7 @@ void LiveRendering::read(PageNumber page, std::uint32_t frame) {
   };
   read_files(work, [this, page](const Read& read) {
     if (read.problem.empty()) return show_frame(page, read.image);
-    if (pages_.contains(page)) listener_.tell(page, {{"is", "said"}, {"text", read.problem}});
+    if (pages_.contains(page)) listener_.tell(page, {{"is", "remark"}, {"text", read.problem}});
   });
 }
 

@@ -82,7 +82,7 @@ void Flow::follow_film() {
   moments_.renew();
   if (moments_.problem() != sent_problem_) {
     sent_problem_ = moments_.problem();
-    if (!sent_problem_.empty()) pages_.send_to_all({{"is", "said"}, {"text", sent_problem_}});
+    if (!sent_problem_.empty()) pages_.send_to_all({{"is", "remark"}, {"text", sent_problem_}});
   }
   if (moments_.film_number() == film_number_) return;
   film_number_ = moments_.film_number();

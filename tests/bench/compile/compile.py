@@ -43,10 +43,10 @@ def write_film(path, figures, joints, frames, hinges):
 def measure(mars, path):
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     start = time.monotonic()
-    told = subprocess.run([mars, "info", path], check=True, stdout=subprocess.PIPE, text=True).stdout
+    output = subprocess.run([mars, "info", path], check=True, stdout=subprocess.PIPE, text=True).stdout
     seconds = time.monotonic() - start
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    matrices = next(int(line.split()[1]) for line in told.splitlines() if line.startswith("matrices"))
+    matrices = next(int(line.split()[1]) for line in output.splitlines() if line.startswith("matrices"))
     processor = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
     return seconds, processor, after.ru_maxrss / 1e6, matrices
 

@@ -123,7 +123,7 @@ class Cluster(Machines):
         return (self.folder / "pid" / host).exists()
 
     def processes(self, *programs, host=None):
-        """Those that live, of these programs or all, on this host or all."""
+        """Living processes of `programs` or, without any, of all programs, on `host` or all hosts."""
         found = []
         for number in map(int, filter(str.isdigit, os.listdir("/proc"))):
             where = self.namespaces.get(namespace_of(number))

@@ -65,7 +65,7 @@ class Rendering:
         return self.process.poll()
 
     def wait(self, seconds):
-        """Its exit code; none if it still runs after so many seconds."""
+        """Its exit code; none if it still runs after `seconds`."""
         try:
             self.process.wait(seconds)
         except subprocess.TimeoutExpired:

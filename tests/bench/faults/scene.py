@@ -107,7 +107,7 @@ class Scene:
         self.at_end.append(undo)
 
     def wait(self, seconds):
-        """Mars's exit code, none if it does not end in so many seconds; meanwhile faults are undone that last."""
+        """Mars's exit code, none if it does not end in `seconds`; meanwhile faults are undone that last."""
         end = time.monotonic() + seconds
         while self.mars.code is None and time.monotonic() < end:
             self.undo(time.monotonic())

@@ -61,7 +61,7 @@ class Bench {
         pixels_(workload.pixels() + simd::kVectorSlack + kRow),
         runs_(workload.pixels() + 1) {}
 
-  // The bare loop over as many pixels as are seen, so many at a time.
+  // The bare loop over as many pixels as are seen, `at_a_time` pixels at a time.
   double bare_shading(int at_a_time) { return bare_shading(bare_.shade, at_a_time); }
   double bare_shading(Bare::Shade shade, int at_a_time) {
     const Stretch stretch{{0.3f, 0.2f, 0.9f}, {1e-4f, 2e-4f, -1e-4f}, {-0.2f, 0.1f, 1}, {4e-4f, 0, 0}};

@@ -10,7 +10,7 @@ namespace {
 constexpr int kTag = 7;
 
 MPI_Comm all = MPI_COMM_NULL;    // ranks are NX's ids
-MPI_Comm nodes = MPI_COMM_NULL;  // likewise, without the host
+MPI_Comm nodes = MPI_COMM_NULL;  // as `all`, without the host
 
 }  // namespace
 

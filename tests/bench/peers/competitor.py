@@ -1,4 +1,4 @@
-"""A competitor: a child process that renders a frame when told to (peer.h); or several, each with frames of its own."""
+"""A competitor: a child process that renders a frame on demand (peer.h); or several, each with frames of its own."""
 import os
 import signal
 import subprocess

@@ -9,8 +9,8 @@ INTERVAL = 120    # frames of s3 from one keyframe to the next: whole turns
 
 
 def load(name, size=None, dice=None, samples=1):
-    """An example as it is, but seen from outside only, with so many samples a pixel, and in the size and as finely diced
-    as wanted."""
+    """An example as it is, but seen from outside only, with `samples` samples a pixel, and in the size and as finely
+    diced as wanted."""
     with open(os.path.join(EXAMPLES, name + ".json")) as file:
         film = json.load(file)
     for material in film["materials"].values():
@@ -29,7 +29,7 @@ def turning(film):
 
 
 def lengthened(film, frames):
-    """The same film with so many frames, cut at every INTERVAL where something turns."""
+    """The same film with `frames` frames, cut at every INTERVAL where something turns."""
     film = copy.deepcopy(film)
     film["frames"] = frames
     for actor in turning(film):

@@ -81,14 +81,14 @@ void Driver::run(std::span<const std::byte> block) {
   sinks::SinkPool pool(sink_, {settings_.width, settings_.height, 16, 4, 2});
   farm::render_film(block, farm::make_plan(wire::FilmView(block, "film"), work_, static_cast<int>(numnodes())), {},
                     pool, listener);
-  if (begun_ && left_ > 0) throw std::runtime_error("the film has too few frames for so many orders");
+  if (begun_ && left_ > 0) throw std::runtime_error("the film has fewer frames than the orders ask for");
 }
 
 bool Driver::more() {
   if (!begun_)
-    orders_.tell_ready("MARS, " + backend_ + " backend, nodes: " + std::to_string(numnodes()) + ", " + kernels_);
+    orders_.send_ready("MARS, " + backend_ + " backend, nodes: " + std::to_string(numnodes()) + ", " + kernels_);
   else if (--left_ == 0)
-    orders_.tell_milliseconds(milliseconds_a_frame());
+    orders_.send_milliseconds(milliseconds_a_frame());
   begun_ = true;
   if (left_ > 0) return true;
   const auto go = orders_.next_go();

@@ -29,9 +29,9 @@ void write_ppm(const Picture& picture, const std::string& path) {
   if (!file) throw std::runtime_error(path + ": cannot be written");
 }
 
-void Orders::tell_ready(const std::string& text) const { std::cout << "ready " << text << std::endl; }
+void Orders::send_ready(const std::string& text) const { std::cout << "ready " << text << std::endl; }
 
-void Orders::tell_milliseconds(double a_frame) const { std::cout << "ms " << a_frame << std::endl; }
+void Orders::send_milliseconds(double a_frame) const { std::cout << "ms " << a_frame << std::endl; }
 
 std::optional<int> Orders::next_go() const {
   for (std::string line; std::getline(std::cin, line);) {
@@ -48,8 +48,8 @@ std::optional<int> Orders::next_go() const {
 
 void obey(const Competitor& competitor) {
   const Orders orders(competitor.last_picture);
-  orders.tell_ready(competitor.ready);
-  while (const auto frames = orders.next_go()) orders.tell_milliseconds(render(competitor, *frames));
+  orders.send_ready(competitor.ready);
+  while (const auto frames = orders.next_go()) orders.send_milliseconds(render(competitor, *frames));
 }
 
 int main_of(const char* name, const std::function<void()>& run) {

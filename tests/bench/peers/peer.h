@@ -1,5 +1,5 @@
 // What every competitor of the benchmark does on its standard input, one order a line, one answer a line:
-//   (start)          "ready TEXT"  the scene is loaded; TEXT tells what it wants told
+//   (start)          "ready TEXT"  the scene is loaded; TEXT: what it reports about itself
 //   go N             "ms T"        renders N frames one after another, each until its last pixel is in memory;
 //                                  T milliseconds a frame
 //   picture FILE     "done"        writes the last frame as a PPM file
@@ -29,11 +29,11 @@ class Orders {
  public:
   explicit Orders(std::function<Picture()> last_picture) : last_picture_(std::move(last_picture)) {}
 
-  void tell_ready(const std::string& text) const;
+  void send_ready(const std::string& text) const;
   // Draws pictures where they are wanted; frames of the next "go", none at the end of input. Throws
   // std::runtime_error for an order it does not know.
   std::optional<int> next_go() const;
-  void tell_milliseconds(double a_frame) const;
+  void send_milliseconds(double a_frame) const;
 
  private:
   std::function<Picture()> last_picture_;
@@ -48,7 +48,7 @@ struct Competitor {
 // Obeys until the input ends.
 void obey(const Competitor& competitor);
 
-// A competitor's main: its exit code after `run`, whose failure is told under its `name`.
+// A competitor's main: its exit code after `run`, whose failure is printed with its `name`.
 int main_of(const char* name, const std::function<void()>& run);
 
 inline double milliseconds_since(std::chrono::steady_clock::time_point start) {

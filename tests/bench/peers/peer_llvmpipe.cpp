@@ -346,7 +346,7 @@ Box Renderer::mover_box(const Motion& motion) const {
 
 void run(int argc, char** argv) {
   check(argc == 5, "usage: peer-llvmpipe MESH THREADS whole|inbetween SAMPLES");
-  // Mesa takes its memory anew for every frame: it shall not go back to the system in between.
+  // Mesa takes its memory again for every frame: it shall not go back to the system in between.
   mallopt(M_MMAP_THRESHOLD, 1 << 30);
   mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
   setenv("LP_NUM_THREADS", argv[2], 1);

@@ -4,7 +4,7 @@ do all draw the same picture?
 
 Every competitor keeps its scene loaded and renders one frame when it is its
 turn, timed from the order to the last pixel in memory. A column is a number of
-processors: competitors have so many threads or nodes, and may use no other
+processors: competitors have that number of threads or nodes, and may use no other
 processor. README.md beside this program tells what each peer does."""
 import argparse
 import contextlib

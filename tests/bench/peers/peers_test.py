@@ -1,4 +1,4 @@
-"""`mars bench peers` on small pictures: all that were built compete and draw alike, and the JSON holds what is told.
+"""`mars bench peers` on small pictures: all that were built compete and draw alike, and the JSON holds what is printed.
 
 Started as: peers_test.py BUILD_FOLDER."""
 import json

@@ -108,10 +108,10 @@ def trace(mesh, threads, processors, folder):
             continue
         files = {"scene": os.path.join(folder, program + ".scene"), "picture": os.path.join(folder, program + ".ppm")}
         write(scene, files["scene"])
-        told = subprocess.run(command.format(threads=threads, w=scene.width, h=scene.height, **files).split(),
-                              preexec_fn=lambda: os.sched_setaffinity(0, processors), cwd=folder,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True).stdout
-        found = re.search(seconds, told)
+        output = subprocess.run(command.format(threads=threads, w=scene.width, h=scene.height, **files).split(),
+                                preexec_fn=lambda: os.sched_setaffinity(0, processors), cwd=folder,
+                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True).stdout
+        found = re.search(seconds, output)
         if not found:
-            raise Trouble(f"{name}: {told[-500:]}")
+            raise Trouble(f"{name}: {output[-500:]}")
         yield name, 1000 * float(found.group(1)), files["picture"]

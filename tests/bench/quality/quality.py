@@ -141,7 +141,7 @@ def variation(lights):
     return (max(lights) - min(lights)) * len(lights) / sum(lights)
 
 
-def tell(result):
+def print_distances(result):
     samples = list(result["MARS"])
     print(f"\n{result['film']}, RMS of 255".ljust(28) + "".join(f"{s:>8}" for s in samples) + "  samples")
     for name in "MARS", "Embree":
@@ -151,7 +151,7 @@ def tell(result):
     sys.stdout.flush()
 
 
-def tell_variation(build, size, samples, folder):
+def print_variation(build, size, samples, folder):
     fan = Film(build, "fan", size, folder)
     print(f"\nfan's light, {fan.count} frames".ljust(28) + "".join(f"{s:>8}" for s in samples) + "  samples")
     print("  varies by".ljust(27) + "".join(f"{100 * variation(fan.lights(s)):7.2f}%" for s in samples))
@@ -195,8 +195,8 @@ def main():
         samples = wanted.samples or [1, 2, 4, 8, 16]
         for name in wanted.films or ["demo", "s1", "s3"]:
             results.append(measure(Film(wanted.build, name, wanted.size, folder), samples))
-            tell(results[-1])
-        tell_variation(wanted.build, wanted.size, samples, folder)
+            print_distances(results[-1])
+        print_variation(wanted.build, wanted.size, samples, folder)
     for result in results:
         check(result)
 

@@ -72,7 +72,7 @@ def slow_ones(runs, name_of=by_machine):
 
 
 def can_tell(runs, hosts):
-    """Whether there are runs enough on all of the machines for the slowest to be told from chance."""
+    """Whether there are runs enough on all of the machines to distinguish the slowest from chance."""
     on_all = [run for run in runs if {node["host"] for node in run["per_node"]} == set(hosts)]
     return len(hosts) ** (1 - len(on_all)) <= LEVEL
 

@@ -17,8 +17,8 @@ HEADINGS = ("nodes", "best", "median", "quartiles", "speed-up", "efficiency", "s
 def html_table(headings, rows, caption=""):
     head = "".join(f"<th>{escape(heading)}</th>" for heading in headings)
     body = "".join("<tr>" + "".join(f"<td>{escape(str(cell))}</td>" for cell in row) + "</tr>\n" for row in rows)
-    told = f"<caption>{escape(caption)}</caption>" if caption else ""
-    return f"<div class='wide'><table>{told}<thead><tr>{head}</tr></thead><tbody>\n{body}</tbody></table></div>\n"
+    above = f"<caption>{escape(caption)}</caption>" if caption else ""
+    return f"<div class='wide'><table>{above}<thead><tr>{head}</tr></thead><tbody>\n{body}</tbody></table></div>\n"
 
 
 def facts(pairs):
@@ -80,7 +80,7 @@ def environment_section(here):
     return facts([
         ("machine", here["machine"]), ("processor", f"{here['cpu']}, {here['cores']} cores"),
         ("processors to use", f"{here['processors']} ({here['processors_are']})"),
-        ("governor", here["governor"] or "not told by this machine"),
+        ("governor", here["governor"] or "not known"),
         ("memory", f"{memory / 2**20:.1f} GiB" if memory else "not known"), ("system", here["system"]),
         ("MPI", here["mpi"] or "none"), ("MARS", f"{mars['program']}, {mars['version']}, sources {mars['commit'] or 'not known'}"),
         ("built", ", ".join(filter(None, [mars["build_type"], mars["compiler"]])) or "not known"),
@@ -106,9 +106,9 @@ def heading_section(results):
     here = results.environments[0]
     machines = "1 machine" if len(results.hosts) == 1 else f"{len(results.hosts)} machines"
     version = (here["mars"]["version"] or "mars").replace("mars", "MARS")
-    told = ", ".join([here["cpu"], machines, version, results.headers[0]["began"][:10]])
+    summary = ", ".join([here["cpu"], machines, version, results.headers[0]["began"][:10]])
     noted = "".join(f"<li>{escape(finding)}</li>\n" for finding in findings.all_of(results))
-    return (f"<header><h1>Scaling of {names_of(results)}</h1>\n<p>{escape(told)}</p></header>\n"
+    return (f"<header><h1>Scaling of {names_of(results)}</h1>\n<p>{escape(summary)}</p></header>\n"
             f"<section class='findings'><h2>What it shows</h2><ul>{noted}</ul></section>\n")
 
 

@@ -30,11 +30,12 @@ def row_of(line, point):
 
 def text(results):
     """For a terminal."""
-    told = ""
+    output = ""
     for line in results.lines:
         rows = [COLUMNS, *(row_of(line, point) for point in line.points)]
         widths = [max(len(row[k]) for row in rows) for k in range(len(COLUMNS))]
-        told += f"{line.title}\n"
-        told += "".join("  " + "  ".join(cell.rjust(width) for cell, width in zip(row, widths)) + "\n" for row in rows)
-        told += "\n"
-    return told + "* more nodes than processors\n" if "*" in told else told
+        output += f"{line.title}\n"
+        for row in rows:
+            output += "  " + "  ".join(cell.rjust(width) for cell, width in zip(row, widths)) + "\n"
+        output += "\n"
+    return output + "* more nodes than processors\n" if "*" in output else output

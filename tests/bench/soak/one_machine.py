@@ -26,7 +26,7 @@ class OneMachine(Machines):
         return [str(word) for word in words]
 
     def processes(self, *programs, host=None):
-        """Those that live, of these programs or all."""
+        """Living processes of `programs` or, without any, of all programs."""
         found = []
         for number in map(int, filter(str.isdigit, os.listdir("/proc"))):
             seen = self.works_here(number) and state_and_program(number)

@@ -71,7 +71,7 @@ def joint(name, parent, place, box, material, shape):
 
 
 def of_meshes(parts, polygons):
-    """A model of `parts` with so many triangles in all, evenly shared out."""
+    """A model of `parts` with `polygons` triangles in all, evenly shared out."""
     shares = even_shares(polygons, len(parts))
     shapes = {name + "-mesh": limbs.mesh(share, slender(box)) for share, (name, _, _, box, _) in zip(shares, parts)}
     return {"shapes": shapes, "joints": [joint(*part, part[0] + "-mesh") for part in parts]}

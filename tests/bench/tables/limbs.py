@@ -52,7 +52,7 @@ def stitched(lower, upper):
 
 @functools.lru_cache
 def mesh(triangles, slender=1.0):
-    """A limb of exactly so many triangles. `slender`: rings to sides of a ring."""
+    """A limb of exactly `triangles` triangles. `slender`: rings to sides of a ring."""
     sizes = ring_sizes(triangles, slender)
     vertices, rings = [ring_point(0, 0)], []
     for k, size in enumerate(sizes):

@@ -55,6 +55,6 @@ class Table:
 
 
 def write_films(folder, tables, intervals, inbetweens):
-    """Those of so many tables, with so many intervals of a keyframe and inbetweens."""
+    """The films of `tables`, with `intervals` intervals of a keyframe and `inbetweens` inbetweens."""
     films = scenes.all_films(scenes.Cut(intervals, inbetweens))
     scenes.write({name: film for name, film in films.items() if name.startswith(tuple(tables))}, folder)

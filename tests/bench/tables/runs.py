@@ -9,7 +9,7 @@ from cells import Trouble
 ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 WORK = ["dice", "map", "fill", "scanline"]  # phases in which a node waits for nobody
 WARM_UP = 1  # intervals at a run's beginning that do not count
-SKIPPED = 2  # likewise frames, where all are drawn from scratch
+SKIPPED = 2  # frames at a run's beginning that do not count where all are drawn from scratch
 SCRATCH = ["--no-coherence", "--frames", "0-59"]
 
 
@@ -78,7 +78,7 @@ def least_by_node(frames, phases):
 
 
 def busy_of_keyframe(own):
-    """Milliseconds of these keyframes if each node had a core to itself and messages took no time: the slowest node's
+    """Milliseconds of `own` keyframes if each node had a core to itself and messages took no time: the slowest node's
     making of triangles, then the slowest one's scanlines."""
     return max(least_by_node(own, ["dice"])) + max(least_by_node(own, ["map", "fill", "scanline"]))
 

@@ -17,7 +17,7 @@ DICE = 5              # 26 patches of 5 x 5 quads are as many
 SWING = 8             # degrees that a moving joint turns in an interval
 FILL = 0.94           # of the picture's height or width that the figures take
 
-# The sizes of table 4.3 are 8 polygons and so many of three things: 5192 a + 5176 b + 1728 c. They are films put
+# The sizes of table 4.3 are 8 polygons and multiples of three numbers: 5192 a + 5176 b + 1728 c. They are films put
 # together of the same few models, which we take for two men and a child on a stage.
 STAGE, MEN, CHILD = 8, (5192, 5176), 1728
 ROW = [1.7, 0.8, 1.8]  # from one to the next in a row, and from row to row
@@ -106,7 +106,7 @@ def company(size, width):
 
 
 def in_rows(count):
-    """Places of so many bodies in rows, one behind and above the other; and the width of the front row, the first."""
+    """Places of `count` bodies in rows, one behind and above the other; and the width of the front row, the first."""
     columns = math.ceil(math.sqrt(count))
     rows = math.ceil(count / columns)
     sizes = [count * (row + 1) // rows - count * row // rows for row in range(rows)]

@@ -1,7 +1,7 @@
 // The messages of a rendering, counted: bench-traffic FILM NODES NODES-A-MACHINE all|whole. The nodes are threads of
-// this process, one group, as if they lay on machines of so many nodes each. `whole` draws every frame from scratch.
-// Printed: for each sender, receiver and kind of message a line of messages, those without a byte, and bytes. The
-// host's number is the number of nodes.
+// this process, one group, as if they lay on machines of NODES-A-MACHINE nodes each. `whole` draws every frame from
+// scratch. Printed: for each sender, receiver and kind of message a line of messages, those without a byte, and bytes.
+// The host's number is the number of nodes.
 #include <algorithm>
 #include <cstdio>
 #include <iostream>

@@ -16,7 +16,7 @@ KEYFRAMES = 2  # counted in each run, beside the first
 
 
 class Film:
-    """A scene with one keyframe, and with so many more."""
+    """A scene with one keyframe, and with KEYFRAMES more."""
 
     def __init__(self, scene, folder, size=None):
         film = films.load(scene, size)

@@ -21,7 +21,7 @@ T value(long node, long i) {
   return static_cast<T>((node * 7 + i * 3) % 4 - (i % 2));
 }
 
-// A product of as many of these would run over.
+// For products: a product of numbers as large as those of value() would overflow.
 template <class T>
 T factor(long node, long i) {
   return static_cast<T>((node + i) % 5 == 0 ? -2 : 1);

@@ -20,7 +20,7 @@ class ScriptedBackend : public Backend {
  public:
   using Bytes = std::vector<unsigned char>;
 
-  // So many looks see nothing of what is there.
+  // The next `looks` looks see nothing of what is there.
   void be_blind(int looks) { blind_ = looks; }
 
   void hand(int from, int type, Bytes bytes) { coming_.push_back({{from, type, bytes.size()}, std::move(bytes)}); }

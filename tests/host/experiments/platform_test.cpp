@@ -74,8 +74,8 @@ TEST_F(Platforms, RefuseWhatIsNeitherTrueNorFalse) {
   text.replace(text.find("WORK"), 4, "{}");
   text.replace(text.find("true"), 4, "1");
   document::write_whole_file(folder_ / "small.json", text);
-  const std::string told = failure_of([&] { read("small"); });
-  EXPECT_TRUE(holds(told, "small.json:4: host.apart: is a number")) << told;
+  const std::string failure = failure_of([&] { read("small"); });
+  EXPECT_TRUE(holds(failure, "small.json:4: host.apart: is a number")) << failure;
 }
 
 TEST_F(Platforms, TellWhereTheyNameOneThatIsNot) {

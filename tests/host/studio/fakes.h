@@ -103,7 +103,7 @@ class FakeLink final : public studio::RendererLink {
 };
 
 // A view shows a picture when it is made ("view") and whenever its eye moves ("orbit"): a pattern that its number
-// changes. "painted" is said back.
+// changes. Answers "painted" with a remark.
 class FakeStage final : public studio::Stage {
  public:
   explicit FakeStage(Listener listener) : listener_(std::move(listener)) {}
@@ -119,7 +119,7 @@ class FakeStage final : public studio::Stage {
     } else if (what == "orbit") {
       show(page, message, !message.value("moving", false));
     } else if (what == "painted") {
-      listener_.tell(page, {{"is", "said"}, {"text", "painted " + message.at("picture").dump()}});
+      listener_.tell(page, {{"is", "remark"}, {"text", "painted " + message.at("picture").dump()}});
     } else if (what != "unview") {
       throw Failure("'" + what + "' is unknown", "", "");
     }

@@ -33,15 +33,15 @@ Json pose(const std::string& thing, const std::string& settings, std::uint32_t f
   return step("animate pose " + thing + " " + settings + " --frame " + std::to_string(frame) + " --clamp");
 }
 
-Json told(const Json& step) {
-  Json told = Json::object();
+Json effect_of(const Json& step) {
+  Json effect = Json::object();
   if (step.contains("pose")) {
-    told = step["pose"];
-    told["does"] = "turn";
-    return told;
+    effect = step["pose"];
+    effect["does"] = "turn";
+    return effect;
   }
   const auto words = step.at("commands").at(0).get<std::vector<std::string>>();
-  told["does"] = words.at(1);
+  effect["does"] = words.at(1);
   for (std::size_t i = 2; i < words.size(); ++i) {
     const std::size_t equals = words[i].find('=');
     if (words[i].starts_with("--")) {
@@ -49,14 +49,14 @@ Json told(const Json& step) {
       const std::string name = words[i].substr(2);
       while (i + 1 < words.size() && !words[i + 1].starts_with("--") && words[i + 1].find('=') == std::string::npos)
         values.push_back(words[++i]);
-      told[name] = values.empty() ? Json(true) : value_of(values);
+      effect[name] = values.empty() ? Json(true) : value_of(values);
     } else if (equals != std::string::npos) {
-      told[words[i].substr(0, equals)] = value_of(words_of(words[i].substr(equals + 1), ','));
+      effect[words[i].substr(0, equals)] = value_of(words_of(words[i].substr(equals + 1), ','));
     } else {
-      told["of"] = words[i];
+      effect["of"] = words[i];
     }
   }
-  return told;
+  return effect;
 }
 
 }  // namespace mars::studio

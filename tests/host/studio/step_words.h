@@ -19,6 +19,6 @@ Json pose(const std::string& thing, const std::string& settings, std::uint32_t f
 // What a step of one command does: {"does": "pose", "of": "tom", "frame": 3, "elbow": [0, 90, 0], "fov": 30}, a
 // setting's numbers as a list or one number; {"does": "set", "of": "leg", "place": [1, 2, 3]} of options of `model`;
 // {"does": "turn", "elbow": [0, 90, 0]} of a model that is posed.
-Json told(const Json& step);
+Json effect_of(const Json& step);
 
 }  // namespace mars::studio

@@ -123,7 +123,7 @@ TEST_F(StudioTest, KeysAndCurvesAreToldToWhoAsked) {
 TEST_F(StudioTest, RemarksAreSaidToWhoseStepItWas) {
   project_->remarks = {"clamped"};
   say(2, R"({"do": "commit", "step": {"set": "a"}})");
-  EXPECT_EQ(pages_.said(), "2 said, 0 project");
+  EXPECT_EQ(pages_.said(), "2 remark, 0 project");
   say(2, R"({"do": "script", "name": "a.script", "text": ""})");
   say(2, R"({"do": "scripts"})");
   EXPECT_EQ(pages_.said(), "2 script, 2 scripts");
@@ -140,11 +140,11 @@ TEST_F(StudioTest, NoPageEndsTheStudio) {
   say(2, R"({"do": "commit", "step": {"set": "unshown"}})");
   EXPECT_EQ(pages_.said(), "2 refused");
   studio_->page_opened(3);
-  EXPECT_EQ(pages_.said(), "3 said");
+  EXPECT_EQ(pages_.said(), "3 remark");
   studio_->page_closed(2);
   project_->outside_change = true;
   studio_->look_at_files();
-  EXPECT_EQ(pages_.said(), "0 said");
+  EXPECT_EQ(pages_.said(), "0 remark");
   say(1, R"({"do": "undo"})");
   EXPECT_EQ(pages_.said(), "0 project");
 }

@@ -32,7 +32,7 @@ std::int64_t area(const Corners& corners);
 // Whether the place (1/256 pixel) is inside, or on a left or top side: by the three sides' functions in 64-bit
 // integers.
 bool covers_place(const Corners& corners, std::int64_t x, std::int64_t y);
-// Likewise the sample of a column on a row of the pattern.
+// Whether the sample of a column on a row of the pattern is inside in the same sense.
 bool covers(const Corners& corners, std::int32_t column, std::int32_t row, const shape::SamplePattern& pattern);
 
 // The boxes of the samples of a picture that the triangle covers, from the top.

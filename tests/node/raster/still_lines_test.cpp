@@ -18,7 +18,7 @@ namespace {
 constexpr std::uint32_t kWidth = 10, kHeight = 12, kSamples = 4, kInterval = 7;
 constexpr geometry::LineRange kAll{0, kHeight};
 
-// Bytes for so many lines of `groups` a column.
+// Bytes for `lines` lines with `groups` groups a column.
 std::uint64_t bytes_for(std::uint32_t lines, std::uint32_t groups) {
   const std::uint64_t line =
       wire::kStillHeadBytes + kWidth * (kSamples * sizeof(float) + sizeof(std::uint32_t) + groups * sizeof(StillGroup));

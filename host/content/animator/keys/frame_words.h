@@ -9,7 +9,7 @@
 
 namespace mars::animator {
 
-// "24", "24-48", or "24-" to the last frame that a film can have. Throws Failure where it is none of these.
+// "24", "24-48", or "24-" to the last frame that a film can have. Throws Failure at other text.
 FrameRange read_frame_range(const std::string& text);
 // "at frame 24", "in frames 24 to 48", "from frame 24 on".
 std::string shown_range(FrameRange range);

@@ -17,8 +17,8 @@ struct PartSetting {
   bool relative = false;  // added to what the part is
 };
 
-// Of each part that the text names: of a pattern, of those that have such numbers and can turn there. Throws where it
-// is none of these.
+// Of each part that the text names: of a pattern, of those that have such numbers and can turn there. Throws where no
+// part fits.
 std::vector<PartSetting> read_settings(const std::string& text, const Thing& thing);
 
 // The same of a text without numbers, "elbow.y" or "place": each that it names is 0.

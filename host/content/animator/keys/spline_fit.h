@@ -24,9 +24,9 @@ struct FittedKey {
   std::optional<glm::dvec3> in, out;  // where none, slope_at() is good enough
 };
 
-// For each curve keys on its first and last frame, and between them so that no frame's error is above 1. All take
-// theirs from as few frames as the curves need together, and of these what they need: poses stay together. All curves
-// have as many frames.
+// For each curve keys on its first and last frame, and between them so that no frame's error is above 1. The curves
+// share as few frames as they need together, and each has keys only at those that it needs: poses stay together. All
+// curves have as many frames.
 std::vector<std::vector<FittedKey>> fit_splines(std::span<const DenseCurve> curves);
 
 }  // namespace mars::animator

@@ -27,7 +27,7 @@ using Track = std::vector<TrackKey>;
 using Tracks = std::map<std::string, Track>;
 
 Tracks tracks_of(const document::Json& thing);
-Tracks tracks_of(const document::Json& thing, const std::vector<std::string>& parts);  // of these alone
+Tracks tracks_of(const document::Json& thing, const std::vector<std::string>& parts);  // of `parts` alone
 
 // Makes them the thing's keys; still values of what is keyed now go. Where parts of one frame have several eases, the
 // key keeps the one it has, if any part that moves on goes by it, else has that of most; the others have their own.

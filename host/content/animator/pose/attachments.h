@@ -10,7 +10,7 @@
 
 namespace mars::animator {
 
-// So many actors at most carry each other in a row.
+// The most actors that carry each other in a row.
 inline constexpr std::size_t kLongestChain = 1000;
 
 // Null where the actor stands by its own keys.

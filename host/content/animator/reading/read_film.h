@@ -18,7 +18,7 @@ namespace mars::animator {
 Film read_film(const std::filesystem::path& path);
 Film read_film(const document::Element& element, const std::filesystem::path& folder);
 
-// Whether films of these files have the same models, as long as nobody changes other files.
+// Whether films of the two files have the same models, as long as nobody changes other files.
 bool same_models(const document::Json& one, const document::Json& two);
 
 // A film with the same models as one read before, whose `models` are not read again: they become the

@@ -45,11 +45,11 @@ export class CurveData {
   // [{part, axis, limits, values, first, keys: [{key, value}]}], a line for each axis.
   lines() {
     const {message} = this;
-    return (message?.parts ?? []).flatMap((told) => {
-      const part = this.keys.part(message.thing, told.name);
-      return told.axes.map((axis, i) => ({
-        thing: message.thing, part: told.name, axis, axes: part?.axes ?? told.axes, several: told.axes.length > 1, limits: told.limits?.[i] ?? null,
-        values: told.values[i], first: message.first,
+    return (message?.parts ?? []).flatMap((curve) => {
+      const part = this.keys.part(message.thing, curve.name);
+      return curve.axes.map((axis, i) => ({
+        thing: message.thing, part: curve.name, axis, axes: part?.axes ?? curve.axes, several: curve.axes.length > 1,
+        limits: curve.limits?.[i] ?? null, values: curve.values[i], first: message.first,
         keys: (part?.keys ?? []).map((key) => ({key, value: onAxis(key.value, part.axes, axis)})).filter(({value}) => value !== null),
       }));
     });

@@ -37,7 +37,7 @@ inline constexpr std::size_t kSentBoxBytes = offsetof(SentBox, moving) + sizeof(
 struct StripHead {
   std::uint32_t moving;                     // 1: of the MFB, else of the CFB
   std::uint32_t first_line, last_line;      // [first, last)
-  std::uint32_t first_column, last_column;  // likewise
+  std::uint32_t first_column, last_column;  // [first, last)
 };
 
 // A pixel is red, green, blue and kDrawn, from the lowest byte on, 0 where nothing was drawn.

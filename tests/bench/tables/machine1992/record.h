@@ -12,7 +12,7 @@ namespace mars::machine1992 {
 struct MovingBytes {
   std::uint64_t whole;   // all of it
   std::uint64_t lines;   // from the first to the last line where something was drawn
-  std::uint64_t box;     // of these the columns likewise
+  std::uint64_t box;     // in those lines, from the first to the last column where something was drawn
   std::uint64_t pixels;  // what was drawn alone
   bool operator==(const MovingBytes&) const = default;
 };

@@ -22,7 +22,7 @@ class Scanlines {
   // CFB and CZB of `lines`, which were clear.
   void draw_stationary(const EdgeLists& lists, const geometry::LineRange& lines, shading::Shading shading,
                        FrameBuffers& buffers, WorkCounts& work);
-  // MFB and MZB, likewise, where they are nearer than CZB.
+  // MFB and MZB of `lines`, which were clear, where they are nearer than CZB.
   void draw_moving(const EdgeLists& lists, const geometry::LineRange& lines, shading::Shading shading,
                    FrameBuffers& buffers, WorkCounts& work);
 

@@ -131,12 +131,12 @@ TEST(Pose, TellsWhatItDoesNotUnderstand) {
   EXPECT_TRUE(document::holds(reported("=1"), "write it like"));
   EXPECT_TRUE(document::holds(reported("-knee"), "'-knee': is not PART=NUMBERS"));
   EXPECT_TRUE(document::holds(reported("place=2"), "like place.y=0, or three for all: place="));
-  const auto told_twice = [&](const std::vector<std::string>& settings) {
+  const auto failure_of_two = [&](const std::vector<std::string>& settings) {
     return document::failure_of([&] { pose(scene.json, scene.film, "it", settings, {10, 10}, {}, Beyond::refused); });
   };
-  EXPECT_EQ(told_twice({"elbow.y=20", "elbow.y=30"}),
+  EXPECT_EQ(failure_of_two({"elbow.y=20", "elbow.y=30"}),
             "'elbow.y=30': sets what an earlier word has set (give each part and axis once)");
-  EXPECT_TRUE(document::holds(told_twice({"place=1,2,3", "place.z=3"}), "'place.z=3': sets what"));
+  EXPECT_TRUE(document::holds(failure_of_two({"place=1,2,3", "place.z=3"}), "'place.z=3': sets what"));
   const std::vector<std::string> eye = {"eye=1,2"};
   EXPECT_TRUE(
       document::holds(document::failure_of([&] {

@@ -80,7 +80,7 @@ TEST(Carried, AreCompiledAsTheyStandAtEachFrame) {
   }
 }
 
-// So many that several threads write them.
+// A film with `balls` balls that are carried; several threads write a film of many balls.
 std::string swarm(int balls) {
   std::string list = kActors;
   for (int i = 0; i < balls; ++i)

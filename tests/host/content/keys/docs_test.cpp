@@ -10,7 +10,7 @@ namespace {
 TEST(Docs, SayOfKeysWhatTheTableSays) {
   for (const auto& [file, text] : docs_of_keys())
     EXPECT_TRUE(document::read_file(file) == text)
-        << file << ": write it anew with build/release/bin/write-docs-of-keys";
+        << file << ": write it again with build/release/bin/write-docs-of-keys";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Writes what docs/ says of keys anew, after the table has changed: build/release/bin/write-docs-of-keys
+// Writes what docs/ says of keys again, after the table has changed: build/release/bin/write-docs-of-keys
 #include <fstream>
 #include <iostream>
 

@@ -48,7 +48,7 @@ struct Round {
 
 double across(const glm::dvec3& p) { return std::hypot(p.x, p.y); }
 
-// Off a ball of this radius pulled apart to a box of these half sizes.
+// Distance from the surface of a ball of radius `radius` that is pulled apart to a box of half sizes `inner`.
 double off_pulled(const glm::dvec3& p, const glm::dvec3& inner, double radius) {
   return glm::length(p - glm::clamp(p, -inner, inner)) - radius;
 }

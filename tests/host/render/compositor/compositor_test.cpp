@@ -72,7 +72,7 @@ void paste(const Runs& runs, const Size& size, Pixels& picture) {
 }
 
 // Blocks in which two pictures differ must be flagged.
-void expect_told(const Frame& frame, const Pixels& before) {
+void expect_flagged(const Frame& frame, const Pixels& before) {
   const std::uint32_t block = frame.changed.block();
   for (std::size_t i = 0; i < frame.pixels.size(); ++i) {
     const std::size_t pixel = i / wire::pixel_words(frame.format);
@@ -166,7 +166,7 @@ class Twins {
     ASSERT_EQ(frame.changed_since.has_value(), before_.has_value());
     if (before_) {
       ASSERT_EQ(frame.changed_since, before_->number);
-      expect_told(frame, before_->twin);
+      expect_flagged(frame, before_->twin);
     } else {
       ASSERT_EQ(frame.changed.count(), std::uint64_t{frame.changed.rows()} * frame.changed.columns());
     }

@@ -11,7 +11,7 @@ namespace mars::farm {
 
 class EmptyFilm {
  public:
-  // Intervals of so many frames; the block has more than `bytes`.
+  // `intervals`: the frames of each interval. The block has more than `bytes`.
   explicit EmptyFilm(const std::vector<std::uint32_t>& intervals, std::uint32_t width = 16, std::uint32_t height = 8,
                      std::size_t bytes = 0) {
     pack(data(intervals, width, height, bytes));

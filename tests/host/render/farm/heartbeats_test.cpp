@@ -22,7 +22,7 @@ class HeartbeatsTest : public testing::Test {
     listener.beat = [this](const std::string& doing, const std::vector<SilentNode>& silent) {
       reported.push_back({doing, silent, backend.now});
     };
-    listener.told_to_end = [this] { return told_to_end; };
+    listener.asked_to_end = [this] { return asked_to_end; };
     listener.end = [this](const std::vector<NodeFrame>& drawing) {
       ended_with = drawing;
       throw std::runtime_error("ended");
@@ -58,7 +58,7 @@ class HeartbeatsTest : public testing::Test {
   HeartbeatListener listener;
   std::vector<Reported> reported;
   std::vector<NodeFrame> ended_with;
-  bool told_to_end = false;
+  bool asked_to_end = false;
   std::int32_t traced = 0;
 };
 
@@ -140,7 +140,7 @@ TEST_F(HeartbeatsTest, ANodeElsewhereSaysThatADebuggerHasIt) {
   EXPECT_EQ(reported.back().silent[0].doing, "dice, in a debugger");
 }
 
-TEST_F(HeartbeatsTest, NodesThatAreToldToEndAreNotWatched) {
+TEST_F(HeartbeatsTest, NodesThatWereAskedToEndAreNotWatched) {
   Heartbeats heartbeats("n0", 42, listener);
   heartbeats.watch(hellos);
   heartbeats.forget_nodes();
@@ -184,7 +184,7 @@ TEST_F(HeartbeatsTest, SaysWhatNodesDrawBeforeItEnds) {
     return node == 1 ? std::optional<std::uint32_t>(8) : std::nullopt;
   });
   pass(1);
-  told_to_end = true;
+  asked_to_end = true;
   EXPECT_THROW(pass(1), std::runtime_error);
   ASSERT_EQ(ended_with.size(), 1u);
   EXPECT_EQ(ended_with[0].node, 1);
@@ -196,7 +196,7 @@ TEST_F(HeartbeatsTest, BeatsDuringWorkOfAnotherThread) {
   std::atomic<bool> seen = false;
   listener.beat = nullptr;
   const auto here = std::this_thread::get_id();
-  told_to_end = false;
+  asked_to_end = false;
   heartbeats.during("ending", [&] {
     EXPECT_NE(std::this_thread::get_id(), here);
     seen = true;

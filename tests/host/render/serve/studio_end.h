@@ -47,7 +47,7 @@ class StudioEnd {
   // The next one; of a picture its pixels are put on the view's canvas. None: the host has closed the socket. Fails
   // the test after 20 s without.
   std::optional<Answer> receive();
-  // Whether an answer can be read within so many milliseconds.
+  // Whether an answer can be read within `milliseconds`.
   bool has_answer(int milliseconds) const;
   void close();
 

@@ -195,7 +195,7 @@ TEST(FrameFolder, PartsOfARunThatGoesOnStay) {
   const TemporaryFolder folder;
   FrameFolder frames(folder.path(), of_frames({1}));
   const fs::path of_another = folder / ".runs/vm-1-another.frame-0003.png.part";
-  document::create_file(of_another, "nobody says any more whose it is");
+  document::create_file(of_another, "its run has ended");
   fs::last_write_time(of_another, fs::last_write_time(of_another) - 65s);
   const fs::path part = file_of_run(folder.path(), ".claim").replace_extension(".frame-0001.png.part");
   document::create_file(part, "half a frame");

@@ -147,7 +147,7 @@ TEST(SinkPool, AFailureReachesTheLoop) {
   EXPECT_EQ(document::failure_of([&] { pool.taken(); }), failure);
 }
 
-// Waits within take() until it is told to give up, and says on demand that this takes too long.
+// Waits within take() until give_up() is called, and says on demand that this takes too long.
 class WaitingSink : public Sink {
  public:
   void take(const compositor::Frame&) override {

@@ -23,10 +23,10 @@ def joints(keyed=()):
     names = {joint: limb for limb, joint in model["limbs"].items() if isinstance(joint, str)}
     for side in ("left", "right"):
         names |= {joint: f"{side}.{limb}" for limb, joint in model["limbs"][side].items()}
-    return [told(joint, names, joint["name"] in keyed) for joint in model["joints"]]
+    return [described(joint, names, joint["name"] in keyed) for joint in model["joints"]]
 
 
-def told(joint, limbs, keyed):
+def described(joint, limbs, keyed):
     limits = joint.get("limits", FREE)
     segment = joint.get("segment", {})
     known = {"name", "parent", "place", "x_axis", "y_axis", "limits", "segment"}

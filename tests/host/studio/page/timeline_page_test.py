@@ -65,7 +65,7 @@ class Timeline(Page):
         self.pull((self.x(frame), y), (self.x(to), y), keys, drop)
 
     def commands(self, count=1):
-        """Those of the last step, of so many."""
+        """The commands of the last step, when there were `count` steps."""
         self.studio.wait_for("commit", count=count)
         return [" ".join(words) for words in self.studio.wait_for("commit", count=count)["step"]["commands"]]
 

@@ -1,4 +1,4 @@
-// What pages are told of keys, curves and actions.
+// What pages receive of keys, curves and actions.
 #include "host/studio/project/animation.h"
 
 #include "host/content/animator/motion/script/action.h"
@@ -7,28 +7,28 @@
 namespace mars::studio {
 namespace {
 
-class AnimationTold : public OpenFiles {
+class AnimationForPages : public OpenFiles {
  protected:
-  Json told_of(const Json& channels, const std::string& thing) const {
+  Json thing_in(const Json& channels, const std::string& thing) const {
     for (const Json& each : channels["things"])
       if (each["thing"] == thing) return each;
     return nullptr;
   }
 };
 
-TEST_F(AnimationTold, ChannelsHaveTheKeysAsTheFilmHasThem) {
+TEST_F(AnimationForPages, ChannelsHaveTheKeysAsTheFilmHasThem) {
   const auto project = open("film.json");
   EXPECT_EQ(project->channels({"*"}), Json::parse(R"({"is": "channels", "things": [
     {"thing": "two", "kind": "actor", "parts": [{"name": "left-leg", "axes": ["x", "y"], "keys": [
       {"frame": 0, "value": [0, 0, 0], "ease": "both"}, {"frame": 24, "value": [10, 20, 0], "ease": "linear"}]}]}]})"));
   EXPECT_EQ(project->channels({"one", "camera", "nobody"})["things"].size(), 2u);
   project->commit(pose("camera", "fov=30", project->frame()));
-  const Json camera = told_of(project->channels({"*"}), "camera");
+  const Json camera = thing_in(project->channels({"*"}), "camera");
   EXPECT_EQ(camera["parts"], Json::parse(R"([{"name": "fov", "axes": ["value"],
                                               "keys": [{"frame": 0, "value": 30, "ease": "linear"}]}])"));
 }
 
-TEST_F(AnimationTold, CurvesHaveAValueForEachFrame) {
+TEST_F(AnimationForPages, CurvesHaveAValueForEachFrame) {
   const auto project = open("film.json");
   const CurvesWanted wanted{"two", {"left-leg", "place", "nothing"}, 20, 30};
   const Json curves = project->curves(wanted);
@@ -46,7 +46,7 @@ TEST_F(AnimationTold, CurvesHaveAValueForEachFrame) {
   EXPECT_LT(leg["values"][1][0].get<double>(), 20);
 }
 
-TEST_F(AnimationTold, CurvesGoAlongWithGesturesAndChannelsDoNot) {
+TEST_F(AnimationForPages, CurvesGoAlongWithGesturesAndChannelsDoNot) {
   const auto project = open("film.json");
   const Json channels = project->channels({"*"});
   const auto at_12 = [&] {
@@ -64,16 +64,16 @@ TEST_F(AnimationTold, CurvesGoAlongWithGesturesAndChannelsDoNot) {
   EXPECT_EQ(at_12(), 70);
 }
 
-TEST_F(AnimationTold, ModelsHaveNone) {
+TEST_F(AnimationForPages, ModelsHaveNone) {
   const auto project = open("pip.json");
   EXPECT_EQ(project->channels({"*"})["things"], Json::array());
   EXPECT_EQ(project->curves({"model", {"head"}, 0, 3})["parts"], Json::array());
 }
 
-TEST_F(AnimationTold, AllActionsWithTheirParameters) {
-  const Json told = actions();
-  EXPECT_GE(told["actions"].size(), motion::actions().size());
-  const Json& walk = told["actions"][0];
+TEST_F(AnimationForPages, AllActionsWithTheirParameters) {
+  const Json sent = actions();
+  EXPECT_GE(sent["actions"].size(), motion::actions().size());
+  const Json& walk = sent["actions"][0];
   EXPECT_EQ(walk["name"], "walk");
   EXPECT_EQ(walk["parameters"][2]["name"], "to");
   EXPECT_EQ(walk["parameters"][2]["count"], 2);

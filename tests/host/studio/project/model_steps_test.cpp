@@ -1,4 +1,4 @@
-// Steps of models: what is written is what `mars model` writes; mirrors, points, bodies; what nodes must have anew.
+// Steps of models: what is written is what `mars model` writes; mirrors, points, bodies; what nodes must receive again.
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <set>

@@ -123,8 +123,8 @@ TEST_F(RenderingTest, ShowsFramesAsTheyAreDrawn) {
   say({{"do", "scrub"}, {"frame", nullptr}});
   expect_shows(drawn["frame"]);
   say({{"do", "scrub"}, {"frame", 77}});
-  ASSERT_TRUE(run_until([&] { return !last("said").empty(); }));
-  EXPECT_NE(last("said")["text"].get<std::string>().find("frame 77 is not there"), std::string::npos);
+  ASSERT_TRUE(run_until([&] { return !last("remark").empty(); }));
+  EXPECT_NE(last("remark")["text"].get<std::string>().find("frame 77 is not there"), std::string::npos);
 }
 
 TEST_F(RenderingTest, APageThatPaintsNothingGetsTwoPicturesAndThenTheNewest) {

@@ -37,61 +37,62 @@ void FakeProject::apply(const Json& step) {
   ++revision_;
   if (step.contains("commands") && step["commands"][0][1] != "pose" && step["commands"][0][0] != "model")
     return;  // of the film's text, which it has not
-  const Json said = told(step);
-  if (said["does"] == "turn") return pose(film_.actors.at(0), said);
-  if (said["does"] != "pose") return change_model(said);
-  const std::string thing = said.at("of").get<std::string>();
-  if (thing == "camera") return move_camera(said);
-  if (thing.starts_with("light/")) return move_light(film_.lights.at(std::stoul(thing.substr(6)) - 1), said);
+  const Json effect = effect_of(step);
+  if (effect["does"] == "turn") return pose(film_.actors.at(0), effect);
+  if (effect["does"] != "pose") return change_model(effect);
+  const std::string thing = effect.at("of").get<std::string>();
+  if (thing == "camera") return move_camera(effect);
+  if (thing.starts_with("light/")) return move_light(film_.lights.at(std::stoul(thing.substr(6)) - 1), effect);
   for (animator::Actor& actor : film_.actors)
-    if (actor.name == thing) pose(actor, said);
+    if (actor.name == thing) pose(actor, effect);
 }
 
-void FakeProject::pose(animator::Actor& actor, const Json& said) {
-  if (said.contains("place")) set_key(actor.motion.place, frame_, vector_of(said["place"]));
-  if (said.contains("turn")) set_key(actor.motion.turn, frame_, vector_of(said["turn"]));
+void FakeProject::pose(animator::Actor& actor, const Json& effect) {
+  if (effect.contains("place")) set_key(actor.motion.place, frame_, vector_of(effect["place"]));
+  if (effect.contains("turn")) set_key(actor.motion.turn, frame_, vector_of(effect["turn"]));
   const modeler::Model& model = film_.models[actor.model];
   for (std::size_t joint = 0; joint < model.joints.size(); ++joint)
-    if (const auto turns = said.find(model.joints[joint].name); turns != said.end())
+    if (const auto turns = effect.find(model.joints[joint].name); turns != effect.end())
       set_key(actor.motion.pose[joint], frame_, animator::clamped(model.joints[joint], vector_of(*turns)));
 }
 
-void FakeProject::move_camera(const Json& said) {
+void FakeProject::move_camera(const Json& effect) {
   const auto set_point = [&](animator::Channel<animator::Point>& points, const char* name) {
-    if (said.contains(name)) animator::set_key(points, animator::Point{vector_of(said[name])}, frame_, {});
+    if (effect.contains(name)) animator::set_key(points, animator::Point{vector_of(effect[name])}, frame_, {});
   };
   set_point(film_.camera.eye, "eye");
   set_point(film_.camera.at, "at");
-  if (said.contains("fov")) animator::set_key(film_.camera.fov, said["fov"].get<double>(), frame_, 0.0);
+  if (effect.contains("fov")) animator::set_key(film_.camera.fov, effect["fov"].get<double>(), frame_, 0.0);
   if (rig_lights_) film_.lights = animator::rig_lights(film_);
 }
 
-void FakeProject::move_light(animator::LightMotion& light, const Json& said) {
+void FakeProject::move_light(animator::LightMotion& light, const Json& effect) {
   for (const char* name : {"place", "direction"})
-    if (said.contains(name)) animator::set_key(light.vector, vector_of(said[name]), frame_, {});
-  if (said.contains("at")) animator::set_key(light.at, vector_of(said["at"]), frame_, {});
-  if (said.contains("reach")) animator::set_key(light.reach, said["reach"].get<double>(), frame_, 0.0);
-  if (said.contains("cone"))
-    animator::set_key(light.cone, glm::dvec2(said["cone"][0].get<double>(), said["cone"][1].get<double>()), frame_, {});
+    if (effect.contains(name)) animator::set_key(light.vector, vector_of(effect[name]), frame_, {});
+  if (effect.contains("at")) animator::set_key(light.at, vector_of(effect["at"]), frame_, {});
+  if (effect.contains("reach")) animator::set_key(light.reach, effect["reach"].get<double>(), frame_, 0.0);
+  if (effect.contains("cone"))
+    animator::set_key(light.cone, glm::dvec2(effect["cone"][0].get<double>(), effect["cone"][1].get<double>()), frame_,
+                      {});
 }
 
-void FakeProject::change_model(const Json& said) {
+void FakeProject::change_model(const Json& effect) {
   const std::size_t number = film_.actors.at(0).model;
   modeler::Model& model = film_.models[number];
-  modeler::Joint& joint = *std::ranges::find(model.joints, said.at("of").get<std::string>(), &modeler::Joint::name);
-  if (said["does"] == "point") {
-    const glm::dvec3 to = vector_of(said.at("to"));
-    const std::size_t point = 4 * said.at("at")[1].get<std::size_t>() + said["at"][0].get<std::size_t>();
-    model.shapes[joint.segment->shape].patches.at(said.at("patch").get<std::size_t>()).points[point] = {
+  modeler::Joint& joint = *std::ranges::find(model.joints, effect.at("of").get<std::string>(), &modeler::Joint::name);
+  if (effect["does"] == "point") {
+    const glm::dvec3 to = vector_of(effect.at("to"));
+    const std::size_t point = 4 * effect.at("at")[1].get<std::size_t>() + effect["at"][0].get<std::size_t>();
+    model.shapes[joint.segment->shape].patches.at(effect.at("patch").get<std::size_t>()).points[point] = {
         float(to.x), float(to.y), float(to.z)};
     pulled_ = Pulled{number, joint.segment->shape};
     return;
   }
-  if (said.contains("place")) joint.place = vector_of(said["place"]);
-  if (!said.contains("sbb")) return;
+  if (effect.contains("place")) joint.place = vector_of(effect["place"]);
+  if (!effect.contains("sbb")) return;
   for (int axis = 0; axis < 3; ++axis) {
-    joint.segment->sbb.min[axis] = said["sbb"][axis].get<double>();
-    joint.segment->sbb.max[axis] = said["sbb"][3 + axis].get<double>();
+    joint.segment->sbb.min[axis] = effect["sbb"][axis].get<double>();
+    joint.segment->sbb.max[axis] = effect["sbb"][3 + axis].get<double>();
   }
 }
 
@@ -157,15 +158,15 @@ void OnStage::paint() {
 }
 
 Json OnStage::last(const std::string& kind) const {
-  for (auto each = told.rbegin(); each != told.rend(); ++each)
+  for (auto each = sent.rbegin(); each != sent.rend(); ++each)
     if (each->second.at("is") == kind) return each->second;
   return {};
 }
 
-// Of the handles told or sent last.
+// Of the handles sent last, by themselves or with a picture.
 std::vector<Json> OnStage::shapes(const std::string& id) const {
-  const Json told_last = last("handles");
-  const Json& all = told_last.is_object() ? told_last["shapes"] : pictures.back().handles;
+  const Json sent_last = last("handles");
+  const Json& all = sent_last.is_object() ? sent_last["shapes"] : pictures.back().handles;
   std::vector<Json> found;
   for (const Json& shape : all)
     if (shape.at("id") == id) found.push_back(shape);

@@ -51,10 +51,10 @@ class FakeProject : public Project {
 
  private:
   void apply(const Json& step);
-  void pose(animator::Actor& actor, const Json& said);
-  void move_camera(const Json& said);
-  void move_light(animator::LightMotion& light, const Json& said);
-  void change_model(const Json& said);
+  void pose(animator::Actor& actor, const Json& effect);
+  void move_camera(const Json& effect);
+  void move_light(animator::LightMotion& light, const Json& effect);
+  void change_model(const Json& effect);
 
   animator::Film saved_, film_;
   bool model_;
@@ -96,7 +96,7 @@ struct OnStage {
       : project(std::move(film), model),
         stage(make_stage(project, link,
                          {[this](ViewPicture picture) { pictures.push_back(std::move(picture)); },
-                          [this](PageNumber page, const Json& message) { told.emplace_back(page, message); }})) {}
+                          [this](PageNumber page, const Json& message) { sent.emplace_back(page, message); }})) {}
 
   void take(const std::string& text) { stage->take(1, Json::parse(text)); }
   // Of this size, from "front", ..., as "surface", ...
@@ -115,7 +115,7 @@ struct OnStage {
   FakeProject project;
   FakeLink link;
   std::vector<ViewPicture> pictures;
-  std::vector<std::pair<PageNumber, Json>> told;
+  std::vector<std::pair<PageNumber, Json>> sent;
   std::unique_ptr<Stage> stage;
   std::map<std::uint32_t, std::pair<std::uint32_t, std::uint32_t>> sizes;  // of views that are made in their order
 };

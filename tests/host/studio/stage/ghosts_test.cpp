@@ -44,8 +44,8 @@ struct Scene : OnStage {
   Screen screen() const { return {camera_from({From::free, {{1.5, 0, 0}, -90, 0, 9}}, 1), kWidth, kHeight}; }
   std::set<std::string> ghost_texts() const {
     std::set<std::string> texts;
-    const Json told_last = last("handles");
-    const Json& all = told_last.is_object() ? told_last["shapes"] : pictures.back().handles;
+    const Json sent_last = last("handles");
+    const Json& all = sent_last.is_object() ? sent_last["shapes"] : pictures.back().handles;
     for (const Json& shape : all)
       if (shape["kind"] == "ghost") texts.insert(shape["text"]);
     return texts;

@@ -149,10 +149,10 @@ TEST(Hands, AHingeFollowsTheMouse) {
   EXPECT_TRUE(scene.project.commits.empty()) << "nothing is written while the hand moves";
   scene.drop();
   ASSERT_EQ(scene.project.commits.size(), 1u);
-  const Json said = told(scene.project.commits[0]);
-  EXPECT_EQ(said["does"], "pose");
-  EXPECT_EQ(said["of"], "a");
-  EXPECT_TRUE(said.contains("lower")) << said;
+  const Json effect = effect_of(scene.project.commits[0]);
+  EXPECT_EQ(effect["does"], "pose");
+  EXPECT_EQ(effect["of"], "a");
+  EXPECT_TRUE(effect.contains("lower")) << effect;
 }
 
 TEST(Hands, SeveralFreedomsFollowTheMouseToo) {
@@ -192,7 +192,7 @@ TEST(Hands, WhatCannotTurnTurnsWhatItHangsOn) {
   ASSERT_EQ(scene.last("grabbed")["joint"], "plate");
   scene.drag(scene.pixel({1.4, -0.3, 0.7}));
   ASSERT_FALSE(scene.project.previews.empty());
-  EXPECT_TRUE(told(scene.project.previews.back()).contains("upper"));
+  EXPECT_TRUE(effect_of(scene.project.previews.back()).contains("upper"));
 }
 
 TEST(Hands, ShiftIsFine) {
@@ -221,7 +221,7 @@ TEST(Hands, ARingIsTurnedSeveralTimes) {
   for (int degrees = -480; degrees >= -1000; degrees -= 20) scene.drag(at(degrees));
   EXPECT_NEAR(scene.state().pose[2].y, 720, 1e-9) << "its limit";
   scene.drop();
-  EXPECT_NEAR(told(scene.project.commits.at(0))["lower"][1].get<double>(), 720, 1e-9);
+  EXPECT_NEAR(effect_of(scene.project.commits.at(0))["lower"][1].get<double>(), 720, 1e-9);
 }
 
 TEST(Hands, RingsShowLimitsAndAngles) {
@@ -252,7 +252,7 @@ TEST(Hands, ArrowsMoveActorsOfFilms) {
   scene.drag(scene.pixel({0.4, 0, 0.9}));
   EXPECT_LT(glm::length(scene.state().place - glm::dvec3(0, 0, 0.4)), 2e-3) << "x is not its own";
   scene.drop();
-  EXPECT_TRUE(told(scene.project.commits.at(0)).contains("place"));
+  EXPECT_TRUE(effect_of(scene.project.commits.at(0)).contains("place"));
 }
 
 TEST(Hands, ArrowsMoveJointsOfModels) {
@@ -265,7 +265,7 @@ TEST(Hands, ArrowsMoveJointsOfModels) {
   scene.drag(scene.pixel(from + glm::dvec3(0.3, 0, 0.2)));
   EXPECT_LT(glm::length(scene.state().joints[2].place - from - glm::dvec3(0.3, 0, 0.2)), 1e-6);
   scene.drop();
-  const Json step = told(scene.project.commits.at(0));
+  const Json step = effect_of(scene.project.commits.at(0));
   EXPECT_EQ(step["does"], "set");
   EXPECT_FALSE(step.contains("actor"));
   EXPECT_NEAR(step["place"][0].get<double>(), 0.4, 1e-6);
@@ -300,7 +300,7 @@ TEST(Hands, ControlPointsFollowTheMouse) {
   const std::string handle = scene.last("grabbed")["handle"];
   ASSERT_EQ(handle.substr(0, 6), "point:");
   scene.drag(scene.pixel(place + glm::dvec3(0.1, 0, 0.2)));
-  const Json step = told(scene.project.previews.back());
+  const Json step = effect_of(scene.project.previews.back());
   const Json& to = step["to"];
   EXPECT_EQ(step["does"], "point");
   const std::size_t number = step["at"][1].get<std::size_t>() * 4 + step["at"][0].get<std::size_t>();
@@ -312,7 +312,7 @@ TEST(Hands, ControlPointsFollowTheMouse) {
   EXPECT_NEAR(before[0], to[0].get<double>(), 1e-6);
   EXPECT_TRUE(scene.project.pulled());
   scene.drag(scene.pixel(place + glm::dvec3(0.02, 0, 0.2)), R"(["shift"])");
-  const Json along = told(scene.project.previews.back())["to"];
+  const Json along = effect_of(scene.project.previews.back())["to"];
   EXPECT_NEAR(along[0].get<double>(), to[0].get<double>() - 0.1 / extent.x, 2e-3) << "along z alone";
 }
 

@@ -47,8 +47,8 @@ struct Scene : OnStage {
   glm::dvec2 pixel(const glm::dvec3& place) const { return screen().pixel_of(place).value(); }
   std::set<std::string> ids() const {
     std::set<std::string> ids;
-    const Json told_last = last("handles");
-    const Json& all = told_last.is_object() ? told_last["shapes"] : pictures.back().handles;
+    const Json sent_last = last("handles");
+    const Json& all = sent_last.is_object() ? sent_last["shapes"] : pictures.back().handles;
     for (const Json& shape : all) ids.insert(shape["id"]);
     return ids;
   }
@@ -66,7 +66,7 @@ struct Scene : OnStage {
   }
   Json drop() {
     take(R"({"do": "drop"})");
-    return studio::told(project.commits.back());
+    return effect_of(project.commits.back());
   }
 };
 

@@ -98,7 +98,7 @@ TEST(Reaching, AHandIsPulledByItsWholeArm) {
     EXPECT_LT(glm::length(scene.pixel(scene.place_of(held)) - from - by), 0.5) << by.x << ", " << by.y;
     EXPECT_LE(scene.beyond_limits(), 0);
   }
-  const Json step = told(scene.project.previews.back());
+  const Json step = effect_of(scene.project.previews.back());
   EXPECT_EQ(step["does"], "pose");
   EXPECT_EQ(step["of"], scene.actor());
   EXPECT_FALSE(step.contains("place"));
@@ -112,7 +112,7 @@ TEST(Reaching, AHandIsPulledByItsWholeArm) {
   EXPECT_TRUE(scene.project.commits.empty());
   scene.take(R"({"do": "drop"})");
   ASSERT_EQ(scene.project.commits.size(), 1u);
-  EXPECT_EQ(told(scene.project.commits[0]), step);
+  EXPECT_EQ(effect_of(scene.project.commits[0]), step);
 }
 
 TEST(Reaching, TheHandMayGoBeyondAndComeBack) {
@@ -157,7 +157,7 @@ TEST(Reaching, PinnedFeetStayWhileThePelvisIsPulled) {
   EXPECT_LT(scene.state().joints[0].place.z, before.joints[0].place.z - 0.3) << "it goes down";
   EXPECT_GT(scene.state().pose[scene.joint("left-shin")].y, before.pose[scene.joint("left-shin")].y + 5)
       << "on its knees";
-  const Json step = told(scene.project.previews.back());
+  const Json step = effect_of(scene.project.previews.back());
   EXPECT_TRUE(step.contains("place"));
   EXPECT_TRUE(step.contains("left-thigh"));
 }
@@ -176,7 +176,7 @@ TEST(Reaching, AnUnpinnedFootGoesAlong) {
   scene.drag(place + glm::dvec2(30, 20));
   EXPECT_LT(glm::length(scene.pixel(scene.state().place) - place - glm::dvec2(30, 20)), 0.1);
   EXPECT_GT(scene.drift("left-foot", before.joints[scene.joint("left-foot")]), 0.1);
-  const Json step = told(scene.project.previews.back());
+  const Json step = effect_of(scene.project.previews.back());
   EXPECT_EQ(step.size(), 5u) << "does, of, place, frame and clamp: " << step;
   EXPECT_TRUE(step.contains("place"));
 }
@@ -216,7 +216,7 @@ TEST(Reaching, OfAModelLimbsFollowAndNothingElse) {
   const glm::dvec2 from = scene.pixel(scene.state().joints[scene.joint("left-foot")].place);
   scene.grab(from);
   scene.drag(from + glm::dvec2(10, -20));
-  const Json step = told(scene.project.previews.back());
+  const Json step = effect_of(scene.project.previews.back());
   EXPECT_EQ(step["does"], "turn");
   EXPECT_FALSE(step.contains("of"));
   EXPECT_FALSE(step.contains("place"));

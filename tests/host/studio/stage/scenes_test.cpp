@@ -191,7 +191,7 @@ TEST(Scenes, TurningTheEyeMovesEverything) {
   EXPECT_LT(moving_of(on.link.asked.back()).size(), scene_of(on.link.asked.back()).segments().size());
 }
 
-// Where nobody has moved the eye; a page says again what it was told.
+// Where nobody has moved the eye; a page sends back what it received.
 TEST(Scenes, AModelThatGrowsIsFramedAgain) {
   OnStage on(example("robot-arm.json"), true);
   on.view(0, 320, 200, "front", "surface");
@@ -206,15 +206,15 @@ TEST(Scenes, AModelThatGrowsIsFramedAgain) {
     });
     on.stage->project_changed();
   };
-  on.told.clear();
+  on.sent.clear();
   grow(1.05);
-  EXPECT_TRUE(on.told.empty() || on.told.back().second["is"] != "orbit") << "a little more is what a pose does";
+  EXPECT_TRUE(on.sent.empty() || on.sent.back().second["is"] != "orbit") << "a little more is what a pose does";
   grow(5);
   const Json after = on.last("orbit");
   EXPECT_EQ(after["view"], 0);
   EXPECT_GT(after["distance"].get<double>(), 1.3 * before);
   EXPECT_EQ(
-      std::count_if(on.told.begin(), on.told.end(), [](const auto& told) { return told.second["is"] == "orbit"; }), 1);
+      std::count_if(on.sent.begin(), on.sent.end(), [](const auto& sent) { return sent.second["is"] == "orbit"; }), 1);
 }
 
 TEST(Scenes, AnotherMaterialOrLightIsAnotherInterval) {
@@ -289,7 +289,7 @@ TEST(Scenes, AFilmThatShowsNothingLeavesWhatWas) {
   on.paint();
   on.project.change([](animator::Film& film) { film.camera.at = film.camera.eye; });
   on.stage->project_changed();
-  EXPECT_NE(on.last("said").dump().find("has its eye where it looks at"), std::string::npos);
+  EXPECT_NE(on.last("remark").dump().find("has its eye where it looks at"), std::string::npos);
   EXPECT_EQ(on.link.asked.size(), 1u);
 }
 

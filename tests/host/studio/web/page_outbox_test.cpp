@@ -134,12 +134,12 @@ TEST_F(PageOutboxTest, TwoPicturesAreOnTheWayAtMost) {
 
 TEST_F(PageOutboxTest, TheNewestTextReplacesOlderOnes) {
   outbox_.tell({{"is", "poses"}, {"n", 1}});
-  outbox_.tell({{"is", "said"}, {"n", 2}});
+  outbox_.tell({{"is", "remark"}, {"n", 2}});
   outbox_.tell({{"is", "poses"}, {"n", 3}});
-  outbox_.tell({{"is", "said"}, {"n", 4}});
+  outbox_.tell({{"is", "remark"}, {"n", 4}});
   std::string all;
   while (const auto next = outbox_.next(now_)) all += next->bytes;
-  EXPECT_EQ(all, R"({"is":"poses","n":3}{"is":"said","n":2}{"is":"said","n":4})");
+  EXPECT_EQ(all, R"({"is":"poses","n":3}{"is":"remark","n":2}{"is":"remark","n":4})");
 }
 
 TEST_F(PageOutboxTest, HandlesComeBeforeTheirPicture) {
@@ -254,7 +254,7 @@ TEST_F(PageOutboxTest, APageThatTakesNothingOverflows) {
   EXPECT_TRUE(outbox_.overflows());
   outbox_.hear({{"do", "unview"}, {"view", 2}}, now_);
   EXPECT_FALSE(outbox_.overflows());
-  for (int i = 0; i < 20; ++i) outbox_.tell({{"is", "said"}, {"text", std::string(1 << 20, 'x')}});
+  for (int i = 0; i < 20; ++i) outbox_.tell({{"is", "remark"}, {"text", std::string(1 << 20, 'x')}});
   EXPECT_TRUE(outbox_.overflows());
 }
 
