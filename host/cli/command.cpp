@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <type_traits>
 #include <utility>
 
 #include "hal/failure/failure.h"
@@ -15,6 +16,10 @@ template <typename Number>
 Option limited(CLI::Option& option, Number least, Number most) {
   return Option(*option.check(CLI::Range(least, most).description("")));
 }
+
+// An option's text may be empty: it is then as if it were not given. No number is.
+template <typename Value>
+constexpr bool kIsText = std::is_constructible_v<Value, std::string> || std::is_same_v<Value, std::vector<std::string>>;
 
 std::string is_empty(const std::string& word) { return word.empty() ? "is empty" : ""; }
 
@@ -40,7 +45,8 @@ Option Option::offers(const std::vector<std::string>& beginnings) const {
 }
 
 Option Option::words(int least, int most) const {
-  return Option(*(least == most ? option_->expected(least) : option_->expected(least, most)));
+  if (least != most) return Option(*option_->expected(least, most));
+  return Option(*option_->expected(least)->allow_extra_args(false));
 }
 
 Option Option::repeated() const {
@@ -85,7 +91,7 @@ Command Command::add_command(const std::string& name, const std::string& purpose
 template <typename Value>
 Option Command::add(const std::string& names, Value& value, const std::string& help) const {
   const Option option(*app_->add_option(names, value, help));
-  return names.starts_with('-') ? option : option.check(is_empty);
+  return names.starts_with('-') && kIsText<Value> ? option : option.check(is_empty);
 }
 
 #define MARS_VALUE(...) template Option Command::add(const std::string&, __VA_ARGS__&, const std::string&) const
@@ -118,7 +124,7 @@ Option Command::add_read(const std::string& names, const std::function<void(cons
 
 Option Command::add_read(const std::string& names, const std::function<void(const std::vector<double>& numbers)>& read,
                          const std::string& help) const {
-  return Option(*app_->add_option_function<std::vector<double>>(names, read, help));
+  return Option(*app_->add_option_function<std::vector<double>>(names, read, help)).check(is_empty);
 }
 
 Option Command::add_choice(const std::string& name, const std::vector<std::string>& words,

@@ -88,11 +88,14 @@ Json value_of(const std::string& text) {
   return list.size() == 1 ? list[0] : list;
 }
 
-// "color=0.8,0.4,0.2"
-std::string example_of(const keys::Key& key) {
-  std::string words = keys::words_of_example(key);
-  std::ranges::replace(words, ' ', ',');
-  return std::string(key.name) + "=" + words;
+// "color=0.8,0.4,0.2", of the first key that has an example.
+std::string example_of(const keys::Object& object) {
+  for (const keys::Key& key : object.keys) {
+    std::string words = key.typed ? keys::words_of_example(key) : "";
+    std::ranges::replace(words, ' ', ',');
+    if (!words.empty()) return std::string(key.name) + "=" + words;
+  }
+  return "KEY=VALUE";
 }
 
 }  // namespace
@@ -116,7 +119,7 @@ Json values_of(std::span<const std::string> words, const keys::Object& object) {
   for (const std::string& word : words) {
     const std::size_t equals = word.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == word.size())
-      throw Failure("is not KEY=VALUE", "'" + word + "'", "write it like " + example_of(object.key(names.front())));
+      throw Failure("is not KEY=VALUE", "'" + word + "'", "write it like " + example_of(object));
     const std::string key = word.substr(0, equals);
     if (std::ranges::find(names, std::string_view(key)) == names.end())
       throw Failure("is no key of a " + std::string(object.name), document::in_quotes(key),

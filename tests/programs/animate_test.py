@@ -257,6 +257,8 @@ class Animate(ProgramTest):
                           self.refused("time", "robot", "--frame", 0, "--ease", typed, code=2))
         self.assertIn("camera, frame 3: has its eye where it looks at",
                       self.refused("pose", "camera", "at=0,0,0", "eye=0,0,0", "--frame", 3))
+        self.succeed("mars", "film", "film.json", "light", "add", "place=0,-3,4", "at=0,0,1")
+        self.assertIn("frame 3: has its place where it shines at", self.refused("pose", "light/4", "at=0,-3,4", "--frame", 3))
         self.assertIn("looks along its up vector", self.refused("pose", "camera", "eye=0,0,5", "--frame", 3))
         self.assertEqual(self.animate("tyme").returncode, 2)
 

@@ -90,6 +90,8 @@ class Model(ProgramTest):
         self.assertIn("skewed, 45 degrees", self.model("dog.json", "show"))
         self.model("dog.json", "set", "thigh", "--reset", "axes", "--reset", "limits", "--place", 0, 0, 0)
         self.assertEqual(set(self.joints()["thigh"]), {"name", "parent", "place", "segment"})
+        self.model("dog.json", "set", "--place", 0, 0, 0.25, "thigh")  # in the order of the help's first line
+        self.assertEqual(self.joints()["thigh"]["place"], [0, 0, 0.25])
         self.model("dog.json", "set", "--material", "red", "--name", "blue", "--color", 0, 0, 1, "--exponent", 8)
         materials = json.loads((self.folder / "dog.json").read_text())["materials"]
         self.assertEqual(materials["blue"], {"color": [0, 0, 1], "exponent": 8})
@@ -180,6 +182,7 @@ class Model(ProgramTest):
                             (["dog.json", "set", "--material", "fur", "--color", 1],
                              "--color: write R G B, as in --color 0.8 0.4 0.2"),
                             (["dog.json", "set", "leg", "--place", 0, 1], "--place: write X Y Z, as in"),
+                            (["dog.json", "set", "leg", "--place", 5, 6, ""], "--place: is empty"),
                             (["dog.json", "set", "leg", "--reset", "plcae"], "plcae"),
                             (["dog.json", "set", "leg", "--plcae", 0, 1, 0], "did you mean '--place'?"),
                             (["add"], "'add' comes later: write mars model MODEL add")]:

@@ -26,12 +26,12 @@ bool same_bits(const T& a, const T& b) {
   return same_bits(std::span(&a, 1), std::span(&b, 1));
 }
 
-// All numbers of a struct are 4 or 8 bytes: its size says whether there is padding.
+// All their numbers are of one size, so they have no padding, as same_bits() needs it.
 static_assert(sizeof(wire::Camera) == sizeof(wire::Matrix) + 4 * sizeof(double));
-static_assert(sizeof(wire::Light) == 13 * sizeof(float));
-static_assert(sizeof(wire::Material) == 13 * sizeof(float));
-static_assert(sizeof(wire::FilmSettings) == 24 * sizeof(float));
-static_assert(sizeof(wire::AmbientLight) == 6 * sizeof(float) && sizeof(wire::Fog) == 5 * sizeof(float));
+template <typename T>
+constexpr bool kOfFourBytes = alignof(T) == 4 && sizeof(T) % 4 == 0;
+static_assert(kOfFourBytes<wire::Light> && kOfFourBytes<wire::Material> && kOfFourBytes<wire::FilmSettings> &&
+              kOfFourBytes<wire::AmbientLight> && kOfFourBytes<wire::Fog>);
 
 bool same_meshlet(const FilmView& a, const wire::Meshlet& in_a, const FilmView& b, const wire::Meshlet& in_b) {
   return same_bits(in_a.low, in_b.low) && same_bits(in_a.high, in_b.high) &&

@@ -10,6 +10,7 @@
 #include "host/content/film/film_file.h"
 #include "host/content/film/film_writer.h"
 #include "host/content/film/intervals.h"
+#include "host/content/film/light_writer.h"
 #include "host/content/film/moment.h"
 #include "host/content/film/motion_writer.h"
 
@@ -126,10 +127,12 @@ CompiledFilm compile(const animator::Film& film, const CompileOptions& options) 
 
 Cut cut_of(const animator::Film& film, const FilmShapes& shapes) { return Compiler(film, {}).cut(shapes); }
 
-void check_camera(const animator::Film& film) {
+void check_camera_and_lights(const animator::Film& film) {
   animator::JointFrames joints(film);
   const std::uint32_t frames = camera_frames(film.camera, film.frames);
   for (std::uint32_t frame = 0; frame < frames; ++frame) camera_at(film, frame, joints);
+  wire::FilmData written;
+  write_lights(film, {0, film.frames}, written);
 }
 
 CompiledFilm load_film(const std::filesystem::path& path, const CompileOptions& options) {

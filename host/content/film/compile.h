@@ -21,9 +21,9 @@ struct CompileOptions {
 
 CompiledFilm compile(const animator::Film& film, const CompileOptions& options = {});
 
-// Throws as compile() does where the camera sees nothing in some frame: it looks at its own place, or along its up
-// vector.
-void check_camera(const animator::Film& film);
+// Throws as compile() does where the camera sees nothing in some frame, for it looks at its own place or along its up
+// vector, or where a spot shines at its own place.
+void check_camera_and_lights(const animator::Film& film);
 
 // A film file or a .mars file, known by its content. The intervals of a .mars file are cut for good.
 CompiledFilm load_film(const std::filesystem::path& path, const CompileOptions& options = {});

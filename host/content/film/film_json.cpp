@@ -18,8 +18,9 @@ animator::Film meaning_of(const fs::path& path) {
 }
 
 std::function<void(const document::Element&)> check_beside(const fs::path& path) {
-  return
-      [folder = path.parent_path()](const document::Element& root) { check_camera(animator::read_film(root, folder)); };
+  return [folder = path.parent_path()](const document::Element& root) {
+    check_camera_and_lights(animator::read_film(root, folder));
+  };
 }
 
 }  // namespace

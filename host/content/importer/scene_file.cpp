@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <string_view>
 

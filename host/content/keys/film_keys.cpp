@@ -38,7 +38,7 @@ constexpr Type kFilmTypes[] = {
     {"ease",
      R"({"anyOf": [{"enum": ["linear", "in", "out", "both", "spline"]}, {"type": "array", "minItems": 4, "maxItems": 4,
          "prefixItems": [{"minimum": 0, "maximum": 1}, {}, {"minimum": 0, "maximum": 1}, {}],
-         "items": {"type": "number", "minimum": -10, "maximum": 10}}]})",
+         "allOf": [{"items": {"type": "number", "minimum": -10, "maximum": 10}}]}]})",
      "[0.4, 0, 0.6, 1]"},
     {"numbers",
      R"({"anyOf": [{"type": "number"}, {"type": "array", "minItems": 2, "maxItems": 3, "items": {"type": "number"}}]})",

@@ -85,7 +85,9 @@ class Schema {
     if (type == "text") return {{"type", "string"}, {"minLength", 1}};
     if (type == "flag") return {{"type", "boolean"}};
     if (type.front() == '{')
-      return {{"type", "object"}, {"additionalProperties", value(type.substr(1, type.size() - 2), key)}};
+      return {{"type", "object"},
+              {"propertyNames", reference("name")},
+              {"additionalProperties", value(type.substr(1, type.size() - 2), key)}};
     if (type.front() != '[') return reference(type);
     Json list{{"type", "array"}, {"items", reference(type.substr(1, type.size() - 2))}};
     if (key.range != Range{}) list["minItems"] = plain(key.range.lowest);

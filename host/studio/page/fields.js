@@ -103,8 +103,9 @@ export function numberField({name, letter = "", axis = letter, unit = "", step =
     done, giveUp,
   });
 
-  return {root, input, set: (number) => {
-    if (held !== null) return;
+  const isHeld = () => held !== null;
+  return {root, input, isHeld, set: (number) => {
+    if (isHeld()) return;
     value = number;
     if (document.activeElement !== input || read(input.value) !== null) show(number);
   }};
@@ -136,6 +137,7 @@ export function severalField({name, key, parts, letters = false, preview, commit
   return {
     root: element("div", {class: letters ? "vector" : "several", role: "group", "aria-label": name}, fields.map(({root}) => root)),
     set: (list) => {
+      if (fields.some((field) => field.isHeld())) return;
       if (list) values = [...list];
       fields.forEach((field, at) => field.set(list?.[at] ?? null));
     },
@@ -144,8 +146,8 @@ export function severalField({name, key, parts, letters = false, preview, commit
 
 export const vectorField = (options) => severalField({...options, parts: [..."xyz"], letters: true});
 
-// A slider and its number.
-export function sliderField({name, title = "", letter = "", label = "", axis = letter, unit = "", least, most, step = 1, key, digits = 2, preview, commit, cancel}) {
+// A slider and its number, which may lie beyond the slider's ends, within `bounds`.
+export function sliderField({name, title = "", letter = "", label = "", axis = letter, unit = "", least, most, bounds = [least, most], step = 1, key, digits = 2, preview, commit, cancel}) {
   const range = element("input", {type: "range", min: least, max: most, step: "any", "aria-label": name, title, "data-key": key});
   const settling = new Settling();
   let value = 0, byPointer = false, held = false;
@@ -157,7 +159,7 @@ export function sliderField({name, title = "", letter = "", label = "", axis = l
     fillTrack(range, shareOf(number), shareOf(0));
   };
   const number = numberField({
-    name: `${name}, as a number`, letter, axis, unit, least, most, step, digits, key: `${key}.number`, cancel,
+    name: `${name}, as a number`, letter, axis, unit, least: bounds[0], most: bounds[1], step, digits, key: `${key}.number`, cancel,
     preview: (changed, event) => { show(changed); preview?.(changed, event); },
     commit: (changed, event) => { value = changed; commit(changed, event); },
   });

@@ -47,7 +47,7 @@ void FilmWork::prepare(const std::string& text, bool models_stay) {
   animator::Film film = read(document.root(), lent);
   prepared_ = Prepared{std::move(json), std::move(film), lent};
   try {
-    film::check_camera(prepared_->film);
+    film::check_camera_and_lights(prepared_->film);
   } catch (const Failure&) {
     reject();
     throw;
@@ -84,7 +84,7 @@ animator::Remarks FilmWork::show(const Step& step, For what) {
   edited_ = std::make_unique<editing::FilmInMemory>(json_, film_, path_, folder_);
   try {
     execute(step, what);
-    film::check_camera(film_);
+    film::check_camera_and_lights(film_);
   } catch (...) {
     edited_.reset();
     throw;

@@ -98,9 +98,9 @@ export class MaterialsPanel {
     const pick = (text, key) => line(text, this.#field(
       choice({name: text, key: `material.${key}`, options: this.#keys[key].choices.map((each) => [each, titled(each)]),
               ...this.#changes((value) => ({[key]: value}))}), (now) => now[key] ?? this.#keys[key].default));
-    const numbers = Object.entries(this.#keys).filter(([, {of}]) => of?.includes(reflection)).map(([key, {slider: [least, most], default: usual, meaning}]) =>
+    const numbers = Object.entries(this.#keys).filter(([, {of}]) => of?.includes(reflection)).map(([key, {slider: [from, to], least, most, default: usual, meaning}]) =>
       line(titled(key), this.#field(
-        sliderField({name: key, title: meaning, key: `material.${key}`, least, most, step: most > 100 ? 1 : 0.05, digits: 3, ...this.#changes((value) => ({[key]: value}))}),
+        sliderField({name: key, title: meaning, key: `material.${key}`, least: from, most: to, bounds: [least, most], step: to > 100 ? 1 : 0.05, digits: 3, ...this.#changes((value) => ({[key]: value}))}),
         (now) => now[key] ?? usual)));
     const name = textField({name: "Name of the material", key: "material.name", commit: (to, event) => {
       const step = materialStep("set", this.#chosen, {name: to});

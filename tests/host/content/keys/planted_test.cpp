@@ -24,19 +24,19 @@ wire::Material read(const std::string& json) {
 }
 
 TEST(PlantedKey, IsRead) {
-  EXPECT_EQ(read(R"({"sheen": 0.5})").sheen, 0.5f);
-  EXPECT_EQ(read("{}").sheen, 0.25f);
+  EXPECT_EQ(read(R"({"planted": 0.5})").planted, 0.5f);
+  EXPECT_EQ(read("{}").planted, 0.25f);
 }
 
 TEST(PlantedKey, IsRefusedWithItsRange) {
   try {
-    read(R"({"sheen": 2})");
+    read(R"({"planted": 2})");
     FAIL();
   } catch (const Failure& failure) {
     EXPECT_EQ(failure.problem, "is 2");
     EXPECT_EQ(failure.remedy, "write a number from 0 to 1");
   }
-  EXPECT_THROW(read(R"({"reflection": "metallic-roughness", "sheen": 0.5})"), Failure);  // which does not use it
+  EXPECT_THROW(read(R"({"reflection": "metallic-roughness", "planted": 0.5})"), Failure);  // which does not use it
 }
 
 TEST(PlantedKey, IsAnOptionOfMarsModel) {
@@ -45,26 +45,26 @@ TEST(PlantedKey, IsAnOptionOfMarsModel) {
     cli::Program program("mars", "");
     const cli::Command set = program.add_command("set", "");
     editing::add_key_options(set, object("material"), values);
-    EXPECT_EQ(set.option("--sheen").help(), "Light at grazing angles (0 to 1). Example: --sheen 0.25");
-    program.read({"set", "--reflection", "phong", "--sheen", number});
+    EXPECT_EQ(set.option("--planted").help(), "Light at grazing angles (0 to 1). Example: --planted 0.25");
+    program.read({"set", "--reflection", "phong", "--planted", number});
     modeler::change_material(material, values);
     return material.dump();
   };
-  EXPECT_EQ(type("0.5"), R"({"exponent":8,"sheen":0.5,"reflection":"phong"})");
-  EXPECT_EQ(read(material.dump()).sheen, 0.5f);
+  EXPECT_EQ(type("0.5"), R"({"exponent":8,"planted":0.5,"reflection":"phong"})");
+  EXPECT_EQ(read(material.dump()).planted, 0.5f);
   EXPECT_THROW(read(type("2")), Failure);
-  EXPECT_EQ(editing::values_of(std::vector<std::string>{"sheen=0.5"}, object("material")).dump(), R"({"sheen":0.5})");
+  EXPECT_EQ(editing::values_of(std::vector<std::string>{"planted=0.5"}, object("material")).dump(), R"({"planted":0.5})");
 }
 
 TEST(PlantedKey, StandsInHelpSchemasDocsAndThePage) {
-  EXPECT_NE(names_of(object("material")).find("sheen"), std::string::npos);
-  EXPECT_NE(table_of(object("material")).find("sheen"), std::string::npos);
-  EXPECT_NE(markdown_of(object("film_material")).find("| `sheen` | light at grazing angles (0 to 1) | `0.25` | yes |"),
+  EXPECT_NE(names_of(object("material")).find("planted"), std::string::npos);
+  EXPECT_NE(table_of(object("material")).find("planted"), std::string::npos);
+  EXPECT_NE(markdown_of(object("film_material")).find("| `planted` | light at grazing angles (0 to 1) | `0.25` | yes |"),
             std::string::npos);
-  EXPECT_EQ(film_schema()["$defs"]["film_material"]["properties"]["sheen"]["maximum"], 1);
-  EXPECT_TRUE(film_schema()["$defs"]["material_key"]["properties"].contains("sheen"));
-  EXPECT_EQ(model_schema({})["$defs"]["material"]["properties"]["sheen"]["default"], 0.25);
-  EXPECT_EQ(keys_of_pages()["material"]["sheen"]["slider"], nlohmann::ordered_json({0, 1}));
+  EXPECT_EQ(film_schema()["$defs"]["film_material"]["properties"]["planted"]["maximum"], 1);
+  EXPECT_TRUE(film_schema()["$defs"]["material_key"]["properties"].contains("planted"));
+  EXPECT_EQ(model_schema({})["$defs"]["material"]["properties"]["planted"]["default"], 0.25);
+  EXPECT_EQ(keys_of_pages()["material"]["planted"]["slider"], nlohmann::ordered_json({0, 1}));
 }
 
 TEST(PlantedKey, OfALightIsThePagesWithTheKindsThatHaveIt) {

@@ -316,6 +316,8 @@ class Controls(Page):
         self.assertEqual(self.find('[role="option"][aria-selected="true"]').text, "trousers")
         self.find('[data-key="material.diffuse"]').send_keys(Keys.ARROW_RIGHT)
         self.commit("model set --material trousers --diffuse 0.8")
+        self.find('[data-key="material.diffuse.number"]').send_keys(Keys.CONTROL, "a", Keys.NULL, "5", Keys.ENTER)  # the slider ends at 2
+        self.commit("model set --material trousers --diffuse 5")
         self.js("""const color = document.querySelector('[data-key="material.color"]');
                    color.value = "#ff0080";
                    color.dispatchEvent(new Event("change", {bubbles: true}));""")
@@ -509,6 +511,18 @@ class Films(Page):
         self.until(fields, ["direction", "color", "intensity"])
         self.find('[data-key="light.add.spot"]').click()
         self.commit("film light add place=0,-4,5 at=0,0,1")
+
+    def test_what_is_typed_leaves_the_other_numbers_of_a_vector(self):
+        self.scene()
+        self.find('[data-key="light/1"]').click()
+        field = self.find('[data-key="light.direction.x"]')
+        field.send_keys(Keys.CONTROL, "a", Keys.NULL, "1")
+        lights = [dict(each) for each in self.studio.project["lights"]]
+        lights[0]["direction"] = [0.6, 0, 0.8]  # the studio shows a direction at its length, 1
+        self.studio.tell({"is": "poses", "frame": 24, "actors": [], "camera": self.studio.project["camera"], "lights": lights})
+        time.sleep(0.2)
+        field.send_keys(Keys.ENTER)
+        self.commit("animate pose light/1 direction=1,0,1 --frame 24")
 
     def test_camera_and_film_have_fields_for_their_keys(self):
         self.scene()
