@@ -53,14 +53,16 @@ TEST(PlantedKey, IsAnOptionOfMarsModel) {
   EXPECT_EQ(type("0.5"), R"({"exponent":8,"planted":0.5,"reflection":"phong"})");
   EXPECT_EQ(read(material.dump()).planted, 0.5f);
   EXPECT_THROW(read(type("2")), Failure);
-  EXPECT_EQ(editing::values_of(std::vector<std::string>{"planted=0.5"}, object("material")).dump(), R"({"planted":0.5})");
+  EXPECT_EQ(editing::values_of(std::vector<std::string>{"planted=0.5"}, object("material")).dump(),
+            R"({"planted":0.5})");
 }
 
 TEST(PlantedKey, StandsInHelpSchemasDocsAndThePage) {
   EXPECT_NE(names_of(object("material")).find("planted"), std::string::npos);
   EXPECT_NE(table_of(object("material")).find("planted"), std::string::npos);
-  EXPECT_NE(markdown_of(object("film_material")).find("| `planted` | light at grazing angles (0 to 1) | `0.25` | yes |"),
-            std::string::npos);
+  EXPECT_NE(
+      markdown_of(object("film_material")).find("| `planted` | light at grazing angles (0 to 1) | `0.25` | yes |"),
+      std::string::npos);
   EXPECT_EQ(film_schema()["$defs"]["film_material"]["properties"]["planted"]["maximum"], 1);
   EXPECT_TRUE(film_schema()["$defs"]["material_key"]["properties"].contains("planted"));
   EXPECT_EQ(model_schema({})["$defs"]["material"]["properties"]["planted"]["default"], 0.25);
