@@ -288,7 +288,7 @@ constexpr Verb kVerbs[] = {
            .one_of({"left", "right"});
        app.add("JOINT", words.joint, "Only this joint and all below it. Example: left-shoulder");
      }},
-    {"point", "Move a control point of a joint's shape; a shape of the library becomes the model's own", run_point,
+    {"point", "Move a control point of a joint's shape, which then becomes the model's own", run_point,
      [](cli::Command app, ModelWords& words) {
        app.add("JOINT", words.joint, "The joint. Example: leg").required();
        app.add("--patch", words.patch, "Which of its patches, from 0; default: 0. Example: --patch 2").type("N");

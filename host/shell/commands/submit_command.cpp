@@ -200,8 +200,8 @@ void add_submit(cli::Command app) {
   options::add_render_options(command, words->render, options::Program::submit);
   add_job_options(command, *words);
   command.footer(
-      "mars submit writes the compiled film into DIR. Each start of the job renders this\nfilm, even if FILM has "
-      "changed or is gone. The variables that sbatch reads work,\ntoo: SBATCH_ACCOUNT, SBATCH_QOS, SBATCH_EXCLUSIVE "
+      "mars submit writes the compiled film into DIR. Each start of the job renders\nthis film, even if FILM has "
+      "changed or is gone. The variables that sbatch reads\nwork, too: SBATCH_ACCOUNT, SBATCH_QOS, SBATCH_EXCLUSIVE "
       "and others.\n");
   command.runs([words] {
     check_words(*words);
