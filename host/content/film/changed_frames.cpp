@@ -26,7 +26,8 @@ bool same_bits(const T& a, const T& b) {
   return same_bits(std::span(&a, 1), std::span(&b, 1));
 }
 
-// All their numbers are of one size, so they have no padding, as same_bits() needs it.
+// They have no padding, as same_bits() needs it: padding_test.cpp looks at each byte; here, what a compiler without its
+// means can see.
 static_assert(sizeof(wire::Camera) == sizeof(wire::Matrix) + 4 * sizeof(double));
 template <typename T>
 constexpr bool kOfFourBytes = alignof(T) == 4 && sizeof(T) % 4 == 0;
