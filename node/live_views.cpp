@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <ranges>
 #include <utility>
 
 #include "hal/nx/nx_messages.h"
@@ -29,7 +28,7 @@ LiveViews::LiveScene::LiveScene(std::span<const std::byte> block, const wire::Fi
       moving_(film_) {}
 
 void LiveViews::LiveScene::put(std::span<const wire::MovedPatch> patches) {
-  for (const wire::MovedPatch& before : std::views::reverse(replaced_)) patch(before.patch) = before.points;
+  for (auto before = replaced_.rbegin(); before != replaced_.rend(); ++before) patch(before->patch) = before->points;
   replaced_.clear();
   for (const wire::MovedPatch& moved : patches) {
     replaced_.push_back({moved.patch, 0, patch(moved.patch)});

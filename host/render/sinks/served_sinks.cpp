@@ -16,12 +16,13 @@ void ServedSinks::submit(compositor::Frame* frame) {
 std::vector<SinkPool::Taken> ServedSinks::taken() {
   std::vector<Taken> all;
   const double now = dclock();
-  const auto ended = std::ranges::stable_partition(served_, [&](const Served& s) { return s.taken.ended > now; });
-  for (const Served& served : ended) {
-    all.push_back(served.taken);
-    give_back(served.frame);
+  const auto ended =
+      std::stable_partition(served_.begin(), served_.end(), [&](const Served& s) { return s.taken.ended > now; });
+  for (auto served = ended; served != served_.end(); ++served) {
+    all.push_back(served->taken);
+    give_back(served->frame);
   }
-  served_.erase(ended.begin(), ended.end());
+  served_.erase(ended, served_.end());
   std::ranges::sort(all, {}, &Taken::ended);
   return all;
 }
