@@ -44,7 +44,7 @@ constexpr const char* kSound = R"(
 {"do": "unview", "view": 2}
 {"do": "select", "thing": "camera"}
 {"do": "select", "thing": "light/2"}
-{"do": "preview", "edit": 16, "step": {"commands": [["animate", "pose", "light/2", "place=0,0,0", "--frame", "0"], ["film", "remove", "pip"]]}}
+{"do": "preview", "edit": 16, "step": {"commands": [["animate", "pose", "light/2", "place=0,0,2", "--frame", "0"], ["film", "remove", "pip"]]}}
 )";
 
 }  // namespace
