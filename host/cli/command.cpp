@@ -102,6 +102,7 @@ MARS_VALUE(std::filesystem::path);
 MARS_VALUE(int);
 MARS_VALUE(std::optional<int>);
 MARS_VALUE(std::optional<std::uint16_t>);
+MARS_VALUE(std::optional<std::uint32_t>);
 MARS_VALUE(std::uint32_t);
 MARS_VALUE(std::int64_t);
 MARS_VALUE(std::uint64_t);

@@ -19,6 +19,8 @@
 namespace mars::cli {
 namespace {
 
+constexpr std::size_t kMostListed = 10;  // commands, in a line
+
 std::string line_of(const std::vector<std::string>& fields) {
   std::string line;
   for (const std::string& field : fields) line += (line.empty() ? "" : "\t") + (field.empty() ? "-" : field);
@@ -150,15 +152,40 @@ const CLI::App* given_too_much(const CLI::App& app) {
   return nullptr;
 }
 
+// Words that people type for one another, as the commands differ in which of them they have.
+constexpr std::string_view kAlike[][4] = {
+    {"list", "show", "info", "ls"}, {"remove", "delete", "rm"}, {"add", "new", "create"}, {"set", "change", "edit"}};
+
+bool are_alike(const std::string& one, const std::string& other) {
+  return std::ranges::any_of(kAlike, [&](const auto& words) {
+    return std::ranges::find(words, one) != std::end(words) && std::ranges::find(words, other) != std::end(words);
+  });
+}
+
+// A command of `app`, or of one that this is within, which is called alike; null where there is none.
+const CLI::App* called_alike(const CLI::App& app, const std::string& word) {
+  for (const CLI::App* command : commands_in(app))
+    if (are_alike(command->get_name(), word)) return command;
+  return app.get_parent() == nullptr ? nullptr : called_alike(*app.get_parent(), word);
+}
+
+// What could be meant by a word that is none of the command's own; "" where nothing can be said in a line.
+std::string suggestion(const CLI::App& command, const std::string& word, const std::vector<std::string>& known) {
+  const std::string near = document::did_you_mean(word, std::vector<std::string_view>(known.begin(), known.end()), "");
+  if (!near.empty() || known.empty() || word.starts_with('-')) return near;
+  if (const CLI::App* other = called_alike(command, word)) return "did you mean `" + typed(*other) + "`?";
+  return known.size() > kMostListed ? "" : "there are " + document::joined(known);
+}
+
 // What is wrong with the first word that the command does not know, and what could be meant.
 std::string misfit(const CLI::App& command) {
   const std::string word = command.remaining().front();
   const std::string name = word.substr(0, word.find('='));
   const bool option = word.starts_with('-');
   const std::vector<std::string> known = option ? options_of(command) : commands_of(command);
-  const std::string near = document::did_you_mean(name, std::vector<std::string_view>(known.begin(), known.end()), "");
+  const std::string meant = suggestion(command, name, known);
   const char* what = option ? " is not an option" : known.empty() ? " is one word too many" : " is not a command";
-  return "'" + name + "'" + what + (near.empty() ? "" : " (" + near + ")");
+  return "'" + name + "'" + what + (meant.empty() ? "" : " (" + meant + ")");
 }
 
 // The command that was given, within all others.

@@ -7,6 +7,7 @@
 #include "host/content/animator/keys/frame_words.h"
 #include "host/content/animator/listing/keys_table.h"
 #include "host/content/animator/keys/pose.h"
+#include "host/editing/film_length.h"
 #include "host/editing/words.h"
 #include "host/cli/program.h"
 #include "node/wire/film.h"
@@ -30,7 +31,7 @@ struct AnimateWords {
   std::optional<animator::Ease> ease{};
   std::vector<std::string> parts{};
   bool all = false, clamp = false, lengthen = false;
-  std::uint32_t to = 0, hold = 0;
+  std::uint32_t to = 0, hold = 0, falloff = 0;
   std::int64_t shift = 0;
   double stretch = 0, anticipation = 0, overshoot = 0;
 
@@ -46,11 +47,11 @@ void edit(const AnimateWords& words,
     const std::uint32_t before = animator::last_key(json);
     remarks = change(json, film);
     const std::uint32_t last = animator::last_key(json);
-    if (words.lengthen && last >= film.frames) json["frames"] = last + 1;
-    if (!words.lengthen && last >= film.frames && last > before)
-      note = "the last key is at frame " + std::to_string(last) + "; the film shows only its " +
-             std::to_string(film.frames) + (film.frames == 1 ? " frame" : " frames") +
-             ": --lengthen, or set its frames to " + std::to_string(last + 1) + "\n";
+    const std::string length = fit_length(json, last, words.lengthen);
+    if (length.empty() || (!words.lengthen && last <= before)) return;
+    note = words.lengthen ? length + "\n"
+                          : "the last key is at frame " + std::to_string(last) + "; " + length +
+                                ": --lengthen, or set its frames to " + std::to_string(last + 1) + "\n";
   };
   if (words.all || words.lengthen)
     words.film.change(changed);
@@ -121,7 +122,7 @@ constexpr const char* kParts =
 constexpr const char* kOneFrame = "The frame. Example: --frame 24";
 constexpr const char* kRange = "The frame, or a range of frames, both ends included. Example: --frame 24-48";
 constexpr const char* kEase =
-    "Ease from this key to the next: linear, in, out, both, spline or a curve. Example: --ease both or --ease "
+    "Ease from this key to the next: linear, in, out, both, spline, hold or a curve. Example: --ease both or --ease "
     "0.4,0,0.6,1";
 
 void require_thing(const AnimateWords& words) {
@@ -142,15 +143,21 @@ void add_pose(cli::Command animate, AnimateWords& words) {
       .ease(kEase)
       .clamp()
       .lengthen();
+  command.app()
+      .add("--falloff", words.falloff,
+           "Blend the change over N frames to both sides: where keys are dense, one alone would pop. "
+           "Example: --falloff 8")
+      .type("N")
+      .range(1u, wire::kMostFrames);
   command.app().option("ACTOR").required();
   command.app().option("PART=NUMBERS").required();
   command.runs([&words] {
     const animator::FrameRange range = animator::read_frame_range(words.frame);
     const auto beyond = words.clamp ? animator::Beyond::clamped : animator::Beyond::refused;
-    const bool plain = range.first == range.last && !words.ease && !words.lengthen;
+    const bool plain = range.first == range.last && !words.ease && !words.lengthen && words.falloff == 0;
     if (plain && words.film.show_pose(words.thing, words.parts, range.first, beyond)) return;
     edit(words, [&](document::Json& json, const animator::Film& film) {
-      return animator::pose(json, film, words.thing, words.parts, range, words.ease, beyond);
+      return animator::pose(json, film, words.thing, words.parts, range, {words.ease, beyond, words.falloff});
     });
   });
 }
@@ -167,6 +174,21 @@ void add_key(cli::Command animate, AnimateWords& words) {
     edit(words, [&](document::Json& json, const animator::Film& film) {
       return animator::make_keys(json, film, words.choice(), animator::read_frame(words.frame), words.ease,
                                  words.clamp ? animator::Beyond::clamped : animator::Beyond::refused);
+    });
+  });
+}
+
+void add_cut(cli::Command animate, AnimateWords& words) {
+  AnimateCommand command(animate, words, "cut",
+                         "Let the camera or another thing jump: what is before the frame stays as it is");
+  command.thing(kThing)
+      .parts("PART", kParts)
+      .all()
+      .frame("The frame at which it may be elsewhere at once: pose it there. Example: --frame 24", "FRAME");
+  command.lengthen().runs([&words] {
+    require_thing(words);
+    edit(words, [&](document::Json& json, const animator::Film& film) {
+      return animator::cut(json, film, words.choice(), animator::read_frame(words.frame));
     });
   });
 }
@@ -279,6 +301,7 @@ cli::Command add_animate(cli::Command mars, EditedFilm& film, int& code) {
   const cli::Command animate = mars.add_command("animate", kAnimate);
   add_pose(animate, *words);
   add_key(animate, *words);
+  add_cut(animate, *words);
   add_displacing(animate, *words, "move", "Move keys to other frames", false);
   add_displacing(animate, *words, "copy", "Copy keys to other frames", true);
   add_delete(animate, *words);

@@ -1,6 +1,7 @@
 #include <memory>
 #include <optional>
 
+#include "host/content/animator/settings/beside.h"
 #include "host/content/animator/settings/cast.h"
 #include "host/content/animator/settings/film_settings.h"
 #include "host/content/animator/listing/film_summary.h"
@@ -9,6 +10,7 @@
 #include "host/editing/key_words.h"
 #include "host/editing/words.h"
 #include "host/cli/wrapped.h"
+#include "node/wire/film.h"
 
 namespace mars::editing {
 namespace {
@@ -31,6 +33,7 @@ struct FilmWords {
   std::vector<std::string> fields{};
   std::vector<double> place{}, turn{};
   std::optional<double> height{};
+  std::optional<std::uint32_t> beside{};
   std::size_t number = 0;
 };
 
@@ -63,6 +66,9 @@ void run_add(const FilmWords& words) {
   words.film.change([&](Json& film, const Meaning&) {
     animator::add_actor(film, {words.name, model_of(words, film), place_of(words), turn_of(words), words.height});
   });
+  if (!words.beside) return;
+  words.film.change(
+      [&](Json& film, const Meaning& meaning) { animator::place_beside(film, meaning, words.name, *words.beside); });
 }
 
 void run_remove(const FilmWords& words) {
@@ -152,7 +158,13 @@ void add_actor_options(cli::Command command, FilmWords& words) {
             .add("--height", words.height, "Its height at rest; only for a model of the library. Example: --height 4.6")
             .type("LENGTH"),
         keys::object("proportions").key("height"));
+  command
+      .add("--beside", words.beside,
+           "Beside the actors that are there at a frame, so that none stands inside another. Example: --beside 0")
+      .type("FRAME")
+      .range(0u, wire::kMostFrames);
   command.checks([&words] {
+    if (words.beside && !words.place.empty()) throw cli::UsageError("--beside", "give it, or --place");
     if (words.turn.size() == 2) throw cli::UsageError("--turn", "give one angle, or three");
   });
 }

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "hal/failure/failure.h"
 #include "host/cli/program.h"
 #include "host/content/document/file.h"
 #include "host/content/modeler/model_file.h"
@@ -17,7 +18,11 @@ void ModelInMemory::execute(std::span<const Command> commands) {
   }
 }
 
-void ModelInMemory::create(const document::Json& json) {
+void ModelInMemory::create(const document::Json&) {
+  throw Failure("is open already", path_.string(), "--replace begins again in its place");
+}
+
+void ModelInMemory::become(const document::Json& json) {
   const auto from = json.find("from");
   if (!folder_.empty() && from != json.end() && from->is_string() && json_.value("from", document::Json()) != *from)
     document::path_below(folder_, (std::filesystem::absolute(path_).parent_path() / from->get<std::string>()).string());
@@ -29,7 +34,7 @@ void ModelInMemory::create(const document::Json& json) {
 void ModelInMemory::change(const Change& change) {
   document::Json changed = json_;
   change(changed, model_);
-  create(changed);
+  become(changed);
 }
 
 }  // namespace mars::editing

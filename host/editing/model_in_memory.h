@@ -23,13 +23,14 @@ class ModelInMemory final : public EditedModel {
 
   std::filesystem::path path() const override { return path_; }
   modeler::Model read() const override { return model_; }
-  // In place of what is open.
   void create(const document::Json& json) override;
   void change(const Change& change) override;
   void remark(const std::string& line) override { done_.remarks.push_back(line); }
   void print(const std::string& text) override { done_.report += text; }
 
  private:
+  void become(const document::Json& json);
+
   document::Json json_;
   modeler::Model model_;
   std::filesystem::path path_, folder_;

@@ -41,7 +41,7 @@ struct ModelWords {
   std::vector<std::tuple<std::string, double, double>> limits{};
   std::vector<std::string> options{}, joints{}, branches{};
   std::optional<double> height{};
-  bool fixed = false, free = false, branch = false, no_ground = false;
+  bool fixed = false, free = false, branch = false, no_ground = false, replace = false;
 };
 
 std::string where(const ModelWords& words) { return words.model.path().string(); }
@@ -100,7 +100,12 @@ document::Json new_model(const ModelWords& words) {
   return model;
 }
 
-void run_new(const ModelWords& words) { words.model.create(new_model(words)); }
+void run_new(const ModelWords& words) {
+  if (words.replace)
+    words.model.change([&](document::Json& model, const modeler::Model&) { model = new_model(words); });
+  else
+    words.model.create(new_model(words));
+}
 
 void run_add(const ModelWords& words) {
   require_sense(words);
@@ -239,6 +244,8 @@ constexpr Verb kVerbs[] = {
                "A figure or object of the library, with joints of its own. Example: --figure man")
            .type("FIGURE");
        add_height(app, words, "How high that is at rest. Example: --height 4.6");
+       app.add_flag("--replace", words.replace,
+                    "Replace the model that the file holds, with all its joints. Example: --replace");
        add_options(app, words);
      }},
     {"show", "Show a model's joints, how they turn, and their segments", run_show, [](cli::Command, ModelWords&) {}},

@@ -6,6 +6,7 @@
 #include "host/content/animator/motion/script/action.h"
 #include "host/content/animator/motion/script/script.h"
 #include "host/content/document/file.h"
+#include "host/editing/film_length.h"
 #include "host/editing/words.h"
 #include "node/wire/film.h"
 
@@ -20,15 +21,11 @@ struct Typed {
   bool lengthen = false;
 };
 
-// With as many frames as `last` needs, if that is wanted; else what a person should know of a film that is too
-// short.
-std::string grown(document::Json& film, std::uint32_t last, bool lengthen) {
-  const auto frames = film.at("frames").get<std::uint32_t>();
-  if (last < frames) return "";
-  if (lengthen) film["frames"] = last + 1;
-  return lengthen ? ""
-                  : "; the film shows only its " + std::to_string(frames) + (frames == 1 ? " frame" : " frames") +
-                        ": set its frames to " + std::to_string(last + 1) + ", or repeat this with ";
+// What a person should know of the film's length; `again`: what the words need that they lengthen it.
+std::string length_note(document::Json& film, std::uint32_t last, bool lengthen, const std::string& again) {
+  const std::string length = fit_length(film, last, lengthen);
+  if (length.empty() || lengthen) return length;
+  return length + ": set its frames to " + std::to_string(last + 1) + ", or repeat this with " + again;
 }
 
 // All its values at once, or none.
@@ -52,11 +49,10 @@ void run_action(EditedFilm& film, const motion::Action& action, const Typed& typ
   std::string note;
   film.change([&](document::Json& json, const animator::Film& meaning) {
     done = motion::perform(json, meaning, typed.actor, action, at, arguments);
-    note = grown(json, done.film_last, typed.lengthen);
+    note = length_note(json, done.film_last, typed.lengthen, "--at " + std::to_string(done.first) + " --lengthen");
   });
-  if (!note.empty()) note += "--at " + std::to_string(done.first) + " --lengthen";
   film.print("frames " + std::to_string(done.first) + " to " + std::to_string(done.last) +
-             (done.report.empty() ? "" : ": " + done.report) + note + "\n");
+             (done.report.empty() ? "" : ": " + done.report) + (note.empty() ? "" : "; " + note) + "\n");
 }
 
 void add_parameters(cli::Command command, const motion::Action& action, Typed& typed) {
@@ -101,10 +97,10 @@ void add_script(cli::Command animate, EditedFilm& film) {
     std::string note;
     film.change([&](document::Json& json, const animator::Film&) {
       played = motion::play_script(json, film.path(), film.read_script(*script), *script);
-      if (!played.cut) note = grown(json, played.last, *lengthen);
+      if (!played.cut) note = length_note(json, played.last, *lengthen, "--lengthen");
     });
     for (const std::string& line : played.report) film.print(line + "\n");
-    if (!note.empty()) film.print("frames up to " + std::to_string(played.last) + note + "--lengthen\n");
+    if (!note.empty()) film.print("frames up to " + std::to_string(played.last) + "; " + note + "\n");
   });
 }
 

@@ -7,7 +7,6 @@
 #include <cstring>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <iomanip>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -16,11 +15,11 @@
 #include <tuple>
 
 #include "hal/failure/failure.h"
-#include "host/child/child.h"
 #include "host/content/document/text.h"
 #include "host/content/document/whole_file.h"
 #include "host/experiments/calibration_films.h"
 #include "host/experiments/fit.h"
+#include "host/experiments/measured_run.h"
 #include "node/wire/work.h"
 
 namespace mars::experiments {
@@ -106,22 +105,14 @@ class Measuring {
   }
 
  private:
-  fs::path film_file(const CalibrationFilm& film) const { return task_.folder / (film.name + ".json"); }
+  fs::path film_file(const CalibrationFilm& film) const { return task_.renderer.folder / (film.name + ".json"); }
 
   json report_of(const CalibrationFilm& film, std::vector<std::string> words) {
-    const fs::path report = task_.folder / "report";
-    words.insert(words.begin(), {task_.renderer.string(), film_file(film).string(), "--nodes", "1"});
-    words.insert(words.end(), {"--report", report.string()});
+    words.insert(words.end(), {"--nodes", "1"});
     words.insert(words.end(), film.words.begin(), film.words.end());
-    child::Child child({{}, words});
-    std::string trouble;
-    const child::Ending ending =
-        child.wait({[](const std::string&) {}, [&](const std::string& line) { trouble = line; }, [] {}});
-    child::fail_if_stopped(child);
-    if (!ending.well()) throw Failure("a rendering for the calibration failed", film.name, trouble);
+    json report = report_of_run(task_.renderer, film_file(film), words);
     if (task_.progress) task_.progress(++done_, task_.repeats * static_cast<int>(films_.size() + 3));
-    std::ifstream file(report);
-    return json::parse(file);
+    return report;
   }
 
   // Keeps the repeat that took least. Not the least of each frame: what frames do to each other's caches belongs to
@@ -137,7 +128,7 @@ class Measuring {
 
   // The frames of one film as files.
   void render_files(const std::string& format) {
-    const fs::path folder = task_.folder / ("frames-" + format);
+    const fs::path folder = task_.renderer.folder / ("frames-" + format);
     const json report = report_of(file_film(), {"-o", folder.string(), "--format", format});
     fs::remove_all(folder);
     file_pixels_ = report["width"].get<double>() * report["height"].get<double>();
@@ -265,6 +256,12 @@ std::string platform_text(const Calibration& calibration, const MessageCosts& me
         {"send", rounded(messages.end)},
         {"receive", rounded(messages.end)}}},
       {"work", work}};
+  for (const Spread& spread : calibration.spread)
+    platform["spread"].push_back({{"nodes", spread.nodes},
+                                  {"files", spread.files},
+                                  {"low", rounded(spread.low)},
+                                  {"middle", rounded(spread.middle)},
+                                  {"high", rounded(spread.high)}});
   if (!calibration.doubt.empty()) platform["doubt"] = calibration.doubt;
   return platform.dump(2) + "\n";
 }
@@ -282,6 +279,17 @@ std::string table_text(const Calibration& calibration) {
   for (const PhaseFit& phase : calibration.phases)
     text << std::left << std::setw(18) << phase.phase << std::right << std::setw(14) << phase.measured << std::setw(14)
          << 100 * phase.median_error << " %" << std::setw(14) << 100 * phase.high_error << " %\n";
+  if (calibration.spread.empty()) return text.str();
+  text << '\n'
+       << "90 % of renderings took of what was forecast\n"
+       << std::left << std::setw(18) << "nodes" << std::right;
+  for (const char* column : {"files", "from", "middle", "to"}) text << std::setw(14) << column;
+  for (const Spread& spread : calibration.spread)
+    text << '\n'
+         << std::left << std::setw(18) << spread.nodes << std::right << std::setw(14)
+         << (spread.files ? "written" : "none") << std::setw(12) << 100 * spread.low << " %" << std::setw(12)
+         << 100 * spread.middle << " %" << std::setw(12) << 100 * spread.high << " %";
+  text << '\n';
   return text.str();
 }
 

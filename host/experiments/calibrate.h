@@ -2,19 +2,18 @@
 // was counted explains the times of each film's shortest rendering.
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "host/experiments/measured_run.h"
 #include "host/experiments/message_costs.h"
+#include "host/experiments/spread.h"
 
 namespace mars::experiments {
 
 struct CalibrationTask {
-  std::filesystem::path renderer;  // the program mars-threads
-  std::filesystem::path folder;    // empty, for films and reports
+  Renderer renderer;  // its folder, empty, for films too
   int repeats = 4;
   std::function<void(int done, int all)> progress;
 };
@@ -31,7 +30,8 @@ struct Calibration {
   std::vector<double> work;  // by kind (node/wire/work.h), seconds a unit
   std::vector<PhaseFit> phases;
   double copy_rate = 0;
-  std::string doubt;  // why it cannot be trusted; "": it can
+  std::vector<Spread> spread;  // of forecasts by it, where they were tried
+  std::string doubt;           // why it cannot be trusted; "": it can
 };
 
 struct Busyness {

@@ -20,21 +20,24 @@ using document::Keys;
 using std::string_view;
 
 constexpr string_view kHere = "here";
-constexpr string_view kPlatformNames[] = {"name", "about", "doubt", "computers", "host", "network", "work"};
+constexpr string_view kPlatformNames[] = {"name", "about", "doubt", "computers", "host", "network", "work", "spread"};
 constexpr string_view kComputerNames[] = {"nodes", "processors", "memory"};
 constexpr string_view kHostNames[] = {"apart", "processors", "memory", "files"};
 constexpr string_view kNetworkNames[] = {"topology",  "latency",    "hop",           "rate",        "uplink",
                                          "leaf",      "send",       "receive",       "host_end",    "copy_rate",
                                          "host_rate", "local_rate", "local_latency", "host_latency"};
+constexpr string_view kSpreadNames[] = {"nodes", "files", "low", "middle", "high"};
 constexpr Keys kPlatformKeys{"platform", kPlatformNames};
 constexpr Keys kComputerKeys{"computer", kComputerNames};
 constexpr Keys kHostKeys{"host", kHostNames};
 constexpr Keys kNetworkKeys{"network", kNetworkNames};
 constexpr Keys kWorkKeys{"work", wire::kWorkNames};
+constexpr Keys kSpreadKeys{"spread", kSpreadNames};
 constexpr std::array<string_view, 4> kTopologies{"switch", "hypercube", "fat tree", "dragonfly"};
 
 constexpr document::Range kSeconds{0, 1e6};
 constexpr document::Range kRates{1, 1e15};  // bytes a second
+constexpr document::Range kRatios{1e-3, 1e3};
 constexpr std::uint32_t kMany = 1 << 20;
 
 // Seconds a byte; 0 where the rate is not given: as fast as can be.
@@ -93,6 +96,25 @@ std::vector<double> read_costs_of_work(const document::Element& element) {
   return work;
 }
 
+Spread read_spread(const document::Element& element) {
+  const Fields fields(element, kSpreadKeys);
+  const auto ratio = [&](string_view key) { return document::read_number(fields.required(key), kRatios); };
+  const Spread spread{static_cast<int>(document::read_count(fields.required("nodes"), 1, kMany)),
+                      read_flag(fields, "files"), ratio("low"), ratio("middle"), ratio("high")};
+  if (spread.low > spread.middle || spread.middle > spread.high)
+    element.refuse("is not in order", "low is the least, high the greatest");
+  return spread;
+}
+
+std::vector<Spread> read_spreads(const Fields& platform) {
+  std::vector<Spread> spreads;
+  const auto list = platform.find("spread");
+  if (!list) return spreads;
+  document::require_kind(*list, document::Kind::list);
+  for (const document::Element element : *list) spreads.push_back(read_spread(element));
+  return spreads;
+}
+
 // Those that there are, for messages.
 std::string names_in(const fs::path& folder) {
   std::vector<std::string> names{std::string(kHere)};
@@ -147,6 +169,7 @@ Platform read(const document::Element& root, const fs::path& folder) {
   platform.charges_files = read_flag(host, "files");
   platform.machine.network = read_network(fields.required("network"));
   platform.machine.work = read_work(fields.required("work"), folder);
+  platform.spread = read_spreads(fields);
   return platform;
 }
 
@@ -164,6 +187,7 @@ Platform read_platform(const std::string& name, const fs::path& folder) {
   const Platform costs = read_one(name.substr(colon + 1), folder);
   platform.name += ":" + costs.name;
   platform.doubt = costs.doubt;
+  platform.spread.clear();
   platform.machine.work = costs.machine.work;
   return platform;
 }

@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "hal/simulated/machine.h"
+#include "host/experiments/spread.h"
 #include "host/images/picture_format.h"
 #include "node/wire/work.h"
 
@@ -19,6 +21,7 @@ struct Platform {
   std::uint64_t memory = 0;       // bytes that a node may use for its frames
   std::uint64_t host_memory = 0;  // bytes that the host may use
   bool charges_files = false;     // of frames that go nowhere too
+  std::vector<Spread> spread;     // of forecasts by its costs, where it is the machine that was measured
   simulated::Machine machine;
 
   // For the host and its sinks.

@@ -20,7 +20,7 @@ animator::Remarks KeyFile::set(const PoseUnderWay& pose, std::uint32_t frame) {
     std::map<std::string, std::vector<animator::PartSetting>> figures;
     for (const auto& [names, angles] : pose.angles()) figures[names.first].push_back({"/" + names.second, angles});
     for (const auto& [actor, settings] : figures)
-      std::ranges::copy(animator::pose(json, film, actor, settings, frame, std::nullopt, animator::Beyond::clamped),
+      std::ranges::copy(animator::pose(json, film, actor, settings, frame, {.beyond = animator::Beyond::clamped}),
                         std::back_inserter(remarks));
     change.after = document::laid_out(json);
   });

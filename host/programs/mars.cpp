@@ -90,6 +90,7 @@ int run(int argc, char** argv) {
   mars.version("mars " MARS_VERSION);
   std::vector<const char*> words = help_as_option(argc, argv);
   commands::put_model_first(words);
+  const commands::NodesCode nodes_code{measure_messages, make_node_counter};
   int code = 0;
   commands::add_render(mars);
   commands::add_submit(mars);
@@ -97,7 +98,7 @@ int run(int argc, char** argv) {
   commands::add_compile(mars);
   commands::add_info(mars);
   commands::add_keys(mars);
-  commands::add_plan(mars, make_node_counter, measure_messages);
+  commands::add_plan(mars, nodes_code);
   commands::add_verify(mars, code);
   commands::add_import(mars);
   commands::add_preview(mars, [](const film::CompiledFilm& film) { return std::make_unique<SurfaceFrames>(film); });
@@ -108,7 +109,7 @@ int run(int argc, char** argv) {
   commands::add_plot(mars);
   commands::add_model(mars);
   commands::add_doctor(mars, {.reserved_cores = kCoresForHost, .version = MARS_VERSION}, code);
-  commands::add_calibrate(mars, measure_messages);
+  commands::add_calibrate(mars, nodes_code);
   commands::add_bench(mars, words);
   // Last, or each command would have it.
   mars.footer(std::string("mars COMMAND --help prints every option with an example.\n") + cli::kExitCodes);

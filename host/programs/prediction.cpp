@@ -30,13 +30,22 @@ forecast::Setting setting_of(const session::RenderJob& job, const wire::FilmView
   return setting;
 }
 
+events::Course course_of(forecast::Forecast forecast) {
+  std::vector<events::ExpectedFrame> frames = std::move(forecast.run.frames);
+  if (!forecast.spread) return events::Course(std::move(frames));
+  const experiments::Spread& spread = *forecast.spread;
+  for (events::ExpectedFrame& frame : frames) frame.seconds *= spread.middle;
+  return events::Course(std::move(frames),
+                        events::RatioBounds{spread.low / spread.middle, spread.high / spread.middle});
+}
+
 session::Prediction predict(const session::RenderJob& job, const experiments::Platform& platform,
                             const wire::FilmView& film, const farm::PlanRequest& request, int nodes) {
   const std::vector<farm::Task> tasks = farm::make_tasks(film, request.frames, request.coherence);
   const forecast::FilmCounts counts =
       forecast::count_film(film, tasks, *make_node_counter(film), {kMostCounting, kCountedPart / nodes});
   forecast::Forecast best = forecast::forecast(counts, tasks, setting_of(job, film, platform), nodes, request.groups);
-  return {best.groups, best.contributors, events::Course(std::move(best.run.frames))};
+  return {best.groups, best.contributors, course_of(std::move(best))};
 }
 
 experiments::Platform like_here(const std::string& name) {

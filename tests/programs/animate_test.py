@@ -150,7 +150,8 @@ class Animate(ProgramTest):
         self.assertIn("the last key is at frame 60; the film shows only its 48 frames: --lengthen, or set its frames "
                       "to 61", ended.stdout)
         self.assertIn("has keys up to frame 60", self.animate("check").stdout)
-        self.changed("move", "robot", "--frame", 60, "--to", 61, "--lengthen")
+        self.assertEqual(self.animate("move", "robot", "--frame", 60, "--to", 61, "--lengthen").stdout,
+                         "the film has 62 frames now, not 48\n")
         self.assertEqual(json.loads((self.folder / "film.json").read_text())["frames"], 62)
 
     def test_a_motion_behind_the_end_is_reported_and_done_again_from_where_it_began(self):
@@ -159,7 +160,7 @@ class Animate(ProgramTest):
         self.assertEqual(ended.stdout, "frames 12 to 60; the film shows only its 48 frames: set its frames to 61, "
                                        "or repeat this with --at 12 --lengthen\n")
         keys = self.actor()["keys"]
-        self.assertEqual(self.animate("spin", "robot", "--at", 12, "--lengthen").stdout, "frames 12 to 60\n")
+        self.assertEqual(self.animate("spin", "robot", "--at", 12, "--lengthen").stdout, "frames 12 to 60; the film has 61 frames now, not 48\n")
         self.assertEqual(self.actor()["keys"], keys)
         self.assertEqual(json.loads((self.folder / "film.json").read_text())["frames"], 61)
 
@@ -174,6 +175,14 @@ class Animate(ProgramTest):
         table = self.animate("list").stdout
         self.assertEqual(self.frames(), [0, 22])
         self.assertRegex(table, r"camera\n.*\n +0  eye   x 0  y -9  z 2\n +fov   40\n +22  eye   x 3")
+
+    def test_the_camera_is_cut(self):
+        self.changed("cut", "camera", "eye", "--frame", 12)
+        self.changed("pose", "camera", "eye.x=3", "--frame", 12)
+        self.assertEqual(self.animate("list", "camera").stdout,
+                         "camera\n  frame  part  value           ease\n"
+                         "      0  eye   x 0  y -9  z 2  hold\n     12  eye   x 3  y -9  z 2\n")
+        self.assertIn("cut at a later frame", self.refused("cut", "camera", "--frame", 0))
 
     def test_list_shows_what_is_keyed(self):
         self.changed("pose", "robot", "elbow.y=90", "--frame", 12, "--ease", "out")

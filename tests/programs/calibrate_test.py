@@ -22,13 +22,14 @@ class Calibrations(ProgramTest):
         self.assertEqual(missing.returncode, 1)
         self.assertIn("run mars calibrate", missing.stderr)
         file = self.folder / ".local/share/mars/here.json"
-        printed = self.succeed("mars", "calibrate", "--repeats", 1, env=home)
+        printed = self.succeed("mars", "calibrate", "--repeats", 1, "--trials", 0, env=home)
         for word in ["edge_box", "nanoseconds", "scanline", "middle error"]:
             self.assertIn(word, printed)
         platform = json.loads(file.read_text())
         self.assertEqual("doubt" in platform, "too busy" in printed)
         platform.pop("doubt", None)
         file.write_text(json.dumps(platform))
+        self.assertNotIn("spread", platform)
         costs = platform["work"]
         for kind in ["patch", "edge_box", "light", "sink_byte"]:
             self.assertGreater(costs[kind] + costs["first_frame"], 0)
@@ -53,6 +54,9 @@ class Calibrations(ProgramTest):
         self.assertEqual(one[0], three[0])
         self.assertGreater(min(one[0].values()), 0)
         self.assertEqual(one[1]["host_frame"], three[1]["host_frame"])
+
+    def test_few_trials_are_refused(self):
+        self.fail_clearly(2, "calibrate", "--trials", 18, says="is neither 0 nor a number from 19 to 1000")
 
     def test_nothing_is_measured_where_nothing_can_be_written(self):
         refused = self.mars("calibrate", "-o", "no/such/folder.json")

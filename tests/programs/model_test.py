@@ -52,6 +52,8 @@ class Model(ProgramTest):
     def test_what_the_studio_does_a_command_does(self):
         self.model("man.json", "new", "--figure", "man", "--height", 5)
         self.assertRegex(self.model("man.json", "show"), r"at rest .* x 5, z")
+        self.model("man.json", "new", "--figure", "dog", "--replace")
+        self.assertIn("left-fore-paw", self.model("man.json", "show"))
         self.dog()
         self.assertIn("the model's own now: 'leg-shape'", self.remarked("dog.json", "point", "leg", "--at", 1, 1, "--to", 0.5, 0.2, 1))
         self.assertIn("leg-shape", json.loads((self.folder / "dog.json").read_text())["shapes"])

@@ -12,7 +12,7 @@ CUBES = EXAMPLES / "cubes.json"
 class Plans(ProgramTest):
     def test_a_plan_names_time_memory_bytes_and_nodes(self):
         printed = self.succeed("mars", "plan", CUBES, "--nodes", 4, "--platform", "fat-tree")
-        for line in [r"platform +fat-tree", r"nodes +4 nodes in \d groups?", r"seconds +[\d.e-]+", r"node hours +[\d.e-]+",
+        for line in [r"platform +fat-tree", r"nodes +4 nodes in \d groups?", r"seconds +[\d.e-]+ \(.+\)", r"node hours +[\d.e-]+",
                      r"a node +[\d.]+ MB for a frame, [\d.]+ MB for strips", r"the host +[\d.]+ MB at most",
                      r"messages +[\d.]+ MB between nodes, [\d.]+ MB to the host", r"counted +\d+ of 96 frames",
                      r"best +\d nodes? in \d groups?, [\d.e-]+ seconds", r" +4 +\d +[\d.e-]+ +[\d.]+ +[\d.e-]+"]:
@@ -32,6 +32,7 @@ class Plans(ProgramTest):
         kept = (self.folder / ".local/share/mars/here.json").exists()
         self.assertEqual(json.loads(first.stdout)["platform"], "here" if kept else "reference")
         if kept:
+            self.assertIn("interval", json.loads(first.stdout))
             self.assertIn("this machine is not calibrated: it is measured now", first.stderr)
             self.assertEqual(self.succeed("mars", "plan", CUBES, "--json", env=home), first.stdout)
         else:
@@ -57,6 +58,35 @@ class Plans(ProgramTest):
                              "16x9", "--frames", "0")
         self.assertEqual(rendered.returncode, 0, rendered.stderr)
         self.assertIn("too busy: repeats took 34 %", rendered.stderr)
+
+    def tried(self, **more):
+        platform = json.loads((SOURCES / "cluster/platforms/reference.json").read_text())
+        bounds = {"low": 0.9, "middle": 1.2, "high": 1.5}
+        platform["spread"] = [{"nodes": nodes, "files": files, **bounds} for nodes in (1, 4) for files in (False, True)]
+        return self.write("tried.json", {**platform, **more})
+
+    def test_a_forecast_has_the_interval_of_its_platforms_trials(self):
+        words = ["plan", CUBES, "--nodes", 2, "--platform"]
+        plain = json.loads(self.succeed("mars", *words, "reference", "--json"))
+        plan = json.loads(self.succeed("mars", *words, self.tried(), "--json"))
+        self.assertNotIn("interval", plain)
+        self.assertEqual(plan["interval"]["within"], 0.9)
+        for value, ratio in [(plan["interval"]["low"], 0.9), (plan["seconds"], 1.2), (plan["interval"]["high"], 1.5)]:
+            self.assertAlmostEqual(value / plain["seconds"], ratio)
+        self.assertIn("interval", plan["by_nodes"][0])
+        self.assertRegex(self.succeed("mars", *words, self.tried()), r"\nseconds +[\d.]+ \(90 %: [\d.]+ to [\d.]+\)\n")
+
+    def test_a_noisy_calibration_says_that_its_interval_is_wide(self):
+        doubt = "repeats took 34 % longer than the shortest"
+        file = self.tried(doubt=doubt)
+        self.assertIn(f"the calibration was noisy: {doubt}\n", self.succeed("mars", "plan", CUBES, "--platform", file))
+        self.assertEqual(json.loads(self.succeed("mars", "plan", CUBES, "--platform", file, "--json"))["doubt"], doubt)
+
+    def test_without_trials_it_is_not_known_how_far_off_a_forecast_is(self):
+        self.assertRegex(self.succeed("mars", "plan", CUBES, "--platform", "fat-tree"),
+                         r"seconds +[\d.]+ \(it is not known how far off: none was tried on platform fat-tree\)")
+        beyond = self.succeed("mars", "plan", CUBES, "--nodes", 8, "--platform", self.tried())
+        self.assertRegex(beyond, r"\(it is not known how far off: tried were forecasts for up to 4 nodes\)")
 
     def test_it_is_the_same_every_time(self):
         plans = {self.succeed("mars", "plan", CUBES, "--nodes", 6, "--platform", "ethernet", "--json")

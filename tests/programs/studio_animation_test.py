@@ -34,7 +34,7 @@ class AnimationTest(StudioInBrowser):
     def shown_commands(self):
         self.click("#frames .commands")
         lines = self.browser.run("return [...document.querySelectorAll('.command-lines code')].map((each) => each.textContent)")
-        self.click("#status")
+        self.click("h1")
         self.until("no list of commands", "document.querySelector('.popover') === null")
         return lines
 
@@ -52,6 +52,12 @@ class AnimationTest(StudioInBrowser):
 
     def box_of(self, selector):
         return self.browser.run("const at = document.querySelector(arguments[0]).getBoundingClientRect(); return [at.x, at.y, at.width, at.height]", selector)
+
+    def is_seen(self, selector):
+        """Whether the mouse would find its middle there, as the page stands."""
+        return self.browser.run("""
+            const it = document.querySelector(arguments[0]), at = it.getBoundingClientRect();
+            return it.contains(document.elementFromPoint(at.x + at.width / 2, at.y + at.height / 2));""", selector)
 
     def at(self, row, frame):
         left, _, width, _ = self.box_of(".ruler")
@@ -124,11 +130,51 @@ class AnimationTest(StudioInBrowser):
         self.click('[data-key="motion.steps"]')
         self.browser.command("Input.insertText", text="3")
         before = self.film.read_text()
+        self.assertTrue(self.is_seen('[data-key="motion.apply"]'), "below the fold")
         self.click('[data-key="motion.preview"]')
         self.assertEqual(self.film.read_text(), before)
         self.changed_by(lambda: self.click('[data-key="motion.apply"]'))
-        self.same_as_commands("walk tom --steps 3 --at 0 --lengthen")
+        self.same_as_commands("walk tom --steps 3 --lengthen")
+        walked = json.loads(self.film.read_text())["actors"][0]["keys"]
+        self.click("[data-motion=nod]")
+        self.changed_by(lambda: self.click('[data-key="motion.apply"]'))
+        self.same_as_commands("nod tom --lengthen")
+        self.assertEqual(json.loads(self.film.read_text())["actors"][0]["keys"][:len(walked) - 1], walked[:-1], "the walk stays")
+        self.reduce_to_few_keys()
+        self.cut_camera()
         self.no_complaint()
+
+    def message(self, pattern):
+        self.until(pattern, lambda: re.search(pattern, self.browser.run("return document.getElementById('messages').textContent")))
+
+    def reduce_to_few_keys(self):
+        before = self.film.stat().st_size
+        self.click("[data-row=tom] .name")
+        self.keys("t", "t")
+        self.choose_entry("Reduce\u2026")
+        self.changed_by(self.enter)
+        last = json.loads(self.film.read_text())["actors"][0]["keys"][-1]["frame"]
+        self.message(r"keys? in \d+ frames became")
+        self.assertLess(self.film.stat().st_size, before / 2)
+        self.same_as_commands(f"reduce tom --error 1 --frame 0-{last}")
+
+    def cut_camera(self):
+        """It looks from elsewhere at once, and only from the frame on."""
+        self.open_tab("Scene")
+        self.go_to(30)
+        self.changed_by(lambda: self.click('[data-key="camera.cut"]'))
+        self.write("camera.eye.x", -3.0)
+        self.same_as_commands("cut camera --frame 30", "pose camera eye=-3,-2,1.6 --frame 30")
+        for frame, x in ((29, 5), (30, -3)):
+            self.go_to(frame)
+            self.assertEqual(self.project()["camera"]["eye"][0], x)
+
+    def go_to(self, frame):
+        self.click('[data-key="frame"]')
+        self.browser.run("document.activeElement.select()")
+        self.browser.command("Input.insertText", text=str(frame))
+        self.enter()
+        self.until(f"frame {frame}", f"window.seen.project.frame === {frame}")
 
     def test_a_script_says_what_is_wrong_at_its_line(self):
         self.begin()

@@ -22,6 +22,14 @@ FLAGS = ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic", "-
          "--disable-background-networking", "--disable-component-update", "--disable-sync", "--disable-extensions"]
 BUTTONS = {"left": 1, "right": 2, "middle": 4}
 CTRL, SHIFT = 2, 8
+# Rows of the tree that are out of sight are no elements.
+SHOW_IN_TREE = """
+const tree = document.querySelector("#tree [role=tree]");
+for (let top = 0; !document.querySelector(arguments[0]) && top < tree.scrollHeight; top += tree.clientHeight / 2) {
+  tree.scrollTop = top;
+  tree.dispatchEvent(new Event("scroll"));
+}
+"""
 
 
 class Studio:

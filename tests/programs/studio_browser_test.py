@@ -9,7 +9,7 @@ import signal
 from selenium.webdriver.support.ui import Select
 
 from harness import *
-from studio_browser import CTRL, SHIFT, Browser, Proxy, Studio, tree_of
+from studio_browser import CTRL, SHIFT, SHOW_IN_TREE, Browser, Proxy, Studio, tree_of
 
 # Counts what the studio says and what the page paints; a person sees both.
 PROBE = """
@@ -111,6 +111,7 @@ class StudioInBrowser(ProgramTest):
         self.until("the project's change", f"window.seen.projects > {before}")
 
     def click(self, selector):
+        self.browser.run(SHOW_IN_TREE, selector)
         self.until(selector, f"document.querySelector('{selector}') !== null")
         self.browser.run("document.querySelector(arguments[0]).scrollIntoView({block: 'nearest'})", selector)
         self.browser.click(*self.browser.center(selector))
@@ -397,7 +398,10 @@ class FilmTest(StudioInBrowser):
             self.assertLess(time.monotonic(), last, "the renderer lives on")
             time.sleep(0.05)
         self.no_complaint("WebSocket connection")
-        self.start(file)
+        port = re.search(r":(\d+)/", studio.link)[1]
+        again = self.enterContext(Studio(PROGRAMS, file, "--port", port))
+        self.banner("connection", "Open the link that it has printed")
+        self.show(again.link)
         self.pictures_in_all_views()
         self.assertEqual(file.read_text(), changed)
         self.changed_by(lambda: self.keys("z", modifiers=CTRL))

@@ -71,7 +71,6 @@ class TutorialsFilmTest(StudioInBrowser):
     def motion(self, name, end, **fields):
         """The page's motion, from the actor's last key to the frame `end`."""
         self.click(f"[data-motion={name}]")
-        Select(self.browser.driver.find_element("css selector", '[data-key="motion.start"]')).select_by_value("last")
         for field, value in fields.items():
             self.fill_motion(f"motion.{field.replace('_', '-')}", value)
         self.changed_by(lambda: self.click('[data-key="motion.apply"]'))

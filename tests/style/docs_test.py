@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Holds the pages that people read to four rules: no page of docs/ is longer than 250 lines; every link to a file or a
-heading leads there; every file that CONTRIBUTING.md and MAP.md name exists; so does every name of the code that
-CONTRIBUTING.md's recipes tell people to change."""
+"""Holds the pages that people read to five rules: no page of docs/ is longer than 250 lines; every link to a file or a
+heading leads there; every table has its heading; every file that CONTRIBUTING.md and MAP.md name exists; so does every
+name of the code that CONTRIBUTING.md's recipes tell people to change."""
 
 import pathlib
 import re
@@ -75,6 +75,13 @@ class Pages(unittest.TestCase):
                     self.assertIn(anchor, anchors(file), f"{page.relative_to(ROOT)}: {target}")
                 if re.fullmatch(r"[\w-]+\.md", text):
                     self.assertEqual(text, pathlib.PurePath(file).name, f"{page.relative_to(ROOT)}: {target}")
+
+    def test_have_whole_tables(self):
+        """A row after an empty line begins a table that has no heading, and shows as text."""
+        for page in pages():
+            for table in re.findall(r"^\|.*\n(?:\|.*\n)*", CODE.sub("", page.read_text()), re.M):
+                heading, _, below = table.partition("\n")
+                self.assertRegex(below, r"\A\|( *:?-+:? *\|)+\n", f"{page.relative_to(ROOT)}: {heading}")
 
     def test_of_recipes_name_files_that_there_are(self):
         for page in ("CONTRIBUTING.md", "MAP.md"):

@@ -32,9 +32,12 @@ using Runs = std::vector<Run>;
 
 template <typename Value>
 void add_runs(const animator::Channel<Value>& channel, std::uint32_t frames, Runs& runs) {
-  for (std::size_t i = 0; i + 1 < channel.size() && channel[i].frame + 1 < frames; ++i)
-    if (animator::moves_after(channel, i))
-      runs.push_back({channel[i].frame, std::min(channel[i + 1].frame, frames - 1)});
+  for (std::size_t i = 0; i + 1 < channel.size() && channel[i].frame + 1 < frames; ++i) {
+    if (!animator::moves_after(channel, i)) continue;
+    const std::uint32_t next = channel[i + 1].frame;
+    const Run run{channel[i].ease.hold ? next - 1 : channel[i].frame, std::min(next, frames - 1)};
+    if (run.after < run.last) runs.push_back(run);
+  }
 }
 
 Runs merged(Runs runs) {

@@ -36,7 +36,7 @@ constexpr Type kFilmTypes[] = {
     {"color_or_ambient", R"({"anyOf": ["#color", "#ambient"]})", "[0.8, 0.9, 1]"},
     {"model_or_file", R"({"anyOf": [{"type": "string", "minLength": 1}, "#model"]})", R"("robot.json")"},
     {"ease",
-     R"({"anyOf": [{"enum": ["linear", "in", "out", "both", "spline"]}, {"type": "array", "minItems": 4, "maxItems": 4,
+     R"({"anyOf": [{"enum": ["linear", "in", "out", "both", "spline", "hold"]}, {"type": "array", "minItems": 4, "maxItems": 4,
          "prefixItems": [{"type": "number", "minimum": 0, "maximum": 1}, {"type": "number", "minimum": -10, "maximum": 10},
                          {"type": "number", "minimum": 0, "maximum": 1}, {"type": "number", "minimum": -10, "maximum": 10}],
          "items": {"type": "number", "minimum": -10, "maximum": 10}}]})",

@@ -45,8 +45,9 @@ Model load_own_model(const std::filesystem::path& path) {
 
 void create_model(const std::filesystem::path& path, const document::Json& model) {
   if (std::filesystem::exists(path))
-    throw Failure("is there already", path.string(),
-                  "choose another name, or change it with mars model MODEL add or set");
+    throw Failure(
+        "is there already", path.string(),
+        "choose another name, change it with mars model MODEL add or set, or begin again in its place with --replace");
   document::write_json(path, model, read_own_model);
 }
 

@@ -1,9 +1,10 @@
 // A forecast of a rendering: its seconds, memory and bytes on a platform, and with how many groups of nodes, and how
-// many nodes that draw a keyframe, it is shortest. It follows from counted frames and the platform's costs alone, so
-// that it is the same every time.
+// many nodes that draw a keyframe, it is shortest. It follows from counted frames and the platform alone, so that it is
+// the same every time.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "host/experiments/forecast/film_counts.h"
@@ -12,13 +13,24 @@
 
 namespace mars::forecast {
 
+// In seconds; a rendering takes that long with kWithin.
+struct Interval {
+  double low;
+  double high;
+};
+
 struct Forecast {
   int nodes = 1;
   std::uint32_t groups = 1;
-  std::int32_t contributors = 0;  // to a keyframe, as in farm::Plan
-  Rehearsed run;
+  std::int32_t contributors = 0;              // to a keyframe, as in farm::Plan
+  Rehearsed run;                              // by the platform's costs
+  std::optional<experiments::Spread> spread;  // of such forecasts
 
-  double node_hours() const { return nodes * run.seconds / 3600; }
+  double seconds() const { return run.seconds * (spread ? spread->middle : 1); }
+  std::optional<Interval> interval() const {
+    return spread ? std::optional(Interval{run.seconds * spread->low, run.seconds * spread->high}) : std::nullopt;
+  }
+  double node_hours() const { return nodes * seconds() / 3600; }
 };
 
 // `groups`: 0: those that make the rendering shortest.

@@ -1,5 +1,7 @@
 #include "host/render/events/course.h"
 
+#include <cmath>
+
 namespace mars::events {
 namespace {
 
@@ -10,15 +12,21 @@ constexpr double kTrusted = 0.1;
 
 std::optional<Progress::Left> Course::left(std::size_t done, double seconds) const {
   if (done > frames_.size() || frames_.empty()) return std::nullopt;
-  double last = done == 0 ? 0 : frames_[done - 1].seconds;
+  const double measured = done == 0 ? 0 : frames_[done - 1].seconds;
   const double trusted = kTrusted * frames_.back().seconds;
-  const double ratio = (seconds + trusted) / (last + trusted);
-  Progress::Left left{0, 0};
+  const double ratio = (seconds + trusted) / (measured + trusted);
+  double last = measured;
+  Progress::Left left;
   for (std::size_t i = done; i < frames_.size(); ++i) {
     double& kind = frames_[i].kind == FrameKind::keyframe ? left.keyframes : left.inbetweens;
     kind += (frames_[i].seconds - last) * ratio;
     last = frames_[i].seconds;
   }
+  if (!bounds_) return left;
+  // The forecast is known as well as a measurement of `trusted` seconds: errors of means go by the roots of these.
+  const double unknown = std::sqrt(trusted / (measured + trusted));
+  left.between = {
+      {left.seconds() * std::pow(bounds_->low, unknown), left.seconds() * std::pow(bounds_->high, unknown)}};
   return left;
 }
 

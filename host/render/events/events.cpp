@@ -34,14 +34,25 @@ json to_json(const Booted& booted) {
   return {{"event", "booted"}, {"backend", booted.backend}, {"machines", booted.machines}, {"nodes", nodes}};
 }
 
+json left_json(const Progress::Left& left) {
+  json to = {{"keyframes", left.keyframes}, {"inbetweens", left.inbetweens}};
+  if (left.between) to["between"] = *left.between;
+  return to;
+}
+
+Progress::Left read_left(const json& from) {
+  Progress::Left left{from.at("keyframes"), from.at("inbetweens")};
+  if (from.contains("between")) left.between = from["between"].get<std::array<double, 2>>();
+  return left;
+}
+
 json to_json(const Progress& progress) {
   json to = {{"event", "progress"},
              {"interval", progress.interval},
              {"intervals", progress.intervals},
              {"keyframes", kind_json(progress.keyframes)},
              {"inbetweens", kind_json(progress.inbetweens)}};
-  if (progress.forecast)
-    to["left"] = {{"keyframes", progress.forecast->keyframes}, {"inbetweens", progress.forecast->inbetweens}};
+  if (progress.forecast) to["left"] = left_json(*progress.forecast);
   return to;
 }
 
@@ -97,8 +108,7 @@ Booted read_booted(const json& from) {
 Progress read_progress(const json& from) {
   Progress progress{from.at("interval"), from.at("intervals"), read_kind(from.at("keyframes")),
                     read_kind(from.at("inbetweens")), std::nullopt};
-  if (from.contains("left"))
-    progress.forecast = {from["left"].at("keyframes").get<double>(), from["left"].at("inbetweens").get<double>()};
+  if (from.contains("left")) progress.forecast = read_left(from["left"]);
   return progress;
 }
 

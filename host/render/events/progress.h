@@ -2,6 +2,7 @@
 // inbetween: the time until a frame came is counted to its kind, so that all seconds are counted once.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -35,9 +36,11 @@ struct Progress {
   // Seconds that the rest of each kind will take: as forecast, else as long as those that came; none before anything
   // is known.
   struct Left {
-    double keyframes;
-    double inbetweens;
+    double keyframes = 0;
+    double inbetweens = 0;
+    std::optional<std::array<double, 2>> between{};  // in which all seconds lie, nine times of ten
 
+    double seconds() const { return keyframes + inbetweens; }
     bool operator==(const Left&) const = default;
   };
   std::optional<Left> forecast;  // course.h

@@ -17,9 +17,11 @@
 #include "host/child/programs.h"
 #include "host/child/standard_streams.h"
 #include "host/cli/command.h"
+#include "host/content/document/text.h"
 #include "host/content/document/whole_file.h"
 #include "host/experiments/calibrate.h"
 #include "host/experiments/platform.h"
+#include "host/experiments/trials/trials.h"
 #include "host/shell/launch/command.h"
 #include "host/shell/launch/mpi_messages.h"
 #include "topology/machine.h"
@@ -33,6 +35,7 @@ namespace fs = std::filesystem;
 struct CalibrateWords {
   std::string file;
   int repeats = 4;
+  int trials = 39;  // films; two of them lie beyond either end of nine in ten
 };
 
 // Empty at first, and removed at the end.
@@ -75,9 +78,11 @@ experiments::CalibratedMachine this_machine(const fs::path& file) {
           topology::memory_share(machine.memory(), topology::memory_limit(), processors)};
 }
 
-void show_progress(int done, int all) {
-  if (isatty(STDERR_FILENO))
-    child::raw_error() << "\rmeasuring: " << 100 * done / all << " %" << (done == all ? "\n" : "");
+auto shown_progress(const char* doing) {
+  return [doing](int done, int all) {
+    if (isatty(STDERR_FILENO))
+      child::raw_error() << '\r' << doing << ": " << 100 * done / all << " %" << (done == all ? "\n" : "");
+  };
 }
 
 // Where what --platform here names is written, in a folder that is there.
@@ -89,64 +94,90 @@ fs::path file_of_here() {
   return file;
 }
 
-struct Measured {
-  experiments::Calibration calibration;
-  experiments::MessageCosts messages;
+// A machine is measured, then forecasts by its costs are tried.
+class Measuring {
+ public:
+  explicit Measuring(const NodesCode& code) : code_(code) {}
+
+  void measure(int repeats) {
+    const auto over_mpi = launch::mpi_message_costs(child::own_file());
+    messages_ = over_mpi ? *over_mpi : code_.measure_messages();
+    calibration_ = experiments::calibrate({renderer_, repeats, shown_progress("measuring")});
+  }
+  void try_forecasts(int films) {
+    const fs::path file = folder_.path() / "platform.json";
+    write(file);
+    const experiments::Platform platform = experiments::read_platform(file, folder_.path());
+    calibration_.spread = trials::try_forecasts(
+        {trials::trial_films(films), renderer_, platform, code_.make_counter, shown_progress("trying forecasts")});
+  }
+  void write(const fs::path& file) const {
+    document::write_whole_file(file, experiments::platform_text(calibration_, messages_, this_machine(file)));
+  }
+  const experiments::Calibration& calibration() const { return calibration_; }
+
+ private:
+  const NodesCode& code_;
+  const WorkFolder folder_;
+  const experiments::Renderer renderer_{renderer(), folder_.path()};
+  experiments::Calibration calibration_;
+  experiments::MessageCosts messages_;
 };
 
-Measured measure(int repeats, const MeasureMessages& measure_messages) {
-  const auto over_mpi = launch::mpi_message_costs(child::own_file());
-  const experiments::MessageCosts messages = over_mpi ? *over_mpi : measure_messages();
-  const WorkFolder folder;
-  return {experiments::calibrate({renderer(), folder.path(), repeats, show_progress}), messages};
-}
-
-void write(const fs::path& file, const Measured& measured) {
-  document::write_whole_file(file,
-                             experiments::platform_text(measured.calibration, measured.messages, this_machine(file)));
-}
-
-void calibrate(const CalibrateWords& words, const MeasureMessages& measure_messages) {
+void calibrate(const CalibrateWords& words, const NodesCode& code) {
   const fs::path file = words.file.empty() ? file_of_here() : fs::path(words.file);
   document::check_can_write(file);
-  const Measured measured = measure(words.repeats, measure_messages);
-  std::cout << experiments::table_text(measured.calibration);
-  if (const std::string& doubt = measured.calibration.doubt; !doubt.empty())
-    std::cout << "\nThe machine was too busy: " << doubt << ". Calibrate again when nothing else runs.\n";
-  write(file, measured);
+  Measuring measuring(code);
+  measuring.measure(words.repeats);
+  if (words.trials > 0) measuring.try_forecasts(words.trials);
+  std::cout << experiments::table_text(measuring.calibration());
+  if (const std::string& doubt = measuring.calibration().doubt; !doubt.empty())
+    std::cout << "\nThe machine was too busy: " << doubt
+              << ". Intervals of forecasts are the wider for it. Calibrate again when nothing else runs.\n";
+  measuring.write(file);
   std::cout << "\nwritten to " << file.string() << '\n';
 }
 
-// Fewer repeats than mars calibrate has: a person waits for something else.
+// Fewer repeats and trials than mars calibrate has: a person waits for something else.
 constexpr int kFewRepeats = 3;
 
 // Why it cannot; "": it has.
-std::string calibrate_unasked(const MeasureMessages& measure_messages) try {
+std::string calibrate_unasked(const NodesCode& code) try {
   const fs::path file = file_of_here();
   document::check_can_write(file);
   if (const std::string busy = experiments::doubt_of(experiments::busyness()); !busy.empty()) return busy;
-  std::cerr << "mars: this machine is not calibrated: it is measured now, for some 10 seconds\n";
-  const Measured measured = measure(kFewRepeats, measure_messages);
-  if (!measured.calibration.doubt.empty()) return measured.calibration.doubt;
-  write(file, measured);
+  std::cerr << "mars: this machine is not calibrated: it is measured now, for some 30 seconds\n";
+  Measuring measuring(code);
+  measuring.measure(kFewRepeats);
+  if (const std::string& doubt = measuring.calibration().doubt; !doubt.empty()) return doubt;
+  measuring.try_forecasts(experiments::kFewestTrials);
+  measuring.write(file);
   std::cerr << "mars: kept in " << file.string() << "; mars calibrate measures again\n";
   return "";
 } catch (const std::exception& failure) {
   return reason_of(failure);
 }
 
+// "": nothing is.
+std::string wrong_trials(const std::string& word) {
+  constexpr int kMost = 1000;
+  const auto number = document::number_in<int>(word);
+  const bool right = number && (*number == 0 || (*number >= experiments::kFewestTrials && *number <= kMost));
+  return right ? "" : document::formatted("is neither 0 nor a number from %d to %d", experiments::kFewestTrials, kMost);
+}
+
 }  // namespace
 
-bool calibrate_if_need_be(const MeasureMessages& measure_messages) {
+bool calibrate_if_need_be(const NodesCode& code) {
   if (fs::exists(experiments::calibrated_platform())) return true;
-  const std::string trouble = calibrate_unasked(measure_messages);
+  const std::string trouble = calibrate_unasked(code);
   if (!trouble.empty())
     std::cerr << "mars: warning: this machine is not calibrated, and cannot be now: " << trouble
               << "; costs are those of the reference machine (run mars calibrate when nothing else runs)\n";
   return trouble.empty();
 }
 
-void add_calibrate(cli::Command app, const MeasureMessages& measure_messages) {
+void add_calibrate(cli::Command app, const NodesCode& code) {
   const auto words = std::make_shared<CalibrateWords>();
   const cli::Command command =
       app.add_command("calibrate", "Measure what work costs on this machine, for simulated renderings");
@@ -160,11 +191,17 @@ void add_calibrate(cli::Command app, const MeasureMessages& measure_messages) {
            "Render each film N times; the shortest times count. Default: 4. Example: --repeats 10")
       .range(1, 1000)
       .type("N");
+  command
+      .add("--trials", words->trials,
+           "Try forecasts on N films, from which come their intervals: at least 19, or 0 for none. Default: 39. "
+           "Example: --trials 79")
+      .check(wrong_trials)
+      .type("N");
   command.footer(
-      "It takes 10 to 30 seconds, in which nothing else should run. Then:\n"
+      "It takes about a minute, in which nothing else should run. Then:\n"
       "  mars render FILM --sink none --backend simulated --platform here --nodes 4\n"
       "  mars render FILM --sink none --backend simulated --platform fat-tree:here ...\n");
-  command.runs([words, measure_messages] { calibrate(*words, measure_messages); });
+  command.runs([words, code] { calibrate(*words, code); });
 }
 
 }  // namespace mars::commands

@@ -32,7 +32,7 @@ struct PlanWords {
 };
 
 struct Planned {
-  std::string platform;
+  experiments::Platform platform;
   std::size_t counted;  // frames
   std::size_t frames;
   std::vector<forecast::Forecast> by_nodes;  // ascending; the last has the nodes that were asked for
@@ -41,7 +41,7 @@ struct Planned {
   const forecast::Forecast& asked() const { return by_nodes.back(); }
   // The fewest nodes that take hardly longer than the shortest.
   const forecast::Forecast& best() const {
-    const auto seconds = [](const forecast::Forecast& each) { return each.run.seconds; };
+    const auto seconds = [](const forecast::Forecast& each) { return each.seconds(); };
     const double shortest = seconds(*std::ranges::min_element(by_nodes, {}, seconds));
     return *std::ranges::find_if(by_nodes, [&](const auto& each) { return seconds(each) <= kWorthIt * shortest; });
   }
@@ -50,12 +50,12 @@ struct Planned {
 void warn(const std::string& line) { std::cerr << "mars: warning: " << line << '\n'; }
 
 // Machines that would render: this one, which is calibrated first, unless the options name others.
-experiments::Platform platform_of(const options::RenderOptions& options, const MeasureMessages& measure_messages) {
+experiments::Platform platform_of(const options::RenderOptions& options, const NodesCode& code) {
   constexpr std::string_view kHere = "here", kReference = "reference";
   const std::filesystem::path folder = experiments::platforms_folder(child::own_file());
   std::string name = options.platform.empty() ? std::string(kHere) : options.platform;
   const bool costs_of_here = name == kHere || name.ends_with(":here");
-  if (costs_of_here && !calibrate_if_need_be(measure_messages)) {
+  if (costs_of_here && !calibrate_if_need_be(code)) {
     if (name == kHere)
       return experiments::like_here(std::string(kReference), folder, topology::Machine::here().processors());
     name.replace(name.size() - kHere.size(), kHere.size(), kReference);
@@ -65,19 +65,18 @@ experiments::Platform platform_of(const options::RenderOptions& options, const M
   return platform;
 }
 
-Planned plan(const options::RenderOptions& options, const forecast::MakeCounter& make_counter,
-             const MeasureMessages& measure_messages) {
+Planned plan(const options::RenderOptions& options, const NodesCode& code) {
   const film::CompiledFilm film = job::load_film_of(options, warn);
   const wire::FilmView view = film.view();
-  const experiments::Platform platform = platform_of(options, measure_messages);
+  const experiments::Platform platform = platform_of(options, code);
   const auto frames = options.frames.of_film(view.settings().frames);
   const std::vector<farm::Task> tasks = farm::make_tasks(view, frames, !options.no_coherence);
-  const forecast::FilmCounts counts = forecast::count_film(view, tasks, *make_counter(view), {kCounting});
+  const forecast::FilmCounts counts = forecast::count_film(view, tasks, *code.make_counter(view), {kCounting});
   forecast::Setting setting{view, platform, options.mapping, options.format, options.sink == options::SinkKind::files};
   setting.sink_threads = session::sink_threads({platform.host_memory, platform.host_processors()});
   setting.host_budget = platform.host_memory;
   const int nodes = options.nodes == 0 ? topology::Machine::here().processors() : static_cast<int>(options.nodes);
-  Planned planned{platform.name, counts.counted, frames.size(),
+  Planned planned{platform, counts.counted, frames.size(),
                   forecast::forecasts_up_to(counts, tasks, setting, nodes, options.groups), 0};
   planned.slots = planned.asked().run.host_memory.credits * static_cast<double>(wire::kSlotBytes);
   return planned;
@@ -90,40 +89,56 @@ std::string in_groups(const forecast::Forecast& forecast) {
          document::counted(forecast.groups, "group");
 }
 
+std::string interval_text(const Planned& planned) {
+  if (const auto interval = planned.asked().interval())
+    return document::formatted("%.0f %%: %.3g to %.3g", 100 * experiments::kWithin, interval->low, interval->high);
+  const std::vector<experiments::Spread>& tried = planned.platform.spread;
+  if (tried.empty()) return "it is not known how far off: none was tried on platform " + planned.platform.name;
+  const int most = std::ranges::max(tried, {}, &experiments::Spread::nodes).nodes;
+  return "it is not known how far off: tried were forecasts for up to " +
+         document::counted(static_cast<std::size_t>(most), "node");
+}
+
 std::string text_of(const Planned& planned) {
   const forecast::Forecast &asked = planned.asked(), &best = planned.best();
   const forecast::Rehearsed& run = asked.run;
-  std::string text = "platform    " + planned.platform + "\n";
+  std::string text = "platform    " + planned.platform.name + "\n";
   text += "nodes       " + in_groups(asked) + "\n";
-  text += document::formatted("seconds     %.4g\n", run.seconds);
+  text += document::formatted("seconds     %.4g", asked.seconds()) + " (" + interval_text(planned) + ")\n";
+  if (!planned.platform.doubt.empty() && asked.spread)
+    text += "            the interval is wide, for the calibration was noisy: " + planned.platform.doubt + "\n";
   text += document::formatted("node hours  %.3g\n", asked.node_hours());
   text += "a node      " + megabytes(run.node_memory) + " for a frame, " + megabytes(planned.slots) + " for strips\n";
   text += "the host    " + megabytes(static_cast<double>(run.host_memory.most_bytes())) + " at most\n";
   text += "messages    " + megabytes(run.bytes_to_nodes) + " between nodes, " + megabytes(run.bytes_to_host) +
           " to the host\n";
   text += document::formatted("counted     %zu of %zu frames\n", planned.counted, planned.frames);
-  text += "best        " + in_groups(best) + document::formatted(", %.4g seconds\n", best.run.seconds);
+  text += "best        " + in_groups(best) + document::formatted(", %.4g seconds\n", best.seconds());
   text += "  nodes   groups      seconds   speed-up   node hours\n";
   for (const forecast::Forecast& each : planned.by_nodes)
-    text += document::formatted("%7d %8u %12.4g %10.2f %12.3g\n", each.nodes, each.groups, each.run.seconds,
-                                planned.by_nodes.front().run.seconds / each.run.seconds, each.node_hours());
+    text += document::formatted("%7d %8u %12.4g %10.2f %12.3g\n", each.nodes, each.groups, each.seconds(),
+                                planned.by_nodes.front().seconds() / each.seconds(), each.node_hours());
   return text;
 }
 
 nlohmann::ordered_json json_of(const forecast::Forecast& forecast) {
-  return {{"nodes", forecast.nodes},
-          {"groups", forecast.groups},
-          {"seconds", forecast.run.seconds},
-          {"node_hours", forecast.node_hours()},
-          {"node_memory", std::llround(forecast.run.node_memory)},
-          {"host_memory", forecast.run.host_memory.most_bytes()},
-          {"bytes_to_nodes", std::llround(forecast.run.bytes_to_nodes)},
-          {"bytes_to_host", std::llround(forecast.run.bytes_to_host)}};
+  nlohmann::ordered_json all = {{"nodes", forecast.nodes},
+                                {"groups", forecast.groups},
+                                {"seconds", forecast.seconds()},
+                                {"node_hours", forecast.node_hours()},
+                                {"node_memory", std::llround(forecast.run.node_memory)},
+                                {"host_memory", forecast.run.host_memory.most_bytes()},
+                                {"bytes_to_nodes", std::llround(forecast.run.bytes_to_nodes)},
+                                {"bytes_to_host", std::llround(forecast.run.bytes_to_host)}};
+  if (const auto interval = forecast.interval())
+    all["interval"] = {{"within", experiments::kWithin}, {"low", interval->low}, {"high", interval->high}};
+  return all;
 }
 
 std::string json_text(const Planned& planned) {
   nlohmann::ordered_json all = json_of(planned.asked());
-  all["platform"] = planned.platform;
+  all["platform"] = planned.platform.name;
+  if (!planned.platform.doubt.empty()) all["doubt"] = planned.platform.doubt;
   all["counted"] = planned.counted;
   all["frames"] = planned.frames;
   all["slots"] = std::llround(planned.slots);
@@ -134,13 +149,13 @@ std::string json_text(const Planned& planned) {
 
 }  // namespace
 
-void add_plan(cli::Command app, const forecast::MakeCounter& make_counter, const MeasureMessages& measure_messages) {
+void add_plan(cli::Command app, const NodesCode& code) {
   const auto words = std::make_shared<PlanWords>();
   const cli::Command command = app.add_command("plan", "Forecast a rendering's time, memory and bytes");
   options::add_render_options(command, words->options, options::Program::plan);
   command.add_flag("--json", words->json, "Print one JSON object, for programs. Example: --json");
-  command.runs([words, make_counter, measure_messages] {
-    const Planned planned = plan(words->options, make_counter, measure_messages);
+  command.runs([words, code] {
+    const Planned planned = plan(words->options, code);
     std::cout << (words->json ? json_text(planned) : text_of(planned));
   });
 }

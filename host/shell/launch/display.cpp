@@ -32,10 +32,17 @@ std::string fitting(const std::string& text) {
   return text.substr(0, size.ws_col - 1u);
 }
 
+// Nothing where no other time could be shown.
+std::string between_text(const events::Progress::Left& left) {
+  if (!left.between) return "";
+  const std::string low = clock_text(left.between->front()), high = clock_text(left.between->back());
+  return low == high ? "" : ", 90 %: " + low + " to " + high;
+}
+
 std::string left_text(const events::Progress& progress) {
   const auto left = progress.left();
   if (!left) return "";
-  std::string text = ", " + clock_text(left->keyframes + left->inbetweens) + " left";
+  std::string text = ", " + clock_text(left->seconds()) + " left" + between_text(*left);
   if (progress.keyframes.of == 0 || progress.inbetweens.of == 0) return text;
   return text + " (keyframes " + clock_text(left->keyframes) + ", inbetweens " + clock_text(left->inbetweens) + ")";
 }

@@ -1,5 +1,5 @@
 // The page's WebSocket (docs/studio-protocol.md). It connects again by itself, with growing pauses; what listens to
-// "connected" asks for all that it needs again.
+// "connected" asks for all that it needs again. A browser does not say why a WebSocket is refused: a plain request does.
 
 const kFirstPause = 250, kLongestPause = 4000;  // ms
 
@@ -21,7 +21,8 @@ export class Connection {
   #pause = kFirstPause;
   #token = takeToken();
 
-  // `is`: of messages; "picture" (an ArrayBuffer), "connected", "gone" (the number of attempts that failed).
+  // `is`: of messages; "picture" (an ArrayBuffer), "connected", "gone" (the number of attempts that failed; whether a
+  // studio is there for which the page's token is wrong).
   on(is, listener) {
     if (!this.#listeners.has(is)) this.#listeners.set(is, []);
     this.#listeners.get(is).push(listener);
@@ -30,9 +31,8 @@ export class Connection {
   failures = 0;
 
   open() {
-    const address = new URL("ws", location.href);
+    const address = this.#address();
     address.protocol = location.protocol === "https:" ? "wss:" : "ws:";
-    address.search = new URLSearchParams({token: this.#token});
     const socket = new WebSocket(address);
     socket.binaryType = "arraybuffer";
     socket.onopen = () => this.#opened();
@@ -57,10 +57,26 @@ export class Connection {
     this.#tell("connected");
   }
 
-  #closed() {
-    this.#tell("gone", ++this.failures);
+  #address() {
+    const address = new URL("ws", location.href);
+    address.search = new URLSearchParams({token: this.#token});
+    return address;
+  }
+
+  async #closed() {
+    ++this.failures;
+    this.#tell("gone", {failures: this.failures, strange: this.failures > 1 && await this.#isStrange()});
     setTimeout(() => this.open(), this.#pause);
     this.#pause = Math.min(kLongestPause, this.#pause * 1.6);
+  }
+
+  // Whether the token is another studio's.
+  async #isStrange() {
+    try {
+      return (await fetch(this.#address(), {cache: "no-store", signal: AbortSignal.timeout(kLongestPause)})).status === 403;
+    } catch {
+      return false;
+    }
   }
 
   #take(data) {

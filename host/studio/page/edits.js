@@ -12,6 +12,7 @@ export class Edits {
   }
 
   #previews = false;
+  wanted = null;          // {actor, joint}, to be selected as soon as they are there
   unanswered = new Unanswered();
 
   preview(step, event) {
@@ -37,7 +38,7 @@ export class Edits {
   joint(change, joint = this.state.selected.joint) { return jointStep("set", joint, change); }
   pose(pose) {
     const {actor, joint} = this.state.selected;
-    return this.state.isFilm() ? poseStep(actor, {[joint]: pose}, this.state.project.frame) : {pose: {[joint]: pose}};
+    return this.state.isFilm() ? poseStep(actor, {[joint]: pose}, this.state.project.frame, this.state.falloff) : {pose: {[joint]: pose}};
   }
 
   select(actor, joint) {
@@ -83,12 +84,17 @@ export class Edits {
     this.wanted = {actor: actor.name, joint: name};
   }
 
-  // A new joint is selected as soon as the studio has it.
+  // Beside what is there at the frame that shows.
+  addActor(name, model, event) {
+    this.commit({commands: [["film", "add", name, "--model", model, "--beside", `${this.state.project.frame}`]]}, event);
+    this.wanted = {actor: name, joint: null};
+  }
+
   selectWanted() {
-    if (!this.wanted || !this.state.joint(this.wanted.joint, this.wanted.actor)) return;
-    const {actor, joint} = this.wanted;
+    const wanted = this.wanted, found = wanted && (wanted.joint === null ? this.state.actor(wanted.actor) : this.state.joint(wanted.joint, wanted.actor));
+    if (!found) return;
     this.wanted = null;
-    this.select(actor, joint);
+    this.select(wanted.actor, wanted.joint);
   }
 
   #goTo(where) {

@@ -232,6 +232,26 @@ export function choice({name, options, key, commit}) {
   return {root: element("span", {class: "choice"}, select), fill, set: (value) => { select.value = value ?? ""; }};
 }
 
+// The same of so many options that they are made when somebody uses it; `textOf(value)`: how a value shows until then.
+export function longChoice({options, textOf, ...rest}) {
+  const made = choice({...rest, options: [[null, textOf(null)]]});
+  const select = made.root.querySelector("select");
+  let whole = false;
+  const show = (value) => {
+    if (!whole && select.value !== (value ?? "")) made.fill([[value, textOf(value)]]);
+    made.set(value);
+  };
+  const fill = () => {
+    if (whole) return;
+    whole = true;
+    const {value} = select;
+    made.fill(options());
+    select.value = value;
+  };
+  for (const use of ["pointerdown", "focus"]) select.addEventListener(use, fill);
+  return {root: made.root, set: show};
+}
+
 export function toggle({name, text, key, commit}) {
   const box = element("input", {type: "checkbox", "aria-label": name, "data-key": key});
   box.addEventListener("change", (event) => commit(box.checked, event));

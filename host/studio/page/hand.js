@@ -62,6 +62,13 @@ export class Hand {
     this.#restSoon();
   }
 
+  // From where the eye looks already.
+  showSelected(event) {
+    clearTimeout(this.#rest);
+    this.pace.drop("orbit");
+    this.pace.now({do: "orbit", view: this.view.number, how: "selected", moving: false}, event ?? kNoEvent);
+  }
+
   // What cannot turn, nor any joint above it, is like empty space: the eye moves.
   #turns(actor, name) {
     const joint = this.state.joint(name, actor);
@@ -78,7 +85,8 @@ export class Hand {
     this.#gesture = {kind: how ? "orbit" : "asked", how, began: event, last: event};
     this.#look(how ?? "");
     if (how) return;
-    this.pace.now({do: "grab", view: this.view.number, ...this.view.spot(event), button: event.button, keys: keysHeld(event)}, event);
+    this.pace.now({do: "grab", view: this.view.number, ...this.view.spot(event), button: event.button, keys: keysHeld(event),
+                   falloff: this.state.falloff}, event);
   }
 
   #move(event) {

@@ -8,6 +8,7 @@ import {keysOf} from "./shortcuts.js";
 export const kTools = [["none", "Select", "toolNone"], ["turn", "Turn", "toolTurn"], ["move", "Move", "toolMove"],
                        ["box", "Box", "toolBox"], ["points", "Control points", "toolPoints"], ["reach", "Reach", "toolReach"]];
 const kToolsOfModels = ["box", "points"], kToolsOfFilms = ["reach"];
+const kFalloffs = [0, 4, 8, 16, 32];  // frames
 const kWorkspaces = [["scene", "Scene", "scene"], ["rendering", "Rendering", "render"]];
 
 export class Header {
@@ -26,10 +27,14 @@ export class Header {
     this.ghosts = iconButton("ghosts");
     addMenu(this.ghosts, ghosts);
     this.pin = iconButton("pin", () => edits.pin());
-    this.film = element("div", {class: "group", hidden: true}, this.ghosts, this.marks, this.pin);
+    this.blend = iconButton("blend");
+    addMenu(this.blend, () => this.#blends());
+    this.film = element("div", {class: "group", hidden: true}, this.ghosts, this.marks, this.pin, this.blend);
     name(this.ghosts, "Ghosts", keysOf("ghosts"));
     name(this.marks, "Marks of camera and lights", keysOf("marks"));
     name(this.pin, "Pin the selected joint", keysOf("pin"));
+    this.blend.setAttribute("aria-label", "Blend poses into the frames around");
+    this.blend.title = "Blend poses into the frames around: where keys are dense, one alone would pop";
     const sheet = iconButton("help", help);
     name(sheet, "Keys and mouse", keysOf("help"));
     place.append(element("div", {class: "brand"}, logo(), element("h1", {}, this.file), this.kind),
@@ -38,10 +43,16 @@ export class Header {
     state.on("project", () => this.#project());
     state.on("tool", () => this.tools.set(state.tool));
     state.on("workspace", () => this.#workspace());
-    state.on("ghosts marks pins selected project", () => this.#shown());
+    state.on("ghosts marks falloff pins selected project", () => this.#shown());
     this.tools.set(state.tool);
     this.#workspace();
     this.#history({});
+  }
+
+  #blends() {
+    const one = (frames) => ({text: frames === 0 ? "This frame alone" : `${frames} frames to both sides`, chosen: this.state.falloff === frames,
+                              act: () => this.state.set("falloff", frames)});
+    return [{heading: "A pose changes"}, ...kFalloffs.map(one)];
   }
 
   #project() {
@@ -61,11 +72,12 @@ export class Header {
   }
 
   #shown() {
-    const {ghosts, marks, pins, selected} = this.state;
+    const {ghosts, marks, falloff, pins, selected} = this.state;
     this.film.hidden = !this.state.isFilm();
     this.tools.without(this.state.isFilm() ? kToolsOfModels : kToolsOfFilms);
     this.ghosts.setAttribute("aria-pressed", String(ghosts !== null));
     this.marks.setAttribute("aria-pressed", String(marks));
+    this.blend.setAttribute("aria-pressed", String(falloff > 0));
     this.pin.disabled = selected.joint === null;
     this.pin.setAttribute("aria-pressed", String(pins.some(({actor, joint}) => actor === selected.actor && joint === selected.joint)));
   }

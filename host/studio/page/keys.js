@@ -14,13 +14,13 @@ export function pressed({key, ctrlKey, metaKey, altKey, shiftKey}) {
 const kOwnKeys = new Set(["Space", "Enter", "ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Home", "End"]);
 
 function where(target) {
-  if (target.closest("dialog, .menu")) return {shut: true};
+  if (target.closest("dialog, .menu, .popover")) return {shut: true};
   const text = target.matches("input:not([type=range], [type=checkbox], [type=color]), textarea");
   return {
     text,
     view: target.closest(".view .picture") !== null,
     timeline: target.closest("#timeline") !== null,
-    letters: target.closest("[role=tree]:not(.row-list), select") !== null,
+    list: target.closest("select") !== null,
     control: target.matches("button, input, select, a[href], [role=tab]"),
   };
 }
@@ -32,7 +32,7 @@ function holds(shortcut, keys, place) {
   if (shortcut.at === "view") return place.view;
   if (shortcut.at === "timeline") return place.timeline;
   if (shortcut.at !== "page") return false;
-  if (place.letters && (/^[A-Z0-9]$/.test(keys) || kOwnKeys.has(keys))) return false;
+  if (place.list && /^[A-Z0-9]$/.test(keys)) return false;
   return !(place.control && kOwnKeys.has(keys));
 }
 

@@ -109,9 +109,9 @@ connection.on("refused", (message) => {
   const {text, line} = message;
   edits.unanswered.forget();
   if (motions.refused(message)) return;
-  notices.toast(line ? `${text} (line ${line})` : text);
+  notices.message(line ? `${text} (line ${line})` : text);
 });
-connection.on("remark", ({text}) => notices.toast(text, "info"));
+connection.on("remark", ({text}) => notices.message(text, "info"));
 connection.on("pinned", ({pins}) => state.set("pins", pins));
 connection.on("connected", () => {
   edits.unanswered.forget();
@@ -123,9 +123,10 @@ connection.on("connected", () => {
   if (thing !== null) connection.send({do: "select", thing});
   else if (actor !== null) connection.send({do: "select", actor, joint});
 });
-connection.on("gone", (failures) => {
+connection.on("gone", ({failures, strange}) => {
   status.connected = false;
   status.showRenderer();
+  if (strange) return notices.banner("connection", "The studio was started again, with another link.", {detail: "Open the link that it has printed, and close this page. What you did is stored."});
   const detail = failures < kPatience ? "Connecting again. Nothing on this page is lost."
     : "Connecting again. If mars studio has ended, start it again and open the link that it prints.";
   notices.banner("connection", "The studio does not answer.", {detail});
@@ -155,6 +156,7 @@ new Keys({
   rename: () => rename(),
   addJoint: inModel(() => edits.addJoint()),
   removeJoint: inModel(() => edits.removeJoint()),
+  find: () => tree.find.focus(),
   rest: (_, event) => jointPanel.rest(event),
   toolNone: () => state.set("tool", "none"),
   toolTurn: () => state.set("tool", "turn"),
@@ -166,6 +168,7 @@ new Keys({
   goToView: (keys) => views.go(Number(keys) - 1),
   maximise: () => views.maximise(),
   showAll: (_, event) => views.showAll(event),
+  showSelected: (_, event) => views.showSelected(event),
   nextDisplay: (_, event) => views.nextDisplay(event),
   hidden: (_, event) => views.flip("hidden", event),
   ground: (_, event) => views.flip("ground", event),

@@ -1,14 +1,21 @@
-// Banners stay while something is wrong, toasts go by themselves.
+// Banners stay while something is wrong. Messages stand in the last line, over nothing that is worked in: the newest
+// shows, those before are in a list that it opens.
 
 import {element} from "./dom.js";
 import {icon} from "./icons.js";
+import {openPopover} from "./popover.js";
 
-const kShown = 6000, kMost = 3;
+const kNew = 6000;  // ms for which a message catches the eye
+const kKept = 20;
+
+const glyphOf = (kind) => icon(kind === "error" ? "error" : "info");
 
 export class Notices {
   #banners = new Map();
   #place = document.getElementById("banners");
-  #toasts = document.getElementById("toasts");
+  #line = document.getElementById("messages");
+  #said = [];  // {text, kind}
+  #timer = 0;
 
   // `about` names the banner; "" as text takes it away. Parts: text, and detail in small.
   banner(about, text, {detail = "", kind = "warning"} = {}) {
@@ -24,18 +31,19 @@ export class Notices {
     this.#banners.set(about, {root, text: now});
   }
 
-  toast(text, kind = "error") {
-    const close = element("button", {class: "quiet icon", "aria-label": "Close this message"}, icon("close"));
-    const root = element("div", {class: `toast ${kind}`}, icon(kind === "error" ? "error" : "info"),
-                         element("span", {}, text), close);
-    close.addEventListener("click", () => root.remove());
-    this.#toasts.append(root);
-    while (this.#toasts.children.length > kMost) this.#toasts.firstChild.remove();
-    this.#leave(root);
+  message(text, kind = "error") {
+    this.#said = [...this.#said, {text, kind}].slice(-kKept);
+    const root = element("button", {class: `message new ${kind}`, title: text, "data-key": "messages", onclick: () => this.#open(root)},
+                         glyphOf(kind), element("span", {}, text));
+    this.#line.replaceChildren(root);
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => root.classList.remove("new"), kNew);
   }
 
-  // Not while somebody reads it.
-  #leave(root) {
-    setTimeout(() => root.matches(":hover, :focus-within") ? this.#leave(root) : root.remove(), kShown);
+  #open(anchor) {
+    const lines = this.#said.map(({text, kind}) => element("li", {class: `message ${kind}`}, glyphOf(kind), element("span", {}, text)));
+    const list = element("ol", {class: "message-lines", tabindex: 0}, lines);
+    openPopover(anchor, "Messages", element("h3", {}, "Messages"), list);
+    list.scrollTo(0, 1e6);
   }
 }

@@ -17,6 +17,16 @@ export function openPopover(anchor, name, ...children) {
   return root;
 }
 
+// Asks before what is more than a small step; `act(event)` where the person agrees.
+export function askFirst(anchor, title, text, yes, act) {
+  const agree = element("button", {class: "primary", "data-key": "ask.yes", onclick: (event) => {
+    root.hidePopover();
+    act(event);
+  }}, yes);
+  const root = openPopover(anchor, title, element("h3", {}, title), element("p", {class: "hint"}, text), agree);
+  agree.focus();
+}
+
 // Asks for numbers: [{name, value, ...of numberField}]; `apply(values, event)`.
 export function askNumbers(anchor, title, hint, numbers, apply) {
   const values = numbers.map(({value}) => value);

@@ -1,8 +1,8 @@
 // All shortcuts, in one table: keys.js acts on it, help.js lists it, menus and tips name its keys.
 //
 // `at`: where they hold: "page" (not while text is written), "always" (also then), "view" (a view has the focus),
-// "timeline" (it has the focus; before those of the page), "tree". Letters at "page" leave alone the tree and lists,
-// where letters find an entry. `film`: in films only.
+// "timeline" (it has the focus; before those of the page), "tree". Letters at "page" leave alone lists of choices, where
+// letters find an entry. `film`: in films only.
 
 export const kShortcuts = [
   {group: "Edit", keys: ["Ctrl+Z"], name: "undo", text: "Undo", at: "always"},
@@ -24,6 +24,7 @@ export const kShortcuts = [
   {group: "Views", keys: ["1", "2", "3", "4"], name: "goToView", text: "Go to a view", at: "page"},
   {group: "Views", keys: ["F"], name: "maximise", text: "Maximise the view, and back", at: "page"},
   {group: "Views", keys: ["A"], name: "showAll", text: "Show the whole scene in the view", at: "page"},
+  {group: "Views", keys: ["Z"], name: "showSelected", text: "Show what is selected in the view", at: "page"},
   {group: "Views", keys: ["S"], name: "nextDisplay", text: "Surface, control vertices, prisms, stick in turn", at: "page"},
   {group: "Views", keys: ["H"], name: "hidden", text: "Hidden lines on and off", at: "page"},
   {group: "Views", keys: ["G"], name: "ground", text: "Ground on and off", at: "page"},
@@ -61,7 +62,7 @@ export const kShortcuts = [
   {group: "Tree of joints", keys: ["ArrowUp", "ArrowDown"], text: "Joint before, next joint", at: "tree"},
   {group: "Tree of joints", keys: ["ArrowRight", "ArrowLeft"], text: "Open or go in, close or go out", at: "tree"},
   {group: "Tree of joints", keys: ["Home", "End"], text: "First joint, last joint", at: "tree"},
-  {group: "Tree of joints", keys: ["A-Z"], text: "Find by the first letters", at: "tree"},
+  {group: "Tree of joints", keys: ["/"], name: "find", text: "Find by the first letters", at: "page"},
 
   {group: "Numbers", keys: ["ArrowUp", "ArrowDown"], text: "One step; with Shift ten, with Alt a tenth", at: "number"},
   {group: "Numbers", keys: ["Enter"], text: "Done", at: "number"},

@@ -1,6 +1,6 @@
 // What the page knows: the project as the studio sent it, and what is selected here. Others listen to what concerns
 // them: "project", "poses", "selected", "tool", "view" (the active one), "renderer", "workspace"; of films "frame", "range", "keys", "rows",
-// "curves", "ghosts", "marks", "pins".
+// "curves", "ghosts", "marks", "falloff", "pins".
 
 export class State {
   #listeners = new Map();
@@ -12,6 +12,7 @@ export class State {
   range = null;         // [first, last] frames that play; null: all
   ghosts = null;        // {before, after, step} as views are asked for them
   marks = false;        // camera and lights show in views
+  falloff = 0;          // frames to both sides into which a film's pose is blended
   pins = [];            // [{actor, joint}]
   renderer = {renderer: "", nodes: 0, machines: 0};
 

@@ -12,7 +12,8 @@ export class Status {
     this.nodes = element("span", {});
     this.rate = element("span", {class: "count"});
     this.latency = element("span", {class: "count", title: "From a hand's move to its picture: 95 of 100 come within this time"});
-    place.append(this.selection, element("span", {class: "spring"}), this.rate, this.latency, this.nodes, this.renderer);
+    place.prepend(this.selection);  // messages have what room there is
+    place.append(this.rate, this.latency, this.nodes, this.renderer);
     state.on("project selected", () => this.#selected());
     state.on("renderer", () => this.showRenderer());
     setInterval(() => this.#measured(), kEvery);

@@ -161,6 +161,7 @@ export class View {
       ...(this.state.isFilm() ? ofFilms : []),
       {heading: "View"},
       {text: "Show all", keys: keysOf("showAll"), act: (event) => this.show({orbit: null}, event)},
+      {text: "Show what is selected", keys: keysOf("showSelected"), act: (event) => this.root.dispatchEvent(new CustomEvent("showselected", {detail: event}))},
       {text: "Maximise, and back", keys: keysOf("maximise"), act: () => this.root.dispatchEvent(new Event("maximise"))},
     ];
   }

@@ -28,6 +28,7 @@ export class Views {
     view.titleButton.addEventListener("dblclick", maximise);
     view.maximiseButton.addEventListener("click", maximise);
     view.root.addEventListener("maximise", maximise);
+    view.root.addEventListener("showselected", ({detail}) => this.hands[view.number].showSelected(detail));
     view.root.addEventListener("focusin", () => this.state.set("activeView", view.number));
     this.place.append(view.root);
   }
@@ -73,6 +74,7 @@ export class Views {
 
   flip(key, event) { this.active.show({[key]: !this.active.shown[key]}, event); }
   showAll(event) { this.active.show({orbit: null}, event); }
+  showSelected(event) { this.hands[this.state.activeView].showSelected(event); }
   orbitBy(how, steps, event) { this.hands[this.state.activeView].orbitBy(how, steps, event); }
 
   // Whether a hand held something.

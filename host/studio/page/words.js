@@ -12,8 +12,11 @@ function command(verb, names, options) {
 const setting = (part, value) => `${part === "place" || part === "turn" || part.startsWith("-") ? "/" : ""}${part}=${[value].flat().join(",")}`;
 
 // Joints of a film's actor, {name: [x, y, z]}.
-export const poseStep = (actor, pose, frame) =>
-  command(["animate", "pose"], [actor, ...Object.entries(pose).map(([joint, angles]) => setting(joint, angles))], ["--frame", `${frame}`, "--clamp"]);
+export const poseStep = (actor, pose, frame, falloff) =>
+  command(["animate", "pose"], [actor, ...Object.entries(pose).map(([joint, angles]) => setting(joint, angles))], [...blended(falloff), "--frame", `${frame}`, "--clamp"]);
+
+// A pose's options that blend it over frames to both sides; 0: none.
+export const blended = (falloff) => falloff > 0 ? ["--falloff", `${falloff}`] : [];
 
 // How each part of a joint's change is written.
 const kJointOptions = {
@@ -46,4 +49,4 @@ export const removeMaterialStep = (material) => command(["model", "remove"], [],
 
 export const mirrorStep = (side, joint) => command(["model", "mirror"], [side, ...(joint ? [joint] : [])], []);
 
-export const bodyStep = (name) => command(["model", "new"], [], ["--figure", name]);
+export const bodyStep = (name) => command(["model", "new"], [], ["--figure", name, "--replace"]);

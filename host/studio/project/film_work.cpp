@@ -70,7 +70,9 @@ void FilmWork::execute(const Step& step, For what) {
   if (const auto* const script = std::get_if<ScriptStep>(&step)) {
     const std::filesystem::path file = path_.parent_path() / script->name;
     edited_->give_script(file, script->text);
-    return edited_->execute({{{"animate", "script", file.string(), "--lengthen"}}});
+    editing::Command words{"animate", "script", file.string()};
+    if (script->lengthens) words.push_back("--lengthen");
+    return edited_->execute({&words, 1});
   }
   const auto* const step_of_commands = std::get_if<CommandsStep>(&step);
   if (!step_of_commands) refuse_model_step(path_);

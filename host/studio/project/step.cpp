@@ -43,9 +43,12 @@ CommandsStep read_commands(const Json& list) {
 
 ScriptStep read_script(const Json& script) {
   const auto is_text = [&](const char* key) { return script.contains(key) && script.at(key).is_string(); };
-  if (!script.is_object() || script.size() != 2 || !is_text("name") || !is_text("text"))
-    refuse("has not the form of a script", "script", R"(write {"script": {"name": ..., "text": ...}})");
-  return {checked_script_name(script.at("name").get<std::string>()), script.at("text").get<std::string>()};
+  const bool says_length = script.contains("lengthen") && script.at("lengthen").is_boolean();
+  if (!script.is_object() || script.size() != (says_length ? 3 : 2) || !is_text("name") || !is_text("text"))
+    refuse("has not the form of a script", "script",
+           R"(write {"script": {"name": ..., "text": ..., "lengthen": true}})");
+  return {checked_script_name(script.at("name").get<std::string>()), script.at("text").get<std::string>(),
+          !says_length || script.at("lengthen").get<bool>()};
 }
 
 // To nine digits: what a hand's way computes, a person reads in the page.
@@ -86,8 +89,11 @@ Step read_step(const Json& json) {
 
 std::vector<editing::Command> commands_of(const Step& step) {
   if (const auto* commands = std::get_if<CommandsStep>(&step)) return commands->commands;
-  if (const auto* script = std::get_if<ScriptStep>(&step)) return {{"animate", "script", script->name, "--lengthen"}};
-  return {};
+  const auto* script = std::get_if<ScriptStep>(&step);
+  if (script == nullptr) return {};
+  editing::Command command = {"animate", "script", script->name};
+  if (script->lengthens) command.push_back("--lengthen");
+  return {command};
 }
 
 }  // namespace mars::studio

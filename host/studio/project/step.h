@@ -22,6 +22,7 @@ struct CommandsStep {
 // A script beside the film, written and applied.
 struct ScriptStep {
   std::string name, text;
+  bool lengthens = true;  // the film, where the script ends later
 };
 
 // How joints of a model that is open are turned, degrees: for trying out, no file has it.

@@ -24,6 +24,12 @@ preview::Orbit chosen_orbit(From from, const preview::Ball& subject, double aspe
   return orbit;
 }
 
+void show_whole(preview::Orbit& orbit, const preview::Ball& subject, double aspect) {
+  const preview::Orbit whole = preview::orbit_from(preview::From::front, subject, aspect);
+  orbit.center = whole.center;
+  orbit.distance = whole.distance;
+}
+
 wire::Camera camera_from(const Eye& eye, double exposure) {
   const bool parallel = eye.from == From::front || eye.from == From::side || eye.from == From::top;
   const double lens = parallel ? kLongLens : 1;

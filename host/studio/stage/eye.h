@@ -21,6 +21,9 @@ struct Eye {
 // All of the subject, in a picture of this shape (width / height).
 preview::Orbit chosen_orbit(From from, const preview::Ball& subject, double aspect);
 
+// From where it looks already, all of the subject.
+void show_whole(preview::Orbit& orbit, const preview::Ball& subject, double aspect);
+
 // The eye's camera, not of From::camera, with the film's exposure.
 wire::Camera camera_from(const Eye& eye, double exposure);
 

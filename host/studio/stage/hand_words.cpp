@@ -1,5 +1,7 @@
 #include "host/studio/stage/hand_words.h"
 
+#include <algorithm>
+
 #include "hal/failure/failure.h"
 #include "host/content/animator/pose/attachments.h"
 #include "host/content/animator/keys/edit.h"
@@ -53,6 +55,14 @@ Json pose_step(const Project& project, const std::string& thing, const std::vect
   std::vector<std::string> names{thing};
   names.insert(names.end(), settings.begin(), settings.end());
   return step_of(command_of({"animate", "pose"}, names, {"--frame", std::to_string(project.frame()), "--clamp"}));
+}
+
+Json blended(Json step, std::uint32_t frames) {
+  if (frames == 0 || !step.contains("commands")) return step;
+  for (Json& words : step["commands"])
+    if (words.size() > 1 && words[0] == "animate" && words[1] == "pose")
+      words.insert(std::find(words.begin(), words.end(), "--frame"), {"--falloff", std::to_string(frames)});
+  return step;
 }
 
 void refuse_carried(const Project& project, std::size_t number) {

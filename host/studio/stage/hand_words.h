@@ -1,6 +1,7 @@
 // What hands do, as words of the commands that do the same.
 #pragma once
 
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <initializer_list>
 #include <map>
@@ -28,6 +29,9 @@ Json posed_model(const std::map<std::string, glm::dvec3>& pose);
 
 // Parts of a thing of the film ("tom", "camera", "light/2") set at the frame that is shown, within limits.
 Json pose_step(const Project& project, const std::string& thing, const std::vector<std::string>& settings);
+
+// A step of pose_step() whose change is blended over as many frames to both sides; other steps stay as they are.
+Json blended(Json step, std::uint32_t frames);
 
 // Throws where another actor carries it at the frame: its own place and turn then count for nothing.
 void refuse_carried(const Project& project, std::size_t actor);

@@ -103,10 +103,14 @@ preview::Ball Moments::subject() const {
     const animator::Actor& actor = film.actors[owner.actor];
     return any_moves ? moves(actor) : has_limbs(film.models[actor.model]);
   };
-  const bool any = std::any_of(owners_.begin(), owners_.end(), counts);
+  if (const auto ball = ball_of(counts)) return *ball;
+  return ball_of([](const Owner&) { return true; }).value_or(preview::Ball{{0, 0, 0}, 1});
+}
+
+std::optional<preview::Ball> Moments::ball_of(const std::function<bool(const Owner&)>& counts) const {
   glm::dvec3 low(1e300), high(-1e300);
   for (std::size_t segment = 0; segment < owners_.size(); ++segment) {
-    if (any && !counts(owners_[segment])) continue;
+    if (!counts(owners_[segment])) continue;
     for (int corner = 0; corner < 8; ++corner) {
       glm::dvec3 at;
       for (int row = 0; row < 3; ++row) {
@@ -117,8 +121,8 @@ preview::Ball Moments::subject() const {
       high = glm::max(high, at);
     }
   }
-  if (low.x > high.x) return {{0, 0, 0}, 1};
-  return {0.5 * (low + high), glm::length(high - low) / 2};
+  if (low.x > high.x) return std::nullopt;
+  return preview::Ball{0.5 * (low + high), glm::length(high - low) / 2};
 }
 
 bool Moments::is_short() const {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -53,6 +54,8 @@ class Moments {
   std::span<const wire::Patch> patches_of(std::size_t segment) const;
   // What moves or is a model; else figures; else everything. Of a film that is not shown the ball of one unit.
   preview::Ball subject() const;
+  // Of segments that count; none where none does.
+  std::optional<preview::Ball> ball_of(const std::function<bool(const Owner&)>& counts) const;
 
   // What moves in the film's own interval that has the frame: only with this is a picture the film's own. None where
   // the film is too long to know it at once.

@@ -11,7 +11,9 @@
 
 #include "hal/failure/failure.h"
 #include "host/studio/stage/flow.h"
+#include "host/studio/stage/framing.h"
 #include "host/studio/stage/ghosts.h"
+#include "host/studio/stage/hand_words.h"
 #include "host/studio/stage/hands.h"
 #include "host/studio/stage/marks.h"
 #include "host/studio/stage/page_message.h"
@@ -22,9 +24,10 @@
 namespace mars::studio {
 namespace {
 
-constexpr const char* kOrbitKinds[] = {"turn", "pan", "zoom"};
+constexpr const char* kOrbitKinds[] = {"turn", "pan", "zoom", "selected"};
 constexpr std::string_view kProjectVerbs[] = {"preview", "commit", "cancel", "undo", "redo", "frame"};
 constexpr double kMostEdit = 9e15;
+constexpr double kMostFalloff = 1000;
 constexpr double kMuchLarger = 1.3;  // less is what a pose does
 
 Json json_of(const glm::dvec3& vector) { return Json::array({vector.x, vector.y, vector.z}); }
@@ -46,6 +49,7 @@ struct Gesture {
   PageNumber page;
   std::uint32_t view;
   AnyHand hand;
+  std::uint32_t falloff;   // frames to both sides into which a pose is blended
   std::uint64_t revision;  // of the project, as the hand left it
   std::optional<Json> step{};
 };
@@ -127,13 +131,15 @@ class StageOfPages : public Stage {
 
   void orbit(PageNumber page, const Json& message) {
     PageView& view = seen_view_in(page, message);
-    const glm::dvec2 by = pair_in(message, "by");
     const std::size_t how = choice_in(message, "how", kOrbitKinds);
+    const glm::dvec2 by = how < 3 ? pair_in(message, "by") : glm::dvec2(0, 0);
     if (view.eye.from == From::camera)
       view.eye = {From::free, preview::orbit_near(flow_.camera_of(view), moments_.subject())};
     if (how == 0) turn(view.eye.orbit, by);
     if (how == 1) pan(view.eye.orbit, by, view.height);
     if (how == 2) zoom(view.eye.orbit, by, from_middle(message, view), view.height);
+    if (how == 3)
+      show_whole(view.eye.orbit, ball_of(project_, moments_, selected_by(page)), double(view.width) / view.height);
     view.framed = false;
     view.orbiting = flag_in(message, "moving", false);
     if (!view.orbiting) send_orbit(view);
@@ -202,6 +208,8 @@ class StageOfPages : public Stage {
     const auto handles = handles_in(view);
     const Handle* const handle = handle_at(handles, pixel);
     const Selection taken = handle != nullptr ? take(view, *handle, pixel) : take_what_is_at(view, pixel);
+    if (gesture_ && message.contains("falloff"))
+      gesture_->falloff = static_cast<std::uint32_t>(number_in(message, "falloff", 0, kMostFalloff));
     Json answer = {{"is", "grabbed"}, {"view", view.number}};
     put_names(project_, taken, answer);
     answer["handle"] = handle != nullptr ? Json(handle->id) : Json(nullptr);
@@ -230,12 +238,13 @@ class StageOfPages : public Stage {
   }
 
   void begin(const PageView& view, AnyHand hand) {
-    gesture_.emplace(Gesture{view.page, view.number, std::move(hand), project_.revision()});
+    gesture_.emplace(Gesture{view.page, view.number, std::move(hand), 0, project_.revision()});
   }
 
   void drag(PageNumber page, const Json& message) {
     if (!gesture_ || gesture_->page != page) return;
-    const auto step = followed(gesture_->hand, pixel_in(message), has_key(message, "shift"));
+    auto step = followed(gesture_->hand, pixel_in(message), has_key(message, "shift"));
+    if (step) step = blended(std::move(*step), gesture_->falloff);
     if (!step || step == gesture_->step) return;
     try {
       project_.preview(*step);

@@ -75,10 +75,16 @@ class Visit final : public Newcomer, public std::enable_shared_from_this<Visit<S
     if (!parser_->is_done()) return refuse({413, "A request has no body here.\n"});
     if (path_of(asked.target) != "/ws")
       return write(answer_file(site_.folder(), path_of(asked.target), asked.known), request.keep_alive());
-    if (!beast::websocket::is_upgrade(request)) return refuse({426, "This is for the page's WebSocket.\n"});
+    if (!beast::websocket::is_upgrade(request)) return refuse(for_no_socket(asked));
     if (const Refusal refusal = site_.gate().check_socket(asked); refusal.status != 0) return refuse(refusal);
     if (!site_.has_room()) return site_.wait_for_room(this->shared_from_this());
     answer(true);
+  }
+
+  // A page asks so why its WebSocket is refused.
+  Refusal for_no_socket(const Request& asked) const {
+    const Refusal refusal = site_.gate().check_token(asked);
+    return refusal.status != 0 ? refusal : Refusal{426, "This is for the page's WebSocket.\n"};
   }
 
   void refuse(const Refusal& refusal) {

@@ -66,6 +66,10 @@ Refusal Gate::check(const Request& request) const {
 Refusal Gate::check_socket(const Request& request) const {
   if (Refusal refusal = check(request); refusal.status != 0) return refusal;
   if (request.origin.empty()) return {403, "No Origin.\n"};
+  return check_token(request);
+}
+
+Refusal Gate::check_token(const Request& request) const {
   if (!same_token(token_, value_in(request.target, "token")))
     return {403, "The token is wrong: open the link that the studio printed last.\n"};
   return {};

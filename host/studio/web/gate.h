@@ -32,6 +32,8 @@ class Gate {
 
   // Any request.
   Refusal check(const Request& request) const;
+  // One that needs the token.
+  Refusal check_token(const Request& request) const;
   // One for the WebSocket.
   Refusal check_socket(const Request& request) const;
 

@@ -17,9 +17,9 @@ LONGEST = 12  # frames
 class RandomFilm:
     """`json`: the film. `commands`: words after `mars`, in which FILM stands for its file, that go on with it."""
 
-    def __init__(self, seed, largest=160):
+    def __init__(self, seed, largest=160, longest=LONGEST):
         self.random = random.Random(seed)
-        self.frames = self.random.randint(2, LONGEST)
+        self.frames = self.random.randint(2, longest)
         self.version = 1
         self.commands = []
         coded = self.chance(0.3)

@@ -65,6 +65,10 @@ class Cells:
                 of = self.sources.setdefault(part["source"], {})
                 of |= {(cell["row"], cell["kind"], cell["nodes"]): cell["ms"] for cell in part["cells"]}
 
+    def cells_of(self, source, kind):
+        """Milliseconds by row and nodes."""
+        return {(row, nodes): ms for (row, k, nodes), ms in self.sources[source].items() if k == kind}
+
     def ms(self, source, row, kind, nodes):
         return self.sources[source].get((row, kind, nodes))
 
@@ -74,16 +78,18 @@ class Cells:
     def nodes(self, kind):
         return sorted({nodes for of in self.sources.values() for _, k, nodes in of if k == kind})
 
+    def nodes_of(self, source, kind):
+        return sorted({nodes for _, nodes in self.cells_of(source, kind)})
+
     def best_nodes(self, source, row, kind):
         """The number of nodes that takes least; None if it has no cell there."""
-        of = {nodes: ms for (r, k, nodes), ms in self.sources[source].items() if (r, k) == (row, kind)}
+        of = {nodes: ms for (r, nodes), ms in self.cells_of(source, kind).items() if r == row}
         return min(of, key=of.get) if of else None
 
     def deviations(self, source, kind):
         """(source - thesis) / thesis of each cell that both have, by row and nodes."""
-        thesis = self.sources["thesis"]
-        return {(row, nodes): ms / thesis[row, kind, nodes] - 1
-                for (row, k, nodes), ms in self.sources[source].items() if k == kind and (row, k, nodes) in thesis}
+        thesis = self.cells_of("thesis", kind)
+        return {cell: ms / thesis[cell] - 1 for cell, ms in self.cells_of(source, kind).items() if cell in thesis}
 
     def median_error(self, source, kind):
         errors = [abs(deviation) for deviation in self.deviations(source, kind).values()]

@@ -70,10 +70,10 @@ def joint(name, parent, place, box, material, shape):
     return {"name": name, **link, "place": place, "segment": {"shape": shape, "sbb": box, "material": material}}
 
 
-def of_meshes(parts, polygons):
-    """A model of `parts` with `polygons` triangles in all, evenly shared out."""
+def of_meshes(parts, polygons, shape_of=slender):
+    """A model of `parts` with `polygons` triangles in all, evenly shared out. shape_of(box): rings to sides of a ring."""
     shares = even_shares(polygons, len(parts))
-    shapes = {name + "-mesh": limbs.mesh(share, slender(box)) for share, (name, _, _, box, _) in zip(shares, parts)}
+    shapes = {name + "-mesh": limbs.mesh(share, shape_of(box)) for share, (name, _, _, box, _) in zip(shares, parts)}
     return {"shapes": shapes, "joints": [joint(*part, part[0] + "-mesh") for part in parts]}
 
 

@@ -1,6 +1,7 @@
 """The tables as pages of Markdown and as one HTML page, from the cells of any number of sources."""
 import html
 
+import baselines
 import cells
 
 PREDICTS = "simulated-thesis"  # sources of this name show by how much they miss the thesis
@@ -65,10 +66,17 @@ def summary(table, kind):
     return " ".join(sentences)
 
 
+def sheets_of_kind(table, kind):
+    """A table of the thesis and, where a source predicts it, how well."""
+    predicting = [source for source in table.sources if source.startswith(PREDICTS) and table.deviations(source, kind)]
+    return [sheet_of(table, kind)] + ([baselines.sheet_of(table, kind, predicting)] if predicting else [])
+
+
 def sheets_of(parts):
     """All tables that any source but the thesis has."""
     tables = cells.beside_thesis(parts)
-    sheets = [sheet_of(cells.Cells(table, parts), kind) for table in tables for kind in cells.KINDS[table]]
+    sheets = [sheet for table in tables for kind in cells.KINDS[table]
+              for sheet in sheets_of_kind(cells.Cells(table, parts), kind)]
     if "4.3" in tables:
         sheets.append({"title": "Figure 4.12: nodes, polygons and milliseconds", "note": "Table 4.3, drawn.",
                        "picture": "figure-4.12", "page": "table-4.3", "header": [], "rows": []})

@@ -95,13 +95,13 @@ def one_figure(parts, pose, box, polygons, moving, cut, scale):
     return film(cut, {"figure": model}, [actor("figure", "figure", pose, names, cut)], corners(box, [0, 0, 0]), scale)
 
 
-def company(size, width):
+def company(size, width, shape_of=figures.slender):
     """The models of a film of table 4.3, its stage `width` wide, and the model of each body."""
     men, others, children = COMPANIES[size]
     kinds = {"man": (figures.MAN, MEN[0]), "other": (figures.MAN, MEN[1]),
              "child": (figures.scaled(figures.MAN, figures.CHILD), CHILD)}
     bodies = ["man"] * men + ["other"] * others + ["child"] * children
-    models = {name: figures.of_meshes(*kinds[name]) for name in dict.fromkeys(bodies)}
+    models = {name: figures.of_meshes(*kinds[name], shape_of) for name in dict.fromkeys(bodies)}
     return {"stage": figures.of_meshes(figures.stage(width, 2), STAGE), **models}, bodies
 
 
@@ -130,9 +130,9 @@ def table_43(size, cut, scale):
     return of_bodies(models, bodies, places, [0] * len(bodies), cut, figures.MAN_BOX, scale)
 
 
-def table_44(number, cut, scale):
+def table_44(number, cut, scale, shape_of=figures.slender):
     """Six bodies in two rows of the picture, each turned in its plane; all films have the same camera."""
-    models, bodies = company(ALIGNED_SIZE, 3 * CELL)
+    models, bodies = company(ALIGNED_SIZE, 3 * CELL, shape_of)
     places = [[CELL * column, 0, CELL * row] for row in (0, 1) for column in (-1, 0, 1)]
     half = CELL / 2
     return of_bodies(models, bodies, places, ALIGNMENTS[number], cut, [[-half, -0.3, -half], [half, 0.3, half]], scale)

@@ -68,12 +68,21 @@ ABOUT = ("The benchmark takes the thesis's \"data size\" as a number of polygons
          "simulation of the thesis's program; the percentages say by how much its cells differ from the thesis's.")
 
 
+def beside_thesis(found):
+    """The thesis's cells and those of `found`."""
+    return cells.load(cells.THESIS) + [part for part in found if "cells" in part]
+
+
+def sheets_beside_thesis(found):
+    """All tables of the page. `found`: objects of files of results."""
+    parts = beside_thesis(found)
+    return page.sheets_of(parts) + [part for part in found if "rows" in part] + page.parameters_of(parts)
+
+
 def write_results(wanted, measured):
     """`measured`: objects of a file of results."""
     found = measured + [part for file in wanted.beside for part in cells.load(file)]
-    parts = cells.load(cells.THESIS) + [part for part in found if "cells" in part]
-    sheets = page.sheets_of(parts) + [part for part in found if "rows" in part] + page.parameters_of(parts)
-    drawn = pictures.all_pictures(parts)
+    sheets, drawn = sheets_beside_thesis(found), pictures.all_pictures(beside_thesis(found))
     if pictures.pyplot is None:
         print("mars bench tables: no pictures, as Python's matplotlib is missing (./bootstrap bench)", file=sys.stderr)
     os.makedirs(wanted.output, exist_ok=True)

@@ -7,12 +7,14 @@ import html.parser
 import json
 import os
 import re
+import statistics
 import subprocess
 import sys
 import tempfile
 import unittest
 
 sys.path.append(os.path.join(os.path.dirname(__file__), "..", ".."))
+import baselines  # noqa: E402
 import cases  # noqa: E402
 import cells  # noqa: E402
 import figures  # noqa: E402
@@ -20,8 +22,10 @@ import limbs  # noqa: E402
 import page  # noqa: E402
 import scenes  # noqa: E402
 import studies  # noqa: E402
+import tables  # noqa: E402
 
 BUILD = sys.argv[1]
+RESULTS = os.path.join(os.path.dirname(__file__), "../../../docs/1992")
 MARS = os.path.join(BUILD, "bin", "mars")
 
 
@@ -101,6 +105,64 @@ class Thesis(unittest.TestCase):
     def test_the_best_numbers_of_nodes_are_those_that_the_thesis_names(self):
         best = lambda name, row: cells.Cells(name, self.parts).best_nodes("thesis", row, "keyframe")
         self.assertEqual((best("4.1", 1300), best("4.2", 1300), best("4.3", 165944)), (4, 8, 16))
+
+
+class Baselines(unittest.TestCase):
+    THESIS = {(1, 2): 40, (2, 2): 80, (1, 8): 10, (2, 8): 30, (3, 32): 5}
+
+    def test_predict_by_the_columns_mean_and_by_the_cell_of_8_nodes(self):
+        self.assertEqual(baselines.column_means(self.THESIS), {(1, 2): 60, (2, 2): 60, (1, 8): 20, (2, 8): 20, (3, 32): 5})
+        self.assertEqual(baselines.shared_out(self.THESIS), {(1, 2): 40, (2, 2): 120, (1, 8): 10, (2, 8): 30})
+
+    def test_errors_leave_out_where_predictions_start_and_rows_that_are_alone(self):
+        self.assertEqual(baselines.errors(baselines.shared_out(self.THESIS), self.THESIS), {(1, 2): 0, (2, 2): 0.5})
+
+    def test_r_squared_is_1_where_all_is_explained_and_0_as_the_mean(self):
+        def r_squared(predicted, nodes=2):
+            return baselines.r_squared(predicted, self.THESIS, nodes)
+        self.assertEqual(r_squared(self.THESIS), 1)
+        self.assertEqual(r_squared(baselines.column_means(self.THESIS)), 0)
+        self.assertEqual(r_squared(baselines.shared_out(self.THESIS)), 1 - 40**2 / (20**2 + 20**2))
+        self.assertIsNone(r_squared({(1, 2): 40}), "a row is missing")
+        self.assertIsNone(r_squared(self.THESIS, 32), "nothing varies")
+
+    def test_of_the_thesis_8_over_P_is_near_for_inbetweens_of_the_man_alone(self):
+        parts = cells.load(cells.THESIS)
+
+        def median(table, kind):
+            thesis = cells.Cells(table, parts).cells_of("thesis", kind)
+            return statistics.median(map(abs, baselines.errors(baselines.shared_out(thesis), thesis).values()))
+        self.assertAlmostEqual(median("4.2", "inbetween"), 0.053, delta=0.001)
+        for table, kind in (("4.1", "inbetween"), ("4.1", "keyframe"), ("4.2", "keyframe"), ("4.4", "keyframe")):
+            self.assertGreater(median(table, kind), 0.2, (table, kind))
+
+    def test_stand_beside_each_simulated_table(self):
+        sheets = tables.sheets_beside_thesis(cells.load(os.path.join(RESULTS, "simulated.json")))
+        for table in cells.TITLES:
+            for kind in cells.KINDS[table]:
+                place = next(k for k, sheet in enumerate(sheets) if sheet.get("picture") == f"table-{table}-{kind}s")
+                beside = sheets[place + 1]
+                self.assertEqual(beside["title"], f"Table {table}: {kind}s, beside naive predictions")
+                self.assertEqual([row[0] for row in beside["rows"]], ["simulated-thesis", *baselines.NAIVE])
+                for row in beside["rows"]:
+                    self.assertEqual(len(row), len(beside["header"]))
+                self.assertTrue(all(row[4:] == [0 if r is not None else None for r in row[4:]]
+                                    for row in beside["rows"] if row[0] == "the column's mean"))
+
+    def test_of_this_machine_alone_there_are_none(self):
+        sheets = tables.sheets_beside_thesis(cells.load(os.path.join(RESULTS, "results.json")))
+        self.assertFalse([sheet["title"] for sheet in sheets if "naive" in sheet["title"]])
+
+
+class Docs(unittest.TestCase):
+    def test_the_page_of_1992_is_what_the_tool_makes_of_its_files(self):
+        """But for pictures, which Matplotlib draws."""
+        found = [part for name in ("results", "simulated", "product")
+                 for part in cells.load(os.path.join(RESULTS, name + ".json"))]
+        with open(os.path.join(RESULTS, "tables.md")) as file:
+            shown = file.read()
+        drawn = dict.fromkeys(re.findall(r"^!\[.*\]\((.*)\.svg\)$", shown, re.M))
+        self.assertEqual(shown, page.markdown(tables.ABOUT, tables.sheets_beside_thesis(found), drawn))
 
 
 class TagCounter(html.parser.HTMLParser):

@@ -7,6 +7,7 @@ namespace {
 
 constexpr const char* kSteps = R"(
 {"commands": [["animate", "pose", "pip", "left-leg=10,0,0", "--frame", "3", "--clamp"]]}
+{"commands": [["animate", "pose", "pip", "left-leg=10,0,0", "--falloff", "3", "--frame", "3", "--clamp"]]}
 {"commands": [["animate", "pose", "pip", "hip=1,2,3", "head=0,0,9", "place=1,2,3", "turn=0,0,90", "--frame", "0", "--clamp"]]}
 {"commands": [["animate", "pose", "camera", "eye=5,5,5", "at=0,0,0", "fov=30", "--frame", "4", "--clamp"]]}
 {"commands": [["animate", "pose", "light/1", "direction=1,0,1", "color=1,0.5,0", "intensity=2", "--frame", "0"]]}

@@ -17,11 +17,11 @@ constexpr const char* kSteps = R"(
 {"commands": [["model", "set", "--material", "shirt", "--color", "0", "0", "1", "--name", "coat", "--reflection", "blinn-phong", "--exponent", "9", "--sides", "2", "--interpolation", "phong"]]}
 {"commands": [["model", "add", "--material", "gold", "--color", "1", "1", "0", "--reflection", "metallic-roughness", "--roughness", "0.3", "--metallic", "1"], ["model", "remove", "--material", "gold"]]}
 {"commands": [["model", "scale", "2", "--branch", "hip", "--height", "3"], ["model", "scale", "1", "1", "2", "--joint", "hip", "--no-ground"], ["model", "show"]]}
-{"commands": [["model", "new", "--figure", "box", "--height", "1"]]}
+{"commands": [["model", "new", "--figure", "box", "--height", "1", "--replace"]]}
 )";
 constexpr const char* kOthers = R"(
 {"commands": [["model", "point", "head", "--at", "1", "1", "--to", "0.5", "0.5", "0.5"]]}
-{"commands": [["model", "new", "--from", "../other.json"]]}
+{"commands": [["model", "new", "--from", "../other.json", "--replace"]]}
 )";
 
 }  // namespace

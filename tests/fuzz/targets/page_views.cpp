@@ -15,12 +15,14 @@ constexpr const char* kSound = R"(
 {"do": "view", "edit": 3, "view": 0, "width": 64, "height": 48, "from": "free", "as": "stick", "handles": "move"}
 {"do": "orbit", "edit": 4, "view": 0, "by": [30, -10], "how": "turn", "moving": true}
 {"do": "orbit", "edit": 5, "view": 0, "by": [3, 4], "how": "pan", "moving": false}
+{"do": "orbit", "edit": 6, "view": 1, "how": "selected", "moving": false}
 {"do": "orbit", "edit": 6, "view": 1, "by": [0, 120], "how": "zoom", "x": 10, "y": 20, "moving": true}
 {"do": "painted", "view": 0, "picture": 1}
 {"do": "hover", "view": 0, "x": 32, "y": 24}
 {"do": "select", "actor": "pip", "joint": "head"}
 {"do": "select", "actor": null, "joint": null}
 {"do": "grab", "edit": 7, "view": 0, "x": 32, "y": 24, "button": 0, "keys": ["shift"]}
+{"do": "grab", "edit": 7, "view": 0, "x": 32, "y": 24, "button": 0, "keys": ["shift"], "falloff": 8}
 {"do": "drag", "edit": 8, "x": 40, "y": 20, "keys": ["shift"]}
 {"do": "drag", "edit": 9, "x": 10, "y": 40, "keys": []}
 {"do": "drop", "edit": 10}

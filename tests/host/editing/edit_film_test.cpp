@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/host/content/document/failure_of.h"
 
 namespace mars::editing {
@@ -21,6 +23,18 @@ TEST(EditFilm, ObeysCommandsOneAfterTheOther) {
   for (const document::Json& key : film.at("camera").at("keys"))
     if (key.at("frame") == 9) found = key.at("fov") == 30;
   EXPECT_TRUE(found) << document::laid_out(film.at("camera"));
+}
+
+TEST(EditFilm, BlendsAPoseIntoTheFramesAround) {
+  document::Json film = document::read_json(kFilm);
+  const Command pose = {"animate", "pose", "camera", "fov+=9", "--frame", "7", "--falloff", "3"};
+  edit_film(film, kFilm, std::span(&pose, 1));
+  std::vector<std::uint32_t> frames;
+  for (const document::Json& key : film.at("camera").at("keys")) frames.push_back(key.at("frame"));
+  for (const std::uint32_t frame : {4u, 7u, 10u}) EXPECT_NE(std::ranges::find(frames, frame), frames.end()) << frame;
+  const Command none = {"animate", "pose", "camera", "fov+=9", "--frame", "7", "--falloff", "0"};
+  EXPECT_NE(document::failure_of([&] { edit_film(film, kFilm, std::span(&none, 1)); }).find("--falloff"),
+            std::string::npos);
 }
 
 TEST(EditFilm, DoesAllOrNothing) {
@@ -48,6 +62,18 @@ TEST(EditFilm, ExplainsWordsThatItDoesNotKnow) {
   EXPECT_NE(failure_of({"animate"}), "");
   EXPECT_NE(failure_of({"animate", "--help"}).find("asks for help"), std::string::npos);
   EXPECT_NE(failure_of({"animate", "walk", "robot", "--help"}).find("asks for help"), std::string::npos);
+}
+
+TEST(EditFilm, TellsTheFilmsLength) {
+  document::Json film = document::read_json(kFilm);
+  const std::string before = film.at("frames").dump();
+  const auto report_of = [&](const Command& command) { return edit_film(film, kFilm, std::span(&command, 1)).report; };
+  EXPECT_EQ(report_of({"animate", "pose", "camera", "fov=30", "--frame", "500"}),
+            "the last key is at frame 500; the film shows only its " + before +
+                " frames: --lengthen, or set its frames to 501\n");
+  EXPECT_EQ(report_of({"animate", "pose", "camera", "fov=31", "--frame", "500", "--lengthen"}),
+            "the film has 501 frames now, not " + before + "\n");
+  EXPECT_EQ(report_of({"animate", "pose", "camera", "fov=32", "--frame", "500", "--lengthen"}), "");
 }
 
 TEST(EditFilm, ReducesNoKeysOfLights) {

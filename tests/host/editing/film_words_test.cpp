@@ -56,6 +56,31 @@ TEST_F(FilmWords, AddActors) {
   EXPECT_NE(failure({"add", "bob", "--model", "tim", "--height", "3"}).find("leave --height out"), std::string::npos);
 }
 
+// None stands in another, on whatever floor and however it is turned.
+TEST_F(FilmWords, AddActorsBesideOthers) {
+  film({"add", "floor", "--model", "floor"});
+  for (const char* name : {"tom", "anna"}) film({"add", name, "--model", "man", "--beside", "0"});
+  EXPECT_FALSE(actor(1).contains("place"));
+  const double anna = actor(2)["place"][1];
+  EXPECT_GT(anna, 1.4);
+  EXPECT_LT(anna, 4);
+  film({"add", "ball", "--model", "ball", "--beside", "0"});
+  EXPECT_GT(actor(3)["place"][1].get<double>(), anna + 0.5);
+  EXPECT_EQ(actor(3)["place"][2], 0.275);
+  film({"add", "second-floor", "--model", "floor", "--beside", "0"});
+  EXPECT_FALSE(actor(4).contains("place"));
+  actor(1)["keys"] = document::Json::parse(R"([{"frame": 0, "place": [0, 0, 0]}, {"frame": 40, "place": [40, 0, 0]}])");
+  film({"add", "late", "--model", "man", "--beside", "40"});
+  EXPECT_FALSE(actor(5).contains("place")) << "tom has gone by then";
+  json_["models"]["hall"] = document::Json::parse(R"({"joints": [
+    {"name": "ground", "limits": {}, "segment": {"shape": "box", "sbb": [[-20, -20, -0.5], [20, 20, 0]]}},
+    {"name": "wall", "limits": {}, "segment": {"shape": "box", "sbb": [[-20, -20, 0], [-19, 20, 9]]}}]})");
+  film({"add", "hall", "--model", "hall", "--beside", "0"});
+  EXPECT_FALSE(actor(6).contains("place")) << "all stand between its walls";
+  EXPECT_NE(failure({"add", "x", "--model", "man", "--beside", "0", "--place", "1", "2", "3"}).find("--place"),
+            std::string::npos);
+}
+
 TEST_F(FilmWords, RemoveAndRenameActorsWithWhatNamesThem) {
   film({"add", "tom", "--model", "man"});
   film({"add", "ball", "--model", "ball"});

@@ -125,6 +125,26 @@ TEST_F(Platforms, OfABusyMachineAreDoubted) {
   EXPECT_TRUE(holds(doubt_text(read("small:busy")), "small:busy was measured on a machine that was too busy: repeats"));
 }
 
+TEST_F(Platforms, KeepTheSpreadOfForecasts) {
+  Calibration calibration;
+  calibration.work.assign(wire::kWorkNames.size(), 1e-9);
+  calibration.copy_rate = 1e10;
+  calibration.spread = {{1, false, 0.9, 1.05, 1.25}, {2, true, 0.8, 1, 1.5}};
+  EXPECT_TRUE(holds(table_text(calibration), "80 %         100 %         150 %"));
+  document::write_whole_file(folder_ / "tried.json",
+                             platform_text(calibration, {1e-6, 2e9, 3e-7}, {"tried", "made up", 6, 1 << 30}));
+  EXPECT_EQ(read("tried").spread, calibration.spread);
+  add("small", R"({"pixel": 2e-9})");
+  EXPECT_TRUE(read("small").spread.empty()) << "as files of before have none";
+  EXPECT_TRUE(read("tried:small").spread.empty() && read("small:tried").spread.empty()) << "neither was tried";
+}
+
+TEST_F(Platforms, RefuseASpreadOutOfOrder) {
+  const std::string spread = R"({}, "spread": [{"nodes": 1, "low": 1.2, "middle": 1.1, "high": 1.3}])";
+  add("small", spread);
+  EXPECT_TRUE(holds(failure_of([&] { read("small"); }), "spread[0]: is not in order"));
+}
+
 TEST_F(Platforms, LikeThisMachineHaveItsProcessors) {
   add("small", R"({"pixel": 2e-9})");
   const Platform platform = like_here("small", folder_.path(), 12);

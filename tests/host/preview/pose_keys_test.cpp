@@ -98,7 +98,7 @@ TEST_F(Posing, KeysAreThoseOfTheCommand) {
   EXPECT_FALSE(keys.under_way());
   film::change_film(other_, [](document::Json& json, const animator::Film& meaning) {
     const std::vector<std::string> settings{"stem.x=-10", "arm.y=55"};
-    animator::pose(json, meaning, "lamp", settings, {10, 10}, std::nullopt, animator::Beyond::refused);
+    animator::pose(json, meaning, "lamp", settings, {10, 10}, {});
   });
   EXPECT_EQ(document::read_file(path_), document::read_file(other_));
   EXPECT_EQ(press(keys, "\r"), "lamp arm  y 55 (0..150)  no joint has been turned");

@@ -118,11 +118,44 @@ Ease rounded_curve(const Ease& ease) {
 }
 
 void split_ease(TrackKey& before, std::uint32_t next, TrackKey& key) {
+  if (before.ease.hold) {
+    key.ease = kHold;
+    return;
+  }
   const double time = double(key.frame - before.frame) / double(next - before.frame);
   if (const auto halves = split(before.ease, time)) {
     before.ease = rounded_curve(halves->first);
     key.ease = rounded_curve(halves->second);
   }
+}
+
+// Of a part as it is at the frame.
+document::Json key_there(const std::string& thing, const KeyedPart& part, std::uint32_t frame, Beyond beyond,
+                         Remarks& remarks) {
+  document::Json value = part.key_at(frame);
+  return part.joint ? written(within_limits(thing, *part.joint, vector_of(value), beyond, remarks)) : value;
+}
+
+// A choice of all makes no keys where nothing is keyed but of actors.
+bool keyable(const Chosen& one, const std::string& part, const Tracks& tracks, const Choice& choice) {
+  if (part == "attach" && !tracks.contains(part)) return false;
+  if (const modeler::Joint* joint = one.thing.part(part).joint) return joint->freedoms() != 0;
+  return !choice.all || one.thing.actor || tracks.contains(part);
+}
+
+// Changes by `make(thing's name, part, track)` the tracks of chosen parts, also of those that have no key yet.
+template <typename Make>
+Remarks key_parts(document::Json& film, const Film& meaning, const Choice& choice, Make make) {
+  std::vector<Chosen> chosen = choose(film, meaning, choice);
+  std::vector<Tracks> changed;
+  for (const Chosen& one : chosen) {
+    Tracks& tracks = changed.emplace_back(tracks_of(*one.thing.json));
+    for (const std::string& part : one.parts)
+      if (keyable(one, part, tracks, choice)) make(one.thing.name, one.thing.part(part), tracks[part]);
+  }
+  Remarks remarks = left_out(meaning, choice);
+  for (std::size_t i = 0; i < chosen.size(); ++i) append(remarks, put(chosen[i], changed[i]));
+  return remarks;
 }
 
 }  // namespace
@@ -134,6 +167,8 @@ void split_way(Track& track, std::uint32_t frame, document::Json value) {
     return;
   }
   TrackKey key{frame, std::move(value), kLinear};
+  if (next != track.begin()) keep_slopes(track, std::prev(next)->frame);
+  if (next != track.end()) keep_slopes(track, next->frame);
   if (next != track.begin() && next != track.end()) {
     TrackKey& before = *std::prev(next);
     before.ease.spline ? split_spline(track, static_cast<std::size_t>(next - track.begin()) - 1, key)
@@ -151,23 +186,33 @@ Remarks put(const Chosen& chosen, const Tracks& tracks) {
 
 Remarks make_keys(document::Json& film, const Film& meaning, const Choice& choice, std::uint32_t frame,
                   const std::optional<Ease>& ease, Beyond beyond) {
-  std::vector<Chosen> chosen = choose(film, meaning, choice);
-  std::vector<Tracks> changed;
-  Remarks remarks = left_out(meaning, choice);
-  for (const Chosen& one : chosen) {
-    Tracks& tracks = changed.emplace_back(tracks_of(*one.thing.json));
-    for (const std::string& name : one.parts) {
-      const KeyedPart& part = one.thing.part(name);
-      if (part.joint ? part.joint->freedoms() == 0 : choice.all && !one.thing.actor && !tracks.contains(name)) continue;
-      if (name == "attach" && !tracks.contains(name)) continue;
-      document::Json value = part.key_at(frame);
-      if (part.joint) value = written(within_limits(one.thing.name, *part.joint, vector_of(value), beyond, remarks));
-      split_way(tracks[name], frame, std::move(value));
-    }
-    if (ease) set_ease(tracks, {one.parts.begin(), one.parts.end()}, frame, *ease);
-  }
-  for (std::size_t i = 0; i < chosen.size(); ++i) append(remarks, put(chosen[i], changed[i]));
-  return remarks;
+  Remarks clamped;
+  Remarks remarks =
+      key_parts(film, meaning, choice, [&](const std::string& thing, const KeyedPart& part, Track& track) {
+        split_way(track, frame, key_there(thing, part, frame, beyond, clamped));
+        if (ease) set_ease(*key_at(track, frame), *ease);
+      });
+  append(clamped, remarks);
+  return clamped;
+}
+
+Remarks cut(document::Json& film, const Film& meaning, const Choice& choice, std::uint32_t frame) {
+  if (frame == 0) throw Failure("has nothing before it", "frame 0", "cut at a later frame");
+  Remarks none;
+  return key_parts(film, meaning, choice, [&](const std::string& thing, const KeyedPart& part, Track& track) {
+    if (part.name == "attach") return;  // holds anyway
+    const auto there = [&](std::uint32_t at) { return key_there(thing, part, at, Beyond::refused, none); };
+    const auto later = std::ranges::find_if(track, [&](const TrackKey& key) { return key.frame >= frame; });
+    const bool holds = later != track.begin() && (std::prev(later)->ease.hold || !leads_on(track, *std::prev(later)));
+    const std::uint32_t last = holds ? std::prev(later)->frame : later == track.begin() ? 0 : frame - 1;
+    if (!holds) split_way(track, last, there(last));
+    split_way(track, frame, there(frame));
+    keep_slopes(track, last);
+    keep_slopes(track, frame);
+    TrackKey& stays = *key_at(track, last);
+    set_ease(stays, kHold);
+    stays.out = key_at(track, frame)->in = nullptr;
+  });
 }
 
 Remarks move_keys(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range, std::uint32_t to) {
@@ -188,8 +233,7 @@ Remarks ease_keys(document::Json& film, const Film& meaning, const Choice& choic
     bool any = false;
     for (TrackKey& key : track)
       if (range.holds(key.frame)) {
-        key.ease = ease;
-        key.own_ease = true;
+        set_ease(key, ease);
         any = true;
       }
     return any;
@@ -203,10 +247,7 @@ Remarks hold(document::Json& film, const Film& meaning, const Choice& choice, st
     const bool moves_there = track.front().frame <= frame && frame < track.back().frame;
     if (moves_there) {
       const KeyedPart& part = one.thing.part(name);
-      document::Json value = part.key_at(frame);
-      if (part.joint)
-        value = written(within_limits(one.thing.name, *part.joint, vector_of(value), Beyond::refused, none));
-      split_way(track, frame, std::move(value));
+      split_way(track, frame, key_there(one.thing.name, part, frame, Beyond::refused, none));
       keep_slopes(track, frame);
     }
     remap(track, one.thing.name, [&](std::uint32_t f) { return std::int64_t{f} + (f > frame ? frames : 0); });

@@ -26,6 +26,10 @@ Remarks make_keys(document::Json& film, const Film& meaning, const Choice& choic
                   const std::optional<Ease>& ease, Beyond beyond);
 
 // The keys in the range go, or go also, to where its first frame is `to`; keys that stand there give way.
+// From the frame on the chosen parts may be elsewhere at once: before it all moves as it did, and what is then set
+// there is a jump. Keys at the frame, and before it ones that hold.
+Remarks cut(document::Json& film, const Film& meaning, const Choice& choice, std::uint32_t frame);
+
 Remarks move_keys(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range, std::uint32_t to);
 Remarks copy_keys(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range, std::uint32_t to);
 // A part without any key left is what it is without keys.

@@ -10,6 +10,7 @@
 #include "host/content/animator/pose/attachments.h"
 #include "host/content/animator/keys/edit.h"
 #include "host/content/animator/keys/frame_words.h"
+#include "host/content/animator/keys/pops.h"
 #include "host/content/animator/keys/set_key.h"
 #include "host/content/animator/keys/tracks.h"
 #include "host/content/animator/keys/written.h"
@@ -17,6 +18,8 @@
 
 namespace mars::animator {
 namespace {
+
+constexpr double kNoChange = 1e-7;  // of a number: less is what nine digits leave out
 
 double number_after(const PartSetting& setting, std::size_t axis, double now) {
   if (!setting.numbers[axis]) return now;
@@ -56,27 +59,38 @@ Ease ease_there(const Track& track, std::uint32_t frame) {
   return kLinear;
 }
 
+// From a key's value to another: its numbers. Of a point that goes along with an actor none.
+std::array<double, 3> change_between(const document::Json& from, const document::Json& to) {
+  std::array<double, 3> change{};
+  if (from.is_number() && to.is_number()) change[0] = to.get<double>() - from.get<double>();
+  if (from.is_array() && to.is_array())
+    for (std::size_t axis = 0; axis < from.size(); ++axis)
+      change[axis] = to[axis].get<double>() - from[axis].get<double>();
+  return change;
+}
+
 // Gathers settings of one thing, then makes them its keys.
 class Posing {
  public:
-  Posing(document::Json& film, const Film& meaning, const std::string& name, const std::optional<Ease>& ease,
-         Beyond beyond)
+  Posing(document::Json& film, const Film& meaning, const std::string& name, const PoseManner& manner)
       : chosen_(std::move(choose(film, meaning, {false, name, {}}).front())),
-        tracks_(tracks_of(*chosen_.thing.json)),
-        ease_(ease),
-        beyond_(beyond) {}
+        before_(tracks_of(*chosen_.thing.json)),
+        tracks_(before_),
+        last_frame_(meaning.frames - 1),
+        manner_(manner) {}
 
   const Thing& thing() const { return chosen_.thing; }
 
   void set(const PartSetting& setting, std::uint32_t frame) {
     const KeyedPart& part = thing().part(setting.part);
     Track& track = tracks_[part.name];
+    touch(part, {frame, frame});
     if (track.empty() && frame > 0 && !part.unset) track.push_back({0, part.key_at(0), kLinear});
     TrackKey* key = key_at(track, frame);
     // A second setting for the part keeps what the first one set.
-    const bool again = !touched_.insert(part.name).second;
+    const bool again = !set_.insert(part.name).second;
     const document::Json now = again ? key->value : setting.relative ? part.key_at(frame) : part.value_at(frame);
-    document::Json value = value_after(setting, thing(), now, beyond_, remarks_);
+    document::Json value = value_after(setting, thing(), now, manner_.beyond, remarks_);
     if (key != nullptr)
       key->value = std::move(value);
     else
@@ -88,33 +102,86 @@ class Posing {
   bool turn_keys(const PartSetting& setting, FrameRange range) {
     const auto track = tracks_.find(setting.part);
     if (track == tracks_.end()) return false;
-    bool any = false;
+    const auto held = [&](const TrackKey& key) { return range.holds(key.frame); };
+    const Track& keys = track->second;
+    const auto first = std::find_if(keys.begin(), keys.end(), held);
+    if (first == keys.end()) return false;
+    touch(thing().part(setting.part), {first->frame, std::find_if(keys.rbegin(), keys.rend(), held)->frame});
     for (TrackKey& key : track->second) {
       if (!range.holds(key.frame)) continue;
-      key.value = value_after(setting, thing(), key.value, beyond_, remarks_);
+      key.value = value_after(setting, thing(), key.value, manner_.beyond, remarks_);
       frames_.insert(key.frame);
-      any = true;
     }
-    if (any) touched_.insert(setting.part);
-    return any;
+    return true;
   }
 
   Remarks put() {
+    std::set<std::string> parts;
+    for (const auto& [part, range] : touched_) {
+      parts.insert(part);
+      manner_.falloff > 0 ? blend(part, range) : find_pops(part, range);
+    }
     for (const std::uint32_t frame : frames_)
-      if (ease_) set_ease(tracks_, touched_, frame, *ease_);
-    chosen_.parts.assign(touched_.begin(), touched_.end());
+      if (manner_.ease) set_ease(tracks_, parts, frame, *manner_.ease);
+    if (const std::string remark = remark_of(thing().name, pops_); !remark.empty()) remarks_.push_back(remark);
+    chosen_.parts.assign(parts.begin(), parts.end());
     const Remarks more = animator::put(chosen_, tracks_);
     remarks_.insert(remarks_.end(), more.begin(), more.end());
     return std::move(remarks_);
   }
 
  private:
+  // Before its first change. Keys where its blend ends keep what is beyond them as it is.
+  void touch(const KeyedPart& part, FrameRange range) {
+    if (!touched_.emplace(part.name, range).second || manner_.falloff == 0) return;
+    const auto hold = [&](std::uint32_t frame) { split_way(tracks_[part.name], frame, part.key_at(frame)); };
+    hold(range.first - std::min(range.first, manner_.falloff));
+    if (range.last + manner_.falloff <= last_frame_) hold(range.last + manner_.falloff);
+  }
+
+  // The keys beside the range change with its end, the less the farther they are from it.
+  void blend(const std::string& part, FrameRange range) {
+    Track& track = tracks_[part];
+    const auto change_at = [&](std::uint32_t frame) {
+      return change_between(thing().part(part).value_at(frame), key_at(track, frame)->value);
+    };
+    const std::array<double, 3> at_first = change_at(range.first), at_last = change_at(range.last);
+    Remarks clamped;
+    for (TrackKey& key : track) {
+      if (range.holds(key.frame)) continue;
+      const bool earlier = key.frame < range.first;
+      const std::uint32_t away = earlier ? range.first - key.frame : key.frame - range.last;
+      if (away < manner_.falloff) change(key, part, earlier ? at_first : at_last, share_at(away), clamped);
+    }
+    if (clamped.size() > 1) clamped.front() += ", and so " + document::counted(clamped.size() - 1, "other number");
+    if (!clamped.empty()) remarks_.push_back(clamped.front());
+  }
+
+  double share_at(std::uint32_t away) const {
+    const double near = 1 - double(away) / manner_.falloff;
+    return near * near * (3 - 2 * near);
+  }
+
+  void change(TrackKey& key, const std::string& part, const std::array<double, 3>& by, double share, Remarks& remarks) {
+    PartSetting setting{part, {}, true};
+    for (std::size_t axis = 0; axis < by.size(); ++axis)
+      if (std::abs(by[axis]) > kNoChange) setting.numbers[axis] = share * by[axis];
+    key.value = value_after(setting, thing(), key.value, manner_.beyond, remarks);
+  }
+
+  void find_pops(const std::string& part, FrameRange range) {
+    if (range.first != range.last) return;
+    if (const auto pop = pop_at(thing().part(part), before_[part], tracks_[part], range.first)) pops_.push_back(*pop);
+  }
+
   Chosen chosen_;
-  Tracks tracks_;
-  const std::optional<Ease>& ease_;
-  Beyond beyond_;
-  std::set<std::string> touched_;
+  Tracks before_, tracks_;
+  std::uint32_t last_frame_;  // of the film
+  const PoseManner& manner_;
+  std::map<std::string, FrameRange> touched_;  // parts, and of each where its keys are set
+  std::set<std::string> set_;                  // parts
   std::set<std::uint32_t> frames_;
+  std::vector<Pop> pops_;
   Remarks remarks_;
 };
 
@@ -159,8 +226,8 @@ void show_key(Actor& actor, const modeler::Model& model, const std::string& part
 }  // namespace
 
 Remarks pose(document::Json& film, const Film& meaning, const std::string& name, std::span<const PartSetting> settings,
-             std::uint32_t frame, const std::optional<Ease>& ease, Beyond beyond) {
-  Posing posing(film, meaning, name, ease, beyond);
+             std::uint32_t frame, const PoseManner& manner) {
+  Posing posing(film, meaning, name, manner);
   for (const PartSetting& setting : settings) posing.set(setting, frame);
   Remarks remarks = posing.put();
   remark_carried(meaning, name, settings, frame, remarks);
@@ -168,8 +235,8 @@ Remarks pose(document::Json& film, const Film& meaning, const std::string& name,
 }
 
 Remarks pose(document::Json& film, const Film& meaning, const std::string& name, std::span<const std::string> settings,
-             FrameRange range, const std::optional<Ease>& ease, Beyond beyond) {
-  Posing posing(film, meaning, name, ease, beyond);
+             FrameRange range, const PoseManner& manner) {
+  Posing posing(film, meaning, name, manner);
   std::set<std::pair<std::string, int>> set;
   std::vector<PartSetting> all;
   for (const std::string& text : settings) {

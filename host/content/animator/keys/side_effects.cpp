@@ -13,7 +13,7 @@
 namespace mars::animator {
 namespace {
 
-constexpr double kNothing = 0.01;  // degrees
+constexpr double kNoTurn = 0.01;  // degrees
 constexpr int kMostKeysShown = 3;
 
 // From key to key, as its numbers say.
@@ -54,12 +54,12 @@ std::string other_way(const modeler::Joint& joint, const Way& way) {
     forward[axis] = std::copysign(1, change[axis]);
     const Turn step = turn_between(start, modeler::orientation(joint, way.start() + forward));
     const double done = glm::dot(turn.axis, step.axis) < 0 ? -degrees : degrees;
-    if (std::abs(done - std::abs(change[axis])) < kNothing) return "";
-    if (degrees > kNothing) return "goes " + degrees_text(degrees) + (done < 0 ? " back" : " on");
+    if (std::abs(done - std::abs(change[axis])) < kNoTurn) return "";
+    if (degrees > kNoTurn) return "goes " + degrees_text(degrees) + (done < 0 ? " back" : " on");
   } else if (largest(change) <= 180) {
     return "";
   }
-  return degrees > kNothing ? "goes only " + degrees_text(degrees) : "does not turn";
+  return degrees > kNoTurn ? "goes only " + degrees_text(degrees) : "does not turn";
 }
 
 std::string asked_of(const glm::dvec3& change) {
@@ -101,7 +101,7 @@ std::string way_round(const Thing& thing, const std::string& part, const Way& wa
 
 bool same_orientation(const modeler::Joint& joint, const document::Json& a, const document::Json& b) {
   return turn_between(modeler::orientation(joint, vector_of(a)), modeler::orientation(joint, vector_of(b))).angle <
-         kNothing * modeler::kDegree;
+         kNoTurn * modeler::kDegree;
 }
 
 // Whether the way went as it goes now: between the same keys, or as a part of a way that went so.
@@ -122,7 +122,7 @@ void find_other_ways(const Thing& thing, const KeyedPart& part, const Track& bef
                      std::vector<std::string>& lines) {
   for (std::size_t i = 0; i + 1 < after.size(); ++i) {
     const Way way{after[i], after[i + 1]};
-    if (way.from.ease.spline) continue;  // goes as its numbers say
+    if (way.from.ease.spline || way.from.ease.hold) continue;  // goes as its numbers say
     if (largest(way.change()) < 180) continue;
     const std::string goes = other_way(*part.turns, way);
     if (goes.empty() || went_so(part, way, before)) continue;

@@ -22,9 +22,9 @@ void set_slope(Track& track, std::size_t key, Slope slope, const PartSetting& se
   glm::dvec3 numbers = numbers_of(now.is_null() ? own_slope(track, key) : now);
   for (int axis = 0; axis < 3; ++axis) numbers[axis] = setting.numbers[axis].value_or(numbers[axis]);
   now = shaped_like(track[key].value, numbers);
-  // A slope counts on splines alone.
+  // A slope counts on splines alone; what jumps to the key goes on doing so.
   if (slope == &TrackKey::out) track[key].ease = kSpline;
-  if (slope == &TrackKey::in && key > 0) track[key - 1].ease = kSpline;
+  if (slope == &TrackKey::in && key > 0 && !track[key - 1].ease.hold) track[key - 1].ease = kSpline;
 }
 
 // Of several axes, those that are not set keep their slopes.

@@ -76,7 +76,6 @@ void split_spline(Track& track, std::size_t from, TrackKey& key) {
   const Near found = near(track, from);
   if (!has_numbers(found)) return;
   key.in = key.out = shaped_like(key.value, spline_slope_at(found.keys, {found.key, found.key + 1, time}));
-  for (const std::size_t end : {from, from + 1}) keep_slopes_at(track, end);
 }
 
 void scale_slopes(Track& track, std::uint32_t first, std::uint32_t last, double factor) {

@@ -20,7 +20,8 @@ document::Json own_slope(const Track& track, std::size_t key);
 // whatever its neighbours become. Points of actors, which are elsewhere in every frame, get none.
 void keep_slopes(Track& track, std::uint32_t frame);
 
-// `key` is to stand on the spline from track[from] to the next key: the cubic becomes two, with the slopes that it has.
+// `key` is to stand on the spline from track[from] to the next key, which have slopes of their own: the cubic becomes
+// two, with the slopes that it has.
 // Not between points of actors.
 void split_spline(Track& track, std::size_t from, TrackKey& key);
 

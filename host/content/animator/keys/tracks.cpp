@@ -15,12 +15,6 @@ bool before(const TrackKey& key, std::uint32_t frame) { return key.frame < frame
 // What carries an actor stays from key to key: it has no ease.
 bool has_ease(const std::string& part) { return part != "attach"; }
 
-// Whether anything changes on the way to the next key.
-bool leads_on(const Track& track, const TrackKey& key) {
-  const TrackKey* next = &key + 1;
-  return next != track.data() + track.size() && (next->value != key.value || key.ease.spline);
-}
-
 // That of the key as it was, while any part that leads on goes by it; else that of most. Where none leads on, all
 // count.
 Ease common_ease(const Tracks& tracks, const Held& held, const document::Json& old) {
@@ -157,6 +151,11 @@ void put_tracks(document::Json& thing, const Tracks& tracks) {
   keys.empty() ? void(thing.erase("keys")) : void(thing["keys"] = std::move(keys));
 }
 
+bool leads_on(const Track& track, const TrackKey& key) {
+  const TrackKey* next = &key + 1;
+  return next != track.data() + track.size() && (next->value != key.value || key.ease.spline);
+}
+
 TrackKey* key_at(Track& track, std::uint32_t frame) {
   const auto found = std::lower_bound(track.begin(), track.end(), frame, before);
   return found != track.end() && found->frame == frame ? &*found : nullptr;
@@ -170,13 +169,15 @@ void put_key(Track& track, TrackKey key) {
     track.insert(place, std::move(key));
 }
 
+void set_ease(TrackKey& key, const Ease& ease) {
+  key.ease = ease;
+  key.own_ease = true;
+}
+
 void set_ease(Tracks& tracks, const std::set<std::string>& parts, std::uint32_t frame, const Ease& ease) {
   for (const std::string& part : parts)
     if (const auto track = tracks.find(part); track != tracks.end())
-      if (TrackKey* key = key_at(track->second, frame)) {
-        key->ease = ease;
-        key->own_ease = true;
-      }
+      if (TrackKey* key = key_at(track->second, frame)) set_ease(*key, ease);
 }
 
 std::string shown_part(const std::string& part) { return part[0] == '/' ? part.substr(1) : part; }

@@ -33,13 +33,17 @@ Tracks tracks_of(const document::Json& thing, const std::vector<std::string>& pa
 // key keeps the one it has, if any part that moves on goes by it, else has that of most; the others have their own.
 void put_tracks(document::Json& thing, const Tracks& tracks);
 
+// Whether anything changes from the track's key to the next.
+bool leads_on(const Track& track, const TrackKey& key);
+
 // The key at the frame; null if there is none.
 TrackKey* key_at(Track& track, std::uint32_t frame);
 
 // Puts a key in its place, instead of one at its frame.
 void put_key(Track& track, TrackKey key);
 
-// Gives the parts' keys at the frame an ease of their own.
+// Gives the key an ease of its own; and the parts' keys at the frame.
+void set_ease(TrackKey& key, const Ease& ease);
 void set_ease(Tracks& tracks, const std::set<std::string>& parts, std::uint32_t frame, const Ease& ease);
 
 // As people name a part: joints without the slash.

@@ -1,18 +1,8 @@
 #include "host/content/animator/keys/written.h"
 
-#include <array>
 #include <cmath>
-#include <string_view>
-#include <utility>
 
 namespace mars::animator {
-namespace {
-
-constexpr std::array<std::pair<std::string_view, Ease>, 5> kNamed = {
-    {{"linear", kLinear}, {"in", kIn}, {"out", kOut}, {"both", kBoth}, {"spline", kSpline}}};
-
-}  // namespace
-
 document::Json written(double number) {
   if (number == std::floor(number) && std::abs(number) < 1e15) return static_cast<std::int64_t>(number);
   return number;
@@ -36,7 +26,7 @@ document::Json written(const Point& point, const Film& film) {
 }
 
 document::Json written(const Ease& ease) {
-  for (const auto& [name, known] : kNamed)
+  for (const auto& [name, known] : kNamedEases)
     if (ease == known) return name;
   return document::Json::array({written(ease.x1), written(ease.y1), written(ease.x2), written(ease.y2)});
 }
@@ -45,7 +35,7 @@ Ease ease_of(const document::Json& key) {
   const auto found = key.find("ease");
   if (found == key.end()) return kLinear;
   if (found->is_array()) return {found->at(0), found->at(1), found->at(2), found->at(3)};
-  for (const auto& [name, known] : kNamed)
+  for (const auto& [name, known] : kNamedEases)
     if (*found == name) return known;
   return kLinear;
 }

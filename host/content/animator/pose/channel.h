@@ -1,6 +1,6 @@
 // One thing that changes over a film's frames: a place, a pose of a joint, a field of view. Keys in ascending
 // frames; before the first and after the last it holds. A key's ease rules the way to the next key: straight on by its
-// timing, or by a spline, a cubic curve with a slope at each of the two keys.
+// timing, or by a spline, a cubic curve with a slope at each of the two keys; or nothing moves until the next key.
 #pragma once
 
 #include <algorithm>
@@ -46,17 +46,19 @@ Stretch stretch_at(const Channel<Value>& channel, std::uint32_t frame) {
   const auto next = static_cast<std::size_t>(later - channel.begin());
   if (next == 0) return {0, 0, 0};
   const Key<Value>& from = channel[next - 1];
-  if (next == channel.size() || from.frame == frame) return {next - 1, next - 1, 0};
+  if (next == channel.size() || from.frame == frame || from.ease.hold) return {next - 1, next - 1, 0};
   const double time = double(frame - from.frame) / double(later->frame - from.frame);
   return {next - 1, next, eased(from.ease, time)};
 }
 
 // Of a spline at a key that has no slope of its own: from the key before to the key after (Catmull and Rom 1974, for
-// keys that are not evenly spaced); at the first and the last key to its only neighbour.
+// keys that are not evenly spaced); at the first and the last key, and where the value jumps, to its only neighbour.
 template <typename Value>
 Value slope_at(const Channel<Value>& channel, std::size_t key) {
-  const Key<Value>& before = channel[key == 0 ? 0 : key - 1];
-  const Key<Value>& after = channel[key + 1 == channel.size() ? key : key + 1];
+  const bool begins = key == 0 || channel[key - 1].ease.hold,
+             ends = key + 1 == channel.size() || channel[key].ease.hold;
+  const Key<Value>& before = channel[begins ? key : key - 1];
+  const Key<Value>& after = channel[ends ? key : key + 1];
   if (before.frame == after.frame) return before.value - before.value;
   return (1.0 / double(after.frame - before.frame)) * (after.value - before.value);
 }
@@ -85,7 +87,7 @@ Value spline_slope_at(const Channel<Value>& channel, const Stretch& stretch) {
          ((3 * t - 2) * t) * reach;
 }
 
-// Whether anything changes on the way from the key to the next: a spline may leave a value and come back to it.
+// Whether anything changes from the key to the next: a spline may leave a value and come back to it.
 template <typename Value>
 bool moves_after(const Channel<Value>& channel, std::size_t key) {
   if (key + 1 >= channel.size()) return false;

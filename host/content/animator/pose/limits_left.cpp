@@ -126,7 +126,7 @@ class Search {
   // The pose of a key itself keeps the limits.
   void search_after(std::size_t key) {
     const glm::dvec3 &from = poses_[key].value, &to = poses_[key + 1].value;
-    if (poses_[key].ease.spline || from == to) return;
+    if (poses_[key].ease.spline || poses_[key].ease.hold || from == to) return;
     bounded_ = square(joint_) && steady(poses_[key].ease);
     // The turn is no larger than the three turns together, which cost no matrix.
     const glm::dvec3 change = glm::abs(to - from);

@@ -7,7 +7,10 @@ namespace {
 
 using document::Json;
 
-bool new_ease(const Json& key) { return key.value("ease", Json()) == "spline"; }
+bool new_ease(const Json& key) {
+  const Json ease = key.value("ease", Json());
+  return ease == "spline" || ease == "hold";
+}
 
 // Values are numbers in version 1, but for "pose".
 bool new_part(const std::string& name, const Json& value) {

@@ -5,8 +5,8 @@
 
 namespace mars::animator {
 
-// Makes "version": 2 its first key if it holds something of version 2: splines, parts of keys with an ease or slopes of
-// their own, attachments, points of actors. A film that needs none stays as it is.
+// Makes "version": 2 its first key if it holds something of version 2: splines, values that hold, parts of keys with an
+// ease or slopes of their own, attachments, points of actors. A film that needs none stays as it is.
 void write_version(document::Json& film);
 
 // Whether that would change it.

@@ -1,6 +1,17 @@
 #include "host/content/animator/reading/read_keys.h"
 
+#include <algorithm>
+
 namespace mars::animator {
+namespace {
+
+constexpr auto kNames = [] {
+  std::array<std::string_view, kNamedEases.size()> names;
+  std::ranges::transform(kNamedEases, names.begin(), [](const auto& named) { return named.first; });
+  return names;
+}();
+
+}  // namespace
 
 void require_version_2(const document::Element& element) {
   const auto version = element.document().root().find("version");
@@ -11,13 +22,11 @@ void require_version_2(const document::Element& element) {
 }
 
 Ease read_ease(const document::Fields& fields, const Ease& otherwise) {
-  constexpr std::string_view names[] = {"linear", "in", "out", "both", "spline"};
-  constexpr Ease eases[] = {kLinear, kIn, kOut, kBoth, kSpline};
   const auto element = fields.find("ease");
   if (!element) return otherwise;
   if (element->kind() != document::Kind::list) {
-    const Ease ease = eases[document::read_choice(*element, names)];
-    if (ease.spline) require_version_2(*element);
+    const Ease ease = kNamedEases[document::read_choice(*element, kNames)].second;
+    if (ease.spline || ease.hold) require_version_2(*element);
     return ease;
   }
   document::require_size(*element, 4);

@@ -22,7 +22,7 @@ inline constexpr std::uint32_t kFilmVersion = 2;
 // Refuses the element, which came with version 2, in a film that says that it is of an older one.
 void require_version_2(const document::Element& element);
 
-// "linear", "in", "out", "both", "spline" or [x1, y1, x2, y2]; `otherwise` if there is none.
+// One of kNamedEases, or [x1, y1, x2, y2]; `otherwise` if there is none.
 Ease read_ease(const document::Fields& fields, const Ease& otherwise = kLinear);
 
 // A change of such a value.

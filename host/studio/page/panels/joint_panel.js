@@ -34,7 +34,7 @@ export class JointPanel {
   #update() {
     const joint = this.state.joint();
     const {project, selected} = this.state;
-    const built = joint && JSON.stringify([project.kind, selected, joint.free, joint.limits, joint.shape, Boolean(joint.sbb),
+    const built = !joint ? `nothing ${this.#firstSteps().flat()}` : JSON.stringify([project.kind, selected, joint.free, joint.limits, joint.shape, Boolean(joint.sbb),
                                            Boolean(joint.pose), project.shapes, Object.keys(joint.options ?? {}),
                                            project.materials.map(({name}) => name),
                                            this.state.actor().joints.map(({name}) => name)]);
@@ -58,10 +58,26 @@ export class JointPanel {
 
   #build(joint) {
     this.#fields = [];
-    if (!joint) return this.place.replaceChildren(nothing(this.state.isFilm()));
+    if (!joint) return this.place.replaceChildren(this.#nothing());
     const film = this.state.isFilm();
     this.place.replaceChildren(...[this.#head(film), this.#pose(joint, film), !film && this.#limits(joint), !film && this.#frame(),
                                    !film && this.#segment(joint), !film && this.#actions()].filter(Boolean));
+  }
+
+  #nothing() {
+    const line = ([key, text]) => element("div", {}, element("dt", {}, element("kbd", {}, key)), element("dd", {}, text));
+    return element("div", {class: "nothing"}, element("p", {}, this.state.isFilm() ? "No joint of an actor is selected." : "No joint is selected."),
+                   element("dl", {}, this.#firstSteps().map(line)));
+  }
+
+  // What a person may do, by what there is.
+  #firstSteps() {
+    const actors = this.state.project?.actors ?? [], help = [keysOf("help"), "lists all keys"];
+    const film = this.state.isFilm();
+    if (film && actors.length === 0) return [["Scene", "adds actors: figures and things"], help];
+    if (film || actors.some(({joints}) => joints.some(({shape}) => shape))) return [...kWithLimbs, help];
+    return [["Click", "a joint in the tree, to give it a shape: then it is a limb"], [keysOf("addJoint"), "adds a joint"],
+            ["Bodies", "begins with a whole figure"], help];
   }
 
   #head(film) {
@@ -185,12 +201,8 @@ export class JointPanel {
   }
 }
 
-const kFirstSteps = [["Click", "a limb in a view, or a joint in the tree, to select it"], ["Drag", "a limb or a ring to pose it, empty space to look around"],
-                     [keysOf("help"), "lists all keys"]];
+const kWithLimbs = [["Click", "a limb in a view, or a joint in the tree, to select it"], ["Drag", "a limb or a ring to pose it, empty space to look around"]];
 
-const nothing = (film) => element("div", {class: "nothing"},
-  element("p", {}, film ? "No joint of an actor is selected." : "No joint is selected."),
-  element("dl", {}, kFirstSteps.map(([key, text]) => element("div", {}, element("dt", {}, element("kbd", {}, key)), element("dd", {}, text)))));
 const label = (name) => name.replace(/[_.]/g, " ");
 const atRest = (joint) => kAxes.map((_, i) => joint.free.includes(kAxes[i]) ? Math.min(Math.max(0, limitsOf(joint, i)[0]), limitsOf(joint, i)[1]) : joint.pose[i]);
 

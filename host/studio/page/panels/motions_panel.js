@@ -2,7 +2,7 @@
 // same. Values that are left empty are the action's own.
 
 import {element} from "../dom.js";
-import {choice, line, part} from "../fields.js";
+import {choice, line, part, toggle} from "../fields.js";
 
 const kGroups = [["figure", "Figures"], ["kinematic", "Things"], ["camera", "Camera"]];
 const kChoices = {SIDE: ["left", "right"], AXIS: ["x", "y", "z"], EASE: ["linear", "in", "out", "both"]};
@@ -15,6 +15,7 @@ export class MotionsPanel {
   #action = null;
   #fields = [];         // {name, values(): words, or none}
   #previews = false;
+  #lengthens = true;
 
   constructor(place, {connection, state, edits}) {
     Object.assign(this, {place, connection, state, edits});
@@ -79,18 +80,25 @@ export class MotionsPanel {
       button.setAttribute("aria-pressed", String(button.dataset.motion === action?.name));
     if (!action) return this.form.replaceChildren();
     this.#fields = action.parameters.map((parameter) => this.#field(parameter));
-    const starts = [["frame", "At the frame that shows"], ["last", "At its last key"]];
+    const starts = [["last", "At its last key"], ["frame", "At the frame that shows"]];
     const start = choice({name: "Begins", options: starts, key: "motion.start", commit: () => this.#changed()});
     this.start = start.root.querySelector("select");
+    const lengthen = toggle({name: "Lengthen the film", text: "May lengthen the film", key: "motion.lengthen",
+                             commit: (on) => { this.#lengthens = on; this.#changed(); }});
+    lengthen.set(this.#lengthens);
     this.problem = element("p", {class: "motion-problem", role: "status"});
     this.previewButton = element("button", {"aria-pressed": "false", "data-key": "motion.preview",
                                             onclick: (event) => this.#flip(event)}, "Preview");
     this.applyButton = element("button", {class: "primary", "data-key": "motion.apply", onclick: (event) => this.#apply(event)}, "Apply");
-    const body = part(titled(action.name), element("p", {class: "hint"}, purposeOf(action)), line("Begins", start.root),
-                      this.#fields.map(({root}) => root), this.problem,
-                      element("div", {class: "actions"}, this.previewButton, this.applyButton));
+    // Always in sight, however many fields there are.
+    const end = element("div", {class: "motion-end"}, lengthen.root, this.problem, element("div", {class: "actions"}, this.previewButton, this.applyButton));
+    const begins = line("Begins", start.root);
+    const body = part(titled(action.name), element("p", {class: "hint"}, purposeOf(action)), begins, this.#fields.map(({root}) => root), end);
     body.classList.add("motion-form");
     this.form.replaceChildren(body);
+    // Where a page is so small that no field shows under the motions, the form takes its place.
+    const hidden = begins.getBoundingClientRect().bottom > this.place.getBoundingClientRect().bottom - end.offsetHeight;
+    if (hidden) body.scrollIntoView({block: "start"});
     this.#who();
   }
 
@@ -120,7 +128,7 @@ export class MotionsPanel {
   #commands() {
     const at = this.start.value === "frame" ? ["--at", `${this.state.project.frame}`] : [];
     const given = this.#fields.flatMap(({name, values}) => values().length ? [`--${name}`, ...values()] : []);
-    return [["animate", this.#action.name, this.#subject(), ...given, ...at, "--lengthen"]];
+    return [["animate", this.#action.name, this.#subject(), ...given, ...at, ...(this.#lengthens ? ["--lengthen"] : [])]];
   }
 
   #changed() {

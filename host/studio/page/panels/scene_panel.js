@@ -1,8 +1,9 @@
-// What is not of one joint. A model: bodies of other proportions, made of the same segments. A film: its actors, camera,
-// lights, materials and settings, by the commands of `mars film` and `mars animate`.
+// What is not of one joint. A model: bodies of the library, to begin with. A film: its actors, camera, lights, materials
+// and settings, by the commands of `mars film` and `mars animate`.
 
 import {element, keepingFocus} from "../dom.js";
 import {part} from "../fields.js";
+import {askFirst} from "../popover.js";
 import {bodyStep} from "../words.js";
 import {actorPart, castPart} from "./scene/actors.js";
 import {cameraPart} from "./scene/camera.js";
@@ -34,9 +35,16 @@ export class ScenePanel {
   #bodies() {
     const bodies = this.state.project?.bodies ?? [];
     if (bodies.length === 0) return [element("p", {class: "nothing"}, "This model has no other bodies.")];
-    const button = ({name, what}) => element("button", {title: what, onclick: (event) => this.edits.commit(bodyStep(name), event)}, name);
-    return [part("Bodies", element("p", {class: "hint"}, "The same segments with other proportions."),
+    const button = ({name, what}) => element("button", {title: what, onclick: (event) => this.#begin(name, event)}, name);
+    return [part("Bodies", element("p", {class: "hint"}, "A figure of the library, in place of this model."),
                  element("div", {class: "actions"}, bodies.map(button)))];
+  }
+
+  // What somebody has made goes only where he agrees.
+  #begin(body, event) {
+    const {actors: [{joints}], undo} = this.state.project, act = (agreed) => this.edits.commit(bodyStep(body), agreed);
+    if (joints.length === 1 && undo === null) return act(event);
+    askFirst(event.currentTarget, "Replace this model?", `Its ${joints.length} joints go, and ${body} takes their place. Undo brings them back.`, "Replace", act);
   }
 
   // What decides which controls there are.

@@ -3,7 +3,7 @@
 import {element} from "../dom.js";
 
 const kColors = ["sheet", "lane", "grid", "band", "surface", "edge-strong", "text", "muted", "accent", "on-accent", "selected", "axis-x",
-                 "axis-y", "axis-z", "key-linear", "key-eased", "key-spline"];
+                 "axis-y", "axis-z", "key-linear", "key-eased", "key-spline", "key-hold"];
 const kFont = "11px";
 
 function themeColors() {

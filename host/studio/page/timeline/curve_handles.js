@@ -10,9 +10,11 @@ const kThird = 1 / 3;  // of the way to the neighbour: Bezier's control point of
 
 const fourOf = (ease) => Array.isArray(ease) ? ease : kEases[ease ?? "linear"];
 
-// As host/content/animator/pose/channel.h: from the key before to the key after.
+const holds = (each) => each?.key.ease === "hold";
+
+// As host/content/animator/pose/channel.h: from the key before to the key after, but not over a jump.
 function slopeAt(keys, index) {
-  const before = keys[Math.max(0, index - 1)], after = keys[Math.min(keys.length - 1, index + 1)];
+  const here = keys[index], before = holds(keys[index - 1]) ? here : keys[index - 1] ?? here, after = holds(here) ? here : keys[index + 1] ?? here;
   return before === after ? 0 : (after.value - before.value) / (after.key.frame - before.key.frame);
 }
 
@@ -26,7 +28,7 @@ export function handlesOf(line, index) {
   const made = [];
   if (before?.key.ease === "spline") made.push(slope("in", (before.key.frame - from.frame) * kThird));
   if (after && here.key.ease === "spline") made.push(slope("out", (after.key.frame - from.frame) * kThird));
-  if (after && here.key.ease !== "spline") made.push(...eases(line, index, from, {frame: after.key.frame, value: after.value}));
+  if (after && here.key.ease !== "spline" && !holds(here)) made.push(...eases(line, index, from, {frame: after.key.frame, value: after.value}));
   return made;
 
   function slope(kind, frames) {

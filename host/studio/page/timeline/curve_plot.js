@@ -9,6 +9,7 @@ import {colorOf, drawGrid, drawHandle, drawLimits, drawLine, drawNumbers, drawPo
 const kNear = 8;      // pixels from a point's middle at which it is meant
 const kMargin = 26;   // above and below curves that show whole
 const kMostHandles = 24;
+const kApart = 18;    // pixels between the points of dense keys
 
 export class CurvePlot {
   low = -10;
@@ -82,9 +83,11 @@ export class CurvePlot {
 
   isPicked(line, {key}) { return this.keys.isPicked(line.thing, line.part, key.frame); }
 
+  // Those that a mouse can tell from their keys.
   handles() {
     const made = this.lines.flatMap((line) => line.keys.flatMap((point, i) => this.isPicked(line, point) ? handlesOf(line, i) : []));
-    return made.slice(0, kMostHandles);
+    const isApart = ({from, at}) => Math.hypot(this.x(at.frame) - this.x(from.frame), this.y(at.value) - this.y(from.value)) >= kNear;
+    return made.filter(isApart).slice(0, kMostHandles);
   }
 
   #draw(pen, size) {
@@ -99,7 +102,7 @@ export class CurvePlot {
     this.lines.forEach((line, i) => drawLine(pen, size, this, line, colorOf(colors, line, i)));
     drawCursor(pen, this.x(frame), height, colors);
     if (!this.by.line) for (const handle of this.handles()) drawHandle(pen, colors, this, handle, this.#atOf(handle));
-    this.lines.forEach((line, i) => this.#points(pen, colors, line, colorOf(colors, line, i)));
+    this.lines.forEach((line, i) => this.#points(pen, size, line, colorOf(colors, line, i)));
     drawNumbers(pen, size, this);
     if (this.box) drawBox(pen, colors, this.box);
   }
@@ -110,12 +113,16 @@ export class CurvePlot {
     return held && held.kind === handle.kind && held.index === handle.index && same(held.line, handle.line) ? at : handle.at;
   }
 
-  #points(pen, colors, line, color) {
+  // Where keys are dense only some of them show, so that the curve does; of selected and of other ones each.
+  #points(pen, {width, colors}, line, color) {
+    const last = {};
     for (const point of line.keys) {
       const picked = this.isPicked(line, point);
-      const frame = point.key.frame + (picked ? this.by.frames : 0);
-      const value = point.value + (picked && same(line, this.by.line) ? this.by.value : 0);
-      drawPoint(pen, colors, this.x(frame), this.y(value), picked, color);
+      const x = this.x(point.key.frame + (picked ? this.by.frames : 0));
+      const y = this.y(point.value + (picked && same(line, this.by.line) ? this.by.value : 0));
+      if (x < -kApart || x > width + kApart || (last[picked] && Math.hypot(x - last[picked].x, y - last[picked].y) < kApart)) continue;
+      last[picked] = {x, y};
+      drawPoint(pen, colors, x, y, picked, color);
     }
   }
 }

@@ -1,6 +1,6 @@
 // What may be done to the selected keys, as steps of commands. Commands that are none take a preview back.
 
-import {copied, deleted, eased, keyed, moved, retimed, stretched, swung} from "./key_commands.js";
+import {copied, deleted, eased, keyed, moved, reduced, retimed, stretched, swung} from "./key_commands.js";
 
 export class KeyActions {
   #copied = [];  // [{thing, part, frame}]
@@ -22,6 +22,7 @@ export class KeyActions {
   remove(event) { this.commit(deleted(this.keys.chosen()), event); }
   ease(ease, event) { this.commit(eased(this.keys.chosen(), ease), event); }
   swing(back, beyond, event) { this.commit(swung(this.keys.chosen(), back, beyond), event); }
+  reduce(degrees, event) { this.commit(reduced(this.keys.chosen(), degrees), event); }
   stretch(factor, event) { this.commit(stretched(this.keys.chosen(), factor), event); }
   retime(option, by, event) { this.commit(retimed(this.keys.chosen(), option, this.state.project.frame, by), event); }
 

@@ -6,7 +6,7 @@ import {addMenu} from "../menu.js";
 import {askNumbers} from "../popover.js";
 import {keysOf} from "../shortcuts.js";
 
-const kEases = [["linear", "Linear"], ["in", "Begin slowly"], ["out", "End slowly"], ["both", "Begin and end slowly"], ["spline", "Spline"]];
+const kEases = [["linear", "Linear"], ["in", "Begin slowly"], ["out", "End slowly"], ["both", "Begin and end slowly"], ["spline", "Spline"], ["hold", "Hold, then jump"]];
 const kCurve = [{name: "x1", value: 0.4}, {name: "y1", value: 0}, {name: "x2", value: 0.6}, {name: "y2", value: 1}];
 const kSides = {x: {least: 0, most: 1}, y: {least: -10, most: 10}};
 const kSwing = [{name: "Back at first", value: 15, least: 0, most: 100}, {name: "Beyond at last", value: 10, least: 0, most: 100}];
@@ -59,6 +59,9 @@ export class KeyBar {
           {name: "Frames", value: 6, step: 1, least: 1}, (by, event) => acts.retime("hold", by, event)),
       one("Shift", "All keys from the frame that shows on; negative: earlier.",
           {name: "Frames", value: 4, step: 1}, (by, event) => acts.retime("shift", by, event)),
+      {heading: "Fewer keys"},
+      one("Reduce", "Splines through a few of the keys, from the first selected one to the last.",
+          {name: "Error", unit: "\u00b0", value: 1, step: 0.1, least: 0.001, most: 90}, (by, event) => acts.reduce(by, event)),
       {heading: "Swing"},
       {text: "Anticipate, overshoot\u2026",
        act: () => askNumbers(this.time, "Swing", "Percent of the motion.", kSwing, (two, event) => acts.swing(...two, event))},

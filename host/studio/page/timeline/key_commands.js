@@ -71,6 +71,13 @@ export function stretched(things, factor) {
   });
 }
 
+// Fewer keys, with splines through them, of what can be reduced: an actor, the camera.
+export const reduced = (things, degrees) => things.filter(({thing, parts}) => !thing.includes("/") && parts.some(has)).map(({thing, parts}) => {
+  const some = parts.filter(has), frames = some.flatMap(({picked}) => [...picked]);
+  return ["animate", "reduce", thing, ...(some.length < parts.length ? some.map(({name}) => name) : []), "--error", `${degrees}`,
+          "--frame", whole(Math.min(...frames), Math.max(...frames))];
+});
+
 // `option`: hold or shift. Of all things that have a selected key, at `frame`.
 export const retimed = (things, option, frame, by) => things.filter(({parts}) => parts.some(has))
   .map(({thing}) => ["animate", "time", thing, "--frame", `${frame}`, `--${option}`, `${by}`]);

@@ -14,13 +14,22 @@ const kShapes = {
   eased: (pen, x, y, size) => pen.roundRect(x - size * 0.8, y - size * 0.8, size * 1.6, size * 1.6, 1),
   spline: (pen, x, y, size) => pen.arc(x, y, size * 0.92, 0, 2 * Math.PI),
   slopes: (pen, x, y, size) => pen.arc(x, y, size * 0.92, 0, 2 * Math.PI),
+  hold: (pen, x, y, size) => flag(pen, x, y, size),
 };
-const kColors = {linear: "key-linear", eased: "key-eased", spline: "key-spline", slopes: "key-spline"};
+const kColors = {linear: "key-linear", eased: "key-eased", spline: "key-spline", slopes: "key-spline", hold: "key-hold"};
 
 function diamond(pen, x, y, size) {
   pen.moveTo(x, y - size);
   pen.lineTo(x + size, y);
   pen.lineTo(x, y + size);
+  pen.lineTo(x - size, y);
+  pen.closePath();
+}
+
+// Half a diamond: its right side is where the value stands still.
+function flag(pen, x, y, size) {
+  pen.moveTo(x + 1, y - size);
+  pen.lineTo(x + 1, y + size);
   pen.lineTo(x - size, y);
   pen.closePath();
 }

@@ -2,24 +2,22 @@
 
 import {element, newId} from "../dom.js";
 import {icon} from "../icons.js";
+import {RowsInSight} from "../rows_in_sight.js";
 
 export const kRow = 22;  // pixels
 const kGlyphs = {all: "key", camera: "camera", light: "sun", material: "drop", actor: "actor"};
 
 export class RowList {
-  #shown = "";
-
   constructor(rows, {state, choose}) {
     Object.assign(this, {rows, choose});
     this.id = newId("rows");
-    this.filler = element("div", {class: "filler", role: "presentation"});
     this.root = element("div", {class: "row-list", role: "tree", tabindex: 0, "aria-label": "Things with keys", "aria-multiselectable": "true",
-                                "data-key": "rows"}, this.filler);
-    this.root.addEventListener("scroll", () => { this.show(); state.tell("scrolled"); });
+                                "data-key": "rows"});
+    this.sight = new RowsInSight(this.root, kRow, {make: (row, index) => this.#row(row, index), look: (row) => this.#look(row),
+                                                   scrolled: () => state.tell("scrolled")});
     this.root.addEventListener("click", (event) => this.#click(event));
     this.root.addEventListener("keydown", (event) => this.#key(event));
-    new ResizeObserver(() => this.show()).observe(this.root);
-    state.on("rows", () => { this.show(); this.#reveal(); });
+    state.on("rows", () => { this.show(); this.sight.reveal(this.rows.index(this.rows.active)); });
     state.on("keys", () => this.show());
   }
 
@@ -28,18 +26,13 @@ export class RowList {
   rowAt(y) { return this.rows.at(Math.floor((y + this.top) / kRow)); }
 
   show() {
-    const {list, chosen, active} = this.rows;
-    this.filler.style.height = `${list.length * kRow}px`;
-    const first = Math.max(0, Math.floor(this.top / kRow));
-    const seen = list.slice(first, first + Math.ceil(this.root.clientHeight / kRow) + 1);
-    const shown = JSON.stringify([first, seen.map(({id, open}) => [id, open, chosen.has(id), id === active])]);
-    if (shown === this.#shown) return;
-    this.#shown = shown;
-    this.filler.replaceChildren(...seen.map((row, i) => this.#row(row, first + i)));
-    const at = this.rows.index(active);
-    if (at >= first && at < first + seen.length) this.root.setAttribute("aria-activedescendant", `${this.id}-${at}`);
+    this.sight.show(this.rows.list);
+    const id = `${this.id}-${this.rows.index(this.rows.active)}`;
+    if (document.getElementById(id)) this.root.setAttribute("aria-activedescendant", id);
     else this.root.removeAttribute("aria-activedescendant");
   }
+
+  #look({id, open}) { return [id, open, this.rows.chosen.has(id), id === this.rows.active]; }
 
   #row(row, index) {
     const {id, kind, name, level, open} = row;
@@ -49,17 +42,8 @@ export class RowList {
                          element("span", {class: "twist"}, open !== undefined && icon("twist")), kGlyphs[kind] && icon(kGlyphs[kind]),
                          element("span", {class: "name"}, name));
     item.classList.toggle("active", id === this.rows.active);
-    item.style.top = `${index * kRow}px`;
     item.style.setProperty("--level", level);
     return item;
-  }
-
-  #reveal() {
-    const at = this.rows.index(this.rows.active);
-    if (at < 0) return;
-    const top = at * kRow, {clientHeight} = this.root;
-    if (top < this.top) this.root.scrollTop = top;
-    else if (top + kRow > this.top + clientHeight) this.root.scrollTop = top + kRow - clientHeight;
   }
 
   #click(event) {

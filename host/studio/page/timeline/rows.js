@@ -1,12 +1,12 @@
 // The rows of the sheet: everything, then each thing with its parts below it where it is open. A row: {id, kind, name,
 // level, thing, part, open, marks()}; its marks are the frames that have keys: [{frame, look, still, keys}].
 
-const kLooks = ["linear", "eased", "spline", "slopes"];
+const kLooks = ["linear", "eased", "spline", "slopes", "hold"];
 const kOrder = ["camera", "light", "material", "actor"];
 
 function lookOf({ease = "linear", in: reach, out}) {
   if (ease === "spline") return reach !== undefined || out !== undefined ? "slopes" : "spline";
-  return ease === "linear" ? "linear" : "eased";
+  return ease === "linear" || ease === "hold" ? ease : "eased";
 }
 
 export class Rows {

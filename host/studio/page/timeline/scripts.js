@@ -2,7 +2,7 @@
 // what is wrong shows at its line.
 
 import {element} from "../dom.js";
-import {choice, textField} from "../fields.js";
+import {choice, textField, toggle} from "../fields.js";
 
 const kPause = 300;  // ms without a key, before the text is checked
 
@@ -11,11 +11,14 @@ export class Scripts {
   #known = new Map();  // name -> text as it is stored
   #name = "";
   #line = 0;           // that is wrong; 0: none
+  #lengthens = true;   // the film, where the script ends later
 
   constructor(place, {connection, state, edits}) {
     Object.assign(this, {connection, state, edits, shown: false});
     this.files = choice({name: "Script", options: [], key: "script.file", commit: (name) => this.#open(name ?? "")});
     this.nameField = textField({name: "Name of the script", key: "script.name", hint: "new.script", commit: (name) => { this.#name = name; this.#check(); }});
+    this.lengthen = toggle({name: "Lengthen the film", text: "May lengthen the film", key: "script.lengthen", commit: (on) => { this.#lengthens = on; }});
+    this.lengthen.set(true);
     this.apply = element("button", {class: "primary", "data-key": "script.apply", onclick: (event) => this.#apply(event)}, "Apply");
     this.numbers = element("ol", {class: "line-numbers", "aria-hidden": "true"});
     this.text = element("textarea", {"aria-label": "Text of the script", "data-key": "script.text", spellcheck: "false", wrap: "off", autocapitalize: "off",
@@ -24,7 +27,7 @@ export class Scripts {
     this.text.addEventListener("input", () => { this.#show(); this.#checkSoon(); });
     this.text.addEventListener("scroll", () => { this.numbers.scrollTop = this.text.scrollTop; });
     place.classList.add("scripts");
-    place.append(element("div", {class: "script-bar"}, this.files.root, this.nameField.root, this.problem, this.apply),
+    place.append(element("div", {class: "script-bar"}, this.files.root, this.nameField.root, this.problem, this.lengthen.root, this.apply),
                  element("div", {class: "script-text"}, this.numbers, this.text));
     connection.on("scripts", ({scripts}) => this.#scripts(scripts));
     connection.on("script", (message) => this.#checked(message));
@@ -91,7 +94,7 @@ export class Scripts {
   #apply(event) {
     this.#name = this.#named();
     this.nameField.set(this.#name);
-    this.edits.commit({script: {name: this.#name, text: this.text.value}}, event);
+    this.edits.commit({script: {name: this.#name, text: this.text.value, lengthen: this.#lengthens}}, event);
     this.connection.send({do: "scripts"});
   }
 }

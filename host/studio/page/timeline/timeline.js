@@ -180,6 +180,6 @@ export class Timeline {
 }
 
 function legend() {
-  const looks = [["linear", "Linear"], ["eased", "Eased"], ["spline", "Spline"]];
+  const looks = [["linear", "Linear"], ["eased", "Eased"], ["spline", "Spline"], ["hold", "Hold"]];
   return element("ul", {class: "looks", "aria-label": "Eases"}, looks.map(([look, text]) => element("li", {}, element("i", {class: look}), text)));
 }

@@ -13,10 +13,11 @@ FIRST = {"speed": 1.0, "host_byte": 0.4e-6, "host_message": 0.02, "depth": 2e-6}
 
 class Cells:
     """Measured cells of one table, [row, kind, nodes, ms] each, and what the program does for them. `films`: by row,
-    nodes and scale, the jobs. A cell's `ratio` corrects what replay.py leaves out: simulated / replayed."""
+    nodes and scale, the jobs. `inbetweens`: of an interval; None: as many as nodes. A cell's `ratio` corrects what
+    replay.py leaves out: simulated / replayed."""
 
-    def __init__(self, measured, films, network):
-        self.cells, self.films, self.network = measured, films, network
+    def __init__(self, measured, films, network, inbetweens=None):
+        self.cells, self.films, self.network, self.inbetweens = measured, films, network, inbetweens
         self.ms = numpy.array([cell[3] for cell in measured], float)
         self.ratio = numpy.ones(len(measured))
 
@@ -26,13 +27,14 @@ class Cells:
             films = self.films[row]
             if kind == "keyframe":
                 return replay.keyframe(films[nodes][scale], costs, self.network)
-            return replay.inbetween(films[max(films)][scale], nodes, costs, self.network)
+            rounds = self.inbetweens // nodes if self.inbetweens else 1
+            return replay.inbetween(films[max(films)][scale], nodes, costs, self.network, rounds)
         return 1000 * self.ratio * numpy.array([seconds(*cell[:3]) for cell in self.cells])
 
     def only(self, wanted):
         """Those cells for which wanted(cell) holds."""
         keep = [k for k, cell in enumerate(self.cells) if wanted(cell)]
-        some = Cells([self.cells[k] for k in keep], self.films, self.network)
+        some = Cells([self.cells[k] for k in keep], self.films, self.network, self.inbetweens)
         some.ms, some.ratio = self.ms[keep], self.ratio[keep]
         return some
 

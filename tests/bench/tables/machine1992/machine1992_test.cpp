@@ -1,7 +1,10 @@
 // The 1992 program draws what the product draws, and sends what the thesis says.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
+#include <numbers>
+#include <utility>
 
 #include "hal/simulated/run_simulated.h"
 #include "hal/threads/run_threads.h"
@@ -40,6 +43,50 @@ TEST_P(Machine1992, DrawsTheProductsFrames) {
 TEST_P(Machine1992, DrawsTies) {
   const test::FilmBlock block(test::ties(160, 120));
   test::expect_same(draw(block, GetParam()).run, test::run_film(block.bytes()), block.view().settings(), "ties1992");
+}
+
+// A triangle much thinner than a pixel, 40 lines high as it stands and 40 columns wide as it lies, between pixels'
+// centres.
+wire::FilmData sliver(bool standing) {
+  test::FilmMaker maker(160, 120, 1);
+  modeler::Mesh mesh{.vertices = {{0.003f, 0, -2.013f}, {0.004f, 0, -2.013f}, {0.0035f, 0, 2}},
+                     .normals = {},
+                     .corners = {0, 1, 2},
+                     .ends = {3}};
+  if (!standing)
+    for (auto& [x, y, z] : mesh.vertices) std::swap(x, z);
+  maker.add_segment(maker.add_shape(modeler::cut_meshlets(mesh)), maker.add_material(test::kClay),
+                    {test::placed({0, 0, 0}, 1)});
+  maker.set_cameras({test::looking({0, -10, 0}, {0, 0, 0}, 2 * std::atan(0.6) * 180 / std::numbers::pi)});
+  return maker.make();
+}
+
+WorkCounts work_of_keyframe(const wire::FilmData& film, int nodes) {
+  const test::FilmBlock block(film);
+  const Records records = draw(block, nodes).records;
+  WorkCounts work;
+  for (const auto& frames : records.nodes) {
+    work += frames[0].lists;
+    work += frames[0].lines;
+  }
+  return work;
+}
+
+// "Find and store the intersection points of each polygon with the scanlines", whether a pixel lies between them or
+// not.
+TEST_P(Machine1992, MakesAnEdgeBoxOnEachLineThatAPolygonCrosses) {
+  const WorkCounts standing = work_of_keyframe(sliver(true), GetParam()),
+                   lying = work_of_keyframe(sliver(false), GetParam());
+  for (const Work kind : {Work::edge_box, Work::span}) {
+    EXPECT_EQ(standing[kind], 40u);
+    EXPECT_EQ(lying[kind], 0u);
+  }
+  EXPECT_EQ(standing[Work::set_up], 1u);
+  EXPECT_EQ(lying[Work::set_up], 0u);
+  for (const WorkCounts& work : {standing, lying}) {
+    EXPECT_EQ(work[Work::polygon], 1u);
+    EXPECT_EQ(work[Work::pixel], 0u);
+  }
 }
 
 // Each node its edge boxes on others' lines, all pixels of its lines of both buffers, and its part of the CZB; of an

@@ -118,7 +118,7 @@ def main():
     parser.add_argument("file", help="for `mars bench tables --beside`")
     wanted = parser.parse_args()
     measured, parts = simulate.measured_cells(), []
-    simulated = simulate.tables.load(wanted.simulated)
+    simulated = [part for part in simulate.tables.load(wanted.simulated) if "cells" in part]
     costs_there = next(part["parameters"] for part in simulated if part["table"] == "4.1")
     with tempfile.TemporaryDirectory(prefix="machine1992-") as folder:
         product = Product(wanted.build, folder, platform_of(costs_there))

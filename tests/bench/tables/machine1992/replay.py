@@ -6,7 +6,7 @@ import os
 
 import numpy
 
-from costs import seconds
+from costs import WORKS, seconds
 
 IPSC2 = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../../cluster/platforms/ipsc2.json")
 
@@ -31,8 +31,13 @@ class Costs:
         self.speed, self.host_byte, self.host_message, self.depth = speed, host_byte, host_message, depth
         self.work = numpy.array(seconds(speed, depth))
 
+    def of(self, work):
+        """Of a unit."""
+        return self.work[WORKS.index(work)]
+
 
 LINES = 480
+FLAGS = 512 * LINES / 16  # of the host's blocks (host.cpp)
 
 
 def keyframe(job, costs, network):
@@ -94,11 +99,20 @@ def wire(node, costs, network):
     return costs.host_byte if node == 0 else max(costs.host_byte, network.byte)
 
 
-def inbetween(job, nodes, costs, network):
-    """Seconds a frame: each node draws one, and the host shows them in order."""
-    clock = 0.0
-    for k in range(nodes):
-        drawn = job.inbetweens[k] @ costs.work + network.short / 2
-        sent = max(clock, drawn) + network.short / 2 + network.send
-        clock = sent + job.moving[k] * wire(k, costs, network) + costs.host_message + job.host[1 + k] @ costs.work
-    return clock / nodes
+def inbetween(job, nodes, costs, network, rounds=1):
+    """Seconds a frame: each node draws one in each round, and the host shows them in order."""
+    clock, free = 0.0, [0.0] * nodes
+    for number in range(rounds * nodes):
+        node, k = number % nodes, number % len(job.moving)
+        drawn = free[node] + job.inbetweens[k] @ costs.work + network.short / 2
+        free[node] = max(clock, drawn) + network.short / 2 + network.send
+        clock = free[node] + sum(host_takes(job, node, k, costs, network).values())
+    return clock / (rounds * nodes)
+
+
+def host_takes(job, node, k, costs, network):
+    """Seconds of the host for the kth inbetween when `node` sends it: the strip on its link, what a message costs, flags
+    of blocks looked at, pixels looked at, written and restored."""
+    flags = FLAGS * costs.of("look")
+    return {"link": job.moving[k] * wire(node, costs, network), "message": costs.host_message, "flags": flags,
+            "pixels": job.host[1 + k] @ costs.work - flags}

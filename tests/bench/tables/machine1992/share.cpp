@@ -7,23 +7,6 @@
 namespace mars::machine1992 {
 namespace {
 
-// Of the scatter's patches and meshlets, whether they are seen or not.
-std::uint64_t polygons_of(const geometry::Scene& scene, const node::Scatter& scatter, bool stationary) {
-  const wire::FilmView& film = scene.film();
-  const std::uint64_t patch_polygons = 2ull * film.settings().dice * film.settings().dice;
-  std::uint64_t polygons = 0;
-  for (std::size_t s = 0; s < film.segments().size(); ++s) {
-    if (!stationary && !scene.moves(s)) continue;
-    const wire::Shape& shape = film.shapes()[film.segments()[s].shape];
-    for (std::uint64_t i = 0; i < shape.size(); ++i) {
-      if ((scene.first_patch(s) + i) % scatter.count != scatter.index) continue;
-      polygons += i < shape.patch_count ? patch_polygons
-                                        : film.meshlets()[shape.first_meshlet + i - shape.patch_count].triangle_count;
-    }
-  }
-  return polygons;
-}
-
 void append(const raster::Polygons& polygons, std::span<const raster::UnsortedEdgeBox> boxes,
             std::vector<SentBox>& to) {
   for (auto box = boxes.rbegin(); box != boxes.rend(); ++box)  // the latest is the first of them
@@ -35,6 +18,7 @@ void append(const raster::Polygons& polygons, std::span<const raster::UnsortedEd
 
 Share::Share(const wire::FilmView& film)
     : tessellator_(simd::best_instruction_set("")),
+      crossings_(film),
       all_lines_(film.settings().height, 1),
       loads_(film.settings().height),
       memory_(std::size_t{1} << 14) {}
@@ -43,14 +27,26 @@ const std::vector<SentBox>& Share::edge_boxes(const geometry::Scene& scene, cons
                                               bool stationary, WorkCounts& work) {
   wire::WorkCounts counts{};
   const node::Tessellation own = tessellate(scene, scatter, stationary, counts);
-  work[Work::vertex] += counts.vertices;
-  work[Work::polygon] += polygons_of(scene, scatter, stationary);
-  work[Work::set_up] += own.made.triangles;
-  work[Work::edge_box] += own.made.edge_boxes;
+  crossings_.count(scene, scatter, stationary);
   boxes_.clear();
   append(own.polygons, own.polygons.stationary, boxes_);
   append(own.polygons, own.polygons.moving, boxes_);
+  append_empty(false);
+  append_empty(true);
+  work[Work::vertex] += counts.vertices;
+  work[Work::polygon] += crossings_.polygons();
+  work[Work::set_up] += crossings_.drawn();
+  work[Work::edge_box] += boxes_.size();
   return boxes_;
+}
+
+// An edge box of no pixel for each crossing that has none yet.
+void Share::append_empty(bool moving) {
+  const std::span<std::uint32_t> lines = crossings_.on_lines(moving);
+  for (const SentBox& box : boxes_)
+    if ((box.moving == 1) == moving && lines[box.line] > 0) --lines[box.line];
+  for (std::size_t line = 0; line < lines.size(); ++line)
+    boxes_.insert(boxes_.end(), lines[line], {{}, static_cast<std::uint16_t>(line), 0, 0, moving});
 }
 
 // Again with more memory until all is stored.

@@ -1,5 +1,5 @@
 // The first step of a frame: a node's share of the patches and meshlets, scattered, becomes edge boxes. Dicing and
-// set-up are the product's.
+// set-up are the product's, whose edge boxes hold pixels; those without are added.
 #pragma once
 
 #include <cstddef>
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "node/tessellator.h"
+#include "tests/bench/tables/machine1992/crossings.h"
 #include "tests/bench/tables/machine1992/messages.h"
 #include "tests/bench/tables/machine1992/work.h"
 
@@ -24,8 +25,10 @@ class Share {
  private:
   node::Tessellation tessellate(const geometry::Scene& scene, const node::Scatter& scatter, bool stationary,
                                 wire::WorkCounts& counts);
+  void append_empty(bool moving);
 
   node::Tessellator tessellator_;
+  Crossings crossings_;
   std::vector<std::uint8_t> all_lines_;
   std::vector<raster::LineLoad> loads_;
   std::vector<geometry::Triangle> memory_;

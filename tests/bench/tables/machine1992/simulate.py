@@ -19,8 +19,11 @@ import numpy
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.dirname(HERE))
 
+import baselines  # noqa: E402
 import cells as tables  # noqa: E402
+import choices  # noqa: E402
 import fit  # noqa: E402
+import inbetweens  # noqa: E402
 import records  # noqa: E402
 import replay  # noqa: E402
 import scenes  # noqa: E402
@@ -97,8 +100,7 @@ def in_pairs(function, items):
 
 def measured_cells():
     """By table, [row, kind, nodes, ms]."""
-    return {part["table"]: [(cell["row"], cell["kind"], cell["nodes"], cell["ms"]) for cell in part["cells"]]
-            for part in tables.load(tables.THESIS)}
+    return {part["table"]: cells_of(part) for part in tables.load(tables.THESIS)}
 
 
 def best_fit(simulator, table, cells, fitted, by):
@@ -115,9 +117,10 @@ def best_fit(simulator, table, cells, fitted, by):
 
 
 def simulate(simulator, wanted, measured):
-    """The parts of the file, a table each; 4.1 is the first, by which costs are fitted."""
+    """The parts of the file, a table each, and where the time of inbetweens goes; 4.1 is the first, by which costs are
+    fitted."""
     network = replay.Network()
-    parts, costs, spread = [], None, {}
+    parts, sheets, costs, spread = [], [], None, {}
     for table in wanted:
         rows = rows_of(measured[table])
         films = dict(zip(rows, in_pairs(lambda row, of=table: simulator.record(of, row, measured[of]), rows)))
@@ -129,7 +132,11 @@ def simulate(simulator, wanted, measured):
             found, times = best_fit(simulator, table, cells, lambda of, known=costs: {
                 **known, "scale": fit.fit_scale(of, fit.costs_of(known))}, fit.in_column)
         parts.append(part_of(table, measured[table], times, found, spread))
-    return parts
+        if "inbetween" in tables.KINDS[table]:
+            jobs = {row: of[max(of)][found["scale"]] for row, of in films.items()}
+            sheets.append(inbetweens.sheet_of(table, measured[table], cells_of(parts[-1]), jobs, fit.costs_of(costs),
+                                              network))
+    return parts + sheets
 
 
 def part_of(table, measured, times, found, spread):
@@ -142,32 +149,34 @@ def part_of(table, measured, times, found, spread):
     return {"table": table, "source": "simulated-thesis", "parameters": parameters, "cells": listed}
 
 
+def cells_of(part):
+    """Of a file's part, [row, kind, nodes, ms]."""
+    return [(cell["row"], cell["kind"], cell["nodes"], cell["ms"]) for cell in part["cells"]]
+
+
 def rounded(value):
     return float(f"{value:.4g}")
 
 
-def report(part, measured):
-    """Deviations from the thesis, for a person: a line a row, percent by nodes."""
+def report(part):
+    """Deviations from the thesis, for a person: those of all cells, a line a row, beside naive predictions."""
     table = part["table"]
+    beside = tables.Cells(table, [*tables.load(tables.THESIS), part])
     lines = [f"Table {table}: " + ", ".join(f"{name} {value:g}" for name, value in part["parameters"].items())]
-    times = {(cell["row"], cell["kind"], cell["nodes"]): cell["ms"] for cell in part["cells"]}
     for kind in tables.KINDS[table]:
-        of = {cell[:3]: times[cell[:3]] / cell[3] - 1 for cell in measured if cell[1] == kind}
-        predicted = [abs(error) for key, error in of.items() if table == "4.1" or key[2] != fit.NODES_OF_COLUMN]
-        lines.append(f"  {kind}s: median error {100 * statistics.median(predicted):.1f} % of {len(predicted)} "
-                     f"{'fitted' if table == '4.1' else 'predicted'} cells")
-        for row in rows_of(measured):
-            errors = "  ".join(f"{nodes}: {100 * error:+.0f}" for (r, _, nodes), error in of.items() if r == row)
-            lines.append(f"    {row:>7}  {errors}" + (best_of(row, measured, times) if kind == "keyframe" else ""))
+        lines += report_of_kind(beside, part["source"], kind)
     return "\n".join(lines)
 
 
-def best_of(row, measured, times):
-    """How much longer than the least the thesis measured at the best number of nodes by simulation."""
-    of = {nodes: (times[row, kind, nodes], ms) for r, kind, nodes, ms in measured if r == row and kind == "keyframe"}
-    best = min(of, key=lambda nodes: of[nodes][0])
-    loss = of[best][1] / min(ms for _, ms in of.values()) - 1
-    return f"   best at {best}, measured there {100 * loss:+.0f} % of the least"
+def report_of_kind(table, source, kind):
+    thesis, deviations, regrets = table.cells_of("thesis", kind), table.deviations(source, kind), table.regrets(source, kind)
+    medians = [f"{name} {100 * statistics.median(map(abs, baselines.errors(predicted, thesis).values())):.1f} %"
+               for name, predicted in baselines.predictions(table, kind, [source]).items()]
+    yield f"  {kind}s, median errors but for {baselines.COLUMN} nodes: " + ", ".join(medians)
+    for row in table.rows(kind):
+        errors = "  ".join(f"{nodes}: {100 * error:+.0f}" for (of, nodes), error in deviations.items() if of == row)
+        yield (f"    {row:>7}  {errors}   best at {table.best_nodes(source, row, kind)}, measured there "
+               f"{100 * regrets[row]:+.0f} % of the least")
 
 
 def main():
@@ -182,9 +191,10 @@ def main():
         names = sorted({"4.1", *wanted.tables.split(",")})
         parts = simulate(Simulator(wanted.build, folder), names, measured)
     with open(wanted.file, "w") as file:
-        file.write(tables.text_of(parts))
+        file.write(tables.text_of([*parts, choices.sheet()]))
     for part in parts:
-        print(report(part, measured[part["table"]]))
+        if "cells" in part:
+            print(report(part))
 
 
 if __name__ == "__main__":

@@ -10,9 +10,12 @@ import unittest
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [HERE, os.path.dirname(HERE), os.path.join(HERE, "..", "..", "..")]
+import alignments  # noqa: E402
+import assumptions  # noqa: E402
 import cases  # noqa: E402
 import costs  # noqa: E402
 import fit  # noqa: E402
+import inbetweens  # noqa: E402
 import product  # noqa: E402
 import records  # noqa: E402
 import replay  # noqa: E402
@@ -64,6 +67,31 @@ class Simulating(unittest.TestCase):
         for cell, there, here in zip(self.measured, simulated, self.cells([0.0]).ms):
             self.assertAlmostEqual(here / there, 1, delta=0.12, msg=cell)
 
+    def inbetweens_by_nodes(self, job, rounds):
+        """Milliseconds of one, replayed."""
+        return {nodes: 1000 * replay.inbetween(job, nodes, fit.costs_of(TRUE), replay.Network(), rounds) for nodes in NODES}
+
+    def test_what_the_host_takes_for_an_inbetween_does_not_shrink_with_the_nodes(self):
+        job, known = self.films[2600][16][0.25], fit.costs_of(TRUE)
+        takes = inbetweens.host_takes(job, known, replay.Network())
+        share, serial = inbetweens.shares(self.inbetweens_by_nodes(job, 1))
+        self.assertAlmostEqual(serial / sum(takes.values()), 1, delta=0.05)
+        self.assertAlmostEqual(share / (1000 * float(job.inbetweens[0] @ known.work)), 1, delta=0.05)
+        self.assertEqual(takes["message"], 1000 * TRUE["host_message"])
+        self.assertTrue(all(ms > 0 for ms in takes.values()), takes)
+
+    def test_more_inbetweens_hide_what_the_host_takes(self):
+        job = self.films[2600][16][0.25]
+        (_, one), (_, four) = (inbetweens.shares(self.inbetweens_by_nodes(job, rounds)) for rounds in (1, 4))
+        self.assertAlmostEqual(four / one, 1 / 4, delta=0.05)
+
+    def test_pixels_that_cost_nothing_leave_the_message_and_the_flags(self):
+        job, known, network = self.films[2600][16][0.25], fit.costs_of(TRUE), replay.Network()
+        takes = inbetweens.host_takes(assumptions.free_pixels(job), known, network)
+        self.assertAlmostEqual(takes["pixels"], 0)
+        self.assertEqual(takes["link"], 0)
+        self.assertEqual(takes["flags"], inbetweens.host_takes(job, known, network)["flags"])
+
     def test_costs_have_the_order_of_the_counts(self):
         self.assertEqual(costs.clocks_of("copy"), 2 * costs.CLOCKS["move"] + costs.CLOCKS["step"])
         twice = costs.seconds(2, 0)
@@ -90,6 +118,35 @@ class Simulating(unittest.TestCase):
         film = simulate.still(scenes.all_films(scenes.Cut(2, 32))["4.3-5200"])
         self.assertFalse(any("keys" in actor for actor in film["actors"]))
         self.assertIn("left-arm", film["actors"][1]["pose"])
+
+
+class Inbetweens(unittest.TestCase):
+    def test_times_are_a_share_and_what_all_wait_for(self):
+        share, serial = inbetweens.shares({nodes: 800 / nodes + 30 for nodes in NODES})
+        self.assertAlmostEqual(share, 800)
+        self.assertAlmostEqual(serial, 30)
+
+    def test_of_the_man_the_thesis_waits_for_no_pixels(self):
+        """About 30 ms whatever moves, but for one row: what docs/1992 says."""
+        cells = simulate.measured_cells()["4.2"]
+        serial = [inbetweens.shares(inbetweens.by_nodes(cells, row))[1] for row in simulate.rows_of(cells) if row != 2600]
+        self.assertGreater(min(serial), 29)
+        self.assertLess(max(serial), 33)
+
+
+class Alignments(unittest.TestCase):
+    def test_spread_is_greatest_over_least_of_a_column(self):
+        measured = [(row, "keyframe", nodes, 1.0) for row in (1, 2) for nodes in (2, 4)]
+        self.assertEqual(alignments.spreads(measured, [200, 100, 300, 110]), {2: 0.5, 4: 110 / 100 - 1})
+
+    def test_bodies_along_a_line_have_the_size_of_the_table_and_one_line(self):
+        for number, axis in ((4, 2), (2, 0)):
+            film = alignments.along_a_line(number, scenes.Cut(2, 32), alignments.stretched)
+            self.assertEqual(scenes.polygon_count(film), scenes.ALIGNED_SIZE)
+            bodies = film["actors"][1:]
+            self.assertEqual(len(bodies), 6)
+            self.assertLess(max(abs(body["place"][axis]) for body in bodies), 1e-9)
+            self.assertEqual(len({round(body["place"][2 - axis], 6) for body in bodies}), 6)
 
 
 if __name__ == "__main__":

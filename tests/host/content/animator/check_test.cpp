@@ -112,7 +112,7 @@ TEST(LimitsLeft, TheWorstIsFoundWithoutLookingAtEveryFrame) {
                                 R"("limits": {"x": [-60, 120], "y": [0, 170], "z": [-200, 200]})",
                                 R"("limits": {"x": [-90, 90], "y": [-90, 90], "z": [20, 20]})",
                                 R"("y_axis": [0.3, 1, 0], "limits": {"x": [-90, 90], "y": [-80, 80], "z": [-90, 90]})"};
-  const Ease eases[] = {kLinear, kBoth, swinging(0.2, 0.3)};
+  const Ease eases[] = {kLinear, kBoth, kHold, swinging(0.2, 0.3)};
   int outside = 0;
   for (int trial = 0; trial < 400; ++trial) {
     Film film = film_of(limits[trial % 4], R"("keys": [{"frame": 0, "pose": {"j": [0, 10, 20]}}])");
@@ -123,7 +123,7 @@ TEST(LimitsLeft, TheWorstIsFoundWithoutLookingAtEveryFrame) {
     for (std::uint32_t frame = 0; frame < 80; frame += 1 + std::uint32_t(number(0, 40))) {
       glm::dvec3 pose;
       for (int axis = 0; axis < 3; ++axis) pose[axis] = number(joint.limits[axis].lower, joint.limits[axis].upper);
-      poses.push_back({frame, pose, eases[trial % 3]});
+      poses.push_back({frame, pose, eases[trial / 4 % 4]});
     }
     const auto all = limits_left(film);
     const auto worst = worst_excesses(film);
@@ -173,11 +173,26 @@ TEST(Check, WhatNobodySeesIsOneLineAndNoTrouble) {
 }
 
 TEST(Check, TellsJumps) {
-  const Film film = film_of(R"("limits": {"x": [0, 9]})", R"("keys": [{"frame": 3, "place": [1, 1, 1]},
-      {"frame": 4, "place": [1, 1, 4]}, {"frame": 9, "place": [1, 1, 40]}])");
-  const auto lines = check_film(film).lines;
+  const auto lines_of = [](const char* keys) {
+    return check_film(film_of(R"("limits": {"x": [0, 9]})", "\"keys\": [" + std::string(keys) + "]")).lines;
+  };
+  const std::vector<std::string> lines = lines_of(R"({"frame": 3, "place": [1, 1, 1]},
+      {"frame": 4, "place": [1, 1, 4]}, {"frame": 9, "place": [1, 1, 5]})");
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_EQ(lines[0], "actor 'a b': jumps 3 from frame 3 to the next, farther than it is long");
+  // There and back.
+  EXPECT_EQ(lines_of(R"({"frame": 3, "place": [1, 1, 1]}, {"frame": 4, "place": [1, 1, 4]},
+      {"frame": 5, "place": [1, 1, 1]})")
+                .size(),
+            2u);
+}
+
+TEST(Check, CallsNoFlightAJump) {
+  // Thrown from rest at three units a frame, against a wall between two frames, and caught.
+  const Film film = film_of(R"("limits": {"x": [0, 9]})", R"("keys": [{"frame": 2, "place": [0, 0, 0]},
+      {"frame": 3, "place": [3, 0, 1]}, {"frame": 4, "place": [6, 0, 1.5]}, {"frame": 5, "place": [9, 0, 1.6]},
+      {"frame": 6, "place": [10.3, 0, 1.5]}, {"frame": 7, "place": [7.9, 0, 1]}, {"frame": 8, "place": [5.5, 0, 0]}])");
+  EXPECT_EQ(check_film(film).lines, std::vector<std::string>{});
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ double farthest_apart(const Scene& a, const Scene& b, std::uint32_t frame_of_a, 
 TEST(Pose, SetsOneAxisAndKeepsTheOthers) {
   Scene scene(kMoving);
   const std::vector<std::string> settings = {"shoulder.y=-20", "place.z=1", "elbow=0,45,0"};
-  scene([&](document::Json& j, const Film& f) { return pose(j, f, "it", settings, {24, 24}, {}, Beyond::refused); });
+  scene([&](document::Json& j, const Film& f) { return pose(j, f, "it", settings, {24, 24}, {}); });
   EXPECT_EQ(
       scene.keys()[1].dump(),
       R"({"frame":24,"place":[3,0,1],"turn":[10,20,30],"pose":{"shoulder":[30,-20,50],"elbow":[0,45,0]},"ease":"in"})");
@@ -88,7 +88,7 @@ TEST(Pose, SetsOneAxisAndKeepsTheOthers) {
 TEST(Pose, WhatHasNoKeyMovesFromFrame0On) {
   Scene scene(R"(, "place": [1, 2, 3], "pose": {"elbow": [0, 30, 0]})");
   const std::vector<std::string> settings = {"place.x=5", "elbow.y=60", "shoulder.z=7", "/turn.z=-4"};
-  scene([&](document::Json& j, const Film& f) { return pose(j, f, "it", settings, {12, 12}, kBoth, Beyond::refused); });
+  scene([&](document::Json& j, const Film& f) { return pose(j, f, "it", settings, {12, 12}, {.ease = kBoth}); });
   document::Json actor = scene.json["actors"][0];
   EXPECT_EQ(
       actor.dump(),
@@ -102,7 +102,7 @@ TEST(Pose, LimitsAreHeldAndTold) {
   const document::Json before = scene.json;
   const auto wanted = [&](const std::string& setting, Beyond beyond) {
     const std::vector<std::string> settings = {setting};
-    return document::failure_of([&] { pose(scene.json, scene.film, "it", settings, {10, 10}, {}, beyond); });
+    return document::failure_of([&] { pose(scene.json, scene.film, "it", settings, {10, 10}, {.beyond = beyond}); });
   };
   EXPECT_EQ(wanted("elbow.y=170", Beyond::refused),
             "actor 'it', joint 'elbow': turns 170 degrees about y, outside its limits 0 to 150 (--clamp takes the "
@@ -111,7 +111,7 @@ TEST(Pose, LimitsAreHeldAndTold) {
   EXPECT_EQ(wanted("elbow.y=170", Beyond::clamped), "");
   EXPECT_EQ(scene.keys()[1]["pose"]["elbow"].dump(), "[0,150,0]");
   const std::vector<std::string> settings = {"elbow.y=-170", "elbow.x=20"};
-  EXPECT_EQ(pose(scene.json, scene.film, "it", settings, {10, 10}, {}, Beyond::clamped),
+  EXPECT_EQ(pose(scene.json, scene.film, "it", settings, {10, 10}, {.beyond = Beyond::clamped}),
             (Remarks{"actor 'it', joint 'elbow': -170 degrees about y is beyond its limits 0 to 150: keyed as 0",
                      "actor 'it', joint 'elbow': 20 degrees about x, where it is locked at 0: keyed as 0"}));
 }
@@ -120,7 +120,7 @@ TEST(Pose, TellsWhatItDoesNotUnderstand) {
   Scene scene(kMoving);
   const auto reported = [&](const std::string& setting) {
     const std::vector<std::string> settings = {setting};
-    return document::failure_of([&] { pose(scene.json, scene.film, "it", settings, {10, 10}, {}, Beyond::refused); });
+    return document::failure_of([&] { pose(scene.json, scene.film, "it", settings, {10, 10}, {}); });
   };
   EXPECT_TRUE(document::holds(reported("elbow"), "write it like elbow.y=90"));
   EXPECT_TRUE(document::holds(reported("elbow=1"), "one number for one axis"));
@@ -132,7 +132,7 @@ TEST(Pose, TellsWhatItDoesNotUnderstand) {
   EXPECT_TRUE(document::holds(reported("-knee"), "'-knee': is not PART=NUMBERS"));
   EXPECT_TRUE(document::holds(reported("place=2"), "like place.y=0, or three for all: place="));
   const auto failure_of_two = [&](const std::vector<std::string>& settings) {
-    return document::failure_of([&] { pose(scene.json, scene.film, "it", settings, {10, 10}, {}, Beyond::refused); });
+    return document::failure_of([&] { pose(scene.json, scene.film, "it", settings, {10, 10}, {}); });
   };
   EXPECT_EQ(failure_of_two({"elbow.y=20", "elbow.y=30"}),
             "'elbow.y=30': sets what an earlier word has set (give each part and axis once)");
@@ -140,7 +140,7 @@ TEST(Pose, TellsWhatItDoesNotUnderstand) {
   const std::vector<std::string> eye = {"eye=1,2"};
   EXPECT_TRUE(
       document::holds(document::failure_of([&] {
-                        pose(scene.json, scene.film, "camera", eye, {3, 3}, {}, Beyond::refused);
+                        pose(scene.json, scene.film, "camera", eye, {3, 3}, {});
                       }),
                       "has 2 numbers (write one number for one axis, like eye.y=-9, or three for all: eye=0,-9,2)"));
 }
@@ -148,9 +148,7 @@ TEST(Pose, TellsWhatItDoesNotUnderstand) {
 TEST(Pose, TheCameraIsSetToo) {
   Scene scene("");
   const std::vector<std::string> settings = {"eye.x=4", "fov=30"};
-  scene([&](document::Json& j, const Film& f) {
-    return pose(j, f, "camera", settings, {10, 10}, {}, Beyond::refused);
-  });
+  scene([&](document::Json& j, const Film& f) { return pose(j, f, "camera", settings, {10, 10}, {}); });
   EXPECT_EQ(scene.json["camera"].dump(),
             R"({"keys":[{"frame":0,"eye":[0,-9,2],"fov":40},{"frame":10,"eye":[4,-9,2],"fov":30}]})");
 }
@@ -158,9 +156,7 @@ TEST(Pose, TheCameraIsSetToo) {
 TEST(Pose, ExposureBelongsToCamerasOfLinearFilms) {
   Scene scene("");
   const std::vector<std::string> settings = {"exposure=-1.5"};
-  const auto brighten = [&](document::Json& j, const Film& f) {
-    return pose(j, f, "camera", settings, {10, 10}, {}, Beyond::refused);
-  };
+  const auto brighten = [&](document::Json& j, const Film& f) { return pose(j, f, "camera", settings, {10, 10}, {}); };
   scene(brighten);
   EXPECT_EQ(scene.film.camera.exposure.back().value, -1.5);
   Scene coded("", "], \"color\": \"coded\", \"lights\": [");
@@ -348,7 +344,7 @@ TEST(KeysTable, ShowsWhatIsFree) {
 Remarks posed(Scene& scene, const std::string& setting, std::uint32_t frame, std::optional<Ease> ease = {}) {
   const std::vector<std::string> settings = {setting};
   return scene([&](document::Json& j, const Film& f) {
-    return pose(j, f, "it", settings, {frame, frame}, ease, Beyond::refused);
+    return pose(j, f, "it", settings, {frame, frame}, {.ease = ease});
   });
 }
 

@@ -30,9 +30,10 @@ class Poses : public testing::Test {
   }
 
   Remarks pose(const std::string& thing, const std::vector<std::string>& settings, FrameRange range,
-               Beyond beyond = Beyond::refused) {
+               Beyond beyond = Beyond::refused, std::uint32_t falloff = 0) {
     read();
-    const Remarks remarks = animator::pose(json_, film_, thing, settings, range, {}, beyond);
+    const Remarks remarks =
+        animator::pose(json_, film_, thing, settings, range, {.beyond = beyond, .falloff = falloff});
     read();
     return remarks;
   }
@@ -118,6 +119,83 @@ TEST_F(Poses, MoveWhatGoesAlongByItsOffset) {
   pose("camera", {"at.z+=1"}, {24, 24});
   EXPECT_EQ(json_["camera"]["keys"][1]["at"], document::Json::parse(R"({"actor": "it", "offset": [0, 0, 3]})"));
   EXPECT_EQ(json_["camera"]["keys"][0]["at"], document::Json::parse(R"({"actor": "it", "offset": [0, 0, 2]})"));
+}
+
+// Keys at every frame, as a walk or a recording has them: the shin swings by two degrees a frame.
+constexpr const char* kDense = R"({
+  "frames": 49, "camera": {"eye": [0, -9, 2]},
+  "models": {"legs": {"joints": [{"name": "hip"}, {"name": "shin", "parent": "hip", "limits": {"y": [0, 150]}}]}},
+  "actors": [{"name": "it", "model": "legs", "keys": []}]})";
+
+class DensePoses : public Poses {
+ protected:
+  DensePoses() {
+    json_ = document::Json::parse(kDense);
+    for (int frame = 0; frame < 49; ++frame)
+      json_["actors"][0]["keys"].push_back(
+          {{"frame", frame}, {"place", {0.1 * frame, 0, 0}}, {"pose", {{"shin", {0, 2 * frame, 0}}}}});
+  }
+
+  double shin(std::uint32_t frame) { return figure_at(frame).y; }
+  glm::dvec3 figure_at(std::uint32_t frame) { return value_at(film_.actors[0].motion.pose[1], frame); }
+};
+
+TEST_F(DensePoses, RemarkWhatPops) {
+  const Remarks remarks = pose("it", {"shin.y=88", "hip.z=3", "place.z=0.4"}, {24, 24});
+  ASSERT_EQ(remarks.size(), 1u);
+  EXPECT_EQ(remarks[0],
+            "actor 'it': shin pops by 40 degrees between its keys at frames 23 and 25, with 1 other part (--falloff 8 "
+            "blends the change over 8 frames to both sides)");
+  EXPECT_TRUE(pose("it", {"shin.y+=6"}, {10, 10}).empty()) << "little faster than it swings";
+  json_ = document::Json::parse(kFilm);
+  EXPECT_TRUE(pose("it", {"left-shin.y=130"}, {12, 12}).empty()) << "keys are far away";
+  EXPECT_TRUE(pose("it", {"left-shin.y=30"}, {14, 14}).empty()) << "and so are those of a pose held to there";
+}
+
+TEST_F(DensePoses, BlendTheirChangeToBothSides) {
+  EXPECT_TRUE(pose("it", {"shin.y+=40"}, {24, 24}, Beyond::refused, 8).empty());
+  EXPECT_EQ(shin(24), 88);
+  double before = 0;
+  for (const std::uint32_t away : {8u, 7u, 6u, 5u, 4u, 3u, 2u, 1u, 0u}) {
+    const double changed = shin(24 - away) - 2 * (24 - away);
+    EXPECT_NEAR(changed, shin(24 + away) - 2 * (24 + away), 1e-6) << "the same to both sides";
+    EXPECT_GE(changed, before);
+    EXPECT_LE(changed - before, 1.5 * 40 / 8) << away;
+    before = changed;
+  }
+  EXPECT_EQ(shin(16), 32);
+  EXPECT_EQ(shin(40), 80);
+  EXPECT_EQ(json_["actors"][0]["keys"].size(), 49u);
+}
+
+TEST_F(DensePoses, BlendBesideARangeAndWithinLimits) {
+  EXPECT_NE(document::failure_of([&] {
+              pose("it", {"shin.y=149"}, {44, 44}, Beyond::refused, 20);
+            }).find("outside its limits 0 to 150"),
+            std::string::npos);
+  EXPECT_EQ(pose("it", {"shin.y+=60"}, {40, 46}, Beyond::clamped, 4).size(), 1u) << "at frame 46";
+  EXPECT_EQ(shin(40), 140);
+  EXPECT_EQ(shin(46), 150);
+  EXPECT_EQ(shin(36), 72);
+  EXPECT_GT(shin(37), 74);
+  EXPECT_GT(shin(48), 96) << "the film ends before the blend does";
+  const Remarks clamped = pose("it", {"shin.y=149"}, {30, 30}, Beyond::clamped, 16);
+  ASSERT_EQ(clamped.size(), 1u);
+  EXPECT_NE(clamped[0].find("keyed as 150, and so "), std::string::npos) << clamped[0];
+}
+
+// Where keys are far apart, two more keep what is beyond the blend.
+TEST_F(Poses, BlendAmongFewKeys) {
+  read();
+  std::vector<double> were;
+  const auto shin = [&](std::uint32_t frame) { return value_at(film_.actors[0].motion.pose[1], frame).y; };
+  for (std::uint32_t frame = 0; frame < 49; ++frame) were.push_back(shin(frame));
+  pose("it", {"left-shin.y+=20"}, {12, 12}, Beyond::refused, 5);
+  EXPECT_NEAR(shin(12), were[12] + 20, 1e-6);
+  for (std::uint32_t frame = 0; frame < 49; ++frame)
+    if (frame <= 7 || frame >= 17) EXPECT_NEAR(shin(frame), were[frame], 1e-6) << frame;
+  EXPECT_EQ(pose("it", {"right-shin.y=30"}, {3, 3}, Beyond::refused, 5).size(), 0u);
+  EXPECT_EQ(value_at(film_.actors[0].motion.pose[2], 8).y, 0);
 }
 
 TEST_F(Poses, OfLightsBehindTheEndAreFound) {

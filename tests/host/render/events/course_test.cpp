@@ -36,5 +36,19 @@ TEST(Course, SaysNothingWithoutAForecast) {
   EXPECT_FALSE(kCourse.left(5, 15));
 }
 
+TEST(Course, HasBoundsThatNarrowAsTheRunGoesOn) {
+  const Course course({{4, FrameKind::keyframe}, {6, FrameKind::inbetween}, {10, FrameKind::inbetween}},
+                      RatioBounds{0.8, 1.5});
+  const auto width = [&](std::size_t done, double seconds) {
+    const auto left = course.left(done, seconds);
+    EXPECT_LT(left->between->front(), left->seconds());
+    return left->between->back() / left->between->front();
+  };
+  EXPECT_EQ(course.left(0, 0)->between, (std::array{8.0, 15.0}));
+  EXPECT_LT(width(1, 4), width(0, 0));
+  EXPECT_LT(width(2, 6), width(1, 4));
+  EXPECT_FALSE(kCourse.left(0, 0)->between) << "without bounds";
+}
+
 }  // namespace
 }  // namespace mars::events

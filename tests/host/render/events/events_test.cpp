@@ -13,6 +13,8 @@ std::vector<Event> one_of_each() {
   progress.interval = 2;
   Progress foreseen = progress;
   foreseen.forecast = {1.5, 2.25};
+  Progress bounded = progress;
+  bounded.forecast = {1.5, 2.25, {{3, 4.5}}};
   return {
       Loading{"film.json"},
       Loaded{23.5},
@@ -20,6 +22,7 @@ std::vector<Event> one_of_each() {
       Booted{"mpi", 2, {{0, "ada", 2, "core 0", "avx2"}, {1, "bob", 1, "", "sse2"}}},
       progress,
       foreseen,
+      bounded,
       FrameTaken{12, 2, FrameKind::inbetween},
       FrameTaken{0, 0, FrameKind::keyframe},
       Fault{"a \"problem\"\nof two lines", "film.json:3", "mend it", {}, {}, ""},

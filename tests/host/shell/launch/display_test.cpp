@@ -44,6 +44,15 @@ TEST(Display, ProgressBeforeTheFirstFrame) {
   EXPECT_EQ(progress_text(progress), "frame 0 of 22, 1:03 left (keyframes 0:03, inbetweens 1:00)");
 }
 
+TEST(Display, ProgressHasTheBoundsOfAForecast) {
+  events::Progress progress = some_progress();
+  progress.keyframes.done = progress.inbetweens.done = 0;
+  progress.forecast = {3, 60, {{58, 75}}};
+  EXPECT_EQ(progress_text(progress), "frame 0 of 22, 1:03 left, 90 %: 0:58 to 1:15 (keyframes 0:03, inbetweens 1:00)");
+  progress.forecast = {3, 60, {{62.9, 63.1}}};
+  EXPECT_EQ(progress_text(progress), "frame 0 of 22, 1:03 left (keyframes 0:03, inbetweens 1:00)");
+}
+
 TEST(Display, PlainLinesAreWholeAndNotTooMany) {
   std::ostringstream out;
   Display display(Display::Kind::lines, out);

@@ -35,8 +35,9 @@ def plain(width, height, color):
 
 
 class MockStudio:
-    def __init__(self, project, draw=None):
+    def __init__(self, project, draw=None, token=TOKEN):
         self.project = project
+        self.token = token
         self.draw = draw or (lambda asked: plain(asked["width"], asked["height"], (40 + 30 * asked["view"], 60, 80)))
         self.there = lambda grab: {"joint": None, "handle": None}  # what a grab finds
         self.channels = []  # things with keys, as the protocol has them
@@ -66,7 +67,7 @@ class MockStudio:
 
     @property
     def link(self):
-        return f"http://127.0.0.1:{self.port}/?token={TOKEN}"
+        return f"http://127.0.0.1:{self.port}/?token={self.token}"
 
     def forget(self):
         with self.news:
@@ -108,7 +109,7 @@ class MockStudio:
     async def _file(self, path, _):
         address = urllib.parse.urlsplit(path)
         if address.path == "/ws":
-            right = urllib.parse.parse_qs(address.query).get("token") == [TOKEN]
+            right = urllib.parse.parse_qs(address.query).get("token") == [self.token]
             return None if right else (http.HTTPStatus.FORBIDDEN, [], b"")
         file = (PAGE / address.path.lstrip("/")).resolve()
         file = file / "index.html" if file == PAGE else file

@@ -27,6 +27,14 @@ FLAGS = ("--headless=new", "--no-sandbox", "--disable-quic", "--no-first-run", "
          "--disable-component-update", "--disable-sync", "--disable-gpu")
 SIZE = {"width": 1280, "height": 720, "deviceScaleFactor": 1, "mobile": False}
 PATIENCE = 5  # seconds
+# Rows of the tree that are out of sight are no elements.
+SHOW_IN_TREE = """
+const tree = document.querySelector("#tree [role=tree]");
+for (let top = 0; !document.querySelector(arguments[0]) && top < tree.scrollHeight; top += tree.clientHeight / 2) {
+  tree.scrollTop = top;
+  tree.dispatchEvent(new Event("scroll"));
+}
+"""
 
 
 @functools.cache
@@ -105,7 +113,9 @@ class Page(unittest.TestCase):
         self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": features})
 
     def select(self, joint):
-        self.js("document.querySelector(arguments[0]).click()", f'[data-key$="/{joint}"] > .row')
+        row = f'[data-key$="/{joint}"] > .row'
+        self.js(SHOW_IN_TREE, row)
+        self.js("document.querySelector(arguments[0]).click()", row)
         self.studio.wait_for("select", joint=joint)
 
     def commit(self, begin):
@@ -240,13 +250,15 @@ class Hands(Page):
 
 class Controls(Page):
     def test_tree_by_keyboard(self):
-        tree = '[role="tree"] [tabindex="0"]'
-        self.js("document.querySelector(arguments[0]).focus()", tree)
+        self.js("document.querySelector('#tree [role=tree]').focus()")
         self.press(Keys.ARROW_DOWN)
         self.studio.wait_for("select", actor="model", joint="spine")
+        self.press("/")
         self.press("left-sh")
         self.studio.wait_for("select", joint="left-shin")
-        shut = lambda: self.js("return document.activeElement.getAttribute('aria-expanded')")  # noqa: E731
+        self.press(Keys.ENTER)
+        shut = lambda: self.js(  # noqa: E731
+            "return document.getElementById(document.activeElement.getAttribute('aria-activedescendant')).ariaExpanded")
         self.assertEqual(shut(), "true")
         self.press(Keys.ARROW_LEFT)
         self.assertEqual(shut(), "false")
@@ -256,7 +268,17 @@ class Controls(Page):
         self.studio.wait_for("select", joint="pelvis")
         self.press(Keys.END)
         self.studio.wait_for("select", joint="right-toe-sole")
-        self.assertEqual(len(self.browser.find_elements(By.CSS_SELECTOR, '[role="tree"] [tabindex="0"]')), 1)
+        current = self.js("return document.activeElement.getAttribute('aria-activedescendant')")
+        self.assertEqual(self.find(f"#{current}").get_attribute("data-key"), "model/right-toe-sole")
+        self.assertTrue(self.find(f"#{current}").is_displayed())
+
+    def test_letters_are_shortcuts_after_a_click_in_the_tree(self):
+        self.find('[data-key$="/left-shin"] > .row > .name').click()
+        self.studio.wait_for("select", joint="left-shin")
+        self.press("s")
+        self.studio.wait_for("view", view=0, **{"as": "vertices"})
+        self.press("2")
+        self.until(lambda: self.js("return document.activeElement === document.querySelectorAll('.picture')[1]"))
 
     def test_sliders_stop_at_limits_and_commit_once(self):
         self.select("left-shin")
@@ -298,6 +320,18 @@ class Controls(Page):
         self.assertEqual([box[:2], box[3]], [[-0.7, -0.8], 0.9])
         self.assertEqual(numbers(steps[4], "--place")[:2], [0.3, 0.4])
 
+    def test_first_steps_are_of_what_there_is(self):
+        shown = lambda: self.find(".nothing dl").text  # noqa: E731
+        self.assertIn("a limb in a view", shown())
+        body = {**self.studio.project["actors"][0]["joints"][0], "shape": None, "sbb": None, "name": "body"}
+        actors = [{**self.studio.project["actors"][0], "joints": [body]}]
+        self.studio.tell({"is": "project", **self.studio.project, "actors": actors})
+        self.until(lambda: "a limb in a view" in shown(), False)
+        for words in ("a joint in the tree", "Shift+A\nadds a joint", "Bodies\nbegins with a whole figure"):
+            self.assertIn(words, shown())
+        self.studio.tell({"is": "project", **self.studio.project, "kind": "film", "actors": []})
+        self.until(lambda: "Scene\nadds actors" in shown())
+
     def test_a_double_click_in_the_tree_renames(self):
         ActionChains(self.browser).double_click(self.find('[data-key$="/left-thigh"] > .row > .name')).perform()
         self.until(lambda: self.js("return document.activeElement.dataset.key + ' ' + document.activeElement.value"), "name left-thigh")
@@ -323,8 +357,25 @@ class Controls(Page):
                    color.dispatchEvent(new Event("change", {bubbles: true}));""")
         self.commit("model set --material trousers --color 1 0 0.502")
         self.find("[role=tab]:nth-child(2)").send_keys(Keys.ARROW_RIGHT)
-        self.js("[...document.querySelectorAll('.panel:not([hidden]) button')].find((each) => each.textContent === 'child').click()")
-        self.commit("model new --figure child")
+
+    def test_a_body_takes_the_models_place_only_where_somebody_agrees(self):
+        self.find("[role=tab]:nth-child(3)").click()
+        body = lambda name: self.js(  # noqa: E731
+            "[...document.querySelectorAll('.panel:not([hidden]) button')].find((each) => each.textContent === arguments[0]).click()", name)
+        body("child")
+        self.assertIn(f"Its {len(self.studio.project['actors'][0]['joints'])} joints go", self.find(".popover").text)
+        self.press(Keys.ESCAPE)
+        self.until(lambda: self.browser.find_elements(By.CSS_SELECTOR, ".popover"), [])
+        body("tall")
+        self.find('[data-key="ask.yes"]').click()
+        self.commit("model new --figure tall --replace")
+        self.assertEqual(len([each for each in self.studio.heard if each["do"] == "commit"]), 1)
+        self.studio.forget()
+        new = {**self.studio.project["actors"][0], "joints": self.studio.project["actors"][0]["joints"][:1]}
+        self.studio.tell({"is": "project", **self.studio.project, "actors": [new], "undo": None})
+        self.until(lambda: self.find("#tree .count").text, "1")
+        body("child")
+        self.commit("model new --figure child --replace")
 
     def test_joints_are_added_renamed_mirrored_and_removed_by_keys(self):
         self.select("left-hand")
@@ -336,7 +387,7 @@ class Controls(Page):
         self.commit("model set left-hand --name left-paw")
         self.js("[...document.querySelectorAll('.actions button')].find((each) => each.textContent === 'Left to right').click()")
         self.commit("model mirror left left-hand")
-        self.js("document.querySelector('[aria-selected=true][role=treeitem]').focus()")
+        self.js("document.querySelector('#tree [role=tree]').focus()")
         self.press(Keys.DELETE)
         self.commit("model remove left-hand --branch")
         self.studio.wait_for("select", joint="left-forearm")
@@ -353,6 +404,8 @@ class Controls(Page):
         for key, change in (("g", {"ground": False}), ("h", {"hidden": False}), ("s", {"as": "vertices"}), ("a", {"orbit": None})):
             self.press(key)
             self.studio.wait_for("view", view=1, **change)
+        self.press("z")
+        self.studio.wait_for("orbit", view=1, how="selected", moving=False)
         self.press("r")
         self.studio.wait_for("view", view=2, handles="box")
 
@@ -442,10 +495,33 @@ class Trouble(Page):
         self.studio.tell({"is": "state", "renderer": "The renderer ended.", "nodes": 0, "machines": 0})
         self.until(lambda: "The renderer ended." in self.find("#banners").text)
         self.studio.tell({"is": "refused", "do": "commit", "text": "is no joint"})
-        self.until(lambda: "is no joint" in self.find("#toasts").text)
+        self.until(lambda: "is no joint" in self.find("#messages").text)
         self.studio.tell({"is": "project", **self.studio.project, "problem": None})
         self.studio.tell({"is": "state", "renderer": "", "nodes": 2, "machines": 1})
         self.until(lambda: self.find("#banners").text, "")
+
+    def test_messages_cover_nothing_and_stay_to_be_read(self):
+        for number in range(3):
+            self.studio.tell({"is": "remark", "text": f"Message {number} " + "of many words " * 30})
+        self.until(lambda: "Message 2" in self.find("#messages").text)
+        covers = """const at = document.querySelector("#messages .message").getBoundingClientRect();
+                    return ["views", "panels", "tree"].filter((id) => {
+                      const other = document.getElementById(id).getBoundingClientRect();
+                      return at.left < other.right && at.right > other.left && at.top < other.bottom && at.bottom > other.top;
+                    });"""
+        self.assertEqual(self.js(covers), [])
+        self.assertEqual(self.js("return document.documentElement.scrollWidth"), 1280)
+        self.find("#messages .message").click()
+        self.assertEqual([line.text[:9] for line in self.browser.find_elements(By.CSS_SELECTOR, ".message-lines li")],
+                         ["Message 0", "Message 1", "Message 2"])
+
+    def test_a_page_of_a_studio_that_was_started_again_says_what_to_do(self):
+        self.allowed = "/ws?token"
+        port, project = self.studio.port, self.studio.project
+        self.studio.stop()
+        self.until(lambda: "does not answer" in self.find("#banners").text)
+        self.studio = MockStudio(project, token="another").start(port)
+        self.until(lambda: "Open the link that it has printed" in self.find("#banners").text)
 
     def test_what_is_no_picture_is_left_alone(self):
         self.studio.tell(b"nonsense")
@@ -455,6 +531,33 @@ class Trouble(Page):
 
 class Films(Page):
     kind = projects.film
+
+    def test_a_crowd_is_built_as_far_as_it_is_in_sight(self):
+        actor = self.studio.project["actors"][0]
+        crowd = [{**actor, "name": f"walker-{number}"} for number in range(300)]
+        self.studio.project["actors"] = crowd
+        self.browser.refresh()
+        self.until(lambda: self.js("return document.querySelector('#tree .count')?.textContent"), "300")
+        self.assertLess(self.js("return document.querySelectorAll('*').length"), 2000)
+        self.js("const tree = document.querySelector('#tree [role=tree]'); tree.scrollTop = tree.scrollHeight")
+        self.until(lambda: self.js("return document.querySelector('[data-key=walker-299]') !== null"))
+        self.js("document.querySelector('[data-key=walker-299] .twist').click()")
+        self.js("document.querySelector('[data-key=walker-299] > .row').click()")
+        self.studio.wait_for("select", actor="walker-299")
+        self.assertLess(self.js("return document.querySelectorAll('*').length"), 2000)
+
+    def test_titles_leave_the_middle_of_narrow_views_free(self):
+        """1440 x 900 at 150 percent."""
+        self.addCleanup(self.browser.execute_cdp_cmd, "Emulation.setDeviceMetricsOverride", SIZE)
+        self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", SIZE | {"width": 960, "height": 600, "deviceScaleFactor": 1.5})
+        self.js("document.querySelector('.title').click()")
+        self.js("[...document.querySelectorAll('.menu button')].find((each) => each.textContent === \"Film's camera\").click()")
+        ends = lambda: self.js("""return [...document.querySelectorAll(".view")].map((view) => {  // noqa: E731
+            const [all, title] = [view, view.querySelector(".title")].map((each) => each.getBoundingClientRect());
+            return title.width > 40 && title.right < all.x + 0.44 * all.width;
+        });""")
+        self.until(ends, [True, True, True, True])
+        self.assertEqual(self.find(".title strong").text, "Film's camera")
 
     def test_frames_are_scrubbed_and_played(self):
         self.find(".ruler").send_keys(Keys.ARROW_RIGHT)
@@ -467,17 +570,54 @@ class Films(Page):
         self.chord(Keys.SPACE)
 
     def test_steps_name_their_actor_and_keys_show(self):
+        self.js("document.querySelector('[data-key=watcher] .twist').click()")
+        self.js(SHOW_IN_TREE, '[data-key="watcher/head"]')
         self.js("document.querySelector('[data-key=\"watcher/head\"] > .row').click()")
         self.studio.wait_for("select", actor="watcher", joint="head")
         self.assertEqual(self.find(".keyed-state.on").text, "Key at this frame")
         self.find('[data-key="pose.z"]').send_keys(Keys.ARROW_RIGHT)
         self.commit("animate pose watcher head=0,0,1 --frame 24 --clamp")
+        self.find('[aria-label="Blend poses into the frames around"]').click()
+        self.js("[...document.querySelectorAll('.menu button')].find((each) => each.textContent === '8 frames to both sides').click()")
+        self.find('[data-key="pose.z"]').send_keys(Keys.ARROW_RIGHT)
+        self.commit("animate pose watcher head=0,0,1 --falloff 8 --frame 24 --clamp")
+        self.picture().click()
+        self.studio.wait_for("grab", falloff=8)
         self.js("document.querySelector('[data-key=\"walker\"] > .row').click()")
         self.until(lambda: self.find('[role="tab"][aria-selected="true"]').text, "Scene")
         self.find('[data-key="actor.place.x"]').send_keys(Keys.ARROW_UP, Keys.ENTER)
-        self.commit("animate pose walker place=0.1,0,0 --frame 24")
+        self.commit("animate pose walker place=0.1,0,0 --falloff 8 --frame 24")
         self.find('[data-key="camera.fov"]').send_keys(Keys.ARROW_UP, Keys.ENTER)
-        self.commit("animate pose camera fov=41 --frame 24")
+        self.commit("animate pose camera fov=41 --falloff 8 --frame 24")
+
+    def test_a_new_actor_is_placed_beside_others_and_selected(self):
+        self.js("document.querySelector('[data-key=\"walker\"] > .row').click()")
+        self.find('[data-key="cast.model"]').send_keys("ball")
+        self.find('[data-key="cast.add"]').click()
+        self.commit("film add ball --model ball --beside 24")
+        ball = {**self.studio.project["actors"][0], "name": "ball", "joints": []}
+        self.studio.tell({"is": "project", **self.studio.project, "actors": [*self.studio.project["actors"], ball]})
+        self.studio.wait_for("select", actor="ball", joint=None)
+        self.assertEqual(self.find('[data-key="actor.name"]').get_attribute("value"), "ball")
+
+    def test_the_camera_is_cut_at_the_frame(self):
+        self.js("document.querySelector('[data-key=\"walker\"] > .row').click()")
+        self.find('[data-key="camera.cut"]').click()
+        self.commit("animate cut camera --frame 24")
+
+    def test_a_motion_lengthens_the_film_where_it_may(self):
+        walk = {"name": "walk", "purpose": "Walk", "group": "figure", "needs": "hips", "parameters": []}
+        self.studio.tell({"is": "actions", "actions": [walk]})
+        self.js("document.querySelector('[data-key=\"walker\"] > .row').click()")
+        self.js("[...document.querySelectorAll('[role=tab]')].find((each) => each.textContent === 'Motions').click()")
+        self.find("[data-motion=walk]").click()
+        self.assertTrue(self.find('[data-key="motion.lengthen"]').is_selected())
+        self.find('[data-key="motion.apply"]').click()
+        self.assertEqual(self.commit("animate walk walker")[-1], "--lengthen")
+        self.studio.forget()
+        self.find('[data-key="motion.lengthen"]').click()
+        self.find('[data-key="motion.apply"]').click()
+        self.assertNotIn("--lengthen", self.commit("animate walk walker"))
 
     def scene(self):
         """The tab, with all that is shut at first."""

@@ -7,22 +7,10 @@ from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
 import projects
+from channels import channels, key
 from page_test import Page, main
 
 SHIFT, ALT = 8, 1
-
-
-def key(frame, *value, ease="linear", **slopes):
-    return {"frame": frame, "value": list(value), "ease": ease, **slopes}
-
-
-def channels():
-    """A walker with three parts, of which one lies on a spline, and a camera."""
-    parts = [{"name": "place", "axes": ["x", "y", "z"], "keys": [key(0, 0, 0, 0), key(40, 2, 0, 0)]},
-             {"name": "left-shin", "axes": ["y"], "keys": [key(0, 10), key(20, 50, ease="spline"), key(40, 30, ease="spline"), key(60, 0)]},
-             {"name": "head", "axes": ["x", "y", "z"], "keys": [key(20, 0, 0, 30, ease="both"), key(60, 0, 0, 0)]}]
-    return [{"thing": "camera", "kind": "camera", "parts": [{"name": "eye", "axes": ["x", "y", "z"], "keys": [key(0, 6, -4, 3), key(60, 2, -4, 3)]}]},
-            {"thing": "walker", "kind": "actor", "parts": parts}]
 
 
 class Timeline(Page):
@@ -116,6 +104,30 @@ class Timeline(Page):
         self.press(Keys.DELETE)
         self.assertEqual(self.commands(), ["animate delete --all --frame 0-60"])
 
+    def choose(self, text):
+        self.until(lambda: self.js("return document.activeElement.role ?? ''").startswith("menuitem"))
+        [item] = [each for each in self.browser.find_elements(By.CSS_SELECTOR, ".menu button") if each.text == text]
+        item.click()
+
+    def test_keys_hold_and_many_are_reduced_to_few(self):
+        self.click("walker left-shin", 20)
+        self.press("e")
+        self.choose("Hold, then jump")
+        self.assertEqual(self.commands(), ["animate time walker left-shin --frame 20 --ease hold"])
+        self.studio.forget()
+        self.pull((self.x(-1), self.y("walker left-shin") - 8), (self.x(45), self.y("walker head") + 8))
+        self.press("t")
+        self.choose("Reduce\u2026")
+        self.press(Keys.CONTROL, "a", Keys.NULL, "0.5", Keys.ENTER)
+        self.assertEqual(self.commands(), ["animate reduce walker left-shin head --error 0.5 --frame 0-40"])
+        self.studio.forget()
+        self.find(".drawing").click()
+        self.press(Keys.CONTROL, "a")
+        self.press("t")
+        self.choose("Reduce\u2026")
+        self.press(Keys.ENTER)
+        self.assertEqual(self.commands(), ["animate reduce camera --error 1 --frame 0-60", "animate reduce walker --error 1 --frame 0-60"])
+
     def test_copies_are_put_at_the_frame_and_keys_inserted(self):
         self.click("walker head", 20)
         self.press(Keys.CONTROL, "c")
@@ -150,6 +162,31 @@ class Timeline(Page):
         self.pull(spot(60, 0), spot(60, 25))
         [command] = self.commands()
         self.assertRegex(command, r"^animate pose walker left-shin.y=2[45](\.\d+)? --frame 60 --clamp$")
+
+    def test_a_curve_is_seen_between_dense_keys(self):
+        frames = 1400
+        dense = {"name": "left-shin", "axes": ["y"], "keys": [key(frame, 40) for frame in range(frames)]}
+        self.studio.channels = [{"thing": "walker", "kind": "actor", "parts": [dense]}]
+        self.studio.project["frames"] = frames
+        self.studio.tell({"is": "project", **self.studio.project})
+        self.studio.tell({"is": "channels", "things": self.studio.channels})
+        drawn = """
+            const canvas = document.querySelector("[data-shown=curves] .panel:not([hidden]) .drawing canvas"), {width, height} = canvas;
+            const {data} = canvas.getContext("2d").getImageData(0, 0, width, height), columns = [];
+            for (let x = 40; x < width - 40; ++x) {
+              let colored = 0;
+              for (let y = 0; y < height; ++y) {
+                const at = 4 * (y * width + x), part = [data[at], data[at + 1], data[at + 2]];
+                colored += Math.max(...part) - Math.min(...part) > 60;
+              }
+              columns.push(colored);
+            }
+            return [columns.filter((each) => each > 0 && each < 4).length / columns.length, columns.filter((each) => each > 0).length];"""
+        for picked in (True, False):
+            with self.subTest(picked=picked):
+                self.curves("walker left-shin") if picked else self.press(Keys.ESCAPE)
+                self.until(lambda: self.js(drawn)[1] > 100)
+                self.assertGreater(self.js(drawn)[0], 0.4)
 
     def test_the_selected_keys_numbers_are_typed(self):
         self.click("walker left-shin", 40)

@@ -45,7 +45,7 @@ TEST_F(Files, ACommandsChangeIsNotLostByAStep) {
   const auto project = open("film.json");
   film::change_film(path("film.json"), [&](Json& json, const animator::Film& film) {
     const std::vector<std::string> settings{"head.y=5"};
-    animator::pose(json, film, "one", settings, {0, 0}, std::nullopt, animator::Beyond::refused);
+    animator::pose(json, film, "one", settings, {0, 0}, {});
   });
   project->commit(pose("one", "place=7,7,7", project->frame()));
   EXPECT_TRUE(holds(text("film.json"), R"("head": [0, 5, 0])"));

@@ -15,7 +15,7 @@ class FilmSteps : public OpenFiles {
                          std::uint32_t frame) const {
     write("copy.json", text("film.json"));
     film::change_film(path("copy.json"), [&](Json& json, const animator::Film& film) {
-      animator::pose(json, film, thing, settings, {frame, frame}, std::nullopt, animator::Beyond::clamped);
+      animator::pose(json, film, thing, settings, {frame, frame}, {.beyond = animator::Beyond::clamped});
     });
     return text("copy.json");
   }

@@ -217,21 +217,22 @@ TEST_F(ModelSteps, ANewModelBeginsAsAnyBody) {
   const Json bodies = project->describe()["bodies"];
   EXPECT_GE(bodies.size(), 5u);
   for (const Json& body : bodies) {
-    project->commit(step("model new --figure " + body["name"].get<std::string>()));
+    project->commit(step("model new --figure " + body["name"].get<std::string>() + " --replace"));
     EXPECT_GT(project->film().models[0].joints.size(), 10u) << body;
     modeler::load_own_model(path("new.json"));
   }
-  project->commit(step("model new --figure child --height 1.25"));
+  EXPECT_TRUE(holds(refusal([&] { project->commit(step("model new --figure child")); }), "is open already"));
+  project->commit(step("model new --figure child --height 1.25 --replace"));
   const auto bounds = modeler::rest_bounds(project->film().models[0]);
   EXPECT_NEAR(bounds->max.z - bounds->min.z, 1.25, 2e-3);
-  EXPECT_TRUE(holds(refusal([&] { project->commit(step("model new --figure chield")); }), "child"));
+  EXPECT_TRUE(holds(refusal([&] { project->commit(step("model new --figure chield --replace")); }), "child"));
   while (project->describe()["undo"].is_string()) project->undo();
   EXPECT_EQ(project->film().models[0].joints.size(), 1u);
 }
 
 TEST_F(ModelSteps, FilesElsewhereAreNotRead) {
   const auto project = open("pip.json");
-  for (const char* words : {"model new --from ../secret.json", "model new --from /etc/passwd"})
+  for (const char* words : {"model new --replace --from ../secret.json", "model new --replace --from /etc/passwd"})
     EXPECT_TRUE(holds(refusal([&] { project->commit(step(words)); }), "below")) << words;
   for (const char* words : {"film add ball --model ball", "animate check", "render pip.json"})
     refusal([&] { project->commit(step(words)); });

@@ -253,6 +253,12 @@ TEST(Hands, ArrowsMoveActorsOfFilms) {
   EXPECT_LT(glm::length(scene.state().place - glm::dvec3(0, 0, 0.4)), 2e-3) << "x is not its own";
   scene.drop();
   EXPECT_TRUE(effect_of(scene.project.commits.at(0)).contains("place"));
+  EXPECT_FALSE(effect_of(scene.project.commits.at(0)).contains("falloff"));
+  const glm::dvec3 there = scene.state().place + held;
+  scene.take(R"({"do": "grab", "view": 0, "falloff": 8, )" + xy(scene.pixel(there)) + "}");
+  scene.drag(scene.pixel(there + glm::dvec3(0, 0, 0.2)));
+  scene.drop();
+  EXPECT_EQ(effect_of(scene.project.commits.at(1))["falloff"], 8) << "blended over frames around";
 }
 
 TEST(Hands, ArrowsMoveJointsOfModels) {

@@ -8,6 +8,7 @@
 #include "host/content/film/compile.h"
 #include "host/preview/viewpoint.h"
 #include "host/studio/stage/eye.h"
+#include "host/studio/stage/screen.h"
 #include "tests/host/studio/stage/fakes.h"
 #include "tests/host/studio/step_words.h"
 #include "tests/render/film_run.h"
@@ -215,6 +216,54 @@ TEST(Scenes, AModelThatGrowsIsFramedAgain) {
   EXPECT_GT(after["distance"].get<double>(), 1.3 * before);
   EXPECT_EQ(
       std::count_if(on.sent.begin(), on.sent.end(), [](const auto& sent) { return sent.second["is"] == "orbit"; }), 1);
+}
+
+// From where the eye looks already.
+TEST(Scenes, WhatIsSelectedFillsTheView) {
+  OnStage on(example("robot-arm.json"));
+  on.view(0, 320, 200, "free", "surface");
+  on.take(R"({"do": "orbit", "edit": 7, "view": 0, "by": [120, 30], "how": "turn", "moving": false})");
+  const Json before = on.last("orbit");
+  const auto selected = [&](const Json& names) {
+    Json message = names;
+    message["do"] = "select";
+    on.take(message.dump());
+    on.take(R"({"do": "orbit", "edit": 8, "view": 0, "how": "selected", "moving": false})");
+    const Json orbit = on.last("orbit");
+    EXPECT_EQ(orbit["turn"], before["turn"]);
+    EXPECT_EQ(orbit["height"], before["height"]);
+    return orbit;
+  };
+  const std::string robot = robot_name(on.project.film());
+  const Json elbow = selected({{"actor", robot}, {"joint", "elbow"}});
+  EXPECT_LT(elbow["distance"].get<double>(), 0.7 * before["distance"].get<double>());
+  const auto& joints = on.project.film().models[on.project.film().actors[0].model].joints;
+  const animator::ActorState state = animator::state_at(on.project.film(), 0, 0);
+  for (std::size_t joint = 0; joint < joints.size(); ++joint) {
+    if (joints[joint].name != "elbow") continue;
+    const wire::FilmView scene = scene_of(on.link.asked.back());
+    const Screen screen(scene.camera_at(0), 320, 200);
+    glm::dvec2 low(1e9), high(-1e9);
+    for (int corner = 0; corner < 8; ++corner) {
+      const modeler::Box& box = joints[joint].segment->sbb;
+      const glm::dvec3 at(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                          corner & 4 ? box.max.z : box.min.z);
+      const auto pixel = screen.pixel_of(state.joints[joint].turn * at + state.joints[joint].place);
+      ASSERT_TRUE(pixel);
+      low = glm::min(low, *pixel);
+      high = glm::max(high, *pixel);
+    }
+    EXPECT_GE(std::min(low.x, low.y), 0);
+    EXPECT_LE(high.x, 320);
+    EXPECT_LE(high.y, 200);
+    EXPECT_GT(std::max(high.x - low.x, high.y - low.y), 100) << "of 200 pixels";
+  }
+  EXPECT_GT(selected({{"actor", robot}})["distance"], elbow["distance"]);
+  EXPECT_NEAR(selected({{"actor", nullptr}})["distance"].get<double>(), before["distance"].get<double>(), 1e-9);
+  on.take(R"({"do": "select", "thing": "camera"})");
+  on.view(0, 320, 200, "camera", "surface");
+  on.take(R"({"do": "orbit", "edit": 9, "view": 0, "how": "selected", "moving": false})");
+  EXPECT_EQ(on.last("orbit")["from"], "free");
 }
 
 TEST(Scenes, AnotherMaterialOrLightIsAnotherInterval) {

@@ -184,6 +184,16 @@ bool has_four_legs(const modeler::Model& model) {
   return true;
 }
 
+double length_of_two_legs(const modeler::Model& model) {
+  const auto find = [&](modeler::Limb limb) { return model.limbs.of(limb, modeler::Side::left); };
+  const std::size_t hip = find(modeler::Limb::hip), ankle = find(modeler::Limb::ankle);
+  if (hip == modeler::kNone || ankle == modeler::kNone || has_four_legs(model)) return 0;
+  const std::size_t knee = find(modeler::Limb::knee) == modeler::kNone ? ankle : find(modeler::Limb::knee);
+  const Posture drawn = drawn_posture(model);
+  const auto place = [&](std::size_t joint) { return frame_in(model, drawn, joint).place; };
+  return glm::distance(place(hip), place(knee)) + glm::distance(place(knee), place(ankle));
+}
+
 void require_two_legs(const modeler::Model& model, const std::string& actor, const std::string& command) {
   if (has_four_legs(model))
     throw Failure("has four legs, which '" + command + "' does not move", "actor '" + actor + "'",

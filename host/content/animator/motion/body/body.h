@@ -90,6 +90,9 @@ Body body_of(const modeler::Model& model, const std::string& actor, const std::s
 // Whether wrists are named and what they carry reaches the floor as the hind feet do, as drawn.
 bool has_four_legs(const modeler::Model& model);
 
+// From hip to ankle over the knee; 0 where the model names no such limbs, or has four legs.
+double length_of_two_legs(const modeler::Model& model);
+
 // Throws Failure for figures with four legs.
 void require_two_legs(const modeler::Model& model, const std::string& actor, const std::string& command);
 

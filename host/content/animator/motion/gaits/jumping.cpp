@@ -9,11 +9,11 @@
 #include "hal/failure/failure.h"
 #include "host/content/animator/motion/body/glide.h"
 #include "host/content/animator/motion/gaits/going.h"
+#include "host/content/animator/motion/scene/gravity.h"
 
 namespace mars::motion {
 namespace {
 
-constexpr double kGravityOfLegs = 9.81 / 0.835;    // for a leg of length 1: the leg of a man of 1.75 m in metres
 constexpr double kHeight = 0.35;                   // of the leg, that the hips rise after the feet have left
 constexpr double kCrouch = 0.26;                   // of the leg, before it leaves
 constexpr double kAbsorb = 0.22;                   // and after it has landed

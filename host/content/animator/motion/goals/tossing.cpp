@@ -17,6 +17,7 @@
 #include "host/content/animator/motion/laws/flight.h"
 #include "host/content/animator/motion/laws/kinematic.h"
 #include "host/content/animator/motion/goals/picking.h"
+#include "host/content/animator/motion/scene/gravity.h"
 #include "host/content/animator/motion/scene/rehearsal.h"
 #include "host/content/animator/motion/scene/target.h"
 
@@ -30,7 +31,7 @@ constexpr Parameter kToss[] = {
      "4 0 5"},
     {"what", "ACTOR", "the thing; default: what the hand holds", "ball"},
     {"flight", "S", "seconds to the place; default: as few as the least speed needs", "1.2"},
-    {"gravity", "G", "units per second squared; default: 9.81, for a unit of one metre", "28.4"},
+    {"gravity", "G", kGravityMeaning, "28.4"},
     {"floor", "Z", "height of the floor on which the thing bounces; default: 0", "0.5"},
     {"restitution", "N", "part of the upward speed that an impact leaves, 0 to 0.99; default: 0.7", "0.5"},
     {"friction", "N", "part of the speed along the floor that an impact removes, 0 to 1; default: 0.1", "0.3"},
@@ -182,7 +183,7 @@ Motion toss(const Scene& scene) {
   require_two_legs(scene.model(), scene.actor.name, "toss");
   const Body body = body_of(scene.model(), scene.actor.name, "toss");
   const Holding holding = holding_of(scene, body);
-  const double gravity = arguments.number("gravity", kGravity, {1e-6, 1e9});
+  const double gravity = arguments.number("gravity", gravity_in(scene.film), {1e-6, 1e9});
   const double floor = arguments.number("floor", 0, {-document::kFarthest, document::kFarthest});
   const ArmSwing swing(scene, body, holding);
 

@@ -8,8 +8,6 @@
 
 namespace mars::motion {
 
-inline constexpr double kGravity = 9.81;  // a second squared, a unit of the film being a metre
-
 // Units of the film, seconds, degrees.
 struct Launch {
   glm::dvec3 place{0, 0, 0};

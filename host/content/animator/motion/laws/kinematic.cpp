@@ -10,6 +10,7 @@
 #include "host/content/animator/motion/body/body.h"
 #include "host/content/animator/motion/laws/flight.h"
 #include "host/content/animator/motion/body/glide.h"
+#include "host/content/animator/motion/scene/gravity.h"
 
 namespace mars::motion {
 namespace {
@@ -96,7 +97,7 @@ Motion flown(const Scene& scene, const Flight& flight, double seconds) {
 Motion fling(const Scene& scene) {
   const Arguments& arguments = scene.arguments;
   const Flight flight({posture_of(scene).place, arguments.vector("velocity").value_or(glm::dvec3(0)),
-                       arguments.vector("acceleration").value_or(glm::dvec3(0, 0, -kGravity))});
+                       arguments.vector("acceleration").value_or(glm::dvec3(0, 0, -gravity_in(scene.film)))});
   return flown(scene, flight, arguments.number("seconds", 1, {0.001, kLongest}));
 }
 
@@ -106,7 +107,7 @@ Motion bounce(const Scene& scene) {
   const double below = posture.place.z - lowest_of(scene.model(), posture);
   const Launch launch{posture.place,
                       arguments.vector("velocity").value_or(glm::dvec3(0)),
-                      {0, 0, -arguments.number("gravity", kGravity, {1e-6, document::kFarthest})}};
+                      {0, 0, -arguments.number("gravity", gravity_in(scene.film), {1e-6, document::kFarthest})}};
   const Floor floor{arguments.number("floor", 0, {}) + below, arguments.number("restitution", 0.7, {0, 0.99}),
                     arguments.number("friction", 0.1, {0, 1})};
   const double height = launch.place.z - floor.height;

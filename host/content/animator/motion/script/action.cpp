@@ -7,6 +7,7 @@
 #include "host/content/animator/motion/goals/gesture.h"
 #include "host/content/animator/motion/gaits/jumping.h"
 #include "host/content/animator/motion/laws/kinematic.h"
+#include "host/content/animator/motion/scene/gravity.h"
 #include "host/content/animator/motion/goals/picking.h"
 #include "host/content/animator/motion/goals/reaching.h"
 #include "host/content/animator/motion/gaits/running.h"
@@ -102,12 +103,13 @@ constexpr Parameter kSpinning{"spin", "X Y Z", "degrees a second about the world
 constexpr Parameter kVelocity{"velocity", "X Y Z", "units a second; default: none", "2 0 5"};
 constexpr Parameter kThrow[] = {
     kVelocity,
-    {"acceleration", "X Y Z", "units per second squared; default: 0 0 -9.81, for a unit of one metre", "0 0 -28"},
+    {"acceleration", "X Y Z", "units per second squared; default: straight down, by the same gravity as bounce",
+     "0 0 -28"},
     kSpinning,
     {"seconds", "S", "default: 1", "1.5"}};
 constexpr Parameter kBounce[] = {
     kVelocity,
-    {"gravity", "G", "units per second squared; default: 9.81, for a unit of one metre", "28"},
+    {"gravity", "G", kGravityMeaning, "28"},
     {"floor", "Z", "height of the floor that the figure's lowest point hits; default: 0", "0.5"},
     {"restitution", "N", "part of the upward speed that an impact leaves, 0 to 0.99; default: 0.7", "0.8"},
     {"friction", "N",

@@ -106,9 +106,7 @@ class Player {
     if (settings.empty()) line.refuse("does not say what is posed", "add PART=NUMBERS, as in: tom pose head.z=20");
     // What an earlier version of the script keyed here would be added to again.
     if (begun_.insert(name).second) is_actor(name) ? clear_from(name, std::max(at, 1u)) : clear_camera_after(at);
-    in_line(line, [&] {
-      return animator::pose(film_, meaning(), name, settings, {at, at}, {}, animator::Beyond::refused);
-    });
+    in_line(line, [&] { return animator::pose(film_, meaning(), name, settings, {at, at}, {}); });
     played_.report.push_back(line.where() + ": " + name + " pose, frame " + std::to_string(at));
     return at;
   }
@@ -209,10 +207,12 @@ class Player {
     const auto end = static_cast<std::uint32_t>(last);
     in_line(line, [&] {
       // It stays as it is until the cut, or until it moves.
-      if (const std::uint32_t before = verb == "cut" ? at - 1 : at; verb == "move" || at > 0)
-        animator::make_keys(film_, meaning(), {false, kCamera, parts_of(settings)}, before,
-                            verb == "cut" ? animator::kLinear : animator::kBoth, animator::Beyond::refused);
-      animator::pose(film_, meaning(), kCamera, settings, {end, end}, animator::kLinear, animator::Beyond::refused);
+      const animator::Choice moved{false, kCamera, parts_of(settings)};
+      if (verb == "move")
+        animator::make_keys(film_, meaning(), moved, at, animator::kBoth, animator::Beyond::refused);
+      else if (at > 0)
+        animator::cut(film_, meaning(), moved, at);
+      animator::pose(film_, meaning(), kCamera, settings, {end, end}, {.ease = animator::kLinear});
       return meaning().frames;
     });
     played_.report.push_back(line.where() + ": camera " + verb + ", frame " + std::to_string(end));

@@ -1,8 +1,7 @@
 // Actors of a film: the selected one's name, place, turn and carrier; others are added.
 
 import {element} from "../../dom.js";
-import {choice, line, part, textField} from "../../fields.js";
-import {targetOf} from "./controls.js";
+import {line, part, textField} from "../../fields.js";
 
 export function actorPart(controls) {
   const {actor} = controls.state.selected;
@@ -20,10 +19,9 @@ export function actorPart(controls) {
 
 function carrier(controls, actor) {
   const words = (target) => target === null ? ["animate", "detach", actor] : ["animate", "attach", actor, "--to", target];
-  const made = choice({name: "Carried by", options: [[null, "Nobody"], ...controls.targets(actor)], key: "actor.attach",
-                       commit: (target, event) => controls.commit([...words(target), ...controls.atFrame()], event)});
-  controls.whenSet(() => made.set(targetOf(controls.state.actor(actor)?.attach)));
-  return line("Carried by", made.root);
+  return controls.target("Carried by", "Carried by", "actor.attach",
+                         (target, event) => controls.commit([...words(target), ...controls.atFrame()], event),
+                         () => controls.state.actor(actor)?.attach, actor);
 }
 
 export function castPart(controls) {
@@ -37,7 +35,7 @@ export function castPart(controls) {
     const of = model.value.trim();
     if (of === "") return model.focus();
     const called = name.value.trim() || freeName(controls.project.actors, of.split("/").at(-1).replace(/\..*$/, ""));
-    controls.commit(["film", "add", called, "--model", of], event);
+    controls.edits.addActor(called, of, event);
   };
   return part("Add an actor", line("Model", model, list), line("Name", name),
               element("div", {class: "actions"}, element("button", {"data-key": "cast.add", onclick: add}, "Add")));

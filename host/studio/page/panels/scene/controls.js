@@ -1,13 +1,16 @@
 // Controls of a film's scene: each shows a value of the project and changes it by a step, most by one command.
 
 import {element} from "../../dom.js";
-import {colorField, line, vectorField} from "../../fields.js";
+import {colorField, line, longChoice, vectorField} from "../../fields.js";
 import {written} from "../../numbers.js";
+import {blended} from "../../words.js";
 
 export const joined = (numbers) => numbers.map((number) => written(number, 4)).join(",");
 
 // {actor, joint} as commands name it; null: nobody.
-export const targetOf = (bound) => bound ? [bound.actor, bound.joint].filter(Boolean).join("/") : null;
+const targetOf = (bound) => bound ? [bound.actor, bound.joint].filter(Boolean).join("/") : null;
+
+const shownTarget = (target) => target?.replace("/", " \u203a ") ?? "Nobody";
 
 export class Controls {
   #fields = [];
@@ -42,7 +45,7 @@ export class Controls {
   }
 
   atFrame() { return ["--frame", `${this.project.frame}`]; }
-  posed(thing, text) { return ["animate", "pose", thing, text, ...this.atFrame()]; }
+  posed(thing, text) { return ["animate", "pose", thing, text, ...blended(this.state.falloff), ...this.atFrame()]; }
   commit(words, event) { this.edits.commit({commands: [words]}, event); }
 
   // `words()` gives those of the command.
@@ -58,9 +61,16 @@ export class Controls {
     return line(label, this.field(colorField({name, key, ...this.gestures(stepOf)}), of));
   }
 
-  // Actors and their joints, as commands name them: [value, text].
-  targets(without = null) {
-    return this.project.actors.filter(({name}) => name !== without).flatMap(({name, joints}) =>
-      [[name, name], ...joints.map((joint) => [`${name}/${joint.name}`, `${name} \u203a ${joint.name}`])]);
+  // Which actor, or joint of one, as commands name it: `of` gives {actor, joint} or nothing. Not `without`.
+  target(label, name, key, commit, of, without = null) {
+    const made = longChoice({name, key, commit, textOf: shownTarget, options: () => [[null, shownTarget(null)], ...this.#targets(without)]});
+    this.whenSet(() => made.set(targetOf(of())));
+    return line(label, made.root);
+  }
+
+  #targets(without) {
+    const names = this.project.actors.filter(({name}) => name !== without)
+      .flatMap(({name, joints}) => [name, ...joints.map((joint) => `${name}/${joint.name}`)]);
+    return names.map((name) => [name, shownTarget(name)]);
   }
 }

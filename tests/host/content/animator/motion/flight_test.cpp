@@ -83,6 +83,32 @@ TEST(Bounce, OfABallThatFallsStraightEndsWithTheSeries) {
   EXPECT_EQ(shown(film, done.last).z, 0.5);
 }
 
+// A metre is as long as the legs of the film's people have it, for whatever falls there.
+TEST(Gravity, IsThatOfTheLargestFigureOnTwoLegs) {
+  const auto way_of_half_a_second = [](const std::vector<document::Json>& figures) {
+    document::Json film = ball_at(10.5);
+    for (std::size_t i = 0; i < figures.size(); ++i) {
+      const std::string name = "figure-" + std::to_string(i);
+      film["models"][name] = figures[i];
+      film["actors"].push_back({{"name", name}, {"model", name}});
+    }
+    document::Json thrown = film;
+    act(thrown, "throw velocity 1 0 0 seconds 0.5", 0);
+    const double fallen = 10.5 - shown(thrown, 12).z;
+    act(film, "bounce restitution 0", 0);
+    EXPECT_NEAR(10.5 - shown(film, 12).z, fallen, 5e-3);
+    return fallen;
+  };
+  const document::Json horse =
+      document::read_json(std::filesystem::path(MARS_SOURCE_DIR) / "examples/models/horse.json");
+  const double man = kG * 2.9 / 8, metre = kG / 8;
+  EXPECT_NEAR(way_of_half_a_second({}), metre, 1e-2);
+  EXPECT_NEAR(way_of_half_a_second({horse}), metre, 1e-2);
+  EXPECT_NEAR(way_of_half_a_second({human()}), man, 1e-2);
+  EXPECT_NEAR(way_of_half_a_second({built(0.6, 1, 1)}), 0.6 * man, 1e-2);
+  EXPECT_NEAR(way_of_half_a_second({built(0.6, 1, 1), human(), horse}), man, 1e-2);
+}
+
 TEST(Spin, TurnsEvenlyThroughWholeTurns) {
   document::Json film = ball_at(0);
   film["actors"][0].erase("turn");

@@ -218,6 +218,21 @@ TEST(Toss, HitsItsPlaceAndBounces) {
     }
 }
 
+TEST(Toss, FliesByTheGravityOfTheFiguresScale) {
+  for (const Figure& figure : figures()) {
+    if (figure.name == "child") continue;  // whose legs are short for its size
+    document::Json json = film_of(figure, 1.2, -0.3, kBall);
+    act(json, "pick what ball", 0);
+    act(json, "toss to " + at(before(figure, {5, 0.5, 0})));
+    const animator::Film film = read(json);
+    animator::JointFrames frames(film);
+    const std::uint32_t released = film.actors[1].attach.back().frame;
+    const auto height = [&](std::uint32_t frame) { return frames.root_of(1, released + frame).place.z; };
+    const double gravity = (2 * height(4) - height(0) - height(8)) * std::pow(film.rate / 4, 2);
+    EXPECT_NEAR(gravity, 9.81 * kMetre * figure.size, 0.15 * gravity) << figure.name;
+  }
+}
+
 TEST(Toss, WantsThatTheFigureLooksThere) {
   document::Json json = film_of(figures()[0], 1.2, -0.3, kBall);
   act(json, "pick what ball", 0);
