@@ -62,7 +62,7 @@ struct Shot {
   void pose(const std::string& setting, std::uint32_t frame) {
     const std::vector<std::string> settings = {setting};
     (*this)([&](document::Json& j, const Film& f) {
-      return animator::pose(j, f, "camera", settings, {frame, frame}, {}, Beyond::refused);
+      return animator::pose(j, f, "camera", settings, {frame, frame}, {});
     });
   }
 
