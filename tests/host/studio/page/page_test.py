@@ -329,7 +329,7 @@ class Controls(Page):
         self.until(lambda: "a limb in a view" in shown(), False)
         for words in ("a joint in the tree", "Shift+A\nadds a joint", "Bodies\nbegins with a whole figure"):
             self.assertIn(words, shown())
-        self.studio.tell({"is": "project", **self.studio.project, "kind": "film", "actors": []})
+        self.studio.tell({"is": "project", **projects.film(), "actors": []})
         self.until(lambda: "Scene\nadds actors" in shown())
 
     def test_a_double_click_in_the_tree_renames(self):
