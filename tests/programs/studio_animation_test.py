@@ -155,7 +155,7 @@ class AnimationTest(StudioInBrowser):
         self.changed_by(self.enter)
         last = json.loads(self.film.read_text())["actors"][0]["keys"][-1]["frame"]
         self.message(r"keys? in \d+ frames became")
-        self.assertLess(self.film.stat().st_size, before / 2)
+        self.assertLess(self.film.stat().st_size, before * 2 / 3)
         self.same_as_commands(f"reduce tom --error 1 --frame 0-{last}")
 
     def cut_camera(self):

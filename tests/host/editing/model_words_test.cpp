@@ -49,6 +49,7 @@ TEST_F(ModelWordsTest, AreTheKeysOfTheTable) {
 
 TEST_F(ModelWordsTest, WriteValuesAsAFileDoes) {
   model({"new",
+         "--replace",
          "leg",
          "--x-axis",
          "1",
@@ -86,7 +87,7 @@ TEST_F(ModelWordsTest, WriteValuesAsAFileDoes) {
 }
 
 TEST_F(ModelWordsTest, AreRefusedByTheTable) {
-  model({"new", "--shape", "box", "--material", "fur", "--exponent", "8"});
+  model({"new", "--replace", "--shape", "box", "--material", "fur", "--exponent", "8"});
   const auto holds = [&](const std::vector<std::string>& words, const std::string& part) {
     const std::string text = failure(words);
     EXPECT_NE(text.find(part), std::string::npos) << text;
