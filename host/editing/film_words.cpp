@@ -107,6 +107,12 @@ void run_light_add(const FilmWords& words) {
            : ", beside those that the film was shown with: light/1 to light/" + std::to_string(number - 1) + "\n"));
 }
 
+void run_light_set(const FilmWords& words) {
+  words.film.change([&](Json& film, const Meaning& meaning) {
+    animator::set_light(film, meaning, words.number, values_of(words.fields, keys::object("light")));
+  });
+}
+
 void run_light_remove(const FilmWords& words) {
   words.film.change([&](Json& film, const Meaning& meaning) { animator::remove_light(film, meaning, words.number); });
 }
@@ -207,12 +213,19 @@ void add_settings(cli::Command film, const std::shared_ptr<FilmWords>& words) {
 }
 
 void add_lights(cli::Command film, const std::shared_ptr<FilmWords>& words) {
-  cli::Command light = film.add_command("light", "Add and remove lights");
+  cli::Command light = film.add_command("light", "Add, change and remove lights");
   add_fields(add_command(light, words, "add", "Add a light", run_light_add), *words, "light",
              "place=4,-3,6 at=0,0,2 color=1,0.9,0.8 intensity=2")
       .required();
-  cli::Command remove = add_command(light, words, "remove", "Remove a light", run_light_remove);
-  remove.add("N", words->number, "Its number, from 1. Example: 2").required();
+  const auto add_numbered = [&](const char* name, const char* purpose, void (*run)(const FilmWords&)) {
+    cli::Command command = add_command(light, words, name, purpose, run);
+    command.add("N", words->number, "Its number, from 1. Example: 2").required();
+    return command;
+  };
+  add_fields(add_numbered("set", "Change a light, the same at all frames", run_light_set), *words, "light",
+             "intensity=2 color=1,0.9,0.8")
+      .required();
+  add_numbered("remove", "Remove a light", run_light_remove);
   add_command(light, words, "rig", "Write the three default lights into a film that has no lights of its own",
               run_light_rig);
 }

@@ -131,6 +131,19 @@ TEST_F(FilmWords, AddAndRemoveLights) {
   EXPECT_EQ(json_["lights"].size(), 3u);
 }
 
+TEST_F(FilmWords, ChangeALight) {
+  EXPECT_NE(failure({"light", "set", "1", "intensity=2"}).find("light rig"), std::string::npos);
+  film({"light", "add", "place=1,2,3", "intensity=2"});
+  json_["lights"][3]["keys"] = document::Json::parse(R"([{"frame": 4, "reach": 5}])");
+  film({"light", "set", "4", "intensity=3", "color=1,0.5,0"});
+  EXPECT_EQ(json_["lights"][3], document::Json::parse(R"({"place": [1, 2, 3], "intensity": 3, "color": [1, 0.5, 0],
+      "keys": [{"frame": 4, "reach": 5}]})"));
+  EXPECT_EQ(std::prev(json_["lights"][3].end()).key(), "keys");
+  EXPECT_NE(failure({"light", "set", "4", "reach=2"}).find("also set by keys"), std::string::npos);
+  EXPECT_NE(failure({"light", "set", "5", "reach=2"}).find("1 to 4"), std::string::npos);
+  EXPECT_NE(failure({"light", "set", "4", "raech=2"}).find("did you mean 'reach'?"), std::string::npos);
+}
+
 TEST_F(FilmWords, GiveActorsMaterials) {
   film({"add", "tom", "--model", "man"});
   film({"material", "add", "skin", "--actor", "tom", "exponent=12"});

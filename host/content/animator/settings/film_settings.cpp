@@ -17,7 +17,7 @@ namespace {
 using document::Json;
 
 constexpr std::string_view kBelowSettings[] = {"camera", "lights", "materials", "models", "actors"};
-constexpr std::string_view kBelowCameraSettings[] = {"keys"};
+constexpr std::string_view kBelowOwnSettings[] = {"keys"};
 constexpr std::string_view kBelowAmbient[] = {"lights", "materials", "models", "actors"};
 constexpr std::string_view kBelowLights[] = {"materials", "models", "actors"};
 constexpr std::string_view kBelowMaterials[] = {"models", "actors"};
@@ -26,6 +26,18 @@ Json light_of(const LightMotion& light) {
   return {{"direction", written(rounded(light.vector.front().value))},
           {"color", written(light.color.front().value)},
           {"intensity", written(light.intensity.front().value)}};
+}
+
+// The film's own, which have the light of this number.
+Json& lights_with(Json& film, const Film& meaning, std::size_t number) {
+  if (!film.contains("lights"))
+    throw Failure("has no lights of its own: those it is shown with stand in no file", meaning.source,
+                  "write them into the film: mars film FILM light rig");
+  Json& lights = film["lights"];
+  if (number < 1 || number > lights.size())
+    throw Failure("has no light " + std::to_string(number), meaning.source,
+                  lights.empty() ? "it has none" : "its lights are 1 to " + std::to_string(lights.size()));
+  return lights;
 }
 
 Json& material_named(Json& film, const std::string& name) {
@@ -112,7 +124,7 @@ Json new_film() {
 
 void set_film(Json& film, const Json& settings) { put_settings(film, settings, kBelowSettings); }
 
-void set_camera(Json& film, const Json& settings) { put_settings(film.at("camera"), settings, kBelowCameraSettings); }
+void set_camera(Json& film, const Json& settings) { put_settings(film.at("camera"), settings, kBelowOwnSettings); }
 
 void write_rig(Json& film, const Film& meaning) {
   if (film.contains("lights") && !film["lights"].empty())
@@ -131,15 +143,12 @@ std::size_t add_light(Json& film, const Film& meaning, const Json& light) {
   return film["lights"].size();
 }
 
+void set_light(Json& film, const Film& meaning, std::size_t number, const Json& settings) {
+  put_settings(lights_with(film, meaning, number)[number - 1], settings, kBelowOwnSettings);
+}
+
 void remove_light(Json& film, const Film& meaning, std::size_t number) {
-  if (!film.contains("lights"))
-    throw Failure("has no lights of its own: those it is shown with stand in no file", meaning.source,
-                  "write them into the film: mars film FILM light rig");
-  Json& lights = film["lights"];
-  if (number < 1 || number > lights.size())
-    throw Failure("has no light " + std::to_string(number), meaning.source,
-                  lights.empty() ? "it has none" : "its lights are 1 to " + std::to_string(lights.size()));
-  lights.erase(number - 1);
+  lights_with(film, meaning, number).erase(number - 1);
 }
 
 void add_material(Json& film, const Film& meaning, const std::string& name, const Json& values,

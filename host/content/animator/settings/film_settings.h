@@ -23,6 +23,8 @@ void set_camera(document::Json& film, const document::Json& settings);
 void write_rig(document::Json& film, const Film& meaning);
 // Its number, from 1. A film without lights of its own gets those first that it was shown with.
 std::size_t add_light(document::Json& film, const Film& meaning, const document::Json& light);
+// What the light has at all frames.
+void set_light(document::Json& film, const Film& meaning, std::size_t number, const document::Json& settings);
 void remove_light(document::Json& film, const Film& meaning, std::size_t number);
 
 // With an actor, that one wears it: where its model's material of this name is, which it begins as, else all over.
