@@ -60,9 +60,7 @@ experiments::Platform platform_of(const options::RenderOptions& options, const N
       return experiments::like_here(std::string(kReference), folder, topology::Machine::here().processors());
     name.replace(name.size() - kHere.size(), kHere.size(), kReference);
   }
-  experiments::Platform platform = experiments::read_platform(name, folder);
-  if (!platform.doubt.empty()) warn(experiments::doubt_text(platform));
-  return platform;
+  return experiments::read_platform(name, folder);
 }
 
 Planned plan(const options::RenderOptions& options, const NodesCode& code) {
@@ -78,6 +76,8 @@ Planned plan(const options::RenderOptions& options, const NodesCode& code) {
   const int nodes = options.nodes == 0 ? topology::Machine::here().processors() : static_cast<int>(options.nodes);
   Planned planned{platform, counts.counted, frames.size(),
                   forecast::forecasts_up_to(counts, tasks, setting, nodes, options.groups), 0};
+  // An interval says it, too.
+  if (!platform.doubt.empty() && !planned.asked().spread) warn(experiments::doubt_text(platform));
   planned.slots = planned.asked().run.host_memory.credits * static_cast<double>(wire::kSlotBytes);
   return planned;
 }

@@ -61,8 +61,8 @@ def sheet_of(table, kind, sources):
         rows.append([name, len(missed), f"{100 * statistics.median(map(abs, missed.values())):.1f} %",
                      f"{100 * worst:+.0f} % (row {row}, P = {at})"] +
                     [r_squared(predicted, thesis, n) for n in nodes])
-    return {"title": f"Table {table.table}: {kind}s, beside naive predictions",
-            "note": f"R2: the part of a column's variance that is explained; below 0 the error is greater than that of the "
-                    f"column's mean, which knows the cells. Errors leave out P = {COLUMN}, from which predictions start, "
-                    "and columns of one row.",
+    return {"title": f"Table {table.table}: {kind}s, beside naive predictions", "page": f"table-{table.table}",
+            "note": "R2 is the part of a column's variance that a prediction explains. If it is below 0, the prediction is "
+                    "worse than the column's mean, which is taken from the cells themselves. The errors leave out "
+                    f"P = {COLUMN}, from which predictions start, and columns with a single row.",
             "header": ["prediction", "cells", "median error", "worst"] + [f"R2, P = {n}" for n in nodes], "rows": rows}

@@ -155,14 +155,14 @@ class Baselines(unittest.TestCase):
 
 
 class Docs(unittest.TestCase):
-    def test_the_page_of_1992_is_what_the_tool_makes_of_its_files(self):
+    def test_the_pages_of_1992_are_what_the_tool_makes_of_their_files(self):
         """But for pictures, which Matplotlib draws."""
         found = [part for name in ("results", "simulated", "product")
                  for part in cells.load(os.path.join(RESULTS, name + ".json"))]
-        with open(os.path.join(RESULTS, "tables.md")) as file:
-            shown = file.read()
-        drawn = dict.fromkeys(re.findall(r"^!\[.*\]\((.*)\.svg\)$", shown, re.M))
-        self.assertEqual(shown, page.markdown(tables.ABOUT, tables.sheets_beside_thesis(found), drawn))
+        drawn = {name.removesuffix(".svg"): None for name in os.listdir(RESULTS) if name.endswith(".svg")}
+        for name, text in page.markdown_pages(tables.ABOUT, tables.sheets_beside_thesis(found), drawn).items():
+            with open(os.path.join(RESULTS, name)) as file:
+                self.assertEqual(file.read(), text, name)
 
 
 class TagCounter(html.parser.HTMLParser):

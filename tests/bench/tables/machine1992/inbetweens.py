@@ -30,10 +30,11 @@ def sheet_of(table, measured, simulated, jobs, costs, network):
         takes = host_takes(job, costs, network)
         rows.append([row, *(round(term, 1) for cells in (measured, simulated) for term in shares(by_nodes(cells, row))),
                      *(round(ms, 1) for ms in takes.values())])
-    return {"title": f"Table {table}: where the time of inbetweens goes",
-            "note": "Times are taken as A / P + B, by least squares. B is what the host takes for an inbetween, one after "
-                    "the other: simulated, the strip on its link, the message, the flags of its blocks, and pixels that it "
-                    "looks at, writes and restores.",
+    return {"title": f"Table {table}: where the time of inbetweens goes", "page": f"table-{table}",
+            "note": "Times on P nodes are fitted by A / P + B, by least squares. A is a node's time for an inbetween; B is "
+                    "the time of the host, which takes one inbetween after the other. The last four columns say where the "
+                    "simulated host spends it: the strip on its link, the message, the flags of its blocks, and the pixels "
+                    "that it looks at, writes and restores.",
             "header": ["moving polygons", "thesis: A, ms", "B", "simulated: A, ms", "B", "link", "message", "flags",
                        "pixels"],
             "rows": rows}

@@ -126,7 +126,7 @@ def simulate(simulator, wanted, measured):
         films = dict(zip(rows, in_pairs(lambda row, of=table: simulator.record(of, row, measured[of]), rows)))
         cells = fit.Cells(measured[table], films, network)
         if table == "4.1":
-            costs, times = best_fit(simulator, table, cells, fit.fit_costs, lambda cell: True)
+            costs, times = best_fit(simulator, table, cells, fitted_costs, lambda cell: True)
             found, spread = costs, fit.uncertainty(cells, costs)
         else:
             found, times = best_fit(simulator, table, cells, lambda of, known=costs: {
@@ -139,12 +139,17 @@ def simulate(simulator, wanted, measured):
     return parts + sheets
 
 
+def fitted_costs(cells):
+    """With the digits that the file has, so that who reads it finds the same times."""
+    return {name: rounded(value) for name, value in fit.fit_costs(cells).items()}
+
+
 def part_of(table, measured, times, found, spread):
     listed = [{"row": row, "kind": kind, "nodes": nodes, "ms": round(ms, 1)}
               for (row, kind, nodes, _), ms in zip(measured, times)]
     parameters = {f"scale of {table}": rounded(found["scale"])}
     if table == "4.1":
-        parameters |= {name: rounded(found[name]) for name in replay.Costs.NAMES}
+        parameters |= {name: found[name] for name in replay.Costs.NAMES}
         parameters |= {f"{name}, standard deviation": rounded(spread[name]) for name in replay.Costs.NAMES}
     return {"table": table, "source": "simulated-thesis", "parameters": parameters, "cells": listed}
 

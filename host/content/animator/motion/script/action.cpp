@@ -101,12 +101,12 @@ constexpr Parameter kWave[] = {{"hand", "SIDE", "left or right; default: right",
                                {"seconds", "S", "to and fro; default: 0.5", "0.4"}};
 constexpr Parameter kSpinning{"spin", "X Y Z", "degrees a second about the world's axes; default: none", "0 360 0"};
 constexpr Parameter kVelocity{"velocity", "X Y Z", "units a second; default: none", "2 0 5"};
-constexpr Parameter kThrow[] = {
-    kVelocity,
-    {"acceleration", "X Y Z", "units per second squared; default: straight down, by the same gravity as bounce",
-     "0 0 -28"},
-    kSpinning,
-    {"seconds", "S", "default: 1", "1.5"}};
+constexpr Parameter kThrow[] = {kVelocity,
+                                {"acceleration", "X Y Z",
+                                 "units per second squared; default: straight down, by the same gravity as bounce",
+                                 "0 0 -28"},
+                                kSpinning,
+                                {"seconds", "S", "default: 1", "1.5"}};
 constexpr Parameter kBounce[] = {
     kVelocity,
     {"gravity", "G", kGravityMeaning, "28"},
