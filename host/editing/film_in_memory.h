@@ -46,6 +46,9 @@ class FilmInMemory final : public EditedFilm {
   void create(const document::Json& json) override;
   // Pages name files as the film does.
   std::string name_of_model(const std::string& file) const override { return file; }
+  std::string how_to_lengthen(const std::string&) const override {
+    return "undo this, tick \"May lengthen the film\" and apply it again";
+  }
   std::string read_script(const std::filesystem::path& path) const override;
   void change(const Change& change) override;
   void change_thing(const std::string& thing, const Change& change) override;

@@ -85,8 +85,9 @@ void run_set(const FilmWords& words) {
 }
 
 void run_camera(const FilmWords& words) {
-  words.film.change(
-      [&](Json& film, const Meaning&) { animator::set_camera(film, values_of(words.fields, keys::object("camera"))); });
+  words.film.change_thing("camera", [&](Json& film, const Meaning&) {
+    animator::set_camera(film, values_of(words.fields, keys::object("camera")));
+  });
 }
 
 void run_show(const FilmWords& words) {
@@ -108,7 +109,7 @@ void run_light_add(const FilmWords& words) {
 }
 
 void run_light_set(const FilmWords& words) {
-  words.film.change([&](Json& film, const Meaning& meaning) {
+  words.film.change_thing("light/" + std::to_string(words.number), [&](Json& film, const Meaning& meaning) {
     animator::set_light(film, meaning, words.number, values_of(words.fields, keys::object("light")));
   });
 }

@@ -22,10 +22,11 @@ struct Typed {
 };
 
 // What a person should know of the film's length; `again`: what the words need that they lengthen it.
-std::string length_note(document::Json& film, std::uint32_t last, bool lengthen, const std::string& again) {
+std::string length_note(const EditedFilm& edited, document::Json& film, std::uint32_t last, bool lengthen,
+                        const std::string& again) {
   const std::string length = fit_length(film, last, lengthen);
   if (length.empty() || lengthen) return length;
-  return length + ": set its frames to " + std::to_string(last + 1) + ", or repeat this with " + again;
+  return length + ": set its frames to " + std::to_string(last + 1) + ", or " + edited.how_to_lengthen(again);
 }
 
 // All its values at once, or none.
@@ -49,7 +50,8 @@ void run_action(EditedFilm& film, const motion::Action& action, const Typed& typ
   std::string note;
   film.change([&](document::Json& json, const animator::Film& meaning) {
     done = motion::perform(json, meaning, typed.actor, action, at, arguments);
-    note = length_note(json, done.film_last, typed.lengthen, "--at " + std::to_string(done.first) + " --lengthen");
+    note = length_note(film, json, done.film_last, typed.lengthen,
+                       "--at " + std::to_string(done.first) + " --lengthen");
   });
   film.print("frames " + std::to_string(done.first) + " to " + std::to_string(done.last) +
              (done.report.empty() ? "" : ": " + done.report) + (note.empty() ? "" : "; " + note) + "\n");
@@ -97,7 +99,7 @@ void add_script(cli::Command animate, EditedFilm& film) {
     std::string note;
     film.change([&](document::Json& json, const animator::Film&) {
       played = motion::play_script(json, film.path(), film.read_script(*script), *script);
-      if (!played.cut) note = length_note(json, played.last, *lengthen, "--lengthen");
+      if (!played.cut) note = length_note(film, json, played.last, *lengthen, "--lengthen");
     });
     for (const std::string& line : played.report) film.print(line + "\n");
     if (!note.empty()) film.print("frames up to " + std::to_string(played.last) + "; " + note + "\n");

@@ -53,6 +53,10 @@ Orbit orbit_near(const wire::Camera& camera, const Ball& subject) {
   return orbit;
 }
 
+glm::dvec3 eye_of(const Orbit& orbit, double focal) {
+  return orbit.center + orbit.distance * focal / kFocal * outward(orbit);
+}
+
 wire::Camera camera_of(const Orbit& orbit) {
   const double turn = orbit.turn * modeler::kDegree;
   const glm::dvec3 out = outward(orbit), right(-std::sin(turn), std::cos(turn), 0);

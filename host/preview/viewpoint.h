@@ -32,6 +32,10 @@ Orbit orbit_near(const wire::Camera& camera, const Ball& subject);
 
 wire::Camera camera_of(const Orbit& orbit);
 
+// Where a camera of this focal length stands that looks at the orbit's center and shows it as large: orbit_near()'s
+// inverse.
+glm::dvec3 eye_of(const Orbit& orbit, double focal);
+
 // Plain materials in place of those that a model leaves to its film.
 std::vector<animator::MaterialMotion> lent_materials(const modeler::Model& model);
 

@@ -21,7 +21,7 @@ export class View {
   constructor(number, from, {connection, pace, state, ghosts}) {
     Object.assign(this, {number, connection, pace, state, ghosts});
     this.shown = {from, as: "surface", hidden: true, ground: true, handles: true, orbit: null};
-    this.size = [0, 0];
+    this.size = this.room = [0, 0];  // of its picture, and of what it could fill: pixels
     this.#build();
     // Pixels that are painted must be those that are shown: no copy, no smoothing by the canvas.
     this.#context = this.canvas.getContext("2d", {alpha: false});
@@ -56,7 +56,7 @@ export class View {
 
   // Says all there is to this view; also what a studio that has just started needs.
   ask(event) {
-    const [width, height] = this.size;
+    const [width, height] = this.size = this.#fitting();
     if (width === 0 || height === 0) return;
     const {from, orbit, as, hidden, ground, handles} = this.shown;
     const message = {do: "view", view: this.number, width, height, from, orbit, as, hidden, ground,
@@ -64,7 +64,19 @@ export class View {
     this.pace.send(`view ${this.number}`, message, event ?? kNoEvent);
   }
 
+  // The film's size may be another.
+  refit() { if (this.size.join() !== this.#fitting().join()) this.ask(); }
+
+  // What the film's camera sees has the film's shape: nothing is cut off.
+  #fitting() {
+    if (this.shown.from !== "camera" || !this.state.isFilm() || this.room.includes(0)) return this.room;
+    const {size} = this.state.project, scale = Math.min(...size.map((side, axis) => this.room[axis] / side));
+    return size.map((side) => Math.max(1, Math.round(side * scale)));
+  }
+
   #ofFilms() { return this.state.isFilm() ? {ghosts: this.state.ghosts, marks: this.state.marks} : {}; }
+
+  #putCamera(event) { this.pace.now({do: "put_camera", view: this.number}, event ?? kNoEvent); }
 
   // Pictures count from 1 again.
   forgetPictures() {
@@ -78,6 +90,7 @@ export class View {
     if (this.shown.from !== "camera") return;
     this.shown.from = "free";
     this.#name();
+    this.refit();
   }
 
   takeHandles({picture, shapes}) {
@@ -106,8 +119,8 @@ export class View {
   // Pixels of the view, of a mouse's event.
   spot({clientX, clientY}) {
     const at = this.picture.getBoundingClientRect();
-    const [width, height] = this.size;
-    return {x: Math.round((clientX - at.left) * width / at.width), y: Math.round((clientY - at.top) * height / at.height)};
+    const [width, height] = this.size, scale = Math.max(width / at.width, height / at.height);
+    return {x: Math.round((clientX - at.left - at.width / 2) * scale + width / 2), y: Math.round((clientY - at.top - at.height / 2) * scale + height / 2)};
   }
 
   showTip(text) {
@@ -122,12 +135,12 @@ export class View {
                           : [css.inlineSize, css.blockSize].map((side) => Math.round(side * devicePixelRatio));
     const size = pixels.map((side) => Math.min(side, kLargest));
     const hidden = size.some((side) => side === 0);
-    if (hidden && this.size[0] !== 0) {
+    if (hidden && this.room[0] !== 0) {
       this.connection.send({do: "unview", view: this.number});
       this.forgetPictures();
     }
-    if (size.join() === this.size.join()) return;
-    this.size = hidden ? [0, 0] : size;
+    if (size.join() === this.room.join()) return;
+    this.room = hidden ? [0, 0] : size;
     this.ask();
   }
 
@@ -162,6 +175,7 @@ export class View {
       {heading: "View"},
       {text: "Show all", keys: keysOf("showAll"), act: (event) => this.show({orbit: null}, event)},
       {text: "Show what is selected", keys: keysOf("showSelected"), act: (event) => this.root.dispatchEvent(new CustomEvent("showselected", {detail: event}))},
+      ...(this.state.isFilm() && this.shown.from === "free" ? [{text: "Put the film's camera here", act: (event) => this.#putCamera(event)}] : []),
       {text: "Maximise, and back", keys: keysOf("maximise"), act: () => this.root.dispatchEvent(new Event("maximise"))},
     ];
   }

@@ -16,6 +16,7 @@ export class Views {
     for (const view of this.views) this.#add(view, painter);
     this.#listen(parts);
     this.state.on("view", () => this.#showActive());
+    this.state.on("project", () => this.views.forEach((view) => view.refit()));
     this.state.on("tool ghosts marks", () => this.views.forEach((view) => view.ask()));
     this.#showActive();
   }

@@ -116,15 +116,19 @@ Json material_of(const std::string& name, const wire::Material& material) {
   return json;
 }
 
+// Into `parts`, those that a key of a camera or a light sets.
+void add_parts(std::set<std::string>& parts, const Json& key) {
+  for (const auto& part : key.items())
+    if (part.key() != "frame" && part.key() != "ease") parts.insert(part.key());
+}
+
 // What has a key of the file at the frame.
-Json keyed_of(const Json& thing, std::uint32_t frame) {
-  Json keyed = Json::array();
+std::set<std::string> keyed_at(const Json& thing, std::uint32_t frame) {
+  std::set<std::string> parts;
   if (thing.contains("keys"))
     for (const Json& key : thing["keys"])
-      if (key.at("frame") == frame)
-        for (const auto& part : key.items())
-          if (part.key() != "frame" && part.key() != "ease") keyed.push_back(part.key());
-  return keyed;
+      if (key.at("frame") == frame) add_parts(parts, key);
+  return parts;
 }
 
 // Where the thing has it.
@@ -155,7 +159,8 @@ Json light_of(const animator::LightMotion& light, std::size_t number, const Json
   Json json{{"thing", "light/" + std::to_string(number + 1)}, {"kind", object.kinds[kind].name}};
   add_values(json, object, kind, file);
   add_values(json, animator::light_parts(light), frame);
-  json["keyed"] = keyed_of(file, frame);
+  json["keyed"] = keyed_at(file, frame);
+  json["animated"] = keyed_parts(file);
   return json;
 }
 
@@ -228,8 +233,15 @@ Json poses_of(const animator::Film& film, std::size_t actor, std::uint32_t frame
   return json;
 }
 
+std::set<std::string> keyed_parts(const Json& thing) {
+  std::set<std::string> parts;
+  if (thing.contains("keys"))
+    for (const Json& key : thing["keys"]) add_parts(parts, key);
+  return parts;
+}
+
 void describe_camera_and_lights(Json& project, const animator::Film& film, const Json& json, std::uint32_t frame) {
-  Json camera{{"keyed", keyed_of(json.at("camera"), frame)}};
+  Json camera{{"keyed", keyed_at(json.at("camera"), frame)}, {"animated", keyed_parts(json.at("camera"))}};
   add_values(camera, keys::object("camera"), static_cast<unsigned>(film.color), json.at("camera"));
   add_values(camera, animator::camera_parts(film), frame);
   camera["follow"] = followed(film, film.camera.eye, frame);

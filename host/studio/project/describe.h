@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
+#include <string>
 
 #include "host/content/animator/pose/film.h"
 #include "host/content/document/json_file.h"
@@ -14,6 +16,8 @@ using document::Json;
 
 // Into `project`. `json`: the file that the film is read from.
 void describe_film(Json& project, const animator::Film& film, const Json& json, std::uint32_t frame);
+// Those that keys of the camera or of a light, as a film has it, change at any frame.
+std::set<std::string> keyed_parts(const Json& thing);
 // "camera" and "lights", with what has a key at the frame; of rig lights none.
 void describe_camera_and_lights(Json& project, const animator::Film& film, const Json& json, std::uint32_t frame);
 // `film`: of model_film.h. `json`: the model's.

@@ -126,6 +126,13 @@ Json FilmWork::channels(const std::vector<std::string>& things) {
 
 Json FilmWork::curves(const CurvesWanted& wanted) { return curves_of(json_, film_, wanted); }
 
+bool FilmWork::has_keys(const std::string& thing, const std::string& part) const {
+  constexpr std::string_view kLight = "light/";
+  if (thing == "camera") return keyed_parts(json_.at("camera")).contains(part);
+  const std::size_t number = std::stoul(thing.substr(kLight.size()));
+  return !rig_lights() && keyed_parts(json_.at("lights").at(number - 1)).contains(part);
+}
+
 void FilmWork::describe(Json& project, std::uint32_t frame) const { describe_film(project, film_, json_, frame); }
 
 void FilmWork::describe_shown(Json& poses, std::uint32_t frame) const {

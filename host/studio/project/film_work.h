@@ -34,6 +34,7 @@ class FilmWork : public Work {
   Json channels(const std::vector<std::string>& things) override;
   Json curves(const CurvesWanted& wanted) override;
   bool rig_lights() const override { return !json_.contains("lights"); }
+  bool has_keys(const std::string& thing, const std::string& part) const override;
   void describe(Json& project, std::uint32_t frame) const override;
   void describe_shown(Json& poses, std::uint32_t frame) const override;
 

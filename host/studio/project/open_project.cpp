@@ -72,6 +72,9 @@ class FileProject : public Project {
   bool is_model() const override { return is_model_; }
   const animator::Film& film() const override { return work_->film(); }
   bool rig_lights() const override { return work_->rig_lights(); }
+  bool has_keys(const std::string& thing, const std::string& part) const override {
+    return work_->has_keys(thing, part);
+  }
   std::uint64_t revision() const override { return revision_; }
   std::uint64_t shapes_revision() const override { return work_->shapes_revision(); }
   std::optional<Pulled> pulled() const override { return work_->pulled(); }

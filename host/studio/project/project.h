@@ -38,6 +38,8 @@ class Project {
   virtual const animator::Film& film() const = 0;
   // The film's lights are a rig's, no things of their own: none is in the file. So it is with models.
   virtual bool rig_lights() const = 0;
+  // Whether keys of the film change this part of the camera or of a light: "fov" of "camera", "reach" of "light/2".
+  virtual bool has_keys(const std::string& thing, const std::string& part) const = 0;
   // Goes up when film() changes in any way.
   virtual std::uint64_t revision() const = 0;
   // Goes up when film()'s models have other shapes than those before: nodes need the film again. A gesture that pulls

@@ -50,6 +50,7 @@ class Work {
   virtual std::vector<modeler::ControlPoint> control_points(const std::string& /*joint*/) const { return {}; }
   // Its lights are no things of the film.
   virtual bool rig_lights() const { return true; }
+  virtual bool has_keys(const std::string& /*thing*/, const std::string& /*part*/) const { return false; }
   // Into the description: actors, materials, shapes.
   virtual void describe(Json& project, std::uint32_t frame) const = 0;
   // Into what is said during gestures: camera and lights where it changes them.

@@ -57,6 +57,19 @@ Json pose_step(const Project& project, const std::string& thing, const std::vect
   return step_of(command_of({"animate", "pose"}, names, {"--frame", std::to_string(project.frame()), "--clamp"}));
 }
 
+Json set_step(const Project& project, const std::string& thing, const std::vector<std::string>& settings) {
+  std::vector<std::string> keyed;
+  editing::Command fixed{"film"};
+  thing == "camera" ? fixed.push_back(thing) : void(fixed.insert(fixed.end(), {"light", "set", thing.substr(6)}));
+  const std::size_t words = fixed.size();
+  for (const std::string& setting : settings)
+    (project.has_keys(thing, setting.substr(0, setting.find('='))) ? keyed : fixed).push_back(setting);
+  Json step{{"commands", Json::array()}};
+  if (fixed.size() > words) step["commands"].push_back(fixed);
+  if (!keyed.empty()) step["commands"].push_back(pose_step(project, thing, keyed)["commands"][0]);
+  return step;
+}
+
 Json blended(Json step, std::uint32_t frames) {
   if (frames == 0 || !step.contains("commands")) return step;
   for (Json& words : step["commands"])

@@ -24,7 +24,7 @@ std::optional<Json> MarkHand::follow(const glm::dvec2& mouse, bool shift) {
 
 Json MarkHand::step(const std::string& setting) const {
   const auto& light = grip_.mark->light;
-  return pose_step(project_, light ? "light/" + std::to_string(*light + 1) : "camera", {setting});
+  return set_step(project_, light ? "light/" + std::to_string(*light + 1) : "camera", {setting});
 }
 
 // Of a point of the camera that goes along with an actor, its offset in the key that rules there: none where it stands

@@ -17,6 +17,8 @@ constexpr const char* kSound = R"(
 {"do": "orbit", "edit": 5, "view": 0, "by": [3, 4], "how": "pan", "moving": false}
 {"do": "orbit", "edit": 6, "view": 1, "how": "selected", "moving": false}
 {"do": "orbit", "edit": 6, "view": 1, "by": [0, 120], "how": "zoom", "x": 10, "y": 20, "moving": true}
+{"do": "put_camera", "edit": 6, "view": 0}
+{"do": "undo"}
 {"do": "painted", "view": 0, "picture": 1}
 {"do": "hover", "view": 0, "x": 32, "y": 24}
 {"do": "select", "actor": "pip", "joint": "head"}

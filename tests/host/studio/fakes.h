@@ -26,6 +26,7 @@ class FakeProject final : public studio::Project {
   bool is_model() const override { return true; }
   const animator::Film& film() const override { return film_; }
   bool rig_lights() const override { return true; }
+  bool has_keys(const std::string&, const std::string&) const override { return false; }
   std::uint64_t revision() const override { return revision_; }
   std::uint64_t shapes_revision() const override { return 1; }
   std::optional<Pulled> pulled() const override { return {}; }

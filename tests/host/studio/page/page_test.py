@@ -643,10 +643,11 @@ class Films(Page):
         self.until(fields, [name for name, key in keys.items() if "spot" in key.get("of", ["spot"])])
         reach = self.find('[data-key="light.reach"]')
         self.assertEqual([reach.get_attribute("value"), reach.get_attribute("placeholder")], ["", "the same at all distances"])
-        for key, text, posed in (("reach", "5", "reach=5"), ("cone.inner", "20", "cone=20,40"), ("at.z", "2", "at=0,0,2"),
-                                 ("softness", "0.75", "softness=0.75")):
+        for key, text, words in (("reach", "5", "animate pose light/2 reach=5 --frame 24"),
+                                 ("cone.inner", "20", "film light set 2 cone=20,40"), ("at.z", "2", "film light set 2 at=0,0,2"),
+                                 ("softness", "0.75", "film light set 2 softness=0.75")):
             self.write(f"light.{key}", text)
-            self.commit(f"animate pose light/2 {posed} --frame 24")
+            self.commit(words)  # at the frame only what has keys
         self.find('[data-key="light/1"]').click()
         self.until(fields, ["direction", "color", "intensity"])
         self.find('[data-key="light.add.spot"]').click()
@@ -662,7 +663,7 @@ class Films(Page):
         self.studio.tell({"is": "poses", "frame": 24, "actors": [], "camera": self.studio.project["camera"], "lights": lights})
         time.sleep(0.2)
         field.send_keys(Keys.ENTER)
-        self.commit("animate pose light/1 direction=1,0,1 --frame 24")
+        self.commit("film light set 1 direction=1,0,1")
 
     def test_camera_and_film_have_fields_for_their_keys(self):
         self.scene()
@@ -670,7 +671,7 @@ class Films(Page):
         self.assertLessEqual(set(keys["camera"]), set(self.keys_shown("camera")))
         self.assertLessEqual(set(keys["film"]), set(self.keys_shown("film")))
         for key, text, words in (("camera.exposure", "1.5", "animate pose camera exposure=1.5 --frame 24"),
-                                 ("camera.up.y", "1", "animate pose camera up=0,1,1 --frame 24"),
+                                 ("camera.up.y", "1", "film camera up=0,1,1"),
                                  ("camera.near", "0.5", "film camera near=0.5"),
                                  ("film.rate", "23.976", "film set rate=23.976"),
                                  ("film.size.height", "600", "film set size=960,600"),

@@ -107,10 +107,10 @@ def film():
                "joints": joints(keyed=("left-thigh", "right-thigh", "head"))} for name, x in (("walker", 0), ("watcher", 2))]
     return {key: value for key, value in model().items() if key not in ("shapes", "bodies", "limbs")} | {"kind": "film", "file": "examples/demo.json", "frames": 120, "frame": 24, "actors": actors,
                       "materials": [{"name": each["name"], "color": each["color"]} for each in materials()],
-                      "camera": {"eye": [6, -4, 3], "at": [0, 0, 2], "up": [0, 0, 1], "fov": 40, "exposure": 0, "near": 0.1, "far": 10000},
-                      "lights": [{"thing": "light/1", "kind": "directional", "direction": [0, 0, 1], "color": [1, 1, 1], "intensity": 1, "keyed": []},
+                      "camera": {"eye": [6, -4, 3], "at": [0, 0, 2], "up": [0, 0, 1], "fov": 40, "exposure": 0, "near": 0.1, "far": 10000, "keyed": [], "animated": ["exposure", "fov"]},
+                      "lights": [{"thing": "light/1", "kind": "directional", "direction": [0, 0, 1], "color": [1, 1, 1], "intensity": 1, "keyed": [], "animated": []},
                                  {"thing": "light/2", "kind": "spot", "place": [0, -4, 5], "at": [0, 0, 1], "cone": [32, 40], "softness": 0.25,
-                                  "color": [1, 1, 1], "intensity": 1, "keyed": []}],
+                                  "color": [1, 1, 1], "intensity": 1, "keyed": [], "animated": ["reach"]}],
                       "settings": {"frames": 120, "rate": 24, "size": [960, 540], "samples": 4, "color": "linear", "curve": "filmic",
                                    "background": [0, 0, 0], "ambient": {"sky": [1, 1, 1], "ground": [0.7, 0.7, 0.6]}, "intervals": "auto",
                                    "dice": "adaptive", "grain": 0}}

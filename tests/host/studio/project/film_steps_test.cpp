@@ -97,13 +97,13 @@ TEST_F(FilmSteps, LightsAreSetAsTheCommandSetsThem) {
     ASSERT_EQ(lights.size(), 3u);
     for (std::size_t light = 0; light < 3; ++light)
       for (const auto& part : lights[light].items())
-        EXPECT_TRUE(part.key() == "keyed" || part.value() == shown[light][part.key()]) << each.step() << part.key();
+        EXPECT_TRUE(part.key() == "keyed" || part.key() == "animated" || part.value() == shown[light][part.key()]) << each.step() << part.key();
   }
   const Json spot = project->describe()["lights"][2];
   EXPECT_EQ(spot["thing"], "light/3");
   EXPECT_EQ(spot["kind"], "spot");
   EXPECT_EQ(spot["color"], Json::parse("[1, 0.5, 0]"));
-  EXPECT_EQ(spot["keyed"], Json::parse(R"(["intensity", "color"])"));
+  EXPECT_EQ(spot["keyed"], Json::parse(R"(["color", "intensity"])"));
   for (const auto& [light, setting] : {std::pair{"light/4", "place=1,2,3"},
                                        {"light/0", "place=1,2,3"},
                                        {"light/1", "place=1,2,3"},
@@ -130,7 +130,7 @@ TEST_F(FilmSteps, CameraLightsAndSettingsHaveTheKeysOfTheTable) {
   };
   using Names = std::vector<std::string>;
   const Json light = project->describe()["lights"][0];
-  EXPECT_EQ(names(light), (Names{"thing", "kind", "place", "at", "cone", "color", "intensity", "keyed"}));
+  EXPECT_EQ(names(light), (Names{"thing", "kind", "place", "at", "cone", "color", "intensity", "keyed", "animated"}));
   EXPECT_EQ(light["cone"], Json::parse("[32, 40]"));
   const Json camera = project->describe()["camera"];
   for (const char* name : {"eye", "at", "up", "fov", "exposure", "near", "far"})

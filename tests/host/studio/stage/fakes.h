@@ -21,6 +21,7 @@ class FakeProject : public Project {
   bool is_model() const override { return model_; }
   const animator::Film& film() const override { return film_; }
   bool rig_lights() const override { return rig_lights_; }
+  bool has_keys(const std::string&, const std::string&) const override { return has_keys_; }
   std::uint64_t revision() const override { return revision_; }
   std::uint64_t shapes_revision() const override { return shapes_revision_; }
   std::optional<Pulled> pulled() const override { return pulled_; }
@@ -45,7 +46,7 @@ class FakeProject : public Project {
   // The film changes by itself, as by a command.
   void change(const std::function<void(animator::Film&)>& change, bool shapes = false);
 
-  bool rig_lights_ = false;
+  bool rig_lights_ = false, has_keys_ = true;
   std::vector<Json> previews, commits;
   int cancels = 0;
 

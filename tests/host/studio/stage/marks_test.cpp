@@ -207,6 +207,36 @@ TEST(Marks, LightsArePulled) {
   EXPECT_LT(glm::length(vector_of(step["at"]) - glm::dvec3(4, 0, 1) - by), 1e-5);
 }
 
+TEST(Marks, WhatHasNoKeysIsChangedForTheWholeFilm) {
+  Scene scene;
+  scene.project.has_keys_ = false;
+  scene.pull({-2, 0, 3}, {-2, 0, 3.5});
+  scene.take(R"({"do": "drop"})");
+  const Json words = scene.project.commits.at(0)["commands"][0];
+  EXPECT_EQ(Json(std::vector<Json>(words.begin(), words.begin() + 4)), Json::parse(R"(["film", "light", "set", "2"])"));
+  EXPECT_TRUE(words[4].get<std::string>().starts_with("place="));
+}
+
+TEST(Marks, TheCameraGoesWhereAFreeViewLooksFrom) {
+  Scene scene;
+  scene.take(R"({"do": "put_camera", "view": 0})");
+  const Json effect = effect_of(scene.project.commits.at(0));
+  EXPECT_EQ(effect["of"], "camera");
+  EXPECT_LT(glm::length(vector_of(effect["at"]) - glm::dvec3(1, 0, 2)), 1e-6);
+  const preview::Orbit orbit{{1, 0, 2}, -70, 15, 14};
+  wire::Camera there = preview::camera_of(orbit);
+  there.focal = 1 / std::tan(20 * 3.14159265358979 / 180);
+  for (int row = 0; row < 3; ++row) {  // turned as the view's, and at that eye
+    auto& m = there.world_to_eye.m[row];
+    m[3] = -glm::dot(glm::dvec3(m[0], m[1], m[2]), vector_of(effect["eye"]));
+  }
+  const preview::Orbit again = preview::orbit_near(there, {{1, 0, 2}, 1});
+  EXPECT_NEAR(again.distance, orbit.distance, 1e-5) << "shows its middle as large";
+  EXPECT_NEAR(again.turn, orbit.turn, 1e-5);
+  scene.show("side");
+  EXPECT_ANY_THROW(scene.take(R"({"do": "put_camera", "view": 0})"));
+}
+
 TEST(Marks, ASpotsConeOpensAndItsInnerOneAlong) {
   Scene scene;
   scene.select("light/3");

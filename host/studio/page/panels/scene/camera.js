@@ -7,10 +7,10 @@ import {keyFields} from "./key_fields.js";
 export function cameraPart(controls) {
   const now = () => controls.project.camera;
   if (!now()) return null;
-  const words = (name, {keyed}, text) => keyed ? controls.posed("camera", `${name}=${text}`) : ["film", "camera", `${name}=${text}`];
+  const words = (name, _, text) => controls.changed("camera", now(), name, text);
   const [usual, rare] = keyFields(controls, {of: "camera", kind: controls.project.settings.color, now, words});
   return part("Camera", usual, bound(controls, "Look at", "look"), bound(controls, "Go along", "follow"),
-              element("div", {class: "actions"}, cut(controls)), rare);
+              element("div", {class: "actions"}, controls.button("Insert key", "camera.key", () => ["animate", "key", "camera", ...controls.atFrame()]), cut(controls)), rare);
 }
 
 function cut(controls) {

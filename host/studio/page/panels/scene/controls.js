@@ -46,6 +46,11 @@ export class Controls {
 
   atFrame() { return ["--frame", `${this.project.frame}`]; }
   posed(thing, text) { return ["animate", "pose", thing, text, ...blended(this.state.falloff), ...this.atFrame()]; }
+  // The camera or a light: what has keys gets one at the frame, all else is changed for the whole film.
+  changed(thing, {animated}, name, text) {
+    if (animated.includes(name)) return this.posed(thing, `${name}=${text}`);
+    return ["film", ...(thing === "camera" ? [thing] : ["light", "set", thing.split("/")[1]]), `${name}=${text}`];
+  }
   commit(words, event) { this.edits.commit({commands: [words]}, event); }
 
   // `words()` gives those of the command.

@@ -19,7 +19,7 @@ export function lightsPart(controls) {
 function ofLight(controls, {thing, kind}) {
   const now = () => controls.project.lights?.find((light) => light.thing === thing);
   return [
-    keyFields(controls, {of: "light", kind, now, words: (name, _, text) => controls.posed(thing, `${name}=${text}`)}),
+    keyFields(controls, {of: "light", kind, now, words: (name, _, text) => controls.changed(thing, now(), name, text)}),
     element("div", {class: "actions"},
             controls.button("Insert key", "light.key", () => ["animate", "key", thing, ...controls.atFrame()]),
             controls.button("Remove", "light.remove", () => ["film", "light", "remove", thing.split("/")[1]])),
