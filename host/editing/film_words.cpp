@@ -5,6 +5,8 @@
 #include "host/content/animator/settings/cast.h"
 #include "host/content/animator/settings/film_settings.h"
 #include "host/content/animator/listing/film_summary.h"
+#include "host/content/animator/reading/read_film.h"
+#include "host/content/document/document.h"
 #include "host/content/document/text.h"
 #include "host/content/modeler/figure_library.h"
 #include "host/editing/key_words.h"
@@ -65,10 +67,11 @@ void run_new(const FilmWords& words) {
 void run_add(const FilmWords& words) {
   words.film.change([&](Json& film, const Meaning&) {
     animator::add_actor(film, {words.name, model_of(words, film), place_of(words), turn_of(words), words.height});
+    if (!words.beside) return;
+    const document::Document document(document::laid_out(film), words.film.path().string());
+    const Meaning with_it = animator::read_film(document.root(), words.film.path().parent_path());
+    animator::place_beside(film, with_it, words.name, *words.beside);
   });
-  if (!words.beside) return;
-  words.film.change(
-      [&](Json& film, const Meaning& meaning) { animator::place_beside(film, meaning, words.name, *words.beside); });
 }
 
 void run_remove(const FilmWords& words) {

@@ -50,8 +50,8 @@ void run_action(EditedFilm& film, const motion::Action& action, const Typed& typ
   std::string note;
   film.change([&](document::Json& json, const animator::Film& meaning) {
     done = motion::perform(json, meaning, typed.actor, action, at, arguments);
-    note = length_note(film, json, done.film_last, typed.lengthen,
-                       "--at " + std::to_string(done.first) + " --lengthen");
+    note =
+        length_note(film, json, done.film_last, typed.lengthen, "--at " + std::to_string(done.first) + " --lengthen");
   });
   film.print("frames " + std::to_string(done.first) + " to " + std::to_string(done.last) +
              (done.report.empty() ? "" : ": " + done.report) + (note.empty() ? "" : "; " + note) + "\n");

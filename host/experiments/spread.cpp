@@ -43,4 +43,14 @@ std::optional<Spread> spread_for(std::span<const Spread> known, int nodes, bool 
   return between(*before, *after, nodes);
 }
 
+double middle_for(std::span<const Spread> known, int nodes, bool files) {
+  if (const auto spread = spread_for(known, nodes, files)) return spread->middle;
+  const Spread* nearest = nullptr;
+  for (const Spread& spread : known)
+    if (spread.files == files &&
+        (nearest == nullptr || std::abs(spread.nodes - nodes) < std::abs(nearest->nodes - nodes)))
+      nearest = &spread;
+  return nearest == nullptr ? 1 : nearest->middle;
+}
+
 }  // namespace mars::experiments

@@ -27,6 +27,10 @@ inline constexpr int kFewestTrials = 19;
 // one more lies below the k-th least with k / (n + 1).
 Spread spread_of(int nodes, bool files, std::vector<double> ratios);
 
+// What renderings took over what was forecast, in the middle: for any number of nodes that of the nearest known one; 1
+// where nothing is known.
+double middle_for(std::span<const Spread> known, int nodes, bool files);
+
 // For any number of nodes between those of `known`; none where it lies beyond, or nothing is known.
 std::optional<Spread> spread_for(std::span<const Spread> known, int nodes, bool files);
 

@@ -32,7 +32,8 @@ Forecast with_groups(const FilmCounts& counts, const std::vector<farm::Task>& ta
     plan.contributors = contributors;
     return Forecast{nodes, static_cast<std::uint32_t>(plan.groups.size()), contributors,
                     rehearse(counts, plan, setting, nodes),
-                    experiments::spread_for(setting.platform.spread, nodes, setting.files)};
+                    experiments::spread_for(setting.platform.spread, nodes, setting.files),
+                    experiments::middle_for(setting.platform.spread, nodes, setting.files)};
   };
   Forecast best = rehearsed(0);
   for (std::int32_t fewer = plan.groups.front().count / 2; fewer >= 1; fewer /= 2) {

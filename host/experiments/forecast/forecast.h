@@ -25,8 +25,9 @@ struct Forecast {
   std::int32_t contributors = 0;              // to a keyframe, as in farm::Plan
   Rehearsed run;                              // by the platform's costs
   std::optional<experiments::Spread> spread;  // of such forecasts
+  double middle = 1;                          // of renderings' times over such forecasts, also where no spread is known
 
-  double seconds() const { return run.seconds * (spread ? spread->middle : 1); }
+  double seconds() const { return run.seconds * middle; }
   std::optional<Interval> interval() const {
     return spread ? std::optional(Interval{run.seconds * spread->low, run.seconds * spread->high}) : std::nullopt;
   }

@@ -133,7 +133,8 @@ void calibrate(const CalibrateWords& words, const NodesCode& code) {
   std::cout << experiments::table_text(measuring.calibration());
   if (const std::string& doubt = measuring.calibration().doubt; !doubt.empty())
     std::cout << "\nThe machine was too busy: " << doubt
-              << ". Intervals of forecasts are the wider for it. Calibrate again when nothing else runs.\n";
+              << (words.trials > 0 ? ". Intervals of forecasts are the wider for it" : "")
+              << ". Calibrate again when nothing else runs.\n";
   measuring.write(file);
   std::cout << "\nwritten to " << file.string() << '\n';
 }

@@ -94,9 +94,10 @@ std::string interval_text(const Planned& planned) {
     return document::formatted("%.0f %%: %.3g to %.3g", 100 * experiments::kWithin, interval->low, interval->high);
   const std::vector<experiments::Spread>& tried = planned.platform.spread;
   if (tried.empty()) return "it is not known how far off: none was tried on platform " + planned.platform.name;
-  const int most = std::ranges::max(tried, {}, &experiments::Spread::nodes).nodes;
-  return "it is not known how far off: tried were forecasts for up to " +
-         document::counted(static_cast<std::size_t>(most), "node");
+  const auto [least, most] = std::ranges::minmax(tried, {}, &experiments::Spread::nodes);
+  const std::string from = least.nodes == most.nodes ? "" : std::to_string(least.nodes) + " to ";
+  return "it is not known how far off: tried were forecasts for " + from +
+         document::counted(static_cast<std::size_t>(most.nodes), "node");
 }
 
 std::string text_of(const Planned& planned) {

@@ -73,10 +73,12 @@ class StageOfPages : public Stage {
     let_go_of_what_changed();
     const std::string what = word_in(message, "do");
     static const std::map<std::string, void (StageOfPages::*)(PageNumber, const Json&)> handlers = {
-        {"view", &StageOfPages::view},       {"orbit", &StageOfPages::orbit}, {"unview", &StageOfPages::unview},
-        {"painted", &StageOfPages::painted}, {"hover", &StageOfPages::hover}, {"select", &StageOfPages::select},
-        {"grab", &StageOfPages::grab},       {"drag", &StageOfPages::drag},   {"drop", &StageOfPages::drop},
-        {"let_go", &StageOfPages::let_go},   {"pin", &StageOfPages::pin},     {"put_camera", &StageOfPages::put_camera}};
+        {"view", &StageOfPages::view},     {"orbit", &StageOfPages::orbit},
+        {"unview", &StageOfPages::unview}, {"painted", &StageOfPages::painted},
+        {"hover", &StageOfPages::hover},   {"select", &StageOfPages::select},
+        {"grab", &StageOfPages::grab},     {"drag", &StageOfPages::drag},
+        {"drop", &StageOfPages::drop},     {"let_go", &StageOfPages::let_go},
+        {"pin", &StageOfPages::pin},       {"put_camera", &StageOfPages::put_camera}};
     if (const auto handler = handlers.find(what); handler != handlers.end())
       (this->*handler->second)(page, message);
     else if (std::find(std::begin(kProjectVerbs), std::end(kProjectVerbs), what) == std::end(kProjectVerbs))
@@ -150,7 +152,8 @@ class StageOfPages : public Stage {
     const PageView& view = seen_view_in(page, message);
     if (view.eye.from != From::free) refuse("is no free view", "view", "turn it first");
     const glm::dvec3 eye = preview::eye_of(view.eye.orbit, moments_.now().cameras.front().focal);
-    project_.commit(set_step(project_, "camera", {"eye=" + shown_numbers(eye), "at=" + shown_numbers(view.eye.orbit.center)}));
+    project_.commit(
+        set_step(project_, "camera", {"eye=" + shown_numbers(eye), "at=" + shown_numbers(view.eye.orbit.center)}));
   }
 
   // Of what the message names; of none: 0.

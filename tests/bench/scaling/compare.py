@@ -42,7 +42,8 @@ def compared(wanted):
     found = [results.Results([runs.read(path)]) for path in (wanted.a, wanted.b) if path]
     if len(found) == 1:
         if not found[0].compares:
-            raise study.Trouble(f"{wanted.a} is of one program: name a second study, or measure with --against")
+            raise study.Trouble(f"{wanted.a} has runs of one program that ended well, and none of another: name a second "
+                                "study, or measure with --against" + "".join(f"\n{run['failure']}" for run in found[0].failures[:1]))
         return changes.of_programs(found[0], wanted.level)
     if any(each.compares for each in found):
         raise study.Trouble("a study of two programs is compared alone: mars bench compare STUDY")

@@ -55,6 +55,8 @@ class Runner:
         line.update(self.used(used), load_average_after=environment.load_average())
         if used.failure:
             line["failure"] = used.failure
+        elif not os.path.exists(report):
+            line["failure"] = f"{command[0]} ended well without a report: it is no mars"
         else:
             with open(report) as file:
                 line.update(condensed(json.load(file)))

@@ -126,9 +126,16 @@ def programs(wanted):
     return dict(zip(study.PROGRAMS, (shutil.which(wanted.against), own))) if wanted.against else {None: own}
 
 
+def make_folder(folder):
+    try:
+        os.makedirs(folder, exist_ok=True)
+    except OSError as error:
+        raise Trouble(f"{folder}: no folder for the study: {error.strerror} (name another with -o)") from None
+
+
 def measure(wanted, arguments):
     """Runs all, and writes each run as it ends. Returns the file's name."""
-    os.makedirs(wanted.folder, exist_ok=True)
+    make_folder(wanted.folder)
     path = os.path.join(wanted.folder, "runs.jsonl")
     if os.path.exists(path):
         raise Trouble(f"{path} has a study already: name another folder with -o, or report it with --read {path}")
@@ -171,7 +178,7 @@ def main():
     arguments = sys.argv[1:]
     wanted = read_command_line(arguments)
     paths = wanted.read or [measure(wanted, arguments)]
-    os.makedirs(wanted.folder, exist_ok=True)
+    make_folder(wanted.folder)
     return show(paths, wanted.folder)
 
 

@@ -81,6 +81,15 @@ TEST_F(FilmWords, AddActorsBesideOthers) {
             std::string::npos);
 }
 
+TEST_F(FilmWords, AddNoActorWhereThereIsNoRoomBesideOthers) {
+  json_["models"]["huge"] = document::Json::parse(
+      R"({"joints": [{"name": "body", "segment": {"shape": "box", "sbb": [[-4e8, -4e8, -4e8], [4e8, 4e8, 4e8]]}}]})");
+  film({"add", "first", "--model", "huge", "--beside", "0"});
+  const document::Json before = json_;
+  EXPECT_NE(failure({"add", "second", "--model", "huge", "--beside", "0"}), "");
+  EXPECT_EQ(json_, before);
+}
+
 TEST_F(FilmWords, RemoveAndRenameActorsWithWhatNamesThem) {
   film({"add", "tom", "--model", "man"});
   film({"add", "ball", "--model", "ball"});

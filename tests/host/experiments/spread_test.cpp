@@ -56,6 +56,14 @@ TEST(Spread, OfNumbersBetweenIsBetween) {
   EXPECT_NEAR(four.high, 2, 1e-9);
 }
 
+TEST(Spread, ItsMiddleIsThatOfTheNearest) {
+  const std::vector<Spread> known{{1, false, 0.8, 1.5, 2}, {4, false, 0.8, 1.2, 2}, {1, true, 0.8, 3, 4}};
+  EXPECT_EQ(middle_for(known, 1, false), 1.5);
+  EXPECT_EQ(middle_for(known, 64, false), 1.2);
+  EXPECT_EQ(middle_for(known, 64, true), 3);
+  EXPECT_EQ(middle_for({}, 2, false), 1);
+}
+
 TEST(Spread, IsNotKnownBeyondWhatWasTried) {
   const std::vector<Spread> known{{2, false, 0.9, 1, 1.1}, {4, false, 0.9, 1, 1.1}};
   EXPECT_FALSE(spread_for(known, 1, false));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <set>
 
 #include "hal/failure/failure.h"
@@ -117,16 +118,67 @@ Ease rounded_curve(const Ease& ease) {
   return {rounded(ease.x1), rounded(ease.y1), rounded(ease.x2), rounded(ease.y2)};
 }
 
-void split_ease(TrackKey& before, std::uint32_t next, TrackKey& key) {
-  if (before.ease.hold) {
-    key.ease = kHold;
-    return;
-  }
+// Whether it could.
+bool split_ease(TrackKey& before, std::uint32_t next, TrackKey& key) {
   const double time = double(key.frame - before.frame) / double(next - before.frame);
-  if (const auto halves = split(before.ease, time)) {
-    before.ease = rounded_curve(halves->first);
-    key.ease = rounded_curve(halves->second);
+  const auto halves = split(before.ease, time);
+  if (!halves) return false;
+  before.ease = rounded_curve(halves->first);
+  key.ease = rounded_curve(halves->second);
+  return true;
+}
+
+// From a point that goes along with an actor to another's, or to a place: that way has no keys of its kind.
+bool changes_carrier(const document::Json& from, const document::Json& to) {
+  if (!from.is_object() && !to.is_object()) return false;
+  if (!from.is_object() || !to.is_object()) return true;
+  return from.value("actor", "") != to.value("actor", "") || from.value("joint", "") != to.value("joint", "");
+}
+
+// A spline's numbers are the keys' own; a light's direction is shown at its length, 1.
+bool shows_its_numbers(const TrackKey& key, const ValueAt& value_at) {
+  constexpr double kAlike = 1e-6;
+  const document::Json shown = value_at(key.frame);
+  return !key.value.is_object() && !shown.is_object() &&
+         glm::length(numbers_of(key.value) - numbers_of(shown)) < kAlike;
+}
+
+// Whether the key could be put on the way from the one before, with all else as it is.
+bool split_between(Track& track, std::size_t before, TrackKey& key, const ValueAt& value_at) {
+  TrackKey &from = track[before], &to = track[before + 1];
+  if (from.ease.hold) {
+    key.ease = kHold;
+    return true;
   }
+  if (changes_carrier(from.value, to.value)) return false;
+  if (!from.ease.spline) return split_ease(from, to.frame, key);
+  if (!shows_its_numbers(from, value_at) || !shows_its_numbers(to, value_at)) return false;
+  split_spline(track, before, key);
+  return true;
+}
+
+// Keys at all frames between the key `before` and the next.
+void key_between(Track& track, std::size_t before, const ValueAt& value_at) {
+  TrackKey &from = track[before], &to = track[before + 1];
+  from.ease = kLinear;
+  from.out = to.in = nullptr;
+  Track keys;
+  for (std::uint32_t frame = from.frame + 1; frame < to.frame; ++frame)
+    keys.push_back({frame, value_at(frame), kLinear});
+  track.insert(track.begin() + static_cast<std::ptrdiff_t>(before) + 1, keys.begin(), keys.end());
+}
+
+// The same, and on splines beside them, which depend on what has no numbers.
+FrameRange key_all(Track& track, std::size_t before, const ValueAt& value_at) {
+  std::size_t first = before, last = before;
+  const auto hangs = [&](std::size_t key) { return track[key].ease.spline && track[before].ease.spline; };
+  if (changes_carrier(track[before].value, track[before + 1].value)) {
+    if (first > 0 && hangs(first - 1)) --first;
+    if (last + 2 < track.size() && hangs(last + 1)) ++last;
+  }
+  const FrameRange keyed{track[first].frame + 1, track[last + 1].frame - 1};
+  for (std::size_t key = last + 1; key-- > first;) key_between(track, key, value_at);
+  return keyed;
 }
 
 // Of a part as it is at the frame.
@@ -160,21 +212,29 @@ Remarks key_parts(document::Json& film, const Film& meaning, const Choice& choic
 
 }  // namespace
 
-void split_way(Track& track, std::uint32_t frame, document::Json value) {
+std::optional<FrameRange> split_way(Track& track, std::uint32_t frame, const ValueAt& value_at) {
   const auto next = std::find_if(track.begin(), track.end(), [&](const TrackKey& k) { return k.frame >= frame; });
   if (next != track.end() && next->frame == frame) {
-    next->value = std::move(value);
-    return;
+    next->value = value_at(frame);
+    return std::nullopt;
   }
-  TrackKey key{frame, std::move(value), kLinear};
-  if (next != track.begin()) keep_slopes(track, std::prev(next)->frame);
+  const auto before = static_cast<std::size_t>(next - track.begin()) - 1;  // of none: not used
+  if (next != track.begin()) keep_slopes(track, track[before].frame);
   if (next != track.end()) keep_slopes(track, next->frame);
-  if (next != track.begin() && next != track.end()) {
-    TrackKey& before = *std::prev(next);
-    before.ease.spline ? split_spline(track, static_cast<std::size_t>(next - track.begin()) - 1, key)
-                       : split_ease(before, next->frame, key);
+  TrackKey key{frame, value_at(frame), kLinear};
+  if (next == track.end() && !track.empty() && track.back().ease.spline) {  // it led nowhere, and still does
+    track.back().ease = kLinear;
+    track.back().out = nullptr;
   }
+  if (next != track.begin() && next != track.end() && !split_between(track, before, key, value_at))
+    return key_all(track, before, value_at);
   put_key(track, std::move(key));
+  return std::nullopt;
+}
+
+std::string remark_of_split(const std::string& thing, const KeyedPart& part, FrameRange keyed) {
+  return thing + ", " + shown_part(part.name) + ": has a key at each of the frames " + std::to_string(keyed.first) +
+         " to " + std::to_string(keyed.last) + ", for its way there cannot be split (reduce may thin them out)";
 }
 
 Remarks put(const Chosen& chosen, const Tracks& tracks) {
@@ -189,7 +249,8 @@ Remarks make_keys(document::Json& film, const Film& meaning, const Choice& choic
   Remarks clamped;
   Remarks remarks =
       key_parts(film, meaning, choice, [&](const std::string& thing, const KeyedPart& part, Track& track) {
-        split_way(track, frame, key_there(thing, part, frame, beyond, clamped));
+        const auto there = [&](std::uint32_t at) { return key_there(thing, part, at, beyond, clamped); };
+        if (const auto all = split_way(track, frame, there)) clamped.push_back(remark_of_split(thing, part, *all));
         if (ease) set_ease(*key_at(track, frame), *ease);
       });
   append(clamped, remarks);
@@ -198,21 +259,24 @@ Remarks make_keys(document::Json& film, const Film& meaning, const Choice& choic
 
 Remarks cut(document::Json& film, const Film& meaning, const Choice& choice, std::uint32_t frame) {
   if (frame == 0) throw Failure("has nothing before it", "frame 0", "cut at a later frame");
-  Remarks none;
-  return key_parts(film, meaning, choice, [&](const std::string& thing, const KeyedPart& part, Track& track) {
+  Remarks remarks;
+  const auto cut_part = [&](const std::string& thing, const KeyedPart& part, Track& track) {
     if (part.name == "attach") return;  // holds anyway
-    const auto there = [&](std::uint32_t at) { return key_there(thing, part, at, Beyond::refused, none); };
+    const auto there = [&](std::uint32_t at) { return key_there(thing, part, at, Beyond::refused, remarks); };
     const auto later = std::ranges::find_if(track, [&](const TrackKey& key) { return key.frame >= frame; });
     const bool holds = later != track.begin() && (std::prev(later)->ease.hold || !leads_on(track, *std::prev(later)));
     const std::uint32_t last = holds ? std::prev(later)->frame : later == track.begin() ? 0 : frame - 1;
-    if (!holds) split_way(track, last, there(last));
-    split_way(track, frame, there(frame));
+    const auto all = holds ? std::nullopt : split_way(track, last, there);
+    if (all) remarks.push_back(remark_of_split(thing, part, *all));
+    split_way(track, frame, there);
     keep_slopes(track, last);
     keep_slopes(track, frame);
     TrackKey& stays = *key_at(track, last);
     set_ease(stays, kHold);
     stays.out = key_at(track, frame)->in = nullptr;
-  });
+  };
+  append(remarks, key_parts(film, meaning, choice, cut_part));
+  return remarks;
 }
 
 Remarks move_keys(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range, std::uint32_t to) {
@@ -247,7 +311,8 @@ Remarks hold(document::Json& film, const Film& meaning, const Choice& choice, st
     const bool moves_there = track.front().frame <= frame && frame < track.back().frame;
     if (moves_there) {
       const KeyedPart& part = one.thing.part(name);
-      split_way(track, frame, key_there(one.thing.name, part, frame, Beyond::refused, none));
+      split_way(track, frame,
+                [&](std::uint32_t at) { return key_there(one.thing.name, part, at, Beyond::refused, none); });
       keep_slopes(track, frame);
     }
     remap(track, one.thing.name, [&](std::uint32_t f) { return std::int64_t{f} + (f > frame ? frames : 0); });

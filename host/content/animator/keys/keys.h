@@ -4,7 +4,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <string>
 
 #include "host/content/animator/keys/frame_range.h"
 #include "host/content/animator/keys/things.h"
@@ -13,8 +15,12 @@
 
 namespace mars::animator {
 
-// Puts a key of `value` on the way between two others; the way stays as it is, where its ease can be split.
-void split_way(Track& track, std::uint32_t frame, document::Json value);
+// Puts a key on the way between two others, with the value that `value_at` gives for its frame; the way stays as it is.
+// Where neither its ease nor its spline can be split, all its frames get keys: gives the first and the last of them.
+using ValueAt = std::function<document::Json(std::uint32_t frame)>;
+std::optional<FrameRange> split_way(Track& track, std::uint32_t frame, const ValueAt& value_at);
+// "camera, eye: has a key at each of the frames 11 to 59, ..."
+std::string remark_of_split(const std::string& thing, const KeyedPart& part, FrameRange keyed);
 
 // Makes the tracks the keys of a thing of which some parts were to change; remarks what side_effects() finds.
 Remarks put(const Chosen& chosen, const Tracks& tracks);

@@ -33,7 +33,9 @@ double usual_way(const modeler::Joint* joint, const Track& track, std::uint32_t 
   double most = 0;
   for (std::size_t i = 0; i + 1 < track.size(); ++i) {
     const TrackKey &from = track[i], &to = track[i + 1];
-    if (to.frame + kNear < frame || from.frame > frame + kNear || !holds_numbers(from) || !holds_numbers(to)) continue;
+    if (from.ease.hold || to.frame + kNear < frame || from.frame > frame + kNear || !holds_numbers(from) ||
+        !holds_numbers(to))
+      continue;
     most = std::max(most, way_between(joint, from.value, to.value) / (to.frame - from.frame));
   }
   return most;
@@ -48,10 +50,13 @@ std::optional<Pop> pop_at(const KeyedPart& part, const Track& before, const Trac
   if (std::ranges::count_if(after, [&](const TrackKey& each) { return is_near(each.frame, frame); }) < 3)
     return std::nullopt;
   std::uint32_t from = frame, to = frame, apart = kNear;
-  if (key != after.begin() && is_near(std::prev(key)->frame, frame)) from = std::prev(key)->frame;
-  if (std::next(key) != after.end() && is_near(std::next(key)->frame, frame)) to = std::next(key)->frame;
+  if (key != after.begin() && !std::prev(key)->ease.hold && is_near(std::prev(key)->frame, frame))
+    from = std::prev(key)->frame;
+  if (std::next(key) != after.end() && !key->ease.hold && is_near(std::next(key)->frame, frame))
+    to = std::next(key)->frame;
   for (const std::uint32_t beside : {from, to})
     if (beside != frame) apart = std::min(apart, std::max(beside, frame) - std::min(beside, frame));
+  if (from == to) return std::nullopt;  // between two cuts
   const double way = way_between(joint, part.value_at(frame), key->value);
   const double calm = usual_way(joint, before, frame) + (joint != nullptr ? kCalm : 0);
   if (way / apart <= calm * (1 + 1e-9)) return std::nullopt;

@@ -134,9 +134,26 @@ class Posing {
   // Before its first change. Keys where its blend ends keep what is beyond them as it is.
   void touch(const KeyedPart& part, FrameRange range) {
     if (!touched_.emplace(part.name, range).second || manner_.falloff == 0) return;
-    const auto hold = [&](std::uint32_t frame) { split_way(tracks_[part.name], frame, part.key_at(frame)); };
-    hold(range.first - std::min(range.first, manner_.falloff));
-    if (range.last + manner_.falloff <= last_frame_) hold(range.last + manner_.falloff);
+    Track& track = tracks_[part.name];
+    const auto hold = [&](std::uint32_t frame) {
+      const auto value_at = [&](std::uint32_t at) { return part.key_at(at); };
+      if (const auto all = split_way(track, frame, value_at))
+        remarks_.push_back(remark_of_split(thing().name, part, *all));
+    };
+    const FrameRange shot = shot_of(track, range);
+    hold(std::max(shot.first, range.first - std::min(range.first, manner_.falloff)));
+    if (range.last + manner_.falloff <= std::min(shot.last, last_frame_)) hold(range.last + manner_.falloff);
+  }
+
+  // The frames between the cuts around the range: no change is blended across one.
+  static FrameRange shot_of(const Track& track, FrameRange range) {
+    FrameRange shot{0, wire::kMostFrames};
+    for (std::size_t i = 0; i < track.size(); ++i) {
+      if (!track[i].ease.hold) continue;
+      if (i + 1 < track.size() && track[i + 1].frame <= range.first) shot.first = track[i + 1].frame;
+      if (track[i].frame >= range.last) shot.last = std::min(shot.last, track[i].frame);
+    }
+    return shot;
   }
 
   // The keys beside the range change with its end, the less the farther they are from it.
@@ -147,8 +164,9 @@ class Posing {
     };
     const std::array<double, 3> at_first = change_at(range.first), at_last = change_at(range.last);
     Remarks clamped;
+    const FrameRange shot = shot_of(before_[part], range);
     for (TrackKey& key : track) {
-      if (range.holds(key.frame)) continue;
+      if (range.holds(key.frame) || !shot.holds(key.frame)) continue;
       const bool earlier = key.frame < range.first;
       const std::uint32_t away = earlier ? range.first - key.frame : key.frame - range.last;
       if (away < manner_.falloff) change(key, part, earlier ? at_first : at_last, share_at(away), clamped);

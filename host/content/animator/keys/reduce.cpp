@@ -172,7 +172,7 @@ Reduction reduce_keys(document::Json& film, const Film& meaning, const Choice& c
     for (const std::string& part : parts)
       for (const std::uint32_t frame : {span.first, span.last})
         if (tracks.at(part).front().frame < frame && frame < tracks.at(part).back().frame)
-          split_way(tracks.at(part), frame, chosen.thing.part(part).value_at(frame));
+          split_way(tracks.at(part), frame, chosen.thing.part(part).value_at);
     reducer.reduce(tracks, span);
     count(tracks, parts, span, done.keys_after, done.frames_after);
     const Remarks remarks = put(chosen, tracks);

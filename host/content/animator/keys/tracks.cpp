@@ -32,7 +32,10 @@ Ease common_ease(const Tracks& tracks, const Held& held, const document::Json& o
 
 // The part's value, as an object where its slopes or its ease are its own.
 document::Json value_of(const Tracks& tracks, const std::string& part, const TrackKey& key, const Ease& common) {
-  const bool own_ease = key.ease != common && (key.own_ease || leads_on(tracks.at(part), key));
+  const Track& track = tracks.at(part);
+  // A spline goes on from a value that stays, too.
+  const bool swings = common.spline && &key != &track.back();
+  const bool own_ease = key.ease != common && (key.own_ease || swings || leads_on(track, key));
   if (!has_ease(part) || (!own_ease && key.in.is_null() && key.out.is_null())) return key.value;
   document::Json value = {{"value", key.value}};
   if (own_ease) value["ease"] = written(key.ease);

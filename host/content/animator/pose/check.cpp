@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t kMostWarnings = 10;  // of joints
 constexpr double kAlike = 0.5;             // of a step: as much of it is in the one beside it where a thing flies
+constexpr int kFlight = 2;                 // such steps beside it
 constexpr double kFall = 0.1;              // of its size: less is no jump when an actor is let go
 
 std::string rounded_text(double number) { return document::shown(std::round(number * 100) / 100); }
@@ -82,14 +83,21 @@ double size_of(const modeler::Model& model) {
   return bones + edge;
 }
 
-// What flies fast also goes so far in the frame before, or in the one after, and in the same direction. Where it meets
-// a floor between two frames, its step is a part of each.
+// What flies fast goes about as far in the frames beside it, two at least, and in one of them in the same direction; in
+// another it may meet a floor.
 bool flies(const Channel<glm::dvec3>& place, std::uint32_t frame, const glm::dvec3& step) {
-  const auto goes_alike = [&](std::uint32_t from) {
-    const glm::dvec3 other = value_at(place, from + 1) - value_at(place, from);
-    return glm::dot(other, step) >= kAlike * glm::dot(step, step);
+  const auto step_from = [&](std::uint32_t from) { return value_at(place, from + 1) - value_at(place, from); };
+  int as_far = 0;
+  bool on = false;
+  const auto looks_on = [&](std::uint32_t from) {
+    const glm::dvec3 other = step_from(from);
+    if (glm::length(other) < kAlike * glm::length(step)) return false;
+    on = on || glm::dot(other, step) >= kAlike * glm::dot(step, step);
+    return ++as_far < kFlight;
   };
-  return (frame > 0 && goes_alike(frame - 1)) || goes_alike(frame + 1);
+  for (std::uint32_t from = frame; from > 0 && looks_on(from - 1);) --from;
+  for (std::uint32_t from = frame + 1; looks_on(from);) ++from;
+  return on && as_far >= kFlight;
 }
 
 void find_jumps(const Film& film, const Actor& actor, std::vector<std::string>& lines) {

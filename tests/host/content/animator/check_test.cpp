@@ -187,6 +187,12 @@ TEST(Check, TellsJumps) {
             2u);
 }
 
+TEST(Check, TwoLeapsInARowAreNoFlight) {
+  const Film film = film_of(R"("limits": {"x": [0, 9]})", R"("keys": [{"frame": 10, "place": [0, 0, 0]},
+      {"frame": 11, "place": [100, 0, 0]}, {"frame": 12, "place": [200, 0, 0]}])");
+  EXPECT_EQ(check_film(film).lines.size(), 2u);
+}
+
 TEST(Check, CallsNoFlightAJump) {
   // Thrown from rest at three units a frame, against a wall between two frames, and caught.
   const Film film = film_of(R"("limits": {"x": [0, 9]})", R"("keys": [{"frame": 2, "place": [0, 0, 0]},

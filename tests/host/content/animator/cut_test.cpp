@@ -79,6 +79,14 @@ constexpr const char* kShots[] = {
         "ease": "spline"}, {"frame": 60, "eye": [8, -9, 4]}]})",
     R"({"at": [0, 0, 1], "keys": [{"frame": 0, "eye": [0, -9, 2], "ease": "spline"}, {"frame": 20, "eye": [3, -9, 2]}]})",
     R"({"keys": [{"frame": 40, "eye": [0, -9, 2], "at": {"actor": "stone"}}, {"frame": 50, "eye": [0, -7, 2]}]})",
+    // From along with an actor to a place, by an ease and by a spline.
+    R"({"at": [0, 0, 1], "keys": [{"frame": 4, "eye": {"actor": "stone", "offset": [0, -9, 2]}, "ease": "both"},
+        {"frame": 60, "eye": [9, -9, 5]}]})",
+    R"({"at": [0, 0, 1], "keys": [{"frame": 4, "eye": {"actor": "stone", "offset": [0, -9, 2]}, "ease": "spline"},
+        {"frame": 44, "eye": [9, -9, 5], "ease": "spline"}, {"frame": 60, "eye": [9, -5, 5]}]})",
+    // Back at 29 where it began: that ease has no halves.
+    R"({"at": [0, 0, 1], "keys": [{"frame": 0, "eye": [0, -9, 2], "ease": [0.42, -0.753, 0.58, 1.6]}, {"frame": 78,
+        "eye": [8, -9, 4]}]})",
 };
 
 // Until it is posed at the frame, nothing changes; then nothing before it does, and it is there at once.
@@ -94,6 +102,34 @@ TEST(Cut, LeavesWhatIsBeforeAsItIs) {
       EXPECT_LT(glm::distance(shot.eye(frame), before.eye(frame)), 1e-6) << camera << frame;
     EXPECT_EQ(shot.eye(30), glm::dvec3(0, 0, 90)) << camera;
   }
+}
+
+TEST(Cut, WhatCannotBeSplitIsKeyedAtEveryFrame) {
+  Shot shot(kShots[6]);
+  shot([](document::Json& j, const Film& f) {
+    const Remarks remarks = animator::cut(j, f, {false, "camera", {"eye"}}, 30);
+    EXPECT_EQ(remarks.size(), 1u);
+    EXPECT_TRUE(remarks.at(0).starts_with("camera, eye: has a key at each of the frames 5 to 59")) << remarks.at(0);
+    return remarks;
+  });
+}
+
+TEST(Cut, OfALightsDirectionOnASpline) {
+  document::Json json = document::Json::parse(R"({"frames": 40, "camera": {"eye": [0, -9, 2], "at": [0, 0, 1]},
+      "lights": [{"keys": [{"frame": 0, "direction": [-1, 0.2, -0.1], "ease": "spline"},
+                           {"frame": 39, "direction": [0.9, 0.3, 0.1]}]}], "actors": [], "models": {}})");
+  const auto film_of = [](const document::Json& film) {
+    return read_film(document::Document(document::laid_out(film), "f.json").root(), {});
+  };
+  write_version(json);
+  const Film before = film_of(json);
+  cut(json, before, {false, "light/1", {}}, 20);
+  write_version(json);
+  const Film after = film_of(json);
+  for (std::uint32_t frame = 0; frame < 40; ++frame)
+    EXPECT_LT(glm::distance(direction_at(after.lights[0].vector, frame), direction_at(before.lights[0].vector, frame)),
+              1e-6)
+        << frame;
 }
 
 TEST(Cut, ACameraThatStandsStillHoldsFromItsOwnKey) {

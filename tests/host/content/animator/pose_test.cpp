@@ -198,6 +198,34 @@ TEST_F(Poses, BlendAmongFewKeys) {
   EXPECT_EQ(value_at(film_.actors[0].motion.pose[2], 8).y, 0);
 }
 
+// What a blend leaves alone: what stood still after a spline, and parts that stand still beside one.
+TEST_F(Poses, BlendBesideSplines) {
+  json_["actors"][0]["keys"] = document::Json::parse(R"([{"frame": 0, "place": [0, 0, 0], "ease": "spline"},
+      {"frame": 10, "place": [3, 0, 0], "ease": "spline"}, {"frame": 45, "pose": {"left-shin": [0, 50, 0]}}])");
+  pose("it", {"place.y=1"}, {40, 40}, Beyond::refused, 5);
+  for (std::uint32_t frame = 10; frame <= 35; ++frame)
+    EXPECT_LT(glm::distance(value_at(film_.actors[0].motion.place, frame), glm::dvec3(3, 0, 0)), 1e-9) << frame;
+  pose("it", {"left-shin.y=20", "place.z+=1"}, {7, 7}, Beyond::refused, 3);
+  for (std::uint32_t frame = 10; frame <= 45; ++frame)
+    EXPECT_NEAR(value_at(film_.actors[0].motion.pose[1], frame).y, 50, 1e-9) << frame;
+}
+
+TEST_F(Poses, BlendAcrossNoCut) {
+  json_["actors"][0]["keys"] = document::Json::parse(R"([{"frame": 0, "place": [0, 0, 0]},
+      {"frame": 23, "place": [2, 0, 0], "ease": "hold"}, {"frame": 24, "place": [9, 0, 0]},
+      {"frame": 40, "place": [9, 8, 0]}])");
+  read();
+  const Film before = film_;
+  EXPECT_TRUE(pose("it", {"place.z+=3"}, {24, 24}).empty()) << "at a cut nothing pops";
+  pose("it", {"place.z+=3"}, {24, 24}, Beyond::refused, 8);
+  for (const std::uint32_t frame : {0u, 20u, 23u, 32u, 40u})
+    EXPECT_LT(
+        glm::distance(value_at(film_.actors[0].motion.place, frame), value_at(before.actors[0].motion.place, frame)),
+        frame < 24 ? 1e-9 : 3.1)
+        << frame;
+  EXPECT_NEAR(value_at(film_.actors[0].motion.place, 24).z, 6, 1e-9);
+}
+
 TEST_F(Poses, OfLightsBehindTheEndAreFound) {
   pose("light/1", {"intensity=3"}, {60, 60});
   const Findings findings = check_film(film_);
