@@ -22,7 +22,7 @@ export class Connection {
   #token = takeToken();
 
   // `is`: of messages; "picture" (an ArrayBuffer), "connected", "gone" (the number of attempts that failed; whether a
-  // studio is there for which the page's token is wrong).
+  // studio is there for which the page's token is wrong), "sent" (a message of this page that has left).
   on(is, listener) {
     if (!this.#listeners.has(is)) this.#listeners.set(is, []);
     this.#listeners.get(is).push(listener);
@@ -45,6 +45,7 @@ export class Connection {
   send(message) {
     if (this.#socket?.readyState !== WebSocket.OPEN) return false;
     this.#socket.send(JSON.stringify(message));
+    this.#tell("sent", message);
     return true;
   }
 

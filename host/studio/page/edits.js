@@ -12,13 +12,16 @@ export class Edits {
   }
 
   #previews = false;
-  wanted = null;          // {actor, joint}, to be selected as soon as they are there
+  wanted = null;          // {actor, joint, isShown: views show the whole of it}, to be selected as soon as they are there
   unanswered = new Unanswered();
 
   preview(step, event) {
     this.#previews = true;
-    this.pace.send("preview", {do: "preview", step}, event);
+    this.pace.send("preview", {do: "preview", step}, event ?? kNoEvent);
   }
+
+  // At once, in place of one that the studio has ended.
+  previewAgain(step) { this.pace.now({do: "preview", step}, kNoEvent); }
 
   commit(step, event) {
     this.#previews = false;
@@ -84,17 +87,21 @@ export class Edits {
     this.wanted = {actor: actor.name, joint: name};
   }
 
-  // Beside what is there at the frame that shows.
+  // Beside what is there at the frame that shows. What was there alone may be a large floor, on which one sees little of
+  // the actor.
   addActor(name, model, event) {
-    this.commit({commands: [["film", "add", name, "--model", model, "--beside", `${this.state.project.frame}`]]}, event);
-    this.wanted = {actor: name, joint: null};
+    const {frame, actors} = this.state.project;
+    this.commit({commands: [["film", "add", name, "--model", model, "--beside", `${frame}`]]}, event);
+    this.wanted = {actor: name, joint: null, isShown: actors.length <= 1};
   }
 
+  // Returns what was wanted, if it is there now.
   selectWanted() {
     const wanted = this.wanted, found = wanted && (wanted.joint === null ? this.state.actor(wanted.actor) : this.state.joint(wanted.joint, wanted.actor));
-    if (!found) return;
+    if (!found) return null;
     this.wanted = null;
     this.select(wanted.actor, wanted.joint);
+    return wanted;
   }
 
   #goTo(where) {

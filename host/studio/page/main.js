@@ -26,6 +26,7 @@ import {Tree} from "./tree.js";
 import {Views} from "./views.js";
 
 const kPatience = 3;  // attempts to connect, before the banner says what a person can do
+const kNewSteps = new Set(["commit", "drag", "undo", "redo"]);  // after these, a message of the step before is out of date
 
 const place = (id) => document.getElementById(id);
 const state = new State();
@@ -54,14 +55,17 @@ const frames = new Frames(place("frames"), parts);
 const timeline = new Timeline(place("timeline"), place("frames"), parts, frames);
 const status = new Status(place("status"), parts);
 
+let tabOfScene = tabs.shown;  // to come back to
+
 function showWorkspace() {
   const rendering = state.workspace === "rendering";
+  if (rendering) tabOfScene = tabs.shown;
   place("rendering").hidden = !rendering;
   for (const id of ["views", "tree"]) place(id).hidden = rendering;
   for (const name of ["joint", "scene", "rendering"]) tabs.available(name, (name === "rendering") === rendering);
   tabs.available("materials", !rendering && !state.isFilm());
   tabs.available("motions", !rendering && state.isFilm());
-  tabs.show(rendering ? "rendering" : "joint");
+  tabs.show(rendering ? "rendering" : tabOfScene);
   document.body.dataset.workspace = state.workspace;
 }
 
@@ -86,7 +90,10 @@ function showSelected() {
   else if (state.isFilm() && joint === null && (actor ?? thing) !== null && tabs.shown === "joint") tabs.show("scene");
 }
 
-state.on("workspace", showWorkspace);
+state.on("workspace", () => {
+  showWorkspace();
+  notices.settle();
+});
 state.on("selected", showSelected);
 state.on("project", () => {
   tabs.rename("scene", state.isFilm() ? "Scene" : "Bodies");
@@ -94,7 +101,7 @@ state.on("project", () => {
   tabs.available("motions", state.workspace === "scene" && state.isFilm());
   document.body.dataset.kind = state.project.kind;
   showProblem();
-  edits.selectWanted();
+  if (edits.selectWanted()?.isShown) views.showSelectedInAll();
 });
 
 connection.on("project", (project) => state.setProject(edits.unanswered.over(project)));
@@ -111,6 +118,7 @@ connection.on("refused", (message) => {
   if (motions.refused(message)) return;
   notices.message(line ? `${text} (line ${line})` : text);
 });
+connection.on("sent", ({do: what}) => { if (kNewSteps.has(what)) notices.settle(); });
 connection.on("remark", ({text}) => notices.message(text, "info"));
 connection.on("pinned", ({pins}) => state.set("pins", pins));
 connection.on("connected", () => {

@@ -1,5 +1,5 @@
 // Banners stay while something is wrong. Messages stand in the last line, over nothing that is worked in: the newest
-// shows, those before are in a list that it opens.
+// shows until something else is done; all are in a list that it opens.
 
 import {element} from "./dom.js";
 import {icon} from "./icons.js";
@@ -33,11 +33,18 @@ export class Notices {
 
   message(text, kind = "error") {
     this.#said = [...this.#said, {text, kind}].slice(-kKept);
-    const root = element("button", {class: `message new ${kind}`, title: text, "data-key": "messages", onclick: () => this.#open(root)},
-                         glyphOf(kind), element("span", {}, text));
-    this.#line.replaceChildren(root);
+    const root = this.#show(`message new ${kind}`, text, glyphOf(kind), element("span", {}, text));
     clearTimeout(this.#timer);
     this.#timer = setTimeout(() => root.classList.remove("new"), kNew);
+  }
+
+  // The newest message is over; the list can still be opened.
+  settle() { if (this.#said.length > 0) this.#show("message", "Messages", glyphOf("info")); }
+
+  #show(look, title, ...children) {
+    const root = element("button", {class: look, title, "data-key": "messages", onclick: () => this.#open(root)}, children);
+    this.#line.replaceChildren(root);
+    return root;
   }
 
   #open(anchor) {

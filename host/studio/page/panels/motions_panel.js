@@ -8,13 +8,27 @@ const kGroups = [["figure", "Figures"], ["kinematic", "Things"], ["camera", "Cam
 const kChoices = {SIDE: ["left", "right"], AXIS: ["x", "y", "z"], EASE: ["linear", "in", "out", "both"]};
 
 const titled = (name) => name[0].toUpperCase() + name.slice(1).replaceAll("-", " ");
+
+// What the letters of a parameter's value count, where its meaning does not say it.
+const kUnits = {S: "seconds", DEGREES: "degrees", D: "units of length", H: "units of length", Z: "units of length",
+                "X Y": "units of length", "X Y Z": "units of length"};
+
+const kEnds = new Set(["commit", "drag", "undo", "redo", "cancel"]);  // messages after which the studio shows no preview
+
+function titleOf({value, meaning}) {
+  const unit = /units|degrees|seconds/.test(meaning) ? undefined : kUnits[value];
+  return `${meaning[0].toUpperCase()}${meaning.slice(1)}.${unit ? ` In ${unit}.` : ""}`;
+}
+
 const purposeOf = ({purpose, needs}) => needs ? `${purpose}. Limbs: ${needs}.` : `${purpose}.`;
 
 export class MotionsPanel {
   #actions = [];
   #action = null;
-  #fields = [];         // {name, values(): words, or none}
+  #fields = [];         // {name, values(): words, or none, lacks(): what must be given, or ""}
+  #typed = new Map();   // name of an action -> {key of a field: what was typed}
   #previews = false;
+  #previewed = null;    // the step that the studio shows
   #lengthens = true;
 
   constructor(place, {connection, state, edits}) {
@@ -26,13 +40,20 @@ export class MotionsPanel {
     connection.on("gone", () => { this.asked = false; });
     state.on("project", () => this.#ask());
     state.on("selected", () => this.#who());
-    state.on("frame", () => { if (this.#previews && this.start.value === "frame") this.#preview(); });
+    connection.on("sent", (message) => this.#sent(message));
     this.#build();
   }
 
   #ask() {
     if (this.asked || !this.state.isFilm()) return this.#who();
     this.asked = this.connection.send({do: "actions"});
+  }
+
+  // A change of the frame ends a preview in the studio: it is shown again.
+  #sent({do: what, step}) {
+    if (!this.#previews) return;
+    if (what === "frame" && this.#previewed) this.edits.previewAgain(this.#previewed);
+    else if (what === "preview" ? step !== this.#previewed : kEnds.has(what)) this.#over();
   }
 
   // The studio's word on a preview of this panel; whether it was one.
@@ -81,7 +102,7 @@ export class MotionsPanel {
     if (!action) return this.form.replaceChildren();
     this.#fields = action.parameters.map((parameter) => this.#field(parameter));
     const starts = [["last", "At its last key"], ["frame", "At the frame that shows"]];
-    const start = choice({name: "Begins", options: starts, key: "motion.start", commit: () => this.#changed()});
+    const start = choice({name: "Begins", options: starts, key: "motion.start", commit: () => this.#begins()});
     this.start = start.root.querySelector("select");
     const lengthen = toggle({name: "Lengthen the film", text: "May lengthen the film", key: "motion.lengthen",
                              commit: (on) => { this.#lengthens = on; this.#changed(); }});
@@ -96,6 +117,8 @@ export class MotionsPanel {
     const body = part(titled(action.name), element("p", {class: "hint"}, purposeOf(action)), begins, this.#fields.map(({root}) => root), end);
     body.classList.add("motion-form");
     this.form.replaceChildren(body);
+    const typed = this.#typed.get(action.name) ?? {};
+    for (const field of this.#typedIn()) field.value = typed[field.dataset.key] ?? field.value;
     // Where a page is so small that no field shows under the motions, the form takes its place.
     const hidden = begins.getBoundingClientRect().bottom > this.place.getBoundingClientRect().bottom - end.offsetHeight;
     if (hidden) body.scrollIntoView({block: "start"});
@@ -106,32 +129,49 @@ export class MotionsPanel {
     return kChoices[parameter.value] ? this.#oneOf(parameter, kChoices[parameter.value]) : this.#numbers(parameter);
   }
 
-  #oneOf({name, meaning}, choices) {
+  // What keeps its value from one time that the action is chosen to the next.
+  #typedIn() { return this.form.querySelectorAll("input[type=text], select"); }
+
+  #oneOf(parameter, choices) {
+    const {name} = parameter, title = titleOf(parameter);
     const options = [[null, "\u2013"], ...choices.map((each) => [each, each])];
     const made = choice({name: titled(name), options, key: `motion.${name}`, commit: () => this.#changed()});
-    made.root.title = meaning;
     const select = made.root.querySelector("select");
-    return {name, root: line(titled(name), made.root), values: () => select.value === "" ? [] : [select.value]};
+    select.title = title;
+    return {name, root: explained(title, line(titled(name), made.root)), values: () => select.value === "" ? [] : [select.value], lacks: () => ""};
   }
 
-  #numbers({name, value, meaning, example, count}) {
+  #numbers(parameter) {
+    const {name, value, meaning, example, count} = parameter, title = titleOf(parameter);
     const otherwise = /default: ([-\d.]+)/.exec(meaning)?.[1], letters = value.split(" "), examples = example.split(" ");
     const inputs = Array.from({length: count}, (_, i) => element("input", {
-      type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false", title: meaning, "data-key": `motion.${name}${i || ""}`,
+      type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false", title, "data-key": `motion.${name}${i || ""}`,
       "aria-label": count > 1 ? `${titled(name)} ${letters[i]}` : titled(name), placeholder: otherwise ?? `e.g. ${examples[i]}`,
       oninput: () => this.#changed(),
     }));
     const values = () => inputs.map((input) => input.value.trim().replace(",", "."));
-    return {name, root: line(titled(name), element("div", {class: "several"}, inputs)), values: () => values().includes("") ? [] : values()};
+    const given = () => values().filter((text) => text !== "").length;
+    return {name, root: explained(title, line(titled(name), element("div", {class: "several"}, inputs))),
+            values: () => given() === count ? values() : [],
+            lacks: () => given() === 0 || given() === count ? "" : `${titled(name)}: give ${listed(letters)}`};
   }
 
+  #lacks() { return this.#fields.map(({lacks}) => lacks()).find((text) => text !== "") ?? ""; }
+
   #commands() {
-    const at = this.start.value === "frame" ? ["--at", `${this.state.project.frame}`] : [];
+    const at = this.start.value === "frame" ? ["--at", `${this.#previews ? this.at : this.state.project.frame}`] : [];
     const given = this.#fields.flatMap(({name, values}) => values().length ? [`--${name}`, ...values()] : []);
     return [["animate", this.#action.name, this.#subject(), ...given, ...at, ...(this.#lengthens ? ["--lengthen"] : [])]];
   }
 
+  // A preview begins at the same frame while others are looked at.
+  #begins() {
+    this.at = this.state.project.frame;
+    this.#changed();
+  }
+
   #changed() {
+    this.#typed.set(this.#action.name, Object.fromEntries([...this.#typedIn()].map(({dataset, value}) => [dataset.key, value])));
     this.#say("");
     if (this.#previews) this.#preview();
   }
@@ -139,29 +179,56 @@ export class MotionsPanel {
   #flip(event) {
     if (this.#previews) return this.#stop();
     this.#previews = true;
+    this.at = this.state.project.frame;
     this.previewButton.setAttribute("aria-pressed", "true");
     this.#preview(event);
   }
 
   #preview(event) {
     if (this.#subject() === null) return;
-    this.#say("");
-    this.edits.preview({commands: this.#commands()}, event);
+    const lacks = this.#lacks();
+    if (lacks !== "") return this.#say(lacks);
+    this.#say("Preview is on: play or scrub to see it.", "hint");
+    this.#previewed = {commands: this.#commands()};
+    this.edits.preview(this.#previewed, event);
   }
 
   #stop() {
     if (!this.#previews) return;
-    this.#previews = false;
-    this.previewButton.setAttribute("aria-pressed", "false");
+    this.#over();
     this.edits.cancel();
   }
 
-  #apply(event) {
+  #over() {
     this.#previews = false;
+    this.#previewed = null;
     this.previewButton.setAttribute("aria-pressed", "false");
     this.#say("");
-    this.edits.commit({commands: this.#commands()}, event);
   }
 
-  #say(text) { if (this.problem) this.problem.textContent = text; }
+  #apply(event) {
+    const lacks = this.#lacks();
+    if (lacks !== "") return this.#say(lacks);
+    const step = {commands: this.#commands()};
+    this.#over();
+    this.edits.commit(step, event);
+  }
+
+  #say(text, look = "problem") {
+    if (!this.problem) return;
+    this.problem.className = `motion-${look}`;
+    this.problem.textContent = text;
+  }
+}
+
+// A line whose label has this title, too.
+function explained(title, root) {
+  root.title = title;
+  return root;
+}
+
+// "x, y and z".
+function listed(letters) {
+  const names = letters.map((letter) => letter.toLowerCase());
+  return `${names.slice(0, -1).join(", ")} and ${names.at(-1)}`;
 }

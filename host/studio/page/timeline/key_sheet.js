@@ -6,7 +6,7 @@ import {firstFrom} from "./rows.js";
 
 const kSize = 4.6;     // half a diamond's width, in pixels
 const kClose = 2;      // pixels: marks closer than this are one
-export const kNear = 7;  // pixels from a mark's middle at which it is meant
+const kNear = 6;       // pixels to all sides of a mark's middle at which it is meant
 
 // Each ease has a shape and a colour.
 const kShapes = {
@@ -52,7 +52,8 @@ export class KeySheet {
   // What is there: {row, mark}, both may be null.
   find({x, y}) {
     const row = this.rowList.rowAt(y);
-    if (!row) return {row: null, mark: null};
+    const middle = (this.rowList.index(y) + 0.5) * kRow - this.rowList.top;
+    if (!row || Math.abs(y - middle) > kNear) return {row, mark: null};
     const marks = this.rows.marks(row);
     const at = firstFrom(marks, this.axis.frameAt(x - kNear));
     const near = marks.slice(at, at + 40).filter(({frame}) => Math.abs(this.axis.x(frame) - x) <= kNear);

@@ -23,7 +23,8 @@ export class RowList {
 
   get top() { return this.root.scrollTop; }
   scrollBy(pixels) { this.root.scrollTop += pixels; }
-  rowAt(y) { return this.rows.at(Math.floor((y + this.top) / kRow)); }
+  index(y) { return Math.floor((y + this.top) / kRow); }
+  rowAt(y) { return this.rows.at(this.index(y)); }
 
   show() {
     this.sight.show(this.rows.list);

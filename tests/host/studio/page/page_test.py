@@ -515,6 +515,21 @@ class Trouble(Page):
         self.assertEqual([line.text[:9] for line in self.browser.find_elements(By.CSS_SELECTOR, ".message-lines li")],
                          ["Message 0", "Message 1", "Message 2"])
 
+    def test_a_message_goes_when_something_else_is_done(self):
+        self.select("left-shin")
+        deeds = {"a step": lambda: self.find('[data-key="pose.y"]').send_keys(Keys.ARROW_RIGHT),
+                 "undo": lambda: self.chord(Keys.CONTROL, "z"), "redo": lambda: self.chord(Keys.CONTROL, Keys.SHIFT, "z"),
+                 "another screen": lambda: self.chord(Keys.F9)}
+        for name, act in deeds.items():
+            with self.subTest(name):
+                self.studio.tell({"is": "remark", "text": f"before {name}"})
+                self.until(lambda: self.find("#messages").text, f"before {name}")
+                act()
+                self.until(lambda: self.find("#messages").text, "")
+        self.find("#messages .message").click()
+        self.assertEqual([line.text for line in self.browser.find_elements(By.CSS_SELECTOR, ".message-lines li")],
+                         [f"before {name}" for name in deeds])
+
     def test_a_page_of_a_studio_that_was_started_again_says_what_to_do(self):
         self.allowed = "/ws?token"
         port, project = self.studio.port, self.studio.project
@@ -583,6 +598,7 @@ class Films(Page):
         self.commit("animate pose watcher head=0,0,1 --falloff 8 --frame 24 --clamp")
         self.picture().click()
         self.studio.wait_for("grab", falloff=8)
+        self.studio.wait_for("select", actor=None)
         self.js("document.querySelector('[data-key=\"walker\"] > .row').click()")
         self.until(lambda: self.find('[role="tab"][aria-selected="true"]').text, "Scene")
         self.find('[data-key="actor.place.x"]').send_keys(Keys.ARROW_UP, Keys.ENTER)
@@ -618,6 +634,120 @@ class Films(Page):
         self.find('[data-key="motion.lengthen"]').click()
         self.find('[data-key="motion.apply"]').click()
         self.assertNotIn("--lengthen", self.commit("animate walk walker"))
+
+    def motions(self):
+        """The tab, with a walker who is selected and may walk, jump or throw."""
+        self.studio.tell({"is": "actions", "actions": [
+            {"name": "walk", "purpose": "Walk", "group": "figure", "needs": "hips", "parameters": [
+                {"name": "pace", "value": "N", "meaning": "steps a second; default: 2", "example": "1.5", "count": 1},
+                {"name": "to", "value": "X Y", "meaning": "a place on the floor", "example": "2 -1", "count": 2}]},
+            {"name": "nod", "purpose": "Nod with head and neck", "group": "figure", "needs": "head", "parameters": [
+                {"name": "first", "value": "SIDE", "meaning": "left or right; default: right", "example": "left", "count": 1},
+                {"name": "seconds", "value": "S", "meaning": "default: 1", "example": "2", "count": 1}]},
+            {"name": "throw", "purpose": "Fly with a velocity", "group": "kinematic", "needs": "", "parameters": [
+                {"name": "to", "value": "X Y Z", "meaning": "where it comes down", "example": "1 2 0", "count": 3}]}]})
+        self.js("document.querySelector('[data-key=\"walker\"] > .row').click()")
+        self.js("[...document.querySelectorAll('[role=tab]')].find((each) => each.textContent === 'Motions').click()")
+
+    def does(self, what):
+        return [each for each in self.studio.heard if each["do"] == what]
+
+    def test_a_preview_of_a_motion_stays_while_frames_are_looked_at(self):
+        self.motions()
+        self.find("[data-motion=walk]").click()
+        self.choose("motion.start", "frame")
+        self.find('[data-key="motion.preview"]').click()
+        self.until(lambda: self.find(".motion-end [role=status]").text, "Preview is on: play or scrub to see it.")
+        walk = ["animate", "walk", "walker", "--at", "24", "--lengthen"]
+        self.studio.wait_for("preview", step={"commands": [walk]})
+        self.find(".ruler").send_keys(Keys.ARROW_RIGHT)
+        self.studio.wait_for("preview", count=2, step={"commands": [walk]})
+        self.assertEqual([each["do"] for each in self.studio.heard if each["do"] in ("frame", "preview")], ["preview", "frame", "preview"])
+        self.studio.tell({"is": "refused", "do": "preview", "text": "no room to walk"})
+        self.until(lambda: self.find(".motion-end [role=status]").text, "no room to walk")
+        self.find('[data-key="motion.apply"]').click()
+        self.commit("animate walk walker --at 24")
+        self.assertEqual(self.find('[data-key="motion.preview"]').get_attribute("aria-pressed"), "false")
+
+    def test_another_step_ends_a_preview_of_a_motion(self):
+        self.motions()
+        self.find("[data-motion=walk]").click()
+        self.find('[data-key="motion.preview"]').click()
+        self.studio.wait_for("preview")
+        self.chord(Keys.CONTROL, "z")
+        self.until(lambda: self.find('[data-key="motion.preview"]').get_attribute("aria-pressed"), "false")
+        self.assertEqual(self.find(".motion-end [role=status]").text, "")
+
+    def test_a_motion_with_part_of_a_vector_is_not_sent(self):
+        self.motions()
+        self.find("[data-motion=throw]").click()
+        for key in ("motion.to", "motion.to1"):
+            self.find(f'[data-key="{key}"]').send_keys("2")
+        for button in ("motion.apply", "motion.preview"):
+            self.find(f'[data-key="{button}"]').click()
+            self.until(lambda: self.find(".motion-problem").text, "To: give x, y and z")
+        self.assertEqual(self.does("commit") + self.does("preview"), [])
+        self.find('[data-key="motion.to2"]').send_keys("0")
+        self.studio.wait_for("preview")
+        self.find('[data-key="motion.apply"]').click()
+        self.commit("animate throw walker --to 2 2 0")
+
+    def test_what_was_typed_for_a_motion_is_there_again(self):
+        self.motions()
+        self.find("[data-motion=walk]").click()
+        self.find('[data-key="motion.pace"]').send_keys("1.5")
+        self.choose("motion.start", "frame")
+        self.find("[data-motion=nod]").click()
+        self.choose("motion.first", "left")
+        values = lambda *keys: [self.find(f'[data-key="motion.{key}"]').get_attribute("value") for key in keys]  # noqa: E731
+        self.assertEqual(values("first", "seconds", "start"), ["left", "", "last"])
+        self.find("[data-motion=walk]").click()
+        self.assertEqual(values("pace", "to", "start"), ["1.5", "", "frame"])
+        self.find("[data-motion=nod]").click()
+        self.find('[data-key="motion.apply"]').click()
+        self.commit("animate nod walker --first left --lengthen")
+
+    def test_motions_and_their_parameters_say_what_they_mean(self):
+        self.motions()
+        self.assertEqual(self.find("[data-motion=throw]").get_attribute("title"), "Fly with a velocity.")
+        self.find("[data-motion=nod]").click()
+        for key, title in (("first", "Left or right; default: right."), ("seconds", "Default: 1. In seconds.")):
+            with self.subTest(key):
+                field = f'[data-key="motion.{key}"]'
+                self.assertEqual(self.find(field).get_attribute("title"), title)
+                self.assertEqual(self.find(f".line:has({field})").get_attribute("title"), title)
+        self.find("[data-motion=walk]").click()
+        self.assertEqual(self.find('[data-key="motion.to1"]').get_attribute("title"), "A place on the floor. In units of length.")
+        self.assertEqual(self.find('[data-key="motion.pace"]').get_attribute("title"), "Steps a second; default: 2.")
+
+    def test_the_tab_is_the_same_after_a_rendering_was_looked_at(self):
+        self.js("[...document.querySelectorAll('[role=tab]')].find((each) => each.textContent === 'Scene').click()")
+        shown = lambda: self.find('#panels [role="tab"][aria-selected="true"]').text  # noqa: E731
+        self.find('[data-value="rendering"]').click()
+        self.until(shown, "Rendering")
+        self.find('[data-value="scene"]').click()
+        self.until(shown, "Scene")
+
+    def test_views_show_a_first_figure_that_was_added_to_a_floor(self):
+        self.js("document.querySelector('.title').click()")
+        self.js("[...document.querySelectorAll('.menu button')].find((each) => each.textContent === \"Film's camera\").click()")
+        self.studio.wait_for("view", view=0, **{"from": "camera"})
+        one, other = self.studio.project["actors"]
+        floor, man, ball = ({**one, "name": name, "joints": []} for name in ("floor", "man", "ball"))
+        self.studio.tell({"is": "project", **self.studio.project, "actors": [floor]})
+        self.until(lambda: self.find("#tree .count").text, "1")
+        self.js("document.querySelector('[data-key=\"floor\"] > .row').click()")
+        for actor, actors, shown in ((man, [floor, man], [1, 2, 3]), (ball, [floor, man, ball], [])):
+            self.studio.forget()
+            self.find('[data-key="cast.model"]').send_keys(actor["name"])
+            self.find('[data-key="cast.add"]').click()
+            self.commit(f"film add {actor['name']}")
+            self.studio.project["actors"] = actors
+            self.studio.tell({"is": "project", **self.studio.project})
+            self.studio.wait_for("select", actor=actor["name"])
+            time.sleep(0.2)
+            after = self.studio.heard[[each["do"] for each in self.studio.heard].index("select"):]
+            self.assertEqual([each["view"] for each in after if each["do"] == "orbit" and each["how"] == "selected"], shown)
 
     def scene(self):
         """The tab, with all that is shut at first."""

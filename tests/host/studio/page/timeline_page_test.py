@@ -104,6 +104,74 @@ class Timeline(Page):
         self.press(Keys.DELETE)
         self.assertEqual(self.commands(), ["animate delete --all --frame 0-60"])
 
+    def test_between_dense_keys_a_box_begins(self):
+        dense = {"name": "left-shin", "axes": ["y"], "keys": [key(frame, 40) for frame in range(120)]}
+        self.studio.channels = [{"thing": "walker", "kind": "actor", "parts": [dense]}]
+        self.studio.tell({"is": "channels", "things": self.studio.channels})
+        self.until(lambda: self.browser.find_elements(By.CSS_SELECTOR, '[data-row="walker head"]'), [])
+        x, y = self.x(20), self.y("walker left-shin")
+        self.pull((x + 4, y - 10), (self.x(21) + 4, y + 10))
+        self.assertEqual([each for each in self.studio.heard if each["do"] in ("preview", "commit")], [])
+        self.press(Keys.DELETE)
+        self.assertEqual(self.commands(), ["animate delete walker --frame 21"])
+        self.studio.forget()
+        self.pull((x + 3, y - 5), (self.x(24) + 3, y - 5))
+        self.assertEqual(self.commands(), ["animate move walker --frame 20 --to 24"])
+
+    def listed(self):
+        self.find(".commands").click()
+        lines = self.js("return [...document.querySelectorAll('.command-lines li')].map((line) => line.textContent)")
+        self.press(Keys.ESCAPE)
+        return [" ".join(line.split()[3:]) for line in lines]
+
+    def history(self, undo, redo):
+        """The studio's answer to an undo or a redo."""
+        self.studio.project |= {"undo": undo, "redo": redo}
+        self.studio.tell({"is": "project", **self.studio.project})
+
+    def shown(self):
+        return " ".join(self.find(".commands").text.split()[3:])
+
+    def test_undone_commands_leave_the_list_until_they_are_redone(self):
+        self.studio.project["undo"] = "walk tom"  # another page's
+        self.drag("walker left-shin", 20, 24)
+        self.until(self.shown, "move walker left-shin --frame 20 --to 24")
+        self.drag("walker left-shin", 40, 44)
+        self.until(self.shown, "move walker left-shin --frame 40 --to 44")
+        both, name = self.listed(), self.studio.project["undo"]
+        self.chord(Keys.CONTROL, "z")
+        self.studio.wait_for("undo")
+        self.history(name, name)  # both steps have the same name
+        self.until(self.shown, both[0])
+        self.assertEqual(self.listed(), both[:1])
+        self.chord(Keys.CONTROL, "z")
+        self.studio.wait_for("undo", count=2)
+        self.history("walk tom", name)
+        self.until(self.shown, "")
+        self.assertEqual(self.listed(), [])
+        self.chord(Keys.CONTROL, "z")
+        self.history(None, "walk tom")
+        for undo, redo, lines in (("walk tom", name, []), (name, name, both[:1]), (name, None, both)):
+            self.chord(Keys.CONTROL, Keys.SHIFT, "z")
+            self.history(undo, redo)
+            self.until(self.listed, lines)
+
+    def test_what_another_page_did_and_undid_leaves_the_list_alone(self):
+        self.drag("walker left-shin", 20, 24)
+        self.until(self.shown, "move walker left-shin --frame 20 --to 24")
+        own, name = self.listed(), self.studio.project["undo"]
+        self.history("add ball", None)
+        self.chord(Keys.CONTROL, "z")
+        self.studio.wait_for("undo")
+        self.history(name, "add ball")
+        self.assertEqual(self.listed(), own)
+        self.history(None, name)  # another page undoes it
+        self.until(self.listed, [])
+        self.history("add lamp", None)
+        self.assertEqual(self.listed(), [])
+        self.drag("walker left-shin", 20, 24)
+        self.until(self.listed, own)
+
     def choose(self, text):
         self.until(lambda: self.js("return document.activeElement.role ?? ''").startswith("menuitem"))
         [item] = [each for each in self.browser.find_elements(By.CSS_SELECTOR, ".menu button") if each.text == text]
