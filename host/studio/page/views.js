@@ -76,6 +76,7 @@ export class Views {
   flip(key, event) { this.active.show({[key]: !this.active.shown[key]}, event); }
   showAll(event) { this.active.show({orbit: null}, event); }
   showSelected(event) { this.hands[this.state.activeView].showSelected(event); }
+  // The film's camera is left as it is.
   showSelectedInAll() {
     for (const {number, shown, size} of this.views) if (shown.from !== "camera" && size[0] > 0) this.hands[number].showSelected();
   }

@@ -122,6 +122,7 @@ class Timeline(Page):
         self.find(".commands").click()
         lines = self.js("return [...document.querySelectorAll('.command-lines li')].map((line) => line.textContent)")
         self.press(Keys.ESCAPE)
+        self.until(lambda: self.js("return document.querySelector('.popover')"), None)
         return [" ".join(line.split()[3:]) for line in lines]
 
     def history(self, undo, redo):
