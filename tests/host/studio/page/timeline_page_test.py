@@ -121,7 +121,7 @@ class Timeline(Page):
     def listed(self):
         self.find(".commands").click()
         lines = self.js("return [...document.querySelectorAll('.command-lines li')].map((line) => line.textContent)")
-        self.press(Keys.ESCAPE)
+        self.js("document.querySelector('.popover').hidePopover()")
         self.until(lambda: self.js("return document.querySelector('.popover')"), None)
         return [" ".join(line.split()[3:]) for line in lines]
 
