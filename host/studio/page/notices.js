@@ -39,7 +39,7 @@ export class Notices {
   }
 
   // The newest message is over; the list can still be opened.
-  settle() { if (this.#said.length > 0) this.#show("message", "Messages", glyphOf("info")); }
+  settle() { if (this.#said.length > 0) this.#show("message info", "Messages", glyphOf("info")); }
 
   #show(look, title, ...children) {
     const root = element("button", {class: look, title, "data-key": "messages", onclick: () => this.#open(root)}, children);
