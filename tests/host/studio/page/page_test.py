@@ -547,6 +547,25 @@ class Trouble(Page):
 class Films(Page):
     kind = projects.film
 
+    def of_menu(self, text):
+        self.find(".title").click()
+        self.js("[...document.querySelectorAll('.menu button')].find((each) => each.textContent === arguments[0]).click()", text)
+
+    def test_the_cameras_view_has_the_films_shape_and_a_free_one_places_the_camera(self):
+        shape = self.studio.project["size"]
+        self.of_menu("Film's camera")
+        asked = self.studio.wait_for("view", view=0, **{"from": "camera"})
+        self.assertAlmostEqual(asked["width"] / asked["height"], shape[0] / shape[1], delta=0.01)
+        seen = self.find(".picture").rect
+        self.assertTrue(asked["width"] <= seen["width"] + 1 and asked["height"] <= seen["height"] + 1)
+        self.studio.tell({"is": "project", **self.studio.project, "size": [500, 500]})
+        side = min(round(seen["width"]), round(seen["height"]))
+        self.studio.wait_for("view", view=0, width=side, height=side)
+        self.of_menu("Free")
+        self.studio.wait_for("view", view=0, **{"from": "free"})
+        self.of_menu("Put the film's camera here")
+        self.assertEqual(self.studio.wait_for("put_camera")["view"], 0)
+
     def test_a_crowd_is_built_as_far_as_it_is_in_sight(self):
         actor = self.studio.project["actors"][0]
         crowd = [{**actor, "name": f"walker-{number}"} for number in range(300)]
