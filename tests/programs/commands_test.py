@@ -56,7 +56,7 @@ class Commands(ProgramTest):
         self.fail_clearly(2, "modle", "show", says="'modle' is not a command (did you mean 'model'?)")
         self.fail_clearly(2, "film", "dog.json", "light", "list",
                           says="'list' is not a command (did you mean `mars film FILM show`?)")
-        self.fail_clearly(2, "film", "dog.json", "light", "dim", says="'dim' is not a command (there are add, remove, rig)")
+        self.fail_clearly(2, "film", "dog.json", "light", "dim", says="'dim' is not a command (there are add, set, remove, rig)")
         self.fail_clearly(2, "model", "dog.json", "show", "--hlep", says="'--hlep' is not an option (did you mean '--help'?)")
         self.fail_clearly(2, "model", "show", says="'show' comes later: write mars model MODEL show")
 
