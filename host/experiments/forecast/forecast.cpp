@@ -30,7 +30,9 @@ Forecast with_groups(const FilmCounts& counts, const std::vector<farm::Task>& ta
   farm::Plan plan{tasks, farm::make_groups(nodes, groups, tasks.size()), 0};
   const auto rehearsed = [&](std::int32_t contributors) {
     plan.contributors = contributors;
-    return Forecast{nodes, static_cast<std::uint32_t>(plan.groups.size()), contributors,
+    return Forecast{nodes,
+                    static_cast<std::uint32_t>(plan.groups.size()),
+                    contributors,
                     rehearse(counts, plan, setting, nodes),
                     experiments::spread_for(setting.platform.spread, nodes, setting.files),
                     experiments::middle_for(setting.platform.spread, nodes, setting.files)};

@@ -30,8 +30,9 @@ Json posed_model(const std::map<std::string, glm::dvec3>& pose);
 // Parts of a thing of the film ("tom", "camera", "light/2") set at the frame that is shown, within limits.
 Json pose_step(const Project& project, const std::string& thing, const std::vector<std::string>& settings);
 
-// The same of the camera or a light: parts that keys of the film change get a key at the frame that is shown, others are
-// changed for the whole film. So a lamp that is set up at frame 110 does not fly there from where it stood at frame 0.
+// The same of the camera or a light: parts that keys of the film change get a key at the frame that is shown, others
+// are changed for the whole film. So a lamp that is set up at frame 110 does not fly there from where it stood at frame
+// 0.
 Json set_step(const Project& project, const std::string& thing, const std::vector<std::string>& settings);
 
 // A step of pose_step() whose change is blended over as many frames to both sides; other steps stay as they are.

@@ -97,7 +97,8 @@ TEST_F(FilmSteps, LightsAreSetAsTheCommandSetsThem) {
     ASSERT_EQ(lights.size(), 3u);
     for (std::size_t light = 0; light < 3; ++light)
       for (const auto& part : lights[light].items())
-        EXPECT_TRUE(part.key() == "keyed" || part.key() == "animated" || part.value() == shown[light][part.key()]) << each.step() << part.key();
+        EXPECT_TRUE(part.key() == "keyed" || part.key() == "animated" || part.value() == shown[light][part.key()])
+            << each.step() << part.key();
   }
   const Json spot = project->describe()["lights"][2];
   EXPECT_EQ(spot["thing"], "light/3");
