@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kSeconds = 0.1;                    // about, that a trial on one node takes: its start counts little
+constexpr double kSeconds = 0.3;                    // about, that a trial on one node takes: its start counts little
 constexpr std::size_t kFewest = 2;                  // frames
 constexpr forecast::Budget kGlance{0.05}, kAll{2};  // seconds
 

@@ -147,7 +147,7 @@ std::string calibrate_unasked(const NodesCode& code) try {
   const fs::path file = file_of_here();
   document::check_can_write(file);
   if (const std::string busy = experiments::doubt_of(experiments::busyness()); !busy.empty()) return busy;
-  std::cerr << "mars: this machine is not calibrated: it is measured now, for some 30 seconds\n";
+  std::cerr << "mars: this machine is not calibrated: it is measured now, for about a minute\n";
   Measuring measuring(code);
   measuring.measure(kFewRepeats);
   if (const std::string& doubt = measuring.calibration().doubt; !doubt.empty()) return doubt;
@@ -199,7 +199,7 @@ void add_calibrate(cli::Command app, const NodesCode& code) {
       .check(wrong_trials)
       .type("N");
   command.footer(
-      "It takes about a minute, in which nothing else should run. Then:\n"
+      "It takes one to two minutes, in which nothing else should run. Then:\n"
       "  mars render FILM --sink none --backend simulated --platform here --nodes 4\n"
       "  mars render FILM --sink none --backend simulated --platform fat-tree:here ...\n");
   command.runs([words, code] { calibrate(*words, code); });

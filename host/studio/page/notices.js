@@ -14,7 +14,7 @@ export class Notices {
   #banners = new Map();
   #place = document.getElementById("banners");
   #line = document.getElementById("messages");
-  #said = [];  // {text, kind}
+  #messages = [];  // {text, kind}
   #timer = 0;
 
   // `about` names the banner; "" as text takes it away. Parts: text, and detail in small.
@@ -32,14 +32,14 @@ export class Notices {
   }
 
   message(text, kind = "error") {
-    this.#said = [...this.#said, {text, kind}].slice(-kKept);
+    this.#messages = [...this.#messages, {text, kind}].slice(-kKept);
     const root = this.#show(`message new ${kind}`, text, glyphOf(kind), element("span", {}, text));
     clearTimeout(this.#timer);
     this.#timer = setTimeout(() => root.classList.remove("new"), kNew);
   }
 
   // The newest message is over; the list can still be opened.
-  settle() { if (this.#said.length > 0) this.#show("message info", "Messages", glyphOf("info")); }
+  settle() { if (this.#messages.length > 0) this.#show("message info", "Messages", glyphOf("info")); }
 
   #show(look, title, ...children) {
     const root = element("button", {class: look, title, "data-key": "messages", onclick: () => this.#open(root)}, children);
@@ -48,7 +48,7 @@ export class Notices {
   }
 
   #open(anchor) {
-    const lines = this.#said.map(({text, kind}) => element("li", {class: `message ${kind}`}, glyphOf(kind), element("span", {}, text)));
+    const lines = this.#messages.map(({text, kind}) => element("li", {class: `message ${kind}`}, glyphOf(kind), element("span", {}, text)));
     const list = element("ol", {class: "message-lines", tabindex: 0}, lines);
     openPopover(anchor, "Messages", element("h3", {}, "Messages"), list);
     list.scrollTo(0, 1e6);

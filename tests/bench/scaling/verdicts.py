@@ -37,7 +37,7 @@ def read_command_line():
     parser.add_argument("--equal", type=int, default=20, metavar="N", help="studies of equals; default: %(default)s")
     parser.add_argument("--planted", type=int, default=3, metavar="N",
                         help="studies of a copy that is slower; default: %(default)s")
-    parser.add_argument("--repeats", type=int, default=20, metavar="N", help="of a study; default: %(default)s")
+    parser.add_argument("--repeats", type=int, default=60, metavar="N", help="of a study; default: %(default)s")
     parser.add_argument("--apart", action="store_true", help="two studies one after the other instead of --against")
     return parser.parse_args()
 

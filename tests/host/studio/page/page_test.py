@@ -517,10 +517,10 @@ class Trouble(Page):
 
     def test_a_message_goes_when_something_else_is_done(self):
         self.select("left-shin")
-        deeds = {"a step": lambda: self.find('[data-key="pose.y"]').send_keys(Keys.ARROW_RIGHT),
+        steps = {"a step": lambda: self.find('[data-key="pose.y"]').send_keys(Keys.ARROW_RIGHT),
                  "undo": lambda: self.chord(Keys.CONTROL, "z"), "redo": lambda: self.chord(Keys.CONTROL, Keys.SHIFT, "z"),
                  "another screen": lambda: self.chord(Keys.F9)}
-        for name, act in deeds.items():
+        for name, act in steps.items():
             with self.subTest(name):
                 self.studio.tell({"is": "remark", "text": f"before {name}"})
                 self.until(lambda: self.find("#messages").text, f"before {name}")
@@ -528,7 +528,7 @@ class Trouble(Page):
                 self.until(lambda: self.find("#messages").text, "")
         self.find("#messages .message").click()
         self.assertEqual([line.text for line in self.browser.find_elements(By.CSS_SELECTOR, ".message-lines li")],
-                         [f"before {name}" for name in deeds])
+                         [f"before {name}" for name in steps])
 
     def test_a_page_of_a_studio_that_was_started_again_says_what_to_do(self):
         self.allowed = "/ws?token"
