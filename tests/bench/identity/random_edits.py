@@ -3,7 +3,7 @@ films adds it here: `mars bench identity` then compares the pixels of edited fil
 follows from the choices of a random.Random and from the film as it is. MARS may refuse an edit, for example of a part
 that cannot turn; then the film must stay as it was."""
 
-EASES = ["linear", "in", "out", "both", "spline", "0.3,-0.2,0.6,1.2"]
+EASES = ["linear", "in", "out", "both", "spline", "hold", "0.3,-0.2,0.6,1.2"]
 
 
 def random_edit(choose, film):
@@ -65,8 +65,8 @@ class Edits:
 
     def add_actor(self):
         model = self.choose.choice(["ball", "box", *self.film["models"]])
-        return ["film", "FILM", "add", self.free_name(), "--model", model, "--place",
-                *(self.number(-1.4, 1.4) for _ in range(3)), "--turn", self.number(-180, 180)]
+        where = self.choose.choice([["--beside", self.frame()], ["--place", *(self.number(-1.4, 1.4) for _ in range(3))]])
+        return ["film", "FILM", "add", self.free_name(), "--model", model, *where, "--turn", self.number(-180, 180)]
 
     def remove_actor(self):
         return ["film", "FILM", "remove", self.actor()] if len(self.film["actors"]) > 2 else None
@@ -78,6 +78,11 @@ class Edits:
         kind = self.choose.choice([[f"direction={self.numbers(-1, 1)}"], [f"place={self.numbers(-3, 3)}", "reach=4"],
                                    [f"place={self.numbers(1, 4)}", f"at={self.numbers(-1, 1)}", "cone=20,45"]])
         return ["film", "FILM", "light", "add", *kind, f"intensity={self.number(0.5, 3)}"]
+
+    def set_light(self):
+        lights = len(self.film.get("lights", []))
+        return ["film", "FILM", "light", "set", str(self.choose.randint(1, lights)), f"intensity={self.number(0.5, 3)}",
+                f"color={self.numbers(0.2, 1)}"] if lights else None
 
     def remove_light(self):
         lights = len(self.film.get("lights", []))
@@ -103,7 +108,11 @@ class Edits:
         place = self.choose.choice([f"place={self.numbers(-1.4, 1.4)}", f"place.x+={self.number(-1, 1)}"])
         parts = [place, f"turn={self.numbers(-180, 180)}", *(f"/{joint}={self.numbers(-120, 120)}" for joint in joints)]
         return ["animate", "FILM", "pose", actor["name"], *self.choose.sample(parts, self.choose.randint(1, 2)), "--frame",
-                self.frame(), "--clamp", "--ease", self.choose.choice(EASES)]
+                self.frame(), "--clamp", *self.choose.choice([["--ease", self.choose.choice(EASES)], ["--falloff", "3"]])]
+
+    def cut(self):
+        thing = self.choose.choice(["camera", self.actor()])
+        return ["animate", "FILM", "cut", thing, "--frame", self.frame()]
 
     def pose_camera(self):
         part = self.choose.choice([f"eye={self.number(-3, 3)},{self.number(-6, -3)},{self.number(-1, 3)}",
@@ -173,6 +182,6 @@ class Edits:
         change = self.choose.choice([["look", self.actor()], ["follow", self.actor()], *([["look", "--end"]] if looks else [])])
         return ["animate", "FILM", *change, "--frame", self.frame()]
 
-    KINDS = [setting, add_actor, remove_actor, rename_actor, add_light, remove_light, light_rig, add_material, set_material,
-             pose_actor, pose_actor, pose_camera, pose_light, pose_material, key, displace, delete, time, stretch, tangent,
-             reduce, attach, detach, camera_goes_along]
+    KINDS = [setting, add_actor, remove_actor, rename_actor, add_light, set_light, remove_light, light_rig, add_material,
+             set_material, pose_actor, pose_actor, pose_camera, pose_light, pose_material, key, cut, displace, delete, time,
+             stretch, tangent, reduce, attach, detach, camera_goes_along]
