@@ -42,14 +42,15 @@ Orbit orbit_near(const wire::Camera& camera, const Ball& subject) {
   const auto& m = camera.world_to_eye.m;
   glm::dvec3 eye(0);  // -R^T t
   for (std::size_t row = 0; row < 3; ++row) eye -= m[row][3] * glm::dvec3(m[row][0], m[row][1], m[row][2]);
-  const glm::dvec3 out = eye - subject.center;
-  const double flat = std::hypot(out.x, out.y);
+  const glm::dvec3 out(m[2][0], m[2][1], m[2][2]);
+  const double before = glm::dot(eye - subject.center, out);
+  const double depth = before > kMargin * subject.radius ? before : kMargin * std::max(subject.radius, 1e-6);
   Orbit orbit;
-  orbit.center = subject.center;
+  orbit.center = eye - depth * out;
   orbit.turn = std::atan2(out.y, out.x) / modeler::kDegree;
-  orbit.height = std::atan2(out.z, flat) / modeler::kDegree;
+  orbit.height = std::atan2(out.z, std::hypot(out.x, out.y)) / modeler::kDegree;
   // As large as the camera showed it.
-  orbit.distance = std::max(glm::length(out) * kFocal / camera.focal, 1e-6);
+  orbit.distance = std::max(depth * kFocal / camera.focal, 1e-6);
   return orbit;
 }
 

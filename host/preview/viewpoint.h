@@ -27,7 +27,8 @@ struct Orbit {
 // So far that the ball fills a picture of this shape (width / height). Not for From::camera.
 Orbit orbit_from(From from, const Ball& subject, double aspect);
 
-// The orbit nearest to where a camera stands.
+// The orbit that looks the same way as a camera, about a point before it that is as far away as the subject: it shows
+// that point as large. The camera's roll is lost.
 Orbit orbit_near(const wire::Camera& camera, const Ball& subject);
 
 wire::Camera camera_of(const Orbit& orbit);

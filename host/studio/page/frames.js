@@ -21,8 +21,10 @@ export class Frames {
     this.number = numberField({name: "Frame, as a number", step: 1, digits: 0, key: "frame", commit: (frame, event) => this.scrub(frame, event)});
     this.of = element("span", {class: "of"});
     this.rate = element("span", {class: "of rate", title: "Frames that show, of those that the film has in a second"});
-    place.append(element("div", {class: "group"}, button("before", "Frame before", ",", (event) => this.step(-1, event)), this.playButton,
-                         button("next", "Next frame", ".", (event) => this.step(1, event))),
+    place.append(element("div", {class: "group"}, button("first", "First frame", "Home", (event) => this.end(false, event)),
+                         button("before", "Frame before", ",", (event) => this.step(-1, event)), this.playButton,
+                         button("next", "Next frame", ".", (event) => this.step(1, event)),
+                         button("last", "Last frame", "End", (event) => this.end(true, event))),
                  this.number.root, this.of, this.rate, this.slider);
     state.on("project poses workspace", () => this.#show());
   }

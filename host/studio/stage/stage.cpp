@@ -128,7 +128,7 @@ class StageOfPages : public Stage {
     view.marks = request.marks;
     view.orbiting = false;
     if (chosen) send_orbit(view);
-    if (view.sent > 0) send_handles(view);
+    send_handles(view);
   }
 
   void orbit(PageNumber page, const Json& message) {
@@ -287,7 +287,7 @@ class StageOfPages : public Stage {
     for (const Pin& each : pins) answer["pins"].push_back({{"actor", each.actor}, {"joint", each.joint}});
     listener_.tell(page, answer);
     for (PageView& view : views_)
-      if (view.page == page && view.sent > 0) send_handles(view);
+      if (view.page == page) send_handles(view);
   }
 
   // By another page, a command or a step: the hand's joints may be no more.
@@ -370,6 +370,8 @@ class StageOfPages : public Stage {
   }
 
   void send_handles(PageView& view) {
+    if (view.asked) view.asked->handles = controls(view);  // its picture comes later, and must not bring older ones
+    if (view.sent == 0) return;
     listener_.tell(view.page,
                    {{"is", "handles"}, {"view", view.number}, {"picture", view.sent}, {"shapes", controls(view)}});
   }
@@ -428,7 +430,7 @@ class StageOfPages : public Stage {
     put_names(project_, selected_by(page), message);
     listener_.tell(page, message);
     for (PageView& view : views_)
-      if (view.page == page && view.sent > 0) send_handles(view);
+      if (view.page == page) send_handles(view);
   }
 
   Project& project_;

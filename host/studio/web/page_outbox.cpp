@@ -44,8 +44,16 @@ void paste(ViewPicture& whole, ViewPicture changes) {
 
 }  // namespace
 
+// Messages go before pictures: handles that are sent now are newer than those of pictures that wait.
+void PageOutbox::drop_handles_of_waiting(const Json& message) {
+  const auto number = number_in(message, "view");
+  if (const auto view = number ? views_.find(*number) : views_.end(); view != views_.end())
+    for (ViewPicture& picture : view->second.waiting) picture.handles = nullptr;
+}
+
 void PageOutbox::tell(const Json& message) {
   std::string kind = message.value("is", "");
+  if (kind == "handles") drop_handles_of_waiting(message);
   std::string text = text_of(message);
   text_bytes_ += text.size();
   const auto same = std::ranges::find(texts_, kind, &Text::kind);

@@ -41,6 +41,8 @@ class PageOutbox {
   const LinkSpeed& speed() const { return speed_; }
 
  private:
+  void drop_handles_of_waiting(const Json& message);
+
   struct Text {
     std::string kind, text;
   };

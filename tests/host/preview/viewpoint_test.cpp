@@ -62,6 +62,15 @@ TEST(Viewpoint, TurningBeginsWhereTheCameraStands) {
   EXPECT_NEAR(near.distance, 17, 1e-9);
 }
 
+// Of a camera that looks past the subject, too: the same direction from the same place, through the same lens.
+TEST(Viewpoint, TurningBeginsWithWhatTheCameraShows) {
+  const Orbit past{{-1, 4, 2}, 33, 21, 17};
+  const wire::Camera camera = camera_of(past), again = camera_of(orbit_near(camera, kBall));
+  for (std::size_t row = 0; row < 3; ++row)
+    for (std::size_t column = 0; column < 4; ++column)
+      EXPECT_NEAR(again.world_to_eye.m[row][column], camera.world_to_eye.m[row][column], 1e-9) << row << column;
+}
+
 constexpr const char* kFilm = R"({
   "frames": 3, "camera": {"keys": [{"frame": 0, "eye": [0, -6, 3]}, {"frame": 2, "eye": [4, -6, 3]}], "at": [0, 0, 0]},
   "models": {"box": {"joints": [{"name": "side", "segment": {"shape": "box"}}]}},

@@ -599,6 +599,9 @@ class Films(Page):
         self.js("document.activeElement.blur()")
         self.chord(".")
         self.studio.wait_for("frame", frame=26)
+        for name, frame in (("Last frame", 119), ("First frame", 0), ("Next frame", 1)):
+            self.find(f'[aria-label="{name}"]').click()
+            self.studio.wait_for("frame", frame=frame)
         self.chord(Keys.SPACE)
         self.studio.wait_for("frame", count=5)  # it plays by the clock, whatever is left out
         self.chord(Keys.SPACE)

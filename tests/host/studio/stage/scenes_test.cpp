@@ -266,6 +266,20 @@ TEST(Scenes, WhatIsSelectedFillsTheView) {
   EXPECT_EQ(on.last("orbit")["from"], "free");
 }
 
+TEST(Scenes, APictureThatIsBeingDrawnBringsHandlesOfWhatIsSelectedByThen) {
+  OnStage on(example("robot-arm.json"));
+  const animator::Actor& robot = on.project.film().actors[0];
+  const std::string joint = on.project.film().models[robot.model].joints.back().name;
+  on.view(0, 320, 200, "free", "surface", R"(, "handles": "move")");
+  on.answer();
+  on.paint();
+  on.project.change([](animator::Film& film) { film.lights[0].intensity = animator::constant(0.25); });
+  on.stage->project_changed();  // asked for, with handles of nothing
+  on.take(R"({"do": "select", "actor": ")" + robot.name + R"(", "joint": ")" + joint + R"("})");
+  on.answer();
+  EXPECT_EQ(on.pictures.back().handles, on.last("handles")["shapes"]);
+}
+
 TEST(Scenes, AnotherMaterialOrLightIsAnotherInterval) {
   OnStage on(example("robot-arm.json"));
   on.view(0, 320, 200, "free", "surface");

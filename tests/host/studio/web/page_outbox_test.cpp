@@ -155,6 +155,17 @@ TEST_F(PageOutboxTest, HandlesComeBeforeTheirPicture) {
   EXPECT_EQ(page_.last.edit_high, 5u);
 }
 
+TEST_F(PageOutboxTest, HandlesOfAPictureThatWaitsGiveWayToNewerOnes) {
+  ViewPicture picture = whole(1, true, 1);
+  picture.handles = Json::array({{{"id", 4}}});
+  outbox_.show(std::move(picture), now_);
+  outbox_.tell({{"is", "handles"}, {"view", 2}, {"picture", 1}, {"shapes", Json::array({{{"id", 5}}})}});
+  const auto first = outbox_.next(now_);
+  ASSERT_TRUE(first && first->is_text);
+  EXPECT_EQ(Json::parse(first->bytes)["shapes"][0]["id"], 5);
+  receive(1ms);
+}
+
 TEST_F(PageOutboxTest, FastLinksGetRawPictures) {
   Encoding encoding = Encoding::deflate;
   std::mt19937 random(3);
