@@ -23,7 +23,7 @@ std::optional<Progress::Left> Course::left(std::size_t done, double seconds) con
     last = frames_[i].seconds;
   }
   if (!bounds_) return left;
-  // The forecast is known as well as a measurement of `trusted` seconds: errors of means go by the roots of these.
+  // The forecast is known as well as a measurement of `trusted` seconds; errors of means go by square roots.
   const double unknown = std::sqrt(trusted / (measured + trusted));
   left.between = {
       {left.seconds() * std::pow(bounds_->low, unknown), left.seconds() * std::pow(bounds_->high, unknown)}};

@@ -232,7 +232,7 @@ export function choice({name, options, key, commit}) {
   return {root: element("span", {class: "choice"}, select), fill, set: (value) => { select.value = value ?? ""; }};
 }
 
-// The same of so many options that they are made when somebody uses it; `textOf(value)`: how a value shows until then.
+// The same for many options, which are made when somebody uses it; `textOf(value)`: how a value shows until then.
 export function longChoice({options, textOf, ...rest}) {
   const made = choice({...rest, options: [[null, textOf(null)]]});
   const select = made.root.querySelector("select");

@@ -45,7 +45,7 @@ def r_squared(predicted, thesis, nodes):
 
 
 def predictions(table, kind, sources):
-    """The cells of these sources of a cells.Cells, then the naive ones, by name."""
+    """The cells of the sources in a cells.Cells, then the naive ones, by name."""
     thesis = table.cells_of("thesis", kind)
     return {**{source: table.cells_of(source, kind) for source in sources},
             **{name: predict(thesis) for name, predict in NAIVE.items()}}

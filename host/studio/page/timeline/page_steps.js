@@ -1,6 +1,6 @@
 // The commands of this page's steps that are done: those that were undone are left out until somebody redoes them. Pages
 // share one history, of which the studio sends only the names of the steps that undo and redo would change. A step of
-// another page that has the same name as one of this page cannot be told from it.
+// another page that has the same name as one of this page counts as that one.
 
 const kKept = 100;  // steps
 
