@@ -18,7 +18,7 @@ from random_film import RandomFilm  # noqa: E402
 
 BUILD = pathlib.Path(sys.argv[1])
 FILMS = 60
-VERBS = {"set", "add", "remove", "rename", "light", "material", "pose", "key", "move", "copy", "delete", "time", "tangent",
+VERBS = {"set", "add", "remove", "rename", "light", "material", "pose", "key", "move", "copy", "cut", "delete", "time", "tangent",
          "reduce", "attach", "detach", "look", "follow"}
 
 
