@@ -12,6 +12,7 @@
 
 #include "host/content/document/text.h"
 #include "host/shell/launch/mpi_words.h"
+#include "host/shell/launch/slots.h"
 #include "host/shell/launch/text_reader.h"
 
 namespace mars::launch {
@@ -104,8 +105,20 @@ std::string without_port(const std::string& address) { return address.substr(0, 
 
 std::string machines_of(const events::Booted& booted) {
   std::set<std::string> names;
-  for (const events::Booted::Node& node : booted.nodes) names.insert(node.host);
+  for (const events::Booted::Node& node : booted.nodes)
+    if (!is_here(node.host)) names.insert(node.host);
   return document::joined(names, " or ");
+}
+
+// The first other machine to which a connection failed. What a dying machine says of its own connections names this
+// one, which is not lost.
+std::optional<std::string> machine_without_connection(const std::string& line) {
+  for (TextReader words(line); words.find(kNoConnection);) {
+    const auto address = words.word();
+    if (!address) return std::nullopt;
+    if (const std::string name = name_of(without_port(*address)); !is_here(name)) return name;
+  }
+  return std::nullopt;
 }
 
 // Which machine was lost, if the words report such a loss. Open MPI has three ways to say it:
@@ -116,13 +129,12 @@ std::optional<std::string> machine_lost(const std::string& line, const std::opti
   TextReader daemon(line);
   if (daemon.find("lost communication with a remote daemon") && daemon.find("Remote daemon: ") &&
       daemon.find(" on node "))
-    return daemon.word();
+    if (const auto name = daemon.word(); name && !is_here(*name)) return name;
   if (!booted) return std::nullopt;
-  TextReader connection(line);
-  if (connection.find(kNoConnection))
-    if (const auto address = connection.word()) return name_of(without_port(*address));
-  if (line.find(kNoDaemon) != std::string::npos) return machines_of(*booted);
-  return std::nullopt;
+  if (const auto name = machine_without_connection(line)) return name;
+  const bool lost = line.find(kNoDaemon) != std::string::npos || line.find(kNoConnection) != std::string::npos;
+  const std::string others = lost ? machines_of(*booted) : "";
+  return others.empty() ? std::nullopt : std::optional(others);
 }
 
 std::optional<Loss> lost_machine(const std::string& line, const std::optional<events::Booted>& booted) {

@@ -14,12 +14,15 @@ std::uint32_t slots_of(const std::vector<Slots>& machines) {
 
 }  // namespace
 
-Machines::Machines(std::vector<Slots> all, std::uint32_t nodes) : all_(std::move(all)), nodes_(nodes) {}
+Machines::Machines(std::vector<Slots> all, std::uint32_t nodes) : all_(std::move(all)), nodes_(nodes) {
+  for (const Slots& each : all_) answered_.insert(each.host);
+}
 
 void Machines::blame(const std::string& machine, bool lost, bool new_frames) {
   const bool again = !new_frames && !machine.empty() && machine == blamed_;
   left_out_ = lost || again ? machine : "";
   blamed_ = machine;
+  lost_ = lost;
 }
 
 std::vector<std::string> Machines::names() const {
@@ -29,8 +32,15 @@ std::vector<std::string> Machines::names() const {
 }
 
 Machines::Choice Machines::choose(const std::set<std::string>& answering) {
+  if (lost_ && another_is_gone(answering)) left_out_ = "";
+  answered_ = answering;
   Choice choice = without(answering, std::exchange(left_out_, ""));
   return choice.use.empty() ? without(answering, "") : choice;
+}
+
+bool Machines::another_is_gone(const std::set<std::string>& answering) const {
+  return std::ranges::any_of(
+      answered_, [&](const std::string& machine) { return machine != blamed_ && !answering.contains(machine); });
 }
 
 Machines::Choice Machines::without(const std::set<std::string>& answering, const std::string& blamed) const {

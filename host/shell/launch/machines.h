@@ -18,7 +18,8 @@ class Machines {
   Machines(std::vector<Slots> all, std::uint32_t nodes);
 
   // A job ended by this machine: it did not answer, or a process on it died. A machine that ends two jobs in a row
-  // without a new frame is left out once though it answers; one that is lost is, too.
+  // without a new frame is left out once though it answers; one that is lost is, too, unless another has ceased to
+  // answer: what a dying machine says of its connections names those that live.
   void blame(const std::string& machine, bool lost, bool new_frames);
 
   std::vector<std::string> names() const;
@@ -32,12 +33,15 @@ class Machines {
   Choice choose(const std::set<std::string>& answering);
 
  private:
+  bool another_is_gone(const std::set<std::string>& answering) const;
   Choice without(const std::set<std::string>& answering, const std::string& blamed) const;
 
   std::vector<Slots> all_;
   std::uint32_t nodes_;
-  std::string blamed_;    // by the last job
-  std::string left_out_;  // at the next start
+  std::string blamed_;              // by the last job
+  bool lost_ = false;               // it did not answer the last job
+  std::string left_out_;            // at the next start
+  std::set<std::string> answered_;  // before the last start
 };
 
 }  // namespace mars::launch

@@ -37,6 +37,15 @@ TEST(Machines, ALostOneIsLeftOutOnceThoughItAnswers) {
   EXPECT_EQ(machines.choose(kAll).left_out, Names());
 }
 
+// A node of n4 said that it could not reach n2, when n4 was switched off.
+TEST(Machines, ALostOneThatAnswersIsUsedWhereAnotherHasCeasedTo) {
+  Machines machines(kFour, 15);
+  machines.blame("n2", true, true);
+  EXPECT_EQ(machines.choose({"n1", "n2", "n3"}).left_out, Names{"n4"});
+  machines.blame("n2", true, true);
+  EXPECT_EQ(machines.choose({"n1", "n2", "n3"}).left_out, (Names{"n2", "n4"})) << "n4 was gone already";
+}
+
 TEST(Machines, OneWithADeadProcessIsLeftOutWhenItHappensAgain) {
   Machines machines(kFour, 15);
   machines.blame("n2", false, true);
