@@ -18,19 +18,23 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/document/text.h"
+#include "host/images/exr_bands.h"
 #include "node/wire/film_parts.h"
 
 namespace mars::images {
 namespace {
 
+using Bytes = std::vector<std::byte>;
+
 constexpr std::size_t kPixelBytes = 8, kChannelBytes = 2;
+constexpr std::size_t kExrChunkHead = 8;  // bytes: first line, size
 constexpr std::array kChannels{"R", "G", "B"};
 constexpr std::string_view kMagic = "\x76\x2f\x31\x01";
 constexpr const char* kNoteName = "mars";
 
 class BytesOut : public Imf::OStream {
  public:
-  explicit BytesOut(std::vector<std::byte>& bytes) : OStream("a picture"), bytes_(bytes) {}
+  explicit BytesOut(Bytes& bytes) : OStream("a picture"), bytes_(bytes) {}
 
   void write(const char* from, int count) override {
     const auto size = static_cast<std::size_t>(count);
@@ -42,7 +46,7 @@ class BytesOut : public Imf::OStream {
   void seekp(std::uint64_t at) override { at_ = at; }
 
  private:
-  std::vector<std::byte>& bytes_;
+  Bytes& bytes_;
   std::size_t at_ = 0;
 };
 
@@ -66,8 +70,8 @@ class BytesIn : public Imf::IStream {
 };
 
 // Where the channels of a picture's pixels are.
-Imf::FrameBuffer channels_in(const std::uint32_t* pixels, std::size_t width) {
-  char* base = const_cast<char*>(reinterpret_cast<const char*>(pixels));
+Imf::FrameBuffer channels_in(const char* pixels, std::size_t width) {
+  char* base = const_cast<char*>(pixels);
   Imf::FrameBuffer buffer;
   for (std::size_t c = 0; c < kChannels.size(); ++c)
     buffer.insert(kChannels[c], Imf::Slice(Imf::HALF, base + c * kChannelBytes, kPixelBytes, width * kPixelBytes));
@@ -149,27 +153,64 @@ Image read(std::span<const std::byte> bytes) {
   if (!has_channels(file.header())) throw Iex::InputExc("it has no half floats R, G and B");
   Image image{static_cast<std::uint32_t>(window.max.x) + 1, static_cast<std::uint32_t>(window.max.y) + 1, {}};
   image.pixels.resize(std::size_t{2} * image.width * image.height);
-  file.setFrameBuffer(channels_in(image.pixels.data(), image.width));
+  file.setFrameBuffer(channels_in(reinterpret_cast<const char*>(image.pixels.data()), image.width));
   file.readPixels(window.min.y, window.max.y);
   return image;
 }
 
-}  // namespace
+// Up to its end; of a file that MARS has written.
+std::size_t header_bytes(std::span<const std::byte> file) {
+  const char* end = text_in(file).data();
+  for_each_attribute(text_in(file),
+                     [&](const Attribute& attribute) { end = attribute.value.data() + attribute.value.size(); });
+  return static_cast<std::size_t>(end - text_in(file).data()) + 1;  // and a 0
+}
 
-std::vector<std::byte> encode_exr(std::uint32_t width, std::uint32_t height, std::span<const std::uint32_t> pixels,
-                                  const std::string& note) {
-  check(pixels.size() == std::size_t{2} * width * height, "a picture has width * height pixels");
-  std::vector<std::byte> bytes;
-  bytes.reserve(pixels.size_bytes());
-  try {
+Bytes written(const Imf::Header& header, const std::function<void(Imf::OutputFile&)>& write) try {
+  Bytes bytes;
+  {
     BytesOut out(bytes);
-    Imf::OutputFile file(out, header_of(width, height, note));
-    file.setFrameBuffer(channels_in(pixels.data(), width));
-    file.writePixels(static_cast<int>(height));
-  } catch (const Iex::BaseExc& failure) {
-    throw Failure(std::string("OpenEXR cannot encode a picture: ") + failure.what(), "", "");
+    Imf::OutputFile file(out, header);
+    write(file);
   }
   return bytes;
+} catch (const Iex::BaseExc& failure) {
+  throw Failure(std::string("OpenEXR cannot encode a picture: ") + failure.what(), "", "");
+}
+
+}  // namespace
+
+EncodedBand encode_exr_band(std::uint32_t width, const Lines& lines, std::span<const std::uint32_t> pixels) {
+  Imf::Header header = header_of(width, lines.end, "");
+  header.dataWindow().min.y = static_cast<int>(lines.first);
+  const Bytes file = written(header, [&](Imf::OutputFile& out) {
+    const std::size_t before = std::size_t{lines.first} * width * kPixelBytes;
+    out.setFrameBuffer(channels_in(reinterpret_cast<const char*>(pixels.data()) - before, width));
+    out.writePixels(static_cast<int>(lines.count()));
+  });
+  const std::size_t chunks = (lines.count() + kExrChunkLines - 1) / kExrChunkLines;
+  EncodedBand band;
+  band.bytes.assign(file.begin() + static_cast<std::ptrdiff_t>(header_bytes(file) + chunks * sizeof(std::uint64_t)),
+                    file.end());
+  return band;
+}
+
+// The header is followed by the places of all chunks, each of which begins with its first line and its size.
+PictureEnds exr_ends(const PictureBands& bands, std::span<const EncodedBand* const> encoded, const std::string& note) {
+  PictureEnds ends{written(header_of(bands.width(), bands.height(), note), [](Imf::OutputFile&) {}), {}};
+  std::uint64_t place = ends.before.size();
+  std::byte* entry = ends.before.data() + header_bytes(ends.before);
+  for (const EncodedBand* band : encoded) {
+    for (std::size_t at = 0; at < band->bytes.size(); entry += sizeof place) {
+      std::memcpy(entry, &place, sizeof place);
+      std::uint32_t size = 0;
+      std::memcpy(&size, &band->bytes[at + sizeof(std::int32_t)], sizeof size);
+      const std::size_t whole = kExrChunkHead + size;
+      at += whole;
+      place += whole;
+    }
+  }
+  return ends;
 }
 
 std::optional<std::string> note_in_exr(std::span<const std::byte> start) {

@@ -1,7 +1,11 @@
 #include "host/images/picture_file.h"
 
+#include <utility>
+
+#include "hal/failure/failure.h"
 #include "host/content/document/file.h"
 #include "host/images/exr_file.h"
+#include "host/images/picture_bands.h"
 #include "host/images/png_file.h"
 #include "node/wire/film_parts.h"
 
@@ -16,11 +20,20 @@ constexpr std::size_t kLargestStart = 4096;  // bytes, in which notes end
 
 std::vector<std::byte> encode_picture(PictureFormat format, std::uint32_t width, std::uint32_t height,
                                       std::span<const std::uint32_t> pixels, const std::string& note) {
-  switch (format) {
-    case PictureFormat::png16: return encode_png16(width, height, pixels, note);
-    case PictureFormat::exr: return encode_exr(width, height, pixels, note);
-    default: return encode_png(width, height, pixels, note);
+  const PictureBands bands(format, width, height);
+  check(pixels.size() == bands.words_of({0, height}), "a picture has width * height pixels");
+  std::vector<EncodedBand> encoded;
+  std::vector<const EncodedBand*> all;
+  for (std::size_t band = 0; band < bands.count(); ++band) {
+    const Lines lines = bands.lines_of(band);
+    encoded.push_back(
+        encode_band(bands, band, pixels.subspan(bands.words_of({0, lines.first}), bands.words_of(lines))));
   }
+  for (const EncodedBand& band : encoded) all.push_back(&band);
+  auto [file, after] = ends_of(bands, all, note);
+  for (const EncodedBand& band : encoded) file.insert(file.end(), band.bytes.begin(), band.bytes.end());
+  file.insert(file.end(), after.begin(), after.end());
+  return std::move(file);
 }
 
 std::optional<std::string> read_note(const std::filesystem::path& path) {

@@ -1,4 +1,4 @@
-// PNG files: RGB of 8 or 16 bits marked sRGB. The only place that knows libpng.
+// Reads PNG files. The only place that knows libpng; png_bands.h writes frames' files.
 #pragma once
 
 #include <cstddef>
@@ -11,14 +11,6 @@
 #include "host/images/image.h"
 
 namespace mars::images {
-
-// The bytes of a PNG file of `pixels`, made fast rather than small. `note`: ASCII that the file carries, in a tEXt
-// chunk of the keyword MARS before the pixels; "": no such chunk.
-std::vector<std::byte> encode_png(std::uint32_t width, std::uint32_t height, std::span<const std::uint32_t> pixels,
-                                  const std::string& note = "");
-// Of pixels of two words, 16 bits a channel.
-std::vector<std::byte> encode_png16(std::uint32_t width, std::uint32_t height, std::span<const std::uint32_t> pixels,
-                                    const std::string& note = "");
 
 // The note of a PNG file that begins with these bytes; none where they hold no whole one.
 std::optional<std::string> note_in_png(std::span<const std::byte> start);

@@ -30,7 +30,8 @@ class Kitty : public TerminalPicture {
   }
 
   const std::string& shown(const images::Image& image) override {
-    const std::string picture = base64(images::encode_png(image.width, image.height, image.pixels));
+    const std::string picture =
+        base64(images::encode_picture(images::PictureFormat::png, image.width, image.height, image.pixels));
     const int before = number_;
     number_ = 3 - number_;
     text_ = "\x1b[?2026h\x1b[H";

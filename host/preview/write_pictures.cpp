@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "hal/failure/failure.h"
+#include "host/images/picture_file.h"
 #include "host/content/document/whole_file.h"
 #include "host/preview/sheet.h"
 #include "host/preview/video.h"
@@ -16,7 +17,8 @@ constexpr images::PictureSize kOnSheet{320, 180};
 bool is_picture(const WriteOptions& options) { return options.file.extension() == ".png"; }
 
 void write_png(const std::filesystem::path& file, const images::Image& image) {
-  document::write_whole_file(file, images::encode_png(image.width, image.height, image.pixels));
+  document::write_whole_file(
+      file, images::encode_picture(images::PictureFormat::png, image.width, image.height, image.pixels));
 }
 
 SharedImage ready(Pictures& pictures, std::uint32_t frame, images::PictureSize extent) {

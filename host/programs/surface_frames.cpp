@@ -4,6 +4,7 @@
 
 #include "hal/failure/failure.h"
 #include "hal/threads/run_threads.h"
+#include "host/images/picture_file.h"
 #include "host/images/png_file.h"
 #include "host/preview/viewpoint.h"
 #include "host/programs/node_job.h"
@@ -16,7 +17,8 @@ class SurfaceFrames::Taker : public sinks::Sink {
   explicit Taker(SurfaceFrames& frames) : frames_(frames) {}
 
   void take(const compositor::Frame& frame) override {
-    std::vector<std::byte> bytes = images::encode_png(frame.width, frame.height, frame.pixels);
+    std::vector<std::byte> bytes =
+        images::encode_picture(images::PictureFormat::png, frame.width, frame.height, frame.pixels);
     const std::lock_guard lock(frames_.mutex_);
     frames_.taken_[frame.number] = std::move(bytes);
     frames_.changed_.notify_all();

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <utility>
 
-#include "host/images/png_file.h"
+#include "host/images/picture_file.h"
 #include "host/render/sinks/sink_pool.h"
 #include "node/firmware.h"
 
@@ -31,8 +31,8 @@ class MemorySink : public sinks::Sink {
 
 void write_png(const std::string& path, const wire::FilmSettings& settings, const Pixels& pixels) {
   const bool two_words = pixels.size() > std::size_t{settings.width} * settings.height;
-  const auto encode = two_words ? images::encode_png16 : images::encode_png;
-  const auto bytes = encode(settings.width, settings.height, pixels, "");
+  const auto format = two_words ? images::PictureFormat::png16 : images::PictureFormat::png;
+  const auto bytes = images::encode_picture(format, settings.width, settings.height, pixels);
   std::ofstream(path, std::ios::binary)
       .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }

@@ -2,6 +2,7 @@
 #include <numeric>
 
 #include "host/images/exr_file.h"
+#include "host/images/picture_file.h"
 #include "tests/fuzz/edits.h"
 #include "tests/fuzz/target.h"
 
@@ -11,7 +12,7 @@ namespace {
 Message sound() {
   std::vector<std::uint32_t> pixels(7 * 5 * 2);
   std::iota(pixels.begin(), pixels.end(), 0x3c003a00u);
-  return images::encode_exr(7, 5, pixels, "a note");
+  return images::encode_picture(images::PictureFormat::exr, 7, 5, pixels, "a note");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <numeric>
 
+#include "host/images/picture_file.h"
 #include "host/images/png_file.h"
 #include "tests/fuzz/edits.h"
 #include "tests/fuzz/target.h"
@@ -42,7 +43,8 @@ void set_sums(Message& file) {
 Message sound(bool two_words) {
   std::vector<std::uint32_t> pixels(two_words ? 7 * 5 * 2 : 7 * 5);
   std::iota(pixels.begin(), pixels.end(), 0x00102030u);
-  return two_words ? images::encode_png16(7, 5, pixels, kNote) : images::encode_png(7, 5, pixels, kNote);
+  return images::encode_picture(two_words ? images::PictureFormat::png16 : images::PictureFormat::png, 7, 5, pixels,
+                                kNote);
 }
 
 }  // namespace

@@ -38,14 +38,14 @@ TEST(ExrFile, GivesBackWhatWasWritten) {
 }
 
 TEST(ExrFile, NamesItsColours) {
-  const std::vector<std::byte> bytes = encode_exr(2, 1, random_halves(2));
+  const std::vector<std::byte> bytes = encode_picture(PictureFormat::exr, 2, 1, random_halves(2));
   const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   EXPECT_EQ(text.substr(0, 4), "v/1\x01");
   EXPECT_TRUE(document::holds(text, "chromaticities"));
 }
 
 TEST(ExrFile, EveryCutOfAFileIsTold) {
-  const std::vector<std::byte> bytes = encode_exr(20, 40, random_halves(800));
+  const std::vector<std::byte> bytes = encode_picture(PictureFormat::exr, 20, 40, random_halves(800));
   for (std::size_t size = 0; size < bytes.size(); size += 7) {
     const std::string failure = document::failure_of([&] { decode_exr(std::span(bytes).first(size), "cut.exr"); });
     EXPECT_TRUE(document::holds(failure, "cut.exr: not a whole EXR picture")) << size << " bytes of " << bytes.size();
@@ -53,7 +53,7 @@ TEST(ExrFile, EveryCutOfAFileIsTold) {
 }
 
 TEST(ExrFile, NoDamageDoesHarm) {
-  const std::vector<std::byte> bytes = encode_exr(20, 20, random_halves(400));
+  const std::vector<std::byte> bytes = encode_picture(PictureFormat::exr, 20, 20, random_halves(400));
   std::mt19937 random(3);
   for (int i = 0; i < 600; ++i) {
     std::vector<std::byte> damaged = bytes;

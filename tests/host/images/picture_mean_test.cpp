@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "host/images/png_file.h"
+#include "host/images/picture_file.h"
 #include "tests/host/content/document/failure_of.h"
 #include "tests/host/images/rgba_png.h"
 
@@ -16,13 +16,15 @@ namespace {
 std::span<const std::byte> bytes_of(const std::string& text) { return std::as_bytes(std::span(text)); }
 
 TEST(PictureMean, IsOfLightNotOfLevels) {
-  const std::vector<std::byte> png = encode_png(2, 1, std::vector<std::uint32_t>{0x000000, 0x00ffff});
+  const std::vector<std::byte> png =
+      encode_picture(PictureFormat::png, 2, 1, std::vector<std::uint32_t>{0x000000, 0x00ffff});
   const PictureMean mean = picture_mean(png, "half.png").value();
   EXPECT_NEAR(mean.light[0], 0.5, 1e-12) << "black and white paper send half of white's light, not a level of 128";
   EXPECT_NEAR(mean.light[1], 0.5, 1e-12);
   EXPECT_EQ(mean.light[2], 0);
   EXPECT_NEAR(mean.values[0], 0.5, 1e-12);
-  const PictureMean grey = picture_mean(encode_png(1, 1, std::vector<std::uint32_t>{0x808080}), "grey.png").value();
+  const PictureMean grey =
+      picture_mean(encode_picture(PictureFormat::png, 1, 1, std::vector<std::uint32_t>{0x808080}), "grey.png").value();
   EXPECT_NEAR(grey.light[0], 0.21586, 1e-5) << "sRGB's 128";
 }
 

@@ -30,7 +30,7 @@ TEST(PngFile, GivesBackWhatWasWritten) {
   const sinks::TemporaryFolder folder;
   for (const auto& [width, height] : {std::pair{1u, 1u}, {3u, 200u}, {640u, 5u}, {16384u, 1u}}) {
     const std::vector<std::uint32_t> pixels = random_pixels(std::size_t{width} * height);
-    document::write_whole_file(folder / "x.png", encode_png(width, height, pixels));
+    document::write_whole_file(folder / "x.png", encode_picture(PictureFormat::png, width, height, pixels));
     const Image image = read_picture(PictureFormat::png, folder / "x.png");
     EXPECT_EQ(image.width, width);
     EXPECT_EQ(image.height, height);
@@ -73,14 +73,14 @@ TEST(PngFile, CarriesANoteBesideThePixels) {
 }
 
 TEST(PngFile, ADamagedNoteIsNone) {
-  std::vector<std::byte> bytes = encode_png(2, 1, random_pixels(2), "a note");
+  std::vector<std::byte> bytes = encode_picture(PictureFormat::png, 2, 1, random_pixels(2), "a note");
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   bytes[text.find("a note")] ^= std::byte{1};
   EXPECT_EQ(note_in_png(bytes), std::nullopt);
 }
 
 TEST(PngFile, IsEightBitRgbMarkedSrgb) {
-  const std::vector<std::byte> bytes = encode_png(2, 1, random_pixels(2));
+  const std::vector<std::byte> bytes = encode_picture(PictureFormat::png, 2, 1, random_pixels(2));
   const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   EXPECT_EQ(text.substr(12, 4), "IHDR");
   EXPECT_EQ(text[24], 8);  // bits
@@ -89,7 +89,7 @@ TEST(PngFile, IsEightBitRgbMarkedSrgb) {
 }
 
 TEST(PngFile, EveryCutOfAFileIsTold) {
-  const std::vector<std::byte> bytes = encode_png(20, 20, random_pixels(400));
+  const std::vector<std::byte> bytes = encode_picture(PictureFormat::png, 20, 20, random_pixels(400));
   // All but the closing chunk's own check number, which libpng does not ask for.
   for (std::size_t size = 0; size + 4 < bytes.size(); size += 7) {
     const std::string failure = document::failure_of([&] { decode_png(std::span(bytes).first(size), "cut.png"); });
@@ -98,7 +98,7 @@ TEST(PngFile, EveryCutOfAFileIsTold) {
 }
 
 TEST(PngFile, NoDamageDoesHarm) {
-  const std::vector<std::byte> bytes = encode_png(20, 20, random_pixels(400));
+  const std::vector<std::byte> bytes = encode_picture(PictureFormat::png, 20, 20, random_pixels(400));
   std::mt19937 random(3);
   for (int i = 0; i < 300; ++i) {
     std::vector<std::byte> damaged = bytes;

@@ -8,7 +8,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "host/content/modeler/read_model.h"
-#include "host/images/png_file.h"
+#include "host/images/picture_file.h"
 #include "tests/host/content/document/failure_of.h"
 #include "tests/host/content/importer/glb.h"
 #include "tests/host/content/importer/import_folder.h"
@@ -290,7 +290,7 @@ TEST_F(SceneFileTest, RoughnessAndMetalAreTheMaterials) {
 // The mean of black and white is half of white's light; half of that is a quarter, which is shown as 0.537.
 TEST_F(SceneFileTest, ATexturesMeanStandsForIt) {
   const auto png = [](const std::vector<std::uint32_t>& pixels) {
-    const std::vector<std::byte> bytes = images::encode_png(2, 1, pixels);
+    const std::vector<std::byte> bytes = images::encode_picture(images::PictureFormat::png, 2, 1, pixels);
     return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   };
   test::Glb glb = painted({{"pbrMetallicRoughness",
@@ -328,7 +328,8 @@ TEST_F(SceneFileTest, ATextureThatCannotBeReadIsListed) {
 
 TEST_F(SceneFileTest, AnObjsTextureIsAveragedToo) {
   write("paint.mtl", "newmtl paint\nKd 1 1 1\nmap_Kd paint.png\n");
-  const std::vector<std::byte> bytes = images::encode_png(2, 1, std::vector<std::uint32_t>{0x000000, 0xffffff});
+  const std::vector<std::byte> bytes =
+      images::encode_picture(images::PictureFormat::png, 2, 1, std::vector<std::uint32_t>{0x000000, 0xffffff});
   write("paint.png", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   const modeler::Model model =
       import(options_for(write("a.obj", "mtllib paint.mtl\nusemtl paint\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")));

@@ -10,7 +10,7 @@
 
 #include "host/content/document/file.h"
 #include "host/content/document/whole_file.h"
-#include "host/images/png_file.h"
+#include "host/images/picture_file.h"
 #include "tests/host/content/document/failure_of.h"
 #include "tests/host/render/sinks/small_folders.h"
 #include "tests/host/render/sinks/temporary_folder.h"
@@ -62,7 +62,8 @@ TEST(Verify, TellsEveryFrameThatIsNotAsItShouldBe) {
   fill(folder.path(), manifest, 0);
   fs::remove(folder / "frame-0001.png");
   fs::resize_file(folder / "frame-0002.png", 40);
-  document::write_whole_file(folder / "frame-0005.png", images::encode_png(2, 3, std::vector<std::uint32_t>(6)));
+  document::write_whole_file(folder / "frame-0005.png",
+                             images::encode_picture(images::PictureFormat::png, 2, 3, std::vector<std::uint32_t>(6)));
   fs::copy_file(folder / "frame-0000.png", folder / "frame-0011.png", fs::copy_options::overwrite_existing);
   const Verdict verdict = verify_folder(folder.path());
   ASSERT_EQ(verdict.troubles.size(), 4u);
@@ -95,7 +96,8 @@ TEST(Verify, FramesThatAreNoFilesAreNamedAndTheOthersLookedAt) {
 TEST(Verify, AFrameOfWhichNothingIsRecordedDoesNotPass) {
   const TemporaryFolder folder;
   { const FrameFolder unfinished(folder.path(), of_frames({1})); }
-  document::write_whole_file(folder / "frame-0001.png", images::encode_png(6, 4, std::vector<std::uint32_t>(24)));
+  document::write_whole_file(folder / "frame-0001.png",
+                             images::encode_picture(images::PictureFormat::png, 6, 4, std::vector<std::uint32_t>(24)));
   const Verdict verdict = verify_folder(folder.path());
   ASSERT_EQ(verdict.troubles.size(), 1u);
   EXPECT_TRUE(document::holds(verdict.troubles[0].reason, "its run ended before it recorded the pixels"));

@@ -1,0 +1,17 @@
+// Bands of EXR files (picture_bands.h): each is some of the file's chunks.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "host/images/picture_bands.h"
+
+namespace mars::images {
+
+inline constexpr std::uint32_t kExrChunkLines = 16;  // of ZIP compression
+
+EncodedBand encode_exr_band(std::uint32_t width, const Lines& lines, std::span<const std::uint32_t> pixels);
+PictureEnds exr_ends(const PictureBands& bands, std::span<const EncodedBand* const> encoded, const std::string& note);
+
+}  // namespace mars::images

@@ -1,0 +1,58 @@
+// The file of a frame in parts: what stands before its pixels, one part for each band of lines, and what follows. A
+// band's part depends on the band's own pixels alone, and bands are cut by the picture's size and format alone: so a
+// band that has not changed is not encoded again, whoever encodes bands, and a file is the same byte for byte.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/images/picture_format.h"
+
+namespace mars::images {
+
+struct Lines {
+  std::uint32_t first, end;
+
+  std::uint32_t count() const { return end - first; }
+};
+
+class PictureBands {
+ public:
+  PictureBands(PictureFormat format, std::uint32_t width, std::uint32_t height);
+
+  PictureFormat format() const { return format_; }
+  std::uint32_t width() const { return width_; }
+  std::uint32_t height() const { return height_; }
+
+  std::size_t count() const { return (height_ + lines_ - 1) / lines_; }
+  Lines lines_of(std::size_t band) const;
+  // Of one of its lines, or of all lines of a picture, in words of pixels.
+  std::size_t words_of(const Lines& lines) const;
+
+ private:
+  PictureFormat format_;
+  std::uint32_t width_, height_;
+  std::uint32_t lines_;  // of every band but the last
+};
+
+struct EncodedBand {
+  std::vector<std::byte> bytes;
+  std::uint32_t adler32 = 0;    // PNG: of its filtered rows
+  std::uint64_t row_bytes = 0;  // PNG: of these
+};
+
+// `pixels`: of the band's lines.
+EncodedBand encode_band(const PictureBands& bands, std::size_t band, std::span<const std::uint32_t> pixels);
+
+struct PictureEnds {
+  std::vector<std::byte> before;
+  std::vector<std::byte> after;
+};
+
+// Of a file of these bands, all that the picture has. `note`: ASCII that the file carries beside the pixels; "": none.
+PictureEnds ends_of(const PictureBands& bands, std::span<const EncodedBand* const> encoded, const std::string& note);
+
+}  // namespace mars::images
