@@ -34,6 +34,11 @@ std::size_t PictureBands::words_of(const Lines& lines) const {
   return std::size_t{lines.count()} * width_ * wire::pixel_words(facts_of(format_).pixels);
 }
 
+std::span<const std::uint32_t> PictureBands::part_of(std::span<const std::uint32_t> pixels, std::size_t band) const {
+  const Lines lines = lines_of(band);
+  return pixels.subspan(words_of({0, lines.first}), words_of(lines));
+}
+
 EncodedBand encode_band(const PictureBands& bands, std::size_t band, std::span<const std::uint32_t> pixels) {
   const Lines lines = bands.lines_of(band);
   check(pixels.size() == bands.words_of(lines), "a band has the pixels of its lines");

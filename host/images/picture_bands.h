@@ -31,6 +31,8 @@ class PictureBands {
   Lines lines_of(std::size_t band) const;
   // Of one of its lines, or of all lines of a picture, in words of pixels.
   std::size_t words_of(const Lines& lines) const;
+  // Of all words of a picture those of a band.
+  std::span<const std::uint32_t> part_of(std::span<const std::uint32_t> pixels, std::size_t band) const;
 
  private:
   PictureFormat format_;

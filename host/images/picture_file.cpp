@@ -25,9 +25,7 @@ std::vector<std::byte> encode_picture(PictureFormat format, std::uint32_t width,
   std::vector<EncodedBand> encoded;
   std::vector<const EncodedBand*> all;
   for (std::size_t band = 0; band < bands.count(); ++band) {
-    const Lines lines = bands.lines_of(band);
-    encoded.push_back(
-        encode_band(bands, band, pixels.subspan(bands.words_of({0, lines.first}), bands.words_of(lines))));
+    encoded.push_back(encode_band(bands, band, bands.part_of(pixels, band)));
   }
   for (const EncodedBand& band : encoded) all.push_back(&band);
   auto [file, after] = ends_of(bands, all, note);

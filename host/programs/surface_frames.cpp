@@ -16,7 +16,7 @@ class SurfaceFrames::Taker : public sinks::Sink {
  public:
   explicit Taker(SurfaceFrames& frames) : frames_(frames) {}
 
-  void take(const compositor::Frame& frame) override {
+  void take(compositor::Frame& frame) override {
     std::vector<std::byte> bytes =
         images::encode_picture(images::PictureFormat::png, frame.width, frame.height, frame.pixels);
     const std::lock_guard lock(frames_.mutex_);

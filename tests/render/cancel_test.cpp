@@ -19,7 +19,7 @@ constexpr std::uint32_t kFrames = 400;
 class CancellingSink : public sinks::Sink {
  public:
   CancellingSink(farm::Cancellation& cancellation, int after) : cancellation_(cancellation), left_(after) {}
-  void take(const compositor::Frame&) override {
+  void take(compositor::Frame&) override {
     if (--left_ == 0) cancellation_.cancel();
   }
 

@@ -18,7 +18,7 @@ namespace {
 // Stores every frame.
 class MemorySink : public sinks::Sink {
  public:
-  void take(const compositor::Frame& frame) override {
+  void take(compositor::Frame& frame) override {
     const std::lock_guard lock(mutex_);
     frames_[frame.number] = frame.pixels;
   }

@@ -212,6 +212,13 @@ void replace_file(const std::filesystem::path& path, const std::filesystem::path
   }
 }
 
+void replace_file(const std::filesystem::path& path, const std::filesystem::path& part, const Pieces& pieces) {
+  replace_file(path, part, [&pieces](const Write& write) {
+    for (const std::span<const std::byte> piece : pieces)
+      write({reinterpret_cast<const char*>(piece.data()), piece.size()});
+  });
+}
+
 bool create_file(const std::filesystem::path& path, std::string_view text) {
   const int opened = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (opened < 0 && errno == ENOENT) return false;

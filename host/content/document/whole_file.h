@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace mars::document {
 
@@ -32,6 +33,8 @@ void replace_file(const std::filesystem::path& path, const std::filesystem::path
                   std::span<const std::byte> bytes);
 void replace_file(const std::filesystem::path& path, const std::filesystem::path& part,
                   const std::function<void(const Write&)>& produce);
+using Pieces = std::vector<std::span<const std::byte>>;
+void replace_file(const std::filesystem::path& path, const std::filesystem::path& part, const Pieces& pieces);
 
 // A new file, which readers may see before it is whole; removed again where writing fails. False where its folder is
 // not there. Throws Failure also where there is something of that name.

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "hal/failure/failure.h"
+#include "host/render/compositor/blocks.h"
 #include "host/render/compositor/plain_pixels.h"
 
 namespace mars::compositor {
@@ -27,24 +28,6 @@ void for_rows(std::span<const wire::Run> runs, std::uint32_t block, Visit visit)
     while (last < runs.size() && runs[last].line - row * block < block) ++last;
     visit(row, runs.subspan(first, last - first));
   }
-}
-
-// A picture's size, and how many words its pixels have.
-struct Extent {
-  std::size_t width;
-  std::size_t height;
-  std::size_t pixel_words;
-};
-
-// Calls visit(at, count) for each line of words in the blocks [first, last) of a row.
-template <typename Visit>
-void for_lines(const Extent& extent, std::size_t block, std::size_t row, std::size_t first, std::size_t last,
-               Visit visit) {
-  const std::size_t left = first * block;
-  const std::size_t count = std::min(extent.width, last * block) - left;
-  const std::size_t bottom = std::min(extent.height, (row + 1) * block);
-  for (std::size_t line = row * block; line < bottom; ++line)
-    visit((line * extent.width + left) * extent.pixel_words, count * extent.pixel_words);
 }
 
 // The first and the last `n` of `count` words, n <= count <= 2n: all of them.
@@ -92,14 +75,16 @@ Compositor::Compositor(std::uint32_t width, std::uint32_t height, std::uint32_t 
       height_(height),
       format_(format),
       pixel_words_(wire::pixel_words(format)),
-      constant_(width, height, block),
+      background_(std::make_shared<Background>(width, height, block, format)),
       last_overwritten_(width, height, block),
       fresh_(width, height, block),
-      filled_lines_(constant_.columns()) {}
+      filled_lines_(background_->constant.columns()) {}
 
+// Frames of the interval before may still be on their way.
 void Compositor::begin_interval(std::uint64_t plain) {
-  plain_ = plain;
-  constant_.clear();
+  if (name_ != 0 || background_->plain != plain)
+    background_ = std::make_shared<Background>(width_, height_, background_->constant.block(), format_);
+  background_->plain = plain;
   name_ = 0;
   last_number_.reset();
 }
@@ -112,12 +97,13 @@ void Compositor::paste_constant(std::span<const wire::Run> runs, std::span<const
   name_ = new_name();
   count_pasted(runs, pixels);
   if (keyframe != nullptr) count_pasted(runs, pixels);
-  if (!saved_) saved_ = std::make_unique_for_overwrite<std::uint32_t[]>(pixel_words_ * width_ * height_);
+  if (!background_->saved)
+    background_->saved = std::make_unique_for_overwrite<std::uint32_t[]>(pixel_words_ * width_ * height_);
   const Extent extent{width_, height_, pixel_words_};
   const std::uint32_t* source = pixels.data();
-  for_rows(runs, constant_.block(), [&](std::uint32_t row, std::span<const wire::Run> part) {
+  for_rows(runs, background_->constant.block(), [&](std::uint32_t row, std::span<const wire::Run> part) {
     extend_background(row, part);
-    const std::uint32_t* end = copy_runs(part, source, extent, saved_.get());
+    const std::uint32_t* end = copy_runs(part, source, extent, background_->saved.get());
     if (keyframe != nullptr) {
       refresh(*keyframe, row, part);
       copy_runs(part, source, extent, keyframe->pixels.data());
@@ -126,56 +112,57 @@ void Compositor::paste_constant(std::span<const wire::Run> runs, std::span<const
   });
   if (keyframe == nullptr) return;
   keyframe->background = name_;
-  keyframe->constant = constant_;
+  keyframe->constant = background_->constant;
 }
 
 // Blocks that the runs are the first to touch become plain background.
 void Compositor::extend_background(std::uint32_t row, std::span<const wire::Run> runs) {
   for (const wire::Run& run : runs) fresh_.set_pixels(run.line, run.first, run.count);
   fresh_.for_stretches(row, [&](std::uint32_t first, std::uint32_t last) {
-    constant_.for_parts(row, first, last, [&](std::uint32_t from, std::uint32_t to, bool known) {
+    background_->constant.for_parts(row, first, last, [&](std::uint32_t from, std::uint32_t to, bool known) {
       if (known) return;
-      for_lines({width_, height_, pixel_words_}, constant_.block(), row, from, to,
+      for_lines({width_, height_, pixel_words_}, background_->constant.block(), row, from, to,
                 [&](std::size_t at, std::size_t count) {
-                  fill_pixels({&saved_[at], count}, plain_, pixel_words_);
+                  fill_pixels({&background_->saved[at], count}, background_->plain, pixel_words_);
                   counts_.restored += count * sizeof(std::uint32_t);
                 });
     });
   });
-  constant_.add_row(fresh_, row);
+  background_->constant.add_row(fresh_, row);
   fresh_.clear_row(row);
 }
 
 void Compositor::begin_frame(Frame& frame) const {
   check(frame.width == width_ && frame.height == height_ && frame.format == format_,
         "a frame has the compositor's size and format");
-  check(frame.overwritten.block() == constant_.block(), "a frame has the compositor's blocks");
-  if (frame.plain != plain_) {
+  check(frame.overwritten.block() == background_->constant.block(), "a frame has the compositor's blocks");
+  if (frame.plain != background_->plain) {
     frame.stale.set_all();
   } else {
     frame.stale |= frame.overwritten;
     if (frame.background != name_) {
       frame.stale |= frame.constant;
-      frame.stale |= constant_;
+      frame.stale |= background_->constant;
     }
   }
   frame.overwritten.clear();
-  frame.plain = plain_;
+  frame.plain = background_->plain;
+  frame.shown = background_;
   frame.background = name_;
-  frame.constant = constant_;
+  frame.constant = background_->constant;
 }
 
 // Stale blocks of the row show the background again, but for those that the runs are about to fill.
 void Compositor::refresh(Frame& frame, std::uint32_t row, std::span<const wire::Run> runs) {
   if (!frame.stale.any(row)) return;
   count_filled_lines(runs);
-  const std::uint32_t lines = std::min(constant_.block(), height_ - row * constant_.block());
+  const std::uint32_t lines = std::min(background_->constant.block(), height_ - row * background_->constant.block());
   const auto is_filled = [&](std::uint32_t column) { return filled_lines_[column] == lines; };
   frame.stale.for_stretches(row, [&](std::uint32_t first, std::uint32_t last) {
     while (first < last) {
       std::uint32_t end = first;
       while (end < last && !is_filled(end)) ++end;
-      write_back(frame, row, first, end);
+      counts_.restored += background_->write(frame, row, first, end);
       first = end + 1;
     }
   });
@@ -185,10 +172,10 @@ void Compositor::refresh(Frame& frame, std::uint32_t row, std::span<const wire::
 // In how many lines of each block the runs, which lie in one row, fill it from side to side. None where runs are not in
 // order, as those of a sound node are.
 void Compositor::count_filled_lines(std::span<const wire::Run> runs) {
-  const std::uint32_t block = constant_.block();
+  const std::uint32_t block = background_->constant.block();
   std::ranges::fill(filled_lines_, 0);
   const auto add = [&](std::uint32_t first, std::uint32_t last) {
-    const std::uint32_t end = last == width_ ? constant_.columns() : last / block;
+    const std::uint32_t end = last == width_ ? background_->constant.columns() : last / block;
     for (std::uint32_t column = (first + block - 1) / block; column < end; ++column) ++filled_lines_[column];
   };
   std::uint32_t line = runs.front().line, first = runs.front().first, last = first;
@@ -204,27 +191,12 @@ void Compositor::count_filled_lines(std::span<const wire::Run> runs) {
   add(first, last);
 }
 
-// These blocks of a row show the background.
-void Compositor::write_back(Frame& frame, std::uint32_t row, std::uint32_t first, std::uint32_t last) {
-  std::uint32_t* pixels = frame.pixels.data();
-  constant_.for_parts(row, first, last, [&](std::uint32_t from, std::uint32_t to, bool drawn) {
-    for_lines({width_, height_, pixel_words_}, constant_.block(), row, from, to,
-              [&](std::size_t at, std::size_t count) {
-                counts_.restored += count * sizeof(std::uint32_t);
-                if (drawn)
-                  std::copy_n(&saved_[at], count, pixels + at);
-                else
-                  fill_pixels({pixels + at, count}, plain_, pixel_words_);
-              });
-  });
-}
-
 void Compositor::paste_moving(Frame& frame, std::span<const wire::Run> runs, std::span<const std::uint32_t> pixels) {
   check_runs(runs, pixels.size());
   count_pasted(runs, pixels);
   const Extent extent{width_, height_, pixel_words_};
   const std::uint32_t* source = pixels.data();
-  for_rows(runs, constant_.block(), [&](std::uint32_t row, std::span<const wire::Run> part) {
+  for_rows(runs, background_->constant.block(), [&](std::uint32_t row, std::span<const wire::Run> part) {
     refresh(frame, row, part);
     source = copy_runs(part, source, extent, frame.pixels.data());
     for (const wire::Run& run : part) frame.overwritten.set_pixels(run.line, run.first, run.count);
@@ -232,27 +204,25 @@ void Compositor::paste_moving(Frame& frame, std::span<const wire::Run> runs, std
 }
 
 void Compositor::read_line(const Frame& frame, std::uint32_t line, std::span<std::uint32_t> words) const {
-  const std::size_t width = pixel_words_ * width_, block = pixel_words_ * constant_.block(),
-                    row = line / constant_.block();
+  const std::size_t width = pixel_words_ * width_, block = pixel_words_ * background_->constant.block(),
+                    row = line / background_->constant.block();
   const std::size_t at = line * width;
   std::copy_n(&frame.pixels[at], width, words.data());
   frame.stale.for_stretches(static_cast<std::uint32_t>(row), [&](std::uint32_t first, std::uint32_t last) {
-    constant_.for_parts(static_cast<std::uint32_t>(row), first, last,
-                        [&](std::uint32_t from, std::uint32_t to, bool drawn) {
-                          const std::size_t left = from * block, count = std::min(width, to * block) - left;
-                          if (drawn)
-                            std::copy_n(&saved_[at + left], count, &words[left]);
-                          else
-                            fill_pixels(words.subspan(left, count), plain_, pixel_words_);
-                        });
+    background_->constant.for_parts(static_cast<std::uint32_t>(row), first, last,
+                                    [&](std::uint32_t from, std::uint32_t to, bool drawn) {
+                                      const std::size_t left = from * block, count = std::min(width, to * block) - left;
+                                      if (drawn)
+                                        std::copy_n(&background_->saved[at + left], count, &words[left]);
+                                      else
+                                        fill_pixels(words.subspan(left, count), background_->plain, pixel_words_);
+                                    });
   });
 }
 
+void Compositor::restore(Frame& frame) { counts_.restored += frame.restore({0, height_}); }
+
 void Compositor::finish_frame(Frame& frame, std::uint32_t number) {
-  for (std::uint32_t row = 0; row < constant_.rows(); ++row)
-    frame.stale.for_stretches(row,
-                              [&](std::uint32_t first, std::uint32_t last) { write_back(frame, row, first, last); });
-  frame.stale.clear();
   frame.number = number;
   frame.changed_since = last_number_;
   if (last_number_) {

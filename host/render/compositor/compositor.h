@@ -9,6 +9,8 @@
 //   and for each other frame, in any order and several at a time,
 //   begin_frame, paste_moving for every strip of it, finish_frame.
 //
+// A finished frame may still have stale blocks: who reads its pixels restores the lines that are read, or all, before.
+//
 // An interval of one frame needs no saved background: all its pixels go over the plain one by paste_moving.
 //
 // Runs and pixels, as words of pixels, are those of mars::wire::Strip. Runs that reach outside the picture, or pixels
@@ -22,6 +24,7 @@
 #include <utility>
 #include <vector>
 
+#include "host/render/compositor/background.h"
 #include "host/render/compositor/frame.h"
 #include "node/wire/protocol.h"
 
@@ -39,6 +42,7 @@ class Compositor {
   // `block`: side of a flag's block in pixels, at least 1.
   Compositor(std::uint32_t width, std::uint32_t height, std::uint32_t block,
              wire::PixelFormat format = wire::PixelFormat::rgb8);
+  Compositor(Compositor&&) = default;
 
   // The saved background is the plain background, whose pixel shows where nothing is drawn.
   void begin_interval(std::uint64_t plain);
@@ -56,6 +60,9 @@ class Compositor {
   // It is frame `number`; its `changed` says which blocks differ from the frame this compositor finished before.
   void finish_frame(Frame& frame, std::uint32_t number);
 
+  // The frame, which is finished or not, has no stale block.
+  void restore(Frame& frame);
+
   // Names the saved background, 0 while no CFB pixel was pasted: a frame with the same name costs least.
   std::uint64_t background_name() const { return name_; }
 
@@ -67,17 +74,12 @@ class Compositor {
   void extend_background(std::uint32_t row, std::span<const wire::Run> runs);
   void refresh(Frame& frame, std::uint32_t row, std::span<const wire::Run> runs);
   void count_filled_lines(std::span<const wire::Run> runs);
-  void write_back(Frame& frame, std::uint32_t row, std::uint32_t first, std::uint32_t last);
 
   std::uint32_t width_;
   std::uint32_t height_;
   wire::PixelFormat format_;
   std::size_t pixel_words_;
-  std::uint64_t plain_ = 0;  // the background's pixel
-  // The saved background: plain background and CFB in blocks flagged as constant, nothing elsewhere. Made
-  // when first needed and kept; pages where no CFB ever was are never touched.
-  std::unique_ptr<std::uint32_t[]> saved_;
-  BlockFlags constant_;
+  std::shared_ptr<Background> background_;
   std::uint64_t name_ = 0;
   BlockFlags last_overwritten_;               // by the frame finished last
   std::optional<std::uint32_t> last_number_;  // none: no frame of this interval yet

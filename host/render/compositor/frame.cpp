@@ -34,4 +34,22 @@ Frame::Frame(std::uint32_t width, std::uint32_t height, std::uint32_t block, std
       overwritten(width, height, block),
       stale(width, height, block) {}
 
+bool Frame::shows_background(const Lines& lines) const {
+  const std::uint32_t block = overwritten.block();
+  for (std::uint32_t row = lines.first / block; row * block < lines.end; ++row)
+    if (overwritten.any(row)) return false;
+  return true;
+}
+
+std::uint64_t Frame::restore(const Lines& lines) {
+  const std::uint32_t block = stale.block();
+  std::uint64_t bytes = 0;
+  for (std::uint32_t row = lines.first / block; row * block < lines.end; ++row) {
+    stale.for_stretches(
+        row, [&](std::uint32_t first, std::uint32_t last) { bytes += shown->write(*this, row, first, last); });
+    stale.clear_row(row);
+  }
+  return bytes;
+}
+
 }  // namespace mars::compositor

@@ -4,13 +4,19 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "host/render/compositor/background.h"
 #include "host/render/compositor/block_flags.h"
 #include "node/wire/pixel_format.h"
 
 namespace mars::compositor {
+
+struct Lines {
+  std::uint32_t first, end;
+};
 
 struct Frame {
   // Every pixel is `plain`.
@@ -29,12 +35,18 @@ struct Frame {
 
   // The compositor's: wherever no block is flagged as overwritten or stale, these pixels show the saved background
   // of that name (0: none but the plain one), which may differ from `plain` in the blocks flagged as constant. Stale
-  // blocks show what the buffer was used for before; a finished frame has none.
+  // blocks show what the buffer was used for before.
   std::uint64_t plain;
   std::uint64_t background = 0;
   BlockFlags constant;
   BlockFlags overwritten;
   BlockFlags stale;
+  std::shared_ptr<const Background> shown;  // that background; none once the frame is with nobody
+
+  // Whether only the background shows in these lines, as far as flags tell.
+  bool shows_background(const Lines& lines) const;
+  // Stale blocks of these lines show the background again; the bytes that were written.
+  std::uint64_t restore(const Lines& lines);
 };
 
 }  // namespace mars::compositor

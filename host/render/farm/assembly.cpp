@@ -124,6 +124,7 @@ std::optional<Assembly::Pasted> Assembly::paste(compositor::Compositor& composit
   parts.strips.clear();
   if (parts.contributors_left > 0) return pasted;
   compositor.finish_frame(*parts.picture, number);
+  if (listener || !sinks.restores()) compositor.restore(*parts.picture);
   pasted.whole = parts.picture;
   pasted.held = std::move(parts.held);
   parts_.erase(number);

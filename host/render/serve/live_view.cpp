@@ -58,6 +58,7 @@ void LiveView::give_up(compositor::Frame* picture) { free_.push_back(picture); }
 std::uint32_t LiveView::finish(compositor::Frame* picture, std::uint32_t number, std::size_t room,
                                std::vector<std::byte>& message) {
   compositor_.finish_frame(*picture, number);
+  compositor_.restore(*picture);
   free_.push_back(picture);
   const std::vector<Rect> rects = compositor::rectangles_of(picture->changed, width_, height_);
   const std::size_t rect_bytes = rects.size() * sizeof(Rect);

@@ -15,6 +15,7 @@
 #include "host/content/document/file.h"
 #include "host/content/document/whole_file.h"
 #include "host/content/film/frame_set.h"
+#include "host/render/sinks/pixel_hash.h"
 #include "host/render/sinks/record.h"
 
 namespace mars::sinks {
@@ -96,7 +97,7 @@ std::optional<Manifest> rendered_by(const RunFiles& run) {
   std::istringstream lines(text.value_or(""));
   std::uint32_t frame = 0;
   for (std::string hash; lines >> frame >> hash;) {
-    if (is_checksum(hash)) set_hash(manifest, frame, hash);  // the last line may have been cut off
+    if (is_pixel_hash(hash)) set_hash(manifest, frame, hash);  // the last line may have been cut off
   }
   return manifest;
 }

@@ -305,7 +305,7 @@ fs::path FrameFolder::file_of(std::uint32_t frame) const { return path_ / frame_
 
 // The hash first: should the run be killed between the two, a frame without a file is missing, but a file without a
 // hash would say nothing.
-void FrameFolder::put(std::uint32_t frame, const std::string& pixel_hash, std::span<const std::byte> file) try {
+void FrameFolder::put(std::uint32_t frame, const std::string& pixel_hash, const document::Pieces& file) try {
   const fs::path part = runs_.own_file("." + frame_file_name(rendered_, frame) + std::string(document::kPartSuffix));
   bool recorded = false;
   patience_.write(file_of(frame), [&] {
@@ -363,11 +363,15 @@ Manifest read_manifest(const fs::path& folder) {
   return std::move(*manifest);
 }
 
-void FileSink::take(const compositor::Frame& frame) {
-  const std::string hash = pixel_hash(frame.pixels);
+FileSink::FileSink(FrameFolder& folder, ContentOf content)
+    : folder_(folder), content_(std::move(content)), encoder_(folder.bands()) {}
+
+void FileSink::take(compositor::Frame& frame) {
+  const EncodedFrame encoded = encoder_.encode(frame);
+  const std::string hash = encoded.pixel_hash();
   const std::string mark = folder_.mark_of(frame.number, hash, content_ ? content_(frame.number) : "");
-  folder_.put(frame.number, hash,
-              images::encode_picture(folder_.format(), frame.width, frame.height, frame.pixels, mark));
+  const images::PictureEnds ends = encoder_.ends_of(encoded, mark);
+  folder_.put(frame.number, hash, encoder_.pieces(encoded, ends));
 }
 
 }  // namespace mars::sinks

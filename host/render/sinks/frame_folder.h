@@ -18,8 +18,10 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/film/compiled_film.h"
+#include "host/content/document/whole_file.h"
 #include "host/render/sinks/claim.h"
 #include "host/render/sinks/folder_turn.h"
+#include "host/render/sinks/frame_encoder.h"
 #include "host/render/sinks/lease.h"
 #include "host/render/sinks/manifest.h"
 #include "host/render/sinks/patience.h"
@@ -76,6 +78,7 @@ class FrameFolder {
   // The run's name, under which it has its claim.
   const std::string& run() const { return runs_.own_name(); }
   images::PictureFormat format() const { return rendered_.format; }
+  images::PictureBands bands() const { return {rendered_.format, rendered_.width, rendered_.height}; }
   std::filesystem::path file_of(std::uint32_t frame) const;
   // Those asked for that are not there: this run is to write them.
   const std::vector<std::uint32_t>& frames() const { return rendered_.frames; }
@@ -87,7 +90,7 @@ class FrameFolder {
   std::string mark_of(std::uint32_t frame, const std::string& pixel_hash, const std::string& content) const;
   // Writes a frame's file; from several threads at once. Throws Failure where it cannot, the claim is lost, or the
   // folder is gone.
-  void put(std::uint32_t frame, const std::string& pixel_hash, std::span<const std::byte> file);
+  void put(std::uint32_t frame, const std::string& pixel_hash, const document::Pieces& file);
 
   // Writes the frames' hashes to the manifest and gives up the claim. Throws Failure where it cannot, and then leaves
   // its files in .runs.
@@ -152,14 +155,16 @@ class FileSink : public Sink {
   using ContentOf = std::function<std::string(std::uint32_t frame)>;
 
   // `folder` must outlive the sink. `content`: none where it is not known.
-  explicit FileSink(FrameFolder& folder, ContentOf content = {}) : folder_(folder), content_(std::move(content)) {}
-  void take(const compositor::Frame& frame) override;
+  explicit FileSink(FrameFolder& folder, ContentOf content = {});
+  void take(compositor::Frame& frame) override;
+  bool restores() const override { return true; }
   void check() override { folder_.check(); }
   void give_up() override { folder_.give_up(); }
 
  private:
   FrameFolder& folder_;
   const ContentOf content_;
+  FrameEncoder encoder_;
 };
 
 }  // namespace mars::sinks

@@ -8,6 +8,7 @@
 #include "hal/failure/failure.h"
 #include "host/content/document/whole_file.h"
 #include "host/images/picture_file.h"
+#include "host/render/sinks/pixel_hash.h"
 #include "host/render/sinks/record.h"
 #include "node/wire/film_parts.h"
 
@@ -31,7 +32,9 @@ FrameMark mark_of(const json& from) {
   mark.rate = record.positive_number("rate");
   mark.format = format_of(record);
   mark.pixel_version = number_in(record, "pixel_version", 1, kMostVersion);
-  mark.pixel_hash = record.checksum("pixel_hash");
+  const json& hash = record.value("pixel_hash");
+  if (!is_pixel_hash(hash)) refuse_value("pixel_hash", hash, "a hash of pixels");
+  mark.pixel_hash = hash.get<std::string>();
   return mark;
 }
 

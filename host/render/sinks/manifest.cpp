@@ -11,6 +11,7 @@
 #include "host/content/document/checksum.h"
 #include "host/content/document/text.h"
 #include "host/content/film/frame_set.h"
+#include "host/render/sinks/pixel_hash.h"
 #include "host/render/sinks/record.h"
 #include "node/wire/film_parts.h"
 
@@ -65,7 +66,7 @@ std::vector<std::string> hashes_of(const json& list, std::size_t frames) {
                   "", "");
   std::vector<std::string> hashes;
   for (const json& hash : list) {
-    if (!hash.is_null() && !is_checksum(hash)) refuse_value("pixel_hashes", hash, "32 hexadecimal digits or null");
+    if (!hash.is_null() && !is_pixel_hash(hash)) refuse_value("pixel_hashes", hash, "a hash of pixels or null");
     hashes.push_back(hash.is_null() ? "" : hash.get<std::string>());
   }
   return hashes;
@@ -136,10 +137,6 @@ images::PictureFormat format_of(const Record& record) {
 
 bool are_of_one_folder(const Manifest& a, const Manifest& b) {
   return a.checksum == b.checksum && a.format == b.format && a.pixel_version == b.pixel_version;
-}
-
-std::string pixel_hash(const std::vector<std::uint32_t>& pixels) {
-  return document::checksum_of(std::as_bytes(std::span(pixels)));
 }
 
 void add_frames(Manifest& manifest, const Manifest& more) {

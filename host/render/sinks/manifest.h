@@ -17,8 +17,8 @@ namespace mars::sinks {
 class Record;
 
 // Of the file. 1, which files without the key have: they have no key but those known then. 2: with a sum over all other
-// keys, and a pixel version. A frame's hash is the one over its pixels in both. A later version may hash otherwise.
-inline constexpr std::uint32_t kManifestVersion = 2;
+// keys, and a pixel version. 3: frames may have hashes of bands (pixel_hash.h).
+inline constexpr std::uint32_t kManifestVersion = 3;
 
 // A file that was read to compile a film.
 struct Source {
@@ -51,9 +51,6 @@ struct Manifest {
 // Whether both are of the same compiled film, in the same format and of the same pixel version: then their frames are
 // those of one folder.
 bool are_of_one_folder(const Manifest& a, const Manifest& b);
-
-// Of one frame's pixels, in the form that Frame and Image give them.
-std::string pixel_hash(const std::vector<std::uint32_t>& pixels);
 
 // Adds the frames of another manifest of the same folder, with the hashes it has. Frames of a manifest without hashes
 // have unknown ones from then on.

@@ -16,6 +16,7 @@ class ServedSinks : public SinkPool {
 
   ServedSinks(Sink& sink, const Shape& shape, Serve serve) : SinkPool(sink, shape, NoThreads()), serve_(serve) {}
 
+  bool restores() const override { return false; }  // the simulated host does that
   void submit(compositor::Frame* frame) override;
   std::vector<Taken> taken() override;
   void finish() override;

@@ -10,7 +10,9 @@ class Sink {
   virtual ~Sink() = default;
   // Called from several threads at once, each with a frame of its own, in any order of frames. Throws
   // Failure where the frame could not be taken.
-  virtual void take(const compositor::Frame& frame) = 0;
+  virtual void take(compositor::Frame& frame) = 0;
+  // Whether it restores what it reads of a frame; else frames come without stale blocks.
+  virtual bool restores() const { return false; }
   // Called now and then from another thread. Throws Failure where the sink has had frames for longer than it may.
   virtual void check() {}
   // Its frames are not wanted any more: those that wait within take() end as failures.
@@ -20,7 +22,7 @@ class Sink {
 // Takes frames to nowhere, to measure what comes before.
 class NullSink : public Sink {
  public:
-  void take(const compositor::Frame&) override {}
+  void take(compositor::Frame&) override {}
 };
 
 }  // namespace mars::sinks

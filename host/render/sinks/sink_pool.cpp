@@ -77,6 +77,7 @@ compositor::Frame* SinkPool::take_free(std::uint64_t background, std::size_t lef
 }
 
 void SinkPool::give_back(compositor::Frame* frame) {
+  frame->shown.reset();
   const std::lock_guard lock(mutex_);
   free_.push_back(frame);
 }
@@ -126,6 +127,7 @@ void SinkPool::take(std::unique_lock<std::mutex>& lock, std::uint32_t thread) {
     failure = std::current_exception();
   }
   const double ended = dclock();
+  frame->shown.reset();
   lock.lock();
   --busy_;
   free_.push_back(frame);

@@ -37,6 +37,8 @@ class SinkPool {
   SinkPool& operator=(const SinkPool&) = delete;
 
   const Shape& shape() const { return shape_; }
+  // Whether frames may be submitted with stale blocks.
+  virtual bool restores() const { return sink_.restores(); }
 
   // A frame to compose, the caller's until submitted, preferably one that shows the saved background of that
   // name; nullptr when all are with the sink.

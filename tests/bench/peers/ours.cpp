@@ -22,7 +22,7 @@ class LastSink : public sinks::Sink {
  public:
   explicit LastSink(std::uint32_t stride) : stride_(stride) {}
 
-  void take(const compositor::Frame& frame) override {
+  void take(compositor::Frame& frame) override {
     if (frame.number % stride_ == stride_ - 1) pixels_ = frame.pixels;
   }
   const std::vector<std::uint32_t>& pixels() const { return pixels_; }

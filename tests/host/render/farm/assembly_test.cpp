@@ -20,7 +20,7 @@ using Pixels = std::vector<std::uint32_t>;
 
 class MemorySink : public sinks::Sink {
  public:
-  void take(const compositor::Frame& frame) override {
+  void take(compositor::Frame& frame) override {
     const std::lock_guard lock(mutex_);
     EXPECT_TRUE(frames.emplace(frame.number, frame.pixels).second) << "frame " << frame.number << " came twice";
   }

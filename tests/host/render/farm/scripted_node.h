@@ -203,7 +203,7 @@ class ScriptedNode {
 // Keeps the first and the last word of each frame.
 class FirstPixels : public sinks::Sink {
  public:
-  void take(const compositor::Frame& frame) override {
+  void take(compositor::Frame& frame) override {
     if (taken) taken(frame.number);
     const std::lock_guard lock(mutex_);
     pixels[frame.number] = frame.pixels.front();

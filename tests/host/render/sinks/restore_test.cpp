@@ -178,6 +178,29 @@ TEST(Restore, FoldersOfOlderVersionsAreRead) {
   EXPECT_EQ(read_manifest(kOlder / "version-1").sources.size(), 1u);
 }
 
+// Its frames' hashes are over all pixels at once, and stay so beside those of bands.
+TEST(Restore, FramesOfVersion2StayWithTheirHashes) {
+  const TemporaryFolder folder;
+  fs::copy(kOlder / "version-2", folder / "out");
+  const Verdict before = verify_folder(folder / "out");
+  EXPECT_EQ(before.troubles.size(), 0u);
+  EXPECT_TRUE(before.compared);
+  Manifest more = read_manifest(folder / "out");
+  const std::vector<std::string> hashes = more.pixel_hashes;
+  more.frames = {2};
+  more.pixel_hashes.clear();
+  fill(folder / "out", more, 7);
+  const Manifest all = read_manifest(folder / "out");
+  ASSERT_EQ(all.pixel_hashes.size(), 3u);
+  EXPECT_EQ(all.pixel_hashes[0], hashes[0]);
+  EXPECT_EQ(all.pixel_hashes[2].size(), hashes[0].size() + 1);
+  EXPECT_EQ(verify_folder(folder / "out").troubles.size(), 0u);
+  EXPECT_EQ(read_mark(folder / "out/frame-0001.png")->pixel_hash, hashes[1]);
+  spoil(folder / "out/frames.json", 0);
+  EXPECT_NE(repair_manifest(folder / "out"), "");
+  EXPECT_EQ(read_manifest(folder / "out").pixel_hashes, all.pixel_hashes);
+}
+
 // No run may decide of which film they are.
 TEST(Restore, FramesThatSayNothingAreLeftAlone) {
   const TemporaryFolder folder;
@@ -213,7 +236,7 @@ TEST(Restore, ALaterVersionIsRefusedAndNotMended) {
                                      document::failure_of([&] { repair_manifest(folder.path()); }),
                                      document::failure_of([&] { FrameFolder(folder.path(), of_frames({3})); })})
     EXPECT_TRUE(
-        document::holds(failure, "it has version 3 and this MARS knows manifests up to version 2 (use the MARS"))
+        document::holds(failure, "it has version 4 and this MARS knows manifests up to version 3 (use the MARS"))
         << failure;
   EXPECT_EQ(document::read_file(folder / kManifestName), text.dump());
 }

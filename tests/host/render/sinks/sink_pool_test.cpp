@@ -19,7 +19,7 @@ using namespace std::chrono_literals;
 // Keeps the numbers of its frames; may be held up, and may fail at a frame.
 class TestSink : public Sink {
  public:
-  void take(const compositor::Frame& frame) override {
+  void take(compositor::Frame& frame) override {
     most_at_once_ = std::max(most_at_once_.load(), ++at_once_);
     while (held) std::this_thread::sleep_for(1ms);
     const bool whole = std::count(frame.pixels.begin(), frame.pixels.end(), frame.number) ==
@@ -150,7 +150,7 @@ TEST(SinkPool, AFailureReachesTheLoop) {
 // Waits within take() until give_up() is called, and says on demand that this takes too long.
 class WaitingSink : public Sink {
  public:
-  void take(const compositor::Frame&) override {
+  void take(compositor::Frame&) override {
     while (!given_up_) std::this_thread::sleep_for(1ms);
     throw Failure("no room", "", "");
   }

@@ -1,0 +1,57 @@
+// Encodes frames band by band. A band in which only the background shows is encoded once for all frames that show that
+// background; other bands are restored, hashed and encoded: of what has not changed no pixel is touched.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/images/picture_bands.h"
+#include "host/render/compositor/frame.h"
+
+namespace mars::sinks {
+
+struct HashedBand {
+  images::EncodedBand encoded;
+  std::string hash;  // of its pixels
+};
+
+struct EncodedFrame {
+  std::vector<std::shared_ptr<const HashedBand>> bands;
+
+  std::string pixel_hash() const;
+};
+
+class FrameEncoder {
+ public:
+  explicit FrameEncoder(const images::PictureBands& bands) : bands_(bands) {}
+
+  // From several threads at once, each with a frame of its own, which is finished.
+  EncodedFrame encode(compositor::Frame& frame);
+  // The pieces of its file, in order, which live as long as `frame` and `ends`.
+  std::vector<std::span<const std::byte>> pieces(const EncodedFrame& frame, const images::PictureEnds& ends) const;
+  images::PictureEnds ends_of(const EncodedFrame& frame, const std::string& note) const;
+
+ private:
+  // Of a background: each band once it was needed.
+  struct Kept {
+    struct Band {
+      std::mutex mutex;  // held while it is encoded; guards:
+      std::shared_ptr<const HashedBand> encoded;
+    };
+    std::weak_ptr<const compositor::Background> background;
+    std::vector<Band> bands;
+  };
+
+  std::shared_ptr<Kept> kept_for(const std::shared_ptr<const compositor::Background>& background);
+  std::shared_ptr<const HashedBand> encode_band(compositor::Frame& frame, std::size_t band) const;
+
+  const images::PictureBands bands_;
+  std::mutex mutex_;  // guards:
+  std::vector<std::shared_ptr<Kept>> kept_;
+};
+
+}  // namespace mars::sinks
