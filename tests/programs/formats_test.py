@@ -5,25 +5,15 @@ import struct
 import zlib
 
 from harness import ProgramTest, main, spinning_teapot
+from png_reader import png_rows
 
 WIDTH, HEIGHT = 64, 36
 PIXELS = {"png": "8-bit sRGB", "png16": "16-bit sRGB", "exr": "half-float linear RGB"}
 
 
-def png_rows(path, depth):
-    """Rows of channels of a PNG file as MARS writes them: filtered by the row above, or not."""
-    data, at, packed = path.read_bytes(), 8, b""
-    while at < len(data):
-        length, kind = struct.unpack(">I4s", data[at:at + 8])
-        packed += data[at + 8:at + 8 + length] if kind == b"IDAT" else b""
-        at += 12 + length
-    size, raw, rows = 3 * WIDTH * depth // 8, zlib.decompress(packed), []
-    above = bytes(size)
-    for y in range(HEIGHT):
-        row = raw[y * (size + 1):(y + 1) * (size + 1)]
-        above = bytes(a + b & 255 for a, b in zip(row[1:], above)) if row[0] == 2 else row[1:]
-        rows.append(struct.unpack(f">{3 * WIDTH}{'B' if depth == 8 else 'H'}", above))
-    return rows
+def png_channels(path, depth):
+    """Rows of channels of a PNG file."""
+    return [struct.unpack(f">{3 * WIDTH}{'B' if depth == 8 else 'H'}", row) for row in png_rows(path, depth)]
 
 
 def exr_rows(path):
@@ -90,8 +80,8 @@ class Formats(ProgramTest):
                            for shape in PIXELS)
         self.assertEqual(sorted(path.name for path in exr.iterdir()),
                          ["film.mars", *(f"frame-000{i}.exr" for i in range(4)), "frames.json"])
-        narrow, wide = (pixels_of(rows) for rows in (png_rows(png / "frame-0002.png", 8),
-                                                     png_rows(png16 / "frame-0002.png", 16)))
+        narrow, wide = (pixels_of(rows) for rows in (png_channels(png / "frame-0002.png", 8),
+                                                     png_channels(png16 / "frame-0002.png", 16)))
         light = pixels_of(exr_rows(exr / "frame-0002.exr"))
         for levels, levels16, values in zip(narrow, wide, light):
             for level, level16, value in zip(levels, levels16, shown(values)):

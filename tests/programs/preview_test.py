@@ -9,10 +9,10 @@ import signal
 import struct
 import termios
 import time
-import zlib
 
 import harness
 from harness import EXAMPLES, ENVIRONMENT, SECONDS, ProgramTest, intact, main, needs
+from png_reader import png_rows
 from screen import ENTER, LEAVE, Screen
 
 HUMAN = EXAMPLES / "models/human.json"
@@ -22,23 +22,6 @@ needs_ffmpeg = needs("ffmpeg", "ffprobe")
 
 def size_of(png):
     return struct.unpack(">II", png.read_bytes()[16:24])
-
-
-def pixels_of(png):
-    """Rows of bytes, three a pixel, of a PNG file as MARS writes them: filtered by the row above."""
-    data, at, packed = png.read_bytes(), 8, b""
-    width, height = size_of(png)
-    while at < len(data):
-        length, kind = struct.unpack(">I4s", data[at:at + 8])
-        packed += data[at + 8:at + 8 + length] if kind == b"IDAT" else b""
-        at += 12 + length
-    raw, rows, above = zlib.decompress(packed), [], bytes(3 * width)
-    for y in range(height):
-        row = raw[y * (3 * width + 1):(y + 1) * (3 * width + 1)]
-        assert row[0] in (0, 2), row[0]
-        above = bytes(a + b & 255 for a, b in zip(row[1:], above)) if row[0] == 2 else row[1:]
-        rows.append(above)
-    return rows
 
 
 class InATerminal(ProgramTest):
@@ -217,13 +200,13 @@ class Written(ProgramTest):
             self.succeed("mars", "preview", HUMAN, "--as", shown, "--frames", "5", "--size", "200x160", "-o", "one.png")
             self.assertTrue(intact(self.folder / "one.png"))
             self.assertEqual(size_of(self.folder / "one.png"), (200, 160))
-            colours = {row[i:i + 3] for row in pixels_of(self.folder / "one.png") for i in range(0, len(row), 3)}
+            colours = {row[i:i + 3] for row in png_rows(self.folder / "one.png") for i in range(0, len(row), 3)}
             self.assertGreater(len(colours), 20, shown)
 
     def test_the_surface_is_the_renderers(self):
         self.succeed("mars", "preview", ARM, "--as", "surface", "--frames", "7", "--size", "160x90", "-o", "one.png")
         self.succeed("mars", "render", ARM, "--frames", "7", "--size", "160x90", "-o", "out", "--backend", "threads", "-q")
-        self.assertEqual(pixels_of(self.folder / "one.png"), pixels_of(self.folder / "out/frame-0007.png"))
+        self.assertEqual(png_rows(self.folder / "one.png"), png_rows(self.folder / "out/frame-0007.png"))
 
     def test_views_differ(self):
         pictures = set()
@@ -289,7 +272,7 @@ class Written(ProgramTest):
         self.assertEqual(int(self.probe("film.gif")["nb_read_frames"]), 6)
         self.succeed("mars", "play", "out", "-o", "sheet.png", "--size", "48x27")
         self.succeed("mars", "play", "out", "-o", "one.png", "--frames", "2", "--size", "96x54")
-        self.assertEqual(pixels_of(self.folder / "one.png"), pixels_of(self.folder / "out/frame-0005.png"))
+        self.assertEqual(png_rows(self.folder / "one.png"), png_rows(self.folder / "out/frame-0005.png"))
 
 
 class Refused(ProgramTest):

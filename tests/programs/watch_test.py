@@ -4,7 +4,8 @@ come late and go early; nobody waits for it."""
 import subprocess
 
 from harness import ENVIRONMENT, EXAMPLES, PROGRAMS, SECONDS, ProgramTest, main
-from watcher import MOVING, Watcher, pixels_of_png
+from png_reader import png_rows
+from watcher import MOVING, Watcher
 
 ARM = EXAMPLES / "robot-arm.json"
 SMALL = [ARM, "--size", "96x54", "--frames", "0-29"]
@@ -27,7 +28,7 @@ class Watched(ProgramTest):
 
     def frame(self, number):
         if number not in self.files:
-            self.files[number] = pixels_of_png(self.folder / "out" / f"frame-{number:04}.png")
+            self.files[number] = png_rows(self.folder / "out" / f"frame-{number:04}.png")
         return self.files[number]
 
     def assertShown(self, seen):
@@ -81,7 +82,7 @@ class Watched(ProgramTest):
             _, seen = self.watch(*few, "--backend", "threads", "--format", format)
             for each in seen:
                 if each.whole:
-                    file = b"".join(pixels_of_png(self.folder / "png" / f"frame-{each.frame:04}.png"))
+                    file = b"".join(png_rows(self.folder / "png" / f"frame-{each.frame:04}.png"))
                     shown = b"".join(each.colors)
                     self.assertLessEqual(max(abs(a - b) for a, b in zip(shown, file)), 1, f"{format} {each.frame}")
 

@@ -6,7 +6,6 @@ import struct
 import threading
 import time
 import types
-import zlib
 
 BEGIN, PICTURE, DRAWN = 1, 2, 3
 HEAD = struct.Struct("<IIQ")
@@ -14,39 +13,6 @@ PICTURE_HEAD = struct.Struct("<6Id")
 DRAWN_HEAD = struct.Struct("<6I3d")
 PART = struct.Struct("<i3I9d3Q")
 NOTHING, STILL, MOVING, UNKNOWN = range(4)
-
-
-def pixels_of_png(path):
-    """Width, and rows of red, green, blue of an 8-bit PNG."""
-    data, at, packed = path.read_bytes(), 8, b""
-    while at < len(data):
-        length, kind = struct.unpack(">I4s", data[at:at + 8])
-        if kind == b"IHDR":
-            width, height, depth, color = struct.unpack(">IIBB", data[at + 8:at + 18])
-            assert (depth, color) == (8, 2)
-        if kind == b"IDAT":
-            packed += data[at + 8:at + 8 + length]
-        at += 12 + length
-    lines, stride, raw = [], 3 * width, zlib.decompress(packed)
-    above = bytes(stride)
-    for y in range(height):
-        line = bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
-        kind = raw[y * (stride + 1)]
-        for x in range(stride):
-            left, corner = (line[x - 3], above[x - 3]) if x >= 3 else (0, 0)
-            if kind == 1:
-                line[x] = line[x] + left & 255
-            elif kind == 2:
-                line[x] = line[x] + above[x] & 255
-            elif kind == 3:
-                line[x] = line[x] + (left + above[x]) // 2 & 255
-            elif kind == 4:
-                p = left + above[x] - corner
-                best = min((abs(p - left), 0, left), (abs(p - above[x]), 1, above[x]), (abs(p - corner), 2, corner))
-                line[x] = line[x] + best[2] & 255
-        lines.append(bytes(line))
-        above = line
-    return lines
 
 
 class Watcher:

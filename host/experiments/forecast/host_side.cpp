@@ -72,7 +72,8 @@ double HostSide::give(std::size_t group) {
 }
 
 void HostSide::go_on() {
-  if (take_back() || compose_one()) return;
+  take_back();
+  if (compose_one()) return;
   if (arrived_.empty()) {
     idle_ = true;
     return;
@@ -88,27 +89,14 @@ void HostSide::go_on() {
 void HostSide::note(const StripSent& strip) {
   TaskState& task = tasks_[strip.task];
   Frame& frame = task.frames[strip.frame];
-  if (strip.last) {
-    --frame.contributors_left;
-    frame.held.push_back(strip.node);
-  }
+  if (strip.last) --frame.contributors_left;
   if (frame.strips.empty()) task.waiting.push_back(strip.frame);
   frame.strips.push_back(strip);
 }
 
-// Of a frame that a sink has taken; whether there was one.
-bool HostSide::take_back() {
-  if (taken_.empty()) return false;
-  const Taken taken = std::move(taken_.front());
-  taken_.pop_front();
-  free_buffers_.push_back(taken.task);
-  credit_all(taken.held);
-  return true;
-}
-
-void HostSide::credit_all(const std::vector<int>& nodes) {
-  for (const int node : nodes) outward_.credit(node);
-  busy(static_cast<double>(nodes.size()) * costs_.host_to_send(sizeof(wire::Credit)), [this] { go_on(); });
+// Buffers of frames that sinks have taken.
+void HostSide::take_back() {
+  for (const std::size_t task : std::exchange(taken_, {})) free_buffers_.push_back(task);
 }
 
 bool HostSide::compose_one() {
@@ -147,7 +135,7 @@ bool HostSide::compose(std::size_t group, std::size_t number, std::size_t place)
   std::vector<int> free;
   for (const StripSent& strip : std::exchange(frame.strips, {})) {
     seconds += strip.pasting;
-    if (!strip.last) free.push_back(strip.node);
+    free.push_back(strip.node);
   }
   seconds += static_cast<double>(free.size()) * costs_.host_to_send(sizeof(wire::Credit));
   const bool whole = frame.contributors_left == 0;
@@ -173,8 +161,8 @@ void HostSide::submit(std::size_t task, std::size_t place) {
   composed_.push_back({now, place == 0 ? wire::FrameKind::keyframe : wire::FrameKind::inbetween});
   const double end = setting_.files ? computers_.reserve(self_, now, sink_seconds()) : now;
   ended_ = std::max(ended_, end);
-  clockwork_.at(end, [this, task, held = std::move(tasks_[task].frames[place].held)] {
-    taken_.push_back({task, held});
+  clockwork_.at(end, [this, task] {
+    taken_.push_back(task);
     wake();
   });
   give_tasks();

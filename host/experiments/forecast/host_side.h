@@ -52,7 +52,6 @@ class HostSide {
     bool has_picture = false;
     double begun = 0;               // seconds that this took
     std::vector<StripSent> strips;  // that wait
-    std::vector<int> held;          // nodes of last strips
   };
   struct GroupState {
     std::deque<std::size_t> tasks;
@@ -69,14 +68,13 @@ class HostSide {
   void go_on();
   void give_tasks();
   double give(std::size_t group);
-  bool take_back();
+  void take_back();
   bool compose_one();
   bool begin_frame(std::size_t task, std::size_t number);
   bool compose(std::size_t group, std::size_t task, std::size_t number);
   double sink_seconds() const;
   void submit(std::size_t task, std::size_t number);
   void busy(double seconds, Clockwork::Action then);
-  void credit_all(const std::vector<int>& nodes);
   void note(const StripSent& strip);
 
   Clockwork& clockwork_;
@@ -94,11 +92,7 @@ class HostSide {
   std::vector<TaskState> tasks_;
   std::size_t next_task_ = 0;
   std::deque<StripSent> arrived_;
-  struct Taken {
-    std::size_t task;
-    std::vector<int> held;  // nodes whose slots its strips have
-  };
-  std::deque<Taken> taken_;  // frames, by sinks
+  std::deque<std::size_t> taken_;  // of frames that sinks have taken, the tasks
   bool idle_ = true;
   std::vector<events::ExpectedFrame> composed_;
   double ended_ = 0;

@@ -66,7 +66,6 @@ void Assembly::receive(StripMessage strip) {
   Parts& parts = parts_.at(header.frame);
   if (header.last == 1) {
     --parts.contributors_left;
-    parts.held.push_back(strip.slot());
     const auto member = static_cast<std::size_t>(header.node - group_.first);
     if (header.frame == keyframe_)
       drew_keyframe_[member] = true;
@@ -112,13 +111,12 @@ std::optional<Assembly::Pasted> Assembly::paste(compositor::Compositor& composit
                 number == keyframe_ ? wire::FrameKind::keyframe : wire::FrameKind::inbetween,
                 nullptr,
                 {},
-                {},
                 alone ? parts.contributor : group_.first,
                 alone ? 1 : static_cast<std::int32_t>(drew_keyframe_.size())};
   for (StripMessage& strip : parts.strips) {
     paste_strip(strip, *parts.picture, compositor);
     if (listener) listener(strip, compositor, *parts.picture);
-    if (strip.header().last == 0) pasted.free.push_back(strip.slot());
+    pasted.free.push_back(strip.slot());
     store.give_back(strip.release());
   }
   parts.strips.clear();
@@ -126,7 +124,6 @@ std::optional<Assembly::Pasted> Assembly::paste(compositor::Compositor& composit
   compositor.finish_frame(*parts.picture, number);
   if (listener || !sinks.restores()) compositor.restore(*parts.picture);
   pasted.whole = parts.picture;
-  pasted.held = std::move(parts.held);
   parts_.erase(number);
   return pasted;
 }

@@ -49,8 +49,7 @@ class Assembly {
     std::uint32_t number;
     wire::FrameKind kind;
     compositor::Frame* whole;    // the finished frame; nullptr while strips of it are to come
-    std::vector<NodeSlot> free;  // slots of strips that were pasted now and were not their node's last of the frame
-    std::vector<NodeSlot> held;  // those of the nodes' last strips, where it is whole
+    std::vector<NodeSlot> free;  // slots of strips that were pasted now
     std::int32_t first_node;     // the first of `nodes` that draw it
     std::int32_t nodes;
   };
@@ -74,7 +73,6 @@ class Assembly {
   struct Parts {
     std::int32_t contributor = kNobody;  // the only node that draws it
     std::int32_t contributors_left = 0;
-    std::vector<NodeSlot> held;            // of the last strips that have come
     std::vector<StripMessage> strips;      // to be pasted
     compositor::Frame* picture = nullptr;  // where they go; begun
   };

@@ -88,11 +88,7 @@ class Farm {
   std::vector<GroupWork> groups_;
   NodeRates rates_;
   std::size_t next_task_ = 0;
-  struct WithSink {
-    FinishedFrame frame;
-    std::vector<NodeSlot> held;  // that go back to their nodes when it is taken
-  };
-  std::unordered_map<std::uint32_t, WithSink> with_sinks_;
+  std::unordered_map<std::uint32_t, FinishedFrame> with_sinks_;
   StripStore store_;
   std::size_t frames_left_;
   double start_ = 0;
@@ -353,7 +349,7 @@ void Farm::submit(const GroupWork::Composed& composed) {
   const FinishedFrame finished{frame.number,   composed.interval, frame.kind, dclock() - start_,
                                composed.given, frame.first_node,  frame.nodes};
   if (options_.each_frame) report_.frames.push_back(finished);
-  with_sinks_[frame.number] = {finished, frame.held};
+  with_sinks_[frame.number] = finished;
   charge(wire::Work::host_frame, 1);
   watching_.compose(
       {*frame.whole, finished.interval, finished.kind, 0, finished.given, finished.seconds, frame.first_node});
@@ -366,8 +362,7 @@ void Farm::note_taken() {
     tracing_->taken(taken);
     report_.sink_seconds += taken.ended - taken.begun;
     const auto found = with_sinks_.find(taken.number);
-    for (const NodeSlot& slot : found->second.held) slots_.give(slot);
-    if (listener_.finished) listener_.finished(found->second.frame);
+    if (listener_.finished) listener_.finished(found->second);
     with_sinks_.erase(found);
   }
 }

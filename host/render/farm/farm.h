@@ -1,6 +1,7 @@
 // The host's side of a rendering: greets the nodes, sends the film, gives tasks to groups of nodes, composes their
-// strips to frames, hands these to the sinks and gives credit back: a strip's when it was pasted, of a frame's last
-// when a sink has the frame. So a node never has more strips in the host's memory than it has credits.
+// strips to frames, hands these to the sinks and gives credit back when a strip was pasted. A strip whose frame has no
+// buffer waits in its slot: the buffers that there are decide how many frames are under way, and a node never has more
+// strips in the host's memory than it has credits.
 #pragma once
 
 #include <cstddef>
