@@ -10,6 +10,9 @@
 namespace mars::node {
 namespace {
 
+constexpr long kCommands = wire::any_of(wire::kLoad, wire::kRender, wire::kCredit, wire::kStop, wire::kClock,
+                                        wire::kView, wire::kDraw, wire::kCloseView);
+
 // Receives the message that was probed.
 void receive_probed(long type, std::vector<std::byte>& into) {
   into.resize(static_cast<std::size_t>(infocount()));
@@ -28,10 +31,11 @@ bool is_of(std::span<const std::byte> message, std::uint32_t view) {
 
 long CommandQueue::wait() {
   if (!ahead_.empty()) return type_ = ahead_.front().type;
-  cprobe(wire::any_of(wire::kLoad, wire::kRender, wire::kCredit, wire::kStop, wire::kClock, wire::kView, wire::kDraw,
-                      wire::kCloseView));
+  cprobe(kCommands);
   return type_ = infotype();
 }
+
+bool CommandQueue::has_come() const { return !ahead_.empty() || iprobe(kCommands) != 0; }
 
 std::span<const std::byte> CommandQueue::receive() {
   if (ahead_.empty()) {

@@ -14,6 +14,8 @@ class CommandQueue {
  public:
   // Waits for the next command; says its type.
   long wait();
+  // Whether there is one, so that wait() returns at once.
+  bool has_come() const;
   // Receives the one that was waited for; valid until the next.
   std::span<const std::byte> receive();
   void reserve(std::size_t bytes) { command_.reserve(bytes); }

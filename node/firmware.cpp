@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <exception>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -47,6 +48,7 @@ class Firmware {
   void load();
   void forget_film();
   void render();
+  void report_files_until_command();
   void send_time();
   Renderer& renderer() { return given(renderer_); }
   // What there is once a film is loaded, if it is for such work.
@@ -55,9 +57,11 @@ class Firmware {
 
   simd::InstructionSet instruction_set_;
   const std::string name_;  // as in failures
+  const wire::MakeFrameWriter make_frame_writer_;
   Heartbeat heartbeat_;
   std::optional<messages::SharedMemory> film_block_;
   std::optional<wire::FilmView> film_;
+  std::unique_ptr<wire::FrameWriter> frame_writer_;  // none: frames go to the host
   std::optional<Renderer> renderer_;
   std::optional<FilmFrames> film_frames_;  // either
   std::optional<LiveViews> views_;         // or
@@ -70,6 +74,7 @@ class Firmware {
 Firmware::Firmware(const NodeIdentity& identity)
     : instruction_set_(simd::best_instruction_set(identity.simd)),
       name_(identity.host + " (node " + std::to_string(mynode()) + ")"),
+      make_frame_writer_(identity.make_frame_writer),
       heartbeat_(identity) {
   wire::Hello hello{};
   hello.stamp = wire::own_stamp();
@@ -90,6 +95,7 @@ void Firmware::run() {
   for (;;) {
     led(0);
     heartbeat_.rest();
+    report_files_until_command();
     const long type = commands_.wait();
     led(1);
     switch (type) {
@@ -110,7 +116,7 @@ void Firmware::run() {
 
 // The machine's first node receives the film into memory that all nodes of the machine share, and checks it.
 void Firmware::load() {
-  const auto [load, machines] = wire::read_load(commands_.receive(), static_cast<int>(numnodes()), name_);
+  const auto [load, machines, orders] = wire::read_load(commands_.receive(), static_cast<int>(numnodes()), name_);
   const messages::Neighbourhood here = messages::neighbourhood();
   wire::check_machines(machines, static_cast<int>(mynode()), here.machine, here.count);
   forget_film();
@@ -122,7 +128,11 @@ void Firmware::load() {
   }
   gsync();
   film_.emplace(block, "film", true);
-  renderer_.emplace(load, machines, instruction_set_, heartbeat_);
+  if (load.orders > 0) {
+    if (!make_frame_writer_) throw Failure("this node writes no files", name_, "use --write host");
+    frame_writer_ = make_frame_writer_(*film_, load.pixel_format, orders);
+  }
+  renderer_.emplace(load, machines, instruction_set_, heartbeat_, frame_writer_.get());
   if (load.live == 1)
     views_.emplace(*film_, instruction_set_, *renderer_, [this](std::uint32_t view) { return commands_.ends(view); });
   else
@@ -143,6 +153,7 @@ void Firmware::forget_film() {
   film_frames_.reset();
   if (renderer_) renderer_->finish();
   renderer_.reset();
+  frame_writer_.reset();
 }
 
 void Firmware::render() {
@@ -154,6 +165,15 @@ void Firmware::render() {
   else
     left_.assign(command.left().begin(), command.left().end());
   frames.render(command);
+}
+
+// A file may be whole while the node has nothing to do.
+void Firmware::report_files_until_command() {
+  if (!frame_writer_) return;
+  while (frame_writer_->is_busy() && !commands_.has_come()) {
+    renderer_->report_files();
+    flick();
+  }
 }
 
 void Firmware::send_time() {

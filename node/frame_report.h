@@ -11,8 +11,9 @@ namespace mars::node {
 
 // Where PhaseTimes has each step, by Phase.
 inline constexpr std::array kPhaseTimes{
-    &wire::PhaseTimes::dice, &wire::PhaseTimes::sum,      &wire::PhaseTimes::map,   &wire::PhaseTimes::exchange,
-    &wire::PhaseTimes::fill, &wire::PhaseTimes::scanline, &wire::PhaseTimes::depth, &wire::PhaseTimes::credit};
+    &wire::PhaseTimes::dice,    &wire::PhaseTimes::sum,      &wire::PhaseTimes::map,   &wire::PhaseTimes::exchange,
+    &wire::PhaseTimes::fill,    &wire::PhaseTimes::scanline, &wire::PhaseTimes::depth, &wire::PhaseTimes::credit,
+    &wire::PhaseTimes::compose, &wire::PhaseTimes::storage};
 
 class FrameReport {
  public:

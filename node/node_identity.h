@@ -6,6 +6,8 @@
 #include <functional>
 #include <string>
 
+#include "node/wire/frame_writer.h"
+
 namespace mars::node {
 
 // Whether a debugger has a process of this machine.
@@ -20,6 +22,7 @@ struct NodeIdentity {
   std::string simd;                  // widest instruction set allowed, "" for any (best_instruction_set)
   std::int32_t process = 0;          // its number on its machine
   IsTraced is_traced = nullptr;      // none: no process is
+  wire::MakeFrameWriter make_frame_writer = nullptr;  // none: it sends all frames to the host
 };
 
 }  // namespace mars::node

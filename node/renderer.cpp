@@ -8,6 +8,7 @@
 #include "hal/failure/failure.h"
 #include "hal/nx/nx_messages.h"
 #include "node/charges.h"
+#include "node/color/encoding.h"
 #include "node/group/mapping.h"
 #include "node/shading/shading_of.h"
 
@@ -20,7 +21,7 @@ constexpr std::uint32_t kLinesABeat = 4;
 }  // namespace
 
 Renderer::Renderer(const wire::Load& load, std::span<const std::int32_t> machines, simd::InstructionSet set,
-                   Heartbeat& heartbeat)
+                   Heartbeat& heartbeat, wire::FrameWriter* writer)
     : heartbeat_(heartbeat),
       mapping_(load.mapping),
       pixel_format_(load.pixel_format),
@@ -33,6 +34,7 @@ Renderer::Renderer(const wire::Load& load, std::span<const std::int32_t> machine
       is_watched_(load.watched == 1) {
   parts_.reserve(neighbours_.nodes().size() + 1);
   if (load.traced == 1) tracer_.emplace();
+  if (writer != nullptr) file_output_.emplace(*writer, neighbours_, outbox_, heartbeat_);
 }
 
 void Renderer::send_trace() {
@@ -220,6 +222,7 @@ raster::Polygons Renderer::receive_some(group::AwaitedTriangles& awaited) {
 }
 
 void Renderer::draw_lines(const geometry::LineRange& lines, const group::Pass& pass) {
+  if (file_output_ && pass.number == 0) begin_writing();
   if (!contributes()) return finish_exchange(pass);
   const shading::Shading shading = this->shading();
   const bool constant = report_.is_keyframe() && raster::any_stationary(parts_, lines);
@@ -228,6 +231,7 @@ void Renderer::draw_lines(const geometry::LineRange& lines, const group::Pass& p
     raster::StripBuffer& buffer = begin_strip(constant);
     strip = {strip.last, draw_strip({strip.last, lines.last}, shading, buffer)};
     drawn = strip.last == lines.last || report_.is_cut();
+    if (file_output_) paste_strip(strip);
     if (drawn) finish_exchange(pass);
     if (drawn && pass.is_last()) charge_file(scene(), pixel_format_, homes()[member()].count());
     send_strip(strip, drawn && pass.is_last());
@@ -236,6 +240,7 @@ void Renderer::draw_lines(const geometry::LineRange& lines, const group::Pass& p
 
 // Waits for the host's credit.
 raster::StripBuffer& Renderer::begin_strip(bool constant) {
+  if (file_output_) return outbox_.begin_own(scene().film().settings().width, constant);
   const PhaseScope credit = phase(wire::Phase::credit);
   return outbox_.begin(scene().film().settings().width, constant, report_.strip().work);
 }
@@ -266,9 +271,52 @@ std::uint32_t Renderer::draw_strip(const geometry::LineRange& lines, const shadi
 
 void Renderer::finish_exchange(const group::Pass& pass) {
   finish_triangles();
-  if (!pass.is_last() || !report_.is_keyframe() || group_.count == 1) return;
-  const PhaseScope depth = phase(wire::Phase::depth);
-  view_->still_exchange.complete({group_, homes(), view_->contributes}, view_->still);
+  if (!pass.is_last()) return;
+  if (report_.is_keyframe() && group_.count > 1) {
+    const PhaseScope depth = phase(wire::Phase::depth);
+    view_->still_exchange.complete({group_, homes(), view_->contributes}, view_->still);
+  }
+  if (file_output_) finish_writing();
+}
+
+// Nodes take turns in writing keyframes.
+int Renderer::keyframe_writer() const {
+  return group_.first + static_cast<int>(report_.strip().interval % contributors_);
+}
+
+void Renderer::begin_writing() {
+  const wire::Strip& strip = report_.strip();
+  if (!report_.is_keyframe()) return file_output_->writer().begin_inbetween(strip.frame);
+  const wire::FilmView& film = scene().film();
+  const wire::FilmSettings& settings = film.settings();
+  const auto encoding =
+      color::encoding_of(settings, film.camera_at(film.intervals()[strip.interval].first_frame), pixel_format_);
+  const geometry::LineRange home = homes()[member()], touched = view_->still.lines();
+  file_output_->writer().begin_keyframe({strip.frame,
+                                         strip.interval,
+                                         {home.first, home.last},
+                                         color::pixel_of(encoding, settings.background.data()),
+                                         {touched.first, touched.last},
+                                         std::ranges::count(view_->contributes, 1) > 0});
+}
+
+void Renderer::paste_strip(const geometry::LineRange& lines) {
+  const PhaseScope compose = phase(wire::Phase::compose);
+  report_.set_strip(lines, false);
+  file_output_->paste(report_.strip());
+}
+
+// An inbetween is whole where it is drawn.
+void Renderer::finish_writing() {
+  bool is_whole = true;
+  if (report_.is_keyframe()) {
+    const PhaseScope compose = phase(wire::Phase::compose);
+    const int writer = keyframe_writer();
+    file_output_->exchange_bands({group_, homes(), view_->contributes, writer});
+    is_whole = writer == static_cast<int>(mynode());
+  }
+  const PhaseScope storage = phase(wire::Phase::storage);
+  if (is_whole) file_output_->write();
 }
 
 void Renderer::finish_triangles() {
@@ -279,6 +327,10 @@ void Renderer::finish_triangles() {
 void Renderer::send_strip(const geometry::LineRange& lines, bool last) {
   report_.note_memory(memory_.arena().peak());
   report_.set_strip(lines, last);
+  if (file_output_) {
+    if (last) outbox_.send_drawn(report_.strip());
+    return report_.skip_clock();
+  }
   outbox_.send(report_.strip(), watched_edge_boxes(lines));
   ++report_.strip().number;
   report_.skip_clock();  // sending belongs to no phase

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "hal/collectives/group.h"
+#include "node/file_output.h"
 #include "node/frame_report.h"
 #include "node/group/frame_memory.h"
 #include "node/group/outbox.h"
@@ -40,8 +41,9 @@ class Renderer {
   using HasEnded = std::function<bool()>;
 
   // `machines`: each node's machine, as in Load. `heartbeat` outlives it. Collective over a machine's nodes.
+  // `writer` may be nullptr: then frames go to the host.
   Renderer(const wire::Load& load, std::span<const std::int32_t> machines, simd::InstructionSet set,
-           Heartbeat& heartbeat);
+           Heartbeat& heartbeat, wire::FrameWriter* writer = nullptr);
 
   // Draws the caller's share of the view's scene as it is now, and sends it; once it `has_ended`, sends no more of it
   // but its last strip. Collective over the frame's group.
@@ -51,6 +53,8 @@ class Renderer {
 
   // Sends what was recorded so far, where the run is traced.
   void send_trace();
+  // Of a node that writes files: what has become of them goes to the host.
+  void report_files() { file_output_->report(); }
   // When there are no more frames: waits until what was sent is gone.
   void finish();
 
@@ -85,6 +89,10 @@ class Renderer {
   // Draws `lines` from the first on until the strip is full, all are drawn or the view has ended; one past the last of
   // them.
   std::uint32_t draw_strip(const geometry::LineRange& lines, const shading::Shading& shading, raster::StripBuffer& out);
+  int keyframe_writer() const;
+  void begin_writing();
+  void paste_strip(const geometry::LineRange& lines);
+  void finish_writing();
   // Waits until what was sent to nodes is gone; after the last pass of a keyframe nodes give each other CZB.
   void finish_exchange(const group::Pass& pass);
   void finish_triangles();
@@ -110,6 +118,8 @@ class Renderer {
   raster::Neighbours neighbours_;
   group::FrameMemory memory_;
   group::Outbox outbox_;
+
+  std::optional<FileOutput> file_output_;  // none: frames go to the host
 
   bool is_first_ = true;  // of all frames
 

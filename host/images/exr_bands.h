@@ -9,9 +9,7 @@
 
 namespace mars::images {
 
-inline constexpr std::uint32_t kExrChunkLines = 16;  // of ZIP compression
-
 EncodedBand encode_exr_band(std::uint32_t width, const Lines& lines, std::span<const std::uint32_t> pixels);
-PictureEnds exr_ends(const PictureBands& bands, std::span<const EncodedBand* const> encoded, const std::string& note);
+PictureEnds exr_ends(const PictureBands& bands, std::span<const BandPart> parts, const std::string& note);
 
 }  // namespace mars::images

@@ -196,15 +196,15 @@ EncodedBand encode_exr_band(std::uint32_t width, const Lines& lines, std::span<c
 }
 
 // The header is followed by the places of all chunks, each of which begins with its first line and its size.
-PictureEnds exr_ends(const PictureBands& bands, std::span<const EncodedBand* const> encoded, const std::string& note) {
+PictureEnds exr_ends(const PictureBands& bands, std::span<const BandPart> parts, const std::string& note) {
   PictureEnds ends{written(header_of(bands.width(), bands.height(), note), [](Imf::OutputFile&) {}), {}};
   std::uint64_t place = ends.before.size();
   std::byte* entry = ends.before.data() + header_bytes(ends.before);
-  for (const EncodedBand* band : encoded) {
-    for (std::size_t at = 0; at < band->bytes.size(); entry += sizeof place) {
+  for (const BandPart& band : parts) {
+    for (std::size_t at = 0; at < band.bytes.size(); entry += sizeof place) {
       std::memcpy(entry, &place, sizeof place);
       std::uint32_t size = 0;
-      std::memcpy(&size, &band->bytes[at + sizeof(std::int32_t)], sizeof size);
+      std::memcpy(&size, &band.bytes[at + sizeof(std::int32_t)], sizeof size);
       const std::size_t whole = kExrChunkHead + size;
       at += whole;
       place += whole;

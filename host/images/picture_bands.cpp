@@ -3,8 +3,6 @@
 #include <algorithm>
 
 #include "hal/failure/failure.h"
-#include "host/images/exr_bands.h"
-#include "host/images/png_bands.h"
 #include "node/wire/pixel_format.h"
 
 namespace mars::images {
@@ -13,6 +11,7 @@ namespace {
 // Few enough that a small change costs little, and enough that what each band has of its own (a code, a first line that
 // is not compared with the one above) is below a hundredth of it.
 constexpr std::uint32_t kPixelsOfBand = 1 << 15;
+constexpr std::uint32_t kPngStep = 8;  // bands have a multiple of so many lines
 
 constexpr std::uint32_t round_up(std::uint32_t number, std::uint32_t step) { return (number + step - 1) / step * step; }
 
@@ -21,7 +20,7 @@ constexpr std::uint32_t round_up(std::uint32_t number, std::uint32_t step) { ret
 PictureBands::PictureBands(PictureFormat format, std::uint32_t width, std::uint32_t height)
     : format_(format), width_(width), height_(height) {
   check(width > 0 && height > 0, "a picture has pixels");
-  const std::uint32_t step = format == PictureFormat::exr ? kExrChunkLines : kPngBandStep;
+  const std::uint32_t step = format == PictureFormat::exr ? kExrChunkLines : kPngStep;
   lines_ = round_up((kPixelsOfBand + width - 1) / width, step);
 }
 
@@ -37,19 +36,6 @@ std::size_t PictureBands::words_of(const Lines& lines) const {
 std::span<const std::uint32_t> PictureBands::part_of(std::span<const std::uint32_t> pixels, std::size_t band) const {
   const Lines lines = lines_of(band);
   return pixels.subspan(words_of({0, lines.first}), words_of(lines));
-}
-
-EncodedBand encode_band(const PictureBands& bands, std::size_t band, std::span<const std::uint32_t> pixels) {
-  const Lines lines = bands.lines_of(band);
-  check(pixels.size() == bands.words_of(lines), "a band has the pixels of its lines");
-  if (bands.format() == PictureFormat::exr) return encode_exr_band(bands.width(), lines, pixels);
-  return encode_png_band(bands.width(), facts_of(bands.format()).pixels, pixels);
-}
-
-PictureEnds ends_of(const PictureBands& bands, std::span<const EncodedBand* const> encoded, const std::string& note) {
-  check(encoded.size() == bands.count(), "a file has all bands of its picture");
-  if (bands.format() == PictureFormat::exr) return exr_ends(bands, encoded, note);
-  return png_ends(bands, encoded, note);
 }
 
 }  // namespace mars::images

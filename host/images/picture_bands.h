@@ -6,12 +6,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "host/images/picture_format.h"
 
 namespace mars::images {
+
+inline constexpr std::uint32_t kExrChunkLines = 16;  // of ZIP compression
 
 struct Lines {
   std::uint32_t first, end;
@@ -28,7 +29,9 @@ class PictureBands {
   std::uint32_t height() const { return height_; }
 
   std::size_t count() const { return (height_ + lines_ - 1) / lines_; }
+  std::uint32_t lines_a_band() const { return lines_; }
   Lines lines_of(std::size_t band) const;
+  std::uint32_t band_of(std::uint32_t line) const { return line / lines_; }
   // Of one of its lines, or of all lines of a picture, in words of pixels.
   std::size_t words_of(const Lines& lines) const;
   // Of all words of a picture those of a band.
@@ -40,21 +43,24 @@ class PictureBands {
   std::uint32_t lines_;  // of every band but the last
 };
 
-struct EncodedBand {
-  std::vector<std::byte> bytes;
+// What a file has of a band.
+struct BandPart {
+  std::span<const std::byte> bytes;
   std::uint32_t adler32 = 0;    // PNG: of its filtered rows
   std::uint64_t row_bytes = 0;  // PNG: of these
 };
 
-// `pixels`: of the band's lines.
-EncodedBand encode_band(const PictureBands& bands, std::size_t band, std::span<const std::uint32_t> pixels);
+struct EncodedBand {
+  std::vector<std::byte> bytes;
+  std::uint32_t adler32 = 0;
+  std::uint64_t row_bytes = 0;
+
+  BandPart part() const { return {bytes, adler32, row_bytes}; }
+};
 
 struct PictureEnds {
   std::vector<std::byte> before;
   std::vector<std::byte> after;
 };
-
-// Of a file of these bands, all that the picture has. `note`: ASCII that the file carries beside the pixels; "": none.
-PictureEnds ends_of(const PictureBands& bands, std::span<const EncodedBand* const> encoded, const std::string& note);
 
 }  // namespace mars::images

@@ -4,6 +4,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/document/file.h"
+#include "host/images/encode_bands.h"
 #include "host/images/exr_file.h"
 #include "host/images/picture_bands.h"
 #include "host/images/png_file.h"
@@ -23,12 +24,12 @@ std::vector<std::byte> encode_picture(PictureFormat format, std::uint32_t width,
   const PictureBands bands(format, width, height);
   check(pixels.size() == bands.words_of({0, height}), "a picture has width * height pixels");
   std::vector<EncodedBand> encoded;
-  std::vector<const EncodedBand*> all;
+  std::vector<BandPart> parts;
   for (std::size_t band = 0; band < bands.count(); ++band) {
     encoded.push_back(encode_band(bands, band, bands.part_of(pixels, band)));
   }
-  for (const EncodedBand& band : encoded) all.push_back(&band);
-  auto [file, after] = ends_of(bands, all, note);
+  for (const EncodedBand& band : encoded) parts.push_back(band.part());
+  auto [file, after] = ends_of(bands, parts, note);
   for (const EncodedBand& band : encoded) file.insert(file.end(), band.bytes.begin(), band.bytes.end());
   file.insert(file.end(), after.begin(), after.end());
   return std::move(file);

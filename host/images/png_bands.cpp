@@ -50,10 +50,10 @@ Bytes head_of(const PictureBands& bands) {
   return head;
 }
 
-std::uint32_t adler32_of(std::span<const EncodedBand* const> encoded) {
+std::uint32_t adler32_of(std::span<const BandPart> parts) {
   std::uint32_t sum = 1;
-  for (const EncodedBand* band : encoded)
-    sum = static_cast<std::uint32_t>(adler32_combine(sum, band->adler32, static_cast<z_off_t>(band->row_bytes)));
+  for (const BandPart& band : parts)
+    sum = static_cast<std::uint32_t>(adler32_combine(sum, band.adler32, static_cast<z_off_t>(band.row_bytes)));
   return sum;
 }
 
@@ -66,7 +66,7 @@ EncodedBand encode_png_band(std::uint32_t width, wire::PixelFormat format, std::
   return band;
 }
 
-PictureEnds png_ends(const PictureBands& bands, std::span<const EncodedBand* const> encoded, const std::string& note) {
+PictureEnds png_ends(const PictureBands& bands, std::span<const BandPart> parts, const std::string& note) {
   PictureEnds ends;
   append(ends.before, kFileStart);
   append_chunk(ends.before, "IHDR", text_of(head_of(bands)));
@@ -75,7 +75,7 @@ PictureEnds png_ends(const PictureBands& bands, std::span<const EncodedBand* con
   append_chunk(ends.before, "IDAT", {kStreamHead, sizeof kStreamHead});
   Bytes last;
   append(last, {kEmptyLastBlock, sizeof kEmptyLastBlock});
-  append_number(last, adler32_of(encoded));
+  append_number(last, adler32_of(parts));
   append_chunk(ends.after, "IDAT", text_of(last));
   append_chunk(ends.after, "IEND", "");
   return ends;

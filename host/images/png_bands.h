@@ -11,10 +11,9 @@
 
 namespace mars::images {
 
-inline constexpr std::uint32_t kPngBandStep = 8;        // bands have a multiple of so many lines
 inline constexpr const char* kPngNoteKeyword = "MARS";  // of the tEXt chunk
 
 EncodedBand encode_png_band(std::uint32_t width, wire::PixelFormat format, std::span<const std::uint32_t> pixels);
-PictureEnds png_ends(const PictureBands& bands, std::span<const EncodedBand* const> encoded, const std::string& note);
+PictureEnds png_ends(const PictureBands& bands, std::span<const BandPart> parts, const std::string& note);
 
 }  // namespace mars::images

@@ -3,12 +3,15 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <memory>
 #include <string>
 
 #include "hal/failure/failure.h"
 #include "hal/failure/process_limit.h"
 #include "hal/messages/settings.h"
 #include "hal/messages/shared_memory.h"
+#include "hal/nx/nx_messages.h"
+#include "host/render/composer/node_writer.h"
 #include "node/firmware.h"
 #include "topology/debugger.h"
 #include "topology/machine.h"
@@ -54,7 +57,11 @@ void run_node_job(std::uint32_t threads) {
   bind(machine, here);
   const topology::Binding binding = topology::Machine::binding();
   const auto is_traced = [](std::int32_t process) { return topology::is_traced(process); };
-  node::run_node({host_name(), binding.cores, binding.seat, memory, settings.simd, getpid(), is_traced});
+  const auto make_writer = [&here](const wire::FilmView& film, wire::PixelFormat, std::span<const std::byte> orders) {
+    return std::make_unique<composer::NodeWriter>(film, sinks::read_orders(orders), static_cast<std::int32_t>(mynode()),
+                                                  here.index == 0);
+  };
+  node::run_node({host_name(), binding.cores, binding.seat, memory, settings.simd, getpid(), is_traced, make_writer});
 }
 
 }  // namespace mars::programs

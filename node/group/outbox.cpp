@@ -49,6 +49,22 @@ void Outbox::take_commands(wire::WorkCounts& work) {
   messages::keep_to(group_.first, group_.count);
 }
 
+raster::StripBuffer& Outbox::begin_own(std::size_t width, bool constant) {
+  look_for_stop();
+  strip_.begin(memory_of(0), width, constant);
+  return strip_;
+}
+
+std::span<const std::byte> Outbox::finish_own(wire::Strip& header) { return strip_.finish(header); }
+
+void Outbox::send_drawn(wire::Strip header) {
+  header.constant_runs = header.moving_runs = 0;
+  header.work.bytes_to_host = 0;
+  if (!stopped_) csend(wire::kDrawn, &header, sizeof header, myhost(), 0);
+}
+
+void Outbox::look_for_stop() { stopped_ = stopped_ || iprobe(wire::any_of(wire::kStop, wire::kLoad)) != 0; }
+
 // Stop and Load are not received here: the firmware does that.
 void Outbox::take_command() {
   if (infotype() == wire::kCredit)

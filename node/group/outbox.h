@@ -28,6 +28,14 @@ class Outbox {
   void send(wire::Strip& header, std::span<const std::uint32_t> edge_boxes = {});
   bool stopped() const { return stopped_; }
 
+  // Of a node that writes its frames itself: a strip in a slot of its own, for which no credit is needed; finished, it
+  // lies there; the host learns that the frame is drawn.
+  raster::StripBuffer& begin_own(std::size_t width, bool constant);
+  std::span<const std::byte> finish_own(wire::Strip& header);
+  void send_drawn(wire::Strip header);
+  // Whether Stop or another Load has come; without waiting.
+  void look_for_stop();
+
   // Receives one Credit message, waiting for it.
   void receive_credit();
   // What is gone by message, the caller needs no more.

@@ -5,43 +5,25 @@
 #include <utility>
 
 #include "hal/nx/nx_messages.h"
+#include "node/group/collectors.h"
 #include "node/wire/commands.h"
 #include "node/wire/protocol.h"
 
 namespace mars::group {
 
 // The lines that each node sends, and their receivers.
-class StillExchange::Plan {
+class StillExchange::Plan : public Collectors {
  public:
-  // `collectors`: as many as the group has nodes, to be used.
   Plan(const StillNeeds& needs, const geometry::LineRange& lines, const raster::Neighbours& neighbours,
        std::span<std::uint8_t> collectors)
-      : needs_(needs), lines_(lines), neighbours_(neighbours), collectors_(collectors) {
-    std::ranges::fill(collectors_, std::uint8_t{0});
-    for (int node = first(); node < last(); ++node)
-      if (contributes(node)) collectors_[index(neighbours_.head_of(node))] = 1;
-  }
-
-  int self() const { return static_cast<int>(mynode()); }
-  int first() const { return needs_.group.first; }
-  int last() const { return needs_.group.first + needs_.group.count; }
-
-  bool has(int node) const { return node >= first() && node < last(); }
-  bool contributes(int node) const { return needs_.contributes[index(node)] == 1; }
-  bool share_a_machine(int a, int b) const { return neighbours_.are(a, b); }
-  // Whether it is the head of a machine with contributors.
-  bool collects(int node) const { return collectors_[index(node)] == 1; }
+      : Collectors(needs.group, needs.contributes, neighbours, collectors), homes_(needs.homes), lines_(lines) {}
 
   // Needed lines that `node` is home of.
-  geometry::LineRange lines_of(int node) const { return geometry::overlap(needs_.homes[index(node)], lines_); }
+  geometry::LineRange lines_of(int node) const { return geometry::overlap(homes_[index(node)], lines_); }
 
  private:
-  std::size_t index(int node) const { return static_cast<std::size_t>(node - needs_.group.first); }
-
-  const StillNeeds& needs_;
+  const std::span<const geometry::LineRange> homes_;
   const geometry::LineRange lines_;  // that inbetweens may touch
-  const raster::Neighbours& neighbours_;
-  const std::span<std::uint8_t> collectors_;
 };
 
 StillExchange::StillExchange(const raster::Neighbours& neighbours, std::uint32_t samples, std::size_t height)
@@ -117,10 +99,7 @@ void StillExchange::receive_message(const Plan& plan, raster::StillLines& still)
 }
 
 void StillExchange::notify_contributors(const Plan& plan) const {
-  const int self = plan.self();
-  for (int node = plan.first(); node < plan.last(); ++node)
-    if (node != self && plan.contributes(node) && plan.share_a_machine(self, node))
-      csend(wire::kStillLines, nullptr, 0, node, 0);
+  plan.for_others_here([](int node) { csend(wire::kStillLines, nullptr, 0, node, 0); });
 }
 
 }  // namespace mars::group

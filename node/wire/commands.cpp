@@ -53,8 +53,12 @@ bool ascend_within(std::span<const std::uint32_t> frames, const Interval& interv
 LoadCommand read_load(std::span<const std::byte> message, int nodes, const std::string& receiver) {
   check_stamp(message, "the host", receiver);
   constexpr auto kName = "Load";
-  require(has_size(message, sizeof(Load), static_cast<std::size_t>(nodes), sizeof(std::int32_t)), kName, "its size");
+  require(message.size() >= sizeof(Load), kName, "its size");
   const auto& load = *reinterpret_cast<const Load*>(message.data());
+  require(load.orders <= message.size() - sizeof(Load), kName, "its size");
+  const auto orders = message.last(load.orders);
+  message = message.first(message.size() - load.orders);
+  require(has_size(message, sizeof(Load), static_cast<std::size_t>(nodes), sizeof(std::int32_t)), kName, "its size");
   const auto machines = items_behind<std::int32_t>(message, sizeof(Load));
   require(load.film_bytes > 0, kName, "the film's size");
   require(load.credits >= 1 && load.credits <= kMaxCredits, kName, "credits");
@@ -69,7 +73,7 @@ LoadCommand read_load(std::span<const std::byte> message, int nodes, const std::
     require(machine >= 0 && machine <= node && machines[static_cast<std::size_t>(machine)] == machine, kName,
             "machines");
   }
-  return {load, machines};
+  return {load, machines, orders};
 }
 
 void check_machines(std::span<const std::int32_t> machines, int node, int machine, int count) {

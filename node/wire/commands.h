@@ -19,6 +19,7 @@ namespace mars::wire {
 struct LoadCommand {
   const Load& load;
   std::span<const std::int32_t> machines;  // each node's
+  std::span<const std::byte> orders;       // for the frame writer; none: frames go to the host
 };
 
 struct RenderCommand {

@@ -55,6 +55,13 @@ enum MessageType : long {
   kView,       // View, then a scene block: begins an interval of a view
   kDraw,       // Draw, then what moved: the next inbetween of a view's interval
   kCloseView,  // CloseView
+  // Of runs in which nodes write their frames' files (frame_writer.h).
+  kDrawn,       // a Strip without pixels: the node has drawn its part of the frame
+  kWritten,     // Written
+  kStorage,     // node -> host: text, a warning about storage
+  kEdge,        // lines of a band, for the node that composes it
+  kBackground,  // what inbetweens need of the sender's bands; empty within a machine, once they are there
+  kPicture,     // the sender's bands of a keyframe, for the node that writes it
 };
 
 // Of triangles and their edge boxes on the receiver's lines.
@@ -108,6 +115,7 @@ struct Load {
   std::uint64_t still_memory;  // bytes that a node adds to what its machine keeps of stationary parts for inbetweens
   std::uint32_t live;          // 1: Views and Draws follow, no Renders; another Load may come, which ends all views
   std::uint32_t watched;       // 1: strips say how many edge boxes each of their lines has
+  std::uint64_t orders;        // bytes behind the machines, for the node's frame writer; 0: frames go to the host
 };
 
 // The node has the film and its slots.
@@ -165,12 +173,27 @@ struct PhaseTimes {
   double scanline;  // visibility and shading
   double depth;     // until all of CZB is there
   double credit;    // waiting for the host: for its credit, or until the slot's earlier strip is gone
+  double compose;   // of a node that writes files: bands to records, of the frame and for it
+  double storage;   // waiting until earlier files are written
 };
 
 // The spans of a trace: these steps, and the frame around them, whose value is its interval.
-enum class Phase : std::int32_t { dice, sum, map, exchange, fill, scanline, depth, credit, keyframe, inbetween };
-inline constexpr std::array kPhaseNames{"dice",     "sum",   "map",    "exchange", "fill",
-                                        "scanline", "depth", "credit", "keyframe", "inbetween"};
+enum class Phase : std::int32_t {
+  dice,
+  sum,
+  map,
+  exchange,
+  fill,
+  scanline,
+  depth,
+  credit,
+  compose,
+  storage,
+  keyframe,
+  inbetween
+};
+inline constexpr std::array kPhaseNames{"dice",  "sum",    "map",     "exchange", "fill",     "scanline",
+                                        "depth", "credit", "compose", "storage",  "keyframe", "inbetween"};
 
 // Says that its sender lives. The host beats every few seconds from its start until its end. A node that has heard a
 // beat sends its own, one a second at most, while it works and while it waits; and ends when it hears none for long. A
@@ -250,6 +273,15 @@ struct WorkCounts {
 };
 
 enum class FrameKind : std::uint32_t { keyframe, inbetween };
+
+// A frame's file is under its name, whole.
+struct Written {
+  std::uint32_t frame;
+  std::int32_t node;
+  std::array<char, 48> pixel_hash;  // zero-ended
+  std::uint64_t bytes;
+  double seconds;  // that writing took
+};
 
 // Bytes of a strip, header and all, at most: few enough to stay in a core's cache on their way, and the host puts them
 // in place while the node draws on.

@@ -64,7 +64,7 @@ double HostSide::give(std::size_t group) {
   task.group = group;
   task.left = frames.size();
   for (std::size_t frame = 0; frame < frames.size(); ++frame)
-    task.frames.push_back({frame == 0 ? contributors : 1, false, 0, {}, {}});
+    task.frames.push_back({frame == 0 ? contributors : 1, false, 0, {}});
   groups_[group].tasks.push_back(number);
   outward_.task(group, number);
   return nodes * costs_.host_to_send(

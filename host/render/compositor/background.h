@@ -11,13 +11,12 @@
 
 namespace mars::compositor {
 
-struct Frame;
-
 struct Background {
   Background(std::uint32_t width, std::uint32_t height, std::uint32_t block, wire::PixelFormat format);
 
-  // The columns [first, last) of blocks of a row of them show it in the frame; the bytes that were written.
-  std::uint64_t write(Frame& frame, std::uint32_t row, std::uint32_t first, std::uint32_t last) const;
+  // The columns [first, last) of blocks of a row of them show it in a picture, given as its words; the bytes that were
+  // written.
+  std::uint64_t write(std::uint32_t* picture, std::uint32_t row, std::uint32_t first, std::uint32_t last) const;
 
   const std::uint32_t width;
   const std::uint32_t height;

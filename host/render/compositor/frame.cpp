@@ -46,7 +46,7 @@ std::uint64_t Frame::restore(const Lines& lines) {
   std::uint64_t bytes = 0;
   for (std::uint32_t row = lines.first / block; row * block < lines.end; ++row) {
     stale.for_stretches(
-        row, [&](std::uint32_t first, std::uint32_t last) { bytes += shown->write(*this, row, first, last); });
+        row, [&](std::uint32_t first, std::uint32_t last) { bytes += shown->write(pixels.data(), row, first, last); });
     stale.clear_row(row);
   }
   return bytes;

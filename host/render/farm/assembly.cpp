@@ -61,17 +61,42 @@ std::optional<std::uint32_t> Assembly::drawn_by(std::int32_t node) const {
   return std::nullopt;
 }
 
+void Assembly::note_last(const wire::Strip& strip, Parts& parts) {
+  --parts.contributors_left;
+  const auto member = static_cast<std::size_t>(strip.node - group_.first);
+  if (strip.frame == keyframe_)
+    drew_keyframe_[member] = true;
+  else
+    --waiting_for_[member];
+}
+
+bool Assembly::awaits_file(std::uint32_t frame) const {
+  const auto found = parts_.find(frame);
+  return found != parts_.end() && found->second.contributor != kNobody && !found->second.is_written;
+}
+
+std::optional<Assembly::Pasted> Assembly::note_drawn(const wire::Strip& strip) {
+  note_last(strip, parts_.at(strip.frame));
+  return finish_written(strip.frame);
+}
+
+std::optional<Assembly::Pasted> Assembly::note_written(std::uint32_t frame) {
+  parts_.at(frame).is_written = true;
+  return finish_written(frame);
+}
+
+std::optional<Assembly::Pasted> Assembly::finish_written(std::uint32_t number) {
+  const Parts& parts = parts_.at(number);
+  if (!parts.is_written || parts.contributors_left > 0) return std::nullopt;
+  const Pasted written = describe(number, parts);
+  parts_.erase(number);
+  return written;
+}
+
 void Assembly::receive(StripMessage strip) {
   const wire::Strip& header = strip.header();
   Parts& parts = parts_.at(header.frame);
-  if (header.last == 1) {
-    --parts.contributors_left;
-    const auto member = static_cast<std::size_t>(header.node - group_.first);
-    if (header.frame == keyframe_)
-      drew_keyframe_[member] = true;
-    else
-      --waiting_for_[member];
-  }
+  if (header.last == 1) note_last(header, parts);
   if (parts.strips.empty()) waiting_.push_back(header.frame);
   parts.strips.push_back(std::move(strip));
 }
@@ -96,6 +121,16 @@ bool Assembly::begin(Parts& parts, const compositor::Compositor& compositor, sin
   return true;
 }
 
+Assembly::Pasted Assembly::describe(std::uint32_t number, const Parts& parts) const {
+  const bool alone = parts.contributor != kAll;
+  return {number,
+          number == keyframe_ ? wire::FrameKind::keyframe : wire::FrameKind::inbetween,
+          nullptr,
+          {},
+          alone ? parts.contributor : group_.first,
+          alone ? 1 : static_cast<std::int32_t>(drew_keyframe_.size())};
+}
+
 std::optional<Assembly::Pasted> Assembly::paste(compositor::Compositor& compositor, sinks::SinkPool& sinks,
                                                 StripStore& store, const PasteListener& listener) {
   const auto ready = std::find_if(waiting_.begin(), waiting_.end(), [&](std::uint32_t number) {
@@ -106,13 +141,7 @@ std::optional<Assembly::Pasted> Assembly::paste(compositor::Compositor& composit
   const std::uint32_t number = *ready;
   waiting_.erase(ready);
   Parts& parts = parts_.at(number);
-  const bool alone = parts.contributor != kAll;
-  Pasted pasted{number,
-                number == keyframe_ ? wire::FrameKind::keyframe : wire::FrameKind::inbetween,
-                nullptr,
-                {},
-                alone ? parts.contributor : group_.first,
-                alone ? 1 : static_cast<std::int32_t>(drew_keyframe_.size())};
+  Pasted pasted = describe(number, parts);
   for (StripMessage& strip : parts.strips) {
     paste_strip(strip, *parts.picture, compositor);
     if (listener) listener(strip, compositor, *parts.picture);
@@ -123,6 +152,7 @@ std::optional<Assembly::Pasted> Assembly::paste(compositor::Compositor& composit
   if (parts.contributors_left > 0) return pasted;
   compositor.finish_frame(*parts.picture, number);
   if (listener || !sinks.restores()) compositor.restore(*parts.picture);
+  if (!sinks.restores()) parts.picture->shown.reset();
   pasted.whole = parts.picture;
   parts_.erase(number);
   return pasted;

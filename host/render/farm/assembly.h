@@ -39,12 +39,9 @@ class Assembly {
   // A strip that it waits for.
   void receive(StripMessage strip);
 
-  // From here on it has the group's compositor, whose interval has begun and which nobody else uses until all
-  // is done. Buffers come from `sinks`.
-
-  // The frame that begins next gets its buffer before its strips come, if there are enough; whether it did.
-  bool prepare(const compositor::Compositor& compositor, sinks::SinkPool& sinks);
-
+  // Where nodes write files. A part of a frame that it waits for is drawn; a frame's file is there. What the frame is,
+  // once both are true of all of it; `whole` is nullptr.
+  bool awaits_file(std::uint32_t frame) const;
   struct Pasted {
     std::uint32_t number;
     wire::FrameKind kind;
@@ -53,6 +50,15 @@ class Assembly {
     std::int32_t first_node;     // the first of `nodes` that draw it
     std::int32_t nodes;
   };
+  std::optional<Pasted> note_drawn(const wire::Strip& strip);
+  std::optional<Pasted> note_written(std::uint32_t frame);
+
+  // From here on it has the group's compositor, whose interval has begun and which nobody else uses until all
+  // is done. Buffers come from `sinks`.
+
+  // The frame that begins next gets its buffer before its strips come, if there are enough; whether it did.
+  bool prepare(const compositor::Compositor& compositor, sinks::SinkPool& sinks);
+
   // Pastes the strips that came of one frame, if there are any and it has a buffer or gets one; their memory
   // goes to `store`. `listener` may be none.
   std::optional<Pasted> paste(compositor::Compositor& compositor, sinks::SinkPool& sinks, StripStore& store,
@@ -75,10 +81,14 @@ class Assembly {
     std::int32_t contributors_left = 0;
     std::vector<StripMessage> strips;      // to be pasted
     compositor::Frame* picture = nullptr;  // where they go; begun
+    bool is_written = false;
   };
 
   bool is_contributor(const Parts& parts, std::int32_t node) const;
   bool background_there() const { return !parts_.contains(keyframe_); }
+  void note_last(const wire::Strip& strip, Parts& parts);
+  Pasted describe(std::uint32_t number, const Parts& parts) const;
+  std::optional<Pasted> finish_written(std::uint32_t number);
   bool begin(Parts& parts, const compositor::Compositor& compositor, sinks::SinkPool& sinks);
   void paste_strip(const StripMessage& strip, compositor::Frame& picture, compositor::Compositor& compositor) const;
 

@@ -63,6 +63,12 @@ class Farm {
   void report_slow_nodes();
   void receive();
   void receive_strip();
+  void receive_drawn();
+  void receive_written();
+  GroupWork& group_that_wants(const wire::Strip& strip);
+  void note_last(const wire::Strip& strip, GroupWork& by);
+  void finish_written(const std::optional<GroupWork::Composed>& frame);
+  FinishedFrame finished(const GroupWork::Composed& composed);
   bool prepare_one();
   bool compose_one();
   void submit(const GroupWork::Composed& composed);
@@ -149,7 +155,10 @@ bool Farm::load_film() {
   load.traced = options_.trace != nullptr ? 1 : 0;
   load.watched = options_.watch != nullptr ? 1 : 0;
   report_.film_bytes = film_block_.size();
-  const bool loaded = farm::load_film(film_block_, load, inbox_);
+  const Writing* const writing = options_.writing;
+  const bool loaded =
+      farm::load_film(film_block_, load, inbox_, writing == nullptr ? std::span<const std::byte>() : writing->orders);
+  if (loaded && writing != nullptr) writing->loaded(report_.nodes);
   if (loaded) slots_.give_all();
   if (loaded && listener_.warned) std::ranges::for_each(inbox_.apart(), listener_.warned);
   report_.load_seconds = dclock() - booted;
@@ -204,7 +213,8 @@ std::optional<std::uint32_t> Farm::drawn_by(int node, std::int32_t begun) const 
 // Whether there was something to do.
 bool Farm::work_once() {
   if (compose_one()) return true;
-  if (!iprobe(wire::any_of(wire::kStrip, wire::kFault, wire::kTrace))) return prepare_one();
+  if (!iprobe(wire::any_of(wire::kStrip, wire::kFault, wire::kTrace, wire::kDrawn, wire::kWritten, wire::kStorage)))
+    return options_.writing == nullptr && prepare_one();
   receive();
   return true;
 }
@@ -273,6 +283,13 @@ void Farm::receive() {
   switch (infotype()) {
     case wire::kFault: inbox_.receive_fault();
     case wire::kTrace: tracing_->receive(); break;
+    case wire::kDrawn: receive_drawn(); break;
+    case wire::kWritten: receive_written(); break;
+    case wire::kStorage: {
+      const std::string warning = inbox_.receive_storage_warning();
+      if (listener_.warned) listener_.warned(warning);
+      break;
+    }
     default: receive_strip();
   }
 }
@@ -285,15 +302,49 @@ void Farm::receive_strip() {
   rates_.received(header.node, dclock() - begun);
   charge(wire::Work::host_strip, 1);
   span.set_value(header.frame);
-  const auto wanting =
-      std::find_if(groups_.begin(), groups_.end(), [&](const auto& group) { return group.wants(header); });
-  if (wanting == groups_.end())
-    inbox_.refuse(header.node, "a strip of frame " + std::to_string(header.frame) + " that it was not asked for");
-  if (options_.each_frame && header.last == 1) report_.strips.push_back(header);
-  if (heartbeats_ != nullptr) heartbeats_->hear(header);
+  GroupWork& group = group_that_wants(header);
   watching_.receive(header);
-  wanting->receive(std::move(strip));
-  if (options_.adapts && header.last == 1) adapt(header, *wanting);
+  group.receive(std::move(strip));
+  if (header.last == 1) note_last(header, group);
+}
+
+GroupWork& Farm::group_that_wants(const wire::Strip& strip) {
+  const auto wanting = std::ranges::find_if(groups_, [&](const GroupWork& group) { return group.wants(strip); });
+  if (wanting == groups_.end())
+    inbox_.refuse(strip.node, "a strip of frame " + std::to_string(strip.frame) + " that it was not asked for");
+  if (heartbeats_ != nullptr) heartbeats_->hear(strip);
+  return *wanting;
+}
+
+void Farm::note_last(const wire::Strip& strip, GroupWork& by) {
+  if (options_.each_frame) report_.strips.push_back(strip);
+  if (options_.adapts) adapt(strip, by);
+}
+
+void Farm::receive_drawn() {
+  const wire::Strip drawn = inbox_.receive_drawn();
+  GroupWork& group = group_that_wants(drawn);
+  const auto whole = group.note_drawn(drawn);
+  note_last(drawn, group);
+  finish_written(whole);
+}
+
+void Farm::receive_written() {
+  const wire::Written written = inbox_.receive_written();
+  const auto group =
+      std::ranges::find_if(groups_, [&](const GroupWork& each) { return each.awaits_file(written.frame); });
+  if (options_.writing == nullptr || group == groups_.end())
+    inbox_.refuse(written.node, "word of a file that it was not asked for");
+  options_.writing->written(written);
+  report_.sink_seconds += written.seconds;
+  finish_written(group->note_written(written.frame));
+}
+
+void Farm::finish_written(const std::optional<GroupWork::Composed>& frame) {
+  if (!frame) return;
+  const FinishedFrame whole = finished(*frame);
+  --frames_left_;
+  if (listener_.finished) listener_.finished(whole);
 }
 
 // To a node's last strip of a frame. Nodes begin with inbetweens when the keyframe is there.
@@ -344,11 +395,17 @@ bool Farm::compose_one() {
   return false;
 }
 
-void Farm::submit(const GroupWork::Composed& composed) {
+FinishedFrame Farm::finished(const GroupWork::Composed& composed) {
   const Assembly::Pasted& frame = composed.pasted;
   const FinishedFrame finished{frame.number,   composed.interval, frame.kind, dclock() - start_,
                                composed.given, frame.first_node,  frame.nodes};
   if (options_.each_frame) report_.frames.push_back(finished);
+  return finished;
+}
+
+void Farm::submit(const GroupWork::Composed& composed) {
+  const Assembly::Pasted& frame = composed.pasted;
+  const FinishedFrame finished = this->finished(composed);
   with_sinks_[frame.number] = finished;
   charge(wire::Work::host_frame, 1);
   watching_.compose(

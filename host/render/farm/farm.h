@@ -25,6 +25,13 @@
 
 namespace mars::farm {
 
+// Of runs whose nodes write frames' files (node/wire/frame_writer.h).
+struct Writing {
+  std::vector<std::byte> orders;                             // for the nodes
+  std::function<void(std::span<const wire::Hello>)> loaded;  // all nodes have the film and these
+  std::function<void(const wire::Written&)> written;         // a frame's file is there
+};
+
 struct FarmOptions {
   wire::Mapping mapping = wire::Mapping::cost;
   std::uint64_t memory = 0;                    // bytes on a node; 0: as the node with the least offers
@@ -36,6 +43,7 @@ struct FarmOptions {
   const Cancellation* cancellation = nullptr;  // none: nobody cancels
   Heartbeats* heartbeats = nullptr;            // none: nobody looks whether nodes live
   watch::Watch* watch = nullptr;               // none: nobody watches; it ends before the film does
+  const Writing* writing = nullptr;            // none: the host composes frames for the sinks
 };
 
 struct FinishedFrame {

@@ -11,7 +11,7 @@
 namespace mars::farm {
 namespace {
 
-void send_load(const wire::Load& load, std::span<const wire::Hello> hellos) {
+void send_load(const wire::Load& load, std::span<const wire::Hello> hellos, std::span<const std::byte> orders) {
   std::vector<std::byte> message(sizeof load + hellos.size() * sizeof hellos[0].machine);
   std::memcpy(message.data(), &load, sizeof load);
   std::byte* to = message.data() + sizeof load;
@@ -19,6 +19,7 @@ void send_load(const wire::Load& load, std::span<const wire::Hello> hellos) {
     std::memcpy(to, &hello.machine, sizeof hello.machine);
     to += sizeof hello.machine;
   }
+  message.insert(message.end(), orders.begin(), orders.end());
   for (const wire::Hello& hello : hellos)
     csend(wire::kLoad, message.data(), static_cast<long>(message.size()), hello.node, 0);
 }
@@ -35,12 +36,13 @@ std::vector<long> send_block(std::span<const std::byte> block) {
 
 }  // namespace
 
-bool load_film(std::span<const std::byte> block, wire::Load load, NodeInbox& inbox) {
+bool load_film(std::span<const std::byte> block, wire::Load load, NodeInbox& inbox, std::span<const std::byte> orders) {
   const ScopedSpan span(trace::HostSpan::load, block.size());
   load.stamp = wire::own_stamp();
   load.film_bytes = block.size();
+  load.orders = orders.size();
   inbox.expect_loaded();
-  send_load(load, inbox.hellos());
+  send_load(load, inbox.hellos(), orders);
   const std::vector<long> sends = send_block(block);
   const bool loaded = inbox.wait_until_loaded();
   for (const long send : sends) msgwait(send);

@@ -8,7 +8,9 @@
 
 namespace mars::farm {
 
-// `load` without stamp and film's size, which are added. Waits until all nodes have the film; false: cancelled before.
-bool load_film(std::span<const std::byte> block, wire::Load load, NodeInbox& inbox);
+// `load` without stamp and sizes, which are added; `orders`: for nodes' frame writers, none where nodes have none.
+// Waits until all nodes have the film; false: cancelled before.
+bool load_film(std::span<const std::byte> block, wire::Load load, NodeInbox& inbox,
+               std::span<const std::byte> orders = {});
 
 }  // namespace mars::farm

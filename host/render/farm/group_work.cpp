@@ -51,6 +51,31 @@ void GroupWork::receive(StripMessage strip) {
   task->assembly.receive(std::move(strip));
 }
 
+bool GroupWork::awaits_file(std::uint32_t frame) const {
+  return std::ranges::any_of(tasks_, [&](const Given& task) { return task.assembly.awaits_file(frame); });
+}
+
+// To the task that it is of; tasks may end in any order.
+template <typename Is, typename Note>
+std::optional<GroupWork::Composed> GroupWork::note(Is is_of, Note note) {
+  const auto task = std::ranges::find_if(tasks_, is_of);
+  const auto whole = note(task->assembly);
+  if (!whole) return std::nullopt;
+  Composed composed{*whole, task->assembly.interval(), task->given, {}};
+  if (task->assembly.done()) tasks_.erase(task);
+  return composed;
+}
+
+std::optional<GroupWork::Composed> GroupWork::note_drawn(const wire::Strip& strip) {
+  return note([&](const Given& task) { return task.assembly.wants(strip); },
+              [&](Assembly& assembly) { return assembly.note_drawn(strip); });
+}
+
+std::optional<GroupWork::Composed> GroupWork::note_written(std::uint32_t frame) {
+  return note([&](const Given& task) { return task.assembly.awaits_file(frame); },
+              [&](Assembly& assembly) { return assembly.note_written(frame); });
+}
+
 bool GroupWork::prepare(sinks::SinkPool& sinks) {
   return !tasks_.empty() && tasks_.front().assembly.prepare(compositor_, sinks);
 }

@@ -46,14 +46,19 @@ class GroupWork {
   bool wants(const wire::Strip& strip) const;
   void receive(StripMessage strip);
 
-  // As Assembly's, for the first task that is not done.
-  bool prepare(sinks::SinkPool& sinks);
+  // As Assembly's, where nodes write files.
   struct Composed {
     Assembly::Pasted pasted;
     std::uint32_t interval;
     double given;  // when its task was
     compositor::PastedCounts counts;
   };
+  bool awaits_file(std::uint32_t frame) const;
+  std::optional<Composed> note_drawn(const wire::Strip& strip);
+  std::optional<Composed> note_written(std::uint32_t frame);
+
+  // As Assembly's, for the first task that is not done.
+  bool prepare(sinks::SinkPool& sinks);
   std::optional<Composed> compose(sinks::SinkPool& sinks, StripStore& store, const PasteListener& listener = {});
 
  private:
@@ -63,6 +68,8 @@ class GroupWork {
     double given;
   };
 
+  template <typename Is, typename Note>
+  std::optional<Composed> note(Is is_of, Note note);
   void begin_interval() { compositor_.begin_interval(tasks_.front().background); }
 
   collectives::Group group_;

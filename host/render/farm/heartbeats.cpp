@@ -20,8 +20,10 @@ constexpr double kNamed = 5.0;   // a node that is silent for so long is reporte
 constexpr std::chrono::milliseconds kPause{20};  // of the host's thread while another works
 
 std::string doing_of(const wire::Beat& beat, bool debugged) {
-  const std::string what =
-      beat.frame < 0 ? "waiting for work" : wire::kPhaseNames[static_cast<std::size_t>(beat.phase)];
+  const std::string what = beat.frame < 0 ? "waiting for work"
+                           : beat.phase == wire::Phase::storage
+                               ? "waiting for storage"
+                               : wire::kPhaseNames[static_cast<std::size_t>(beat.phase)];
   return what + (debugged ? ", in a debugger" : "");
 }
 

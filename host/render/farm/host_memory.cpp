@@ -26,15 +26,15 @@ HostMemory share_host_memory(std::uint64_t budget, const wire::FilmSettings& fil
   memory.budget = budget;
   memory.frame_bytes = std::uint64_t{film.width} * film.height * wire::pixel_bytes(format);
   memory.frames = kLeastFrames;
-  memory.backgrounds = groups;
+  memory.backgrounds = groups + memory.frames;
   memory.nodes = nodes;
   memory.credits = wire::kMaxCredits;
   while (memory.credits > 1 && memory.most_bytes() > budget) --memory.credits;
   const std::uint64_t left = budget - std::min(budget, memory.most_bytes());
-  const std::uint64_t for_frames =
-      std::min(std::max(kOftenEnough, budget / 8), left + kLeastFrames * memory.frame_bytes);
-  const std::uint64_t fit = for_frames / memory.frame_bytes;
+  const std::uint64_t often_enough = std::max(kOftenEnough, budget / 8) / memory.frame_bytes;
+  const std::uint64_t fit = std::min(often_enough, kLeastFrames + left / (2 * memory.frame_bytes));
   memory.frames = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(fit, kLeastFrames, sink_threads + 2));
+  memory.backgrounds = groups + memory.frames;
   return memory;
 }
 

@@ -14,7 +14,7 @@ struct HostMemory {
   std::uint64_t budget = 0;       // bytes, as it was given
   std::uint64_t frame_bytes = 0;  // of one picture
   std::uint32_t frames = 0;       // buffers of the sinks, at least 2
-  std::uint32_t backgrounds = 0;  // saved ones: one a group
+  std::uint32_t backgrounds = 0;  // saved ones: one a group, and those of earlier intervals that buffers still show
   std::uint32_t nodes = 0;
   std::int32_t credits = 0;  // strips that each may have on the way, 1..wire::kMaxCredits
 

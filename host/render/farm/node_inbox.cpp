@@ -53,7 +53,7 @@ std::optional<wire::Beat> read_beat(std::span<const std::byte> message) {
   if (message.size() != sizeof beat) return std::nullopt;
   std::memcpy(&beat, message.data(), sizeof beat);
   const bool sound = is_text(beat.host) && beat.traced <= 1 && beat.waits <= 1 && beat.frame >= -1 &&
-                     beat.phase >= wire::Phase::dice && beat.phase <= wire::Phase::credit;
+                     beat.phase >= wire::Phase::dice && beat.phase <= wire::Phase::storage;
   return sound ? std::optional(beat) : std::nullopt;
 }
 
@@ -219,6 +219,36 @@ void NodeInbox::check_strip(const wire::Strip& strip, std::span<const wire::Run>
     require(run.line >= strip.first_line && run.line < strip.last_line, sender, "pixels outside the strip's lines");
     require(run.count > 0 && std::uint32_t{run.first} + run.count <= width_, sender, "pixels outside the picture");
   }
+}
+
+wire::Strip NodeInbox::receive_drawn() const {
+  const int node = static_cast<int>(infonode());
+  wire::Strip drawn;
+  require(infocount() == sizeof drawn, node, "word of a frame of an impossible size");
+  crecv(wire::kDrawn, &drawn, sizeof drawn);
+  require(drawn.node == node && drawn.last == 1, node, "word of a frame that makes no sense");
+  check_strip(drawn, {}, node);
+  return drawn;
+}
+
+wire::Written NodeInbox::receive_written() const {
+  const int node = static_cast<int>(infonode());
+  wire::Written written;
+  require(infocount() == sizeof written, node, "word of a file of an impossible size");
+  crecv(wire::kWritten, &written, sizeof written);
+  require(written.node == node && is_text(written.pixel_hash) && is_time(written.seconds), node,
+          "word of a file that makes no sense");
+  return written;
+}
+
+std::string NodeInbox::receive_storage_warning() const {
+  constexpr long kLongest = 1 << 14;
+  const int node = static_cast<int>(infonode());
+  require(infocount() <= kLongest, node, "a warning of an impossible size");
+  std::string text(static_cast<std::size_t>(infocount()), ' ');
+  crecv(wire::kStorage, text.data(), static_cast<long>(text.size()));
+  std::ranges::replace_if(text, is_control, ' ');
+  return name_of(node) + ": " + text;
 }
 
 std::span<const messages::Event> NodeInbox::receive_events() {

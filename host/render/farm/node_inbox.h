@@ -66,6 +66,10 @@ class NodeInbox {
 
   // Its slot is the host's from then on.
   StripMessage receive_strip(StripStore& store);
+  // Of runs whose nodes write files. That the sender has drawn its part of a frame; its file; a warning, for people.
+  wire::Strip receive_drawn() const;
+  wire::Written receive_written() const;
+  std::string receive_storage_warning() const;
   // The sender's events, valid until the next call.
   std::span<const messages::Event> receive_events();
   // Whether it has sent its last.

@@ -20,8 +20,8 @@ void NodeWatch::hear(int node) { nodes_.at(static_cast<std::size_t>(node)).silen
 void NodeWatch::hear(int node, const wire::Beat& beat) { nodes_.at(static_cast<std::size_t>(node)) = {0, beat}; }
 
 void NodeWatch::note(const wire::PhaseTimes& times) {
-  for (const auto step :
-       {&wire::PhaseTimes::dice, &wire::PhaseTimes::map, &wire::PhaseTimes::fill, &wire::PhaseTimes::scanline})
+  for (const auto step : {&wire::PhaseTimes::dice, &wire::PhaseTimes::map, &wire::PhaseTimes::fill,
+                          &wire::PhaseTimes::scanline, &wire::PhaseTimes::compose})
     longest_.*step = std::max(longest_.*step, times.*step);
 }
 
@@ -39,6 +39,7 @@ double NodeWatch::patience(const wire::Beat& beat) const {
     case wire::Phase::map: usual = longest_.map; break;
     case wire::Phase::fill: usual = longest_.fill; break;
     case wire::Phase::scanline: usual = longest_.scanline; break;
+    case wire::Phase::compose: usual = longest_.compose; break;
     default: break;
   }
   return std::max(kLeastPatience, kTimesUsual * usual);

@@ -108,8 +108,23 @@ farm::FarmOptions farm_options(const RenderJob& job, const farm::HostMemory& mem
   return farm;
 }
 
+bool nodes_write(const RenderJob& job) { return job.nodes_write && !job.folder.empty(); }
+
+// What nodes are told that write frames' files, and what the folder learns of these.
+farm::Writing make_writing(sinks::FrameFolder& folder) {
+  folder.add_probe();
+  return {sinks::bytes_of(folder.writer_orders()),
+          [&folder](std::span<const wire::Hello> nodes) {
+            for (const wire::Hello& hello : nodes)
+              if (hello.machine == hello.node) folder.wait_for_probe(hello.node, hello.host.data());
+          },
+          [&folder](const wire::Written& written) { folder.note_written(written.frame, written.pixel_hash.data()); }};
+}
+
 // What takes the place of the film or of what the folder keeps would destroy it.
 void refuse_outputs(const RenderJob& job) {
+  if (nodes_write(job) && !job.watch.empty())
+    throw Failure("frames that nodes write cannot be watched: the host has no pixels", "--watch", "use --write host");
   namespace fs = std::filesystem;
   const auto place_of = [](const std::string& file) { return fs::weakly_canonical(fs::absolute(file)); };
   std::error_code none;
@@ -231,12 +246,15 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace, 
 
   output.folder = std::move(opened.folder);
   if (output.folder) output.folder->show_status([&board = output.board] { return sinks::text_of(board.status()); });
-  output.sink = make_sink(output.folder.get(), view);
+  output.sink = make_sink(nodes_write(job) ? nullptr : output.folder.get(), view);
   output.pool = make_sinks(job, *output.sink, pool_shape(host, view, job, memory.frames));
   const auto watch = begin_watch(job, reporter);
+  std::optional<farm::Writing> writing;
+  if (nodes_write(job)) writing = make_writing(*output.folder);
+  farm::FarmOptions options = farm_options(job, memory, trace, heartbeats, watch.get());
+  options.writing = writing ? &*writing : nullptr;
   const farm::FarmReport report =
-      farm::render_film(film.block(), plan, farm_options(job, memory, trace, heartbeats, watch.get()), *output.pool,
-                        reporter.listener(view.intervals().size()));
+      farm::render_film(film.block(), plan, options, *output.pool, reporter.listener(view.intervals().size()));
   const auto write = [&](const std::string& file, const std::function<void()>& whole) {
     sinks::Patience(bounds_of(reporter)).write(file, whole);
   };

@@ -42,6 +42,7 @@ struct RenderJob {
   bool overwrite = false;  // frames that the folder has already
   bool kept_film = false;  // the folder's, as in resume::Wish
   images::PictureFormat format = images::PictureFormat::png;
+  bool nodes_write = false;  // nodes compose frames and write their files
   film::FrameSet frames;
   wire::Mapping mapping = wire::Mapping::cost;
   bool coherence = true;

@@ -1,5 +1,6 @@
 #include "host/render/sinks/frame_encoder.h"
 
+#include "host/images/encode_bands.h"
 #include "host/render/sinks/pixel_hash.h"
 
 namespace mars::sinks {
@@ -48,9 +49,9 @@ std::shared_ptr<FrameEncoder::Kept> FrameEncoder::kept_for(
 }
 
 images::PictureEnds FrameEncoder::ends_of(const EncodedFrame& frame, const std::string& note) const {
-  std::vector<const images::EncodedBand*> encoded;
-  for (const auto& band : frame.bands) encoded.push_back(&band->encoded);
-  return images::ends_of(bands_, encoded, note);
+  std::vector<images::BandPart> parts;
+  for (const auto& band : frame.bands) parts.push_back(band->encoded.part());
+  return images::ends_of(bands_, parts, note);
 }
 
 std::vector<std::span<const std::byte>> FrameEncoder::pieces(const EncodedFrame& frame,

@@ -322,6 +322,30 @@ void FrameFolder::put(std::uint32_t frame, const std::string& pixel_hash, const 
   throw;
 }
 
+WriterOrders FrameFolder::writer_orders() const {
+  Manifest manifest = begun_;
+  manifest.frames.clear();
+  manifest.pixel_hashes.clear();
+  return {fs::absolute(path_), fs::absolute(runs_.own_file("")), manifest};
+}
+
+void FrameFolder::add_probe() { document::create_file(writer_orders().host_probe(), ""); }
+
+void FrameFolder::wait_for_probe(std::int32_t node, const std::string& machine) const {
+  const fs::path probe = writer_orders().node_probe(node);
+  if (appears(probe)) return;
+  throw Failure("machine " + machine + " writes into another folder of this name", path_.string(),
+                "put the folder on a file system that all machines share, or use --write host");
+}
+
+void FrameFolder::note_written(std::uint32_t frame, const std::string& pixel_hash) {
+  patience_.write(runs_.own_file(kHashesEnding), [&] {
+    lease_->check();
+    hashes_->add(frame, pixel_hash);
+  });
+  record(frame, pixel_hash);
+}
+
 // In memory too: at its end a run depends on nothing that it would have to read again.
 void FrameFolder::record(std::uint32_t frame, const std::string& pixel_hash) {
   const std::lock_guard lock(mutex_);

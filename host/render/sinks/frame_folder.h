@@ -31,6 +31,7 @@
 #include "host/render/sinks/sink.h"
 #include "host/render/sinks/status_file.h"
 #include "host/render/sinks/unseen_rivals.h"
+#include "host/render/sinks/writer_orders.h"
 
 namespace mars::sinks {
 
@@ -91,6 +92,14 @@ class FrameFolder {
   // Writes a frame's file; from several threads at once. Throws Failure where it cannot, the claim is lost, or the
   // folder is gone.
   void put(std::uint32_t frame, const std::string& pixel_hash, const document::Pieces& file);
+
+  // Where nodes write frames' files: what they are told; a file by which they see that they have the same folder, and
+  // theirs, of each machine's first node: throws Failure where it does not come. A frame's file is there; throws
+  // Failure where the claim is lost.
+  WriterOrders writer_orders() const;
+  void add_probe();
+  void wait_for_probe(std::int32_t node, const std::string& machine) const;
+  void note_written(std::uint32_t frame, const std::string& pixel_hash);
 
   // Writes the frames' hashes to the manifest and gives up the claim. Throws Failure where it cannot, and then leaves
   // its files in .runs.

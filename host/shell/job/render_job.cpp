@@ -29,6 +29,7 @@ session::RenderJob job_of(const options::RenderOptions& options, const std::stri
   job.kept_film = options.kept_film;
   job.folder = options.sink == options::SinkKind::files ? options.folder : "";
   job.format = options.format;
+  job.nodes_write = options.write == options::WriteWhere::nodes;
   job.frames = options.frames;
   job.mapping = options.mapping;
   job.coherence = !options.no_coherence;

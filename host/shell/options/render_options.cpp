@@ -38,6 +38,8 @@ constexpr std::array kWords<Intervals>{"auto", "keyframes"};
 template <>
 constexpr std::array kWords<SinkKind>{"files", "none"};
 template <>
+constexpr std::array kWords<WriteWhere>{"host", "nodes"};
+template <>
 constexpr std::array kWords<images::PictureFormat>{"png", "png16", "exr"};
 template <>
 constexpr std::array kWords<wire::Mapping>{"greedy", "optimal", "cost"};
@@ -232,6 +234,10 @@ std::vector<Entry> table() {
              "default: png. Example: --format exr"),
       option(sinks, "--sink", "files|none", &RenderOptions::sink,
              "Where frames go; none writes no files, to measure rendering. Example: --sink none"),
+      option(
+          plans, "--write", "host|nodes", &RenderOptions::write,
+          "Who composes frames and writes their files: the host, as in the thesis, or the nodes that draw them, whose "
+          "machines must all see the folder; same files; default: host. Example: --write nodes"),
       option(submits, "--report", "FILE", &RenderOptions::report,
              "Write each node's times and work per frame as JSON. Example: --report report.json"),
       option(submits, "--trace", "FILE", &RenderOptions::trace,

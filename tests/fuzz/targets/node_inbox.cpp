@@ -92,7 +92,7 @@ void take_beat(Host&) {
   const auto beat = farm::read_beat(message);
   if (!beat) return;
   const bool named = std::ranges::find(beat->host, '\0') != beat->host.end();
-  check(named && beat->phase <= wire::Phase::credit, "a beat makes sense");
+  check(named && beat->phase <= wire::Phase::storage, "a beat makes sense");
 }
 
 struct Kind {

@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "host/images/encode_bands.h"
 #include "host/images/exr_file.h"
 #include "host/images/picture_file.h"
 #include "host/images/png_file.h"

@@ -20,7 +20,7 @@ TEST(SharedHostMemory, OrdinaryFilmsHaveAllTheyCanUse) {
   const HostMemory memory = share_host_memory(4 * kGiB, picture(1920, 1080), wire::PixelFormat::rgb8, 64, 8, 16);
   EXPECT_EQ(memory.frames, 18u) << "two more than threads";
   EXPECT_EQ(memory.credits, wire::kMaxCredits);
-  EXPECT_EQ(memory.backgrounds, 8u);
+  EXPECT_EQ(memory.backgrounds, 8u + 18u);
   EXPECT_EQ(memory.strip_bytes(), 64u * 4 * wire::kMaxStripBytes);
   EXPECT_LT(memory.most_bytes(), memory.budget);
 }

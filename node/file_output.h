@@ -1,0 +1,39 @@
+// A film's frames as files that the node writes itself (wire/frame_writer.h), instead of strips for the host.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "node/group/band_exchange.h"
+#include "node/group/outbox.h"
+#include "node/heartbeat.h"
+#include "node/raster/neighbours.h"
+#include "node/wire/frame_writer.h"
+
+namespace mars::node {
+
+class FileOutput {
+ public:
+  // All outlive it. Collective over a machine's nodes.
+  FileOutput(wire::FrameWriter& writer, const raster::Neighbours& neighbours, group::Outbox& outbox,
+             Heartbeat& heartbeat);
+
+  wire::FrameWriter& writer() { return writer_; }
+  // The strip of the current frame that the outbox has.
+  void paste(wire::Strip& header);
+  // Once all of a keyframe's home lines are pasted; as BandExchange.
+  void exchange_bands(const group::BandNeeds& needs) { exchange_.complete(needs, writer_); }
+  // The frame is whole here: waits until its file can be written beside the drawing, unless the host has stopped.
+  void write();
+  // Files that are whole, and warnings, go to the host.
+  void report();
+
+ private:
+  wire::FrameWriter& writer_;
+  group::Outbox& outbox_;
+  Heartbeat& heartbeat_;
+  raster::NeighboursMemory shared_;
+  group::BandExchange exchange_;
+};
+
+}  // namespace mars::node

@@ -1,0 +1,109 @@
+#include "node/group/band_exchange.h"
+
+#include <algorithm>
+
+#include "hal/nx/nx_messages.h"
+#include "node/group/collectors.h"
+#include "node/wire/commands.h"
+#include "node/wire/protocol.h"
+
+namespace mars::group {
+
+// Who has which bands.
+class BandExchange::Plan : public Collectors {
+ public:
+  Plan(const BandNeeds& needs, const raster::Neighbours& neighbours, std::span<std::uint8_t> collectors,
+       std::uint32_t lines_of_band)
+      : Collectors(needs.group, needs.contributes, neighbours, collectors),
+        homes_(needs.homes),
+        lines_of_band_(lines_of_band),
+        writer_(needs.writer) {}
+
+  int writer() const { return writer_; }
+  const geometry::LineRange& home(int node) const { return homes_[index(node)]; }
+  bool draws(int node) const { return home(node).count() > 0; }
+
+  // Whether the node's first lines are of a band that begins in another's home.
+  bool has_edge(int node) const { return draws(node) && home(node).first % lines_of_band_ != 0; }
+  // Who composes the band with the node's first lines.
+  int composer_of_edge(int node) const { return home_of(home(node).first / lines_of_band_ * lines_of_band_); }
+  // Whether a band begins there, which the node composes.
+  bool composes(int node) const {
+    const geometry::LineRange& lines = home(node);
+    return draws(node) && (lines.first + lines_of_band_ - 1) / lines_of_band_ * lines_of_band_ < lines.last;
+  }
+
+ private:
+  int home_of(std::uint32_t line) const {
+    const auto found = std::ranges::find_if(homes_, [&](const geometry::LineRange& home) { return home.has(line); });
+    return first() + static_cast<int>(found - homes_.begin());
+  }
+
+  const std::span<const geometry::LineRange> homes_;
+  const std::uint32_t lines_of_band_;
+  const int writer_;
+};
+
+BandExchange::BandExchange(const raster::Neighbours& neighbours)
+    : neighbours_(neighbours),
+      pending_(static_cast<std::size_t>(neighbours.group().count)),
+      collectors_(static_cast<std::size_t>(neighbours.group().count)) {}
+
+void BandExchange::complete(const BandNeeds& needs, wire::FrameWriter& writer) {
+  const Plan plan(needs, neighbours_, collectors_, writer.lines_of_band());
+  exchange_edges(plan, writer);
+  writer.finish_bands();
+  send_bands(plan, writer);
+  collect_background(plan, writer);
+  collect_picture(plan, writer);
+  pending_.wait();
+}
+
+void BandExchange::exchange_edges(const Plan& plan, wire::FrameWriter& writer) {
+  const int self = plan.self();
+  if (plan.has_edge(self)) send(wire::kEdge, writer.edge(), plan.composer_of_edge(self));
+  for (int node = self + 1; node < plan.last(); ++node)
+    if (plan.has_edge(node) && plan.composer_of_edge(node) == self) writer.add_edge(receive(wire::kEdge, plan));
+}
+
+void BandExchange::send_bands(const Plan& plan, wire::FrameWriter& writer) {
+  const int self = plan.self();
+  if (!plan.composes(self)) return;
+  for (int to = plan.first(); to < plan.last(); ++to)
+    if (to != self && plan.collects(to))
+      send(wire::kBackground, plan.share_a_machine(self, to) ? std::span<const std::byte>() : writer.background(), to);
+  if (plan.writer() != self) send(wire::kPicture, writer.picture(), plan.writer());
+}
+
+void BandExchange::collect_background(const Plan& plan, wire::FrameWriter& writer) {
+  const int self = plan.self();
+  if (plan.collects(self)) {
+    for (int from = plan.first(); from < plan.last(); ++from)
+      if (from != self && plan.composes(from)) writer.add_background(receive(wire::kBackground, plan));
+    plan.for_others_here([](int node) { csend(wire::kBackground, nullptr, 0, node, 0); });
+  } else if (plan.contributes(self)) {
+    crecv(wire::kBackground, nullptr, 0);
+  }
+}
+
+void BandExchange::collect_picture(const Plan& plan, wire::FrameWriter& writer) {
+  const int self = plan.self();
+  if (plan.writer() != self) return;
+  writer.add_picture(writer.picture());
+  for (int from = plan.first(); from < plan.last(); ++from)
+    if (from != self && plan.composes(from)) writer.add_picture(receive(wire::kPicture, plan));
+}
+
+void BandExchange::send(long type, std::span<const std::byte> message, int to) {
+  pending_.add(isend(type, message.data(), static_cast<long>(message.size()), to, 0));
+}
+
+std::span<const std::byte> BandExchange::receive(long type, const Plan& plan) {
+  cprobe(type);
+  wire::require_sense(plan.has(static_cast<int>(infonode())), static_cast<int>(infonode()), "bands");
+  message_.resize(static_cast<std::size_t>(infocount()));
+  crecv(type, message_.data(), infocount());
+  return message_;
+}
+
+}  // namespace mars::group
