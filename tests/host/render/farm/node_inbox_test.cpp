@@ -390,7 +390,7 @@ TEST(Inbox, EventsThatMakeNoSense) {
   EXPECT_TRUE(refused({event, end}, 1));
   EXPECT_TRUE(refused({end, event})) << "what ends them comes last";
   EXPECT_TRUE(refused({end, end}));
-  for (const auto& [kind, what, peer] : {std::tuple{Kind::span, 10, 0},
+  for (const auto& [kind, what, peer] : {std::tuple{Kind::span, static_cast<int>(wire::Phase::inbetween) + 1, 0},
                                          {Kind::span, -1, 0},
                                          {Kind::sent, 1, 3},
                                          {Kind::taken, 1, -1},
