@@ -1,0 +1,131 @@
+"""Who composes frames and writes their files: the host, or nodes. The files are the same byte for byte, also where
+writers are killed, the film is edited and a run goes on with the other way."""
+
+import json
+import os
+import random
+import shutil
+import signal
+import subprocess
+import time
+
+from harness import (ENVIRONMENT, EXAMPLES, PROGRAMS, SECONDS, ProgramTest, family, main, needs_mpi, spinning_teapot,
+                     wait_until)
+
+NODES = ["--write", "nodes"]
+FRAMES = 20
+
+
+def films():
+    """A mover before what stands still; the same smoothly; everything moves; several intervals."""
+    demo = json.loads((EXAMPLES / "demo.json").read_text())
+    demo["size"] = [200, 120]
+    yield "demo", demo, ["--frames", "0-19"]
+    yield "smooth", demo, ["--frames", "0-7", "--samples", 4]
+    yield "teapot", spinning_teapot(FRAMES, [161, 97]), []
+    yield "long", spinning_teapot(FRAMES, [33, 2000]), ["--frames", "0-5"]
+
+
+class Writers(ProgramTest):
+    def files(self, folder):
+        return {path.name: path.read_bytes() for path in (self.folder / folder).glob("frame-*")}
+
+    def render(self, film, folder, *words, **more):
+        return self.mars("render", film, "-o", folder, "--quiet", *words, **more)
+
+    def write_film(self, name, film):
+        copy = dict(film)
+        if (EXAMPLES / "models").exists() and not (self.folder / "models").exists():
+            os.symlink(EXAMPLES / "models", self.folder / "models")
+        return self.write(f"{name}.json", copy)
+
+    def test_files_are_the_same_for_every_division(self):
+        chance = random.Random(29)
+        for name, film, words in films():
+            path = self.write_film(name, film)
+            for ending in ("png", chance.choice(["png16", "exr"])):
+                wanted = f"{name}-{ending}"
+                alone = ["--backend", "threads", "--nodes", 1, *words, "--format", ending]
+                self.assertEqual(self.render(path, wanted, *alone).returncode, 0)
+                for nodes in (1, 3, chance.choice([2, 4, 5])):
+                    how = ["--backend", "threads", "--nodes", nodes, "--groups", chance.randint(1, nodes), *words,
+                           "--format", ending, *chance.choice([[], ["--no-coherence"]])]
+                    done = self.render(path, "nodes", *NODES, *how, "--overwrite")
+                    self.assertEqual((done.returncode, done.stderr), (0, ""), (name, how))
+                    self.assertEqual(self.files("nodes"), self.files(wanted), (name, how))
+                    self.assertIn("all there and whole", self.succeed("mars", "verify", "nodes"))
+                    shutil.rmtree(self.folder / "nodes")
+
+    @needs_mpi
+    def test_over_mpi_with_little_memory(self):
+        path = self.write_film("demo", next(films())[1])
+        self.render(path, "wanted", "--backend", "threads", "--nodes", 1, "--frames", "0-9")
+        done = self.render(path, "nodes", *NODES, "--backend", "mpi", "--nodes", 3, "--frames", "0-9",
+                           env=dict(ENVIRONMENT, MARS_MEMORY="1"))
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(self.files("nodes"), self.files("wanted"))
+
+    def test_a_run_goes_on_the_other_way(self):
+        path = self.write("film.json", spinning_teapot(FRAMES, [160, 90]))
+        one = ["--backend", "threads", "--nodes", 2]
+        self.render(path, "wanted", *one)
+        self.render(path, "out", *one, "--frames", "0-7")
+        self.render(path, "out", *one, *NODES, "--frames", "0-13")
+        self.render(path, "out", *one)
+        self.assertEqual(self.files("out"), self.files("wanted"))
+        self.assertIn("20 frames, all there and whole", self.succeed("mars", "verify", "out"))
+
+    def test_what_a_killed_run_has_written_counts(self):
+        path = self.write("film.json", spinning_teapot(4000, [160, 90]))
+        command = [PROGRAMS / "mars", "render", path, "-o", "out", "--quiet", "--backend", "threads", "--nodes", 2, *NODES]
+        process = subprocess.Popen([str(word) for word in command], cwd=self.folder, env=ENVIRONMENT)
+        self.addCleanup(process.kill)
+        wait_until(lambda: len(self.files("out")) > 30, SECONDS, "no frames")
+        for each in [process.pid, *family(process.pid)]:
+            os.kill(each, signal.SIGKILL)
+        process.wait()
+        missing = self.succeed("mars", "verify", "out", "--missing").strip()
+        self.assertRegex(missing, r"^\d+-3999$|,")
+        self.render(path, "out", *NODES, "--backend", "threads", "--nodes", 2, "--frames", "0-99")
+        self.render(path, "wanted", "--backend", "threads", "--nodes", 1, "--frames", "0-99")
+        files = self.files("out")
+        self.assertEqual({name: files[name] for name in self.files("wanted")}, self.files("wanted"))
+        self.assertNothingTorn(self.folder / "out")
+
+    @needs_mpi
+    def test_films_survive_writers_that_are_killed(self):
+        chance = random.Random(7)
+        path = self.write("film.json", spinning_teapot(1500, [160, 90]))
+        command = [PROGRAMS / "mars", "render", path, "-o", "out", "--backend", "mpi", "--nodes", 3, *NODES]
+        process = subprocess.Popen([str(word) for word in command], cwd=self.folder, env=ENVIRONMENT, text=True,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.addCleanup(process.kill)
+        for kill in range(2):
+            seen = len(self.files("out"))
+            wait_until(lambda: process.poll() is not None or len(self.files("out")) > seen + 20, SECONDS, "no frames")
+            time.sleep(chance.random() / 4)
+            nodes = [each for each in family(process.pid) if b"mars-node" in cmdline(each)]
+            if nodes:
+                os.kill(chance.choice(nodes), signal.SIGKILL)
+        printed = process.communicate(timeout=2 * SECONDS)
+        self.assertEqual((process.returncode, printed[1]), (0, ""), printed)
+        self.assertIn("starting again", printed[0])
+        self.assertIn("1500 frames, all there and whole", self.succeed("mars", "verify", "out"))
+
+    def test_what_nodes_write_cannot_be_watched(self):
+        path = self.write("film.json", spinning_teapot(2, [16, 9]))
+        done = self.render(path, "out", *NODES, "--watch", "socket", "--backend", "threads")
+        self.assertNotEqual(done.returncode, 0)
+        self.assertClear(done.stderr, "use --write host")
+
+
+def cmdline(process):
+    try:
+        with open(f"/proc/{process}/cmdline", "rb") as file:
+            return file.read()
+    except OSError:
+        return b""
+
+
+if __name__ == "__main__":
+    main()
