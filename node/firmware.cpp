@@ -142,7 +142,8 @@ void Firmware::load() {
   commands_.reserve(sizeof(wire::Render) + (most + std::min(most, wire::kMostCycle)) * sizeof(std::uint32_t));
   frames_.reserve(most);
   left_.reserve(most);
-  wire::Loaded loaded{renderer_->outbox().slots(), {}};
+  const bool sees_folder = !frame_writer_ || frame_writer_->sees_folder();
+  wire::Loaded loaded{renderer_->outbox().slots(), {}, sees_folder ? 0u : 1u};
   copy_text(renderer_->refusal(), loaded.apart);
   csend(wire::kLoaded, &loaded, sizeof loaded, myhost(), 0);
 }

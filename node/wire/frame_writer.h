@@ -34,6 +34,8 @@ class FrameWriter {
  public:
   virtual ~FrameWriter() = default;
 
+  // Whether its machine sees the folder as the host does; which one node of each machine finds out.
+  virtual bool sees_folder() const = 0;
   // Of all bands but the last, which may have fewer.
   virtual std::uint32_t lines_of_band() const = 0;
   // That the group's nodes on a machine share, and where it is; the system gives pages as they are first touched.

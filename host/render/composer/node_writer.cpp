@@ -36,17 +36,9 @@ void copy_bytes(std::span<const std::byte> from, std::span<std::uint32_t> to) {
   std::memcpy(to.data(), from.data(), to.size_bytes());
 }
 
-void look_for_probe(const sinks::WriterOrders& orders, std::int32_t node) {
-  if (!sinks::appears(orders.host_probe()))
-    throw Failure("this machine does not see the folder of frames as the host does", orders.folder.string(),
-                  "put it on a file system that all machines share, or use --write host");
-  document::create_file(orders.node_probe(node), "");
-}
-
 }  // namespace
 
-NodeWriter::NodeWriter(const wire::FilmView& film, const sinks::WriterOrders& orders, std::int32_t node,
-                       bool sees_for_machine)
+NodeWriter::NodeWriter(const wire::FilmView& film, const sinks::WriterOrders& orders, std::int32_t node, bool looks)
     : orders_(orders),
       bands_(orders.manifest.format, film.settings().width, film.settings().height),
       content_(film),
@@ -56,7 +48,9 @@ NodeWriter::NodeWriter(const wire::FilmView& film, const sinks::WriterOrders& or
       files_(
           node, [this](std::uint32_t frame) { return orders_.file_of(frame); },
           [this](const FrameFile& file) { put(file); }) {
-  if (sees_for_machine) look_for_probe(orders_, node);
+  if (!looks) return;
+  sees_folder_ = sinks::appears(orders_.host_probe());
+  if (sees_folder_) document::create_file(orders_.node_probe(node), "");
 }
 
 void NodeWriter::begin_keyframe(const Keyframe& keyframe) {

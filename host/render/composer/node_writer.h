@@ -17,9 +17,10 @@ namespace mars::composer {
 
 class NodeWriter : public wire::FrameWriter {
  public:
-  // `node`: the caller's. `sees_for_machine`: it finds out whether its machine sees the host's folder, and throws
-  // Failure where it does not; others rely on it.
-  NodeWriter(const wire::FilmView& film, const sinks::WriterOrders& orders, std::int32_t node, bool sees_for_machine);
+  // `node`: the caller's. `looks`: it finds out whether its machine sees the host's folder, for all nodes there.
+  NodeWriter(const wire::FilmView& film, const sinks::WriterOrders& orders, std::int32_t node, bool looks);
+
+  bool sees_folder() const override { return sees_folder_; }
 
   std::uint32_t lines_of_band() const override { return bands_.lines_a_band(); }
   std::size_t shared_bytes() const override { return background_.bytes(); }
@@ -61,6 +62,7 @@ class NodeWriter : public wire::FrameWriter {
   void put(const FrameFile& file) const;
 
   const sinks::WriterOrders orders_;
+  bool sees_folder_ = true;
   const images::PictureBands bands_;
   const film::FrameContent content_;
   BandComposer composer_;

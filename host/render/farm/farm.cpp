@@ -158,7 +158,7 @@ bool Farm::load_film() {
   const Writing* const writing = options_.writing;
   const bool loaded =
       farm::load_film(film_block_, load, inbox_, writing == nullptr ? std::span<const std::byte>() : writing->orders);
-  if (loaded && writing != nullptr) writing->loaded(report_.nodes);
+  if (loaded && writing != nullptr) writing->loaded(report_.nodes, inbox_.unseeing());
   if (loaded) slots_.give_all();
   if (loaded && listener_.warned) std::ranges::for_each(inbox_.apart(), listener_.warned);
   report_.load_seconds = dclock() - booted;

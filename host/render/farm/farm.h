@@ -27,9 +27,10 @@ namespace mars::farm {
 
 // Of runs whose nodes write frames' files (node/wire/frame_writer.h).
 struct Writing {
-  std::vector<std::byte> orders;                             // for the nodes
-  std::function<void(std::span<const wire::Hello>)> loaded;  // all nodes have the film and these
-  std::function<void(const wire::Written&)> written;         // a frame's file is there
+  std::vector<std::byte> orders;  // for the nodes
+  // All nodes have the film and these; `unseeing` are nodes whose machines do not see the folder.
+  std::function<void(std::span<const wire::Hello> nodes, std::span<const wire::Hello> unseeing)> loaded;
+  std::function<void(const wire::Written&)> written;  // a frame's file is there
 };
 
 struct FarmOptions {

@@ -84,6 +84,7 @@ NodeInbox::NodeInbox(std::uint32_t width, std::uint32_t height, wire::PixelForma
       hellos_(static_cast<std::size_t>(nodes_)),
       is_known_(hellos_.size()),
       loaded_(hellos_.size()),
+      sees_folder_(hellos_.size(), true),
       apart_(hellos_.size()),
       ended_(hellos_.size()) {}
 
@@ -165,7 +166,15 @@ void NodeInbox::receive_loaded() {
   require(is_text(loaded.apart), node, "a reason that is no text");
   loaded_[static_cast<std::size_t>(node)] = true;
   apart_[static_cast<std::size_t>(node)] = loaded.apart.data();
+  sees_folder_[static_cast<std::size_t>(node)] = loaded.unseen == 0;
   slots_.attach(node, loaded.slots);
+}
+
+std::vector<wire::Hello> NodeInbox::unseeing() const {
+  std::vector<wire::Hello> nodes;
+  for (std::size_t node = 0; node < hellos_.size(); ++node)
+    if (!sees_folder_[node]) nodes.push_back(hellos_[node]);
+  return nodes;
 }
 
 std::vector<std::string> NodeInbox::apart() const {

@@ -59,6 +59,8 @@ class NodeInbox {
   bool wait_until_loaded();
   // Of the machines whose nodes do not share memory then, one text each.
   std::vector<std::string> apart() const;
+  // Nodes whose machines do not see the folder into which they are to write.
+  std::vector<wire::Hello> unseeing() const;
   // Waits for a message of this type; info* then describe it. A node's fault is thrown instead.
   void wait(long type) const;
 
@@ -103,6 +105,7 @@ class NodeInbox {
   std::vector<wire::Hello> hellos_;
   std::vector<bool> is_known_;
   std::vector<bool> loaded_;
+  std::vector<bool> sees_folder_;
   std::vector<std::string> apart_;  // why, as each node says
   std::vector<bool> ended_;         // its trace
   std::vector<messages::Event> events_;

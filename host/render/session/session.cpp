@@ -114,7 +114,10 @@ bool nodes_write(const RenderJob& job) { return job.nodes_write && !job.folder.e
 farm::Writing make_writing(sinks::FrameFolder& folder) {
   folder.add_probe();
   return {sinks::bytes_of(folder.writer_orders()),
-          [&folder](std::span<const wire::Hello> nodes) {
+          [&folder](std::span<const wire::Hello> nodes, std::span<const wire::Hello> unseeing) {
+            for (const wire::Hello& hello : unseeing)
+              throw Failure("machine " + std::string(hello.host.data()) + " does not see the folder as the host does",
+                            folder.path().string(), "put it where all machines see it, or use --write host");
             for (const wire::Hello& hello : nodes)
               if (hello.machine == hello.node) folder.wait_for_probe(hello.node, hello.host.data());
           },

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kLongestPath = 4096;
-constexpr std::chrono::seconds kLongestUntilSeen{20};
+constexpr std::chrono::seconds kLongestUntilSeen{10};
 constexpr std::chrono::milliseconds kLookForProbe{50};
 
 fs::path with_ending(const fs::path& run_files, const std::string& ending) { return run_files.string() + ending; }
