@@ -3,7 +3,8 @@
 do all draw the same picture?
 
 Every competitor keeps its scene loaded and renders one frame when it is its
-turn, timed from the order to the last pixel in memory. A column is a number of
+turn, timed from the order to the last pixel in memory; of a film with files, all
+frames, until the last file is closed. A column is a number of
 processors: competitors have that number of threads or nodes, and may use no other
 processor. README.md beside this program tells what each peer does."""
 import argparse
