@@ -1,6 +1,6 @@
 // DEFLATE (RFC 1951) for rows of pixels as PNG files have them, filtered: fast, and the same bytes on every CPU. It
 // seeks repeats of one byte and of one pixel only, which is what filtered pictures have; on rendered frames that takes
-// a sixth of the time of zlib's run lengths (Z_RLE at level 1), for files that are as large or smaller.
+// a third of the time of zlib's run lengths (Z_RLE at level 1), for files that are about as large, or smaller.
 #pragma once
 
 #include <cstddef>

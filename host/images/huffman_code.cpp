@@ -9,7 +9,7 @@ namespace mars::images {
 namespace {
 
 constexpr std::size_t kMostBits = 15;  // bits, in DEFLATE
-constexpr std::size_t kDeepest = 64;      // more than a tree over 32-bit counts can be deep
+constexpr std::size_t kDeepest = 64;   // more than a tree over 32-bit counts can be deep
 
 using WordsOfLength = std::array<std::uint32_t, kDeepest>;
 

@@ -9,10 +9,11 @@ class Trouble(Exception):
 
 
 class Competitor:
-    """`processors`: the only ones it may use."""
+    """`processors`: the only ones it may use. `frames`: the folder of the files that it writes; none: it writes none."""
 
-    def __init__(self, name, command, processors, log, environment=None):
+    def __init__(self, name, command, processors, log, environment=None, frames=None):
         self.name = name
+        self.frames = frames
         self.milliseconds = []
         self.log = log
         with open(log, "w") as errors:
@@ -40,7 +41,10 @@ class Competitor:
             pass  # answer() tells why
 
     def go(self, frames):
-        """Milliseconds a frame."""
+        """Milliseconds a frame. Files of the turn before are removed first."""
+        for name in os.listdir(self.frames) if self.frames else ():
+            if name.endswith(".png"):
+                os.remove(os.path.join(self.frames, name))
         self.say(f"go {frames}")
         return float(self.answer("ms"))
 

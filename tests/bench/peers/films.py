@@ -6,6 +6,7 @@ import os
 EXAMPLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "examples")
 STEP = 12         # degrees that s3's teapot turns in a frame
 INTERVAL = 120    # frames of s3 from one keyframe to the next: whole turns
+FILM = 30         # frames of s3 as it is: one turn
 
 
 def load(name, size=None, dice=None, samples=1):
@@ -28,12 +29,12 @@ def turning(film):
     return [actor for actor in film["actors"] if "keys" in actor]
 
 
-def lengthened(film, frames):
-    """The same film with `frames` frames, cut at every INTERVAL where something turns."""
+def lengthened(film, frames, interval=INTERVAL):
+    """The same film with `frames` frames, cut at every `interval` where something turns."""
     film = copy.deepcopy(film)
     film["frames"] = frames
     for actor in turning(film):
-        keys = range(0, frames + INTERVAL, INTERVAL)
+        keys = range(0, frames + interval, interval)
         actor["keys"] = [{"frame": k, "pose": {actor["model"]: [0, 0, STEP * k]}} for k in keys]
         film["models"][actor["model"]]["joints"][0]["limits"] = {"z": [0, STEP * keys[-1]]}
         film["intervals"] = "keyframes"

@@ -1,4 +1,4 @@
-// mpirun -n 3 bench-ours-mpi FILM whole|inbetween|latency: the host and two nodes
+// mpirun -n 3 bench-ours-mpi FILM whole|inbetween|film|latency [FOLDER]: the host and two nodes
 #include <stdexcept>
 
 #include "hal/mpi/start.h"
@@ -9,9 +9,10 @@
 int main(int argc, char** argv) {
   using namespace mars;
   return mpi::run_mpi(argc, argv, mpi::Role::by_rank, [](int count, char** words) {
-    if (count != 3) throw std::runtime_error("usage: bench-ours-mpi FILM whole|inbetween|latency");
+    if (count != 3 && count != 4)
+      throw std::runtime_error("usage: bench-ours-mpi FILM whole|inbetween|film|latency [FOLDER]");
     if (mynode() == myhost())
-      bench::compete(words[1], bench::course_of(words[2]), "MPI");
+      bench::compete(words[1], bench::course_of(words[2]), "MPI", count == 4 ? words[3] : "");
     else
       programs::run_node_job();
     return 0;

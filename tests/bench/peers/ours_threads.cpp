@@ -1,4 +1,4 @@
-// bench-ours-threads FILM whole|inbetween|latency NODES
+// bench-ours-threads FILM whole|inbetween|film|latency NODES [FOLDER]
 #include <iostream>
 
 #include "hal/failure/explain.h"
@@ -9,10 +9,12 @@
 int main(int argc, char** argv) {
   using namespace mars;
   try {
-    if (argc != 4) throw std::runtime_error("usage: bench-ours-threads FILM whole|inbetween|latency NODES");
+    if (argc != 4 && argc != 5)
+      throw std::runtime_error("usage: bench-ours-threads FILM whole|inbetween|film|latency NODES [FOLDER]");
     const bench::Course course = bench::course_of(argv[2]);
     threads::run_threads(
-        std::stoi(argv[3]), [&] { bench::compete(argv[1], course, "threads"); }, [] { programs::run_node_job(); });
+        std::stoi(argv[3]), [&] { bench::compete(argv[1], course, "threads", argc == 5 ? argv[4] : ""); },
+        [] { programs::run_node_job(); });
     return 0;
   } catch (const std::exception& failure) {
     std::cerr << "bench-ours-threads: " << reason_of(failure) << '\n';

@@ -1,8 +1,10 @@
-// Mesa's llvmpipe as a competitor: peer-llvmpipe MESH THREADS whole|inbetween SAMPLES. How it was made fast: README.md.
+// Mesa's llvmpipe as a competitor: peer-llvmpipe MESH THREADS whole|inbetween SAMPLES, or peer-llvmpipe MESH THREADS
+// film SAMPLES FOLDER ENCODER, or peer-llvmpipe encoders, which names these. How it was made fast: README.md.
 //
 // The scene is in buffers once; a frame is a few draw calls and glReadPixels. Inbetweens begin from the standing
 // part's colours and depths, which another framebuffer keeps. Several samples a pixel are drawn and kept in
-// multisampled framebuffers, and resolved before they are read.
+// multisampled framebuffers, and resolved before they are read. Of a film, the standing part is drawn for the first
+// frame, and each frame is written to a file while the next ones are drawn.
 #define GL_GLEXT_PROTOTYPES
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -13,14 +15,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <iostream>
 #include <limits>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
 #include <tuple>
 
 #include "tests/bench/peers/cover.h"
+#include "tests/bench/peers/frame_files.h"
 #include "tests/bench/peers/mesh.h"
 #include "tests/bench/peers/peer.h"
 
@@ -193,39 +198,50 @@ std::vector<const MeshPatch*> by_distance(const Mesh& mesh, bool moving) {
   return patches;
 }
 
+enum class Course { whole, inbetween, film };
+
 class Renderer {
  public:
-  Renderer(const Mesh& mesh, bool inbetweens, int samples);
+  // `files`: of a film's frames; none in other courses.
+  Renderer(const Mesh& mesh, Course course, int samples, FrameFiles* files);
 
   void render();
-  Picture picture() const { return {mesh_.head.width, mesh_.head.height, pixels_}; }
+  Picture picture() const { return {mesh_.head.width, mesh_.head.height, *shown_}; }
 
  private:
   void load();
   void set_motion(const Motion& motion);
   void draw(bool moving, const Motion& motion);
   void render_whole();
+  void keep_standing();
+  Box draw_mover();
   void render_inbetween();
+  void render_of_film();
   Box mover_box(const Motion& motion) const;
-  void read(const Box& box);
+  Box whole() const { return {0, 0, width_, height_}; }
+  void read(const Box& box, std::vector<std::uint32_t>& pixels);
 
   const Mesh& mesh_;
-  bool inbetweens_;
+  Course course_;
+  FrameFiles* files_;
   GLsizei width_, height_;
   GLuint program_ = 0, drawn_ = 0, kept_ = 0, resolved_ = 0;  // the last only where there are several samples
   GLint motion_at_ = -1, own_at_ = -1;
   std::vector<Batch> batches_[2];  // what stands, what moves
   std::uint32_t number_;           // of the last frame rendered; inbetweens are all but 0
   std::vector<Outline> mover_;
-  Box before_{};
+  Box before_{};                 // where what was drawn differs from what stands
+  std::vector<Box> in_buffers_;  // the same of each of the files' buffers
   std::vector<std::uint32_t> pixels_;
+  const std::vector<std::uint32_t>* shown_ = &pixels_;
 };
 
 constexpr Motion kStill{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 
-Renderer::Renderer(const Mesh& mesh, bool inbetweens, int samples)
+Renderer::Renderer(const Mesh& mesh, Course course, int samples, FrameFiles* files)
     : mesh_(mesh),
-      inbetweens_(inbetweens),
+      course_(course),
+      files_(files),
       width_(static_cast<GLsizei>(mesh.head.width)),
       height_(static_cast<GLsizei>(mesh.head.height)),
       number_(mesh.head.frames - 1),
@@ -246,12 +262,10 @@ Renderer::Renderer(const Mesh& mesh, bool inbetweens, int samples)
   if (samples > 1) resolved_ = framebuffer(width_, height_, 0);
   kept_ = framebuffer(width_, height_, samples > 1 ? samples : 0);
   drawn_ = framebuffer(width_, height_, samples > 1 ? samples : 0);
-  if (!inbetweens_) return;
-  glBindFramebuffer(GL_FRAMEBUFFER, kept_);
-  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  draw(false, kStill);
-  copy({0, 0, width_, height_}, kept_, drawn_, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  read({0, 0, width_, height_});
+  if (course_ != Course::inbetween) return;
+  keep_standing();
+  copy(whole(), kept_, drawn_, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  read(whole(), pixels_);
 }
 
 void Renderer::load() {
@@ -303,19 +317,20 @@ void Renderer::draw(bool moving, const Motion& motion) {
 
 void Renderer::render() {
   number_ = (number_ + 1) % mesh_.head.frames;
-  if (inbetweens_ && number_ == 0) number_ = 1;
-  if (inbetweens_)
-    render_inbetween();
-  else
-    render_whole();
+  if (course_ == Course::inbetween && number_ == 0) number_ = 1;
+  switch (course_) {
+    case Course::whole: return render_whole();
+    case Course::inbetween: return render_inbetween();
+    case Course::film: return render_of_film();
+  }
 }
 
 // From what was drawn.
-void Renderer::read(const Box& box) {
+void Renderer::read(const Box& box, std::vector<std::uint32_t>& pixels) {
   if (resolved_ != 0) copy(box, drawn_, resolved_, GL_COLOR_BUFFER_BIT);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved_ != 0 ? resolved_ : drawn_);
   glReadPixels(box.left, box.top, box.width, box.height, GL_RGBA, GL_UNSIGNED_BYTE,
-               &pixels_[static_cast<std::size_t>(box.top) * mesh_.head.width + static_cast<std::size_t>(box.left)]);
+               &pixels[static_cast<std::size_t>(box.top) * mesh_.head.width + static_cast<std::size_t>(box.left)]);
 }
 
 void Renderer::render_whole() {
@@ -323,16 +338,44 @@ void Renderer::render_whole() {
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   draw(true, mesh_.motion[number_]);  // it is in front, and hides
   draw(false, kStill);
-  read({0, 0, width_, height_});
+  read(whole(), pixels_);
+}
+
+void Renderer::keep_standing() {
+  glBindFramebuffer(GL_FRAMEBUFFER, kept_);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  draw(false, kStill);
+}
+
+// Over what stands; where it is.
+Box Renderer::draw_mover() {
+  const Box now = mover_box(mesh_.motion[number_]);
+  copy(round(before_, now), kept_, drawn_, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  before_ = now;
+  draw(true, mesh_.motion[number_]);
+  return now;
 }
 
 void Renderer::render_inbetween() {
-  const Box now = mover_box(mesh_.motion[number_]);
-  const Box changed = round(before_, now);
-  before_ = now;
-  copy(changed, kept_, drawn_, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  draw(true, mesh_.motion[number_]);
-  read(changed);
+  const Box before = before_;
+  read(round(before, draw_mover()), pixels_);
+}
+
+void Renderer::render_of_film() {
+  if (number_ == 0) {
+    keep_standing();
+    before_ = whole();
+    in_buffers_.assign(files_->buffers().size(), whole());
+  }
+  const Box now = draw_mover();
+  const std::size_t at = files_->free_buffer();
+  FrameBuffer& buffer = files_->buffers()[at];
+  read(round(in_buffers_[at], now), buffer.pixels);
+  in_buffers_[at] = now;
+  buffer.number = number_;
+  shown_ = &buffer.pixels;
+  files_->submit(at);
+  if (number_ + 1 == mesh_.head.frames) files_->finish();
 }
 
 Box Renderer::mover_box(const Motion& motion) const {
@@ -344,8 +387,21 @@ Box Renderer::mover_box(const Motion& motion) const {
   return box;
 }
 
+Course course_of(std::string_view word) {
+  if (word == "whole") return Course::whole;
+  if (word == "inbetween") return Course::inbetween;
+  check(word == "film", "none of whole, inbetween, film: " + std::string(word));
+  return Course::film;
+}
+
 void run(int argc, char** argv) {
-  check(argc == 5, "usage: peer-llvmpipe MESH THREADS whole|inbetween SAMPLES");
+  if (argc == 2 && argv[1] == std::string_view("encoders")) {
+    for (const std::string& name : png_encoders()) std::cout << name << '\n';
+    return;
+  }
+  check(argc >= 5, "usage: peer-llvmpipe MESH THREADS whole|inbetween|film SAMPLES [FOLDER ENCODER]");
+  const Course course = course_of(argv[3]);
+  check(argc == (course == Course::film ? 7 : 5), "a film has a folder and an encoder, other courses have none");
   // Mesa takes its memory again for every frame: it shall not go back to the system in between.
   mallopt(M_MMAP_THRESHOLD, 1 << 30);
   mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
@@ -358,7 +414,9 @@ void run(int argc, char** argv) {
   GLint most = 0;
   glGetIntegerv(GL_MAX_SAMPLES, &most);
   check(samples == 1 || samples <= most, "llvmpipe has " + std::to_string(most) + " samples a pixel at most");
-  Renderer renderer(mesh, std::string_view(argv[3]) == "inbetween", samples);
+  std::optional<FrameFiles> files;
+  if (course == Course::film) files.emplace(argv[5], argv[6], mesh.head.width, mesh.head.height);
+  Renderer renderer(mesh, course, samples, files ? &*files : nullptr);
   const std::string driver = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
   check(driver.find("llvmpipe") != std::string::npos, "not llvmpipe but " + driver);
   const std::string version = reinterpret_cast<const char*>(glGetString(GL_VERSION));

@@ -3,7 +3,8 @@
 do all draw the same picture?
 
 Every competitor keeps its scene loaded and renders one frame when it is its
-turn, timed from the order to the last pixel in memory. A column is a number of
+turn, timed from the order to the last pixel in memory; of a film with files, all
+frames, until the last file is closed. A column is a number of
 processors: competitors have that number of threads or nodes, and may use no other
 processor. README.md beside this program tells what each peer does."""
 import argparse
@@ -26,6 +27,8 @@ SCENES = ["s1", "s1m", "s2", "s3"]
 MOST_RMS = 0.5       # of 255, between ours and Embree's picture of the same triangles
 WARMING = 5          # frames before those that count
 LLVMPIPE_SAMPLES = [1, 4]    # it can do no others
+ENCODERS = {"libpng": "libpng", "igzip": "ISA-L (libisal-dev)"}  # of peer-llvmpipe's files, and whose they are
+FRAMES = "{frames}"  # in a command: the folder of a competitor's files
 FINE = 64            # quads along a patch's side that adaptive dicing is compared with
 MOST_IDLE = 0.05     # processor seconds a competitor may use in a second that is not its turn
 
@@ -35,11 +38,12 @@ class Course:
 
     def __init__(self, scene, what="whole"):
         self.scene, self.what = scene, what
-        self.title = scene if what == "whole" else f"{scene}'s inbetweens"
-        self.frames_a_turn = 1 if what == "whole" else films.INTERVAL - 1
+        self.title = {"whole": scene, "inbetween": f"{scene}'s inbetweens", "film": f"{scene}'s film with files"}[what]
+        self.interval = films.FILM if what == "film" else films.INTERVAL
+        self.frames_a_turn = {"whole": 1, "inbetween": films.INTERVAL - 1, "film": films.FILM}[what]
 
     def frames(self, turns):
-        return turns if self.what == "whole" else turns * films.INTERVAL
+        return turns if self.what == "whole" else turns * self.interval
 
 
 def courses_of(scenes):
@@ -47,6 +51,7 @@ def courses_of(scenes):
         yield Course(scene)
         if films.turning(films.load(scene)):
             yield Course(scene, "inbetween")
+            yield Course(scene, "film")
 
 
 class Heat:
@@ -58,10 +63,11 @@ class Heat:
         self.processors = sorted(os.sched_getaffinity(0))[:column]
         film = films.load(course.scene, wanted.size, wanted.dice, samples)
         # The film has one turn more: after its last frame no order is read.
-        self.film = films.lengthened(film, course.frames(WARMING + wanted.rounds + 1))
+        self.film = films.lengthened(film, course.frames(WARMING + wanted.rounds + 1), course.interval)
         self.mesh = os.path.join(folder, "mesh")
-        self.make_mesh(films.lengthened(film, films.INTERVAL if films.turning(film) else 1))
+        self.make_mesh(films.lengthened(film, course.interval if films.turning(film) else 1, course.interval))
         self.competitors = []
+        self.absent = []  # competitors that cannot be, with the reason
         self.begin_peers()
         self.begin_ours("ours", self.film)
         self.adaptive = wanted.adaptive and not films.turning(film)
@@ -87,13 +93,21 @@ class Heat:
 
     def start(self, name, command, environment=None, processors=None):
         log = os.path.join(self.folder, f"{name}.log".replace(" ", "-"))
-        return Competitor(name, command, processors or self.processors, log, environment)
+        frames = self.make_frames_folder(name) if self.course.what == "film" else None
+        command = [word if word != FRAMES else frames for word in command]
+        return Competitor(name, command, processors or self.processors, log, environment, frames)
+
+    def make_frames_folder(self, name):
+        return tempfile.mkdtemp(prefix=f"{name}-".replace(" ", "-"), dir=self.folder)
 
     def begin(self, *competitor):
         self.competitors.append(self.start(*competitor))
         return self.competitors[-1]
 
     def begin_peers(self):
+        if self.course.what == "film":
+            self.begin_writers()
+            return
         embree = self.program("peer-embree")
         llvmpipe = self.program("peer-llvmpipe") if self.samples in LLVMPIPE_SAMPLES else None
         if embree:
@@ -105,6 +119,19 @@ class Heat:
         if self.course.what == "inbetween" and self.column > 1:
             self.begin_team("Embree", embree, 1)
             self.begin_team("llvmpipe", llvmpipe, 0)
+
+    def begin_writers(self):
+        """llvmpipe, whose frames are made PNG files in several ways."""
+        llvmpipe = self.program("peer-llvmpipe") if self.samples in LLVMPIPE_SAMPLES else None
+        if not llvmpipe:
+            return
+        built = subprocess.run([llvmpipe, "encoders"], stdout=subprocess.PIPE, text=True, check=True).stdout.split()
+        for encoder, library in ENCODERS.items():
+            if encoder not in built:
+                self.absent.append((f"llvmpipe, {encoder}", f"not built: {library} was missing"))
+                continue
+            for threads in self.column - 1, self.column:
+                self.begin(f"llvmpipe {threads}, {encoder}", self.peer_command(llvmpipe, threads) + [FRAMES, encoder])
 
     def begin_team(self, name, program, threads):
         if program:
@@ -120,13 +147,16 @@ class Heat:
         mpi = self.program("bench-ours-mpi")
         if mpi:
             self.begin(f"{name}, MPI", ["mpirun", "-n", str(self.column + 1), mpi, self.save(film, f"{name}.json"),
-                                        self.course.what], MPI_ENVIRONMENT)
+                                        self.course.what, *self.folder_word()], MPI_ENVIRONMENT)
 
     def begin_threads(self, name, film):
         return self.begin(name, self.threads_command(self.save(film, f"{name}.json"), self.course.what))
 
     def threads_command(self, film, what):
-        return [self.program("bench-ours-threads"), film, what, str(self.column)]
+        return [self.program("bench-ours-threads"), film, what, str(self.column), *self.folder_word()]
+
+    def folder_word(self):
+        return [FRAMES] if self.course.what == "film" else []
 
     def take_picture(self, competitor):
         file = os.path.join(self.folder, competitor.name.replace(" ", "-") + ".ppm")
@@ -194,7 +224,8 @@ def result_of(heat):
     rows = [{"name": c.name, "note": c.note, "best": min(c.milliseconds), "middle": statistics.median(c.milliseconds),
              "milliseconds": c.milliseconds, "rms": pictures.rms(reference, files[c.name])}
             for c in heat.competitors]
-    result = {"course": heat.course.title, "column": heat.column, "samples": heat.samples, "competitors": rows}
+    result = {"course": heat.course.title, "column": heat.column, "samples": heat.samples, "competitors": rows,
+              "absent": heat.absent}
     if heat.course.what == "inbetween":
         result["latency"] = heat.latency()
     if heat.adaptive:
@@ -266,6 +297,8 @@ def tell(result):
     print(f"\n{where}")
     for row in filter(is_alike, result["competitors"]):
         print(line_of(row, "rms", result.get("best_peer")))
+    for name, reason in result["absent"]:
+        print(f"  {name:24} {reason}")
     for row in result.get("traced", []):
         print(f"  {row['name']:24} {row['milliseconds']:8.0f}, once".ljust(48) + f"RMS {row['rms']:.2f}")
     if "latency" in result:

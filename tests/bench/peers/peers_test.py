@@ -1,23 +1,31 @@
 """`mars bench peers` on small pictures: all that were built compete and draw alike, and the JSON holds what is printed.
 
 Started as: peers_test.py BUILD_FOLDER."""
+import contextlib
+import io
 import json
 import os
+import pathlib
 import subprocess
 import sys
 import tempfile
 import unittest
 
 sys.path.append(os.path.join(os.path.dirname(__file__), "..", ".."))
+sys.path.append(os.path.join(os.path.dirname(__file__), "..", "..", "programs"))
 import cases  # noqa: E402
+import films  # noqa: E402
 import peers  # noqa: E402
 import pictures  # noqa: E402
+from png_reader import png_rows  # noqa: E402
 
 BUILD = sys.argv[1]
 PEERS = os.path.join(BUILD, "bench", "peers")
+LLVMPIPE = os.path.join(PEERS, "peer-llvmpipe")
 SMALL = ["--size", "384x216", "--dice", "4", "--columns", "1"]
 NOT_BUILT = [name for name in ("peer-embree", "peer-llvmpipe") if not os.path.exists(os.path.join(PEERS, name))]
 needs_a_peer = unittest.skipIf(len(NOT_BUILT) == 2, "no peer was built: ./bootstrap bench installs their packages")
+needs_llvmpipe = unittest.skipIf("peer-llvmpipe" in NOT_BUILT, "peer-llvmpipe was not built")
 
 
 def bench(*words):
@@ -39,15 +47,15 @@ class Benchmark(unittest.TestCase):
             with self.subTest(peer=name):
                 self.skipTest("was not built")
         results = self.measured("--scenes", "s1,s3", "--rounds", "2")
-        self.assertEqual([result["course"] for result in results], ["s1", "s3", "s3's inbetweens"])
+        self.assertEqual([result["course"] for result in results], ["s1", "s3", "s3's inbetweens", "s3's film with files"])
         for result in results:
             self.check_rows(result, 2)
 
     @needs_a_peer
     def test_samples_compete_side_by_side_and_draw_alike(self):
         results = self.measured("--scenes", "s3", "--rounds", "1", "--samples", "1,4,16")
-        self.assertEqual([result["samples"] for result in results], [1, 4, 16] * 2)
-        for single, *others in results[:3], results[3:]:
+        self.assertEqual([result["samples"] for result in results], [1, 4, 16] * 3)
+        for single, *others in results[:3], results[3:6]:
             of_one = {row["name"]: row["best"] for row in single["competitors"]}
             for result in others:
                 self.check_rows(result, 1)
@@ -59,6 +67,31 @@ class Benchmark(unittest.TestCase):
         result, = self.measured("--scenes", "s1", "--rounds", "1", "--adaptive")
         fine = {row["name"]: row["rms_fine"] for row in result["competitors"]}
         self.assertLess(fine["ours, adaptive, threads"], fine["ours, threads"] / 2)
+
+    @needs_llvmpipe
+    def test_a_competitor_writes_the_pictures_it_draws(self):
+        film = films.lengthened(films.load("s3", [384, 216], 4), 30, 30)
+        built = subprocess.run([LLVMPIPE, "encoders"], stdout=subprocess.PIPE, text=True, check=True).stdout.split()
+        self.assertIn("libpng", built)
+        with tempfile.TemporaryDirectory() as folder:
+            mesh = os.path.join(folder, "mesh")
+            subprocess.run([os.path.join(PEERS, "bench-mesh"), films.save(film, mesh + ".json"), mesh], check=True)
+            for encoder in built:
+                files = pathlib.Path(folder, encoder)
+                files.mkdir()
+                shown = files / "shown.ppm"
+                subprocess.run([LLVMPIPE, mesh, "1", "film", "1", files, encoder], input=f"go 30\npicture {shown}\n",
+                               text=True, check=True, stdout=subprocess.DEVNULL)
+                self.assertEqual(len(list(files.glob("*.png"))), 30)
+                self.assertEqual(b"".join(png_rows(files / "frame-0029.png")), pictures.read(shown)[1], encoder)
+
+    def test_a_library_that_was_missing_is_named(self):
+        result = {"course": "s3's film with files", "column": 1, "samples": 1, "absent": [("igzip", "not built")],
+                  "competitors": [{"name": "ours, threads", "best": 1, "middle": 1, "rms": 0}]}
+        printed = io.StringIO()
+        with contextlib.redirect_stdout(printed):
+            peers.tell(result)
+        self.assertRegex(printed.getvalue(), "igzip +not built")
 
     def check_rows(self, result, rounds):
         rows = {row["name"]: row for row in result["competitors"]}

@@ -1,0 +1,82 @@
+"""Frames as programs that have no code in common with MARS read them, where they are installed: Pillow, pngcheck,
+ImageMagick and OpenEXR's own. Frames have several bands, and a last one that is shorter."""
+
+import functools
+import json
+import struct
+import subprocess
+import unittest
+
+from harness import ProgramTest, main, needs, spinning_teapot
+from png_reader import png_rows
+
+WIDTH, HEIGHT = 500, 300  # pixels: three bands and a part of one
+LIBRARIES_PYTHON = "/usr/bin/python3"  # the one to which packages belong
+FRAME = "frame-0001"
+PILLOW = "import PIL.Image, sys; i = PIL.Image.open(sys.argv[1]); i.load(); print(i.mode, *i.size, i.text['MARS'])"
+PIXELS = "import PIL.Image, sys; sys.stdout.buffer.write(PIL.Image.open(sys.argv[1]).convert('RGB').tobytes())"
+
+
+def needs_pillow(test):
+    found = subprocess.run([LIBRARIES_PYTHON, "-c", "import PIL.Image"], capture_output=True, check=False).returncode
+    return unittest.skipIf(found != 0, "not installed: Pillow")(test)
+
+
+class Readers(ProgramTest):
+    @functools.cached_property
+    def film(self):
+        """Of which EXR files have the numbers that PNG files have, without a curve."""
+        return self.write("film.json", {**spinning_teapot(2, [WIDTH, HEIGHT]), "color": "coded"})
+
+    def frame(self, shape):
+        self.succeed("mars", "render", self.film, "-o", shape, "--format", shape, "--backend", "threads", "--quiet")
+        return next((self.folder / shape).glob(FRAME + ".*"))
+
+    @needs_pillow
+    def test_pillow_reads_the_same_pixels_and_the_mark(self):
+        for shape in "png", "png16":
+            frame = self.frame(shape)
+            mode, width, height, mark = self.succeed(LIBRARIES_PYTHON, "-c", PILLOW, frame).split(" ", 3)
+            self.assertEqual((mode, int(width), int(height)), ("RGB", WIDTH, HEIGHT))
+            self.assertEqual((json.loads(mark)["format"], json.loads(mark)["frame"]), (shape, 1))
+        pixels = subprocess.run([LIBRARIES_PYTHON, "-c", PIXELS, self.folder / "png" / (FRAME + ".png")],
+                                capture_output=True, check=True).stdout
+        self.assertEqual(pixels, b"".join(png_rows(self.folder / "png" / (FRAME + ".png"))))
+
+    @needs("pngcheck")
+    def test_pngcheck_finds_no_fault(self):
+        for shape, bits in ("png", 24), ("png16", 48):
+            printed = self.succeed("pngcheck", "-v", self.frame(shape))
+            self.assertIn(f"{WIDTH} x {HEIGHT} image, {bits}-bit RGB, non-interlaced", printed)
+            self.assertIn("No errors detected", printed)
+            self.assertGreater(printed.count("chunk IDAT"), 2)
+
+    @needs("identify")
+    def test_imagemagick_reads_all_pixels_without_a_warning(self):
+        for shape, bits in ("png", "8"), ("png16", "16"):
+            printed = self.succeed("identify", "-regard-warnings", "-format", "%w %h %z %[fx:mean>0]", self.frame(shape))
+            self.assertEqual(printed.split(), [str(WIDTH), str(HEIGHT), bits, "1"])
+
+    @needs("exrheader")
+    def test_openexr_reads_the_header_and_the_mark(self):
+        printed = self.succeed("exrheader", self.frame("exr"))
+        for line in (f"dataWindow (type box2i): (0 0) - ({WIDTH - 1} {HEIGHT - 1})", "compression (type compression): zip",
+                     "R, 16-bit floating-point, sampling 1 1", "chromaticities (type chromaticities)", "mars (type string)"):
+            self.assertIn(line, printed)
+
+    @needs("exrmaketiled")
+    def test_openexr_reads_the_same_pixels(self):
+        """As one tile that is not compressed: of each line the channels, blue first."""
+        self.succeed("exrmaketiled", "-o", "-z", "none", "-t", WIDTH, HEIGHT, self.frame("exr"), "tile.exr")
+        size = 6 * WIDTH * HEIGHT
+        tile = (self.folder / "tile.exr").read_bytes()[-size:]
+        for y, row in enumerate(png_rows(self.frame("png16"), 16)):
+            levels = struct.unpack(f">{3 * WIDTH}H", row)
+            for channel in range(3):
+                numbers = struct.unpack_from(f"<{WIDTH}e", tile, (3 * y + channel) * 2 * WIDTH)
+                for level, number in zip(levels[2 - channel::3], numbers):
+                    self.assertLessEqual(abs(level - 65535 * number), 2 + level / 2000)
+
+
+if __name__ == "__main__":
+    main()
