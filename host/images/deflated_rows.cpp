@@ -99,6 +99,11 @@ class BitWriter {
   std::uint32_t count_ = 0;
 };
 
+// Of some bytes: of all, and with the last counted once, the one before twice ...
+struct ByteSums {
+  std::uint64_t all, weighted;
+};
+
 // RFC 1950, over rows whose sums stay far below 64 bits.
 class Adler32 {
  public:
@@ -106,7 +111,15 @@ class Adler32 {
     a_ += byte;
     b_ += a_;
   }
-  void add_zeros(std::uint64_t count) { b_ += a_ * count; }
+  // `bytes` bytes of these sums; `count` times.
+  void add(std::uint64_t bytes, const ByteSums& sums) {
+    b_ += bytes * a_ + sums.weighted;
+    a_ += sums.all;
+  }
+  void repeat(std::uint64_t count, std::uint64_t bytes, const ByteSums& sums) {
+    b_ += count * (bytes * a_ + sums.weighted) + bytes * sums.all * (count * (count - 1) / 2);
+    a_ += count * sums.all;
+  }
   void end_row() {
     a_ %= kModulus;
     b_ %= kModulus;
@@ -124,17 +137,18 @@ class Band {
   using Pixel = typename Rgb::Pixel;
 
   Band(std::span<const std::uint32_t> pixels, std::size_t width)
-      : width_(width), height_(pixels.size() / (width * Rgb::kWords)), filtered_(width + 1) {
-    tokens_.reserve((width_ + 2) * height_);
-    const auto* row = reinterpret_cast<const std::uint8_t*>(pixels.data());
-    for (std::size_t y = 0; y < height_; ++y, row += width_ * sizeof(Pixel)) {
-      filter(row, y == 0);
+      : width_(width),
+        height_(pixels.size() / (width * Rgb::kWords)),
+        filtered_(width + 1),
+        tokens_(std::make_unique_for_overwrite<Pixel[]>((width + 1) * height_)) {
+    for (std::size_t y = 0; y < height_; ++y) {
+      filter(pixels.data() + y * width_ * Rgb::kWords, y == 0);
       add_row(y == 0 ? kSub : kUp);
     }
   }
 
   DeflatedRows deflate() const {
-    const std::size_t most = tokens_.size() * (Rgb::kBytes * kLongestWord / 8 + 1) + kRoomForHead;
+    const std::size_t most = count_ * (Rgb::kBytes * kLongestWord / 8 + 1) + kRoomForHead;
     const auto room = std::make_unique_for_overwrite<std::byte[]>(most);
     BitWriter out(room.get());
     const HuffmanCode code = huffman_code(all_counts(), kLongestWord);
@@ -162,62 +176,107 @@ class Band {
   }();
 
   // Each byte less the one to the left, or above.
-  void filter(const std::uint8_t* row, bool is_first) {
-    auto* out = reinterpret_cast<std::uint8_t*>(filtered_.data());
-    const std::size_t back = is_first ? sizeof(Pixel) : width_ * sizeof(Pixel);
-    const std::size_t unfiltered = is_first ? sizeof(Pixel) : 0;
-    std::memcpy(out, row, unfiltered);
-    for (std::size_t at = unfiltered; at < width_ * sizeof(Pixel); ++at)
-      out[at] = static_cast<std::uint8_t>(row[at] - row[at - back]);
-    for (std::size_t x = 0; x < width_; ++x) filtered_[x] = Rgb::in_file_order(filtered_[x]);
+  void filter(const std::uint32_t* row, bool is_first) {
+    const std::size_t back = is_first ? 1 : width_;
+    if (is_first) filtered_[0] = Rgb::in_file_order(pixel_at(row, 0));
+    for (std::size_t x = is_first ? 1 : 0; x < width_; ++x) {
+      const Pixel before = pixel_at(row - back * Rgb::kWords, x);
+      filtered_[x] = Rgb::in_file_order(difference(pixel_at(row, x), before));
+    }
+  }
+
+  static Pixel pixel_at(const std::uint32_t* row, std::size_t x) {
+    Pixel pixel;
+    std::memcpy(&pixel, row + x * Rgb::kWords, sizeof pixel);
+    return pixel;
+  }
+
+  // Byte by byte.
+  static Pixel difference(Pixel a, Pixel b) {
+    constexpr Pixel kHighest = static_cast<Pixel>(0x8080808080808080);
+    return ((a | kHighest) - (b & ~kHighest)) ^ ((a ^ ~b) & kHighest);
   }
 
   void add_row(Filter filter) {
     add_byte(filter);
     for (std::size_t x = 0; x < width_;) {
       const Pixel pixel = filtered_[x];
-      std::size_t end = x + 1;
-      while (end < width_ && filtered_[end] == pixel) ++end;
-      add_pixels(pixel, end - x);
+      if (filtered_[x + 1] != pixel || x + 1 == width_) {
+        add_pixel(pixel);
+        ++x;
+        continue;
+      }
+      const std::size_t end = end_of_run(x);
+      add_repeated(pixel, end - x);
       x = end;
     }
     adler_.end_row();
   }
 
+  // One past the pixels from `x` on that are the same, at least two.
+  std::size_t end_of_run(std::size_t x) const {
+    constexpr std::size_t kAtATime = 8;
+    const Pixel* const pixels = filtered_.data();
+    std::size_t end = x + 2;
+    const auto differ = [&] {
+      Pixel all = 0;
+      for (std::size_t k = 0; k < kAtATime; ++k) all |= pixels[end + k] ^ pixels[x];
+      return all != 0;
+    };
+    while (end + kAtATime <= width_ && !differ()) end += kAtATime;
+    while (end < width_ && pixels[end] == pixels[x]) ++end;
+    return end;
+  }
+
+  void add_token(Pixel token) { tokens_[count_++] = token; }
+
   void add_byte(std::uint8_t byte) {
-    tokens_.push_back(T::kByte | byte);
+    add_token(T::kByte | byte);
     ++counts_[0][byte];
     adler_.add(byte);
   }
 
+  void add_pixel(Pixel pixel) {
+    const ByteSums sums = sums_of(pixel);
+    adler_.add(Rgb::kBytes, sums);
+    add_literal(pixel);
+  }
+
+  void add_literal(Pixel pixel) {
+    add_token(pixel);
+    for (std::uint32_t k = 0; k < Rgb::kBytes; ++k) ++counts_[k % counts_.size()][(pixel >> 8 * k) & 0xff];
+  }
+
   // `count` times, where another pixel came before.
-  void add_pixels(Pixel pixel, std::size_t count) {
-    sum(pixel, count);
+  void add_repeated(Pixel pixel, std::size_t count) {
+    adler_.repeat(count, Rgb::kBytes, sums_of(pixel));
     std::size_t left = count - 1;
-    if (left > 0 && pixel == (pixel & 0xff) * Rgb::kEachByte) {
+    if (pixel == (pixel & 0xff) * Rgb::kEachByte) {
       const auto byte = static_cast<std::uint8_t>(pixel);
       const std::size_t first = std::min<std::size_t>(count, kMostPixels);
-      tokens_.push_back(T::kByte | byte);
+      add_token(T::kByte | byte);
       ++counts_[0][byte];
-      tokens_.push_back(T::kByteAgain | static_cast<Pixel>(first));
+      add_token(T::kByteAgain | static_cast<Pixel>(first));
       ++counts_[0][kBytesAgain[first].symbol];
       left = count - first;
     } else {
-      tokens_.push_back(pixel);
-      for (std::uint32_t k = 0; k < Rgb::kBytes; ++k) ++counts_[k % counts_.size()][(pixel >> 8 * k) & 0xff];
+      add_literal(pixel);
     }
     while (left > 0) {
       const std::size_t part = std::min<std::size_t>(left, kMostPixels);
-      tokens_.push_back(T::kPixelAgain | static_cast<Pixel>(part));
+      add_token(T::kPixelAgain | static_cast<Pixel>(part));
       ++counts_[0][kPixelsAgain[part].symbol];
       left -= part;
     }
   }
 
-  void sum(Pixel pixel, std::size_t count) {
-    if (pixel == 0) return adler_.add_zeros(count * Rgb::kBytes);
-    for (; count > 0; --count)
-      for (std::uint32_t k = 0; k < Rgb::kBytes; ++k) adler_.add((pixel >> 8 * k) & 0xff);
+  static ByteSums sums_of(Pixel pixel) {
+    ByteSums sums{0, 0};
+    for (std::uint32_t k = 0; k < Rgb::kBytes; ++k) {
+      sums.all += (pixel >> 8 * k) & 0xff;
+      sums.weighted += sums.all;
+    }
+    return sums;
   }
 
   Counts all_counts() const {
@@ -317,13 +376,16 @@ class Band {
     std::array<Bits, kLiterals> literals;
     for (std::size_t k = 0; k < kLiterals; ++k) literals[k] = {code.words[k], code.lengths[k]};
     const auto put = [&out](const Bits& bits) { out.put(bits.bits, bits.count); };
-    for (const Pixel token : tokens_) {
+    for (const Pixel token : std::span(tokens_.get(), count_)) {
       const Pixel value = token & ~T::kKind;
       switch (token & T::kKind) {
         case T::kPixel:
-          for (std::uint32_t k = 0; k < Rgb::kBytes; ++k) {
-            put(literals[(value >> 8 * k) & 0xff]);
-            if (k % 3 == 2) out.flush();
+          for (std::uint32_t k = 0; k < Rgb::kBytes; k += 3) {
+            const Bits &a = literals[(value >> 8 * k) & 0xff], &b = literals[(value >> 8 * (k + 1)) & 0xff],
+                       &c = literals[(value >> 8 * (k + 2)) & 0xff];
+            out.put(a.bits | std::uint64_t{b.bits} << a.count | std::uint64_t{c.bits} << (a.count + b.count),
+                    a.count + b.count + c.count);
+            out.flush();
           }
           continue;
         case T::kByte: put(literals[value]); break;
@@ -337,8 +399,9 @@ class Band {
   }
 
   const std::size_t width_, height_;
-  std::vector<Pixel> filtered_;  // a row
-  std::vector<Pixel> tokens_;
+  std::vector<Pixel> filtered_;  // a row, and one
+  std::unique_ptr<Pixel[]> tokens_;
+  std::size_t count_ = 0;           // of them
   std::array<Counts, 3> counts_{};  // of symbols; several, so that they do not wait for each other
   Adler32 adler_;
 };

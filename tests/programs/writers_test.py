@@ -112,11 +112,13 @@ class Writers(ProgramTest):
         self.assertIn("starting again", printed[0])
         self.assertIn("1500 frames, all there and whole", self.succeed("mars", "verify", "out"))
 
-    def test_what_nodes_write_cannot_be_watched(self):
+    def test_what_nodes_cannot_write(self):
         path = self.write("film.json", spinning_teapot(2, [16, 9]))
-        done = self.render(path, "out", *NODES, "--watch", "socket", "--backend", "threads")
-        self.assertNotEqual(done.returncode, 0)
-        self.assertClear(done.stderr, "use --write host")
+        for words, says in [(["--watch", "socket"], "use --write host"), (["--sink", "none"], "no files to write"),
+                            (["--backend", "simulated"], "simulated nodes write no files")]:
+            done = self.render(path, "out", *NODES, *words)
+            self.assertNotEqual(done.returncode, 0)
+            self.assertClear(done.stderr, says)
 
 
 def cmdline(process):

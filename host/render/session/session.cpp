@@ -126,8 +126,6 @@ farm::Writing make_writing(sinks::FrameFolder& folder) {
 
 // What takes the place of the film or of what the folder keeps would destroy it.
 void refuse_outputs(const RenderJob& job) {
-  if (nodes_write(job) && !job.watch.empty())
-    throw Failure("frames that nodes write cannot be watched: the host has no pixels", "--watch", "use --write host");
   namespace fs = std::filesystem;
   const auto place_of = [](const std::string& file) { return fs::weakly_canonical(fs::absolute(file)); };
   std::error_code none;

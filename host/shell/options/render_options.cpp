@@ -167,6 +167,7 @@ std::vector<Entry> table() {
   constexpr unsigned submits = all | bit(Program::submit);
   constexpr unsigned plans = submits | bit(Program::plan);
   constexpr unsigned sinks = all | bit(Program::plan);
+  constexpr unsigned writes = submits & ~bit(Program::simulated);
   constexpr unsigned compiles = plans | bit(Program::compile);
   constexpr unsigned counts_nodes = bit(Program::mars) | bit(Program::threads) | bit(Program::simulated) |
                                     bit(Program::plan) | bit(Program::repair) | bit(Program::studio);
@@ -235,7 +236,7 @@ std::vector<Entry> table() {
       option(sinks, "--sink", "files|none", &RenderOptions::sink,
              "Where frames go; none writes no files, to measure rendering. Example: --sink none"),
       option(
-          plans, "--write", "host|nodes", &RenderOptions::write,
+          writes, "--write", "host|nodes", &RenderOptions::write,
           "Who composes frames and writes their files: the host, as in the thesis, or the nodes that draw them, whose "
           "machines must all see the folder; same files; default: host. Example: --write nodes"),
       option(submits, "--report", "FILE", &RenderOptions::report,
@@ -294,6 +295,14 @@ void refuse_name_of_file(const RenderOptions& options) {
                 video ? remedy + ", then make the video: " + play : remedy);
 }
 
+void check_writing_nodes(const RenderOptions& options) {
+  constexpr const char* kRemedy = "leave out --write nodes";
+  if (options.backend == Backend::simulated) throw Failure("simulated nodes write no files", "", kRemedy);
+  if (options.sink == SinkKind::none) throw Failure("with --sink none there are no files to write", "", kRemedy);
+  if (!options.watch.empty())
+    throw Failure("frames that nodes write cannot be watched: the host has no pixels", "", "use --write host");
+}
+
 // Checks that concern several options.
 void check_together(const RenderOptions& options, Program program) {
   if (options.serve.empty() == options.film.empty() && program != Program::repair && program != Program::studio) {
@@ -319,6 +328,7 @@ void check_together(const RenderOptions& options, Program program) {
   if (!options.watch.empty() && options.backend == Backend::simulated) {
     throw Failure("the time of simulated nodes is not that of who watches", "", "leave out --watch");
   }
+  if (options.write == WriteWhere::nodes) check_writing_nodes(options);
   if (!options.platform.empty() && options.backend != Backend::simulated) {
     throw Failure("a platform is for simulated nodes", "", "add --backend simulated, or leave out --platform");
   }
