@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <span>
 
+#include "host/images/picture_file.h"
 #include "host/preview/terminal_picture.h"
 
 namespace mars::preview {
