@@ -12,7 +12,7 @@ namespace mars::pictures {
 namespace {
 
 constexpr std::size_t kFirstPiece = std::size_t{4} << 20;  // of a body, before as much of it has come
-constexpr std::size_t kMostOut = std::size_t{64} << 20;    // bytes; with more nothing is received
+constexpr std::size_t kMostOut = std::size_t{64} << 20;    // bytes; with more a host receives nothing
 constexpr int kSocketBuffer = 4 << 20;                     // bytes, as far as the system gives them
 constexpr std::chrono::milliseconds kLook{100};            // between two calls of drain's `give_up`
 
@@ -50,6 +50,9 @@ Socket::Socket(child::Descriptor descriptor, Peer peer) : descriptor_(std::move(
     setsockopt(descriptor_.number(), SOL_SOCKET, SO_SNDBUF, &kSocketBuffer, sizeof kSocketBuffer);
 }
 
+// A studio always hears its host: if neither heard the other, both would wait forever.
+bool Socket::hears() const { return peer_ == Peer::host || out_bytes_ <= kMostOut; }
+
 // 0: nothing has come.
 std::size_t Socket::read_some(void* to, std::size_t most) {
   const ssize_t count = recv(descriptor_.number(), to, most, MSG_DONTWAIT);
@@ -80,7 +83,7 @@ bool Socket::read_body() {
 }
 
 std::optional<Message> Socket::receive() {
-  if (!open_ || out_bytes_ > kMostOut || !read_head() || !read_body()) return std::nullopt;
+  if (!open_ || !hears() || !read_head() || !read_body()) return std::nullopt;
   head_read_ = body_read_ = 0;
   return std::exchange(in_, {});
 }
@@ -128,7 +131,7 @@ void Socket::take_back(const std::function<bool(const Head&)>& is_old) {
 }
 
 void Socket::wait(std::chrono::milliseconds longest) const {
-  const auto events = static_cast<short>((out_bytes_ > kMostOut ? 0 : POLLIN) | (out_.empty() ? 0 : POLLOUT));
+  const auto events = static_cast<short>((hears() ? POLLIN : 0) | (out_.empty() ? 0 : POLLOUT));
   pollfd waits{descriptor_.number(), events, 0};
   poll(&waits, 1, static_cast<int>(longest.count()));
 }

@@ -28,7 +28,8 @@ class Socket {
   // False: the peer has closed it.
   bool is_open() const { return open_; }
 
-  // The next message that has come whole; none: it has not, or the peer takes too little of what it was sent.
+  // The next message that has come whole; none: it has not, or it is of a studio that takes too little of what it was
+  // sent.
   std::optional<Message> receive();
   // Notices a peer that is gone, although nothing is received.
   void look();
@@ -56,6 +57,7 @@ class Socket {
     std::span<const std::byte> left(std::size_t sent) const;
   };
 
+  bool hears() const;
   std::size_t read_some(void* to, std::size_t most);
   bool read_head();
   bool read_body();

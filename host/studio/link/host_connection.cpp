@@ -75,7 +75,8 @@ class HostConnection::Wire : public std::enable_shared_from_this<Wire> {
 
   void accept() {
     acceptor_.async_accept(ready_, [self = shared_from_this()](Error error) {
-      if (!self->closed_ && !error) self->begin();
+      if (self->closed_) return;
+      error ? self->end_accepting(error.message()) : self->begin();
     });
   }
 
@@ -112,7 +113,7 @@ class HostConnection::Wire : public std::enable_shared_from_this<Wire> {
     socket_.emplace(child::Descriptor(dup(ready_.native_handle())), pictures::Peer::host);
     writing_ = false;
     read();
-    if (listener_.connected) listener_.connected();
+    hear(listener_.connected);
   }
 
   void end_connection() {
@@ -126,7 +127,12 @@ class HostConnection::Wire : public std::enable_shared_from_this<Wire> {
   void end_host(const std::string& reason) {
     end_connection();
     if (acceptor_.is_open()) accept();
-    if (listener_.closed) listener_.closed(reason);
+    hear(listener_.closed, reason);
+  }
+
+  void end_accepting(const std::string& reason) {
+    close_to_others();
+    hear(listener_.closed, reason);
   }
 
   // Calls `next` when the socket has something, or takes more; not if that host is gone by then.
