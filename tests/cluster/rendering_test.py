@@ -56,6 +56,18 @@ class Rendering(ClusterTest):
         self.assertShown(run(), 7)
         self.assertShown(run("--nodes", 16, "--overwrite"), 16)
 
+    def test_files_of_nodes_on_all_hosts(self):
+        run = lambda out, *more, **how: self.on("n1", "mars", "render", self.film, "-o", out, "--hostfile", self.hostfile,
+                                                *more, **how)
+        run("host")
+        run("nodes", "--write", "nodes")
+        files = [{path.name: path.read_bytes() for path in (self.folder / each).glob("*.png")} for each in ("host", "nodes")]
+        self.assertEqual(len(files[0]), 8)
+        self.assertEqual(*files)
+        self.assertFalse((self.folder / "nodes/.runs").exists())
+        refused = run("/tmp/of-each-host-its-own", "--write", "nodes", code=1)
+        self.assertClear(refused.stderr, "does not see the folder as the host does")
+
     def test_sbatch_with_mpirun(self):
         self.assertRendered(self.submit("mpirun.sbatch", "--ntasks=8"), 7)
 

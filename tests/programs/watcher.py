@@ -1,5 +1,5 @@
 """A watcher of a rendering, for tests: listens at a socket and puts together what the host says
-(host/render/watch/watch_messages.h). Reads frames' PNG files."""
+(host/render/pictures/messages.h). Reads frames' PNG files."""
 
 import socket
 import struct
@@ -7,11 +7,11 @@ import threading
 import time
 import types
 
-BEGIN, PICTURE, DRAWN = 1, 2, 3
-HEAD = struct.Struct("<IIQ")
-PICTURE_HEAD = struct.Struct("<6Id")
+BEGIN, PICTURE, DRAWN = 5, 6, 8
+HEAD = struct.Struct("<4IQ")
+PICTURE_HEAD = struct.Struct("<10Id")
 DRAWN_HEAD = struct.Struct("<6I3d")
-PART = struct.Struct("<i3I9d3Q")
+PART = struct.Struct("<i3I11d3Q")
 NOTHING, STILL, MOVING, UNKNOWN = range(4)
 
 
@@ -60,7 +60,7 @@ class Watcher:
         head = self.read(HEAD.size)
         if head is None:
             return False
-        kind, _, size = HEAD.unpack(head)
+        kind, _, _, _, size = HEAD.unpack(head)
         body = self.read(size)
         if body is None:
             return False
@@ -75,8 +75,9 @@ class Watcher:
         self.rows = [bytearray(4 * self.width) for _ in range(self.height)]
 
     def take_picture(self, body):
-        self.frame, self.interval, self.kind, self.whole, self.group, rects, self.seconds = \
+        width, height, rects, lines, self.frame, self.interval, self.kind, self.whole, self.group, _, self.seconds = \
             PICTURE_HEAD.unpack_from(body)
+        assert (width, height, lines) == (self.width, self.height, self.height)
         at = PICTURE_HEAD.size
         self.rects = [struct.unpack_from("<4H", body, at + 8 * i) for i in range(rects)]
         at += 8 * rects

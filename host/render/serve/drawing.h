@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "host/render/compositor/frame.h"
-#include "host/render/serve/serve_messages.h"
 #include "node/wire/protocol.h"
 
 namespace mars::serve {
@@ -21,7 +20,6 @@ struct Picture {
   compositor::Frame* frame = nullptr;  // where it is put together; nullptr: it is needed no more
   std::size_t nodes_left = 0;          // that have not sent their last strip of it
   double begun = 0;
-  PictureHead head{};  // as far as it is known
 };
 
 class Drawing {

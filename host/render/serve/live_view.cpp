@@ -1,35 +1,8 @@
 #include "host/render/serve/live_view.h"
 
-#include <algorithm>
-#include <cstring>
-#include <span>
-
 #include "host/render/compositor/rectangles.h"
 
 namespace mars::serve {
-namespace {
-
-constexpr std::uint32_t kOpaque = 0xff000000;
-
-std::uint64_t pixels_in(const std::vector<Rect>& rects) {
-  std::uint64_t pixels = 0;
-  for (const Rect& rect : rects) pixels += std::uint64_t{rect.width} * rect.height;
-  return pixels;
-}
-
-// Where the pixels end.
-std::byte* copy_pixels(const compositor::Frame& frame, const Rect& rect, std::byte* to) {
-  const std::uint32_t* line = &frame.pixels[std::size_t{rect.y} * frame.width + rect.x];
-  for (std::uint32_t y = 0; y < rect.height; ++y, line += frame.width) {
-    for (std::uint32_t x = 0; x < rect.width; ++x, to += sizeof(std::uint32_t)) {
-      const std::uint32_t pixel = line[x] | kOpaque;
-      std::memcpy(to, &pixel, sizeof pixel);
-    }
-  }
-  return to;
-}
-
-}  // namespace
 
 LiveView::LiveView(std::uint32_t width, std::uint32_t height, std::uint32_t block)
     : width_(width), height_(height), block_(block), compositor_(width, height, block) {}
@@ -55,17 +28,17 @@ void LiveView::paste(const farm::StripMessage& strip, compositor::Frame& picture
 
 void LiveView::give_up(compositor::Frame* picture) { free_.push_back(picture); }
 
-std::uint32_t LiveView::finish(compositor::Frame* picture, std::uint32_t number, std::size_t room,
-                               std::vector<std::byte>& message) {
+pictures::Picture LiveView::finish(compositor::Frame* picture, std::uint32_t number) {
   compositor_.finish_frame(*picture, number);
   compositor_.restore(*picture);
   free_.push_back(picture);
-  const std::vector<Rect> rects = compositor::rectangles_of(picture->changed, width_, height_);
-  const std::size_t rect_bytes = rects.size() * sizeof(Rect);
-  message.resize(room + rect_bytes + pixels_in(rects) * sizeof(std::uint32_t));
-  std::byte* to = std::ranges::copy(std::as_bytes(std::span(rects)), message.data() + room).out;
-  for (const Rect& rect : rects) to = copy_pixels(*picture, rect, to);
-  return static_cast<std::uint32_t>(rects.size());
+  pictures::Picture shown;
+  shown.head.width = width_;
+  shown.head.height = height_;
+  shown.head.whole = 1;
+  shown.rects = compositor::rectangles_of(picture->changed, width_, height_);
+  shown.pixels = pictures::cut_opaque(picture->pixels, width_, shown.rects);
+  return shown;
 }
 
 }  // namespace mars::serve

@@ -2,14 +2,13 @@
 // what the studio gets of each that is whole.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <list>
 #include <vector>
 
 #include "host/render/compositor/compositor.h"
 #include "host/render/farm/strip_message.h"
-#include "host/render/serve/serve_messages.h"
+#include "host/render/pictures/reading.h"
 
 namespace mars::serve {
 
@@ -27,13 +26,8 @@ class LiveView {
   void paste(const farm::StripMessage& strip, compositor::Frame& picture);
   // It will not be finished.
   void give_up(compositor::Frame* picture);
-  // All strips of it were pasted. Puts rectangles and pixels, as serve::Kind::picture has them, into `message` behind
-  // `room` bytes; how many rectangles. `number`: of pictures of all views.
-  std::uint32_t finish(compositor::Frame* picture, std::uint32_t number, std::size_t room,
-                       std::vector<std::byte>& message);
-
-  std::uint32_t width() const { return width_; }
-  std::uint32_t height() const { return height_; }
+  // All strips of it were pasted. Where it differs from the picture before. `number`: of pictures of all views.
+  pictures::Picture finish(compositor::Frame* picture, std::uint32_t number);
 
  private:
   std::uint32_t width_;

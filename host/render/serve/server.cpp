@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cstring>
 #include <map>
@@ -19,9 +20,9 @@
 #include "host/render/farm/film_loading.h"
 #include "host/render/farm/node_inbox.h"
 #include "host/render/farm/node_memory.h"
+#include "host/render/pictures/socket.h"
 #include "host/render/serve/drawing.h"
 #include "host/render/serve/live_view.h"
-#include "host/render/serve/studio_socket.h"
 #include "host/render/session/event_reporter.h"
 #include "host/render/session/heartbeat_listener.h"
 #include "host/render/session/status_board.h"
@@ -33,30 +34,14 @@
 namespace mars::serve {
 namespace {
 
+using pictures::Kind;
+using Request = pictures::Message;
+
 constexpr std::chrono::milliseconds kRest{100};        // while nothing is asked for: as often as heartbeats look
 constexpr std::chrono::milliseconds kLastWords{1000};  // that the studio has to take why the host ends
 constexpr int kRequestsATurn = 64;
 constexpr int kStripsATurn = 8;
 constexpr std::uint64_t kViewsAShare = 4;  // of nodes' memory for stationary parts
-
-template <typename... Parts>
-void put(std::vector<std::byte>& message, const Parts&... parts) {
-  std::size_t at = 0;
-  ((std::memcpy(message.data() + at, &parts, sizeof parts), at += sizeof parts), ...);
-}
-
-// `head` with `body` behind it, for nodes.
-template <typename Head>
-std::vector<std::byte> command(const Head& head, std::span<const std::byte> body) {
-  std::vector<std::byte> message(sizeof head + body.size());
-  put(message, head);
-  std::ranges::copy(body, message.begin() + sizeof head);
-  return message;
-}
-
-std::vector<std::byte> answer(Kind kind, std::uint32_t view, std::uint32_t picture, std::span<const std::byte> body) {
-  return command(Head{kind, view, picture, 0, body.size()}, body);
-}
 
 // What the host knows of a view.
 struct View {
@@ -72,7 +57,7 @@ struct View {
 
 class Server {
  public:
-  Server(const Serving& serving, StudioSocket& studio, farm::Heartbeats& heartbeats);
+  Server(const Serving& serving, pictures::Socket& studio, farm::Heartbeats& heartbeats);
   ~Server() { heartbeats_.ask_for_drawing({}); }
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
@@ -107,7 +92,7 @@ class Server {
   void drop_all(std::uint32_t number, View& view);
 
   const Serving& serving_;
-  StudioSocket& studio_;
+  pictures::Socket& studio_;
   farm::Heartbeats& heartbeats_;
   farm::NodeSlots slots_;
   farm::NodeInbox inbox_;
@@ -123,7 +108,7 @@ class Server {
   std::uint32_t pictures_ = 0;  // that the studio was sent
 };
 
-Server::Server(const Serving& serving, StudioSocket& studio, farm::Heartbeats& heartbeats)
+Server::Server(const Serving& serving, pictures::Socket& studio, farm::Heartbeats& heartbeats)
     : serving_(serving),
       studio_(studio),
       heartbeats_(heartbeats),
@@ -172,7 +157,8 @@ bool Server::take_requests() {
 void Server::take(Request request) {
   const std::uint32_t number = request.head.view;
   if (request.head.kind == Kind::view || request.head.kind == Kind::draw) {
-    if (request.head.picture <= asked_) refuse("pictures whose numbers do not ascend");
+    if (request.head.picture <= asked_)
+      throw pictures::Malformed(pictures::Sender::studio, "pictures whose numbers do not ascend");
     asked_ = request.head.picture;
   }
   switch (request.head.kind) {
@@ -185,7 +171,7 @@ void Server::take(Request request) {
     default:
       if (const auto view = views_.find(number); view != views_.end()) {
         drop_all(number, view->second);
-        if (view->second.live) send_to_all(wire::kCloseView, command(wire::CloseView{number}, {}));
+        if (view->second.live) send_to_all(wire::kCloseView, pictures::joined(wire::CloseView{number}));
         views_.erase(view);
       }
   }
@@ -233,10 +219,9 @@ void Server::load_film() {
   farm::load_film(film_block_, load, inbox_);
   slots_.give_all();
   heartbeats_.set_doing("waiting for the studio");
-  Ready ready{static_cast<std::uint32_t>(inbox_.hellos().size()), 0};
-  ready.machines = static_cast<std::uint32_t>(
-      std::ranges::count_if(inbox_.hellos(), [](const wire::Hello& hello) { return hello.machine == hello.node; }));
-  studio_.send(answer(Kind::ready, 0, 0, std::as_bytes(std::span(&ready, 1))));
+  const wire::FilmSettings& settings = film_->settings();
+  const pictures::Begin begin{settings.width, settings.height, serving_.block, 1, 0, 0};
+  studio_.send({Kind::begin}, pictures::body_of_begin(begin, inbox_.hellos()));
 }
 
 // The scene that has waited longest, unless nodes draw a keyframe of another view. One of the same view goes to them at
@@ -271,7 +256,7 @@ void Server::begin_scene(std::uint32_t number, View& view) {
   picture.begun = dclock();
   const std::uint32_t wired = drawing_.next_number();
   const std::uint64_t still = settings.samples > 1 ? still_memory_ : 0;
-  send_to_all(wire::kView, command(wire::View{number, wired, view.block.size(), still}, view.block));
+  send_to_all(wire::kView, pictures::joined(wire::View{number, wired, view.block.size(), still}, view.block));
   drawing_.give_to_all(wired, picture);
 }
 
@@ -293,10 +278,10 @@ void Server::begin_draw(std::uint32_t number, View& view, int node) {
   Picture picture{number, request.head.picture, wire::FrameKind::inbetween, view.live->begin_picture()};
   picture.begun = dclock();
   const std::uint32_t wired = drawing_.next_number();
-  DrawHead head;
+  pictures::DrawHead head;
   std::memcpy(&head, request.body.data(), sizeof head);
-  const std::vector<std::byte> message =
-      command(wire::Draw{number, wired, head.segments, head.patches}, std::span(request.body).subspan(sizeof head));
+  const std::vector<std::byte> message = pictures::joined(wire::Draw{number, wired, head.segments, head.patches},
+                                                          std::span(request.body).subspan(sizeof head));
   wire::read_draw(message, [&](std::uint32_t) { return &view.moving; });
   csend(wire::kDraw, message.data(), static_cast<long>(message.size()), node, 0);
   drawing_.give(node, wired, picture);
@@ -325,10 +310,6 @@ void Server::receive_strip() {
   slots_.give(strip.slot());
   store_.give_back(strip.release());
   if (header.last == 0) return;
-  picture->head.load_ratio = header.load_ratio;
-  picture->head.triangles += header.work.triangles;
-  picture->head.edge_boxes += header.work.edge_boxes;
-  ++picture->head.nodes;
   if (const std::optional<Picture> whole = drawing_.end(header.node, header.frame)) finish(header.frame, *whole);
 }
 
@@ -343,16 +324,12 @@ void Server::finish(std::uint32_t number, const Picture& picture) {
 }
 
 void Server::send_picture(View& view, std::uint32_t number, const Picture& picture) {
-  std::vector<std::byte> message = studio_.buffer();
-  PictureHead head = picture.head;
-  head.width = view.live->width();
-  head.height = view.live->height();
-  head.rects = view.live->finish(picture.frame, number, sizeof(Head) + sizeof head, message);
-  head.seconds = dclock() - picture.begun;
-  put(message, Head{Kind::picture, picture.view, picture.asked, 0, message.size() - sizeof(Head)}, head);
+  pictures::Picture shown = view.live->finish(picture.frame, number);
+  shown.head.kind = picture.kind;
+  shown.head.seconds = dclock() - picture.begun;
   view.newest = picture.asked;
   ++pictures_;
-  studio_.send(std::move(message));
+  studio_.send({Kind::picture, picture.view, picture.asked}, body_of_picture(shown));
 }
 
 void Server::send_to_all(long type, const std::vector<std::byte>& message) const {
@@ -360,7 +337,7 @@ void Server::send_to_all(long type, const std::vector<std::byte>& message) const
     csend(type, message.data(), static_cast<long>(message.size()), node, 0);
 }
 
-void Server::drop(std::uint32_t view, std::uint32_t picture) { studio_.send(answer(Kind::dropped, view, picture, {})); }
+void Server::drop(std::uint32_t view, std::uint32_t picture) { studio_.send({Kind::dropped, view, picture}); }
 
 void Server::drop_waiting(std::uint32_t number, std::optional<Request>& request) {
   if (request) drop(number, request->head.picture);
@@ -389,13 +366,17 @@ events::Fault fault_of(const std::exception& reason) {
 }
 
 // Its last message.
-void send_refusal(StudioSocket& studio, const std::string& text) {
-  studio.send(answer(Kind::refused, 0, 0, std::as_bytes(std::span(text))));
+void send_refusal(pictures::Socket& studio, const std::string& text) {
+  studio.send({Kind::refused}, pictures::body_of(text));
   const auto last = std::chrono::steady_clock::now() + kLastWords;
-  while (studio.is_open() && !studio.flushed() && std::chrono::steady_clock::now() < last) {
-    studio.wait(kRest);
-    studio.flush();
-  }
+  studio.drain([last] { return std::chrono::steady_clock::now() >= last; });
+}
+
+child::Descriptor connect_to_studio(const std::string& path) {
+  child::Descriptor descriptor = pictures::connect_to(path);
+  if (descriptor.open()) return descriptor;
+  throw Failure(std::string("no studio answers: ") + std::strerror(errno), path,
+                "the host of a studio runs on its machine");
 }
 
 }  // namespace
@@ -403,11 +384,11 @@ void send_refusal(StudioSocket& studio, const std::string& text) {
 void serve(const Serving& serving) {
   session::StatusBoard board("the studio's");
   session::EventReporter reporter(serving.backend, board);
-  std::optional<StudioSocket> studio;
+  std::optional<pictures::Socket> studio;
   try {
     session::Termination termination(true);
     farm::Heartbeats heartbeats(session::host_name(), getpid(), heartbeat_listener(reporter, termination));
-    studio.emplace(serving.socket);
+    studio.emplace(connect_to_studio(serving.socket), pictures::Peer::studio);
     Server server(serving, *studio, heartbeats);
     server.shake_hands(reporter.listener(0));
     const double begun = dclock();

@@ -1,7 +1,7 @@
-// The host of a studio: instead of rendering a film to files it draws what a studio asks for over a local socket
-// (serve_messages.h), until the studio closes that. Nodes keep the views (node/wire/protocol.h); the host gives each
-// keyframe to all of them and each inbetween to one that is idle, and composes what they send. While nothing is asked
-// for it sleeps.
+// The host of a studio: instead of rendering a film to files it draws what a studio requests over a local socket
+// (host/render/pictures/messages.h), until the studio closes that. Nodes keep the views (node/wire/protocol.h); the
+// host gives each keyframe to all of them and each inbetween to one that is idle, and composes what they send. While
+// nothing is requested it sleeps.
 #pragma once
 
 #include <cstdint>

@@ -1,10 +1,14 @@
 #include "host/render/watch/watch.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
 #include <utility>
 
 namespace mars::watch {
+using pictures::Kind;
+using pictures::Part;
+
 namespace {
 
 using namespace std::chrono_literals;
@@ -15,62 +19,18 @@ constexpr auto kLook = 500ms;             // for a watcher
 constexpr auto kLongestEnd = 1s;          // of what is left for the watcher
 constexpr std::size_t kMostDrawn = 1024;  // messages that wait
 
-template <typename T>
-void append(std::vector<std::byte>& to, std::span<const T> items) {
-  const auto bytes = std::as_bytes(items);
-  to.insert(to.end(), bytes.begin(), bytes.end());
-}
-
-template <typename T>
-void append(std::vector<std::byte>& to, const T& item) {
-  append(to, std::span(&item, 1));
-}
-
-template <typename Body, typename Item>
-std::vector<std::byte> message_of(Kind kind, const Body& body, std::span<const Item> items) {
-  std::vector<std::byte> message;
-  append(message, Head{kind, 0, sizeof body + items.size_bytes()});
-  append(message, body);
-  append(message, items);
-  return message;
-}
-
-std::vector<Node> nodes_of(std::span<const wire::Hello> hellos) {
-  std::vector<Node> nodes;
-  for (const wire::Hello& hello : hellos) nodes.push_back({hello.machine, hello.host});
-  return nodes;
-}
-
-std::vector<std::byte> picture_message(PictureUpdate& update, const Display& display) {
-  const std::size_t pixel_words = update.marks.empty() ? 1 : update.words.size() / update.marks.size();
-  if (pixel_words == 2) {
-    std::vector<std::uint32_t> shown(update.marks.size());
-    display.show(update.words, shown.data());
-    update.words = std::move(shown);
-  } else {
-    display.show(update.words, update.words.data());
-  }
-  for (std::size_t i = 0; i < update.words.size(); ++i)
-    update.words[i] |= static_cast<std::uint32_t>(update.marks[i]) << 24;
-  std::vector<std::byte> message;
-  const std::span<const Rect> rects(update.rects);
-  const std::span<const Line> lines(update.lines);
-  const std::span<const std::uint32_t> pixels(update.words);
-  message.reserve(sizeof(Head) + sizeof update.head + rects.size_bytes() + lines.size_bytes() + pixels.size_bytes());
-  append(message, Head{Kind::picture, 0, message.capacity() - sizeof(Head)});
-  append(message, update.head);
-  append(message, rects);
-  append(message, lines);
-  append(message, pixels);
-  return message;
+// Its pixels as they are shown, with their marks.
+const pictures::Picture& shown(PictureUpdate& update, const Display& display) {
+  std::vector<std::uint32_t>& pixels = update.picture.pixels;
+  const std::vector<std::uint32_t> words = std::exchange(pixels, std::vector<std::uint32_t>(update.marks.size()));
+  display.show(words, pixels.data());
+  for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] |= static_cast<std::uint32_t>(update.marks[i]) << 24;
+  return update.picture;
 }
 
 }  // namespace
 
-Watch::Watch(const std::string& socket) : link_(socket) {
-  absent_ = link_.connect();
-  is_new_ = absent_.empty();
-}
+Watch::Watch(const std::string& socket) : name_(socket) { absent_ = connect(); }
 
 Watch::~Watch() {
   {
@@ -85,10 +45,7 @@ void Watch::begin(const Shape& shape, std::span<const wire::Hello> nodes) {
   shape_.emplace(shape);
   display_.emplace(shape_->film, shape.format);
   const wire::FilmSettings& film = shape.film.settings();
-  const std::vector<Node> named = nodes_of(nodes);
-  const Begin begin{film.width,   film.height,  shape.block,
-                    shape.groups, shape.frames, static_cast<std::uint32_t>(named.size())};
-  begin_ = message_of(Kind::begin, begin, std::span<const Node>(named));
+  begin_ = pictures::body_of_begin({film.width, film.height, shape.block, shape.groups, shape.frames, 0}, nodes);
   picture_.emplace(film.width, film.height, shape.block, shape.format);
   thread_ = std::thread([this] { work(); });
 }
@@ -134,64 +91,69 @@ void Watch::compose(const WholeFrame& frame) {
 void Watch::note_drawn(const WholeFrame& frame) {
   const Drawn drawn = std::move(under_way_[frame.picture.number]);
   under_way_.erase(frame.picture.number);
-  const DrawnHead head{.frame = frame.picture.number,
-                       .interval = frame.interval,
-                       .kind = frame.kind,
-                       .group = frame.group,
-                       .parts = static_cast<std::uint32_t>(drawn.parts.size()),
-                       .given = frame.given,
-                       .seconds = frame.seconds,
-                       .load_ratio = drawn.load_ratio};
+  const pictures::DrawnHead head{.frame = frame.picture.number,
+                                 .interval = frame.interval,
+                                 .kind = frame.kind,
+                                 .group = frame.group,
+                                 .parts = static_cast<std::uint32_t>(drawn.parts.size()),
+                                 .given = frame.given,
+                                 .seconds = frame.seconds,
+                                 .load_ratio = drawn.load_ratio};
   if (drawn_.size() == kMostDrawn) drawn_.pop_front();
-  drawn_.push_back(message_of(Kind::drawn, head, std::span<const Part>(drawn.parts)));
+  drawn_.push_back(pictures::body_of(head, drawn.parts));
 }
 
 // Where it fails, for want of memory, the rendering goes on unwatched.
 void Watch::work() try {
   do {
     look_for_watcher();
-    if (link_.connected()) send(take_news());
+    if (has_watcher()) send(take_news());
   } while (wait_for_news());
 } catch (const std::exception&) {
 }
 
 void Watch::look_for_watcher() {
-  link_.look();
-  if (!link_.connected() && link_.connect().empty()) is_new_ = true;
+  if (has_watcher()) socket_->look();
+  if (!has_watcher()) connect();
+}
+
+std::string Watch::connect() {
+  child::Descriptor descriptor = pictures::connect_to(name_);
+  if (!descriptor.open()) return std::strerror(errno);
+  socket_.emplace(std::move(descriptor), pictures::Peer::watcher);
+  is_new_ = true;
+  return "";
 }
 
 Watch::News Watch::take_news() {
   News news;
   const std::lock_guard lock(mutex_);
-  if (std::exchange(is_new_, false)) {
-    news.messages = begin_;
-    picture_->forget_sent();
-  }
-  for (const std::vector<std::byte>& message : drawn_)
-    news.messages.insert(news.messages.end(), message.begin(), message.end());
-  drawn_.clear();
+  news.begins = std::exchange(is_new_, false);
+  if (news.begins) picture_->forget_sent();
+  news.drawn = std::exchange(drawn_, {});
   if (!picture_->has_news()) return news;
   // What is shown otherwise is sent whole.
   if (display_->begin_frame(picture_->frame())) picture_->forget_sent();
-  picture_->take(news.picture.emplace());
+  news.picture = picture_->take();
   return news;
 }
 
 void Watch::send(News news) {
-  const auto is_late = [this] {
+  if (news.begins) socket_->send({Kind::begin}, begin_);
+  for (pictures::Body& drawn : news.drawn) socket_->send({Kind::drawn}, std::move(drawn));
+  if (news.picture) socket_->send({Kind::picture}, body_of_picture(shown(*news.picture, *display_)));
+  socket_->drain([this] {
     const std::lock_guard lock(mutex_);
     return last_ && Clock::now() > *last_;
-  };
-  link_.send(news.messages, is_late);
-  if (news.picture) link_.send(picture_message(*news.picture, *display_), is_late);
+  });
 }
 
 // Whether it goes on: until the run has ended and what is left is sent.
 bool Watch::wait_for_news() {
   std::unique_lock lock(mutex_);
   if (!last_) changed_.wait_for(lock, kRest, [this] { return last_.has_value(); });
-  changed_.wait_for(lock, kLook, [this] { return last_ || (link_.connected() && has_news()); });
-  return !last_ || (link_.connected() && has_news() && Clock::now() < *last_);
+  changed_.wait_for(lock, kLook, [this] { return last_ || (has_watcher() && has_news()); });
+  return !last_ || (has_watcher() && has_news() && Clock::now() < *last_);
 }
 
 }  // namespace mars::watch

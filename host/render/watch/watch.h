@@ -15,9 +15,9 @@
 #include <thread>
 #include <vector>
 
+#include "host/render/pictures/socket.h"
 #include "host/render/watch/display.h"
 #include "host/render/watch/watched_picture.h"
-#include "host/render/watch/watcher_link.h"
 
 namespace mars::watch {
 
@@ -68,28 +68,33 @@ class Watch {
 
  private:
   struct Drawn {  // of a frame
-    std::vector<Part> parts;
+    std::vector<pictures::Part> parts;
     double load_ratio = 1;
   };
   struct News {
-    std::vector<std::byte> messages;
+    bool begins = false;
+    std::deque<pictures::Body> drawn;
     std::optional<PictureUpdate> picture;
   };
 
   void note_drawn(const WholeFrame& frame);
   void work();
   void look_for_watcher();
+  bool has_watcher() const { return socket_ && socket_->is_open(); }
+  // Why there is no watcher; "": there is one.
+  std::string connect();
   bool wait_for_news();
   bool has_news() const { return picture_->has_news() || !drawn_.empty(); }
   News take_news();
   void send(News news);
 
+  const std::string name_;  // of the socket
   std::string absent_;
   std::optional<Shape> shape_;
-  std::vector<std::byte> begin_;  // the message
+  pictures::Body begin_;  // of the message
 
   // The thread's.
-  WatcherLink link_;
+  std::optional<pictures::Socket> socket_;
   std::optional<Display> display_;
   bool is_new_ = false;  // the watcher
 
@@ -97,7 +102,7 @@ class Watch {
   std::condition_variable changed_;
   std::optional<WatchedPicture> picture_;
   std::map<std::uint32_t, Drawn> under_way_;                   // by frame
-  std::deque<std::vector<std::byte>> drawn_;                   // messages, the oldest first
+  std::deque<pictures::Body> drawn_;                           // of messages, the oldest first
   std::optional<std::chrono::steady_clock::time_point> last_;  // until which it may send when the run has ended
   std::thread thread_;
 };

@@ -20,6 +20,8 @@ WatchedPicture::WatchedPicture(std::uint32_t width, std::uint32_t height, std::u
       pending_(width, height, block),
       line_words_(width * pixel_words_) {
   pending_.set_all();
+  head_.width = width;
+  head_.height = height;
 }
 
 void WatchedPicture::follow(std::uint32_t group) {
@@ -53,14 +55,18 @@ void WatchedPicture::paste(const PastedStrip& strip, const compositor::Composito
   news_ = begun_ = true;
 }
 
-void WatchedPicture::begin_keyframe(const wire::Strip& header) {
-  head_.frame = header.frame;
-  head_.interval = header.interval;
-  head_.kind = header.kind;
-  head_.whole = 0;
+void WatchedPicture::begin_frame(std::uint32_t frame, std::uint32_t interval, wire::FrameKind kind) {
+  head_.frame = frame;
+  head_.interval = interval;
+  head_.kind = kind;
   head_.group = group_;
   in_step_ = true;
   keyframe_lines_ = 0;
+}
+
+void WatchedPicture::begin_keyframe(const wire::Strip& header) {
+  begin_frame(header.frame, header.interval, header.kind);
+  head_.whole = 0;
   inbetweens_.clear();
   std::ranges::fill(lines_, Line{-1, 0});
 }
@@ -99,9 +105,9 @@ void WatchedPicture::finish(const compositor::Frame& frame, std::uint32_t interv
     finish_inbetween(frame, interval, first_node);
   else if (head_.frame != frame.number || keyframe_lines_ != height_)
     put_whole(frame);
-  keyframe_lines_ = 0;
-  head_ = {frame.number, interval, kind, 1, group_, 0, seconds};
-  in_step_ = true;
+  begin_frame(frame.number, interval, kind);
+  head_.whole = 1;
+  head_.seconds = seconds;
   news_ = begun_ = true;
 }
 
@@ -149,22 +155,17 @@ void WatchedPicture::forget_sent() {
   news_ = begun_;
 }
 
-void WatchedPicture::take(PictureUpdate& update) {
-  update.head = head_;
-  update.rects = compositor::rectangles_of(pending_, width_, height_);
-  update.head.rects = static_cast<std::uint32_t>(update.rects.size());
-  update.lines = lines_;
-  update.words.clear();
-  update.marks.clear();
-  for (const Rect& rect : update.rects)
-    for (std::uint32_t line = rect.y; line < std::uint32_t{rect.y} + rect.height; ++line) {
-      const std::size_t at = std::size_t{line} * width_ + rect.x;
-      const auto* words = &words_[at * pixel_words_];
-      update.words.insert(update.words.end(), words, words + rect.width * pixel_words_);
-      update.marks.insert(update.marks.end(), &marks_[at], &marks_[at] + rect.width);
-    }
+PictureUpdate WatchedPicture::take() {
+  PictureUpdate update{{0, 0, head_, compositor::rectangles_of(pending_, width_, height_), lines_, {}}, {}};
+  std::vector<std::uint32_t>& words = update.picture.pixels;
+  pictures::for_rows(update.picture.rects, width_, [&](std::size_t at, std::size_t count) {
+    const auto* first = &words_[at * pixel_words_];
+    words.insert(words.end(), first, first + count * pixel_words_);
+    update.marks.insert(update.marks.end(), &marks_[at], &marks_[at] + count);
+  });
   pending_.clear();
   news_ = false;
+  return update;
 }
 
 }  // namespace mars::watch

@@ -10,9 +10,12 @@
 #include <vector>
 
 #include "host/render/compositor/compositor.h"
-#include "host/render/watch/watch_messages.h"
+#include "host/render/pictures/reading.h"
 
 namespace mars::watch {
+
+using pictures::Line;
+using pictures::Mark;
 
 // A strip that was pasted into a frame just now.
 struct PastedStrip {
@@ -22,12 +25,9 @@ struct PastedStrip {
   std::span<const std::uint32_t> edge_boxes;  // of each of its lines
 };
 
-// What is sent: pixels of `rects`, in words of the frames' format.
+// What is sent, once its pixels are shown ones: they are words of the frames' format here.
 struct PictureUpdate {
-  PictureHead head;
-  std::vector<Rect> rects;
-  std::vector<Line> lines;
-  std::vector<std::uint32_t> words;
+  pictures::Picture picture;
   std::vector<Mark> marks;
 };
 
@@ -52,7 +52,7 @@ class WatchedPicture {
   bool has_news() const { return news_; }
   std::uint32_t frame() const { return head_.frame; }
   // What the watcher does not have; from now on it has that.
-  void take(PictureUpdate& update);
+  PictureUpdate take();
 
  private:
   struct Inbetween {  // under way
@@ -61,6 +61,7 @@ class WatchedPicture {
     std::uint32_t lines = 0;                // that are there
   };
 
+  void begin_frame(std::uint32_t frame, std::uint32_t interval, wire::FrameKind kind);
   void begin_keyframe(const wire::Strip& header);
   void mark_lines(const PastedStrip& strip);
   void put_line(std::uint32_t line, std::span<const std::uint32_t> words, std::span<const Mark> marks);
@@ -72,7 +73,7 @@ class WatchedPicture {
   const std::uint32_t width_, height_;
   const std::size_t pixel_words_;
   std::uint32_t group_ = 0;  // that is followed
-  PictureHead head_{};
+  pictures::PictureHead head_{};
   bool news_ = false;
   bool in_step_ = true;               // it is of the group that is followed
   bool begun_ = false;                // it shows something

@@ -1,24 +1,20 @@
 #include "host/studio/link/host_connection.h"
 
-#include <sys/stat.h>
 #include <sys/un.h>
 #include <unistd.h>
 
-#include <array>
-#include <boost/asio/buffer.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/local/stream_protocol.hpp>
-#include <boost/asio/read.hpp>
-#include <boost/asio/write.hpp>
+#include <cerrno>
 #include <cstring>
-#include <deque>
 #include <filesystem>
+#include <optional>
 #include <system_error>
 #include <utility>
 
 #include "hal/failure/failure.h"
 #include "host/child/environment.h"
-#include "node/wire/film_parts.h"
+#include "host/render/pictures/socket.h"
 
 namespace mars::studio {
 namespace {
@@ -26,9 +22,9 @@ namespace {
 namespace asio = boost::asio;
 using Local = asio::local::stream_protocol;
 using Error = boost::system::error_code;
+using pictures::Kind;
 
-constexpr int kSocketBuffer = 4 << 20;       // bytes, as far as the system gives them
-constexpr std::size_t kMostWords = 1 << 16;  // bytes of a host's last words
+constexpr int kMessagesATurn = 16;
 
 // Its names must fit a socket's address.
 std::filesystem::path sockets_folder() {
@@ -68,70 +64,40 @@ class PrivateFolder {
   std::filesystem::path path_;
 };
 
-bool is_sound(const serve::Head& head) {
-  switch (head.kind) {
-    case serve::Kind::ready: return head.bytes == sizeof(serve::Ready);
-    case serve::Kind::picture: return head.bytes >= sizeof(serve::PictureHead);
-    case serve::Kind::dropped: return head.bytes == 0;
-    case serve::Kind::refused: return head.bytes <= kMostWords;
-    default: return false;
-  }
-}
-
-// Rectangles are no more than the picture has pixels.
-bool is_sound(const serve::Head& head, const serve::PictureHead& picture) {
-  if (picture.width == 0 || picture.height == 0 || picture.width > wire::kMaxSide || picture.height > wire::kMaxSide)
-    return false;
-  return picture.rects <= std::uint64_t{picture.width} * picture.height &&
-         head.bytes >= sizeof picture + std::uint64_t{picture.rects} * sizeof(serve::Rect);
-}
-
-bool is_sound(const serve::Head& head, const SurfacePicture& picture) {
-  std::uint64_t pixels = 0;
-  for (const serve::Rect& rect : picture.rects) {
-    if (rect.x + rect.width > picture.head.width || rect.y + rect.height > picture.head.height) return false;
-    pixels += std::uint64_t{rect.width} * rect.height;
-  }
-  return pixels <= std::uint64_t{picture.head.width} * picture.head.height &&
-         head.bytes ==
-             sizeof picture.head + picture.rects.size() * sizeof(serve::Rect) + pixels * sizeof(std::uint32_t);
-}
-
 }  // namespace
 
 class HostConnection::Wire : public std::enable_shared_from_this<Wire> {
  public:
   Wire(asio::io_context& context, Listener listener)
-      : listener_(std::move(listener)),
-        acceptor_(context, Local::endpoint((folder_.path() / "host").string())),
-        socket_(context) {}
+      : listener_(std::move(listener)), acceptor_(context, Local::endpoint(path())), ready_(context) {}
 
   std::string path() const { return (folder_.path() / "host").string(); }
 
   void accept() {
-    acceptor_.async_accept(socket_, [self = shared_from_this()](Error error) {
+    acceptor_.async_accept(ready_, [self = shared_from_this()](Error error) {
       if (self->closed_) return;
-      if (error) return self->fail();
-      self->begin();
+      error ? self->end_accepting(error.message()) : self->begin();
     });
   }
 
-  void send(const serve::Head& head, Body body) {
-    out_.push_back({head, std::move(body)});
-    if (out_.size() == 1) write();
+  void close_to_others() {
+    Error ignored;
+    acceptor_.close(ignored);
+    folder_.remove();
   }
 
-  // What is being written goes on.
+  void send(Kind kind, std::uint32_t view, std::uint32_t picture, pictures::Body body) {
+    socket_->send({kind, view, picture}, std::move(body));
+    write();
+  }
+
   std::vector<std::uint32_t> take_back(std::uint32_t view, bool scenes) {
     std::vector<std::uint32_t> pictures;
-    if (out_.empty()) return pictures;
-    const auto old = [&](const Outgoing& each) {
-      const bool matches = each.head.view == view &&
-                           (each.head.kind == serve::Kind::draw || (scenes && each.head.kind == serve::Kind::view));
-      if (matches) pictures.push_back(each.head.picture);
-      return matches;
-    };
-    out_.erase(std::remove_if(out_.begin() + 1, out_.end(), old), out_.end());
+    socket_->take_back([&](const pictures::Head& head) {
+      const bool is_old = head.view == view && (head.kind == Kind::draw || (scenes && head.kind == Kind::view));
+      if (is_old) pictures.push_back(head.picture);
+      return is_old;
+    });
     return pictures;
   }
 
@@ -139,109 +105,96 @@ class HostConnection::Wire : public std::enable_shared_from_this<Wire> {
     closed_ = true;
     Error ignored;
     acceptor_.close(ignored);
-    socket_.close(ignored);
+    end_connection();
   }
 
  private:
-  struct Outgoing {
-    serve::Head head;
-    Body body;
-  };
-
-  // The socket's name is of no use any more.
   void begin() {
-    Error ignored;
-    acceptor_.close(ignored);
-    folder_.remove();
-    socket_.set_option(asio::socket_base::send_buffer_size(kSocketBuffer), ignored);
-    read_head();
-    listener_.connected();
+    socket_.emplace(child::Descriptor(dup(ready_.native_handle())), pictures::Peer::host);
+    writing_ = false;
+    read();
+    hear(listener_.connected);
   }
 
-  void fail() {
-    if (closed_) return;
-    close();
-    listener_.closed();
+  void end_connection() {
+    Error ignored;
+    ready_.close(ignored);
+    socket_.reset();
+    begin_.reset();
+  }
+
+  // The next host may come.
+  void end_host(const std::string& reason) {
+    end_connection();
+    if (acceptor_.is_open()) accept();
+    hear(listener_.closed, reason);
+  }
+
+  void end_accepting(const std::string& reason) {
+    close_to_others();
+    hear(listener_.closed, reason);
+  }
+
+  // Calls `next` when the socket has something, or takes more; not if that host is gone by then.
+  template <typename Next>
+  void wait(Local::socket::wait_type what, Next next) {
+    ready_.async_wait(what, [self = shared_from_this(), next](Error error) {
+      if (!self->closed_ && !error) next(*self);
+    });
   }
 
   void write() {
-    const Outgoing& next = out_.front();
-    const std::array<asio::const_buffer, 2> parts{asio::buffer(&next.head, sizeof next.head),
-                                                  next.body ? asio::buffer(*next.body) : asio::const_buffer()};
-    asio::async_write(socket_, parts, [self = shared_from_this()](Error error, std::size_t) {
-      if (self->closed_) return;
-      if (error) return self->fail();
-      self->out_.pop_front();
-      if (!self->out_.empty()) self->write();
+    if (writing_ || socket_->flushed() || !socket_->is_open()) return;
+    writing_ = true;
+    wait(Local::socket::wait_write, [](Wire& wire) {
+      wire.writing_ = false;
+      wire.socket_->flush();
+      wire.write();
     });
   }
 
-  // Reads `bytes` bytes, then does `next`.
-  template <typename Next>
-  void read(void* to, std::size_t bytes, Next next) {
-    asio::async_read(socket_, asio::buffer(to, bytes), [self = shared_from_this(), next](Error error, std::size_t) {
-      if (self->closed_) return;
-      if (error) return self->fail();
-      next(*self);
-    });
+  void read() {
+    wait(Local::socket::wait_read, [](Wire& wire) { wire.take_messages(); });
   }
 
-  void read_head() {
-    read(&head_, sizeof head_, [](Wire& wire) { wire.read_body(); });
+  void take_messages() try {
+    for (int taken = 0; taken < kMessagesATurn; ++taken) {
+      const std::optional<pictures::Message> message = socket_->receive();
+      if (!message) break;
+      take(*message);
+      if (closed_) return;
+    }
+    socket_->is_open() ? read() : end_host("");
+  } catch (const pictures::Malformed& failure) {
+    end_host(failure.what());
   }
 
-  void read_body() {
-    if (!is_sound(head_)) return fail();
-    switch (head_.kind) {
-      case serve::Kind::ready:
-        return read(&ready_, sizeof ready_, [](Wire& wire) {
-          wire.read_head();
-          wire.listener_.ready(wire.ready_);
-        });
-      case serve::Kind::picture: return read_picture();
-      case serve::Kind::dropped: {
-        const serve::Head head = head_;
-        read_head();
-        return listener_.dropped(head.view, head.picture);
+  void take(const pictures::Message& message) {
+    switch (message.head.kind) {
+      case Kind::begin: {
+        pictures::BeginMessage begin = pictures::read_begin(message);
+        begin_ = begin.begin;
+        return hear(listener_.begin, std::move(begin));
       }
-      default:  // why it ends is known when its job has ended
-        words_.resize(head_.bytes);
-        return read(words_.data(), words_.size(), [](Wire& wire) { wire.read_head(); });
+      case Kind::picture: return hear(listener_.picture, pictures::read_picture(message, begin_));
+      case Kind::dropped: return hear(listener_.dropped, message.head.view, message.head.picture);
+      case Kind::drawn: return hear(listener_.drawn, pictures::read_drawn(message));
+      default: return;  // why it ends is known when its job has ended
     }
   }
 
-  void read_picture() {
-    picture_ = {head_.view, head_.picture, {}, {}, {}};
-    read(&picture_.head, sizeof picture_.head, [](Wire& wire) {
-      if (!is_sound(wire.head_, wire.picture_.head)) return wire.fail();
-      std::vector<serve::Rect>& rects = wire.picture_.rects;
-      rects.resize(wire.picture_.head.rects);
-      wire.read(rects.data(), rects.size() * sizeof(serve::Rect), [](Wire& same) { same.read_pixels(); });
-    });
-  }
-
-  void read_pixels() {
-    if (!is_sound(head_, picture_)) return fail();
-    std::vector<std::uint32_t>& pixels = picture_.pixels;
-    const std::size_t bytes = head_.bytes - sizeof picture_.head - picture_.rects.size() * sizeof(serve::Rect);
-    pixels.resize(bytes / sizeof(std::uint32_t));
-    read(pixels.data(), bytes, [](Wire& wire) {
-      SurfacePicture picture = std::move(wire.picture_);
-      wire.read_head();
-      wire.listener_.picture(std::move(picture));
-    });
+  template <typename... Parts>
+  static void hear(const std::function<void(Parts...)>& listener, auto&&... parts) {
+    if (listener) listener(std::forward<decltype(parts)>(parts)...);
   }
 
   PrivateFolder folder_;
   const Listener listener_;
   Local::acceptor acceptor_;
-  Local::socket socket_;
-  bool closed_ = false;
-  std::deque<Outgoing> out_;  // the first is being written
-  serve::Head head_{};
-  serve::Ready ready_{};
-  SurfacePicture picture_;
-  std::vector<char> words_;
+  Local::socket ready_;                     // says when socket_ has something, or takes more
+  std::optional<pictures::Socket> socket_;  // none: no host is connected
+  std::optional<pictures::Begin> begin_;    // the host's last
+  bool closed_ = false, writing_ = false;
 };
 
 HostConnection::HostConnection(asio::io_context& context, Listener listener)
@@ -253,9 +206,10 @@ HostConnection::~HostConnection() { wire_->close(); }
 
 std::string HostConnection::path() const { return wire_->path(); }
 
-void HostConnection::send(serve::Kind kind, std::uint32_t view, std::uint32_t picture, Body body) {
-  const std::uint64_t bytes = body ? body->size() : 0;
-  wire_->send({kind, view, picture, 0, bytes}, std::move(body));
+void HostConnection::close_to_others() { wire_->close_to_others(); }
+
+void HostConnection::send(Kind kind, std::uint32_t view, std::uint32_t picture, pictures::Body body) {
+  wire_->send(kind, view, picture, std::move(body));
 }
 
 std::vector<std::uint32_t> HostConnection::take_back(std::uint32_t view, bool scenes) {

@@ -10,7 +10,6 @@
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <chrono>
-#include <cstring>
 #include <map>
 #include <optional>
 #include <set>
@@ -27,22 +26,13 @@ namespace {
 
 namespace asio = boost::asio;
 using Clock = std::chrono::steady_clock;
+using pictures::Kind;
 
 // Before a host that ended is started again: the next each time, until one lived long enough.
 constexpr std::array<std::chrono::seconds, 5> kPauses{{std::chrono::seconds(1), std::chrono::seconds(2),
                                                        std::chrono::seconds(4), std::chrono::seconds(8),
                                                        std::chrono::seconds(15)}};
 constexpr std::chrono::seconds kLongEnough{30};
-
-Body body_of_draw(std::span<const wire::MovedSegment> segments, std::span<const wire::MovedPatch> patches) {
-  const serve::DrawHead head{static_cast<std::uint32_t>(segments.size()), static_cast<std::uint32_t>(patches.size())};
-  auto body = std::make_shared<std::vector<std::byte>>(sizeof head + segments.size_bytes() + patches.size_bytes());
-  std::memcpy(body->data(), &head, sizeof head);
-  const auto moved = std::as_bytes(segments), pulled = std::as_bytes(patches);
-  std::ranges::copy(moved, body->begin() + sizeof head);
-  std::ranges::copy(pulled, body->begin() + static_cast<std::ptrdiff_t>(sizeof head + moved.size()));
-  return body;
-}
 
 class HostLink : public RendererLink {
  public:
@@ -58,7 +48,7 @@ class HostLink : public RendererLink {
   // What was asked for last, and is asked for again where the host died.
   struct Asked {
     std::uint32_t picture = 0;
-    Body body;  // nullptr: nothing
+    pictures::Body body;  // nullptr: nothing
   };
   struct View {
     Asked scene;
@@ -69,14 +59,15 @@ class HostLink : public RendererLink {
   void start();
   void wait_for_reason();
   void connected();
-  void ready(const serve::Ready& nodes);
+  void ready(const std::vector<pictures::Node>& nodes);
   void take(SurfacePicture picture);
   void dropped(std::uint32_t view, std::uint32_t picture);
+  void closed(const std::string& reason);
   void job_ended();
   void give_up_awaited();
   void start_later(const std::string& reason);
 
-  void ask(std::uint32_t view, serve::Kind kind, const Asked& asked);
+  void ask(std::uint32_t view, Kind kind, const Asked& asked);
   void forget(std::uint32_t view, bool and_tell_the_host);
   void drop_replaced(std::uint32_t view, bool scenes);
   void drop_soon(std::uint32_t view, std::uint32_t picture);
@@ -104,6 +95,7 @@ class HostLink : public RendererLink {
   std::size_t reason_size_ = 0;
   std::optional<HostConnection> connection_;  // closed before the job is waited for
   bool connected_ = false;
+  std::string why_closed_;  // "": the host closed it
 };
 
 HostLink::HostLink(asio::io_context& context, HostStart start, Listener listener)
@@ -114,12 +106,15 @@ HostLink::HostLink(asio::io_context& context, HostStart start, Listener listener
 
 void HostLink::start() try {
   connected_ = false;
+  why_closed_.clear();
   ready_since_.reset();
-  connection_.emplace(context_, HostConnection::Listener{[this] { connected(); },
-                                                         [this](const serve::Ready& nodes) { ready(nodes); },
-                                                         [this](SurfacePicture picture) { take(std::move(picture)); },
-                                                         [this](auto view, auto picture) { dropped(view, picture); },
-                                                         [this] { connected_ = false; }});
+  connection_.emplace(
+      context_, HostConnection::Listener{.connected = [this] { connected(); },
+                                         .begin = [this](const pictures::BeginMessage& begin) { ready(begin.nodes); },
+                                         .picture = [this](SurfacePicture picture) { take(std::move(picture)); },
+                                         .dropped = [this](auto view, auto picture) { dropped(view, picture); },
+                                         .drawn = {},
+                                         .closed = [this](const std::string& reason) { closed(reason); }});
   job_.emplace(host_command(start_, connection_->path()), start_.options);
   job_end_.emplace(context_, dup(job_->reason().number()));
   reason_size_ = 0;
@@ -140,30 +135,33 @@ void HostLink::wait_for_reason() {
 
 void HostLink::connected() {
   connected_ = true;
-  if (film_) connection_->send(serve::Kind::film, 0, 0, film_);
+  connection_->close_to_others();
+  if (film_) connection_->send(Kind::film, 0, 0, film_);
   struct Again {
     std::uint32_t view;
-    serve::Kind kind;
+    Kind kind;
     Asked asked;
   };
   std::vector<Again> again;
   for (const auto& [number, view] : views_) {
-    again.push_back({number, serve::Kind::view, view.scene});
-    if (view.draw.body) again.push_back({number, serve::Kind::draw, view.draw});
+    again.push_back({number, Kind::view, view.scene});
+    if (view.draw.body) again.push_back({number, Kind::draw, view.draw});
   }
   std::ranges::sort(again, {}, [](const Again& each) { return each.asked.picture; });
   for (const Again& each : again) ask(each.view, each.kind, each.asked);
 }
 
-void HostLink::ask(std::uint32_t view, serve::Kind kind, const Asked& asked) {
+void HostLink::ask(std::uint32_t view, Kind kind, const Asked& asked) {
   views_.at(view).awaited.insert(asked.picture);
   if (connected_) connection_->send(kind, view, asked.picture, asked.body);
 }
 
-void HostLink::ready(const serve::Ready& nodes) {
+void HostLink::ready(const std::vector<pictures::Node>& nodes) {
   ready_since_ = Clock::now();
+  std::set<std::int32_t> machines;
+  for (const pictures::Node& node : nodes) machines.insert(node.machine);
   listener_.state("");
-  listener_.ready(nodes.nodes, nodes.machines);
+  listener_.ready(static_cast<std::uint32_t>(nodes.size()), static_cast<std::uint32_t>(machines.size()));
 }
 
 void HostLink::take(SurfacePicture picture) {
@@ -198,7 +196,7 @@ void HostLink::drop_replaced(std::uint32_t view, bool scenes) {
 void HostLink::set_film(std::shared_ptr<const std::vector<std::byte>> block) {
   while (!views_.empty()) forget(views_.begin()->first, false);
   film_ = std::move(block);
-  if (connected_) connection_->send(serve::Kind::film, 0, 0, film_);
+  if (connected_) connection_->send(Kind::film, 0, 0, film_);
 }
 
 void HostLink::begin(std::uint32_t view, std::uint32_t picture, std::vector<std::byte> scene_block) {
@@ -206,7 +204,7 @@ void HostLink::begin(std::uint32_t view, std::uint32_t picture, std::vector<std:
   drop_replaced(view, true);
   of.scene = {picture, std::make_shared<const std::vector<std::byte>>(std::move(scene_block))};
   of.draw = {};
-  ask(view, serve::Kind::view, of.scene);
+  ask(view, Kind::view, of.scene);
 }
 
 void HostLink::draw(std::uint32_t view, std::uint32_t picture, std::span<const wire::MovedSegment> segments,
@@ -214,8 +212,10 @@ void HostLink::draw(std::uint32_t view, std::uint32_t picture, std::span<const w
   const auto found = views_.find(view);
   if (found == views_.end()) return drop_soon(view, picture);
   drop_replaced(view, false);
-  found->second.draw = {picture, body_of_draw(segments, patches)};
-  ask(view, serve::Kind::draw, found->second.draw);
+  const pictures::DrawHead head{static_cast<std::uint32_t>(segments.size()),
+                                static_cast<std::uint32_t>(patches.size())};
+  found->second.draw = {picture, pictures::body_of(head, segments, patches)};
+  ask(view, Kind::draw, found->second.draw);
 }
 
 void HostLink::forget(std::uint32_t view, bool and_tell_the_host) {
@@ -224,7 +224,12 @@ void HostLink::forget(std::uint32_t view, bool and_tell_the_host) {
   drop_replaced(view, true);
   for (const std::uint32_t picture : found->second.awaited) drop_soon(view, picture);
   views_.erase(found);
-  if (connected_ && and_tell_the_host) connection_->send(serve::Kind::close, view, 0, nullptr);
+  if (connected_ && and_tell_the_host) connection_->send(Kind::close, view, 0, nullptr);
+}
+
+void HostLink::closed(const std::string& reason) {
+  connected_ = false;
+  why_closed_ = reason;
 }
 
 void HostLink::job_ended() {
@@ -234,7 +239,7 @@ void HostLink::job_ended() {
   job_end_.reset();
   job_.reset();
   give_up_awaited();
-  start_later(std::string(reason_.data(), reason_size_));
+  start_later(why_closed_.empty() ? std::string(reason_.data(), reason_size_) : why_closed_);
 }
 
 // All but what is asked for again.

@@ -10,19 +10,13 @@
 #include <string>
 #include <vector>
 
-#include "host/render/serve/serve_messages.h"
+#include "host/render/pictures/reading.h"
 #include "node/wire/protocol.h"
 
 namespace mars::studio {
 
 // Of a view: where it differs from the picture sent before.
-struct SurfacePicture {
-  std::uint32_t view = 0;
-  std::uint32_t picture = 0;
-  serve::PictureHead head{};
-  std::vector<serve::Rect> rects;
-  std::vector<std::uint32_t> pixels;  // rows of rectangle after rectangle: red in the lowest byte, 255 in the highest
-};
+using SurfacePicture = pictures::Picture;
 
 class RendererLink {
  public:

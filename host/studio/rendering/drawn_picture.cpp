@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <utility>
 
 namespace mars::studio {
 namespace {
 
-constexpr std::uint32_t kColors = 0x00ffffff, kOpaque = 0xff000000;
 constexpr int kMarkBits = 24;
 constexpr std::size_t kMostDrawn = 256;  // frames whose times are kept
 constexpr std::size_t kMostBars = 540;   // of EBC
@@ -49,42 +49,31 @@ const char* word_of(wire::FrameKind kind) { return kind == wire::FrameKind::keyf
 
 }  // namespace
 
-DrawnPicture::DrawnPicture(const watch::Begin& begin)
+DrawnPicture::DrawnPicture(const pictures::Begin& begin)
     : width_(begin.width),
       height_(begin.height),
       block_(begin.block),
       pixels_(std::size_t{begin.width} * begin.height),
-      lines_(begin.height, watch::Line{-1, 0}) {}
+      lines_(begin.height, pictures::Line{-1, 0}) {}
 
-void DrawnPicture::take(const WatchedUpdate& update, std::span<compositor::BlockFlags* const> changed) {
+void DrawnPicture::take(pictures::Picture update, std::span<compositor::BlockFlags* const> changed) {
   head_ = update.head;
-  lines_ = update.lines;
-  const std::uint32_t* from = update.pixels.data();
-  for (const watch::Rect& rect : update.rects)
-    for (std::uint32_t line = rect.y; line < std::uint32_t{rect.y} + rect.height; ++line, from += rect.width) {
-      std::copy_n(from, rect.width, &pixels_[std::size_t{line} * width_ + rect.x]);
-      for (compositor::BlockFlags* flags : changed) flags->set_pixels(line, rect.x, rect.width);
-    }
+  lines_ = std::move(update.lines);
+  pictures::paste(update.pixels, update.rects, width_, pixels_);
+  for (compositor::BlockFlags* flags : changed)
+    pictures::for_rows(update.rects, width_, [&](std::size_t at, std::size_t count) {
+      flags->set_pixels(static_cast<std::uint32_t>(at / width_), static_cast<std::uint32_t>(at % width_),
+                        static_cast<std::uint32_t>(count));
+    });
 }
 
-void DrawnPicture::note_drawn(const watch::DrawnHead& head, std::vector<watch::Part> parts) {
-  drawn_[head.frame] = {head, std::move(parts)};
+void DrawnPicture::note_drawn(pictures::DrawnMessage drawn) {
+  drawn_[drawn.head.frame] = std::move(drawn);
   if (drawn_.size() <= kMostDrawn) return;
   const auto older = [](const auto& one, const auto& other) {
     return one.second.head.seconds < other.second.head.seconds;
   };
   drawn_.erase(std::ranges::min_element(drawn_, older));
-}
-
-std::vector<std::uint32_t> DrawnPicture::pixels_of(std::span<const watch::Rect> rects) const {
-  std::vector<std::uint32_t> pixels;
-  for (const watch::Rect& rect : rects)
-    for (std::uint32_t line = rect.y; line < std::uint32_t{rect.y} + rect.height; ++line) {
-      const std::uint32_t* from = &pixels_[std::size_t{line} * width_ + rect.x];
-      std::transform(from, from + rect.width, std::back_inserter(pixels),
-                     [](std::uint32_t pixel) { return (pixel & kColors) | kOpaque; });
-    }
-  return pixels;
 }
 
 Json DrawnPicture::describe(const compositor::BlockFlags& flagged) const {
@@ -97,8 +86,8 @@ Json DrawnPicture::describe(const compositor::BlockFlags& flagged) const {
           {"seconds", head_.seconds},
           {"block", block_},
           {"flagged", bits_of(flagged)},
-          {"moving", bits_of(blocks_with(watch::Mark::moving))},
-          {"still", bits_of(blocks_with(watch::Mark::still))},
+          {"moving", bits_of(blocks_with(pictures::Mark::moving))},
+          {"still", bits_of(blocks_with(pictures::Mark::still))},
           {"ebc", edge_boxes()},
           {"nodes", nodes()}};
 }
@@ -117,7 +106,7 @@ Json DrawnPicture::nodes() const {
   for (auto& [node, ranges] : lines) {
     Json each{{"node", node}, {"lines", std::move(ranges)}};
     if (drawn != drawn_.end()) {
-      const auto part = std::ranges::find(drawn->second.parts, node, &watch::Part::node);
+      const auto part = std::ranges::find(drawn->second.parts, node, &pictures::Part::node);
       if (part != drawn->second.parts.end()) {
         each["seconds"] = seconds_of(part->times);
         each["ended"] = part->ended;
@@ -143,7 +132,7 @@ Json DrawnPicture::edge_boxes() const {
   return counts;
 }
 
-compositor::BlockFlags DrawnPicture::blocks_with(watch::Mark mark) const {
+compositor::BlockFlags DrawnPicture::blocks_with(pictures::Mark mark) const {
   compositor::BlockFlags flags = no_blocks();
   for (std::uint32_t line = 0; line < height_; ++line)
     for (std::uint32_t x = 0; x < width_; x += block_) {
@@ -154,12 +143,6 @@ compositor::BlockFlags DrawnPicture::blocks_with(watch::Mark mark) const {
       if (!flags.at(x / block_, line / block_) && std::ranges::any_of(block, has_mark)) flags.set_pixels(line, x, 1);
     }
   return flags;
-}
-
-std::vector<std::uint32_t> opaque(const images::Image& image) {
-  std::vector<std::uint32_t> pixels(image.pixels.size());
-  std::ranges::transform(image.pixels, pixels.begin(), [](std::uint32_t pixel) { return pixel | kOpaque; });
-  return pixels;
 }
 
 }  // namespace mars::studio

@@ -7,9 +7,8 @@
 #include <vector>
 
 #include "host/content/document/json_file.h"
-#include "host/images/image.h"
 #include "host/render/compositor/block_flags.h"
-#include "host/studio/rendering/watch_connection.h"
+#include "host/render/pictures/reading.h"
 
 namespace mars::studio {
 
@@ -18,7 +17,7 @@ using document::Json;
 class DrawnPicture {
  public:
   DrawnPicture() = default;
-  explicit DrawnPicture(const watch::Begin& begin);
+  explicit DrawnPicture(const pictures::Begin& begin);
 
   // Blocks as large as this picture's.
   compositor::BlockFlags no_blocks() const { return {width_, height_, block_}; }
@@ -27,32 +26,26 @@ class DrawnPicture {
   std::uint32_t height() const { return height_; }
 
   // Flags in `changed` what it changes.
-  void take(const WatchedUpdate& update, std::span<compositor::BlockFlags* const> changed);
-  void note_drawn(const watch::DrawnHead& head, std::vector<watch::Part> parts);
+  void take(pictures::Picture update, std::span<compositor::BlockFlags* const> changed);
+  void note_drawn(pictures::DrawnMessage drawn);
 
   // Pixels of rectangles, as in ViewPicture.
-  std::vector<std::uint32_t> pixels_of(std::span<const watch::Rect> rects) const;
+  std::vector<std::uint32_t> pixels_of(std::span<const pictures::Rect> rects) const {
+    return pictures::cut_opaque(pixels_, width_, rects);
+  }
   // The message `drawn`, with the blocks that are sent with it.
   Json describe(const compositor::BlockFlags& flagged) const;
 
  private:
-  struct Drawn {
-    watch::DrawnHead head;
-    std::vector<watch::Part> parts;
-  };
-
   Json nodes() const;
   Json edge_boxes() const;
-  compositor::BlockFlags blocks_with(watch::Mark mark) const;
+  compositor::BlockFlags blocks_with(pictures::Mark mark) const;
 
   std::uint32_t width_ = 0, height_ = 0, block_ = 1;
-  watch::PictureHead head_{};
+  pictures::PictureHead head_{};
   std::vector<std::uint32_t> pixels_;  // with marks in their highest bytes
-  std::vector<watch::Line> lines_;
-  std::map<std::uint32_t, Drawn> drawn_;  // the last frames that are whole
+  std::vector<pictures::Line> lines_;
+  std::map<std::uint32_t, pictures::DrawnMessage> drawn_;  // the last frames that are whole
 };
-
-// A finished frame, whole.
-std::vector<std::uint32_t> opaque(const images::Image& image);
 
 }  // namespace mars::studio

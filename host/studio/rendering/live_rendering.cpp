@@ -15,13 +15,13 @@
 #include "hal/failure/explain.h"
 #include "hal/failure/failure.h"
 #include "host/render/compositor/rectangles.h"
+#include "host/studio/link/host_connection.h"
 #include "host/studio/rendering/drawn_picture.h"
 #include "host/studio/rendering/finished_frames.h"
 #include "host/studio/rendering/rendering_page.h"
 #include "host/studio/rendering/render_process.h"
 #include "host/studio/rendering/render_words.h"
 #include "host/studio/rendering/rendering.h"
-#include "host/studio/rendering/watch_connection.h"
 
 namespace mars::studio {
 namespace {
@@ -35,12 +35,12 @@ constexpr int kTicksALook = 4;  // at the folder
 
 // A job of mars render, with what is known of it. What its host said last may come after its end.
 struct Job {
-  std::unique_ptr<WatchConnection> connection;
+  std::unique_ptr<HostConnection> connection;
   std::unique_ptr<RenderProcess> process;
-  std::optional<watch::Begin> begin;  // of its last host
-  std::uint32_t there = 0, of = 0;    // frames that the folder had, of those asked for; 0: not known
-  std::uint32_t drawn = 0;            // since that host began
-  double seconds = 0;                 // for the frames above
+  std::optional<pictures::Begin> begin;  // of its last host
+  std::uint32_t there = 0, of = 0;       // frames that the folder had, of those asked for; 0: not known
+  std::uint32_t drawn = 0;               // since that host began
+  double seconds = 0;                    // for the frames above
   bool stopping = false;
 };
 
@@ -77,8 +77,10 @@ class LiveRendering : public Rendering {
 
   void heard(const std::string& line);
   void ended(const child::Ending& ending, const std::string& reason);
-  void begin(const watch::Begin& begin, const std::vector<watch::Node>& nodes);
-  void drawn(const WatchedUpdate& update);
+  HostConnection::Listener host_listener();
+  void begin(const pictures::BeginMessage& hosts);
+  void update(pictures::Picture update);
+  void drawn(pictures::DrawnMessage drawn);
 
   void tick();
   void look();
@@ -142,15 +144,7 @@ void LiveRendering::start(const Json& options) {
   if (is_busy()) throw Failure("a rendering is under way", folder_.string(), "stop it first");
   const std::filesystem::path folder = frames_folder(options, settings_.folder);
   Job job;
-  job.connection = std::make_unique<WatchConnection>(
-      context_, WatchConnection::Listener{
-                    [this](const watch::Begin& hosts, const std::vector<watch::Node>& nodes) { begin(hosts, nodes); },
-                    [this](const WatchedUpdate& update) { drawn(update); },
-                    [this](const watch::DrawnHead& head, std::vector<watch::Part> parts) {
-                      ++job_.drawn;
-                      job_.seconds = std::max(job_.seconds, head.seconds);
-                      picture_.note_drawn(head, std::move(parts));
-                    }});
+  job.connection = std::make_unique<HostConnection>(context_, host_listener());
   const std::vector<std::string> words = render_words(settings_, options, job.connection->path());
   job.process = std::make_unique<RenderProcess>(
       context_, child::Command{{}, words},
@@ -159,6 +153,18 @@ void LiveRendering::start(const Json& options) {
           [this](const child::Ending& ending, const std::string& reason) { ended(ending, reason); }});
   job_ = std::move(job);
   look_at_folder(folder);
+}
+
+HostConnection::Listener LiveRendering::host_listener() {
+  return {.connected = {},
+          .begin = [this](const pictures::BeginMessage& hosts) { begin(hosts); },
+          .picture = [this](pictures::Picture picture) { update(std::move(picture)); },
+          .dropped = {},
+          .drawn = [this](pictures::DrawnMessage frame) { drawn(std::move(frame)); },
+          .closed =
+              [this](const std::string& reason) {
+                if (!reason.empty()) text_ = reason;
+              }};
 }
 
 // From the beginning: what was there of another is no part of it.
@@ -222,25 +228,31 @@ void LiveRendering::heard(const std::string& line) {
   text_ = line;
 }
 
-void LiveRendering::begin(const watch::Begin& begin, const std::vector<watch::Node>& nodes) {
-  job_.begin = begin;
+void LiveRendering::begin(const pictures::BeginMessage& hosts) {
+  job_.begin = hosts.begin;
   job_.drawn = 0;
   job_.seconds = 0;
   nodes_ = Json::array();
-  for (const watch::Node& node : nodes)
+  for (const pictures::Node& node : hosts.nodes)
     nodes_.push_back({{"name", "node " + std::to_string(nodes_.size())}, {"machine", node.host.data()}});
-  picture_ = DrawnPicture(begin);
+  picture_ = DrawnPicture(hosts.begin);
   for (auto& [page, view] : pages_) view.due = picture_.no_blocks();
   become("running", "");
 }
 
-void LiveRendering::drawn(const WatchedUpdate& update) {
+void LiveRendering::drawn(pictures::DrawnMessage drawn) {
+  ++job_.drawn;
+  job_.seconds = std::max(job_.seconds, drawn.head.seconds);
+  picture_.note_drawn(std::move(drawn));
+}
+
+void LiveRendering::update(pictures::Picture update) {
   std::vector<compositor::BlockFlags*> due;
   for (auto& [page, view] : pages_) {
     if (view.due.rows() == 0) view.due = picture_.no_blocks();
     due.push_back(&view.due);
   }
-  picture_.take(update, due);
+  picture_.take(std::move(update), due);
   show_all();
 }
 
@@ -351,12 +363,11 @@ void LiveRendering::show(PageNumber page, RenderingPage& view) {
 }
 
 void LiveRendering::show_drawn(PageNumber page, RenderingPage& view) {
-  const std::vector<watch::Rect> rects = compositor::rectangles_of(view.due, picture_.width(), picture_.height());
   ViewPicture picture;
   picture.width = static_cast<std::uint16_t>(picture_.width());
   picture.height = static_cast<std::uint16_t>(picture_.height());
-  for (const watch::Rect& rect : rects) picture.rects.push_back({rect.x, rect.y, rect.width, rect.height});
-  picture.pixels = picture_.pixels_of(rects);
+  picture.rects = compositor::rectangles_of(view.due, picture_.width(), picture_.height());
+  picture.pixels = picture_.pixels_of(picture.rects);
   picture.rests = !is_busy();
   listener_.tell(page, picture_.describe(view.due));
   view.due.clear();
@@ -388,7 +399,7 @@ void LiveRendering::show_frame(PageNumber page, const images::Image& image) {
   picture.width = static_cast<std::uint16_t>(image.width);
   picture.height = static_cast<std::uint16_t>(image.height);
   picture.rects = {{0, 0, picture.width, picture.height}};
-  picture.pixels = opaque(image);
+  picture.pixels = pictures::cut_opaque(image.pixels, image.width, picture.rects);
   send(page, found->second, std::move(picture));
 }
 

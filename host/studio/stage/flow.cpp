@@ -128,8 +128,8 @@ void Flow::advance_lines(PageView& view, const Shown& now) {
     view.drawing.emplace(view.width, view.height);
   if (view.shown != now) lines_.draw(view.look, now.camera, *view.drawing);
   const images::Image& image = view.drawing->image();
-  std::vector<serve::Rect> rects = changed_rects(view.drawn, image);
-  std::vector<std::uint32_t> pixels = pixels_in(image, rects);
+  std::vector<pictures::Rect> rects = changed_rects(view.drawn, image);
+  std::vector<std::uint32_t> pixels = pictures::cut_opaque(image.pixels, image.width, rects);
   view.drawn = image;
   view.shown = now;
   send(view, {0, pages_.edit_of(view.page), rests, false, pages_.controls(view)}, std::move(rects), std::move(pixels));
@@ -232,7 +232,8 @@ std::vector<std::uint32_t> Flow::moving_of(PageView& view, const Scene& scene, b
   return changed;
 }
 
-void Flow::send(PageView& view, const Asked& asked, std::vector<serve::Rect> rects, std::vector<std::uint32_t> pixels) {
+void Flow::send(PageView& view, const Asked& asked, std::vector<pictures::Rect> rects,
+                std::vector<std::uint32_t> pixels) {
   view.rested = asked.rests;
   ViewPicture picture;
   picture.page = view.page;

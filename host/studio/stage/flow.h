@@ -64,7 +64,7 @@ class Flow {
   void ask(PageView& view, const Shown& now, bool rests);
   std::optional<Moved> inbetween(PageView& view, const Scene& scene, bool exact);
   std::vector<std::uint32_t> moving_of(PageView& view, const Scene& scene, bool exact);
-  void send(PageView& view, const Asked& asked, std::vector<serve::Rect> rects, std::vector<std::uint32_t> pixels);
+  void send(PageView& view, const Asked& asked, std::vector<pictures::Rect> rects, std::vector<std::uint32_t> pixels);
 
   Project& project_;
   RendererLink& link_;

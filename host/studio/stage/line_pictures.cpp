@@ -5,6 +5,7 @@
 
 #include "host/content/film/light_writer.h"
 #include "host/preview/shape_lines.h"
+#include "host/render/compositor/rectangles.h"
 #include "host/studio/stage/picking.h"
 
 namespace mars::studio {
@@ -183,46 +184,15 @@ bool differs(const images::Image& before, const images::Image& now, std::uint32_
   return false;
 }
 
-serve::Rect rect(std::uint32_t x, std::uint32_t y, std::uint32_t width, std::uint32_t height) {
-  return {static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), static_cast<std::uint16_t>(width),
-          static_cast<std::uint16_t>(height)};
-}
-
-// Puts a row's rectangle below one that ends there and is as wide.
-void put(const serve::Rect& one, std::vector<serve::Rect>& rects) {
-  for (serve::Rect& above : rects)
-    if (above.x == one.x && above.width == one.width && above.y + above.height == one.y) {
-      above.height = static_cast<std::uint16_t>(above.height + one.height);
-      return;
-    }
-  rects.push_back(one);
-}
-
 }  // namespace
 
-std::vector<serve::Rect> changed_rects(const images::Image& before, const images::Image& now) {
-  if (before.width != now.width || before.height != now.height) return {rect(0, 0, now.width, now.height)};
-  std::vector<serve::Rect> rects;
-  for (std::uint32_t y = 0; y < now.height; y += kBlock) {
-    const std::uint32_t height = std::min(kBlock, now.height - y);
-    for (std::uint32_t x = 0; x < now.width;) {
-      std::uint32_t end = x;
-      while (end < now.width && differs(before, now, end, y)) end = std::min(end + kBlock, now.width);
-      if (end > x) put(rect(x, y, end - x, height), rects);
-      x = end + kBlock;
-    }
-  }
-  return rects;
-}
-
-std::vector<std::uint32_t> pixels_in(const images::Image& image, std::span<const serve::Rect> rects) {
-  std::vector<std::uint32_t> pixels;
-  for (const serve::Rect& rect : rects)
-    for (std::uint32_t row = rect.y; row < std::uint32_t{rect.y} + rect.height; ++row) {
-      const std::size_t at = std::size_t{row} * image.width + rect.x;
-      for (std::uint32_t i = 0; i < rect.width; ++i) pixels.push_back(image.pixels[at + i] | 0xff000000u);
-    }
-  return pixels;
+std::vector<pictures::Rect> changed_rects(const images::Image& before, const images::Image& now) {
+  compositor::BlockFlags changed(now.width, now.height, kBlock);
+  const bool all = before.width != now.width || before.height != now.height;
+  for (std::uint32_t y = 0; y < now.height; y += kBlock)
+    for (std::uint32_t x = 0; x < now.width; x += kBlock)
+      if (all || differs(before, now, x, y)) changed.set_pixels(y, x, 1);
+  return compositor::rectangles_of(changed, now.width, now.height);
 }
 
 }  // namespace mars::studio

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "host/preview/film_drawing.h"
-#include "host/render/serve/serve_messages.h"
+#include "host/render/pictures/reading.h"
 #include "host/studio/project/project.h"
 #include "host/studio/stage/moments.h"
 
@@ -46,9 +46,6 @@ class LinePictures {
 
 // The blocks of 16 pixels each way that differ, joined to rectangles that do not overlap; all where there was no
 // picture of this size before.
-std::vector<serve::Rect> changed_rects(const images::Image& before, const images::Image& now);
-
-// Their rows, rectangle after rectangle, with 255 in the highest byte.
-std::vector<std::uint32_t> pixels_in(const images::Image& image, std::span<const serve::Rect> rects);
+std::vector<pictures::Rect> changed_rects(const images::Image& before, const images::Image& now);
 
 }  // namespace mars::studio

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "host/render/serve/serve_messages.h"
+#include "host/render/pictures/reading.h"
 #include "host/studio/project/project.h"
 
 namespace mars::studio {
@@ -20,7 +20,7 @@ struct ViewPicture {
   std::uint16_t width = 0, height = 0;
   bool rests = true;  // false: more changes are to be expected at once (a hand moves); it may be lossy then
   bool exact = true;  // the film's own pixels; false: lines, other eyes, what moves
-  std::vector<serve::Rect> rects;
+  std::vector<pictures::Rect> rects;
   std::vector<std::uint32_t> pixels;  // as SurfacePicture's
   Json handles;                       // of the view, to be shown with it (docs/studio-protocol.md)
 };

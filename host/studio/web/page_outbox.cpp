@@ -33,10 +33,7 @@ std::string text_of(const Json& message) { return message.dump(-1, ' ', false, J
 
 // The rectangles of `changes` over the whole picture.
 void paste(ViewPicture& whole, ViewPicture changes) {
-  const std::uint32_t* from = changes.pixels.data();
-  for (const serve::Rect& rect : changes.rects)
-    for (std::uint32_t y = 0; y < rect.height; ++y, from += rect.width)
-      std::copy_n(from, rect.width, whole.pixels.data() + (rect.y + y) * std::size_t{whole.width} + rect.x);
+  pictures::paste(changes.pixels, changes.rects, whole.width, whole.pixels);
   changes.rects = std::move(whole.rects);
   changes.pixels = std::move(whole.pixels);
   whole = std::move(changes);

@@ -27,7 +27,7 @@ struct Head {
   std::uint16_t encoding, flags;
   std::uint32_t rects;
 };
-static_assert(sizeof(Head) == 32 && sizeof(serve::Rect) == 8, "pixels begin at a multiple of 8 bytes");
+static_assert(sizeof(Head) == 32 && sizeof(pictures::Rect) == 8, "pixels begin at a multiple of 8 bytes");
 
 void append(std::string& message, std::span<const std::byte> bytes) {
   message.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -73,7 +73,7 @@ void append_jpeg(std::string& message, const ViewPicture& picture) {
 
 bool is_whole(const ViewPicture& picture) {
   if (picture.rects.size() != 1) return false;
-  const serve::Rect& rect = picture.rects.front();
+  const pictures::Rect& rect = picture.rects.front();
   return rect.x == 0 && rect.y == 0 && rect.width == picture.width && rect.height == picture.height;
 }
 

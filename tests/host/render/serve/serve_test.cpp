@@ -13,7 +13,7 @@
 namespace {
 
 using namespace mars;
-using serve::Kind;
+using pictures::Kind;
 using test::StudioEnd;
 
 constexpr std::uint32_t kView = 3;
@@ -60,11 +60,9 @@ void start_with(const Example& film, StudioEnd& studio, int nodes, bool mpi = fa
   studio.send(Kind::film, 0, 0, film.film.block());
   const auto answer = studio.receive();
   ASSERT_TRUE(answer) << studio.errors();
-  ASSERT_EQ(answer->head.kind, Kind::ready);
-  serve::Ready ready;
-  memcpy(&ready, answer->body.data(), sizeof ready);
-  EXPECT_EQ(ready.nodes, static_cast<std::uint32_t>(nodes));
-  EXPECT_EQ(ready.machines, 1u);
+  const pictures::BeginMessage begin = pictures::read_begin(*answer);
+  EXPECT_EQ(begin.nodes.size(), static_cast<std::size_t>(nodes));
+  for (const pictures::Node& node : begin.nodes) EXPECT_EQ(node.machine, 0);
 }
 
 void start_with_film(StudioEnd& studio, int nodes, bool mpi = false) { start_with(example(), studio, nodes, mpi); }
@@ -192,7 +190,7 @@ TEST(Serve, AnotherFilmEndsAllViews) {
     kinds.push_back(answer->head.kind);
   } while (kinds.back() != Kind::picture);
   EXPECT_EQ(std::ranges::count(kinds, Kind::dropped), 2);
-  EXPECT_EQ(std::ranges::count(kinds, Kind::ready), 1);
+  EXPECT_EQ(std::ranges::count(kinds, Kind::begin), 1);
   EXPECT_EQ(studio.shown(kView), film.frame(film.first + 1));
   expect_end(studio);
 }
@@ -225,27 +223,22 @@ void expect_refusal(const std::vector<std::byte>& message, const std::string& pa
   EXPECT_EQ(ending->code, 1) << studio.errors();
 }
 
-std::vector<std::byte> message_of(const serve::Head& head, std::vector<std::byte> body = {}) {
-  std::vector<std::byte> message(sizeof head);
-  memcpy(message.data(), &head, sizeof head);
-  message.insert(message.end(), body.begin(), body.end());
-  return message;
+std::vector<std::byte> message_of(const pictures::Head& head, const std::vector<std::byte>& body = {}) {
+  return pictures::joined(head, body);
 }
 
 TEST(Serve, MalformedMessagesAreRefused) {
   const auto kind = [](std::uint32_t number) { return static_cast<Kind>(number); };
   expect_refusal(message_of({kind(0), 0, 0, 0, 0}), "kind");
   expect_refusal(message_of({kind(77), 0, 0, 0, 0}), "kind");
-  expect_refusal(message_of({Kind::view, 1, 2, 0, serve::kMostBytes + 1}), "size");
+  expect_refusal(message_of({Kind::view, 1, 2, 0, (std::uint64_t{1} << 40) + 1}), "size");
   expect_refusal(message_of({Kind::draw, 1, 2, 0, 3}), "size");
   expect_refusal(message_of({Kind::close, 1, 0, 0, 8}, std::vector<std::byte>(8)), "size");
   expect_refusal(message_of({Kind::view, wire::kMostViews, 2, 0, 8}), "view");
   expect_refusal(message_of({Kind::view, 1, 1, 0, 8}, std::vector<std::byte>(8)), "ascend");
   expect_refusal(message_of({Kind::view, 1, 2, 0, 64}, std::vector<std::byte>(64)), "scene");
   expect_refusal(message_of({Kind::film, 0, 0, 0, 64}, std::vector<std::byte>(64)), "film");
-  const serve::DrawHead many{1, 0};
-  std::vector<std::byte> body(sizeof many);
-  memcpy(body.data(), &many, sizeof many);
+  const std::vector<std::byte> body = pictures::joined(pictures::DrawHead{1, 0});
   expect_refusal(message_of({Kind::draw, kView, 2, 0, body.size()}, body), "Draw");
 }
 

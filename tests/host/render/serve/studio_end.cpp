@@ -70,8 +70,8 @@ std::optional<child::Ending> StudioEnd::ending() {
   return std::nullopt;
 }
 
-void StudioEnd::send(serve::Kind kind, std::uint32_t view, std::uint32_t picture, std::span<const std::byte> body) {
-  const serve::Head head{kind, view, picture, 0, body.size()};
+void StudioEnd::send(pictures::Kind kind, std::uint32_t view, std::uint32_t picture, std::span<const std::byte> body) {
+  const pictures::Head head{kind, view, picture, 0, body.size()};
   send_bytes(std::as_bytes(std::span(&head, 1)));
   send_bytes(body);
 }
@@ -85,11 +85,8 @@ void StudioEnd::send_bytes(std::span<const std::byte> bytes) {
 }
 
 void StudioEnd::send_draw(std::uint32_t view, std::uint32_t picture, std::span<const wire::MovedSegment> segments) {
-  const serve::DrawHead head{static_cast<std::uint32_t>(segments.size()), 0};
-  std::vector<std::byte> body(sizeof head + segments.size_bytes());
-  std::memcpy(body.data(), &head, sizeof head);
-  std::memcpy(body.data() + sizeof head, segments.data(), segments.size_bytes());
-  send(serve::Kind::draw, view, picture, body);
+  const pictures::DrawHead head{static_cast<std::uint32_t>(segments.size()), 0};
+  send(pictures::Kind::draw, view, picture, pictures::joined(head, segments));
 }
 
 bool StudioEnd::has_answer(int milliseconds) const {
@@ -115,25 +112,16 @@ std::optional<StudioEnd::Answer> StudioEnd::receive() {
   if (!read_all(&answer.head, sizeof answer.head)) return std::nullopt;
   answer.body.resize(answer.head.bytes);
   if (!read_all(answer.body.data(), answer.body.size())) return std::nullopt;
-  if (answer.head.kind == serve::Kind::picture) paint(answer);
+  if (answer.head.kind == pictures::Kind::picture) paint(answer);
   return answer;
 }
 
 void StudioEnd::paint(const Answer& answer) {
-  serve::PictureHead head;
-  std::memcpy(&head, answer.body.data(), sizeof head);
-  std::vector<serve::Rect> rects(head.rects);
-  std::memcpy(rects.data(), answer.body.data() + sizeof head, rects.size() * sizeof(serve::Rect));
-  const std::byte* from = answer.body.data() + sizeof head + rects.size() * sizeof(serve::Rect);
-  std::vector<std::uint32_t>& canvas = canvases_[answer.head.view];
-  canvas.resize(std::size_t{head.width} * head.height);
-  sent_[answer.head.view] = 0;
-  for (const serve::Rect& rect : rects)
-    for (std::uint32_t y = 0; y < rect.height; ++y, from += rect.width * sizeof(std::uint32_t)) {
-      std::memcpy(&canvas.at(std::size_t{rect.y + y} * head.width + rect.x), from, rect.width * sizeof(std::uint32_t));
-      sent_[answer.head.view] += rect.width;
-    }
-  EXPECT_EQ(from, answer.body.data() + answer.body.size());
+  const pictures::Picture picture = pictures::read_picture(answer, pictures::Begin{});
+  std::vector<std::uint32_t>& canvas = canvases_[picture.view];
+  canvas.resize(std::size_t{picture.head.width} * picture.head.height);
+  pictures::paste(picture.pixels, picture.rects, picture.head.width, canvas);
+  sent_[picture.view] = picture.pixels.size();
 }
 
 std::vector<std::uint32_t> StudioEnd::shown(std::uint32_t view) const {

@@ -13,7 +13,7 @@
 #include "host/child/command.h"
 #include "host/child/descriptor.h"
 #include "host/child/process.h"
-#include "host/render/serve/serve_messages.h"
+#include "host/render/pictures/reading.h"
 #include "node/wire/protocol.h"
 
 namespace mars::test {
@@ -36,14 +36,11 @@ class StudioEnd {
   // How the host ended; none: it has not within 20 s.
   std::optional<child::Ending> ending();
 
-  void send(serve::Kind kind, std::uint32_t view, std::uint32_t picture, std::span<const std::byte> body = {});
+  void send(pictures::Kind kind, std::uint32_t view, std::uint32_t picture, std::span<const std::byte> body = {});
   void send_bytes(std::span<const std::byte> bytes);
   void send_draw(std::uint32_t view, std::uint32_t picture, std::span<const wire::MovedSegment> segments);
 
-  struct Answer {
-    serve::Head head{};
-    std::vector<std::byte> body;
-  };
+  using Answer = pictures::Message;
   // The next one; of a picture its pixels are put on the view's canvas. None: the host has closed the socket. Fails
   // the test after 20 s without.
   std::optional<Answer> receive();

@@ -141,7 +141,7 @@ class Studio {
     std::vector<std::uint32_t>& canvas = canvases_[picture.view];
     canvas.resize(std::size_t{picture.head.width} * picture.head.height);
     auto from = picture.pixels.begin();
-    for (const serve::Rect& rect : picture.rects)
+    for (const pictures::Rect& rect : picture.rects)
       for (std::uint32_t y = rect.y; y < std::uint32_t{rect.y} + rect.height; ++y, from += rect.width)
         std::transform(from, from + rect.width, canvas.begin() + y * picture.head.width + rect.x,
                        [](std::uint32_t pixel) { return pixel & 0xffffff; });

@@ -50,11 +50,8 @@ class RenderingTest : public testing::Test {
     if (page_.width != picture.width || page_.height != picture.height)
       page_ = {picture.width, picture.height, page_.pictures,
                std::vector<std::uint32_t>(std::size_t{picture.width} * picture.height)};
-    const std::uint32_t* from = picture.pixels.data();
-    for (const serve::Rect& rect : picture.rects)
-      for (int line = rect.y; line < rect.y + rect.height; ++line, from += rect.width)
-        std::copy_n(from, rect.width, &page_.pixels[static_cast<std::size_t>(line) * page_.width + rect.x]);
-    EXPECT_EQ(from, picture.pixels.data() + picture.pixels.size());
+    EXPECT_EQ(pictures::pixels_in(picture.rects), picture.pixels.size());
+    pictures::paste(picture.pixels, picture.rects, page_.width, page_.pixels);
     if (paints_) say({{"do", "painted"}, {"view", kRenderingView}, {"picture", picture.picture}});
   }
 

@@ -104,12 +104,8 @@ TEST(LinePictures, OnlyWhatDiffersIsSent) {
   const ViewPicture& next = on.pictures[1];
   EXPECT_FALSE(next.rests);
   EXPECT_LT(next.pixels.size(), 200u * 200);
-  std::size_t at = 0;
-  for (const serve::Rect& rect : next.rects)
-    for (std::uint32_t row = 0; row < rect.height; ++row)
-      for (std::uint32_t column = 0; column < rect.width; ++column)
-        page.pixels[(rect.y + row) * 200 + rect.x + column] = next.pixels[at++];
-  EXPECT_EQ(at, next.pixels.size());
+  EXPECT_EQ(pictures::pixels_in(next.rects), next.pixels.size());
+  pictures::paste(next.pixels, next.rects, 200, page.pixels);
   OnStage fresh(on.project.film());
   fresh.view(
       0, 200, 200, "free", "prisms", R"(, "orbit": )" + [&] {
@@ -135,7 +131,7 @@ TEST(LinePictures, RectanglesCoverWhatDiffersOnce) {
   EXPECT_EQ(rects[1].x, 64);
   EXPECT_EQ(rects[1].width, 6);
   EXPECT_EQ(rects[1].height, 8);
-  EXPECT_EQ(pixels_in(now, rects).size(), 16u * 32 + 6 * 8);
+  EXPECT_EQ(pictures::pixels_in(rects), 16u * 32 + 6 * 8);
 }
 
 TEST(LinePictures, ControlVerticesFollowAPulledShape) {

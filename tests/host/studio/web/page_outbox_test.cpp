@@ -23,7 +23,7 @@ struct Received {
   std::uint32_t rect_count;
 };
 
-ViewPicture picture_of(std::uint32_t number, serve::Rect rect, bool rests, std::uint32_t color) {
+ViewPicture picture_of(std::uint32_t number, pictures::Rect rect, bool rests, std::uint32_t color) {
   ViewPicture picture;
   picture.page = 1;
   picture.view = 2;
@@ -49,12 +49,12 @@ class Page {
   Encoding take(const std::string& bytes) {
     std::memcpy(&last, bytes.data(), sizeof(last));
     EXPECT_EQ(last.magic, 0x5352414du);
-    std::vector<serve::Rect> rects(last.rect_count);
-    const std::size_t head = sizeof(last) + rects.size() * sizeof(serve::Rect);
+    std::vector<pictures::Rect> rects(last.rect_count);
+    const std::size_t head = sizeof(last) + rects.size() * sizeof(pictures::Rect);
     std::memcpy(rects.data(), bytes.data() + sizeof(last), head - sizeof(last));
     const auto encoding = static_cast<Encoding>(last.encoding);
     std::size_t count = 0;
-    for (const serve::Rect& rect : rects) count += std::size_t{rect.width} * rect.height;
+    for (const pictures::Rect& rect : rects) count += std::size_t{rect.width} * rect.height;
     paint(rects, decoded(encoding, bytes.substr(head), count));
     return encoding;
   }
@@ -81,12 +81,9 @@ class Page {
     return pixels;
   }
 
-  void paint(const std::vector<serve::Rect>& rects, const std::vector<std::uint32_t>& pixels) {
+  void paint(const std::vector<pictures::Rect>& rects, const std::vector<std::uint32_t>& pixels) {
     screen.resize(std::size_t{last.width} * last.height);
-    const std::uint32_t* from = pixels.data();
-    for (const serve::Rect& rect : rects)
-      for (std::uint32_t y = 0; y < rect.height; ++y, from += rect.width)
-        std::copy_n(from, rect.width, screen.data() + (rect.y + y) * std::size_t{last.width} + rect.x);
+    pictures::paste(pixels, rects, last.width, screen);
   }
 };
 
@@ -181,7 +178,7 @@ TEST_F(PageOutboxTest, FastLinksGetRawPictures) {
 }
 
 TEST_F(PageOutboxTest, SmallPicturesAreRawUntilTheLinkIsSlow) {
-  const serve::Rect largest_small{0, 0, 256, 32};
+  const pictures::Rect largest_small{0, 0, 256, 32};
   for (std::uint32_t i = 1; i <= 10; ++i) {
     outbox_.show(picture_of(i, {0, 0, 64, 20}, true, i), now_);
     EXPECT_EQ(receive(4ms), Encoding::raw);
