@@ -130,7 +130,7 @@ void Firmware::load() {
   film_.emplace(block, "film", true);
   if (load.orders > 0) {
     if (!make_frame_writer_) throw Failure("this node writes no files", name_, "use --write host");
-    frame_writer_ = make_frame_writer_(*film_, load.pixel_format, orders);
+    frame_writer_ = make_frame_writer_(*film_, orders);
   }
   renderer_.emplace(load, machines, instruction_set_, heartbeat_, frame_writer_.get());
   if (load.live == 1)

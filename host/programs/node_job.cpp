@@ -57,9 +57,10 @@ void run_node_job(std::uint32_t threads) {
   bind(machine, here);
   const topology::Binding binding = topology::Machine::binding();
   const auto is_traced = [](std::int32_t process) { return topology::is_traced(process); };
-  const auto make_writer = [&here](const wire::FilmView& film, wire::PixelFormat, std::span<const std::byte> orders) {
+  const auto make_writer = [](const wire::FilmView& film, std::span<const std::byte> orders) {
+    const bool leads = messages::neighbourhood().index == 0;
     return std::make_unique<composer::NodeWriter>(film, sinks::read_orders(orders), static_cast<std::int32_t>(mynode()),
-                                                  here.index == 0);
+                                                  leads);
   };
   node::run_node({host_name(), binding.cores, binding.seat, memory, settings.simd, getpid(), is_traced, make_writer});
 }

@@ -20,10 +20,10 @@ def films():
     """A mover before what stands still; the same smoothly; everything moves; several intervals."""
     demo = json.loads((EXAMPLES / "demo.json").read_text())
     demo["size"] = [200, 120]
-    yield "demo", demo, ["--frames", "0-19"]
-    yield "smooth", demo, ["--frames", "0-7", "--samples", 4]
-    yield "teapot", spinning_teapot(FRAMES, [161, 97]), []
-    yield "long", spinning_teapot(FRAMES, [33, 2000]), ["--frames", "0-5"]
+    yield "demo", demo, ["--frames", "0-9", "--samples", 1]
+    yield "smooth", demo, ["--frames", "0-3", "--samples", 4]
+    yield "teapot", spinning_teapot(FRAMES, [161, 97]), ["--frames", "0-9"]
+    yield "long", spinning_teapot(FRAMES, [33, 2000]), ["--frames", "0-3"]
 
 
 class Writers(ProgramTest):
@@ -47,7 +47,7 @@ class Writers(ProgramTest):
                 wanted = f"{name}-{ending}"
                 alone = ["--backend", "threads", "--nodes", 1, *words, "--format", ending]
                 self.assertEqual(self.render(path, wanted, *alone).returncode, 0)
-                for nodes in (1, 3, chance.choice([2, 4, 5])):
+                for nodes in (chance.choice([1, 2]), chance.choice([3, 4, 5])):
                     how = ["--backend", "threads", "--nodes", nodes, "--groups", chance.randint(1, nodes), *words,
                            "--format", ending, *chance.choice([[], ["--no-coherence"]])]
                     done = self.render(path, "nodes", *NODES, *how, "--overwrite")
@@ -95,7 +95,7 @@ class Writers(ProgramTest):
     @needs_mpi
     def test_films_survive_writers_that_are_killed(self):
         chance = random.Random(7)
-        path = self.write("film.json", spinning_teapot(1500, [160, 90]))
+        path = self.write("film.json", spinning_teapot(1000, [160, 90]))
         command = [PROGRAMS / "mars", "render", path, "-o", "out", "--backend", "mpi", "--nodes", 3, *NODES]
         process = subprocess.Popen([str(word) for word in command], cwd=self.folder, env=ENVIRONMENT, text=True,
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE)
@@ -110,7 +110,7 @@ class Writers(ProgramTest):
         printed = process.communicate(timeout=2 * SECONDS)
         self.assertEqual((process.returncode, printed[1]), (0, ""), printed)
         self.assertIn("starting again", printed[0])
-        self.assertIn("1500 frames, all there and whole", self.succeed("mars", "verify", "out"))
+        self.assertIn("1000 frames, all there and whole", self.succeed("mars", "verify", "out"))
 
     def test_what_nodes_cannot_write(self):
         path = self.write("film.json", spinning_teapot(2, [16, 9]))

@@ -40,6 +40,8 @@ std::filesystem::path sockets_folder() {
   return "/tmp";
 }
 
+}  // namespace
+
 // A folder that only this user may enter, gone at its end.
 class PrivateFolder {
  public:
@@ -63,8 +65,6 @@ class PrivateFolder {
  private:
   std::filesystem::path path_;
 };
-
-}  // namespace
 
 class HostConnection::Wire : public std::enable_shared_from_this<Wire> {
  public:

@@ -56,7 +56,9 @@ TEST(Reading, OtherMessagesAreAsTheyWereSent) {
   EXPECT_EQ(begin.nodes[1].machine, 1);
   EXPECT_STREQ(begin.nodes[1].host.data(), "n1");
 
-  const std::vector<Part> parts(3, Part{.node = 2, .times = {}});
+  Part part{};
+  part.node = 2;
+  const std::vector<Part> parts(3, part);
   const DrawnMessage drawn = read_drawn(message_of({Kind::drawn}, body_of(DrawnHead{.frame = 5, .parts = 3}, parts)));
   EXPECT_EQ(drawn.head.frame, 5u);
   EXPECT_EQ(drawn.parts.at(2).node, 2);
