@@ -96,15 +96,15 @@ struct Line {
 
 // A frame that is whole, of any group. The newest thousand are kept for a watcher that is slow, or not there yet.
 struct DrawnHead {
-  std::uint32_t frame;
-  std::uint32_t interval;
-  wire::FrameKind kind;
-  std::uint32_t group;
-  std::uint32_t parts;
+  std::uint32_t frame = 0;
+  std::uint32_t interval = 0;
+  wire::FrameKind kind = wire::FrameKind::keyframe;
+  std::uint32_t group = 0;
+  std::uint32_t parts = 0;
   std::uint32_t unused = 0;
-  double given;       // since the first command, when nodes were given the frame's task
-  double seconds;     // by the same clock, when it was whole
-  double load_ratio;  // as in wire::Strip
+  double given = 0;       // since the first command, when nodes were given the frame's task
+  double seconds = 0;     // by the same clock, when it was whole
+  double load_ratio = 0;  // as in wire::Strip
 };
 
 // A node's part of it.
