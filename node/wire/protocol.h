@@ -122,7 +122,7 @@ struct Load {
 struct Loaded {
   messages::MemoryName slots;   // `credits` of kSlotBytes each
   std::array<char, 256> apart;  // why it does not read the triangles of nodes with which it shares memory; "": it does
-  std::uint32_t unseen;         // 1: its machine does not see the folder into which it is to write
+  std::uint32_t unseen = 0;     // 1: its machine does not see the folder into which it is to write
 };
 
 // Frames of one interval for one group: the first is the keyframe, rendered by the group's first `contributors` nodes,

@@ -112,6 +112,22 @@ class Writers(ProgramTest):
         self.assertIn("starting again", printed[0])
         self.assertIn("1000 frames, all there and whole", self.succeed("mars", "verify", "out"))
 
+    def test_a_run_that_loses_its_folder_ends(self):
+        path = self.write("film.json", spinning_teapot(20000, [160, 90]))
+        for lose in (lambda: (self.folder / "out").rename(self.folder / "moved"),
+                     lambda: shutil.rmtree(self.folder / "out/.runs")):
+            command = [PROGRAMS / "mars", "render", path, "-o", "out", "--quiet", "--backend", "threads", "--nodes", 2, *NODES]
+            process = subprocess.Popen([str(word) for word in command], cwd=self.folder, env=ENVIRONMENT, text=True,
+                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+            self.addCleanup(process.kill)
+            wait_until(lambda: len(self.files("out")) > 10, SECONDS, "no frames")
+            lose()
+            complaints = process.communicate(timeout=SECONDS)[1]
+            self.assertEqual(process.returncode, 1)
+            self.assertClear(complaints, "")
+            self.assertRegex(complaints, "removed or renamed|is gone")
+            shutil.rmtree(self.folder / "out", ignore_errors=True)
+
     def test_what_nodes_cannot_write(self):
         path = self.write("film.json", spinning_teapot(2, [16, 9]))
         for words, says in [(["--watch", "socket"], "use --write host"), (["--sink", "none"], "no files to write"),

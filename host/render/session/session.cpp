@@ -1,5 +1,6 @@
 #include "host/render/session/session.h"
 
+#include <limits.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -112,8 +113,11 @@ bool nodes_write(const RenderJob& job) { return job.nodes_write && !job.folder.e
 
 // What nodes are told that write frames' files, and what the folder learns of these.
 farm::Writing make_writing(sinks::FrameFolder& folder) {
+  const sinks::WriterOrders orders = folder.writer_orders();
+  if (orders.part_of(0).native().size() >= PATH_MAX)
+    throw Failure("its whole path is too long for nodes", folder.path().string(), "shorten it, or use --write host");
   folder.add_probe();
-  return {sinks::bytes_of(folder.writer_orders()),
+  return {sinks::bytes_of(orders),
           [&folder](std::span<const wire::Hello> nodes, std::span<const wire::Hello> unseeing) {
             for (const wire::Hello& hello : unseeing)
               throw Failure("machine " + std::string(hello.host.data()) + " does not see the folder as the host does",
@@ -122,6 +126,17 @@ farm::Writing make_writing(sinks::FrameFolder& folder) {
               if (hello.machine == hello.node) folder.wait_for_probe(hello.node, hello.host.data());
           },
           [&folder](const wire::Written& written) { folder.note_written(written.frame, written.pixel_hash.data()); }};
+}
+
+// A node that cannot write because the run has lost its folder has not died of anything that a new start would mend.
+farm::FarmReport render_frames(const film::CompiledFilm& film, const farm::Plan& plan, const farm::FarmOptions& options,
+                               const Output& output, const farm::FarmListener& listener) {
+  try {
+    return farm::render_film(film.block(), plan, options, *output.pool, listener);
+  } catch (const farm::NodeFailure&) {
+    if (options.writing != nullptr) output.folder->confirm_claim();
+    throw;
+  }
 }
 
 // What takes the place of the film or of what the folder keeps would destroy it.
@@ -255,7 +270,7 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace, 
   farm::FarmOptions options = farm_options(job, memory, trace, heartbeats, watch.get());
   options.writing = writing ? &*writing : nullptr;
   const farm::FarmReport report =
-      farm::render_film(film.block(), plan, options, *output.pool, reporter.listener(view.intervals().size()));
+      render_frames(film, plan, options, output, reporter.listener(view.intervals().size()));
   const auto write = [&](const std::string& file, const std::function<void()>& whole) {
     sinks::Patience(bounds_of(reporter)).write(file, whole);
   };

@@ -338,6 +338,11 @@ void FrameFolder::wait_for_probe(std::int32_t node, const std::string& machine) 
                 "put the folder on a file system that all machines share, or use --write host");
 }
 
+void FrameFolder::confirm_claim() {
+  refuse_gone(path_);
+  lease_->confirm();
+}
+
 void FrameFolder::note_written(std::uint32_t frame, const std::string& pixel_hash) {
   patience_.write(runs_.own_file(kHashesEnding), [&] {
     lease_->check();

@@ -100,6 +100,8 @@ class FrameFolder {
   void add_probe();
   void wait_for_probe(std::int32_t node, const std::string& machine) const;
   void note_written(std::uint32_t frame, const std::string& pixel_hash);
+  // Throws Failure where the folder or the claim is gone: then nodes cannot write either.
+  void confirm_claim();
 
   // Writes the frames' hashes to the manifest and gives up the claim. Throws Failure where it cannot, and then leaves
   // its files in .runs.
