@@ -13,7 +13,7 @@ struct HuffmanCode {
   std::vector<std::uint8_t> lengths;
 };
 
-// For symbols that occur so many times each, with words of at most `longest` bits (1..15, and enough for the symbols
+// For symbols with these counts, with words of at most `longest` bits (1..15, and enough for the symbols
 // that occur). One symbol alone has a word of one bit.
 HuffmanCode huffman_code(std::span<const std::uint32_t> counts, std::uint32_t longest);
 

@@ -41,7 +41,7 @@ struct Frame {
   BlockFlags constant;
   BlockFlags overwritten;
   BlockFlags stale;
-  std::shared_ptr<const Background> shown;  // that background; none once the frame is with nobody
+  std::shared_ptr<const Background> shown;  // that background; none in a free buffer
 
   // Whether only the background shows in these lines, as far as flags tell.
   bool shows_background(const Lines& lines) const;

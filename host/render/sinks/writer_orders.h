@@ -1,4 +1,4 @@
-// What the host tells nodes that write frames' files (node/wire/frame_writer.h): where files go, and what they say of
+// The host's orders for nodes that write frames' files (node/wire/frame_writer.h): where files go, and what they say of
 // themselves. The host's run has the claim to the folder; the files that its nodes are writing have names of that run.
 #pragma once
 
