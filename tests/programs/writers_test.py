@@ -115,7 +115,7 @@ class Writers(ProgramTest):
     def test_a_run_that_loses_its_folder_ends(self):
         path = self.write("film.json", spinning_teapot(20000, [160, 90]))
         for lose in (lambda: (self.folder / "out").rename(self.folder / "moved"),
-                     lambda: shutil.rmtree(self.folder / "out/.runs")):
+                     lambda: (self.folder / "out/.runs").rename(self.folder / "lost")):
             command = [PROGRAMS / "mars", "render", path, "-o", "out", "--quiet", "--backend", "threads", "--nodes", 2, *NODES]
             process = subprocess.Popen([str(word) for word in command], cwd=self.folder, env=ENVIRONMENT, text=True,
                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE)
