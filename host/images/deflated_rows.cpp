@@ -111,7 +111,7 @@ class Adler32 {
     a_ += byte;
     b_ += a_;
   }
-  // `bytes` bytes of these sums; `count` times.
+  // `bytes` bytes that have the sums; `count` times.
   void add(std::uint64_t bytes, const ByteSums& sums) {
     b_ += bytes * a_ + sums.weighted;
     a_ += sums.all;

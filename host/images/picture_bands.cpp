@@ -11,7 +11,7 @@ namespace {
 // Few enough that a small change costs little, and enough that what each band has of its own (a code, a first line that
 // is not compared with the one above) is below a hundredth of it.
 constexpr std::uint32_t kPixelsOfBand = 1 << 15;
-constexpr std::uint32_t kPngStep = 8;  // lines; bands have a multiple of these
+constexpr std::uint32_t kPngStep = 8;  // a band has a multiple of it, in lines
 
 constexpr std::uint32_t round_up(std::uint32_t number, std::uint32_t step) { return (number + step - 1) / step * step; }
 

@@ -47,7 +47,7 @@ class PictureBands {
 struct BandPart {
   std::span<const std::byte> bytes;
   std::uint32_t adler32 = 0;    // PNG: of its filtered rows
-  std::uint64_t row_bytes = 0;  // PNG: of these
+  std::uint64_t row_bytes = 0;  // PNG: of the filtered rows
 };
 
 struct EncodedBand {

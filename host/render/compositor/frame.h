@@ -45,7 +45,7 @@ struct Frame {
 
   // Whether only the background shows in these lines, as far as flags tell.
   bool shows_background(const Lines& lines) const;
-  // Stale blocks of these lines show the background again; the bytes that were written.
+  // Stale blocks on the lines show the background again; the bytes that were written.
   std::uint64_t restore(const Lines& lines);
 };
 

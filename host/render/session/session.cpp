@@ -17,6 +17,7 @@
 #include "hal/messages/process.h"
 #include "hal/nx/nx_messages.h"
 #include "host/content/document/checksum.h"
+#include "host/content/document/file_failure.h"
 #include "host/content/document/recorded_reads.h"
 #include "host/content/document/whole_file.h"
 #include "host/content/film/frame_content.h"
@@ -111,8 +112,18 @@ farm::FarmOptions farm_options(const RenderJob& job, const farm::HostMemory& mem
 
 bool nodes_write(const RenderJob& job) { return job.nodes_write && !job.folder.empty(); }
 
-// What nodes are told that write frames' files, and what the folder learns of these.
-farm::Writing make_writing(sinks::FrameFolder& folder) {
+// Nodes hear that the host lives also while it waits for storage.
+void record(const wire::Written& written, sinks::FrameFolder& folder, farm::Heartbeats& heartbeats) {
+  const std::string hash = written.pixel_hash.data();
+  try {
+    folder.note_written(written.frame, hash);
+  } catch (const document::FileFailure&) {
+    heartbeats.during("waiting for storage", [&] { folder.wait_to_note_written(written.frame, hash); });
+  }
+}
+
+// The orders of nodes that write frames' files, and what the folder records of the files.
+farm::Writing make_writing(sinks::FrameFolder& folder, farm::Heartbeats& heartbeats) {
   const sinks::WriterOrders orders = folder.writer_orders();
   if (orders.part_of(0).native().size() >= PATH_MAX)
     throw Failure("its whole path is too long for nodes", folder.path().string(), "shorten it, or use --write host");
@@ -125,7 +136,7 @@ farm::Writing make_writing(sinks::FrameFolder& folder) {
             for (const wire::Hello& hello : nodes)
               if (hello.machine == hello.node) folder.wait_for_probe(hello.node, hello.host.data());
           },
-          [&folder](const wire::Written& written) { folder.note_written(written.frame, written.pixel_hash.data()); }};
+          [&folder, &heartbeats](const wire::Written& written) { record(written, folder, heartbeats); }};
 }
 
 // A node that cannot write because the run has lost its folder has not died of anything that a new start would mend.
@@ -266,7 +277,7 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace, 
   output.pool = make_sinks(job, *output.sink, pool_shape(host, view, job, memory.frames));
   const auto watch = begin_watch(job, reporter);
   std::optional<farm::Writing> writing;
-  if (nodes_write(job)) writing = make_writing(*output.folder);
+  if (nodes_write(job)) writing = make_writing(*output.folder, heartbeats);
   farm::FarmOptions options = farm_options(job, memory, trace, heartbeats, watch.get());
   options.writing = writing ? &*writing : nullptr;
   const farm::FarmReport report =

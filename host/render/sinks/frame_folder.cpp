@@ -344,11 +344,13 @@ void FrameFolder::confirm_claim() {
 }
 
 void FrameFolder::note_written(std::uint32_t frame, const std::string& pixel_hash) {
-  patience_.write(runs_.own_file(kHashesEnding), [&] {
-    lease_->check();
-    hashes_->add(frame, pixel_hash);
-  });
+  lease_->check();
+  hashes_->add(frame, pixel_hash);
   record(frame, pixel_hash);
+}
+
+void FrameFolder::wait_to_note_written(std::uint32_t frame, const std::string& pixel_hash) {
+  patience_.write(runs_.own_file(kHashesEnding), [&] { note_written(frame, pixel_hash); });
 }
 
 // In memory too: at its end a run depends on nothing that it would have to read again.

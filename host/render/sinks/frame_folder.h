@@ -93,13 +93,15 @@ class FrameFolder {
   // folder is gone.
   void put(std::uint32_t frame, const std::string& pixel_hash, const document::Pieces& file);
 
-  // Where nodes write frames' files: what they are told; a file by which they see that they have the same folder, and
+  // Where nodes write frames' files: their orders; a file by which they see that they have the same folder, and
   // theirs, of each machine's first node: throws Failure where it does not come. A frame's file is there; throws
   // Failure where the claim is lost.
   WriterOrders writer_orders() const;
   void add_probe();
   void wait_for_probe(std::int32_t node, const std::string& machine) const;
   void note_written(std::uint32_t frame, const std::string& pixel_hash);
+  // As note_written(), which threw FileFailure; waits until storage takes it, as `bounds` say.
+  void wait_to_note_written(std::uint32_t frame, const std::string& pixel_hash);
   // Throws Failure where the folder or the claim is gone: then nodes cannot write either.
   void confirm_claim();
 
