@@ -10,7 +10,7 @@
 
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
-#include "host/render/farm/farm.h"
+#include "host/render/farm/assembly.h"
 #include "node/wire/greeting.h"
 #include "node/wire/scene.h"
 

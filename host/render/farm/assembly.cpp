@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "node/color/encoding.h"
+
 namespace mars::farm {
 namespace {
 
@@ -13,6 +15,19 @@ compositor::Frame* begun(compositor::Frame* frame, const compositor::Compositor&
 }
 
 }  // namespace
+
+std::uint64_t background_pixel(const wire::FilmView& film, const wire::Interval& interval, wire::PixelFormat format) {
+  const wire::FilmSettings& settings = film.settings();
+  const auto encoding = color::encoding_of(settings, film.camera_at(interval.first_frame), format);
+  return color::pixel_of(encoding, settings.background.data());
+}
+
+void paste_strip(const StripMessage& strip, compositor::Frame& picture, compositor::Compositor& compositor,
+                 bool alone) {
+  if (alone) return compositor.paste_moving(picture, strip.runs(), strip.pixels());
+  compositor.paste_constant(strip.constant_runs(), strip.constant_pixels(), &picture);
+  compositor.paste_moving(picture, strip.moving_runs(), strip.moving_pixels());
+}
 
 Assembly::Assembly(const Task& task, const collectives::Group& group, std::int32_t contributors)
     : group_(group),
@@ -143,7 +158,7 @@ std::optional<Assembly::Pasted> Assembly::paste(compositor::Compositor& composit
   Parts& parts = parts_.at(number);
   Pasted pasted = describe(number, parts);
   for (StripMessage& strip : parts.strips) {
-    paste_strip(strip, *parts.picture, compositor);
+    paste_strip(strip, *parts.picture, compositor, alone_);
     if (listener) listener(strip, compositor, *parts.picture);
     pasted.free.push_back(strip.slot());
     store.give_back(strip.release());
@@ -156,16 +171,6 @@ std::optional<Assembly::Pasted> Assembly::paste(compositor::Compositor& composit
   pasted.whole = parts.picture;
   parts_.erase(number);
   return pasted;
-}
-
-void Assembly::paste_strip(const StripMessage& strip, compositor::Frame& picture,
-                           compositor::Compositor& compositor) const {
-  if (alone_) {
-    compositor.paste_moving(picture, strip.runs(), strip.pixels());
-  } else {
-    compositor.paste_constant(strip.constant_runs(), strip.constant_pixels(), &picture);
-    compositor.paste_moving(picture, strip.moving_runs(), strip.moving_pixels());
-  }
 }
 
 }  // namespace mars::farm

@@ -16,12 +16,18 @@
 #include "host/render/farm/plan.h"
 #include "host/render/farm/strip_message.h"
 #include "host/render/sinks/sink_pool.h"
+#include "node/wire/film.h"
 
 namespace mars::farm {
 
 // Of a strip that is in its frame now.
 using PasteListener = std::function<void(const StripMessage& strip, const compositor::Compositor& compositor,
                                          const compositor::Frame& frame)>;
+
+// The pixel of the film's frames where nothing is drawn, in this interval.
+std::uint64_t background_pixel(const wire::FilmView& film, const wire::Interval& interval, wire::PixelFormat format);
+// A strip's pixels in a picture that was begun. `alone`: its interval has no other picture, and no saved background.
+void paste_strip(const StripMessage& strip, compositor::Frame& picture, compositor::Compositor& compositor, bool alone);
 
 class Assembly {
  public:
@@ -90,7 +96,6 @@ class Assembly {
   Pasted describe(std::uint32_t number, const Parts& parts) const;
   std::optional<Pasted> finish_written(std::uint32_t number);
   bool begin(Parts& parts, const compositor::Compositor& compositor, sinks::SinkPool& sinks);
-  void paste_strip(const StripMessage& strip, compositor::Frame& picture, compositor::Compositor& compositor) const;
 
   collectives::Group group_;
   std::uint32_t interval_;

@@ -1,20 +1,21 @@
 #include "host/render/serve/drawing.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace mars::serve {
 
-void Drawing::give(int node, std::uint32_t number, Picture picture) {
+std::uint32_t Drawing::give(int node, Picture picture) {
   picture.nodes_left = 1;
-  pictures_.emplace(number, picture);
-  given_[static_cast<std::size_t>(node)].push_back(number);
+  pictures_.emplace(++last_, picture);
+  given_[static_cast<std::size_t>(node)].push_back(last_);
+  return last_;
 }
 
-void Drawing::give_to_all(std::uint32_t number, Picture picture) {
+std::uint32_t Drawing::give_to_all(Picture picture) {
   picture.nodes_left = given_.size();
-  pictures_.emplace(number, picture);
-  for (std::deque<std::uint32_t>& given : given_) given.push_back(number);
+  pictures_.emplace(++last_, picture);
+  for (std::deque<std::uint32_t>& given : given_) given.push_back(last_);
+  return last_;
 }
 
 std::optional<int> Drawing::take_idle() {
@@ -34,7 +35,7 @@ Drawing::Keyframes Drawing::keyframes(std::uint32_t view) const {
   return keyframes;
 }
 
-Picture* Drawing::find(int node, std::uint32_t number) {
+const Picture* Drawing::find(int node, std::uint32_t number) const {
   const std::deque<std::uint32_t>& given = given_.at(static_cast<std::size_t>(node));
   const bool draws = std::ranges::find(given, number) != given.end();
   return draws ? &pictures_.at(number) : nullptr;

@@ -18,18 +18,17 @@ struct Picture {
   std::uint32_t asked = 0;  // its number for the studio
   wire::FrameKind kind = wire::FrameKind::keyframe;
   compositor::Frame* frame = nullptr;  // where it is put together; nullptr: it is needed no more
-  std::size_t nodes_left = 0;          // that have not sent their last strip of it
   double begun = 0;
+  std::size_t nodes_left = 0;  // that have not sent their last strip of it
 };
 
 class Drawing {
  public:
   explicit Drawing(std::size_t nodes) : given_(nodes) {}
 
-  // A picture that was given to one node, or to all; its number, which ascends.
-  std::uint32_t next_number() { return ++last_; }
-  void give(int node, std::uint32_t number, Picture picture);
-  void give_to_all(std::uint32_t number, Picture picture);
+  // A picture is given to one node, or to all; its number, which ascends.
+  std::uint32_t give(int node, Picture picture);
+  std::uint32_t give_to_all(Picture picture);
 
   // The node that is idle and whose turn it is; none: all draw.
   std::optional<int> take_idle();
@@ -41,7 +40,7 @@ class Drawing {
   Keyframes keyframes(std::uint32_t view) const;
 
   // Of a node's strip; nullptr: it was not given that, or has ended it.
-  Picture* find(int node, std::uint32_t number);
+  const Picture* find(int node, std::uint32_t number) const;
   // The node's last strip of it came. The picture, if no more of it is to come from any node.
   std::optional<Picture> end(int node, std::uint32_t number);
 

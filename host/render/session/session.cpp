@@ -21,6 +21,7 @@
 #include "host/content/document/recorded_reads.h"
 #include "host/content/document/whole_file.h"
 #include "host/content/film/frame_content.h"
+#include "host/render/farm/assembly.h"
 #include "host/render/farm/farm.h"
 #include "host/render/farm/host_memory.h"
 #include "host/render/farm/node_inbox.h"

@@ -367,6 +367,26 @@ TEST(Inbox, EventsOfARunThatIsNotTraced) {
   EXPECT_TRUE(document::holds(failure, "events of a run that is not traced")) << failure;
 }
 
+// Of a run whose host composes the frames.
+TEST(Inbox, WordOfFramesThatNodesWereNotToWrite) {
+  const auto failure_of = [](long type, auto message_of) {
+    return failure_with([type, message_of] {
+      ScriptedNode node;
+      node.boot();
+      ScriptedNode::send(type, message_of(*node.next_command()));
+      ScriptedNode::receive(wire::kStop);
+    });
+  };
+  const std::string drawn = failure_of(wire::kDrawn, [](const ScriptedNode::Command& command) {
+    return ScriptedNode::strip_of(command, command.frames.front());
+  });
+  EXPECT_TRUE(document::holds(drawn, "word of a frame that it was not to write")) << drawn;
+  const std::string written = failure_of(wire::kWritten, [](const ScriptedNode::Command& command) {
+    return wire::Written{.frame = command.frames.front(), .node = static_cast<std::int32_t>(mynode())};
+  });
+  EXPECT_TRUE(document::holds(written, "word of a file that it was not asked for")) << written;
+}
+
 // What node 1 of a traced run sends.
 std::string failure_of_events(const std::vector<messages::Event>& events, std::size_t bytes_less = 0) {
   return failure_with(

@@ -1,0 +1,47 @@
+// Gives nodes the tasks of a film's plan, each group its own, and a slow node less of them.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "host/render/farm/engine.h"
+#include "host/render/farm/film_pictures.h"
+#include "host/render/farm/film_run.h"
+#include "host/render/farm/node_rates.h"
+
+namespace mars::farm {
+
+class FilmWork : public WorkGiver {
+ public:
+  // Of the run that `pictures` are of.
+  FilmWork(const FilmRun& run, FilmPictures& pictures);
+
+  bool goes_on() const override { return wanted_ && pictures_.frames_left() > 0; }
+  bool give_work() override;
+  bool awaits(const wire::Strip& strip) const override { return pictures_.group_of(strip.node).wants(strip); }
+  void note_taken(const wire::Strip& strip, double seconds) override;
+  std::optional<std::uint32_t> drawn_by(int node, std::int32_t begun) const override {
+    return pictures_.group_of(node).drawn_by(node, begun);
+  }
+
+  const std::vector<SlowTime>& slow_times() const { return rates_.slow_times(); }
+
+ private:
+  void give_tasks();
+  void give_when_asked();
+  void give(GroupWork& to);
+  void give_portion(GroupWork& to);
+  void note_given(const collectives::Group& group, const std::vector<Standing>& before, const Portion& portion);
+  void adapt(const wire::Strip& last, GroupWork& by);
+  void report_slow_nodes();
+
+  const FilmRun& run_;
+  FilmPictures& pictures_;
+  NodeRates rates_;
+  std::size_t next_task_ = 0;
+  bool wanted_ = true;
+};
+
+}  // namespace mars::farm

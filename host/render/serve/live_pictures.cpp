@@ -1,0 +1,110 @@
+#include "host/render/serve/live_pictures.h"
+
+#include <utility>
+
+#include "hal/nx/nx_messages.h"
+#include "host/render/compositor/rectangles.h"
+#include "host/render/farm/assembly.h"
+
+namespace mars::serve {
+
+using pictures::Kind;
+
+LivePictures::View::View(std::uint32_t width, std::uint32_t height, std::uint32_t block)
+    : width(width), height(height), compositor(width, height, block) {}
+
+LivePictures::LivePictures(farm::Engine& engine, pictures::Socket& studio, std::uint32_t block)
+    : engine_(engine), studio_(studio), block_(block), drawing_(engine.inbox().hellos().size()) {}
+
+bool LivePictures::compose() {
+  studio_.flush();
+  return false;
+}
+
+// Frames stay where the size does.
+LivePictures::View& LivePictures::sized(std::uint32_t view, const wire::FilmSettings& settings) {
+  auto known = views_.find(view);
+  const bool fits =
+      known != views_.end() && known->second.width == settings.width && known->second.height == settings.height;
+  if (fits) return known->second;
+  views_.erase(view);
+  return views_.emplace(view, View(settings.width, settings.height, block_)).first->second;
+}
+
+// The interval before is undone; its keyframe may not be whole.
+std::uint32_t LivePictures::begin_keyframe(std::uint32_t view, std::uint32_t asked, const wire::FilmView& scene,
+                                           bool all_moves) {
+  View& of = sized(view, scene.settings());
+  of.compositor.begin_interval(farm::background_pixel(scene, scene.intervals().front(), wire::PixelFormat::rgb8));
+  of.all_moves = all_moves;
+  of.has_keyframe = false;
+  return drawing_.give_to_all(begin(view, asked, wire::FrameKind::keyframe));
+}
+
+std::uint32_t LivePictures::begin_inbetween(std::uint32_t view, std::uint32_t asked, int node) {
+  return drawing_.give(node, begin(view, asked, wire::FrameKind::inbetween));
+}
+
+Picture LivePictures::begin(std::uint32_t view, std::uint32_t asked, wire::FrameKind kind) {
+  View& of = views_.at(view);
+  if (of.free.empty()) of.free.push_back(&of.frames.emplace_back(of.width, of.height, block_));
+  compositor::Frame* const frame = of.free.back();
+  of.free.pop_back();
+  of.compositor.begin_frame(*frame);
+  return {view, asked, kind, frame, dclock()};
+}
+
+bool LivePictures::has_keyframe(std::uint32_t view) const {
+  const auto known = views_.find(view);
+  return known != views_.end() && known->second.has_keyframe;
+}
+
+void LivePictures::take_strip(farm::StripMessage strip) {
+  const wire::Strip header = strip.header();
+  const Picture& picture = *drawing_.find(header.node, header.frame);
+  if (picture.frame != nullptr) {
+    View& view = views_.at(picture.view);
+    farm::paste_strip(strip, *picture.frame, view.compositor, view.all_moves);
+  }
+  engine_.give(strip.slot());
+  engine_.store().give_back(strip.release());
+  if (header.last == 0) return;
+  if (const std::optional<Picture> whole = drawing_.end(header.node, header.frame)) finish(header.frame, *whole);
+}
+
+// All strips came. Where a newer one was quicker, it is needed no more.
+void LivePictures::finish(std::uint32_t number, const Picture& picture) {
+  if (picture.frame == nullptr) return;
+  View& view = views_.at(picture.view);
+  if (picture.kind == wire::FrameKind::keyframe) view.has_keyframe = true;
+  view.free.push_back(picture.frame);
+  picture.asked > view.newest ? send(view, number, picture) : send_dropped(picture.view, picture.asked);
+}
+
+void LivePictures::send(View& view, std::uint32_t number, const Picture& picture) {
+  compositor::Frame& frame = *picture.frame;
+  view.compositor.finish_frame(frame, number);
+  view.compositor.restore(frame);
+  pictures::Picture shown;
+  shown.head.width = view.width;
+  shown.head.height = view.height;
+  shown.head.whole = 1;
+  shown.head.kind = picture.kind;
+  shown.rects = compositor::rectangles_of(frame.changed, view.width, view.height);
+  shown.pixels = pictures::cut_opaque(frame.pixels, view.width, shown.rects);
+  shown.head.seconds = dclock() - picture.begun;
+  view.newest = picture.asked;
+  ++sent_;
+  studio_.send({Kind::picture, picture.view, picture.asked}, body_of_picture(shown));
+}
+
+void LivePictures::send_dropped(std::uint32_t view, std::uint32_t asked) { studio_.send({Kind::dropped, view, asked}); }
+
+void LivePictures::drop(std::uint32_t view) {
+  drawing_.for_wanted(view, [&](Picture& picture) {
+    views_.at(view).free.push_back(std::exchange(picture.frame, nullptr));
+    send_dropped(view, picture.asked);
+  });
+}
+
+}  // namespace mars::serve
