@@ -29,60 +29,29 @@ void paste_strip(const StripMessage& strip, compositor::Frame& picture, composit
   compositor.paste_moving(picture, strip.moving_runs(), strip.moving_pixels());
 }
 
-Assembly::Assembly(const Task& task, const collectives::Group& group, std::int32_t contributors)
+Assembly::Assembly(const Task& task, const collectives::Group& group, std::int32_t contributors,
+                   Assignments& assignments)
     : group_(group),
       interval_(task.interval),
       keyframe_(task.frames.front()),
       alone_(task.frames.size() == 1),
-      drew_keyframe_(static_cast<std::size_t>(contributors)),
-      waiting_for_(static_cast<std::size_t>(group.count)),
+      contributors_(contributors),
       not_begun_(task.frames.size()) {
+  for (const std::uint32_t frame : task.frames) parts_[frame].contributors_left = 1;
   parts_[keyframe_].contributor = kAll;
   parts_[keyframe_].contributors_left = contributors;
-  for (std::size_t k = 1; k < task.frames.size(); ++k) parts_[task.frames[k]].contributors_left = 1;
+  for (int node = group.first; node < group.first + contributors; ++node)
+    assignments.give(node, {keyframe_, interval_, wire::FrameKind::keyframe});
 }
 
-void Assembly::give(const Task& task, const Portion& portion) {
+void Assembly::give(const Task& task, const Portion& portion, Assignments& assignments) {
   for (std::size_t k = portion.first; k < portion.first + portion.count; ++k) {
-    const std::int32_t member = wire::contributor_of_inbetween(task.first_inbetween + k, group_.count, portion.cycle);
-    parts_.at(task.frames[1 + k]).contributor = group_.first + member;
-    ++waiting_for_[static_cast<std::size_t>(member)];
+    const std::uint32_t frame = task.frames[1 + k];
+    const std::int32_t node =
+        group_.first + wire::contributor_of_inbetween(task.first_inbetween + k, group_.count, portion.cycle);
+    parts_.at(frame).contributor = node;
+    assignments.give(node, {frame, interval_, wire::FrameKind::inbetween});
   }
-}
-
-bool Assembly::wants(const wire::Strip& strip) const {
-  const auto found = parts_.find(strip.frame);
-  if (found == parts_.end() || strip.interval != interval_) return false;
-  const auto kind = strip.frame == keyframe_ ? wire::FrameKind::keyframe : wire::FrameKind::inbetween;
-  return strip.kind == kind && strip.cut == 0 && is_contributor(found->second, strip.node);
-}
-
-// And its last strip has not come.
-bool Assembly::is_contributor(const Parts& parts, std::int32_t node) const {
-  if (parts.contributor == kNobody) return false;
-  if (parts.contributor != kAll) return parts.contributor == node && parts.contributors_left > 0;
-  const auto index = static_cast<std::size_t>(node - group_.first);
-  return node >= group_.first && index < drew_keyframe_.size() && !drew_keyframe_[index];
-}
-
-bool Assembly::awaits(std::uint32_t frame, std::int32_t node) const {
-  const auto found = parts_.find(frame);
-  return found != parts_.end() && is_contributor(found->second, node);
-}
-
-std::optional<std::uint32_t> Assembly::drawn_by(std::int32_t node) const {
-  for (const auto& [number, parts] : parts_)
-    if (is_contributor(parts, node)) return number;
-  return std::nullopt;
-}
-
-void Assembly::note_last(const wire::Strip& strip, Parts& parts) {
-  --parts.contributors_left;
-  const auto member = static_cast<std::size_t>(strip.node - group_.first);
-  if (strip.frame == keyframe_)
-    drew_keyframe_[member] = true;
-  else
-    --waiting_for_[member];
 }
 
 bool Assembly::awaits_file(std::uint32_t frame) const {
@@ -91,7 +60,7 @@ bool Assembly::awaits_file(std::uint32_t frame) const {
 }
 
 std::optional<Assembly::Pasted> Assembly::note_drawn(const wire::Strip& strip) {
-  note_last(strip, parts_.at(strip.frame));
+  --parts_.at(strip.frame).contributors_left;
   return finish_written(strip.frame);
 }
 
@@ -111,7 +80,7 @@ std::optional<Assembly::Pasted> Assembly::finish_written(std::uint32_t number) {
 void Assembly::receive(StripMessage strip) {
   const wire::Strip& header = strip.header();
   Parts& parts = parts_.at(header.frame);
-  if (header.last == 1) note_last(header, parts);
+  if (header.last == 1) --parts.contributors_left;
   if (parts.strips.empty()) waiting_.push_back(header.frame);
   parts.strips.push_back(std::move(strip));
 }
@@ -143,7 +112,7 @@ Assembly::Pasted Assembly::describe(std::uint32_t number, const Parts& parts) co
           nullptr,
           {},
           alone ? parts.contributor : group_.first,
-          alone ? 1 : static_cast<std::int32_t>(drew_keyframe_.size())};
+          alone ? 1 : contributors_};
 }
 
 std::optional<Assembly::Pasted> Assembly::paste(compositor::Compositor& compositor, sinks::SinkPool& sinks,

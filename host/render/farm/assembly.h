@@ -8,10 +8,10 @@
 #include <functional>
 #include <map>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "host/render/compositor/compositor.h"
+#include "host/render/farm/assignments.h"
 #include "host/render/farm/node_slots.h"
 #include "host/render/farm/plan.h"
 #include "host/render/farm/strip_message.h"
@@ -31,18 +31,16 @@ void paste_strip(const StripMessage& strip, compositor::Frame& picture, composit
 
 class Assembly {
  public:
-  // `group` draws the task, its first `contributors` nodes the keyframe.
-  Assembly(const Task& task, const collectives::Group& group, std::int32_t contributors);
+  // `group` draws the task, its first `contributors` nodes the keyframe, which is given to them.
+  Assembly(const Task& task, const collectives::Group& group, std::int32_t contributors, Assignments& assignments);
 
   std::uint32_t interval() const { return interval_; }
   // These inbetweens are given to nodes.
-  void give(const Task& task, const Portion& portion);
-  // Inbetweens that are given and have not come, of each of the group's nodes.
-  std::span<const std::size_t> waiting() const { return waiting_for_; }
+  void give(const Task& task, const Portion& portion, Assignments& assignments);
 
-  // Whether it is a strip that is still to come: of a frame of the task, from a node that draws it.
-  bool wants(const wire::Strip& strip) const;
-  // A strip that it waits for.
+  // Whether it is a frame of the task that is not finished.
+  bool has(std::uint32_t frame) const { return parts_.contains(frame); }
+  // A strip of such a frame, of a node that was given it.
   void receive(StripMessage strip);
 
   // Where nodes write files. A part of a frame that it waits for is drawn; a frame's file is there. What the frame is,
@@ -70,11 +68,6 @@ class Assembly {
   std::optional<Pasted> paste(compositor::Compositor& compositor, sinks::SinkPool& sinks, StripStore& store,
                               const PasteListener& listener = {});
 
-  // Whether this node's last strip of the frame is still to come.
-  bool awaits(std::uint32_t frame, std::int32_t node) const;
-  // The first frame of which this node's last strip is still to come; none: it draws no more of them.
-  std::optional<std::uint32_t> drawn_by(std::int32_t node) const;
-
   bool done() const { return parts_.empty(); }
 
  private:
@@ -90,9 +83,7 @@ class Assembly {
     bool is_written = false;
   };
 
-  bool is_contributor(const Parts& parts, std::int32_t node) const;
   bool background_there() const { return !parts_.contains(keyframe_); }
-  void note_last(const wire::Strip& strip, Parts& parts);
   Pasted describe(std::uint32_t number, const Parts& parts) const;
   std::optional<Pasted> finish_written(std::uint32_t number);
   bool begin(Parts& parts, const compositor::Compositor& compositor, sinks::SinkPool& sinks);
@@ -101,8 +92,7 @@ class Assembly {
   std::uint32_t interval_;
   std::uint32_t keyframe_;
   bool alone_;                             // the keyframe has no inbetweens: nobody needs its saved background
-  std::vector<bool> drew_keyframe_;        // by contributor: its last strip has come
-  std::vector<std::size_t> waiting_for_;   // by node of the group
+  std::int32_t contributors_;              // to the keyframe
   std::map<std::uint32_t, Parts> parts_;   // of frames that are not finished
   std::deque<std::uint32_t> waiting_;      // those with strips to be pasted, as they came
   std::size_t not_begun_;                  // those without a picture

@@ -41,11 +41,11 @@ void WorkGiver::rest() { flick(); }
 Engine::Engine(const EngineOptions& options)
     : options_(options),
       slots_(static_cast<int>(numnodes()), options.credits),
-      inbox_(options.width, options.height, options.format, slots_, options.cancellation, options.watched) {
+      inbox_(options.width, options.height, options.format, slots_, options.cancellation, options.watched),
+      assignments_(static_cast<std::size_t>(numnodes())) {
   if (options_.heartbeats != nullptr)
-    options_.heartbeats->ask_for_drawing([this](int node, std::int32_t begun) {
-      return giver_ == nullptr ? std::nullopt : giver_->drawn_by(node, begun);
-    });
+    options_.heartbeats->ask_for_drawing(
+        [this](int node, std::int32_t begun) { return assignments_.drawn_by(node, begun); });
 }
 
 Engine::~Engine() {
@@ -71,6 +71,7 @@ bool Engine::load_film(std::span<const std::byte> block, wire::Load load, std::s
   load.traced = options_.trace != nullptr ? 1 : 0;
   load.watched = options_.watched ? 1 : 0;
   nodes_write_ = !orders.empty();
+  live_ = load.live == 1;
   inbox_.expect_loaded();
   send_load(load, inbox_.hellos(), orders);
   const std::vector<long> sends = send_block(block);
@@ -82,7 +83,6 @@ bool Engine::load_film(std::span<const std::byte> block, wire::Load load, std::s
 
 void Engine::run(WorkGiver& giver, PictureTaker& taker) {
   begun_ = dclock();
-  giver_ = &giver;
   while (giver.goes_on() && !cancelled()) {
     if (options_.heartbeats != nullptr) options_.heartbeats->look();
     const bool gave = giver.give_work();
@@ -93,7 +93,6 @@ void Engine::run(WorkGiver& giver, PictureTaker& taker) {
     else if (!gave)
       giver.rest();
   }
-  giver_ = nullptr;
 }
 
 // Whether a message had come.
@@ -118,7 +117,7 @@ void Engine::hear_strip(WorkGiver& giver, PictureTaker& taker) {
   const wire::Strip header = strip.header();
   const double seconds = dclock() - begun;
   span.set_value(header.frame);
-  check(header, giver);
+  note_given(header);
   taker.take_strip(std::move(strip));
   giver.note_taken(header, seconds);
 }
@@ -126,7 +125,7 @@ void Engine::hear_strip(WorkGiver& giver, PictureTaker& taker) {
 void Engine::hear_drawn(WorkGiver& giver, PictureTaker& taker) {
   const wire::Strip drawn = inbox_.receive_drawn();
   if (!nodes_write_) inbox_.refuse(drawn.node, "word of a frame that it was not to write");
-  check(drawn, giver);
+  note_given(drawn);
   taker.take_drawn(drawn);
   giver.note_taken(drawn, 0);
 }
@@ -137,10 +136,11 @@ void Engine::hear_written(PictureTaker& taker) {
     inbox_.refuse(written.node, "word of a file that it was not asked for");
 }
 
-void Engine::check(const wire::Strip& strip, const WorkGiver& giver) {
-  if (!giver.awaits(strip))
+void Engine::note_given(const wire::Strip& strip) {
+  if (!assignments_.has(strip) || (strip.cut == 1 && !live_))
     inbox_.refuse(strip.node, "a strip of frame " + std::to_string(strip.frame) + " that it was not asked for");
   if (options_.heartbeats != nullptr) options_.heartbeats->hear(strip);
+  if (strip.last == 1) assignments_.end(strip);
 }
 
 void Engine::stop(bool idle) {

@@ -1,7 +1,6 @@
 // The host's loop over nodes, whatever they draw. It shakes hands with them, sends them a film, hears them and stops
 // them. A WorkGiver decides what nodes draw, a PictureTaker what becomes of it: of a film film_work.h and
-// film_pictures.h, of a studio's views host/render/serve. What nodes send is checked here, by the NodeInbox, and by
-// what the WorkGiver has given them.
+// film_pictures.h, of a studio's views host/render/serve. Both say in the engine's Assignments what is to come.
 #pragma once
 
 #include <cstddef>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "hal/collectives/group.h"
+#include "host/render/farm/assignments.h"
 #include "host/render/farm/cancellation.h"
 #include "host/render/farm/heartbeats.h"
 #include "host/render/farm/node_inbox.h"
@@ -29,12 +29,8 @@ class WorkGiver {
   virtual bool goes_on() const = 0;
   // Gives nodes what there is to draw now; whether there was something.
   virtual bool give_work() = 0;
-  // Whether the strip's node was given this to draw, and its last strip of it has not come.
-  virtual bool awaits(const wire::Strip& strip) const = 0;
-  // A strip that it awaits is taken, or, where nodes write files, is in a file. The host received it for `seconds`.
-  virtual void note_taken(const wire::Strip& strip, double seconds) = 0;
-  // What a node draws, as Heartbeats asks.
-  virtual std::optional<std::uint32_t> drawn_by(int node, std::int32_t begun) const = 0;
+  // A strip is taken, or, where nodes write files, is in a file. The host received it for `seconds`.
+  virtual void note_taken(const wire::Strip&, double) {}
   // Nodes draw, or wait: there is nothing to do.
   virtual void rest();
 };
@@ -42,15 +38,15 @@ class WorkGiver {
 class PictureTaker {
  public:
   virtual ~PictureTaker() = default;
-  // A strip that the WorkGiver awaits. Its slot and memory go back to the engine once it is in its picture.
+  // A strip of what its node was given. Its slot and memory go back to the engine once it is in its picture.
   virtual void take_strip(StripMessage strip) = 0;
   // Does a part of the work that what was taken makes; whether there was something.
   virtual bool compose() = 0;
   // As compose(), while no message has come.
   virtual bool prepare() { return false; }
 
-  // Where nodes write files (node/wire/frame_writer.h): what the WorkGiver awaits is drawn; a frame's file is there,
-  // and whether it was asked for; a warning, for people.
+  // Where nodes write files (node/wire/frame_writer.h): a node's part of a frame that it was given is drawn; a frame's
+  // file is there, and whether it was asked for; a warning, for people.
   virtual void take_drawn(const wire::Strip&) {}
   virtual bool take_written(const wire::Written&) { return false; }
   virtual void warn(const std::string&) {}
@@ -91,6 +87,7 @@ class Engine {
 
   // For those who give and take.
 
+  Assignments& assignments() { return assignments_; }
   const NodeInbox& inbox() const { return inbox_; }
   Tracing& tracing() { return *tracing_; }
   StripStore& store() { return store_; }
@@ -112,15 +109,16 @@ class Engine {
   void hear_strip(WorkGiver& giver, PictureTaker& taker);
   void hear_drawn(WorkGiver& giver, PictureTaker& taker);
   void hear_written(PictureTaker& taker);
-  void check(const wire::Strip& strip, const WorkGiver& giver);
+  void note_given(const wire::Strip& strip);
 
   const EngineOptions options_;
   NodeSlots slots_;
   NodeInbox inbox_;
+  Assignments assignments_;
   StripStore store_;
   std::optional<Tracing> tracing_;  // once all nodes are there
   bool nodes_write_ = false;
-  const WorkGiver* giver_ = nullptr;  // while run() runs
+  bool live_ = false;  // nodes may cut pictures
   double begun_ = 0;
   double busy_seconds_ = 0;
 };

@@ -20,11 +20,7 @@ class FilmWork : public WorkGiver {
 
   bool goes_on() const override { return wanted_ && pictures_.frames_left() > 0; }
   bool give_work() override;
-  bool awaits(const wire::Strip& strip) const override { return pictures_.group_of(strip.node).wants(strip); }
   void note_taken(const wire::Strip& strip, double seconds) override;
-  std::optional<std::uint32_t> drawn_by(int node, std::int32_t begun) const override {
-    return pictures_.group_of(node).drawn_by(node, begun);
-  }
 
   const std::vector<SlowTime>& slow_times() const { return rates_.slow_times(); }
 

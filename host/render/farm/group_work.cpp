@@ -5,49 +5,40 @@
 
 namespace mars::farm {
 
-GroupWork::GroupWork(const collectives::Group& group, std::int32_t contributors, const sinks::SinkPool::Shape& sinks)
-    : group_(group), contributors_(contributors), compositor_(sinks.width, sinks.height, sinks.block, sinks.format) {}
+GroupWork::GroupWork(const collectives::Group& group, std::int32_t contributors, const sinks::SinkPool::Shape& sinks,
+                     Assignments& assignments)
+    : group_(group),
+      contributors_(contributors),
+      assignments_(&assignments),
+      compositor_(sinks.width, sinks.height, sinks.block, sinks.format) {}
 
 void GroupWork::give(const Task& task, std::uint64_t background, double now) {
-  tasks_.push_back({Assembly(task, group_, contributors_), background, now});
+  tasks_.push_back({Assembly(task, group_, contributors_, *assignments_), background, now});
   open_ = &task;
   next_inbetween_ = 0;
   if (tasks_.size() == 1) begin_interval();
 }
 
-std::optional<std::uint32_t> GroupWork::drawn_by(std::int32_t node, std::int32_t begun) const {
-  const auto frame = static_cast<std::uint32_t>(begun);
-  if (std::ranges::any_of(tasks_, [&](const Given& task) { return task.assembly.awaits(frame, node); })) return frame;
-  for (const Given& task : tasks_)
-    if (const auto frame = task.assembly.drawn_by(node)) return frame;
-  return std::nullopt;
-}
-
 std::vector<Standing> GroupWork::standings(const NodeRates& rates) const {
   std::vector<Standing> standings;
-  for (const std::size_t waiting : tasks_.back().assembly.waiting()) {
-    const int node = group_.first + static_cast<int>(standings.size());
-    standings.push_back({waiting, rates.slowness(node), rates.is_forgotten(node)});
-  }
+  for (int node = group_.first; node < group_.first + group_.count; ++node)
+    standings.push_back({assignments_->inbetweens(node, tasks_.back().assembly.interval()), rates.slowness(node),
+                         rates.is_forgotten(node)});
   return standings;
 }
 
 Portion GroupWork::give_portion(const std::vector<Standing>& standings, std::size_t most) {
   Portion portion{next_inbetween_, std::min(most, open_->frames.size() - 1 - next_inbetween_)};
   portion.cycle = share_out(standings, open_->first_inbetween + portion.first, portion.count);
-  tasks_.back().assembly.give(*open_, portion);
+  tasks_.back().assembly.give(*open_, portion, *assignments_);
   next_inbetween_ += portion.count;
   if (next_inbetween_ + 1 == open_->frames.size()) open_ = nullptr;
   return portion;
 }
 
-bool GroupWork::wants(const wire::Strip& strip) const {
-  return std::any_of(tasks_.begin(), tasks_.end(), [&](const Given& task) { return task.assembly.wants(strip); });
-}
-
 void GroupWork::receive(StripMessage strip) {
-  const auto task = std::find_if(tasks_.begin(), tasks_.end(),
-                                 [&](const Given& each) { return each.assembly.wants(strip.header()); });
+  const std::uint32_t frame = strip.header().frame;
+  const auto task = std::ranges::find_if(tasks_, [&](const Given& each) { return each.assembly.has(frame); });
   task->assembly.receive(std::move(strip));
 }
 
@@ -67,7 +58,7 @@ std::optional<GroupWork::Composed> GroupWork::note(Is is_of, Note note) {
 }
 
 std::optional<GroupWork::Composed> GroupWork::note_drawn(const wire::Strip& strip) {
-  return note([&](const Given& task) { return task.assembly.wants(strip); },
+  return note([&](const Given& task) { return task.assembly.has(strip.frame); },
               [&](Assembly& assembly) { return assembly.note_drawn(strip); });
 }
 

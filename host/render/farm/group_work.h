@@ -17,8 +17,9 @@ namespace mars::farm {
 
 class GroupWork {
  public:
-  // For pictures that go to `sinks`.
-  GroupWork(const collectives::Group& group, std::int32_t contributors, const sinks::SinkPool::Shape& sinks);
+  // For pictures that go to `sinks`. What its nodes are to draw goes into `assignments`, which outlives it.
+  GroupWork(const collectives::Group& group, std::int32_t contributors, const sinks::SinkPool::Shape& sinks,
+            Assignments& assignments);
 
   const collectives::Group& group() const { return group_; }
   std::int32_t contributors() const { return contributors_; }  // to keyframes
@@ -27,10 +28,6 @@ class GroupWork {
   // Once all of the task before is given. `background`: the pixel where nothing is drawn. `now`: in seconds since the
   // first task was given to any group. The task, which outlives it, has portions to be given then.
   void give(const Task& task, std::uint64_t background, double now);
-
-  // The frame that the node draws: the one that it said last it had begun, -1 for none, if that is still to come; else
-  // the first of its frames that are.
-  std::optional<std::uint32_t> drawn_by(std::int32_t node, std::int32_t begun) const;
 
   // Of the task that was given last.
 
@@ -42,8 +39,7 @@ class GroupWork {
   // The next `most` inbetweens, or as many as are left, are its nodes' from now on.
   Portion give_portion(const std::vector<Standing>& standings, std::size_t most);
 
-  // Whether it is a strip that is still to come.
-  bool wants(const wire::Strip& strip) const;
+  // A strip of what its node was given.
   void receive(StripMessage strip);
 
   // As Assembly's, where nodes write files.
@@ -74,6 +70,7 @@ class GroupWork {
 
   collectives::Group group_;
   std::int32_t contributors_;
+  Assignments* assignments_;
   compositor::Compositor compositor_;  // the first task's
   std::deque<Given> tasks_;
   const Task* open_ = nullptr;      // the last of them, while portions are left

@@ -1,5 +1,6 @@
 #include "host/render/serve/live_pictures.h"
 
+#include <string>
 #include <utility>
 
 #include "hal/nx/nx_messages.h"
@@ -14,7 +15,7 @@ LivePictures::View::View(std::uint32_t width, std::uint32_t height, std::uint32_
     : width(width), height(height), compositor(width, height, block) {}
 
 LivePictures::LivePictures(farm::Engine& engine, pictures::Socket& studio, std::uint32_t block)
-    : engine_(engine), studio_(studio), block_(block), drawing_(engine.inbox().hellos().size()) {}
+    : engine_(engine), studio_(studio), block_(block) {}
 
 bool LivePictures::compose() {
   studio_.flush();
@@ -38,20 +39,31 @@ std::uint32_t LivePictures::begin_keyframe(std::uint32_t view, std::uint32_t ask
   of.compositor.begin_interval(farm::background_pixel(scene, scene.intervals().front(), wire::PixelFormat::rgb8));
   of.all_moves = all_moves;
   of.has_keyframe = false;
-  return drawing_.give_to_all(begin(view, asked, wire::FrameKind::keyframe));
+  return begin(view, asked, wire::FrameKind::keyframe, engine_.all());
 }
 
 std::uint32_t LivePictures::begin_inbetween(std::uint32_t view, std::uint32_t asked, int node) {
-  return drawing_.give(node, begin(view, asked, wire::FrameKind::inbetween));
+  return begin(view, asked, wire::FrameKind::inbetween, {node, 1});
 }
 
-Picture LivePictures::begin(std::uint32_t view, std::uint32_t asked, wire::FrameKind kind) {
+std::uint32_t LivePictures::begin(std::uint32_t view, std::uint32_t asked, wire::FrameKind kind,
+                                  const collectives::Group& nodes) {
   View& of = views_.at(view);
   if (of.free.empty()) of.free.push_back(&of.frames.emplace_back(of.width, of.height, block_));
   compositor::Frame* const frame = of.free.back();
   of.free.pop_back();
   of.compositor.begin_frame(*frame);
-  return {view, asked, kind, frame, dclock()};
+  pictures_[++last_] = {view, asked, kind, frame, dclock(), nodes.count};
+  for (int node = nodes.first; node < nodes.first + nodes.count; ++node)
+    engine_.assignments().give(node, {last_, view, kind});
+  return last_;
+}
+
+LivePictures::Keyframes LivePictures::keyframes(std::uint32_t view) const {
+  Keyframes keyframes;
+  for (const auto& [number, picture] : pictures_)
+    if (picture.kind == wire::FrameKind::keyframe) ++(picture.view == view ? keyframes.of_view : keyframes.others);
+  return keyframes;
 }
 
 bool LivePictures::has_keyframe(std::uint32_t view) const {
@@ -61,20 +73,23 @@ bool LivePictures::has_keyframe(std::uint32_t view) const {
 
 void LivePictures::take_strip(farm::StripMessage strip) {
   const wire::Strip header = strip.header();
-  const Picture& picture = *drawing_.find(header.node, header.frame);
+  const auto found = pictures_.find(header.frame);
+  Picture& picture = found->second;
+  if (header.cut == 1 && picture.frame != nullptr)
+    engine_.inbox().refuse(header.node, "a part of picture " + std::to_string(header.frame) + " without its lines");
   if (picture.frame != nullptr) {
     View& view = views_.at(picture.view);
     farm::paste_strip(strip, *picture.frame, view.compositor, view.all_moves);
   }
   engine_.give(strip.slot());
   engine_.store().give_back(strip.release());
-  if (header.last == 0) return;
-  if (const std::optional<Picture> whole = drawing_.end(header.node, header.frame)) finish(header.frame, *whole);
+  if (header.last == 0 || --picture.nodes_left > 0) return;
+  if (picture.frame != nullptr) finish(header.frame, picture);
+  pictures_.erase(found);
 }
 
 // All strips came. Where a newer one was quicker, it is needed no more.
 void LivePictures::finish(std::uint32_t number, const Picture& picture) {
-  if (picture.frame == nullptr) return;
   View& view = views_.at(picture.view);
   if (picture.kind == wire::FrameKind::keyframe) view.has_keyframe = true;
   view.free.push_back(picture.frame);
@@ -101,10 +116,11 @@ void LivePictures::send(View& view, std::uint32_t number, const Picture& picture
 void LivePictures::send_dropped(std::uint32_t view, std::uint32_t asked) { studio_.send({Kind::dropped, view, asked}); }
 
 void LivePictures::drop(std::uint32_t view) {
-  drawing_.for_wanted(view, [&](Picture& picture) {
+  for (auto& [number, picture] : pictures_) {
+    if (picture.view != view || picture.frame == nullptr) continue;
     views_.at(view).free.push_back(std::exchange(picture.frame, nullptr));
     send_dropped(view, picture.asked);
-  });
+  }
 }
 
 }  // namespace mars::serve

@@ -9,7 +9,6 @@
 #include "host/render/compositor/compositor.h"
 #include "host/render/farm/engine.h"
 #include "host/render/pictures/socket.h"
-#include "host/render/serve/drawing.h"
 #include "node/wire/film.h"
 
 namespace mars::serve {
@@ -25,7 +24,7 @@ class LivePictures : public farm::PictureTaker {
 
   // Each begins a picture, of which `asked` is the studio's number; its number for nodes.
 
-  // A keyframe, which all nodes draw. `all_moves`: of the scene; there is no saved background to keep.
+  // A keyframe, which all nodes draw. `all_moves`: in the scene; there is no saved background to keep.
   std::uint32_t begin_keyframe(std::uint32_t view, std::uint32_t asked, const wire::FilmView& scene, bool all_moves);
   // An inbetween, which this node draws.
   std::uint32_t begin_inbetween(std::uint32_t view, std::uint32_t asked, int node);
@@ -33,12 +32,16 @@ class LivePictures : public farm::PictureTaker {
   bool is_known(std::uint32_t view) const { return views_.contains(view); }
   // Whether the keyframe of the view's interval is whole.
   bool has_keyframe(std::uint32_t view) const;
+  // Keyframes that nodes draw: of this view, of others.
+  struct Keyframes {
+    std::size_t of_view = 0, others = 0;
+  };
+  Keyframes keyframes(std::uint32_t view) const;
   // What is begun of the view is wanted no more. Nodes may still draw it; what they send is pasted nowhere.
   void drop(std::uint32_t view);
   void forget(std::uint32_t view) { views_.erase(view); }
   void send_dropped(std::uint32_t view, std::uint32_t asked);
 
-  Drawing& drawing() { return drawing_; }
   std::uint32_t sent() const { return sent_; }  // pictures
 
  private:
@@ -54,16 +57,26 @@ class LivePictures : public farm::PictureTaker {
     std::uint32_t newest = 0;  // of its pictures that the studio was sent: the studio's number
   };
 
+  struct Picture {
+    std::uint32_t view;
+    std::uint32_t asked;  // its number for the studio
+    wire::FrameKind kind;
+    compositor::Frame* frame;  // where it is put together; nullptr: it is wanted no more
+    double begun;
+    int nodes_left;  // that have not sent their last strip of it
+  };
+
   View& sized(std::uint32_t view, const wire::FilmSettings& settings);
-  Picture begin(std::uint32_t view, std::uint32_t asked, wire::FrameKind kind);
+  std::uint32_t begin(std::uint32_t view, std::uint32_t asked, wire::FrameKind kind, const collectives::Group& nodes);
   void finish(std::uint32_t number, const Picture& picture);
   void send(View& view, std::uint32_t number, const Picture& picture);
 
   farm::Engine& engine_;
   pictures::Socket& studio_;
   const std::uint32_t block_;
-  std::map<std::uint32_t, View> views_;  // that have had a keyframe
-  Drawing drawing_;
+  std::map<std::uint32_t, View> views_;        // that have had a keyframe
+  std::map<std::uint32_t, Picture> pictures_;  // that nodes draw, by their numbers for nodes, which ascend
+  std::uint32_t last_ = 0;                     // of those
   std::uint32_t sent_ = 0;
 };
 

@@ -26,14 +26,8 @@ bool LiveWork::give_work() {
   return give() || taken;
 }
 
-bool LiveWork::awaits(const wire::Strip& strip) const {
-  const Picture* picture = pictures_.drawing().find(strip.node, strip.frame);
-  return picture != nullptr && picture->view == strip.interval && picture->kind == strip.kind &&
-         (strip.cut == 0 || picture->frame == nullptr);
-}
-
 // While nothing is drawn the host sleeps.
-void LiveWork::rest() { pictures_.drawing().all_idle() ? studio_.wait(kRest) : WorkGiver::rest(); }
+void LiveWork::rest() { engine_.assignments().all_idle() ? studio_.wait(kRest) : WorkGiver::rest(); }
 
 bool LiveWork::take_requests() {
   int taken = 0;
@@ -105,7 +99,7 @@ void LiveWork::drop_all(std::uint32_t number, View& view) {
 
 bool LiveWork::give() {
   if (!next_film_) return film_ && (give_scene() || give_draw());
-  if (!pictures_.drawing().all_idle()) return false;
+  if (!engine_.assignments().all_idle()) return false;
   load_film();
   return true;
 }
@@ -134,7 +128,7 @@ bool LiveWork::give_scene() {
   auto next = views_.end();
   for (auto view = views_.begin(); view != views_.end(); ++view) {
     if (!view->second.scene) continue;
-    const Drawing::Keyframes drawn = pictures_.drawing().keyframes(view->first);
+    const LivePictures::Keyframes drawn = pictures_.keyframes(view->first);
     if (drawn.others > 0 || drawn.of_view > 1) continue;
     if (next == views_.end() || view->second.scene->head.picture < next->second.scene->head.picture) next = view;
   }
@@ -163,9 +157,11 @@ bool LiveWork::give_draw() {
     if (next == views_.end() || view->second.draw->head.picture < next->second.draw->head.picture) next = view;
   }
   if (next == views_.end()) return false;
-  const std::optional<int> node = pictures_.drawing().take_idle();
-  if (node) begin_draw(next->first, next->second, *node);
-  return node.has_value();
+  const std::optional<int> node = engine_.assignments().idle_from(turn_);
+  if (!node) return false;
+  turn_ = static_cast<std::size_t>(*node) + 1;
+  begin_draw(next->first, next->second, *node);
+  return true;
 }
 
 void LiveWork::begin_draw(std::uint32_t number, View& view, int node) {

@@ -23,11 +23,6 @@ class LiveWork : public farm::WorkGiver {
 
   bool goes_on() const override { return studio_.is_open(); }
   bool give_work() override;
-  bool awaits(const wire::Strip& strip) const override;
-  void note_taken(const wire::Strip&, double) override {}
-  std::optional<std::uint32_t> drawn_by(int node, std::int32_t) const override {
-    return pictures_.drawing().drawn_by(node);
-  }
   void rest() override;
 
  private:
@@ -68,6 +63,7 @@ class LiveWork : public farm::WorkGiver {
   std::uint64_t still_memory_ = 0;      // of a node, for a view
   std::map<std::uint32_t, View> views_;
   std::uint32_t requested_ = 0;  // the last picture
+  std::size_t turn_ = 0;         // the node that is asked next whether it is idle
 };
 
 }  // namespace mars::serve

@@ -109,8 +109,9 @@ void expect_put_together(unsigned seed) {
     while (task.frames.size() < frames) task.frames.push_back(next++);
     Drawn drawn = draw(random, task, nodes, store);
     expected.merge(drawn.pictures);
-    Assembly assembly(task, {0, nodes}, nodes);
-    assembly.give(task, whole(task));
+    Assignments assignments(static_cast<std::size_t>(nodes));
+    Assembly assembly(task, {0, nodes}, nodes, assignments);
+    assembly.give(task, whole(task), assignments);
     compositor.begin_interval(kPlain);
     EXPECT_EQ(assembly.interval(), number);
     std::size_t not_pasted = 0;  // strips
@@ -120,7 +121,8 @@ void expect_put_together(unsigned seed) {
       if (!strips.empty()) {
         std::optional<StripMessage> strip = StripMessage::read(std::move(strips.front()), wire::PixelFormat::rgb8);
         strips.pop_front();
-        ASSERT_TRUE(strip && assembly.wants(strip->header()));
+        ASSERT_TRUE(strip && assignments.has(strip->header()) && assembly.has(strip->header().frame));
+        if (strip->header().last == 1) assignments.end(strip->header());
         ++not_pasted;
         assembly.receive(std::move(*strip));
       }
@@ -132,6 +134,7 @@ void expect_put_together(unsigned seed) {
       }
     }
     EXPECT_EQ(not_pasted, 0u) << "each was reported when it was pasted";
+    EXPECT_TRUE(assignments.all_idle());
   }
   pool.finish();
   EXPECT_EQ(sink.frames, expected) << "seed " << seed;
@@ -145,8 +148,9 @@ struct OneTask {
   OneTask(std::vector<std::uint32_t> frames, std::uint32_t buffers, int nodes)
       : pool(sink, {kWidth, kHeight, kBlock, buffers, 1, kPlain}),
         task{0, std::move(frames), 0},
-        assembly(task, {0, nodes}, nodes) {
-    assembly.give(task, whole(task));
+        assignments(static_cast<std::size_t>(nodes)),
+        assembly(task, {0, nodes}, nodes, assignments) {
+    assembly.give(task, whole(task), assignments);
     compositor.begin_interval(kPlain);
   }
 
@@ -167,6 +171,7 @@ struct OneTask {
   compositor::Compositor compositor{kWidth, kHeight, kBlock};
   StripStore store;
   Task task;
+  Assignments assignments;
   Assembly assembly;
 };
 
@@ -211,73 +216,21 @@ TEST(Assembly, FramesInTheMakingLeaveABufferToThoseThatAreWhole) {
   EXPECT_NE(task.paste()->whole, nullptr);
 }
 
-// Only what the task asks of a node is taken, and each node's last strip of a frame once.
-TEST(Assembly, WantsEachStripFromItsContributorAlone) {
-  OneTask task({4, 5, 6}, 3, 3);
-  const auto wants = [&](std::uint32_t frame, std::int32_t node, std::uint32_t interval = 0) {
-    wire::Strip strip{};
-    strip.frame = frame;
-    strip.node = node;
-    strip.interval = interval;
-    strip.kind = frame == 4 ? wire::FrameKind::keyframe : wire::FrameKind::inbetween;
-    return task.assembly.wants(strip);
-  };
-  for (const int node : {0, 1, 2}) {
-    EXPECT_TRUE(wants(4, node));
-    EXPECT_EQ(wants(5, node), node == 0);
-    EXPECT_EQ(wants(6, node), node == 1);
+TEST(Assembly, GivesItsFramesToTheNodesThatDrawThem) {
+  const Task task{3, {4, 5, 6, 7}, 0};
+  Assignments assignments(5);
+  Assembly assembly(task, {2, 3}, 2, assignments);
+  EXPECT_TRUE(assignments.is_given(2, {4, 3, wire::FrameKind::keyframe}));
+  EXPECT_TRUE(assignments.is_given(3, {4, 3, wire::FrameKind::keyframe}));
+  EXPECT_FALSE(assignments.is_given(4, {4, 3, wire::FrameKind::keyframe})) << "two contribute";
+  assembly.give(task, {0, 2, {1}}, assignments);
+  for (const std::uint32_t frame : {5u, 6u}) {
+    EXPECT_TRUE(assignments.is_given(3, {frame, 3, wire::FrameKind::inbetween})) << frame;
+    EXPECT_FALSE(assignments.is_given(2, {frame, 3, wire::FrameKind::inbetween})) << frame;
   }
-  EXPECT_FALSE(wants(4, 3));
-  EXPECT_FALSE(wants(4, -1));
-  EXPECT_FALSE(wants(7, 0));
-  EXPECT_FALSE(wants(4, 0, 1)) << "of another interval";
-  wire::Strip moving{};
-  moving.frame = 4;
-  moving.kind = wire::FrameKind::inbetween;
-  EXPECT_FALSE(task.assembly.wants(moving)) << "the first frame is the keyframe";
-  task.receive(4, 2, false);
-  EXPECT_TRUE(wants(4, 2));
-  task.receive(4, 2);
-  EXPECT_FALSE(wants(4, 2)) << "its last has come";
-  EXPECT_TRUE(wants(4, 1));
-}
-
-TEST(Assembly, KnowsWhatANodeDraws) {
-  OneTask task({4, 5, 6}, 3, 2);
-  const auto drawn_by = [&](std::int32_t node) { return task.assembly.drawn_by(node); };
-  EXPECT_EQ(drawn_by(0), 4u);
-  EXPECT_EQ(drawn_by(1), 4u);
-  EXPECT_EQ(drawn_by(2), std::nullopt) << "it is not of the group";
-  EXPECT_TRUE(task.assembly.awaits(6, 1)) << "it may have begun with it";
-  EXPECT_FALSE(task.assembly.awaits(5, 1));
-  EXPECT_FALSE(task.assembly.awaits(7, 1));
-  task.receive(4, 1, false);
-  EXPECT_EQ(drawn_by(1), 4u);
-  task.receive(4, 1);
-  EXPECT_EQ(drawn_by(1), 6u);
-  task.receive(6, 1);
-  EXPECT_EQ(drawn_by(1), std::nullopt);
-  EXPECT_EQ(drawn_by(0), 4u);
-}
-
-TEST(Assembly, WantsInbetweensOnceTheyAreGivenFromWhomTheyAreGiven) {
-  const Task task{0, {4, 5, 6, 7}, 0};
-  Assembly assembly(task, {2, 2}, 2);
-  const auto wants = [&](std::uint32_t frame, std::int32_t node) {
-    wire::Strip strip{};
-    strip.frame = frame;
-    strip.node = node;
-    strip.kind = wire::FrameKind::inbetween;
-    return assembly.wants(strip);
-  };
-  assembly.give(task, {0, 2, {1}});
-  EXPECT_TRUE(wants(5, 3));
-  EXPECT_TRUE(wants(6, 3));
-  EXPECT_FALSE(wants(5, 2));
-  for (const int node : {-2, -1, 2, 3}) EXPECT_FALSE(wants(7, node)) << node;
-  EXPECT_TRUE(std::ranges::equal(assembly.waiting(), std::vector<std::size_t>{0, 2}));
-  assembly.give(task, {2, 1});
-  EXPECT_TRUE(wants(7, 2));
+  EXPECT_EQ(assignments.inbetweens(3, 3), 2u);
+  assembly.give(task, {2, 1}, assignments);
+  EXPECT_TRUE(assignments.is_given(4, {7, 3, wire::FrameKind::inbetween}));
 }
 
 TEST(Assembly, WithoutABufferStripsWait) {
