@@ -1,8 +1,5 @@
 #include "host/studio/link/host_job.h"
 
-#include <fcntl.h>
-#include <poll.h>
-#include <signal.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -23,10 +20,7 @@
 namespace mars::studio {
 namespace {
 
-constexpr int kReason = 3;                               // the job's descriptor for it
-constexpr std::chrono::seconds kPatience{20};            // with nodes that do not answer: of no use here
-constexpr std::chrono::milliseconds kLongestEnd{2000};   // of a host whose studio has closed the socket
-constexpr std::chrono::milliseconds kLongestStop{4000};  // of one that was asked to end
+constexpr std::chrono::seconds kPatience{20};  // with nodes that do not answer: of no use here
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
@@ -48,8 +42,7 @@ std::uint32_t default_nodes(const HostStart& start) {
 
 // In the job's process, which has the studio's memory but none of its files.
 int watch_job(const child::Command& command, const options::RenderOptions& options) {
-  fcntl(kReason, F_SETFD, FD_CLOEXEC);
-  closefrom(kReason + 1);
+  closefrom(STDERR_FILENO + 1);
   std::string reason;
   try {
     launch::Display nothing(launch::Display::Kind::silent, child::raw_output());
@@ -60,14 +53,8 @@ int watch_job(const child::Command& command, const options::RenderOptions& optio
     reason = reason_of(failure);
   }
   reason = first_line(reason);
-  return write(kReason, reason.data(), reason.size()) < 0 ? 1 : 0;
-}
-
-child::ProcessSetup setup_of(const child::Descriptor& nothing, const child::Descriptor& reason) {
-  return {.streams = {{0, nothing.number()}, {1, nothing.number()}, {kReason, reason.number()}},
-          .own_group = true,
-          .signal_at_our_end = SIGTERM,
-          .default_signals = {SIGINT, SIGTERM, SIGHUP, SIGPIPE}};
+  if (reason.empty()) return 0;
+  return write(STDERR_FILENO, reason.data(), reason.size()) < 0 ? 2 : 1;
 }
 
 }  // namespace
@@ -106,24 +93,9 @@ child::Command host_command(const HostStart& start, const std::string& socket) {
   return launch::mpi_command(options, start.programs, start.surroundings);
 }
 
-HostJob::HostJob(const child::Command& command, const options::RenderOptions& options)
-    : reason_(child::make_pipe()),
-      process_([&] { return watch_job(command, options); }, setup_of(child::null_device(), reason_.writing)) {
-  reason_.writing.close();
-}
-
-HostJob::~HostJob() {
-  const auto ends_within = [&](std::chrono::milliseconds longest) {
-    const auto last = std::chrono::steady_clock::now() + longest;
-    while (!process_.poll()) {
-      if (std::chrono::steady_clock::now() >= last) return false;
-      ::poll(nullptr, 0, 2);
-    }
-    return true;
-  };
-  if (ends_within(kLongestEnd)) return;
-  process_.send(SIGTERM);
-  if (!ends_within(kLongestStop)) process_.give_up();  // it kills what does not end, and takes its time for it
+std::unique_ptr<child::Process> start_host_job(const child::Command& command, const options::RenderOptions& options,
+                                               const child::ProcessSetup& setup) {
+  return std::make_unique<child::Process>([&] { return watch_job(command, options); }, setup);
 }
 
 }  // namespace mars::studio

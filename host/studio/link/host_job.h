@@ -3,10 +3,10 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "host/child/command.h"
-#include "host/child/descriptor.h"
 #include "host/child/process.h"
 #include "host/shell/launch/command.h"
 #include "host/shell/options/render_options.h"
@@ -31,22 +31,8 @@ std::vector<launch::Slots> machines_from_here(std::vector<launch::Slots> machine
 // That serves at this socket.
 child::Command host_command(const HostStart& start, const std::string& socket);
 
-class HostJob {
- public:
-  // Throws Failure where no process can be started.
-  HostJob(const child::Command& command, const options::RenderOptions& options);
-  // Ends it by a signal, and waits for it for some seconds. Mostly it has ended: its host has seen that the studio
-  // closed the socket.
-  ~HostJob();
-  HostJob(const HostJob&) = delete;
-  HostJob& operator=(const HostJob&) = delete;
-
-  // What can be read there is why the job ended; its end is the job's.
-  const child::Descriptor& reason() const { return reason_.reading; }
-
- private:
-  child::Pipe reason_;
-  child::Process process_;
-};
+// Starts the job in a copy of this process, which prints in one line why it ended, if it did not end well.
+std::unique_ptr<child::Process> start_host_job(const child::Command& command, const options::RenderOptions& options,
+                                               const child::ProcessSetup& setup);
 
 }  // namespace mars::studio

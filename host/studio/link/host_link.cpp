@@ -1,12 +1,8 @@
 #include "host/studio/link/host_link.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
-#include <boost/asio/buffer.hpp>
 #include <boost/asio/io_context.hpp>
-#include <boost/asio/posix/stream_descriptor.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <chrono>
@@ -20,6 +16,7 @@
 #include "hal/failure/explain.h"
 #include "host/studio/link/host_connection.h"
 #include "host/studio/link/host_job.h"
+#include "host/studio/link/host_process.h"
 
 namespace mars::studio {
 namespace {
@@ -33,6 +30,7 @@ constexpr std::array<std::chrono::seconds, 5> kPauses{{std::chrono::seconds(1), 
                                                        std::chrono::seconds(4), std::chrono::seconds(8),
                                                        std::chrono::seconds(15)}};
 constexpr std::chrono::seconds kLongEnough{30};
+constexpr std::chrono::seconds kGrace{2};  // of a host whose studio has closed the socket
 
 class HostLink : public RendererLink {
  public:
@@ -57,13 +55,12 @@ class HostLink : public RendererLink {
   };
 
   void start();
-  void wait_for_reason();
   void connected();
   void ready(const std::vector<pictures::Node>& nodes);
   void take(SurfacePicture picture);
   void dropped(std::uint32_t view, std::uint32_t picture);
   void closed(const std::string& reason);
-  void job_ended();
+  void job_ended(const std::string& reason);
   void give_up_awaited();
   void start_later(const std::string& reason);
 
@@ -89,10 +86,7 @@ class HostLink : public RendererLink {
   asio::steady_timer pause_;
   std::size_t pauses_ = 0;  // since a host lived long enough
   std::optional<Clock::time_point> ready_since_;
-  std::optional<HostJob> job_;
-  std::optional<asio::posix::stream_descriptor> job_end_;
-  std::array<char, 4096> reason_{};
-  std::size_t reason_size_ = 0;
+  std::optional<HostProcess> job_;
   std::optional<HostConnection> connection_;  // closed before the job is waited for
   bool connected_ = false;
   std::string why_closed_;  // "": the host closed it
@@ -115,22 +109,14 @@ void HostLink::start() try {
                                          .dropped = [this](auto view, auto picture) { dropped(view, picture); },
                                          .drawn = {},
                                          .closed = [this](const std::string& reason) { closed(reason); }});
-  job_.emplace(host_command(start_, connection_->path()), start_.options);
-  job_end_.emplace(context_, dup(job_->reason().number()));
-  reason_size_ = 0;
-  wait_for_reason();
+  const child::Command command = host_command(start_, connection_->path());
+  job_.emplace(
+      context_, [&](const child::ProcessSetup& setup) { return start_host_job(command, start_.options, setup); },
+      kGrace,
+      HostProcess::Listener{.warned = [](const std::string&) {},
+                            .ended = [this](const child::Ending&, const std::string& reason) { job_ended(reason); }});
 } catch (const std::exception& failure) {
   start_later(reason_of(failure));
-}
-
-void HostLink::wait_for_reason() {
-  if (reason_size_ == reason_.size()) reason_size_ = 0;
-  const auto room = asio::buffer(reason_) + reason_size_;
-  job_end_->async_read_some(room, [this, alive = std::weak_ptr(alive_)](auto error, std::size_t bytes) {
-    if (alive.expired()) return;
-    reason_size_ += bytes;
-    error ? job_ended() : wait_for_reason();
-  });
 }
 
 void HostLink::connected() {
@@ -232,14 +218,13 @@ void HostLink::closed(const std::string& reason) {
   why_closed_ = reason;
 }
 
-void HostLink::job_ended() {
+// `job_`, which calls this, stays until there is a new one.
+void HostLink::job_ended(const std::string& reason) {
   if (ready_since_ && Clock::now() - *ready_since_ >= kLongEnough) pauses_ = 0;
   connected_ = false;
   connection_.reset();
-  job_end_.reset();
-  job_.reset();
   give_up_awaited();
-  start_later(why_closed_.empty() ? std::string(reason_.data(), reason_size_) : why_closed_);
+  start_later(why_closed_.empty() ? reason : why_closed_);
 }
 
 // All but what is asked for again.

@@ -16,10 +16,10 @@
 #include "hal/failure/failure.h"
 #include "host/render/compositor/rectangles.h"
 #include "host/studio/link/host_connection.h"
+#include "host/studio/link/host_process.h"
 #include "host/studio/rendering/drawn_picture.h"
 #include "host/studio/rendering/finished_frames.h"
 #include "host/studio/rendering/rendering_page.h"
-#include "host/studio/rendering/render_process.h"
 #include "host/studio/rendering/render_words.h"
 #include "host/studio/rendering/rendering.h"
 
@@ -36,7 +36,7 @@ constexpr int kTicksALook = 4;  // at the folder
 // A job of mars render, with what is known of it. What its host said last may come after its end.
 struct Job {
   std::unique_ptr<HostConnection> connection;
-  std::unique_ptr<RenderProcess> process;
+  std::unique_ptr<HostProcess> process;
   std::optional<pictures::Begin> begin;  // of its last host
   std::uint32_t there = 0, of = 0;       // frames that the folder had, of those asked for; 0: not known
   std::uint32_t drawn = 0;               // since that host began
@@ -146,11 +146,14 @@ void LiveRendering::start(const Json& options) {
   Job job;
   job.connection = std::make_unique<HostConnection>(context_, host_listener());
   const std::vector<std::string> words = render_words(settings_, options, job.connection->path());
-  job.process = std::make_unique<RenderProcess>(
-      context_, child::Command{{}, words},
-      RenderProcess::Listener{
-          [this](const std::string& line) { heard(line); },
-          [this](const child::Ending& ending, const std::string& reason) { ended(ending, reason); }});
+  job.process = std::make_unique<HostProcess>(
+      context_,
+      [&](const child::ProcessSetup& setup) {
+        return std::make_unique<child::Process>(child::Command{{}, words}, setup);
+      },
+      0s,
+      HostProcess::Listener{[this](const std::string& line) { heard(line); },
+                            [this](const child::Ending& ending, const std::string& reason) { ended(ending, reason); }});
   job_ = std::move(job);
   look_at_folder(folder);
 }
@@ -258,7 +261,7 @@ void LiveRendering::update(pictures::Picture update) {
 
 void LiveRendering::ended(const child::Ending& ending, const std::string& reason) {
   const bool stopped = job_.stopping && !ending.well();
-  asio::post(context_, [process = std::shared_ptr<RenderProcess>(std::move(job_.process))] {});
+  asio::post(context_, [process = std::shared_ptr<HostProcess>(std::move(job_.process))] {});
   if (stopped)
     become("stopped", "the same folder and options go on with it");
   else if (ending.well())

@@ -1,4 +1,4 @@
-#include "host/studio/rendering/render_process.h"
+#include "host/studio/link/host_process.h"
 
 #include <poll.h>
 #include <signal.h>
@@ -25,23 +25,21 @@ using Error = boost::system::error_code;
 using namespace std::chrono_literals;
 
 constexpr auto kLook = 20ms;       // for the end of a process that has closed its streams
-constexpr auto kLongestStop = 5s;  // then it is killed
+constexpr auto kLongestStop = 5s;  // of a process that was asked to end
 constexpr std::size_t kMostLine = 1 << 16;
 
 }  // namespace
 
-class RenderProcess::Streams : public std::enable_shared_from_this<Streams> {
+class HostProcess::Streams : public std::enable_shared_from_this<Streams> {
  public:
-  Streams(asio::io_context& context, const child::Command& command, Listener listener)
-      : listener_(std::move(listener)), pipes_{child::make_pipe(), child::make_pipe()}, timer_(context) {
+  Streams(asio::io_context& context, const Start& start, std::chrono::seconds grace, Listener listener)
+      : grace_(grace), listener_(std::move(listener)), pipes_{child::make_pipe(), child::make_pipe()}, timer_(context) {
     const child::Descriptor nothing = child::null_device();
-    process_ = std::make_unique<child::Process>(
-        command,
-        child::ProcessSetup{
-            .streams = {{0, nothing.number()}, {1, pipes_[0].writing.number()}, {2, pipes_[1].writing.number()}},
-            .own_group = true,
-            .signal_at_our_end = SIGTERM,
-            .default_signals = {SIGINT, SIGTERM, SIGHUP, SIGPIPE}});
+    process_ =
+        start({.streams = {{0, nothing.number()}, {1, pipes_[0].writing.number()}, {2, pipes_[1].writing.number()}},
+               .own_group = true,
+               .signal_at_our_end = SIGTERM,
+               .default_signals = {SIGINT, SIGTERM, SIGHUP, SIGPIPE}});
     for (std::size_t i = 0; i < 2; ++i) {
       pipes_[i].writing.close();
       streams_[i].descriptor.emplace(context, dup(pipes_[i].reading.number()));
@@ -61,10 +59,9 @@ class RenderProcess::Streams : public std::enable_shared_from_this<Streams> {
     Error ignored;
     timer_.cancel(ignored);
     for (Stream& stream : streams_) stream.descriptor->close(ignored);
-    if (ended_) return;
+    if (ended_ || ends_within(grace_)) return;
     stop();
-    const auto last = std::chrono::steady_clock::now() + kLongestStop;
-    while (!process_->poll() && std::chrono::steady_clock::now() < last) ::poll(nullptr, 0, 2);
+    if (!ends_within(kLongestStop)) process_->give_up();  // it kills what does not end, and takes its time for it
   }
 
  private:
@@ -94,6 +91,15 @@ class RenderProcess::Streams : public std::enable_shared_from_this<Streams> {
     if (reason_.empty()) reason_ = own;
   }
 
+  bool ends_within(std::chrono::milliseconds longest) {
+    const auto last = std::chrono::steady_clock::now() + longest;
+    while (!process_->poll()) {
+      if (std::chrono::steady_clock::now() >= last) return false;
+      ::poll(nullptr, 0, 2);
+    }
+    return true;
+  }
+
   void look_for_end() {
     if (const auto ending = process_->poll()) {
       ended_ = true;
@@ -105,6 +111,7 @@ class RenderProcess::Streams : public std::enable_shared_from_this<Streams> {
     });
   }
 
+  const std::chrono::seconds grace_;
   const Listener listener_;
   std::array<child::Pipe, 2> pipes_;  // until it is started
   std::unique_ptr<child::Process> process_;
@@ -115,13 +122,13 @@ class RenderProcess::Streams : public std::enable_shared_from_this<Streams> {
   bool closed_ = false, ended_ = false;
 };
 
-RenderProcess::RenderProcess(asio::io_context& context, const child::Command& command, Listener listener)
-    : streams_(std::make_shared<Streams>(context, command, std::move(listener))) {
+HostProcess::HostProcess(asio::io_context& context, const Start& start, std::chrono::seconds grace, Listener listener)
+    : streams_(std::make_shared<Streams>(context, start, grace, std::move(listener))) {
   streams_->begin();
 }
 
-RenderProcess::~RenderProcess() { streams_->close(); }
+HostProcess::~HostProcess() { streams_->close(); }
 
-void RenderProcess::stop() { streams_->stop(); }
+void HostProcess::stop() { streams_->stop(); }
 
 }  // namespace mars::studio
