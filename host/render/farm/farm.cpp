@@ -63,7 +63,7 @@ class Farm {
   void adapt(const wire::Strip& last, GroupWork& by);
   void report_slow_nodes();
   void receive();
-  void receive_strip();
+  bool receive_strip(bool probed);
   void receive_drawn();
   void receive_written();
   GroupWork& group_that_wants(const wire::Strip& strip);
@@ -213,7 +213,7 @@ std::optional<std::uint32_t> Farm::drawn_by(int node, std::int32_t begun) const 
 
 // Whether there was something to do.
 bool Farm::work_once() {
-  if (compose_one()) return true;
+  if (compose_one() || receive_strip(false)) return true;
   if (!iprobe(wire::any_of(wire::kStrip, wire::kFault, wire::kTrace, wire::kDrawn, wire::kWritten, wire::kStorage)))
     return options_.writing == nullptr && prepare_one();
   receive();
@@ -291,22 +291,26 @@ void Farm::receive() {
       if (listener_.warned) listener_.warned(warning);
       break;
     }
-    default: receive_strip();
+    default: receive_strip(true);
   }
 }
 
-void Farm::receive_strip() {
+// The one that was probed, or one whose bytes were on their way until now; whether there is one.
+bool Farm::receive_strip(bool probed) {
   ScopedSpan span(trace::HostSpan::strip);
-  const double begun = dclock();
-  StripMessage strip = inbox_.receive_strip(store_);
-  const wire::Strip header = strip.header();
-  rates_.received(header.node, dclock() - begun);
+  std::optional<StripMessage> strip = probed ? inbox_.receive_strip(store_) : inbox_.finished_strip();
+  if (!strip) {
+    span.forget();
+    return false;
+  }
+  const wire::Strip header = strip->header();
   charge(wire::Work::host_strip, 1);
   span.set_value(header.frame);
   GroupWork& group = group_that_wants(header);
   watching_.receive(header);
-  group.receive(std::move(strip));
+  group.receive(std::move(*strip));
   if (header.last == 1) note_last(header, group);
+  return true;
 }
 
 GroupWork& Farm::group_that_wants(const wire::Strip& strip) {
