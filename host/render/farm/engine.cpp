@@ -95,8 +95,9 @@ void Engine::run(WorkGiver& giver, PictureTaker& taker) {
   }
 }
 
-// Whether a message had come.
+// Whether something had come.
 bool Engine::hear(WorkGiver& giver, PictureTaker& taker) {
+  if (hear_strip(false, giver, taker)) return true;
   if (!iprobe(wire::any_of(wire::kStrip, wire::kFault, wire::kTrace, wire::kDrawn, wire::kWritten, wire::kStorage)))
     return false;
   switch (infotype()) {
@@ -105,21 +106,25 @@ bool Engine::hear(WorkGiver& giver, PictureTaker& taker) {
     case wire::kDrawn: hear_drawn(giver, taker); break;
     case wire::kWritten: hear_written(taker); break;
     case wire::kStorage: taker.warn(inbox_.receive_storage_warning()); break;
-    default: hear_strip(giver, taker);
+    default: hear_strip(true, giver, taker);
   }
   return true;
 }
 
-void Engine::hear_strip(WorkGiver& giver, PictureTaker& taker) {
+// The one that was probed, or one whose bytes were on their way until now; whether there is one.
+bool Engine::hear_strip(bool probed, WorkGiver& giver, PictureTaker& taker) {
   ScopedSpan span(trace::HostSpan::strip);
-  const double begun = dclock();
-  StripMessage strip = inbox_.receive_strip(store_);
-  const wire::Strip header = strip.header();
-  const double seconds = dclock() - begun;
+  std::optional<StripMessage> strip = probed ? inbox_.receive_strip(store_) : inbox_.finished_strip();
+  if (!strip) {
+    span.forget();
+    return false;
+  }
+  const wire::Strip header = strip->header();
   span.set_value(header.frame);
   note_given(header);
-  taker.take_strip(std::move(strip));
-  giver.note_taken(header, seconds);
+  taker.take_strip(std::move(*strip));
+  giver.note_taken(header);
+  return true;
 }
 
 void Engine::hear_drawn(WorkGiver& giver, PictureTaker& taker) {
@@ -127,7 +132,7 @@ void Engine::hear_drawn(WorkGiver& giver, PictureTaker& taker) {
   if (!nodes_write_) inbox_.refuse(drawn.node, "word of a frame that it was not to write");
   note_given(drawn);
   taker.take_drawn(drawn);
-  giver.note_taken(drawn, 0);
+  giver.note_taken(drawn);
 }
 
 void Engine::hear_written(PictureTaker& taker) {

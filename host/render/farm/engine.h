@@ -29,8 +29,8 @@ class WorkGiver {
   virtual bool goes_on() const = 0;
   // Gives nodes what there is to draw now; whether there was something.
   virtual bool give_work() = 0;
-  // A strip is taken, or, where nodes write files, is in a file. The host received it for `seconds`.
-  virtual void note_taken(const wire::Strip&, double) {}
+  // A strip is taken, or, where nodes write files, is in a file.
+  virtual void note_taken(const wire::Strip&) {}
   // Nodes draw, or wait: there is nothing to do.
   virtual void rest();
 };
@@ -106,7 +106,7 @@ class Engine {
  private:
   bool cancelled() const { return options_.cancellation != nullptr && options_.cancellation->cancelled(); }
   bool hear(WorkGiver& giver, PictureTaker& taker);
-  void hear_strip(WorkGiver& giver, PictureTaker& taker);
+  bool hear_strip(bool probed, WorkGiver& giver, PictureTaker& taker);
   void hear_drawn(WorkGiver& giver, PictureTaker& taker);
   void hear_written(PictureTaker& taker);
   void note_given(const wire::Strip& strip);

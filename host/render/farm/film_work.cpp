@@ -81,8 +81,7 @@ void FilmWork::note_given(const collectives::Group& group, const std::vector<Sta
   }
 }
 
-void FilmWork::note_taken(const wire::Strip& strip, double seconds) {
-  rates_.received(strip.node, seconds);
+void FilmWork::note_taken(const wire::Strip& strip) {
   if (strip.last == 0) return;
   if (run_.options.each_frame) run_.report.strips.push_back(strip);
   if (run_.options.adapts) adapt(strip, pictures_.group_of(strip.node));

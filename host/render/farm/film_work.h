@@ -20,7 +20,7 @@ class FilmWork : public WorkGiver {
 
   bool goes_on() const override { return wanted_ && pictures_.frames_left() > 0; }
   bool give_work() override;
-  void note_taken(const wire::Strip& strip, double seconds) override;
+  void note_taken(const wire::Strip& strip) override;
 
   const std::vector<SlowTime>& slow_times() const { return rates_.slow_times(); }
 

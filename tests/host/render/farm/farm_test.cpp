@@ -11,6 +11,7 @@
 
 #include "host/render/farm/node_inbox.h"
 #include "tests/host/render/farm/scripted_node.h"
+#include "tests/host/render/farm/slow_link.h"
 
 namespace mars::farm {
 namespace {
@@ -68,6 +69,35 @@ TEST(Farm, TheBackgroundIsThatOfItsInterval) {
     for (const auto& [frame, word] : run.sink.last)
       EXPECT_NEAR((word >> shift) / most, (frame == 2 || frame == 6 ? 187.52 : 136.96) / 255, 0.6 / 255) << frame;
   }
+}
+
+// Each frame in two strips, which come by message.
+void node_elsewhere() {
+  ScriptedNode node(false);
+  node.boot();
+  while (const auto command = node.next_command())
+    for (const std::uint32_t frame : ScriptedNode::own_frames(*command))
+      for (const std::uint16_t last : {0, 1}) {
+        wire::Strip strip = ScriptedNode::strip_of(*command, frame);
+        strip.number = last;
+        strip.last = last;
+        if (!node.wait_for_credit()) return;
+        node.send_strip(strip, 1000 + frame);
+      }
+}
+
+TEST(Farm, ASlowLinkHoldsUpNoOtherNode) {
+  messages::Counts counts;
+  ScriptedRun run;
+  run.nodes = 2;
+  run.work = {frames_to(20), true, 2};
+  run.farm.each_frame = true;
+  run.wrap = [&](messages::Backend& inner) { return std::make_unique<SlowLink>(inner, counts); };
+  const FarmReport report = run.render(EmptyFilm(std::vector<std::uint32_t>(20, 1)), node_elsewhere);
+  EXPECT_EQ(run.sink.pixels, pixels_of(frames_to(20)));
+  const auto slow = std::ranges::count(report.frames, 1, &FinishedFrame::first_node);
+  EXPECT_GE(slow, 1);
+  EXPECT_LE(slow, 5) << "the other node waited for this one's strips";
 }
 
 TEST(Farm, WarnsOnceOfEachMachineWhoseNodesDoNotShareMemory) {
