@@ -35,11 +35,9 @@ Assembly::Assembly(const Task& task, const collectives::Group& group, std::int32
       interval_(task.interval),
       keyframe_(task.frames.front()),
       alone_(task.frames.size() == 1),
-      contributors_(contributors),
       not_begun_(task.frames.size()) {
-  for (const std::uint32_t frame : task.frames) parts_[frame].contributors_left = 1;
-  parts_[keyframe_].contributor = kAll;
-  parts_[keyframe_].contributors_left = contributors;
+  for (const std::uint32_t frame : task.frames) parts_[frame] = {};
+  parts_[keyframe_] = {.nodes = {group.first, contributors}, .nodes_left = contributors};
   for (int node = group.first; node < group.first + contributors; ++node)
     assignments.give(node, {keyframe_, interval_, wire::FrameKind::keyframe});
 }
@@ -49,19 +47,19 @@ void Assembly::give(const Task& task, const Portion& portion, Assignments& assig
     const std::uint32_t frame = task.frames[1 + k];
     const std::int32_t node =
         group_.first + wire::contributor_of_inbetween(task.first_inbetween + k, group_.count, portion.cycle);
-    parts_.at(frame).contributor = node;
+    parts_.at(frame) = {.nodes = {node, 1}, .nodes_left = 1};
     assignments.give(node, {frame, interval_, wire::FrameKind::inbetween});
   }
 }
 
 bool Assembly::awaits_file(std::uint32_t frame) const {
   const auto found = parts_.find(frame);
-  return found != parts_.end() && found->second.contributor != kNobody && !found->second.is_written;
+  return found != parts_.end() && found->second.nodes.count > 0 && !found->second.is_written;
 }
 
-std::optional<Assembly::Pasted> Assembly::note_drawn(const wire::Strip& strip) {
-  --parts_.at(strip.frame).contributors_left;
-  return finish_written(strip.frame);
+std::optional<Assembly::Pasted> Assembly::note_drawn(std::uint32_t frame) {
+  --parts_.at(frame).nodes_left;
+  return finish_written(frame);
 }
 
 std::optional<Assembly::Pasted> Assembly::note_written(std::uint32_t frame) {
@@ -71,7 +69,7 @@ std::optional<Assembly::Pasted> Assembly::note_written(std::uint32_t frame) {
 
 std::optional<Assembly::Pasted> Assembly::finish_written(std::uint32_t number) {
   const Parts& parts = parts_.at(number);
-  if (!parts.is_written || parts.contributors_left > 0) return std::nullopt;
+  if (!parts.is_written || parts.nodes_left > 0) return std::nullopt;
   const Pasted written = describe(number, parts);
   parts_.erase(number);
   return written;
@@ -80,7 +78,7 @@ std::optional<Assembly::Pasted> Assembly::finish_written(std::uint32_t number) {
 void Assembly::receive(StripMessage strip) {
   const wire::Strip& header = strip.header();
   Parts& parts = parts_.at(header.frame);
-  if (header.last == 1) --parts.contributors_left;
+  if (header.last == 1) --parts.nodes_left;
   if (parts.strips.empty()) waiting_.push_back(header.frame);
   parts.strips.push_back(std::move(strip));
 }
@@ -96,7 +94,7 @@ bool Assembly::begin(Parts& parts, const compositor::Compositor& compositor, sin
   const std::uint64_t background = compositor.background_name();
   if (prepared_ != nullptr)
     parts.picture = std::exchange(prepared_, nullptr);
-  else if (parts.contributors_left == 0)
+  else if (parts.nodes_left == 0)
     parts.picture = begun(sinks.free_frame(background), compositor);
   else
     parts.picture = begun(sinks.early_frame(background), compositor);
@@ -106,13 +104,8 @@ bool Assembly::begin(Parts& parts, const compositor::Compositor& compositor, sin
 }
 
 Assembly::Pasted Assembly::describe(std::uint32_t number, const Parts& parts) const {
-  const bool alone = parts.contributor != kAll;
-  return {number,
-          number == keyframe_ ? wire::FrameKind::keyframe : wire::FrameKind::inbetween,
-          nullptr,
-          {},
-          alone ? parts.contributor : group_.first,
-          alone ? 1 : contributors_};
+  const auto kind = number == keyframe_ ? wire::FrameKind::keyframe : wire::FrameKind::inbetween;
+  return {number, kind, nullptr, {}, parts.nodes.first, parts.nodes.count};
 }
 
 std::optional<Assembly::Pasted> Assembly::paste(compositor::Compositor& compositor, sinks::SinkPool& sinks,
@@ -133,7 +126,7 @@ std::optional<Assembly::Pasted> Assembly::paste(compositor::Compositor& composit
     store.give_back(strip.release());
   }
   parts.strips.clear();
-  if (parts.contributors_left > 0) return pasted;
+  if (parts.nodes_left > 0) return pasted;
   compositor.finish_frame(*parts.picture, number);
   if (listener || !sinks.restores()) compositor.restore(*parts.picture);
   if (!sinks.restores()) parts.picture->shown.reset();

@@ -54,7 +54,7 @@ class Assembly {
     std::int32_t first_node;     // the first of `nodes` that draw it
     std::int32_t nodes;
   };
-  std::optional<Pasted> note_drawn(const wire::Strip& strip);
+  std::optional<Pasted> note_drawn(std::uint32_t frame);
   std::optional<Pasted> note_written(std::uint32_t frame);
 
   // From here on it has the group's compositor, whose interval has begun and which nobody else uses until all
@@ -71,13 +71,10 @@ class Assembly {
   bool done() const { return parts_.empty(); }
 
  private:
-  static constexpr std::int32_t kAll = -1;     // all that draw keyframes
-  static constexpr std::int32_t kNobody = -2;  // yet
-
   // What is there of a frame.
   struct Parts {
-    std::int32_t contributor = kNobody;  // the only node that draws it
-    std::int32_t contributors_left = 0;
+    collectives::Group nodes{0, 0};        // that draw it; none: it is not given yet
+    int nodes_left = 0;                    // whose last strip is to come
     std::vector<StripMessage> strips;      // to be pasted
     compositor::Frame* picture = nullptr;  // where they go; begun
     bool is_written = false;
@@ -92,7 +89,6 @@ class Assembly {
   std::uint32_t interval_;
   std::uint32_t keyframe_;
   bool alone_;                             // the keyframe has no inbetweens: nobody needs its saved background
-  std::int32_t contributors_;              // to the keyframe
   std::map<std::uint32_t, Parts> parts_;   // of frames that are not finished
   std::deque<std::uint32_t> waiting_;      // those with strips to be pasted, as they came
   std::size_t not_begun_;                  // those without a picture

@@ -103,7 +103,9 @@ void FilmPictures::note_with_sinks() {
   }
 }
 
-void FilmPictures::take_drawn(const wire::Strip& drawn) { finish_written(group_of(drawn.node).note_drawn(drawn)); }
+void FilmPictures::take_drawn(const wire::Strip& drawn) {
+  finish_written(group_of(drawn.node).note_drawn(drawn.frame));
+}
 
 bool FilmPictures::take_written(const wire::Written& written) {
   const auto group =

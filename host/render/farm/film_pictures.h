@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "host/render/farm/engine.h"
-#include "host/render/farm/film_run.h"
+#include "host/render/farm/farm.h"
 #include "host/render/farm/group_work.h"
 #include "node/wire/work.h"
 

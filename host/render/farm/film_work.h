@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "host/render/farm/engine.h"
+#include "host/render/farm/farm.h"
 #include "host/render/farm/film_pictures.h"
-#include "host/render/farm/film_run.h"
 #include "host/render/farm/node_rates.h"
 
 namespace mars::farm {

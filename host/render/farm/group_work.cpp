@@ -36,35 +36,24 @@ Portion GroupWork::give_portion(const std::vector<Standing>& standings, std::siz
   return portion;
 }
 
-void GroupWork::receive(StripMessage strip) {
-  const std::uint32_t frame = strip.header().frame;
-  const auto task = std::ranges::find_if(tasks_, [&](const Given& each) { return each.assembly.has(frame); });
-  task->assembly.receive(std::move(strip));
+std::deque<GroupWork::Given>::iterator GroupWork::task_of(std::uint32_t frame) {
+  return std::ranges::find_if(tasks_, [frame](const Given& task) { return task.assembly.has(frame); });
 }
+
+void GroupWork::receive(StripMessage strip) { task_of(strip.header().frame)->assembly.receive(std::move(strip)); }
 
 bool GroupWork::awaits_file(std::uint32_t frame) const {
   return std::ranges::any_of(tasks_, [&](const Given& task) { return task.assembly.awaits_file(frame); });
 }
 
-// To the task that it is of; tasks may end in any order.
-template <typename Is, typename Note>
-std::optional<GroupWork::Composed> GroupWork::note(Is is_of, Note note) {
-  const auto task = std::ranges::find_if(tasks_, is_of);
-  const auto whole = note(task->assembly);
+// Tasks may end in any order.
+std::optional<GroupWork::Composed> GroupWork::note(std::uint32_t frame, Note note) {
+  const auto task = task_of(frame);
+  const auto whole = (task->assembly.*note)(frame);
   if (!whole) return std::nullopt;
   Composed composed{*whole, task->assembly.interval(), task->given, {}};
   if (task->assembly.done()) tasks_.erase(task);
   return composed;
-}
-
-std::optional<GroupWork::Composed> GroupWork::note_drawn(const wire::Strip& strip) {
-  return note([&](const Given& task) { return task.assembly.has(strip.frame); },
-              [&](Assembly& assembly) { return assembly.note_drawn(strip); });
-}
-
-std::optional<GroupWork::Composed> GroupWork::note_written(std::uint32_t frame) {
-  return note([&](const Given& task) { return task.assembly.awaits_file(frame); },
-              [&](Assembly& assembly) { return assembly.note_written(frame); });
 }
 
 bool GroupWork::prepare(sinks::SinkPool& sinks) {

@@ -50,8 +50,8 @@ class GroupWork {
     compositor::PastedCounts counts;
   };
   bool awaits_file(std::uint32_t frame) const;
-  std::optional<Composed> note_drawn(const wire::Strip& strip);
-  std::optional<Composed> note_written(std::uint32_t frame);
+  std::optional<Composed> note_drawn(std::uint32_t frame) { return note(frame, &Assembly::note_drawn); }
+  std::optional<Composed> note_written(std::uint32_t frame) { return note(frame, &Assembly::note_written); }
 
   // As Assembly's, for the first task that is not done.
   bool prepare(sinks::SinkPool& sinks);
@@ -64,8 +64,10 @@ class GroupWork {
     double given;
   };
 
-  template <typename Is, typename Note>
-  std::optional<Composed> note(Is is_of, Note note);
+  using Note = std::optional<Assembly::Pasted> (Assembly::*)(std::uint32_t frame);
+
+  std::deque<Given>::iterator task_of(std::uint32_t frame);
+  std::optional<Composed> note(std::uint32_t frame, Note note);
   void begin_interval() { compositor_.begin_interval(tasks_.front().background); }
 
   collectives::Group group_;

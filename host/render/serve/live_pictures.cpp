@@ -1,5 +1,6 @@
 #include "host/render/serve/live_pictures.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -59,11 +60,11 @@ std::uint32_t LivePictures::begin(std::uint32_t view, std::uint32_t asked, wire:
   return last_;
 }
 
-LivePictures::Keyframes LivePictures::keyframes(std::uint32_t view) const {
-  Keyframes keyframes;
-  for (const auto& [number, picture] : pictures_)
-    if (picture.kind == wire::FrameKind::keyframe) ++(picture.view == view ? keyframes.of_view : keyframes.others);
-  return keyframes;
+bool LivePictures::takes_keyframe(std::uint32_t view) const {
+  int of_view = 0;
+  return std::ranges::none_of(pictures_, [&](const auto& each) {
+    return each.second.kind == wire::FrameKind::keyframe && (each.second.view != view || ++of_view > 1);
+  });
 }
 
 bool LivePictures::has_keyframe(std::uint32_t view) const {

@@ -32,11 +32,8 @@ class LivePictures : public farm::PictureTaker {
   bool is_known(std::uint32_t view) const { return views_.contains(view); }
   // Whether the keyframe of the view's interval is whole.
   bool has_keyframe(std::uint32_t view) const;
-  // Keyframes that nodes draw: of this view, of others.
-  struct Keyframes {
-    std::size_t of_view = 0, others = 0;
-  };
-  Keyframes keyframes(std::uint32_t view) const;
+  // Whether nodes draw no keyframe of another view, and at most one of this view.
+  bool takes_keyframe(std::uint32_t view) const;
   // What is begun of the view is wanted no more. Nodes may still draw it; what they send is pasted nowhere.
   void drop(std::uint32_t view);
   void forget(std::uint32_t view) { views_.erase(view); }

@@ -48,11 +48,15 @@ void LiveWork::take(Request request) {
   }
   switch (request.head.kind) {
     case Kind::film: return take_film(std::move(request));
-    case Kind::view: return take_scene(views_[number], std::move(request));
+    case Kind::view:
+      drop_all(number, views_[number]);
+      views_[number].scene = std::move(request);
+      return;
     case Kind::draw:
-      if (const auto view = views_.find(number); view != views_.end())
-        return take_draw(view->second, std::move(request));
-      return pictures_.send_dropped(number, request.head.picture);
+      if (!views_.contains(number)) return pictures_.send_dropped(number, request.head.picture);
+      drop_waiting(number, views_[number].draw);
+      views_[number].draw = std::move(request);
+      return;
     default: close(number);
   }
 }
@@ -64,16 +68,6 @@ void LiveWork::take_film(Request request) {
   }
   views_.clear();
   next_film_ = std::move(request);
-}
-
-void LiveWork::take_scene(View& view, Request request) {
-  drop_all(request.head.view, view);
-  view.scene = std::move(request);
-}
-
-void LiveWork::take_draw(View& view, Request request) {
-  drop_waiting(request.head.view, view.draw);
-  view.draw = std::move(request);
 }
 
 void LiveWork::close(std::uint32_t number) {
@@ -127,9 +121,7 @@ void LiveWork::load_film() {
 bool LiveWork::give_scene() {
   auto next = views_.end();
   for (auto view = views_.begin(); view != views_.end(); ++view) {
-    if (!view->second.scene) continue;
-    const LivePictures::Keyframes drawn = pictures_.keyframes(view->first);
-    if (drawn.others > 0 || drawn.of_view > 1) continue;
+    if (!view->second.scene || !pictures_.takes_keyframe(view->first)) continue;
     if (next == views_.end() || view->second.scene->head.picture < next->second.scene->head.picture) next = view;
   }
   if (next == views_.end()) return false;

@@ -39,8 +39,6 @@ class LiveWork : public farm::WorkGiver {
   bool take_requests();
   void take(Request request);
   void take_film(Request request);
-  void take_scene(View& view, Request request);
-  void take_draw(View& view, Request request);
   void close(std::uint32_t number);
   void drop_waiting(std::uint32_t number, std::optional<Request>& request);
   void drop_all(std::uint32_t number, View& view);

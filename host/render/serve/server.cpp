@@ -22,13 +22,6 @@ namespace {
 
 constexpr std::chrono::milliseconds kLastWords{1000};  // that the studio has to take why the host ends
 
-events::Fault fault_of(const std::exception& reason) {
-  const Failure failure = explain(reason);
-  events::Fault fault{failure.problem, failure.where, failure.remedy, {}, {}, ""};
-  if (const auto* at_node = dynamic_cast<const farm::NodeFailure*>(&reason)) fault.node = at_node->node;
-  return fault;
-}
-
 // Its last message.
 void send_refusal(pictures::Socket& studio, const std::string& text) {
   studio.send({pictures::Kind::refused}, pictures::body_of(text));
@@ -67,7 +60,7 @@ void serve(const Serving& serving) {
     studio.emplace(connect_to_studio(serving.socket), pictures::Peer::studio);
     serve(serving, *studio, reporter);
   } catch (const std::exception& reason) {
-    reporter.report(fault_of(reason));
+    reporter.report(session::fault_of(reason));
     if (studio) send_refusal(*studio, reason_of(reason));
     throw;
   }

@@ -7,8 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "hal/failure/explain.h"
 #include "hal/failure/failure.h"
 #include "hal/failure/plain_text.h"
+#include "host/render/farm/node_inbox.h"
 
 namespace mars::session {
 namespace {
@@ -85,6 +87,13 @@ farm::FarmListener EventReporter::listener(std::size_t intervals) {
     report_progress(frame.seconds);
   };
   return listener;
+}
+
+events::Fault fault_of(const std::exception& reason) {
+  const Failure failure = explain(reason);
+  events::Fault fault{failure.problem, failure.where, failure.remedy, {}, {}, ""};
+  if (const auto* at_node = dynamic_cast<const farm::NodeFailure*>(&reason)) fault.node = at_node->node;
+  return fault;
 }
 
 }  // namespace mars::session

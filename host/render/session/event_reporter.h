@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <exception>
 #include <mutex>
 #include <string>
 #include <utility>
@@ -37,5 +38,8 @@ class EventReporter {
   events::Course course_;
   events::Progress progress_;
 };
+
+// Why a run ends, and the node that fails, if it is a node's failure.
+events::Fault fault_of(const std::exception& reason);
 
 }  // namespace mars::session

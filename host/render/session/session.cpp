@@ -296,12 +296,10 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace, 
 
 // Why the run ends; of a node's failure also the command that shows it again, with one frame where it is known.
 events::Fault fault_of(const std::exception& reason, const RenderJob& job) {
-  const Failure failure = explain(reason);
-  events::Fault fault{failure.problem, failure.where, failure.remedy, {}, {}, ""};
+  events::Fault fault = session::fault_of(reason);
   if (const auto* gone = dynamic_cast<const sinks::LostFrames*>(&reason)) fault.lost = gone->frames;
   const auto* at_node = dynamic_cast<const farm::NodeFailure*>(&reason);
   if (at_node == nullptr) return fault;
-  fault.node = at_node->node;
   if (at_node->frame >= 0) fault.frame = at_node->frame;
   fault.replay = job.replay(static_cast<std::uint32_t>(numnodes()), fault.frame);
   return fault;

@@ -10,8 +10,12 @@ namespace mars::farm {
 namespace {
 
 EngineOptions engine_options(const FarmOptions& farm, const sinks::SinkPool::Shape& shape) {
-  return {shape.width,       shape.height,    shape.format, farm.credits,
-          farm.cancellation, farm.heartbeats, farm.trace,   farm.watch != nullptr};
+  EngineOptions engine = farm;
+  engine.width = shape.width;
+  engine.height = shape.height;
+  engine.format = shape.format;
+  engine.watched = farm.watch != nullptr;
+  return engine;
 }
 
 NodeMemory node_memory(const FilmRun& run) {
