@@ -12,7 +12,6 @@
 #include <nlohmann/json.hpp>
 #include <span>
 #include <sstream>
-#include <tuple>
 
 #include "hal/failure/failure.h"
 #include "host/content/document/text.h"
@@ -51,6 +50,20 @@ const Phase kNodePhases[] = {{"dice",
 const Phase kHostPhase{"host",
                        {"busy_seconds"},
                        {Work::host_strip, Work::host_run, Work::host_byte, Work::host_restored, Work::host_frame}};
+
+// Renderings with files. Films differ in how much of a frame is encoded again, and in size.
+struct Files {
+  const char* film;
+  const char* format;
+  Work encoded_byte;
+};
+
+constexpr Files kFiles[] = {
+    {"balls", "png", Work::encoded_byte},         {"cube", "png", Work::encoded_byte},
+    {"still", "png", Work::encoded_byte},         {"grains", "png", Work::encoded_byte},
+    {"balls", "png16", Work::encoded_png16_byte}, {"still", "png16", Work::encoded_png16_byte},
+    {"balls", "exr", Work::encoded_exr_byte},     {"still", "exr", Work::encoded_exr_byte},
+};
 
 // Times below are the clock's and the scheduler's.
 constexpr double kSoft = 1e-4;
@@ -93,7 +106,7 @@ class Measuring {
     for (const CalibrationFilm& film : films_) document::write_whole_file(film_file(film), film.text);
     for (int repeat = 0; repeat < task_.repeats; ++repeat) {
       for (const CalibrationFilm& film : films_) render(film);
-      for (const char* format : {"png", "png16", "exr"}) render_files(format);
+      for (const Files& files : kFiles) render_files(files);
     }
     calibration_.work.assign(wire::kWorkNames.size(), 0);
     for (const Phase& phase : kNodePhases) fit(phase, frames());
@@ -111,7 +124,7 @@ class Measuring {
     words.insert(words.end(), {"--nodes", "1"});
     words.insert(words.end(), film.words.begin(), film.words.end());
     json report = report_of_run(task_.renderer, film_file(film), words);
-    if (task_.progress) task_.progress(++done_, task_.repeats * static_cast<int>(films_.size() + 3));
+    if (task_.progress) task_.progress(++done_, task_.repeats * static_cast<int>(films_.size() + std::size(kFiles)));
     return report;
   }
 
@@ -124,16 +137,13 @@ class Measuring {
     if (seconds.back() == std::ranges::min(seconds)) reports_[film.name] = std::move(report);
   }
 
-  const CalibrationFilm& file_film() const { return *std::ranges::find(films_, "balls", &CalibrationFilm::name); }
-
-  // The frames of one film as files.
-  void render_files(const std::string& format) {
-    const fs::path folder = task_.renderer.folder / ("frames-" + format);
-    const json report = report_of(file_film(), {"-o", folder.string(), "--format", format});
+  // The frames of a film as files.
+  void render_files(const Files& files) {
+    const fs::path folder = task_.renderer.folder / "frames";
+    const auto film = std::ranges::find_if(films_, [&](const auto& each) { return each.name == files.film; });
+    const json report = report_of(*film, {"-o", folder.string(), "--format", files.format});
     fs::remove_all(folder);
-    file_pixels_ = report["width"].get<double>() * report["height"].get<double>();
-    const auto frames = static_cast<double>(report["frames"].size());
-    file_seconds_[format].push_back(report["host"]["sink_seconds"].get<double>() / frames);
+    file_reports_[&files].push_back(report["host"]);
   }
 
   std::vector<Seen> frames() const {
@@ -160,11 +170,25 @@ class Measuring {
   }
 
   // In the middle: files are written while a node draws.
+  Measurement file_measurement(const Files& files) const {
+    constexpr std::size_t kFirst = static_cast<std::size_t>(Work::file);
+    std::vector<double> seconds;
+    for (const json& host : file_reports_.at(&files)) seconds.push_back(host["sink_seconds"]);
+    const json& host = file_reports_.at(&files).front();
+    Measurement measured{std::vector<double>(wire::kWorkNames.size() - kFirst), median(seconds)};
+    const auto units = [&](Work kind) -> double& { return measured.units[static_cast<std::size_t>(kind) - kFirst]; };
+    units(Work::file) = host["files"];
+    units(files.encoded_byte) = host["encoded_bytes"];
+    units(Work::file_byte) = host["file_bytes"];
+    return measured;
+  }
+
   void set_file_costs() {
-    const std::tuple<const char*, Work, double> kFiles[] = {
-        {"png", Work::sink_byte, 4}, {"png16", Work::sink_png16_byte, 8}, {"exr", Work::sink_exr_byte, 8}};
-    for (const auto& [format, kind, pixel_bytes] : kFiles)
-      calibration_.work[static_cast<std::size_t>(kind)] = median(file_seconds_[format]) / (file_pixels_ * pixel_bytes);
+    std::vector<Measurement> measurements;
+    for (const Files& files : kFiles) measurements.push_back(file_measurement(files));
+    const Fit found = fit_costs(measurements, kSoft);
+    std::ranges::copy(found.costs, calibration_.work.begin() + static_cast<std::ptrdiff_t>(Work::file));
+    calibration_.phases.push_back({"files", measurements.size(), found.median_error, found.high_error});
   }
 
   double spread() const {
@@ -175,10 +199,9 @@ class Measuring {
 
   const CalibrationTask& task_;
   const std::vector<CalibrationFilm> films_;
-  std::map<std::string, json> reports_;                 // of each film's shortest rendering
-  std::map<std::string, std::vector<double>> seconds_;  // of all
-  std::map<std::string, std::vector<double>> file_seconds_;
-  double file_pixels_ = 0;
+  std::map<std::string, json> reports_;                     // of each film's shortest rendering
+  std::map<std::string, std::vector<double>> seconds_;      // of all
+  std::map<const Files*, std::vector<json>> file_reports_;  // of their hosts
   int done_ = 0;
   Busyness busyness_ = busyness();  // before it begins: its own renderings are no others
   Calibration calibration_;

@@ -23,7 +23,9 @@ constexpr double kSoon = 1.0;          // seconds, about: not worth a forecast
 
 forecast::Setting setting_of(const session::RenderJob& job, const wire::FilmView& film,
                              const experiments::Platform& platform) {
-  forecast::Setting setting{film, platform, job.mapping, job.format, !job.folder.empty()};
+  forecast::Setting setting{film, platform, job.mapping, job.format};
+  setting.files = !job.folder.empty() || job.counts_files;
+  if (job.writers == session::Writers::nodes) setting.writers = forecast::Writers::nodes;
   const session::HostMachine host = session::host_machine(job.host);
   setting.host_budget = host.memory;
   setting.sink_threads = session::sink_threads(host);
@@ -43,7 +45,7 @@ session::Prediction predict(const session::RenderJob& job, const experiments::Pl
                             const wire::FilmView& film, const farm::PlanRequest& request, int nodes) {
   const std::vector<farm::Task> tasks = farm::make_tasks(film, request.frames, request.coherence);
   const forecast::FilmCounts counts =
-      forecast::count_film(film, tasks, *make_node_counter(film), {kMostCounting, kCountedPart / nodes});
+      forecast::count_film(film, tasks, *make_node_counter(film), {kMostCounting, kCountedPart / nodes}, job.format);
   forecast::Forecast best = forecast::forecast(counts, tasks, setting_of(job, film, platform), nodes, request.groups);
   return {best.groups, best.contributors, course_of(std::move(best))};
 }

@@ -195,6 +195,7 @@ void Farm::render() {
   const ScopedSpan span(trace::HostSpan::finish);
   finish_sinks();
   note_taken();
+  report_.files = sinks_.made();
   report_.total_seconds = dclock() - start_;
 }
 

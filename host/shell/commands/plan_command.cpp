@@ -69,8 +69,9 @@ Planned plan(const options::RenderOptions& options, const NodesCode& code) {
   const experiments::Platform platform = platform_of(options, code);
   const auto frames = options.frames.of_film(view.settings().frames);
   const std::vector<farm::Task> tasks = farm::make_tasks(view, frames, !options.no_coherence);
-  const forecast::FilmCounts counts = forecast::count_film(view, tasks, *code.make_counter(view), {kCounting});
+  const forecast::FilmCounts counts = forecast::count_film(view, tasks, *code.make_counter(view), {kCounting}, options.format);
   forecast::Setting setting{view, platform, options.mapping, options.format, options.sink == options::SinkKind::files};
+  if (options.write == options::WriteWhere::nodes) setting.writers = forecast::Writers::nodes;
   setting.sink_threads = session::sink_threads({platform.host_memory, platform.host_processors()});
   setting.host_budget = platform.host_memory;
   const int nodes = options.nodes == 0 ? topology::Machine::here().processors() : static_cast<int>(options.nodes);

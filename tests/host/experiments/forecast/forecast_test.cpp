@@ -63,7 +63,7 @@ TEST_P(Forecasts, CountWhatNodesDraw) {
     const auto is_here = [&](const wire::FrameCounts& counts) { return counts.frame == strip.frame; };
     const auto keyframe = std::ranges::find_if(film.counts().keyframes, is_here);
     if (keyframe == film.counts().keyframes.end()) continue;
-    const FrameTotals totals = totals_of(*keyframe);
+    const FrameTotals totals = totals_of(*keyframe, 1);
     EXPECT_EQ(totals.made[wire::Work::triangle], static_cast<double>(strip.work.triangles));
     EXPECT_EQ(totals.made[wire::Work::edge_box_made], static_cast<double>(strip.work.edge_boxes_diced));
     EXPECT_EQ(totals.drawn.edge_boxes, static_cast<double>(strip.edge_box_total));
@@ -116,7 +116,7 @@ TEST(Forecast, OfFewFramesCountedIsCloseToThatOfAll) {
   const wire::FilmView view = film.view();
   Setting setting{view, film.platform()};
   setting.files = false;
-  const FilmCounts few = count_film(view, film.tasks(), *programs::make_node_counter(view), {10, 0.05});
+  const FilmCounts few = count_film(view, film.tasks(), *programs::make_node_counter(view), {10, 0.05}, images::PictureFormat::png);
   EXPECT_LT(few.counted, 10u);
   EXPECT_NEAR(forecast(few, film.tasks(), setting, 4, 1).run.seconds, film.forecast(4, 1).run.seconds,
               0.1 * film.forecast(4, 1).run.seconds);

@@ -23,7 +23,7 @@ SimulatedFilm::SimulatedFilm(const std::string& name, const std::string& frames,
     : film_(small_film(name)),
       platform_(experiments::read_platform(platform, std::string(MARS_SOURCE_DIR) + "/cluster/platforms")),
       tasks_(farm::make_tasks(view(), film::FrameSet(frames).of_film(view().settings().frames), true)),
-      counts_(count_film(view(), tasks_, *programs::make_node_counter(view()), {10})) {}
+      counts_(count_film(view(), tasks_, *programs::make_node_counter(view()), {10}, images::PictureFormat::png)) {}
 
 Setting SimulatedFilm::setting(const wire::FilmView& film) const {
   Setting setting{film, platform_};
@@ -48,7 +48,7 @@ farm::FarmReport SimulatedFilm::render(int nodes, std::uint32_t groups) const {
   const auto host = [&](simulated::World& world) {
     sinks::NullSink sink;
     sinks::ServedSinks sinks(sink, {settings.width, settings.height, 16, memory.frames, setting.sink_threads},
-                             [&](std::uint64_t) { return world.clock(nodes); });
+                             [&](const images::FileWork&) { return world.clock(nodes); });
     farm::FarmOptions options;
     options.credits = memory.credits;
     options.each_frame = true;
