@@ -14,10 +14,10 @@
 #include "hal/simulated/run_simulated.h"
 #include "host/child/standard_streams.h"
 #include "host/experiments/platform.h"
-#include "host/programs/prediction.h"
 #include "host/programs/counted_writer.h"
+#include "host/programs/prediction.h"
+#include "host/programs/simulated_files.h"
 #include "host/render/sinks/counted_files.h"
-#include "host/render/sinks/served_sinks.h"
 #include "host/shell/job/render_job.h"
 #include "host/cli/program.h"
 #include "node/firmware.h"
@@ -26,33 +26,16 @@
 namespace mars::programs {
 namespace {
 
-// Files are work on processors of the host's machine, and go to storage; the host is woken when a frame is there.
-double serve_files(simulated::World& world, images::PictureFormat format, const images::FileWork& work) {
-  const int host = world.nodes();
-  const double made = world.reserve(host, experiments::file_seconds(world.machine(), format, work));
-  const double end = world.store(host, made, static_cast<double>(work.file_bytes));
-  world.set_alarm(host, end);
-  return end;
-}
-
 // Frames that go nowhere are counted as files where the options say who writes them. The counting sink ends with the
 // job.
 void charge_files(session::RenderJob& job, const experiments::Platform& platform, simulated::World& world) {
-  const auto serve = [&world, format = job.format](const images::FileWork& work) {
-    return work.files > 0 ? serve_files(world, format, work) : world.clock(world.nodes());
-  };
   const auto counted = std::make_shared<std::optional<sinks::CountedFiles>>();
-  job.make_sinks = [serve, counted, counts = job.counts_files, format = job.format,
+  job.make_sinks = [serve = serve_files(world, job.format), counted, counts = job.counts_files, format = job.format,
                     part = platform.file_part](sinks::Sink& sink, const sinks::SinkPool::Shape& shape) {
     if (!counts) return std::make_unique<sinks::ServedSinks>(sink, shape, serve);
     counted->emplace(images::PictureBands(format, shape.width, shape.height), part);
     return std::make_unique<sinks::ServedSinks>(**counted, shape, serve);
   };
-}
-
-// Nodes that write nothing ask for no orders but one.
-farm::Writing counted_writing() {
-  return {std::vector<std::byte>(1), [](auto, auto) {}, [](const wire::Written&) {}};
 }
 
 void run(const options::RenderOptions& options, const experiments::Platform& platform) {
