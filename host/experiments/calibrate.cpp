@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstring>
 #include <cstdio>
@@ -59,11 +60,13 @@ struct Files {
 };
 
 constexpr Files kFiles[] = {
-    {"balls", "png", Work::encoded_byte},         {"cube", "png", Work::encoded_byte},
-    {"still", "png", Work::encoded_byte},         {"grains", "png", Work::encoded_byte},
-    {"balls", "png16", Work::encoded_png16_byte}, {"still", "png16", Work::encoded_png16_byte},
-    {"balls", "exr", Work::encoded_exr_byte},     {"still", "exr", Work::encoded_exr_byte},
+    {"balls", "png", Work::encoded_byte},         {"figures", "png", Work::encoded_byte},
+    {"grains", "png", Work::encoded_byte},        {"lit", "png", Work::encoded_byte},
+    {"balls", "png16", Work::encoded_png16_byte}, {"grains", "png16", Work::encoded_png16_byte},
+    {"balls", "exr", Work::encoded_exr_byte},     {"grains", "exr", Work::encoded_exr_byte},
 };
+
+constexpr std::array kFileKinds{Work::file, Work::encoded_byte, Work::encoded_png16_byte, Work::encoded_exr_byte};
 
 // Times below are the clock's and the scheduler's.
 constexpr double kSoft = 1e-4;
@@ -98,6 +101,22 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
+// Bytes a second, of one processor, beyond its caches.
+double copy_rate() {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::size_t kBytes = 64 << 20;
+  constexpr int kRepeats = 5;
+  const std::vector<char> from(kBytes, 1);
+  std::vector<char> to(kBytes);
+  double least = 1e9;
+  for (int i = 0; i < kRepeats; ++i) {
+    const auto begun = Clock::now();
+    std::memcpy(to.data(), from.data(), kBytes);
+    least = std::min(least, std::chrono::duration<double>(Clock::now() - begun).count());
+  }
+  return kBytes / least;
+}
+
 class Measuring {
  public:
   explicit Measuring(const CalibrationTask& task) : task_(task), films_(calibration_films()) {}
@@ -109,6 +128,7 @@ class Measuring {
       for (const Files& files : kFiles) render_files(files);
     }
     calibration_.work.assign(wire::kWorkNames.size(), 0);
+    calibration_.copy_rate = copy_rate();
     for (const Phase& phase : kNodePhases) fit(phase, frames());
     fit(kHostPhase, runs());
     set_file_costs();
@@ -169,25 +189,29 @@ class Measuring {
     calibration_.phases.push_back({phase.name, measurements.size(), found.median_error, found.high_error});
   }
 
-  // In the middle: files are written while a node draws.
+  // In the middle: files are written while a node draws. Without the time for copies to the system.
   Measurement file_measurement(const Files& files) const {
-    constexpr std::size_t kFirst = static_cast<std::size_t>(Work::file);
     std::vector<double> seconds;
     for (const json& host : file_reports_.at(&files)) seconds.push_back(host["sink_seconds"]);
     const json& host = file_reports_.at(&files).front();
-    Measurement measured{std::vector<double>(wire::kWorkNames.size() - kFirst), median(seconds)};
-    const auto units = [&](Work kind) -> double& { return measured.units[static_cast<std::size_t>(kind) - kFirst]; };
-    units(Work::file) = host["files"];
-    units(files.encoded_byte) = host["encoded_bytes"];
-    units(Work::file_byte) = host["file_bytes"];
+    const double copied = file_byte_seconds() * host["file_bytes"].get<double>();
+    Measurement measured{std::vector<double>(kFileKinds.size()), std::max(0.0, median(seconds) - copied)};
+    for (std::size_t i = 0; i < kFileKinds.size(); ++i)
+      if (kFileKinds[i] == files.encoded_byte) measured.units[i] = host["encoded_bytes"];
+    measured.units.front() = host["files"];
     return measured;
   }
+
+  // A file's bytes are put together, and copied to the system.
+  double file_byte_seconds() const { return 2 / calibration_.copy_rate; }
 
   void set_file_costs() {
     std::vector<Measurement> measurements;
     for (const Files& files : kFiles) measurements.push_back(file_measurement(files));
     const Fit found = fit_costs(measurements, kSoft);
-    std::ranges::copy(found.costs, calibration_.work.begin() + static_cast<std::ptrdiff_t>(Work::file));
+    const auto cost = [&](Work kind) -> double& { return calibration_.work[static_cast<std::size_t>(kind)]; };
+    for (std::size_t i = 0; i < kFileKinds.size(); ++i) cost(kFileKinds[i]) = found.costs[i];
+    cost(Work::file_byte) = file_byte_seconds();
     calibration_.phases.push_back({"files", measurements.size(), found.median_error, found.high_error});
   }
 
@@ -206,22 +230,6 @@ class Measuring {
   Busyness busyness_ = busyness();  // before it begins: its own renderings are no others
   Calibration calibration_;
 };
-
-// Bytes a second, of one processor, beyond its caches.
-double copy_rate() {
-  using Clock = std::chrono::steady_clock;
-  constexpr std::size_t kBytes = 64 << 20;
-  constexpr int kRepeats = 5;
-  const std::vector<char> from(kBytes, 1);
-  std::vector<char> to(kBytes);
-  double least = 1e9;
-  for (int i = 0; i < kRepeats; ++i) {
-    const auto begun = Clock::now();
-    std::memcpy(to.data(), from.data(), kBytes);
-    least = std::min(least, std::chrono::duration<double>(Clock::now() - begun).count());
-  }
-  return kBytes / least;
-}
 
 // What a person can read, and three digits are as many as are known.
 double rounded(double number) {
@@ -254,11 +262,7 @@ std::string doubt_of(const Busyness& busyness) {
   return document::formatted("repeats took %.0f %% longer than the shortest", 100 * busyness.spread);
 }
 
-Calibration calibrate(const CalibrationTask& task) {
-  Calibration calibration = Measuring(task).run();
-  calibration.copy_rate = copy_rate();
-  return calibration;
-}
+Calibration calibrate(const CalibrationTask& task) { return Measuring(task).run(); }
 
 std::string platform_text(const Calibration& calibration, const MessageCosts& messages,
                           const CalibratedMachine& machine) {
