@@ -1,7 +1,5 @@
 #include "node/charges.h"
 
-#include "hal/messages/process.h"
-
 namespace mars::node {
 
 void charge_begin(FrameReport& report, const geometry::Scene& scene, bool is_first_frame) {
@@ -36,12 +34,6 @@ void charge_lines(FrameReport& report, const geometry::Scene& scene, const Lines
   charge(wire::Work::facet_light, drawn.counts.shaded.facets * scene.lights().size());
   charge(wire::Work::pixel, drawn.pixels);
   charge(wire::Work::still_byte, drawn.counts.still_bytes);
-}
-
-void charge_file(const geometry::Scene& scene, wire::PixelFormat format, std::uint32_t lines) {
-  const std::uint64_t pixels = std::uint64_t{lines} * scene.film().settings().width;
-  messages::charge(static_cast<int>(wire::Work::node_frame), 1);
-  messages::charge(static_cast<int>(wire::Work::node_frame_byte), pixels * wire::pixel_bytes(format));
 }
 
 }  // namespace mars::node

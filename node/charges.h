@@ -9,7 +9,7 @@
 #include "node/geometry/scene.h"
 #include "node/raster/scanline.h"
 #include "node/tessellator.h"
-#include "node/wire/protocol.h"
+#include "node/wire/work.h"
 
 namespace mars::node {
 
@@ -25,8 +25,5 @@ struct LinesDrawn {
   raster::DrawnCounts counts;
 };
 void charge_lines(FrameReport& report, const geometry::Scene& scene, const LinesDrawn& drawn);
-
-// A frame's file, by whoever writes it: a node's part of it is the lines that it drew.
-void charge_file(const geometry::Scene& scene, wire::PixelFormat format, std::uint32_t lines);
 
 }  // namespace mars::node

@@ -61,7 +61,8 @@ void CommandQueue::receive_ahead() {
     const long type = infotype();
     load_comes_ = type == wire::kLoad;
     if (load_comes_) return;
-    receive_probed(type, ahead_.emplace_back(type).message);
+    ahead_.push_back({type, {}});
+    receive_probed(type, ahead_.back().message);
   }
 }
 

@@ -233,7 +233,6 @@ void Renderer::draw_lines(const geometry::LineRange& lines, const group::Pass& p
     drawn = strip.last == lines.last || report_.is_cut();
     if (file_output_) paste_strip(strip);
     if (drawn) finish_exchange(pass);
-    if (drawn && pass.is_last()) charge_file(scene(), pixel_format_, homes()[member()].count());
     send_strip(strip, drawn && pass.is_last());
   }
 }

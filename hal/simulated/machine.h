@@ -37,6 +37,12 @@ struct Network {
   std::vector<EndCost> host_end{};         // of the host, whether it sends or receives; empty: as the nodes'
 };
 
+// File storage that all computers share: it opens one file after another, and takes their bytes one after another.
+struct Storage {
+  double opening = 0;  // of a file
+  double byte = 0;
+};
+
 struct Machine {
   int nodes = 1;               // of the job on a computer, the last has the rest
   int processors = 1;          // of a computer
@@ -46,6 +52,7 @@ struct Machine {
   // How many times as long work takes on a computer that begins it at a time; none: all are as fast.
   std::function<double(int computer, double now)> slowness{};
   Network network{};
+  Storage storage{};
 };
 
 }  // namespace mars::simulated

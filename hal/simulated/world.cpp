@@ -17,6 +17,7 @@ World::World(const Machine& machine, int nodes)
     : machine_(machine),
       nodes_(nodes),
       routes_(machine.network, computers_of(machine, nodes), machine.host_apart ? computers_of(machine, nodes) : 0),
+      storage_(machine.storage, machine.network),
       left_(nodes + 1) {
   check(nodes >= 1 && machine.nodes >= 1 && machine.processors >= 1, "there are a node and a processor");
   const int computers = computers_of(machine, nodes);
@@ -67,6 +68,11 @@ double World::reserve(int rank, double seconds) {
   let_earlier_run(rank);
   double& free = *std::ranges::min_element(processors_[computer_of(rank)]);
   return free = std::max(clock(rank), free) + seconds;
+}
+
+double World::store(int rank, double begin, double bytes) {
+  let_earlier_run(rank);
+  return storage_.write(begin, bytes, floor_at(clock(rank)));
 }
 
 double World::seconds_of(const std::vector<EndCost>& costs, std::size_t length) const {

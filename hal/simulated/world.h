@@ -25,6 +25,7 @@
 #include "hal/messages/message_pool.h"
 #include "hal/simulated/machine.h"
 #include "hal/simulated/routes.h"
+#include "hal/simulated/storage_use.h"
 #include "hal/simulated/turn.h"
 
 namespace mars::simulated {
@@ -56,6 +57,8 @@ class World {
   void set_alarm(int rank, double time);
   // Work of others than ranks on a processor of the rank's computer, from now on: when it will be done.
   double reserve(int rank, double seconds);
+  // A file of `bytes`, which goes to storage from then on: when it is there.
+  double store(int rank, double begin, double bytes);
 
   // Throws the failure that stopped the world.
   void check_running() const;
@@ -132,6 +135,7 @@ class World {
   const Machine machine_;
   const int nodes_;
   Routes routes_;
+  StorageUse storage_;
   messages::MessagePool pool_;  // of messages on their way, and all ranks'
   std::vector<std::unique_ptr<Rank>> ranks_;
   Queue queue_;                                  // all that neither run nor wait for ever

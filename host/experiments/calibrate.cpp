@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstring>
 #include <cstdio>
@@ -12,7 +13,6 @@
 #include <nlohmann/json.hpp>
 #include <span>
 #include <sstream>
-#include <tuple>
 
 #include "hal/failure/failure.h"
 #include "host/content/document/text.h"
@@ -52,6 +52,22 @@ const Phase kHostPhase{"host",
                        {"busy_seconds"},
                        {Work::host_strip, Work::host_run, Work::host_byte, Work::host_restored, Work::host_frame}};
 
+// Renderings with files. Films differ in how much of a frame is encoded again, and in size.
+struct Files {
+  const char* film;
+  const char* format;
+  Work encoded_byte;
+};
+
+constexpr Files kFiles[] = {
+    {"balls", "png", Work::encoded_byte},         {"figures", "png", Work::encoded_byte},
+    {"grains", "png", Work::encoded_byte},        {"lit", "png", Work::encoded_byte},
+    {"balls", "png16", Work::encoded_png16_byte}, {"grains", "png16", Work::encoded_png16_byte},
+    {"balls", "exr", Work::encoded_exr_byte},     {"grains", "exr", Work::encoded_exr_byte},
+};
+
+constexpr std::array kFileKinds{Work::file, Work::encoded_byte, Work::encoded_png16_byte, Work::encoded_exr_byte};
+
 // Times below are the clock's and the scheduler's.
 constexpr double kSoft = 1e-4;
 
@@ -85,6 +101,22 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
+// Bytes a second, of one processor, beyond its caches.
+double copy_rate() {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::size_t kBytes = 64 << 20;
+  constexpr int kRepeats = 5;
+  const std::vector<char> from(kBytes, 1);
+  std::vector<char> to(kBytes);
+  double least = 1e9;
+  for (int i = 0; i < kRepeats; ++i) {
+    const auto begun = Clock::now();
+    std::memcpy(to.data(), from.data(), kBytes);
+    least = std::min(least, std::chrono::duration<double>(Clock::now() - begun).count());
+  }
+  return kBytes / least;
+}
+
 class Measuring {
  public:
   explicit Measuring(const CalibrationTask& task) : task_(task), films_(calibration_films()) {}
@@ -93,9 +125,10 @@ class Measuring {
     for (const CalibrationFilm& film : films_) document::write_whole_file(film_file(film), film.text);
     for (int repeat = 0; repeat < task_.repeats; ++repeat) {
       for (const CalibrationFilm& film : films_) render(film);
-      for (const char* format : {"png", "png16", "exr"}) render_files(format);
+      for (const Files& files : kFiles) render_files(files);
     }
     calibration_.work.assign(wire::kWorkNames.size(), 0);
+    calibration_.copy_rate = copy_rate();
     for (const Phase& phase : kNodePhases) fit(phase, frames());
     fit(kHostPhase, runs());
     set_file_costs();
@@ -111,7 +144,7 @@ class Measuring {
     words.insert(words.end(), {"--nodes", "1"});
     words.insert(words.end(), film.words.begin(), film.words.end());
     json report = report_of_run(task_.renderer, film_file(film), words);
-    if (task_.progress) task_.progress(++done_, task_.repeats * static_cast<int>(films_.size() + 3));
+    if (task_.progress) task_.progress(++done_, task_.repeats * static_cast<int>(films_.size() + std::size(kFiles)));
     return report;
   }
 
@@ -124,16 +157,13 @@ class Measuring {
     if (seconds.back() == std::ranges::min(seconds)) reports_[film.name] = std::move(report);
   }
 
-  const CalibrationFilm& file_film() const { return *std::ranges::find(films_, "balls", &CalibrationFilm::name); }
-
-  // The frames of one film as files.
-  void render_files(const std::string& format) {
-    const fs::path folder = task_.renderer.folder / ("frames-" + format);
-    const json report = report_of(file_film(), {"-o", folder.string(), "--format", format});
+  // The frames of a film as files.
+  void render_files(const Files& files) {
+    const fs::path folder = task_.renderer.folder / "frames";
+    const auto film = std::ranges::find_if(films_, [&](const auto& each) { return each.name == files.film; });
+    const json report = report_of(*film, {"-o", folder.string(), "--format", files.format});
     fs::remove_all(folder);
-    file_pixels_ = report["width"].get<double>() * report["height"].get<double>();
-    const auto frames = static_cast<double>(report["frames"].size());
-    file_seconds_[format].push_back(report["host"]["sink_seconds"].get<double>() / frames);
+    file_reports_[&files].push_back(report["host"]);
   }
 
   std::vector<Seen> frames() const {
@@ -159,12 +189,30 @@ class Measuring {
     calibration_.phases.push_back({phase.name, measurements.size(), found.median_error, found.high_error});
   }
 
-  // In the middle: files are written while a node draws.
+  // In the middle: files are written while a node draws. Without the time for copies to the system.
+  Measurement file_measurement(const Files& files) const {
+    std::vector<double> seconds;
+    for (const json& host : file_reports_.at(&files)) seconds.push_back(host["sink_seconds"]);
+    const json& host = file_reports_.at(&files).front();
+    const double copied = file_byte_seconds() * host["file_bytes"].get<double>();
+    Measurement measured{std::vector<double>(kFileKinds.size()), std::max(0.0, median(seconds) - copied)};
+    for (std::size_t i = 0; i < kFileKinds.size(); ++i)
+      if (kFileKinds[i] == files.encoded_byte) measured.units[i] = host["encoded_bytes"];
+    measured.units.front() = host["files"];
+    return measured;
+  }
+
+  // A file's bytes are put together, and copied to the system.
+  double file_byte_seconds() const { return 2 / calibration_.copy_rate; }
+
   void set_file_costs() {
-    const std::tuple<const char*, Work, double> kFiles[] = {
-        {"png", Work::sink_byte, 4}, {"png16", Work::sink_png16_byte, 8}, {"exr", Work::sink_exr_byte, 8}};
-    for (const auto& [format, kind, pixel_bytes] : kFiles)
-      calibration_.work[static_cast<std::size_t>(kind)] = median(file_seconds_[format]) / (file_pixels_ * pixel_bytes);
+    std::vector<Measurement> measurements;
+    for (const Files& files : kFiles) measurements.push_back(file_measurement(files));
+    const Fit found = fit_costs(measurements, kSoft);
+    const auto cost = [&](Work kind) -> double& { return calibration_.work[static_cast<std::size_t>(kind)]; };
+    for (std::size_t i = 0; i < kFileKinds.size(); ++i) cost(kFileKinds[i]) = found.costs[i];
+    cost(Work::file_byte) = file_byte_seconds();
+    calibration_.phases.push_back({"files", measurements.size(), found.median_error, found.high_error});
   }
 
   double spread() const {
@@ -175,30 +223,13 @@ class Measuring {
 
   const CalibrationTask& task_;
   const std::vector<CalibrationFilm> films_;
-  std::map<std::string, json> reports_;                 // of each film's shortest rendering
-  std::map<std::string, std::vector<double>> seconds_;  // of all
-  std::map<std::string, std::vector<double>> file_seconds_;
-  double file_pixels_ = 0;
+  std::map<std::string, json> reports_;                     // of each film's shortest rendering
+  std::map<std::string, std::vector<double>> seconds_;      // of all
+  std::map<const Files*, std::vector<json>> file_reports_;  // of their hosts
   int done_ = 0;
   Busyness busyness_ = busyness();  // before it begins: its own renderings are no others
   Calibration calibration_;
 };
-
-// Bytes a second, of one processor, beyond its caches.
-double copy_rate() {
-  using Clock = std::chrono::steady_clock;
-  constexpr std::size_t kBytes = 64 << 20;
-  constexpr int kRepeats = 5;
-  const std::vector<char> from(kBytes, 1);
-  std::vector<char> to(kBytes);
-  double least = 1e9;
-  for (int i = 0; i < kRepeats; ++i) {
-    const auto begun = Clock::now();
-    std::memcpy(to.data(), from.data(), kBytes);
-    least = std::min(least, std::chrono::duration<double>(Clock::now() - begun).count());
-  }
-  return kBytes / least;
-}
 
 // What a person can read, and three digits are as many as are known.
 double rounded(double number) {
@@ -231,11 +262,7 @@ std::string doubt_of(const Busyness& busyness) {
   return document::formatted("repeats took %.0f %% longer than the shortest", 100 * busyness.spread);
 }
 
-Calibration calibrate(const CalibrationTask& task) {
-  Calibration calibration = Measuring(task).run();
-  calibration.copy_rate = copy_rate();
-  return calibration;
-}
+Calibration calibrate(const CalibrationTask& task) { return Measuring(task).run(); }
 
 std::string platform_text(const Calibration& calibration, const MessageCosts& messages,
                           const CalibratedMachine& machine) {

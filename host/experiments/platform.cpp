@@ -18,11 +18,14 @@ namespace fs = std::filesystem;
 using document::Fields;
 using document::Keys;
 using std::string_view;
+using wire::Work;
 
 constexpr string_view kHere = "here";
-constexpr string_view kPlatformNames[] = {"name", "about", "doubt", "computers", "host", "network", "work", "spread"};
+constexpr string_view kPlatformNames[] = {"name",    "about",   "doubt", "computers", "host",
+                                          "network", "storage", "work",  "spread"};
 constexpr string_view kComputerNames[] = {"nodes", "processors", "memory"};
-constexpr string_view kHostNames[] = {"apart", "processors", "memory", "files"};
+constexpr string_view kHostNames[] = {"apart", "processors", "memory"};
+constexpr string_view kStorageNames[] = {"rate", "openings", "file_part"};
 constexpr string_view kNetworkNames[] = {"topology",  "latency",    "hop",           "rate",        "uplink",
                                          "leaf",      "send",       "receive",       "host_end",    "copy_rate",
                                          "host_rate", "local_rate", "local_latency", "host_latency"};
@@ -31,17 +34,19 @@ constexpr Keys kPlatformKeys{"platform", kPlatformNames};
 constexpr Keys kComputerKeys{"computer", kComputerNames};
 constexpr Keys kHostKeys{"host", kHostNames};
 constexpr Keys kNetworkKeys{"network", kNetworkNames};
+constexpr Keys kStorageKeys{"storage", kStorageNames};
 constexpr Keys kWorkKeys{"work", wire::kWorkNames};
 constexpr Keys kSpreadKeys{"spread", kSpreadNames};
 constexpr std::array<string_view, 4> kTopologies{"switch", "hypercube", "fat tree", "dragonfly"};
 
 constexpr document::Range kSeconds{0, 1e6};
-constexpr document::Range kRates{1, 1e15};  // bytes a second
+constexpr document::Range kRates{1, 1e15};  // bytes, or files, a second
+constexpr document::Range kParts{1e-4, 2};
 constexpr document::Range kRatios{1e-3, 1e3};
 constexpr std::uint32_t kMany = 1 << 20;
 
-// Seconds a byte; 0 where the rate is not given: as fast as can be.
-double byte_seconds(const Fields& fields, string_view key) {
+// Seconds a byte, or a file; 0 where the rate is not given: as fast as can be.
+double unit_seconds(const Fields& fields, string_view key) {
   const auto rate = fields.find(key);
   return rate ? 1 / document::read_number(*rate, kRates) : 0;
 }
@@ -75,18 +80,28 @@ simulated::Network read_network(const document::Element& element) {
   network.topology = static_cast<simulated::Topology>(fields.choice("topology", 0, kTopologies));
   network.latency = fields.number("latency", 0, kSeconds);
   network.hop = fields.number("hop", 0, kSeconds);
-  network.byte = byte_seconds(fields, "rate");
-  network.uplink = byte_seconds(fields, "uplink");
+  network.byte = unit_seconds(fields, "rate");
+  network.uplink = unit_seconds(fields, "uplink");
   network.leaf = static_cast<int>(fields.count("leaf", 1, 1, kMany));
   network.local_latency = fields.number("local_latency", 0, kSeconds);
-  network.local_byte = byte_seconds(fields, "local_rate");
+  network.local_byte = unit_seconds(fields, "local_rate");
   network.host_latency = fields.number("host_latency", 0, kSeconds);
-  network.host_byte = byte_seconds(fields, "host_rate");
-  network.copy_byte = byte_seconds(fields, "copy_rate");
+  network.host_byte = unit_seconds(fields, "host_rate");
+  network.copy_byte = unit_seconds(fields, "copy_rate");
   network.send = read_costs(fields, "send");
   network.receive = read_costs(fields, "receive");
   network.host_end = read_costs(fields, "host_end");
   return network;
+}
+
+// Where it says nothing, storage is as fast as can be.
+void read_storage(const Fields& platform, Platform& into) {
+  const auto storage = platform.find("storage");
+  if (!storage) return;
+  const Fields fields(*storage, kStorageKeys);
+  into.machine.storage.byte = unit_seconds(fields, "rate");
+  into.machine.storage.opening = unit_seconds(fields, "openings");
+  into.file_part = fields.number("file_part", into.file_part, kParts);
 }
 
 std::vector<double> read_costs_of_work(const document::Element& element) {
@@ -166,16 +181,23 @@ Platform read(const document::Element& root, const fs::path& folder) {
   platform.machine.host_apart = read_flag(host, "apart");
   platform.machine.host_processors = static_cast<int>(host.count("processors", 1, 1, kMany));
   platform.host_memory = static_cast<std::uint64_t>(host.number("memory", 1ull << 36, {1 << 20, 1e15}));
-  platform.charges_files = read_flag(host, "files");
   platform.machine.network = read_network(fields.required("network"));
+  read_storage(fields, platform);
   platform.machine.work = read_work(fields.required("work"), folder);
   platform.spread = read_spreads(fields);
   return platform;
 }
 
 Platform read_one(const std::string& name, const fs::path& folder) {
-  const document::Document document = document::read_document(file_of(name, folder));
-  return read(document.root(), folder);
+  const fs::path file = file_of(name, folder);
+  const document::Document document = document::read_document(file);
+  try {
+    return read(document.root(), folder);
+  } catch (const Failure& failure) {
+    if (name != kHere) throw;
+    throw Failure("another version of MARS measured this machine: " + failure.problem, failure.where,
+                  "run mars calibrate");
+  }
 }
 
 }  // namespace
@@ -196,6 +218,14 @@ std::string doubt_text(const Platform& platform) {
   if (platform.doubt.empty()) return "";
   return "platform " + platform.name + " was measured on a machine that was too busy: " + platform.doubt +
          " (run mars calibrate when nothing else runs)";
+}
+
+double file_seconds(const simulated::Machine& machine, images::PictureFormat format, const images::FileWork& work) {
+  const auto of = [&](Work kind, std::uint64_t units) {
+    return machine.work[static_cast<std::size_t>(kind)] * static_cast<double>(units);
+  };
+  return of(Work::file, work.files) + of(encoded_byte(format), work.encoded_bytes) +
+         of(Work::file_byte, work.file_bytes);
 }
 
 Platform like_here(const std::string& name, const fs::path& folder, int processors) {

@@ -9,6 +9,7 @@
 
 #include "hal/simulated/machine.h"
 #include "host/experiments/spread.h"
+#include "host/images/file_work.h"
 #include "host/images/picture_format.h"
 #include "node/wire/work.h"
 
@@ -20,7 +21,7 @@ struct Platform {
   std::string doubt;              // why its costs cannot be trusted; "": they can
   std::uint64_t memory = 0;       // bytes that a node may use for its frames
   std::uint64_t host_memory = 0;  // bytes that the host may use
-  bool charges_files = false;     // of frames that go nowhere too
+  double file_part = 0.1;         // of the bytes of a picture's pixels, those that its file has
   std::vector<Spread> spread;     // of forecasts by its costs, where it is the machine that was measured
   simulated::Machine machine;
 
@@ -44,14 +45,17 @@ std::filesystem::path platforms_folder(const std::filesystem::path& self);
 // Where `here` is: the user's, whether it is there or not.
 std::filesystem::path calibrated_platform();
 
-// What writing a byte of such files is.
-constexpr wire::Work sink_byte(images::PictureFormat format) {
+// What encoding a byte of a picture's pixels is.
+constexpr wire::Work encoded_byte(images::PictureFormat format) {
   switch (format) {
     case images::PictureFormat::png: break;
-    case images::PictureFormat::png16: return wire::Work::sink_png16_byte;
-    case images::PictureFormat::exr: return wire::Work::sink_exr_byte;
+    case images::PictureFormat::png16: return wire::Work::encoded_png16_byte;
+    case images::PictureFormat::exr: return wire::Work::encoded_exr_byte;
   }
-  return wire::Work::sink_byte;
+  return wire::Work::encoded_byte;
 }
+
+// Seconds of a processor that making such files takes.
+double file_seconds(const simulated::Machine& machine, images::PictureFormat format, const images::FileWork& work);
 
 }  // namespace mars::experiments

@@ -6,14 +6,18 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "hal/failure/explain.h"
 #include "hal/messages/shared_memory.h"
+#include "hal/nx/nx_messages.h"
 #include "hal/simulated/run_simulated.h"
 #include "host/child/standard_streams.h"
 #include "host/experiments/platform.h"
+#include "host/programs/counted_writer.h"
 #include "host/programs/prediction.h"
-#include "host/render/sinks/served_sinks.h"
+#include "host/programs/simulated_files.h"
+#include "host/render/sinks/counted_files.h"
 #include "host/shell/job/render_job.h"
 #include "host/cli/program.h"
 #include "node/firmware.h"
@@ -22,34 +26,43 @@
 namespace mars::programs {
 namespace {
 
-// Files are work on processors of the host's machine; it is woken when a frame is done.
-double serve_files(simulated::World& world, images::PictureFormat format, std::uint64_t bytes) {
-  const auto cost = [&](wire::Work kind) { return world.machine().work[static_cast<std::size_t>(kind)]; };
-  const double seconds =
-      cost(wire::Work::sink_frame) + cost(experiments::sink_byte(format)) * static_cast<double>(bytes);
-  const double end = world.reserve(world.nodes(), seconds);
-  world.set_alarm(world.nodes(), end);
-  return end;
+// Frames that go nowhere are counted as files where the options say who writes them. The counting sink ends with the
+// job.
+void charge_files(session::RenderJob& job, const experiments::Platform& platform, simulated::World& world) {
+  const auto counted = std::make_shared<std::optional<sinks::CountedFiles>>();
+  job.make_sinks = [serve = serve_files(world, job.format), counted, counts = job.counts_files, format = job.format,
+                    part = platform.file_part](sinks::Sink& sink, const sinks::SinkPool::Shape& shape) {
+    if (!counts) return std::make_unique<sinks::ServedSinks>(sink, shape, serve);
+    counted->emplace(images::PictureBands(format, shape.width, shape.height), part);
+    return std::make_unique<sinks::ServedSinks>(**counted, shape, serve);
+  };
 }
 
 void run(const options::RenderOptions& options, const experiments::Platform& platform) {
+  simulated::World* the_world = nullptr;  // once the host runs, which sends nodes what they do
   const auto host = [&](simulated::World& world) {
+    the_world = &world;
     session::RenderJob job = job::job_of(options, "simulated");
     job.adapts = false;  // a platform's computers are all as fast
     job.host = {platform.host_memory, platform.host_processors()};
-    const auto serve = [&world, files = platform.charges_files || !job.folder.empty(),
-                        format = job.format](std::uint64_t bytes) {
-      return files ? serve_files(world, format, bytes) : world.clock(world.nodes());
-    };
-    job.make_sinks = [serve](sinks::Sink& sink, const sinks::SinkPool::Shape& shape) {
-      return std::make_unique<sinks::ServedSinks>(sink, shape, serve);
-    };
+    job.counts_files = options.sink == options::SinkKind::none && job.writers != session::Writers::automatic;
+    charge_files(job, platform, world);
+    if (job.counts_files && job.writers == session::Writers::nodes) job.writing = counted_writing();
     predict_on(platform, job);
     session::run_session(job);
   };
+  const auto make_writer = [&](const wire::FilmView& film, std::span<const std::byte>) {
+    const images::PictureBands bands(options.format, film.settings().width, film.settings().height);
+    return std::make_unique<CountedWriter>(bands, platform, *the_world, static_cast<int>(mynode()));
+  };
   const auto node = [&] {
     const std::string computer = platform.name + std::to_string(messages::machine_neighbourhood().machine);
-    node::run_node({computer, "", {-1, -1, -1, -1, -1}, platform.memory, ""});
+    node::run_node({.host = computer,
+                    .binding = "",
+                    .seat = {-1, -1, -1, -1, -1},
+                    .memory = platform.memory,
+                    .simd = "",
+                    .make_frame_writer = make_writer});
   };
   simulated::run_simulated(platform.machine, static_cast<int>(options.nodes), host, node);
 }

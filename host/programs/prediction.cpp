@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -23,7 +24,9 @@ constexpr double kSoon = 1.0;          // seconds, about: not worth a forecast
 
 forecast::Setting setting_of(const session::RenderJob& job, const wire::FilmView& film,
                              const experiments::Platform& platform) {
-  forecast::Setting setting{film, platform, job.mapping, job.format, !job.folder.empty()};
+  forecast::Setting setting{film, platform, job.mapping, job.format};
+  setting.files = !job.folder.empty() || job.counts_files;
+  if (job.writers == session::Writers::nodes) setting.writers = forecast::Writers::nodes;
   const session::HostMachine host = session::host_machine(job.host);
   setting.host_budget = host.memory;
   setting.sink_threads = session::sink_threads(host);
@@ -39,13 +42,38 @@ events::Course course_of(forecast::Forecast forecast) {
                         events::RatioBounds{spread.low / spread.middle, spread.high / spread.middle});
 }
 
-session::Prediction predict(const session::RenderJob& job, const experiments::Platform& platform,
-                            const wire::FilmView& film, const farm::PlanRequest& request, int nodes) {
-  const std::vector<farm::Task> tasks = farm::make_tasks(film, request.frames, request.coherence);
-  const forecast::FilmCounts counts =
-      forecast::count_film(film, tasks, *make_node_counter(film), {kMostCounting, kCountedPart / nodes});
-  forecast::Forecast best = forecast::forecast(counts, tasks, setting_of(job, film, platform), nodes, request.groups);
+struct Counted {
+  std::vector<farm::Task> tasks;
+  forecast::FilmCounts counts;
+};
+
+Counted count(const session::RenderJob& job, const wire::FilmView& film, const farm::PlanRequest& request, int nodes) {
+  std::vector<farm::Task> tasks = farm::make_tasks(film, request.frames, request.coherence);
+  const forecast::Budget budget{kMostCounting, kCountedPart / nodes};
+  forecast::FilmCounts counts = forecast::count_film(film, tasks, *make_node_counter(film), budget, job.format);
+  return {std::move(tasks), std::move(counts)};
+}
+
+session::Prediction predict(const Counted& counted, const forecast::Setting& setting, std::uint32_t groups, int nodes) {
+  forecast::Forecast best = forecast::forecast(counted.counts, counted.tasks, setting, nodes, groups);
   return {best.groups, best.contributors, course_of(std::move(best))};
+}
+
+// How machines are joined is not known: the links are taken as those of Gigabit Ethernet.
+experiments::Platform several_machines(const experiments::Platform& one, int nodes_a_machine) {
+  experiments::Platform several = one;
+  several.machine.nodes = nodes_a_machine;
+  several.machine.network =
+      experiments::read_platform("ethernet", experiments::platforms_folder(child::own_file())).machine.network;
+  return several;
+}
+
+bool nodes_write_sooner(const Counted& counted, forecast::Setting setting, std::uint32_t groups, int nodes) {
+  const auto seconds = [&](forecast::Writers writers) {
+    setting.writers = writers;
+    return forecast::forecast(counted.counts, counted.tasks, setting, nodes, groups).seconds();
+  };
+  return seconds(forecast::Writers::nodes) < seconds(forecast::Writers::host);
 }
 
 experiments::Platform like_here(const std::string& name) {
@@ -65,13 +93,17 @@ session::Prediction predict_here(const session::RenderJob& job, const wire::Film
                                  const farm::PlanRequest& request, int nodes) {
   const std::optional<experiments::Platform> calibrated = calibrated_here();
   const experiments::Platform platform = calibrated ? *calibrated : like_here("reference");
-  farm::PlanRequest known = request;
-  const std::size_t tasks = farm::make_tasks(film, request.frames, request.coherence).size();
+  const auto counted = std::make_shared<const Counted>(count(job, film, request, nodes));
   const bool chooses = calibrated && nodes <= platform.machine.processors;
-  if (request.groups == 0 && !chooses)
-    known.groups = static_cast<std::uint32_t>(farm::make_groups(nodes, 0, tasks).size());
-  session::Prediction prediction = predict(job, platform, film, known, nodes);
+  std::uint32_t groups = request.groups;
+  if (groups == 0 && !chooses)
+    groups = static_cast<std::uint32_t>(farm::make_groups(nodes, 0, counted->tasks.size()).size());
+  session::Prediction prediction = predict(*counted, setting_of(job, film, platform), groups, nodes);
   if (!chooses) prediction.contributors = 0;
+  prediction.nodes_write_sooner = [=](int nodes_a_machine) {
+    const experiments::Platform several = several_machines(platform, nodes_a_machine);
+    return nodes_write_sooner(*counted, setting_of(job, film, several), groups, nodes);
+  };
   return prediction;
 }
 
@@ -89,7 +121,8 @@ double rough_seconds(const wire::FilmView& film, const std::vector<farm::Task>& 
 
 void predict_on(const experiments::Platform& platform, session::RenderJob& job) {
   job.predict = [platform, job](const wire::FilmView& film, const farm::PlanRequest& request, int nodes) {
-    session::Prediction prediction = predict(job, platform, film, request, nodes);
+    session::Prediction prediction =
+        predict(count(job, film, request, nodes), setting_of(job, film, platform), request.groups, nodes);
     prediction.warning = experiments::doubt_text(platform);
     return prediction;
   };

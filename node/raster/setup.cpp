@@ -14,26 +14,44 @@ namespace {
 // Cut vertices lie on the planes but for rounding: they pass a projection this much wider.
 constexpr float kSlack = 1.001f;
 
-// Counts the edge boxes and stores them if the triangle fits too; whether there were any and they were stored.
-bool add_boxes(const Outline& outline, bool moving, SetUps& out) {
+// Calls visit(line, sample, left, right) for each edge box on a wanted line; how many there are.
+template <typename Visit>
+std::uint32_t for_boxes(const Outline& outline, const SetUps& out, Visit visit) {
   const auto first = static_cast<std::uint32_t>(outline.first_row);
   const auto last = static_cast<std::uint32_t>(std::max(outline.first_row, outline.last_row));
-  const bool fits = out.bytes_left() >= sizeof(geometry::Triangle) + (last - first) * sizeof(UnsortedEdgeBox);
-  const auto number = static_cast<std::uint32_t>(out.next - out.first);
   std::uint32_t boxes = 0;
   for (std::uint32_t row = first; row < last; ++row) {
     const std::uint32_t line = row >> out.log2_samples, sample = row - (line << out.log2_samples);
     if (out.wanted_lines[line] == 0) continue;
     const Outline::Columns columns = outline.columns(static_cast<std::int32_t>(row));
     if (columns.first >= columns.last) continue;
-    const auto left = static_cast<std::uint32_t>(columns.first), right = static_cast<std::uint32_t>(columns.last);
-    if (fits) *--out.last_box = {{number, left, right - left - 1, sample}, static_cast<std::uint16_t>(line), moving};
-    out.line_loads[line] += LineLoad(1, right - left);
+    visit(line, sample, static_cast<std::uint32_t>(columns.first), static_cast<std::uint32_t>(columns.last));
     ++boxes;
   }
+  return boxes;
+}
+
+// Of a tall triangle, all rows may not fit where those on the wanted lines do.
+bool fits(const Outline& outline, const SetUps& out) {
+  const auto rows = static_cast<std::size_t>(std::max(0, outline.last_row - outline.first_row));
+  const auto with = [](std::size_t boxes) { return sizeof(geometry::Triangle) + boxes * sizeof(UnsortedEdgeBox); };
+  if (out.bytes_left() >= with(rows)) return true;
+  return out.bytes_left() >= with(for_boxes(outline, out, [](auto...) {}));
+}
+
+// Counts the edge boxes and stores them if the triangle fits too; whether there were any and they were stored.
+bool add_boxes(const Outline& outline, bool moving, SetUps& out) {
+  const bool stores = fits(outline, out);
+  const auto number = static_cast<std::uint32_t>(out.next - out.first);
+  const std::uint32_t boxes =
+      for_boxes(outline, out, [&](std::uint32_t line, std::uint32_t sample, std::uint32_t left, std::uint32_t right) {
+        if (stores)
+          *--out.last_box = {{number, left, right - left - 1, sample}, static_cast<std::uint16_t>(line), moving};
+        out.line_loads[line] += LineLoad(1, right - left);
+      });
   out.edge_boxes += boxes;
   out.touching += boxes > 0;
-  return fits && boxes > 0;
+  return stores && boxes > 0;
 }
 
 // Memory that a batch does not exceed in a picture of this height and number of samples a pixel.

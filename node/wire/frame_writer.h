@@ -22,6 +22,9 @@
 
 namespace mars::wire {
 
+// Files of a writer that wait or are being written.
+inline constexpr std::size_t kMostFilesUnderWay = 2;
+
 // Lines [first, end) of a picture.
 struct LineSpan {
   std::uint32_t first = 0;

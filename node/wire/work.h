@@ -40,28 +40,24 @@ enum class Work : int {
   host_byte,      // of pixels that it pastes
   host_restored,  // bytes of the background
   host_frame,     // that it begins and finishes
-  // Of its sinks.
-  sink_frame,       // taken to a file
-  sink_byte,        // a byte of the frame's PNG file
-  sink_png16_byte,  // a byte of PNG files of 16 bits
-  sink_exr_byte,    // as EXR
-  // Of a node that would write its frames' files itself.
-  node_frame,
-  node_frame_byte,
+  // Of whoever makes frames' files: the host's sinks, or nodes.
+  file,                // made
+  encoded_byte,        // of pixels, hashed and encoded for PNG files
+  encoded_png16_byte,  // for PNG files of 16 bits
+  encoded_exr_byte,    // for EXR files
+  file_byte,           // written
 };
 
 // As platform files name them.
-inline constexpr std::array<std::string_view, 34> kWorkNames{
-    "first_frame",     "fresh_byte",      "frame",           "segment",        "patch",      "meshlet",
-    "vertex",          "mesh_vertex",     "triangle_tested", "row_tested",     "triangle",   "edge_box_made",
-    "vertex_light",    "edge_box_filled", "line_mapped",     "line",           "edge_box",   "sample",
-    "shaded",          "light",           "facet_light",     "pixel",          "still_byte", "host_strip",
-    "host_run",        "host_byte",       "host_restored",   "host_frame",     "sink_frame", "sink_byte",
-    "sink_png16_byte", "sink_exr_byte",   "node_frame",      "node_frame_byte"};
+inline constexpr std::array<std::string_view, 33> kWorkNames{
+    "first_frame", "fresh_byte", "frame", "segment", "patch", "meshlet", "vertex", "mesh_vertex", "triangle_tested",
+    "row_tested", "triangle", "edge_box_made", "vertex_light", "edge_box_filled", "line_mapped", "line", "edge_box",
+    "sample", "shaded", "light", "facet_light", "pixel", "still_byte", "host_strip", "host_run", "host_byte",
+    "host_restored", "host_frame", "file", "encoded_byte", "encoded_png16_byte", "encoded_exr_byte", "file_byte"};
 
-// Units by kind: those of a node come first, then those of the host's own.
+// Units by kind: those of a node come first, then those of the host and of files.
 inline constexpr std::size_t kNodeKinds = static_cast<std::size_t>(Work::host_strip);
-inline constexpr std::size_t kHostKinds = static_cast<std::size_t>(Work::sink_frame) - kNodeKinds;
+inline constexpr std::size_t kHostKinds = kWorkNames.size() - kNodeKinds;
 using NodeUnits = std::array<std::uint64_t, kNodeKinds>;
 using HostUnits = std::array<std::uint64_t, kHostKinds>;
 

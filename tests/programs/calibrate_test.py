@@ -31,7 +31,7 @@ class Calibrations(ProgramTest):
         file.write_text(json.dumps(platform))
         self.assertNotIn("spread", platform)
         costs = platform["work"]
-        for kind in ["patch", "edge_box", "light", "sink_byte"]:
+        for kind in ["patch", "edge_box", "light", "encoded_byte"]:
             self.assertGreater(costs[kind] + costs["first_frame"], 0)
         calibrated = self.simulate("here", env=home)
         self.assertEqual(calibrated["total_seconds"], self.simulate(file)["total_seconds"])

@@ -93,6 +93,41 @@ class Plans(ProgramTest):
                  for _ in range(2)}
         self.assertEqual(len(plans), 1)
 
+    def test_what_another_version_measured_is_refused(self):
+        platform = json.loads((SOURCES / "cluster/platforms/reference.json").read_text())
+        platform["work"]["sink_frame"] = 0.1
+        home = self.write("here.json", platform).parent / "home"
+        (home / ".local/share/mars").mkdir(parents=True)
+        (self.folder / "here.json").rename(home / ".local/share/mars/here.json")
+        run = self.mars("render", CUBES, "--sink", "none", "--backend", "simulated", "--platform", "here",
+                        env=dict(ENVIRONMENT, HOME=str(home), XDG_DATA_HOME=""))
+        self.assertEqual(run.returncode, 1)
+        self.assertClear(run.stderr, "another version of MARS measured this machine")
+        self.assertClear(run.stderr, "run mars calibrate")
+
+    def test_it_foresees_who_should_write_files(self):
+        words = ["plan", "s3", "--frames", "0-11", "--size", "640x360", "--nodes", 4, "--groups", 1, "--platform",
+                 "fat-tree", "--json"]
+        words[1] = SOURCES / "examples/s3.json"
+        for writer in ("host", "nodes"):
+            plan = json.loads(self.succeed("mars", *words, "--write", writer))
+            report = self.folder / f"{writer}.json"
+            self.succeed("mars", "render", *words[1:-1], "--backend", "simulated", "--sink", "none", "--write", writer,
+                         "--report", report)
+            simulated = json.loads(report.read_text())["total_seconds"]
+            self.assertAlmostEqual(plan["seconds"] / simulated, 1, delta=0.15)
+
+    def test_it_takes_who_writes_sooner(self):
+        words = ["plan", CUBES, "--nodes", 64, "--platform", "fat-tree"]
+        plans = {write: json.loads(self.succeed("mars", *words, "--write", write, "--json"))
+                 for write in ("auto", "host", "nodes")}
+        self.assertEqual(plans["auto"]["seconds"], min(plans[write]["seconds"] for write in ("host", "nodes")))
+        self.assertEqual(plans["auto"]["write"], min(("host", "nodes"), key=lambda write: plans[write]["seconds"]))
+        self.assertRegex(self.succeed("mars", *words), r"\nfiles +written by (the host|nodes) \(by .*seconds\)\n")
+        self.assertNotIn("write", json.loads(self.succeed("mars", *words, "--sink", "none", "--json")))
+        one = json.loads(self.succeed("mars", "plan", CUBES, "--nodes", 2, "--platform", "reference", "--json"))
+        self.assertEqual(one["write"], "host", "of one machine")
+
     def test_it_foresees_what_the_simulation_then_takes(self):
         words = [CUBES, "--frames", "40-60", "--size", "160x90", "--nodes", 2, "--platform", "fat-tree", "--sink", "none"]
         plan = json.loads(self.succeed("mars", "plan", *words, "--json"))

@@ -1,5 +1,5 @@
 """Frames as programs that have no code in common with MARS read them, where they are installed: Pillow, pngcheck,
-ImageMagick and OpenEXR's own. Frames have several bands, and a last one that is shorter."""
+ImageMagick, Chromium and OpenEXR's own. Frames have several bands, and a last one that is shorter."""
 
 import functools
 import json
@@ -7,7 +7,7 @@ import struct
 import subprocess
 import unittest
 
-from harness import ProgramTest, main, needs, spinning_teapot
+from harness import SECONDS, ProgramTest, main, needs, spinning_teapot
 from png_reader import png_rows
 
 WIDTH, HEIGHT = 500, 300  # pixels: three bands and a part of one
@@ -56,6 +56,19 @@ class Readers(ProgramTest):
         for shape, bits in ("png", "8"), ("png16", "16"):
             printed = self.succeed("identify", "-regard-warnings", "-format", "%w %h %z %[fx:mean>0]", self.frame(shape))
             self.assertEqual(printed.split(), [str(WIDTH), str(HEIGHT), bits, "1"])
+
+    @needs("chromium")
+    @needs_pillow
+    def test_a_browser_shows_the_same_pixels(self):
+        self.write("page.html", f'<body style="margin:0"><img src="png/{FRAME}.png" style="display:block">')
+        frame = self.frame("png")
+        subprocess.run(["chromium", "--headless", "--no-sandbox", "--hide-scrollbars", "--force-color-profile=srgb",
+                        f"--user-data-dir={self.folder / 'chromium'}", f"--window-size={WIDTH},{HEIGHT}",
+                        "--screenshot=shown.png", "page.html"], cwd=self.folder, capture_output=True, timeout=SECONDS,
+                       check=True)
+        shown = subprocess.run([LIBRARIES_PYTHON, "-c", PIXELS, self.folder / "shown.png"], capture_output=True,
+                               check=True).stdout
+        self.assertEqual(shown, b"".join(png_rows(frame)))
 
     @needs("exrheader")
     def test_openexr_reads_the_header_and_the_mark(self):

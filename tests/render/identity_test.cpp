@@ -243,6 +243,20 @@ INSTANTIATE_TEST_SUITE_P(Films, Identity, testing::ValuesIn(cases()), [](const a
   return name;
 });
 
+// Of a triangle as tall as the picture, a pass has only some rows.
+TEST(Memory, OfAPassHoldsWhatItsLinesNeed) {
+  wire::FilmData data = crowd(1, 2000, 2, 2);
+  data.settings.samples = 16;
+  const FilmBlock block(data);
+  RunOptions options;
+  options.nodes = 2;
+  const FilmRun whole = run_film(block.bytes(), options);
+  options.memory = 700'000;
+  const FilmRun in_passes = run_film(block.bytes(), options);
+  EXPECT_GT(in_passes.report.strips.front().work.passes, 1u);
+  expect_same(in_passes, whole, data.settings, "in passes");
+}
+
 // Memory so short that a single line does not fit is the user's fault, and is reported as such; no rank hangs.
 TEST(Memory, TooShortForOneLineIsOneClearFailure) {
   const FilmBlock block(crowd(640, 360, 2, 2));

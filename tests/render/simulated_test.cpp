@@ -30,7 +30,7 @@ FilmRun run_simulated(std::span<const std::byte> film, RunOptions options, const
   FilmRun run;
   const auto host = [&](simulated::World& world) {
     options.make_sinks = [&](sinks::Sink& sink, const sinks::SinkPool::Shape& shape) {
-      return std::make_unique<sinks::ServedSinks>(sink, shape, [&](std::uint64_t) {
+      return std::make_unique<sinks::ServedSinks>(sink, shape, [&](const images::FileWork&) {
         const double end = world.reserve(world.nodes(), sink_seconds);
         world.set_alarm(world.nodes(), end);
         return end;

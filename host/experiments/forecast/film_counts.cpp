@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/images/picture_bands.h"
+
 namespace mars::forecast {
 namespace {
 
@@ -33,8 +35,8 @@ FrameTotals between(const std::vector<Known>& known, double place) {
 
 class FilmCount {
  public:
-  FilmCount(const wire::FilmView& film, std::span<const farm::Task> tasks, Counter& counter)
-      : film_(film), tasks_(tasks), counter_(counter), known_(tasks.size()) {}
+  FilmCount(const wire::FilmView& film, std::span<const farm::Task> tasks, Counter& counter, std::uint32_t band_lines)
+      : film_(film), tasks_(tasks), counter_(counter), band_lines_(band_lines), known_(tasks.size()) {}
 
   FilmCounts count(const Budget& budget);
 
@@ -50,6 +52,7 @@ class FilmCount {
   const wire::FilmView& film_;
   const std::span<const farm::Task> tasks_;
   Counter& counter_;
+  const std::uint32_t band_lines_;
   FilmCounts counts_;
   std::size_t first_ = 0;        // task that was counted first
   double keyframe_seconds_ = 0;  // that counting one takes
@@ -87,7 +90,7 @@ void FilmCount::count_first() {
   while (first_ + 1 < tasks_.size() && inbetweens_of(tasks_[first_]) == 0) ++first_;
   if (inbetweens_of(tasks_[first_]) == 0) first_ = 0;
   count_keyframe(first_);
-  keyframe_seconds_ = inbetween_seconds_ = counting_seconds(totals_of(counts_.keyframes.front()));
+  keyframe_seconds_ = inbetween_seconds_ = counting_seconds(totals_of(counts_.keyframes.front(), band_lines_));
   const std::size_t all = inbetweens_of(tasks_[first_]);
   if (all == 0) return;
   count_inbetween(first_, all / 2);
@@ -101,7 +104,7 @@ void FilmCount::count_keyframe(std::size_t task) {
 }
 
 void FilmCount::count_inbetween(std::size_t task, std::size_t place) {
-  known_[task].push_back({place, totals_of(counter_.count_inbetween(tasks_[task].frames[place + 1]))});
+  known_[task].push_back({place, totals_of(counter_.count_inbetween(tasks_[task].frames[place + 1]), band_lines_)});
   ++counts_.counted;
 }
 
@@ -172,13 +175,13 @@ wire::LineCounts operator+(const wire::LineCounts& a, const wire::LineCounts& b)
 }
 
 FrameTotals operator+(FrameTotals a, const FrameTotals& b) {
-  return {a.made + b.made, a.drawn + b.drawn, a.lines + b.lines};
+  return {a.made + b.made, a.drawn + b.drawn, a.lines + b.lines, a.changed + b.changed};
 }
 
 FrameTotals operator*(FrameTotals a, double part) {
   wire::LineCounts& drawn = a.drawn;
   for (double* number : {&drawn.edge_boxes, &drawn.samples, &drawn.moving_edge_boxes, &drawn.moving_samples,
-                         &drawn.moving_width, &a.lines})
+                         &drawn.moving_width, &a.lines, &a.changed})
     *number *= part;
   drawn.constant = drawn.constant * part;
   drawn.moving = drawn.moving * part;
@@ -186,24 +189,32 @@ FrameTotals operator*(FrameTotals a, double part) {
   return a;
 }
 
-FrameTotals totals_on(const wire::FrameCounts& counts, std::uint32_t first_line, std::uint32_t last_line) {
+FrameTotals totals_on(const wire::FrameCounts& counts, std::uint32_t first_line, std::uint32_t last_line,
+                      std::uint32_t band_lines) {
   FrameTotals totals;
+  std::uint32_t changed_to = first_line;  // lines before were counted as changed, or are of bands that are not
   for (std::uint32_t line = first_line; line < last_line; ++line) {
-    totals.drawn = totals.drawn + counts.lines[line];
-    totals.lines += counts.lines[line].moving_edge_boxes > 0 ? 1 : 0;
+    const wire::LineCounts& on_line = counts.lines[line];
+    totals.drawn = totals.drawn + on_line;
+    totals.lines += on_line.moving_edge_boxes > 0 ? 1 : 0;
+    if (on_line.moving.pixels <= 0 || line < changed_to) continue;
+    const std::uint32_t band = line / band_lines * band_lines;
+    changed_to = std::min(band + band_lines, last_line);
+    totals.changed += changed_to - std::max(band, first_line);
   }
   return totals;
 }
 
-FrameTotals totals_of(const wire::FrameCounts& counts) {
-  FrameTotals totals = totals_on(counts, 0, static_cast<std::uint32_t>(counts.lines.size()));
+FrameTotals totals_of(const wire::FrameCounts& counts, std::uint32_t band_lines) {
+  FrameTotals totals = totals_on(counts, 0, static_cast<std::uint32_t>(counts.lines.size()), band_lines);
   for (const wire::UnitCounts& share : counts.shares) totals.made = totals.made + share;
   return totals;
 }
 
 FilmCounts count_film(const wire::FilmView& film, std::span<const farm::Task> tasks, Counter& counter,
-                      const Budget& budget) {
-  return FilmCount(film, tasks, counter).count(budget);
+                      const Budget& budget, images::PictureFormat format) {
+  const images::PictureBands bands(format, film.settings().width, film.settings().height);
+  return FilmCount(film, tasks, counter, bands.lines_a_band()).count(budget);
 }
 
 }  // namespace mars::forecast

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/experiments/forecast/counter.h"
+#include "host/images/picture_format.h"
 
 namespace mars::forecast {
 
@@ -14,13 +15,16 @@ struct FrameTotals {
   wire::UnitCounts made;
   wire::LineCounts drawn;  // on all lines
   double lines = 0;        // with moving parts
+  double changed = 0;      // lines of bands in which these are seen (host/images/picture_bands.h)
 
   double pixels() const { return drawn.constant.pixels + drawn.moving.pixels; }
   double runs() const { return drawn.constant.runs + drawn.moving.runs; }
 };
 
-FrameTotals totals_of(const wire::FrameCounts& counts);
-FrameTotals totals_on(const wire::FrameCounts& counts, std::uint32_t first_line, std::uint32_t last_line);
+// `band_lines`: of a band.
+FrameTotals totals_of(const wire::FrameCounts& counts, std::uint32_t band_lines);
+FrameTotals totals_on(const wire::FrameCounts& counts, std::uint32_t first_line, std::uint32_t last_line,
+                      std::uint32_t band_lines);
 FrameTotals operator+(FrameTotals a, const FrameTotals& b);
 FrameTotals operator*(FrameTotals a, double part);
 wire::UnitCounts operator+(wire::UnitCounts a, const wire::UnitCounts& b);
@@ -44,7 +48,8 @@ struct Budget {
 };
 
 // Of one task at least, the keyframe and one inbetween are counted.
+// For pictures of that format.
 FilmCounts count_film(const wire::FilmView& film, std::span<const farm::Task> tasks, Counter& counter,
-                      const Budget& budget);
+                      const Budget& budget, images::PictureFormat format);
 
 }  // namespace mars::forecast

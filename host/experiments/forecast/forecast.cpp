@@ -32,6 +32,7 @@ Forecast with_groups(const FilmCounts& counts, const std::vector<farm::Task>& ta
     plan.contributors = contributors;
     return Forecast{nodes,
                     static_cast<std::uint32_t>(plan.groups.size()),
+                    setting.writers,
                     contributors,
                     rehearse(counts, plan, setting, nodes),
                     experiments::spread_for(setting.platform.spread, nodes, setting.files),

@@ -22,6 +22,7 @@ struct Interval {
 struct Forecast {
   int nodes = 1;
   std::uint32_t groups = 1;
+  Writers writers = Writers::host;            // of files
   std::int32_t contributors = 0;              // to a keyframe, as in farm::Plan
   Rehearsed run;                              // by the platform's costs
   std::optional<experiments::Spread> spread;  // of such forecasts

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <span>
 
+#include "host/images/picture_bands.h"
+
 namespace mars::forecast {
 namespace {
 
@@ -38,9 +40,10 @@ wire::UnitCounts in_whole_patches(const wire::UnitCounts& made) {
 
 // The lines of each node of a group, and what is on them.
 struct FrameCosts::Homes {
-  Homes(const wire::FrameCounts& counts, int nodes, int contributors, wire::Mapping mapping, std::uint32_t samples)
+  Homes(const wire::FrameCounts& counts, int nodes, int contributors, wire::Mapping mapping, std::uint32_t samples,
+        std::uint32_t band_lines)
       : ranges(static_cast<std::size_t>(nodes), geometry::LineRange{0, 0}) {
-    const FrameTotals all = totals_of(counts);
+    const FrameTotals all = totals_of(counts, band_lines);
     std::vector<std::uint64_t> weights{0};
     for (const wire::LineCounts& line : counts.lines) {
       const raster::LineLoad load(static_cast<std::uint64_t>(line.edge_boxes),
@@ -53,7 +56,7 @@ struct FrameCosts::Homes {
         all.made[Work::triangle] > 0 ? edge_boxes / all.made[Work::triangle] : 1;  // of samples, of a triangle
     const double taller = std::max(0.0, rows / samples - 1);                       // in lines
     for (const geometry::LineRange& range : ranges) {
-      totals.push_back(totals_on(counts, range.first, range.last));
+      totals.push_back(totals_on(counts, range.first, range.last, band_lines));
       const double boxes = totals.back().drawn.edge_boxes;
       triangles.push_back(std::min(boxes, boxes / rows * (1 + taller / std::max(1u, range.count()))));
     }
@@ -65,13 +68,19 @@ struct FrameCosts::Homes {
   double edge_boxes;              // on all
 };
 
+FrameCosts::FrameCosts(const Setting& setting)
+    : setting_(setting),
+      costs_(setting.platform),
+      band_lines_(images::PictureBands(setting.picture, setting.film.settings().width, setting.film.settings().height)
+                      .lines_a_band()) {}
+
 GroupKeyframe FrameCosts::keyframe(const wire::FrameCounts& counts, int nodes, int contributors,
                                    std::size_t inbetweens) const {
   GroupKeyframe keyframe;
   keyframe.nodes.resize(static_cast<std::size_t>(nodes));
   auto made = made_by(counts.shares, contributors);
   made.resize(keyframe.nodes.size());
-  const Homes homes(counts, nodes, contributors, setting_.mapping, setting_.film.settings().samples);
+  const Homes homes(counts, nodes, contributors, setting_.mapping, setting_.film.settings().samples, band_lines_);
   add_dicing(keyframe, homes, made);
   if (nodes > 1) add_sum(keyframe, nodes);
   if (contributors > nodes_on_a_computer(nodes)) add_exchange(keyframe, homes, made, contributors);
@@ -79,10 +88,12 @@ GroupKeyframe FrameCosts::keyframe(const wire::FrameCounts& counts, int nodes, i
     NodePart& node = keyframe.nodes[n];
     node.memory = std::min(node.memory, arena_bytes());
     node.strips = strips(homes.totals[n], keyframe_drawing(homes.totals[n], counts, homes.ranges[n]));
+    node.compose = pasting(homes.totals[n]) + encoding(homes.ranges[n].count() + homes.totals[n].changed);
     if (inbetweens > 0) node.strips.pasting += saving(homes.totals[n]);
     if (n >= static_cast<std::size_t>(contributors)) node.strips = {0, 0, 0, 0};
   }
   if (inbetweens > 0) add_still(keyframe, homes, counts, inbetweens);
+  if (setting_.nodes_write()) add_bands(keyframe, homes, counts, contributors, inbetweens);
   return keyframe;
 }
 
@@ -96,13 +107,29 @@ NodePart FrameCosts::inbetween(const FrameTotals& totals, const wire::FrameCount
   part.dice = dicing(made) + setting_up(made) + costs_.of(Work::edge_box_filled, made[Work::edge_box_made]);
   part.exchange = costs_.of(Work::line_mapped, height());
   part.strips = strips(totals, costs_.of(units));
+  part.compose = pasting(totals) + encoding(totals.changed);
   part.strips.pasting += costs_.of(Work::host_restored, totals.drawn.moving.block_pixels * pixel_bytes());
   part.memory = part.made_memory = std::min(arena_bytes(), made_bytes(made));
   return part;
 }
 
+// With files, the host's loop shows the background only on lines with moving parts; sinks do it on other lines of the
+// bands that they encode.
+HostCosts FrameCosts::host_costs(const TaskCounts& task, const wire::FrameCounts& keyframe) const {
+  HostCosts costs{background(keyframe), {encoding(height()) + writing()}};
+  double changed = 0;
+  for (const FrameTotals& totals : task.inbetweens) {
+    costs.files.push_back(encoding(totals.changed) + writing());
+    changed += totals.changed / height();
+  }
+  if (setting_.files && !task.inbetweens.empty())
+    costs.background *= changed / static_cast<double>(task.inbetweens.size());
+  return costs;
+}
+
+// Seconds of the host, of a buffer that shows the keyframe's background for the first time.
 double FrameCosts::background(const wire::FrameCounts& keyframe) const {
-  const wire::SeenCounts seen = totals_of(keyframe).drawn.constant;
+  const wire::SeenCounts seen = totals_of(keyframe, band_lines_).drawn.constant;
   return costs_.of(Work::host_restored, (seen.pixels + seen.block_pixels / 2) * pixel_bytes());
 }
 
@@ -132,7 +159,7 @@ FrameTotals FrameCosts::drawn_again(const wire::FrameCounts& keyframe, int nodes
     again.lines += 1;
   }
   if (again.drawn.edge_boxes == 0) return {};
-  again.made = totals_of(keyframe).made * (still_boxes / (still_boxes + moving_boxes));
+  again.made = totals_of(keyframe, band_lines_).made * (still_boxes / (still_boxes + moving_boxes));
   again.made[Work::triangle] *= again.drawn.edge_boxes / still_boxes;
   again.made[Work::edge_box_made] = again.drawn.edge_boxes;
   return again;
@@ -207,10 +234,19 @@ StripCosts FrameCosts::strips(const FrameTotals& totals, double seconds) const {
   const double content = totals.pixels() * pixel_bytes() + totals.runs() * sizeof(wire::Run);
   strips.count = 1 + static_cast<std::uint32_t>(content / kFullStrip);
   strips.bytes = content + strips.count * static_cast<double>(sizeof(wire::Strip));
-  strips.pasting =
-      costs_.of(Work::host_run, totals.runs()) + costs_.of(Work::host_byte, totals.pixels() * pixel_bytes());
+  strips.pasting = pasting(totals);
   return strips;
 }
+
+double FrameCosts::pasting(const FrameTotals& totals) const {
+  return costs_.of(Work::host_run, totals.runs()) + costs_.of(Work::host_byte, totals.pixels() * pixel_bytes());
+}
+
+double FrameCosts::encoding(double lines) const {
+  return costs_.of(experiments::encoded_byte(setting_.picture), lines * line_bytes());
+}
+
+double FrameCosts::writing() const { return costs_.of(Work::file, 1) + costs_.of(Work::file_byte, file_bytes()); }
 
 // Triangles with their edge boxes, once as made and once in their lines.
 double FrameCosts::made_bytes(const wire::UnitCounts& made) const {
@@ -332,6 +368,39 @@ void FrameCosts::add_still(GroupKeyframe& keyframe, const Homes& homes, const wi
     const double in = all_bytes - bytes, messages_in = all_messages - messages;
     node.still += messages_in * costs_.to_receive(in / messages_in);
     node.still_wait = costs_.on_the_way(in + out_each * static_cast<double>(computer), false);
+  }
+}
+
+// Bands of what stands still to all other computers that draw inbetweens, with pixels where these may draw; bands of
+// the keyframe to the node that writes it, which in the long run each node is as often.
+void FrameCosts::add_bands(GroupKeyframe& keyframe, const Homes& homes, const wire::FrameCounts& counts,
+                           int contributors, std::size_t inbetweens) const {
+  const auto nodes = keyframe.nodes.size();
+  const auto near = static_cast<std::size_t>(nodes_on_a_computer(static_cast<int>(nodes)));
+  const std::size_t computers = (nodes + near - 1) / near, collecting = std::min(computers, inbetweens);
+  const geometry::LineRange touched{counts.first_still_line, counts.last_still_line};
+  const auto picture_bytes = [&](std::size_t n) {
+    return homes.ranges[n].count() * line_bytes() * setting_.platform.file_part;
+  };
+  const auto background_bytes = [&](std::size_t n) {
+    return picture_bytes(n) + geometry::overlap(homes.ranges[n], touched).count() * line_bytes();
+  };
+  double all = 0;
+  for (std::size_t n = 0; n < nodes; ++n) all += background_bytes(n);
+  for (std::size_t n = 0; n < nodes; ++n) {
+    NodePart& node = keyframe.nodes[n];
+    const std::size_t computer = n / near;
+    const auto receivers = static_cast<double>(collecting - (computer < collecting ? 1 : 0));
+    if (n < static_cast<std::size_t>(contributors) && nodes > 1) {
+      node.bands += costs_.to_send(picture_bytes(n)) + receivers * costs_.to_send(background_bytes(n));
+      node.bytes_to_nodes += picture_bytes(n) + receivers * background_bytes(n);
+    }
+    if (nodes > 1)  // what one writer receives, by turns
+      node.bands += costs_.to_receive(file_bytes() / static_cast<double>(nodes));
+    if (computer >= collecting || n % near != 0 || computers == 1) continue;
+    const double in = all - background_bytes(n);
+    node.bands += static_cast<double>(nodes - 1) * costs_.to_receive(in / static_cast<double>(nodes - 1));
+    node.bands_wait = costs_.on_the_way(in + file_bytes() / static_cast<double>(nodes), false);
   }
 }
 

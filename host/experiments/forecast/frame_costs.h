@@ -25,6 +25,9 @@ struct NodePart {
   double exchange = 0;       // mapping, messages and filling
   double exchange_wait = 0;  // for the network, beyond
   StripCosts strips;
+  double compose = 0;     // of a node that writes files: pasting and encoding
+  double bands = 0;       // encoded ones, sent and received
+  double bands_wait = 0;  // for the network, beyond
   double still = 0;       // lines for inbetweens, sent and received
   double still_wait = 0;  // for the network, beyond
   double bytes_to_nodes = 0;
@@ -38,16 +41,25 @@ struct GroupKeyframe {
   double passes = 1;  // over its lines
 };
 
+// What the host does of a task: seconds to show its background in a buffer that shows another, as far as a frame needs
+// it; and of its sinks, seconds for the file of each frame.
+struct HostCosts {
+  double background = 0;
+  std::vector<double> files{};
+};
+
 class FrameCosts {
  public:
-  explicit FrameCosts(const Setting& setting) : setting_(setting), costs_(setting.platform) {}
+  explicit FrameCosts(const Setting& setting);
 
   // Of a group of `nodes`, of which `contributors` contribute, and which then draw `inbetweens`.
   GroupKeyframe keyframe(const wire::FrameCounts& counts, int nodes, int contributors, std::size_t inbetweens) const;
   // After such a keyframe, on a node of a group of `nodes`.
   NodePart inbetween(const FrameTotals& totals, const wire::FrameCounts& keyframe, int nodes) const;
-  // Seconds of the host, of a buffer that shows the keyframe's background for the first time.
-  double background(const wire::FrameCounts& keyframe) const;
+  // Seconds of a processor that writes a whole file, which is encoded; its bytes.
+  double writing() const;
+  double file_bytes() const { return setting_.platform.file_part * height() * line_bytes(); }
+  HostCosts host_costs(const TaskCounts& task, const wire::FrameCounts& keyframe) const;
   const Costs& costs() const { return costs_; }
 
  private:
@@ -64,6 +76,11 @@ class FrameCosts {
   double keyframe_drawing(const FrameTotals& totals, const wire::FrameCounts& counts,
                           const geometry::LineRange& lines) const;
   StripCosts strips(const FrameTotals& totals, double seconds) const;
+  double pasting(const FrameTotals& totals) const;
+  double background(const wire::FrameCounts& keyframe) const;
+  double encoding(double lines) const;
+  void add_bands(GroupKeyframe& keyframe, const Homes& homes, const wire::FrameCounts& counts, int contributors,
+                 std::size_t inbetweens) const;
   double saving(const FrameTotals& totals) const;
   // Stationary parts on lines that are not kept for inbetweens.
   FrameTotals drawn_again(const wire::FrameCounts& keyframe, int nodes) const;
@@ -81,10 +98,12 @@ class FrameCosts {
                  std::size_t inbetweens) const;
   int nodes_on_a_computer(int nodes) const;
   double pixel_bytes() const { return static_cast<double>(wire::pixel_bytes(setting_.pixels())); }
+  double line_bytes() const { return setting_.film.settings().width * pixel_bytes(); }
   double height() const { return setting_.film.settings().height; }
 
   const Setting setting_;
   const Costs costs_;
+  const std::uint32_t band_lines_;
 };
 
 }  // namespace mars::forecast

@@ -12,16 +12,17 @@ constexpr std::size_t kNothing = static_cast<std::size_t>(-1);
 
 }  // namespace
 
-HostSide::HostSide(Clockwork& clockwork, Computers& computers, const farm::Plan& plan, const Setting& setting,
-                   const farm::HostMemory& memory, int nodes, Outward outward)
+HostSide::HostSide(Clockwork& clockwork, Computers& computers, simulated::StorageUse& storage, const farm::Plan& plan,
+                   const Setting& setting, const farm::HostMemory& memory, int nodes, Outward outward)
     : clockwork_(clockwork),
       computers_(computers),
+      storage_(storage),
       plan_(plan),
       setting_(setting),
       costs_(setting.platform),
       self_(nodes),
       outward_(std::move(outward)),
-      frame_bytes_(static_cast<double>(memory.frame_bytes)),
+      file_bytes_(FrameCosts(setting).file_bytes()),
       buffers_(memory.frames),
       free_buffers_(memory.frames, kNothing),
       groups_(plan.groups.size()),
@@ -81,7 +82,8 @@ void HostSide::go_on() {
   const StripSent strip = arrived_.front();
   arrived_.pop_front();
   busy(costs_.host_to_receive(strip.bytes) + costs_.of(Work::host_strip, 1), [this, strip] {
-    note(strip);
+    if (strip.written) return finish_written(strip);
+    if (!setting_.nodes_write()) note(strip);
     go_on();
   });
 }
@@ -123,7 +125,7 @@ bool HostSide::begin_frame(std::size_t task, std::size_t number) {
   if (free_buffers_.size() <= left) return false;
   auto buffer = std::ranges::find(free_buffers_.rbegin(), free_buffers_.rend(), task);
   if (buffer == free_buffers_.rend()) buffer = free_buffers_.rbegin();
-  if (*buffer != task && number > 0) frame.begun = backgrounds_[task];
+  if (*buffer != task && number > 0) frame.begun = host_costs_[task].background;
   free_buffers_.erase(std::next(buffer).base());
   return frame.has_picture = true;
 }
@@ -152,14 +154,22 @@ bool HostSide::compose(std::size_t group, std::size_t number, std::size_t place)
   return true;
 }
 
-double HostSide::sink_seconds() const {
-  return costs_.of(Work::sink_frame, 1) + costs_.of(experiments::sink_byte(setting_.picture), frame_bytes_);
+void HostSide::finish_written(const StripSent& file) {
+  ended_ = clockwork_.now();
+  composed_.push_back({ended_, file.frame == 0 ? wire::FrameKind::keyframe : wire::FrameKind::inbetween});
+  TaskState& task = tasks_[file.task];
+  if (--task.left == 0) std::erase(groups_[task.group].tasks, file.task);
+  give_tasks();
 }
 
 void HostSide::submit(std::size_t task, std::size_t place) {
   const double now = clockwork_.now();
   composed_.push_back({now, place == 0 ? wire::FrameKind::keyframe : wire::FrameKind::inbetween});
-  const double end = setting_.files ? computers_.reserve(self_, now, sink_seconds()) : now;
+  double end = now;
+  if (setting_.files) {
+    const double made = computers_.reserve(self_, now, host_costs_[task].files[place]);
+    end = storage_.write(made, file_bytes_, now);
+  }
   ended_ = std::max(ended_, end);
   clockwork_.at(end, [this, task] {
     taken_.push_back(task);

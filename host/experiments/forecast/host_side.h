@@ -6,24 +6,29 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <utility>
 #include <vector>
 
+#include "hal/simulated/storage_use.h"
 #include "host/experiments/forecast/clockwork.h"
 #include "host/experiments/forecast/computers.h"
 #include "host/experiments/forecast/costs.h"
+#include "host/experiments/forecast/frame_costs.h"
 #include "host/experiments/forecast/setting.h"
 #include "host/render/events/course.h"
 #include "host/render/farm/plan.h"
 
 namespace mars::forecast {
 
+// Or word that the frame's file is there, where nodes write files.
 struct StripSent {
   int node;
   std::size_t task;
-  std::size_t frame;  // of the task
-  double bytes;       // of its message
-  double pasting;     // seconds
-  bool last;          // of the node's for this frame
+  std::size_t frame;     // of the task
+  double bytes;          // of its message
+  double pasting;        // seconds
+  bool last;             // of the node's for this frame
+  bool written = false;  // the file is there
 };
 
 class HostSide {
@@ -34,11 +39,11 @@ class HostSide {
     std::function<void(int node)> credit;
   };
 
-  HostSide(Clockwork& clockwork, Computers& computers, const farm::Plan& plan, const Setting& setting,
-           const farm::HostMemory& memory, int nodes, Outward outward);
+  HostSide(Clockwork& clockwork, Computers& computers, simulated::StorageUse& storage, const farm::Plan& plan,
+           const Setting& setting, const farm::HostMemory& memory, int nodes, Outward outward);
 
-  // Of each task in order: seconds to show its background in a buffer that shows another.
-  void add_background(double seconds) { backgrounds_.push_back(seconds); }
+  // Of each task in order.
+  void add_costs(HostCosts costs) { host_costs_.push_back(std::move(costs)); }
   void begin();
   void arrive(const StripSent& strip);
 
@@ -72,22 +77,23 @@ class HostSide {
   bool compose_one();
   bool begin_frame(std::size_t task, std::size_t number);
   bool compose(std::size_t group, std::size_t task, std::size_t number);
-  double sink_seconds() const;
+  void finish_written(const StripSent& file);
   void submit(std::size_t task, std::size_t number);
   void busy(double seconds, Clockwork::Action then);
   void note(const StripSent& strip);
 
   Clockwork& clockwork_;
   Computers& computers_;
+  simulated::StorageUse& storage_;
   const farm::Plan& plan_;
   const Setting setting_;
   const Costs costs_;
   const int self_;
   const Outward outward_;
-  const double frame_bytes_;
+  const double file_bytes_;
   const std::size_t buffers_;
   std::vector<std::size_t> free_buffers_;  // the tasks whose background they show; the one given back last is last
-  std::vector<double> backgrounds_;        // by task
+  std::vector<HostCosts> host_costs_;      // by task
   std::vector<GroupState> groups_;
   std::vector<TaskState> tasks_;
   std::size_t next_task_ = 0;

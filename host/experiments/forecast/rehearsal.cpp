@@ -8,10 +8,12 @@
 #include <utility>
 
 #include "hal/simulated/routes.h"
+#include "hal/simulated/storage_use.h"
 #include "host/experiments/forecast/clockwork.h"
 #include "host/experiments/forecast/computers.h"
 #include "host/experiments/forecast/frame_costs.h"
 #include "host/experiments/forecast/host_side.h"
+#include "node/wire/frame_writer.h"
 
 namespace mars::forecast {
 namespace {
@@ -31,6 +33,9 @@ class Rehearsal {
     int slots = 0;
     bool waits_for_slot = false;
     bool idle = true;
+    std::size_t files = 0;          // under way
+    double file_there = 0;          // seconds, when the last of them will be
+    bool waits_for_file = false;    // to be able to begin another
     std::deque<std::size_t> tasks;  // given and not begun
     std::size_t task = 0;
     std::size_t frame = 0;  // of the task that it draws
@@ -58,6 +63,14 @@ class Rehearsal {
   void send_strip(int n);
   void end_frame(int n);
   void receive_credit(int n);
+  void finish_drawing(int n);
+  void exchange_bands(int n);
+  void wait_for_bands(int n);
+  void write_file(int n);
+  void begin_file(int n);
+  void end_file(int n, std::size_t task, std::size_t frame);
+  void send_to_host(StripSent message);
+  bool writes(const Node& node) const;
 
   // `then` happens to the node when it has worked so long.
   void work(int n, double seconds, void (Rehearsal::*then)(int));
@@ -75,6 +88,8 @@ class Rehearsal {
   Clockwork clockwork_;
   Computers computers_;
   simulated::Routes routes_;
+  simulated::StorageUse storage_;
+  const bool nodes_write_;
   std::map<std::array<std::size_t, 3>, GroupKeyframe> keyframes_;  // by number, nodes and inbetweens
   std::vector<std::vector<NodePart>> inbetweens_;                  // by task
   std::vector<Node> nodes_;
@@ -95,10 +110,12 @@ Rehearsal::Rehearsal(const FilmCounts& counts, const farm::Plan& plan, const Set
       costs_(setting),
       computers_(setting.platform.machine, nodes),
       routes_(setting.platform.machine.network, computers_.count(), computers_.of(nodes)),
+      storage_(setting.platform.machine.storage, setting.platform.machine.network),
+      nodes_write_(setting.nodes_write()),
       nodes_(static_cast<std::size_t>(nodes)),
       result_{0, {}, 0, 0, 0, host_memory(plan, setting, nodes)},
       host_(
-          clockwork_, computers_, plan, setting, result_.host_memory, nodes,
+          clockwork_, computers_, storage_, plan, setting, result_.host_memory, nodes,
           {[this](std::size_t group, std::size_t task) { receive_task(group, task); },
            [this](int node) { later(node, way_from_host(node, sizeof(wire::Credit)), &Rehearsal::receive_credit); }}) {
   for (std::size_t g = 0; g < plan.groups.size(); ++g) {
@@ -110,9 +127,7 @@ Rehearsal::Rehearsal(const FilmCounts& counts, const farm::Plan& plan, const Set
       node.slots = result_.host_memory.credits;
     }
   }
-  std::vector<double> backgrounds;
-  for (const wire::FrameCounts& keyframe : counts.keyframes) backgrounds.push_back(costs_.background(keyframe));
-  for (const TaskCounts& task : counts.tasks) host_.add_background(backgrounds[task.keyframe]);
+  for (const TaskCounts& task : counts.tasks) host_.add_costs(costs_.host_costs(task, counts.keyframes[task.keyframe]));
   const int in_a_group = plan.groups.front().count;
   for (const TaskCounts& task : counts.tasks) {
     std::vector<NodePart>& parts = inbetweens_.emplace_back();
@@ -210,7 +225,7 @@ void Rehearsal::begin_strips(int n) {
   const NodePart& part = part_of(node);
   node.strips_left = part.strips.count;
   result_.bytes_to_nodes += node.frame == 0 ? part.bytes_to_nodes : 0;
-  result_.bytes_to_host += part.strips.bytes;
+  result_.bytes_to_host += nodes_write_ ? static_cast<double>(sizeof(wire::Strip)) : part.strips.bytes;
   result_.node_memory = std::max(result_.node_memory, part.memory);
   draw_strip(n);
 }
@@ -218,6 +233,11 @@ void Rehearsal::begin_strips(int n) {
 void Rehearsal::draw_strip(int n) {
   Node& node = nodes_[static_cast<std::size_t>(n)];
   if (node.strips_left == 0) return finish_strip(n);
+  if (nodes_write_) {
+    node.strips_left = 0;
+    const NodePart& part = part_of(node);
+    return work(n, part.strips.seconds + part.compose, &Rehearsal::finish_strip);
+  }
   if (node.slots == 0) {
     node.waits_for_slot = true;
     return;
@@ -243,18 +263,14 @@ void Rehearsal::wait_for_group(int n) {
 
 void Rehearsal::send_strip(int n) {
   Node& node = nodes_[static_cast<std::size_t>(n)];
+  if (nodes_write_) return exchange_bands(n);
   if (node.strips_left == 0) return end_frame(n);  // it does not contribute
   const StripCosts& strips = part_of(node).strips;
-  const auto host = static_cast<int>(nodes_.size());
-  const bool same_computer = computers_.of(n) == computers_.of(host);
+  const bool same_computer = computers_.of(n) == computers_.of(static_cast<int>(nodes_.size()));
   const double bytes = same_computer ? kOnTheSameComputer : strips.bytes / strips.count;
   const StripSent strip{n, node.task, node.frame, bytes, strips.pasting / strips.count, --node.strips_left == 0};
   const double sent = computers_.work(n, clockwork_.now(), costs_.costs().to_send(bytes));
-  clockwork_.at(sent, [this, strip, host] {
-    const double arrival = routes_.arrival(computers_.of(strip.node), computers_.of(host),
-                                           static_cast<std::size_t>(strip.bytes), clockwork_.now(), clockwork_.now());
-    clockwork_.at(arrival, [this, strip] { host_.arrive(strip); });
-  });
+  clockwork_.at(sent, [this, strip] { send_to_host(strip); });
   later(n, sent, strip.last ? &Rehearsal::end_frame : &Rehearsal::draw_strip);
 }
 
@@ -269,6 +285,61 @@ void Rehearsal::end_frame(int n) {
   node.frame = k + 1;
   const NodePart& part = part_of(node);
   work(n, part.dice + part.exchange + fresh_seconds(node), &Rehearsal::begin_strips);
+}
+
+// On its way from now on.
+void Rehearsal::send_to_host(StripSent message) {
+  const auto host = static_cast<int>(nodes_.size());
+  const double arrival = routes_.arrival(computers_.of(message.node), computers_.of(host),
+                                         static_cast<std::size_t>(message.bytes), clockwork_.now(), clockwork_.now());
+  clockwork_.at(arrival, [this, message] { host_.arrive(message); });
+}
+
+// A keyframe's, after what inbetweens need else.
+void Rehearsal::exchange_bands(int n) {
+  const Node& node = nodes_[static_cast<std::size_t>(n)];
+  if (node.frame > 0 || node.keyframe->nodes.size() == 1) return write_file(n);
+  work(n, part_of(node).bands, &Rehearsal::wait_for_bands);
+}
+
+void Rehearsal::wait_for_bands(int n) {
+  wait_for_all(
+      n, [this](int node) { return part_of(nodes_[static_cast<std::size_t>(node)]).bands_wait; },
+      &Rehearsal::write_file);
+}
+
+// Nodes of a group take turns in writing keyframes.
+bool Rehearsal::writes(const Node& node) const {
+  const collectives::Group& group = groups_[node.group].nodes;
+  const auto turn =
+      static_cast<int>(plan_.tasks[node.task].interval % static_cast<std::uint32_t>(plan_.contributors_of(group)));
+  return node.frame > 0 || node.member == turn;
+}
+
+void Rehearsal::write_file(int n) {
+  Node& node = nodes_[static_cast<std::size_t>(n)];
+  if (!writes(node)) return end_frame(n);
+  if (node.files < wire::kMostFilesUnderWay) return begin_file(n);
+  node.waits_for_file = true;
+}
+
+void Rehearsal::begin_file(int n) {
+  Node& node = nodes_[static_cast<std::size_t>(n)];
+  ++node.files;
+  const double begun = std::max(clockwork_.now(), node.file_there);
+  const double made = std::max(begun, computers_.reserve(n, clockwork_.now(), costs_.writing()));
+  node.file_there = storage_.write(made, costs_.file_bytes(), clockwork_.now());
+  clockwork_.at(node.file_there, [this, n, task = node.task, frame = node.frame] { end_file(n, task, frame); });
+  const auto drawn = static_cast<double>(sizeof(wire::Strip));
+  send_to_host({n, node.task, node.frame, drawn, 0, true});
+  work(n, costs_.costs().to_send(drawn), &Rehearsal::end_frame);
+}
+
+void Rehearsal::end_file(int n, std::size_t task, std::size_t frame) {
+  Node& node = nodes_[static_cast<std::size_t>(n)];
+  --node.files;
+  send_to_host({n, task, frame, sizeof(wire::Written), 0, true, true});
+  if (std::exchange(node.waits_for_file, false)) begin_file(n);
 }
 
 void Rehearsal::receive_credit(int n) {

@@ -12,16 +12,20 @@
 
 namespace mars::forecast {
 
+enum class Writers { host, nodes };
+
 struct Setting {
   const wire::FilmView& film;
   const experiments::Platform& platform;
   wire::Mapping mapping = wire::Mapping::cost;
   images::PictureFormat picture = images::PictureFormat::png;
   bool files = true;  // else frames go nowhere
+  Writers writers = Writers::host;
   std::uint32_t sink_threads = 2;
   std::uint64_t host_budget = std::uint64_t{1} << 30;  // bytes, as share_host_memory takes it
 
   wire::PixelFormat pixels() const { return images::facts_of(picture).pixels; }
+  bool nodes_write() const { return files && writers == Writers::nodes; }
 };
 
 }  // namespace mars::forecast

@@ -4,10 +4,10 @@
 #include <chrono>
 #include <utility>
 
+#include "node/wire/frame_writer.h"
+
 namespace mars::composer {
 namespace {
-
-constexpr std::size_t kMostUnderWay = 2;
 
 using Clock = std::chrono::steady_clock;
 
@@ -38,7 +38,7 @@ FrameFiles::~FrameFiles() {
 
 bool FrameFiles::is_full() {
   const std::lock_guard lock(mutex_);
-  return under_way_ >= kMostUnderWay;
+  return under_way_ >= wire::kMostFilesUnderWay;
 }
 
 void FrameFiles::write(FrameFile file) {

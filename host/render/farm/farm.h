@@ -77,6 +77,7 @@ struct FarmReport {
   double busy_seconds = 0;           // of those, in which the host took and composed strips
   double sink_seconds = 0;           // of all threads that hand frames to the sink
   wire::HostUnits charged{};         // what the host did, by kind
+  images::FileWork files;            // that the host wrote
   std::vector<SlowTime> slow_times;  // since the first command; of runs that adapt
   bool cancelled = false;            // before all frames were composed
 };

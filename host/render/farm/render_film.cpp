@@ -61,6 +61,7 @@ bool render(const FilmRun& run) {
   const ScopedSpan span(trace::HostSpan::finish);
   finish_sinks(run);
   pictures.note_with_sinks();
+  run.report.files = run.sinks.made();
   run.report.total_seconds = run.engine.seconds();
   return true;
 }

@@ -60,7 +60,7 @@ std::vector<std::int32_t> share_out(std::span<const Standing> nodes, std::uint64
   NextDone next(nodes, first_inbetween);
   while (cycle.size() < length) cycle.push_back(next.take());
   // The film's inbetween n is drawn by cycle[n modulo its length].
-  std::ranges::rotate(cycle, cycle.end() - static_cast<std::ptrdiff_t>(first_inbetween % length));
+  std::rotate(cycle.begin(), cycle.end() - static_cast<std::ptrdiff_t>(first_inbetween % length), cycle.end());
   return cycle;
 }
 

@@ -111,7 +111,7 @@ farm::FarmOptions farm_options(const RenderJob& job, const farm::HostMemory& mem
   return farm;
 }
 
-bool nodes_write(const RenderJob& job) { return job.nodes_write && !job.folder.empty(); }
+bool nodes_write(const RenderJob& job) { return job.writers == Writers::nodes && !job.folder.empty(); }
 
 // Nodes hear that the host lives also while it waits for storage.
 void record(const wire::Written& written, sinks::FrameFolder& folder, farm::Heartbeats& heartbeats) {
@@ -277,7 +277,7 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace, 
   output.sink = make_sink(nodes_write(job) ? nullptr : output.folder.get(), view);
   output.pool = make_sinks(job, *output.sink, pool_shape(host, view, job, memory.frames));
   const auto watch = begin_watch(job, reporter);
-  std::optional<farm::Writing> writing;
+  std::optional<farm::Writing> writing = job.writing;
   if (nodes_write(job)) writing = make_writing(*output.folder, heartbeats);
   farm::FarmOptions options = farm_options(job, memory, trace, heartbeats, watch.get());
   options.writing = writing ? &*writing : nullptr;

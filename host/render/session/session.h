@@ -13,11 +13,15 @@
 #include "host/content/film/frame_set.h"
 #include "host/images/picture_format.h"
 #include "host/render/events/course.h"
+#include "host/render/farm/farm.h"
 #include "host/render/farm/plan.h"
 #include "host/render/sinks/sink_pool.h"
 #include "node/wire/protocol.h"
 
 namespace mars::session {
+
+// Who composes frames and writes their files. `automatic`: nodes where that is forecast to be faster.
+enum class Writers { automatic, host, nodes };
 
 struct HostMachine {
   std::uint64_t memory = 0;  // bytes; 0: of this machine as much as it may use
@@ -30,6 +34,9 @@ struct Prediction {
   std::int32_t contributors = 0;  // to keyframes, with these groups, as in farm::Plan
   events::Course course{};        // of its frames
   std::string warning{};          // why nothing is predicted; "": none
+  // Whether nodes would write frames' files sooner than the host, with so many nodes on each machine; none: nothing is
+  // predicted. The film must be there still.
+  std::function<bool(int nodes_a_machine)> nodes_write_sooner{};
 };
 
 struct RenderJob {
@@ -42,7 +49,7 @@ struct RenderJob {
   bool overwrite = false;  // frames that the folder has already
   bool kept_film = false;  // the folder's, as in resume::Wish
   images::PictureFormat format = images::PictureFormat::png;
-  bool nodes_write = false;  // nodes compose frames and write their files
+  Writers writers = Writers::automatic;
   film::FrameSet frames;
   wire::Mapping mapping = wire::Mapping::cost;
   bool coherence = true;
@@ -57,6 +64,9 @@ struct RenderJob {
   HostMachine host;                    // that the host has
   // Makes the pool of sinks; none: threads take frames.
   std::function<std::unique_ptr<sinks::SinkPool>(sinks::Sink& sink, const sinks::SinkPool::Shape& shape)> make_sinks;
+  bool counts_files = false;  // that are not written, as simulations do
+  // Of simulated nodes, which only count what files take; none: the folder's.
+  std::optional<farm::Writing> writing;
   // Asked once, before the film goes to nodes; none, or 0 groups and no course: nothing is predicted.
   std::function<Prediction(const wire::FilmView& film, const farm::PlanRequest& request, int nodes)> predict;
   // The command that renders again, all frames or one, with this number of nodes.

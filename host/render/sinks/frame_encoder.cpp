@@ -5,6 +5,13 @@
 
 namespace mars::sinks {
 
+HashedBand encode_band(const images::PictureBands& bands, compositor::Frame& frame, std::size_t band) {
+  const images::Lines lines = bands.lines_of(band);
+  frame.restore({lines.first, lines.end});
+  const std::span<const std::uint32_t> pixels = bands.part_of(frame.pixels, band);
+  return {images::encode_band(bands, band, pixels), hash_of_band(pixels)};
+}
+
 std::string EncodedFrame::pixel_hash() const {
   std::vector<std::string> hashes;
   for (const auto& band : bands) hashes.push_back(band->hash);
@@ -17,22 +24,21 @@ EncodedFrame FrameEncoder::encode(compositor::Frame& frame) {
   for (std::size_t band = 0; band < bands_.count(); ++band) {
     const images::Lines lines = bands_.lines_of(band);
     if (kept == nullptr || !frame.shows_background({lines.first, lines.end})) {
-      encoded.bands.push_back(encode_band(frame, band));
+      encoded.bands.push_back(encode(frame, band, encoded));
       continue;
     }
     Kept::Band& of_background = kept->bands[band];
     const std::lock_guard lock(of_background.mutex);
-    if (!of_background.encoded) of_background.encoded = encode_band(frame, band);
+    if (!of_background.encoded) of_background.encoded = encode(frame, band, encoded);
     encoded.bands.push_back(of_background.encoded);
   }
   return encoded;
 }
 
-std::shared_ptr<const HashedBand> FrameEncoder::encode_band(compositor::Frame& frame, std::size_t band) const {
-  const images::Lines lines = bands_.lines_of(band);
-  frame.restore({lines.first, lines.end});
-  const std::span<const std::uint32_t> pixels = bands_.part_of(frame.pixels, band);
-  return std::make_shared<HashedBand>(HashedBand{images::encode_band(bands_, band, pixels), hash_of_band(pixels)});
+std::shared_ptr<const HashedBand> FrameEncoder::encode(compositor::Frame& frame, std::size_t band,
+                                                       EncodedFrame& encoded) const {
+  encoded.encoded_bytes += bands_.words_of(bands_.lines_of(band)) * sizeof(std::uint32_t);
+  return std::make_shared<HashedBand>(encode_(bands_, frame, band));
 }
 
 std::shared_ptr<FrameEncoder::Kept> FrameEncoder::kept_for(

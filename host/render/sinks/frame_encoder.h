@@ -21,13 +21,20 @@ struct HashedBand {
 
 struct EncodedFrame {
   std::vector<std::shared_ptr<const HashedBand>> bands;
+  std::uint64_t encoded_bytes = 0;  // of pixels of the bands that were encoded for it
 
   std::string pixel_hash() const;
 };
 
+// Restores, hashes and encodes a band.
+HashedBand encode_band(const images::PictureBands& bands, compositor::Frame& frame, std::size_t band);
+
 class FrameEncoder {
  public:
-  explicit FrameEncoder(const images::PictureBands& bands) : bands_(bands) {}
+  // `encode`: as encode_band; simulations have another, which only counts.
+  using Encode = HashedBand (*)(const images::PictureBands& bands, compositor::Frame& frame, std::size_t band);
+  explicit FrameEncoder(const images::PictureBands& bands, Encode encode = encode_band)
+      : bands_(bands), encode_(encode) {}
 
   // From several threads at once, each with a frame of its own, which is finished.
   EncodedFrame encode(compositor::Frame& frame);
@@ -47,9 +54,10 @@ class FrameEncoder {
   };
 
   std::shared_ptr<Kept> kept_for(const std::shared_ptr<const compositor::Background>& background);
-  std::shared_ptr<const HashedBand> encode_band(compositor::Frame& frame, std::size_t band) const;
+  std::shared_ptr<const HashedBand> encode(compositor::Frame& frame, std::size_t band, EncodedFrame& encoded) const;
 
   const images::PictureBands bands_;
+  const Encode encode_;
   std::mutex mutex_;  // guards:
   std::vector<std::shared_ptr<Kept>> kept_;
 };

@@ -402,7 +402,11 @@ void FileSink::take(compositor::Frame& frame) {
   const std::string hash = encoded.pixel_hash();
   const std::string mark = folder_.mark_of(frame.number, hash, content_ ? content_(frame.number) : "");
   const images::PictureEnds ends = encoder_.ends_of(encoded, mark);
-  folder_.put(frame.number, hash, encoder_.pieces(encoded, ends));
+  const std::vector<std::span<const std::byte>> pieces = encoder_.pieces(encoded, ends);
+  folder_.put(frame.number, hash, pieces);
+  ++files_;
+  encoded_bytes_ += encoded.encoded_bytes;
+  for (const std::span<const std::byte> piece : pieces) file_bytes_ += piece.size();
 }
 
 }  // namespace mars::sinks

@@ -6,6 +6,7 @@
 // (runs_folder.h).
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -171,6 +172,7 @@ class FileSink : public Sink {
   explicit FileSink(FrameFolder& folder, ContentOf content = {});
   void take(compositor::Frame& frame) override;
   bool restores() const override { return true; }
+  images::FileWork made() const override { return {files_, encoded_bytes_, file_bytes_}; }
   void check() override { folder_.check(); }
   void give_up() override { folder_.give_up(); }
 
@@ -178,6 +180,7 @@ class FileSink : public Sink {
   FrameFolder& folder_;
   const ContentOf content_;
   FrameEncoder encoder_;
+  std::atomic<std::uint64_t> files_ = 0, encoded_bytes_ = 0, file_bytes_ = 0;  // as in FileWork
 };
 
 }  // namespace mars::sinks

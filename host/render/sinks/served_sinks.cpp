@@ -7,9 +7,9 @@
 namespace mars::sinks {
 
 void ServedSinks::submit(compositor::Frame* frame) {
+  const images::FileWork before = sink().made();
   sink().take(*frame);
-  const double now = dclock(),
-               ended = serve_(shape().width * std::uint64_t{shape().height} * wire::pixel_bytes(shape().format));
+  const double now = dclock(), ended = serve_(sink().made() - before);
   served_.push_back({frame, {frame->number, 0, now, now, ended}});
 }
 

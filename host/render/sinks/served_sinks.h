@@ -11,12 +11,11 @@ namespace mars::sinks {
 
 class ServedSinks : public SinkPool {
  public:
-  // `serve`: when a frame of `bytes` that is submitted now will have been taken, in seconds of dclock().
-  using Serve = std::function<double(std::uint64_t bytes)>;
+  // `serve`: when a frame that is submitted now, and takes that, will have been taken, in seconds of dclock().
+  using Serve = std::function<double(const images::FileWork& work)>;
 
   ServedSinks(Sink& sink, const Shape& shape, Serve serve) : SinkPool(sink, shape, NoThreads()), serve_(serve) {}
 
-  bool restores() const override { return false; }  // the simulated host does that
   void submit(compositor::Frame* frame) override;
   std::vector<Taken> taken() override;
   void finish() override;

@@ -167,10 +167,22 @@ std::string wrong_trials(const std::string& word) {
   return right ? "" : document::formatted("is neither 0 nor a number from %d to %d", experiments::kFewestTrials, kMost);
 }
 
+// By this version of MARS.
+bool is_calibrated() {
+  if (!fs::exists(experiments::calibrated_platform())) return false;
+  try {
+    experiments::read_platform("here", experiments::platforms_folder(child::own_file()));
+    return true;
+  } catch (const Failure& failure) {
+    std::cerr << "mars: " << failure.what() << '\n';
+    return false;
+  }
+}
+
 }  // namespace
 
 bool calibrate_if_need_be(const NodesCode& code) {
-  if (fs::exists(experiments::calibrated_platform())) return true;
+  if (is_calibrated()) return true;
   const std::string trouble = calibrate_unasked(code);
   if (!trouble.empty())
     std::cerr << "mars: warning: this machine is not calibrated, and cannot be now: " << trouble

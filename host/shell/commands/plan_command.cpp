@@ -35,9 +35,16 @@ struct Planned {
   experiments::Platform platform;
   std::size_t counted;  // frames
   std::size_t frames;
-  std::vector<forecast::Forecast> by_nodes;  // ascending; the last has the nodes that were asked for
-  double slots;                              // bytes of a node's strips
+  bool files;
+  std::vector<forecast::Forecast> by_nodes;   // ascending; the last has the nodes that were asked for
+  std::vector<forecast::Forecast> otherwise;  // with files written by others, where that was compared
+  double slots;                               // bytes of a node's strips
 
+  // Of each number of nodes.
+  void take_sooner() {
+    for (std::size_t i = 0; i < by_nodes.size(); ++i)
+      if (otherwise[i].seconds() < by_nodes[i].seconds()) std::swap(by_nodes[i], otherwise[i]);
+  }
   const forecast::Forecast& asked() const { return by_nodes.back(); }
   // The fewest nodes that take hardly longer than the shortest.
   const forecast::Forecast& best() const {
@@ -69,13 +76,24 @@ Planned plan(const options::RenderOptions& options, const NodesCode& code) {
   const experiments::Platform platform = platform_of(options, code);
   const auto frames = options.frames.of_film(view.settings().frames);
   const std::vector<farm::Task> tasks = farm::make_tasks(view, frames, !options.no_coherence);
-  const forecast::FilmCounts counts = forecast::count_film(view, tasks, *code.make_counter(view), {kCounting});
+  const forecast::FilmCounts counts =
+      forecast::count_film(view, tasks, *code.make_counter(view), {kCounting}, options.format);
   forecast::Setting setting{view, platform, options.mapping, options.format, options.sink == options::SinkKind::files};
   setting.sink_threads = session::sink_threads({platform.host_memory, platform.host_processors()});
   setting.host_budget = platform.host_memory;
   const int nodes = options.nodes == 0 ? topology::Machine::here().processors() : static_cast<int>(options.nodes);
-  Planned planned{platform, counts.counted, frames.size(),
-                  forecast::forecasts_up_to(counts, tasks, setting, nodes, options.groups), 0};
+  const auto forecasts = [&](forecast::Writers writers) {
+    setting.writers = writers;
+    return forecast::forecasts_up_to(counts, tasks, setting, nodes, options.groups);
+  };
+  Planned planned{platform, counts.counted, frames.size(), setting.files, {}, {}, 0};
+  planned.by_nodes =
+      forecasts(options.write == options::WriteWhere::nodes ? forecast::Writers::nodes : forecast::Writers::host);
+  const bool several = nodes > platform.machine.nodes;  // computers
+  if (setting.files && several && options.write == options::WriteWhere::automatic) {
+    planned.otherwise = forecasts(forecast::Writers::nodes);
+    planned.take_sooner();
+  }
   // An interval says it, too.
   if (!platform.doubt.empty() && !planned.asked().spread) warn(experiments::doubt_text(platform));
   planned.slots = planned.asked().run.host_memory.credits * static_cast<double>(wire::kSlotBytes);
@@ -100,6 +118,19 @@ std::string interval_text(const Planned& planned) {
          document::counted(static_cast<std::size_t>(most.nodes), "node");
 }
 
+const char* name_of(forecast::Writers writers) { return writers == forecast::Writers::nodes ? "nodes" : "host"; }
+
+std::string writers_text(forecast::Writers writers) {
+  return writers == forecast::Writers::nodes ? "nodes" : "the host";
+}
+
+std::string files_text(const Planned& planned) {
+  const std::string written = "files       written by " + writers_text(planned.asked().writers);
+  if (planned.otherwise.empty()) return written;
+  const forecast::Forecast& other = planned.otherwise.back();
+  return written + " (by " + writers_text(other.writers) + document::formatted(": %.4g seconds)", other.seconds());
+}
+
 std::string text_of(const Planned& planned) {
   const forecast::Forecast &asked = planned.asked(), &best = planned.best();
   const forecast::Rehearsed& run = asked.run;
@@ -108,6 +139,7 @@ std::string text_of(const Planned& planned) {
   text += document::formatted("seconds     %.4g", asked.seconds()) + " (" + interval_text(planned) + ")\n";
   if (!planned.platform.doubt.empty() && asked.spread)
     text += "            the interval is wide, for the calibration was noisy: " + planned.platform.doubt + "\n";
+  if (planned.files) text += files_text(planned) + "\n";
   text += document::formatted("node hours  %.3g\n", asked.node_hours());
   text += "a node      " + megabytes(run.node_memory) + " for a frame, " + megabytes(planned.slots) + " for strips\n";
   text += "the host    " + megabytes(static_cast<double>(run.host_memory.most_bytes())) + " at most\n";
@@ -122,7 +154,7 @@ std::string text_of(const Planned& planned) {
   return text;
 }
 
-nlohmann::ordered_json json_of(const forecast::Forecast& forecast) {
+nlohmann::ordered_json json_of(const Planned& planned, const forecast::Forecast& forecast) {
   nlohmann::ordered_json all = {{"nodes", forecast.nodes},
                                 {"groups", forecast.groups},
                                 {"seconds", forecast.seconds()},
@@ -131,20 +163,21 @@ nlohmann::ordered_json json_of(const forecast::Forecast& forecast) {
                                 {"host_memory", forecast.run.host_memory.most_bytes()},
                                 {"bytes_to_nodes", std::llround(forecast.run.bytes_to_nodes)},
                                 {"bytes_to_host", std::llround(forecast.run.bytes_to_host)}};
+  if (planned.files) all["write"] = name_of(forecast.writers);
   if (const auto interval = forecast.interval())
     all["interval"] = {{"within", experiments::kWithin}, {"low", interval->low}, {"high", interval->high}};
   return all;
 }
 
 std::string json_text(const Planned& planned) {
-  nlohmann::ordered_json all = json_of(planned.asked());
+  nlohmann::ordered_json all = json_of(planned, planned.asked());
   all["platform"] = planned.platform.name;
   if (!planned.platform.doubt.empty()) all["doubt"] = planned.platform.doubt;
   all["counted"] = planned.counted;
   all["frames"] = planned.frames;
   all["slots"] = std::llround(planned.slots);
-  all["best"] = json_of(planned.best());
-  for (const forecast::Forecast& each : planned.by_nodes) all["by_nodes"].push_back(json_of(each));
+  all["best"] = json_of(planned, planned.best());
+  for (const forecast::Forecast& each : planned.by_nodes) all["by_nodes"].push_back(json_of(planned, each));
   return all.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -18,6 +18,15 @@ std::string replay_of(options::RenderOptions options, const std::string& backend
   return command;
 }
 
+session::Writers writers_of(options::WriteWhere write) {
+  switch (write) {
+    case options::WriteWhere::automatic: break;
+    case options::WriteWhere::host: return session::Writers::host;
+    case options::WriteWhere::nodes: return session::Writers::nodes;
+  }
+  return session::Writers::automatic;
+}
+
 }  // namespace
 
 session::RenderJob job_of(const options::RenderOptions& options, const std::string& backend) {
@@ -29,7 +38,7 @@ session::RenderJob job_of(const options::RenderOptions& options, const std::stri
   job.kept_film = options.kept_film;
   job.folder = options.sink == options::SinkKind::files ? options.folder : "";
   job.format = options.format;
-  job.nodes_write = options.write == options::WriteWhere::nodes;
+  job.writers = writers_of(options.write);
   job.frames = options.frames;
   job.mapping = options.mapping;
   job.coherence = !options.no_coherence;

@@ -38,7 +38,7 @@ constexpr std::array kWords<Intervals>{"auto", "keyframes"};
 template <>
 constexpr std::array kWords<SinkKind>{"files", "none"};
 template <>
-constexpr std::array kWords<WriteWhere>{"host", "nodes"};
+constexpr std::array kWords<WriteWhere>{"auto", "host", "nodes"};
 template <>
 constexpr std::array kWords<images::PictureFormat>{"png", "png16", "exr"};
 template <>
@@ -167,7 +167,6 @@ std::vector<Entry> table() {
   constexpr unsigned submits = all | bit(Program::submit);
   constexpr unsigned plans = submits | bit(Program::plan);
   constexpr unsigned sinks = all | bit(Program::plan);
-  constexpr unsigned writes = submits & ~bit(Program::simulated);
   constexpr unsigned compiles = plans | bit(Program::compile);
   constexpr unsigned counts_nodes = bit(Program::mars) | bit(Program::threads) | bit(Program::simulated) |
                                     bit(Program::plan) | bit(Program::repair) | bit(Program::studio);
@@ -236,9 +235,10 @@ std::vector<Entry> table() {
       option(sinks, "--sink", "files|none", &RenderOptions::sink,
              "Where frames go; none writes no files, to measure rendering. Example: --sink none"),
       option(
-          writes, "--write", "host|nodes", &RenderOptions::write,
-          "Who composes frames and writes their files: the host, as in the thesis, or the nodes that draw them, whose "
-          "machines must all see the folder; same files; default: host. Example: --write nodes"),
+          plans, "--write", "auto|host|nodes", &RenderOptions::write,
+          "Who composes frames and writes their files: the host, as in the thesis, or the nodes that draw them; same "
+          "files; default: auto, nodes where several machines see the folder and it is forecast to be faster. "
+          "Example: --write nodes"),
       option(submits, "--report", "FILE", &RenderOptions::report,
              "Write each node's times and work per frame as JSON. Example: --report report.json"),
       option(submits, "--trace", "FILE", &RenderOptions::trace,
@@ -297,8 +297,10 @@ void refuse_name_of_file(const RenderOptions& options) {
 
 void check_writing_nodes(const RenderOptions& options) {
   constexpr const char* kRemedy = "leave out --write nodes";
-  if (options.backend == Backend::simulated) throw Failure("simulated nodes write no files", "", kRemedy);
-  if (options.sink == SinkKind::none) throw Failure("with --sink none there are no files to write", "", kRemedy);
+  const bool simulated = options.backend == Backend::simulated, files = options.sink == SinkKind::files;
+  if (simulated && files)
+    throw Failure("simulated nodes write no files", "", "use --sink none, which counts what files take");
+  if (!simulated && !files) throw Failure("with --sink none there are no files to write", "", kRemedy);
   if (!options.watch.empty())
     throw Failure("frames that nodes write cannot be watched: the host has no pixels", "", "use --write host");
 }
@@ -328,7 +330,7 @@ void check_together(const RenderOptions& options, Program program) {
   if (!options.watch.empty() && options.backend == Backend::simulated) {
     throw Failure("the time of simulated nodes is not that of who watches", "", "leave out --watch");
   }
-  if (options.write == WriteWhere::nodes) check_writing_nodes(options);
+  if (options.write == WriteWhere::nodes && program != Program::plan) check_writing_nodes(options);
   if (!options.platform.empty() && options.backend != Backend::simulated) {
     throw Failure("a platform is for simulated nodes", "", "add --backend simulated, or leave out --platform");
   }

@@ -22,7 +22,7 @@ inline constexpr const char* kTrialFilm = ":trial";
 enum class Backend { automatic, mpi, threads, simulated };
 enum class Intervals { automatic, keyframes };
 enum class SinkKind { files, none };
-enum class WriteWhere { host, nodes };
+enum class WriteWhere { automatic, host, nodes };
 
 struct RenderOptions {
   std::string film;         // FILM.json or FILM.mars; "": a studio's, which is served
@@ -43,7 +43,7 @@ struct RenderOptions {
   bool overwrite = false;     // render frames that the folder has already, too
   bool kept_film = false;     // the folder's film.mars, even if `film` has changed; `film` if the folder has none
   SinkKind sink = SinkKind::files;
-  WriteWhere write = WriteWhere::host;                        // who composes frames and writes their files
+  WriteWhere write = WriteWhere::automatic;                   // who composes frames and writes their files
   images::PictureFormat format = images::PictureFormat::png;  // of the files
   std::string report;                                         // file for the measurements; "": none
   std::string trace;                                          // file for a picture of the run; "": none

@@ -1,6 +1,6 @@
 """What a run's report says about the whole film, and the floors below which no run can come."""
 
-NODE_PHASES = ("dice", "map", "fill", "scanline")  # computing; the others wait or exchange
+NODE_PHASES = ("dice", "map", "fill", "scanline", "compose")  # computing; the others wait or exchange
 
 
 def frames_of(report, kind):
@@ -23,15 +23,17 @@ def span_of(frame):
 
 def floors_of(report, platform, nodes, size):
     frames, work = report["frames"], platform["work"]
-    picture = report["width"] * report["height"] * 4
-    written = len(frames) * (work.get("sink_frame", 0) + work.get("sink_byte", 0) * picture)
-    by_nodes = len(frames) * (work.get("node_frame", 0) + work.get("node_frame_byte", 0) * picture)
+    host, storage = report["host"], platform["storage"]
+    written = (host["files"] * work["file"] + host["encoded_bytes"] * work["encoded_byte"] +
+               host["file_bytes"] * work["file_byte"])
+    file_bytes = report["width"] * report["height"] * 4 * storage.get("file_part", 0.1)
     bytes_to_host = work_of(frames, "bytes_to_host")
     network = platform["network"]
     return {
-        "compute": (node_seconds(frames, NODE_PHASES) + by_nodes) / nodes,
+        "compute": node_seconds(frames, NODE_PHASES) / nodes,
         "link": bytes_to_host / network.get("host_rate", network["rate"]),
         "sinks": written / platform["host"]["processors"],
+        "storage": len(frames) * max(1 / storage["openings"], file_bytes / storage["rate"]),
         "host": sum(units * work.get(kind, 0) for kind, units in report["host"]["charged"].items()),
     }
 

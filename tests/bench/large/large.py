@@ -46,10 +46,10 @@ def groups_to_try(nodes, intervals):
     return fitting[:2] or [max(1, nodes // 4)]
 
 
-def simulate(bin_folder, film_file, platform_file, nodes, groups, frames):
+def simulate(bin_folder, film_file, platform, writer, nodes, groups, frames):
     with tempfile.NamedTemporaryFile(suffix=".json") as report:
-        command = [bin_folder / "mars-simulated", film_file, "--sink", "none", "--platform", platform_file, "--nodes",
-                   str(nodes), "--groups", str(groups), "--report", report.name]
+        command = [bin_folder / "mars-simulated", film_file, "--sink", "none", "--write", writer, "--platform", platform,
+                   "--nodes", str(nodes), "--groups", str(groups), "--report", report.name]
         if frames:
             command += ["--frames", frames]
         before, began = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
@@ -76,8 +76,7 @@ def main():
     runs = known_runs(runs_file)
     for name in options.platforms.split(","):
         for writer in options.writers.split(","):
-            platform_file = options.output / f"{name}-{writer}.json"
-            platform = platforms.write_variant(options.build, name, writer, platform_file)
+            platform = platforms.platform_of(options.build, name)
             for nodes in map(int, options.nodes.split(",")):
                 tries = map(int, options.groups.split(",")) if options.groups else groups_to_try(nodes, size.intervals)
                 for groups in tries:
@@ -85,7 +84,7 @@ def main():
                            "frames": options.frames or "all", "size": options.size, "costs": platform}
                     if any(all(run[part] == key[part] for part in key) for run in runs):
                         continue
-                    report, cost = simulate(options.build / "bin", film_file, platform_file, nodes, groups,
+                    report, cost = simulate(options.build / "bin", film_file, name, writer, nodes, groups,
                                             options.frames)
                     runs.append({**key, **figures_of(report, platform, nodes, size), "cost": cost})
                     with runs_file.open("a") as out:

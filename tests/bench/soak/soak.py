@@ -69,6 +69,8 @@ def arguments():
     parser.add_argument("--faults", metavar="A,B", default=",".join(SHARES), help="default: %(default)s")
     parser.add_argument("--here", action="store_true", help="on this machine alone, without " + ", ".join(ON_A_CLUSTER))
     parser.add_argument("--backend", choices=("mpi", "threads"), default="mpi", help="threads: with --here")
+    parser.add_argument("--write", choices=("auto", "host", "nodes"), default="auto",
+                        help="who writes the frames' files; default: auto")
     parser.add_argument("-o", dest="output", type=pathlib.Path, default=pathlib.Path("soak"),
                         help="folder for report.json, report.txt and mars's lines; default: soak")
     wanted = parser.parse_args()
@@ -118,7 +120,8 @@ class Soak:
         return done.stdout
 
     def render_words(self, *more):
-        words = [self.mars_file, "render", self.film, "--nodes", self.nodes, "--restarts", RESTARTS, *more]
+        words = [self.mars_file, "render", self.film, "--nodes", self.nodes, "--restarts", RESTARTS, "--write",
+                 self.wanted.write, *more]
         if self.wanted.here:
             groups = ["--groups", 2] if self.wanted.backend == "mpi" else []
             return [*words, "--backend", self.wanted.backend, *groups]

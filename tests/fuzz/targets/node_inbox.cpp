@@ -95,6 +95,31 @@ void take_beat(Host&) {
   check(named && beat->phase <= wire::Phase::storage, "a beat makes sense");
 }
 
+wire::Strip sound_drawn() {
+  wire::Strip drawn{};
+  drawn.last = 1;
+  drawn.last_line = kHeight;
+  return drawn;
+}
+
+void take_drawn(Host& host) {
+  cprobe(wire::kDrawn);
+  const wire::Strip drawn = host.inbox.receive_drawn();
+  check(drawn.node == 0 && drawn.last_line <= kHeight, "who has drawn is known");
+}
+
+// Its hash is a text that ends.
+void take_written(Host& host) {
+  cprobe(wire::kWritten);
+  const wire::Written written = host.inbox.receive_written();
+  check(std::ranges::find(written.pixel_hash, '\0') != written.pixel_hash.end(), "word of a file makes sense");
+}
+
+void take_storage(Host& host) {
+  cprobe(wire::kStorage);
+  host.inbox.receive_storage_warning();
+}
+
 struct Kind {
   int type;
   Message sound;
@@ -109,7 +134,10 @@ std::vector<Kind> kinds(PixelFormat format) {
       {wire::kTrace, sound_events(), [](Host& host) { host.take_events(); }},
       {wire::kClock, message_of(1.5), [](Host& host) { host.inbox.receive_time(0); }},
       {wire::kFault, message_of(wire::Fault{0, 3, {"it failed"}}), [](Host& host) { host.inbox.wait(wire::kClock); }},
-      {wire::kBeat, message_of(wire::Beat{{"n0"}}), take_beat}};
+      {wire::kBeat, message_of(wire::Beat{{"n0"}}), take_beat},
+      {wire::kDrawn, message_of(sound_drawn()), take_drawn},
+      {wire::kWritten, message_of(wire::Written{3, 0, {"b1"}, 100, 0.5}), take_written},
+      {wire::kStorage, {std::byte{'a'}, std::byte{'b'}}, take_storage}};
 }
 
 // Strips that lie in a slot: the host sees it, and what is behind the header may be anything at any time.

@@ -86,6 +86,16 @@ TEST(World, WorkOfNoRankIsDoneByFreeProcessorsAndWakesTheHost) {
   EXPECT_DOUBLE_EQ(woken, 6);
 }
 
+TEST(World, StorageTakesFilesOneAfterAnotherNoFasterThanTheirPorts) {
+  Machine with_storage = machine();
+  with_storage.network.byte = 0.5;
+  with_storage.storage = {.opening = 1, .byte = 0.25};
+  std::vector<double> there;
+  const auto host = [&](World& world) { there = {world.store(1, 0, 4), world.store(1, 0, 4), world.store(1, 10, 4)}; };
+  run_simulated(with_storage, 1, host, [] {});
+  EXPECT_EQ(there, (std::vector<double>{3, 4, 13}));
+}
+
 std::string failure_of(int nodes, const std::function<void()>& node) {
   try {
     run_simulated(machine(), nodes, nothing, node);

@@ -52,6 +52,14 @@ TEST_F(Platforms, SayWhatMachinesAre) {
   EXPECT_EQ(cost(platform, wire::Work::patch), 0);
 }
 
+TEST_F(Platforms, SayWhatStorageTakes) {
+  add("small", R"({}, "storage": {"rate": 2e9, "openings": 500, "file_part": 0.25})");
+  const Platform platform = read("small");
+  EXPECT_DOUBLE_EQ(platform.machine.storage.byte, 5e-10);
+  EXPECT_DOUBLE_EQ(platform.machine.storage.opening, 2e-3);
+  EXPECT_DOUBLE_EQ(platform.file_part, 0.25);
+}
+
 TEST_F(Platforms, TakeCostsOfWorkFromAnother) {
   add("measured", R"({"pixel": 5e-9})");
   add("small", R"("measured")");

@@ -54,6 +54,19 @@ TEST_P(Forecasts, AreAsSimulated) {
   }
 }
 
+TEST(ForecastsOfFiles, AreAsSimulated) {
+  for (const Files files : {Files::host, Files::nodes})
+    for (const Case& one : {Case{"s3", "0-11"}, Case{"visit", "100-109"}, Case{"stones", "0-9"}}) {
+      const SimulatedFilm film(one.film, one.frames, "fat-tree", files);
+      for (const int nodes : {1, 4}) {
+        const double forecast = film.forecast(nodes, 1).run.seconds, measured = film.render(nodes, 1).total_seconds;
+        expect_near(forecast, measured, kWithin,
+                    std::string(one.film) + (files == Files::host ? ", host writes, " : ", nodes write, ") +
+                        std::to_string(nodes) + " nodes");
+      }
+    }
+}
+
 // What is made is counted; what is seen is estimated from some lines.
 TEST_P(Forecasts, CountWhatNodesDraw) {
   const SimulatedFilm film(GetParam().film, GetParam().frames, "fat-tree");
@@ -63,7 +76,7 @@ TEST_P(Forecasts, CountWhatNodesDraw) {
     const auto is_here = [&](const wire::FrameCounts& counts) { return counts.frame == strip.frame; };
     const auto keyframe = std::ranges::find_if(film.counts().keyframes, is_here);
     if (keyframe == film.counts().keyframes.end()) continue;
-    const FrameTotals totals = totals_of(*keyframe);
+    const FrameTotals totals = totals_of(*keyframe, 1);
     EXPECT_EQ(totals.made[wire::Work::triangle], static_cast<double>(strip.work.triangles));
     EXPECT_EQ(totals.made[wire::Work::edge_box_made], static_cast<double>(strip.work.edge_boxes_diced));
     EXPECT_EQ(totals.drawn.edge_boxes, static_cast<double>(strip.edge_box_total));
@@ -116,7 +129,8 @@ TEST(Forecast, OfFewFramesCountedIsCloseToThatOfAll) {
   const wire::FilmView view = film.view();
   Setting setting{view, film.platform()};
   setting.files = false;
-  const FilmCounts few = count_film(view, film.tasks(), *programs::make_node_counter(view), {10, 0.05});
+  const FilmCounts few =
+      count_film(view, film.tasks(), *programs::make_node_counter(view), {10, 0.05}, images::PictureFormat::png);
   EXPECT_LT(few.counted, 10u);
   EXPECT_NEAR(forecast(few, film.tasks(), setting, 4, 1).run.seconds, film.forecast(4, 1).run.seconds,
               0.1 * film.forecast(4, 1).run.seconds);

@@ -2,32 +2,38 @@
 
 #include <array>
 
+#include "hal/nx/nx_messages.h"
 #include "hal/simulated/run_simulated.h"
 #include "host/content/film/frame_set.h"
+#include "host/programs/counted_writer.h"
 #include "host/programs/node_counter.h"
-#include "host/render/sinks/served_sinks.h"
+#include "host/programs/simulated_files.h"
+#include "host/render/sinks/counted_files.h"
 #include "node/firmware.h"
 
 namespace mars::forecast {
 namespace {
 
-film::CompiledFilm small_film(const std::string& name) {
+film::CompiledFilm small_film(const std::string& name, Files files) {
   film::CompileOptions options;
-  options.size = std::array<std::uint32_t, 2>{160, 90};
+  options.size = files == Files::none ? std::array<std::uint32_t, 2>{160, 90} : std::array<std::uint32_t, 2>{640, 360};
   return film::load_film(std::string(MARS_SOURCE_DIR) + "/examples/" + name + ".json", options);
 }
 
 }  // namespace
 
-SimulatedFilm::SimulatedFilm(const std::string& name, const std::string& frames, const std::string& platform)
-    : film_(small_film(name)),
+SimulatedFilm::SimulatedFilm(const std::string& name, const std::string& frames, const std::string& platform,
+                             Files files)
+    : files_(files),
+      film_(small_film(name, files)),
       platform_(experiments::read_platform(platform, std::string(MARS_SOURCE_DIR) + "/cluster/platforms")),
       tasks_(farm::make_tasks(view(), film::FrameSet(frames).of_film(view().settings().frames), true)),
-      counts_(count_film(view(), tasks_, *programs::make_node_counter(view()), {10})) {}
+      counts_(count_film(view(), tasks_, *programs::make_node_counter(view()), {10}, images::PictureFormat::png)) {}
 
 Setting SimulatedFilm::setting(const wire::FilmView& film) const {
   Setting setting{film, platform_};
-  setting.files = false;
+  setting.files = files_ != Files::none;
+  setting.writers = files_ == Files::nodes ? Writers::nodes : Writers::host;
   return setting;
 }
 
@@ -37,27 +43,47 @@ Forecast SimulatedFilm::forecast(int nodes, std::uint32_t groups) const {
 }
 
 farm::FarmReport SimulatedFilm::render(int nodes, std::uint32_t groups) const {
-  const wire::FilmView film = view();
   const farm::Plan plan{tasks_, farm::make_groups(nodes, static_cast<int>(groups), tasks_.size())};
+  const wire::FilmSettings& settings = view().settings();
+  const images::PictureBands bands(images::PictureFormat::png, settings.width, settings.height);
+  farm::FarmReport report;
+  simulated::World* the_world = nullptr;
+  const auto host = [&](simulated::World& world) {
+    the_world = &world;
+    report = render(plan, nodes, world);
+  };
+  const auto make_writer = [&](const wire::FilmView&, std::span<const std::byte>) {
+    return std::make_unique<programs::CountedWriter>(bands, platform_, *the_world, static_cast<int>(mynode()));
+  };
+  simulated::run_simulated(platform_.machine, nodes, host, [&] {
+    node::run_node({.host = "simulated",
+                    .binding = "",
+                    .seat = {-1, -1, -1, -1, -1},
+                    .memory = platform_.memory,
+                    .simd = "",
+                    .make_frame_writer = make_writer});
+  });
+  return report;
+}
+
+farm::FarmReport SimulatedFilm::render(const farm::Plan& plan, int nodes, simulated::World& world) const {
+  const wire::FilmView film = view();
   const Setting setting = this->setting(film);
   const wire::FilmSettings& settings = film.settings();
   const farm::HostMemory memory =
       farm::share_host_memory(setting.host_budget, settings, setting.pixels(), static_cast<std::uint32_t>(nodes),
                               static_cast<std::uint32_t>(plan.groups.size()), setting.sink_threads);
-  farm::FarmReport report;
-  const auto host = [&](simulated::World& world) {
-    sinks::NullSink sink;
-    sinks::ServedSinks sinks(sink, {settings.width, settings.height, 16, memory.frames, setting.sink_threads},
-                             [&](std::uint64_t) { return world.clock(nodes); });
-    farm::FarmOptions options;
-    options.credits = memory.credits;
-    options.each_frame = true;
-    report = farm::render_film(film_.block(), plan, options, sinks, {});
-  };
-  simulated::run_simulated(platform_.machine, nodes, host, [&] {
-    node::run_node({"simulated", "", {-1, -1, -1, -1, -1}, platform_.memory, ""});
-  });
-  return report;
+  sinks::NullSink none;
+  sinks::CountedFiles files({setting.picture, settings.width, settings.height}, platform_.file_part);
+  sinks::ServedSinks sinks(files_ == Files::host ? static_cast<sinks::Sink&>(files) : none,
+                           {settings.width, settings.height, 16, memory.frames, setting.sink_threads},
+                           programs::serve_files(world, setting.picture));
+  farm::FarmOptions options;
+  const farm::Writing writing = programs::counted_writing();
+  if (files_ == Files::nodes) options.writing = &writing;
+  options.credits = memory.credits;
+  options.each_frame = true;
+  return farm::render_film(film_.block(), plan, options, sinks, {});
 }
 
 }  // namespace mars::forecast

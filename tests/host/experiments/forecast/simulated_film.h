@@ -3,16 +3,21 @@
 
 #include <string>
 
+#include "hal/simulated/world.h"
 #include "host/content/film/compile.h"
 #include "host/experiments/forecast/forecast.h"
 #include "host/render/farm/farm.h"
 
 namespace mars::forecast {
 
+// Who writes files, which are counted.
+enum class Files { none, host, nodes };
+
 class SimulatedFilm {
  public:
-  // Pictures of 160 x 90, of some frames.
-  SimulatedFilm(const std::string& name, const std::string& frames, const std::string& platform);
+  // Small pictures, of some frames; with files of several bands.
+  SimulatedFilm(const std::string& name, const std::string& frames, const std::string& platform,
+                Files files = Files::none);
 
   wire::FilmView view() const { return film_.view(); }
   const std::vector<farm::Task>& tasks() const { return tasks_; }
@@ -24,7 +29,9 @@ class SimulatedFilm {
 
  private:
   Setting setting(const wire::FilmView& film) const;
+  farm::FarmReport render(const farm::Plan& plan, int nodes, simulated::World& world) const;
 
+  const Files files_;
   film::CompiledFilm film_;
   experiments::Platform platform_;
   std::vector<farm::Task> tasks_;

@@ -7,6 +7,7 @@
 
 #include "host/images/picture_file.h"
 #include "host/render/compositor/compositor.h"
+#include "host/render/sinks/counted_files.h"
 #include "host/render/sinks/pixel_hash.h"
 
 namespace mars::sinks {
@@ -65,6 +66,25 @@ TEST(FrameEncoder, FilesAreThoseOfWholePictures) {
     expect_plain_twin(encoder, frame);
   }
   expect_plain_twin(encoder, one.keyframe);
+}
+
+// What a simulation charges is what files take.
+TEST(CountedFiles, CountWhatIsEncoded) {
+  FrameEncoder encoder(kBands);
+  CountedFiles files(kBands, 0.5);
+  Interval real(1), counted(1);
+  compositor::Frame frame(kWidth, kHeight, kBlock), counted_frame(kWidth, kHeight, kBlock);
+  std::uint64_t encoded_bytes = 0;
+  for (std::uint32_t number = 1; number < 4; ++number) {
+    real.draw(frame, number);
+    counted.draw(counted_frame, number);
+    encoded_bytes += encoder.encode(frame).encoded_bytes;
+    files.take(counted_frame);
+  }
+  EXPECT_EQ(files.made().files, 3u);
+  EXPECT_EQ(files.made().encoded_bytes, encoded_bytes);
+  EXPECT_LT(encoded_bytes, 2u * 4 * kWidth * kHeight) << "the background once, and bands that change";
+  EXPECT_EQ(files.made().file_bytes, 3u * 2 * kWidth * kHeight);
 }
 
 TEST(FrameEncoder, EncodesTheBackgroundOnce) {

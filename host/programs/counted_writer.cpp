@@ -1,0 +1,107 @@
+#include "host/programs/counted_writer.h"
+
+#include <algorithm>
+
+#include "hal/messages/process.h"
+#include "host/render/composer/band_record.h"
+
+namespace mars::programs {
+
+using wire::Work;
+
+CountedWriter::CountedWriter(const images::PictureBands& bands, const experiments::Platform& platform,
+                             simulated::World& world, int node)
+    : bands_(bands), platform_(platform), world_(world), node_(node), touched_(bands.count()) {}
+
+void CountedWriter::charge(Work kind, std::uint64_t units) const { messages::charge(static_cast<int>(kind), units); }
+
+void CountedWriter::begin_keyframe(const Keyframe& keyframe) {
+  keyframe_ = keyframe;
+  frame_ = keyframe.frame;
+  touched_.assign(touched_.size(), false);
+  for (auto* message : {&edge_, &background_, &picture_}) message->clear();
+}
+
+void CountedWriter::begin_inbetween(std::uint32_t frame) {
+  frame_ = frame;
+  touched_.assign(touched_.size(), false);
+}
+
+// An inbetween's bands are composed and encoded where moving parts touch them.
+void CountedWriter::paste(const wire::Strip& strip, std::span<const wire::Run> runs,
+                          std::span<const std::uint32_t> pixels) {
+  std::uint64_t newly_touched = 0;
+  for (const wire::Run& run : runs.subspan(strip.constant_runs)) {
+    const std::uint32_t band = bands_.band_of(run.line);
+    if (!touched_[band]) newly_touched += pixel_bytes(bands_.lines_of(band));
+    touched_[band] = true;
+  }
+  charge(Work::host_run, runs.size());
+  charge(Work::host_byte, pixels.size_bytes());
+  if (frame_ != keyframe_.frame) charge(experiments::encoded_byte(bands_.format()), newly_touched);
+}
+
+bool CountedWriter::composes(std::uint32_t band) const {
+  const std::uint32_t first = bands_.lines_of(band).first;
+  return keyframe_.home.first <= first && first < keyframe_.home.end;
+}
+
+bool CountedWriter::inbetweens_touch(std::uint32_t band) const {
+  const images::Lines lines = bands_.lines_of(band);
+  return lines.first < keyframe_.touched.end && keyframe_.touched.first < lines.end;
+}
+
+std::size_t CountedWriter::record_bytes(std::uint32_t band) const {
+  return sizeof(composer::BandHead) +
+         static_cast<std::size_t>(platform_.file_part * static_cast<double>(pixel_bytes(bands_.lines_of(band))));
+}
+
+std::span<const std::byte> CountedWriter::edge() {
+  const std::uint32_t band = bands_.band_of(keyframe_.home.first);
+  const images::Lines lines{keyframe_.home.first, std::min(keyframe_.home.end, bands_.lines_of(band).end)};
+  edge_.resize(pixel_bytes(lines) * (touched_[band] ? 2 : 1));
+  return edge_;
+}
+
+void CountedWriter::finish_bands() {
+  std::size_t background = 0, picture = 0;
+  std::uint64_t encoded = 0;
+  for (std::uint32_t band = 0; band < bands_.count(); ++band) {
+    if (!composes(band)) continue;
+    const std::size_t pixels = pixel_bytes(bands_.lines_of(band));
+    picture += record_bytes(band);
+    encoded += pixels;
+    if (!keyframe_.has_inbetweens) continue;
+    background += record_bytes(band) + (inbetweens_touch(band) ? pixels : 0);
+    encoded += touched_[band] ? pixels : 0;
+  }
+  charge(experiments::encoded_byte(bands_.format()), encoded);
+  background_.resize(background);
+  picture_.resize(picture);
+}
+
+// A thread writes one file after another.
+void CountedWriter::write() {
+  const auto bytes =
+      static_cast<std::uint64_t>(platform_.file_part * static_cast<double>(pixel_bytes({0, bands_.height()})));
+  const double seconds = experiments::file_seconds(world_.machine(), bands_.format(), {1, 0, bytes});
+  const double begun = under_way_.empty() ? now() : std::max(now(), under_way_.back().there);
+  const double made = std::max(begun, world_.reserve(node_, seconds));
+  const double there = world_.store(node_, made, static_cast<double>(bytes));
+  under_way_.push_back({frame_, begun, there});
+  world_.set_alarm(node_, there);
+}
+
+bool CountedWriter::is_full() {
+  return std::ranges::count_if(under_way_, [this](const File& file) { return file.there > now(); }) >=
+         static_cast<std::ptrdiff_t>(wire::kMostFilesUnderWay);
+}
+
+std::optional<wire::Written> CountedWriter::take_written() {
+  if (under_way_.empty() || under_way_.front().there > now()) return std::nullopt;
+  const File file = under_way_.front();
+  under_way_.pop_front();
+  return wire::Written{file.frame, node_, {}, 0, file.there - file.begun};
+}
+
+}  // namespace mars::programs

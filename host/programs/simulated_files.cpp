@@ -1,0 +1,22 @@
+#include "host/programs/simulated_files.h"
+
+#include "host/experiments/platform.h"
+
+namespace mars::programs {
+
+sinks::ServedSinks::Serve serve_files(simulated::World& world, images::PictureFormat format) {
+  return [&world, format](const images::FileWork& work) {
+    const int host = world.nodes();
+    if (work.files == 0) return world.clock(host);
+    const double made = world.reserve(host, experiments::file_seconds(world.machine(), format, work));
+    const double there = world.store(host, made, static_cast<double>(work.file_bytes));
+    world.set_alarm(host, there);
+    return there;
+  };
+}
+
+farm::Writing counted_writing() {
+  return {std::vector<std::byte>(1), [](auto, auto) {}, [](const wire::Written&) {}};
+}
+
+}  // namespace mars::programs
