@@ -9,6 +9,8 @@ namespace {
 constexpr double kAlike = 1.01;  // times as long, a film
 constexpr double kSoon = 0.75;   // times as long, a keyframe: much sooner, as messages may wait more than is forecast
 
+constexpr int kWorseInARow = 3;  // numbers of contributors, and fewer are not tried
+
 // Both of as many nodes in as many groups.
 bool is_better(const Rehearsed& one, const Rehearsed& other) {
   if (one.seconds < other.seconds) return true;
@@ -39,9 +41,13 @@ Forecast with_groups(const FilmCounts& counts, const std::vector<farm::Task>& ta
                     experiments::middle_for(setting.platform.spread, nodes, setting.files)};
   };
   Forecast best = rehearsed(0);
-  for (std::int32_t fewer = plan.groups.front().count / 2; fewer >= 1; fewer /= 2) {
+  int worse = 0;  // in a row
+  for (std::int32_t fewer = plan.groups.front().count / 2; fewer >= 1 && worse < kWorseInARow; fewer /= 2) {
     Forecast next = rehearsed(fewer);
-    if (is_better(next.run, best.run)) best = std::move(next);
+    ++worse;
+    if (!is_better(next.run, best.run)) continue;
+    best = std::move(next);
+    worse = 0;
   }
   return best;
 }

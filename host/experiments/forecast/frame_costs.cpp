@@ -97,8 +97,7 @@ GroupKeyframe FrameCosts::keyframe(const wire::FrameCounts& counts, int nodes, i
   return keyframe;
 }
 
-NodePart FrameCosts::inbetween(const FrameTotals& totals, const wire::FrameCounts& keyframe, int nodes) const {
-  const FrameTotals again = drawn_again(keyframe, nodes);
+NodePart FrameCosts::inbetween(const FrameTotals& totals, const FrameTotals& again) const {
   const wire::UnitCounts made = totals.made + again.made;
   wire::UnitCounts units = drawn_units(totals + again);
   units[Work::line] = totals.lines + again.lines;

@@ -54,8 +54,10 @@ class FrameCosts {
 
   // Of a group of `nodes`, of which `contributors` contribute, and which then draw `inbetweens`.
   GroupKeyframe keyframe(const wire::FrameCounts& counts, int nodes, int contributors, std::size_t inbetweens) const;
-  // After such a keyframe, on a node of a group of `nodes`.
-  NodePart inbetween(const FrameTotals& totals, const wire::FrameCounts& keyframe, int nodes) const;
+  // What inbetweens after such a keyframe draw again on a node of a group of `nodes`: stationary parts on lines that are
+  // not kept.
+  FrameTotals drawn_again(const wire::FrameCounts& keyframe, int nodes) const;
+  NodePart inbetween(const FrameTotals& totals, const FrameTotals& again) const;
   // Seconds of a processor that writes a whole file, which is encoded; its bytes.
   double writing() const;
   double file_bytes() const { return setting_.platform.file_part * height() * line_bytes(); }
@@ -82,8 +84,6 @@ class FrameCosts {
   void add_bands(GroupKeyframe& keyframe, const Homes& homes, const wire::FrameCounts& counts, int contributors,
                  std::size_t inbetweens) const;
   double saving(const FrameTotals& totals) const;
-  // Stationary parts on lines that are not kept for inbetweens.
-  FrameTotals drawn_again(const wire::FrameCounts& keyframe, int nodes) const;
   bool is_kept(const wire::FrameCounts& keyframe, std::uint32_t line, const wire::StillPlan& plan) const;
   wire::StillPlan still_plan(int nodes) const;
   farm::NodeMemory memory() const;

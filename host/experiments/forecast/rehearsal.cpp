@@ -128,11 +128,12 @@ Rehearsal::Rehearsal(const FilmCounts& counts, const farm::Plan& plan, const Set
     }
   }
   for (const TaskCounts& task : counts.tasks) host_.add_costs(costs_.host_costs(task, counts.keyframes[task.keyframe]));
-  const int in_a_group = plan.groups.front().count;
+  std::vector<FrameTotals> again;
+  for (const wire::FrameCounts& keyframe : counts.keyframes)
+    again.push_back(costs_.drawn_again(keyframe, plan.groups.front().count));
   for (const TaskCounts& task : counts.tasks) {
     std::vector<NodePart>& parts = inbetweens_.emplace_back();
-    for (const FrameTotals& totals : task.inbetweens)
-      parts.push_back(costs_.inbetween(totals, counts.keyframes[task.keyframe], in_a_group));
+    for (const FrameTotals& totals : task.inbetweens) parts.push_back(costs_.inbetween(totals, again[task.keyframe]));
   }
 }
 
