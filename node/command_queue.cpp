@@ -11,7 +11,7 @@ namespace mars::node {
 namespace {
 
 constexpr long kCommands = wire::any_of(wire::kLoad, wire::kRender, wire::kCredit, wire::kStop, wire::kClock,
-                                        wire::kView, wire::kDraw, wire::kCloseView);
+                                        wire::kBeginView, wire::kDraw, wire::kCloseView);
 
 // Receives the message that was probed.
 void receive_probed(long type, std::vector<std::byte>& into) {
@@ -19,7 +19,7 @@ void receive_probed(long type, std::vector<std::byte>& into) {
   crecv(type, into.data(), static_cast<long>(into.size()));
 }
 
-// View and CloseView begin with their view.
+// BeginView and CloseView begin with their view.
 bool is_of(std::span<const std::byte> message, std::uint32_t view) {
   std::uint32_t number = 0;
   if (message.size() < sizeof number) return false;
@@ -57,7 +57,7 @@ bool CommandQueue::ends(std::uint32_t view) {
 
 // A Load stays where it is, with all that comes behind it.
 void CommandQueue::receive_ahead() {
-  while (!load_comes_ && iprobe(wire::any_of(wire::kLoad, wire::kView, wire::kDraw, wire::kCloseView)) != 0) {
+  while (!load_comes_ && iprobe(wire::any_of(wire::kLoad, wire::kBeginView, wire::kDraw, wire::kCloseView)) != 0) {
     const long type = infotype();
     load_comes_ = type == wire::kLoad;
     if (load_comes_) return;

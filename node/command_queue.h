@@ -20,7 +20,7 @@ class CommandQueue {
   std::span<const std::byte> receive();
   void reserve(std::size_t bytes) { command_.reserve(bytes); }
 
-  // Whether a View or CloseView of this view has come behind the command being executed, or a Load.
+  // Whether a BeginView or CloseView of this view has come behind the command being executed, or a Load.
   bool ends(std::uint32_t view);
 
  private:

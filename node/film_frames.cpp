@@ -8,7 +8,7 @@
 namespace mars::node {
 
 FilmFrames::FilmFrames(const wire::FilmView& film, const wire::Load& load, simd::InstructionSet set, Renderer& renderer)
-    : renderer_(renderer), view_(film, renderer.neighbours(), load.still_memory, set), boxes_(film) {}
+    : renderer_(renderer), canvas_(film, renderer.neighbours(), load.still_memory, set), boxes_(film) {}
 
 void FilmFrames::render(const wire::RenderCommand& command) {
   const wire::Render& render = command.render;
@@ -16,12 +16,12 @@ void FilmFrames::render(const wire::RenderCommand& command) {
   if (render.goes_on == 0) {
     begin_interval(command);
     const std::uint32_t frame = command.frames.front();
-    view_.scene.set_frame(frame);
-    renderer_.draw(view_, {wire::FrameKind::keyframe,
-                           frame,
-                           render.interval,
-                           {render.group_first, render.group_count},
-                           render.contributors});
+    canvas_.scene.set_frame(frame);
+    renderer_.draw(canvas_, {wire::FrameKind::keyframe,
+                             frame,
+                             render.interval,
+                             {render.group_first, render.group_count},
+                             render.contributors});
   }
   draw_inbetweens(command);
   messages::keep_to_nobody();
@@ -29,12 +29,12 @@ void FilmFrames::render(const wire::RenderCommand& command) {
 
 // Inbetweens that are left may come to any node.
 void FilmFrames::begin_interval(const wire::RenderCommand& command) {
-  view_.scene.set_interval(command.render.interval);
-  view_.still.begin_interval(command.render.interval,
-                             view_.scene.moving_line_bounds(command.frames.subspan(1), boxes_));
-  std::ranges::fill(view_.contributes, static_cast<std::uint8_t>(command.left().empty() ? 0 : 1));
+  canvas_.scene.set_interval(command.render.interval);
+  canvas_.still.begin_interval(command.render.interval,
+                               canvas_.scene.moving_line_bounds(command.frames.subspan(1), boxes_));
+  std::ranges::fill(canvas_.contributes, static_cast<std::uint8_t>(command.left().empty() ? 0 : 1));
   for (std::size_t k = 0; k < command.inbetweens().size(); ++k)
-    view_.contributes[static_cast<std::size_t>(command.contributor(k))] = 1;
+    canvas_.contributes[static_cast<std::size_t>(command.contributor(k))] = 1;
 }
 
 void FilmFrames::draw_inbetweens(const wire::RenderCommand& command) {
@@ -42,8 +42,8 @@ void FilmFrames::draw_inbetweens(const wire::RenderCommand& command) {
   const int self = static_cast<int>(mynode());
   for (std::size_t k = 0; k < inbetweens.size() && !renderer_.outbox().stopped(); ++k) {
     if (command.render.group_first + command.contributor(k) != self) continue;
-    view_.scene.set_frame(inbetweens[k]);
-    renderer_.draw(view_, {wire::FrameKind::inbetween, inbetweens[k], command.render.interval, {self, 1}, 1});
+    canvas_.scene.set_frame(inbetweens[k]);
+    renderer_.draw(canvas_, {wire::FrameKind::inbetween, inbetweens[k], command.render.interval, {self, 1}, 1});
   }
 }
 

@@ -4,7 +4,7 @@
 
 #include "node/geometry/scene.h"
 #include "node/renderer.h"
-#include "node/view.h"
+#include "node/canvas.h"
 #include "node/wire/commands.h"
 
 namespace mars::node {
@@ -22,7 +22,7 @@ class FilmFrames {
   void draw_inbetweens(const wire::RenderCommand& command);
 
   Renderer& renderer_;
-  View view_;
+  Canvas canvas_;
   const geometry::ShapeBoxes boxes_;
 };
 

@@ -101,7 +101,7 @@ void Firmware::run() {
     switch (type) {
       case wire::kLoad: load(); break;
       case wire::kRender: render(); break;
-      case wire::kView: given(views_).begin(commands_.receive()); break;
+      case wire::kBeginView: given(views_).begin(commands_.receive()); break;
       case wire::kDraw: given(views_).draw(commands_.receive()); break;
       case wire::kCloseView: given(views_).close(commands_.receive()); break;
       case wire::kCredit: renderer().outbox().receive_credit(); break;

@@ -44,37 +44,37 @@ wire::Patch& LiveViews::LiveScene::patch(std::uint32_t number) {
 LiveViews::LiveViews(const wire::FilmView& film, simd::InstructionSet set, Renderer& renderer, HasEnded has_ended)
     : film_(film), instruction_set_(set), renderer_(renderer), has_ended_(std::move(has_ended)) {}
 
-void LiveViews::begin(std::span<const std::byte> view_command) {
-  const wire::ViewCommand command = wire::read_view(view_command);
+void LiveViews::begin(std::span<const std::byte> begin_command) {
+  const wire::BeginViewCommand command = wire::read_begin_view(begin_command);
   LiveView& live = put_scene(command);
-  View& view = live.view;
-  view.scene.set_interval(0);
-  view.scene.set_frame(0);
-  std::ranges::fill(view.contributes, std::uint8_t{1});
+  Canvas& canvas = live.canvas;
+  canvas.scene.set_interval(0);
+  canvas.scene.set_frame(0);
+  std::ranges::fill(canvas.contributes, std::uint8_t{1});
   const wire::MovingParts& moving = live.scene.moving();
   const std::uint32_t picture = command.view.picture;
   if (moving.are_all())
-    view.still.begin_moving_interval(picture);
+    canvas.still.begin_moving_interval(picture);
   else
-    view.still.begin_interval(picture, {0, moving.are_none() ? 0 : live.scene.film().settings().height});
+    canvas.still.begin_interval(picture, {0, moving.are_none() ? 0 : live.scene.film().settings().height});
   const collectives::Group group = renderer_.neighbours().group();
   draw_picture(live, {wire::FrameKind::keyframe, picture, command.view.view, group, group.count});
 }
 
 // What is of the pictures' size stays where the size does.
-LiveViews::LiveView& LiveViews::put_scene(const wire::ViewCommand& command) {
+LiveViews::LiveView& LiveViews::put_scene(const wire::BeginViewCommand& command) {
   const auto [number, picture, bytes, still_memory] = command.view;
   LiveScene scene(command.scene, film_);
   const auto known = views_.find(number);
   if (known != views_.end() && known->second.still_memory == still_memory &&
       are_alike(known->second.scene.film().settings(), scene.film().settings())) {
-    known->second.view.scene = geometry::Scene(scene.film());
+    known->second.canvas.scene = geometry::Scene(scene.film());
     known->second.scene = std::move(scene);
     return known->second;
   }
   if (known != views_.end()) views_.erase(known);
-  View view(scene.film(), renderer_.neighbours(), still_memory, instruction_set_);
-  return views_.emplace(number, LiveView{std::move(scene), still_memory, std::move(view)}).first->second;
+  Canvas canvas(scene.film(), renderer_.neighbours(), still_memory, instruction_set_);
+  return views_.emplace(number, LiveView{std::move(scene), still_memory, std::move(canvas)}).first->second;
 }
 
 void LiveViews::draw(std::span<const std::byte> draw_command) {
@@ -85,13 +85,13 @@ void LiveViews::draw(std::span<const std::byte> draw_command) {
   if (renderer_.outbox().stopped()) return;
   LiveView& live = views_.at(command.draw.view);
   live.scene.put(command.patches);
-  live.view.scene.move(command.segments);
+  live.canvas.scene.move(command.segments);
   const auto self = static_cast<int>(mynode());
   draw_picture(live, {wire::FrameKind::inbetween, command.draw.picture, command.draw.view, {self, 1}, 1});
 }
 
 void LiveViews::draw_picture(LiveView& live, const Frame& frame) {
-  renderer_.draw(live.view, frame, [&] { return has_ended_(frame.interval); });
+  renderer_.draw(live.canvas, frame, [&] { return has_ended_(frame.interval); });
 }
 
 void LiveViews::close(std::span<const std::byte> close_command) {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "node/renderer.h"
-#include "node/view.h"
+#include "node/canvas.h"
 #include "node/wire/commands.h"
 #include "node/wire/scene.h"
 
@@ -24,7 +24,7 @@ class LiveViews {
   LiveViews(const wire::FilmView& film, simd::InstructionSet set, Renderer& renderer, HasEnded has_ended);
 
   // Each executes a command of this kind.
-  void begin(std::span<const std::byte> view_command);
+  void begin(std::span<const std::byte> begin_command);
   void draw(std::span<const std::byte> draw_command);
   void close(std::span<const std::byte> close_command);
 
@@ -51,10 +51,10 @@ class LiveViews {
   struct LiveView {
     LiveScene scene;
     std::uint64_t still_memory;
-    View view;
+    Canvas canvas;
   };
 
-  LiveView& put_scene(const wire::ViewCommand& command);
+  LiveView& put_scene(const wire::BeginViewCommand& command);
   void draw_picture(LiveView& live, const Frame& frame);
 
   wire::FilmView film_;

@@ -48,8 +48,8 @@ void Renderer::finish() {
 
 // The thesis's four steps: triangles, homes for the scanlines, triangles to their homes, scanlines. An inbetween takes
 // them with moving parts only, by one node, which is the home of all lines.
-void Renderer::draw(View& view, const Frame& frame, const HasEnded& has_ended) {
-  begin(view, frame, has_ended);
+void Renderer::draw(Canvas& canvas, const Frame& frame, const HasEnded& has_ended) {
+  begin(canvas, frame, has_ended);
   Tessellation own = tessellate_all();
   group::Pass pass{0, map_to_homes(own.made)};
   if (pass.count == 1 && parts_.empty())
@@ -65,8 +65,8 @@ void Renderer::draw(View& view, const Frame& frame, const HasEnded& has_ended) {
   send_trace();
 }
 
-void Renderer::begin(View& view, const Frame& frame, const HasEnded& has_ended) {
-  view_ = &view;
+void Renderer::begin(Canvas& canvas, const Frame& frame, const HasEnded& has_ended) {
+  canvas_ = &canvas;
   has_ended_ = &has_ended;
   group_ = frame.group;
   contributors_ = static_cast<std::size_t>(frame.contributors);
@@ -79,7 +79,7 @@ void Renderer::begin(View& view, const Frame& frame, const HasEnded& has_ended) 
 Tessellation Renderer::tessellate_all() {
   memory_.begin_frame();
   parts_.clear();
-  std::ranges::fill(view_->wanted_lines, std::uint8_t{1});
+  std::ranges::fill(canvas_->wanted_lines, std::uint8_t{1});
   const Tessellation own = tessellate();
   report_.strip().work.triangles = own.made.triangles;
   report_.strip().work.edge_boxes_diced = own.made.edge_boxes;
@@ -92,7 +92,7 @@ Tessellation Renderer::tessellate_all() {
 Tessellation Renderer::tessellate_part(const group::Pass& pass) {
   report_.note_memory(memory_.arena().peak());
   memory_.begin_frame();
-  group::mark_lines(homes(), pass, view_->wanted_lines);
+  group::mark_lines(homes(), pass, canvas_->wanted_lines);
   const Tessellation own = tessellate();
   check(own.all_stored, "a pass's triangles fit the memory planned for it");
   fill_own_lines(own.polygons);
@@ -104,12 +104,13 @@ Tessellation Renderer::tessellate_part(const group::Pass& pass) {
 Tessellation Renderer::tessellate() {
   const PhaseScope dice = phase(wire::Phase::dice);
   const Scatter scatter{static_cast<std::uint32_t>(member()), static_cast<std::uint32_t>(contributors_)};
-  const LineTable lines{view_->wanted_lines, report_.is_keyframe() ? view_->wanted_lines : unkept_lines(),
-                        view_->line_loads};
+  const LineTable lines{canvas_->wanted_lines, report_.is_keyframe() ? canvas_->wanted_lines : unkept_lines(),
+                        canvas_->line_loads};
   const Tessellation own = tessellator_.tessellate(scene(), scatter, lines, {memory_.arena(), memory_.first_triangle()},
                                                    report_.strip().work);
-  std::transform_inclusive_scan(view_->line_loads.begin(), view_->line_loads.end(), view_->line_totals.begin() + 1,
-                                std::plus<>(), [](const raster::LineLoad& load) { return load.boxes(); });
+  std::transform_inclusive_scan(canvas_->line_loads.begin(), canvas_->line_loads.end(),
+                                canvas_->line_totals.begin() + 1, std::plus<>(),
+                                [](const raster::LineLoad& load) { return load.boxes(); });
   charge_tessellation(report_, scene(), own);
   report_.charge(wire::Work::fresh_byte, memory_.arena().take_fresh());
   return own;
@@ -118,54 +119,54 @@ Tessellation Renderer::tessellate() {
 // Those of the pass on which an inbetween needs stationary parts; none where all are kept.
 std::span<const std::uint8_t> Renderer::unkept_lines() {
   bool any = false;
-  const geometry::LineRange lines = view_->still.lines();
-  for (std::uint32_t line = 0; line < view_->wanted_lines.size(); ++line) {
-    const bool unkept = view_->wanted_lines[line] == 1 && lines.has(line) && !view_->still.keeps(line);
-    view_->wanted_still_lines[line] = unkept ? 1 : 0;
+  const geometry::LineRange lines = canvas_->still.lines();
+  for (std::uint32_t line = 0; line < canvas_->wanted_lines.size(); ++line) {
+    const bool unkept = canvas_->wanted_lines[line] == 1 && lines.has(line) && !canvas_->still.keeps(line);
+    canvas_->wanted_still_lines[line] = unkept ? 1 : 0;
     any |= unkept;
   }
-  return any ? view_->wanted_still_lines : std::span<const std::uint8_t>();
+  return any ? canvas_->wanted_still_lines : std::span<const std::uint8_t>();
 }
 
 bool Renderer::can_fill(const Tessellation& own) const {
   const std::uint64_t needed = group::own_bytes(own.made, triangles_travel()) +
-                               group::fixed_bytes(view_->line_loads.size(), static_cast<std::size_t>(group_.count));
-  return view_->line_totals.back() == own.made.edge_boxes && needed <= memory_.frame_bytes();
+                               group::fixed_bytes(canvas_->line_loads.size(), static_cast<std::size_t>(group_.count));
+  return canvas_->line_totals.back() == own.made.edge_boxes && needed <= memory_.frame_bytes();
 }
 
 void Renderer::fill_own_lines(const raster::Polygons& own) {
   const PhaseScope fill = phase(wire::Phase::fill);
-  raster::LineFiller filler({0, static_cast<std::uint32_t>(view_->line_loads.size())}, view_->line_totals,
+  raster::LineFiller filler({0, static_cast<std::uint32_t>(canvas_->line_loads.size())}, canvas_->line_totals,
                             memory_.first_triangle(), memory_.arena());
   filler.add(own);
   parts_.assign(1, filler.finish());
   memory_.publish(parts_.front());
-  report_.charge(wire::Work::edge_box_filled, view_->line_totals.back());
+  report_.charge(wire::Work::edge_box_filled, canvas_->line_totals.back());
 }
 
 std::uint32_t Renderer::map_to_homes(const group::MadeCounts& made) {
   sum_up(made);
   const PhaseScope map = phase(wire::Phase::map);
-  const auto weights = view_->sums.weights(mapping_);
+  const auto weights = canvas_->sums.weights(mapping_);
   const auto drawing = homes().first(contributors_);
   group::map_lines(mapping_, weights, drawing);
-  const auto height = static_cast<std::uint32_t>(view_->line_loads.size());
+  const auto height = static_cast<std::uint32_t>(canvas_->line_loads.size());
   std::ranges::fill(homes().subspan(contributors_), geometry::LineRange{height, height});
   report_.strip().load_ratio = group::load_ratio(weights, drawing);
-  report_.strip().work.samples = view_->sums.samples_on(homes()[member()]);
-  const std::uint32_t passes = group::agree_on_passes(
-      {group_, view_->sums.ebc(), homes(), view_->sums.large(), view_->line_loads, made.triangles, triangles_travel()},
-      memory_.frame_bytes());
+  report_.strip().work.samples = canvas_->sums.samples_on(homes()[member()]);
+  const std::uint32_t passes = group::agree_on_passes({group_, canvas_->sums.ebc(), homes(), canvas_->sums.large(),
+                                                       canvas_->line_loads, made.triangles, triangles_travel()},
+                                                      memory_.frame_bytes());
   report_.strip().work.passes = passes;
-  report_.charge(wire::Work::line_mapped, view_->line_loads.size());
+  report_.charge(wire::Work::line_mapped, canvas_->line_loads.size());
   return passes;
 }
 
 void Renderer::sum_up(const group::MadeCounts& made) {
   const bool large = group::is_large(group::own_bytes(made, triangles_travel()), memory_.frame_bytes());
   const PhaseScope sum = phase(wire::Phase::sum);
-  view_->sums.add_up(group_, {view_->line_loads, made.edge_boxes, large});
-  report_.strip().edge_box_total = view_->sums.ebc().back();
+  canvas_->sums.add_up(group_, {canvas_->line_loads, made.edge_boxes, large});
+  report_.strip().edge_box_total = canvas_->sums.ebc().back();
 }
 
 // Neighbours read each other's edge boxes where they lie; the others' are sent.
@@ -184,7 +185,7 @@ geometry::LineRange Renderer::exchange_triangles(const raster::Polygons& own, co
 
 void Renderer::send_triangles(const raster::Polygons& own, std::span<const geometry::LineRange> homes_now) {
   const PhaseScope exchange = phase(wire::Phase::exchange);
-  view_->triangle_exchange.send_triangles(group_, own, homes_now, view_->line_loads, memory_);
+  canvas_->triangle_exchange.send_triangles(group_, own, homes_now, canvas_->line_loads, memory_);
   memory_.read_published(parts_);
 }
 
@@ -193,15 +194,15 @@ void Renderer::receive_triangles(const geometry::LineRange& lines) {
   const auto totals = memory_.arena().take<std::uint64_t>(lines.count() + 1);
   totals[0] = 0;
   for (std::uint32_t i = 0; i < lines.count(); ++i) {
-    const std::uint64_t all = view_->sums.ebc()[lines.first + i + 1] - view_->sums.ebc()[lines.first + i];
+    const std::uint64_t all = canvas_->sums.ebc()[lines.first + i + 1] - canvas_->sums.ebc()[lines.first + i];
     std::uint64_t there = 0;
     for (const raster::LineBoxes& part : parts_) there += part.of(lines.first + i).size();
     if (there > all) throw Failure("nodes' counts of edge boxes make no sense", "", "please report it");
-    view_->awaited[i] = all - there;
-    totals[i + 1] = totals[i] + view_->awaited[i];
+    canvas_->awaited[i] = all - there;
+    totals[i + 1] = totals[i] + canvas_->awaited[i];
   }
   const wire::FilmView& film = scene().film();
-  group::AwaitedTriangles awaited{lines, std::span(view_->awaited).first(lines.count()), film.settings().width,
+  group::AwaitedTriangles awaited{lines, std::span(canvas_->awaited).first(lines.count()), film.settings().width,
                                   film.settings().samples, film.materials().size()};
   raster::LineFiller filler(lines, totals, memory_.first_triangle(), memory_.arena());
   for (std::uint64_t left = totals.back(); left > 0;) {
@@ -218,7 +219,7 @@ void Renderer::receive_triangles(const geometry::LineRange& lines) {
 
 raster::Polygons Renderer::receive_some(group::AwaitedTriangles& awaited) {
   const PhaseScope exchange = phase(wire::Phase::exchange);
-  return view_->triangle_exchange.receive_triangles(memory_, awaited);
+  return canvas_->triangle_exchange.receive_triangles(memory_, awaited);
 }
 
 void Renderer::draw_lines(const geometry::LineRange& lines, const group::Pass& pass) {
@@ -256,15 +257,15 @@ std::uint32_t Renderer::draw_strip(const geometry::LineRange& lines, const shadi
     }
     const geometry::LineRange some{line, std::min(line + std::min(out.lines_that_fit(), kLinesABeat), lines.last)};
     if (report_.is_keyframe())
-      view_->z_buffer.draw_keyframe(parts_, some, shading, view_->still, out);
+      canvas_->z_buffer.draw_keyframe(parts_, some, shading, canvas_->still, out);
     else
       report_.strip().work.lines_drawn_again +=
-          view_->z_buffer.draw_inbetween(parts_, some, shading, view_->still, out);
+          canvas_->z_buffer.draw_inbetween(parts_, some, shading, canvas_->still, out);
     line = some.last;
   }
   const geometry::LineRange drawn{lines.first, line};
   charge_lines(report_, scene(),
-               {drawn, parts_, view_->sums.samples_on(drawn), out.pixel_count(), view_->z_buffer.take_counts()});
+               {drawn, parts_, canvas_->sums.samples_on(drawn), out.pixel_count(), canvas_->z_buffer.take_counts()});
   return line;
 }
 
@@ -273,7 +274,7 @@ void Renderer::finish_exchange(const group::Pass& pass) {
   if (!pass.is_last()) return;
   if (report_.is_keyframe() && group_.count > 1) {
     const PhaseScope depth = phase(wire::Phase::depth);
-    view_->still_exchange.complete({group_, homes(), view_->contributes}, view_->still);
+    canvas_->still_exchange.complete({group_, homes(), canvas_->contributes}, canvas_->still);
   }
   if (file_output_) finish_writing();
 }
@@ -290,13 +291,13 @@ void Renderer::begin_writing() {
   const wire::FilmSettings& settings = film.settings();
   const auto encoding =
       color::encoding_of(settings, film.camera_at(film.intervals()[strip.interval].first_frame), pixel_format_);
-  const geometry::LineRange home = homes()[member()], touched = view_->still.lines();
+  const geometry::LineRange home = homes()[member()], touched = canvas_->still.lines();
   file_output_->writer().begin_keyframe({strip.frame,
                                          strip.interval,
                                          {home.first, home.last},
                                          color::pixel_of(encoding, settings.background.data()),
                                          {touched.first, touched.last},
-                                         std::ranges::count(view_->contributes, 1) > 0});
+                                         std::ranges::count(canvas_->contributes, 1) > 0});
 }
 
 void Renderer::paste_strip(const geometry::LineRange& lines) {
@@ -311,7 +312,7 @@ void Renderer::finish_writing() {
   if (report_.is_keyframe()) {
     const PhaseScope compose = phase(wire::Phase::compose);
     const int writer = keyframe_writer();
-    file_output_->exchange_bands({group_, homes(), view_->contributes, writer});
+    file_output_->exchange_bands({group_, homes(), canvas_->contributes, writer});
     is_whole = writer == static_cast<int>(mynode());
   }
   const PhaseScope storage = phase(wire::Phase::storage);
@@ -320,7 +321,7 @@ void Renderer::finish_writing() {
 
 void Renderer::finish_triangles() {
   const PhaseScope exchange = phase(wire::Phase::exchange);
-  view_->triangle_exchange.finish();
+  canvas_->triangle_exchange.finish();
 }
 
 void Renderer::send_strip(const geometry::LineRange& lines, bool last) {
@@ -338,7 +339,7 @@ void Renderer::send_strip(const geometry::LineRange& lines, bool last) {
 std::span<const std::uint32_t> Renderer::watched_edge_boxes(const geometry::LineRange& lines) {
   if (!is_watched_) return {};
   watched_.resize(lines.count());
-  const auto ebc = view_->sums.ebc().subspan(lines.first, lines.count() + 1);
+  const auto ebc = canvas_->sums.ebc().subspan(lines.first, lines.count() + 1);
   std::transform(ebc.begin() + 1, ebc.end(), ebc.begin(), watched_.begin(),
                  [](std::uint64_t to, std::uint64_t from) { return static_cast<std::uint32_t>(to - from); });
   return watched_;

@@ -21,7 +21,7 @@
 #include "node/raster/neighbours.h"
 #include "node/tessellator.h"
 #include "node/tracer.h"
-#include "node/view.h"
+#include "node/canvas.h"
 #include "node/wire/protocol.h"
 
 namespace mars::node {
@@ -47,7 +47,7 @@ class Renderer {
 
   // Draws the caller's share of the view's scene as it is now, and sends it; once it `has_ended`, sends no more of it
   // but its last strip. Collective over the frame's group.
-  void draw(View& view, const Frame& frame, const HasEnded& has_ended = {});
+  void draw(Canvas& canvas, const Frame& frame, const HasEnded& has_ended = {});
 
   const raster::Neighbours& neighbours() const { return neighbours_; }
 
@@ -65,7 +65,7 @@ class Renderer {
   std::uint32_t frame() const { return report_.strip().frame; }
 
  private:
-  void begin(View& view, const Frame& frame, const HasEnded& has_ended);
+  void begin(Canvas& canvas, const Frame& frame, const HasEnded& has_ended);
   Tessellation tessellate_all();
   Tessellation tessellate_part(const group::Pass& pass);
   Tessellation tessellate();
@@ -101,7 +101,7 @@ class Renderer {
   std::span<const std::uint32_t> watched_edge_boxes(const geometry::LineRange& lines);
 
   PhaseScope phase(wire::Phase phase) { return {phase, heartbeat_, report_}; }
-  geometry::Scene& scene() const { return view_->scene; }
+  geometry::Scene& scene() const { return canvas_->scene; }
   bool has_ended() const { return *has_ended_ && (*has_ended_)(); }
   std::size_t member() const;  // the caller's index in the group
   std::size_t group_size() const;
@@ -124,7 +124,7 @@ class Renderer {
   bool is_first_ = true;  // of all frames
 
   // Of the current frame.
-  View* view_ = nullptr;  // that it is of
+  Canvas* canvas_ = nullptr;  // that it is of
   const HasEnded* has_ended_ = nullptr;
   collectives::Group group_;              // that draws it
   std::size_t contributors_ = 1;          // of it

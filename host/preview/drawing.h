@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "host/images/png_file.h"
-#include "host/preview/view.h"
+#include "host/preview/wireframe.h"
 
 namespace mars::preview {
 

@@ -76,30 +76,30 @@ Color line_color(const Color& color) {
   return lifted;
 }
 
-FilmDrawing::FilmDrawing(const View& view) : view_(view), grid_(ground_under(view.subject)) {
-  for (const Part& part : view.parts[0]) moving_ = moving_ || part.motion.count > 1;
+FilmDrawing::FilmDrawing(const Wireframe& wireframe) : wireframe_(wireframe), grid_(ground_under(wireframe.subject)) {
+  for (const Part& part : wireframe.parts[0]) moving_ = moving_ || part.motion.count > 1;
 }
 
 void FilmDrawing::draw(Drawing& drawing, As as, std::uint32_t frame, const wire::Camera& camera, std::uint32_t pen,
                        bool ground, std::span<const Cover> covers, const Posed& posed) const {
-  const double middle = distance_along(camera, view_.subject.center);
-  drawing.begin(camera, kPaper, middle - view_.subject.radius, middle + view_.subject.radius);
-  for (const Cover& cover : covers) drawing.cover(*cover.facets, cover.to_world, kBehind * view_.subject.radius);
+  const double middle = distance_along(camera, wireframe_.subject.center);
+  drawing.begin(camera, kPaper, middle - wireframe_.subject.radius, middle + wireframe_.subject.radius);
+  for (const Cover& cover : covers) drawing.cover(*cover.facets, cover.to_world, kBehind * wireframe_.subject.radius);
   if (ground) drawing.draw(grid_, kWorld, kGround, {pen, 1});
   const bool small = drawing.image().height < 200 * pen;  // a terminal's characters: dots would hide all else
   const Stroke sticks{pen > 1 && !small ? 2 * pen : pen, small ? pen + 1 : 3 * pen};
   const Stroke thin{pen, small ? 1 : pen + 1};
-  for (const Part& part : view_.parts[static_cast<std::size_t>(as)]) {
-    Color color = line_color(view_.colors[view_.value_at(part.look, frame)]);
+  for (const Part& part : wireframe_.parts[static_cast<std::size_t>(as)]) {
+    Color color = line_color(wireframe_.colors[wireframe_.value_at(part.look, frame)]);
     const bool selected = part.joint.joint != modeler::kNone && part.joint == posed.selected;
-    const Placing& in_film = view_.matrices[view_.value_at(part.motion, frame)];
+    const Placing& in_film = wireframe_.matrices[wireframe_.value_at(part.motion, frame)];
     const Placing at = posed_placing(part, posed).value_or(in_film);
     const bool scenery = moving_ && part.motion.count == 1 && at == in_film;
     if (selected) color = bright(color);
     if (scenery && !selected) color = dim(color);
     Stroke stroke = as == As::stick && !scenery ? sticks : thin;
     if (selected) stroke = {stroke.line + pen, stroke.dot + pen};
-    drawing.draw(view_.lines[part.lines], at, color, stroke);
+    drawing.draw(wireframe_.lines[part.lines], at, color, stroke);
   }
   if (ground) draw_axes(drawing, camera, pen);
 }

@@ -6,7 +6,7 @@
 
 #include "host/content/animator/pose/actor_state.h"
 #include "host/preview/drawing.h"
-#include "host/preview/view.h"
+#include "host/preview/wireframe.h"
 
 namespace mars::preview {
 
@@ -29,8 +29,8 @@ struct Posed {
 
 class FilmDrawing {
  public:
-  // `view` must outlive it.
-  explicit FilmDrawing(const View& view);
+  // `wireframe` must outlive it.
+  explicit FilmDrawing(const Wireframe& wireframe);
 
   // Not As::surface. What never moves is dim where something does. `pen`: pixels a line is wide. `ground`: a grid at
   // height 0 beneath it all, and the world's axes in the corner (x red, y green, z blue). Lines behind `covers` are
@@ -41,7 +41,7 @@ class FilmDrawing {
  private:
   void draw_axes(Drawing& drawing, const wire::Camera& camera, std::uint32_t pen) const;
 
-  const View& view_;
+  const Wireframe& wireframe_;
   Lines grid_;
   bool moving_ = false;  // anything in the film
 };

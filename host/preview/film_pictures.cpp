@@ -26,24 +26,24 @@ void paste(const images::Image& from, images::Image& to, std::uint32_t x, std::u
 
 }  // namespace
 
-FilmPictures::FilmPictures(const View& view, SurfaceSource& surface, const Look& look) : look_(look) {
-  change_film(view, surface);
+FilmPictures::FilmPictures(const Wireframe& wireframe, SurfaceSource& surface, const Look& look) : look_(look) {
+  change_film(wireframe, surface);
 }
 
-void FilmPictures::change_film(const View& view, SurfaceSource& surface) {
-  view_ = &view;
+void FilmPictures::change_film(const Wireframe& wireframe, SurfaceSource& surface) {
+  wireframe_ = &wireframe;
   surface_ = &surface;
-  lines_.emplace(view);
+  lines_.emplace(wireframe);
   aim_.reset();
 }
 
 wire::Camera FilmPictures::camera(std::uint32_t frame, double aspect) const {
   if (look_.from != From::camera || orbit_) {
-    Orbit orbit = orbit_ ? *orbit_ : orbit_from(look_.from, view_->subject, aspect);
+    Orbit orbit = orbit_ ? *orbit_ : orbit_from(look_.from, wireframe_->subject, aspect);
     orbit.distance /= zoom_;
     return camera_of(orbit);
   }
-  wire::Camera camera = view_->camera_at(frame);
+  wire::Camera camera = wireframe_->camera_at(frame);
   camera.focal *= zoom_;
   return camera;
 }
@@ -76,7 +76,7 @@ SharedImage FilmPictures::rendered(std::uint32_t frame, images::PictureSize exte
   if (!aim_ || *aim_ != aim) {
     std::vector<std::uint32_t> frames = look_.frames;
     if (frames.empty()) {
-      frames.resize(view_->frames);
+      frames.resize(wireframe_->frames);
       std::iota(frames.begin(), frames.end(), 0u);
       std::rotate(frames.begin(), frames.begin() + frame, frames.end());
     }
@@ -103,8 +103,8 @@ SharedImage FilmPictures::all(std::uint32_t frame, images::PictureSize extent) {
 
 Orbit& FilmPictures::orbit(std::uint32_t frame) {
   if (!orbit_)
-    orbit_ = look_.from == From::camera ? orbit_near(view_->camera_at(frame), view_->subject)
-                                        : orbit_from(look_.from, view_->subject, aspect_);
+    orbit_ = look_.from == From::camera ? orbit_near(wireframe_->camera_at(frame), wireframe_->subject)
+                                        : orbit_from(look_.from, wireframe_->subject, aspect_);
   return *orbit_;
 }
 
@@ -152,7 +152,7 @@ std::string FilmPictures::state() const {
   constexpr std::array<const char*, 4> from{"camera", "front", "side", "top"};
   std::string text =
       std::string(name_of(look_.as)) + ", " + (orbit_ ? "turned" : from[static_cast<std::size_t>(look_.from)]);
-  if (look_.as == As::stick && view_->sticks_of_prisms) text += ", sticks from prisms";
+  if (look_.as == As::stick && wireframe_->sticks_of_prisms) text += ", sticks from prisms";
   return text;
 }
 

@@ -23,17 +23,17 @@ struct Look {
 class FilmPictures : public Pictures {
  public:
   // Both must outlive it.
-  FilmPictures(const View& view, SurfaceSource& surface, const Look& look);
+  FilmPictures(const Wireframe& wireframe, SurfaceSource& surface, const Look& look);
 
   // What a person's hand changes, from the next picture on.
   void pose(Posed posed) { posed_ = std::move(posed); }
 
   // Another film from now on, seen as the one before. Both must outlive it.
-  void change_film(const View& view, SurfaceSource& surface);
+  void change_film(const Wireframe& wireframe, SurfaceSource& surface);
 
-  std::uint32_t frames() const override { return view_->frames; }
-  double rate() const override { return view_->rate; }
-  images::PictureSize extent() const override { return {view_->width, view_->height}; }
+  std::uint32_t frames() const override { return wireframe_->frames; }
+  double rate() const override { return wireframe_->rate; }
+  images::PictureSize extent() const override { return {wireframe_->width, wireframe_->height}; }
   SharedImage picture(std::uint32_t frame, images::PictureSize extent) override;
   bool complete() const override { return complete_; }
   bool handle_key(const KeyPress& key, std::uint32_t frame) override;
@@ -59,7 +59,7 @@ class FilmPictures : public Pictures {
   bool look_from(From from);
   Orbit& orbit(std::uint32_t frame);
 
-  const View* view_ = nullptr;
+  const Wireframe* wireframe_ = nullptr;
   SurfaceSource* surface_ = nullptr;
   std::optional<FilmDrawing> lines_;  // of view_
   Posed posed_;

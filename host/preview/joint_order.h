@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "host/content/animator/pose/film.h"
-#include "host/preview/view.h"
+#include "host/preview/wireframe.h"
 
 namespace mars::preview {
 

@@ -18,16 +18,16 @@ bool is_model(const document::Element& root) {
 Previewed load_previewed(const std::filesystem::path& path) {
   if (film::is_compiled_film(path)) {
     film::CompiledFilm film = film::load_compiled_film(path);
-    View view = view_of(film, nullptr);
-    return {std::move(film), std::move(view)};
+    Wireframe wireframe = wireframe_of(film, nullptr);
+    return {std::move(film), std::move(wireframe)};
   }
   const document::Document document = document::read_document(path);
   const bool model = is_model(document.root());
   animator::Film source = model ? turntable(modeler::read_own_model(document.root()), path.string())
                                 : animator::read_film(document.root(), path.parent_path());
   film::CompiledFilm film = film::compile(source);
-  View view = view_of(film, &source);
-  return {std::move(film), std::move(view), std::move(source), model};
+  Wireframe wireframe = wireframe_of(film, &source);
+  return {std::move(film), std::move(wireframe), std::move(source), model};
 }
 
 }  // namespace mars::preview

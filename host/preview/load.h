@@ -4,13 +4,13 @@
 #include <filesystem>
 #include <optional>
 
-#include "host/preview/view.h"
+#include "host/preview/wireframe.h"
 
 namespace mars::preview {
 
 struct Previewed {
   film::CompiledFilm film;                 // for the renderer
-  View view;                               // for everything else
+  Wireframe wireframe;                     // for everything else
   std::optional<animator::Film> source{};  // what `film` was compiled from; none of a .mars file
   bool is_model = false;                   // a model file alone, in a film made around it
 };

@@ -13,7 +13,7 @@ ReloadingPictures::ReloadingPictures(std::filesystem::path path, std::unique_ptr
       make_surface_(std::move(make_surface)),
       pose_keys_(*film_, path),
       surface_(std::make_unique<PosedSurface>(*film_, pose_keys_.pose(), make_surface_)),
-      pictures_(film_->view, *surface_, look),
+      pictures_(film_->wireframe, *surface_, look),
       reloader_(std::move(path), std::move(read)) {}
 
 bool ReloadingPictures::renew() {
@@ -21,7 +21,7 @@ bool ReloadingPictures::renew() {
   if (!film) return false;
   auto surface = std::make_unique<PosedSurface>(*film, pose_keys_.pose(), make_surface_);
   pose_keys_.change_film(*film);
-  pictures_.change_film(film->view, *surface);
+  pictures_.change_film(film->wireframe, *surface);
   surface_ = std::move(surface);  // the old one first: it still renders the old film
   film_ = std::move(film);
   return true;

@@ -105,7 +105,7 @@ animator::Film turntable(modeler::Model model, const std::string& source) {
   film.lights = animator::rig_lights(film);
   film.ambient = animator::rig_ambient(film.color);
   film.frames = 1;
-  const Ball ball = view_of(film::compile(film), &film).whole;  // its size is known when it is compiled
+  const Ball ball = wireframe_of(film::compile(film), &film).whole;  // its size is known when it is compiled
   film.frames = kFrames;
   Orbit orbit = orbit_from(From::front, ball, 1);
   orbit.height = 12;

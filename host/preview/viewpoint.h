@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "host/content/film/compile.h"
-#include "host/preview/view.h"
+#include "host/preview/wireframe.h"
 #include "node/wire/film_parts.h"
 
 namespace mars::preview {

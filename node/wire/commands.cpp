@@ -109,10 +109,10 @@ RenderCommand read_render(std::span<const std::byte> message, const FilmView& fi
   return {render, all, cycle};
 }
 
-ViewCommand read_view(std::span<const std::byte> message) {
-  constexpr auto kName = "View";
-  require(message.size() >= sizeof(View), kName, "its size");
-  const auto& view = *reinterpret_cast<const View*>(message.data());
+BeginViewCommand read_begin_view(std::span<const std::byte> message) {
+  constexpr auto kName = "BeginView";
+  require(message.size() >= sizeof(BeginView), kName, "its size");
+  const auto& view = *reinterpret_cast<const BeginView*>(message.data());
   require(view.view < kMostViews, kName, "the view");
   require(view.scene_bytes == message.size() - sizeof view, kName, "the scene's size");
   return {view, message.subspan(sizeof view)};

@@ -58,12 +58,12 @@ RenderCommand read_render(std::span<const std::byte> message, const FilmView& fi
                           std::vector<std::uint32_t>& frames);
 
 // A view's, and its scene's block behind it.
-struct ViewCommand {
-  const View& view;
+struct BeginViewCommand {
+  const BeginView& view;
   std::span<const std::byte> scene;
 };
 
-ViewCommand read_view(std::span<const std::byte> message);
+BeginViewCommand read_begin_view(std::span<const std::byte> message);
 
 struct DrawCommand {
   const Draw& draw;

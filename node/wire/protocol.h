@@ -11,8 +11,7 @@
 // declared a node lost: then the run ends.
 //
 //   host -> node   Load (+ film block to the first node, in pieces), Credit ..., Render ..., Stop; live views have
-//   View,
-//                  Draw and CloseView ... instead of Render, and may have another Load
+//                  BeginView, Draw and CloseView ... instead of Render, and may have another Load
 //   node -> host   Hello, Loaded, Strip ..., Fault (its last message)
 //   both ways      Clock, when the run is traced; then also node -> host Trace ...
 //   both ways      Beat, at any time
@@ -52,7 +51,7 @@ enum MessageType : long {
   kStillLines,  // what inbetweens need of home lines (raster/still_lines.h); empty within a machine, once they are
                 // written
   kBeat,
-  kView,       // View, then a scene block: begins an interval of a view
+  kBeginView,  // BeginView, then a scene block: begins an interval of a view
   kDraw,       // Draw, then what moved: the next inbetween of a view's interval
   kCloseView,  // CloseView
   // Of runs in which nodes write their frames' files (frame_writer.h).
@@ -113,7 +112,7 @@ struct Load {
   std::uint32_t traced;  // 1: the node records what it does and sends it as Trace
   PixelFormat pixel_format;
   std::uint64_t still_memory;  // bytes that a node adds to what its machine keeps of stationary parts for inbetweens
-  std::uint32_t live;          // 1: Views and Draws follow, no Renders; another Load may come, which ends all views
+  std::uint32_t live;          // 1: BeginViews and Draws follow, no Renders; another Load may come, which ends all views
   std::uint32_t watched;       // 1: strips say how many edge boxes each of their lines has
   std::uint64_t orders;        // bytes behind the machines, for the node's frame writer; 0: frames go to the host
 };
@@ -208,7 +207,7 @@ struct Beat {
   std::uint32_t waits = 0;      // 1: for a message or for other nodes
 };
 
-// Live views. A studio's host loads a film with Load::live = 1 and then gives Views and Draws instead of Renders, to
+// Live views. A studio's host loads a film with Load::live = 1 and then gives BeginViews and Draws instead of Renders, to
 // nodes that are one group. A view is a picture of its own size, seen by its own camera, of which each node keeps what
 // inbetweens need. The film gives shapes; a scene block (scene.h) gives all else. Pictures are numbered by the host
 // over all views; in a Strip, `frame` is the picture's number and `interval` its view. Another Load ends all views:
@@ -219,7 +218,7 @@ inline constexpr std::uint32_t kMostViews = 64;
 // To all nodes: makes the view, or changes its size, and begins an interval of it. All nodes draw the picture, as a
 // keyframe. What was asked for of the view before and is not drawn yet is cut short: each node that has to do with it
 // still sends its last strip. So does CloseView. Followed by the scene block.
-struct View {
+struct BeginView {
   std::uint32_t view;     // below kMostViews
   std::uint32_t picture;  // 1, 2, ...
   std::uint64_t scene_bytes;

@@ -2,12 +2,12 @@
 // serves a studio, or renders a film that somebody watches; pictures are the same. Both ends are programs of one
 // version on one machine, little-endian.
 //
-//   studio -> host             film, then view, draw, close, in any number
-//   host -> studio             begin (after each film), picture or dropped for every view and draw, refused (its last)
+//   studio -> host             film, then scene, draw, close, in any number
+//   host -> studio             begin (after each film), picture or dropped for every scene and draw, refused (its last)
 //   rendering host -> watcher  begin (first after each connection), then picture and drawn, in any order
 //
 // A serving host draws what is requested in turn. What is newer replaces what is older of the same view and has not
-// begun; a view that is requested also ends what is being drawn of that view. What is replaced or ended is answered by
+// begun; a scene that is requested also ends what is being drawn of its view. What is replaced or ended is answered by
 // `dropped`. A rendering host never waits for its watcher, who sends nothing: a picture is of what is newest when the
 // watcher takes it, and has every block that changed since the picture that the watcher took before.
 #pragma once
@@ -22,7 +22,7 @@ namespace mars::pictures {
 
 enum class Kind : std::uint32_t {
   film = 1,  // body: a compiled film's block; all views end
-  view,      // body: a scene block (node/wire/scene.h): a new interval of a view, whose picture is its keyframe
+  scene,     // body: a scene block (node/wire/scene.h): a new interval of a view, whose picture is its keyframe
   draw,      // body: DrawHead, then wire::MovedSegment ..., wire::MovedPatch ...: an inbetween of the view's interval
   close,     // no body: the view ends
   begin,     // body: Begin, then Node ...
@@ -34,8 +34,8 @@ enum class Kind : std::uint32_t {
 
 struct Head {
   Kind kind;
-  std::uint32_t view = 0;     // view, draw, close, picture, dropped; else 0
-  std::uint32_t picture = 0;  // view, draw, dropped, picture of a view: the studio's number, ascending over all views,
+  std::uint32_t view = 0;     // scene, draw, close, picture, dropped; else 0
+  std::uint32_t picture = 0;  // scene, draw, dropped, picture of a view: the studio's number, ascending over all views,
                               // from 1; else 0
   std::uint32_t unused = 0;
   std::uint64_t bytes = 0;  // of the body

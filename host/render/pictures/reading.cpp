@@ -20,7 +20,7 @@ struct Sizes {
 Sizes sizes_of(Kind kind) {
   switch (kind) {
     case Kind::film:
-    case Kind::view: return {1, kMostInput};
+    case Kind::scene: return {1, kMostInput};
     case Kind::draw: return {sizeof(DrawHead), kMostInput};
     case Kind::begin: return {sizeof(Begin), kMostOutput};
     case Kind::picture: return {sizeof(PictureHead), kMostOutput};
@@ -94,7 +94,7 @@ void check_head(const Head& head, Sender sender) {
   const Sizes sizes = sizes_of(head.kind);
   if (head.bytes < sizes.least || head.bytes > sizes.most) refuse("a message of an impossible size");
   if (head.view >= wire::kMostViews) refuse("a view whose number is too large");
-  const bool numbered = head.kind == Kind::view || head.kind == Kind::draw || head.kind == Kind::dropped;
+  const bool numbered = head.kind == Kind::scene || head.kind == Kind::draw || head.kind == Kind::dropped;
   if (head.kind != Kind::picture && numbered != (head.picture > 0)) refuse("a picture's number that makes no sense");
 }
 

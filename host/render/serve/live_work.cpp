@@ -41,14 +41,14 @@ bool LiveWork::take_requests() {
 
 void LiveWork::take(Request request) {
   const std::uint32_t number = request.head.view;
-  if (request.head.kind == Kind::view || request.head.kind == Kind::draw) {
+  if (request.head.kind == Kind::scene || request.head.kind == Kind::draw) {
     if (request.head.picture <= requested_)
       throw pictures::Malformed(pictures::Sender::studio, "pictures whose numbers do not ascend");
     requested_ = request.head.picture;
   }
   switch (request.head.kind) {
     case Kind::film: return take_film(std::move(request));
-    case Kind::view:
+    case Kind::scene:
       drop_all(number, views_[number]);
       views_[number].scene = std::move(request);
       return;
@@ -137,8 +137,8 @@ void LiveWork::begin_scene(std::uint32_t number, View& view) {
   const std::uint32_t picture =
       pictures_.begin_keyframe(number, request.head.picture, *view.interval, view.moving.are_all());
   const std::uint64_t still = view.interval->settings().samples > 1 ? still_memory_ : 0;
-  farm::Engine::send(engine_.all(), wire::kView,
-                     pictures::joined(wire::View{number, picture, view.block.size(), still}, view.block));
+  farm::Engine::send(engine_.all(), wire::kBeginView,
+                     pictures::joined(wire::BeginView{number, picture, view.block.size(), still}, view.block));
 }
 
 // The inbetween that has waited longest, if a node is idle.

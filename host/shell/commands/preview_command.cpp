@@ -81,9 +81,9 @@ void play_in_terminal(const PreviewWords& words, const std::function<int(preview
 
 void write_preview(PreviewWords& words, const preview::Previewed& film, const MakeSurface& make_surface) {
   const auto surface = make_surface(film.film);
-  words.look.frames = preview::frames_to_write(words.write, film.view.frames);
+  words.look.frames = preview::frames_to_write(words.write, film.wireframe.frames);
   words.look.smooth = words.look.wait = true;
-  preview::FilmPictures pictures(film.view, *surface, words.look);
+  preview::FilmPictures pictures(film.wireframe, *surface, words.look);
   preview::write_pictures(pictures, words.write);
 }
 

@@ -94,7 +94,7 @@ class HostConnection::Wire : public std::enable_shared_from_this<Wire> {
   std::vector<std::uint32_t> take_back(std::uint32_t view, bool scenes) {
     std::vector<std::uint32_t> pictures;
     socket_->take_back([&](const pictures::Head& head) {
-      const bool is_old = head.view == view && (head.kind == Kind::draw || (scenes && head.kind == Kind::view));
+      const bool is_old = head.view == view && (head.kind == Kind::draw || (scenes && head.kind == Kind::scene));
       if (is_old) pictures.push_back(head.picture);
       return is_old;
     });

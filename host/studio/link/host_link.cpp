@@ -130,7 +130,7 @@ void HostLink::connected() {
   };
   std::vector<Again> again;
   for (const auto& [number, view] : views_) {
-    again.push_back({number, Kind::view, view.scene});
+    again.push_back({number, Kind::scene, view.scene});
     if (view.draw.body) again.push_back({number, Kind::draw, view.draw});
   }
   std::ranges::sort(again, {}, [](const Again& each) { return each.asked.picture; });
@@ -190,7 +190,7 @@ void HostLink::begin(std::uint32_t view, std::uint32_t picture, std::vector<std:
   drop_replaced(view, true);
   of.scene = {picture, std::make_shared<const std::vector<std::byte>>(std::move(scene_block))};
   of.draw = {};
-  ask(view, Kind::view, of.scene);
+  ask(view, Kind::scene, of.scene);
 }
 
 void HostLink::draw(std::uint32_t view, std::uint32_t picture, std::span<const wire::MovedSegment> segments,

@@ -15,9 +15,9 @@ constexpr std::uint32_t kBlock = 16;
 constexpr int kCoverSteps = 6;  // of a patch that hides lines
 
 // What holds at the view's only frame.
-wire::Track track_of(preview::View& view, std::size_t value) {
-  view.changes.push_back({0, static_cast<std::uint32_t>(value)});
-  return {static_cast<std::uint32_t>(view.changes.size() - 1), 1};
+wire::Track track_of(preview::Wireframe& wireframe, std::size_t value) {
+  wireframe.changes.push_back({0, static_cast<std::uint32_t>(value)});
+  return {static_cast<std::uint32_t>(wireframe.changes.size() - 1), 1};
 }
 
 preview::Facets cube_facets() {
@@ -73,13 +73,13 @@ void LinePictures::draw(const LineLook& look, const wire::Camera& camera, previe
     net_numbers_.clear();
     facets_.clear();
   }
-  preview::View view = look.as == preview::As::vertices ? std::move(nets_) : preview::View{};
-  view.subject = moments_.subject();
-  look.as == preview::As::stick ? take_sticks(view) : take_segments(look.as, view);
+  preview::Wireframe wireframe = look.as == preview::As::vertices ? std::move(nets_) : preview::Wireframe{};
+  wireframe.subject = moments_.subject();
+  look.as == preview::As::stick ? take_sticks(wireframe) : take_segments(look.as, wireframe);
   std::vector<preview::Cover> covers;
-  if (look.hidden && look.as != preview::As::stick) covers = covers_of(look.as, view);
-  preview::FilmDrawing(view).draw(drawing, look.as, 0, camera, 1, look.ground, covers);
-  if (look.as == preview::As::vertices) nets_.lines = std::move(view.lines);
+  if (look.hidden && look.as != preview::As::stick) covers = covers_of(look.as, wireframe);
+  preview::FilmDrawing(wireframe).draw(drawing, look.as, 0, camera, 1, look.ground, covers);
+  if (look.as == preview::As::vertices) nets_.lines = std::move(wireframe.lines);
 }
 
 bool LinePictures::pulled(std::size_t segment) const {
@@ -87,47 +87,47 @@ bool LinePictures::pulled(std::size_t segment) const {
 }
 
 // Parts, matrices and colours of the segments, in their order.
-void LinePictures::take_segments(preview::As as, preview::View& view) {
+void LinePictures::take_segments(preview::As as, preview::Wireframe& wireframe) {
   const wire::FilmData& now = moments_.now();
-  if (as == preview::As::prisms) view.lines = {preview::cube_edges()};
+  if (as == preview::As::prisms) wireframe.lines = {preview::cube_edges()};
   for (const wire::Material& material : now.materials)
-    view.colors.push_back(film::shown_of(material.color, now.settings.color_space));
+    wireframe.colors.push_back(film::shown_of(material.color, now.settings.color_space));
   std::optional<std::uint32_t> of_pulled;
   for (std::size_t segment = 0; segment < now.segments.size(); ++segment) {
-    view.matrices.push_back(preview::placing(moments_.matrix_of(segment)));
+    wireframe.matrices.push_back(preview::placing(moments_.matrix_of(segment)));
     std::uint32_t lines = 0;
     if (as == preview::As::vertices && pulled(segment)) {
-      if (!of_pulled) of_pulled = net_of(segment, view);
+      if (!of_pulled) of_pulled = net_of(segment, wireframe);
       lines = *of_pulled;
     } else if (as == preview::As::vertices) {
-      lines = net_of(segment, view);
+      lines = net_of(segment, wireframe);
     }
-    const wire::Track look = track_of(view, now.changes[now.segments[segment].material.first].value);
-    view.parts[static_cast<std::size_t>(as)].push_back({lines, track_of(view, segment), look});
+    const wire::Track look = track_of(wireframe, now.changes[now.segments[segment].material.first].value);
+    wireframe.parts[static_cast<std::size_t>(as)].push_back({lines, track_of(wireframe, segment), look});
   }
 }
 
 // The net of a shape that is pulled is made again each time, in its place before all others.
-std::uint32_t LinePictures::net_of(std::size_t segment, preview::View& view) {
-  if (view.lines.empty()) view.lines.emplace_back();
+std::uint32_t LinePictures::net_of(std::size_t segment, preview::Wireframe& wireframe) {
+  if (wireframe.lines.empty()) wireframe.lines.emplace_back();
   const std::uint32_t shape = moments_.now().segments[segment].shape;
   if (!pulled(segment))
     if (const auto known = net_numbers_.find(shape); known != net_numbers_.end()) return known->second;
   if (pulled(segment)) {
-    view.lines[0] = preview::control_net(moments_.patches_of(segment));
+    wireframe.lines[0] = preview::control_net(moments_.patches_of(segment));
     return 0;
   }
   const wire::FilmView film(*moments_.film_block(), "", true);
-  view.lines.push_back(preview::control_net(film, film.shapes()[shape]));
-  return net_numbers_[shape] = static_cast<std::uint32_t>(view.lines.size() - 1);
+  wireframe.lines.push_back(preview::control_net(film, film.shapes()[shape]));
+  return net_numbers_[shape] = static_cast<std::uint32_t>(wireframe.lines.size() - 1);
 }
 
-void LinePictures::take_sticks(preview::View& view) {
+void LinePictures::take_sticks(preview::Wireframe& wireframe) {
   const wire::FilmData& now = moments_.now();
   const animator::Film& film = project_.film();
   for (const wire::Material& material : now.materials)
-    view.colors.push_back(film::shown_of(material.color, now.settings.color_space));
-  view.colors.push_back({0.7f, 0.7f, 0.7f});  // of joints that no segment lends its colour
+    wireframe.colors.push_back(film::shown_of(material.color, now.settings.color_space));
+  wireframe.colors.push_back({0.7f, 0.7f, 0.7f});  // of joints that no segment lends its colour
   std::size_t segment = 0;
   for (std::size_t number = 0; number < film.actors.size(); ++number) {
     const modeler::Model& model = film.model_of(number);
@@ -138,16 +138,17 @@ void LinePictures::take_sticks(preview::View& view) {
       const std::size_t parent = model.joints[joint].parent;
       if (state.segments[joint]) {
         colors.push_back(now.changes[now.segments[segment++].material.first].value);
-        view.matrices.push_back(preview::placing(*state.segments[joint]));
+        wireframe.matrices.push_back(preview::placing(*state.segments[joint]));
       } else {
-        colors.push_back(parent == modeler::kNone ? view.colors.size() - 1 : colors[parent]);
+        colors.push_back(parent == modeler::kNone ? wireframe.colors.size() - 1 : colors[parent]);
         if (state.joints.empty()) continue;
-        view.matrices.push_back(preview::placing(state.joints[joint]));
+        wireframe.matrices.push_back(preview::placing(state.joints[joint]));
       }
-      view.lines.push_back(sticks[joint]);
-      const wire::Track look = track_of(view, colors.back());
-      view.parts[static_cast<std::size_t>(preview::As::stick)].push_back(
-          {static_cast<std::uint32_t>(view.lines.size() - 1), track_of(view, view.matrices.size() - 1), look});
+      wireframe.lines.push_back(sticks[joint]);
+      const wire::Track look = track_of(wireframe, colors.back());
+      wireframe.parts[static_cast<std::size_t>(preview::As::stick)].push_back(
+          {static_cast<std::uint32_t>(wireframe.lines.size() - 1), track_of(wireframe, wireframe.matrices.size() - 1),
+           look});
     }
   }
 }
@@ -165,11 +166,11 @@ const preview::Facets& LinePictures::facets_of(std::size_t segment) {
 }
 
 // Prisms hide by their faces, control vertices by their surfaces.
-std::vector<preview::Cover> LinePictures::covers_of(preview::As as, const preview::View& view) {
+std::vector<preview::Cover> LinePictures::covers_of(preview::As as, const preview::Wireframe& wireframe) {
   static const preview::Facets cube = cube_facets();
   std::vector<preview::Cover> covers;
   for (std::size_t segment = 0; segment < moments_.now().segments.size(); ++segment)
-    covers.push_back({as == preview::As::prisms ? &cube : &facets_of(segment), view.matrices[segment]});
+    covers.push_back({as == preview::As::prisms ? &cube : &facets_of(segment), wireframe.matrices[segment]});
   return covers;
 }
 

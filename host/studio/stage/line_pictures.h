@@ -28,17 +28,18 @@ class LinePictures {
   void draw(const LineLook& look, const wire::Camera& camera, preview::Drawing& drawing);
 
  private:
-  void take_segments(preview::As as, preview::View& view);
-  void take_sticks(preview::View& view);
-  std::uint32_t net_of(std::size_t segment, preview::View& view);
+  void take_segments(preview::As as, preview::Wireframe& wireframe);
+  void take_sticks(preview::Wireframe& wireframe);
+  std::uint32_t net_of(std::size_t segment, preview::Wireframe& wireframe);
   const preview::Facets& facets_of(std::size_t segment);
-  std::vector<preview::Cover> covers_of(preview::As as, const preview::View& view);
+  std::vector<preview::Cover> covers_of(preview::As as, const preview::Wireframe& wireframe);
   bool pulled(std::size_t segment) const;
 
   const Project& project_;
   const Moments& moments_;
   std::uint64_t film_number_ = 0;
-  preview::View nets_;  // of control vertices: the pulled shape's, then those of the film's shapes as they are needed
+  preview::Wireframe
+      nets_;  // of control vertices: the pulled shape's, then those of the film's shapes as they are needed
   std::map<std::uint32_t, std::uint32_t> net_numbers_;  // of shapes
   std::map<std::uint32_t, preview::Facets> facets_;     // of shapes, as they are needed
   preview::Facets pulled_facets_;

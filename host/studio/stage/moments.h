@@ -13,7 +13,7 @@
 
 #include "host/content/animator/pose/actor_state.h"
 #include "host/content/film/moment.h"
-#include "host/preview/view.h"
+#include "host/preview/wireframe.h"
 #include "host/studio/project/project.h"
 
 namespace mars::studio {

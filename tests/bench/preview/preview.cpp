@@ -14,7 +14,7 @@
 #include "host/content/animator/reading/read_film.h"
 #include "host/preview/film_drawing.h"
 #include "host/preview/terminal_picture.h"
-#include "host/preview/view.h"
+#include "host/preview/wireframe.h"
 
 namespace {
 
@@ -24,15 +24,15 @@ constexpr std::size_t kWantedPoints = 100'000;
 constexpr std::uint32_t kFrames = 48;
 constexpr int kRounds = 3;
 
-std::size_t points_of(const preview::View& view) {
+std::size_t points_of(const preview::Wireframe& wireframe) {
   std::size_t points = 0;
-  for (const preview::Part& part : view.parts[static_cast<std::size_t>(preview::As::vertices)])
-    points += view.lines[part.lines].points.size() / 3;
+  for (const preview::Part& part : wireframe.parts[static_cast<std::size_t>(preview::As::vertices)])
+    points += wireframe.lines[part.lines].points.size() / 3;
   return points;
 }
 
 // Figures in rows of five, each bowing and turning on its place.
-preview::View crowd(int figures) {
+preview::Wireframe crowd(int figures) {
   std::string actors;
   for (int i = 0; i < figures; ++i) {
     char text[400];
@@ -49,7 +49,7 @@ preview::View crowd(int figures) {
       "\"models\": {\"human\": \"models/human.json\"}, \"actors\": [" +
       actors + "]}";
   const animator::Film film = animator::read_film(document::Document(json, "crowd").root(), MARS_EXAMPLES);
-  return preview::view_of(film::compile(film), &film);
+  return preview::wireframe_of(film::compile(film), &film);
 }
 
 double processor_milliseconds() {
@@ -64,23 +64,24 @@ struct Result {
 };
 
 // The round of least time.
-Result measure(const preview::View& view, preview::As as, images::PictureSize extent, preview::Graphics graphics) {
+Result measure(const preview::Wireframe& wireframe, preview::As as, images::PictureSize extent,
+               preview::Graphics graphics) {
   const bool blocks = graphics == preview::Graphics::blocks;
   const std::uint32_t pen = blocks ? 2 : 1;
-  const preview::FilmDrawing lines(view);
+  const preview::FilmDrawing lines(wireframe);
   preview::Drawing drawing(pen * extent.width, pen * extent.height);
   Result best;
   for (int round = 0; round < kRounds; ++round) {
     const auto terminal = make_terminal_picture(graphics);
     Result now;
-    for (std::uint32_t frame = 0; frame < view.frames; ++frame) {
+    for (std::uint32_t frame = 0; frame < wireframe.frames; ++frame) {
       const double begun = processor_milliseconds();
-      lines.draw(drawing, as, frame, view.camera_at(frame), pen, true);
+      lines.draw(drawing, as, frame, wireframe.camera_at(frame), pen, true);
       const images::Image image = blocks ? preview::halved(drawing.image()) : drawing.image();
       const double drawn = processor_milliseconds();
-      now.bytes += terminal->shown(image).size() / view.frames;
-      now.draw += (drawn - begun) / view.frames;
-      now.encode += (processor_milliseconds() - drawn) / view.frames;
+      now.bytes += terminal->shown(image).size() / wireframe.frames;
+      now.draw += (drawn - begun) / wireframe.frames;
+      now.encode += (processor_milliseconds() - drawn) / wireframe.frames;
     }
     if (round == 0 || now.draw + now.encode < best.draw + best.encode) best = now;
   }
@@ -94,9 +95,9 @@ void run() {
   sched_setaffinity(0, sizeof one, &one);
   const std::size_t of_one = points_of(crowd(1));
   const double begun = processor_milliseconds();
-  const preview::View view = crowd(static_cast<int>((kWantedPoints + of_one - 1) / of_one));
-  std::printf("%zu control points, %zu segments, %u frames; compiled and made ready in %.0f ms\n\n", points_of(view),
-              view.parts[1].size(), view.frames, processor_milliseconds() - begun);
+  const preview::Wireframe wireframe = crowd(static_cast<int>((kWantedPoints + of_one - 1) / of_one));
+  std::printf("%zu control points, %zu segments, %u frames; compiled and made ready in %.0f ms\n\n",
+              points_of(wireframe), wireframe.parts[1].size(), wireframe.frames, processor_milliseconds() - begun);
   std::printf("%-10s %-8s %-9s %9s %9s %9s %10s\n", "shown as", "on", "pixels", "draw ms", "encode ms", "frames/s",
               "kB a frame");
   const std::map<preview::As, const char*> shown{
@@ -107,7 +108,7 @@ void run() {
     for (const auto& [graphics, name] : terminals) {
       const images::PictureSize extent =
           graphics == preview::Graphics::blocks ? images::PictureSize{160, 90} : images::PictureSize{960, 540};
-      const Result result = measure(view, as, extent, graphics);
+      const Result result = measure(wireframe, as, extent, graphics);
       const std::string pixels = std::to_string(extent.width) + "x" + std::to_string(extent.height);
       std::printf("%-10s %-8s %-9s %9.2f %9.2f %9.0f %10.1f\n", as_name, name, pixels.c_str(), result.draw,
                   result.encode, 1e3 / (result.draw + result.encode), 1e-3 * double(result.bytes));

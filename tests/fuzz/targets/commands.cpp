@@ -57,7 +57,7 @@ Message sound_render(bool listed, bool goes_on) {
 
 Message sound_view() {
   const Message block = wire::pack_scene(wire::small_scene());
-  Message message = message_of(wire::View{1, 2, block.size(), 0});
+  Message message = message_of(wire::BeginView{1, 2, block.size(), 0});
   message.insert(message.end(), block.begin(), block.end());
   return message;
 }
@@ -99,8 +99,8 @@ void read_render(std::span<const std::byte> message) {
 }
 
 // The scene as nodes read it, who copy its block.
-void read_view(std::span<const std::byte> message) {
-  const wire::ViewCommand command = wire::read_view(message);
+void read_begin_view(std::span<const std::byte> message) {
+  const wire::BeginViewCommand command = wire::read_begin_view(message);
   const Message block(command.scene.begin(), command.scene.end());
   const wire::FilmView view(block, film(), "scene");
   const wire::MovingParts moving(view);
@@ -155,7 +155,7 @@ void take(std::string_view input) {
     case 0: return read_load(message);
     case 1: check(wire::read_credit(message, 1, 4).slot < 4, "a slot is one of the node's"); return;
     case 2: check(wire::read_beat(message).host.back() == '\0', "a machine's name ends"); return;
-    case 7: return read_view(message);
+    case 7: return read_begin_view(message);
     case 8: return read_draw(message);
     case 9: check(wire::read_close_view(message).view < wire::kMostViews, "a view is one of few"); return;
     default: read_render(message);

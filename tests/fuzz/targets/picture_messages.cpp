@@ -46,7 +46,7 @@ Message picture(std::uint32_t lines) {
 Message requests() {
   Message stream;
   append(stream, {Kind::film}, Message(64));
-  append(stream, {Kind::view, 1, 1}, Message(64));
+  append(stream, {Kind::scene, 1, 1}, Message(64));
   append(stream, {Kind::draw, 1, 2}, pictures::joined(pictures::DrawHead{0, 0}));
   append(stream, {Kind::close, 1}, {});
   return stream;

@@ -156,9 +156,9 @@ TEST_F(Posing, WhatIsSeenIsWhatTheFilmThenHas) {
   EXPECT_EQ(posed.selected, (JointNumber{1, 3}));
   press(keys, "\r");
   const Previewed written = load_previewed(path_);
-  const auto drawn = [](const View& view, As as, const Posed& by) {
+  const auto drawn = [](const Wireframe& wireframe, As as, const Posed& by) {
     Drawing drawing(96, 54);
-    FilmDrawing(view).draw(drawing, as, 10, view.camera_at(10), 1, false, {}, by);
+    FilmDrawing(wireframe).draw(drawing, as, 10, wireframe.camera_at(10), 1, false, {}, by);
     return drawing.image().pixels;
   };
   // How bright lines are depends on what else moves in the film.
@@ -170,9 +170,9 @@ TEST_F(Posing, WhatIsSeenIsWhatTheFilmThenHas) {
   Posed unselected = posed;
   unselected.selected = {};
   for (const As as : {As::stick, As::vertices, As::prisms}) {
-    EXPECT_EQ(places(drawn(film.view, as, unselected)), places(drawn(written.view, as, {})));
-    EXPECT_NE(places(drawn(film.view, as, {})), places(drawn(written.view, as, {})));
-    EXPECT_NE(drawn(film.view, as, unselected), drawn(film.view, as, posed));
+    EXPECT_EQ(places(drawn(film.wireframe, as, unselected)), places(drawn(written.wireframe, as, {})));
+    EXPECT_NE(places(drawn(film.wireframe, as, {})), places(drawn(written.wireframe, as, {})));
+    EXPECT_NE(drawn(film.wireframe, as, unselected), drawn(film.wireframe, as, posed));
   }
 }
 

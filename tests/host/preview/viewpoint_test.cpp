@@ -136,29 +136,29 @@ struct Asked : SurfaceSource {
 
 TEST(FilmPictures, KeysChangeWhatIsSeen) {
   const animator::Film source = animator::read_film(document::Document(kFilm, "film").root(), {});
-  const View view = view_of(film::compile(source), &source);
+  const Wireframe wireframe = wireframe_of(film::compile(source), &source);
   Asked asked;
-  FilmPictures pictures(view, asked, {});
+  FilmPictures pictures(wireframe, asked, {});
   const auto key = [&](char character) { return pictures.handle_key({character, Special::none}, 0); };
   EXPECT_EQ(pictures.state(), "prisms, camera");
-  EXPECT_EQ(pictures.camera(2, 1), view.camera_at(2));
+  EXPECT_EQ(pictures.camera(2, 1), wireframe.camera_at(2));
   EXPECT_TRUE(key('1'));
   EXPECT_TRUE(key('t'));
   EXPECT_EQ(pictures.state(), "stick, top");
-  EXPECT_EQ(pictures.camera(0, 2), camera_of(orbit_from(From::top, view.subject, 2)));
+  EXPECT_EQ(pictures.camera(0, 2), camera_of(orbit_from(From::top, wireframe.subject, 2)));
   EXPECT_TRUE(pictures.handle_key({0, Special::left}, 0));
   EXPECT_EQ(pictures.state(), "stick, turned");
   EXPECT_TRUE(key('c'));
   EXPECT_TRUE(key('+'));
-  EXPECT_GT(pictures.camera(0, 1).focal, view.camera_at(0).focal);
+  EXPECT_GT(pictures.camera(0, 1).focal, wireframe.camera_at(0).focal);
   EXPECT_FALSE(key('x'));
 }
 
 TEST(FilmPictures, RendererIsAimedOnceAView) {
   const animator::Film source = animator::read_film(document::Document(kFilm, "film").root(), {});
-  const View view = view_of(film::compile(source), &source);
+  const Wireframe wireframe = wireframe_of(film::compile(source), &source);
   Asked asked;
-  FilmPictures pictures(view, asked, {});
+  FilmPictures pictures(wireframe, asked, {});
   pictures.handle_key({'4', Special::none}, 0);
   EXPECT_EQ(pictures.picture(1, {64, 36}), nullptr);
   EXPECT_FALSE(pictures.complete());

@@ -214,11 +214,11 @@ TEST_F(RenderCommands, ForOthersOrOfNoSuchFrames) {
   EXPECT_TRUE(refused({1, 0, 2, 1, 1, 0, 0, 1, 0, 1, 0}, {1})) << "before the interval";
 }
 
-TEST(ViewCommands, HaveTheirScene) {
+TEST(BeginViewCommands, HaveTheirScene) {
   const auto block = pack_scene(small_scene());
-  const auto refused = [&](const View& view, std::size_t bytes) {
+  const auto refused = [&](const BeginView& view, std::size_t bytes) {
     return !refusal([&] {
-              read_view(message(view, Bytes(block.begin(), block.begin() + static_cast<long>(bytes))));
+              read_begin_view(message(view, Bytes(block.begin(), block.begin() + static_cast<long>(bytes))));
             }).empty();
   };
   EXPECT_FALSE(refused({63, 1, block.size(), 0}, block.size()));
@@ -226,7 +226,7 @@ TEST(ViewCommands, HaveTheirScene) {
   EXPECT_TRUE(refused({0, 1, block.size() + 1, 0}, block.size()));
   EXPECT_TRUE(refused({0, 1, ~std::uint64_t{0}, 0}, block.size()));
   EXPECT_TRUE(refused({0, 1, block.size(), 0}, block.size() - 1));
-  EXPECT_FALSE(refusal([] { read_view({}); }).empty());
+  EXPECT_FALSE(refusal([] { read_begin_view({}); }).empty());
 }
 
 TEST(CloseViewCommands, NameAView) {

@@ -19,10 +19,10 @@ using Block = std::vector<std::byte>;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-template <typename Items, typename View>
-void expect_same(const Items& items, const View& view) {
-  ASSERT_EQ(items.size(), view.size());
-  EXPECT_EQ(std::memcmp(items.data(), view.data(), items.size() * sizeof items[0]), 0);
+template <typename Items, typename Read>
+void expect_same(const Items& items, const Read& read) {
+  ASSERT_EQ(items.size(), read.size());
+  EXPECT_EQ(std::memcmp(items.data(), read.data(), items.size() * sizeof items[0]), 0);
 }
 
 TEST(FilmBlock, IsReadAsItWasPacked) {

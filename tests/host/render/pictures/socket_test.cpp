@@ -34,7 +34,7 @@ class SocketTest : public testing::Test {
 };
 
 TEST_F(SocketTest, MessagesComeWholeHoweverTheirBytesCome) {
-  const std::vector<std::byte> bytes = joined(Head{Kind::view, 3, 1, 0, 5}, std::vector<std::byte>(5, std::byte{9}));
+  const std::vector<std::byte> bytes = joined(Head{Kind::scene, 3, 1, 0, 5}, std::vector<std::byte>(5, std::byte{9}));
   for (const std::byte& byte : bytes) {
     EXPECT_FALSE(socket_->receive());
     write(std::span(&byte, 1));
@@ -82,7 +82,7 @@ TEST_F(SocketTest, WhatHasNotBegunIsTakenBack) {
   const Body body = body_of(std::vector<std::byte>(std::size_t{40} << 20));
   socket_->send({Kind::draw, 0, 1}, body);
   socket_->send({Kind::draw, 0, 2}, body);
-  socket_->send({Kind::view, 0, 3}, body);
+  socket_->send({Kind::scene, 0, 3}, body);
   socket_->take_back([](const Head& head) { return head.kind == Kind::draw; });
   std::size_t taken = 0;
   while (const std::size_t count = take(std::size_t{1} << 20)) {

@@ -89,7 +89,7 @@ void expect_frames_of_the_film(int nodes, bool mpi) {
   const Example& film = example();
   StudioEnd studio;
   ASSERT_NO_FATAL_FAILURE(start_with_film(studio, nodes, mpi));
-  studio.send(Kind::view, kView, 1, film.scene(film.first));
+  studio.send(Kind::scene, kView, 1, film.scene(film.first));
   ASSERT_NO_FATAL_FAILURE(expect_answer(studio, Kind::picture, kView, 1));
   EXPECT_EQ(studio.shown(kView), film.frame(film.first));
   EXPECT_EQ(studio.pixels_sent(kView), 160u * 100);
@@ -116,7 +116,7 @@ TEST(Serve, WhereAllMovesPicturesAreTheSame) {
   StudioEnd studio;
   ASSERT_NO_FATAL_FAILURE(start_with(film, studio, 2));
   for (std::uint32_t step = 0; step < 3; ++step) {
-    studio.send(Kind::view, kView, 1 + step, film.moving_scene(film.first + step));
+    studio.send(Kind::scene, kView, 1 + step, film.moving_scene(film.first + step));
     ASSERT_NO_FATAL_FAILURE(expect_answer(studio, Kind::picture, kView, 1 + step));
     EXPECT_EQ(studio.shown(kView), film.frame(film.first + step));
   }
@@ -130,7 +130,7 @@ TEST(Serve, NewestWins) {
   ASSERT_NO_FATAL_FAILURE(start_with_film(studio, 2));
   std::uint32_t picture = 0;
   for (int turn = 0; turn < 10; ++turn) {
-    studio.send(Kind::view, kView, ++picture, film.scene(film.first));
+    studio.send(Kind::scene, kView, ++picture, film.scene(film.first));
     for (std::uint32_t step : {1u, 2u, 0u, 2u, 1u}) studio.send_draw(kView, ++picture, film.moved(film.first + step));
   }
   std::vector<std::uint32_t> answered, pictures;
@@ -155,8 +155,8 @@ TEST(Serve, ViewsAreIndependent) {
   StudioEnd studio;
   ASSERT_NO_FATAL_FAILURE(start_with_film(studio, 2));
   const film::CompiledFilm small = film::load_film(MARS_EXAMPLES "/caterpillar.json", {.size = {{90, 60}}});
-  studio.send(Kind::view, 0, 1, film.scene(film.first));
-  studio.send(Kind::view, 1, 2, test::scene_of(small.view(), film.first, film.movers));
+  studio.send(Kind::scene, 0, 1, film.scene(film.first));
+  studio.send(Kind::scene, 1, 2, test::scene_of(small.view(), film.first, film.movers));
   expect_answer(studio, Kind::picture, 0, 1);
   expect_answer(studio, Kind::picture, 1, 2);
   for (std::uint32_t round = 0; round < 5; ++round) {
@@ -179,10 +179,10 @@ TEST(Serve, AnotherFilmEndsAllViews) {
   const Example& film = example();
   StudioEnd studio;
   ASSERT_NO_FATAL_FAILURE(start_with_film(studio, 2));
-  studio.send(Kind::view, kView, 1, film.scene(film.first));
+  studio.send(Kind::scene, kView, 1, film.scene(film.first));
   studio.send(Kind::film, 0, 0, film.film.block());
   studio.send_draw(kView, 2, film.moved(film.first));
-  studio.send(Kind::view, kView, 3, film.scene(film.first + 1));
+  studio.send(Kind::scene, kView, 3, film.scene(film.first + 1));
   std::vector<Kind> kinds;
   do {
     const auto answer = studio.receive();
@@ -201,7 +201,7 @@ TEST(Serve, ClosedSocketEndsAllAtAnyTime) {
   for (const bool scene : {false, true}) {
     StudioEnd studio;
     ASSERT_NO_FATAL_FAILURE(start_with_film(studio, 2));
-    if (scene) studio.send(Kind::view, kView, 1, film.scene(film.first));
+    if (scene) studio.send(Kind::scene, kView, 1, film.scene(film.first));
     expect_end(studio);
   }
 }
@@ -210,7 +210,7 @@ TEST(Serve, ClosedSocketEndsAllAtAnyTime) {
 void expect_refusal(const std::vector<std::byte>& message, const std::string& part) {
   StudioEnd studio;
   ASSERT_NO_FATAL_FAILURE(start_with_film(studio, 1));
-  studio.send(Kind::view, kView, 1, example().scene(example().first));
+  studio.send(Kind::scene, kView, 1, example().scene(example().first));
   expect_answer(studio, Kind::picture, kView, 1);
   studio.send_bytes(message);
   const auto answer = studio.receive();
@@ -231,12 +231,12 @@ TEST(Serve, MalformedMessagesAreRefused) {
   const auto kind = [](std::uint32_t number) { return static_cast<Kind>(number); };
   expect_refusal(message_of({kind(0), 0, 0, 0, 0}), "kind");
   expect_refusal(message_of({kind(77), 0, 0, 0, 0}), "kind");
-  expect_refusal(message_of({Kind::view, 1, 2, 0, (std::uint64_t{1} << 40) + 1}), "size");
+  expect_refusal(message_of({Kind::scene, 1, 2, 0, (std::uint64_t{1} << 40) + 1}), "size");
   expect_refusal(message_of({Kind::draw, 1, 2, 0, 3}), "size");
   expect_refusal(message_of({Kind::close, 1, 0, 0, 8}, std::vector<std::byte>(8)), "size");
-  expect_refusal(message_of({Kind::view, wire::kMostViews, 2, 0, 8}), "view");
-  expect_refusal(message_of({Kind::view, 1, 1, 0, 8}, std::vector<std::byte>(8)), "ascend");
-  expect_refusal(message_of({Kind::view, 1, 2, 0, 64}, std::vector<std::byte>(64)), "scene");
+  expect_refusal(message_of({Kind::scene, wire::kMostViews, 2, 0, 8}), "view");
+  expect_refusal(message_of({Kind::scene, 1, 1, 0, 8}, std::vector<std::byte>(8)), "ascend");
+  expect_refusal(message_of({Kind::scene, 1, 2, 0, 64}, std::vector<std::byte>(64)), "scene");
   expect_refusal(message_of({Kind::film, 0, 0, 0, 64}, std::vector<std::byte>(64)), "film");
   const std::vector<std::byte> body = pictures::joined(pictures::DrawHead{1, 0});
   expect_refusal(message_of({Kind::draw, kView, 2, 0, body.size()}, body), "Draw");

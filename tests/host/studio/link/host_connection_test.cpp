@@ -83,7 +83,7 @@ TEST_F(HostConnectionTest, HearsViewsAndARendering) {
 
 TEST_F(HostConnectionTest, AForeignHostIsClosedWithAReasonAndTheNextIsHeard) {
   pictures::Socket foreign = connect();
-  foreign.send({Kind::view, 1, 1}, begin(0));
+  foreign.send({Kind::scene, 1, 1}, begin(0));
   ASSERT_TRUE(run_until([&] { return closed_.size() == 1; }));
   EXPECT_NE(closed_[0].find("the host sends a message of no known kind"), std::string::npos) << closed_[0];
   foreign.look();
@@ -106,14 +106,14 @@ TEST_F(HostConnectionTest, SendsAsTheHostTakesAndTakesBackWhatIsOld) {
   const auto large = std::make_shared<const std::vector<std::byte>>(std::size_t{20} << 20);
   connection_->send(Kind::film, 0, 0, large);
   for (std::uint32_t picture = 1; picture <= 3; ++picture)
-    connection_->send(picture == 2 ? Kind::view : Kind::draw, 7, picture, large);
+    connection_->send(picture == 2 ? Kind::scene : Kind::draw, 7, picture, large);
   EXPECT_EQ(connection_->take_back(7, false), (std::vector<std::uint32_t>{1, 3}));
   std::vector<Kind> kinds;
   ASSERT_TRUE(run_until([&] {
     while (const auto message = host.receive()) kinds.push_back(message->head.kind);
     return kinds.size() == 2;
   }));
-  EXPECT_EQ(kinds, (std::vector<Kind>{Kind::film, Kind::view}));
+  EXPECT_EQ(kinds, (std::vector<Kind>{Kind::film, Kind::scene}));
 }
 
 TEST_F(HostConnectionTest, LeavesNoNameBehind) {

@@ -1,4 +1,4 @@
-#include "host/preview/view.h"
+#include "host/preview/wireframe.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,7 +56,7 @@ class Maker {
  public:
   Maker(const film::CompiledFilm& film, const animator::Film* source) : film_(film.view()), source_(source) {}
 
-  View make() {
+  Wireframe make() {
     take_values();
     if (source_ != nullptr) find_joints();
     take_segments();
@@ -65,28 +65,28 @@ class Maker {
     else
       add_prism_axes();
     find_balls();
-    return std::move(view_);
+    return std::move(wireframe_);
   }
 
  private:
   void take_values() {
     const wire::FilmSettings& settings = film_.settings();
-    view_.frames = settings.frames;
-    view_.rate = settings.rate;
-    view_.width = settings.width;
-    view_.height = settings.height;
-    view_.background = film::shown_of(settings.background, settings.color_space);
-    view_.camera = settings.camera;
-    view_.cameras.assign(film_.cameras().begin(), film_.cameras().end());
-    view_.changes.assign(film_.changes().begin(), film_.changes().end());
-    for (const wire::Matrix& matrix : film_.matrices()) view_.matrices.push_back(placing(matrix));
+    wireframe_.frames = settings.frames;
+    wireframe_.rate = settings.rate;
+    wireframe_.width = settings.width;
+    wireframe_.height = settings.height;
+    wireframe_.background = film::shown_of(settings.background, settings.color_space);
+    wireframe_.camera = settings.camera;
+    wireframe_.cameras.assign(film_.cameras().begin(), film_.cameras().end());
+    wireframe_.changes.assign(film_.changes().begin(), film_.changes().end());
+    for (const wire::Matrix& matrix : film_.matrices()) wireframe_.matrices.push_back(placing(matrix));
     for (const wire::Material& material : film_.materials())
-      view_.colors.push_back(film::shown_of(material.color, settings.color_space));
+      wireframe_.colors.push_back(film::shown_of(material.color, settings.color_space));
   }
 
   std::uint32_t add_lines(Lines lines) {
-    view_.lines.push_back(std::move(lines));
-    return static_cast<std::uint32_t>(view_.lines.size() - 1);
+    wireframe_.lines.push_back(std::move(lines));
+    return static_cast<std::uint32_t>(wireframe_.lines.size() - 1);
   }
 
   // The film's segments come actor by actor, joint by joint.
@@ -109,7 +109,7 @@ class Maker {
     }
   }
 
-  std::vector<Part>& parts(As as) { return view_.parts[static_cast<std::size_t>(as)]; }
+  std::vector<Part>& parts(As as) { return wireframe_.parts[static_cast<std::size_t>(as)]; }
 
   const std::vector<std::uint32_t>& model_sticks(std::size_t model) {
     if (model_sticks_.empty()) model_sticks_.resize(source_->models.size());
@@ -141,9 +141,9 @@ class Maker {
 
   wire::Track grey() {
     if (!grey_) {
-      grey_ = wire::Track{static_cast<std::uint32_t>(view_.changes.size()), 1};
-      view_.changes.push_back({0, static_cast<std::uint32_t>(view_.colors.size())});
-      view_.colors.push_back(kGrey);
+      grey_ = wire::Track{static_cast<std::uint32_t>(wireframe_.changes.size()), 1};
+      wireframe_.changes.push_back({0, static_cast<std::uint32_t>(wireframe_.colors.size())});
+      wireframe_.colors.push_back(kGrey);
     }
     return *grey_;
   }
@@ -160,20 +160,20 @@ class Maker {
       if (!figure.move_to(frame, carriers.root_of(actor_number, frame))) continue;
       for (std::size_t i = 0; i < joints.size(); ++i) {
         if (!figure.moved(joints[i])) continue;
-        changes[i].push_back({frame, static_cast<std::uint32_t>(view_.matrices.size())});
-        view_.matrices.push_back(placing(figure.frame_of(joints[i])));
+        changes[i].push_back({frame, static_cast<std::uint32_t>(wireframe_.matrices.size())});
+        wireframe_.matrices.push_back(placing(figure.frame_of(joints[i])));
       }
     }
     for (std::size_t i = 0; i < joints.size(); ++i) {
-      const wire::Track track{static_cast<std::uint32_t>(view_.changes.size()),
+      const wire::Track track{static_cast<std::uint32_t>(wireframe_.changes.size()),
                               static_cast<std::uint32_t>(changes[i].size())};
-      view_.changes.insert(view_.changes.end(), changes[i].begin(), changes[i].end());
+      wireframe_.changes.insert(wireframe_.changes.end(), changes[i].begin(), changes[i].end());
       parts(As::stick).push_back({lines[joints[i]], track, looks[joints[i]], {actor_number, joints[i]}});
     }
   }
 
   void add_prism_axes() {
-    view_.sticks_of_prisms = true;
+    wireframe_.sticks_of_prisms = true;
     const std::array<std::uint32_t, 3> axes{add_lines(cube_axis(0)), add_lines(cube_axis(1)), add_lines(cube_axis(2))};
     for (const wire::Segment& segment : film_.segments()) {
       const wire::Matrix& matrix = film_.matrix_at(segment, 0);
@@ -192,13 +192,13 @@ class Maker {
         all.add(matrix);
         if (segment.motion.count > 1) moving.add(matrix);
       }
-    view_.whole = all.ball();
-    view_.subject = moving.empty() ? view_.whole : moving.ball();
+    wireframe_.whole = all.ball();
+    wireframe_.subject = moving.empty() ? wireframe_.whole : moving.ball();
   }
 
   const wire::FilmView film_;
   const animator::Film* source_;
-  View view_;
+  Wireframe wireframe_;
   std::vector<std::vector<std::uint32_t>> model_sticks_;  // of each model, by joint; made when asked
   std::vector<JointNumber> joints_;                       // of each segment
   std::size_t next_segment_ = 0;
@@ -222,13 +222,15 @@ Placing placing(const modeler::Axes& frame) {
   return flat;
 }
 
-std::uint32_t View::value_at(const wire::Track& track, std::uint32_t frame) const {
+std::uint32_t Wireframe::value_at(const wire::Track& track, std::uint32_t frame) const {
   const auto first = changes.begin() + track.first, last = first + track.count;
   const auto after = std::upper_bound(first, last, frame,
                                       [](std::uint32_t f, const wire::Change& change) { return f < change.frame; });
   return (after - 1)->value;
 }
 
-View view_of(const film::CompiledFilm& film, const animator::Film* source) { return Maker(film, source).make(); }
+Wireframe wireframe_of(const film::CompiledFilm& film, const animator::Film* source) {
+  return Maker(film, source).make();
+}
 
 }  // namespace mars::preview

@@ -50,7 +50,7 @@ struct Ball {
   double radius = 0;
 };
 
-struct View {
+struct Wireframe {
   std::uint32_t frames = 1;
   double rate = 24;  // frames a second
   std::uint32_t width = 0, height = 0;
@@ -72,6 +72,6 @@ struct View {
 };
 
 // `source`: what `film` was compiled from, which alone knows the joints; nullptr where that is not at hand.
-View view_of(const film::CompiledFilm& film, const animator::Film* source);
+Wireframe wireframe_of(const film::CompiledFilm& film, const animator::Film* source);
 
 }  // namespace mars::preview

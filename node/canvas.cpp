@@ -1,11 +1,11 @@
-#include "node/view.h"
+#include "node/canvas.h"
 
 #include <cstddef>
 
 namespace mars::node {
 
-View::View(const wire::FilmView& film, const raster::Neighbours& neighbours, std::uint64_t still_memory,
-           simd::InstructionSet set)
+Canvas::Canvas(const wire::FilmView& film, const raster::Neighbours& neighbours, std::uint64_t still_memory,
+               simd::InstructionSet set)
     : scene(film),
       z_buffer(set, film.settings().width, scene.pattern()),
       still(neighbours, film.settings().width, film.settings().height, scene.pattern(), still_memory),

@@ -1,4 +1,5 @@
-// What a node has of one view: a scene, and all that is of the size of its pictures. A film's frames are one view.
+// What a node has of one scene that it draws: the scene, and all that is of the size of its pictures. A film has one,
+// each of a studio's views its own.
 #pragma once
 
 #include <cstdint>
@@ -14,11 +15,11 @@
 
 namespace mars::node {
 
-struct View {
+struct Canvas {
   // The film's block, or a scene's, and `neighbours` outlive it. `still_memory` as in Load. Collective over a machine's
   // nodes.
-  View(const wire::FilmView& film, const raster::Neighbours& neighbours, std::uint64_t still_memory,
-       simd::InstructionSet set);
+  Canvas(const wire::FilmView& film, const raster::Neighbours& neighbours, std::uint64_t still_memory,
+         simd::InstructionSet set);
 
   geometry::Scene scene;
   raster::ZBuffer z_buffer;
