@@ -128,14 +128,7 @@ farm::Writing make_writing(sinks::FrameFolder& folder, farm::Heartbeats& heartbe
   if (orders.part_of(0).native().size() >= PATH_MAX)
     throw Failure("its whole path is too long for nodes", folder.path().string(), "shorten it, or use --write host");
   folder.add_probe();
-  return {sinks::bytes_of(orders),
-          [&folder](std::span<const wire::Hello> nodes, std::span<const wire::Hello> unseeing) {
-            for (const wire::Hello& hello : unseeing)
-              throw Failure("machine " + std::string(hello.host.data()) + " does not see the folder as the host does",
-                            folder.path().string(), "put it where all machines see it, or use --write host");
-            for (const wire::Hello& hello : nodes)
-              if (hello.machine == hello.node) folder.wait_for_probe(hello.node, hello.host.data());
-          },
+  return {sinks::bytes_of(orders), [&folder](const wire::Hello& first) { return folder.sees_probe_of(first.node); },
           [&folder, &heartbeats](const wire::Written& written) { record(written, folder, heartbeats); }};
 }
 
@@ -273,7 +266,7 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace, 
 
   output.folder = std::move(opened.folder);
   if (output.folder) output.folder->show_status([&board = output.board] { return sinks::text_of(board.status()); });
-  output.sink = make_sink(nodes_write(job) ? nullptr : output.folder.get(), view);
+  output.sink = make_sink(output.folder.get(), view);
   output.pool = make_sinks(job, *output.sink, pool_shape(host, view, job, memory.frames));
   const auto watch = begin_watch(job, reporter);
   std::optional<farm::Writing> writing;

@@ -237,8 +237,8 @@ std::vector<Entry> table() {
              "Where frames go; none writes no files, to measure rendering. Example: --sink none"),
       option(
           writes, "--write", "host|nodes", &RenderOptions::write,
-          "Who composes frames and writes their files: the host, as in the thesis, or the nodes that draw them, whose "
-          "machines must all see the folder; same files; default: host. Example: --write nodes"),
+          "Who composes frames and writes their files: the host, as in the thesis, or the nodes that draw them, where "
+          "their machines see the folder; same files; default: host. Example: --write nodes"),
       option(submits, "--report", "FILE", &RenderOptions::report,
              "Write each node's times and work per frame as JSON. Example: --report report.json"),
       option(submits, "--trace", "FILE", &RenderOptions::trace,
