@@ -36,8 +36,9 @@ struct Reduction {
   Rule rule;
 };
 
-// Names a send that start_send began, until `sent` has said true.
+// Names a send that start_send began, or a receive that start_take began, until `sent` has said true.
 using Ticket = int;
+inline constexpr Ticket kNoTicket = -1;
 
 inline double machine_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -71,6 +72,12 @@ class Backend {
   virtual std::optional<Envelope> peek() = 0;
   // Takes the message that peek returned into `buffer`, which is at least its length.
   virtual void take(void* buffer) = 0;
+  // As take; or, where the message's bytes are still on their way and the backend can receive them meanwhile, begins
+  // to: `buffer` is the backend's until sent(ticket). It does not wait for the sender then.
+  virtual std::optional<Ticket> start_take(void* buffer) {
+    take(buffer);
+    return std::nullopt;
+  }
 
   // For a caller that waits for a message of just this type while peek has nothing: waits some microseconds and takes
   // it if it comes and is at most `capacity` long: true, and `came` is its envelope. Other messages may be overtaken.

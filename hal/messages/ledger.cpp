@@ -11,10 +11,8 @@ std::uint32_t Ledger::sent(const Envelope& to, double begin) {
   return number;
 }
 
-std::uint32_t Ledger::taken(const Envelope& envelope, double begin) {
-  const std::uint32_t number = numbers_[static_cast<std::size_t>(envelope.from)].taken++;
+void Ledger::record_taken(const Envelope& envelope, double begin, std::uint32_t number) {
   if (recorder_ != nullptr) recorder_->message(Event::Kind::taken, begin, envelope, number);
-  return number;
 }
 
 void Ledger::waited(const Envelope& came, double begin) {

@@ -26,7 +26,9 @@ class Ledger {
 
   // Each message has a number among all from its sender to its receiver, the same for both.
   std::uint32_t sent(const Envelope& to, double begin);
-  std::uint32_t taken(const Envelope& envelope, double begin);
+  std::uint32_t taken(const Envelope& envelope) { return numbers_[static_cast<std::size_t>(envelope.from)].taken++; }
+  // All of it is here.
+  void record_taken(const Envelope& envelope, double begin, std::uint32_t number);
   // Numbers begin again.
   void forget(int rank) { numbers_[static_cast<std::size_t>(rank)] = {}; }
   void waited(const Envelope& came, double begin);

@@ -19,6 +19,7 @@ struct alignas(64) Message {
   Message* next = nullptr;  // in the list it is in
   Envelope envelope;
   int size_class = 0;
+  Ticket ticket = kNoTicket;  // of bytes that are still to come
   std::uint32_t number = 0;   // among all from its sender, where a receiver stores it
   std::uint64_t arrival = 0;  // among all of the receiver's
 

@@ -156,7 +156,7 @@ void Process::msgwait(long mid) {
 bool Process::msgdone(long mid) {
   Request& request = known_request("msgdone", mid);
   attend();
-  while (!done(request) && arrive()) {
+  while (!done(request) && request.state != Request::State::coming && arrive()) {
   }
   if (!done(request)) return false;
   conclude(request);
@@ -206,7 +206,7 @@ void Process::flushmsg(long typesel, long node, long pid) {
   while (Message* message = matching_.find(selection)) {
     matching_.remove(message);
     acknowledge(message->envelope, message->number);
-    pool_.release(message);
+    drop(message);
   }
 }
 
@@ -282,7 +282,7 @@ std::size_t Process::receive_internal(const char* call, int from, void* data, st
     if (failure.code != kMessageTooLong || too_long == nullptr) throw;
     info_ = too_long->envelope;
     matching_.remove(too_long);
-    pool_.release(too_long);
+    drop(too_long);
   }
   const std::size_t came = info_.length;
   info_ = before;

@@ -14,6 +14,9 @@ namespace {
 // At most: a message ends it.
 constexpr std::chrono::microseconds kSleep{10000};
 
+// Within a message whose bytes come: only a look finds the next of them.
+constexpr std::chrono::microseconds kBlindSleep{1000};
+
 // From one call of what is called while waiting to the next: the longest pauses add up to a sixth of a second.
 constexpr unsigned kPausesACall = 16;
 
@@ -57,7 +60,7 @@ bool Progress::receive_soon(const Selection& selection, const ReceiveBuffer& int
   if (ledger_.recorder() != nullptr || rendezvous_.strict()) return false;
   if (!backend_.receive_soon(selection.typesel, into.data, into.capacity, info_)) return false;
   overtaken_ = true;
-  ledger_.taken(info_, 0);
+  ledger_.taken(info_);
   describe(info_, info);
   quiet_turns_ = 0;
   return true;
@@ -108,6 +111,7 @@ bool Progress::done(Request& head) {
 }
 
 bool Progress::done_alone(Request& request) {
+  if (request.state == Request::State::coming) return has_come(request);
   if (request.state == Request::State::sending && backend_.sent(request.ticket)) {
     request.state = Request::State::unreceived;
   }
@@ -123,7 +127,7 @@ void Progress::wait(Request& head) try {
   rendezvous_.end_silence();
   bool idle = false;
   for (int turn = 0; !done(head);) {
-    if (pass(turn)) continue;
+    if (pass_for(head, turn)) continue;
     idle = true;
     if (rendezvous_.strict()) rendezvous_.report_silence(*this, head);
   }
@@ -154,6 +158,13 @@ bool Progress::pass(int& turn) {
   else
     let_pass(turn++, kSleep);
   return moved;
+}
+
+// While its bytes come nothing else is taken: what others send may have a receive soon, and needs no copy then.
+bool Progress::pass_for(const Request& head, int& turn) {
+  if (head.state != Request::State::coming) return pass(turn);
+  let_pass(turn++, kBlindSleep);
+  return false;
 }
 
 void Progress::while_waiting(std::function<void()> call) {
@@ -213,6 +224,7 @@ void Progress::cancel(Request& head) {
     rendezvous_.forget(*each);
     each->unreceived = 0;
     if (each->state == Request::State::receiving) matching_.unpost(*each);
+    await_rest(*each);
     if (each->state == Request::State::received) give_back(*each);
     for (int turn = 0; each->state == Request::State::sending && !done_alone(*each);) pass(turn);
   }
@@ -234,6 +246,7 @@ void Progress::give_back(const Request& request) {
 
 void Progress::leave_to(const Handler& handler, Request& request) {
   request.handler = handler;
+  await_rest(request);
   handlers_.add(request);
   attend();
 }
@@ -352,12 +365,14 @@ Request* Progress::claim(const Envelope& envelope) {
   }
 }
 
+// Handlers run in the order in which their messages began to arrive: they wait for the whole.
 void Progress::receive_into(Request& request, const Envelope& envelope) {
-  request.number = take(envelope, request.buffer);
+  request.ticket = start_take(envelope, request.buffer, request.number);
   request.arrival = matching_.next_arrival();
   request.envelope = envelope;
-  request.state = Request::State::received;
-  acknowledge(envelope, request.number);
+  request.state = Request::State::coming;
+  if (request.ticket == kNoTicket) has_come(request);
+  if (request.handler) await_rest(request);
 }
 
 // From the queue of those that wait.
@@ -365,15 +380,48 @@ void Progress::deliver(Message* message, Request& request) {
   request.envelope = message->envelope;
   request.number = message->number;
   request.arrival = message->arrival;
-  if (request.envelope.length > 0) std::memcpy(request.buffer, message->bytes(), request.envelope.length);
+  request.queued = message;
+  request.state = Request::State::coming;
+  has_come(request);
+}
+
+// Of a request whose message is coming: whether all of it is here, which ends that.
+bool Progress::has_come(Request& request) {
+  if (request.queued != nullptr) {
+    if (!is_here(*request.queued)) return false;
+    Message* message = std::exchange(request.queued, nullptr);
+    if (request.envelope.length > 0) std::memcpy(request.buffer, message->bytes(), request.envelope.length);
+    pool_.release(message);
+  } else if (request.ticket != kNoTicket) {
+    if (!backend_.sent(request.ticket)) return false;
+    ledger_.record_taken(request.envelope, ledger_.begin(), request.number);
+  }
   request.state = Request::State::received;
-  pool_.release(message);
   acknowledge(request.envelope, request.number);
+  return true;
+}
+
+bool Progress::is_here(Message& message) {
+  if (message.ticket == kNoTicket) return true;
+  if (!backend_.sent(message.ticket)) return false;
+  message.ticket = kNoTicket;
+  ledger_.record_taken(message.envelope, ledger_.begin(), message.number);
+  return true;
+}
+
+void Progress::await_rest(Request& request) {
+  for (int turn = 0; request.state == Request::State::coming && !has_come(request);) pass_for(request, turn);
+}
+
+// Nobody wants it, and it is no longer among those that wait.
+void Progress::drop(Message* message) {
+  for (int turn = 0; !is_here(*message);) let_pass(turn++, kBlindSleep);
+  pool_.release(message);
 }
 
 void Progress::store(const Envelope& envelope) {
   Message* message = pool_.acquire(envelope);
-  message->number = take(envelope, message->bytes());
+  message->ticket = start_take(envelope, message->bytes(), message->number);
   message->arrival = matching_.next_arrival();
   matching_.queue(message);
 }
@@ -387,7 +435,18 @@ void Progress::discard(const Envelope& envelope) {
 std::uint32_t Progress::take(const Envelope& envelope, void* buffer) {
   const double begin = ledger_.begin();
   backend_.take(buffer);
-  return ledger_.taken(envelope, begin);
+  const std::uint32_t number = ledger_.taken(envelope);
+  ledger_.record_taken(envelope, begin, number);
+  return number;
+}
+
+// The ticket of bytes that are still to come, or kNoTicket.
+Ticket Progress::start_take(const Envelope& envelope, void* buffer, std::uint32_t& number) {
+  const double begin = ledger_.begin();
+  const Ticket ticket = backend_.start_take(buffer).value_or(kNoTicket);
+  number = ledger_.taken(envelope);
+  if (ticket == kNoTicket) ledger_.record_taken(envelope, begin, number);
+  return ticket;
 }
 
 }  // namespace mars::messages

@@ -51,6 +51,7 @@ class Progress : public Caller {
   void wait(Request& head);
   void wait_or_cancel(Request& request);
   bool pass(int& turn);
+  bool pass_for(const Request& head, int& turn);
   void let_pass(int turn, std::chrono::microseconds longest);
   void call_while_waiting();
   void conclude(Request& head);
@@ -72,9 +73,14 @@ class Progress : public Caller {
   Request* claim(const Envelope& envelope);
   void receive_into(Request& request, const Envelope& envelope);
   void deliver(Message* message, Request& request);
+  bool is_here(Message& message);
+  bool has_come(Request& request);
+  void await_rest(Request& request);
+  void drop(Message* message);
   void store(const Envelope& envelope);
   void discard(const Envelope& envelope);
   std::uint32_t take(const Envelope& envelope, void* buffer);
+  Ticket start_take(const Envelope& envelope, void* buffer, std::uint32_t& number);
   void acknowledge(const Envelope& envelope, std::uint32_t number);
 
   const int acknowledgement_;  // the type of internal messages that say: received

@@ -14,6 +14,8 @@
 
 namespace mars::messages {
 
+struct Message;
+
 // How many ids one process has at once.
 inline constexpr int kMessageIds = 1 << 16;
 
@@ -24,6 +26,7 @@ struct Request {
     unreceived,  // it is, but in strict mode the receiver has yet to say that it has the message
     sent,
     receiving,
+    coming,  // it has its message, whose bytes are not all here
     received,
     too_long,  // the message did not fit, and went on to the next receive
   };
@@ -37,10 +40,11 @@ struct Request {
   Handler handler;          // called when done
   Envelope envelope;        // of what was received, or is too long; of a send, whose `from` is the receiver
 
-  Ticket ticket = 0;   // of a send under way
+  Ticket ticket = 0;   // of a send under way, or of bytes that come straight into the buffer
   int unreceived = 0;  // how many receivers have yet to say that they have it
 
-  Selection selection;  // of a receive
+  Selection selection;        // of a receive
+  Message* queued = nullptr;  // that comes, if it waited before; nullptr: straight into the buffer
   void* buffer = nullptr;
   std::size_t capacity = 0;
   long* info = nullptr;       // 8 numbers about the message received; nullptr: not wanted

@@ -195,7 +195,7 @@ bool MpiBackend::finish() {
     case Ending::counting:
       reclaim_some();
       if (ending_request_ != MPI_REQUEST_NULL && !test(ending_request_)) return false;
-      if (taken_ < static_cast<std::uint64_t>(expected_) || !pending_.empty()) return false;
+      if (taken_ < static_cast<std::uint64_t>(expected_) || !nothing_under_way()) return false;
       succeed(MPI_Ibarrier(all_, &ending_request_), "MPI_Ibarrier");
       ending_ = Ending::leaving;
       return false;

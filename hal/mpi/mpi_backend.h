@@ -39,6 +39,7 @@ class MpiBackend : public messages::Backend {
   bool sent(messages::Ticket ticket) override;
   std::optional<messages::Envelope> peek() override;
   void take(void* buffer) override;
+  std::optional<messages::Ticket> start_take(void* buffer) override;
   bool receive_soon(int type, void* buffer, std::size_t capacity, messages::Envelope& came) override;
   std::optional<messages::Ticket> start_reduce(const messages::Reduction& reduction, void* x, std::size_t n) override;
   void idle(int turn, std::chrono::microseconds longest) override;
@@ -64,6 +65,11 @@ class MpiBackend : public messages::Backend {
     MPI_Request request;
     messages::Message* message;
   };
+  // What a ticket names.
+  struct Started {
+    MPI_Request request;
+    int sender = -1;  // of a message that comes, who is rung when it has; -1: of none
+  };
   enum class Ending { not_yet, counting, leaving, ended };
 
   void look_around();
@@ -75,17 +81,19 @@ class MpiBackend : public messages::Backend {
   messages::Message* with_type(std::int32_t type, const void* data, std::size_t length);
   void open(const messages::Envelope& whole, int tag);
   messages::Envelope open_wide(const messages::Envelope& whole);
+  MPI_Request start_receive(void* buffer, const messages::Envelope& envelope, int tag);
+  MPI_Request start_body(void* buffer, const messages::Envelope& envelope);
+  MPI_Request start_peeked(void* buffer);
   void receive(void* buffer, const messages::Envelope& envelope, int tag);
-  void receive_body(void* buffer, const messages::Envelope& envelope);
   void reclaim_some();
-  messages::Ticket ticket_for(MPI_Request request);
+  messages::Ticket ticket_for(MPI_Request request, int sender = -1);
   messages::Ticket ticket_of_collective(MPI_Request request);
   void send_copy(int to, int type, messages::Message* copy);
   void release_when_sent(MPI_Request request, messages::Message* copy);
   bool test(MPI_Request& request, MPI_Status* status = MPI_STATUS_IGNORE);
   bool catch_soon(int type, MPI_Status& status);
   bool give_up(MPI_Request& request, MPI_Status& status);
-  bool all_sent();
+  bool nothing_under_way();
   void wait(MPI_Request& request, MPI_Status* status = MPI_STATUS_IGNORE);
   void wait_for_others(MPI_Request& request);
   std::shared_ptr<std::byte> share_offered(std::size_t bytes, std::string& refusal);
@@ -108,8 +116,8 @@ class MpiBackend : public messages::Backend {
 
   messages::MessagePool pool_;
   std::vector<Pending> pending_;
-  std::size_t next_pending_ = 0;      // to look at
-  std::vector<MPI_Request> tickets_;  // by ticket
+  std::size_t next_pending_ = 0;  // to look at
+  std::vector<Started> tickets_;  // by ticket
   std::vector<messages::Ticket> free_tickets_;
   std::vector<std::byte> operands_;  // of a reduction under way: SMPI's MPI_IN_PLACE reads a copy that it has freed
   std::optional<messages::Envelope> peeked_;

@@ -150,9 +150,9 @@ messages::Message* MpiBackend::with_type(std::int32_t type, const void* data, st
   return message;
 }
 
-bool MpiBackend::all_sent() {
+bool MpiBackend::nothing_under_way() {
   return pending_.empty() &&
-         std::all_of(tickets_.begin(), tickets_.end(), [this](MPI_Request& request) { return test(request); });
+         std::all_of(tickets_.begin(), tickets_.end(), [this](Started& started) { return test(started.request); });
 }
 
 void MpiBackend::reclaim_some() {
@@ -175,20 +175,22 @@ messages::Ticket MpiBackend::start_send(int to, int type, const void* data, std:
   return ticket_for(MPI_REQUEST_NULL);
 }
 
-messages::Ticket MpiBackend::ticket_for(MPI_Request request) {
+messages::Ticket MpiBackend::ticket_for(MPI_Request request, int sender) {
   if (free_tickets_.empty()) {
     free_tickets_.push_back(static_cast<messages::Ticket>(tickets_.size()));
-    tickets_.push_back(MPI_REQUEST_NULL);
+    tickets_.push_back({MPI_REQUEST_NULL});
     free_tickets_.reserve(tickets_.size());
   }
   const messages::Ticket ticket = free_tickets_.back();
   free_tickets_.pop_back();
-  tickets_[ticket] = request;
+  tickets_[ticket] = {request, sender};
   return ticket;
 }
 
 bool MpiBackend::sent(messages::Ticket ticket) {
-  if (!test(tickets_[ticket])) return false;
+  Started& started = tickets_[ticket];
+  if (!test(started.request)) return false;
+  if (started.sender >= 0) bells_->ring(started.sender);
   free_tickets_.push_back(ticket);
   return true;
 }
@@ -232,29 +234,38 @@ messages::Envelope MpiBackend::open_wide(const messages::Envelope& whole) {
   return {whole.from, type, length};
 }
 
-void MpiBackend::receive(void* buffer, const messages::Envelope& envelope, int tag) {
+MPI_Request MpiBackend::start_receive(void* buffer, const messages::Envelope& envelope, int tag) {
   MPI_Request request = MPI_REQUEST_NULL;
   succeed(MPI_Irecv(buffer, static_cast<int>(envelope.length), MPI_BYTE, envelope.from, tag, all_, &request),
           "MPI_Irecv");
+  return request;
+}
+
+// The next of its tag, for its sender has sent it right behind the announcement, and nobody has looked since.
+MPI_Request MpiBackend::start_body(void* buffer, const messages::Envelope& envelope) {
+  const BytesType bytes(envelope.length);
+  MPI_Request request = MPI_REQUEST_NULL;
+  succeed(MPI_Irecv(buffer, 1, bytes.get(), envelope.from, tag(envelope.type), all_, &request), "MPI_Irecv");
+  return request;
+}
+
+MPI_Request MpiBackend::start_peeked(void* buffer) {
+  return std::exchange(announced_, false) ? start_body(buffer, *peeked_)
+                                          : start_receive(buffer, *peeked_, tag(peeked_->type));
+}
+
+void MpiBackend::receive(void* buffer, const messages::Envelope& envelope, int tag) {
+  MPI_Request request = start_receive(buffer, envelope, tag);
   wait(request);
   // Its sender may be waiting for just that; of a short one it does not.
   if (envelope.length >= kLong) bells_->ring(envelope.from);
 }
 
-// The next of its tag, for its sender has sent it right behind the announcement, and nobody has looked since.
-void MpiBackend::receive_body(void* buffer, const messages::Envelope& envelope) {
-  const BytesType bytes(envelope.length);
-  MPI_Request request = MPI_REQUEST_NULL;
-  succeed(MPI_Irecv(buffer, 1, bytes.get(), envelope.from, tag(envelope.type), all_, &request), "MPI_Irecv");
-  wait(request);
-  bells_->ring(envelope.from);
-}
-
 void MpiBackend::take(void* buffer) {
-  if (std::exchange(announced_, false)) {
-    receive_body(buffer, *peeked_);
-  } else if (opened_ == nullptr) {
-    receive(buffer, *peeked_, tag(peeked_->type));
+  if (opened_ == nullptr) {
+    MPI_Request request = start_peeked(buffer);
+    wait(request);
+    if (peeked_->length >= kLong) bells_->ring(peeked_->from);  // as in receive
   } else {
     if (peeked_->length > 0) std::memcpy(buffer, opened_->bytes(), peeked_->length);
     pool_.release(opened_);
@@ -262,6 +273,19 @@ void MpiBackend::take(void* buffer) {
   }
   peeked_.reset();
   ++taken_;
+}
+
+// Short ones are here as soon as they are seen.
+std::optional<messages::Ticket> MpiBackend::start_take(void* buffer) {
+  if (opened_ != nullptr || peeked_->length < kLong || mpi_waits_well()) {
+    take(buffer);
+    return std::nullopt;
+  }
+  const int from = peeked_->from;
+  const MPI_Request request = start_peeked(buffer);
+  peeked_.reset();
+  ++taken_;
+  return ticket_for(request, from);
 }
 
 // A short one is received without a look before. Senders of a long one learn that it need not be copied.
@@ -326,7 +350,7 @@ void MpiBackend::idle(int turn, std::chrono::microseconds longest) {
     sched_yield();
   else if (!bells_->armed())
     bells_->arm();
-  else if (*pause < kLongestBlindSleep || (bells_->everyone_has_one() && all_sent()))
+  else if (*pause < kLongestBlindSleep || (bells_->everyone_has_one() && nothing_under_way()))
     bells_->sleep(std::min(*pause, longest));
   else
     bells_->sleep(std::min(kLongestBlindSleep, longest));

@@ -32,7 +32,9 @@ long csendrecv(long type, const void* sbuf, long slen, long node, long pid, long
 /* Start a send, a receive or both and return a message id; buffers are the call's until the id is free. A
  * process has 65,536 ids: msgwait, msgdone that was 1, and msgcancel free them; EQNOMID when none is left. A
  * message goes to the first posted receive that selects it; one that is too short fails, not at once but at its
- * msgwait or msgdone, and the message goes on to the next. isendrecv is done when both are. */
+ * msgwait or msgdone, and the message goes on to the next. isendrecv is done when both are. A long message may still
+ * be coming in when a short one behind it is there: receives of one sender's messages begin in order, and may end in
+ * another. */
 long isend(long type, const void* buf, long len, long node, long pid);
 long irecv(long typesel, void* buf, long len);
 long isendrecv(long type, const void* sbuf, long slen, long node, long pid, long typesel, void* rbuf, long rlen);
@@ -41,7 +43,7 @@ void msgwait(long mid);
 long msgdone(long mid);
 /* Gives up what a message id stands for. A receive takes nothing any more; a message that it has already goes to
  * the next receive that selects it, or waits in its old place. A send is not called back: msgcancel returns when
- * the message has left its buffer. */
+ * the message has left its buffer, or is whole in a receive's. */
 void msgcancel(long mid);
 
 /* Waits for, or asks after (1 yes, 0 no), a message that could be received; info* then describe it. */

@@ -1,10 +1,11 @@
 """A cluster that loses processes, hosts and cables in the middle of a film: the film goes on without them, to the same
 pixels; without restarts, soon one clear end, on every host."""
 
+import json
 import subprocess
 
-from virtual_cluster import (CLUSTER, HOSTS, SECONDS, TESTBED, ClusterTest, run_on_cluster, spinning_teapot, testbed,
-                             wait_until)
+from virtual_cluster import (CLUSTER, HOSTS, PROGRAMS, SECONDS, TESTBED, ClusterTest, run_on_cluster,
+                             spinning_teapot, testbed, wait_until)
 
 ENDLESS = 100000  # frames
 LONG = 2000
@@ -91,6 +92,20 @@ class Losses(ClusterTest):
         testbed("slow", "n3", "5mbit")
         self.on("n1", "mars", "render", film, "-o", "out", "--hostfile", self.hostfile)
         testbed("slow", "n3", "full")
+        self.assertEqual(self.verified_hash("out"), self.alone(film))
+
+    def test_a_node_that_sends_slowly_holds_up_no_other(self):
+        """Each node draws whole frames for itself, and those of n3 take long to the host."""
+        film = self.write("film.json", spinning_teapot(24, [640, 360]))
+        limit = ["tc", "qdisc", "add", "dev", "eth0", "root", "tbf", "rate", "6mbit", "burst", "64kb", "latency", "400ms"]
+        self.on("n3", *limit)
+        self.on("n1", "mpirun", "--bind-to", "none", "--host", "n1,n2,n3", "--map-by", "node",
+                "-n", 1, PROGRAMS / "mars-host", film, "-o", "out", "--no-coherence", "--groups", 2,
+                "--report", "report.json", ":", "-n", 2, PROGRAMS / "mars-node")
+        self.on("n3", "tc", "qdisc", "del", "dev", "eth0", "root")
+        frames = json.loads((self.folder / "report.json").read_text())["frames"]
+        slow = sum(frame["nodes"][0]["node"] == 1 for frame in frames)
+        self.assertLessEqual(slow, 6, "the other node's frames waited for this one's")
         self.assertEqual(self.verified_hash("out"), self.alone(film))
 
 

@@ -50,6 +50,7 @@ class Farm {
  private:
   bool shake_hands();
   bool load_film();
+  void choose_writers(const Writing& writing);
   NodeMemory node_memory() const;
   void render();
   bool work_once();
@@ -63,10 +64,10 @@ class Farm {
   void adapt(const wire::Strip& last, GroupWork& by);
   void report_slow_nodes();
   void receive();
-  void receive_strip();
+  bool receive_strip(bool probed);
   void receive_drawn();
   void receive_written();
-  GroupWork& group_that_wants(const wire::Strip& strip);
+  GroupWork& group_that_wants(const wire::Strip& strip, bool is_drawn);
   void note_last(const wire::Strip& strip, GroupWork& by);
   void finish_written(const std::optional<GroupWork::Composed>& frame);
   FinishedFrame finished(const GroupWork::Composed& composed);
@@ -157,13 +158,20 @@ bool Farm::load_film() {
   load.watched = options_.watch != nullptr ? 1 : 0;
   report_.film_bytes = film_block_.size();
   const Writing* const writing = options_.writing;
+  const bool nodes_write = writing != nullptr && (!writing->is_wanted || writing->is_wanted(report_.nodes));
   const bool loaded =
-      farm::load_film(film_block_, load, inbox_, writing == nullptr ? std::span<const std::byte>() : writing->orders);
-  if (loaded && writing != nullptr) writing->loaded(report_.nodes, inbox_.unseeing());
+      farm::load_film(film_block_, load, inbox_, nodes_write ? writing->orders : std::span<const std::byte>());
+  if (loaded && nodes_write) choose_writers(*writing);
   if (loaded) slots_.give_all();
   if (loaded && listener_.warned) std::ranges::for_each(inbox_.apart(), listener_.warned);
   report_.load_seconds = dclock() - booted;
   return loaded;
+}
+
+void Farm::choose_writers(const Writing& writing) {
+  const std::string warning =
+      farm::choose_writers(groups_, report_.nodes, writing, [this](int first) { return inbox_.sees_folder(first); });
+  if (!warning.empty() && listener_.warned) listener_.warned(warning);
 }
 
 NodeMemory Farm::node_memory() const {
@@ -214,9 +222,9 @@ std::optional<std::uint32_t> Farm::drawn_by(int node, std::int32_t begun) const 
 
 // Whether there was something to do.
 bool Farm::work_once() {
-  if (compose_one()) return true;
+  if (compose_one() || receive_strip(false)) return true;
   if (!iprobe(wire::any_of(wire::kStrip, wire::kFault, wire::kTrace, wire::kDrawn, wire::kWritten, wire::kStorage)))
-    return options_.writing == nullptr && prepare_one();
+    return prepare_one();
   receive();
   return true;
 }
@@ -292,26 +300,32 @@ void Farm::receive() {
       if (listener_.warned) listener_.warned(warning);
       break;
     }
-    default: receive_strip();
+    default: receive_strip(true);
   }
 }
 
-void Farm::receive_strip() {
+// The one that was probed, or one whose bytes were on their way until now; whether there is one.
+bool Farm::receive_strip(bool probed) {
   ScopedSpan span(trace::HostSpan::strip);
-  const double begun = dclock();
-  StripMessage strip = inbox_.receive_strip(store_);
-  const wire::Strip header = strip.header();
-  rates_.received(header.node, dclock() - begun);
+  std::optional<StripMessage> strip = probed ? inbox_.receive_strip(store_) : inbox_.finished_strip();
+  if (!strip) {
+    span.forget();
+    return false;
+  }
+  const wire::Strip header = strip->header();
   charge(wire::Work::host_strip, 1);
   span.set_value(header.frame);
-  GroupWork& group = group_that_wants(header);
+  GroupWork& group = group_that_wants(header, false);
   watching_.receive(header);
-  group.receive(std::move(strip));
+  group.receive(std::move(*strip));
   if (header.last == 1) note_last(header, group);
+  return true;
 }
 
-GroupWork& Farm::group_that_wants(const wire::Strip& strip) {
-  const auto wanting = std::ranges::find_if(groups_, [&](const GroupWork& group) { return group.wants(strip); });
+// `is_drawn`: it has no pixels, for the nodes write the frame.
+GroupWork& Farm::group_that_wants(const wire::Strip& strip, bool is_drawn) {
+  const auto wanting = std::ranges::find_if(
+      groups_, [&](const GroupWork& group) { return group.writes() == is_drawn && group.wants(strip); });
   if (wanting == groups_.end())
     inbox_.refuse(strip.node, "a strip of frame " + std::to_string(strip.frame) + " that it was not asked for");
   if (heartbeats_ != nullptr) heartbeats_->hear(strip);
@@ -325,7 +339,7 @@ void Farm::note_last(const wire::Strip& strip, GroupWork& by) {
 
 void Farm::receive_drawn() {
   const wire::Strip drawn = inbox_.receive_drawn();
-  GroupWork& group = group_that_wants(drawn);
+  GroupWork& group = group_that_wants(drawn, true);
   const auto whole = group.note_drawn(drawn);
   note_last(drawn, group);
   finish_written(whole);
@@ -333,10 +347,9 @@ void Farm::receive_drawn() {
 
 void Farm::receive_written() {
   const wire::Written written = inbox_.receive_written();
-  const auto group =
-      std::ranges::find_if(groups_, [&](const GroupWork& each) { return each.awaits_file(written.frame); });
-  if (options_.writing == nullptr || group == groups_.end())
-    inbox_.refuse(written.node, "word of a file that it was not asked for");
+  const auto group = std::ranges::find_if(
+      groups_, [&](const GroupWork& each) { return each.writes() && each.awaits_file(written.frame); });
+  if (group == groups_.end()) inbox_.refuse(written.node, "word of a file that it was not asked for");
   options_.writing->written(written);
   report_.sink_seconds += written.seconds;
   finish_written(group->note_written(written.frame));
@@ -373,7 +386,9 @@ void Farm::report_slow_nodes() {
 // While nothing comes: a buffer for a frame that is being drawn; whether there was one to prepare.
 bool Farm::prepare_one() {
   ScopedSpan span(trace::HostSpan::prepare);
-  if (std::any_of(groups_.begin(), groups_.end(), [&](GroupWork& group) { return group.prepare(sinks_); })) return true;
+  if (std::any_of(groups_.begin(), groups_.end(),
+                  [&](GroupWork& group) { return !group.writes() && group.prepare(sinks_); }))
+    return true;
   span.forget();
   return false;
 }

@@ -17,6 +17,7 @@
 #include "host/render/farm/node_memory.h"
 #include "host/render/farm/node_rates.h"
 #include "host/render/farm/plan.h"
+#include "host/render/farm/writers.h"
 #include "host/render/sinks/sink_pool.h"
 #include "host/render/trace/trace.h"
 #include "host/render/watch/watch.h"
@@ -24,14 +25,6 @@
 #include "node/wire/protocol.h"
 
 namespace mars::farm {
-
-// Of runs whose nodes write frames' files (node/wire/frame_writer.h).
-struct Writing {
-  std::vector<std::byte> orders;  // for the nodes
-  // All nodes have the film and these; `unseeing` are nodes whose machines do not see the folder.
-  std::function<void(std::span<const wire::Hello> nodes, std::span<const wire::Hello> unseeing)> loaded;
-  std::function<void(const wire::Written&)> written;  // a frame's file is there
-};
 
 struct FarmOptions {
   wire::Mapping mapping = wire::Mapping::cost;
@@ -44,7 +37,7 @@ struct FarmOptions {
   const Cancellation* cancellation = nullptr;  // none: nobody cancels
   Heartbeats* heartbeats = nullptr;            // none: nobody looks whether nodes live
   watch::Watch* watch = nullptr;               // none: nobody watches; it ends before the film does
-  const Writing* writing = nullptr;            // none: the host composes frames for the sinks
+  const Writing* writing = nullptr;            // none: the host composes all frames for the sinks
 };
 
 struct FinishedFrame {
@@ -83,7 +76,7 @@ struct FarmReport {
   double busy_seconds = 0;           // of those, in which the host took and composed strips
   double sink_seconds = 0;           // of all threads that hand frames to the sink
   wire::HostUnits charged{};         // what the host did, by kind
-  images::FileWork files;             // that the host wrote
+  images::FileWork files;            // that the host wrote
   std::vector<SlowTime> slow_times;  // since the first command; of runs that adapt
   bool cancelled = false;            // before all frames were composed
 };

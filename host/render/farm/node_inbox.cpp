@@ -81,6 +81,7 @@ NodeInbox::NodeInbox(std::uint32_t width, std::uint32_t height, wire::PixelForma
       cancellation_(cancellation),
       watched_(watched),
       nodes_(static_cast<int>(numnodes())),
+      receipts_(nodes_),
       hellos_(static_cast<std::size_t>(nodes_)),
       is_known_(hellos_.size()),
       loaded_(hellos_.size()),
@@ -170,13 +171,6 @@ void NodeInbox::receive_loaded() {
   slots_.attach(node, loaded.slots);
 }
 
-std::vector<wire::Hello> NodeInbox::unseeing() const {
-  std::vector<wire::Hello> nodes;
-  for (std::size_t node = 0; node < hellos_.size(); ++node)
-    if (!sees_folder_[node]) nodes.push_back(hellos_[node]);
-  return nodes;
-}
-
 std::vector<std::string> NodeInbox::apart() const {
   std::set<std::string> machines;  // that are reported
   std::vector<std::string> texts;
@@ -189,22 +183,39 @@ std::vector<std::string> NodeInbox::apart() const {
   return texts;
 }
 
-StripMessage NodeInbox::receive_strip(StripStore& store) {
+std::optional<StripMessage> NodeInbox::receive_strip(StripStore& store) {
   const int node = static_cast<int>(infonode());
-  auto strip = slots_.attached(node) ? receive_by_slot(node, store) : receive_by_message(node, store);
+  if (slots_.attached(node)) return checked(receive_by_slot(node, store), node);
+  begin_message(node, store);
+  return finished_message(node);
+}
+
+std::optional<StripMessage> NodeInbox::finished_strip() {
+  for (const int node : receipts_.nodes())
+    if (auto strip = finished_message(node)) return strip;
+  return std::nullopt;
+}
+
+StripMessage NodeInbox::checked(std::optional<StripMessage> strip, int node) const {
   require(strip.has_value(), node, "a strip that is not what its header says");
   check_strip(strip->header(), strip->runs(), node);
   return std::move(*strip);
 }
 
-std::optional<StripMessage> NodeInbox::receive_by_message(int node, StripStore& store) {
+// In which slot it was made shows when it has come; until then it takes the host's memory.
+void NodeInbox::begin_message(int node, StripStore& store) {
   const auto size = static_cast<std::size_t>(infocount());
   require(size >= sizeof(wire::Strip) && size <= wire::kMaxStripBytes, node, "a strip of an impossible size");
-  StripBytes bytes = store.take(size);
-  crecv(wire::kStrip, bytes.data.get(), static_cast<long>(size));
-  std::optional<StripMessage> strip = StripMessage::read(std::move(bytes), format_, watched_);
+  require(receipts_.count(node) < slots_.owned(node), node, "a strip in a slot that it does not have");
+  receipts_.begin(node, store.take(size));
+}
+
+std::optional<StripMessage> NodeInbox::finished_message(int node) {
+  std::optional<StripBytes> bytes = receipts_.take(node);
+  if (!bytes) return std::nullopt;
+  std::optional<StripMessage> strip = StripMessage::read(std::move(*bytes), format_, watched_);
   if (strip) take_slot(strip->header(), node);
-  return strip;
+  return checked(std::move(strip), node);
 }
 
 std::optional<StripMessage> NodeInbox::receive_by_slot(int node, StripStore& store) {

@@ -15,6 +15,7 @@
 #include "host/render/farm/cancellation.h"
 #include "host/render/farm/node_slots.h"
 #include "host/render/farm/strip_message.h"
+#include "host/render/farm/strip_receipts.h"
 #include "node/wire/film.h"
 #include "node/wire/protocol.h"
 
@@ -59,15 +60,17 @@ class NodeInbox {
   bool wait_until_loaded();
   // Of the machines whose nodes do not share memory then, one text each.
   std::vector<std::string> apart() const;
-  // Nodes whose machines do not see the folder into which they are to write.
-  std::vector<wire::Hello> unseeing() const;
+  // Whether the machine of this node, its first, sees the folder into which its nodes are to write.
+  bool sees_folder(int first) const { return sees_folder_.at(static_cast<std::size_t>(first)); }
   // Waits for a message of this type; info* then describe it. A node's fault is thrown instead.
   void wait(long type) const;
 
   // Each receives a message that was probed last.
 
-  // Its slot is the host's from then on.
-  StripMessage receive_strip(StripStore& store);
+  // None: it is still on its way, and finished_strip has it when it has come. Its slot is the host's from then on.
+  std::optional<StripMessage> receive_strip(StripStore& store);
+  // The next strip of any node that has come since it was begun to be received; none: not yet.
+  std::optional<StripMessage> finished_strip();
   // Of runs whose nodes write files. That the sender has drawn its part of a frame; its file; a warning, for people.
   wire::Strip receive_drawn() const;
   wire::Written receive_written() const;
@@ -89,7 +92,9 @@ class NodeInbox {
   void receive_hello();
   void check_machines() const;
   void receive_loaded();
-  std::optional<StripMessage> receive_by_message(int node, StripStore& store);
+  void begin_message(int node, StripStore& store);
+  std::optional<StripMessage> finished_message(int node);
+  StripMessage checked(std::optional<StripMessage> strip, int node) const;
   std::optional<StripMessage> receive_by_slot(int node, StripStore& store);
   void take_slot(const wire::Strip& strip, int sender);
   void check_strip(const wire::Strip& strip, std::span<const wire::Run> runs, int sender) const;
@@ -102,6 +107,7 @@ class NodeInbox {
   const Cancellation* const cancellation_;
   const bool watched_;
   const int nodes_;
+  StripReceipts receipts_;
   std::vector<wire::Hello> hellos_;
   std::vector<bool> is_known_;
   std::vector<bool> loaded_;

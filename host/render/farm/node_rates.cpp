@@ -22,21 +22,15 @@ constexpr int kPassedOver = 32;     // portions
 
 void NodeRates::ready(int number, double now) {
   Node& node = of(number);
-  node.since = std::max(node.since, now - receiving_);
-  node.receiving = 0;
-}
-
-void NodeRates::received(int node, double seconds) {
-  of(node).receiving += seconds;
-  receiving_ += seconds;
+  node.since = std::max(node.since, now);
 }
 
 void NodeRates::came(int number, double now, double seconds, double work) {
   Node& node = of(number);
   ++node.inbetweens;
-  node.seconds += std::max(now - receiving_ - node.since, seconds) + std::exchange(node.receiving, 0);
+  node.seconds += std::max(now - node.since, seconds);
   node.work += work;
-  node.since = now - receiving_;
+  node.since = now;
   node.passed_over = 0;
   if (node.inbetweens >= kInbetweens && node.seconds >= kSeconds) take_pace(number, now);
 }

@@ -27,9 +27,6 @@ class NodeRates {
 
   // The node cannot have begun its next inbetween before `now`.
   void ready(int node, double now);
-  // The host was busy for so long with receiving a strip of the node: its link took as long, and meanwhile nothing of
-  // other nodes could come.
-  void received(int node, double seconds);
   // An inbetween came whole. `seconds`: that it took by the node's own clock, without waiting for the host.
   void came(int node, double now, double seconds, double work);
   // A portion was given to the node's group, and it got inbetweens of it or not.
@@ -47,8 +44,7 @@ class NodeRates {
 
  private:
   struct Node {
-    double since = 0;      // it has drawn its next inbetween; without `receiving_`
-    double receiving = 0;  // of its strips since then
+    double since = 0;  // it has drawn its next inbetween
     // What is being measured.
     int inbetweens = 0;
     double seconds = 0;
@@ -69,7 +65,6 @@ class NodeRates {
   void smooth(int node, double slowness, double now);
 
   std::vector<Node> nodes_;
-  double receiving_ = 0;  // seconds so far, for all nodes
   std::vector<SlowTime> slow_times_;
   std::vector<int> changed_;
 };

@@ -2,6 +2,7 @@
 // sees it. A node that fails may write into its slots at any time, so nothing but pixels may depend on what is there.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -35,6 +36,9 @@ class NodeSlots {
   void give(const NodeSlot& slot);
   // A strip came in it: it is the host's again. False: it was not the node's.
   bool take(const NodeSlot& slot);
+
+  // How many are the node's.
+  std::size_t owned(int node) const { return static_cast<std::size_t>(std::popcount(of(node).owned)); }
 
   // What lies in a slot of a node that is attached.
   std::span<const std::byte> bytes(const NodeSlot& slot) const;

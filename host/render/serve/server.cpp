@@ -81,7 +81,8 @@ class Server {
   void begin_draw(std::uint32_t number, View& view, int node);
 
   bool receive_strips();
-  void receive_strip();
+  bool receive_one();
+  void accept(farm::StripMessage strip);
   void finish(std::uint32_t number, const Picture& picture);
 
   void send_to_all(long type, const std::vector<std::byte>& message) const;
@@ -289,16 +290,21 @@ void Server::begin_draw(std::uint32_t number, View& view, int node) {
 
 bool Server::receive_strips() {
   int received = 0;
-  while (received < kStripsATurn && iprobe(wire::any_of(wire::kStrip, wire::kFault)) != 0) {
-    if (infotype() == wire::kFault) inbox_.receive_fault();
-    receive_strip();
-    ++received;
-  }
+  while (received < kStripsATurn && receive_one()) ++received;
   return received > 0;
 }
 
-void Server::receive_strip() {
-  farm::StripMessage strip = inbox_.receive_strip(store_);
+// Whether something came.
+bool Server::receive_one() {
+  auto strip = inbox_.finished_strip();
+  if (!strip && iprobe(wire::any_of(wire::kStrip, wire::kFault)) == 0) return false;
+  if (!strip && infotype() == wire::kFault) inbox_.receive_fault();
+  if (!strip) strip = inbox_.receive_strip(store_);
+  if (strip) accept(std::move(*strip));
+  return true;
+}
+
+void Server::accept(farm::StripMessage strip) {
   const wire::Strip header = strip.header();
   heartbeats_.hear(header);
   Picture* picture = drawing_.find(header.node, header.frame);

@@ -69,7 +69,7 @@ struct Host {
     slots.give({0, 0});
     cprobe(wire::kStrip);
     farm::StripStore store;
-    paste(inbox.receive_strip(store));
+    paste(*inbox.receive_strip(store));
   }
 
   void take_events() {

@@ -171,7 +171,7 @@ TEST(DamagedMessages, Strip) {
   for (const wire::PixelFormat format : kFormats) {
     StripStore store;
     std::optional<Inbox> host;
-    Exchange exchange{wire::kStrip, sound_strip(1, format), [&] { paste(host->inbox.receive_strip(store), format); }};
+    Exchange exchange{wire::kStrip, sound_strip(1, format), [&] { paste(*host->inbox.receive_strip(store), format); }};
     exchange.ask = [&] {
       host.emplace(format);
       host->slots.give({0, 0});
@@ -187,7 +187,7 @@ void expect_refusals_of_slots(wire::PixelFormat format) {
   std::optional<messages::OfferedMemory> slot;  // the node's
   Damage later;
   Exchange exchange{wire::kStrip, sound_strip(0, format), [&] {
-                      const StripMessage strip = host->inbox.receive_strip(store);
+                      const StripMessage strip = *host->inbox.receive_strip(store);
                       const auto bytes = slot->bytes().first(1000);
                       std::ranges::copy(later.damaged({bytes.begin(), bytes.end()}, false), bytes.begin());
                       paste(strip, format);

@@ -123,22 +123,6 @@ TEST(NodeRates, InbetweensThatCameTogetherTookTheirTimeAllTheSame) {
   EXPECT_NEAR(rates.slowness(1), 3, 0.4) << "the first seemed longer";
 }
 
-// While the host receives from a slow link, the others' inbetweens cannot come either.
-TEST(NodeRates, ALinkThatHoldsUpTheHostIsItsOwnNodesAlone) {
-  NodeRates rates(3);
-  for (int k = 1; k <= 20; ++k) {
-    for (const int node : {0, 1}) {
-      rates.received(node, 0.01);
-      rates.came(node, k - 0.5, 0.04, kWork);
-    }
-    rates.received(2, 0.8);
-    rates.came(2, k, 0.04, kWork);
-  }
-  EXPECT_EQ(rates.slowness(0), 1);
-  EXPECT_EQ(rates.slowness(1), 1);
-  EXPECT_GT(rates.slowness(2), 2);
-}
-
 TEST(NodeRates, MoreWorkIsNotSlowness) {
   NodeRates rates(2);
   for (int k = 1; k <= 200; ++k) {

@@ -225,6 +225,7 @@ struct ScriptedRun {
   FarmListener listener;
   FirstPixels sink;
   wire::PixelFormat format = wire::PixelFormat::rgb8;
+  threads::WrapBackend wrap = {};
 
   FarmReport render(const EmptyFilm& film, const std::function<void()>& node) {
     const Plan plan = make_plan(film.view(), work, nodes);
@@ -234,7 +235,7 @@ struct ScriptedRun {
                            {film.view().settings().width, film.view().settings().height, 8, buffers, 1, 0, format});
       report = render_film(film.block(), plan, farm, pool, listener);
     };
-    threads::run_threads(nodes, host, node);
+    threads::run_threads(nodes, host, node, wrap);
     return report;
   }
 };
