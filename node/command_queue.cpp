@@ -11,7 +11,7 @@ namespace mars::node {
 namespace {
 
 constexpr long kCommands = wire::any_of(wire::kLoad, wire::kRender, wire::kCredit, wire::kStop, wire::kClock,
-                                        wire::kBeginView, wire::kDraw, wire::kCloseView);
+                                        wire::kBeginView, wire::kDraw, wire::kCloseView, wire::kWrite);
 
 // Receives the message that was probed.
 void receive_probed(long type, std::vector<std::byte>& into) {

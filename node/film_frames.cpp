@@ -21,7 +21,8 @@ void FilmFrames::render(const wire::RenderCommand& command) {
                              frame,
                              render.interval,
                              {render.group_first, render.group_count},
-                             render.contributors});
+                             render.contributors,
+                             writes_});
   }
   draw_inbetweens(command);
   messages::keep_to_nobody();
@@ -43,7 +44,8 @@ void FilmFrames::draw_inbetweens(const wire::RenderCommand& command) {
   for (std::size_t k = 0; k < inbetweens.size() && !renderer_.outbox().stopped(); ++k) {
     if (command.render.group_first + command.contributor(k) != self) continue;
     canvas_.scene.set_frame(inbetweens[k]);
-    renderer_.draw(canvas_, {wire::FrameKind::inbetween, inbetweens[k], command.render.interval, {self, 1}, 1});
+    renderer_.draw(canvas_,
+                   {wire::FrameKind::inbetween, inbetweens[k], command.render.interval, {self, 1}, 1, writes_});
   }
 }
 

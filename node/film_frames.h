@@ -14,6 +14,8 @@ class FilmFrames {
   // The film's block and `renderer` outlive it. Collective over a machine's nodes.
   FilmFrames(const wire::FilmView& film, const wire::Load& load, simd::InstructionSet set, Renderer& renderer);
 
+  // From now on frames are written into files; else they go to the host.
+  void write_files() { writes_ = true; }
   // Draws the caller's share of the frames (see Render) and sends it.
   void render(const wire::RenderCommand& command);
 
@@ -24,6 +26,7 @@ class FilmFrames {
   Renderer& renderer_;
   Canvas canvas_;
   const geometry::ShapeBoxes boxes_;
+  bool writes_ = false;
 };
 
 }  // namespace mars::node

@@ -48,6 +48,7 @@ class Firmware {
   void load();
   void forget_film();
   void render();
+  void write_files();
   void report_files_until_command();
   void send_time();
   Renderer& renderer() { return given(renderer_); }
@@ -104,6 +105,7 @@ void Firmware::run() {
       case wire::kBeginView: given(views_).begin(commands_.receive()); break;
       case wire::kDraw: given(views_).draw(commands_.receive()); break;
       case wire::kCloseView: given(views_).close(commands_.receive()); break;
+      case wire::kWrite: write_files(); break;
       case wire::kCredit: renderer().outbox().receive_credit(); break;
       case wire::kStop:
         wire::check_size("Stop", commands_.receive().size(), 0);
@@ -166,6 +168,12 @@ void Firmware::render() {
   else
     left_.assign(command.left().begin(), command.left().end());
   frames.render(command);
+}
+
+void Firmware::write_files() {
+  wire::check_size("Write", commands_.receive().size(), 0);
+  if (!frame_writer_) throw Failure("the host asks for files without saying where", "", "please report it");
+  given(film_frames_).write_files();
 }
 
 // A file may be whole while the node has nothing to do.

@@ -70,6 +70,7 @@ void Renderer::begin(Canvas& canvas, const Frame& frame, const HasEnded& has_end
   has_ended_ = &has_ended;
   group_ = frame.group;
   contributors_ = static_cast<std::size_t>(frame.contributors);
+  file_ = frame.is_written ? &file_output_.value() : nullptr;
   heartbeat_.begin_frame(frame.number);
   report_.begin(frame.kind, frame.number, frame.interval);
   charge_begin(report_, scene(), std::exchange(is_first_, false));
@@ -223,7 +224,7 @@ raster::Polygons Renderer::receive_some(group::AwaitedTriangles& awaited) {
 }
 
 void Renderer::draw_lines(const geometry::LineRange& lines, const group::Pass& pass) {
-  if (file_output_ && pass.number == 0) begin_writing();
+  if (file_ && pass.number == 0) begin_writing();
   if (!contributes()) return finish_exchange(pass);
   const shading::Shading shading = this->shading();
   const bool constant = report_.is_keyframe() && raster::any_stationary(parts_, lines);
@@ -232,7 +233,7 @@ void Renderer::draw_lines(const geometry::LineRange& lines, const group::Pass& p
     raster::StripBuffer& buffer = begin_strip(constant);
     strip = {strip.last, draw_strip({strip.last, lines.last}, shading, buffer)};
     drawn = strip.last == lines.last || report_.is_cut();
-    if (file_output_) paste_strip(strip);
+    if (file_) paste_strip(strip);
     if (drawn) finish_exchange(pass);
     send_strip(strip, drawn && pass.is_last());
   }
@@ -240,7 +241,7 @@ void Renderer::draw_lines(const geometry::LineRange& lines, const group::Pass& p
 
 // Waits for the host's credit.
 raster::StripBuffer& Renderer::begin_strip(bool constant) {
-  if (file_output_) return outbox_.begin_own(scene().film().settings().width, constant);
+  if (file_) return outbox_.begin_own(scene().film().settings().width, constant);
   const PhaseScope credit = phase(wire::Phase::credit);
   return outbox_.begin(scene().film().settings().width, constant, report_.strip().work);
 }
@@ -276,7 +277,7 @@ void Renderer::finish_exchange(const group::Pass& pass) {
     const PhaseScope depth = phase(wire::Phase::depth);
     canvas_->still_exchange.complete({group_, homes(), canvas_->contributes}, canvas_->still);
   }
-  if (file_output_) finish_writing();
+  if (file_) finish_writing();
 }
 
 // Nodes take turns in writing keyframes.
@@ -286,24 +287,24 @@ int Renderer::keyframe_writer() const {
 
 void Renderer::begin_writing() {
   const wire::Strip& strip = report_.strip();
-  if (!report_.is_keyframe()) return file_output_->writer().begin_inbetween(strip.frame);
+  if (!report_.is_keyframe()) return file_->writer().begin_inbetween(strip.frame);
   const wire::FilmView& film = scene().film();
   const wire::FilmSettings& settings = film.settings();
   const auto encoding =
       color::encoding_of(settings, film.camera_at(film.intervals()[strip.interval].first_frame), pixel_format_);
   const geometry::LineRange home = homes()[member()], touched = canvas_->still.lines();
-  file_output_->writer().begin_keyframe({strip.frame,
-                                         strip.interval,
-                                         {home.first, home.last},
-                                         color::pixel_of(encoding, settings.background.data()),
-                                         {touched.first, touched.last},
-                                         std::ranges::count(canvas_->contributes, 1) > 0});
+  file_->writer().begin_keyframe({strip.frame,
+                                  strip.interval,
+                                  {home.first, home.last},
+                                  color::pixel_of(encoding, settings.background.data()),
+                                  {touched.first, touched.last},
+                                  std::ranges::count(canvas_->contributes, 1) > 0});
 }
 
 void Renderer::paste_strip(const geometry::LineRange& lines) {
   const PhaseScope compose = phase(wire::Phase::compose);
   report_.set_strip(lines, false);
-  file_output_->paste(report_.strip());
+  file_->paste(report_.strip());
 }
 
 // An inbetween is whole where it is drawn.
@@ -312,11 +313,11 @@ void Renderer::finish_writing() {
   if (report_.is_keyframe()) {
     const PhaseScope compose = phase(wire::Phase::compose);
     const int writer = keyframe_writer();
-    file_output_->exchange_bands({group_, homes(), canvas_->contributes, writer});
+    file_->exchange_bands({group_, homes(), canvas_->contributes, writer});
     is_whole = writer == static_cast<int>(mynode());
   }
   const PhaseScope storage = phase(wire::Phase::storage);
-  if (is_whole) file_output_->write();
+  if (is_whole) file_->write();
 }
 
 void Renderer::finish_triangles() {
@@ -327,7 +328,7 @@ void Renderer::finish_triangles() {
 void Renderer::send_strip(const geometry::LineRange& lines, bool last) {
   report_.note_memory(memory_.arena().peak());
   report_.set_strip(lines, last);
-  if (file_output_) {
+  if (file_) {
     if (last) outbox_.send_drawn(report_.strip());
     return report_.skip_clock();
   }

@@ -33,6 +33,7 @@ struct Frame {
   std::uint32_t interval;
   collectives::Group group;   // that draws it
   std::int32_t contributors;  // of it, the first; the others take part in what all do together
+  bool is_written = false;    // into a file, by these nodes; else it goes to the host
 };
 
 class Renderer {
@@ -41,7 +42,7 @@ class Renderer {
   using HasEnded = std::function<bool()>;
 
   // `machines`: each node's machine, as in Load. `heartbeat` outlives it. Collective over a machine's nodes.
-  // `writer` may be nullptr: then frames go to the host.
+  // `writer` may be nullptr: then all frames go to the host.
   Renderer(const wire::Load& load, std::span<const std::int32_t> machines, simd::InstructionSet set,
            Heartbeat& heartbeat, wire::FrameWriter* writer = nullptr);
 
@@ -119,13 +120,14 @@ class Renderer {
   group::FrameMemory memory_;
   group::Outbox outbox_;
 
-  std::optional<FileOutput> file_output_;  // none: frames go to the host
+  std::optional<FileOutput> file_output_;  // none: all frames go to the host
 
   bool is_first_ = true;  // of all frames
 
   // Of the current frame.
   Canvas* canvas_ = nullptr;  // that it is of
   const HasEnded* has_ended_ = nullptr;
+  FileOutput* file_ = nullptr;            // none: it goes to the host
   collectives::Group group_;              // that draws it
   std::size_t contributors_ = 1;          // of it
   std::vector<raster::LineBoxes> parts_;  // edge boxes of the lines to be drawn; own ones first

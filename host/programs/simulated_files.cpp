@@ -16,7 +16,7 @@ sinks::ServedSinks::Serve serve_files(simulated::World& world, images::PictureFo
 }
 
 farm::Writing counted_writing() {
-  return {std::vector<std::byte>(1), [](auto, auto) {}, [](const wire::Written&) {}};
+  return {std::vector<std::byte>(1), {}, [](const wire::Hello&) { return true; }, [](const wire::Written&) {}};
 }
 
 }  // namespace mars::programs

@@ -10,8 +10,8 @@
 // and runs where they lie; elsewhere they travel in the Strip. The host reads no slot after Stop, nor once it has
 // declared a node lost: then the run ends.
 //
-//   host -> node   Load (+ film block to the first node, in pieces), Credit ..., Render ..., Stop; live views have
-//                  BeginView, Draw and CloseView ... instead of Render, and may have another Load
+//   host -> node   Load (+ film block to the first node, in pieces), Write, Credit ..., Render ..., Stop; live views
+//                  have BeginView, Draw and CloseView ... instead of Render, and may have another Load
 //   node -> host   Hello, Loaded, Strip ..., Fault (its last message)
 //   both ways      Clock, when the run is traced; then also node -> host Trace ...
 //   both ways      Beat, at any time
@@ -61,6 +61,7 @@ enum MessageType : long {
   kEdge,        // lines of a band, for the node that composes it
   kBackground,  // what inbetweens need of the sender's bands; empty within a machine, once they are there
   kPicture,     // the sender's bands of a keyframe, for the node that writes it
+  kWrite,       // host -> node, before any Render: empty; the node's group writes its frames. Other groups send strips
 };
 
 // Of triangles and their edge boxes on the receiver's lines.
@@ -114,7 +115,7 @@ struct Load {
   std::uint64_t still_memory;  // bytes that a node adds to what its machine keeps of stationary parts for inbetweens
   std::uint32_t live;          // 1: BeginViews and Draws follow, no Renders; another Load may come, which ends all views
   std::uint32_t watched;       // 1: strips say how many edge boxes each of their lines has
-  std::uint64_t orders;        // bytes behind the machines, for the node's frame writer; 0: frames go to the host
+  std::uint64_t orders;        // bytes behind the machines, for the node's frame writer; 0: all frames go to the host
 };
 
 // The node has the film and its slots.

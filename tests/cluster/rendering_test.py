@@ -65,8 +65,27 @@ class Rendering(ClusterTest):
         self.assertEqual(len(files[0]), 8)
         self.assertEqual(*files)
         self.assertFalse((self.folder / "nodes/.runs").exists())
-        refused = run("/tmp/of-each-host-its-own", "--write", "nodes", code=1)
-        self.assertClear(refused.stderr, "does not see the folder as the host does")
+
+    def test_files_of_hosts_that_do_not_see_the_folder(self):
+        """The host writes them: of n3, where another folder has the name, and of all hosts but n1."""
+        film = self.write("many.json", spinning_teapot(24, [320, 180]))
+        run = lambda out, *more: self.on("n1", "mars", "render", film, "-o", out, "--hostfile", self.hostfile,
+                                         "--no-coherence", *more).stderr
+        files = lambda out: {path.name: path.read_bytes() for path in (self.folder / out).glob("*.png")}
+        run("host")
+        (self.folder / "nodes").mkdir()
+        self.on("n3", "mount", "-t", "tmpfs", "tmpfs", self.folder / "nodes")
+        printed = run("nodes", "--write", "nodes", "--groups", 7)
+        self.on("n3", "umount", self.folder / "nodes")
+        self.assertIn("n3 does not see the folder of frames as the host does: the host composes and writes the frames "
+                      "of 2 of the 7 groups", printed)
+        self.assertEqual(len(files("host")), 24)
+        self.assertEqual(files("nodes"), files("host"))
+        printed = run("/tmp/of-each-host-its-own", "--write", "nodes", "--groups", 1)
+        self.assertIn("n2, n3 and n4 do not see the folder of frames as the host does: the host composes and writes all "
+                      "frames", printed)
+        self.on("n1", "cp", "-r", "/tmp/of-each-host-its-own", "copy")
+        self.assertEqual(files("copy"), files("host"))
 
     def test_sbatch_with_mpirun(self):
         self.assertRendered(self.submit("mpirun.sbatch", "--ntasks=8"), 7)

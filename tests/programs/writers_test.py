@@ -9,7 +9,7 @@ import signal
 import subprocess
 import time
 
-from harness import (ENVIRONMENT, EXAMPLES, PROGRAMS, SECONDS, ProgramTest, family, main, needs_mpi, spinning_teapot,
+from harness import (ENVIRONMENT, EXAMPLES, OWN_MPIRUN, PROGRAMS, SECONDS, ProgramTest, family, main, needs_mpi, spinning_teapot,
                      wait_until)
 
 NODES = ["--write", "nodes"]
@@ -64,6 +64,32 @@ class Writers(ProgramTest):
                            env=dict(ENVIRONMENT, MARS_MEMORY="1"))
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual(self.files("nodes"), self.files("wanted"))
+
+    @needs_mpi
+    def test_groups_that_do_not_see_the_folder_leave_it_to_the_host(self):
+        """A node in namespaces of its own, where another folder has the name."""
+        apart = ["unshare", "--user", "--map-root-user", "--mount"]
+        if self.run_program(*apart, "mount", "-t", "tmpfs", "none", "/mnt").returncode != 0:
+            self.skipTest("no user namespaces here")
+        path = self.write_film("demo", next(films())[1])
+        self.render(path, "wanted", "--backend", "threads", "--nodes", 1, "--frames", "0-9")
+        hidden = ["sh", "-c", 'mount -t tmpfs none "$0" && exec "$1"', self.folder / "out", PROGRAMS / "mars-node"]
+        for groups, says in [(2, "the frames of 1 of the 2 groups of nodes, which have nodes there"),
+                             (1, "all frames, for every group of nodes has nodes there; see --groups")]:
+            shutil.rmtree(self.folder / "out", ignore_errors=True)
+            (self.folder / "out").mkdir()
+            done = self.run_program(*OWN_MPIRUN, "-n", 1, PROGRAMS / "mars-host", path, "-o", "out", *NODES, "--groups",
+                                    groups, "--frames", "0-9", "--no-coherence", "--report", "report.json", ":", "-n", 1,
+                                    PROGRAMS / "mars-node", ":", "-n", 1, *apart, *hidden)
+            self.assertEqual(done.returncode, 0, done.stderr + done.stdout)
+            self.assertIn("does not see the folder of frames as the host does: the host composes and writes " + says,
+                          done.stdout)
+            self.assertEqual(self.files("out"), self.files("wanted"))
+            self.assertFalse((self.folder / "out/.runs").exists())
+            self.assertIn("all there and whole", self.succeed("mars", "verify", "out"))
+            frames = json.loads((self.folder / "report.json").read_text())["frames"]
+            composed_by = {node["node"] for frame in frames for node in frame["nodes"] if node["seconds"]["compose"] > 0}
+            self.assertEqual(composed_by, {0} if groups == 2 else set())
 
     def test_a_run_goes_on_the_other_way(self):
         path = self.write("film.json", spinning_teapot(FRAMES, [160, 90]))

@@ -70,8 +70,6 @@ bool Engine::load_film(std::span<const std::byte> block, wire::Load load, std::s
   load.pixel_format = options_.format;
   load.traced = options_.trace != nullptr ? 1 : 0;
   load.watched = options_.watched ? 1 : 0;
-  nodes_write_ = !orders.empty();
-  live_ = load.live == 1;
   inbox_.expect_loaded();
   send_load(load, inbox_.hellos(), orders);
   const std::vector<long> sends = send_block(block);
@@ -121,7 +119,7 @@ bool Engine::hear_strip(bool probed, WorkGiver& giver, PictureTaker& taker) {
   }
   const wire::Strip header = strip->header();
   span.set_value(header.frame);
-  note_given(header);
+  note_given(header, false, taker);
   taker.take_strip(std::move(*strip));
   giver.note_taken(header);
   return true;
@@ -129,20 +127,18 @@ bool Engine::hear_strip(bool probed, WorkGiver& giver, PictureTaker& taker) {
 
 void Engine::hear_drawn(WorkGiver& giver, PictureTaker& taker) {
   const wire::Strip drawn = inbox_.receive_drawn();
-  if (!nodes_write_) inbox_.refuse(drawn.node, "word of a frame that it was not to write");
-  note_given(drawn);
+  note_given(drawn, true, taker);
   taker.take_drawn(drawn);
   giver.note_taken(drawn);
 }
 
 void Engine::hear_written(PictureTaker& taker) {
   const wire::Written written = inbox_.receive_written();
-  if (!nodes_write_ || !taker.take_written(written))
-    inbox_.refuse(written.node, "word of a file that it was not asked for");
+  if (!taker.take_written(written)) inbox_.refuse(written.node, "word of a file that it was not asked for");
 }
 
-void Engine::note_given(const wire::Strip& strip) {
-  if (!assignments_.has(strip) || (strip.cut == 1 && !live_))
+void Engine::note_given(const wire::Strip& strip, bool is_drawn, const PictureTaker& taker) {
+  if (!assignments_.has(strip) || !taker.expects(strip, is_drawn))
     inbox_.refuse(strip.node, "a strip of frame " + std::to_string(strip.frame) + " that it was not asked for");
   if (options_.heartbeats != nullptr) options_.heartbeats->hear(strip);
   if (strip.last == 1) assignments_.end(strip);

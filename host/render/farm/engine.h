@@ -38,15 +38,17 @@ class WorkGiver {
 class PictureTaker {
  public:
   virtual ~PictureTaker() = default;
-  // A strip of what its node was given. Its slot and memory go back to the engine once it is in its picture.
+  // Whether what came of a picture, which its node was given, can be: a strip, or, where nodes write files
+  // (node/wire/frame_writer.h), word that the node's part `is_drawn`.
+  virtual bool expects(const wire::Strip& strip, bool is_drawn) const = 0;
+  // Such a strip. Its slot and memory go back to the engine once it is in its picture.
   virtual void take_strip(StripMessage strip) = 0;
   // Does a part of the work that what was taken makes; whether there was something.
   virtual bool compose() = 0;
   // As compose(), while no message has come.
   virtual bool prepare() { return false; }
 
-  // Where nodes write files (node/wire/frame_writer.h): a node's part of a frame that it was given is drawn; a frame's
-  // file is there, and whether it was asked for; a warning, for people.
+  // Where nodes write files: such word; a frame's file is there, and whether it was asked for; a warning, for people.
   virtual void take_drawn(const wire::Strip&) {}
   virtual bool take_written(const wire::Written&) { return false; }
   virtual void warn(const std::string&) {}
@@ -109,7 +111,7 @@ class Engine {
   bool hear_strip(bool probed, WorkGiver& giver, PictureTaker& taker);
   void hear_drawn(WorkGiver& giver, PictureTaker& taker);
   void hear_written(PictureTaker& taker);
-  void note_given(const wire::Strip& strip);
+  void note_given(const wire::Strip& strip, bool is_drawn, const PictureTaker& taker);
 
   const EngineOptions options_;
   NodeSlots slots_;
@@ -117,8 +119,6 @@ class Engine {
   Assignments assignments_;
   StripStore store_;
   std::optional<Tracing> tracing_;  // once all nodes are there
-  bool nodes_write_ = false;
-  bool live_ = false;  // nodes may cut pictures
   double begun_ = 0;
   double busy_seconds_ = 0;
 };

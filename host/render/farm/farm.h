@@ -15,20 +15,13 @@
 #include "host/render/farm/node_memory.h"
 #include "host/render/farm/node_rates.h"
 #include "host/render/farm/plan.h"
+#include "host/render/farm/writers.h"
 #include "host/render/sinks/sink_pool.h"
 #include "host/render/watch/watch.h"
 #include "node/wire/film.h"
 #include "node/wire/protocol.h"
 
 namespace mars::farm {
-
-// Of runs whose nodes write frames' files (node/wire/frame_writer.h).
-struct Writing {
-  std::vector<std::byte> orders;  // for the nodes
-  // All nodes have the film and these; `unseeing` are nodes whose machines do not see the folder.
-  std::function<void(std::span<const wire::Hello> nodes, std::span<const wire::Hello> unseeing)> loaded;
-  std::function<void(const wire::Written&)> written;  // a frame's file is there
-};
 
 // Pictures are those of the sinks.
 struct FarmOptions : EngineOptions {
@@ -38,7 +31,7 @@ struct FarmOptions : EngineOptions {
   bool each_frame = false;                    // report what is known of each frame, which grows with the film
   bool adapts = false;                        // slow nodes get fewer inbetweens; long tasks are given in portions
   watch::Watch* watch = nullptr;              // none: nobody watches; it ends before the film does
-  const Writing* writing = nullptr;           // none: the host composes frames for the sinks
+  const Writing* writing = nullptr;           // none: the host composes all frames for the sinks
 };
 
 struct FinishedFrame {

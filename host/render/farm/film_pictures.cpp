@@ -13,14 +13,21 @@ FilmPictures::FilmPictures(const FilmRun& run) : run_(run), watch_(run.options.w
                           static_cast<std::uint32_t>(groups_.size()));
     groups_.emplace_back(group, run.plan.contributors_of(group), run.sinks.shape(), run.engine.assignments());
   }
+}
+
+void FilmPictures::begin() {
   if (watch_ == nullptr) return;
   paste_listener_ = [this](const auto& strip, const auto& compositor, const auto& frame) {
     show(strip, compositor, frame);
   };
-  const sinks::SinkPool::Shape& shape = run.sinks.shape();
-  watch_->begin({run.film, shape.block, shape.format, static_cast<std::uint32_t>(groups_.size()),
+  const sinks::SinkPool::Shape& shape = run_.sinks.shape();
+  watch_->begin({run_.film, shape.block, shape.format, static_cast<std::uint32_t>(groups_.size()),
                  static_cast<std::uint32_t>(frames_left_)},
-                run.engine.inbox().hellos());
+                run_.engine.inbox().hellos());
+}
+
+bool FilmPictures::expects(const wire::Strip& strip, bool is_drawn) const {
+  return strip.cut == 0 && groups_[number_of_group(strip.node)].writes() == is_drawn;
 }
 
 void FilmPictures::take_strip(StripMessage strip) {
@@ -59,16 +66,16 @@ void FilmPictures::follow_first_busy() {
 
 void FilmPictures::show(const StripMessage& strip, const compositor::Compositor& compositor,
                         const compositor::Frame& frame) {
-  watch_->paste(group_numbers_[static_cast<std::size_t>(strip.header().node)],
+  watch_->paste(number_of_group(strip.header().node),
                 {strip.header(), strip.constant_runs(), strip.moving_runs(), strip.edge_boxes()}, compositor, frame,
                 run_.engine.seconds());
 }
 
 // A buffer for a frame that is being drawn.
 bool FilmPictures::prepare() {
-  if (run_.options.writing != nullptr) return false;
   ScopedSpan span(trace::HostSpan::prepare);
-  if (std::ranges::any_of(groups_, [&](GroupWork& group) { return group.prepare(run_.sinks); })) return true;
+  if (std::ranges::any_of(groups_, [&](GroupWork& group) { return !group.writes() && group.prepare(run_.sinks); }))
+    return true;
   span.forget();
   return false;
 }
@@ -88,8 +95,8 @@ void FilmPictures::submit(const GroupWork::Composed& composed) {
   with_sinks_[frame.number] = frame;
   charge(wire::Work::host_frame, 1);
   if (watch_ != nullptr)
-    watch_->compose({*whole, frame.interval, frame.kind, group_numbers_[static_cast<std::size_t>(frame.first_node)],
-                     frame.given, frame.seconds, frame.first_node});
+    watch_->compose({*whole, frame.interval, frame.kind, number_of_group(frame.first_node), frame.given, frame.seconds,
+                     frame.first_node});
   run_.sinks.submit(whole);
 }
 
@@ -108,8 +115,8 @@ void FilmPictures::take_drawn(const wire::Strip& drawn) {
 }
 
 bool FilmPictures::take_written(const wire::Written& written) {
-  const auto group =
-      std::ranges::find_if(groups_, [&](const GroupWork& each) { return each.awaits_file(written.frame); });
+  const auto group = std::ranges::find_if(
+      groups_, [&](const GroupWork& each) { return each.writes() && each.awaits_file(written.frame); });
   if (group == groups_.end()) return false;
   run_.options.writing->written(written);
   run_.report.sink_seconds += written.seconds;

@@ -18,9 +18,12 @@ namespace mars::farm {
 
 class FilmPictures : public PictureTaker {
  public:
-  // All nodes are there, and the first command goes out next.
+  // All nodes are there.
   explicit FilmPictures(const FilmRun& run);
+  // The first command goes out next.
+  void begin();
 
+  bool expects(const wire::Strip& strip, bool is_drawn) const override;
   void take_strip(StripMessage strip) override;
   bool compose() override;
   bool prepare() override;
@@ -29,7 +32,7 @@ class FilmPictures : public PictureTaker {
   void warn(const std::string& text) override;
 
   std::vector<GroupWork>& groups() { return groups_; }
-  GroupWork& group_of(int node) { return groups_[group_numbers_[static_cast<std::size_t>(node)]]; }
+  GroupWork& group_of(int node) { return groups_[number_of_group(node)]; }
   std::size_t frames_left() const { return frames_left_; }
 
   // Notes which frames the sinks have now.
@@ -37,6 +40,7 @@ class FilmPictures : public PictureTaker {
   bool sinks_have_all() const { return with_sinks_.empty(); }
 
  private:
+  std::uint32_t number_of_group(int node) const { return group_numbers_[static_cast<std::size_t>(node)]; }
   void follow_first_busy();
   void show(const StripMessage& strip, const compositor::Compositor& compositor, const compositor::Frame& frame);
   void submit(const GroupWork::Composed& composed);

@@ -23,6 +23,9 @@ class GroupWork {
 
   const collectives::Group& group() const { return group_; }
   std::int32_t contributors() const { return contributors_; }  // to keyframes
+  // Whether its nodes write the frames' files; at first they send strips.
+  bool writes() const { return writes_; }
+  void let_nodes_write() { writes_ = true; }
   // Tasks given and not done.
   std::size_t tasks() const { return tasks_.size(); }
   // Once all of the task before is given. `background`: the pixel where nothing is drawn. `now`: in seconds since the
@@ -73,6 +76,7 @@ class GroupWork {
   collectives::Group group_;
   std::int32_t contributors_;
   Assignments* assignments_;
+  bool writes_ = false;
   compositor::Compositor compositor_;  // the first task's
   std::deque<Given> tasks_;
   const Task* open_ = nullptr;      // the last of them, while portions are left

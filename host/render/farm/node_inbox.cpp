@@ -171,13 +171,6 @@ void NodeInbox::receive_loaded() {
   slots_.attach(node, loaded.slots);
 }
 
-std::vector<wire::Hello> NodeInbox::unseeing() const {
-  std::vector<wire::Hello> nodes;
-  for (std::size_t node = 0; node < hellos_.size(); ++node)
-    if (!sees_folder_[node]) nodes.push_back(hellos_[node]);
-  return nodes;
-}
-
 std::vector<std::string> NodeInbox::apart() const {
   std::set<std::string> machines;  // that are reported
   std::vector<std::string> texts;

@@ -24,7 +24,14 @@ NodeMemory node_memory(const FilmRun& run) {
                            run.film.settings());
 }
 
-bool load_film(std::span<const std::byte> film_block, const FilmRun& run) {
+void let_nodes_write(const Writing& writing, const FilmRun& run, std::vector<GroupWork>& groups) {
+  const NodeInbox& inbox = run.engine.inbox();
+  const std::string warning =
+      choose_writers(groups, inbox.hellos(), writing, [&](int first) { return inbox.sees_folder(first); });
+  if (!warning.empty() && run.listener.warned) run.listener.warned(warning);
+}
+
+bool load_film(std::span<const std::byte> film_block, const FilmRun& run, std::vector<GroupWork>& groups) {
   const double begun = dclock();
   run.report.node_memory = node_memory(run);
   run.report.film_bytes = film_block.size();
@@ -34,10 +41,11 @@ bool load_film(std::span<const std::byte> film_block, const FilmRun& run) {
   load.memory = run.report.node_memory.frames;
   load.still_memory = run.report.node_memory.still;
   const Writing* const writing = run.options.writing;
-  const bool loaded =
-      run.engine.load_film(film_block, load, writing == nullptr ? std::span<const std::byte>() : writing->orders);
   const NodeInbox& inbox = run.engine.inbox();
-  if (loaded && writing != nullptr) writing->loaded(inbox.hellos(), inbox.unseeing());
+  const bool nodes_write = writing != nullptr && (!writing->is_wanted || writing->is_wanted(inbox.hellos()));
+  const bool loaded =
+      run.engine.load_film(film_block, load, nodes_write ? writing->orders : std::span<const std::byte>());
+  if (loaded && nodes_write) let_nodes_write(*writing, run, groups);
   if (loaded && run.listener.warned) std::ranges::for_each(inbox.apart(), run.listener.warned);
   run.report.load_seconds = dclock() - begun;
   return loaded;
@@ -49,9 +57,9 @@ void finish_sinks(const FilmRun& run) {
 }
 
 // Whether all frames are drawn.
-bool render(const FilmRun& run) {
-  FilmPictures pictures(run);
+bool render(const FilmRun& run, FilmPictures& pictures) {
   FilmWork work(run, pictures);
+  pictures.begin();
   run.engine.set_doing("rendering");
   run.engine.run(work, pictures);
   run.report.render_seconds = run.engine.seconds();
@@ -78,7 +86,8 @@ FarmReport render_film(std::span<const std::byte> film_block, const Plan& plan, 
   if (engine.shake_hands()) {
     report.nodes = engine.inbox().hellos();
     if (listener.booted) listener.booted(report.nodes, plan.keyframes(), plan.inbetweens());
-    drawn = load_film(film_block, run) && render(run);
+    FilmPictures pictures(run);
+    drawn = load_film(film_block, run, pictures.groups()) && render(run, pictures);
   }
   engine.stop(drawn);
   report.cancelled = !drawn;

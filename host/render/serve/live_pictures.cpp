@@ -1,7 +1,6 @@
 #include "host/render/serve/live_pictures.h"
 
 #include <algorithm>
-#include <string>
 #include <utility>
 
 #include "hal/nx/nx_messages.h"
@@ -72,12 +71,15 @@ bool LivePictures::has_keyframe(std::uint32_t view) const {
   return known != views_.end() && known->second.has_keyframe;
 }
 
+// Only of a picture that is wanted no more, lines may be left out.
+bool LivePictures::expects(const wire::Strip& strip, bool is_drawn) const {
+  return !is_drawn && (strip.cut == 0 || pictures_.at(strip.frame).frame == nullptr);
+}
+
 void LivePictures::take_strip(farm::StripMessage strip) {
   const wire::Strip header = strip.header();
   const auto found = pictures_.find(header.frame);
   Picture& picture = found->second;
-  if (header.cut == 1 && picture.frame != nullptr)
-    engine_.inbox().refuse(header.node, "a part of picture " + std::to_string(header.frame) + " without its lines");
   if (picture.frame != nullptr) {
     View& view = views_.at(picture.view);
     farm::paste_strip(strip, *picture.frame, view.compositor, view.all_moves);

@@ -18,6 +18,7 @@ class LivePictures : public farm::PictureTaker {
   // All nodes are there. `block`: side of the compositor's blocks, pixels.
   LivePictures(farm::Engine& engine, pictures::Socket& studio, std::uint32_t block);
 
+  bool expects(const wire::Strip& strip, bool is_drawn) const override;
   void take_strip(farm::StripMessage strip) override;
   // Sends what the studio did not take before.
   bool compose() override;

@@ -7,8 +7,11 @@
 #include <chrono>
 #include <functional>
 #include <future>
+#include <map>
 #include <memory>
 #include <optional>
+#include <ranges>
+#include <span>
 #include <thread>
 #include <utility>
 
@@ -111,7 +114,13 @@ farm::FarmOptions farm_options(const RenderJob& job, const farm::HostMemory& mem
   return farm;
 }
 
-bool nodes_write(const RenderJob& job) { return job.writers == Writers::nodes && !job.folder.empty(); }
+// On one machine the host writes as soon, with processors that nodes do not use.
+bool nodes_write_sooner(const Prediction& prediction, std::span<const wire::Hello> nodes) {
+  std::map<std::int32_t, int> machines;
+  for (const wire::Hello& node : nodes) ++machines[node.machine];
+  if (machines.size() < 2 || !prediction.nodes_write_sooner) return false;
+  return prediction.nodes_write_sooner(std::ranges::max(std::views::values(machines)));
+}
 
 // Nodes hear that the host lives also while it waits for storage.
 void record(const wire::Written& written, sinks::FrameFolder& folder, farm::Heartbeats& heartbeats) {
@@ -124,20 +133,35 @@ void record(const wire::Written& written, sinks::FrameFolder& folder, farm::Hear
 }
 
 // The orders of nodes that write frames' files, and what the folder records of the files.
-farm::Writing make_writing(sinks::FrameFolder& folder, farm::Heartbeats& heartbeats) {
-  const sinks::WriterOrders orders = folder.writer_orders();
-  if (orders.part_of(0).native().size() >= PATH_MAX)
-    throw Failure("its whole path is too long for nodes", folder.path().string(), "shorten it, or use --write host");
-  folder.add_probe();
+farm::Writing make_writing(const sinks::WriterOrders& orders, sinks::FrameFolder& folder,
+                           farm::Heartbeats& heartbeats) {
   return {sinks::bytes_of(orders),
-          [&folder](std::span<const wire::Hello> nodes, std::span<const wire::Hello> unseeing) {
-            for (const wire::Hello& hello : unseeing)
-              throw Failure("machine " + std::string(hello.host.data()) + " does not see the folder as the host does",
-                            folder.path().string(), "put it where all machines see it, or use --write host");
-            for (const wire::Hello& hello : nodes)
-              if (hello.machine == hello.node) folder.wait_for_probe(hello.node, hello.host.data());
-          },
+          {},
+          [&folder](const wire::Hello& first) { return folder.sees_probe_of(first.node); },
           [&folder, &heartbeats](const wire::Written& written) { record(written, folder, heartbeats); }};
+}
+
+// None: the host writes. Of a run that is watched it needs the pixels.
+std::optional<farm::Writing> writing_of(const RenderJob& job, const Prediction& prediction, sinks::FrameFolder* folder,
+                                        farm::Heartbeats& heartbeats) {
+  if (folder == nullptr || job.writers == Writers::host || !job.watch.empty()) return job.writing;
+  const sinks::WriterOrders orders = folder->writer_orders();
+  const bool is_short = orders.part_of(0).native().size() < PATH_MAX;
+  farm::Writing writing = make_writing(orders, *folder, heartbeats);
+  if (job.writers == Writers::nodes) {
+    if (!is_short)
+      throw Failure("its whole path is too long for nodes", folder->path().string(), "shorten it, or use --write host");
+    folder->add_probe();
+    return writing;
+  }
+  if (!is_short) return std::nullopt;
+  writing.is_wanted = [&prediction, folder, &heartbeats](std::span<const wire::Hello> nodes) {
+    bool wanted = false;
+    heartbeats.during("loading", [&] { wanted = nodes_write_sooner(prediction, nodes); });
+    if (wanted) folder->add_probe();
+    return wanted;
+  };
+  return writing;
 }
 
 // A node that cannot write because the run has lost its folder has not died of anything that a new start would mend.
@@ -222,20 +246,25 @@ resume::Opened load_film(const RenderJob& job, const EventReporter& reporter, fa
   return std::move(*opened);
 }
 
+struct Planned {
+  farm::Plan plan;
+  Prediction prediction;
+};
+
 // By what is predicted of it, unless the person says how many groups.
-farm::Plan plan_of(const wire::FilmView& film, const std::vector<std::uint32_t>& frames, const RenderJob& job,
-                   EventReporter& reporter, farm::Heartbeats& heartbeats) {
+Planned plan_of(const wire::FilmView& film, const std::vector<std::uint32_t>& frames, const RenderJob& job,
+                EventReporter& reporter, farm::Heartbeats& heartbeats) {
   const auto nodes = static_cast<int>(numnodes());
   farm::PlanRequest request{frames, job.coherence, job.groups};
+  Prediction prediction;
   if (job.predict) {
-    Prediction prediction;
     heartbeats.during("loading", [&] { prediction = job.predict(film, request, nodes); });
     if (request.groups == 0) request.groups = prediction.groups;
     request.contributors = prediction.contributors;
     if (!prediction.warning.empty()) reporter.report(events::Warning{prediction.warning});
-    reporter.expect(std::move(prediction.course));
+    reporter.expect(std::exchange(prediction.course, {}));
   }
-  return farm::make_plan(film, request, nodes);
+  return {farm::make_plan(film, request, nodes), std::move(prediction)};
 }
 
 // A measurement of nothing would pass as one of the film.
@@ -268,17 +297,16 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace, 
   const film::CompiledFilm& film = output.film;
   const wire::FilmView view = film.view();
   const wire::FilmSettings& settings = view.settings();
-  const farm::Plan plan = plan_of(view, opened.frames, job, reporter, heartbeats);
+  const auto [plan, prediction] = plan_of(view, opened.frames, job, reporter, heartbeats);
   const HostMachine host = host_machine(job.host);
   const farm::HostMemory memory = memory_for(host, settings, images::facts_of(job.format).pixels, plan);
 
   output.folder = std::move(opened.folder);
   if (output.folder) output.folder->show_status([&board = output.board] { return sinks::text_of(board.status()); });
-  output.sink = make_sink(nodes_write(job) ? nullptr : output.folder.get(), view);
+  output.sink = make_sink(output.folder.get(), view);
   output.pool = make_sinks(job, *output.sink, pool_shape(host, view, job, memory.frames));
   const auto watch = begin_watch(job, reporter);
-  std::optional<farm::Writing> writing = job.writing;
-  if (nodes_write(job)) writing = make_writing(*output.folder, heartbeats);
+  const std::optional<farm::Writing> writing = writing_of(job, prediction, output.folder.get(), heartbeats);
   farm::FarmOptions options = farm_options(job, memory, trace, heartbeats, watch.get());
   options.writing = writing ? &*writing : nullptr;
   const farm::FarmReport report =

@@ -331,12 +331,7 @@ WriterOrders FrameFolder::writer_orders() const {
 
 void FrameFolder::add_probe() { document::create_file(writer_orders().host_probe(), ""); }
 
-void FrameFolder::wait_for_probe(std::int32_t node, const std::string& machine) const {
-  const fs::path probe = writer_orders().node_probe(node);
-  if (appears(probe)) return;
-  throw Failure("machine " + machine + " writes into another folder of this name", path_.string(),
-                "put the folder on a file system that all machines share, or use --write host");
-}
+bool FrameFolder::sees_probe_of(std::int32_t node) const { return appears(writer_orders().node_probe(node)); }
 
 void FrameFolder::confirm_claim() {
   refuse_gone(path_);

@@ -95,11 +95,10 @@ class FrameFolder {
   void put(std::uint32_t frame, const std::string& pixel_hash, const document::Pieces& file);
 
   // Where nodes write frames' files: their orders; a file by which they see that they have the same folder, and
-  // theirs, of each machine's first node: throws Failure where it does not come. A frame's file is there; throws
-  // Failure where the claim is lost.
+  // whether theirs, of a machine's first node, comes. A frame's file is there; throws Failure where the claim is lost.
   WriterOrders writer_orders() const;
   void add_probe();
-  void wait_for_probe(std::int32_t node, const std::string& machine) const;
+  bool sees_probe_of(std::int32_t node) const;
   void note_written(std::uint32_t frame, const std::string& pixel_hash);
   // As note_written(), which threw FileFailure; waits until storage takes it, as `bounds` say.
   void wait_to_note_written(std::uint32_t frame, const std::string& pixel_hash);

@@ -21,11 +21,11 @@ constexpr int kFirstSinkThread = 2;
 constexpr std::size_t kBlock = 1 << 20;  // bytes written at a time
 
 constexpr std::array kHostSpanNames{"load film", "give", "strip", "prepare", "compose", "wait for sinks", "write"};
-constexpr std::array kMessageNames{"",          "Hello",   "Load",    "film",      "Loaded",     "Render",
-                                   "Credit",    "Strip",   "Fault",   "Stop",      "Clock",      "Trace",
-                                   "triangles", "CZB",     "Beat",    "BeginView", "Draw",       "CloseView",
-                                   "Drawn",     "Written", "Storage", "edge",      "background", "picture"};
-static_assert(kMessageNames.size() == wire::kPicture + 1);
+constexpr std::array kMessageNames{"",      "Hello",      "Load",    "film",      "Loaded", "Render",    "Credit",
+                                   "Strip", "Fault",      "Stop",    "Clock",     "Trace",  "triangles", "CZB",
+                                   "Beat",  "BeginView",  "Draw",    "CloseView", "Drawn",  "Written",   "Storage",
+                                   "edge",  "background", "picture", "Write"};
+static_assert(kMessageNames.size() == wire::kWrite + 1);
 constexpr std::array kCounterNames{"credits", "strips on the way", "frames with the sinks"};
 
 // Names contain what people typed, which need not be UTF-8.

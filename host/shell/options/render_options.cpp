@@ -236,9 +236,9 @@ std::vector<Entry> table() {
              "Where frames go; none writes no files, to measure rendering. Example: --sink none"),
       option(
           plans, "--write", "auto|host|nodes", &RenderOptions::write,
-          "Who composes frames and writes their files: the host, as in the thesis, or the nodes that draw them; same "
-          "files; default: auto, nodes where several machines see the folder and it is forecast to be faster. "
-          "Example: --write nodes"),
+          "Who composes frames and writes their files: the host, as in the thesis, or the nodes that draw them, where "
+          "their machines see the folder; same files; default: auto, nodes of several machines where that is forecast "
+          "to be sooner. Example: --write nodes"),
       option(submits, "--report", "FILE", &RenderOptions::report,
              "Write each node's times and work per frame as JSON. Example: --report report.json"),
       option(submits, "--trace", "FILE", &RenderOptions::trace,

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "host/render/farm/node_inbox.h"
+#include "tests/host/content/document/failure_of.h"
 #include "tests/host/render/farm/scripted_node.h"
 #include "tests/host/render/farm/slow_link.h"
 
@@ -98,6 +99,77 @@ TEST(Farm, ASlowLinkHoldsUpNoOtherNode) {
   const auto slow = std::ranges::count(report.frames, 1, &FinishedFrame::first_node);
   EXPECT_GE(slow, 1);
   EXPECT_LE(slow, 5) << "the other node waited for this one's strips";
+}
+
+// Node 0 writes the files of its frames; node 1, whose machine does not see the folder, sends strips.
+void node_with_orders() {
+  ScriptedNode node;
+  ScriptedNode::send(wire::kHello, ScriptedNode::hello());
+  node.take_load();
+  wire::Loaded loaded = node.loaded();
+  loaded.unseen = mynode() == 1 ? 1 : 0;
+  ScriptedNode::send(wire::kLoaded, loaded);
+  if (mynode() == 0) EXPECT_TRUE(ScriptedNode::receive(wire::kWrite).empty());
+  while (const auto command = node.next_command()) {
+    for (const std::uint32_t frame : ScriptedNode::own_frames(*command)) {
+      const wire::Strip strip = ScriptedNode::strip_of(*command, frame);
+      if (mynode() == 1) {
+        if (!node.wait_for_credit()) return;
+        node.send_strip(strip, 1000 + frame);
+      } else {
+        ScriptedNode::send(wire::kDrawn, strip);
+        ScriptedNode::send(wire::kWritten, wire::Written{frame, 0, {}, 1, 0});
+      }
+    }
+  }
+}
+
+struct WritingRun {
+  ScriptedRun run;
+  Writing writing;
+  std::set<std::uint32_t> written;
+  std::vector<std::string> warnings;
+
+  explicit WritingRun(std::uint32_t groups) {
+    run.nodes = 2;
+    run.work = {frames_to(12), true, groups};
+    writing.shares_folder = [](const wire::Hello& first) {
+      EXPECT_EQ(first.node, 0) << "the other says itself that it does not see the folder";
+      return true;
+    };
+    writing.written = [this](const wire::Written& file) { written.insert(file.frame); };
+    run.farm.writing = &writing;
+    run.listener.warned = [this](const std::string& text) { warnings.push_back(text); };
+  }
+};
+
+TEST(Farm, GroupsThatDoNotSeeTheFolderSendTheirPicturesToTheHost) {
+  WritingRun writing(2);
+  writing.run.render(EmptyFilm({3, 3, 3, 3}), node_with_orders);
+  EXPECT_GE(writing.written.size(), 3u);
+  EXPECT_GE(writing.run.sink.pixels.size(), 3u);
+  EXPECT_EQ(writing.written.size() + writing.run.sink.pixels.size(), 12u);
+  for (const auto& [frame, pixel] : writing.run.sink.pixels) {
+    EXPECT_EQ(pixel, 1000 + frame);
+    EXPECT_FALSE(writing.written.contains(frame));
+  }
+  EXPECT_EQ(writing.warnings,
+            std::vector<std::string>{"n1 does not see the folder of frames as the host does: the host composes and "
+                                     "writes the frames of 1 of the 2 groups of nodes, which have nodes there"});
+}
+
+TEST(Farm, ANodeThatSendsStripsOfFramesThatItIsToWriteIsRefused) {
+  WritingRun writing(2);
+  const auto run = [&] {
+    writing.run.render(EmptyFilm({3, 3, 3, 3}), [] {
+      ScriptedNode node;
+      node.boot();
+      node.draw_all();
+    });
+  };
+  writing.writing.shares_folder = [](const wire::Hello& first) { return first.node == 1; };
+  const std::string failure = document::failure_of(run);
+  EXPECT_TRUE(document::holds(failure, "n1 (node 1): sent a strip of frame")) << failure;
 }
 
 TEST(Farm, WarnsOnceOfEachMachineWhoseNodesDoNotShareMemory) {

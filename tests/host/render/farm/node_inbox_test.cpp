@@ -380,7 +380,7 @@ TEST(Inbox, WordOfFramesThatNodesWereNotToWrite) {
   const std::string drawn = failure_of(wire::kDrawn, [](const ScriptedNode::Command& command) {
     return ScriptedNode::strip_of(command, command.frames.front());
   });
-  EXPECT_TRUE(document::holds(drawn, "word of a frame that it was not to write")) << drawn;
+  EXPECT_TRUE(document::holds(drawn, "a strip of frame 0 that it was not asked for")) << drawn;
   const std::string written = failure_of(wire::kWritten, [](const ScriptedNode::Command& command) {
     return wire::Written{.frame = command.frames.front(), .node = static_cast<std::int32_t>(mynode())};
   });
