@@ -50,10 +50,40 @@ enum class Work : int {
 
 // As platform files name them.
 inline constexpr std::array<std::string_view, 33> kWorkNames{
-    "first_frame", "fresh_byte", "frame", "segment", "patch", "meshlet", "vertex", "mesh_vertex", "triangle_tested",
-    "row_tested", "triangle", "edge_box_made", "vertex_light", "edge_box_filled", "line_mapped", "line", "edge_box",
-    "sample", "shaded", "light", "facet_light", "pixel", "still_byte", "host_strip", "host_run", "host_byte",
-    "host_restored", "host_frame", "file", "encoded_byte", "encoded_png16_byte", "encoded_exr_byte", "file_byte"};
+    "first_frame",
+    "fresh_byte",
+    "frame",
+    "segment",
+    "patch",
+    "meshlet",
+    "vertex",
+    "mesh_vertex",
+    "triangle_tested",
+    "row_tested",
+    "triangle",
+    "edge_box_made",
+    "vertex_light",
+    "edge_box_filled",
+    "line_mapped",
+    "line",
+    "edge_box",
+    "sample",
+    "shaded",
+    "light",
+    "facet_light",
+    "pixel",
+    "still_byte",
+    "host_strip",
+    "host_run",
+    "host_byte",
+    "host_restored",
+    "host_frame",
+    "file",
+    "encoded_byte",
+    "encoded_png16_byte",
+    "encoded_exr_byte",
+    "file_byte",
+};
 
 // Units by kind: those of a node come first, then those of the host and of files.
 inline constexpr std::size_t kNodeKinds = static_cast<std::size_t>(Work::host_strip);

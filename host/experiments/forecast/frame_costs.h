@@ -54,8 +54,8 @@ class FrameCosts {
 
   // Of a group of `nodes`, of which `contributors` contribute, and which then draw `inbetweens`.
   GroupKeyframe keyframe(const wire::FrameCounts& counts, int nodes, int contributors, std::size_t inbetweens) const;
-  // What inbetweens after such a keyframe draw again on a node of a group of `nodes`: stationary parts on lines that are
-  // not kept.
+  // What inbetweens after such a keyframe draw again on a node of a group of `nodes`: stationary parts on lines that
+  // are not kept.
   FrameTotals drawn_again(const wire::FrameCounts& keyframe, int nodes) const;
   NodePart inbetween(const FrameTotals& totals, const FrameTotals& again) const;
   // Seconds of a processor that writes a whole file, which is encoded; its bytes.

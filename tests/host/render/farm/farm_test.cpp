@@ -158,6 +158,40 @@ TEST(Farm, GroupsThatDoNotSeeTheFolderSendTheirPicturesToTheHost) {
                                      "writes the frames of 1 of the 2 groups of nodes, which have nodes there"});
 }
 
+void node_without_orders() {
+  ScriptedNode node;
+  node.boot();
+  node.draw_all();
+}
+
+TEST(Farm, NodesWriteWhereThatIsWanted) {
+  WritingRun writing(2);
+  std::size_t asked_of = 0;
+  writing.writing.is_wanted = [&](std::span<const wire::Hello> nodes) {
+    asked_of = nodes.size();
+    return false;
+  };
+  writing.run.render(EmptyFilm({3, 3, 3, 3}), node_without_orders);
+  EXPECT_EQ(asked_of, 2u);
+  EXPECT_EQ(writing.run.sink.pixels.size(), 12u);
+  EXPECT_TRUE(writing.written.empty());
+
+  WritingRun wanted(2);
+  wanted.writing.is_wanted = [](std::span<const wire::Hello>) { return true; };
+  wanted.run.render(EmptyFilm({3, 3, 3, 3}), node_with_orders);
+  EXPECT_EQ(wanted.written.size() + wanted.run.sink.pixels.size(), 12u);
+  EXPECT_GE(wanted.written.size(), 3u);
+}
+
+TEST(Farm, AFolderThatNoMachineSeesIsNoWarningWhereTheHostMayWrite) {
+  WritingRun writing(2);
+  writing.writing.is_wanted = [](std::span<const wire::Hello>) { return true; };
+  writing.writing.shares_folder = [](const wire::Hello&) { return false; };
+  writing.run.render(EmptyFilm({3, 3, 3, 3}), node_without_orders);
+  EXPECT_EQ(writing.run.sink.pixels.size(), 12u);
+  EXPECT_TRUE(writing.warnings.empty());
+}
+
 TEST(Farm, ANodeThatSendsStripsOfFramesThatItIsToWriteIsRefused) {
   WritingRun writing(2);
   const auto run = [&] {
