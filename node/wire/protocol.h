@@ -113,9 +113,9 @@ struct Load {
   std::uint32_t traced;  // 1: the node records what it does and sends it as Trace
   PixelFormat pixel_format;
   std::uint64_t still_memory;  // bytes that a node adds to what its machine keeps of stationary parts for inbetweens
-  std::uint32_t live;          // 1: BeginViews and Draws follow, no Renders; another Load may come, which ends all views
-  std::uint32_t watched;       // 1: strips say how many edge boxes each of their lines has
-  std::uint64_t orders;        // bytes behind the machines, for the node's frame writer; 0: all frames go to the host
+  std::uint32_t live;     // 1: BeginViews and Draws follow, no Renders; another Load may come, which ends all views
+  std::uint32_t watched;  // 1: strips say how many edge boxes each of their lines has
+  std::uint64_t orders;   // bytes behind the machines, for the node's frame writer; 0: all frames go to the host
 };
 
 // The node has the film and its slots.
@@ -208,11 +208,12 @@ struct Beat {
   std::uint32_t waits = 0;      // 1: for a message or for other nodes
 };
 
-// Live views. A studio's host loads a film with Load::live = 1 and then gives BeginViews and Draws instead of Renders, to
-// nodes that are one group. A view is a picture of its own size, seen by its own camera, of which each node keeps what
-// inbetweens need. The film gives shapes; a scene block (scene.h) gives all else. Pictures are numbered by the host
-// over all views; in a Strip, `frame` is the picture's number and `interval` its view. Another Load ends all views:
-// from then until Loaded nodes send no strips but those on their way, and the host gives no credit; slots are new.
+// Live views. A studio's host loads a film with Load::live = 1 and then gives BeginViews and Draws instead of Renders,
+// to nodes that are one group. A view is a picture of its own size, seen by its own camera, of which each node keeps
+// what inbetweens need. The film gives shapes; a scene block (scene.h) gives all else. Pictures are numbered by the
+// host over all views; in a Strip, `frame` is the picture's number and `interval` its view. Another Load ends all
+// views: from then until Loaded nodes send no strips but those on their way, and the host gives no credit; slots are
+// new.
 
 inline constexpr std::uint32_t kMostViews = 64;
 
