@@ -4,7 +4,7 @@
 
 namespace mars::node {
 
-Canvas::Canvas(const wire::FilmView& film, const raster::Neighbours& neighbours, std::uint64_t still_memory,
+Canvas::Canvas(const wire::PackedFilm& film, const raster::Neighbours& neighbours, std::uint64_t still_memory,
                simd::InstructionSet set)
     : scene(film),
       z_buffer(set, film.settings().width, scene.pattern()),

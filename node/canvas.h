@@ -18,7 +18,7 @@ namespace mars::node {
 struct Canvas {
   // The film's block, or a scene's, and `neighbours` outlive it. `still_memory` as in Load. Collective over a machine's
   // nodes.
-  Canvas(const wire::FilmView& film, const raster::Neighbours& neighbours, std::uint64_t still_memory,
+  Canvas(const wire::PackedFilm& film, const raster::Neighbours& neighbours, std::uint64_t still_memory,
          simd::InstructionSet set);
 
   geometry::Scene scene;

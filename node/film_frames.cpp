@@ -7,7 +7,8 @@
 
 namespace mars::node {
 
-FilmFrames::FilmFrames(const wire::FilmView& film, const wire::Load& load, simd::InstructionSet set, Renderer& renderer)
+FilmFrames::FilmFrames(const wire::PackedFilm& film, const wire::Load& load, simd::InstructionSet set,
+                       Renderer& renderer)
     : renderer_(renderer), canvas_(film, renderer.neighbours(), load.still_memory, set), boxes_(film) {}
 
 void FilmFrames::render(const wire::RenderCommand& command) {

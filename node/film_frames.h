@@ -12,7 +12,7 @@ namespace mars::node {
 class FilmFrames {
  public:
   // The film's block and `renderer` outlive it. Collective over a machine's nodes.
-  FilmFrames(const wire::FilmView& film, const wire::Load& load, simd::InstructionSet set, Renderer& renderer);
+  FilmFrames(const wire::PackedFilm& film, const wire::Load& load, simd::InstructionSet set, Renderer& renderer);
 
   // From now on frames are written into files; else they go to the host.
   void write_files() { writes_ = true; }

@@ -61,7 +61,7 @@ class Firmware {
   const wire::MakeFrameWriter make_frame_writer_;
   Heartbeat heartbeat_;
   std::optional<messages::SharedMemory> film_block_;
-  std::optional<wire::FilmView> film_;
+  std::optional<wire::PackedFilm> film_;
   std::unique_ptr<wire::FrameWriter> frame_writer_;  // none: frames go to the host
   std::optional<Renderer> renderer_;
   std::optional<FilmFrames> film_frames_;  // either
@@ -126,7 +126,7 @@ void Firmware::load() {
   const auto block = film_block_->bytes();
   if (here.index == 0) {
     receive_film(block, machines);
-    wire::FilmView(block, "film");
+    wire::PackedFilm(block, "film");
   }
   gsync();
   film_.emplace(block, "film", true);

@@ -16,7 +16,7 @@ double share_of(double part, double whole) { return whole > 0 ? part / whole : 0
 
 }  // namespace
 
-FrameCounter::FrameCounter(const wire::FilmView& film, simd::InstructionSet set)
+FrameCounter::FrameCounter(const wire::PackedFilm& film, simd::InstructionSet set)
     : scene_(film),
       boxes_(film),
       tessellator_(set),

@@ -20,7 +20,7 @@ namespace mars::node {
 class FrameCounter {
  public:
   // The film's block outlives it.
-  FrameCounter(const wire::FilmView& film, simd::InstructionSet set);
+  FrameCounter(const wire::PackedFilm& film, simd::InstructionSet set);
 
   // Of frames of one interval, ascending, the first: what a group's nodes have together.
   wire::FrameCounts count_keyframe(std::uint32_t interval, std::span<const std::uint32_t> frames);

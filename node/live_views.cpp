@@ -22,7 +22,7 @@ bool are_alike(const wire::FilmSettings& a, const wire::FilmSettings& b) {
 
 }  // namespace
 
-LiveViews::LiveScene::LiveScene(std::span<const std::byte> block, const wire::FilmView& base)
+LiveViews::LiveScene::LiveScene(std::span<const std::byte> block, const wire::PackedFilm& base)
     : block_(words_of(block)),
       film_(std::as_bytes(std::span(block_)).first(block.size()), base, "scene"),
       moving_(film_) {}
@@ -41,7 +41,7 @@ wire::Patch& LiveViews::LiveScene::patch(std::uint32_t number) {
   return *reinterpret_cast<wire::Patch*>(std::as_writable_bytes(std::span(block_)).data() + at);
 }
 
-LiveViews::LiveViews(const wire::FilmView& film, simd::InstructionSet set, Renderer& renderer, HasEnded has_ended)
+LiveViews::LiveViews(const wire::PackedFilm& film, simd::InstructionSet set, Renderer& renderer, HasEnded has_ended)
     : film_(film), instruction_set_(set), renderer_(renderer), has_ended_(std::move(has_ended)) {}
 
 void LiveViews::begin(std::span<const std::byte> begin_command) {

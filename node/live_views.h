@@ -21,7 +21,7 @@ class LiveViews {
   using HasEnded = std::function<bool(std::uint32_t view)>;
 
   // The film's block and `renderer` outlive it.
-  LiveViews(const wire::FilmView& film, simd::InstructionSet set, Renderer& renderer, HasEnded has_ended);
+  LiveViews(const wire::PackedFilm& film, simd::InstructionSet set, Renderer& renderer, HasEnded has_ended);
 
   // Each executes a command of this kind.
   void begin(std::span<const std::byte> begin_command);
@@ -32,9 +32,9 @@ class LiveViews {
   // A view's scene: the node's own copy of the block, with the patches that the current Draw names.
   class LiveScene {
    public:
-    LiveScene(std::span<const std::byte> block, const wire::FilmView& base);
+    LiveScene(std::span<const std::byte> block, const wire::PackedFilm& base);
 
-    const wire::FilmView& film() const { return film_; }
+    const wire::PackedFilm& film() const { return film_; }
     const wire::MovingParts& moving() const { return moving_; }
     // Those that an earlier call changed and this one does not name are again as in the block.
     void put(std::span<const wire::MovedPatch> patches);
@@ -43,7 +43,7 @@ class LiveViews {
     wire::Patch& patch(std::uint32_t number);
 
     std::vector<std::uint64_t> block_;
-    wire::FilmView film_;
+    wire::PackedFilm film_;
     wire::MovingParts moving_;
     std::vector<wire::MovedPatch> replaced_;  // the block's, the latest last
   };
@@ -57,7 +57,7 @@ class LiveViews {
   LiveView& put_scene(const wire::BeginViewCommand& command);
   void draw_picture(LiveView& live, const Frame& frame);
 
-  wire::FilmView film_;
+  wire::PackedFilm film_;
   simd::InstructionSet instruction_set_;
   Renderer& renderer_;
   HasEnded has_ended_;

@@ -202,7 +202,7 @@ void Renderer::receive_triangles(const geometry::LineRange& lines) {
     canvas_->awaited[i] = all - there;
     totals[i + 1] = totals[i] + canvas_->awaited[i];
   }
-  const wire::FilmView& film = scene().film();
+  const wire::PackedFilm& film = scene().film();
   group::AwaitedTriangles awaited{lines, std::span(canvas_->awaited).first(lines.count()), film.settings().width,
                                   film.settings().samples, film.materials().size()};
   raster::LineFiller filler(lines, totals, memory_.first_triangle(), memory_.arena());
@@ -288,7 +288,7 @@ int Renderer::keyframe_writer() const {
 void Renderer::begin_writing() {
   const wire::Strip& strip = report_.strip();
   if (!report_.is_keyframe()) return file_->writer().begin_inbetween(strip.frame);
-  const wire::FilmView& film = scene().film();
+  const wire::PackedFilm& film = scene().film();
   const wire::FilmSettings& settings = film.settings();
   const auto encoding =
       color::encoding_of(settings, film.camera_at(film.intervals()[strip.interval].first_frame), pixel_format_);

@@ -81,7 +81,7 @@ void Tessellator::add(const geometry::Scene& scene, bool moving, const Scatter& 
 
 void Tessellator::add_segment(const geometry::Scene& scene, std::size_t segment, const Scatter& scatter,
                               Output& output) {
-  const wire::FilmView& film = scene.film();
+  const wire::PackedFilm& film = scene.film();
   const std::uint32_t number = film.segments()[segment].shape;
   const wire::Shape& shape = film.shape(number);
   const std::uint32_t first = scene.first_patch(segment);

@@ -97,7 +97,7 @@ void add_stick(Lines& lines, const glm::dvec3& end) {
 
 }  // namespace
 
-Lines control_net(const wire::FilmView& film, const wire::Shape& shape) {
+Lines control_net(const wire::PackedFilm& film, const wire::Shape& shape) {
   Net net;
   for (const wire::Patch& patch : film.patches().subspan(shape.first_patch, shape.patch_count)) net.add(patch);
   for (const wire::Meshlet& meshlet : film.meshlets().subspan(shape.first_meshlet, shape.meshlet_count))

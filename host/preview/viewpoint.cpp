@@ -128,7 +128,7 @@ animator::Film turntable(modeler::Model model, const std::string& source) {
 film::CompiledFilm as_seen(const film::CompiledFilm& film, std::array<std::uint32_t, 2> size,
                            const wire::Camera* camera) {
   film::CompiledFilm seen = film;
-  const wire::FilmView view = seen.view();
+  const wire::PackedFilm view = seen.view();
   std::byte* const block = reinterpret_cast<std::byte*>(seen.lines.data());
   const auto put = [&](const void* at, const void* value, std::size_t bytes) {
     std::memcpy(block + (static_cast<const std::byte*>(at) - seen.block().data()), value, bytes);

@@ -196,7 +196,7 @@ class Maker {
     wireframe_.subject = moving.empty() ? wireframe_.whole : moving.ball();
   }
 
-  const wire::FilmView film_;
+  const wire::PackedFilm film_;
   const animator::Film* source_;
   Wireframe wireframe_;
   std::vector<std::vector<std::uint32_t>> model_sticks_;  // of each model, by joint; made when asked

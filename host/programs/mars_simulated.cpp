@@ -51,7 +51,7 @@ void run(const options::RenderOptions& options, const experiments::Platform& pla
     predict_on(platform, job);
     session::run_session(job);
   };
-  const auto make_writer = [&](const wire::FilmView& film, std::span<const std::byte>) {
+  const auto make_writer = [&](const wire::PackedFilm& film, std::span<const std::byte>) {
     const images::PictureBands bands(options.format, film.settings().width, film.settings().height);
     return std::make_unique<CountedWriter>(bands, platform, *the_world, static_cast<int>(mynode()));
   };

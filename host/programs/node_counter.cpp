@@ -8,7 +8,7 @@ namespace {
 
 class NodeCounter : public forecast::Counter {
  public:
-  explicit NodeCounter(const wire::FilmView& film) : counter_(film, simd::best_instruction_set("")) {}
+  explicit NodeCounter(const wire::PackedFilm& film) : counter_(film, simd::best_instruction_set("")) {}
 
   wire::FrameCounts count_keyframe(const farm::Task& task) override {
     return counter_.count_keyframe(task.interval, task.frames);
@@ -21,7 +21,7 @@ class NodeCounter : public forecast::Counter {
 
 }  // namespace
 
-std::unique_ptr<forecast::Counter> make_node_counter(const wire::FilmView& film) {
+std::unique_ptr<forecast::Counter> make_node_counter(const wire::PackedFilm& film) {
   return std::make_unique<NodeCounter>(film);
 }
 

@@ -57,7 +57,7 @@ void run_node_job(std::uint32_t threads) {
   bind(machine, here);
   const topology::Binding binding = topology::Machine::binding();
   const auto is_traced = [](std::int32_t process) { return topology::is_traced(process); };
-  const auto make_writer = [](const wire::FilmView& film, std::span<const std::byte> orders) {
+  const auto make_writer = [](const wire::PackedFilm& film, std::span<const std::byte> orders) {
     const bool leads = messages::neighbourhood().index == 0;
     return std::make_unique<composer::NodeWriter>(film, sinks::read_orders(orders), static_cast<std::int32_t>(mynode()),
                                                   leads);

@@ -22,7 +22,7 @@ constexpr double kMostCounting = 0.5;  // seconds
 constexpr double kCountedPart = 0.1;   // of counting all frames, of what each node would do of it
 constexpr double kSoon = 1.0;          // seconds, about: not worth a forecast
 
-forecast::Setting setting_of(const session::RenderJob& job, const wire::FilmView& film,
+forecast::Setting setting_of(const session::RenderJob& job, const wire::PackedFilm& film,
                              const experiments::Platform& platform) {
   forecast::Setting setting{film, platform, job.mapping, job.format};
   setting.files = !job.folder.empty() || job.counts_files;
@@ -47,7 +47,8 @@ struct Counted {
   forecast::FilmCounts counts;
 };
 
-Counted count(const session::RenderJob& job, const wire::FilmView& film, const farm::PlanRequest& request, int nodes) {
+Counted count(const session::RenderJob& job, const wire::PackedFilm& film, const farm::PlanRequest& request,
+              int nodes) {
   std::vector<farm::Task> tasks = farm::make_tasks(film, request.frames, request.coherence);
   const forecast::Budget budget{kMostCounting, kCountedPart / nodes};
   forecast::FilmCounts counts = forecast::count_film(film, tasks, *make_node_counter(film), budget, job.format);
@@ -89,7 +90,7 @@ std::optional<experiments::Platform> calibrated_here() {
 }
 
 // Of a rendering on this machine, and perhaps on others: then it is not known how these are joined.
-session::Prediction predict_here(const session::RenderJob& job, const wire::FilmView& film,
+session::Prediction predict_here(const session::RenderJob& job, const wire::PackedFilm& film,
                                  const farm::PlanRequest& request, int nodes) {
   const std::optional<experiments::Platform> calibrated = calibrated_here();
   const experiments::Platform platform = calibrated ? *calibrated : like_here("reference");
@@ -108,7 +109,7 @@ session::Prediction predict_here(const session::RenderJob& job, const wire::Film
 }
 
 // Seconds that nodes work, very roughly.
-double rough_seconds(const wire::FilmView& film, const std::vector<farm::Task>& tasks) {
+double rough_seconds(const wire::PackedFilm& film, const std::vector<farm::Task>& tasks) {
   double seconds = 0;
   for (const farm::Task& task : tasks) {
     const farm::RoughWork work = farm::rough_work(film, film.intervals()[task.interval]);
@@ -120,7 +121,7 @@ double rough_seconds(const wire::FilmView& film, const std::vector<farm::Task>& 
 }  // namespace
 
 void predict_on(const experiments::Platform& platform, session::RenderJob& job) {
-  job.predict = [platform, job](const wire::FilmView& film, const farm::PlanRequest& request, int nodes) {
+  job.predict = [platform, job](const wire::PackedFilm& film, const farm::PlanRequest& request, int nodes) {
     session::Prediction prediction =
         predict(count(job, film, request, nodes), setting_of(job, film, platform), request.groups, nodes);
     prediction.warning = experiments::doubt_text(platform);
@@ -131,7 +132,7 @@ void predict_on(const experiments::Platform& platform, session::RenderJob& job) 
 void render_here(const options::RenderOptions& options, const std::string& backend) {
   if (!options.serve.empty()) return serve::serve({options.serve, backend, options.mapping, options.block});
   session::RenderJob job = job::job_of(options, backend);
-  job.predict = [job](const wire::FilmView& film, const farm::PlanRequest& request, int nodes) {
+  job.predict = [job](const wire::PackedFilm& film, const farm::PlanRequest& request, int nodes) {
     const std::vector<farm::Task> tasks = farm::make_tasks(film, request.frames, request.coherence);
     if (rough_seconds(film, tasks) / nodes < kSoon) return session::Prediction();
     try {

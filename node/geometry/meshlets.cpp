@@ -49,7 +49,7 @@ MeshletPlacer::MeshletPlacer(simd::InstructionSet set)
     : shape::Surface(set, static_cast<int>(wire::kMeshletVertices), static_cast<int>(wire::kMeshletTriangles),
                      kMostBatches) {}
 
-void MeshletPlacer::place(const shape::EyeMap& map, const wire::FilmView& film, const wire::Meshlet& meshlet,
+void MeshletPlacer::place(const shape::EyeMap& map, const wire::PackedFilm& film, const wire::Meshlet& meshlet,
                           const shape::Projection& projection) {
   vertex_count_ = static_cast<int>(meshlet.vertex_count);
   kernels_.move(map, vectors(film.mesh_places().data() + meshlet.first_vertex),

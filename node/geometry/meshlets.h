@@ -19,7 +19,7 @@ class MeshletPlacer : public shape::Surface {
   explicit MeshletPlacer(simd::InstructionSet set);
 
   // Becomes the surface of `meshlet`, until the next call.
-  void place(const shape::EyeMap& map, const wire::FilmView& film, const wire::Meshlet& meshlet,
+  void place(const shape::EyeMap& map, const wire::PackedFilm& film, const wire::Meshlet& meshlet,
              const shape::Projection& projection);
 };
 

@@ -23,7 +23,7 @@ EyeLight to_eye(const wire::Light& light, const wire::Matrix& world_to_eye) {
   return out;
 }
 
-ShapeBoxes::Box box_of(const wire::FilmView& film, std::uint32_t shape) {
+ShapeBoxes::Box box_of(const wire::PackedFilm& film, std::uint32_t shape) {
   constexpr float kFar = std::numeric_limits<float>::max();
   ShapeBoxes::Box box{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
   const auto take_in = [&](const std::array<float, 3>& low, const std::array<float, 3>& high) {
@@ -47,12 +47,12 @@ shape::Projection projection_of(const wire::Camera& camera, std::int32_t width, 
   return {scale, {x, y}, static_cast<float>(camera.near), static_cast<float>(camera.far), kGuardPixels, corner};
 }
 
-ShapeBoxes::ShapeBoxes(const wire::FilmView& film) {
+ShapeBoxes::ShapeBoxes(const wire::PackedFilm& film) {
   boxes_.reserve(film.shape_count());
   for (std::uint32_t shape = 0; shape < film.shape_count(); ++shape) boxes_.push_back(box_of(film, shape));
 }
 
-Scene::Scene(const wire::FilmView& film) : film_(film), tolerances_(shape::tolerances_of(film.settings().samples)) {
+Scene::Scene(const wire::PackedFilm& film) : film_(film), tolerances_(shape::tolerances_of(film.settings().samples)) {
   first_patch_.reserve(film.segments().size());
   std::uint32_t next = 0;
   for (const wire::Segment& segment : film.segments()) {

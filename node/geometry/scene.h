@@ -25,7 +25,7 @@ class ShapeBoxes {
     float high[3];
   };
 
-  explicit ShapeBoxes(const wire::FilmView& film);
+  explicit ShapeBoxes(const wire::PackedFilm& film);
   const Box& of(std::uint32_t shape) const { return boxes_[shape]; }
 
  private:
@@ -34,14 +34,14 @@ class ShapeBoxes {
 
 class Scene {
  public:
-  explicit Scene(const wire::FilmView& film);
+  explicit Scene(const wire::PackedFilm& film);
 
   void set_interval(std::uint32_t number);
   void set_frame(std::uint32_t frame);
   // Until the next call these segments are as said here, whatever the frame.
   void move(std::span<const wire::MovedSegment> moved);
 
-  const wire::FilmView& film() const { return film_; }
+  const wire::PackedFilm& film() const { return film_; }
   std::int32_t width() const { return static_cast<std::int32_t>(film_.settings().width); }
   std::int32_t height() const { return static_cast<std::int32_t>(film_.settings().height); }
   const shape::Projection& projection() const { return projection_; }
@@ -65,7 +65,7 @@ class Scene {
  private:
   LineRange lines_of(std::size_t segment, std::uint32_t frame, const ShapeBoxes::Box& box) const;
 
-  wire::FilmView film_;
+  wire::PackedFilm film_;
   shape::Tolerances tolerances_;
   std::vector<std::uint32_t> first_patch_;
   std::vector<std::uint8_t> moves_;

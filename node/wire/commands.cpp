@@ -81,7 +81,7 @@ void check_machines(std::span<const std::int32_t> machines, int node, int machin
           "machines");
 }
 
-RenderCommand read_render(std::span<const std::byte> message, const FilmView& film, const RenderReceiver& receiver,
+RenderCommand read_render(std::span<const std::byte> message, const PackedFilm& film, const RenderReceiver& receiver,
                           std::vector<std::uint32_t>& frames) {
   constexpr auto kName = "Render";
   require(message.size() >= sizeof(Render), kName, "its size");

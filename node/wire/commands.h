@@ -54,7 +54,7 @@ struct RenderReceiver {
 };
 
 // Frames that are not listed are put into `frames`.
-RenderCommand read_render(std::span<const std::byte> message, const FilmView& film, const RenderReceiver& receiver,
+RenderCommand read_render(std::span<const std::byte> message, const PackedFilm& film, const RenderReceiver& receiver,
                           std::vector<std::uint32_t>& frames);
 
 // A view's, and its scene's block behind it.

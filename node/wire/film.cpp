@@ -199,12 +199,12 @@ void pack_around(const FilmData& film, std::size_t matrices,
   std::memset(block + written, 0, bytes - written);
 }
 
-FilmView::FilmView(std::span<const std::byte> block, const std::string& where, bool trusted) {
+PackedFilm::PackedFilm(std::span<const std::byte> block, const std::string& where, bool trusted) {
   read(block, where);
   if (!trusted) check_all(where);
 }
 
-FilmView::FilmView(std::span<const std::byte> block, const FilmView& base, const std::string& where)
+PackedFilm::PackedFilm(std::span<const std::byte> block, const PackedFilm& base, const std::string& where)
     : base_patches_(base.patches_), base_shapes_(base.shapes_) {
   read(block, where);
   require(settings_->frames == 1, where, "a scene is one moment");
@@ -217,7 +217,7 @@ FilmView::FilmView(std::span<const std::byte> block, const FilmView& base, const
   meshlets_ = base.meshlets_;
 }
 
-void FilmView::read(std::span<const std::byte> block, const std::string& where) {
+void PackedFilm::read(std::span<const std::byte> block, const std::string& where) {
   const Header header = read_header(block, where);
   const auto read = [&]<typename T>(Section number, std::span<const T>& items) {
     items = section<T>(block, header.place[number], where);
@@ -243,7 +243,7 @@ void FilmView::read(std::span<const std::byte> block, const std::string& where) 
   read(kNames, names_);
 }
 
-void FilmView::check_all(const std::string& where) const {
+void PackedFilm::check_all(const std::string& where) const {
   require(sound(*settings_), where, "its settings are out of range");
   require(all_sound(patches_), where, "a patch is not finite");
   require(all_sound(materials_), where, "a material is out of range");
@@ -259,7 +259,7 @@ void FilmView::check_all(const std::string& where) const {
   check_intervals(where);
 }
 
-void FilmView::check_segments(const std::string& where) const {
+void PackedFilm::check_segments(const std::string& where) const {
   for (const Shape& shape : shapes_) {
     require(within(shape.first_patch, shape.patch_count, patches_.size()), where, "a shape has no such patches");
     require(within(shape.first_meshlet, shape.meshlet_count, meshlets_.size()), where, "a shape has no such meshlets");
@@ -273,7 +273,7 @@ void FilmView::check_segments(const std::string& where) const {
   require(patch_instances() <= std::numeric_limits<std::uint32_t>::max(), where, "it has too many patches");
 }
 
-void FilmView::check_intervals(const std::string& where) const {
+void PackedFilm::check_intervals(const std::string& where) const {
   std::uint64_t next = 0;
   for (const Interval& interval : intervals_) {
     require(interval.first_frame == next && interval.frame_count > 0, where, "its intervals leave a gap");
@@ -289,7 +289,7 @@ void FilmView::check_intervals(const std::string& where) const {
   require(next == settings_->frames, where, "its intervals do not cover its frames");
 }
 
-bool FilmView::exposed_evenly(const Interval& interval) const {
+bool PackedFilm::exposed_evenly(const Interval& interval) const {
   const double exposure = camera_at(interval.first_frame).exposure;
   return std::ranges::all_of(changes_.subspan(settings_->camera.first, settings_->camera.count), [&](const Change& c) {
     const bool within = c.frame > interval.first_frame && c.frame - interval.first_frame < interval.frame_count;
@@ -297,7 +297,7 @@ bool FilmView::exposed_evenly(const Interval& interval) const {
   });
 }
 
-void FilmView::check_meshlets(const std::string& where) const {
+void PackedFilm::check_meshlets(const std::string& where) const {
   require(all_sound(mesh_places_) && all_sound(mesh_normals_), where, "a mesh is not finite");
   require(mesh_places_.size() == mesh_normals_.size(), where, "a mesh lacks normals");
   for (const Meshlet& m : meshlets_) {
@@ -316,30 +316,30 @@ void FilmView::check_meshlets(const std::string& where) const {
   }
 }
 
-std::span<const std::uint32_t> FilmView::moving(const Interval& interval) const {
+std::span<const std::uint32_t> PackedFilm::moving(const Interval& interval) const {
   return moving_.subspan(interval.first_moving, interval.moving_count);
 }
 
-std::string_view FilmView::name(const Segment& segment) const { return names_.data() + segment.name; }
+std::string_view PackedFilm::name(const Segment& segment) const { return names_.data() + segment.name; }
 
-std::uint32_t FilmView::value_at(const Track& track, std::uint32_t frame) const {
+std::uint32_t PackedFilm::value_at(const Track& track, std::uint32_t frame) const {
   const auto steps = changes_.subspan(track.first, track.count);
   const auto later = std::upper_bound(steps.begin(), steps.end(), frame,
                                       [](std::uint32_t f, const Change& change) { return f < change.frame; });
   return std::prev(later)->value;
 }
 
-const Matrix& FilmView::matrix_at(const Segment& segment, std::uint32_t frame) const {
+const Matrix& PackedFilm::matrix_at(const Segment& segment, std::uint32_t frame) const {
   return matrices_[value_at(segment.motion, frame)];
 }
 
-const Material& FilmView::material_at(const Segment& segment, std::uint32_t frame) const {
+const Material& PackedFilm::material_at(const Segment& segment, std::uint32_t frame) const {
   return materials_[value_at(segment.material, frame)];
 }
 
-const Camera& FilmView::camera_at(std::uint32_t frame) const { return cameras_[value_at(settings_->camera, frame)]; }
+const Camera& PackedFilm::camera_at(std::uint32_t frame) const { return cameras_[value_at(settings_->camera, frame)]; }
 
-std::uint64_t FilmView::patch_instances() const {
+std::uint64_t PackedFilm::patch_instances() const {
   std::uint64_t patches = 0;
   for (const Segment& segment : segments_) patches += shape(segment.shape).size();
   return patches;

@@ -1,6 +1,6 @@
 // The compiled film: what a node knows of a film, and, byte for byte, the body of a .mars file. Model data
 // (shapes, segments, materials) and motion data (only what changed, with the frame from which it holds),
-// cut into render intervals. One contiguous block that a machine's nodes share; FilmView reads it in place,
+// cut into render intervals. One contiguous block that a machine's nodes share; PackedFilm reads it in place,
 // FilmData is the same film in vectors, from which the block is made.
 #pragma once
 
@@ -20,7 +20,7 @@ namespace mars::wire {
 // Vertices that vectors may read behind those of a mesh.
 inline constexpr std::size_t kMeshSlack = 16;
 
-// A film as vectors; pack() makes the block, FilmView reads it.
+// A film as vectors; pack() makes the block, PackedFilm reads it.
 struct FilmData {
   FilmSettings settings{};
   std::vector<Patch> patches;
@@ -56,13 +56,13 @@ bool sound(const Matrix& matrix);
 bool sound(const Patch& patch);
 
 // Reads a packed film in place; the block must outlive it and be aligned to 8 bytes.
-class FilmView {
+class PackedFilm {
  public:
   // Checks every count, index and range, so that no later access can go wrong, and that numbers are finite;
   // throws Failure("...", where, ...) otherwise. `trusted`: the block was checked before (by the host).
-  FilmView(std::span<const std::byte> block, const std::string& where, bool trusted = false);
+  PackedFilm(std::span<const std::byte> block, const std::string& where, bool trusted = false);
   // A scene block (scene.h) of `base`, whose block outlives it too. It is checked as well.
-  FilmView(std::span<const std::byte> block, const FilmView& base, const std::string& where);
+  PackedFilm(std::span<const std::byte> block, const PackedFilm& base, const std::string& where);
 
   const FilmSettings& settings() const { return *settings_; }
   // Of the block itself; of a scene, shape() and what follows it know the base's too.

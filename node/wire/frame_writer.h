@@ -91,6 +91,6 @@ class FrameWriter {
 // For a film, and `orders`, which the host has sent with it: they say where files go, and what they say of themselves.
 // Throws Failure where they make no sense.
 using MakeFrameWriter =
-    std::function<std::unique_ptr<FrameWriter>(const FilmView& film, std::span<const std::byte> orders)>;
+    std::function<std::unique_ptr<FrameWriter>(const PackedFilm& film, std::span<const std::byte> orders)>;
 
 }  // namespace mars::wire

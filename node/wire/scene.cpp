@@ -14,7 +14,7 @@ std::vector<std::byte> pack_scene(const FilmData& scene) {
 }
 
 // What both moving and stationary segments show stands still.
-MovingParts::MovingParts(const FilmView& scene)
+MovingParts::MovingParts(const PackedFilm& scene)
     : segments_(scene.segments().size()), patches_(scene.patches().size()), materials_(scene.materials().size()) {
   const auto moving = scene.moving(scene.intervals().front());
   moving_ = moving.size();

@@ -21,7 +21,7 @@ std::vector<std::byte> pack_scene(const FilmData& scene);
 class MovingParts {
  public:
   MovingParts() = default;
-  explicit MovingParts(const FilmView& scene);
+  explicit MovingParts(const PackedFilm& scene);
 
   bool has_segment(std::size_t segment) const { return segment < segments_.size() && segments_[segment] == 1; }
   bool has_patch(std::size_t patch) const { return patch < patches_.size() && patches_[patch] == 1; }

@@ -50,7 +50,7 @@ class CheckingLink final : public studio::RendererLink {
   }
   void begin(std::uint32_t view, std::uint32_t picture, std::vector<std::byte> scene) override {
     expect_sound([&] {
-      const wire::FilmView checked(scene, film_.value(), "the scene");
+      const wire::PackedFilm checked(scene, film_.value(), "the scene");
       sizes_[view] = {checked.settings().width, checked.settings().height};
     });
     due_.emplace_back(view, picture);
@@ -98,7 +98,7 @@ class CheckingLink final : public studio::RendererLink {
 
   Listener listener_;
   std::shared_ptr<const std::vector<std::byte>> block_;
-  std::optional<wire::FilmView> film_;
+  std::optional<wire::PackedFilm> film_;
   std::map<std::uint32_t, std::pair<std::uint32_t, std::uint32_t>> sizes_;
   std::deque<std::pair<std::uint32_t, std::uint32_t>> due_;
 };

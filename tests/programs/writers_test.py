@@ -50,9 +50,11 @@ class Writers(ProgramTest):
                 for nodes in (chance.choice([1, 2]), chance.choice([3, 4, 5])):
                     how = ["--backend", "threads", "--nodes", nodes, "--groups", chance.randint(1, nodes), *words,
                            "--format", ending, *chance.choice([[], ["--no-coherence"]])]
-                    done = self.render(path, "nodes", *NODES, *how, "--overwrite")
+                    done = self.render(path, "nodes", *NODES, *how, "--overwrite", "--report", "report.json")
                     self.assertEqual((done.returncode, done.stderr), (0, ""), (name, how))
                     self.assertEqual(self.files("nodes"), self.files(wanted), (name, how))
+                    host = json.loads((self.folder / "report.json").read_text())["host"]
+                    self.assertEqual((host["files"], host["node_files"]), (0, len(self.files(wanted))))
                     self.assertIn("all there and whole", self.succeed("mars", "verify", "nodes"))
                     shutil.rmtree(self.folder / "nodes")
 

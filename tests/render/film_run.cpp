@@ -53,7 +53,7 @@ FilmBlock::FilmBlock(const wire::FilmData& film) {
 }
 
 FilmRun render_as_host(std::span<const std::byte> film, const RunOptions& options) {
-  const wire::FilmView view(film, "test film");
+  const wire::PackedFilm view(film, "test film");
   const wire::FilmSettings& settings = view.settings();
   farm::FarmOptions farm = options.farm;
   farm.each_frame = true;

@@ -37,12 +37,12 @@ struct FilmRun {
   farm::FarmReport report;
 };
 
-// The packed film, aligned as FilmView wants it.
+// The packed film, aligned as PackedFilm wants it.
 class FilmBlock {
  public:
   explicit FilmBlock(const wire::FilmData& film);
   std::span<const std::byte> bytes() const { return {reinterpret_cast<const std::byte*>(words_.data()), size_}; }
-  wire::FilmView view() const { return {bytes(), "test film"}; }
+  wire::PackedFilm view() const { return {bytes(), "test film"}; }
 
  private:
   std::vector<std::uint64_t> words_;

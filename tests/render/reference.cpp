@@ -15,7 +15,7 @@ namespace {
 
 using geometry::Triangle;
 
-std::uint32_t interval_of(const wire::FilmView& film, std::uint32_t frame) {
+std::uint32_t interval_of(const wire::PackedFilm& film, std::uint32_t frame) {
   std::uint32_t i = 0;
   while (frame >= film.intervals()[i].first_frame + film.intervals()[i].frame_count) ++i;
   return i;
@@ -38,7 +38,7 @@ struct Surfaces {
 
 // The triangles of all patches and meshlets of the segment, seen or not.
 void add_segment(const geometry::Scene& scene, std::size_t segment, Surfaces& surfaces, Reference& reference) {
-  const wire::FilmView& film = scene.film();
+  const wire::PackedFilm& film = scene.film();
   const wire::Shape& shape = film.shapes()[film.segments()[segment].shape];
   const shape::EyeMatrix matrix = scene.matrix(segment);
   const std::uint32_t material = scene.material(segment);
@@ -85,7 +85,7 @@ void draw(Reference& reference, std::size_t number, std::int32_t width, std::int
 
 }  // namespace
 
-Reference draw_reference(const wire::FilmView& film, std::uint32_t frame) {
+Reference draw_reference(const wire::PackedFilm& film, std::uint32_t frame) {
   geometry::Scene scene(film);
   scene.set_interval(interval_of(film, frame));
   scene.set_frame(frame);

@@ -44,7 +44,7 @@ struct Reference {
 };
 
 // Draws `frame`; the film's intervals say which segments move.
-Reference draw_reference(const wire::FilmView& film, std::uint32_t frame);
+Reference draw_reference(const wire::PackedFilm& film, std::uint32_t frame);
 
 // The light of a pixel, in the film's colour space, before exposure.
 Color resolve_reference(const Reference& reference, const ReferenceShading& shading, std::uint32_t column,

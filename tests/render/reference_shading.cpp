@@ -155,7 +155,7 @@ Vec weights_at(const raster::Corners& corners, std::int32_t x, std::int32_t y) {
 
 }  // namespace
 
-ReferenceShading::ReferenceShading(const wire::FilmView& film, std::uint32_t frame) : scene_(film) {
+ReferenceShading::ReferenceShading(const wire::PackedFilm& film, std::uint32_t frame) : scene_(film) {
   scene_.set_frame(frame);
 }
 

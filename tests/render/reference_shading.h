@@ -15,7 +15,7 @@ using Color = std::array<double, 3>;  // red, green, blue
 
 class ReferenceShading {
  public:
-  ReferenceShading(const wire::FilmView& film, std::uint32_t frame);
+  ReferenceShading(const wire::PackedFilm& film, std::uint32_t frame);
 
   // The light from `triangle` at (x, y) in 1/256 pixel, fog and all; in coded films 0..1.
   Color shade(const raster::PlainTriangle& triangle, std::int32_t x, std::int32_t y) const;

@@ -12,7 +12,7 @@
 namespace mars::film {
 namespace {
 
-using wire::FilmView;
+using wire::PackedFilm;
 
 // Of structs without padding, bit by bit: 0 and -0 are not the same.
 template <typename T>
@@ -34,7 +34,7 @@ constexpr bool kOfFourBytes = alignof(T) == 4 && sizeof(T) % 4 == 0;
 static_assert(kOfFourBytes<wire::Light> && kOfFourBytes<wire::Material> && kOfFourBytes<wire::FilmSettings> &&
               kOfFourBytes<wire::AmbientLight> && kOfFourBytes<wire::Fog>);
 
-bool same_meshlet(const FilmView& a, const wire::Meshlet& in_a, const FilmView& b, const wire::Meshlet& in_b) {
+bool same_meshlet(const PackedFilm& a, const wire::Meshlet& in_a, const PackedFilm& b, const wire::Meshlet& in_b) {
   return same_bits(in_a.low, in_b.low) && same_bits(in_a.high, in_b.high) &&
          same_bits(a.mesh_places().subspan(in_a.first_vertex, in_a.vertex_count),
                    b.mesh_places().subspan(in_b.first_vertex, in_b.vertex_count)) &&
@@ -44,7 +44,7 @@ bool same_meshlet(const FilmView& a, const wire::Meshlet& in_a, const FilmView& 
                    b.mesh_triangles().subspan(in_b.first_triangle, in_b.triangle_count));
 }
 
-bool same_shape(const FilmView& a, const wire::Shape& in_a, const FilmView& b, const wire::Shape& in_b) {
+bool same_shape(const PackedFilm& a, const wire::Shape& in_a, const PackedFilm& b, const wire::Shape& in_b) {
   if (in_a.meshlet_count != in_b.meshlet_count) return false;
   for (std::uint32_t i = 0; i < in_a.meshlet_count; ++i)
     if (!same_meshlet(a, a.meshlets()[in_a.first_meshlet + i], b, b.meshlets()[in_b.first_meshlet + i])) return false;
@@ -54,7 +54,7 @@ bool same_shape(const FilmView& a, const wire::Shape& in_a, const FilmView& b, c
 
 class Comparison {
  public:
-  Comparison(const FilmView& before, const FilmView& now)
+  Comparison(const PackedFilm& before, const PackedFilm& now)
       : before_(before),
         now_(now),
         frames_(std::min(before.settings().frames, now.settings().frames)),
@@ -138,7 +138,7 @@ class Comparison {
     --differences_[end];
   }
 
-  const FilmView &before_, &now_;
+  const PackedFilm &before_, &now_;
   const std::uint32_t frames_;             // that both have
   std::vector<std::int64_t> differences_;  // of each frame, reasons why it has changed, less those of the frame before
   std::map<std::pair<std::uint32_t, std::uint32_t>, bool> same_shapes_;
@@ -146,7 +146,7 @@ class Comparison {
 
 }  // namespace
 
-std::vector<std::uint32_t> changed_frames(const FilmView& before, const FilmView& now) {
+std::vector<std::uint32_t> changed_frames(const PackedFilm& before, const PackedFilm& now) {
   return Comparison(before, now).changed();
 }
 

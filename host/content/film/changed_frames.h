@@ -13,6 +13,6 @@ namespace mars::film {
 
 // Frames of `now`, ascending, that `before` does not have, or not the same. A number that the frame's light does not
 // use, such as a direction of a point light, counts too.
-std::vector<std::uint32_t> changed_frames(const wire::FilmView& before, const wire::FilmView& now);
+std::vector<std::uint32_t> changed_frames(const wire::PackedFilm& before, const wire::PackedFilm& now);
 
 }  // namespace mars::film

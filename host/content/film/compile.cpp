@@ -107,7 +107,7 @@ class Compiler {
 
 // The same block with another size and other samples: what a frame shows does not depend on them.
 void change_pixels(CompiledFilm& film, const CompileOptions& options) {
-  const wire::FilmView view = film.view();
+  const wire::PackedFilm view = film.view();
   wire::FilmSettings settings = view.settings();
   if (options.size) {
     const auto size = checked_size(*options.size, film.source);

@@ -26,7 +26,7 @@ struct CompiledFilm {
   std::uint32_t joints = 0;  // of all actors
 
   std::span<const std::byte> block() const { return std::as_bytes(std::span(lines)); }
-  wire::FilmView view() const { return {block(), source, true}; }
+  wire::PackedFilm view() const { return {block(), source, true}; }
 };
 
 }  // namespace mars::film

@@ -9,7 +9,7 @@ namespace {
 constexpr std::size_t kMostRows = 60;  // of the table of intervals
 
 // Patches as they are rendered and stored; the same of meshes, where there are any.
-std::string polygons_of(const wire::FilmView& film) {
+std::string polygons_of(const wire::PackedFilm& film) {
   std::uint64_t patches = 0, triangles = 0;
   for (const wire::Segment& segment : film.segments()) {
     const wire::Shape& shape = film.shapes()[segment.shape];
@@ -35,7 +35,7 @@ std::string colors_of(const wire::FilmSettings& settings) {
                                                : "colours     linear, no curve\n";
 }
 
-std::string table_of(const wire::FilmView& film) {
+std::string table_of(const wire::PackedFilm& film) {
   std::string table = "  first frame   frames   moving segments\n";
   std::size_t row = 0;
   for (const wire::Interval& interval : film.intervals()) {
@@ -50,7 +50,7 @@ std::string table_of(const wire::FilmView& film) {
 }  // namespace
 
 std::string describe(const CompiledFilm& film) {
-  const wire::FilmView view = film.view();
+  const wire::PackedFilm view = film.view();
   const wire::FilmSettings& settings = view.settings();
   std::string text = film.source + "\n";
   text += document::formatted("size        %u x %u\n", settings.width, settings.height);

@@ -82,7 +82,7 @@ CompiledFilm load_compiled_film(const std::filesystem::path& path) {
   film.source = path.string();
   film.actors = header.actors;
   film.joints = header.joints;
-  wire::FilmView(film.block(), film.source);  // checks every index
+  wire::PackedFilm(film.block(), film.source);  // checks every index
   return film;
 }
 

@@ -23,7 +23,7 @@ void add(Checksum& sum, const T& value) {
   add(sum, std::span(&value, 1));
 }
 
-std::string checksum_of_shape(const wire::FilmView& film, const wire::Shape& shape) {
+std::string checksum_of_shape(const wire::PackedFilm& film, const wire::Shape& shape) {
   Checksum sum;
   add(sum, film.patches().subspan(shape.first_patch, shape.patch_count));
   for (const wire::Meshlet& meshlet : film.meshlets().subspan(shape.first_meshlet, shape.meshlet_count)) {
@@ -36,7 +36,7 @@ std::string checksum_of_shape(const wire::FilmView& film, const wire::Shape& sha
   return sum.digits();
 }
 
-const wire::Interval& interval_of(const wire::FilmView& film, std::uint32_t frame) {
+const wire::Interval& interval_of(const wire::PackedFilm& film, std::uint32_t frame) {
   return *std::prev(std::ranges::upper_bound(film.intervals(), frame, {}, &wire::Interval::first_frame));
 }
 

@@ -18,13 +18,13 @@ wire::FilmSettings shown_settings(wire::FilmSettings settings);
 class FrameContent {
  public:
   // `film` must outlive it.
-  explicit FrameContent(const wire::FilmView& film) : film_(film) {}
+  explicit FrameContent(const wire::PackedFilm& film) : film_(film) {}
 
   // 32 hexadecimal digits; from several threads at once. The first call reads all shapes.
   std::string checksum(std::uint32_t frame) const;
 
  private:
-  const wire::FilmView film_;
+  const wire::PackedFilm film_;
   mutable std::once_flag read_;
   mutable std::vector<std::string> shapes_;  // their checksums
 };

@@ -19,6 +19,6 @@ class Counter {
   virtual wire::FrameCounts count_inbetween(std::uint32_t frame) = 0;
 };
 
-using MakeCounter = std::function<std::unique_ptr<Counter>(const wire::FilmView& film)>;
+using MakeCounter = std::function<std::unique_ptr<Counter>(const wire::PackedFilm& film)>;
 
 }  // namespace mars::forecast

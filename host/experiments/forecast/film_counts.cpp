@@ -35,7 +35,7 @@ FrameTotals between(const std::vector<Known>& known, double place) {
 
 class FilmCount {
  public:
-  FilmCount(const wire::FilmView& film, std::span<const farm::Task> tasks, Counter& counter, std::uint32_t band_lines)
+  FilmCount(const wire::PackedFilm& film, std::span<const farm::Task> tasks, Counter& counter, std::uint32_t band_lines)
       : film_(film), tasks_(tasks), counter_(counter), band_lines_(band_lines), known_(tasks.size()) {}
 
   FilmCounts count(const Budget& budget);
@@ -49,7 +49,7 @@ class FilmCount {
   void estimate(std::size_t task);
   double moving_patches(const farm::Task& task) const;
 
-  const wire::FilmView& film_;
+  const wire::PackedFilm& film_;
   const std::span<const farm::Task> tasks_;
   Counter& counter_;
   const std::uint32_t band_lines_;
@@ -211,7 +211,7 @@ FrameTotals totals_of(const wire::FrameCounts& counts, std::uint32_t band_lines)
   return totals;
 }
 
-FilmCounts count_film(const wire::FilmView& film, std::span<const farm::Task> tasks, Counter& counter,
+FilmCounts count_film(const wire::PackedFilm& film, std::span<const farm::Task> tasks, Counter& counter,
                       const Budget& budget, images::PictureFormat format) {
   const images::PictureBands bands(format, film.settings().width, film.settings().height);
   return FilmCount(film, tasks, counter, bands.lines_a_band()).count(budget);

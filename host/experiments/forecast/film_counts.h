@@ -49,7 +49,7 @@ struct Budget {
 
 // Of one task at least, the keyframe and one inbetween are counted.
 // For pictures of that format.
-FilmCounts count_film(const wire::FilmView& film, std::span<const farm::Task> tasks, Counter& counter,
+FilmCounts count_film(const wire::PackedFilm& film, std::span<const farm::Task> tasks, Counter& counter,
                       const Budget& budget, images::PictureFormat format);
 
 }  // namespace mars::forecast

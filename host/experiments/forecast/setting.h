@@ -15,7 +15,7 @@ namespace mars::forecast {
 enum class Writers { host, nodes };
 
 struct Setting {
-  const wire::FilmView& film;
+  const wire::PackedFilm& film;
   const experiments::Platform& platform;
   wire::Mapping mapping = wire::Mapping::cost;
   images::PictureFormat picture = images::PictureFormat::png;

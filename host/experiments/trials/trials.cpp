@@ -53,7 +53,7 @@ class Trial {
 
  private:
   void count(std::size_t frames, const forecast::Budget& budget) {
-    const wire::FilmView film = film_.view();
+    const wire::PackedFilm film = film_.view();
     std::vector<std::uint32_t> first(frames);
     std::iota(first.begin(), first.end(), 0u);
     frames_ = frames;
@@ -62,7 +62,7 @@ class Trial {
   }
 
   forecast::Forecast forecast(int nodes, bool files) const {
-    const wire::FilmView film = film_.view();
+    const wire::PackedFilm film = film_.view();
     const experiments::Platform& platform = task_.platform;
     forecast::Setting setting{film, platform};
     setting.files = files;

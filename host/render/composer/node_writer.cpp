@@ -38,7 +38,7 @@ void copy_bytes(std::span<const std::byte> from, std::span<std::uint32_t> to) {
 
 }  // namespace
 
-NodeWriter::NodeWriter(const wire::FilmView& film, const sinks::WriterOrders& orders, std::int32_t node, bool looks)
+NodeWriter::NodeWriter(const wire::PackedFilm& film, const sinks::WriterOrders& orders, std::int32_t node, bool looks)
     : orders_(orders),
       bands_(orders.manifest.format, film.settings().width, film.settings().height),
       content_(film),

@@ -18,7 +18,7 @@ namespace mars::composer {
 class NodeWriter : public wire::FrameWriter {
  public:
   // `node`: the caller's. `looks`: it finds out whether its machine sees the host's folder, for all nodes there.
-  NodeWriter(const wire::FilmView& film, const sinks::WriterOrders& orders, std::int32_t node, bool looks);
+  NodeWriter(const wire::PackedFilm& film, const sinks::WriterOrders& orders, std::int32_t node, bool looks);
 
   bool sees_folder() const override { return sees_folder_; }
 

@@ -16,7 +16,7 @@ compositor::Frame* begun(compositor::Frame* frame, const compositor::Compositor&
 
 }  // namespace
 
-std::uint64_t background_pixel(const wire::FilmView& film, const wire::Interval& interval, wire::PixelFormat format) {
+std::uint64_t background_pixel(const wire::PackedFilm& film, const wire::Interval& interval, wire::PixelFormat format) {
   const wire::FilmSettings& settings = film.settings();
   const auto encoding = color::encoding_of(settings, film.camera_at(interval.first_frame), format);
   return color::pixel_of(encoding, settings.background.data());

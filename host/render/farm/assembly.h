@@ -25,7 +25,7 @@ using PasteListener = std::function<void(const StripMessage& strip, const compos
                                          const compositor::Frame& frame)>;
 
 // The pixel of the film's frames where nothing is drawn, in this interval.
-std::uint64_t background_pixel(const wire::FilmView& film, const wire::Interval& interval, wire::PixelFormat format);
+std::uint64_t background_pixel(const wire::PackedFilm& film, const wire::Interval& interval, wire::PixelFormat format);
 // A strip's pixels in a picture that was begun. `alone`: its interval has no other picture, and no saved background.
 void paste_strip(const StripMessage& strip, compositor::Frame& picture, compositor::Compositor& compositor, bool alone);
 

@@ -71,13 +71,14 @@ struct FarmReport {
   double sink_seconds = 0;           // of all threads that hand frames to the sink
   wire::HostUnits charged{};         // what the host did, by kind
   images::FileWork files;            // that the host wrote
+  std::uint64_t node_files = 0;      // that nodes wrote
   std::vector<SlowTime> slow_times;  // since the first command; of runs that adapt
   bool cancelled = false;            // before all frames were composed
 };
 
 // What belongs to one rendering.
 struct FilmRun {
-  const wire::FilmView& film;
+  const wire::PackedFilm& film;
   const Plan& plan;
   const FarmOptions& options;
   sinks::SinkPool& sinks;

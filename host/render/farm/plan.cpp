@@ -20,7 +20,7 @@ std::int32_t Plan::contributors_of(const collectives::Group& group) const {
   return contributors == 0 ? group.count : std::min(contributors, group.count);
 }
 
-Plan make_plan(const wire::FilmView& film, const PlanRequest& request, int nodes) {
+Plan make_plan(const wire::PackedFilm& film, const PlanRequest& request, int nodes) {
   Plan plan{make_tasks(film, request.frames, request.coherence), {}, 0};
   plan.groups = make_groups(nodes, static_cast<int>(request.groups), plan.tasks.size());
   plan.contributors = request.contributors;
@@ -60,7 +60,7 @@ std::vector<std::byte> render_command(const Task& task, const collectives::Group
   return render_command(task, whole(task), group, contributors);
 }
 
-std::vector<Task> make_tasks(const wire::FilmView& film, std::span<const std::uint32_t> frames, bool coherence) {
+std::vector<Task> make_tasks(const wire::PackedFilm& film, std::span<const std::uint32_t> frames, bool coherence) {
   std::vector<Task> tasks;
   std::uint64_t inbetweens = 0;
   std::uint32_t interval = 0;

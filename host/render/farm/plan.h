@@ -54,14 +54,14 @@ struct Plan {
   std::uint32_t frames() const { return keyframes() + inbetweens(); }
 };
 
-Plan make_plan(const wire::FilmView& film, const PlanRequest& request, int nodes);
+Plan make_plan(const wire::PackedFilm& film, const PlanRequest& request, int nodes);
 
 // A portion of the task, or all of it, as a Render message: short where its frames follow each other.
 std::vector<std::byte> render_command(const Task& task, const Portion& portion, const collectives::Group& group,
                                       std::int32_t contributors);
 std::vector<std::byte> render_command(const Task& task, const collectives::Group& group, std::int32_t contributors);
 
-std::vector<Task> make_tasks(const wire::FilmView& film, std::span<const std::uint32_t> frames, bool coherence);
+std::vector<Task> make_tasks(const wire::PackedFilm& film, std::span<const std::uint32_t> frames, bool coherence);
 
 // `nodes` nodes as `groups` groups of about equal size, side by side. 0 groups: one for every four tasks, so that what
 // one task takes longer than another evens out; with fewer than eight tasks one group of all nodes, as in the thesis.

@@ -78,7 +78,7 @@ bool render(const FilmRun& run, FilmPictures& pictures) {
 
 FarmReport render_film(std::span<const std::byte> film_block, const Plan& plan, const FarmOptions& options,
                        sinks::SinkPool& sinks, const FarmListener& listener) {
-  const wire::FilmView film(film_block, "film");
+  const wire::PackedFilm film(film_block, "film");
   FarmReport report;
   Engine engine(engine_options(options, sinks.shape()));
   const FilmRun run{film, plan, options, sinks, listener, engine, report};

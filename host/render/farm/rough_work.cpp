@@ -9,7 +9,7 @@ constexpr double kRedrawn = 0.3;  // of a picture, by an inbetween
 
 }  // namespace
 
-RoughWork rough_work(const wire::FilmView& film, const wire::Interval& interval) {
+RoughWork rough_work(const wire::PackedFilm& film, const wire::Interval& interval) {
   const wire::FilmSettings& settings = film.settings();
   const double samples = static_cast<double>(settings.width) * settings.height * settings.samples;
   double moving = 0;

@@ -12,6 +12,6 @@ struct RoughWork {
   double inbetween = 0;
 };
 
-RoughWork rough_work(const wire::FilmView& film, const wire::Interval& interval);
+RoughWork rough_work(const wire::PackedFilm& film, const wire::Interval& interval);
 
 }  // namespace mars::farm

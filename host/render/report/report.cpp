@@ -71,9 +71,13 @@ ordered_json slow_json(const farm::FarmReport& report) {
 }
 
 ordered_json host_json(const farm::FarmReport& report) {
-  return {{"busy_seconds", report.busy_seconds},   {"sink_seconds", report.sink_seconds},
-          {"files", report.files.files},           {"encoded_bytes", report.files.encoded_bytes},
-          {"file_bytes", report.files.file_bytes}, {"charged", charged_json(report.charged, wire::kNodeKinds)}};
+  return {{"busy_seconds", report.busy_seconds},
+          {"sink_seconds", report.sink_seconds},
+          {"files", report.files.files},
+          {"encoded_bytes", report.files.encoded_bytes},
+          {"file_bytes", report.files.file_bytes},
+          {"node_files", report.node_files},
+          {"charged", charged_json(report.charged, wire::kNodeKinds)}};
 }
 
 ordered_json work_json(const wire::WorkCounts& work) {

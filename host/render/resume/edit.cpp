@@ -29,7 +29,7 @@ std::string list_text(const Numbers& numbers, const std::string& one) {
 }
 
 // Counted from 1, as the progress line counts them.
-Numbers intervals_of(const Numbers& frames, const wire::FilmView& film) {
+Numbers intervals_of(const Numbers& frames, const wire::PackedFilm& film) {
   Numbers numbers;
   std::size_t at = 0;
   for (const std::uint32_t frame : frames) {
@@ -43,7 +43,7 @@ Numbers intervals_of(const Numbers& frames, const wire::FilmView& film) {
 }  // namespace
 
 Edit edit_of(const film::CompiledFilm& before, const film::CompiledFilm& now, const std::string& folder) {
-  const wire::FilmView was = before.view(), is = now.view();
+  const wire::PackedFilm was = before.view(), is = now.view();
   const wire::FilmSettings &a = was.settings(), &b = is.settings();
   if (a.width != b.width || a.height != b.height || a.samples != b.samples)
     throw Failure("the frames in this folder are " + picture_text(a) + ", not " + picture_text(b), folder,
@@ -69,7 +69,7 @@ void add_kept_frames(const sinks::Manifest& there, const Edit& edit, sinks::Mani
 
 std::string edit_text(const sinks::Manifest& there, const Edit& edit, const film::CompiledFilm& now,
                       const std::string& what) {
-  const wire::FilmView view = now.view();
+  const wire::PackedFilm view = now.view();
   Numbers again;
   std::ranges::copy_if(edit.frames, std::back_inserter(again),
                        [&](std::uint32_t frame) { return !sinks::hash_of(there, frame).empty(); });

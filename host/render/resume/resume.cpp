@@ -170,7 +170,7 @@ class Opening {
 
   // Of all frames asked for.
   Manifest wanted() const {
-    const wire::FilmView view = film().view();
+    const wire::PackedFilm view = film().view();
     const wire::FilmSettings& settings = view.settings();
     Manifest manifest{wish_.film,
                       document::checksum_of(film().block()),

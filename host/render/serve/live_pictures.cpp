@@ -33,7 +33,7 @@ LivePictures::View& LivePictures::sized(std::uint32_t view, const wire::FilmSett
 }
 
 // The interval before is undone; its keyframe may not be whole.
-std::uint32_t LivePictures::begin_keyframe(std::uint32_t view, std::uint32_t asked, const wire::FilmView& scene,
+std::uint32_t LivePictures::begin_keyframe(std::uint32_t view, std::uint32_t asked, const wire::PackedFilm& scene,
                                            bool all_moves) {
   View& of = sized(view, scene.settings());
   of.compositor.begin_interval(farm::background_pixel(scene, scene.intervals().front(), wire::PixelFormat::rgb8));

@@ -26,7 +26,7 @@ class LivePictures : public farm::PictureTaker {
   // Each begins a picture, of which `asked` is the studio's number; its number for nodes.
 
   // A keyframe, which all nodes draw. `all_moves`: in the scene; there is no saved background to keep.
-  std::uint32_t begin_keyframe(std::uint32_t view, std::uint32_t asked, const wire::FilmView& scene, bool all_moves);
+  std::uint32_t begin_keyframe(std::uint32_t view, std::uint32_t asked, const wire::PackedFilm& scene, bool all_moves);
   // An inbetween, which this node draws.
   std::uint32_t begin_inbetween(std::uint32_t view, std::uint32_t asked, int node);
 

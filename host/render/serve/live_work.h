@@ -29,11 +29,11 @@ class LiveWork : public farm::WorkGiver {
   using Request = pictures::Message;
 
   struct View {
-    std::optional<Request> scene;            // requested, and has not begun
-    std::optional<Request> draw;             // the newest; of that scene, if there is one
-    std::vector<std::byte> block;            // the interval's scene
-    std::optional<wire::FilmView> interval;  // it, read
-    wire::MovingParts moving;                // of it
+    std::optional<Request> scene;              // requested, and has not begun
+    std::optional<Request> draw;               // the newest; of that scene, if there is one
+    std::vector<std::byte> block;              // the interval's scene
+    std::optional<wire::PackedFilm> interval;  // it, read
+    wire::MovingParts moving;                  // of it
   };
 
   bool take_requests();
@@ -57,8 +57,8 @@ class LiveWork : public farm::WorkGiver {
   const std::uint32_t block_;
   std::optional<Request> next_film_;  // requested, and waits until nothing is drawn
   std::vector<std::byte> film_block_;
-  std::optional<wire::FilmView> film_;  // that nodes have
-  std::uint64_t still_memory_ = 0;      // of a node, for a view
+  std::optional<wire::PackedFilm> film_;  // that nodes have
+  std::uint64_t still_memory_ = 0;        // of a node, for a view
   std::map<std::uint32_t, View> views_;
   std::uint32_t requested_ = 0;  // the last picture
   std::size_t turn_ = 0;         // the node that is asked next whether it is idle

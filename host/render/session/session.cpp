@@ -48,7 +48,7 @@ constexpr int kMostSinks = 64;
 constexpr std::chrono::seconds kLongestEnd{10};  // of a run that fails, for what it has written
 
 // To nowhere where there is no folder.
-std::unique_ptr<sinks::Sink> make_sink(sinks::FrameFolder* folder, const wire::FilmView& film) {
+std::unique_ptr<sinks::Sink> make_sink(sinks::FrameFolder* folder, const wire::PackedFilm& film) {
   if (folder == nullptr) return std::make_unique<sinks::NullSink>();
   const auto content = std::make_shared<film::FrameContent>(film);
   return std::make_unique<sinks::FileSink>(*folder,
@@ -88,7 +88,7 @@ farm::HostMemory memory_for(const HostMachine& host, const wire::FilmSettings& f
 }
 
 // New buffers show the first interval's background.
-sinks::SinkPool::Shape pool_shape(const HostMachine& host, const wire::FilmView& film, const RenderJob& job,
+sinks::SinkPool::Shape pool_shape(const HostMachine& host, const wire::PackedFilm& film, const RenderJob& job,
                                   std::uint32_t frames) {
   const std::uint32_t threads = std::min(sink_threads(host), frames);
   const wire::PixelFormat format = images::facts_of(job.format).pixels;
@@ -252,7 +252,7 @@ struct Planned {
 };
 
 // By what is predicted of it, unless the person says how many groups.
-Planned plan_of(const wire::FilmView& film, const std::vector<std::uint32_t>& frames, const RenderJob& job,
+Planned plan_of(const wire::PackedFilm& film, const std::vector<std::uint32_t>& frames, const RenderJob& job,
                 EventReporter& reporter, farm::Heartbeats& heartbeats) {
   const auto nodes = static_cast<int>(numnodes());
   farm::PlanRequest request{frames, job.coherence, job.groups};
@@ -295,7 +295,7 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace, 
   if (opened.frames.empty()) return render_nothing(job, reporter);
   output.film = std::move(opened.film);
   const film::CompiledFilm& film = output.film;
-  const wire::FilmView view = film.view();
+  const wire::PackedFilm view = film.view();
   const wire::FilmSettings& settings = view.settings();
   const auto [plan, prediction] = plan_of(view, opened.frames, job, reporter, heartbeats);
   const HostMachine host = host_machine(job.host);

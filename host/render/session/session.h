@@ -68,7 +68,7 @@ struct RenderJob {
   // Of simulated nodes, which only count what files take; none: the folder's.
   std::optional<farm::Writing> writing;
   // Asked once, before the film goes to nodes; none, or 0 groups and no course: nothing is predicted.
-  std::function<Prediction(const wire::FilmView& film, const farm::PlanRequest& request, int nodes)> predict;
+  std::function<Prediction(const wire::PackedFilm& film, const farm::PlanRequest& request, int nodes)> predict;
   // The command that renders again, all frames or one, with this number of nodes.
   std::function<std::string(std::uint32_t nodes, std::optional<std::uint32_t> frame)> replay;
 };

@@ -57,7 +57,7 @@ Files files_in(const fs::path& folder) {
 }
 
 Manifest manifest_of(const film::CompiledFilm& film) {
-  const wire::FilmView view = film.view();
+  const wire::PackedFilm view = film.view();
   const wire::FilmSettings& settings = view.settings();
   Manifest manifest;
   manifest.checksum = document::checksum_of(film.block());

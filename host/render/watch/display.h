@@ -13,7 +13,7 @@ namespace mars::watch {
 class Display {
  public:
   // For frames of this format. The film outlives it.
-  Display(const wire::FilmView& film, wire::PixelFormat format) : film_(film), format_(format) {}
+  Display(const wire::PackedFilm& film, wire::PixelFormat format) : film_(film), format_(format) {}
 
   // What comes is of this frame. Whether it is shown otherwise than the frame before.
   bool begin_frame(std::uint32_t frame);
@@ -21,7 +21,7 @@ class Display {
   void show(std::span<const std::uint32_t> words, std::uint32_t* pixels) const;
 
  private:
-  const wire::FilmView& film_;
+  const wire::PackedFilm& film_;
   const wire::PixelFormat format_;
   color::Encoding encoding_;  // of light, where frames have that
 };

@@ -23,7 +23,7 @@ namespace mars::watch {
 
 // What is watched: frames of this film.
 struct Shape {
-  wire::FilmView film;
+  wire::PackedFilm film;
   std::uint32_t block;  // side of a flag's block, pixels
   wire::PixelFormat format;
   std::uint32_t groups;

@@ -72,7 +72,7 @@ experiments::Platform platform_of(const options::RenderOptions& options, const N
 
 Planned plan(const options::RenderOptions& options, const NodesCode& code) {
   const film::CompiledFilm film = job::load_film_of(options, warn);
-  const wire::FilmView view = film.view();
+  const wire::PackedFilm view = film.view();
   const experiments::Platform platform = platform_of(options, code);
   const auto frames = options.frames.of_film(view.settings().frames);
   const std::vector<farm::Task> tasks = farm::make_tasks(view, frames, !options.no_coherence);

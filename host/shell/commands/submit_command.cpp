@@ -123,7 +123,7 @@ film::CompiledFilm film_of(const SubmitWords& words) {
 // More than one frame set: without the option --frames.
 batch::ArrayParts parts_of(const SubmitWords& words, const film::CompiledFilm& film) {
   if (words.parts == 1) return {};
-  const wire::FilmView view = film.view();
+  const wire::PackedFilm view = film.view();
   const std::vector<std::uint32_t> frames = words.render.frames.of_film(view.settings().frames);
   const std::vector<farm::Task> tasks = farm::make_tasks(view, frames, !words.render.no_coherence);
   std::vector<farm::RoughWork> works;

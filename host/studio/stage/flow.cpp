@@ -169,12 +169,12 @@ bool Flow::is_exact(const PageView& view) {
   return own && std::equal(own->begin(), own->end(), view.interval->moving().begin(), view.interval->moving().end());
 }
 
-Scene Flow::scene_of(const PageView& view, const Shown& now) const {
+Shot Flow::scene_of(const PageView& view, const Shown& now) const {
   return {moments_.shared_now(), now.camera, view.width, view.height};
 }
 
 // As nodes take it.
-std::vector<std::byte> Flow::packed(const Scene& scene, const std::vector<std::uint32_t>& moving) {
+std::vector<std::byte> Flow::packed(const Shot& scene, const std::vector<std::uint32_t>& moving) {
   wire::FilmData film = *scene.moment;
   film.cameras = {scene.camera};
   film.settings.width = scene.width;
@@ -186,7 +186,7 @@ std::vector<std::byte> Flow::packed(const Scene& scene, const std::vector<std::u
 
 // Why a picture that rests must have the film's own interval: docs/exactness.md, "Where intervals are cut".
 void Flow::ask(PageView& view, const Shown& now, bool rests) {
-  Scene scene = scene_of(view, now);
+  Shot scene = scene_of(view, now);
   const bool exact = rests && is_own(view) && moments_.own_moving().has_value();
   Asked asked{++picture_, pages_.edit_of(view.page), rests, exact, pages_.controls(view)};
   view.shown = now;
@@ -211,7 +211,7 @@ void Flow::ask(PageView& view, const Shown& now, bool rests) {
 }
 
 // What an inbetween must move; none: a new interval begins.
-std::optional<Moved> Flow::inbetween(PageView& view, const Scene& scene, bool exact) {
+std::optional<Moved> Flow::inbetween(PageView& view, const Shot& scene, bool exact) {
   if (!view.interval || (exact && !is_exact(view))) return std::nullopt;
   if (view.interval->alone() && !exact) return std::nullopt;
   auto moved = view.interval->moved_to(scene);
@@ -220,7 +220,7 @@ std::optional<Moved> Flow::inbetween(PageView& view, const Scene& scene, bool ex
 }
 
 // What changes now, and what did since something is in motion.
-std::vector<std::uint32_t> Flow::moving_of(PageView& view, const Scene& scene, bool exact) {
+std::vector<std::uint32_t> Flow::moving_of(PageView& view, const Shot& scene, bool exact) {
   if (exact) {
     const auto own = *moments_.own_moving();
     return {own.begin(), own.end()};

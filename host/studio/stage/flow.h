@@ -59,11 +59,11 @@ class Flow {
   bool looks_the_same(PageView& view, const Shown& now);
   bool is_own(const PageView& view) const;
   bool is_exact(const PageView& view);
-  Scene scene_of(const PageView& view, const Shown& now) const;
-  static std::vector<std::byte> packed(const Scene& scene, const std::vector<std::uint32_t>& moving);
+  Shot scene_of(const PageView& view, const Shown& now) const;
+  static std::vector<std::byte> packed(const Shot& scene, const std::vector<std::uint32_t>& moving);
   void ask(PageView& view, const Shown& now, bool rests);
-  std::optional<Moved> inbetween(PageView& view, const Scene& scene, bool exact);
-  std::vector<std::uint32_t> moving_of(PageView& view, const Scene& scene, bool exact);
+  std::optional<Moved> inbetween(PageView& view, const Shot& scene, bool exact);
+  std::vector<std::uint32_t> moving_of(PageView& view, const Shot& scene, bool exact);
   void send(PageView& view, const Asked& asked, std::vector<pictures::Rect> rects, std::vector<std::uint32_t> pixels);
 
   Project& project_;

@@ -26,7 +26,7 @@ bool same_settings(wire::FilmSettings one, const wire::FilmSettings& other) {
   return same_bits(one, other);
 }
 
-bool same_view(const Scene& one, const Scene& other) {
+bool same_view(const Shot& one, const Shot& other) {
   return one.width == other.width && one.height == other.height && one.camera == other.camera &&
          same_settings(one.moment->settings, other.moment->settings);
 }
@@ -47,7 +47,7 @@ bool same_segments(const wire::FilmData& one, const wire::FilmData& other) {
                     [](const wire::Segment& a, const wire::Segment& b) { return a.shape == b.shape; });
 }
 
-bool same_surroundings(const Scene& one, const Scene& other) {
+bool same_surroundings(const Shot& one, const Shot& other) {
   return same_view(one, other) && same_lights(*one.moment, *other.moment) && same_segments(*one.moment, *other.moment);
 }
 
@@ -67,7 +67,7 @@ bool has_own_shape(const wire::FilmData& scene, std::size_t segment) {
 
 }  // namespace
 
-Interval::Interval(Scene scene, std::vector<std::uint32_t> moving)
+Interval::Interval(Shot scene, std::vector<std::uint32_t> moving)
     : scene_(std::move(scene)), moving_(std::move(moving)), moves_(scene_.moment->segments.size(), char{0}) {
   for (const std::uint32_t segment : moving_) moves_[segment] = 1;
 }
@@ -80,7 +80,7 @@ std::optional<std::uint32_t> Interval::material_like(const wire::Material& mater
   return static_cast<std::uint32_t>(found - materials.begin());
 }
 
-std::optional<Moved> Interval::moved_to(const Scene& scene) const {
+std::optional<Moved> Interval::moved_to(const Shot& scene) const {
   if (!same_surroundings(scene_, scene)) return std::nullopt;
   const wire::FilmData &was = *scene_.moment, &now = *scene.moment;
   Moved moved;
@@ -105,11 +105,11 @@ bool Interval::holds(const Moved& moved) const {
   return true;
 }
 
-bool same_picture(const Scene& one, const Scene& other) {
+bool same_picture(const Shot& one, const Shot& other) {
   return same_surroundings(one, other) && changed_segments(one, other).empty();
 }
 
-std::vector<std::uint32_t> changed_segments(const Scene& one, const Scene& other) {
+std::vector<std::uint32_t> changed_segments(const Shot& one, const Shot& other) {
   const wire::FilmData &before = *one.moment, &now = *other.moment;
   std::vector<std::uint32_t> changed;
   const bool all = before.segments.size() != now.segments.size() || !same_view(one, other) || !same_lights(before, now);

@@ -14,7 +14,7 @@
 namespace mars::studio {
 
 // A moment of the film, which views share, as one of them sees it.
-struct Scene {
+struct Shot {
   std::shared_ptr<const wire::FilmData> moment{};
   wire::Camera camera{};
   std::uint32_t width = 0, height = 0;
@@ -29,31 +29,31 @@ struct Moved {
 class Interval {
  public:
   // `moving`: the segments that may move, ascending.
-  Interval(Scene scene, std::vector<std::uint32_t> moving);
+  Interval(Shot scene, std::vector<std::uint32_t> moving);
 
   std::span<const std::uint32_t> moving() const { return moving_; }
   // Everything moves, so that nothing is kept for inbetweens.
   bool alone() const { return moving_.size() == scene_.moment->segments.size(); }
 
   // None: something differs that no inbetween can show. Others than the moving segments may be among those moved.
-  std::optional<Moved> moved_to(const Scene& now) const;
+  std::optional<Moved> moved_to(const Shot& now) const;
   // Whether an inbetween may show it.
   bool holds(const Moved& moved) const;
 
  private:
   std::optional<std::uint32_t> material_like(const wire::Material& material, std::uint32_t likely) const;
 
-  Scene scene_;
+  Shot scene_;
   std::vector<std::uint32_t> moving_;
   std::vector<char> moves_;  // of each segment
 };
 
 // Whether both look the same.
-bool same_picture(const Scene& one, const Scene& other);
+bool same_picture(const Shot& one, const Shot& other);
 
 // The numbers of the segments that the two show differently, ascending; of all where camera, lights or the segments
 // themselves differ.
-std::vector<std::uint32_t> changed_segments(const Scene& before, const Scene& now);
+std::vector<std::uint32_t> changed_segments(const Shot& before, const Shot& now);
 
 // Ascending numbers in either.
 std::vector<std::uint32_t> joined(std::span<const std::uint32_t> one, std::span<const std::uint32_t> other);

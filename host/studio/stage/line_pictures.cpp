@@ -117,7 +117,7 @@ std::uint32_t LinePictures::net_of(std::size_t segment, preview::Wireframe& wire
     wireframe.lines[0] = preview::control_net(moments_.patches_of(segment));
     return 0;
   }
-  const wire::FilmView film(*moments_.film_block(), "", true);
+  const wire::PackedFilm film(*moments_.film_block(), "", true);
   wireframe.lines.push_back(preview::control_net(film, film.shapes()[shape]));
   return net_numbers_[shape] = static_cast<std::uint32_t>(wireframe.lines.size() - 1);
 }

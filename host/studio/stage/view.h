@@ -53,7 +53,7 @@ struct PageView {
   // Of the renderer.
   bool known = false;  // it has the view
   std::optional<Interval> interval{};
-  Scene scene{};            // asked for last
+  Shot scene{};             // asked for last
   bool lost = false;        // and dropped
   bool moved = false;       // since the interval began something was in motion
   std::uint32_t begun = 0;  // the picture with which the interval begins: older ones are nothing any more

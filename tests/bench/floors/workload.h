@@ -45,7 +45,7 @@ class Workload {
   void find_pieces();
 
   film::CompiledFilm film_;
-  wire::FilmView view_;
+  wire::PackedFilm view_;
   geometry::Scene scene_;
   messages::PrivateMemory made_memory_, filled_memory_;
   raster::Arena made_, filled_;

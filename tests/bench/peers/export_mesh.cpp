@@ -18,7 +18,7 @@ namespace {
   throw Failure("a mesh cannot hold " + what, where, "use a scene like those in examples/make_scenes.py");
 }
 
-void check_light(const wire::FilmView& film, const std::string& where) {
+void check_light(const wire::PackedFilm& film, const std::string& where) {
   const wire::FilmSettings& settings = film.settings();
   if (settings.color_space != wire::ColorSpace::coded) refuse("linear colours", where);
   if (settings.fog.end > settings.fog.start) refuse("fog", where);
@@ -29,7 +29,7 @@ void check_light(const wire::FilmView& film, const std::string& where) {
     refuse("other light than one direction", where);
 }
 
-void check_materials(const wire::FilmView& film, const std::string& where) {
+void check_materials(const wire::PackedFilm& film, const std::string& where) {
   const wire::Material& all = film.materials()[0];
   for (const wire::Material& m : film.materials()) {
     if (m.ambient != all.ambient || m.diffuse != all.diffuse || m.specular != all.specular ||
@@ -42,7 +42,7 @@ void check_materials(const wire::FilmView& film, const std::string& where) {
     refuse("an exponent that is no power of two", where);
 }
 
-void check_plain(const wire::FilmView& film, const std::string& where) {
+void check_plain(const wire::PackedFilm& film, const std::string& where) {
   check_light(film, where);
   check_materials(film, where);
   if (film.settings().dice == 0) refuse("adaptive dicing", where);
@@ -92,7 +92,7 @@ void add_patch(const shape::Dicer& diced, MeshPatch part, Mesh& mesh) {
 }
 
 void add_segments(const geometry::Scene& scene, bool moving, Mesh& mesh) {
-  const wire::FilmView& film = scene.film();
+  const wire::PackedFilm& film = scene.film();
   shape::Dicer dicer(simd::best_instruction_set(""));
   for (std::uint32_t s = 0; s < film.segments().size(); ++s) {
     if (scene.moves(s) != moving) continue;
@@ -142,7 +142,7 @@ bool is_rigid(const Square& m) {
   return true;
 }
 
-std::vector<Motion> motion_of(const wire::FilmView& film) {
+std::vector<Motion> motion_of(const wire::PackedFilm& film) {
   constexpr Motion kStill{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
   std::vector<Motion> motion(film.settings().frames, kStill);
   const auto movers = film.moving(film.intervals()[0]);
@@ -159,7 +159,7 @@ std::vector<Motion> motion_of(const wire::FilmView& film) {
   return motion;
 }
 
-Mesh mesh_of(const wire::FilmView& film, const std::string& where) {
+Mesh mesh_of(const wire::PackedFilm& film, const std::string& where) {
   check_plain(film, where);
   geometry::Scene scene(film);
   scene.set_interval(0);

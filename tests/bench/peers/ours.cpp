@@ -76,7 +76,7 @@ class FilesSink : public sinks::Sink {
 class Driver {
  public:
   // `files`: of course `film`.
-  Driver(const wire::FilmView& film, Course course, const std::string& backend, FilesSink* files);
+  Driver(const wire::PackedFilm& film, Course course, const std::string& backend, FilesSink* files);
 
   void run(std::span<const std::byte> block);
 
@@ -102,7 +102,7 @@ class Driver {
   std::vector<farm::FinishedFrame> finished_;
 };
 
-Driver::Driver(const wire::FilmView& film, Course course, const std::string& backend, FilesSink* files)
+Driver::Driver(const wire::PackedFilm& film, Course course, const std::string& backend, FilesSink* files)
     : course_(course),
       backend_(backend),
       frames_a_task_(course == Course::whole ? 1 : film.intervals()[0].frame_count),
@@ -134,7 +134,7 @@ void Driver::run(std::span<const std::byte> block) {
   const std::uint32_t threads = session::sink_threads(session::host_machine({}));
   const sinks::SinkPool::Shape shape{settings_.width, settings_.height, 16, threads + 2, threads};
   sinks::SinkPool pool(files_ != nullptr ? static_cast<sinks::Sink&>(*files_) : sink_, shape);
-  farm::render_film(block, farm::make_plan(wire::FilmView(block, "film"), work_, static_cast<int>(numnodes())), {},
+  farm::render_film(block, farm::make_plan(wire::PackedFilm(block, "film"), work_, static_cast<int>(numnodes())), {},
                     pool, listener);
   if (begun_ && left_ > 0) throw std::runtime_error("the film has fewer frames than the orders ask for");
 }

@@ -78,9 +78,9 @@ std::unique_ptr<std::byte[]> exact(const Message& message) {
   return bytes;
 }
 
-const wire::FilmView& film() {
+const wire::PackedFilm& film() {
   static const Message block = wire::pack(wire::small_film());
-  static const wire::FilmView view(block, "film");
+  static const wire::PackedFilm view(block, "film");
   return view;
 }
 
@@ -102,7 +102,7 @@ void read_render(std::span<const std::byte> message) {
 void read_begin_view(std::span<const std::byte> message) {
   const wire::BeginViewCommand command = wire::read_begin_view(message);
   const Message block(command.scene.begin(), command.scene.end());
-  const wire::FilmView view(block, film(), "scene");
+  const wire::PackedFilm view(block, film(), "scene");
   const wire::MovingParts moving(view);
   geometry::Scene scene(view);
   scene.set_interval(0);
@@ -120,7 +120,7 @@ void read_begin_view(std::span<const std::byte> message) {
 
 void read_draw(std::span<const std::byte> message) {
   static const Message block = wire::pack_scene(wire::small_scene());
-  static const wire::FilmView view(block, film(), "scene");
+  static const wire::PackedFilm view(block, film(), "scene");
   static const wire::MovingParts moving(view);
   const wire::DrawCommand command =
       wire::read_draw(message, [](std::uint32_t number) { return number == 1 ? &moving : nullptr; });

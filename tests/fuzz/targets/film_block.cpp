@@ -1,4 +1,4 @@
-// Compiled films as nodes read them: FilmView refuses a block, or all of it can be read without harm.
+// Compiled films as nodes read them: PackedFilm refuses a block, or all of it can be read without harm.
 #include "node/geometry/meshlets.h"
 #include "node/geometry/scene.h"
 #include "node/simd/instruction_set.h"
@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kLongest = 1 << 16;
 
-void read_shapes(const wire::FilmView& film, const shape::Projection& projection, std::uint32_t last) {
+void read_shapes(const wire::PackedFilm& film, const shape::Projection& projection, std::uint32_t last) {
   static geometry::MeshletPlacer placer(simd::best_instruction_set(""));
   for (const wire::Segment& segment : film.segments()) {
     film.name(segment);
@@ -24,7 +24,7 @@ void read_shapes(const wire::FilmView& film, const shape::Projection& projection
 }
 
 // As nodes do, frame by frame.
-void read_all(const wire::FilmView& film) {
+void read_all(const wire::PackedFilm& film) {
   const std::uint32_t last = film.settings().frames - 1;
   geometry::Scene scene(film);
   const geometry::ShapeBoxes boxes(film);
@@ -46,7 +46,7 @@ void take(std::string_view input) {
   Message block = sound;
   Script script(input);
   while (!script.at_end()) edit(block, script, kLongest);
-  read_all(wire::FilmView(block, "film"));
+  read_all(wire::PackedFilm(block, "film"));
 }
 
 }  // namespace mars::fuzz

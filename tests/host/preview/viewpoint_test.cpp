@@ -83,7 +83,7 @@ TEST(Turntable, LightsStandAsTheCameraSeesThem) {
   const animator::Film film = turntable(modeler::read_model(document.root()), "ball");
   ASSERT_EQ(film.lights.size(), 3u);
   const film::CompiledFilm compiled = film::compile(film);
-  const wire::FilmView view = compiled.view();
+  const wire::PackedFilm view = compiled.view();
   for (const std::uint32_t frame : {0u, 31u, 95u}) {
     const auto before = [&](std::size_t light) {  // the camera, that is
       const wire::Light& each = view.lights()[view.value_at(view.light_tracks()[light], frame)];
@@ -108,7 +108,7 @@ TEST(AsSeen, AnotherCameraStandsStillAndOthersStay) {
   const film::CompiledFilm film = film::compile(source);
   const wire::Camera camera = camera_of(orbit_from(From::top, kBall, 1));
   const film::CompiledFilm other = as_seen(film, {64, 36}, &camera);
-  wire::FilmView(other.block(), "seen");  // throws unless all is sound
+  wire::PackedFilm(other.block(), "seen");  // throws unless all is sound
   EXPECT_EQ(other.view().settings().width, 64u);
   for (std::uint32_t frame = 0; frame < 3; ++frame) EXPECT_EQ(other.view().camera_at(frame), camera);
   const film::CompiledFilm same = as_seen(film, {64, 36}, nullptr);

@@ -56,7 +56,7 @@ TEST(Wireframe, MatricesAreTheCompiledFilms) {
   const animator::Film film = arm_film();
   const film::CompiledFilm compiled = film::compile(film);
   const Wireframe wireframe = wireframe_of(compiled, &film);
-  const wire::FilmView nodes = compiled.view();
+  const wire::PackedFilm nodes = compiled.view();
   ASSERT_EQ(parts(wireframe, As::prisms).size(), nodes.segments().size());
   for (std::size_t i = 0; i < nodes.segments().size(); ++i)
     for (std::uint32_t frame = 0; frame < film.frames; ++frame)

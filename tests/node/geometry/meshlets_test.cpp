@@ -59,7 +59,7 @@ class OneMeshlet {
     block_ = wire::pack(film);
   }
 
-  wire::FilmView view() const { return {block_, "film"}; }
+  wire::PackedFilm view() const { return {block_, "film"}; }
 
   // (b - a) x (c - a)
   template <typename Place>
@@ -90,7 +90,7 @@ TEST(Meshlets, PlacesAreThoseOfAPatchsPointsBitForBit) {
     MeshletPlacer placer(set);
     for (const std::uint32_t triangles : {1u, 5u, 6u, 64u}) {
       const OneMeshlet mesh(random, triangles);
-      const wire::FilmView film = mesh.view();
+      const wire::PackedFilm film = mesh.view();
       const EyeMatrix matrix = random_matrix(random, 1);
       placer.place(eye_map(matrix), film, film.meshlets()[0], kView);
       ASSERT_EQ(placer.vertex_count(), static_cast<int>(3 * triangles));
@@ -110,7 +110,7 @@ TEST(Meshlets, EveryInstructionSetGivesTheSameNormals) {
   shape::Random random(2);
   for (int trial = 0; trial < 50; ++trial) {
     const OneMeshlet mesh(random, 21);
-    const wire::FilmView film = mesh.view();
+    const wire::PackedFilm film = mesh.view();
     const shape::EyeMap map = eye_map(random_matrix(random, std::pow(10, random.real(-6, 6))));
     MeshletPlacer plain(simd::all_sets().front());
     plain.place(map, film, film.meshlets()[0], kView);
@@ -130,7 +130,7 @@ TEST(Meshlets, NormalsFollowTheirSurfaceThroughStretchShearAndMirror) {
   int mirrored = 0;
   for (int trial = 0; trial < 200; ++trial) {
     const OneMeshlet mesh(random, 8);
-    const wire::FilmView film = mesh.view();
+    const wire::PackedFilm film = mesh.view();
     const EyeMatrix matrix = random_matrix(random, std::pow(10, random.real(-5, 5)));
     mirrored += shape::mirrors(matrix);
     MeshletPlacer placer(simd::best_instruction_set(""));
@@ -156,7 +156,7 @@ TEST(Meshlets, WithoutANormalThereIsNone) {
   wire::FilmData data = wire::small_film();
   data.mesh_normals.assign(7, {0, 0, 0});
   const auto block = wire::pack(data);
-  const wire::FilmView film(block, "film");
+  const wire::PackedFilm film(block, "film");
   MeshletPlacer placer(simd::best_instruction_set(""));
   for (const float scale : {1.0f, 0.0f}) {
     const EyeMatrix matrix{{{scale, 0, 0, 0}, {0, scale, 0, 0}, {0, 0, scale, -5}}};
@@ -172,7 +172,7 @@ TEST(Meshlets, OnlyTheUnseenAreDropped) {
   int dropped = 0, seen = 0, idle = 0;
   for (int trial = 0; trial < 2000; ++trial) {
     const OneMeshlet mesh(random, 2);
-    const wire::FilmView film = mesh.view();
+    const wire::PackedFilm film = mesh.view();
     EyeMatrix matrix = random_matrix(random, std::pow(10, random.real(-1, 1)));
     matrix.m[0][3] += static_cast<float>(random.real(-3, 3));
     matrix.m[2][3] += static_cast<float>(random.real(-3, 3));
@@ -198,7 +198,7 @@ TEST(Meshlets, AreSetUpAlikeEitherWay) {
   std::uint64_t boxes = 0;
   for (int trial = 0; trial < 300; ++trial) {
     const OneMeshlet mesh(random, 40);
-    const wire::FilmView film = mesh.view();
+    const wire::PackedFilm film = mesh.view();
     const EyeMatrix matrix = random_matrix(random, std::pow(10, random.real(-1.5, 1.5)));
     const raster::PatchIdentity identity{7, 1, shape::mirrors(matrix), trial % 2 == 1, false};
     for (const simd::InstructionSet set : simd::all_sets()) {

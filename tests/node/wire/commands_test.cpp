@@ -112,7 +112,7 @@ class RenderCommands : public testing::Test {
     words_.resize((block_.size() + 7) / 8);
     std::memcpy(words_.data(), block_.data(), block_.size());
   }
-  FilmView film() const { return {std::as_bytes(std::span(words_)).first(block_.size()), "film"}; }
+  PackedFilm film() const { return {std::as_bytes(std::span(words_)).first(block_.size()), "film"}; }
   RenderCommand read(const Bytes& bytes) const { return read_render(bytes, film(), {1, 5, 2, left_}, frames_); }
   bool refused(const Render& render, const std::vector<std::uint32_t>& list) const {
     return !refusal([&] { read(message(render, list)); }).empty();
@@ -254,8 +254,8 @@ class DrawCommands : public testing::Test {
   bool refused(const MovedPatch& patch) { return refused({5, 1, 0, 1}, {}, {patch}); }
 
   const Bytes film_block_ = pack(small_film()), scene_block_ = pack_scene(small_scene());
-  const FilmView film_{film_block_, "film"};
-  const FilmView scene_{scene_block_, film_, "scene"};
+  const PackedFilm film_{film_block_, "film"};
+  const PackedFilm scene_{scene_block_, film_, "scene"};
   const MovingParts moving_{scene_};
 };
 
@@ -289,12 +289,12 @@ TEST_F(DrawCommands, WithValuesThatMakeNoSense) {
 
 TEST(Scenes, AreRefusedWhereTheyAreNone) {
   const Bytes film_block = pack(small_film());
-  const FilmView film(film_block, "film");
+  const PackedFilm film(film_block, "film");
   const auto refused = [&](const auto& spoil) {
     FilmData scene = small_scene();
     spoil(scene);
     const Bytes block = pack(scene);
-    return !refusal([&] { FilmView(block, film, "scene"); }).empty();
+    return !refusal([&] { PackedFilm(block, film, "scene"); }).empty();
   };
   EXPECT_FALSE(refused([](FilmData&) {}));
   EXPECT_TRUE(refused([](FilmData& scene) { scene.settings.frames = 2, scene.intervals[0].frame_count = 2; }));
@@ -313,11 +313,11 @@ TEST(Scenes, AreRefusedWhereTheyAreNone) {
 // Patches that a stationary segment shows too stand still.
 TEST(Scenes, KnowWhatMoves) {
   const Bytes film_block = pack(small_film());
-  const FilmView film(film_block, "film");
+  const PackedFilm film(film_block, "film");
   FilmData data = small_scene();
   data.shapes = {{0, 3}, {2, 2}};
   const Bytes block = pack_scene(data);
-  const FilmView scene(block, film, "scene");
+  const PackedFilm scene(block, film, "scene");
   const MovingParts moving(scene);
   EXPECT_TRUE(moving.has_patch(0) && moving.has_patch(1));
   EXPECT_FALSE(moving.has_patch(2) || moving.has_patch(3) || moving.has_patch(4));

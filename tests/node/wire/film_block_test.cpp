@@ -29,7 +29,7 @@ TEST(FilmBlock, IsReadAsItWasPacked) {
   const FilmData film = small_film();
   const Block block = pack(film);
   for (const bool trusted : {false, true}) {
-    const FilmView view(block, "film", trusted);
+    const PackedFilm view(block, "film", trusted);
     EXPECT_EQ(std::memcmp(&film.settings, &view.settings(), sizeof film.settings), 0);
     expect_same(film.patches, view.patches());
     expect_same(film.mesh_places, view.mesh_places());
@@ -50,7 +50,7 @@ TEST(FilmBlock, IsReadAsItWasPacked) {
 
 TEST(FilmBlock, AnswersWhatHoldsAtAFrame) {
   const Block block = pack(small_film());
-  const FilmView film(block, "film");
+  const PackedFilm film(block, "film");
   EXPECT_EQ(film.name(film.segments()[0]), "base");
   EXPECT_EQ(film.name(film.segments()[1]), "arm");
   EXPECT_EQ(film.patch_instances(), 5u);
@@ -76,7 +76,7 @@ void expect_refused(const std::vector<Defect>& defects) {
     defect.make(film);
     const Block block = pack(film);
     try {
-      const FilmView view(block, "some.mars");
+      const PackedFilm view(block, "some.mars");
       ADD_FAILURE() << "taken though " << defect.name;
     } catch (const Failure& failure) {
       EXPECT_EQ(failure.where, "some.mars");

@@ -1,4 +1,4 @@
-// Damaged films: whatever FilmView is given, it says no or can be read everywhere without harm.
+// Damaged films: whatever PackedFilm is given, it says no or can be read everywhere without harm.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -18,7 +18,7 @@ namespace {
 using Block = std::vector<std::byte>;
 
 // Reads all there is, as nodes do.
-std::uint64_t walk(const FilmView& film) {
+std::uint64_t walk(const PackedFilm& film) {
   std::uint64_t sum = film.patch_instances();
   const std::uint32_t last = film.settings().frames - 1;
   geometry::Scene scene(film);
@@ -47,7 +47,7 @@ std::uint64_t walk(const FilmView& film) {
 // Whether the film is taken; then it can be read to the last byte. Bytes beyond the block are not ours.
 bool taken(const Block& block) {
   try {
-    const FilmView view(block, "film");
+    const PackedFilm view(block, "film");
     walk(view);
     return true;
   } catch (const Failure&) {
@@ -87,7 +87,7 @@ TEST(FilmDamage, DamagedHeaderIsRefused) {
     Block block = whole;
     block[at] ^= std::byte{1};
     EXPECT_FALSE(taken(block)) << "byte " << at;
-    EXPECT_THROW(FilmView(block, "film", true), Failure);
+    EXPECT_THROW(PackedFilm(block, "film", true), Failure);
   }
   for (const std::uint64_t bad : {std::uint64_t{1}, std::uint64_t{1} << 40, ~std::uint64_t{63}, ~std::uint64_t{0}}) {
     for (std::size_t at = 16; at < 16 + 17 * 16; at += 16) {  // each section's offset

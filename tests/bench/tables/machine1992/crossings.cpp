@@ -17,7 +17,7 @@ std::int64_t determinant(const shape::Vertices& v, const shape::Corner3& t) {
 
 }  // namespace
 
-Crossings::Crossings(const wire::FilmView& film)
+Crossings::Crossings(const wire::PackedFilm& film)
     : pattern_(shape::sample_pattern(film.settings().samples)),
       dicer_(simd::best_instruction_set("")),
       placer_(simd::best_instruction_set("")),
@@ -31,7 +31,7 @@ void Crossings::count(const geometry::Scene& scene, const node::Scatter& scatter
 }
 
 void Crossings::add_segment(const geometry::Scene& scene, std::size_t segment, const node::Scatter& scatter) {
-  const wire::FilmView& film = scene.film();
+  const wire::PackedFilm& film = scene.film();
   const std::uint32_t number = film.segments()[segment].shape;
   const wire::Shape& shape = film.shape(number);
   const shape::EyeMatrix matrix = scene.matrix(segment);

@@ -16,7 +16,7 @@ namespace mars::machine1992 {
 
 class Crossings {
  public:
-  explicit Crossings(const wire::FilmView& film);
+  explicit Crossings(const wire::PackedFilm& film);
 
   // Of the scatter's part of the scene. `stationary`: with parts that stand still.
   void count(const geometry::Scene& scene, const node::Scatter& scatter, bool stationary);

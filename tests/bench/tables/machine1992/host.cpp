@@ -13,7 +13,7 @@ constexpr std::size_t kBlock = 16;  // pixels of a line that share a flag
 
 }  // namespace
 
-Host::Host(const wire::FilmView& film, Show show)
+Host::Host(const wire::PackedFilm& film, Show show)
     : film_(film),
       show_(std::move(show)),
       received_(sizeof(StripHead) / 4 + std::size_t{film.settings().width} * film.settings().height),

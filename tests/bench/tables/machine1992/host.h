@@ -17,7 +17,7 @@ class Host {
   // Whole pictures, as the product has them: a word a pixel.
   using Show = std::function<void(std::uint32_t frame, const std::vector<std::uint32_t>& screen)>;
 
-  Host(const wire::FilmView& film, Show show);
+  Host(const wire::PackedFilm& film, Show show);
 
   // As Node::draw_interval.
   void show_interval(std::uint32_t interval, std::uint32_t inbetweens);
@@ -34,7 +34,7 @@ class Host {
   void restore();
   const std::uint32_t* pixels() const { return received_.data() + sizeof(StripHead) / 4; }
 
-  wire::FilmView film_;
+  wire::PackedFilm film_;
   Show show_;
   std::uint32_t plain_ = 0;  // the interval's background pixel
   std::vector<std::uint32_t> received_;

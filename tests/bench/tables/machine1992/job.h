@@ -12,7 +12,7 @@
 namespace mars::machine1992 {
 
 struct Task {
-  wire::FilmView film;
+  wire::PackedFilm film;
   std::uint32_t interval = 0;
   std::uint32_t inbetweens = 0;  // the first of the interval, after its keyframe
 };

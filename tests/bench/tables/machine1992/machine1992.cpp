@@ -105,14 +105,14 @@ nlohmann::json each(const char* film_file, const char* nodes, const char* scales
 
 nlohmann::json count(char** words) {
   const auto inbetweens = static_cast<std::uint32_t>(std::stoul(words[3]));
-  return each(words[0], words[1], words[2], [&](const wire::FilmView& film, int nodes) {
+  return each(words[0], words[1], words[2], [&](const wire::PackedFilm& film, int nodes) {
     return json_of(run_job({film, 0, inbetweens}, nodes, run_threads, show_nothing));
   });
 }
 
 nlohmann::json time(char** words) {
   const simulated::Machine machine = machine_of(words[3], words[4]);
-  return each(words[0], words[1], words[2], [&](const wire::FilmView& film, int nodes) -> nlohmann::json {
+  return each(words[0], words[1], words[2], [&](const wire::PackedFilm& film, int nodes) -> nlohmann::json {
     return {{"keyframe", seconds_of({film, 0, 0}, nodes, machine)},
             {"interval", seconds_of({film, 0, static_cast<std::uint32_t>(nodes)}, nodes, machine)}};
   });

@@ -29,7 +29,7 @@ std::size_t self() { return static_cast<std::size_t>(mynode()); }
 
 }  // namespace
 
-Node::Node(const wire::FilmView& film)
+Node::Node(const wire::PackedFilm& film)
     : film_(film),
       scene_(film_),
       share_(film_),

@@ -17,7 +17,7 @@ namespace mars::machine1992 {
 class Node {
  public:
   // The film outlives it and has one sample a pixel.
-  explicit Node(const wire::FilmView& film);
+  explicit Node(const wire::PackedFilm& film);
 
   // The first frames of `interval`: its keyframe, then of as many inbetweens every numnodes()th.
   void draw_interval(std::uint32_t interval, std::uint32_t inbetweens);
@@ -41,7 +41,7 @@ class Node {
   // The least lines, and columns as another range, on which the MFB has something.
   std::pair<geometry::LineRange, geometry::LineRange> moving_box();
 
-  wire::FilmView film_;
+  wire::PackedFilm film_;
   geometry::Scene scene_;
   Share share_;
   EdgeLists lists_;

@@ -15,7 +15,7 @@ class ScaledFilm {
   // All cameras' pictures of `film` become `scale` times as large.
   ScaledFilm(std::span<const std::byte> film, double scale);
 
-  wire::FilmView view() const { return {std::as_bytes(std::span(words_)).first(size_), "scaled film", true}; }
+  wire::PackedFilm view() const { return {std::as_bytes(std::span(words_)).first(size_), "scaled film", true}; }
 
  private:
   std::vector<std::uint64_t> words_;

@@ -16,7 +16,7 @@ void append(const raster::Polygons& polygons, std::span<const raster::UnsortedEd
 
 }  // namespace
 
-Share::Share(const wire::FilmView& film)
+Share::Share(const wire::PackedFilm& film)
     : tessellator_(simd::best_instruction_set("")),
       crossings_(film),
       all_lines_(film.settings().height, 1),

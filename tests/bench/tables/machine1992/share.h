@@ -15,7 +15,7 @@ namespace mars::machine1992 {
 
 class Share {
  public:
-  explicit Share(const wire::FilmView& film);
+  explicit Share(const wire::PackedFilm& film);
 
   // All edge boxes of the scatter's part of the scene; of a patch's triangles the first come first. `stationary`: those
   // of parts that stand still too.

@@ -17,7 +17,7 @@ TEST(ActorState, ItsMatricesAreTheCompiledFilms) {
            {"frame": 0, "segments": {"a": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]], "b": [[1, 0, 0, 5], [0, 1, 0, 0], [0, 0, 1, 0]]}},
            {"frame": 7, "segments": {"a": [[2, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]}}]})"));
   const CompiledFilm compiled = compile(film);
-  const wire::FilmView view = compiled.view();
+  const wire::PackedFilm view = compiled.view();
   for (std::uint32_t frame = 0; frame < film.frames; ++frame)
     for (std::size_t segment = 0; segment < 4; ++segment) {
       const animator::ActorState state = animator::state_at(film, segment / 2, frame);

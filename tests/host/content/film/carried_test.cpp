@@ -67,7 +67,7 @@ TEST(Carried, StandWhereTheJointFrameTimesTheOffsetSays) {
 TEST(Carried, AreCompiledAsTheyStandAtEachFrame) {
   const animator::Film film = carried_film();
   const CompiledFilm compiled = compile(film);
-  const wire::FilmView view = compiled.view();
+  const wire::PackedFilm view = compiled.view();
   const FilmShapes shapes = shapes_of(film);
   for (std::uint32_t frame = 0; frame < film.frames; ++frame) {
     const wire::FilmData moment = moment_of(film, shapes.numbers, frame);
@@ -105,7 +105,7 @@ TEST(Carried, AreTheSameFromAnyNumberOfThreads) {
 
 TEST(Carried, StandStillWhileTheirCarriersDo) {
   const CompiledFilm compiled = compile(carried_film());
-  const wire::FilmView view = compiled.view();
+  const wire::PackedFilm view = compiled.view();
   const auto changes_after = [&](std::size_t segment, std::uint32_t first, std::uint32_t last) {
     const wire::Track& track = view.segments()[segment].motion;
     int changes = 0;
@@ -222,7 +222,7 @@ TEST(CameraPoints, SplinesAreThoseOfPlacesWhereNobodyMoves) {
 
 TEST(CameraPoints, TheCameraStandsWhereTheActorDoes) {
   const CompiledFilm compiled = compile(carried_film(R"({"eye": {"actor": "tom", "offset": [0, -6, 1.5]}})"));
-  const wire::FilmView view = compiled.view();
+  const wire::PackedFilm view = compiled.view();
   const wire::Track& track = view.settings().camera;
   EXPECT_EQ(track.count, 8u);  // at first, and tom walks in seven frames
   EXPECT_EQ(view.changes()[track.first + track.count - 1].frame, 9u);

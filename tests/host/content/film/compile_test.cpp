@@ -11,7 +11,7 @@
 namespace mars::film {
 namespace {
 
-std::uint32_t changes_of(const wire::FilmView& film, std::size_t segment) {
+std::uint32_t changes_of(const wire::PackedFilm& film, std::size_t segment) {
   return film.segments()[segment].motion.count;
 }
 
@@ -19,7 +19,7 @@ TEST(Compile, StoresOnlyWhatChanges) {
   const CompiledFilm film = compiled(arm_film(R"({"name": "x", "model": "arm", "keys": [
       {"frame": 4, "pose": {"b": [0, 0, 0]}}, {"frame": 8, "pose": {"b": [0, 80, 0]}},
       {"frame": 12, "pose": {"b": [0, 80, 0]}}]}, {"name": "y", "model": "arm", "place": [0, 5, 0]})"));
-  const wire::FilmView view = film.view();
+  const wire::PackedFilm view = film.view();
   ASSERT_EQ(view.segments().size(), 4u);
   EXPECT_EQ(view.shapes().size(), 2u) << "actors of one model share its shapes";
   EXPECT_EQ(changes_of(view, 0), 1u);
@@ -43,8 +43,8 @@ TEST(Compile, StoresEqualMeshesOnce) {
   const CompiledFilm film = compiled(R"({"frames": 3, "camera": {"eye": [0, -9, 2]}, "models": {)" + model("m", "30") +
                                      "," + model("n", "30") + "," + model("o", "180") + R"(}, "actors": [
       {"name": "x", "model": "m"}, {"name": "y", "model": "n", "place": [2, 0, 0]}, {"name": "z", "model": "o"}]})");
-  const wire::FilmView view = film.view();
-  wire::FilmView(film.block(), "f.json");
+  const wire::PackedFilm view = film.view();
+  wire::PackedFilm(film.block(), "f.json");
   ASSERT_EQ(view.segments().size(), 6u);
   EXPECT_EQ(view.shapes().size(), 3u) << "flat, box, smooth";
   EXPECT_EQ(view.segments()[0].shape, view.segments()[2].shape);
@@ -58,7 +58,7 @@ TEST(Compile, FindsMaterialsOfModelFilmAndActor) {
   const CompiledFilm film = compiled(arm_film(R"({"name": "x", "model": "arm"},
       {"name": "y", "model": "arm", "material": "glow"}, {"name": "z", "model": "arm", "materials": {"red": "glow"}})",
                                               R"("frames": 20, "color": "coded")"));
-  const wire::FilmView view = film.view();
+  const wire::PackedFilm view = film.view();
   const auto color = [&](std::size_t segment) { return view.material_at(view.segments()[segment], 0).color[1]; };
   EXPECT_EQ(color(0), 0.8f) << "the default material";
   EXPECT_EQ(color(1), 0.0f);
@@ -102,7 +102,7 @@ TEST(Compile, RefusesACameraThatCannotLook) {
 TEST(Compile, LightsTurnOnTheGreatCircle) {
   const CompiledFilm film = compiled(R"({"frames": 11, "models": {}, "actors": [], "camera": {"eye": [0, 9, 0]},
       "lights": [{"keys": [{"frame": 0, "direction": [1, 0, 0]}, {"frame": 10, "direction": [-1, 0, 0]}]}]})");
-  const wire::FilmView view = film.view();
+  const wire::PackedFilm view = film.view();
   for (std::uint32_t frame = 0; frame <= 10; ++frame) {
     const wire::Light& light = view.lights()[view.value_at(view.light_tracks()[0], frame)];
     EXPECT_NEAR(light.vector[0], std::cos(frame * std::acos(-1.0) / 10), 1e-6);
@@ -121,7 +121,7 @@ TEST(Compile, OvershootKeepsMaterialsWithinWhatTheyCanBe) {
     EXPECT_LE(material.color[0], 1);
     EXPECT_GE(material.exponent, 0);
   }
-  EXPECT_NO_THROW(wire::FilmView(film.block(), "f"));
+  EXPECT_NO_THROW(wire::PackedFilm(film.block(), "f"));
 }
 
 std::string matrix_text(const modeler::Axes& frame) {

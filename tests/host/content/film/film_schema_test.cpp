@@ -106,7 +106,7 @@ std::vector<fs::path> json_files(const char* folder) {
 TEST(Examples, AllCompile) {
   for (const fs::path& path : json_files("examples")) {
     const CompiledFilm film = load_film(path);
-    EXPECT_NO_THROW(wire::FilmView(film.block(), path.string())) << path;
+    EXPECT_NO_THROW(wire::PackedFilm(film.block(), path.string())) << path;
     EXPECT_GT(film.view().patch_instances(), 0u) << path;
     EXPECT_LT(fs::file_size(path), 200'000u) << path;
   }

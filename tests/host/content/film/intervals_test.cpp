@@ -13,20 +13,20 @@ namespace {
 
 using Starts = std::vector<std::uint32_t>;
 
-Starts starts_of(const wire::FilmView& film) {
+Starts starts_of(const wire::PackedFilm& film) {
   Starts starts;
   for (const wire::Interval& interval : film.intervals()) starts.push_back(interval.first_frame);
   return starts;
 }
 
-bool changes_within(const wire::FilmView& film, const wire::Track& track, std::uint32_t first, std::uint32_t end) {
+bool changes_within(const wire::PackedFilm& film, const wire::Track& track, std::uint32_t first, std::uint32_t end) {
   for (std::uint32_t frame = first + 1; frame < end; ++frame)
     if (film.value_at(track, frame) != film.value_at(track, frame - 1)) return true;
   return false;
 }
 
 // What moves in [first, end), plainly.
-Starts movers_between(const wire::FilmView& film, std::uint32_t first, std::uint32_t end) {
+Starts movers_between(const wire::PackedFilm& film, std::uint32_t first, std::uint32_t end) {
   bool all = changes_within(film, film.settings().camera, first, end);
   for (const wire::Track& light : film.light_tracks()) all = all || changes_within(film, light, first, end);
   Starts movers;
@@ -38,7 +38,7 @@ Starts movers_between(const wire::FilmView& film, std::uint32_t first, std::uint
   return movers;
 }
 
-double cost_of(const wire::FilmView& film, const Starts& starts) {
+double cost_of(const wire::PackedFilm& film, const Starts& starts) {
   const double pixels = double(film.settings().width) * film.settings().height;
   double cost = 0;
   for (std::size_t i = 0; i < starts.size(); ++i) {
@@ -52,7 +52,7 @@ double cost_of(const wire::FilmView& film, const Starts& starts) {
 }
 
 void expect_sound(const CompiledFilm& compiled) {
-  const wire::FilmView film(compiled.block(), "f");  // checks that every frame is covered once
+  const wire::PackedFilm film(compiled.block(), "f");  // checks that every frame is covered once
   for (const wire::Interval& interval : film.intervals()) {
     const auto list = film.moving(interval);
     EXPECT_EQ(Starts(list.begin(), list.end()),

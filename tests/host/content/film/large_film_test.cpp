@@ -76,7 +76,7 @@ TEST(LargeFilm, AChainOfAHundredThousandJointsThatMoves) {
       R"(, "keys": [{"frame": 0, "pose": {"j0": [0, 0, 0]}}, {"frame": 9, "pose": {"j0": [0, 0, 90]}}]}]})";
   CompiledFilm film;
   EXPECT_LT(seconds_of([&] { film = compiled(chain(100'000) + keys); }), 20);
-  const wire::FilmView view = film.view();
+  const wire::PackedFilm view = film.view();
   const wire::Matrix& last = view.matrix_at(view.segments()[99'999], 23);
   EXPECT_NEAR(last.m[1][3], 99'999, 1e-6);
   EXPECT_EQ(last.m[0][3], 0);

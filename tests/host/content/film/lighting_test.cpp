@@ -27,7 +27,7 @@ std::string refusal(const std::string& json) {
 }
 
 wire::Light light_at(const CompiledFilm& film, std::uint32_t frame, std::size_t light = 0) {
-  const wire::FilmView view = film.view();
+  const wire::PackedFilm view = film.view();
   return view.lights()[view.value_at(view.light_tracks()[light], frame)];
 }
 
@@ -197,13 +197,13 @@ TEST(Lighting, OvershootStaysWithinWhatNodesTake) {
           R"(}, {"frame": 11, "intensity": 1000, "color": [1, 1, 1], "reach": 9, "at": [0, 0, 1], "cone": [170, 180]}]}])",
       R"("reflection": "cook-torrance", "keys": [{"frame": 0, "roughness": 0, "refraction": 1.01, )" + swing +
           R"(}, {"frame": 11, "roughness": 1, "refraction": 100}])"));
-  EXPECT_NO_THROW(wire::FilmView(film.block(), "f"));
+  EXPECT_NO_THROW(wire::PackedFilm(film.block(), "f"));
   EXPECT_GT(film.view().lights().size(), 5u) << "it swings";
   const CompiledFilm zoom =
       compiled(R"({"frames": 12, "models": {}, "actors": [], "camera": {"eye": [0, -9, 0], "keys": [
       {"frame": 0, "fov": 1, )" +
                swing + R"(}, {"frame": 11, "fov": 170}]}})");
-  EXPECT_NO_THROW(wire::FilmView(zoom.block(), "f"));
+  EXPECT_NO_THROW(wire::PackedFilm(zoom.block(), "f"));
   EXPECT_GT(zoom.view().cameras().size(), 3u) << "it swings";
 }
 
@@ -224,7 +224,7 @@ TEST(Lighting, IntervalsBeginWhereTheExposureChanges) {
   EXPECT_EQ(starts_of(automatic), (std::vector<std::uint32_t>{0, 3, 4, 5}));
   EXPECT_EQ(starts_of(keyed), (std::vector<std::uint32_t>{0, 2, 3, 4, 5, 6, 7}));
   for (const CompiledFilm* film : {&automatic, &keyed}) {
-    EXPECT_NO_THROW(wire::FilmView(film->block(), "f")) << "checks that it is the same throughout an interval";
+    EXPECT_NO_THROW(wire::PackedFilm(film->block(), "f")) << "checks that it is the same throughout an interval";
     EXPECT_EQ(film->view().camera_at(0).exposure, 1);
     EXPECT_EQ(film->view().camera_at(8).exposure, 0.5);
   }

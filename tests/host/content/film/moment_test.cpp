@@ -24,9 +24,9 @@ void expect_same(std::span<const Value> ones, std::span<const Value> others, con
   EXPECT_EQ(ones.empty() ? 0 : std::memcmp(ones.data(), others.data(), ones.size_bytes()), 0) << what;
 }
 
-void expect_film_at(const animator::Film& film, const wire::FilmView& whole, std::uint32_t frame) {
+void expect_film_at(const animator::Film& film, const wire::PackedFilm& whole, std::uint32_t frame) {
   const CompiledFilm compiled = compiled_moment(film, frame);
-  const wire::FilmView moment = compiled.view();
+  const wire::PackedFilm moment = compiled.view();
   const std::string at = film.source + ", frame " + std::to_string(frame);
   wire::FilmSettings settings = whole.settings();
   settings.frames = 1;
@@ -53,7 +53,7 @@ void expect_film_at(const animator::Film& film, const wire::FilmView& whole, std
 void expect_moments(const animator::Film& film) {
   const CompiledFilm whole = compile(film);
   const Cut cut = cut_of(film, shapes_of(film));
-  const wire::FilmView view = whole.view();
+  const wire::PackedFilm view = whole.view();
   expect_same(std::span<const wire::Interval>(cut.intervals), view.intervals(), film.source);
   for (std::uint32_t frame = 0; frame < film.frames; ++frame) {
     expect_film_at(film, view, frame);

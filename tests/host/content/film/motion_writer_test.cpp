@@ -66,7 +66,7 @@ TEST(MotionWriter, KeepsOnlyWhatDiffersAndNoGaps) {
   constexpr int kActors = 9, kFrames = 30;
   const animator::Film film = crowd(kActors, kFrames);
   const CompiledFilm compiled = compile(film);
-  const wire::FilmView view = compiled.view();
+  const wire::PackedFilm view = compiled.view();
   // Each actor's joints at frame 0; then j7 and those it carries, in all later frames or in nine of them.
   EXPECT_EQ(view.matrices().size(), kActors * kJoints + 3u * (kJoints - 7) * (kFrames - 1 + 9));
   for (std::size_t actor = 0; actor < kActors; ++actor)

@@ -126,7 +126,7 @@ TEST(Groups, AreTheSameEveryTime) {
 
 TEST(Forecast, OfFewFramesCountedIsCloseToThatOfAll) {
   const SimulatedFilm film("caterpillar", "0-47", "fat-tree");
-  const wire::FilmView view = film.view();
+  const wire::PackedFilm view = film.view();
   Setting setting{view, film.platform()};
   setting.files = false;
   const FilmCounts few =

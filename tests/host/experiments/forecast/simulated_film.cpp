@@ -30,7 +30,7 @@ SimulatedFilm::SimulatedFilm(const std::string& name, const std::string& frames,
       tasks_(farm::make_tasks(view(), film::FrameSet(frames).of_film(view().settings().frames), true)),
       counts_(count_film(view(), tasks_, *programs::make_node_counter(view()), {10}, images::PictureFormat::png)) {}
 
-Setting SimulatedFilm::setting(const wire::FilmView& film) const {
+Setting SimulatedFilm::setting(const wire::PackedFilm& film) const {
   Setting setting{film, platform_};
   setting.files = files_ != Files::none;
   setting.writers = files_ == Files::nodes ? Writers::nodes : Writers::host;
@@ -38,7 +38,7 @@ Setting SimulatedFilm::setting(const wire::FilmView& film) const {
 }
 
 Forecast SimulatedFilm::forecast(int nodes, std::uint32_t groups) const {
-  const wire::FilmView film = view();
+  const wire::PackedFilm film = view();
   return forecast::forecast(counts_, tasks_, setting(film), nodes, groups);
 }
 
@@ -52,7 +52,7 @@ farm::FarmReport SimulatedFilm::render(int nodes, std::uint32_t groups) const {
     the_world = &world;
     report = render(plan, nodes, world);
   };
-  const auto make_writer = [&](const wire::FilmView&, std::span<const std::byte>) {
+  const auto make_writer = [&](const wire::PackedFilm&, std::span<const std::byte>) {
     return std::make_unique<programs::CountedWriter>(bands, platform_, *the_world, static_cast<int>(mynode()));
   };
   simulated::run_simulated(platform_.machine, nodes, host, [&] {
@@ -67,7 +67,7 @@ farm::FarmReport SimulatedFilm::render(int nodes, std::uint32_t groups) const {
 }
 
 farm::FarmReport SimulatedFilm::render(const farm::Plan& plan, int nodes, simulated::World& world) const {
-  const wire::FilmView film = view();
+  const wire::PackedFilm film = view();
   const Setting setting = this->setting(film);
   const wire::FilmSettings& settings = film.settings();
   const farm::HostMemory memory =

@@ -19,7 +19,7 @@ class SimulatedFilm {
   SimulatedFilm(const std::string& name, const std::string& frames, const std::string& platform,
                 Files files = Files::none);
 
-  wire::FilmView view() const { return film_.view(); }
+  wire::PackedFilm view() const { return film_.view(); }
   const std::vector<farm::Task>& tasks() const { return tasks_; }
   const FilmCounts& counts() const { return counts_; }
   const experiments::Platform& platform() const { return platform_; }
@@ -28,7 +28,7 @@ class SimulatedFilm {
   farm::FarmReport render(int nodes, std::uint32_t groups) const;
 
  private:
-  Setting setting(const wire::FilmView& film) const;
+  Setting setting(const wire::PackedFilm& film) const;
   farm::FarmReport render(const farm::Plan& plan, int nodes, simulated::World& world) const;
 
   const Files files_;

@@ -40,7 +40,7 @@ class EmptyFilm {
   }
 
   std::span<const std::byte> block() const { return {reinterpret_cast<const std::byte*>(words_.data()), size_}; }
-  wire::FilmView view() const { return {block(), "empty film"}; }
+  wire::PackedFilm view() const { return {block(), "empty film"}; }
 
  private:
   void pack(const wire::FilmData& data) {
@@ -50,7 +50,7 @@ class EmptyFilm {
     std::memcpy(words_.data(), block.data(), size_);
   }
 
-  std::vector<std::uint64_t> words_;  // aligned as FilmView wants it
+  std::vector<std::uint64_t> words_;  // aligned as PackedFilm wants it
   std::size_t size_;
 };
 

@@ -75,7 +75,7 @@ class Resume : public testing::Test {
   }
 
   static sinks::Manifest manifest_of(const Opened& opened) {
-    const wire::FilmView view = opened.film.view();
+    const wire::PackedFilm view = opened.film.view();
     sinks::Manifest manifest;
     manifest.width = view.settings().width;
     manifest.height = view.settings().height;
@@ -436,7 +436,7 @@ TEST_F(Resume, RunsThatStartAtOnceRenderOneFilm) {
       part.frames = film::FrameSet(std::to_string(2 * run) + "-" + std::to_string(2 * run + 1));
       const Opened opened = resume::open(part, [&] {
         film::CompiledFilm film = film::load_film(part.film);
-        const wire::FilmView view = film.view();
+        const wire::PackedFilm view = film.view();
         // The last bit of a matrix.
         const_cast<wire::Matrix&>(view.matrices()[3]).m[0][3] += 1e-15 * run;
         compiled.arrive_and_wait();

@@ -16,7 +16,7 @@ wire::Track constant(wire::FilmData& scene, std::size_t value) {
 
 }  // namespace
 
-std::vector<std::byte> scene_of(const wire::FilmView& film, std::uint32_t frame, const Moves& moves) {
+std::vector<std::byte> scene_of(const wire::PackedFilm& film, std::uint32_t frame, const Moves& moves) {
   wire::FilmData scene;
   scene.settings = film.settings();
   scene.settings.frames = 1;
@@ -39,7 +39,7 @@ std::vector<std::byte> scene_of(const wire::FilmView& film, std::uint32_t frame,
   return wire::pack_scene(scene);
 }
 
-std::vector<wire::MovedSegment> moved_to(const wire::FilmView& film, std::uint32_t frame, const Moves& moves) {
+std::vector<wire::MovedSegment> moved_to(const wire::PackedFilm& film, std::uint32_t frame, const Moves& moves) {
   std::vector<wire::MovedSegment> moved;
   for (std::uint32_t number = 0; number < film.segments().size(); ++number) {
     const wire::Segment& segment = film.segments()[number];
@@ -49,7 +49,7 @@ std::vector<wire::MovedSegment> moved_to(const wire::FilmView& film, std::uint32
   return moved;
 }
 
-Moves movers_at(const wire::FilmView& film, std::uint32_t frame) {
+Moves movers_at(const wire::PackedFilm& film, std::uint32_t frame) {
   const auto has = [&](const wire::Interval& each) {
     return frame >= each.first_frame && frame < each.first_frame + each.frame_count;
   };

@@ -25,7 +25,7 @@ struct Example {
   std::uint32_t samples;
   film::CompiledFilm film =
       film::load_film(MARS_EXAMPLES "/caterpillar.json", {.size = {{160, 100}}, .samples = samples});
-  wire::FilmView view = film.view();
+  wire::PackedFilm view = film.view();
   const wire::Interval* interval = longest();
   std::uint32_t first = interval->first_frame;
   test::Moves movers = test::movers_at(view, first);

@@ -77,7 +77,7 @@ pid_t find_host(pid_t of = getpid()) {
 
 struct Example {
   film::CompiledFilm film = film::load_film(MARS_EXAMPLES "/caterpillar.json", {.size = {{160, 100}}});
-  wire::FilmView view = film.view();
+  wire::PackedFilm view = film.view();
   std::uint32_t first = std::ranges::max_element(view.intervals(), {}, &wire::Interval::frame_count)->first_frame;
   test::Moves movers = test::movers_at(view, first);
   test::FilmRun rendered = render();

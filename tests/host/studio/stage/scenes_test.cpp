@@ -17,10 +17,10 @@ namespace mars::studio {
 namespace {
 
 // The scene's own parts; its shapes are the film's.
-wire::FilmView scene_of(const FakeLink::Asked& asked) { return {asked.scene, "scene", true}; }
+wire::PackedFilm scene_of(const FakeLink::Asked& asked) { return {asked.scene, "scene", true}; }
 
 std::vector<std::uint32_t> moving_of(const FakeLink::Asked& asked) {
-  const wire::FilmView scene = scene_of(asked);
+  const wire::PackedFilm scene = scene_of(asked);
   const auto moving = scene.moving(scene.intervals().front());
   return {moving.begin(), moving.end()};
 }
@@ -44,14 +44,14 @@ void preview(OnStage& on, double angle) {
 TEST(Scenes, AtRestTheCameraSeesTheFilmsOwnFrame) {
   const animator::Film film = example("robot-arm.json");
   const film::CompiledFilm compiled = film::compile(film);
-  const wire::FilmView whole = compiled.view();
+  const wire::PackedFilm whole = compiled.view();
   for (const std::uint32_t frame : {0u, 17u, 41u, 95u}) {
     OnStage on(film);
     on.project.set_frame(frame);
     on.view(0, int(film.width), int(film.height), "camera", "surface");
     ASSERT_EQ(on.link.asked.size(), 1u);
     ASSERT_TRUE(on.link.asked[0].begins);
-    const wire::FilmView scene = scene_of(on.link.asked[0]);
+    const wire::PackedFilm scene = scene_of(on.link.asked[0]);
     EXPECT_EQ(scene.camera_at(0), whole.camera_at(frame));
     ASSERT_EQ(scene.segments().size(), whole.segments().size());
     for (std::size_t i = 0; i < whole.segments().size(); ++i) {
@@ -78,8 +78,8 @@ TEST(Scenes, DrawnTheyAreTheFilmsFrame) {
   OnStage on(film);
   on.project.set_frame(kFrame);
   on.view(0, 160, 90, "camera", "surface");
-  const wire::FilmView shapes(*on.link.films.at(0), "film");
-  const wire::FilmView scene = scene_of(on.link.asked.at(0));
+  const wire::PackedFilm shapes(*on.link.films.at(0), "film");
+  const wire::PackedFilm scene = scene_of(on.link.asked.at(0));
   wire::FilmData data;
   const auto copy = [](auto& to, const auto& from) { to.assign(from.begin(), from.end()); };
   data.settings = scene.settings();
@@ -160,7 +160,7 @@ TEST(Scenes, OnReleaseTheCamerasViewIsTheFilmsOwn) {
   EXPECT_TRUE(on.pictures.back().exact && on.pictures.back().rests);
   animator::Film moved = on.project.film();
   const film::CompiledFilm compiled = film::compile(moved);
-  const wire::FilmView whole = compiled.view();
+  const wire::PackedFilm whole = compiled.view();
   const FakeLink::Asked* begun = nullptr;
   for (const FakeLink::Asked& asked : on.link.asked)
     if (asked.begins) begun = &asked;
@@ -241,7 +241,7 @@ TEST(Scenes, WhatIsSelectedFillsTheView) {
   const animator::ActorState state = animator::state_at(on.project.film(), 0, 0);
   for (std::size_t joint = 0; joint < joints.size(); ++joint) {
     if (joints[joint].name != "elbow") continue;
-    const wire::FilmView scene = scene_of(on.link.asked.back());
+    const wire::PackedFilm scene = scene_of(on.link.asked.back());
     const Screen screen(scene.camera_at(0), 320, 200);
     glm::dvec2 low(1e9), high(-1e9);
     for (int corner = 0; corner < 8; ++corner) {
@@ -306,14 +306,14 @@ TEST(Scenes, OtherShapesAreLoadedAndPulledOnesAreNot) {
   on.answer();
   on.paint();
   ASSERT_EQ(on.link.films.size(), 1u);
-  const wire::FilmView film(*on.link.films[0], "film");
+  const wire::PackedFilm film(*on.link.films[0], "film");
   const auto pull = [&](double to) {
     return step("model point elbow --patch 0 --at 1 2 --to 0.5 " + std::to_string(to) + " 0.5");
   };
   on.project.preview(pull(0.3));
   on.stage->project_changed();
   ASSERT_TRUE(on.link.asked.back().begins);
-  const wire::FilmView scene = scene_of(on.link.asked.back());
+  const wire::PackedFilm scene = scene_of(on.link.asked.back());
   EXPECT_EQ(scene.shapes().size(), 1u);
   EXPECT_GT(scene.patches().size(), 0u);
   const auto moving = moving_of(on.link.asked.back());
