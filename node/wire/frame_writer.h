@@ -37,7 +37,7 @@ class FrameWriter {
  public:
   virtual ~FrameWriter() = default;
 
-  // Whether its machine sees the folder as the host does; which one node of each machine finds out.
+  // Whether the caller sees the folder of frames as the host does.
   virtual bool sees_folder() const = 0;
   // Of all bands but the last, which may have fewer.
   virtual std::uint32_t lines_of_band() const = 0;

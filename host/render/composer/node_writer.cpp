@@ -38,7 +38,8 @@ void copy_bytes(std::span<const std::byte> from, std::span<std::uint32_t> to) {
 
 }  // namespace
 
-NodeWriter::NodeWriter(const wire::PackedFilm& film, const sinks::WriterOrders& orders, std::int32_t node, bool looks)
+NodeWriter::NodeWriter(const wire::PackedFilm& film, const sinks::WriterOrders& orders, std::int32_t node,
+                       bool is_first)
     : orders_(orders),
       bands_(orders.manifest.format, film.settings().width, film.settings().height),
       content_(film),
@@ -48,9 +49,8 @@ NodeWriter::NodeWriter(const wire::PackedFilm& film, const sinks::WriterOrders& 
       files_(
           node, [this](std::uint32_t frame) { return orders_.file_of(frame); },
           [this](const FrameFile& file) { put(file); }) {
-  if (!looks) return;
   sees_folder_ = sinks::appears(orders_.host_probe());
-  if (sees_folder_) document::create_file(orders_.node_probe(node), "");
+  if (sees_folder_ && is_first) document::create_file(orders_.node_probe(node), "");
 }
 
 void NodeWriter::begin_keyframe(const Keyframe& keyframe) {

@@ -17,8 +17,8 @@ namespace mars::composer {
 
 class NodeWriter : public wire::FrameWriter {
  public:
-  // `node`: the caller's. `looks`: it finds out whether its machine sees the host's folder, for all nodes there.
-  NodeWriter(const wire::PackedFilm& film, const sinks::WriterOrders& orders, std::int32_t node, bool looks);
+  // `node`: the caller's. `is_first`: of its machine; it makes what the host looks for in the folder.
+  NodeWriter(const wire::PackedFilm& film, const sinks::WriterOrders& orders, std::int32_t node, bool is_first);
 
   bool sees_folder() const override { return sees_folder_; }
 

@@ -37,7 +37,9 @@ Assembly::Assembly(const Task& task, const collectives::Group& group, std::int32
       alone_(task.frames.size() == 1),
       not_begun_(task.frames.size()) {
   for (const std::uint32_t frame : task.frames) parts_[frame] = {};
-  parts_[keyframe_] = {.nodes = {group.first, contributors}, .nodes_left = contributors};
+  Parts& keyframe = parts_[keyframe_];
+  keyframe.nodes = {group.first, contributors};
+  keyframe.nodes_left = contributors;
   for (int node = group.first; node < group.first + contributors; ++node)
     assignments.give(node, {keyframe_, interval_, wire::FrameKind::keyframe});
 }
@@ -47,7 +49,9 @@ void Assembly::give(const Task& task, const Portion& portion, Assignments& assig
     const std::uint32_t frame = task.frames[1 + k];
     const std::int32_t node =
         group_.first + wire::contributor_of_inbetween(task.first_inbetween + k, group_.count, portion.cycle);
-    parts_.at(frame) = {.nodes = {node, 1}, .nodes_left = 1};
+    Parts& parts = parts_.at(frame);
+    parts.nodes = {node, 1};
+    parts.nodes_left = 1;
     assignments.give(node, {frame, interval_, wire::FrameKind::inbetween});
   }
 }

@@ -60,8 +60,8 @@ class NodeInbox {
   bool wait_until_loaded();
   // Of the machines whose nodes do not share memory then, one text each.
   std::vector<std::string> apart() const;
-  // Whether the machine of this node, its first, sees the folder into which its nodes are to write.
-  bool sees_folder(int first) const { return sees_folder_.at(static_cast<std::size_t>(first)); }
+  // Whether the node sees the folder into which it is to write.
+  bool sees_folder(int node) const { return sees_folder_.at(static_cast<std::size_t>(node)); }
   // Waits for a message of this type; info* then describe it. A node's fault is thrown instead.
   void wait(long type) const;
 

@@ -27,7 +27,7 @@ NodeMemory node_memory(const FilmRun& run) {
 void let_nodes_write(const Writing& writing, const FilmRun& run, std::vector<GroupWork>& groups) {
   const NodeInbox& inbox = run.engine.inbox();
   const std::string warning =
-      choose_writers(groups, inbox.hellos(), writing, [&](int first) { return inbox.sees_folder(first); });
+      choose_writers(groups, inbox.hellos(), writing, [&](int node) { return inbox.sees_folder(node); });
   if (!warning.empty() && run.listener.warned) run.listener.warned(warning);
 }
 

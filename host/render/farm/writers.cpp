@@ -38,14 +38,14 @@ std::string warning_of(const std::set<std::string>& machines, std::size_t writin
 }  // namespace
 
 std::string choose_writers(std::vector<GroupWork>& groups, std::span<const wire::Hello> nodes, const Writing& writing,
-                           const std::function<bool(int first)>& sees_folder) {
+                           const std::function<bool(int node)>& sees_folder) {
   std::vector<bool> sees(nodes.size());
   std::set<std::string> unseeing;
   for (std::size_t node = 0; node < nodes.size(); ++node) {
     const wire::Hello& hello = nodes[node];
     const bool is_first = hello.machine == hello.node;
-    sees[node] = is_first ? sees_folder(hello.node) && writing.shares_folder(hello)
-                          : sees[static_cast<std::size_t>(hello.machine)];
+    sees[node] = sees_folder(hello.node) &&
+                 (is_first ? writing.shares_folder(hello) : sees[static_cast<std::size_t>(hello.machine)]);
     if (!sees[node]) unseeing.insert(hello.host.data());
   }
   std::size_t write = 0;

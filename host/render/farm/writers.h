@@ -22,9 +22,9 @@ struct Writing {
   std::function<void(const wire::Written&)> written;  // a frame's file is there
 };
 
-// All nodes have the film and their orders. `sees_folder`: what the first node of each machine says. Has groups
+// All nodes have the film and their orders. `sees_folder`: what each node says. Has groups
 // write, and returns what a person should know of the others; "": all groups write, or none does and nobody said so.
 std::string choose_writers(std::vector<GroupWork>& groups, std::span<const wire::Hello> nodes, const Writing& writing,
-                           const std::function<bool(int first)>& sees_folder);
+                           const std::function<bool(int node)>& sees_folder);
 
 }  // namespace mars::farm

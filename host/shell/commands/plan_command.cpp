@@ -128,7 +128,8 @@ std::string files_text(const Planned& planned) {
   const std::string written = "files       written by " + writers_text(planned.asked().writers);
   if (planned.otherwise.empty()) return written;
   const forecast::Forecast& other = planned.otherwise.back();
-  return written + " (by " + writers_text(other.writers) + document::formatted(": %.4g seconds)", other.seconds());
+  return written + " (by " + writers_text(other.writers) + ": " + in_groups(other) +
+         document::formatted(", %.4g seconds)", other.seconds());
 }
 
 std::string text_of(const Planned& planned) {

@@ -232,8 +232,10 @@ std::vector<Entry> table() {
       option(plans, "--format", "png|png16|exr", &RenderOptions::format,
              "Files of the frames: PNG of 8 or 16 bits, or EXR: half floats of light before exposure and curve; "
              "default: png. Example: --format exr"),
-      option(sinks, "--sink", "files|none", &RenderOptions::sink,
-             "Where frames go; none writes no files, to measure rendering. Example: --sink none"),
+      option(
+          sinks, "--sink", "files|none", &RenderOptions::sink,
+          "Where frames go; none writes no files, to measure rendering; simulations with --write count them. Example: "
+          "--sink none"),
       option(
           plans, "--write", "auto|host|nodes", &RenderOptions::write,
           "Who composes frames and writes their files: the host, as in the thesis, or the nodes that draw them, where "

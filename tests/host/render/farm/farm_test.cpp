@@ -101,15 +101,19 @@ TEST(Farm, ASlowLinkHoldsUpNoOtherNode) {
   EXPECT_LE(slow, 5) << "the other node waited for this one's strips";
 }
 
-// Node 0 writes the files of its frames; node 1, whose machine does not see the folder, sends strips.
-void node_with_orders() {
+// Node 0 writes the files of its frames; node 1, which does not see the folder, sends strips.
+void node_of_machine_with_orders(int machine) {
   ScriptedNode node;
-  ScriptedNode::send(wire::kHello, ScriptedNode::hello());
+  wire::Hello hello = ScriptedNode::hello();
+  hello.machine = machine;
+  ScriptedNode::send(wire::kHello, hello);
   node.take_load();
   wire::Loaded loaded = node.loaded();
   loaded.unseen = mynode() == 1 ? 1 : 0;
   ScriptedNode::send(wire::kLoaded, loaded);
-  if (mynode() == 0) EXPECT_TRUE(ScriptedNode::receive(wire::kWrite).empty());
+  if (mynode() == 0) {
+    EXPECT_TRUE(ScriptedNode::receive(wire::kWrite).empty());
+  }
   while (const auto command = node.next_command()) {
     for (const std::uint32_t frame : ScriptedNode::own_frames(*command)) {
       const wire::Strip strip = ScriptedNode::strip_of(*command, frame);
@@ -123,6 +127,8 @@ void node_with_orders() {
     }
   }
 }
+
+void node_with_orders() { node_of_machine_with_orders(static_cast<int>(mynode())); }
 
 struct WritingRun {
   ScriptedRun run;
@@ -190,6 +196,15 @@ TEST(Farm, AFolderThatNoMachineSeesIsNoWarningWhereTheHostMayWrite) {
   writing.run.render(EmptyFilm({3, 3, 3, 3}), node_without_orders);
   EXPECT_EQ(writing.run.sink.pixels.size(), 12u);
   EXPECT_TRUE(writing.warnings.empty());
+}
+
+// As in a container of its own.
+TEST(Farm, ANodeThatDoesNotSeeTheFolderOfItsMachineLeavesItsFramesToTheHost) {
+  WritingRun writing(2);
+  writing.run.render(EmptyFilm({3, 3, 3, 3}), [] { node_of_machine_with_orders(0); });
+  EXPECT_GE(writing.written.size(), 3u);
+  EXPECT_GE(writing.run.sink.pixels.size(), 3u);
+  EXPECT_EQ(writing.warnings.size(), 1u);
 }
 
 TEST(Farm, ANodeThatSendsStripsOfFramesThatItIsToWriteIsRefused) {

@@ -382,7 +382,7 @@ TEST(Inbox, WordOfFramesThatNodesWereNotToWrite) {
   });
   EXPECT_TRUE(document::holds(drawn, "a strip of frame 0 that it was not asked for")) << drawn;
   const std::string written = failure_of(wire::kWritten, [](const ScriptedNode::Command& command) {
-    return wire::Written{.frame = command.frames.front(), .node = static_cast<std::int32_t>(mynode())};
+    return wire::Written{command.frames.front(), static_cast<std::int32_t>(mynode()), {}, 0, 0};
   });
   EXPECT_TRUE(document::holds(written, "word of a file that it was not asked for")) << written;
 }
