@@ -36,6 +36,12 @@ wire::UnitCounts in_whole_patches(const wire::UnitCounts& made) {
   return patches > 0 ? made * (std::ceil(patches - 1e-6) / patches) : made;
 }
 
+// Bytes on the way until a computer has what all others send it. All send to the first computer first, so that the
+// port of whoever sends `most` to each is busy with the computers before.
+double bytes_until(std::size_t computer, double in, double most) {
+  return in + most * static_cast<double>(std::max<std::size_t>(computer, 1) - 1);
+}
+
 }  // namespace
 
 // The lines of each node of a group, and what is on them.
@@ -342,20 +348,20 @@ void FrameCosts::add_exchange(GroupKeyframe& keyframe, const Homes& homes, const
 }
 
 // CZB, and with several samples shaded groups, of the lines that inbetweens may touch: to all other computers that
-// draw inbetweens. All send to the first such computer first.
+// draw inbetweens.
 void FrameCosts::add_still(GroupKeyframe& keyframe, const Homes& homes, const wire::FrameCounts& counts,
                            std::size_t inbetweens) const {
   const auto nodes = keyframe.nodes.size();
   const auto near = static_cast<std::size_t>(nodes_on_a_computer(static_cast<int>(nodes)));
   const std::size_t computers = (nodes + near - 1) / near, collecting = std::min(computers, inbetweens);
   if (computers == 1) return;
-  double all_bytes = 0, all_messages = 0;
+  double all_bytes = 0, all_messages = 0, most = 0;
   std::vector<StillLines> still(nodes);
   for (std::size_t n = 0; n < nodes; ++n) {
     still[n] = still_lines(homes.ranges[n], counts);
     all_bytes += still[n].bytes, all_messages += still[n].messages;
+    most = std::max(most, still[n].bytes);
   }
-  const double out_each = all_bytes / static_cast<double>(nodes);
   for (std::size_t n = 0; n < nodes; ++n) {
     NodePart& node = keyframe.nodes[n];
     const std::size_t computer = n / near;
@@ -366,7 +372,7 @@ void FrameCosts::add_still(GroupKeyframe& keyframe, const Homes& homes, const wi
     if (computer >= collecting || n % near != 0 || all_messages <= messages) continue;
     const double in = all_bytes - bytes, messages_in = all_messages - messages;
     node.still += messages_in * costs_.to_receive(in / messages_in);
-    node.still_wait = costs_.on_the_way(in + out_each * static_cast<double>(computer), false);
+    node.still_wait = costs_.on_the_way(bytes_until(computer, in, most), false);
   }
 }
 
@@ -384,8 +390,11 @@ void FrameCosts::add_bands(GroupKeyframe& keyframe, const Homes& homes, const wi
   const auto background_bytes = [&](std::size_t n) {
     return picture_bytes(n) + geometry::overlap(homes.ranges[n], touched).count() * line_bytes();
   };
-  double all = 0;
-  for (std::size_t n = 0; n < nodes; ++n) all += background_bytes(n);
+  double all = 0, most = 0;
+  for (std::size_t n = 0; n < nodes; ++n) {
+    all += background_bytes(n);
+    most = std::max(most, background_bytes(n));
+  }
   for (std::size_t n = 0; n < nodes; ++n) {
     NodePart& node = keyframe.nodes[n];
     const std::size_t computer = n / near;
@@ -399,7 +408,8 @@ void FrameCosts::add_bands(GroupKeyframe& keyframe, const Homes& homes, const wi
     if (computer >= collecting || n % near != 0 || computers == 1) continue;
     const double in = all - background_bytes(n);
     node.bands += static_cast<double>(nodes - 1) * costs_.to_receive(in / static_cast<double>(nodes - 1));
-    node.bands_wait = costs_.on_the_way(in + file_bytes() / static_cast<double>(nodes), false);
+    node.bands_wait =
+        costs_.on_the_way(bytes_until(computer, in, most) + file_bytes() / static_cast<double>(nodes), false);
   }
 }
 

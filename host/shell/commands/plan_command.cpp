@@ -78,7 +78,9 @@ Planned plan(const options::RenderOptions& options, const NodesCode& code) {
   const std::vector<farm::Task> tasks = farm::make_tasks(view, frames, !options.no_coherence);
   const forecast::FilmCounts counts =
       forecast::count_film(view, tasks, *code.make_counter(view), {kCounting}, options.format);
-  forecast::Setting setting{view, platform, options.mapping, options.format, options.sink == options::SinkKind::files};
+  forecast::Setting setting{view, platform, options.mapping, options.format};
+  // As simulations count files that go nowhere.
+  setting.files = options.sink == options::SinkKind::files || options.write != options::WriteWhere::automatic;
   setting.sink_threads = session::sink_threads({platform.host_memory, platform.host_processors()});
   setting.host_budget = platform.host_memory;
   const int nodes = options.nodes == 0 ? topology::Machine::here().processors() : static_cast<int>(options.nodes);
