@@ -34,7 +34,7 @@ struct Prediction {
   std::int32_t contributors = 0;  // to keyframes, with these groups, as in farm::Plan
   events::Course course{};        // of its frames
   std::string warning{};          // why nothing is predicted; "": none
-  // Whether nodes would write frames' files sooner than the host, with so many nodes on each machine; none: nothing is
+  // Whether nodes would write frames' files sooner than the host, with this many nodes on a machine; none: nothing is
   // predicted. The film must be there still.
   std::function<bool(int nodes_a_machine)> nodes_write_sooner{};
 };
