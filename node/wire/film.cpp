@@ -91,7 +91,8 @@ bool sound(const Material& m) {
          std::ranges::all_of(
              kMaterialBounds,
              [&](const MaterialBounds& each) { return m.*each.number >= each.least && m.*each.number <= each.most; }) &&
-         (m.sides == 1 || m.sides == 2) && m.interpolation <= Interpolation::flat && m.reflection <= kLastReflection;
+         (m.sides == 1 || m.sides == 2) && m.interpolation <= Interpolation::flat && m.reflection <= kLastReflection &&
+         m.casts <= 1 && m.receives <= 1;
 }
 
 }  // namespace
@@ -114,7 +115,7 @@ bool sound(const Camera& camera) {
 bool sound(const Light& light) {
   return light.kind <= kLastLightKind && all_finite(light.vector) && is_light(light.color) && all_finite(light.axis) &&
          light.cos_outer >= -1 && light.cos_outer <= light.cos_inner && light.cos_inner <= 1 && light.reach >= 0 &&
-         light.reach <= kLargest;
+         light.reach <= kLargest && light.casts <= 1 && light.size >= 0 && light.size <= kLargest;
 }
 
 bool sound(const std::array<float, 3>& vector) { return all_finite(vector); }

@@ -10,7 +10,7 @@
 namespace mars::wire {
 
 // Bumped whenever the layout or the meaning of a field changes; other versions are refused.
-inline constexpr std::uint32_t kFilmVersion = 3;
+inline constexpr std::uint32_t kFilmVersion = 4;
 inline constexpr std::uint32_t kMaxSide = 16384;         // pixels
 inline constexpr std::uint32_t kMostFrames = 1'000'000;  // of a film
 inline constexpr std::uint32_t kMostSamples = 16;        // of a pixel
@@ -98,6 +98,10 @@ struct Material {
   float roughness = 0.5f;   // cook_torrance: Beckmann's m; metallic_roughness: glTF's
   float metallic = 0;       // metallic_roughness's, 0..1
   float refraction = 1.5f;  // cook_torrance's index, above 1
+  // Of lights that cast shadows: 1 if surfaces of it block their light; 1 if their shadows fall on it. Nothing falls on
+  // surfaces without Interpolation::phong.
+  std::uint32_t casts = 1;
+  std::uint32_t receives = 1;
 
   bool operator==(const Material&) const = default;
 };
@@ -130,6 +134,10 @@ struct Light {
   // Where a point light or spot has half its brightness: at distance d it is 1 / (1 + (d / reach)^2). 0: it does not
   // fall off.
   float reach = 0;
+  std::uint32_t casts = 0;  // 1: what stands before it throws a shadow
+  // How large a light that casts is: of a directional one the tangent of half the angle that it takes up in the sky, of
+  // others the radius of the ball that shines. 0: a point, whose shadows have sharp edges.
+  float size = 0;
 
   bool operator==(const Light&) const = default;
 };
