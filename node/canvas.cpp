@@ -8,15 +8,18 @@ Canvas::Canvas(const wire::PackedFilm& film, const raster::Neighbours& neighbour
                simd::InstructionSet set)
     : scene(film),
       z_buffer(set, film.settings().width, scene.pattern()),
-      still(neighbours, film.settings().width, film.settings().height, scene.pattern(), still_memory),
+      still(neighbours, film.settings().width, film.settings().height, scene.pattern(), still_memory,
+            film.casting_count()),
       sums(film.settings().height),
       triangle_exchange(static_cast<std::size_t>(neighbours.group().count), film.settings().height),
-      still_exchange(neighbours, film.settings().samples, film.settings().height),
+      still_exchange(neighbours, still.has_groups(), film.settings().height),
       contributes(static_cast<std::size_t>(neighbours.group().count)),
       line_loads(film.settings().height),
       line_totals(film.settings().height + 1),
       awaited(film.settings().height),
       wanted_lines(film.settings().height),
-      wanted_still_lines(film.settings().height) {}
+      wanted_still_lines(film.settings().height) {
+  if (scene.casting_count() > 0) shadows.emplace(set, scene);
+}
 
 }  // namespace mars::node

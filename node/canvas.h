@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "node/geometry/scene.h"
@@ -12,6 +13,7 @@
 #include "node/raster/neighbours.h"
 #include "node/raster/scanline.h"
 #include "node/raster/still_lines.h"
+#include "node/shadow/shadow_painter.h"
 
 namespace mars::node {
 
@@ -23,6 +25,7 @@ struct Canvas {
 
   geometry::Scene scene;
   raster::ZBuffer z_buffer;
+  std::optional<shadow::ShadowPainter> shadows;  // where lights cast
   raster::StillLines still;
   group::GroupSums sums;
   group::TriangleExchange triangle_exchange;

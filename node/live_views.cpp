@@ -16,8 +16,10 @@ std::vector<std::uint64_t> words_of(std::span<const std::byte> bytes) {
 }
 
 // Whether pictures of one take the same memory as those of the other.
-bool are_alike(const wire::FilmSettings& a, const wire::FilmSettings& b) {
-  return a.width == b.width && a.height == b.height && a.samples == b.samples;
+bool are_alike(const wire::PackedFilm& a, const wire::PackedFilm& b) {
+  const wire::FilmSettings &one = a.settings(), &other = b.settings();
+  return one.width == other.width && one.height == other.height && one.samples == other.samples &&
+         a.casting_count() == b.casting_count();
 }
 
 }  // namespace
@@ -67,7 +69,7 @@ LiveViews::LiveView& LiveViews::put_scene(const wire::BeginViewCommand& command)
   LiveScene scene(command.scene, film_);
   const auto known = views_.find(number);
   if (known != views_.end() && known->second.still_memory == still_memory &&
-      are_alike(known->second.scene.film().settings(), scene.film().settings())) {
+      are_alike(known->second.scene.film(), scene.film())) {
     known->second.canvas.scene = geometry::Scene(scene.film());
     known->second.scene = std::move(scene);
     return known->second;

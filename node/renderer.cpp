@@ -227,6 +227,8 @@ void Renderer::draw_lines(const geometry::LineRange& lines, const group::Pass& p
   if (file_ && pass.number == 0) begin_writing();
   if (!contributes()) return finish_exchange(pass);
   const shading::Shading shading = this->shading();
+  prepared_ = {lines.first, lines.first};
+  if (canvas_->shadows) canvas_->shadows->begin(picture(shading), [this] { heartbeat_.look(); });
   const bool constant = report_.is_keyframe() && raster::any_stationary(parts_, lines);
   geometry::LineRange strip{lines.first, lines.first};
   for (bool drawn = false; !drawn;) {
@@ -248,6 +250,15 @@ raster::StripBuffer& Renderer::begin_strip(bool constant) {
 
 std::uint32_t Renderer::draw_strip(const geometry::LineRange& lines, const shading::Shading& shading,
                                    raster::StripBuffer& out) {
+  const std::uint32_t line = draw_until_full(lines, shading, out);
+  const geometry::LineRange drawn{lines.first, line};
+  charge_lines(report_, scene(),
+               {drawn, parts_, canvas_->sums.samples_on(drawn), out.pixel_count(), canvas_->z_buffer.take_counts()});
+  return line;
+}
+
+std::uint32_t Renderer::draw_until_full(const geometry::LineRange& lines, const shading::Shading& shading,
+                                        raster::StripBuffer& out) {
   const PhaseScope scanline = phase(wire::Phase::scanline);
   std::uint32_t line = lines.first;
   while (line < lines.last && out.lines_that_fit() > 0) {
@@ -257,17 +268,29 @@ std::uint32_t Renderer::draw_strip(const geometry::LineRange& lines, const shadi
       break;
     }
     const geometry::LineRange some{line, std::min(line + std::min(out.lines_that_fit(), kLinesABeat), lines.last)};
-    if (report_.is_keyframe())
+    if (canvas_->shadows)
+      draw_with_shadows(some, lines.last, shading, out);
+    else if (report_.is_keyframe())
       canvas_->z_buffer.draw_keyframe(parts_, some, shading, canvas_->still, out);
     else
       report_.strip().work.lines_drawn_again +=
           canvas_->z_buffer.draw_inbetween(parts_, some, shading, canvas_->still, out);
     line = some.last;
   }
-  const geometry::LineRange drawn{lines.first, line};
-  charge_lines(report_, scene(),
-               {drawn, parts_, canvas_->sums.samples_on(drawn), out.pixel_count(), canvas_->z_buffer.take_counts()});
   return line;
+}
+
+// `last`: of the lines that are to be drawn.
+void Renderer::draw_with_shadows(const geometry::LineRange& some, std::uint32_t last, const shading::Shading& shading,
+                                 raster::StripBuffer& out) {
+  for (std::uint32_t line = some.first; line < some.last; ++line) {
+    if (!prepared_.has(line)) prepared_ = canvas_->shadows->prepare(picture(shading), {line, last});
+    canvas_->shadows->put_line(picture(shading), line, out);
+  }
+}
+
+shadow::Picture Renderer::picture(const shading::Shading& shading) const {
+  return {scene(), shading, parts_, canvas_->still, report_.is_keyframe()};
 }
 
 void Renderer::finish_exchange(const group::Pass& pass) {

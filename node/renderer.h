@@ -90,6 +90,11 @@ class Renderer {
   // Draws `lines` from the first on until the strip is full, all are drawn or the view has ended; one past the last of
   // them.
   std::uint32_t draw_strip(const geometry::LineRange& lines, const shading::Shading& shading, raster::StripBuffer& out);
+  std::uint32_t draw_until_full(const geometry::LineRange& lines, const shading::Shading& shading,
+                                raster::StripBuffer& out);
+  void draw_with_shadows(const geometry::LineRange& some, std::uint32_t last, const shading::Shading& shading,
+                         raster::StripBuffer& out);
+  shadow::Picture picture(const shading::Shading& shading) const;
   int keyframe_writer() const;
   void begin_writing();
   void paste_strip(const geometry::LineRange& lines);
@@ -131,6 +136,7 @@ class Renderer {
   collectives::Group group_;              // that draws it
   std::size_t contributors_ = 1;          // of it
   std::vector<raster::LineBoxes> parts_;  // edge boxes of the lines to be drawn; own ones first
+  geometry::LineRange prepared_{0, 0};    // lines whose shadows are known
   std::vector<geometry::LineRange> homes_;
   std::vector<geometry::LineRange> pass_homes_;
   const bool is_watched_;

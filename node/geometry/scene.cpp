@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace mars::geometry {
 namespace {
@@ -62,6 +63,11 @@ Scene::Scene(const wire::PackedFilm& film) : film_(film), tolerances_(shape::tol
   moves_.resize(film.segments().size());
   moved_at_.resize(film.segments().size());
   lights_.resize(film.light_tracks().size());
+  light_order_.resize(lights_.size());
+  std::iota(light_order_.begin(), light_order_.end(), std::size_t{0});
+  const auto casting = std::ranges::stable_partition(
+      light_order_, [&](std::size_t track) { return !film.casts(film.light_tracks()[track]); });
+  casting_count_ = static_cast<std::uint32_t>(casting.size());
 }
 
 void Scene::set_interval(std::uint32_t number) {
@@ -75,7 +81,8 @@ void Scene::set_frame(std::uint32_t frame) {
   const wire::Camera& camera = film_.camera_at(frame);
   projection_ = projection_of(camera, width(), height());
   for (std::size_t i = 0; i < lights_.size(); ++i)
-    lights_[i] = to_eye(film_.lights()[film_.value_at(film_.light_tracks()[i], frame)], camera.world_to_eye);
+    lights_[i] =
+        to_eye(film_.lights()[film_.value_at(film_.light_tracks()[light_order_[i]], frame)], camera.world_to_eye);
 }
 
 void Scene::move(std::span<const wire::MovedSegment> moved) {
@@ -102,6 +109,7 @@ std::uint32_t Scene::material(std::size_t segment) const {
 }
 
 LineRange Scene::moving_line_bounds(std::span<const std::uint32_t> frames, const ShapeBoxes& boxes) const {
+  if (casting_count_ > 0 && any_moves() && !frames.empty()) return {0, film_.settings().height};
   LineRange lines{film_.settings().height, 0};
   for (const std::uint32_t frame : frames)
     for (const std::uint32_t segment : movers_) {

@@ -45,7 +45,10 @@ class Scene {
   std::int32_t width() const { return static_cast<std::int32_t>(film_.settings().width); }
   std::int32_t height() const { return static_cast<std::int32_t>(film_.settings().height); }
   const shape::Projection& projection() const { return projection_; }
+  // In the film's order, but those that cast shadows last.
   std::span<const EyeLight> lights() const { return lights_; }
+  std::uint32_t casting_count() const { return casting_count_; }
+  std::span<const EyeLight> casting_lights() const { return lights().last(casting_count_); }
   const shape::SamplePattern& pattern() const { return shape::sample_pattern(film_.settings().samples); }
   // How its patches are diced.
   shape::Dicing dicing() const { return {static_cast<int>(film_.settings().dice), tolerances_}; }
@@ -53,6 +56,7 @@ class Scene {
   // The world's z axis in eye space.
   std::array<float, 3> up() const;
 
+  bool any_moves() const { return !movers_.empty(); }
   bool moves(std::size_t segment) const { return moves_[segment] != 0; }
   // Number of the segment's first patch or meshlet among all of the film.
   std::uint32_t first_patch(std::size_t segment) const { return first_patch_[segment]; }
@@ -74,6 +78,8 @@ class Scene {
   std::vector<std::uint32_t> moved_at_;  // by segment: its place in moved_ and one; 0: it is not there
   std::uint32_t frame_ = 0;
   shape::Projection projection_{};
+  std::vector<std::size_t> light_order_;  // numbers of tracks
+  std::uint32_t casting_count_;
   std::vector<EyeLight> lights_;
 };
 

@@ -26,9 +26,9 @@ class StillExchange::Plan : public Collectors {
   const geometry::LineRange lines_;  // that inbetweens may touch
 };
 
-StillExchange::StillExchange(const raster::Neighbours& neighbours, std::uint32_t samples, std::size_t height)
+StillExchange::StillExchange(const raster::Neighbours& neighbours, bool one_each, std::size_t height)
     : neighbours_(neighbours),
-      one_each_(samples > 1),
+      one_each_(one_each),
       pending_(height),
       collectors_(static_cast<std::size_t>(neighbours.group().count)) {}
 

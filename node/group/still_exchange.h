@@ -3,7 +3,7 @@
 //
 // The group's nodes on a machine write their home lines there. The first of them, its head, receives the lines of other
 // machines and an empty message from each node of its own that has written, and then notifies the machine's
-// contributors. With one sample a pixel a node's lines travel in one message, with several each line, in any order.
+// contributors. Lines that are depths alone travel in one message, with groups each line, in any order.
 #pragma once
 
 #include <cstddef>
@@ -28,8 +28,8 @@ struct StillNeeds {
 
 class StillExchange {
  public:
-  // `samples` a pixel.
-  StillExchange(const raster::Neighbours& neighbours, std::uint32_t samples, std::size_t height);
+  // `one_each`: lines have groups.
+  StillExchange(const raster::Neighbours& neighbours, bool one_each, std::size_t height);
 
   // Collective over the group, which has written its home lines to `still`. A contributor returns when all of its lines
   // are there.

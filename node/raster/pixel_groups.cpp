@@ -23,10 +23,27 @@ PixelGroups::PixelGroups(simd::InstructionSet set, std::size_t width, std::uint3
 
 shading::ShadedCounts PixelGroups::shade(const shading::Shading& shading, const LineSamples& seen, std::uint32_t line,
                                          const shading::Extent& extent) {
-  counts_ = {0, 0};
-  if (extent.first >= extent.last) return {};
-  counts_ = kernels_.group(shading.pattern, seen, extent, groups());
+  group(shading, seen, extent);
+  if (count() == 0) return {};
   return shading_kernels_.shade_fragments(shading, fragments_.data(), count(), line, light().channel);
+}
+
+void PixelGroups::group(const shading::Shading& shading, const LineSamples& seen, const shading::Extent& extent) {
+  counts_ = {0, 0};
+  if (extent.first < extent.last) counts_ = kernels_.group(shading.pattern, seen, extent, groups());
+}
+
+void PixelGroups::copy_to(const Groups& out) const {
+  std::copy_n(fragments_.data(), count(), out.fragments);
+  std::copy_n(masks_.data(), count(), out.masks);
+  std::copy_n(pixels_.data(), count(), out.pixels);
+}
+
+void PixelGroups::restore(const GroupCounts& counts, const Groups& from) {
+  counts_ = counts;
+  std::copy_n(from.fragments, count(), fragments_.data());
+  std::copy_n(from.masks, count(), masks_.data());
+  std::copy_n(from.pixels, count(), pixels_.data());
 }
 
 void PixelGroups::copy_to(const StillGroups& still) const {
@@ -46,12 +63,47 @@ void PixelGroups::resolve(const shading::Shading& shading, std::uint32_t line, S
 }
 
 void PixelGroups::resolve_over(const StillGroups& still, const shading::Shading& shading, std::uint32_t line,
-                               StripBuffer::Layer& out) {
+                               StripBuffer::Layer& out, std::span<const std::uint32_t> columns) {
   const std::uint32_t all = (1u << samples_) - 1;
   kernels_.add_groups(groups(), counts_, samples_, light());
+  if (!columns.empty()) add_pixels(columns);
   for (std::uint32_t pixel = 0; pixel < counts_.pixels; ++pixel)
     if (masks_[pixel] != all) add_uncovered(still, pixel);
   put(shading, line, out);
+}
+
+// Those that are not there yet, from the last on, for pixels stay in the order of columns.
+void PixelGroups::add_pixels(std::span<const std::uint32_t> columns) {
+  const auto is_there = [&](std::uint32_t pixels, std::uint32_t column) {
+    return pixels > 0 && fragments_[pixels - 1].column >= column;
+  };
+  std::uint32_t more = 0;
+  for (std::uint32_t here = 0; const std::uint32_t column : columns) {
+    while (here < counts_.pixels && fragments_[here].column < column) ++here;
+    more += here < counts_.pixels && fragments_[here].column == column ? 0 : 1;
+  }
+  std::uint32_t from = counts_.pixels, to = counts_.pixels += more;
+  for (std::size_t next = columns.size(); to > from;) {
+    if (is_there(from, columns[next - 1])) {
+      if (fragments_[from - 1].column == columns[next - 1]) --next;
+      move_pixel(--from, --to);
+    } else {
+      put_empty_pixel(--to, columns[--next]);
+    }
+    if (next == 0) break;
+  }
+}
+
+void PixelGroups::move_pixel(std::uint32_t from, std::uint32_t to) {
+  fragments_[to] = fragments_[from];
+  masks_[to] = masks_[from];
+  for (auto& channel : light_) channel[to] = channel[from];
+}
+
+void PixelGroups::put_empty_pixel(std::uint32_t at, std::uint32_t column) {
+  fragments_[at] = {shading::kNoTriangle, static_cast<std::uint16_t>(column), 0};
+  masks_[at] = 0;
+  for (auto& channel : light_) channel[at] = 0;
 }
 
 void PixelGroups::add_uncovered(const StillGroups& still, std::uint32_t pixel) {

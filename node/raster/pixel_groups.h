@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "node/color/kernels.h"
@@ -27,6 +28,13 @@ class PixelGroups {
                               const shading::Extent& extent);
   std::uint32_t count() const { return counts_.pixels + counts_.others; }
 
+  // In pictures with shadows: groups alone; copied out, and back with light that was summed up elsewhere.
+  void group(const shading::Shading& shading, const LineSamples& seen, const shading::Extent& extent);
+  const GroupCounts& counts() const { return counts_; }
+  void copy_to(const Groups& out) const;
+  void restore(const GroupCounts& counts, const Groups& from);
+  Light light() { return {light_[0].data(), light_[1].data(), light_[2].data()}; }
+
   // Copies the groups, of a whole line.
   void copy_to(const StillGroups& still) const;
 
@@ -34,13 +42,16 @@ class PixelGroups {
 
   // Makes pixels of them and of the background.
   void resolve(const shading::Shading& shading, std::uint32_t line, StripBuffer::Layer& out);
-  // And of the line's still groups.
+  // And of the line's still groups; also of the pixels in `columns`, ascending, which may have no groups but still
+  // ones.
   void resolve_over(const StillGroups& still, const shading::Shading& shading, std::uint32_t line,
-                    StripBuffer::Layer& out);
+                    StripBuffer::Layer& out, std::span<const std::uint32_t> columns = {});
 
  private:
   Groups groups() { return {fragments_.data(), masks_.data(), pixels_.data()}; }
-  Light light() { return {light_[0].data(), light_[1].data(), light_[2].data()}; }
+  void add_pixels(std::span<const std::uint32_t> columns);
+  void move_pixel(std::uint32_t from, std::uint32_t to);
+  void put_empty_pixel(std::uint32_t at, std::uint32_t column);
   void add_uncovered(const StillGroups& still, std::uint32_t pixel);
   void put(const shading::Shading& shading, std::uint32_t line, StripBuffer::Layer& out);
 

@@ -1,7 +1,8 @@
 // What an interval's inbetweens need of its stationary parts, on the lines that its moving parts may touch: CZB, the
 // depth of each sample; and, where a pixel has several samples, each shaded group of CFB (pixel_groups.h), for the part
-// of a pixel that a moving part leaves uncovered. Each machine has it once for each group of nodes: the group's nodes
-// there write their home lines, and all of them read it.
+// of a pixel that a moving part leaves uncovered. Where lights cast shadows, each group's light before it is summed up,
+// and what blocks it, for the shadows of moving parts. Each machine has it once for each group of nodes: the group's
+// nodes there write their home lines, and all of them read it.
 //
 // Home lines are written in a keyframe, after the group's sum of EBC: no node leaves that before all have come to it
 // and so have finished the inbetweens of the interval before. Inbetweens read, after StillExchange::complete. A line
@@ -34,12 +35,24 @@ struct StillGroups {
   }
 };
 
+// The same where lights cast shadows: group k is group(k); pairs of casting light l are pairs[l * width + x].
+struct UnsummedStill {
+  std::uint32_t* end;
+  wire::StillPairs* pairs;
+  std::byte* groups;
+  std::size_t group_bytes;
+
+  wire::UnsummedGroup& group(std::uint32_t k) const {
+    return *reinterpret_cast<wire::UnsummedGroup*>(groups + k * group_bytes);
+  }
+};
+
 class StillLines {
  public:
-  // Of the caller's group: each of its nodes on this machine adds `bytes_a_node`. Pages are used as lines are written.
-  // Collective over a machine's nodes. Throws Failure where memory is short.
+  // Of the caller's group: each of its nodes on this machine adds `bytes_a_node`. `casting` lights cast. Pages are used
+  // as lines are written. Collective over a machine's nodes. Throws Failure where memory is short.
   StillLines(const Neighbours& neighbours, std::uint32_t width, std::uint32_t height,
-             const shape::SamplePattern& pattern, std::uint64_t bytes_a_node);
+             const shape::SamplePattern& pattern, std::uint64_t bytes_a_node, std::uint32_t casting = 0);
 
   // Lines that will be written in interval `number`; those of others are kept no longer.
   void begin_interval(std::uint32_t number, const geometry::LineRange& lines);
@@ -54,12 +67,15 @@ class StillLines {
   bool begin_line(std::uint32_t line, std::uint32_t groups);
   std::span<float> depth(std::uint32_t line, std::uint32_t sample);
   StillGroups groups(std::uint32_t line);
+  UnsummedStill unsummed(std::uint32_t line);
 
   bool keeps(std::uint32_t line) const;
 
-  // Of lines with one sample a pixel, which lie one after the other.
+  // Whether lines have groups: else they lie one after the other, depths alone.
+  bool has_groups() const { return has_groups_; }
+  // Of lines without groups.
   std::span<float> depths(const geometry::LineRange& lines);
-  // A line with several as it travels to another machine; nothing where it is not kept.
+  // A line with groups as it travels to another machine; nothing where it is not kept.
   std::span<const std::byte> packed(std::uint32_t line) const;
   // Bytes of a line that any machine may send.
   std::size_t most_packed() const;
@@ -69,7 +85,7 @@ class StillLines {
   void unpack(std::span<const std::byte> line);
 
  private:
-  // The beginning of a line with several samples a pixel.
+  // The beginning of a line with groups.
   struct alignas(64) Head {
     std::uint32_t kept;  // 1: all of it is there
     std::uint32_t interval;
@@ -82,9 +98,13 @@ class StillLines {
   Head& head(std::uint32_t line) const { return *reinterpret_cast<Head*>(slot(line)); }
   static Head head_of(std::span<const std::byte> line);
   std::size_t packed_bytes(std::size_t groups) const;
+  std::size_t group_bytes() const { return wire::still_group_bytes(static_cast<std::uint32_t>(casting_)); }
+  std::size_t column_bytes() const { return sizeof(std::uint32_t) + casting_ * sizeof(wire::StillPairs); }
 
   std::size_t width_;
   std::size_t samples_;
+  std::size_t casting_;
+  bool has_groups_;
   wire::StillPlan plan_;
   NeighboursMemory memory_;
   std::uint32_t interval_ = 0;

@@ -21,6 +21,14 @@ struct ShadingKernels {
   // blue to light[0..2], which have kVectorSlack to spare.
   ShadedCounts (*shade_fragments)(const Shading& shading, const Fragment* fragments, std::uint32_t count,
                                   std::uint32_t line, float* const* light);
+  // The same where lights cast shadows, before it is summed up; a triangle's own plane dims what casting lights add
+  // where it is turned away from them though its normals are not.
+  ShadedCounts (*shade_unsummed)(const Shading& shading, const Fragment* fragments, std::uint32_t count,
+                                 std::uint32_t line, const UnsummedLight& out);
+  // Sums up what `count` fragments send to the eye: base, then the terms by the shares of each casting light that
+  // arrive, then fog, within the bounds of light.
+  void (*sum_up)(const Shading& shading, const UnsummedLight& in, const float* const* shares, std::uint32_t count,
+                 float* const* light);
   // The light that `count` vertices, all of one material, send to the eye, without fog. `side`: 1 as seen from outside,
   // -1 from inside.
   void (*shade_vertices)(const Shading& shading, std::uint32_t material, float side, const shape::Vertices& vertices,

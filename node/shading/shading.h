@@ -17,8 +17,9 @@ namespace mars::shading {
 struct Shading {
   const geometry::Triangle* triangles;
   const wire::Material* materials;
-  const geometry::EyeLight* lights;
+  const geometry::EyeLight* lights;  // those that cast shadows come last
   std::uint32_t light_count;
+  std::uint32_t casting_count;
   shape::Projection projection;
   shape::SamplePattern pattern;  // of the film's pixels
   color::Encoding encoding;
@@ -33,6 +34,14 @@ struct Fragment {
   std::uint32_t triangle;
   std::uint16_t column;
   std::uint16_t sample;  // its number in the pattern
+};
+
+// Light that is not summed up yet, of films where lights cast shadows: how much of each arrives is known later. One
+// array a channel.
+struct UnsummedLight {
+  float* base[3];       // ambient light, and lights that do not cast
+  float* fog;           // the share of fog's colour
+  float* const* terms;  // three arrays for each light that casts
 };
 
 // Columns [first, last); none where last <= first.
@@ -61,6 +70,9 @@ struct Shaded {
   std::uint32_t pixels;
   ShadedCounts counts{};
 };
+
+// More light is as much as this, and so is what is no number.
+inline constexpr float kMostShaded = 1e30f;
 
 // The id of a sample that shows nothing.
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;

@@ -10,6 +10,7 @@ Shading shading_of(const geometry::Scene& scene, wire::PixelFormat format) {
   shading.materials = scene.film().materials().data();
   shading.lights = scene.lights().data();
   shading.light_count = static_cast<std::uint32_t>(scene.lights().size());
+  shading.casting_count = scene.casting_count();
   shading.projection = scene.projection();
   shading.pattern = shape::sample_pattern(settings.samples);
   shading.encoding = color::encoding_of(settings, scene.camera(), format);

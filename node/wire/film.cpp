@@ -334,6 +334,11 @@ const Matrix& PackedFilm::matrix_at(const Segment& segment, std::uint32_t frame)
   return matrices_[value_at(segment.motion, frame)];
 }
 
+std::uint32_t PackedFilm::casting_count() const {
+  return static_cast<std::uint32_t>(
+      std::ranges::count_if(light_tracks_, [this](const Track& light) { return casts(light); }));
+}
+
 const Material& PackedFilm::material_at(const Segment& segment, std::uint32_t frame) const {
   return materials_[value_at(segment.material, frame)];
 }

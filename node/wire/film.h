@@ -79,6 +79,9 @@ class PackedFilm {
   std::span<const Camera> cameras() const { return cameras_; }
   std::span<const Light> lights() const { return lights_; }
   std::span<const Track> light_tracks() const { return light_tracks_; }
+  // Whether the light of a track casts shadows, at all frames; and how many do.
+  bool casts(const Track& light) const { return lights_[value_at(light, 0)].casts == 1; }
+  std::uint32_t casting_count() const;
   std::span<const Change> changes() const { return changes_; }
   std::span<const Interval> intervals() const { return intervals_; }
 

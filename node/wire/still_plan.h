@@ -13,19 +13,43 @@ struct StillGroup {
   std::uint32_t samples;  // one bit each
 };
 
-// With several samples a pixel each line has a head, depths, the number of groups up to each column, and the groups.
+// Where lights cast shadows: a group's light, not summed up. Behind it lie three floats for each casting light, what it
+// adds if all of it arrives.
+struct UnsummedGroup {
+  std::uint32_t samples;
+  float fog;  // its share
+  float base[3];
+
+  const float* terms() const { return reinterpret_cast<const float*>(this + 1); }
+  float* terms() { return reinterpret_cast<float*>(this + 1); }
+};
+
+constexpr std::size_t still_group_bytes(std::uint32_t casting) {
+  return casting == 0 ? sizeof(StillGroup) : sizeof(UnsummedGroup) + std::size_t{3} * casting * sizeof(float);
+}
+
+// Of a pixel, for each casting light: which of its pairs (shadow/pairs.h) matter, and which are blocked.
+struct StillPairs {
+  std::uint16_t lit;
+  std::uint16_t blocked;
+};
+
+// With several samples a pixel, and where lights cast shadows, each line has a head, depths, the number of groups up to
+// each column, pairs of each casting light, and the groups.
 inline constexpr std::size_t kStillHeadBytes = 64;
 
 struct StillPlan {
   std::size_t line_bytes;           // of a line
-  std::uint32_t groups_per_column;  // that a line has memory for on average; 0 with one sample a pixel
+  std::uint32_t groups_per_column;  // that a line has memory for on average; 0 where there are none
   std::uint32_t lines;              // that fit
 
   std::size_t bytes() const { return line_bytes * lines; }
 };
 
-// For a picture of `width` x `height` within `bytes`. Where several samples do not fit, first lines have memory for
-// fewer groups, then fewer lines are kept. With one sample a pixel all lines are kept, whatever they take.
-StillPlan plan_still_lines(std::uint32_t width, std::uint32_t height, std::uint32_t samples, std::uint64_t bytes);
+// For a picture of `width` x `height` within `bytes`. Where several samples or shadows do not fit, first lines have
+// memory for fewer groups, then fewer lines are kept. Else all lines are kept, whatever they take. `casting`: lights
+// that cast.
+StillPlan plan_still_lines(std::uint32_t width, std::uint32_t height, std::uint32_t samples, std::uint64_t bytes,
+                           std::uint32_t casting = 0);
 
 }  // namespace mars::wire

@@ -173,19 +173,21 @@ FrameTotals FrameCosts::drawn_again(const wire::FrameCounts& keyframe, int nodes
 // A line is kept where it has memory for its groups (node/raster/still_lines.h).
 bool FrameCosts::is_kept(const wire::FrameCounts& keyframe, std::uint32_t line, const wire::StillPlan& plan) const {
   const wire::FilmSettings& film = setting_.film.settings();
-  if (film.samples == 1) return true;
+  if (plan.groups_per_column == 0) return true;
   return line - keyframe.first_still_line < plan.lines &&
          keyframe.lines[line].constant.shaded <= static_cast<double>(film.width) * plan.groups_per_column;
 }
 
 farm::NodeMemory FrameCosts::memory() const {
-  return farm::share_node_memory(setting_.platform.memory, std::nullopt, setting_.film.settings());
+  return farm::share_node_memory(setting_.platform.memory, std::nullopt, setting_.film.settings(),
+                                setting_.film.casting_count());
 }
 
 wire::StillPlan FrameCosts::still_plan(int nodes) const {
   const wire::FilmSettings& film = setting_.film.settings();
   return wire::plan_still_lines(film.width, film.height, film.samples,
-                                memory().still * static_cast<std::uint64_t>(nodes_on_a_computer(nodes)));
+                                memory().still * static_cast<std::uint64_t>(nodes_on_a_computer(nodes)),
+                                setting_.film.casting_count());
 }
 
 // Of one frame; where nodes share a computer, two frames' take turns (node/group/frame_memory.h).

@@ -102,7 +102,7 @@ void LiveWork::load_film() {
   film_block_ = std::exchange(next_film_, std::nullopt)->body;
   film_.emplace(film_block_, "the studio's film");
   const wire::FilmSettings& settings = film_->settings();
-  const farm::NodeMemory memory = farm::share_node_memory(engine_.node_memory(), std::nullopt, settings);
+  const farm::NodeMemory memory = farm::share_node_memory(engine_.node_memory(), std::nullopt, settings, 1);
   still_memory_ = memory.still / kViewsAShare;
   wire::Load load{};
   load.mapping = mapping_;

@@ -69,6 +69,12 @@ struct Block {
 
 // What the block's samples send to the eye: to Block::color, before exposure.
 void shade_to_light(const Shading& shading, Block& block);
+// What the samples send there without lights that cast, and without fog and bound.
+void shade_base(const Shading& shading, Block& block);
+// And what casting light number `casting` adds.
+void shade_term(const Shading& shading, std::uint32_t casting, Block& block);
+// The bound of light.
+float most_light(const Shading& shading);
 // What its vertices send there, whose triangles will carry it: no fog, no bound.
 void light_vertices(const Shading& shading, Block& block);
 // What its samples send there, encoded.

@@ -7,16 +7,29 @@ namespace mars::shading::MARS_SET {
 
 inline bool is_foggy(const wire::Fog& fog) { return fog.end > fog.start; }
 
+class FogDepth {
+ public:
+  explicit FogDepth(const wire::Fog& fog) : start_(constant(fog.start)) {
+    constexpr float kSharpest = 1e30f;
+    const float rise = 1.0f / (fog.end - fog.start);
+    per_distance_ = constant(rise < kSharpest ? rise : kSharpest);
+  }
+  Floats share(Floats inverse_w) const {
+    const Floats w = hn::Div(constant(1.0f), inverse_w);
+    return between_0_and_1(hn::Mul(hn::Sub(w, start_), per_distance_));
+  }
+
+ private:
+  Floats start_, per_distance_;
+};
+
 // Mixes fog into the block's colours, in which 1 is `unit`.
 inline void add_fog(const wire::Fog& fog, float unit, Block& block) {
-  constexpr float kSharpest = 1e30f;
-  const float rise = 1.0f / (fog.end - fog.start);
-  const Floats start = constant(fog.start), per_distance = constant(rise < kSharpest ? rise : kSharpest);
+  const FogDepth depth(fog);
   for (std::uint32_t k = 0; k < block.count; k += kLanes) {
     Floats inverse_w, rest[3];
     hn::LoadInterleaved4(kFloats, block.values[k], inverse_w, rest[0], rest[1], rest[2]);
-    const Floats w = hn::Div(constant(1.0f), inverse_w);
-    const Floats share = between_0_and_1(hn::Mul(hn::Sub(w, start), per_distance));
+    const Floats share = depth.share(inverse_w);
     for (std::size_t c = 0; c < 3; ++c) {
       const Floats color = hn::Load(kFloats, block.color[c] + k);
       const Floats more = hn::Sub(constant(unit * fog.color[c]), color);

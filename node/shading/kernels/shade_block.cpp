@@ -18,8 +18,6 @@ namespace mars::shading::MARS_SET {
 namespace {
 
 constexpr float kMostLevel = 255;
-// More light is as much as this, and so is what is no number.
-constexpr float kMostShaded = 1e30f;
 
 // The nearest whole number of 0..255 in the lowest bits, others above them: sums of 2^23 and less have no fraction.
 Ints level(Floats color) {
@@ -196,9 +194,35 @@ void shade_to_levels(const Shading& shading, Block& block, std::uint32_t* pixels
 
 }  // namespace
 
+float most_light(const Shading& shading) {
+  return shading.encoding.space == wire::ColorSpace::coded ? 1.0f : kMostShaded;
+}
+
 void shade_to_light(const Shading& shading, Block& block) {
   shade_samples(shading, 1, block);
-  limit(shading.encoding.space == wire::ColorSpace::coded ? 1.0f : kMostShaded, block);
+  limit(most_light(shading), block);
+}
+
+void shade_base(const Shading& shading, Block& block) {
+  Shading base = shading;
+  base.light_count -= shading.casting_count;
+  if (is_colored(block.model(shading.materials)))
+    take_colors(1, block);
+  else
+    shade_lights(base, 1, block, nullptr);
+}
+
+// As if it were the only light.
+void shade_term(const Shading& shading, std::uint32_t casting, Block& block) {
+  Shading one = shading;
+  one.lights += shading.light_count - shading.casting_count + casting;
+  one.light_count = 1;
+  one.ambient = {{0, 0, 0}, {0, 0, 0}};
+  if (!is_colored(block.model(shading.materials))) return shade_lights(one, 1, block, nullptr);
+  for (std::uint32_t k = 0; k < block.count; k += kLanes) {
+    const Floats none[3] = {zero(), zero(), zero()};
+    store(none, k, block);
+  }
 }
 
 void light_vertices(const Shading& shading, Block& block) {

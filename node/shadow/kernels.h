@@ -1,0 +1,63 @@
+// The inner loops of shadows, each written once and compiled for several instruction sets (kernels/); the bits are the
+// same for all of them. Plain structs and pointers only, as in shape/kernels.h.
+#pragma once
+
+#include <cstdint>
+
+#include "node/shadow/light_view.h"
+#include "node/shadow/point_vector.h"
+#include "node/shape/vertices.h"
+
+namespace mars::simd {
+enum class InstructionSet;
+}
+
+namespace mars::shadow {
+
+// Vertices on a view's grid, kVectorSlack longer than there are; kOffGrid in x where a vertex is off it.
+struct GridVertices {
+  std::int32_t* x;
+  std::int32_t* y;
+  float* z;
+};
+
+inline constexpr std::int32_t kOffGrid = -0x7fffffff - 1;
+
+// Triangles that are small on the grid: differences of their coordinates fit kMostSmall, so that edge functions are
+// exact in 32 bits. Turned so that they run counter-clockwise; bounds of those that are no such triangles are empty.
+struct alignas(64) SmallTriangles {
+  std::int32_t x[3][kPointLanes];
+  std::int32_t y[3][kPointLanes];
+  std::int32_t least[3][kPointLanes];  // of each edge's function, where a point is inside
+  float z[kPointLanes];                // at corner 0
+  float per_x[kPointLanes];
+  float per_y[kPointLanes];
+  float slope[kPointLanes];  // |per_x| + |per_y|
+  std::int32_t low_x[kPointLanes], high_x[kPointLanes], low_y[kPointLanes], high_y[kPointLanes];
+  float high_z[kPointLanes];
+  GridBox box;  // round all of them; its low_z is not used
+};
+inline constexpr std::int32_t kMostSmall = 32767;
+
+struct ShadowKernels {
+  // Vertices from eye space to the grid; the box of those on it. Places have kVectorSlack to spare.
+  GridBox (*project)(const LightView& view, const float* const* place, std::uint32_t count, const GridVertices& out);
+  // Points from places on the screen, pixels, and their 1 / w; inactive where that is 0 or `active` has no bit.
+  void (*put_points)(const LightView& view, const PointFrame& frame, const float* x, const float* y,
+                     const float* inverse_w, std::uint32_t active, PointVector& out);
+  // Sets up the triangles of a batch; bits of those that are not small, which are left to the caller.
+  std::uint32_t (*set_up)(const GridVertices& vertices, const shape::Triangles& triangles, const shape::Batch& batch,
+                          SmallTriangles& out);
+  // Of boxes [first, first + count), a multiple of kPointLanes, those with points that a caster within `box` may block,
+  // where the grid's places of points of one light differ by `spread` (light_view.h). Their numbers go to `found`; says
+  // how many.
+  std::uint32_t (*find)(const BoxArrays& boxes, std::uint32_t first, std::uint32_t count, const GridBox& box,
+                        float spread, std::uint32_t* found);
+  // Blocks those of the points `found` that the triangles are before.
+  void (*block)(const SmallTriangles* batches, std::uint32_t batch_count, PointVector* points,
+                const std::uint32_t* found, std::uint32_t found_count);
+};
+
+const ShadowKernels& shadow_kernels(simd::InstructionSet set);
+
+}  // namespace mars::shadow

@@ -1,0 +1,186 @@
+// Which points casters block.
+#include <cstdint>
+#include <limits>
+
+#include "node/shadow/kernels/functions.h"
+
+namespace mars::shadow::MARS_SET {
+
+namespace {
+
+// Corner `number` of a batch's triangles from lane k on.
+struct Corner {
+  Ints x, y;
+  Floats z;
+
+  Corner(const GridVertices& v, const std::uint32_t* numbers, std::uint32_t k) {
+    const Ints at = hn::LoadU(kInts, reinterpret_cast<const std::int32_t*>(numbers) + k);
+    x = hn::GatherIndex(kInts, v.x, at);
+    y = hn::GatherIndex(kInts, v.y, at);
+    z = hn::GatherIndex(kFloats, v.z, at);
+  }
+};
+
+// The least value of an edge's function inside: points on an edge belong to the triangle on one side of it.
+Ints least_inside(Ints dx, Ints dy) {
+  const Ints none = hn::Zero(kInts), one = hn::Set(kInts, 1);
+  const auto has_edge = hn::Or(hn::Gt(dy, none), hn::And(hn::Eq(dy, none), hn::Gt(dx, none)));
+  return hn::IfThenElse(has_edge, none, one);
+}
+
+Ints cross(Ints ax, Ints ay, Ints bx, Ints by) { return hn::Sub(hn::Mul(ax, by), hn::Mul(ay, bx)); }
+
+bool overlap(const GridBox& casters, const GridBox& points) {
+  return casters.low_x <= points.high_x && casters.high_x >= points.low_x && casters.low_y <= points.high_y &&
+         casters.high_y >= points.low_y && casters.high_z > points.low_z;
+}
+
+// Bits of the triangles whose bounds overlap the points'.
+std::uint32_t overlapping(const SmallTriangles& t, const GridBox& points) {
+  std::uint32_t found = 0;
+  for (std::uint32_t k = 0; k < kPointLanes; k += kLanes) {
+    const auto x = hn::And(at_least(hn::Set(kInts, points.high_x), hn::Load(kInts, t.low_x + k)),
+                           at_least(hn::Load(kInts, t.high_x + k), hn::Set(kInts, points.low_x)));
+    const auto y = hn::And(at_least(hn::Set(kInts, points.high_y), hn::Load(kInts, t.low_y + k)),
+                           at_least(hn::Load(kInts, t.high_y + k), hn::Set(kInts, points.low_y)));
+    const auto z = hn::Gt(hn::Load(kFloats, t.high_z + k), constant(points.low_z));
+    found |= bits(kInts, hn::And(hn::And(x, y), integers(z))) << k;
+  }
+  return found;
+}
+
+// Bits of the points that are inside the triangle and behind it.
+std::uint32_t behind(const SmallTriangles& t, std::uint32_t n, const PointVector& points) {
+  std::uint32_t found = 0;
+  for (std::uint32_t k = 0; k < kPointLanes; k += kLanes) {
+    const Ints x = hn::Load(kInts, points.x + k), y = hn::Load(kInts, points.y + k);
+    const Ints dx = hn::Sub(x, hn::Set(kInts, t.x[0][n])), dy = hn::Sub(y, hn::Set(kInts, t.y[0][n]));
+    const Floats there = hn::Add(hn::Add(constant(t.z[n]), hn::Mul(hn::ConvertTo(kFloats, dy), constant(t.per_y[n]))),
+                                 hn::Mul(hn::ConvertTo(kFloats, dx), constant(t.per_x[n])));
+    const Floats bound = hn::Add(hn::Mul(hn::Load(kFloats, points.lateral + k), constant(t.slope[n])),
+                                 hn::Load(kFloats, points.along + k));
+    const auto nearer = hn::Gt(hn::Sub(there, hn::Load(kFloats, points.z + k)), bound);
+    // Within the bounds, so that no edge function overflows.
+    auto inside = hn::And(integers(nearer),
+                          hn::And(at_least(x, hn::Set(kInts, t.low_x[n])), at_least(hn::Set(kInts, t.high_x[n]), x)));
+    inside =
+        hn::And(inside, hn::And(at_least(y, hn::Set(kInts, t.low_y[n])), at_least(hn::Set(kInts, t.high_y[n]), y)));
+    if (hn::AllFalse(kInts, inside)) continue;
+    for (int e = 0; e < 3; ++e) {
+      const int to = e == 2 ? 0 : e + 1;
+      const Ints function = cross(hn::Set(kInts, t.x[to][n] - t.x[e][n]), hn::Set(kInts, t.y[to][n] - t.y[e][n]),
+                                  hn::Sub(x, hn::Set(kInts, t.x[e][n])), hn::Sub(y, hn::Set(kInts, t.y[e][n])));
+      inside = hn::And(inside, at_least(function, hn::Set(kInts, t.least[e][n])));
+    }
+    found |= bits(kInts, inside) << k;
+  }
+  return found;
+}
+
+}  // namespace
+
+std::uint32_t set_up(const GridVertices& vertices, const shape::Triangles& triangles, const shape::Batch& batch,
+                     SmallTriangles& out) {
+  constexpr std::int32_t kMost = std::numeric_limits<std::int32_t>::max();
+  const Ints none = hn::Zero(kInts), off = hn::Set(kInts, kOffGrid);
+  std::uint32_t large = 0;
+  GridBox& box = out.box = {kMost, -kMost, kMost, -kMost, 0, -std::numeric_limits<float>::max()};
+  for (std::uint32_t k = 0; k < kPointLanes; k += kLanes) {
+    const auto there =
+        k + batch.first < batch.last ? hn::FirstN(kInts, batch.last - batch.first - k) : hn::FirstN(kInts, 0);
+    const Corner a(vertices, triangles.a + batch.first, k);
+    Corner b(vertices, triangles.b + batch.first, k), c(vertices, triangles.c + batch.first, k);
+    const Ints low_x = hn::Min(a.x, hn::Min(b.x, c.x)), high_x = hn::Max(a.x, hn::Max(b.x, c.x));
+    const Ints low_y = hn::Min(a.y, hn::Min(b.y, c.y)), high_y = hn::Max(a.y, hn::Max(b.y, c.y));
+    const Ints most = hn::Set(kInts, kMostSmall);
+    const auto on = hn::Ne(low_x, off);
+    const auto small =
+        hn::And(on, hn::And(at_least(most, hn::Sub(high_x, low_x)), at_least(most, hn::Sub(high_y, low_y))));
+    large |= bits(kInts, hn::AndNot(small, there)) << k;
+    Ints x1 = hn::Sub(b.x, a.x), y1 = hn::Sub(b.y, a.y), x2 = hn::Sub(c.x, a.x), y2 = hn::Sub(c.y, a.y);
+    const Ints area = hn::IfThenElseZero(small, cross(x1, y1, x2, y2));
+    const auto turned = hn::Lt(area, none);
+    const auto swap = [&](auto& one, auto& other, auto mask) {
+      const auto before = one;
+      one = hn::IfThenElse(mask, other, one);
+      other = hn::IfThenElse(mask, before, other);
+    };
+    swap(b.x, c.x, turned), swap(b.y, c.y, turned), swap(b.z, c.z, floats(turned));
+    swap(x1, x2, turned), swap(y1, y2, turned);
+    const Floats inverse = hn::Div(constant(1.0f), hn::ConvertTo(kFloats, hn::Abs(area)));
+    const Floats z1 = hn::Sub(b.z, a.z), z2 = hn::Sub(c.z, a.z);
+    const auto number = [](Ints i) { return hn::ConvertTo(kFloats, i); };
+    const Floats per_x = hn::Mul(hn::Sub(hn::Mul(z1, number(y2)), hn::Mul(z2, number(y1))), inverse);
+    const Floats per_y = hn::Mul(hn::Sub(hn::Mul(z2, number(x1)), hn::Mul(z1, number(x2))), inverse);
+    const auto drawn = hn::And(hn::And(small, there), hn::Ne(area, none));
+    const Ints *xs[3] = {&a.x, &b.x, &c.x}, *ys[3] = {&a.y, &b.y, &c.y};
+    for (int e = 0; e < 3; ++e) {
+      const int to = e == 2 ? 0 : e + 1;
+      hn::Store(*xs[e], kInts, out.x[e] + k);
+      hn::Store(*ys[e], kInts, out.y[e] + k);
+      hn::Store(least_inside(hn::Sub(*xs[to], *xs[e]), hn::Sub(*ys[to], *ys[e])), kInts, out.least[e] + k);
+    }
+    hn::Store(a.z, kFloats, out.z + k);
+    hn::Store(per_x, kFloats, out.per_x + k);
+    hn::Store(per_y, kFloats, out.per_y + k);
+    hn::Store(hn::Add(hn::Abs(per_x), hn::Abs(per_y)), kFloats, out.slope + k);
+    const Floats high_z = hn::Max(a.z, hn::Max(b.z, c.z));
+    const Ints lows[2] = {hn::IfThenElse(drawn, low_x, hn::Set(kInts, kMost)),
+                          hn::IfThenElse(drawn, low_y, hn::Set(kInts, kMost))};
+    const Ints highs[2] = {hn::IfThenElse(drawn, high_x, hn::Set(kInts, -kMost)),
+                           hn::IfThenElse(drawn, high_y, hn::Set(kInts, -kMost))};
+    const Floats high = hn::IfThenElse(floats(drawn), high_z, constant(-std::numeric_limits<float>::max()));
+    hn::Store(lows[0], kInts, out.low_x + k);
+    hn::Store(highs[0], kInts, out.high_x + k);
+    hn::Store(lows[1], kInts, out.low_y + k);
+    hn::Store(highs[1], kInts, out.high_y + k);
+    hn::Store(high, kFloats, out.high_z + k);
+    const auto least = [](std::int32_t so_far, Ints v) {
+      const std::int32_t here = MARS_SET::least(kInts, v);
+      return here < so_far ? here : so_far;
+    };
+    const auto greatest = [](std::int32_t so_far, Ints v) {
+      const std::int32_t here = MARS_SET::greatest(kInts, v);
+      return here > so_far ? here : so_far;
+    };
+    box.low_x = least(box.low_x, lows[0]), box.high_x = greatest(box.high_x, highs[0]);
+    box.low_y = least(box.low_y, lows[1]), box.high_y = greatest(box.high_y, highs[1]);
+    const float highest = MARS_SET::greatest(kFloats, high);
+    box.high_z = highest > box.high_z ? highest : box.high_z;
+  }
+  return large;
+}
+
+std::uint32_t find(const BoxArrays& boxes, std::uint32_t first, std::uint32_t count, const GridBox& box, float spread,
+                   std::uint32_t* found) {
+  std::uint32_t* next = found;
+  const Floats low_x = constant(static_cast<float>(box.low_x)), high_x = constant(static_cast<float>(box.high_x));
+  const Floats low_y = constant(static_cast<float>(box.low_y)), high_y = constant(static_cast<float>(box.high_y));
+  for (std::uint32_t k = first; k < first + count; k += kLanes) {
+    const Floats height = hn::Sub(constant(box.high_z), hn::LoadU(kFloats, boxes.low_z + k));
+    const Floats margin = hn::Mul(height, constant(spread));
+    const auto x = hn::And(hn::Le(hn::Sub(low_x, margin), hn::LoadU(kFloats, boxes.high_x + k)),
+                           hn::Ge(hn::Add(high_x, margin), hn::LoadU(kFloats, boxes.low_x + k)));
+    const auto y = hn::And(hn::Le(hn::Sub(low_y, margin), hn::LoadU(kFloats, boxes.high_y + k)),
+                           hn::Ge(hn::Add(high_y, margin), hn::LoadU(kFloats, boxes.low_y + k)));
+    std::uint32_t left = bits(kFloats, hn::And(hn::And(x, y), hn::Gt(height, constant(0.0f))));
+    for (; left != 0; left &= left - 1) *next++ = k + static_cast<std::uint32_t>(__builtin_ctz(left));
+  }
+  return static_cast<std::uint32_t>(next - found);
+}
+
+void block(const SmallTriangles* batches, std::uint32_t batch_count, PointVector* points, const std::uint32_t* found,
+           std::uint32_t found_count) {
+  for (const std::uint32_t* at = found; at != found + found_count; ++at) {
+    PointVector& here = points[*at];
+    for (const SmallTriangles* batch = batches; batch != batches + batch_count; ++batch) {
+      if (!overlap(batch->box, here.box)) continue;
+      for (std::uint32_t left = overlapping(*batch, here.box); left != 0; left &= left - 1) {
+        if ((here.active & ~here.blocked) == 0) break;
+        here.blocked |= behind(*batch, static_cast<std::uint32_t>(__builtin_ctz(left)), here) & here.active;
+      }
+    }
+  }
+}
+
+}  // namespace mars::shadow::MARS_SET

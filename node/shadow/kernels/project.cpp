@@ -1,0 +1,132 @@
+// Places of eye space on a view's grid: vertices of casters, and points.
+#include <cstdint>
+#include <limits>
+
+#include "node/shadow/kernels/functions.h"
+
+namespace mars::shadow::MARS_SET {
+
+namespace {
+
+constexpr float kMostOnGrid = 1 << 29;
+
+// A vector of places, seen by a view.
+struct Seen {
+  Floats x, y, z;
+  Floats depth, across_u, across_v;  // of lights with a place
+  hn::Mask<FloatTag> before;         // the light, far enough from it
+  hn::Mask<FloatTag> on_grid;
+
+  Seen(const LightView& view, Floats px, Floats py, Floats pz) {
+    if (view.has_place) {
+      px = hn::Sub(px, constant(view.place[0]));
+      py = hn::Sub(py, constant(view.place[1]));
+      pz = hn::Sub(pz, constant(view.place[2]));
+    }
+    const auto along = [&](const float* a) {
+      return hn::Add(hn::Add(hn::Mul(constant(a[0]), px), hn::Mul(constant(a[1]), py)), hn::Mul(constant(a[2]), pz));
+    };
+    depth = along(view.axis), across_u = along(view.u), across_v = along(view.v);
+    const Floats steps = constant(view.per_step), most = constant(kMostOnGrid);
+    z = depth;
+    x = across_u, y = across_v;
+    before = hn::Eq(depth, depth);
+    if (view.has_place) {
+      before = hn::Ge(depth, constant(view.nearest));
+      z = hn::Div(constant(1.0f), depth);
+      x = hn::Mul(x, z), y = hn::Mul(y, z);
+    }
+    x = hn::Mul(x, steps), y = hn::Mul(y, steps);
+    on_grid = hn::And(before, hn::And(hn::Le(hn::Abs(x), most), hn::Le(hn::Abs(y), most)));
+  }
+};
+
+Ints on_grid(Floats place, hn::Mask<FloatTag> mask) {
+  const Ints steps = hn::NearestInt(hn::IfThenElseZero(mask, place));
+  return hn::IfThenElse(integers(mask), steps, hn::Set(kInts, kOffGrid));
+}
+
+// Grows lane by lane.
+class Bounds {
+ public:
+  void add(Ints x, Ints y, Floats z, hn::Mask<FloatTag> mask) {
+    const auto of = integers(mask);
+    low_x_ = hn::Min(low_x_, hn::IfThenElse(of, x, low_x_)), high_x_ = hn::Max(high_x_, hn::IfThenElse(of, x, high_x_));
+    low_y_ = hn::Min(low_y_, hn::IfThenElse(of, y, low_y_)), high_y_ = hn::Max(high_y_, hn::IfThenElse(of, y, high_y_));
+    low_z_ = hn::Min(low_z_, hn::IfThenElse(mask, z, low_z_)),
+    high_z_ = hn::Max(high_z_, hn::IfThenElse(mask, z, high_z_));
+  }
+  GridBox box() const {
+    return {MARS_SET::least(kInts, low_x_),   MARS_SET::greatest(kInts, high_x_),
+            MARS_SET::least(kInts, low_y_),   MARS_SET::greatest(kInts, high_y_),
+            MARS_SET::least(kFloats, low_z_), MARS_SET::greatest(kFloats, high_z_)};
+  }
+
+ private:
+  static constexpr std::int32_t kLow = std::numeric_limits<std::int32_t>::min();
+  static constexpr std::int32_t kHigh = std::numeric_limits<std::int32_t>::max();
+  Ints low_x_ = hn::Set(kInts, kHigh), high_x_ = hn::Set(kInts, kLow);
+  Ints low_y_ = hn::Set(kInts, kHigh), high_y_ = hn::Set(kInts, kLow);
+  Floats low_z_ = constant(std::numeric_limits<float>::max()), high_z_ = constant(-std::numeric_limits<float>::max());
+};
+
+}  // namespace
+
+GridBox project(const LightView& view, const float* const* place, std::uint32_t count, const GridVertices& out) {
+  Bounds bounds;
+  bool any_off = false, any_before = false;
+  for (std::uint32_t k = 0; k < count; k += kLanes) {
+    const Seen seen(view, hn::LoadU(kFloats, place[0] + k), hn::LoadU(kFloats, place[1] + k),
+                    hn::LoadU(kFloats, place[2] + k));
+    const Ints x = on_grid(seen.x, seen.on_grid), y = on_grid(seen.y, seen.on_grid);
+    hn::StoreU(x, kInts, out.x + k);
+    hn::StoreU(y, kInts, out.y + k);
+    hn::StoreU(seen.z, kFloats, out.z + k);
+    const auto there = hn::FirstN(kFloats, count - k);
+    bounds.add(x, y, seen.z, hn::And(there, seen.on_grid));
+    any_off |= !hn::AllFalse(kFloats, hn::AndNot(seen.on_grid, there));
+    any_before |= !hn::AllFalse(kFloats, hn::And(there, seen.before));
+  }
+  constexpr std::int32_t kMost = std::numeric_limits<std::int32_t>::max();
+  constexpr float kFar = std::numeric_limits<float>::max();
+  if (!any_before) return {1, 0, 1, 0, 0, 0};
+  return any_off ? GridBox{-kMost, kMost, -kMost, kMost, -kFar, kFar} : bounds.box();
+}
+
+void put_points(const LightView& view, const PointFrame& frame, const float* x, const float* y, const float* inverse_w,
+                std::uint32_t active, PointVector& out) {
+  Bounds bounds;
+  out.active = out.blocked = 0;
+  const Floats per_pixel = constant(1.0f / frame.scale);
+  for (std::uint32_t k = 0; k < kPointLanes; k += kLanes) {
+    const Floats inverse = hn::LoadU(kFloats, inverse_w + k), w = hn::Div(constant(1.0f), inverse);
+    const Floats px = hn::Mul(hn::Mul(hn::Sub(hn::LoadU(kFloats, x + k), constant(frame.center[0])), per_pixel), w);
+    const Floats py = hn::Mul(hn::Mul(hn::Sub(constant(frame.center[1]), hn::LoadU(kFloats, y + k)), per_pixel), w);
+    const Seen seen(view, px, py, hn::Neg(w));
+    auto here = hn::And(seen.on_grid, hn::Gt(inverse, constant(0.0f)));
+    if (view.is_face) {
+      here = hn::And(here, hn::Le(hn::Abs(seen.across_u), seen.depth));
+      here = hn::And(here, hn::Le(hn::Abs(seen.across_v), seen.depth));
+    }
+    const std::uint8_t asked[8] = {static_cast<std::uint8_t>(active >> k), static_cast<std::uint8_t>(active >> k >> 8)};
+    here = hn::And(here, hn::LoadMaskBits(kFloats, asked));
+    Floats e = hn::Add(hn::Mul(w, constant(frame.by_w)), constant(frame.grid));
+    Floats lateral = hn::Mul(e, constant(view.per_step)), along = e;
+    if (view.has_place) {
+      e = hn::Add(e, hn::Mul(seen.depth, constant(frame.by_depth)));
+      lateral = hn::Mul(hn::Mul(e, seen.z), constant(view.per_step));
+      along = hn::Mul(hn::Mul(e, seen.z), seen.z);
+    }
+    const Ints grid_x = on_grid(seen.x, here), grid_y = on_grid(seen.y, here);
+    hn::Store(grid_x, kInts, out.x + k);
+    hn::Store(grid_y, kInts, out.y + k);
+    hn::Store(hn::IfThenElseZero(here, seen.z), kFloats, out.z + k);
+    hn::Store(hn::IfThenElseZero(here, lateral), kFloats, out.lateral + k);
+    hn::Store(hn::IfThenElseZero(here, along), kFloats, out.along + k);
+    bounds.add(grid_x, grid_y, seen.z, here);
+    out.active |= bits(kFloats, here) << k;
+  }
+  out.box = bounds.box();
+}
+
+}  // namespace mars::shadow::MARS_SET

@@ -1,0 +1,8 @@
+#include "node/shadow/kernels/functions.h"
+
+namespace mars::shadow::MARS_SET {
+
+extern const ShadowKernels shadow_kernels;
+const ShadowKernels shadow_kernels = {project, put_points, set_up, find, block};
+
+}  // namespace mars::shadow::MARS_SET

@@ -1,0 +1,62 @@
+// A light that casts sees the scene as a camera does, from one point of it at a time: a view, with a grid that depends
+// on light, camera and picture size alone. Points and casters are snapped to the grid, so that whether a caster covers
+// a point is decided in whole numbers.
+//
+// A view maps a place p of eye space to x, y (grid steps) and z, which grows towards the light:
+//   of a directional light  x = u.p / step, y = v.p / step, z = axis.p
+//   of others, with q = p - place and depth = axis.q  x = u.q / (depth step), y = v.q / (depth step), z = 1 / depth.
+// Lights with a place have six such views, one along each axis of eye space; a spot whose cone has at most 90 degrees
+// has one. What is plane in space is plane over the grid too.
+//
+// Rounding. A point lies off its surface by at most 1/256 of a pixel there, for triangles are snapped on the screen;
+// off its place on the grid by a step; and float arithmetic moves it by its distance times 2^-20 at most. Let e be the
+// sum of these lengths. A surface through the true point is then nearer to the light than the point by at most
+// e (1 + s), s the surface's slope towards the view: what is not nearer by more does not block it. This includes the
+// point's own triangle and those that meet it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "node/geometry/eye_light.h"
+#include "node/shape/vertices.h"
+
+namespace mars::shadow {
+
+struct LightView {
+  float u[3], v[3];
+  float axis[3];  // to a directional light; away from others
+  float place[3];
+  float per_step;
+  float nearest;  // depth of what lights with a place shine at, at least; nearer to them nothing casts or is shaded
+  std::uint32_t has_place;
+  std::uint32_t is_face;  // of six: only points within 45 degrees of its axis are its own
+};
+
+// What points need of a picture: e of a point at distance w along the view axis is w * by_w + grid, and of lights with
+// a place depth * by_depth more.
+struct PointFrame {
+  float scale;  // as in shape::Projection
+  float center[2];
+  float by_w;
+  float grid;
+  float by_depth;
+};
+
+// Points of a light that has a size: a fixed set, of which each pixel has as many as its pairs (pairs.h).
+inline constexpr std::uint32_t kLightPoints = 64;
+
+// One light, seen from its points.
+struct LightViews {
+  std::uint32_t points;          // 1 or kLightPoints
+  std::uint32_t faces;           // views of a point
+  std::vector<LightView> views;  // point by point
+  LightView middle;              // the view of its middle; of six, the first
+  float spread;  // grid steps between what the middle and another point see, for each unit of z from caster to point
+  PointFrame frame;
+};
+
+// `light` casts.
+LightViews light_views(const geometry::EyeLight& light, const shape::Projection& projection);
+
+}  // namespace mars::shadow

@@ -1,0 +1,123 @@
+// Points of a band on the grid of one view, and which of them a caster may block.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "node/shadow/band.h"
+#include "node/shadow/kernels.h"
+#include "node/shadow/pairs.h"
+#include "node/shape/sample_pattern.h"
+
+namespace mars::shadow {
+
+// Round nothing, and round both.
+extern const GridBox kNowhere;
+GridBox around(const GridBox& a, const GridBox& b);
+
+// Boxes, and boxes round sixteen of them each.
+class BoxTree {
+ public:
+  void clear();
+  void add(const GridBox& box);
+  void finish();  // before it is asked
+  std::uint32_t count() const { return count_; }
+
+  // Whether a caster within `box` may block points of any box, by `spread` (kernels.h).
+  bool any(const ShadowKernels& kernels, const GridBox& box, float spread);
+  // Numbers of the boxes whose points it may block; until the next call.
+  std::span<const std::uint32_t> find(const ShadowKernels& kernels, const GridBox& box, float spread);
+
+ private:
+  struct Arrays {
+    std::vector<float> low_x, high_x, low_y, high_y, low_z;
+
+    void clear();
+    void add(const GridBox& box);
+    void fill_last();
+    BoxArrays view() const { return {low_x.data(), high_x.data(), low_y.data(), high_y.data(), low_z.data()}; }
+  };
+
+  std::uint32_t find_around(const ShadowKernels& kernels, const GridBox& box, float spread);
+
+  Arrays boxes_, around_;
+  GridBox last_{};  // round those since the last in around_
+  std::uint32_t count_ = 0;
+  std::vector<std::uint32_t> found_around_, found_;
+};
+
+// What points are made of, besides the view: the same throughout a picture.
+struct PointSource {
+  const ShadowKernels& kernels;
+  const PointFrame& frame;
+  const shape::SamplePattern& pattern;
+  const PairVectors& vectors;
+  std::uint32_t light;        // number of the casting light
+  std::uint32_t light_point;  // of it
+};
+
+// Puts those points of a square on the view's grid that count(pairs, lane, moved) says, `moved` being what moving
+// casters block; calls visit(points, vector) for each vector that has some.
+template <typename Counts, typename Visit>
+void for_each_vector(const PointSource& source, const Layer& layer, std::uint32_t tile, const Counts& counts,
+                     const LightView& view, const Visit& visit);
+
+// The points that one view decides about.
+class Points {
+ public:
+  void clear();
+  // Those of a layer that matter and are not blocked, for shadows of `casting`.
+  void add(const PointSource& source, const LightView& view, const Layer& layer, Casting casting);
+  void finish() { tree_.finish(); }
+
+  bool empty() const { return vectors_.empty(); }
+  std::uint64_t count() const { return count_; }
+  BoxTree& tree() { return tree_; }
+  PointVector* vectors() { return vectors_.data(); }
+  // Writes down what is blocked.
+  void note(const PointSource& source, Casting casting) const;
+
+ private:
+  struct Origin {
+    const Layer* layer;
+    std::uint32_t tile;
+    std::uint32_t vector;
+  };
+
+  std::vector<PointVector> vectors_;
+  std::vector<Origin> origins_;
+  BoxTree tree_;
+  std::uint64_t count_ = 0;
+};
+
+template <typename Counts, typename Visit>
+void for_each_vector(const PointSource& source, const Layer& layer, std::uint32_t tile, const Counts& counts,
+                     const LightView& view, const Visit& visit) {
+  constexpr float kPixel = 1.0f / shape::kSubpixels;
+  alignas(64) float x[kPointLanes], y[kPointLanes], inverse_w[kPointLanes] = {};
+  const std::size_t of_light = std::size_t{source.light} * layer.width;
+  const std::uint32_t left = tile % layer.tiles_across() * kTile, top = tile / layer.tiles_across() * kTile;
+  PointVector points;
+  for (std::uint32_t v = 0; v < source.vectors.vectors(); ++v) {
+    std::uint32_t active = 0;
+    for (std::uint32_t k = 0; k < kPointLanes; ++k) {
+      const Lane lane = source.vectors.lanes(source.light_point, v)[k];
+      const std::uint32_t column = left + lane.column, number = top + lane.line;
+      if (column >= layer.width || !layer.range.has(number)) continue;
+      const LayerLine& line = layer.line(number);
+      if (line.depth == nullptr) continue;
+      const std::size_t at = of_light + column;
+      if (!counts(line.pairs[at], lane, line.moved == nullptr ? std::uint16_t{0} : line.moved[at])) continue;
+      active |= 1u << k;
+      inverse_w[k] = line.depth[lane.sample * line.stride + column];
+      x[k] = static_cast<float>(column) + static_cast<float>(source.pattern.x[lane.sample]) * kPixel;
+      y[k] = static_cast<float>(number) + static_cast<float>(source.pattern.y[lane.sample]) * kPixel;
+    }
+    if (active == 0) continue;
+    source.kernels.put_points(view, source.frame, x, y, inverse_w, active, points);
+    if (points.active != 0) visit(points, v);
+  }
+}
+
+}  // namespace mars::shadow

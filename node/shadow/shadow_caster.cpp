@@ -1,0 +1,214 @@
+#include "node/shadow/shadow_caster.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "node/shadow/block_plainly.h"
+#include "node/simd/vector_slack.h"
+
+namespace mars::shadow {
+namespace {
+
+constexpr std::uint32_t kMostBatches = 64;  // that are set up at a time, so that they stay in a cache
+constexpr float kFloatError = 1.0f / (1 << 20);
+
+float largest(const float* const* points, std::uint32_t count) {
+  float most = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    for (std::uint32_t k = 0; k < count; ++k) most = std::max(most, std::abs(points[axis][k]));
+  return most;
+}
+
+std::int32_t clamped(double steps) {
+  constexpr double kMost = std::numeric_limits<std::int32_t>::max();
+  return static_cast<std::int32_t>(std::clamp(steps, -kMost, kMost));
+}
+
+}  // namespace
+
+ShadowCaster::ShadowCaster(simd::InstructionSet set, const geometry::Scene& scene)
+    : kernels_(shadow_kernels(set)),
+      pattern_(scene.pattern()),
+      samples_(static_cast<std::uint32_t>(pattern_.count)),
+      hard_(samples_, false),
+      soft_(samples_, true),
+      casters_(set),
+      grid_x_(static_cast<std::size_t>(shape::Dicer::kMostVertices + simd::kVectorSlack)),
+      grid_y_(grid_x_.size()),
+      grid_z_(grid_x_.size()),
+      small_(kMostBatches) {}
+
+void ShadowCaster::begin(const geometry::Scene& scene, const std::function<void()>& look) {
+  look_ = look;
+  lights_.clear();
+  for (const geometry::EyeLight& light : scene.casting_lights())
+    lights_.push_back(light_views(light, scene.projection()));
+}
+
+void ShadowCaster::cast(const geometry::Scene& scene, Casting casting, std::span<Layer* const> onto) {
+  for (std::uint32_t light = 0; light < lights(); ++light)
+    if (has_size(light))
+      cast_from_all(scene, casting, light, onto);
+    else
+      cast_once(scene, casting, light, onto);
+}
+
+PointSource ShadowCaster::source_of(std::uint32_t light, std::uint32_t point) const {
+  return {kernels_, lights_[light].frame, pattern_, vectors_of(light), light, has_size(light) ? point : 0};
+}
+
+std::span<const LightView> ShadowCaster::views_of(std::uint32_t light, std::uint32_t point) const {
+  const LightViews& all = lights_[light];
+  return std::span(all.views).subspan(std::size_t{point} * all.faces, all.faces);
+}
+
+// Of a light without size: its points stay on their grids while casters stream by.
+void ShadowCaster::cast_once(const geometry::Scene& scene, Casting casting, std::uint32_t light,
+                             std::span<Layer* const> onto) {
+  const PointSource source = source_of(light, 0);
+  const auto views = views_of(light, 0);
+  put_points(source, views, casting, onto);
+  const auto matters = [&](const float* const* hull, std::uint32_t count) {
+    for (std::size_t f = 0; f < views.size(); ++f)
+      if (!points_[f].empty() && points_[f].tree().any(kernels_, box_of_hull(views[f], hull, count), 0)) return true;
+    return false;
+  };
+  casters_.begin(scene, casting);
+  for (auto chunk = casters_.next(matters); !chunk.empty(); chunk = casters_.next(matters)) block(chunk, views);
+  for (const Points& points : points_) points.note(source, casting);
+}
+
+// Of a light that has a size: each chunk of casters is seen from each of its points, with the points that this one
+// decides about.
+void ShadowCaster::cast_from_all(const geometry::Scene& scene, Casting casting, std::uint32_t light,
+                                 std::span<Layer* const> onto) {
+  const LightViews& all = lights_[light];
+  bounds_.clear();
+  if (has_bounds(light))
+    for (const Layer* layer : onto) bound(light, *layer, bounds_);
+  const auto matters = [&](const float* const* hull, std::uint32_t count) {
+    if (!has_bounds(light)) return true;
+    return std::ranges::any_of(bounds_, [&](TileBounds& face) {
+      return face.tree.any(kernels_, box_of_hull(all.middle, hull, count), all.spread);
+    });
+  };
+  casters_.begin(scene, casting);
+  for (auto chunk = casters_.next(matters); !chunk.empty(); chunk = casters_.next(matters))
+    for (std::uint32_t point = 0; point < all.points; ++point) {
+      const PointSource source = source_of(light, point);
+      put_points(source, views_of(light, point), casting, onto);
+      block(chunk, views_of(light, point));
+      for (const Points& points : points_) points.note(source, casting);
+    }
+}
+
+void ShadowCaster::put_points(const PointSource& source, std::span<const LightView> views, Casting casting,
+                              std::span<Layer* const> onto) {
+  points_.resize(views.size());
+  for (std::size_t f = 0; f < views.size(); ++f) {
+    points_[f].clear();
+    for (const Layer* layer : onto) points_[f].add(source, views[f], *layer, casting);
+    points_[f].finish();
+    counts_.points += points_[f].count();
+  }
+  look_();
+}
+
+void ShadowCaster::block(std::span<const Caster> casters, std::span<const LightView> views) {
+  for (std::size_t f = 0; f < views.size(); ++f) {
+    if (points_[f].empty()) continue;
+    for (const Caster& caster : casters) block(caster, views[f], points_[f]);
+    look_();
+  }
+  counts_.surfaces += casters.size();
+}
+
+void ShadowCaster::block(const Caster& caster, const LightView& view, Points& points) {
+  const GridVertices vertices{grid_x_.data(), grid_y_.data(), grid_z_.data()};
+  const GridBox box = kernels_.project(view, caster.place, caster.vertices, vertices);
+  counts_.vertices += caster.vertices;
+  if (box.low_x > box.high_x) return;
+  const auto found = points.tree().find(kernels_, box, 0);
+  if (found.empty()) return;
+  counts_.triangles += caster.triangles.count;
+  for (std::uint32_t first = 0; first < caster.triangles.batch_count; first += kMostBatches) {
+    const std::uint32_t count = std::min(kMostBatches, caster.triangles.batch_count - first);
+    for (std::uint32_t b = 0; b < count; ++b) {
+      const shape::Batch& batch = caster.triangles.batches[first + b];
+      std::uint32_t large = kernels_.set_up(vertices, caster.triangles, batch, small_[b]);
+      for (; large != 0; large &= large - 1)
+        block_plainly(view, caster, vertices, batch.first + static_cast<std::uint32_t>(std::countr_zero(large)),
+                      points.vectors(), found);
+    }
+    kernels_.block(small_.data(), count, points.vectors(), found.data(), static_cast<std::uint32_t>(found.size()));
+  }
+}
+
+// A little wider, for vertices lie within the hull but for rounding.
+GridBox ShadowCaster::box_of_hull(const LightView& view, const float* const* hull, std::uint32_t count) {
+  GridBox box = kernels_.project(view, hull, count, {grid_x_.data(), grid_y_.data(), grid_z_.data()});
+  if (box.low_x > box.high_x) return box;
+  const double nearer = view.has_place ? double{box.high_z} : 1.0;
+  const double margin = double{largest(hull, count)} * kFloatError * nearer * view.per_step;
+  box.low_x = clamped(box.low_x - margin), box.high_x = clamped(box.high_x + margin);
+  box.low_y = clamped(box.low_y - margin), box.high_y = clamped(box.high_y + margin);
+  return box;
+}
+
+void ShadowCaster::bound(std::uint32_t light, const Layer& layer, std::vector<TileBounds>& faces) const {
+  const LightViews& all = lights_[light];
+  const auto views = has_size(light) ? std::span(&all.middle, 1) : views_of(light, 0);
+  for (const LightView& view : views) {
+    TileBounds& face = faces.emplace_back();
+    face.tree.clear();
+    for (const std::uint32_t tile : layer.tiles) {
+      const GridBox box = bound_tile(light, view, layer, tile);
+      if (box.low_x > box.high_x) continue;
+      face.tree.add(box);
+      face.tiles.push_back(tile);
+    }
+    face.tree.finish();
+  }
+}
+
+GridBox ShadowCaster::bound_tile(std::uint32_t light, const LightView& view, const Layer& layer,
+                                 std::uint32_t tile) const {
+  const std::uint32_t n = pairs_a_sample(light), some = (1u << n) - 1;
+  GridBox box = kNowhere;
+  for_each_vector(
+      {kernels_, lights_[light].frame, pattern_, hard_, light, 0}, layer, tile,
+      [&](const wire::StillPairs& pairs, const Lane& lane, std::uint16_t) {
+        return (pairs.lit >> (lane.sample * n) & some) != 0;
+      },
+      view, [&](const PointVector& points, std::uint32_t) { box = around(box, points.box); });
+  return box;
+}
+
+void ShadowCaster::bound_still(const Layer& still) {
+  still_bounds_.resize(lights());
+  for (std::uint32_t light = 0; light < lights(); ++light) {
+    still_bounds_[light].clear();
+    if (has_bounds(light)) bound(light, still, still_bounds_[light]);
+  }
+}
+
+void ShadowCaster::find_shaded(const geometry::Scene& scene, std::vector<std::uint32_t>& tiles) {
+  if (!std::ranges::all_of(std::views::iota(0u, lights()), [this](std::uint32_t l) { return has_bounds(l); })) return;
+  is_shaded_.assign(tiles.empty() ? 0 : *std::ranges::max_element(tiles) + 1, std::uint8_t{0});
+  casters_.visit_hulls(scene, Casting::moving, [&](const float* const* hull, std::uint32_t count) {
+    for (std::uint32_t light = 0; light < lights(); ++light) {
+      const LightViews& all = lights_[light];
+      for (std::size_t f = 0; f < still_bounds_[light].size(); ++f) {
+        const LightView& view = has_size(light) ? all.middle : all.views[f];
+        TileBounds& bounds = still_bounds_[light][f];
+        for (const std::uint32_t box : bounds.tree.find(kernels_, box_of_hull(view, hull, count), all.spread))
+          if (bounds.tiles[box] < is_shaded_.size()) is_shaded_[bounds.tiles[box]] = 1;
+      }
+    }
+  });
+  std::erase_if(tiles, [this](std::uint32_t tile) { return is_shaded_[tile] == 0; });
+}
+
+}  // namespace mars::shadow

@@ -1,0 +1,89 @@
+// Which pairs of a band's points casters block: puts the points on the grids of each light's views, and has casters
+// stream by.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "node/geometry/scene.h"
+#include "node/shadow/band.h"
+#include "node/shadow/casters.h"
+#include "node/shadow/light_view.h"
+#include "node/shadow/points.h"
+
+namespace mars::shadow {
+
+// What was done since it was asked last.
+struct CastCounts {
+  std::uint64_t points = 0;     // put on a grid
+  std::uint64_t surfaces = 0;   // diced
+  std::uint64_t vertices = 0;   // put on a grid
+  std::uint64_t triangles = 0;  // set up
+};
+
+class ShadowCaster {
+ public:
+  ShadowCaster(simd::InstructionSet set, const geometry::Scene& scene);
+
+  // The lights as they are in the scene's frame. `look` is called now and then.
+  void begin(const geometry::Scene& scene, const std::function<void()>& look);
+  std::uint32_t lights() const { return static_cast<std::uint32_t>(lights_.size()); }
+  std::uint32_t pairs_a_sample(std::uint32_t light) const { return shadow::pairs_a_sample(samples_, has_size(light)); }
+
+  // Lets casters of one kind block pairs of the layers.
+  void cast(const geometry::Scene& scene, Casting casting, std::span<Layer* const> onto);
+
+  // Of what stands still throughout an interval: remembers where its points are.
+  void bound_still(const Layer& still);
+  void forget_still() { still_bounds_.clear(); }
+  bool knows_still() const { return !still_bounds_.empty(); }
+  // The squares of these whose points the scene's moving casters may block; all where that is not known.
+  void find_shaded(const geometry::Scene& scene, std::vector<std::uint32_t>& tiles);
+
+  CastCounts take_counts() { return std::exchange(counts_, {}); }
+
+ private:
+  // Squares' points, seen from a light's middle.
+  struct TileBounds {
+    BoxTree tree;
+    std::vector<std::uint32_t> tiles;  // of each box
+  };
+
+  bool has_size(std::uint32_t light) const { return lights_[light].points > 1; }
+  // Whether it is known where points of all its views lie from where the middle sees them.
+  bool has_bounds(std::uint32_t light) const { return !has_size(light) || !lights_[light].middle.has_place; }
+  const PairVectors& vectors_of(std::uint32_t light) const { return has_size(light) ? soft_ : hard_; }
+  PointSource source_of(std::uint32_t light, std::uint32_t point) const;
+  std::span<const LightView> views_of(std::uint32_t light, std::uint32_t point) const;
+  void bound(std::uint32_t light, const Layer& layer, std::vector<TileBounds>& faces) const;
+  GridBox bound_tile(std::uint32_t light, const LightView& view, const Layer& layer, std::uint32_t tile) const;
+  GridBox box_of_hull(const LightView& view, const float* const* hull, std::uint32_t count);
+
+  void cast_once(const geometry::Scene& scene, Casting casting, std::uint32_t light, std::span<Layer* const> onto);
+  void cast_from_all(const geometry::Scene& scene, Casting casting, std::uint32_t light, std::span<Layer* const> onto);
+  void put_points(const PointSource& source, std::span<const LightView> views, Casting casting,
+                  std::span<Layer* const> onto);
+  void block(std::span<const Caster> casters, std::span<const LightView> views);
+  void block(const Caster& caster, const LightView& view, Points& points);
+
+  const ShadowKernels& kernels_;
+  shape::SamplePattern pattern_;
+  std::uint32_t samples_;
+  PairVectors hard_, soft_;
+  CasterStream casters_;
+  std::vector<LightViews> lights_;
+  std::vector<Points> points_;                         // by face
+  std::vector<TileBounds> bounds_;                     // of a light that has a size
+  std::vector<std::vector<TileBounds>> still_bounds_;  // by light and face
+  std::vector<std::int32_t> grid_x_, grid_y_;
+  std::vector<float> grid_z_;
+  std::vector<SmallTriangles> small_;
+  std::vector<std::uint8_t> is_shaded_;  // by square of the picture
+  std::function<void()> look_;
+  CastCounts counts_;
+};
+
+}  // namespace mars::shadow

@@ -1,0 +1,321 @@
+#include "node/shadow/shadow_painter.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <numeric>
+#include <span>
+
+#include "node/shading/finish_light.h"
+#include "node/simd/vector_slack.h"
+
+namespace mars::shadow {
+namespace {
+
+constexpr std::size_t kBandBytes = std::size_t{96} << 20;
+constexpr std::size_t kGrain = 64;  // of the arena
+
+bool receives(const wire::Material& material) {
+  return material.receives == 1 && material.interpolation == wire::Interpolation::phong;
+}
+
+}  // namespace
+
+ShadowPainter::ShadowPainter(simd::InstructionSet set, const geometry::Scene& scene)
+    : raster_kernels_(raster::raster_kernels(set)),
+      shading_kernels_(shading::shading_kernels(set)),
+      width_(static_cast<std::uint32_t>(scene.width())),
+      samples_(static_cast<std::uint32_t>(scene.pattern().count)),
+      casting_(scene.casting_count()),
+      z_line_(set, width_, scene.pattern()),
+      groups_(set, width_, samples_),
+      caster_(set, scene),
+      shares_(casting_, std::vector<float>(std::size_t{width_} * samples_ + simd::kVectorSlack)),
+      still_groups_(std::size_t{width_} * samples_) {
+  for (const auto& shares : shares_) share_rows_.push_back(shares.data());
+  memory_ = messages::PrivateMemory(std::max(kBandBytes, 2 * most_bytes_of_line()));
+  arena_ = raster::Arena(memory_.bytes());
+}
+
+// Of both kinds: groups with their light and, of still ones, a record; depths; pairs, and what movers block.
+std::size_t ShadowPainter::most_bytes_of_line() const {
+  const std::size_t samples = std::size_t{width_} * samples_ + 2 * simd::kVectorSlack;
+  const std::size_t light = (4 + 3 * std::size_t{casting_}) * sizeof(float);
+  const std::size_t group = sizeof(shading::Fragment) + 2 * sizeof(std::uint32_t) + light;
+  const std::size_t arrays = 2 * (12 + 3 * std::size_t{casting_}) * kGrain;
+  const std::size_t column = sizeof(std::uint32_t) + casting_ * 2 * (sizeof(wire::StillPairs) + sizeof(std::uint16_t));
+  return samples * (2 * group + wire::still_group_bytes(casting_) + 2 * sizeof(float)) + width_ * column + arrays;
+}
+
+void ShadowPainter::begin(const Picture& picture, const std::function<void()>& look) {
+  caster_.begin(picture.scene, look);
+  if (picture.is_keyframe) caster_.forget_still();
+}
+
+geometry::LineRange ShadowPainter::prepare(const Picture& picture, const geometry::LineRange& lines) {
+  arena_.clear();
+  range_ = lines;
+  for (Layer* layer : {&drawn_, &kept_, &moving_}) layer->begin(width_, lines);
+  lines_.assign(lines.count(), {});
+  const std::size_t most = most_bytes_of_line();
+  for (std::uint32_t number = lines.first; number < lines.last; ++number) {
+    if (arena_.rest().size() < most) {
+      range_.last = number;
+      break;
+    }
+    if (picture.is_keyframe)
+      see_keyframe(picture, number);
+    else
+      see_inbetween(picture, number);
+  }
+  cast(picture);
+  return range_;
+}
+
+void ShadowPainter::see_keyframe(const Picture& picture, std::uint32_t number) {
+  if (!raster::any_boxes(picture.parts, &raster::LineBoxes::of, number) && !picture.still.lines().has(number)) return;
+  ++counts_.lines;
+  const shading::Extent still = see_still(picture, number);
+  z_line_.forget_depths(raster::both(still, see_moving(picture, number)));
+}
+
+void ShadowPainter::see_inbetween(const Picture& picture, std::uint32_t number) {
+  const shading::Extent moving = raster::moving_extent(picture.parts, number);
+  shading::Extent still = raster::kNothing;
+  if (picture.still.keeps(number)) {
+    see_kept(picture, number);
+    if (raster::is_empty(moving)) return;
+    for (std::uint32_t s = 0; s < samples_; ++s)
+      std::copy_n(picture.still.depth(number, s).data() + moving.first, moving.last - moving.first,
+                  z_line_.depth(s) + moving.first);
+    counts_.still_bytes += std::uint64_t{moving.last - moving.first} * samples_ * sizeof(float);
+  } else if (picture.still.has_memory_for(number)) {
+    still = see_still(picture, number);
+    ++counts_.drawn_again;
+  }
+  ++counts_.lines;
+  z_line_.forget_depths(raster::both(still, raster::both(moving, see_moving(picture, number))));
+}
+
+// What inbetweens need goes to where they look for it.
+shading::Extent ShadowPainter::see_still(const Picture& picture, std::uint32_t number) {
+  const shading::Extent extent =
+      z_line_.draw(picture.parts, &raster::LineBoxes::stationary, picture.shading.triangles, number);
+  Line& line = lines_[number - range_.first];
+  LayerLine& layer = drawn_.line(number);
+  line.still = shade(picture, number, extent);
+  const std::uint32_t count = line.still.count();
+  const bool keeps =
+      picture.is_keyframe && picture.still.lines().has(number) && picture.still.begin_line(number, count);
+  if (keeps) {
+    line.again = picture.still.unsummed(number);
+    layer.depth = picture.still.depth(number, 0).data();
+    counts_.still_bytes += std::uint64_t{width_} * (samples_ * sizeof(float) + sizeof(std::uint32_t) +
+                                                    casting_ * sizeof(wire::StillPairs)) +
+                           count * wire::still_group_bytes(casting_);
+  } else {
+    const std::size_t bytes = wire::still_group_bytes(casting_);
+    line.again = {arena_.take<std::uint32_t>(width_).data(),
+                  arena_.take<wire::StillPairs>(std::size_t{width_} * casting_).data(),
+                  arena_.take<std::byte>(count * bytes).data(), bytes};
+    layer.depth = arena_.take<float>(std::size_t{width_} * samples_).data();
+  }
+  layer.stride = width_;
+  layer.pairs = line.again.pairs;
+  copy_depths(const_cast<float*>(layer.depth), {0, width_});
+  std::fill_n(layer.pairs, std::size_t{width_} * casting_, wire::StillPairs{0, 0});
+  find_lit(picture, line.still, layer.pairs);
+  fill_record(line.still, line.again);
+  if (picture.scene.any_moves()) layer.moved = new_moved();
+  line.still.from = line.still_from = &layer;
+  z_line_.forget_ids(extent);
+  return extent;
+}
+
+void ShadowPainter::see_kept(const Picture& picture, std::uint32_t number) {
+  Line& line = lines_[number - range_.first];
+  LayerLine& layer = kept_.line(number);
+  line.again = picture.still.unsummed(number);
+  layer.depth = picture.still.depth(number, 0).data();
+  layer.stride = width_;
+  layer.pairs = line.again.pairs;
+  line.still_from = &layer;
+}
+
+// MZB starts as CZB. Of samples that show what stands still, the moving layer has no depth.
+shading::Extent ShadowPainter::see_moving(const Picture& picture, std::uint32_t number) {
+  if (!raster::any_boxes(picture.parts, &raster::LineBoxes::moving, number)) return raster::kNothing;
+  const shading::Extent extent =
+      z_line_.draw(picture.parts, &raster::LineBoxes::moving, picture.shading.triangles, number);
+  Line& line = lines_[number - range_.first];
+  LayerLine& layer = moving_.line(number);
+  line.moving = shade(picture, number, extent);
+  float* const depths = arena_.take<float>(std::size_t{width_} * samples_).data();
+  layer.depth = depths;
+  layer.stride = width_;
+  copy_depths(depths, extent);
+  for (std::uint32_t s = 0; s < samples_; ++s)
+    for (std::uint32_t x = extent.first; x < extent.last; ++x)
+      if (z_line_.ids(s)[x] == shading::kNoTriangle) depths[s * width_ + x] = 0;
+  layer.pairs = arena_.take<wire::StillPairs>(std::size_t{width_} * casting_).data();
+  std::fill_n(layer.pairs, std::size_t{width_} * casting_, wire::StillPairs{0, 0});
+  find_lit(picture, line.moving, layer.pairs);
+  layer.moved = new_moved();
+  line.moving.from = &layer;
+  z_line_.forget_ids(extent);
+  return extent;
+}
+
+std::uint16_t* ShadowPainter::new_moved() {
+  const auto moved = arena_.take<std::uint16_t>(std::size_t{width_} * casting_);
+  std::ranges::fill(moved, std::uint16_t{0});
+  return moved.data();
+}
+
+ShadowPainter::LineGroups ShadowPainter::shade(const Picture& picture, std::uint32_t number,
+                                               const shading::Extent& extent) {
+  LineGroups out;
+  if (raster::is_empty(extent)) return out;
+  groups_.group(picture.shading, z_line_.samples(), extent);
+  out.counts = groups_.counts();
+  const std::size_t room = out.count() + simd::kVectorSlack;
+  out.groups = {arena_.take<shading::Fragment>(room).data(), arena_.take<std::uint32_t>(room).data(),
+                arena_.take<std::uint32_t>(room).data()};
+  groups_.copy_to(out.groups);
+  const auto channel = [&] { return arena_.take<float>(room).data(); };
+  const auto terms = arena_.take<float*>(std::size_t{3} * casting_);
+  for (float*& term : terms) term = channel();
+  const bool foggy = picture.shading.fog.end > picture.shading.fog.start;
+  out.light = {{channel(), channel(), channel()}, foggy ? channel() : nullptr, terms.data()};
+  counts_.shaded +=
+      shading_kernels_.shade_unsummed(picture.shading, out.groups.fragments, out.count(), number, out.light);
+  return out;
+}
+
+void ShadowPainter::copy_depths(float* to, const shading::Extent& extent) {
+  for (std::uint32_t s = 0; s < samples_; ++s) {
+    float* const row = to + std::size_t{s} * width_;
+    std::fill_n(row, extent.first, 0.0f);
+    std::copy_n(z_line_.depth(s) + extent.first, extent.last - extent.first, row + extent.first);
+    std::fill(row + extent.last, row + width_, 0.0f);
+  }
+}
+
+// Pairs matter where the light would add something if all of it arrived.
+void ShadowPainter::find_lit(const Picture& picture, const LineGroups& groups, wire::StillPairs* pairs) const {
+  for (std::uint32_t k = 0; k < groups.count(); ++k) {
+    const shading::Fragment& fragment = groups.groups.fragments[k];
+    if (!receives(picture.shading.materials[picture.shading.triangles[fragment.triangle].material])) continue;
+    for (std::uint32_t light = 0; light < casting_; ++light) {
+      float* const* const terms = groups.light.terms + 3 * light;
+      if (!(terms[0][k] > 0 || terms[1][k] > 0 || terms[2][k] > 0)) continue;
+      std::uint16_t& lit = pairs[std::size_t{light} * width_ + fragment.column].lit;
+      lit = static_cast<std::uint16_t>(lit | pairs_of(groups.groups.masks[k], caster_.pairs_a_sample(light)));
+    }
+  }
+}
+
+// As raster::PixelGroups::copy_to does.
+void ShadowPainter::fill_record(const LineGroups& groups, const raster::UnsummedStill& to) const {
+  std::fill_n(to.end, width_, 0u);
+  for (std::uint32_t k = 0; k < groups.count(); ++k) ++to.end[groups.groups.fragments[k].column];
+  std::exclusive_scan(to.end, to.end + width_, to.end, 0u);
+  const bool foggy = groups.light.fog != nullptr;
+  for (std::uint32_t k = 0; k < groups.count(); ++k) {
+    wire::UnsummedGroup& group = to.group(to.end[groups.groups.fragments[k].column]++);
+    group.samples = groups.groups.masks[k];
+    group.fog = foggy ? groups.light.fog[k] : 0;
+    for (std::size_t c = 0; c < 3; ++c) group.base[c] = groups.light.base[c][k];
+    for (std::size_t t = 0; t < std::size_t{3} * casting_; ++t) group.terms()[t] = groups.light.terms[t][k];
+  }
+}
+
+void ShadowPainter::cast(const Picture& picture) {
+  drawn_.range = kept_.range = moving_.range = range_;
+  drawn_.count_all_tiles();
+  moving_.count_all_tiles();
+  const std::array<Layer*, 2> new_ones{&drawn_, &moving_};
+  caster_.cast(picture.scene, Casting::still, new_ones);
+  if (!picture.scene.any_moves()) return;
+  if (!picture.is_keyframe) {
+    kept_.count_all_tiles();
+    if (!caster_.knows_still()) caster_.bound_still(kept_);
+    caster_.find_shaded(picture.scene, kept_.tiles);
+    for (const std::uint32_t tile : kept_.tiles) {
+      const std::uint32_t first = tile / kept_.tiles_across() * kTile;
+      for (std::uint32_t number = first; number < first + kTile; ++number)
+        if (kept_.range.has(number) && kept_.line(number).depth != nullptr && kept_.line(number).moved == nullptr)
+          kept_.line(number).moved = new_moved();
+    }
+  }
+  const std::array<Layer*, 3> all{&drawn_, &kept_, &moving_};
+  caster_.cast(picture.scene, Casting::moving, all);
+}
+
+void ShadowPainter::put_line(const Picture& picture, std::uint32_t number, raster::StripBuffer& out) {
+  Line& line = lines_[number - range_.first];
+  if (picture.is_keyframe && line.still.count() > 0) {
+    sum_up(picture, line.still, false);
+    groups_.resolve(picture.shading, number, out.constant());
+  }
+  find_changed(line);
+  if (line.moving.count() == 0 && changed_.empty()) return;
+  const std::uint32_t all = (1u << samples_) - 1;
+  for (const std::uint32_t column : changed_) sum_up_again(picture, line, column);
+  for (std::uint32_t k = 0; k < line.moving.counts.pixels; ++k)
+    if (line.moving.groups.masks[k] != all) sum_up_again(picture, line, line.moving.groups.fragments[k].column);
+  sum_up(picture, line.moving, true);
+  groups_.resolve_over({line.again.end, still_groups_.data()}, picture.shading, number, out.moving(), changed_);
+}
+
+float ShadowPainter::open_share(const LayerLine& from, std::uint32_t light, std::uint32_t column, std::uint32_t samples,
+                                bool with_moved) const {
+  const std::size_t at = std::size_t{light} * width_ + column;
+  const std::uint32_t moved = with_moved && from.moved != nullptr ? from.moved[at] : 0u;
+  const std::uint32_t blocked = from.pairs[at].blocked | moved;
+  if (blocked == 0) return 1;
+  const std::uint32_t all = pairs_of(samples, caster_.pairs_a_sample(light));
+  return static_cast<float>(std::popcount(all & ~blocked)) / static_cast<float>(std::popcount(all));
+}
+
+// To the groups that are resolved next.
+void ShadowPainter::sum_up(const Picture& picture, const LineGroups& groups, bool with_moved) {
+  groups_.restore(groups.counts, groups.groups);
+  if (groups.count() == 0) return;
+  for (std::uint32_t light = 0; light < casting_; ++light)
+    for (std::uint32_t k = 0; k < groups.count(); ++k)
+      shares_[light][k] =
+          open_share(*groups.from, light, groups.groups.fragments[k].column, groups.groups.masks[k], with_moved);
+  shading_kernels_.sum_up(picture.shading, groups.light, share_rows_.data(), groups.count(), groups_.light().channel);
+}
+
+// Still pixels that moving casters take light from.
+void ShadowPainter::find_changed(const Line& line) {
+  changed_.clear();
+  if (line.still_from == nullptr || line.still_from->moved == nullptr) return;
+  for (std::uint32_t column = 0; column < width_; ++column) {
+    std::uint32_t moved = 0;
+    for (std::uint32_t light = 0; light < casting_; ++light)
+      moved |= line.still_from->moved[std::size_t{light} * width_ + column];
+    if (moved != 0) changed_.push_back(column);
+  }
+}
+
+// As the kernels do (shading::ShadingKernels::sum_up), for one pixel's still groups.
+void ShadowPainter::sum_up_again(const Picture& picture, const Line& line, std::uint32_t column) {
+  if (line.still_from == nullptr) return;
+  const raster::UnsummedStill& from = line.again;
+  for (std::uint32_t k = column == 0 ? 0 : from.end[column - 1]; k < from.end[column]; ++k) {
+    const wire::UnsummedGroup& group = from.group(k);
+    wire::StillGroup& out = still_groups_[k];
+    out.samples = group.samples;
+    std::copy_n(group.base, 3, out.light);
+    for (std::uint32_t light = 0; light < casting_; ++light) {
+      const float share = open_share(*line.still_from, light, column, group.samples, true);
+      for (std::size_t c = 0; c < 3; ++c) out.light[c] += group.terms()[3 * light + c] * share;
+    }
+    shading::finish_light(picture.shading, group.fog, out.light);
+  }
+}
+
+}  // namespace mars::shadow
