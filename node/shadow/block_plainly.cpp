@@ -110,6 +110,15 @@ class Plane {
   double per_x_, per_y_, slope_;
 };
 
+// Whether the triangle reaches before the plane near the points.
+bool reaches_before(const PointVector& points, const GridPlace& a, const GridPlace& b, const GridPlace& c) {
+  const auto before = [&](const GridPlace& at) {
+    return at.z - (points.per_x * static_cast<double>(at.x - points.box.low_x) +
+                   points.per_y * static_cast<double>(at.y - points.box.low_y));
+  };
+  return std::max({before(a), before(b), before(c)}) > double{points.least} + double{points.room};
+}
+
 void block_triangle(GridPlace a, GridPlace b, GridPlace c, PointVector* points, std::span<const std::uint32_t> found) {
   Wide area = cross(a, b, c.x, c.y);
   if (area == 0) return;
@@ -122,7 +131,7 @@ void block_triangle(GridPlace a, GridPlace b, GridPlace c, PointVector* points, 
   for (const std::uint32_t number : found) {
     PointVector& here = points[number];
     if (here.box.low_x > high_x || here.box.high_x < low_x || here.box.low_y > high_y || here.box.high_y < low_y ||
-        !(high_z > here.box.low_z))
+        !(high_z > here.box.low_z) || !reaches_before(here, a, b, c))
       continue;
     for (std::uint32_t left = here.active & ~here.blocked; left != 0; left &= left - 1) {
       const auto k = static_cast<std::size_t>(std::countr_zero(left));

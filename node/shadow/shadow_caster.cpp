@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <ranges>
 
 #include "node/shadow/block_plainly.h"
 #include "node/simd/vector_slack.h"
@@ -11,8 +12,7 @@
 namespace mars::shadow {
 namespace {
 
-constexpr std::uint32_t kMostBatches = 64;  // that are set up at a time, so that they stay in a cache
-constexpr float kFloatError = 1.0f / (1 << 20);
+constexpr float kPlaceError = 1.0f / (1 << 20);
 
 float largest(const float* const* points, std::uint32_t count) {
   float most = 0;
@@ -38,7 +38,7 @@ ShadowCaster::ShadowCaster(simd::InstructionSet set, const geometry::Scene& scen
       grid_x_(static_cast<std::size_t>(shape::Dicer::kMostVertices + simd::kVectorSlack)),
       grid_y_(grid_x_.size()),
       grid_z_(grid_x_.size()),
-      small_(kMostBatches) {}
+      small_(new SmallBatches{}) {}
 
 void ShadowCaster::begin(const geometry::Scene& scene, const std::function<void()>& look) {
   look_ = look;
@@ -135,14 +135,15 @@ void ShadowCaster::block(const Caster& caster, const LightView& view, Points& po
   counts_.triangles += caster.triangles.count;
   for (std::uint32_t first = 0; first < caster.triangles.batch_count; first += kMostBatches) {
     const std::uint32_t count = std::min(kMostBatches, caster.triangles.batch_count - first);
+    small_->count = 0;
     for (std::uint32_t b = 0; b < count; ++b) {
       const shape::Batch& batch = caster.triangles.batches[first + b];
-      std::uint32_t large = kernels_.set_up(vertices, caster.triangles, batch, small_[b]);
+      std::uint32_t large = kernels_.set_up(vertices, caster.triangles, batch, *small_);
       for (; large != 0; large &= large - 1)
         block_plainly(view, caster, vertices, batch.first + static_cast<std::uint32_t>(std::countr_zero(large)),
                       points.vectors(), found);
     }
-    kernels_.block(small_.data(), count, points.vectors(), found.data(), static_cast<std::uint32_t>(found.size()));
+    kernels_.block(*small_, points.vectors(), found.data(), static_cast<std::uint32_t>(found.size()));
   }
 }
 
@@ -151,7 +152,7 @@ GridBox ShadowCaster::box_of_hull(const LightView& view, const float* const* hul
   GridBox box = kernels_.project(view, hull, count, {grid_x_.data(), grid_y_.data(), grid_z_.data()});
   if (box.low_x > box.high_x) return box;
   const double nearer = view.has_place ? double{box.high_z} : 1.0;
-  const double margin = double{largest(hull, count)} * kFloatError * nearer * view.per_step;
+  const double margin = double{largest(hull, count)} * kPlaceError * nearer * view.per_step;
   box.low_x = clamped(box.low_x - margin), box.high_x = clamped(box.high_x + margin);
   box.low_y = clamped(box.low_y - margin), box.high_y = clamped(box.high_y + margin);
   return box;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -80,7 +81,7 @@ class ShadowCaster {
   std::vector<std::vector<TileBounds>> still_bounds_;  // by light and face
   std::vector<std::int32_t> grid_x_, grid_y_;
   std::vector<float> grid_z_;
-  std::vector<SmallTriangles> small_;
+  std::unique_ptr<SmallBatches> small_;
   std::vector<std::uint8_t> is_shaded_;  // by square of the picture
   std::function<void()> look_;
   CastCounts counts_;
