@@ -130,7 +130,7 @@ void ShadowCaster::block(const Caster& caster, const LightView& view, Points& po
   const GridBox box = kernels_.project(view, caster.place, caster.vertices, vertices);
   counts_.vertices += caster.vertices;
   if (box.low_x > box.high_x) return;
-  const auto found = points.tree().find(kernels_, box, 0);
+  const auto found = points.tree().find(kernels_, box, 0, found_);
   if (found.empty()) return;
   counts_.triangles += caster.triangles.count;
   for (std::uint32_t first = 0; first < caster.triangles.batch_count; first += kMostBatches) {
@@ -140,11 +140,17 @@ void ShadowCaster::block(const Caster& caster, const LightView& view, Points& po
       const shape::Batch& batch = caster.triangles.batches[first + b];
       std::uint32_t large = kernels_.set_up(vertices, caster.triangles, batch, *small_);
       for (; large != 0; large &= large - 1)
-        block_plainly(view, caster, vertices, batch.first + static_cast<std::uint32_t>(std::countr_zero(large)),
-                      points.vectors(), found);
+        block_large(view, caster, batch.first + static_cast<std::uint32_t>(std::countr_zero(large)), points);
     }
     kernels_.block(*small_, points.vectors(), found.data(), static_cast<std::uint32_t>(found.size()));
   }
+}
+
+void ShadowCaster::block_large(const LightView& view, const Caster& caster, std::uint32_t triangle, Points& points) {
+  const GridVertices vertices{grid_x_.data(), grid_y_.data(), grid_z_.data()};
+  for_each_piece(view, caster, vertices, triangle, [&](const LargeTriangle& piece) {
+    block_plainly(piece, points.vectors(), points.tree().find(kernels_, piece.box(), 0, found_by_large_));
+  });
 }
 
 // A little wider, for vertices lie within the hull but for rounding.
@@ -204,7 +210,7 @@ void ShadowCaster::find_shaded(const geometry::Scene& scene, std::vector<std::ui
       for (std::size_t f = 0; f < still_bounds_[light].size(); ++f) {
         const LightView& view = has_size(light) ? all.middle : all.views[f];
         TileBounds& bounds = still_bounds_[light][f];
-        for (const std::uint32_t box : bounds.tree.find(kernels_, box_of_hull(view, hull, count), all.spread))
+        for (const std::uint32_t box : bounds.tree.find(kernels_, box_of_hull(view, hull, count), all.spread, found_))
           if (bounds.tiles[box] < is_shaded_.size()) is_shaded_[bounds.tiles[box]] = 1;
       }
     }
