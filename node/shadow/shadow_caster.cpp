@@ -47,12 +47,17 @@ void ShadowCaster::begin(const geometry::Scene& scene, const std::function<void(
     lights_.push_back(light_views(light, scene.projection()));
 }
 
-void ShadowCaster::cast(const geometry::Scene& scene, Casting casting, std::span<Layer* const> onto) {
-  for (std::uint32_t light = 0; light < lights(); ++light)
-    if (has_size(light))
-      cast_from_all(scene, casting, light, onto);
-    else
-      cast_once(scene, casting, light, onto);
+void ShadowCaster::cast(const geometry::Scene& scene, Layers drawn, const Layer& kept) {
+  std::vector<const Layer*> all(drawn.begin(), drawn.end());
+  all.push_back(&kept);
+  for (std::uint32_t light = 0; light < lights(); ++light) {
+    if (!has_size(light)) {
+      cast_from_point(scene, light, drawn, kept);
+      continue;
+    }
+    cast_from_all(scene, Casting::still, light, drawn);
+    if (scene.any_moves()) cast_from_all(scene, Casting::moving, light, all);
+  }
 }
 
 PointSource ShadowCaster::source_of(std::uint32_t light, std::uint32_t point) const {
@@ -64,26 +69,41 @@ std::span<const LightView> ShadowCaster::views_of(std::uint32_t light, std::uint
   return std::span(all.views).subspan(std::size_t{point} * all.faces, all.faces);
 }
 
-// Of a light without size: its points stay on their grids while casters stream by.
-void ShadowCaster::cast_once(const geometry::Scene& scene, Casting casting, std::uint32_t light,
-                             std::span<Layer* const> onto) {
+// Of a light without size: points stay on its grids while casters stream by.
+void ShadowCaster::cast_from_point(const geometry::Scene& scene, std::uint32_t light, Layers drawn, const Layer& kept) {
   const PointSource source = source_of(light, 0);
   const auto views = views_of(light, 0);
-  put_points(source, views, casting, onto);
+  put_points(source, views, drawn, drawn_points_);
+  Faces* const onto[] = {&drawn_points_, &kept_points_};
+  stream(scene, Casting::still, views, std::span(onto).first(1));
+  for (Points& points : drawn_points_) points.note(source, Casting::still);
+  if (!scene.any_moves()) return;
+  const Layer* const kept_alone[] = {&kept};
+  put_points(source, views, kept_alone, kept_points_);
+  stream(scene, Casting::moving, views, onto);
+  for (Faces* faces : onto)
+    for (Points& points : *faces) points.note(source, Casting::moving);
+}
+
+void ShadowCaster::stream(const geometry::Scene& scene, Casting casting, std::span<const LightView> views,
+                          std::span<Faces* const> onto) {
   const auto matters = [&](const float* const* hull, std::uint32_t count) {
-    for (std::size_t f = 0; f < views.size(); ++f)
-      if (!points_[f].empty() && points_[f].tree().any(kernels_, box_of_hull(views[f], hull, count), 0)) return true;
+    for (std::size_t f = 0; f < views.size(); ++f) {
+      if (std::ranges::all_of(onto, [f](const Faces* faces) { return (*faces)[f].empty(); })) continue;
+      const GridBox box = box_of_hull(views[f], hull, count);
+      for (Faces* faces : onto)
+        if ((*faces)[f].tree().any(kernels_, box, 0)) return true;
+    }
     return false;
   };
   casters_.begin(scene, casting);
-  for (auto chunk = casters_.next(matters); !chunk.empty(); chunk = casters_.next(matters)) block(chunk, views);
-  for (const Points& points : points_) points.note(source, casting);
+  for (auto chunk = casters_.next(matters); !chunk.empty(); chunk = casters_.next(matters))
+    for (Faces* faces : onto) block(chunk, views, *faces);
 }
 
 // Of a light that has a size: each chunk of casters is seen from each of its points, with the points that this one
 // decides about.
-void ShadowCaster::cast_from_all(const geometry::Scene& scene, Casting casting, std::uint32_t light,
-                                 std::span<Layer* const> onto) {
+void ShadowCaster::cast_from_all(const geometry::Scene& scene, Casting casting, std::uint32_t light, Layers onto) {
   const LightViews& all = lights_[light];
   bounds_.clear();
   if (has_bounds(light))
@@ -98,28 +118,28 @@ void ShadowCaster::cast_from_all(const geometry::Scene& scene, Casting casting, 
   for (auto chunk = casters_.next(matters); !chunk.empty(); chunk = casters_.next(matters))
     for (std::uint32_t point = 0; point < all.points; ++point) {
       const PointSource source = source_of(light, point);
-      put_points(source, views_of(light, point), casting, onto);
-      block(chunk, views_of(light, point));
-      for (const Points& points : points_) points.note(source, casting);
+      const auto views = views_of(light, point);
+      put_points(source, views, onto, drawn_points_);
+      block(chunk, views, drawn_points_);
+      for (Points& points : drawn_points_) points.note(source, casting);
     }
 }
 
-void ShadowCaster::put_points(const PointSource& source, std::span<const LightView> views, Casting casting,
-                              std::span<Layer* const> onto) {
-  points_.resize(views.size());
+void ShadowCaster::put_points(const PointSource& source, std::span<const LightView> views, Layers onto, Faces& faces) {
+  faces.resize(views.size());
   for (std::size_t f = 0; f < views.size(); ++f) {
-    points_[f].clear();
-    for (const Layer* layer : onto) points_[f].add(source, views[f], *layer, casting);
-    points_[f].finish();
-    counts_.points += points_[f].count();
+    faces[f].clear();
+    for (const Layer* layer : onto) faces[f].add(source, views[f], *layer);
+    faces[f].finish();
+    counts_.points += faces[f].count();
   }
   look_();
 }
 
-void ShadowCaster::block(std::span<const Caster> casters, std::span<const LightView> views) {
+void ShadowCaster::block(std::span<const Caster> casters, std::span<const LightView> views, Faces& faces) {
   for (std::size_t f = 0; f < views.size(); ++f) {
-    if (points_[f].empty()) continue;
-    for (const Caster& caster : casters) block(caster, views[f], points_[f]);
+    if (faces[f].empty()) continue;
+    for (const Caster& caster : casters) block(caster, views[f], faces[f]);
     look_();
   }
   counts_.surfaces += casters.size();
@@ -138,7 +158,7 @@ void ShadowCaster::block(const Caster& caster, const LightView& view, Points& po
     small_->count = 0;
     for (std::uint32_t b = 0; b < count; ++b) {
       const shape::Batch& batch = caster.triangles.batches[first + b];
-      std::uint32_t large = kernels_.set_up(vertices, caster.triangles, batch, *small_);
+      std::uint32_t large = kernels_.set_up(view, vertices, caster.triangles, batch, *small_);
       for (; large != 0; large &= large - 1)
         block_large(view, caster, batch.first + static_cast<std::uint32_t>(std::countr_zero(large)), points);
     }
