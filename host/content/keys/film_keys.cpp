@@ -278,7 +278,7 @@ Object light() {
         .keyed = true},
        {.name = "shadow",
         .type = "flag",
-        .meaning = "`true`: what stands in its light casts a shadow",
+        .meaning = "whether what stands in its light casts a shadow",
         .see = "#shadows",
         .json = "false",
         .example = "true"},

@@ -86,18 +86,16 @@ struct MaterialFlag {
   Key key;
 };
 
-inline constexpr std::array kMaterialFlags{MaterialFlag{&wire::Material::casts,
-                                                        {.name = "casts",
-                                                         .type = "flag",
-                                                         .meaning = "`false`: it casts no shadow",
-                                                         .json = "true",
-                                                         .example = "false"}},
-                                           MaterialFlag{&wire::Material::receives,
-                                                        {.name = "receives",
-                                                         .type = "flag",
-                                                         .meaning = "`false`: no shadow falls on it",
-                                                         .json = "true",
-                                                         .example = "false"}}};
+inline constexpr std::array kMaterialFlags{
+    MaterialFlag{
+        &wire::Material::casts,
+        {.name = "casts", .type = "flag", .meaning = "whether it casts shadows", .json = "true", .example = "false"}},
+    MaterialFlag{&wire::Material::receives,
+                 {.name = "receives",
+                  .type = "flag",
+                  .meaning = "whether shadows fall on it",
+                  .json = "true",
+                  .example = "false"}}};
 
 constexpr bool uses(wire::Reflection reflection, const MaterialNumber& number) {
   return (number.used_by & bit_of(reflection)) != 0;

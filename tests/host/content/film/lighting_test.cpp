@@ -210,7 +210,7 @@ TEST(Lighting, RefusesShadowsThatMakeNoSense) {
   EXPECT_EQ(refused(R"("place": [0, 0, 1], "size": 91)"), "");
   EXPECT_TRUE(document::holds(refused(R"("direction": [0, 0, 1], "shadow": 1)"), "lights[0].shadow: is a number"));
   EXPECT_TRUE(document::holds(refused(R"("place": [0, 0, 1], "keys": [{"frame": 0, "shadow": true}])"),
-                              "does not belong to a light_key"));
+                              "keys[0].shadow: does not belong to a key of a light"));
   EXPECT_TRUE(document::holds(refusal(ball_film("", R"("casts": "no")")), "materials.m.casts: is a text"));
 }
 
