@@ -173,7 +173,7 @@ std::string name_of(const Actor& actor, const WornMaterial& worn) {
                       : "actor '" + actor.name + "', material '" + worn.of_model->name + "'";
 }
 
-// Nodes compute light of these at corners of triangles, where shadows between the corners do not show.
+// Nodes light others at corners of triangles or once a triangle, which would not show where a shadow ends.
 bool fails_to_receive(const wire::Material& shading) {
   return shading.receives && shading.interpolation != wire::Interpolation::phong;
 }
