@@ -14,10 +14,10 @@ namespace {
 
 constexpr float kPlaceError = 1.0f / (1 << 20);
 
-float largest(const float* const* points, std::uint32_t count) {
+float largest(const Hull& hull) {
   float most = 0;
-  for (int axis = 0; axis < 3; ++axis)
-    for (std::uint32_t k = 0; k < count; ++k) most = std::max(most, std::abs(points[axis][k]));
+  for (const auto& along : hull.along)
+    for (std::uint32_t k = 0; k < hull.count; ++k) most = std::max(most, std::abs(along[k]));
   return most;
 }
 
@@ -87,10 +87,10 @@ void ShadowCaster::cast_from_point(const geometry::Scene& scene, std::uint32_t l
 
 void ShadowCaster::stream(const geometry::Scene& scene, Casting casting, std::span<const LightView> views,
                           std::span<Faces* const> onto) {
-  const auto matters = [&](const float* const* hull, std::uint32_t count) {
+  const auto matters = [&](const Hull& hull) {
     for (std::size_t f = 0; f < views.size(); ++f) {
       if (std::ranges::all_of(onto, [f](const Faces* faces) { return (*faces)[f].empty(); })) continue;
-      const GridBox box = box_of_hull(views[f], hull, count);
+      const GridBox box = box_of_hull(views[f], hull);
       for (Faces* faces : onto)
         if ((*faces)[f].tree().any(kernels_, box, 0)) return true;
     }
@@ -108,11 +108,10 @@ void ShadowCaster::cast_from_all(const geometry::Scene& scene, Casting casting, 
   bounds_.clear();
   if (has_bounds(light))
     for (const Layer* layer : onto) bound(light, *layer, bounds_);
-  const auto matters = [&](const float* const* hull, std::uint32_t count) {
+  const auto matters = [&](const Hull& hull) {
     if (!has_bounds(light)) return true;
-    return std::ranges::any_of(bounds_, [&](TileBounds& face) {
-      return face.tree.any(kernels_, box_of_hull(all.middle, hull, count), all.spread);
-    });
+    return std::ranges::any_of(
+        bounds_, [&](TileBounds& face) { return face.tree.any(kernels_, box_of_hull(all.middle, hull), all.spread); });
   };
   casters_.begin(scene, casting);
   for (auto chunk = casters_.next(matters); !chunk.empty(); chunk = casters_.next(matters))
@@ -146,6 +145,7 @@ void ShadowCaster::block(std::span<const Caster> casters, std::span<const LightV
 }
 
 void ShadowCaster::block(const Caster& caster, const LightView& view, Points& points) {
+  if (!points.tree().any(kernels_, box_of_hull(view, caster.hull), 0)) return;
   const GridVertices vertices{grid_x_.data(), grid_y_.data(), grid_z_.data()};
   const GridBox box = kernels_.project(view, caster.place, caster.vertices, vertices);
   counts_.vertices += caster.vertices;
@@ -174,11 +174,12 @@ void ShadowCaster::block_large(const LightView& view, const Caster& caster, std:
 }
 
 // A little wider, for vertices lie within the hull but for rounding.
-GridBox ShadowCaster::box_of_hull(const LightView& view, const float* const* hull, std::uint32_t count) {
-  GridBox box = kernels_.project(view, hull, count, {grid_x_.data(), grid_y_.data(), grid_z_.data()});
+GridBox ShadowCaster::box_of_hull(const LightView& view, const Hull& hull) {
+  const float* const points[3] = {hull.along[0], hull.along[1], hull.along[2]};
+  GridBox box = kernels_.project(view, points, hull.count, {grid_x_.data(), grid_y_.data(), grid_z_.data()});
   if (box.low_x > box.high_x) return box;
   const double nearer = view.has_place ? double{box.high_z} : 1.0;
-  const double margin = double{largest(hull, count)} * kPlaceError * nearer * view.per_step;
+  const double margin = double{largest(hull)} * kPlaceError * nearer * view.per_step;
   box.low_x = clamped(box.low_x - margin), box.high_x = clamped(box.high_x + margin);
   box.low_y = clamped(box.low_y - margin), box.high_y = clamped(box.high_y + margin);
   return box;
@@ -224,13 +225,13 @@ void ShadowCaster::bound_still(const Layer& still) {
 void ShadowCaster::find_shaded(const geometry::Scene& scene, std::vector<std::uint32_t>& tiles) {
   if (!std::ranges::all_of(std::views::iota(0u, lights()), [this](std::uint32_t l) { return has_bounds(l); })) return;
   is_shaded_.assign(tiles.empty() ? 0 : *std::ranges::max_element(tiles) + 1, std::uint8_t{0});
-  casters_.visit_hulls(scene, Casting::moving, [&](const float* const* hull, std::uint32_t count) {
+  casters_.visit_hulls(scene, Casting::moving, [&](const Hull& hull) {
     for (std::uint32_t light = 0; light < lights(); ++light) {
       const LightViews& all = lights_[light];
       for (std::size_t f = 0; f < still_bounds_[light].size(); ++f) {
         const LightView& view = has_size(light) ? all.middle : all.views[f];
         TileBounds& bounds = still_bounds_[light][f];
-        for (const std::uint32_t box : bounds.tree.find(kernels_, box_of_hull(view, hull, count), all.spread, found_))
+        for (const std::uint32_t box : bounds.tree.find(kernels_, box_of_hull(view, hull), all.spread, found_))
           if (bounds.tiles[box] < is_shaded_.size()) is_shaded_[bounds.tiles[box]] = 1;
       }
     }

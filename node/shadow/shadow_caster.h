@@ -63,7 +63,7 @@ class ShadowCaster {
   std::span<const LightView> views_of(std::uint32_t light, std::uint32_t point) const;
   void bound(std::uint32_t light, const Layer& layer, std::vector<TileBounds>& faces) const;
   GridBox bound_tile(std::uint32_t light, const LightView& view, const Layer& layer, std::uint32_t tile) const;
-  GridBox box_of_hull(const LightView& view, const float* const* hull, std::uint32_t count);
+  GridBox box_of_hull(const LightView& view, const Hull& hull);
 
   // Points of some layers, by face of a light.
   using Faces = std::vector<Points>;
