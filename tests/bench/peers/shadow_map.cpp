@@ -9,7 +9,7 @@ namespace {
 
 constexpr GLsizei kSide = 4096;          // texels
 constexpr float kMargin = 0.002f;        // of the window's size, beyond the scene
-constexpr float kSlope = 2, kUnits = 4;  // of glPolygonOffset
+constexpr float kSlope = 3, kUnits = 1024;  // of glPolygonOffset
 
 // Around the whole scene at all times.
 LightBox window_of(const Mesh& mesh, const LightAxes& axes, const std::vector<Outline>& mover) {
@@ -81,13 +81,13 @@ void ShadowMap::begin(GLuint framebuffer) const {
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
   glUseProgram(program_);
   glViewport(0, 0, kSide, kSide);
-  glDisable(GL_CULL_FACE);
+  glCullFace(GL_FRONT);  // which are behind, as the light sees them: the map is not upside down
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(kSlope, kUnits);
 }
 
 void ShadowMap::end() const {
-  glEnable(GL_CULL_FACE);
+  glCullFace(GL_BACK);
   glDisable(GL_POLYGON_OFFSET_FILL);
 }
 

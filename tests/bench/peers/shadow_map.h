@@ -1,5 +1,5 @@
 // peer-llvmpipe's map of depths: how far from the light the nearest surfaces are, in a window round the whole scene. It
-// has both sides of all triangles, moved away from the light by glPolygonOffset, so that they do not shade themselves.
+// has the triangles that face the light, moved away from it by glPolygonOffset, so that they do not shade themselves.
 #pragma once
 
 #include <string>
