@@ -27,37 +27,33 @@ std::array<float, 2> disc_point(int point, int column, int line) {
   return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
-void set_origin(RTCRay16& ray, const View& view, const Spots& at) {
-  const Directions directions = directions_of(view, at.x, at.y);
-  put(ray.org_x, view.origin[0] + at.z * directions.axis[0]);
-  put(ray.org_y, view.origin[1] + at.z * directions.axis[1]);
-  put(ray.org_z, view.origin[2] + at.z * directions.axis[2]);
-  put(ray.tnear, Floats{} + kNear);
-  put(ray.time, Floats{});
-  put(ray.mask, Ints{} - 1);
-}
-
-void set_direction(RTCRay16& ray, const View& view, const Floats (&across)[2]) {
+// To points of the sun.
+void set_directions(RTCRay16& rays, const View& view, const Floats (&across)[2]) {
   const auto along = [&](int axis) {
     return view.to_light[axis] + across[0] * view.across_light[0][axis] + across[1] * view.across_light[1][axis];
   };
-  put(ray.dir_x, along(0));
-  put(ray.dir_y, along(1));
-  put(ray.dir_z, along(2));
-  put(ray.tfar, Floats{} + kFar);
+  put(rays.dir_x, along(0));
+  put(rays.dir_y, along(1));
+  put(rays.dir_z, along(2));
+  put(rays.tfar, Floats{} + kFar);
 }
 
 }  // namespace
 
 Sun::Sun(float size, const Lanes& lanes)
     : width_(lanes.width), height_(lanes.height), rays_(size == 0 ? 1 : std::max(1, kSunPoints / lanes.samples)) {
+  const int samples = kPacket / rays_;  // of a bundle
+  for (int first = 0; first < kPacket; first += samples) {
+    Bundle& bundle = bundles_.emplace_back();
+    for (int k = 0; k < kPacket; ++k) bundle.lane[k] = first + k % samples, bundle.ray[k] = k / samples;
+  }
   for (int top = 0; top < kPattern; top += height_)
     for (int left = 0; left < kPattern; left += width_)
-      for (int ray = 0; ray < rays_; ++ray) {
+      for (const Bundle& bundle : bundles_) {
         Offsets& offsets = offsets_.emplace_back();
         for (int k = 0; k < kPacket; ++k) {
-          const auto at =
-              disc_point(ray * lanes.samples + lanes.sample[k], left + lanes.column[k], top + lanes.line[k]);
+          const int lane = bundle.lane[k], point = bundle.ray[k] * lanes.samples + lanes.sample[lane];
+          const auto at = disc_point(point, left + lanes.column[lane], top + lanes.line[lane]);
           for (std::size_t c = 0; c < 2; ++c) offsets.across[c][k] = size * at[c];
         }
       }
@@ -65,26 +61,41 @@ Sun::Sun(float size, const Lanes& lanes)
 
 Ints Sun::open(const Spots& spots, Ints tried, std::initializer_list<const View*> blockers) const {
   if (!traces || !any(tried != 0)) return tried;
+  for (int k = 0; k < rays_; ++k) rays_traced += static_cast<unsigned>(std::popcount(mask_of((tried & 1 << k) != 0)));
   const int block = spots.top % kPattern / height_ * (kPattern / width_) + spots.left % kPattern / width_;
-  const Offsets* offsets = &offsets_[static_cast<std::size_t>(block * rays_)];
+  Ints open = tried;
+  for (const View* view : blockers)
+    if (!view->empty()) trace(*view, spots, &offsets_[static_cast<std::size_t>(block) * bundles_.size()], open);
+  return open;
+}
+
+// Takes from `open` those that the view stops.
+void Sun::trace(const View& view, const Spots& spots, const Offsets* offsets, Ints& open) const {
+  const Directions directions = directions_of(view, spots.x, spots.y);
+  Floats from[3];
+  for (int axis = 0; axis < 3; ++axis) from[axis] = view.origin[axis] + spots.z * directions.axis[axis];
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  for (int k = 0; k < rays_; ++k) rays_traced += static_cast<unsigned>(std::popcount(mask_of((tried & 1 << k) != 0)));
-  Ints open = tried;
-  for (const View* view : blockers) {
-    if (view->empty()) continue;
-    RTCRay16 rays;
-    set_origin(rays, *view, spots);
-    for (int k = 0; k < rays_; ++k) {
-      const Ints tracing = (open & 1 << k) != 0;
-      if (!any(tracing)) continue;
-      set_direction(rays, *view, offsets[k].across);
-      rtcOccluded16(reinterpret_cast<const int*>(&tracing), view->scene, &context, &rays);
-      open &= ~(tracing & (got<Floats>(rays.tfar) < 0) & 1 << k);
+  RTCRay16 rays;
+  put(rays.tnear, Floats{} + kNear);
+  put(rays.time, Floats{});
+  put(rays.mask, Ints{} - 1);
+  for (const Bundle& bundle : bundles_) {
+    const Offsets& own = *offsets++;
+    const Ints tracing = (__builtin_shuffle(open, bundle.lane) >> bundle.ray & 1) != 0;
+    if (!any(tracing)) continue;
+    put(rays.org_x, __builtin_shuffle(from[0], bundle.lane));
+    put(rays.org_y, __builtin_shuffle(from[1], bundle.lane));
+    put(rays.org_z, __builtin_shuffle(from[2], bundle.lane));
+    set_directions(rays, view, own.across);
+    rtcOccluded16(reinterpret_cast<const int*>(&tracing), view.scene, &context, &rays);
+    const Ints stopped = tracing & (got<Floats>(rays.tfar) < 0);
+    for (unsigned left = mask_of(stopped); left != 0; left &= left - 1) {
+      const int k = std::countr_zero(left);
+      open[bundle.lane[k]] &= ~(1 << bundle.ray[k]);
     }
   }
-  return open;
 }
 
 Floats Sun::share(Ints open) const {

@@ -32,7 +32,7 @@ class Sun {
   int rays() const { return rays_; }  // of a sample
   Ints all() const { return Ints{} + ((1 << rays_) - 1); }
 
-  // A bit for each ray that nothing in `blockers` stops, of those of `tried`.
+  // A bit for each ray of a sample that nothing in `blockers` stops, of those of `tried`.
   Ints open(const Spots& spots, Ints tried, std::initializer_list<const View*> blockers) const;
   Floats share(Ints open) const;
 
@@ -40,12 +40,19 @@ class Sun {
   bool traces = true;
 
  private:
+  // Rays that are traced together, all of a few samples: from which of a packet's samples, which of its rays.
+  struct Bundle {
+    Ints lane, ray;
+  };
   struct Offsets {
     Floats across[2];
   };
 
+  void trace(const View& view, const Spots& spots, const Offsets* offsets, Ints& open) const;
+
   int width_, height_, rays_;
-  std::vector<Offsets> offsets_;  // of each ray in turn, for the blocks of 4 x 4 pixels, row by row
+  std::vector<Bundle> bundles_;
+  std::vector<Offsets> offsets_;  // of the bundles, for each of the blocks of 4 x 4 pixels, row by row
 };
 
 // How many rays this thread has traced since it was last asked.
