@@ -11,10 +11,10 @@ layout(location = 1) in vec3 normal;
 uniform mat4x3 motion;
 centroid out vec3 n;
 #ifdef SHADOWS
-centroid out vec3 s;
+out vec3 s;
 #endif
 #ifdef KEEPS
-centroid out float away;
+out float away;
 #endif
 void main() {
   vec3 p = motion * vec4(place, 1.0);
@@ -32,12 +32,12 @@ void main() {
 constexpr const char* kSurfaceFragment = R"(
 centroid in vec3 n;
 #ifdef SHADOWS
-centroid in vec3 s;
+in vec3 s;
 #endif
 uniform vec3 own;
 layout(location = 0) out vec4 pixel;
 #ifdef KEEPS
-centroid in float away;
+in float away;
 layout(location = 1) out vec4 base;
 layout(location = 2) out vec4 term;
 #endif
@@ -72,7 +72,8 @@ out vec4 pixel;
 void main() {
   vec4 base = texelFetch(bases, ivec2(gl_FragCoord.xy), SAMPLE), term = texelFetch(terms, ivec2(gl_FragCoord.xy), SAMPLE);
   if (base.a == 0.0) discard;
-  vec3 d = vec3(gl_FragCoord.x * REACH.x + REACH.y, REACH.z - gl_FragCoord.y * REACH.x, -1.0);
+  vec2 at = floor(gl_FragCoord.xy) + 0.5;  // where `away` was interpolated, also for several samples
+  vec3 d = vec3(at.x * REACH.x + REACH.y, REACH.z - at.y * REACH.x, -1.0);
   pixel = vec4(base.rgb + arriving(in_map(base.a * d)) * term.rgb, 1.0);
 }
 )";
