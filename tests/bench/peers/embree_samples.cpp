@@ -115,7 +115,7 @@ class SamplePainter : public Painter {
   Ints column_, line_;              // of each ray's pixel in its block
   Floats x_, y_;                    // of each ray, pixels in its block
   std::vector<float> background_;
-  std::vector<Kept> kept_;            // by blocks, row by row
+  std::vector<Kept> kept_;             // by blocks, row by row
   std::vector<KeptLight> kept_light_;  // the same; none without a sun
 };
 
@@ -154,8 +154,8 @@ int SamplePainter::pixel_in(const Area& tile, const Packet& packet, int ray) con
   return (packet.top - tile.top + line_[ray]) * kTile + packet.left - tile.left + column_[ray];
 }
 
-void SamplePainter::add(Waiting& waiting, const Area& tile, const Packet& packet, const RTCRayHit16& rays,
-                        Ints shown, Ints open) const {
+void SamplePainter::add(Waiting& waiting, const Area& tile, const Packet& packet, const RTCRayHit16& rays, Ints shown,
+                        Ints open) const {
   const Floats share = sun_ ? sun_->share(open) : Floats{} + 1;
   for (unsigned left = mask_of(shown); left != 0;) {
     const int ray = std::countr_zero(left);
@@ -224,8 +224,7 @@ void SamplePainter::draw(const Area& tile, Here here) {
 
 std::size_t SamplePainter::place(const Packet& packet) const {
   const unsigned blocks = canvas_.mesh.head.width / static_cast<unsigned>(block_width_) + 1;
-  return static_cast<unsigned>(packet.top / block_height_) * blocks +
-         static_cast<unsigned>(packet.left / block_width_);
+  return static_cast<unsigned>(packet.top / block_height_) * blocks + static_cast<unsigned>(packet.left / block_width_);
 }
 
 // Once, before what is measured: every sample is shaded, as the first of its pixel that shows the same triangle, but
@@ -285,8 +284,7 @@ void SamplePainter::draw_changes(const Area& tile, Changes here) {
     const Kept& own = kept_[place(packet)];
     Ints covered{};
     if (here.mover)
-      covered =
-          trace(canvas_.mover, directions_of(canvas_.mover, packet.x, packet.y), packet.inside, own.depth, rays);
+      covered = trace(canvas_.mover, directions_of(canvas_.mover, packet.x, packet.y), packet.inside, own.depth, rays);
     add_view(mover, canvas_.mover, tile, packet, rays, covered);
     const Ints standing = packet.inside & ~covered & (own.depth < kBeyond);
     const Levels levels = here.shadow && any(standing) ? levels_under_shadow(packet, own, standing) : own.levels;

@@ -50,9 +50,9 @@ class Renderer {
   Canvas canvas_;
   std::unique_ptr<Painter> painter_;
   std::string note_;
-  std::vector<std::uint32_t> kept_;   // what stands, as it shows
-  int columns_;                       // of tiles
-  std::vector<Area> tiles_;           // row by row
+  std::vector<std::uint32_t> kept_;  // what stands, as it shows
+  int columns_;                      // of tiles
+  std::vector<Area> tiles_;          // row by row
   std::optional<ShadedAreas> shaded_areas_;
   std::vector<std::uint8_t> shaded_;   // the tiles on which the mover's shadow may fall
   std::vector<std::uint8_t> changed_;  // those that differed from what stands in the frame before

@@ -7,8 +7,8 @@
 namespace mars::bench {
 namespace {
 
-constexpr GLsizei kSide = 4096;          // texels
-constexpr float kMargin = 0.002f;        // of the window's size, beyond the scene
+constexpr GLsizei kSide = 4096;             // texels
+constexpr float kMargin = 0.002f;           // of the window's size, beyond the scene
 constexpr float kSlope = 3, kUnits = 1024;  // of glPolygonOffset
 
 // Around the whole scene at all times.
