@@ -32,6 +32,7 @@ MOST_RMS_OF_SHADOWS = 1.5  # the same; points of the sun and the beginning of ra
 WARMING = 5          # frames before those that count
 LLVMPIPE_SAMPLES = [1, 4]    # it can do no others
 ENCODERS = {"libpng": "libpng", "igzip": "ISA-L (libisal-dev)"}  # of peer-llvmpipe's files, and whose they are
+KEPT = ", map kept"  # from frame to frame, in a competitor's name
 FRAMES = "{frames}"  # in a command: the folder of a competitor's files
 FINE = 64            # quads along a patch's side that adaptive dicing is compared with
 MOST_IDLE = 0.05     # processor seconds a competitor may use in a second that is not its turn
@@ -132,7 +133,7 @@ class Heat:
         for threads in (self.column - 1, self.column) if llvmpipe else ():
             self.begin(f"llvmpipe {threads}", self.llvmpipe_command(llvmpipe, threads))
             if self.sun and not self.moves:
-                self.begin(f"llvmpipe {threads}, map kept", self.llvmpipe_command(llvmpipe, threads, "kept-map"))
+                self.begin(f"llvmpipe {threads}{KEPT}", self.llvmpipe_command(llvmpipe, threads, "kept-map"))
         # Inbetweens may go whole to single processors, as ours do.
         if self.course.what == "inbetween" and self.column > 1:
             self.begin_team("Embree", embree and self.embree_command(embree, 1))
@@ -200,11 +201,11 @@ class Heat:
                      .answer("latency"))
 
     def costs(self):
-        """What shadows cost each of the peers that draw alone."""
+        """What shadows cost each of the peers that draw alone; a map costs the same where it is kept."""
         if not self.sun or self.course.what == "film":
             return {}
         return {competitor.name: competitor.cost() for competitor in self.competitors
-                if isinstance(competitor, Competitor) and not is_ours(competitor.name)}
+                if isinstance(competitor, Competitor) and not is_ours(competitor.name) and KEPT not in competitor.name}
 
     def end(self):
         for competitor in self.competitors:
