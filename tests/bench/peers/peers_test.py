@@ -62,11 +62,8 @@ class Benchmark(unittest.TestCase):
                 for row in result["competitors"]:
                     self.assertAlmostEqual(row["cost"], row["best"] / of_one[row["name"]])
 
-    @needs_a_peer
+    @needs_llvmpipe
     def test_shadows_compete_and_look_alike(self):
-        for name in NOT_BUILT:
-            with self.subTest(peer=name):
-                self.skipTest("was not built")
         results = self.measured("--scenes", "s1s", "--rounds", "1", "--samples", "1,4")
         self.assertEqual([(result["samples"], result["sun"]) for result in results],
                          [(1, "hard"), (1, "soft"), (4, "hard"), (4, "soft")])
@@ -75,21 +72,21 @@ class Benchmark(unittest.TestCase):
             self.assertIn("llvmpipe 1, map kept", names)
             for row in result["competitors"]:
                 self.assertLess(row["rms"], 2, f"{row['name']}, {result['samples']}, {result['sun']}")
-            self.assertGreater(result["costs"]["Embree"]["amount"], 1)
-            self.assertGreater(result["costs"]["llvmpipe 1"]["amount"], 1)
+            self.assertIn("llvmpipe 1", result["costs"])
+            for name, cost in result["costs"].items():
+                self.assertGreater(cost["amount"], 1, name)
 
     @needs_a_peer
     def test_shadows_darken_pictures_and_inbetweens_have_them(self):
         film = films.lengthened(films.load("s3", [384, 216], 4), 30, 30)
-        for peer, lit, shaded in (("peer-embree", "none", "0"), ("peer-embree", "none", "0.01"),
-                                  ("peer-llvmpipe", "none", "map")):
+        for peer, shadows in ("peer-embree", "0"), ("peer-embree", "0.01"), ("peer-llvmpipe", "map"):
             for samples in "1", "4":
                 if peer in NOT_BUILT:
                     continue
-                with self.subTest(peer=peer, shadows=shaded, samples=samples):
-                    whole, inbetween, without = self.draw(film, peer, [("whole", samples, shaded, 11),
-                                                                       ("inbetween", samples, shaded, 10),
-                                                                       ("whole", samples, lit, 11)])
+                with self.subTest(peer=peer, shadows=shadows, samples=samples):
+                    whole, inbetween, without = self.draw(film, peer, [("whole", samples, shadows, 11),
+                                                                       ("inbetween", samples, shadows, 10),
+                                                                       ("whole", samples, "none", 11)])
                     self.assertLess(pictures.rms(whole, inbetween), 0.5)
                     self.assertGreater(pictures.rms(whole, without), 3)
                     self.assertLess(sum(pictures.read(whole)[1]), sum(pictures.read(without)[1]))
