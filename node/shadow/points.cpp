@@ -119,21 +119,24 @@ void Points::clear() {
   count_ = 0;
 }
 
-void Points::add(const PointSource& source, const LightView& view, const Layer& layer) {
+void Points::add(const Layer& layer, std::uint32_t tile, std::uint32_t vector, const PointVector& points) {
+  vectors_.push_back(points);
+  origins_.push_back({&layer, tile, vector});
+  tree_.add(points.box);
+  count_ += static_cast<std::uint64_t>(std::popcount(points.active));
+}
+
+void add_points(const PointSource& source, std::span<const LightView> views, const Layer& layer,
+                std::span<Points> points) {
+  const auto counts = [](const wire::StillPairs& pairs, const Lane& lane, std::uint16_t moved) {
+    const std::uint32_t open = pairs.lit & ~(pairs.blocked | moved);
+    return (open >> lane.pair & 1) != 0;
+  };
   for (const std::uint32_t tile : layer.tiles)
-    for_each_vector(
-        source, layer, tile,
-        [](const wire::StillPairs& pairs, const Lane& lane, std::uint16_t moved) {
-          const std::uint32_t open = pairs.lit & ~(pairs.blocked | moved);
-          return (open >> lane.pair & 1) != 0;
-        },
-        view,
-        [&](const PointVector& points, std::uint32_t vector) {
-          vectors_.push_back(points);
-          origins_.push_back({&layer, tile, vector});
-          tree_.add(points.box);
-          count_ += static_cast<std::uint64_t>(std::popcount(points.active));
-        });
+    for_each_vector(source, layer, tile, counts, views,
+                    [&](const PointVector& some, std::uint32_t vector, std::size_t view) {
+                      points[view].add(layer, tile, vector, some);
+                    });
 }
 
 void Points::note(const PointSource& source, Casting casting) {

@@ -65,18 +65,17 @@ struct PointSource {
   std::uint32_t light_point;  // of it
 };
 
-// Puts those points of a square on the view's grid that count(pairs, lane, moved) says, `moved` being what moving
-// casters block; calls visit(points, vector) for each vector that has some.
+// Puts those points of a square on the views' grids that count(pairs, lane, moved) says, `moved` being what moving
+// casters block; calls visit(points, vector, view) for each vector that has some.
 template <typename Counts, typename Visit>
 void for_each_vector(const PointSource& source, const Layer& layer, std::uint32_t tile, const Counts& counts,
-                     const LightView& view, const Visit& visit);
+                     std::span<const LightView> views, const Visit& visit);
 
 // The points that one view decides about.
 class Points {
  public:
   void clear();
-  // Those of a layer that matter and are not blocked.
-  void add(const PointSource& source, const LightView& view, const Layer& layer);
+  void add(const Layer& layer, std::uint32_t tile, std::uint32_t vector, const PointVector& points);
   void finish() { tree_.finish(); }
 
   bool empty() const { return vectors_.empty(); }
@@ -99,6 +98,10 @@ class Points {
   std::uint64_t count_ = 0;
 };
 
+// Adds those of a layer that matter and are not blocked to the views that decide about them.
+void add_points(const PointSource& source, std::span<const LightView> views, const Layer& layer,
+                std::span<Points> points);
+
 // The lines of a square; nullptr where nothing is seen.
 using TileLines = std::array<const LayerLine*, kTile>;
 TileLines lines_of(const Layer& layer, std::uint32_t top);
@@ -109,7 +112,7 @@ std::uint32_t far_ones(const float* inverse_w, std::uint32_t active);
 
 template <typename Counts, typename Visit>
 void for_each_vector(const PointSource& source, const Layer& layer, std::uint32_t tile, const Counts& counts,
-                     const LightView& view, const Visit& visit) {
+                     std::span<const LightView> views, const Visit& visit) {
   alignas(64) float inverse_w[kPointLanes] = {};
   const std::uint32_t left = tile % layer.tiles_across() * kTile, top = tile / layer.tiles_across() * kTile;
   const std::size_t first = std::size_t{source.light} * layer.width + left;
@@ -131,9 +134,11 @@ void for_each_vector(const PointSource& source, const Layer& layer, std::uint32_
     const std::uint32_t far = far_ones(inverse_w, active);
     for (const std::uint32_t some : {active & ~far, far}) {
       if (some == 0) continue;
-      source.kernels.put_points(view, source.frame, static_cast<float>(left), static_cast<float>(top), lanes.place,
-                                inverse_w, some, points);
-      if (points.active != 0) visit(points, v);
+      for (std::size_t f = 0; f < views.size(); ++f) {
+        source.kernels.put_points(views[f], source.frame, static_cast<float>(left), static_cast<float>(top),
+                                  lanes.place, inverse_w, some, points);
+        if (points.active != 0) visit(points, v, f);
+      }
     }
   }
 }

@@ -126,11 +126,11 @@ void ShadowCaster::cast_from_all(const geometry::Scene& scene, Casting casting, 
 
 void ShadowCaster::put_points(const PointSource& source, std::span<const LightView> views, Layers onto, Faces& faces) {
   faces.resize(views.size());
-  for (std::size_t f = 0; f < views.size(); ++f) {
-    faces[f].clear();
-    for (const Layer* layer : onto) faces[f].add(source, views[f], *layer);
-    faces[f].finish();
-    counts_.points += faces[f].count();
+  for (Points& points : faces) points.clear();
+  for (const Layer* layer : onto) add_points(source, views, *layer, faces);
+  for (Points& points : faces) {
+    points.finish();
+    counts_.points += points.count();
   }
   look_();
 }
@@ -205,12 +205,12 @@ GridBox ShadowCaster::bound_tile(std::uint32_t light, const LightView& view, con
                                  std::uint32_t tile) const {
   const std::uint32_t n = pairs_a_sample(light), some = (1u << n) - 1;
   GridBox box = kNowhere;
-  for_each_vector(
-      {kernels_, lights_[light].frame, pattern_, hard_, light, 0}, layer, tile,
-      [&](const wire::StillPairs& pairs, const Lane& lane, std::uint16_t) {
-        return (pairs.lit >> (lane.sample * n) & some) != 0;
-      },
-      view, [&](const PointVector& points, std::uint32_t) { box = around(box, points.box); });
+  const auto counts = [n, some](const wire::StillPairs& pairs, const Lane& lane, std::uint16_t) {
+    return (pairs.lit >> (lane.sample * n) & some) != 0;
+  };
+  const PointSource source{kernels_, lights_[light].frame, pattern_, hard_, light, 0};
+  for_each_vector(source, layer, tile, counts, std::span(&view, 1),
+                  [&](const PointVector& points, std::uint32_t, std::size_t) { box = around(box, points.box); });
   return box;
 }
 
