@@ -3,7 +3,7 @@
 #include <bit>
 
 #include "hal/failure/failure.h"
-#include "node/shadow/light_view.h"
+#include "node/shadow/light_views.h"
 #include "node/shape/vertices.h"
 
 namespace mars::shadow {

@@ -12,7 +12,7 @@
 #include "node/geometry/scene.h"
 #include "node/shadow/band.h"
 #include "node/shadow/casters.h"
-#include "node/shadow/light_view.h"
+#include "node/shadow/light_views.h"
 #include "node/shadow/points.h"
 
 namespace mars::shadow {
