@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <ranges>
 
 #include "node/shadow/block_plainly.h"
 #include "node/simd/vector_slack.h"
