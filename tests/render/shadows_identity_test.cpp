@@ -1,0 +1,158 @@
+// Films whose lights cast shadows have the same bits however the work is divided, too: as of identity_test.cpp, which
+// see.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "node/wire/still_plan.h"
+#include "tests/hal/machines_backend.h"
+#include "tests/node/simd/instruction_sets.h"
+#include "tests/render/film_run.h"
+#include "tests/render/films.h"
+#include "tests/render/looks.h"
+
+namespace mars::test {
+namespace {
+
+struct Case {
+  const char* name;
+  wire::FilmData film;
+};
+
+// Its lines are so long that a band of them has few.
+wire::FilmData wide() {
+  wire::FilmData film = casting(with_samples(crowd(8000, 12, 2, 2), 16), {0.0f, 0.4f});
+  film.cameras.front().focal = 2200;
+  return film;
+}
+
+std::vector<Case> cases() {
+  return {{"directional", casting(crowd(97, 61, 4, 4), {0.0f})},
+          {"directional_large", casting(with_samples(crowd(64, 40, 4, 4), 4), {0.05f})},
+          {"point", casting(crowd(64, 40, 4, 2), {-1.0f, 0.0f})},
+          {"point_large", casting(with_samples(crowd(48, 27, 3, 3), 4), {-1.0f, 0.4f})},
+          {"all", casting(richly_lit(crowd(64, 40, 4, 4)), {0.0f, 0.3f, 0.0f})},
+          {"all_4", casting(richly_lit(with_samples(crowd(48, 27, 4, 4), 4)), {0.03f, 0.0f, 0.2f})},
+          {"all_16", casting(richly_lit(with_samples(crowd(40, 24, 3, 3), 16)), {0.0f, 0.0f, 0.2f})},
+          {"flight", casting(with_samples(flight(48, 27, 3), 4), {0.02f, 0.0f})},
+          {"ties", casting(with_samples(ties(40, 30), 4), {0.0f, 0.2f})},
+          {"one_column", casting(with_samples(crowd(1, 53, 3, 3), 2), {0.0f, 0.2f})},
+          {"nothing", casting(nothing(16, 12, 2), {})}};
+}
+
+class ShadowsIdentity : public testing::TestWithParam<Case> {
+ protected:
+  const wire::FilmData& film() const { return GetParam().film; }
+  const wire::FilmSettings& settings() const { return film().settings; }
+  bool is(const char* name) const { return std::string(name) == GetParam().name; }
+
+  FilmRun draw(const RunOptions& options) const { return run_film(FilmBlock(film()).bytes(), options); }
+  const FilmRun& drawn_from_scratch() const {
+    static std::map<std::string, FilmRun> drawn;
+    FilmRun& run = drawn[GetParam().name];
+    if (!run.frames.empty()) return run;
+    RunOptions options;
+    options.work.coherence = false;
+    options.simd = "sse2";
+    return run = draw(options);
+  }
+  FilmRun expect_as_from_scratch(const RunOptions& options, const std::string& how) const {
+    FilmRun run = draw(options);
+    EXPECT_EQ(run.frames.size(), settings().frames);
+    expect_same(run, drawn_from_scratch(), settings(), std::string("shadows-") + GetParam().name + "-" + how);
+    return run;
+  }
+};
+
+TEST_P(ShadowsIdentity, AnyNumberOfNodes) {
+  for (const int nodes : {1, 2, 3}) {
+    RunOptions options;
+    options.nodes = nodes;
+    expect_as_from_scratch(options, std::to_string(nodes) + "-nodes");
+  }
+}
+
+TEST_P(ShadowsIdentity, AnyGroupsContributorsAndMachines) {
+  for (const auto& [nodes, groups, contributors, nodes_each] :
+       {std::tuple{4, 2u, 0, 4}, {4, 1u, 1, 4}, {3, 1u, 2, 1}, {5, 2u, 2, 2}}) {
+    messages::Machines machines(nodes_each);
+    messages::Counts counts;
+    RunOptions options;
+    options.nodes = nodes;
+    options.work.groups = groups;
+    options.work.contributors = contributors;
+    options.wrap = [&](messages::Backend& inner) {
+      return std::make_unique<messages::MachinesBackend>(inner, counts, machines);
+    };
+    expect_as_from_scratch(options, std::to_string(nodes) + "-nodes-" + std::to_string(groups) + "-groups");
+  }
+}
+
+TEST_P(ShadowsIdentity, AnyInstructionSet) {
+  for (const simd::InstructionSet set : simd::all_sets()) {
+    RunOptions options;
+    options.simd = simd::name_of(set);
+    expect_as_from_scratch(options, simd::name_of(set));
+  }
+}
+
+TEST_P(ShadowsIdentity, WithoutCoherenceOnManyNodes) {
+  RunOptions options;
+  options.nodes = 3;
+  options.work.coherence = false;
+  options.work.groups = 1;
+  expect_as_from_scratch(options, "scratch-3-nodes");
+}
+
+TEST_P(ShadowsIdentity, InSeveralPassesWhenMemoryIsShort) {
+  for (const int nodes : {1, 3}) {
+    RunOptions options;
+    options.nodes = nodes;
+    options.memory = 150'000 + 200 * settings().height;
+    const FilmRun run = expect_as_from_scratch(options, "passes");
+    std::uint32_t passes_of_inbetweens = 1;
+    for (const wire::Strip& strip : run.report.strips)
+      if (strip.kind == wire::FrameKind::inbetween)
+        passes_of_inbetweens = std::max(passes_of_inbetweens, strip.work.passes);
+    if (is("directional") || is("all_4") || is("all_16")) {
+      EXPECT_GT(passes_of_inbetweens, 1u);
+    }
+  }
+}
+
+TEST_P(ShadowsIdentity, WithLittleMemoryForStationaryParts) {
+  const auto casts = static_cast<std::uint32_t>(std::ranges::count(film().lights, 1u, &wire::Light::casts));
+  const std::uint64_t a_line =
+      wire::plan_still_lines(settings().width, 1, settings().samples, std::uint64_t{1} << 40, casts).line_bytes;
+  for (const std::uint64_t lines : {settings().height / 3, 0u}) {
+    RunOptions options;
+    options.farm.still_memory = lines * a_line;
+    const FilmRun run = expect_as_from_scratch(options, "still-memory-of-" + std::to_string(lines));
+    std::uint64_t drawn_again = 0;
+    for (const wire::Strip& strip : run.report.strips) drawn_again += strip.work.lines_drawn_again;
+    if (is("directional") || is("all_4") || is("all_16")) {
+      EXPECT_GT(drawn_again, 0u);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Films, ShadowsIdentity, testing::ValuesIn(cases()),
+                         [](const auto& info) { return info.param.name; });
+
+// What movers' shadows reach is found once an interval: in a picture of several bands, in all of them.
+TEST(ShadowsOfWidePictures, AreTheSameWithAndWithoutCoherence) {
+  const wire::FilmData film = wide();
+  RunOptions from_scratch;
+  from_scratch.work.coherence = false;
+  const FilmBlock block(film);
+  expect_same(run_film(block.bytes()), run_film(block.bytes(), from_scratch), film.settings, "shadows-wide");
+}
+
+}  // namespace
+}  // namespace mars::test
