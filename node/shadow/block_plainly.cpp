@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace mars::shadow {
@@ -12,11 +13,6 @@ namespace {
 __extension__ typedef __int128 Wide;
 
 constexpr double kMostOnGrid = 1e17;
-
-struct GridPlace {
-  std::int64_t x, y;
-  double z;
-};
 
 struct Corner {
   std::array<double, 3> place;  // of eye space, from the light's where it has one
@@ -110,7 +106,44 @@ class Plane {
   double per_x_, per_y_, slope_;
 };
 
-void block_triangle(GridPlace a, GridPlace b, GridPlace c, PointVector* points, std::span<const std::uint32_t> found) {
+// Whether the triangle reaches before the plane near the points.
+bool reaches_before(const PointVector& points, const GridPlace& a, const GridPlace& b, const GridPlace& c) {
+  const auto before = [&](const GridPlace& at) {
+    return at.z - (points.per_x * static_cast<double>(at.x - points.box.low_x) +
+                   points.per_y * static_cast<double>(at.y - points.box.low_y));
+  };
+  return std::max({before(a), before(b), before(c)}) > double{points.least} + double{points.room};
+}
+
+}  // namespace
+
+GridBox LargeTriangle::box() const {
+  const auto steps = [](std::int64_t place) {
+    constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
+    return static_cast<std::int32_t>(std::clamp(place, -kMost, kMost));
+  };
+  const auto [low_x, high_x] = std::minmax({a.x, b.x, c.x});
+  const auto [low_y, high_y] = std::minmax({a.y, b.y, c.y});
+  const auto [low_z, high_z] = std::minmax({a.z, b.z, c.z});
+  return {steps(low_x),
+          steps(high_x),
+          steps(low_y),
+          steps(high_y),
+          static_cast<float>(low_z),
+          std::nextafter(static_cast<float>(high_z), std::numeric_limits<float>::max())};
+}
+
+void for_each_piece(const LightView& view, const Caster& caster, const GridVertices& vertices, std::uint32_t number,
+                    const std::function<void(const LargeTriangle&)>& visit) {
+  const shape::Corner3 at = caster.triangles[number];
+  const Polygon polygon = clipped(view, {corner(view, caster, vertices, at.a), corner(view, caster, vertices, at.b),
+                                         corner(view, caster, vertices, at.c)});
+  for (std::size_t k = 1; k + 1 < polygon.count; ++k)
+    visit({polygon.corner[0], polygon.corner[k], polygon.corner[k + 1]});
+}
+
+void block_plainly(const LargeTriangle& triangle, PointVector* points, std::span<const std::uint32_t> found) {
+  GridPlace a = triangle.a, b = triangle.b, c = triangle.c;
   Wide area = cross(a, b, c.x, c.y);
   if (area == 0) return;
   if (area < 0) std::swap(b, c), area = -area;
@@ -122,7 +155,7 @@ void block_triangle(GridPlace a, GridPlace b, GridPlace c, PointVector* points, 
   for (const std::uint32_t number : found) {
     PointVector& here = points[number];
     if (here.box.low_x > high_x || here.box.high_x < low_x || here.box.low_y > high_y || here.box.high_y < low_y ||
-        !(high_z > here.box.low_z))
+        !(high_z > here.box.low_z) || !reaches_before(here, a, b, c))
       continue;
     for (std::uint32_t left = here.active & ~here.blocked; left != 0; left &= left - 1) {
       const auto k = static_cast<std::size_t>(std::countr_zero(left));
@@ -132,17 +165,6 @@ void block_triangle(GridPlace a, GridPlace b, GridPlace c, PointVector* points, 
         here.blocked |= 1u << k;
     }
   }
-}
-
-}  // namespace
-
-void block_plainly(const LightView& view, const Caster& caster, const GridVertices& vertices, std::uint32_t number,
-                   PointVector* points, std::span<const std::uint32_t> found) {
-  const shape::Corner3 at = caster.triangles[number];
-  const Polygon polygon = clipped(view, {corner(view, caster, vertices, at.a), corner(view, caster, vertices, at.b),
-                                         corner(view, caster, vertices, at.c)});
-  for (std::size_t k = 1; k + 1 < polygon.count; ++k)
-    block_triangle(polygon.corner[0], polygon.corner[k], polygon.corner[k + 1], points, found);
 }
 
 }  // namespace mars::shadow

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 
 #include "node/shadow/casters.h"
@@ -10,9 +11,24 @@
 
 namespace mars::shadow {
 
-// Blocks those of the points `found` that triangle `number` of the caster is before. `vertices`: the caster's, on the
-// view's grid.
-void block_plainly(const LightView& view, const Caster& caster, const GridVertices& vertices, std::uint32_t number,
-                   PointVector* points, std::span<const std::uint32_t> found);
+struct GridPlace {
+  std::int64_t x, y;
+  double z;
+};
+
+// On a view's grid.
+struct LargeTriangle {
+  GridPlace a, b, c;
+
+  GridBox box() const;  // as far as its numbers reach
+};
+
+// visit(piece) for the parts of triangle `number` of the caster that are far enough from the light: it, or two where it
+// is cut. `vertices`: the caster's, on the view's grid.
+void for_each_piece(const LightView& view, const Caster& caster, const GridVertices& vertices, std::uint32_t number,
+                    const std::function<void(const LargeTriangle&)>& visit);
+
+// Blocks those of the points `found` that the triangle is before.
+void block_plainly(const LargeTriangle& triangle, PointVector* points, std::span<const std::uint32_t> found);
 
 }  // namespace mars::shadow

@@ -29,13 +29,22 @@ struct alignas(64) SmallTriangles {
   std::int32_t x[3][kPointLanes];
   std::int32_t y[3][kPointLanes];
   std::int32_t least[3][kPointLanes];  // of each edge's function, where a point is inside
-  float z[kPointLanes];                // at corner 0
+  float z[3][kPointLanes];
   float per_x[kPointLanes];
   float per_y[kPointLanes];
   float slope[kPointLanes];  // |per_x| + |per_y|
   std::int32_t low_x[kPointLanes], high_x[kPointLanes], low_y[kPointLanes], high_y[kPointLanes];
   float high_z[kPointLanes];
-  GridBox box;  // round all of them; its low_z is not used
+};
+
+inline constexpr std::uint32_t kMostBatches = 64;  // that are set up at a time, so that they stay in a cache
+
+// Batches of them, and bounds of each.
+struct alignas(64) SmallBatches {
+  SmallTriangles batch[kMostBatches];
+  std::int32_t low_x[kMostBatches], high_x[kMostBatches], low_y[kMostBatches], high_y[kMostBatches];
+  float high_z[kMostBatches];
+  std::uint32_t count;
 };
 inline constexpr std::int32_t kMostSmall = 32767;
 
@@ -45,17 +54,18 @@ struct ShadowKernels {
   // Points from places on the screen, pixels, and their 1 / w; inactive where that is 0 or `active` has no bit.
   void (*put_points)(const LightView& view, const PointFrame& frame, const float* x, const float* y,
                      const float* inverse_w, std::uint32_t active, PointVector& out);
-  // Sets up the triangles of a batch; bits of those that are not small, which are left to the caller.
+  // Sets up the triangles of a batch, the next of `out`; bits of those that are not small, which are left to the
+  // caller.
   std::uint32_t (*set_up)(const GridVertices& vertices, const shape::Triangles& triangles, const shape::Batch& batch,
-                          SmallTriangles& out);
+                          SmallBatches& out);
   // Of boxes [first, first + count), a multiple of kPointLanes, those with points that a caster within `box` may block,
   // where the grid's places of points of one light differ by `spread` (light_view.h). Their numbers go to `found`; says
   // how many.
   std::uint32_t (*find)(const BoxArrays& boxes, std::uint32_t first, std::uint32_t count, const GridBox& box,
                         float spread, std::uint32_t* found);
   // Blocks those of the points `found` that the triangles are before.
-  void (*block)(const SmallTriangles* batches, std::uint32_t batch_count, PointVector* points,
-                const std::uint32_t* found, std::uint32_t found_count);
+  void (*block)(const SmallBatches& batches, PointVector* points, const std::uint32_t* found,
+                std::uint32_t found_count);
 };
 
 const ShadowKernels& shadow_kernels(simd::InstructionSet set);

@@ -84,13 +84,11 @@ Vector ball_point(std::uint32_t i) {
   return {radius * ring * around.cosine, radius * ring * around.sine, radius * height};
 }
 
-// Two unit vectors across `axis`.
+// Two unit vectors across `axis`. One is also across the view axis where that is another: neighbouring pixels of a
+// surface that is seen edge-on lie far apart along it, and boxes round them are small then.
 std::array<Vector, 2> across(const Vector& axis) {
-  std::size_t least = 0;
-  for (std::size_t k = 1; k < 3; ++k)
-    if (std::abs(axis[k]) < std::abs(axis[least])) least = k;
-  Vector other{};
-  other[least] = 1;
+  constexpr double kSame = 0.99;
+  const Vector other = std::abs(axis[2]) < kSame ? Vector{0, 0, 1} : Vector{1, 0, 0};
   const Vector u = unit(cross(other, axis));
   return {u, cross(axis, u)};
 }

@@ -23,6 +23,12 @@ struct alignas(64) PointVector {
   float lateral[kPointLanes];
   float along[kPointLanes];
   GridBox box;
+  // A plane near them, so that casters that lie on it are told from those before it. With d = z - (per_x (x -
+  // box.low_x)
+  // + per_y (y - box.low_y)), a caster whose d is nowhere above least + room blocks none.
+  float per_x, per_y;
+  float least;
+  float room;
   std::uint32_t active;   // one bit a point
   std::uint32_t blocked;  // and of those that a caster is before
 };

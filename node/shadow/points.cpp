@@ -59,7 +59,6 @@ void BoxTree::finish() {
   if (count_ % kPointLanes != 0) around_.add(last_);
   boxes_.fill_last(), around_.fill_last();
   found_around_.resize(around_.low_z.size());
-  found_.resize(boxes_.low_z.size());
 }
 
 std::uint32_t BoxTree::find_around(const ShadowKernels& kernels, const GridBox& box, float spread) {
@@ -71,12 +70,14 @@ bool BoxTree::any(const ShadowKernels& kernels, const GridBox& box, float spread
   return find_around(kernels, box, spread) > 0;
 }
 
-std::span<const std::uint32_t> BoxTree::find(const ShadowKernels& kernels, const GridBox& box, float spread) {
+std::span<const std::uint32_t> BoxTree::find(const ShadowKernels& kernels, const GridBox& box, float spread,
+                                             std::vector<std::uint32_t>& into) {
+  if (into.size() < boxes_.low_z.size()) into.resize(boxes_.low_z.size());
   const std::uint32_t around = find_around(kernels, box, spread);
   std::uint32_t found = 0;
   for (const std::uint32_t sixteen : std::span(found_around_).first(around))
-    found += kernels.find(boxes_.view(), sixteen * kPointLanes, kPointLanes, box, spread, found_.data() + found);
-  return std::span(std::as_const(found_)).first(found);
+    found += kernels.find(boxes_.view(), sixteen * kPointLanes, kPointLanes, box, spread, into.data() + found);
+  return std::span(std::as_const(into)).first(found);
 }
 
 void Points::clear() {

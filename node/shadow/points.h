@@ -26,8 +26,9 @@ class BoxTree {
 
   // Whether a caster within `box` may block points of any box, by `spread` (kernels.h).
   bool any(const ShadowKernels& kernels, const GridBox& box, float spread);
-  // Numbers of the boxes whose points it may block; until the next call.
-  std::span<const std::uint32_t> find(const ShadowKernels& kernels, const GridBox& box, float spread);
+  // Numbers of the boxes whose points it may block, in `found`, which grows where it is too short.
+  std::span<const std::uint32_t> find(const ShadowKernels& kernels, const GridBox& box, float spread,
+                                      std::vector<std::uint32_t>& found);
 
  private:
   struct Arrays {
@@ -44,7 +45,7 @@ class BoxTree {
   Arrays boxes_, around_;
   GridBox last_{};  // round those since the last in around_
   std::uint32_t count_ = 0;
-  std::vector<std::uint32_t> found_around_, found_;
+  std::vector<std::uint32_t> found_around_;
 };
 
 // What points are made of, besides the view: the same throughout a picture.

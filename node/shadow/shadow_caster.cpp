@@ -12,8 +12,7 @@
 namespace mars::shadow {
 namespace {
 
-constexpr std::uint32_t kMostBatches = 64;  // that are set up at a time, so that they stay in a cache
-constexpr float kFloatError = 1.0f / (1 << 20);
+constexpr float kPlaceError = 1.0f / (1 << 20);
 
 float largest(const float* const* points, std::uint32_t count) {
   float most = 0;
@@ -39,7 +38,7 @@ ShadowCaster::ShadowCaster(simd::InstructionSet set, const geometry::Scene& scen
       grid_x_(static_cast<std::size_t>(shape::Dicer::kMostVertices + simd::kVectorSlack)),
       grid_y_(grid_x_.size()),
       grid_z_(grid_x_.size()),
-      small_(kMostBatches) {}
+      small_(new SmallBatches{}) {}
 
 void ShadowCaster::begin(const geometry::Scene& scene, const std::function<void()>& look) {
   look_ = look;
@@ -131,20 +130,27 @@ void ShadowCaster::block(const Caster& caster, const LightView& view, Points& po
   const GridBox box = kernels_.project(view, caster.place, caster.vertices, vertices);
   counts_.vertices += caster.vertices;
   if (box.low_x > box.high_x) return;
-  const auto found = points.tree().find(kernels_, box, 0);
+  const auto found = points.tree().find(kernels_, box, 0, found_);
   if (found.empty()) return;
   counts_.triangles += caster.triangles.count;
   for (std::uint32_t first = 0; first < caster.triangles.batch_count; first += kMostBatches) {
     const std::uint32_t count = std::min(kMostBatches, caster.triangles.batch_count - first);
+    small_->count = 0;
     for (std::uint32_t b = 0; b < count; ++b) {
       const shape::Batch& batch = caster.triangles.batches[first + b];
-      std::uint32_t large = kernels_.set_up(vertices, caster.triangles, batch, small_[b]);
+      std::uint32_t large = kernels_.set_up(vertices, caster.triangles, batch, *small_);
       for (; large != 0; large &= large - 1)
-        block_plainly(view, caster, vertices, batch.first + static_cast<std::uint32_t>(std::countr_zero(large)),
-                      points.vectors(), found);
+        block_large(view, caster, batch.first + static_cast<std::uint32_t>(std::countr_zero(large)), points);
     }
-    kernels_.block(small_.data(), count, points.vectors(), found.data(), static_cast<std::uint32_t>(found.size()));
+    kernels_.block(*small_, points.vectors(), found.data(), static_cast<std::uint32_t>(found.size()));
   }
+}
+
+void ShadowCaster::block_large(const LightView& view, const Caster& caster, std::uint32_t triangle, Points& points) {
+  const GridVertices vertices{grid_x_.data(), grid_y_.data(), grid_z_.data()};
+  for_each_piece(view, caster, vertices, triangle, [&](const LargeTriangle& piece) {
+    block_plainly(piece, points.vectors(), points.tree().find(kernels_, piece.box(), 0, found_by_large_));
+  });
 }
 
 // A little wider, for vertices lie within the hull but for rounding.
@@ -152,7 +158,7 @@ GridBox ShadowCaster::box_of_hull(const LightView& view, const float* const* hul
   GridBox box = kernels_.project(view, hull, count, {grid_x_.data(), grid_y_.data(), grid_z_.data()});
   if (box.low_x > box.high_x) return box;
   const double nearer = view.has_place ? double{box.high_z} : 1.0;
-  const double margin = double{largest(hull, count)} * kFloatError * nearer * view.per_step;
+  const double margin = double{largest(hull, count)} * kPlaceError * nearer * view.per_step;
   box.low_x = clamped(box.low_x - margin), box.high_x = clamped(box.high_x + margin);
   box.low_y = clamped(box.low_y - margin), box.high_y = clamped(box.high_y + margin);
   return box;
@@ -204,7 +210,7 @@ void ShadowCaster::find_shaded(const geometry::Scene& scene, std::vector<std::ui
       for (std::size_t f = 0; f < still_bounds_[light].size(); ++f) {
         const LightView& view = has_size(light) ? all.middle : all.views[f];
         TileBounds& bounds = still_bounds_[light][f];
-        for (const std::uint32_t box : bounds.tree.find(kernels_, box_of_hull(view, hull, count), all.spread))
+        for (const std::uint32_t box : bounds.tree.find(kernels_, box_of_hull(view, hull, count), all.spread, found_))
           if (bounds.tiles[box] < is_shaded_.size()) is_shaded_[bounds.tiles[box]] = 1;
       }
     }

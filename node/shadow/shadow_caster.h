@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -68,6 +69,7 @@ class ShadowCaster {
                   std::span<Layer* const> onto);
   void block(std::span<const Caster> casters, std::span<const LightView> views);
   void block(const Caster& caster, const LightView& view, Points& points);
+  void block_large(const LightView& view, const Caster& caster, std::uint32_t triangle, Points& points);
 
   const ShadowKernels& kernels_;
   shape::SamplePattern pattern_;
@@ -80,7 +82,8 @@ class ShadowCaster {
   std::vector<std::vector<TileBounds>> still_bounds_;  // by light and face
   std::vector<std::int32_t> grid_x_, grid_y_;
   std::vector<float> grid_z_;
-  std::vector<SmallTriangles> small_;
+  std::unique_ptr<SmallBatches> small_;
+  std::vector<std::uint32_t> found_, found_by_large_;
   std::vector<std::uint8_t> is_shaded_;  // by square of the picture
   std::function<void()> look_;
   CastCounts counts_;

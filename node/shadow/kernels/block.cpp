@@ -30,21 +30,49 @@ Ints least_inside(Ints dx, Ints dy) {
 
 Ints cross(Ints ax, Ints ay, Ints bx, Ints by) { return hn::Sub(hn::Mul(ax, by), hn::Mul(ay, bx)); }
 
-bool overlap(const GridBox& casters, const GridBox& points) {
-  return casters.low_x <= points.high_x && casters.high_x >= points.low_x && casters.low_y <= points.high_y &&
-         casters.high_y >= points.low_y && casters.high_z > points.low_z;
-}
-
-// Bits of the triangles whose bounds overlap the points'.
-std::uint32_t overlapping(const SmallTriangles& t, const GridBox& points) {
+// Bits of the batches whose bounds overlap the points', from `first` on.
+std::uint32_t overlapping(const SmallBatches& b, std::uint32_t first, const GridBox& points) {
   std::uint32_t found = 0;
   for (std::uint32_t k = 0; k < kPointLanes; k += kLanes) {
-    const auto x = hn::And(at_least(hn::Set(kInts, points.high_x), hn::Load(kInts, t.low_x + k)),
-                           at_least(hn::Load(kInts, t.high_x + k), hn::Set(kInts, points.low_x)));
-    const auto y = hn::And(at_least(hn::Set(kInts, points.high_y), hn::Load(kInts, t.low_y + k)),
-                           at_least(hn::Load(kInts, t.high_y + k), hn::Set(kInts, points.low_y)));
-    const auto z = hn::Gt(hn::Load(kFloats, t.high_z + k), constant(points.low_z));
+    const std::uint32_t at = first + k;
+    const auto x = hn::And(at_least(hn::Set(kInts, points.high_x), hn::Load(kInts, b.low_x + at)),
+                           at_least(hn::Load(kInts, b.high_x + at), hn::Set(kInts, points.low_x)));
+    const auto y = hn::And(at_least(hn::Set(kInts, points.high_y), hn::Load(kInts, b.low_y + at)),
+                           at_least(hn::Load(kInts, b.high_y + at), hn::Set(kInts, points.low_y)));
+    const auto z = hn::Gt(hn::Load(kFloats, b.high_z + at), constant(points.low_z));
     found |= bits(kInts, hn::And(hn::And(x, y), integers(z))) << k;
+  }
+  return found;
+}
+
+// How far a vector of triangles reaches before the plane near the points: at a corner, for both are planes.
+Floats highest_before(const SmallTriangles& t, std::uint32_t k, const PointVector& points) {
+  const Ints low_x = hn::Set(kInts, points.box.low_x), low_y = hn::Set(kInts, points.box.low_y);
+  const Floats per_x = constant(points.per_x), per_y = constant(points.per_y);
+  Floats highest = constant(-std::numeric_limits<float>::max());
+  for (int c = 0; c < 3; ++c) {
+    const Floats x = hn::ConvertTo(kFloats, hn::Sub(hn::Load(kInts, t.x[c] + k), low_x));
+    const Floats y = hn::ConvertTo(kFloats, hn::Sub(hn::Load(kInts, t.y[c] + k), low_y));
+    const Floats plane = hn::Add(hn::Mul(per_x, x), hn::Mul(per_y, y));
+    highest = hn::Max(highest, hn::Sub(hn::Load(kFloats, t.z[c] + k), plane));
+  }
+  return highest;
+}
+
+// Bits of the triangles whose bounds overlap the points' and that reach before the plane near them.
+std::uint32_t overlapping(const SmallTriangles& t, const PointVector& points) {
+  const GridBox& box = points.box;
+  std::uint32_t found = 0;
+  for (std::uint32_t k = 0; k < kPointLanes; k += kLanes) {
+    const auto x = hn::And(at_least(hn::Set(kInts, box.high_x), hn::Load(kInts, t.low_x + k)),
+                           at_least(hn::Load(kInts, t.high_x + k), hn::Set(kInts, box.low_x)));
+    const auto y = hn::And(at_least(hn::Set(kInts, box.high_y), hn::Load(kInts, t.low_y + k)),
+                           at_least(hn::Load(kInts, t.high_y + k), hn::Set(kInts, box.low_y)));
+    const auto z = hn::Gt(hn::Load(kFloats, t.high_z + k), constant(box.low_z));
+    const auto here = hn::And(hn::And(x, y), integers(z));
+    if (hn::AllFalse(kInts, here)) continue;
+    const auto before = hn::Gt(highest_before(t, k, points), constant(points.least + points.room));
+    found |= bits(kInts, hn::And(here, integers(before))) << k;
   }
   return found;
 }
@@ -55,8 +83,9 @@ std::uint32_t behind(const SmallTriangles& t, std::uint32_t n, const PointVector
   for (std::uint32_t k = 0; k < kPointLanes; k += kLanes) {
     const Ints x = hn::Load(kInts, points.x + k), y = hn::Load(kInts, points.y + k);
     const Ints dx = hn::Sub(x, hn::Set(kInts, t.x[0][n])), dy = hn::Sub(y, hn::Set(kInts, t.y[0][n]));
-    const Floats there = hn::Add(hn::Add(constant(t.z[n]), hn::Mul(hn::ConvertTo(kFloats, dy), constant(t.per_y[n]))),
-                                 hn::Mul(hn::ConvertTo(kFloats, dx), constant(t.per_x[n])));
+    const Floats there =
+        hn::Add(hn::Add(constant(t.z[0][n]), hn::Mul(hn::ConvertTo(kFloats, dy), constant(t.per_y[n]))),
+                hn::Mul(hn::ConvertTo(kFloats, dx), constant(t.per_x[n])));
     const Floats bound = hn::Add(hn::Mul(hn::Load(kFloats, points.lateral + k), constant(t.slope[n])),
                                  hn::Load(kFloats, points.along + k));
     const auto nearer = hn::Gt(hn::Sub(there, hn::Load(kFloats, points.z + k)), bound);
@@ -80,11 +109,12 @@ std::uint32_t behind(const SmallTriangles& t, std::uint32_t n, const PointVector
 }  // namespace
 
 std::uint32_t set_up(const GridVertices& vertices, const shape::Triangles& triangles, const shape::Batch& batch,
-                     SmallTriangles& out) {
+                     SmallBatches& batches) {
+  SmallTriangles& out = batches.batch[batches.count];
   constexpr std::int32_t kMost = std::numeric_limits<std::int32_t>::max();
   const Ints none = hn::Zero(kInts), off = hn::Set(kInts, kOffGrid);
   std::uint32_t large = 0;
-  GridBox& box = out.box = {kMost, -kMost, kMost, -kMost, 0, -std::numeric_limits<float>::max()};
+  GridBox box{kMost, -kMost, kMost, -kMost, 0, -std::numeric_limits<float>::max()};
   for (std::uint32_t k = 0; k < kPointLanes; k += kLanes) {
     const auto there =
         k + batch.first < batch.last ? hn::FirstN(kInts, batch.last - batch.first - k) : hn::FirstN(kInts, 0);
@@ -120,7 +150,8 @@ std::uint32_t set_up(const GridVertices& vertices, const shape::Triangles& trian
       hn::Store(*ys[e], kInts, out.y[e] + k);
       hn::Store(least_inside(hn::Sub(*xs[to], *xs[e]), hn::Sub(*ys[to], *ys[e])), kInts, out.least[e] + k);
     }
-    hn::Store(a.z, kFloats, out.z + k);
+    const Floats* zs[3] = {&a.z, &b.z, &c.z};
+    for (int e = 0; e < 3; ++e) hn::Store(*zs[e], kFloats, out.z[e] + k);
     hn::Store(per_x, kFloats, out.per_x + k);
     hn::Store(per_y, kFloats, out.per_y + k);
     hn::Store(hn::Add(hn::Abs(per_x), hn::Abs(per_y)), kFloats, out.slope + k);
@@ -148,6 +179,9 @@ std::uint32_t set_up(const GridVertices& vertices, const shape::Triangles& trian
     const float highest = MARS_SET::greatest(kFloats, high);
     box.high_z = highest > box.high_z ? highest : box.high_z;
   }
+  batches.low_x[batches.count] = box.low_x, batches.high_x[batches.count] = box.high_x;
+  batches.low_y[batches.count] = box.low_y, batches.high_y[batches.count] = box.high_y;
+  batches.high_z[batches.count++] = box.high_z;
   return large;
 }
 
@@ -169,15 +203,19 @@ std::uint32_t find(const BoxArrays& boxes, std::uint32_t first, std::uint32_t co
   return static_cast<std::uint32_t>(next - found);
 }
 
-void block(const SmallTriangles* batches, std::uint32_t batch_count, PointVector* points, const std::uint32_t* found,
-           std::uint32_t found_count) {
+// Behind the last batch of a sixteen lie batches of earlier calls: their bits are left out.
+void block(const SmallBatches& batches, PointVector* points, const std::uint32_t* found, std::uint32_t found_count) {
   for (const std::uint32_t* at = found; at != found + found_count; ++at) {
     PointVector& here = points[*at];
-    for (const SmallTriangles* batch = batches; batch != batches + batch_count; ++batch) {
-      if (!overlap(batch->box, here.box)) continue;
-      for (std::uint32_t left = overlapping(*batch, here.box); left != 0; left &= left - 1) {
-        if ((here.active & ~here.blocked) == 0) break;
-        here.blocked |= behind(*batch, static_cast<std::uint32_t>(__builtin_ctz(left)), here) & here.active;
+    for (std::uint32_t first = 0; first < batches.count; first += kPointLanes) {
+      const std::uint32_t rest = batches.count - first, all = rest < kPointLanes ? (1u << rest) - 1 : 0xffffu;
+      std::uint32_t some = overlapping(batches, first, here.box) & all;
+      for (; some != 0; some &= some - 1) {
+        const SmallTriangles& batch = batches.batch[first + static_cast<std::uint32_t>(__builtin_ctz(some))];
+        for (std::uint32_t left = overlapping(batch, here); left != 0; left &= left - 1) {
+          if ((here.active & ~here.blocked) == 0) break;
+          here.blocked |= behind(batch, static_cast<std::uint32_t>(__builtin_ctz(left)), here) & here.active;
+        }
       }
     }
   }

@@ -16,11 +16,10 @@ GridBox project(const LightView& view, const float* const* place, std::uint32_t 
 void put_points(const LightView& view, const PointFrame& frame, const float* x, const float* y, const float* inverse_w,
                 std::uint32_t active, PointVector& out);
 std::uint32_t set_up(const GridVertices& vertices, const shape::Triangles& triangles, const shape::Batch& batch,
-                     SmallTriangles& out);
+                     SmallBatches& out);
 std::uint32_t find(const BoxArrays& boxes, std::uint32_t first, std::uint32_t count, const GridBox& box, float spread,
                    std::uint32_t* found);
-void block(const SmallTriangles* batches, std::uint32_t batch_count, PointVector* points, const std::uint32_t* found,
-           std::uint32_t found_count);
+void block(const SmallBatches& batches, PointVector* points, const std::uint32_t* found, std::uint32_t found_count);
 
 // One bit a lane.
 template <typename Tag>

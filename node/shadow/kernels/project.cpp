@@ -10,6 +10,8 @@ namespace {
 
 constexpr float kMostOnGrid = 1 << 29;
 
+Floats zero() { return hn::Zero(kFloats); }
+
 // A vector of places, seen by a view.
 struct Seen {
   Floats x, y, z;
@@ -70,6 +72,63 @@ class Bounds {
   Floats low_z_ = constant(std::numeric_limits<float>::max()), high_z_ = constant(-std::numeric_limits<float>::max());
 };
 
+// Sums over the active points.
+struct Sums {
+  Floats all = zero();
+  float total() const { return hn::GetLane(hn::SumOfLanes(kFloats, all)); }
+};
+
+// By least squares; level where the points lie on a line. Any plane is right, a near one leaves out more.
+void fit_plane(PointVector& out) {
+  Sums x, y, z, xx, xy, yy, xz, yz;
+  const auto each = [&](const auto& visit) {
+    for (std::uint32_t k = 0; k < kPointLanes; k += kLanes) {
+      const std::uint8_t asked[8] = {static_cast<std::uint8_t>(out.active >> k),
+                                     static_cast<std::uint8_t>(out.active >> k >> 8)};
+      const auto place = [&](const std::int32_t* at, std::int32_t low) {
+        return hn::ConvertTo(kFloats, hn::Sub(hn::Load(kInts, at + k), hn::Set(kInts, low)));
+      };
+      visit(hn::LoadMaskBits(kFloats, asked), place(out.x, out.box.low_x), place(out.y, out.box.low_y),
+            hn::Load(kFloats, out.z + k), hn::Load(kFloats, out.along + k));
+    }
+  };
+  const auto add = [](hn::Mask<FloatTag> mask, Floats number, Sums& sum) {
+    sum.all = hn::Add(sum.all, hn::IfThenElseZero(mask, number));
+  };
+  each([&](auto mask, Floats px, Floats py, Floats pz, Floats) {
+    add(mask, px, x), add(mask, py, y), add(mask, pz, z);
+  });
+  const auto count = static_cast<float>(__builtin_popcount(out.active));
+  const float mx = x.total() / count, my = y.total() / count, mz = z.total() / count;
+  each([&](auto mask, Floats px, Floats py, Floats pz, Floats) {
+    const Floats dx = hn::Sub(px, constant(mx)), dy = hn::Sub(py, constant(my)), dz = hn::Sub(pz, constant(mz));
+    add(mask, hn::Mul(dx, dx), xx), add(mask, hn::Mul(dx, dy), xy), add(mask, hn::Mul(dy, dy), yy);
+    add(mask, hn::Mul(dx, dz), xz), add(mask, hn::Mul(dy, dz), yz);
+  });
+  constexpr float kOnALine = 1e-3f;
+  const float sxx = xx.total(), sxy = xy.total(), syy = yy.total(), sxz = xz.total(), syz = yz.total();
+  const float determinant = sxx * syy - sxy * sxy;
+  const bool is_plane = determinant > kOnALine * sxx * syy;
+  out.per_x = is_plane ? (sxz * syy - syz * sxy) / determinant : 0;
+  out.per_y = is_plane ? (syz * sxx - sxz * sxy) / determinant : 0;
+  Floats least = constant(std::numeric_limits<float>::max()), room = least;
+  each([&](auto mask, Floats px, Floats py, Floats pz, Floats along) {
+    const Floats plane = hn::Add(hn::Mul(constant(out.per_x), px), hn::Mul(constant(out.per_y), py));
+    least = hn::Min(least, hn::IfThenElse(mask, hn::Sub(pz, plane), least));
+    room = hn::Min(room, hn::IfThenElse(mask, along, room));
+  });
+  out.least = MARS_SET::least(kFloats, least);
+  // Half of what a caster must be nearer, for points are rounded here too; and less by what a small triangle's corners
+  // are rounded by.
+  constexpr float kRounding = 1.0f / (1 << 22);
+  const auto reach = [](float per, std::int32_t low, std::int32_t high) {
+    return (per < 0 ? -per : per) * (static_cast<float>(high) - static_cast<float>(low) + kMostSmall);
+  };
+  const float size = reach(out.per_x, out.box.low_x, out.box.high_x) + reach(out.per_y, out.box.low_y, out.box.high_y) +
+                     (out.least < 0 ? -out.least : out.least);
+  out.room = MARS_SET::least(kFloats, room) / 2 - kRounding * size;
+}
+
 }  // namespace
 
 GridBox project(const LightView& view, const float* const* place, std::uint32_t count, const GridVertices& out) {
@@ -126,7 +185,9 @@ void put_points(const LightView& view, const PointFrame& frame, const float* x, 
     bounds.add(grid_x, grid_y, seen.z, here);
     out.active |= bits(kFloats, here) << k;
   }
+  if (out.active == 0) return;
   out.box = bounds.box();
+  fit_plane(out);
 }
 
 }  // namespace mars::shadow::MARS_SET
