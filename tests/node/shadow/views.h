@@ -1,6 +1,7 @@
 // Lights, their views and points on these, for tests.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -90,6 +91,7 @@ inline std::vector<PointVector> vectors_of(const std::vector<GridPoint>& points,
       out.emplace_back();
       std::memset(static_cast<void*>(&out.back()), 0, sizeof out.back());
       out.back().box = {points[k].x, points[k].x, points[k].y, points[k].y, z, z};
+      out.back().least = z;
     }
     PointVector& v = out.back();
     v.x[lane] = points[k].x, v.y[lane] = points[k].y, v.z[lane] = z;
