@@ -126,11 +126,11 @@ LightView near_view(const Vector& axis, const Vector& place, double nearest, boo
   return view;
 }
 
-// The step is a quarter of a pixel at the nearest distance that is drawn, but so that the farthest fits the grid.
+// The step is a pixel at the nearest distance that is drawn, but so that the farthest fits the grid.
 void see_from_afar(const geometry::EyeLight& light, const shape::Projection& projection, LightViews& out) {
   constexpr double kMostSteps = 1 << 28;
   const double farthest = double{projection.far} / projection.corner;
-  const double step = std::max(double{projection.near} / (4.0 * projection.scale), farthest / kMostSteps);
+  const double step = std::max(double{projection.near} / projection.scale, farthest / kMostSteps);
   const Vector axis = unit(vector_of(light.vector));
   out.faces = 1;
   out.middle = far_view(axis, 0, 0, step);

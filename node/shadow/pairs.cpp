@@ -4,7 +4,7 @@
 
 #include "hal/failure/failure.h"
 #include "node/shadow/light_view.h"
-#include "node/shadow/point_vector.h"
+#include "node/shape/vertices.h"
 
 namespace mars::shadow {
 namespace {
@@ -34,30 +34,47 @@ std::uint32_t point_of_pair(std::uint32_t column, std::uint32_t line, std::uint3
   return stratum * kChoices + choice;
 }
 
-PairVectors::PairVectors(std::uint32_t samples, bool has_size)
-    : vectors_(has_size ? kTile * kTile * kPairs / kLightPoints / kPointLanes : kTile * kTile * samples / kPointLanes) {
-  if (!has_size) {
+static_assert(kTile * kTile * kPairs / kLightPoints == kPointLanes,
+              "a square has one vector for each point of a light");
+
+PairVectors::PairVectors(const shape::SamplePattern& pattern, bool has_size) {
+  const auto samples = static_cast<std::uint32_t>(pattern.count);
+  vectors_ = has_size ? 1 : kTile * kTile * samples / kPointLanes;
+  if (has_size) {
+    lanes_.resize(kLightPoints);
+    std::array<std::uint32_t, kLightPoints> count{};
+    for (std::uint32_t line = 0; line < kTile; ++line)
+      for (std::uint32_t column = 0; column < kTile; ++column)
+        for (std::uint32_t pair = 0; pair < kPairs; ++pair) {
+          const std::uint32_t point = point_of_pair(column, line, pair);
+          check(count[point] < kPointLanes, "each point of a light is used equally often");
+          lanes_[point].lane[count[point]++] = lane_of(column, line, pair / (kPairs / samples), pair);
+        }
+  } else {
     lanes_.resize(vectors_);
     for (std::uint32_t v = 0; v < vectors_; ++v)
       for (std::uint32_t k = 0; k < kPointLanes; ++k) {
         const std::uint32_t square = v / samples, sample = v % samples;
-        lanes_[v][k] = {static_cast<std::uint8_t>(square % 2 * kSquare + k % kSquare),
-                        static_cast<std::uint8_t>(square / 2 * kSquare + k / kSquare),
-                        static_cast<std::uint8_t>(sample), static_cast<std::uint8_t>(sample)};
+        lanes_[v].lane[k] =
+            lane_of(square % 2 * kSquare + k % kSquare, square / 2 * kSquare + k / kSquare, sample, sample);
       }
-    return;
   }
-  lanes_.resize(kLightPoints);
-  std::array<std::uint32_t, kLightPoints> count{};
-  for (std::uint32_t line = 0; line < kTile; ++line)
-    for (std::uint32_t column = 0; column < kTile; ++column)
-      for (std::uint32_t pair = 0; pair < kPairs; ++pair) {
-        const std::uint32_t point = point_of_pair(column, line, pair);
-        check(count[point] < kPointLanes, "each point of a light is used equally often");
-        lanes_[point][count[point]++] = {static_cast<std::uint8_t>(column), static_cast<std::uint8_t>(line),
-                                         static_cast<std::uint8_t>(pair / (kPairs / samples)),
-                                         static_cast<std::uint8_t>(pair)};
-      }
+  place(pattern);
+}
+
+Lane PairVectors::lane_of(std::uint32_t column, std::uint32_t line, std::uint32_t sample, std::uint32_t pair) {
+  return {static_cast<std::uint8_t>(column), static_cast<std::uint8_t>(line), static_cast<std::uint8_t>(sample),
+          static_cast<std::uint8_t>(pair)};
+}
+
+void PairVectors::place(const shape::SamplePattern& pattern) {
+  constexpr float kPixel = 1.0f / shape::kSubpixels;
+  for (VectorLanes& lanes : lanes_)
+    for (std::size_t k = 0; k < kPointLanes; ++k) {
+      const Lane& lane = lanes.lane[k];
+      lanes.place.x[k] = static_cast<float>(lane.column) + static_cast<float>(pattern.x[lane.sample]) * kPixel;
+      lanes.place.y[k] = static_cast<float>(lane.line) + static_cast<float>(pattern.y[lane.sample]) * kPixel;
+    }
 }
 
 }  // namespace mars::shadow

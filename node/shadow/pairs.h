@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "node/shadow/point_vector.h"
 #include "node/shape/sample_pattern.h"
 
 namespace mars::shadow {
@@ -27,12 +28,15 @@ inline constexpr std::uint32_t kTile = 8;
 struct Lane {
   std::uint8_t column, line, sample, pair;
 };
-using VectorLanes = std::array<Lane, 16>;
+struct VectorLanes {
+  std::array<Lane, kPointLanes> lane;
+  LanePlaces place;
+};
 
 // The vectors of a square, which has points of all its pixels' pairs with one point of a light.
 class PairVectors {
  public:
-  PairVectors(std::uint32_t samples, bool has_size);
+  PairVectors(const shape::SamplePattern& pattern, bool has_size);
 
   std::uint32_t vectors() const { return vectors_; }
   const VectorLanes& lanes(std::uint32_t light_point, std::uint32_t vector) const {
@@ -40,6 +44,9 @@ class PairVectors {
   }
 
  private:
+  static Lane lane_of(std::uint32_t column, std::uint32_t line, std::uint32_t sample, std::uint32_t pair);
+  void place(const shape::SamplePattern& pattern);
+
   std::uint32_t vectors_;  // of a square, for one point of the light
   std::vector<VectorLanes> lanes_;
 };

@@ -8,6 +8,12 @@ namespace mars::shadow {
 
 inline constexpr int kPointLanes = 16;
 
+// Places of a vector's points on the screen, in pixels from the corner of their square (pairs.h).
+struct LanePlaces {
+  alignas(64) float x[kPointLanes];
+  alignas(64) float y[kPointLanes];
+};
+
 // Bounds on a view's grid, inclusive. Empty where low_x > high_x.
 struct GridBox {
   std::int32_t low_x, high_x, low_y, high_y;

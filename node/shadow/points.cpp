@@ -24,6 +24,27 @@ GridBox around(const GridBox& a, const GridBox& b) {
           std::max(a.high_y, b.high_y), std::min(a.low_z, b.low_z),   std::max(a.high_z, b.high_z)};
 }
 
+TileLines lines_of(const Layer& layer, std::uint32_t top) {
+  TileLines lines{};
+  for (std::uint32_t k = 0; k < kTile; ++k)
+    if (layer.range.has(top + k) && layer.line(top + k).depth != nullptr) lines[k] = &layer.line(top + k);
+  return lines;
+}
+
+std::uint32_t far_ones(const float* inverse_w, std::uint32_t active) {
+  constexpr float kMostApart = 1.1f;
+  float least = std::numeric_limits<float>::max(), greatest = 0;
+  for (std::uint32_t left = active; left != 0; left &= left - 1) {
+    const float here = inverse_w[std::countr_zero(left)];
+    least = std::min(least, here), greatest = std::max(greatest, here);
+  }
+  if (greatest <= kMostApart * least) return 0;
+  std::uint32_t far = 0;
+  for (std::uint32_t left = active; left != 0; left &= left - 1)
+    if (inverse_w[std::countr_zero(left)] < (least + greatest) / 2) far |= left & -left;
+  return far;
+}
+
 void BoxTree::Arrays::clear() {
   for (auto* bound : {&low_x, &high_x, &low_y, &high_y, &low_z}) bound->clear();
 }
@@ -112,7 +133,7 @@ void Points::note(const PointSource& source, Casting casting) const {
     const std::uint32_t left = from.tile % layer.tiles_across() * kTile, top = from.tile / layer.tiles_across() * kTile;
     const VectorLanes& lanes = source.vectors.lanes(source.light_point, from.vector);
     for (std::uint32_t bits = vectors_[i].blocked; bits != 0; bits &= bits - 1) {
-      const Lane lane = lanes[static_cast<std::size_t>(std::countr_zero(bits))];
+      const Lane lane = lanes.lane[static_cast<std::size_t>(std::countr_zero(bits))];
       const LayerLine& line = layer.line(top + lane.line);
       const std::size_t at = of_light + left + lane.column;
       std::uint16_t& blocked = casting == Casting::still ? line.pairs[at].blocked : line.moved[at];

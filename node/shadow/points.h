@@ -1,6 +1,8 @@
 // Points of a band on the grid of one view, and which of them a caster may block.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -92,32 +94,42 @@ class Points {
   std::uint64_t count_ = 0;
 };
 
+// The lines of a square; nullptr where nothing is seen.
+using TileLines = std::array<const LayerLine*, kTile>;
+TileLines lines_of(const Layer& layer, std::uint32_t top);
+
+// Points far behind the others, which make a vector of their own: a box round both is in nobody's way by itself, but
+// most casters are in its.
+std::uint32_t far_ones(const float* inverse_w, std::uint32_t active);
+
 template <typename Counts, typename Visit>
 void for_each_vector(const PointSource& source, const Layer& layer, std::uint32_t tile, const Counts& counts,
                      const LightView& view, const Visit& visit) {
-  constexpr float kPixel = 1.0f / shape::kSubpixels;
-  alignas(64) float x[kPointLanes], y[kPointLanes], inverse_w[kPointLanes] = {};
-  const std::size_t of_light = std::size_t{source.light} * layer.width;
+  alignas(64) float inverse_w[kPointLanes] = {};
   const std::uint32_t left = tile % layer.tiles_across() * kTile, top = tile / layer.tiles_across() * kTile;
+  const std::size_t first = std::size_t{source.light} * layer.width + left;
+  const std::uint32_t columns = std::min(kTile, layer.width - left);
+  const TileLines lines = lines_of(layer, top);
   PointVector points;
   for (std::uint32_t v = 0; v < source.vectors.vectors(); ++v) {
+    const VectorLanes& lanes = source.vectors.lanes(source.light_point, v);
     std::uint32_t active = 0;
     for (std::uint32_t k = 0; k < kPointLanes; ++k) {
-      const Lane lane = source.vectors.lanes(source.light_point, v)[k];
-      const std::uint32_t column = left + lane.column, number = top + lane.line;
-      if (column >= layer.width || !layer.range.has(number)) continue;
-      const LayerLine& line = layer.line(number);
-      if (line.depth == nullptr) continue;
-      const std::size_t at = of_light + column;
-      if (!counts(line.pairs[at], lane, line.moved == nullptr ? std::uint16_t{0} : line.moved[at])) continue;
+      const Lane lane = lanes.lane[k];
+      const LayerLine* line = lines[lane.line];
+      if (line == nullptr || lane.column >= columns) continue;
+      const std::size_t at = first + lane.column;
+      if (!counts(line->pairs[at], lane, line->moved == nullptr ? std::uint16_t{0} : line->moved[at])) continue;
       active |= 1u << k;
-      inverse_w[k] = line.depth[lane.sample * line.stride + column];
-      x[k] = static_cast<float>(column) + static_cast<float>(source.pattern.x[lane.sample]) * kPixel;
-      y[k] = static_cast<float>(number) + static_cast<float>(source.pattern.y[lane.sample]) * kPixel;
+      inverse_w[k] = line->depth[lane.sample * line->stride + left + lane.column];
     }
-    if (active == 0) continue;
-    source.kernels.put_points(view, source.frame, x, y, inverse_w, active, points);
-    if (points.active != 0) visit(points, v);
+    const std::uint32_t far = far_ones(inverse_w, active);
+    for (const std::uint32_t some : {active & ~far, far}) {
+      if (some == 0) continue;
+      source.kernels.put_points(view, source.frame, static_cast<float>(left), static_cast<float>(top), lanes.place,
+                                inverse_w, some, points);
+      if (points.active != 0) visit(points, v);
+    }
   }
 }
 

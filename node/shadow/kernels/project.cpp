@@ -152,15 +152,17 @@ GridBox project(const LightView& view, const float* const* place, std::uint32_t 
   return any_off ? GridBox{-kMost, kMost, -kMost, kMost, -kFar, kFar} : bounds.box();
 }
 
-void put_points(const LightView& view, const PointFrame& frame, const float* x, const float* y, const float* inverse_w,
-                std::uint32_t active, PointVector& out) {
+void put_points(const LightView& view, const PointFrame& frame, float left, float top, const LanePlaces& places,
+                const float* inverse_w, std::uint32_t active, PointVector& out) {
   Bounds bounds;
   out.active = out.blocked = 0;
   const Floats per_pixel = constant(1.0f / frame.scale);
   for (std::uint32_t k = 0; k < kPointLanes; k += kLanes) {
+    const Floats x = hn::Add(constant(left), hn::Load(kFloats, places.x + k));
+    const Floats y = hn::Add(constant(top), hn::Load(kFloats, places.y + k));
     const Floats inverse = hn::LoadU(kFloats, inverse_w + k), w = hn::Div(constant(1.0f), inverse);
-    const Floats px = hn::Mul(hn::Mul(hn::Sub(hn::LoadU(kFloats, x + k), constant(frame.center[0])), per_pixel), w);
-    const Floats py = hn::Mul(hn::Mul(hn::Sub(constant(frame.center[1]), hn::LoadU(kFloats, y + k)), per_pixel), w);
+    const Floats px = hn::Mul(hn::Mul(hn::Sub(x, constant(frame.center[0])), per_pixel), w);
+    const Floats py = hn::Mul(hn::Mul(hn::Sub(constant(frame.center[1]), y), per_pixel), w);
     const Seen seen(view, px, py, hn::Neg(w));
     auto here = hn::And(seen.on_grid, hn::Gt(inverse, constant(0.0f)));
     if (view.is_face) {
