@@ -160,16 +160,17 @@ TEST(Block, ThePlaneNearPointsLeavesOutNothing) {
     light.axis = {0, 0, -1};
     const LightViews views = light_views(light, kPicture);
     const double depth = random.real(0.03, 0.3), per_x = random.real(-2e-4, 2e-4), per_y = random.real(-2e-4, 2e-4);
-    float x[kPointLanes], y[kPointLanes], inverse_w[kPointLanes];
+    LanePlaces places;
+    alignas(64) float inverse_w[kPointLanes];
     const bool on_a_line = random.whole(0, 4) == 0;
     for (int k = 0; k < kPointLanes; ++k) {
-      x[k] = static_cast<float>(100.5 + k % 4), y[k] = static_cast<float>(70.5 + (on_a_line ? 0 : k / 4));
-      inverse_w[k] = static_cast<float>(depth + per_x * (x[k] - 100) + per_y * (y[k] - 70));
+      places.x[k] = static_cast<float>(0.5 + k % 4), places.y[k] = static_cast<float>(0.5 + (on_a_line ? 0 : k / 4));
+      inverse_w[k] = static_cast<float>(depth + per_x * places.x[k] + per_y * places.y[k]);
     }
     for (const simd::InstructionSet set : simd::all_sets()) {
       std::vector<PointVector> points(1);
-      shadow_kernels(set).put_points(views.views[0], views.frame, x, y, inverse_w, 0xffff & ~(1u << trial % 16),
-                                     points[0]);
+      shadow_kernels(set).put_points(views.views[0], views.frame, 104, 72, places, inverse_w,
+                                     0xffff & ~(1u << trial % 16), points[0]);
       if (points[0].active == 0) continue;
       const GridBox& box = points[0].box;
       const float along = points[0].along[(trial + 1) % kPointLanes];

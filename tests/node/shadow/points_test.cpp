@@ -108,11 +108,16 @@ TEST(Pairs, EachSquareOfPixelsUsesEachPointEquallyOften) {
 TEST(Pairs, VectorsHaveEachPairOfASquareOnce) {
   for (const std::uint32_t samples : shape::kSampleCounts)
     for (const bool has_size : {false, true}) {
-      const PairVectors vectors(samples, has_size);
+      const PairVectors vectors(shape::sample_pattern(samples), has_size);
       std::set<std::tuple<int, int, int>> seen;
       for (std::uint32_t point = 0; point < (has_size ? kLightPoints : 1); ++point)
         for (std::uint32_t v = 0; v < vectors.vectors(); ++v)
-          for (const Lane& lane : vectors.lanes(point, v)) {
+          for (std::size_t k = 0; k < kPointLanes; ++k) {
+            const Lane& lane = vectors.lanes(point, v).lane[k];
+            const LanePlaces& place = vectors.lanes(point, v).place;
+            const shape::SamplePattern& pattern = shape::sample_pattern(samples);
+            EXPECT_EQ(place.x[k] * 256, static_cast<float>(256 * lane.column + pattern.x[lane.sample]));
+            EXPECT_EQ(place.y[k] * 256, static_cast<float>(256 * lane.line + pattern.y[lane.sample]));
             EXPECT_LT(lane.column, kTile);
             EXPECT_LT(lane.line, kTile);
             EXPECT_TRUE(seen.emplace(lane.column, lane.line, lane.pair).second);
@@ -152,7 +157,7 @@ TEST(Points, OfALayerAreThoseThatMatterAndAreNotedAtTheirPairs) {
         layer.count_all_tiles();
         const auto pairs_before = pairs;
         const auto moved_before = moved;
-        const PairVectors vectors(samples, has_size);
+        const PairVectors vectors(shape::sample_pattern(samples), has_size);
         std::size_t expected = 0, active = 0;
         for (std::uint32_t point = 0; point < views.points; ++point) {
           const PointSource source{shadow_kernels(simd::best_instruction_set("")), views.frame, pattern, vectors, 1,

@@ -128,17 +128,20 @@ TEST(Project, IsPlainCodesEverywhere) {
   EXPECT_GT(near, 50);
 }
 
-// A picture's places of one vector.
+// One vector of a square.
 struct Places {
-  alignas(64) float x[kPointLanes], y[kPointLanes], inverse_w[kPointLanes];
+  float left, top;
+  LanePlaces lanes;
+  alignas(64) float inverse_w[kPointLanes];
 };
 
 Places random_places(Random& random) {
   Places places;
-  const double left = random.real(-10, 190), top = random.real(-10, 140), away = std::pow(10, random.real(-1, 2));
+  const double away = std::pow(10, random.real(-1, 2));
+  places.left = static_cast<float>(8 * random.whole(0, 24)), places.top = static_cast<float>(8 * random.whole(0, 18));
   for (std::size_t k = 0; k < kPointLanes; ++k) {
-    places.x[k] = static_cast<float>(left + random.whole(0, 2047) / 256.0);
-    places.y[k] = static_cast<float>(top + random.whole(0, 2047) / 256.0);
+    places.lanes.x[k] = static_cast<float>(random.whole(0, 2047) / 256.0);
+    places.lanes.y[k] = static_cast<float>(random.whole(0, 2047) / 256.0);
     places.inverse_w[k] = random.whole(0, 5) ? static_cast<float>(1 / (away * random.real(1, 1.1))) : 0;
   }
   return places;
@@ -158,7 +161,8 @@ TEST(PutPoints, IsPlainCodesEverywhere) {
     Bounds bounds;
     for (std::size_t k = 0; k < kPointLanes; ++k) {
       const float w = 1.0f / at.inverse_w[k], per_pixel = 1.0f / frame.scale;
-      const float px = ((at.x[k] - frame.center[0]) * per_pixel) * w, py = ((frame.center[1] - at.y[k]) * per_pixel) * w;
+      const float x = at.left + at.lanes.x[k], y = at.top + at.lanes.y[k];
+      const float px = ((x - frame.center[0]) * per_pixel) * w, py = ((frame.center[1] - y) * per_pixel) * w;
       const Seen seen = see(view, px, py, -w);
       const bool own = !view.is_face ||
                        (std::abs(seen.across_u) <= seen.depth && std::abs(seen.across_v) <= seen.depth);
@@ -178,7 +182,7 @@ TEST(PutPoints, IsPlainCodesEverywhere) {
     for (const simd::InstructionSet set : simd::all_sets()) {
       SCOPED_TRACE(simd::name_of(set));
       PointVector points;
-      shadow_kernels(set).put_points(view, frame, at.x, at.y, at.inverse_w, asked, points);
+      shadow_kernels(set).put_points(view, frame, at.left, at.top, at.lanes, at.inverse_w, asked, points);
       ASSERT_EQ(points.active, plain.active);
       ASSERT_EQ(points.blocked, 0u);
       for (std::size_t k = 0; k < kPointLanes; ++k) {
