@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the measuring scenes s1, s1m, s2 and s3 beside itself.
+"""Writes the measuring scenes s1, s1m, s2 and s3 beside itself, and s1s, s2s and s3s, in which the light casts shadows.
 
 One white directional light, coded colours, one sample a pixel, 1920x1080, fixed dicing. A teapot's height is centred on 0.
 """
@@ -64,6 +64,10 @@ def one_turning():
     return scene
 
 
+def shadowed(scene):
+    return {**scene, "lights": [{**light, "shadow": True} for light in scene["lights"]]}
+
+
 def text_of(value, indent=0):
     """JSON with what is short on one line."""
     line = json.dumps(value)
@@ -78,5 +82,6 @@ def text_of(value, indent=0):
 
 if __name__ == "__main__":
     scenes = {"s1": one_teapot(16), "s1m": one_teapot(64), "s2": hundred_teapots(), "s3": one_turning()}
+    scenes |= {f"{name}s": shadowed(scenes[name]) for name in ("s1", "s2", "s3")}
     for name, scene in scenes.items():
         (HERE / f"{name}.json").write_text(text_of(scene) + "\n")

@@ -35,6 +35,7 @@ struct Typing {
 Typing typing_of(const keys::Key& key) {
   if (key.type == "number" || key.type == "whole") return {"NUMBER", Json(0)};
   if (key.type == "choice") return {document::joined(key.choices, "|")};
+  if (key.type == "flag") return {"true|false"};
   const keys::Type* const type = keys::find_type(key.type);
   if (type == nullptr || type->words.empty()) return {upper(key.name)};
   return {std::string(type->words), Json::parse(type->example)};
@@ -56,13 +57,20 @@ void fill(Json& value, std::span<const double>& numbers) {
   numbers = numbers.subspan(1);
 }
 
+// A word that is neither stays one, for readers to refuse.
+Json flag_of(const std::string& word) { return word == "true" || word == "false" ? Json(word == "true") : Json(word); }
+
 void add_key_option(cli::Command command, const keys::Key& key, Json& values) {
   const std::string option = option_name(key), help = keys::help_of(key, option + " "), name(key.name);
   const Typing typing = typing_of(key);
   if (!typing.numbers) {
     command
         .add_read(
-            option, [&values, name](const std::string& word) { values[name] = word; }, help)
+            option,
+            [&values, name, flag = key.type == "flag"](const std::string& word) {
+              values[name] = flag ? flag_of(word) : Json(word);
+            },
+            help)
         .type(typing.words);
     return;
   }
@@ -125,7 +133,8 @@ Json values_of(std::span<const std::string> words, const keys::Object& object) {
       throw Failure("is no key of a " + std::string(object.name), document::in_quotes(key),
                     document::did_you_mean(key, names, "choose " + document::joined(names)));
     if (values.contains(key)) throw Failure("is given twice", document::in_quotes(key), "give each key once");
-    values[key] = value_of(word.substr(equals + 1));
+    const std::string text = word.substr(equals + 1);
+    values[key] = object.key(key).type == "flag" ? flag_of(text) : value_of(text);
   }
   return values;
 }

@@ -88,17 +88,19 @@ Wide least_inside(const GridPlace& a, const GridPlace& b) {
 
 class Plane {
  public:
-  Plane(const GridPlace& a, const GridPlace& b, const GridPlace& c, Wide area) : a_(a) {
+  Plane(const LargeTriangle& t, Wide area) : a_(t.a) {
+    const GridPlace &a = t.a, &b = t.b, &c = t.c;
     const auto number = [](std::int64_t i) { return static_cast<double>(i); };
     const double z1 = b.z - a.z, z2 = c.z - a.z, inverse = 1 / static_cast<double>(area);
     per_x_ = (z1 * number(c.y - a.y) - z2 * number(b.y - a.y)) * inverse;
     per_y_ = (z2 * number(b.x - a.x) - z1 * number(c.x - a.x)) * inverse;
-    slope_ = std::abs(per_x_) + std::abs(per_y_);
+    slope_ = (std::abs(per_x_) + std::abs(per_y_)) * t.per_step;
   }
   bool is_before(const PointVector& points, std::size_t k) const {
     const double there =
         a_.z + static_cast<double>(points.y[k] - a_.y) * per_y_ + static_cast<double>(points.x[k] - a_.x) * per_x_;
-    return there - points.z[k] > points.lateral[k] * slope_ + points.along[k];
+    const double size = points.has_place ? double{points.z[k]} : 1.0;
+    return there - points.z[k] > points.error[k] * (slope_ + size);
   }
 
  private:
@@ -139,7 +141,7 @@ void for_each_piece(const LightView& view, const Caster& caster, const GridVerti
   const Polygon polygon = clipped(view, {corner(view, caster, vertices, at.a), corner(view, caster, vertices, at.b),
                                          corner(view, caster, vertices, at.c)});
   for (std::size_t k = 1; k + 1 < polygon.count; ++k)
-    visit({polygon.corner[0], polygon.corner[k], polygon.corner[k + 1]});
+    visit({polygon.corner[0], polygon.corner[k], polygon.corner[k + 1], view.per_step});
 }
 
 void block_plainly(const LargeTriangle& triangle, PointVector* points, std::span<const std::uint32_t> found) {
@@ -147,7 +149,7 @@ void block_plainly(const LargeTriangle& triangle, PointVector* points, std::span
   Wide area = cross(a, b, c.x, c.y);
   if (area == 0) return;
   if (area < 0) std::swap(b, c), area = -area;
-  const Plane plane(a, b, c, area);
+  const Plane plane({a, b, c, triangle.per_step}, area);
   const auto [low_x, high_x] = std::minmax({a.x, b.x, c.x});
   const auto [low_y, high_y] = std::minmax({a.y, b.y, c.y});
   const double high_z = std::max({a.z, b.z, c.z});

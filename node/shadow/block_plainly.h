@@ -19,6 +19,7 @@ struct GridPlace {
 // On a view's grid.
 struct LargeTriangle {
   GridPlace a, b, c;
+  double per_step;  // the view's
 
   GridBox box() const;  // as far as its numbers reach
 };

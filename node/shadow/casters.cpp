@@ -8,26 +8,14 @@ namespace {
 constexpr std::size_t kChunkBytes = std::size_t{24} << 20;
 constexpr int kUnseenRate = 32;  // of the inside of patches that no pixel shows
 
-constexpr std::uint32_t kHullPoints = 16 + simd::kVectorSlack;
-
-// Points of a hull, one array an axis.
-struct Hull {
-  float along[3][kHullPoints];
-  std::uint32_t count = 0;
-
-  void add(const float* place) {
-    for (int axis = 0; axis < 3; ++axis) along[axis][count] = place[axis];
-    ++count;
-  }
-  bool visit(const auto& function) const {
-    const float* const points[3] = {along[0], along[1], along[2]};
-    return function(points, count);
-  }
-};
+void add_point(const float* place, Hull& hull) {
+  for (int axis = 0; axis < 3; ++axis) hull.along[axis][hull.count] = place[axis];
+  ++hull.count;
+}
 
 Hull hull_of(const shape::EyePatch& patch) {
   Hull hull{};
-  for (const auto& point : patch.point) hull.add(point);
+  for (const auto& point : patch.point) add_point(point, hull);
   return hull;
 }
 
@@ -37,7 +25,7 @@ Hull hull_of(const shape::EyeMatrix& matrix, const wire::Meshlet& meshlet) {
     const auto along = [&](std::size_t axis) { return (corner >> axis & 1 ? meshlet.high : meshlet.low)[axis]; };
     float place[3];
     shape::to_eye(matrix, {along(0), along(1), along(2)}, place);
-    hull.add(place);
+    add_point(place, hull);
   }
   return hull;
 }
@@ -87,40 +75,36 @@ std::span<const Caster> CasterStream::next(const Matters& matters) {
 }
 
 void CasterStream::visit_hulls(const geometry::Scene& scene, Casting casting,
-                               const std::function<void(const float* const*, std::uint32_t)>& hull) const {
+                               const std::function<void(const Hull&)>& visit) const {
   const wire::PackedFilm& film = scene.film();
-  const auto pass_on = [&](const float* const* points, std::uint32_t count) {
-    hull(points, count);
-    return true;
-  };
   for (std::size_t s = 0; s < film.segments().size(); ++s) {
     if (!casts(scene, s, casting)) continue;
     const std::uint32_t number = film.segments()[s].shape;
     const shape::EyeMatrix matrix = scene.matrix(s);
-    for (const wire::Patch& patch : film.patches_of(number)) hull_of(shape::to_eye(matrix, patch)).visit(pass_on);
-    for (const wire::Meshlet& meshlet : film.meshlets_of(number)) hull_of(matrix, meshlet).visit(pass_on);
+    for (const wire::Patch& patch : film.patches_of(number)) visit(hull_of(shape::to_eye(matrix, patch)));
+    for (const wire::Meshlet& meshlet : film.meshlets_of(number)) visit(hull_of(matrix, meshlet));
   }
 }
 
-bool CasterStream::add_patch(const wire::Patch& patch, const Matters& matters) {
+void CasterStream::add_patch(const wire::Patch& patch, const Matters& matters) {
   const shape::EyePatch eye_patch = shape::to_eye(matrix_, patch);
-  if (!hull_of(eye_patch).visit(matters)) return false;
+  const Hull hull = hull_of(eye_patch);
+  if (!matters(hull)) return;
   shape::Dicing dicing = scene_->dicing();
   const auto width = static_cast<float>(scene_->width()), height = static_cast<float>(scene_->height());
   if (shape::unseen(eye_patch, scene_->projection(), width, height)) dicing.most_inside = kUnseenRate;
   dicer_.dice(eye_patch, scene_->projection(), dicing);
-  add(dicer_);
-  return true;
+  add(dicer_, hull);
 }
 
-bool CasterStream::add_meshlet(const wire::Meshlet& meshlet, const Matters& matters) {
-  if (!hull_of(matrix_, meshlet).visit(matters)) return false;
+void CasterStream::add_meshlet(const wire::Meshlet& meshlet, const Matters& matters) {
+  const Hull hull = hull_of(matrix_, meshlet);
+  if (!matters(hull)) return;
   placer_.place(map_, scene_->film(), meshlet, scene_->projection());
-  add(placer_);
-  return true;
+  add(placer_, hull);
 }
 
-void CasterStream::add(const shape::Surface& surface) {
+void CasterStream::add(const shape::Surface& surface, const Hull& hull) {
   const auto copy = [&]<typename T>(const T* from, std::size_t count) -> const T* {
     const auto to = arena_.take<T>(count + simd::kVectorSlack);
     std::copy_n(from, count, to.data());
@@ -130,7 +114,8 @@ void CasterStream::add(const shape::Surface& surface) {
   const shape::Vertices& v = surface.vertices();
   const shape::Triangles& t = surface.triangles();
   const auto vertices = static_cast<std::uint32_t>(surface.vertex_count());
-  chunk_.push_back({{copy(v.place[0], vertices), copy(v.place[1], vertices), copy(v.place[2], vertices)},
+  chunk_.push_back({hull,
+                    {copy(v.place[0], vertices), copy(v.place[1], vertices), copy(v.place[2], vertices)},
                     vertices,
                     {copy(t.a, t.count), copy(t.b, t.count), copy(t.c, t.count), t.count,
                      copy(t.batches, t.batch_count), t.batch_count}});

@@ -17,8 +17,15 @@
 
 namespace mars::shadow {
 
+// Points of eye space round a surface, one array an axis, which is longer by kVectorSlack.
+struct Hull {
+  float along[3][16 + simd::kVectorSlack];
+  std::uint32_t count = 0;
+};
+
 // A surface in eye space. Arrays are longer by kVectorSlack.
 struct Caster {
+  Hull hull;
   const float* place[3];
   std::uint32_t vertices;
   shape::Triangles triangles;
@@ -26,8 +33,8 @@ struct Caster {
 
 class CasterStream {
  public:
-  // Whether a surface within the hull of `count` points of eye space, one array an axis, may matter.
-  using Matters = std::function<bool(const float* const* points, std::uint32_t count)>;
+  // Whether a surface within the hull may matter.
+  using Matters = std::function<bool(const Hull& hull)>;
 
   explicit CasterStream(simd::InstructionSet set);
 
@@ -35,14 +42,13 @@ class CasterStream {
   void begin(const geometry::Scene& scene, Casting casting);
   // The next chunk, of those that matter; empty at the end.
   std::span<const Caster> next(const Matters& matters);
-  // Calls hull(points, count) for each of them.
-  void visit_hulls(const geometry::Scene& scene, Casting casting,
-                   const std::function<void(const float* const*, std::uint32_t)>& hull) const;
+  // Calls visit(hull) for each of that kind.
+  void visit_hulls(const geometry::Scene& scene, Casting casting, const std::function<void(const Hull&)>& visit) const;
 
  private:
-  bool add_patch(const wire::Patch& patch, const Matters& matters);
-  bool add_meshlet(const wire::Meshlet& meshlet, const Matters& matters);
-  void add(const shape::Surface& surface);
+  void add_patch(const wire::Patch& patch, const Matters& matters);
+  void add_meshlet(const wire::Meshlet& meshlet, const Matters& matters);
+  void add(const shape::Surface& surface, const Hull& hull);
   bool is_full() const { return arena_.rest().size() < kMostBytes; }
 
   static const std::size_t kMostBytes;  // of a caster

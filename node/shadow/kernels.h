@@ -32,7 +32,7 @@ struct alignas(64) SmallTriangles {
   float z[3][kPointLanes];
   float per_x[kPointLanes];
   float per_y[kPointLanes];
-  float slope[kPointLanes];  // |per_x| + |per_y|
+  float slope[kPointLanes];  // |per_x| + |per_y|, for a unit of length or of the tangent
   std::int32_t low_x[kPointLanes], high_x[kPointLanes], low_y[kPointLanes], high_y[kPointLanes];
   float high_z[kPointLanes];
 };
@@ -57,8 +57,8 @@ struct ShadowKernels {
                      const float* inverse_w, std::uint32_t active, PointVector& out);
   // Sets up the triangles of a batch, the next of `out`; bits of those that are not small, which are left to the
   // caller.
-  std::uint32_t (*set_up)(const GridVertices& vertices, const shape::Triangles& triangles, const shape::Batch& batch,
-                          SmallBatches& out);
+  std::uint32_t (*set_up)(const LightView& view, const GridVertices& vertices, const shape::Triangles& triangles,
+                          const shape::Batch& batch, SmallBatches& out);
   // Of boxes [first, first + count), a multiple of kPointLanes, those with points that a caster within `box` may block,
   // where the grid's places of points of one light differ by `spread` (light_view.h). Their numbers go to `found`; says
   // how many.

@@ -21,13 +21,9 @@ struct GridBox {
 };
 
 // Points of neighbouring pixels. A caster is before a point where it is nearer to the light, its z greater, by more
-// than lateral * (its slope) + along: the rounding of both grids (light_view.h).
+// than error * (its slope + size), size being 1 for a directional light and the point's z for others: the rounding of
+// both grids (light_view.h).
 struct alignas(64) PointVector {
-  std::int32_t x[kPointLanes];
-  std::int32_t y[kPointLanes];
-  float z[kPointLanes];
-  float lateral[kPointLanes];
-  float along[kPointLanes];
   GridBox box;
   // A plane near them, so that casters that lie on it are told from those before it. With d = z - (per_x (x -
   // box.low_x)
@@ -35,8 +31,14 @@ struct alignas(64) PointVector {
   float per_x, per_y;
   float least;
   float room;
-  std::uint32_t active;   // one bit a point
-  std::uint32_t blocked;  // and of those that a caster is before
+  std::uint32_t active;     // one bit a point
+  std::uint32_t blocked;    // and of those that a caster is before
+  std::uint32_t noted;      // and of those of which this is known (points.h)
+  std::uint32_t has_place;  // the light
+  alignas(64) std::int32_t x[kPointLanes];
+  std::int32_t y[kPointLanes];
+  float z[kPointLanes];
+  float error[kPointLanes];
 };
 
 // Boxes of point vectors, one array a bound, a little wider where a float has not all digits.

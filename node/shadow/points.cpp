@@ -45,60 +45,71 @@ std::uint32_t far_ones(const float* inverse_w, std::uint32_t active) {
   return far;
 }
 
-void BoxTree::Arrays::clear() {
+void BoxTree::Level::clear() {
   for (auto* bound : {&low_x, &high_x, &low_y, &high_y, &low_z}) bound->clear();
+  last = kNowhere;
 }
 
-void BoxTree::Arrays::add(const GridBox& box) {
+void BoxTree::Level::add(const GridBox& box) {
   low_x.push_back(static_cast<float>(box.low_x) - kDigits), high_x.push_back(static_cast<float>(box.high_x) + kDigits);
   low_y.push_back(static_cast<float>(box.low_y) - kDigits), high_y.push_back(static_cast<float>(box.high_y) + kDigits);
   low_z.push_back(box.low_z);
+  last = around(last, box);
 }
 
-void BoxTree::Arrays::fill_last() {
-  while (low_z.size() % kPointLanes != 0) {
-    add(kNowhere);
-    low_z.back() = kFar;
-  }
+void BoxTree::Level::fill_last() {
+  const GridBox round = last;
+  while (size() % kPointLanes != 0) add(kNowhere);
+  last = round;
 }
 
 void BoxTree::clear() {
-  boxes_.clear(), around_.clear();
-  last_ = kNowhere;
+  for (Level& level : levels_) level.clear();
   count_ = 0;
 }
 
 void BoxTree::add(const GridBox& box) {
-  boxes_.add(box);
-  last_ = around(last_, box);
-  if (++count_ % kPointLanes != 0) return;
-  around_.add(last_);
-  last_ = kNowhere;
+  add(0, box);
+  ++count_;
+}
+
+void BoxTree::add(std::size_t level, const GridBox& box) {
+  levels_[level].add(box);
+  if (level + 1 == kLevels || levels_[level].size() % kPointLanes != 0) return;
+  add(level + 1, std::exchange(levels_[level].last, kNowhere));
 }
 
 void BoxTree::finish() {
-  if (count_ % kPointLanes != 0) around_.add(last_);
-  boxes_.fill_last(), around_.fill_last();
-  found_around_.resize(around_.low_z.size());
-}
-
-std::uint32_t BoxTree::find_around(const ShadowKernels& kernels, const GridBox& box, float spread) {
-  return kernels.find(around_.view(), 0, static_cast<std::uint32_t>(around_.low_z.size()), box, spread,
-                      found_around_.data());
+  for (std::size_t level = 0; level < kLevels; ++level) {
+    if (levels_[level].size() % kPointLanes == 0) continue;
+    levels_[level].fill_last();
+    if (level + 1 < kLevels) add(level + 1, levels_[level].last);
+  }
 }
 
 bool BoxTree::any(const ShadowKernels& kernels, const GridBox& box, float spread) {
-  return find_around(kernels, box, spread) > 0;
+  constexpr std::size_t kRoughly = 1;  // of the boxes round sixteen
+  return find_at(kernels, kRoughly, box, spread, found_[0]) > 0;
 }
 
 std::span<const std::uint32_t> BoxTree::find(const ShadowKernels& kernels, const GridBox& box, float spread,
-                                             std::vector<std::uint32_t>& into) {
-  if (into.size() < boxes_.low_z.size()) into.resize(boxes_.low_z.size());
-  const std::uint32_t around = find_around(kernels, box, spread);
-  std::uint32_t found = 0;
-  for (const std::uint32_t sixteen : std::span(found_around_).first(around))
-    found += kernels.find(boxes_.view(), sixteen * kPointLanes, kPointLanes, box, spread, into.data() + found);
-  return std::span(std::as_const(into)).first(found);
+                                             std::vector<std::uint32_t>& found) {
+  const std::uint32_t count = find_at(kernels, 0, box, spread, found);
+  return std::span(std::as_const(found)).first(count);
+}
+
+// From the top down to `level`.
+std::uint32_t BoxTree::find_at(const ShadowKernels& kernels, std::size_t level, const GridBox& box, float spread,
+                               std::vector<std::uint32_t>& found) {
+  const Level& here = levels_[level];
+  if (found.size() < here.size()) found.resize(here.size());
+  if (level + 1 == kLevels) return kernels.find(here.view(), 0, here.size(), box, spread, found.data());
+  std::vector<std::uint32_t>& above = found_[level];
+  const std::uint32_t count = find_at(kernels, level + 1, box, spread, above);
+  std::uint32_t next = 0;
+  for (std::uint32_t k = 0; k < count; ++k)
+    next += kernels.find(here.view(), above[k] * kPointLanes, kPointLanes, box, spread, found.data() + next);
+  return next;
 }
 
 void Points::clear() {
@@ -108,11 +119,11 @@ void Points::clear() {
   count_ = 0;
 }
 
-void Points::add(const PointSource& source, const LightView& view, const Layer& layer, Casting casting) {
+void Points::add(const PointSource& source, const LightView& view, const Layer& layer) {
   for (const std::uint32_t tile : layer.tiles)
     for_each_vector(
         source, layer, tile,
-        [casting](const wire::StillPairs& pairs, const Lane& lane, std::uint16_t moved) {
+        [](const wire::StillPairs& pairs, const Lane& lane, std::uint16_t moved) {
           const std::uint32_t open = pairs.lit & ~(pairs.blocked | moved);
           return (open >> lane.pair & 1) != 0;
         },
@@ -125,14 +136,15 @@ void Points::add(const PointSource& source, const LightView& view, const Layer& 
         });
 }
 
-void Points::note(const PointSource& source, Casting casting) const {
+void Points::note(const PointSource& source, Casting casting) {
   for (std::size_t i = 0; i < vectors_.size(); ++i) {
     const Origin& from = origins_[i];
     const Layer& layer = *from.layer;
     const std::size_t of_light = std::size_t{source.light} * layer.width;
     const std::uint32_t left = from.tile % layer.tiles_across() * kTile, top = from.tile / layer.tiles_across() * kTile;
     const VectorLanes& lanes = source.vectors.lanes(source.light_point, from.vector);
-    for (std::uint32_t bits = vectors_[i].blocked; bits != 0; bits &= bits - 1) {
+    const std::uint32_t fresh = vectors_[i].blocked & ~std::exchange(vectors_[i].noted, vectors_[i].blocked);
+    for (std::uint32_t bits = fresh; bits != 0; bits &= bits - 1) {
       const Lane lane = lanes.lane[static_cast<std::size_t>(std::countr_zero(bits))];
       const LayerLine& line = layer.line(top + lane.line);
       const std::size_t at = of_light + left + lane.column;

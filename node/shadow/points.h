@@ -18,7 +18,7 @@ namespace mars::shadow {
 extern const GridBox kNowhere;
 GridBox around(const GridBox& a, const GridBox& b);
 
-// Boxes, and boxes round sixteen of them each.
+// Boxes, boxes round sixteen of them each, and so on up to sixteen.
 class BoxTree {
  public:
   void clear();
@@ -33,21 +33,26 @@ class BoxTree {
                                       std::vector<std::uint32_t>& found);
 
  private:
-  struct Arrays {
+  // Boxes of one level, and the one round the last of them, which have none yet.
+  struct Level {
     std::vector<float> low_x, high_x, low_y, high_y, low_z;
+    GridBox last;
 
     void clear();
     void add(const GridBox& box);
     void fill_last();
+    std::uint32_t size() const { return static_cast<std::uint32_t>(low_z.size()); }
     BoxArrays view() const { return {low_x.data(), high_x.data(), low_y.data(), high_y.data(), low_z.data()}; }
   };
+  static constexpr std::size_t kLevels = 4;  // the lowest first
 
-  std::uint32_t find_around(const ShadowKernels& kernels, const GridBox& box, float spread);
+  void add(std::size_t level, const GridBox& box);
+  std::uint32_t find_at(const ShadowKernels& kernels, std::size_t level, const GridBox& box, float spread,
+                        std::vector<std::uint32_t>& found);
 
-  Arrays boxes_, around_;
-  GridBox last_{};  // round those since the last in around_
+  std::array<Level, kLevels> levels_;
   std::uint32_t count_ = 0;
-  std::vector<std::uint32_t> found_around_;
+  std::array<std::vector<std::uint32_t>, kLevels> found_;  // of the level above each
 };
 
 // What points are made of, besides the view: the same throughout a picture.
@@ -70,16 +75,16 @@ void for_each_vector(const PointSource& source, const Layer& layer, std::uint32_
 class Points {
  public:
   void clear();
-  // Those of a layer that matter and are not blocked, for shadows of `casting`.
-  void add(const PointSource& source, const LightView& view, const Layer& layer, Casting casting);
+  // Those of a layer that matter and are not blocked.
+  void add(const PointSource& source, const LightView& view, const Layer& layer);
   void finish() { tree_.finish(); }
 
   bool empty() const { return vectors_.empty(); }
   std::uint64_t count() const { return count_; }
   BoxTree& tree() { return tree_; }
   PointVector* vectors() { return vectors_.data(); }
-  // Writes down what is blocked.
-  void note(const PointSource& source, Casting casting) const;
+  // Writes down what is blocked since the last time.
+  void note(const PointSource& source, Casting casting);
 
  private:
   struct Origin {

@@ -14,10 +14,10 @@ namespace {
 
 constexpr float kPlaceError = 1.0f / (1 << 20);
 
-float largest(const float* const* points, std::uint32_t count) {
+float largest(const Hull& hull) {
   float most = 0;
-  for (int axis = 0; axis < 3; ++axis)
-    for (std::uint32_t k = 0; k < count; ++k) most = std::max(most, std::abs(points[axis][k]));
+  for (const auto& along : hull.along)
+    for (std::uint32_t k = 0; k < hull.count; ++k) most = std::max(most, std::abs(along[k]));
   return most;
 }
 
@@ -47,12 +47,17 @@ void ShadowCaster::begin(const geometry::Scene& scene, const std::function<void(
     lights_.push_back(light_views(light, scene.projection()));
 }
 
-void ShadowCaster::cast(const geometry::Scene& scene, Casting casting, std::span<Layer* const> onto) {
-  for (std::uint32_t light = 0; light < lights(); ++light)
-    if (has_size(light))
-      cast_from_all(scene, casting, light, onto);
-    else
-      cast_once(scene, casting, light, onto);
+void ShadowCaster::cast(const geometry::Scene& scene, Layers drawn, const Layer& kept) {
+  std::vector<const Layer*> all(drawn.begin(), drawn.end());
+  all.push_back(&kept);
+  for (std::uint32_t light = 0; light < lights(); ++light) {
+    if (!has_size(light)) {
+      cast_from_point(scene, light, drawn, kept);
+      continue;
+    }
+    cast_from_all(scene, Casting::still, light, drawn);
+    if (scene.any_moves()) cast_from_all(scene, Casting::moving, light, all);
+  }
 }
 
 PointSource ShadowCaster::source_of(std::uint32_t light, std::uint32_t point) const {
@@ -64,68 +69,83 @@ std::span<const LightView> ShadowCaster::views_of(std::uint32_t light, std::uint
   return std::span(all.views).subspan(std::size_t{point} * all.faces, all.faces);
 }
 
-// Of a light without size: its points stay on their grids while casters stream by.
-void ShadowCaster::cast_once(const geometry::Scene& scene, Casting casting, std::uint32_t light,
-                             std::span<Layer* const> onto) {
+// Of a light without size: points stay on its grids while casters stream by.
+void ShadowCaster::cast_from_point(const geometry::Scene& scene, std::uint32_t light, Layers drawn, const Layer& kept) {
   const PointSource source = source_of(light, 0);
   const auto views = views_of(light, 0);
-  put_points(source, views, casting, onto);
-  const auto matters = [&](const float* const* hull, std::uint32_t count) {
-    for (std::size_t f = 0; f < views.size(); ++f)
-      if (!points_[f].empty() && points_[f].tree().any(kernels_, box_of_hull(views[f], hull, count), 0)) return true;
+  put_points(source, views, drawn, drawn_points_);
+  Faces* const onto[] = {&drawn_points_, &kept_points_};
+  stream(scene, Casting::still, views, std::span(onto).first(1));
+  for (Points& points : drawn_points_) points.note(source, Casting::still);
+  if (!scene.any_moves()) return;
+  const Layer* const kept_alone[] = {&kept};
+  put_points(source, views, kept_alone, kept_points_);
+  stream(scene, Casting::moving, views, onto);
+  for (Faces* faces : onto)
+    for (Points& points : *faces) points.note(source, Casting::moving);
+}
+
+void ShadowCaster::stream(const geometry::Scene& scene, Casting casting, std::span<const LightView> views,
+                          std::span<Faces* const> onto) {
+  const auto matters = [&](const Hull& hull) {
+    for (std::size_t f = 0; f < views.size(); ++f) {
+      if (std::ranges::all_of(onto, [f](const Faces* faces) { return (*faces)[f].empty(); })) continue;
+      const GridBox box = box_of_hull(views[f], hull);
+      for (Faces* faces : onto)
+        if ((*faces)[f].tree().any(kernels_, box, 0)) return true;
+    }
     return false;
   };
   casters_.begin(scene, casting);
-  for (auto chunk = casters_.next(matters); !chunk.empty(); chunk = casters_.next(matters)) block(chunk, views);
-  for (const Points& points : points_) points.note(source, casting);
+  for (auto chunk = casters_.next(matters); !chunk.empty(); chunk = casters_.next(matters))
+    for (Faces* faces : onto) block(chunk, views, *faces);
 }
 
 // Of a light that has a size: each chunk of casters is seen from each of its points, with the points that this one
 // decides about.
-void ShadowCaster::cast_from_all(const geometry::Scene& scene, Casting casting, std::uint32_t light,
-                                 std::span<Layer* const> onto) {
+void ShadowCaster::cast_from_all(const geometry::Scene& scene, Casting casting, std::uint32_t light, Layers onto) {
   const LightViews& all = lights_[light];
   bounds_.clear();
   if (has_bounds(light))
     for (const Layer* layer : onto) bound(light, *layer, bounds_);
-  const auto matters = [&](const float* const* hull, std::uint32_t count) {
+  const auto matters = [&](const Hull& hull) {
     if (!has_bounds(light)) return true;
-    return std::ranges::any_of(bounds_, [&](TileBounds& face) {
-      return face.tree.any(kernels_, box_of_hull(all.middle, hull, count), all.spread);
-    });
+    return std::ranges::any_of(
+        bounds_, [&](TileBounds& face) { return face.tree.any(kernels_, box_of_hull(all.middle, hull), all.spread); });
   };
   casters_.begin(scene, casting);
   for (auto chunk = casters_.next(matters); !chunk.empty(); chunk = casters_.next(matters))
     for (std::uint32_t point = 0; point < all.points; ++point) {
       const PointSource source = source_of(light, point);
-      put_points(source, views_of(light, point), casting, onto);
-      block(chunk, views_of(light, point));
-      for (const Points& points : points_) points.note(source, casting);
+      const auto views = views_of(light, point);
+      put_points(source, views, onto, drawn_points_);
+      block(chunk, views, drawn_points_);
+      for (Points& points : drawn_points_) points.note(source, casting);
     }
 }
 
-void ShadowCaster::put_points(const PointSource& source, std::span<const LightView> views, Casting casting,
-                              std::span<Layer* const> onto) {
-  points_.resize(views.size());
+void ShadowCaster::put_points(const PointSource& source, std::span<const LightView> views, Layers onto, Faces& faces) {
+  faces.resize(views.size());
   for (std::size_t f = 0; f < views.size(); ++f) {
-    points_[f].clear();
-    for (const Layer* layer : onto) points_[f].add(source, views[f], *layer, casting);
-    points_[f].finish();
-    counts_.points += points_[f].count();
+    faces[f].clear();
+    for (const Layer* layer : onto) faces[f].add(source, views[f], *layer);
+    faces[f].finish();
+    counts_.points += faces[f].count();
   }
   look_();
 }
 
-void ShadowCaster::block(std::span<const Caster> casters, std::span<const LightView> views) {
+void ShadowCaster::block(std::span<const Caster> casters, std::span<const LightView> views, Faces& faces) {
   for (std::size_t f = 0; f < views.size(); ++f) {
-    if (points_[f].empty()) continue;
-    for (const Caster& caster : casters) block(caster, views[f], points_[f]);
+    if (faces[f].empty()) continue;
+    for (const Caster& caster : casters) block(caster, views[f], faces[f]);
     look_();
   }
   counts_.surfaces += casters.size();
 }
 
 void ShadowCaster::block(const Caster& caster, const LightView& view, Points& points) {
+  if (!points.tree().any(kernels_, box_of_hull(view, caster.hull), 0)) return;
   const GridVertices vertices{grid_x_.data(), grid_y_.data(), grid_z_.data()};
   const GridBox box = kernels_.project(view, caster.place, caster.vertices, vertices);
   counts_.vertices += caster.vertices;
@@ -138,7 +158,7 @@ void ShadowCaster::block(const Caster& caster, const LightView& view, Points& po
     small_->count = 0;
     for (std::uint32_t b = 0; b < count; ++b) {
       const shape::Batch& batch = caster.triangles.batches[first + b];
-      std::uint32_t large = kernels_.set_up(vertices, caster.triangles, batch, *small_);
+      std::uint32_t large = kernels_.set_up(view, vertices, caster.triangles, batch, *small_);
       for (; large != 0; large &= large - 1)
         block_large(view, caster, batch.first + static_cast<std::uint32_t>(std::countr_zero(large)), points);
     }
@@ -154,11 +174,12 @@ void ShadowCaster::block_large(const LightView& view, const Caster& caster, std:
 }
 
 // A little wider, for vertices lie within the hull but for rounding.
-GridBox ShadowCaster::box_of_hull(const LightView& view, const float* const* hull, std::uint32_t count) {
-  GridBox box = kernels_.project(view, hull, count, {grid_x_.data(), grid_y_.data(), grid_z_.data()});
+GridBox ShadowCaster::box_of_hull(const LightView& view, const Hull& hull) {
+  const float* const points[3] = {hull.along[0], hull.along[1], hull.along[2]};
+  GridBox box = kernels_.project(view, points, hull.count, {grid_x_.data(), grid_y_.data(), grid_z_.data()});
   if (box.low_x > box.high_x) return box;
   const double nearer = view.has_place ? double{box.high_z} : 1.0;
-  const double margin = double{largest(hull, count)} * kPlaceError * nearer * view.per_step;
+  const double margin = double{largest(hull)} * kPlaceError * nearer * view.per_step;
   box.low_x = clamped(box.low_x - margin), box.high_x = clamped(box.high_x + margin);
   box.low_y = clamped(box.low_y - margin), box.high_y = clamped(box.high_y + margin);
   return box;
@@ -204,13 +225,13 @@ void ShadowCaster::bound_still(const Layer& still) {
 void ShadowCaster::find_shaded(const geometry::Scene& scene, std::vector<std::uint32_t>& tiles) {
   if (!std::ranges::all_of(std::views::iota(0u, lights()), [this](std::uint32_t l) { return has_bounds(l); })) return;
   is_shaded_.assign(tiles.empty() ? 0 : *std::ranges::max_element(tiles) + 1, std::uint8_t{0});
-  casters_.visit_hulls(scene, Casting::moving, [&](const float* const* hull, std::uint32_t count) {
+  casters_.visit_hulls(scene, Casting::moving, [&](const Hull& hull) {
     for (std::uint32_t light = 0; light < lights(); ++light) {
       const LightViews& all = lights_[light];
       for (std::size_t f = 0; f < still_bounds_[light].size(); ++f) {
         const LightView& view = has_size(light) ? all.middle : all.views[f];
         TileBounds& bounds = still_bounds_[light][f];
-        for (const std::uint32_t box : bounds.tree.find(kernels_, box_of_hull(view, hull, count), all.spread, found_))
+        for (const std::uint32_t box : bounds.tree.find(kernels_, box_of_hull(view, hull), all.spread, found_))
           if (bounds.tiles[box] < is_shaded_.size()) is_shaded_[bounds.tiles[box]] = 1;
       }
     }

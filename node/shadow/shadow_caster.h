@@ -34,8 +34,10 @@ class ShadowCaster {
   std::uint32_t lights() const { return static_cast<std::uint32_t>(lights_.size()); }
   std::uint32_t pairs_a_sample(std::uint32_t light) const { return shadow::pairs_a_sample(samples_, has_size(light)); }
 
-  // Lets casters of one kind block pairs of the layers.
-  void cast(const geometry::Scene& scene, Casting casting, std::span<Layer* const> onto);
+  // Lets casters block pairs: still ones of layers that are drawn now, moving ones of these and of `kept`, which knows
+  // what still ones block.
+  using Layers = std::span<const Layer* const>;
+  void cast(const geometry::Scene& scene, Layers drawn, const Layer& kept);
 
   // Of what stands still throughout an interval: remembers where its points are.
   void bound_still(const Layer& still);
@@ -61,13 +63,17 @@ class ShadowCaster {
   std::span<const LightView> views_of(std::uint32_t light, std::uint32_t point) const;
   void bound(std::uint32_t light, const Layer& layer, std::vector<TileBounds>& faces) const;
   GridBox bound_tile(std::uint32_t light, const LightView& view, const Layer& layer, std::uint32_t tile) const;
-  GridBox box_of_hull(const LightView& view, const float* const* hull, std::uint32_t count);
+  GridBox box_of_hull(const LightView& view, const Hull& hull);
 
-  void cast_once(const geometry::Scene& scene, Casting casting, std::uint32_t light, std::span<Layer* const> onto);
-  void cast_from_all(const geometry::Scene& scene, Casting casting, std::uint32_t light, std::span<Layer* const> onto);
-  void put_points(const PointSource& source, std::span<const LightView> views, Casting casting,
-                  std::span<Layer* const> onto);
-  void block(std::span<const Caster> casters, std::span<const LightView> views);
+  // Points of some layers, by face of a light.
+  using Faces = std::vector<Points>;
+
+  void cast_from_point(const geometry::Scene& scene, std::uint32_t light, Layers drawn, const Layer& kept);
+  void cast_from_all(const geometry::Scene& scene, Casting casting, std::uint32_t light, Layers onto);
+  void put_points(const PointSource& source, std::span<const LightView> views, Layers onto, Faces& faces);
+  void stream(const geometry::Scene& scene, Casting casting, std::span<const LightView> views,
+              std::span<Faces* const> onto);
+  void block(std::span<const Caster> casters, std::span<const LightView> views, Faces& faces);
   void block(const Caster& caster, const LightView& view, Points& points);
   void block_large(const LightView& view, const Caster& caster, std::uint32_t triangle, Points& points);
 
@@ -77,7 +83,7 @@ class ShadowCaster {
   PairVectors hard_, soft_;
   CasterStream casters_;
   std::vector<LightViews> lights_;
-  std::vector<Points> points_;                         // by face
+  Faces drawn_points_, kept_points_;
   std::vector<TileBounds> bounds_;                     // of a light that has a size
   std::vector<std::vector<TileBounds>> still_bounds_;  // by light and face
   std::vector<std::int32_t> grid_x_, grid_y_;

@@ -234,10 +234,7 @@ void ShadowPainter::cast(const Picture& picture) {
   drawn_.range = kept_.range = moving_.range = range_;
   drawn_.count_all_tiles();
   moving_.count_all_tiles();
-  const std::array<Layer*, 2> new_ones{&drawn_, &moving_};
-  caster_.cast(picture.scene, Casting::still, new_ones);
-  if (!picture.scene.any_moves()) return;
-  if (!picture.is_keyframe) {
+  if (!picture.is_keyframe && picture.scene.any_moves()) {
     kept_.count_all_tiles();
     if (!caster_.knows_still()) caster_.bound_still(kept_);
     caster_.find_shaded(picture.scene, kept_.tiles);
@@ -248,8 +245,8 @@ void ShadowPainter::cast(const Picture& picture) {
           kept_.line(number).moved = new_moved();
     }
   }
-  const std::array<Layer*, 3> all{&drawn_, &kept_, &moving_};
-  caster_.cast(picture.scene, Casting::moving, all);
+  const std::array<const Layer*, 2> drawn{&drawn_, &moving_};
+  caster_.cast(picture.scene, drawn, kept_);
 }
 
 void ShadowPainter::put_line(const Picture& picture, std::uint32_t number, raster::StripBuffer& out) {

@@ -30,9 +30,9 @@ const Frames kAll{0, 1, 2, 3}, kNone{};
   [[maybe_unused]] const auto& [c1, c2, c3, c4] = film.shapes[0];
   [[maybe_unused]] const auto& [d1, d2, d3, d4, d5, d6] = film.meshlets[0];
   [[maybe_unused]] const auto& [e1, e2, e3, e4] = film.segments[0];
-  [[maybe_unused]] const auto& [f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11] = film.materials[0];
+  [[maybe_unused]] const auto& [f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13] = film.materials[0];
   [[maybe_unused]] const auto& [g1, g2, g3, g4, g5] = film.cameras[0];
-  [[maybe_unused]] const auto& [h1, h2, h3, h4, h5, h6, h7] = film.lights[0];
+  [[maybe_unused]] const auto& [h1, h2, h3, h4, h5, h6, h7, h8, h9] = film.lights[0];
   [[maybe_unused]] const auto& [i1, i2, i3, i4] = film.intervals[0];
   [[maybe_unused]] const auto& [k1, k2] = film.settings.ambient;
   [[maybe_unused]] const auto& [l1, l2, l3] = film.settings.fog;
@@ -225,6 +225,26 @@ std::vector<Edit> edits_of_materials() {
       {"metallic", [](FilmData& f) { f.materials[kMetal].metallic = 0.9f; }, {0, 1, 2}},
       {"refraction", [](FilmData& f) { f.materials[kCook].refraction = 2.5f; }, kAll},
   };
+}
+
+std::vector<Edit> edits_of_shadows() {
+  return {
+      {"light.casts", [](FilmData& f) { f.lights[0].casts = 0; }, kAll},
+      {"light.size", [](FilmData& f) { f.lights[0].size = 0.2f; }, kAll},
+      {"casts", [](FilmData& f) { f.materials[kCook].casts = 0; }, kAll},
+      {"receives", [](FilmData& f) { f.materials[kPhong].receives = 0; }, kAll},
+  };
+}
+
+TEST(ChangedFrames, OfShadowsAreFound) {
+  FilmData before = base();
+  before.lights[0].casts = 1;
+  for (const Edit& edit : edits_of_shadows()) {
+    FilmData now = before;
+    edit.make(now);
+    EXPECT_EQ(found(before, now), edit.frames) << edit.of;
+    EXPECT_EQ(found(now, before), edit.frames) << edit.of;
+  }
 }
 
 TEST(ChangedFrames, AreThoseWhosePixelsDiffer) {

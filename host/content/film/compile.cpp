@@ -72,9 +72,9 @@ class Compiler {
     const auto add_all = [&](const auto&... channels) { (add(channels), ...); };
     add_all(film_.camera.eye, film_.camera.at, film_.camera.up, film_.camera.fov, film_.camera.exposure);
     for (const animator::LightMotion& light : film_.lights)
-      add_all(light.vector, light.color, light.intensity, light.reach, light.at, light.cone);
+      add_all(light.vector, light.color, light.intensity, light.reach, light.at, light.cone, light.size);
     for (const animator::MaterialMotion& material : film_.materials) {
-      if (!writer_.uses(material.name)) continue;
+      if (!writer_.uses(material)) continue;
       add(material.color);
       for (const auto& channel : material.numbers) add(channel);
     }

@@ -36,7 +36,7 @@ class FilmWriter {
   void write_segments(const ShapeNumbers& shapes);
 
   // Whether a segment is made of the film's material.
-  bool uses(const std::string& material) const { return materials_.uses(material); }
+  bool uses(const animator::MaterialMotion& material) const { return materials_.uses(material); }
 
  private:
   void write_camera();

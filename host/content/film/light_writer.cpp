@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <string_view>
 
 #include "hal/failure/failure.h"
 #include "host/content/animator/pose/direction.h"
@@ -24,10 +25,12 @@ glm::dvec3 light_from(const glm::dvec3& color, wire::ColorSpace space) {
   return {document::light_of_shown(shown.x), document::light_of_shown(shown.y), document::light_of_shown(shown.z)};
 }
 
+double half_in_radians(double degrees) { return degrees * (std::numbers::pi / 360); }
+
 // Of half the angle that a cone opens.
 float cosine_of(double angle) {
   const keys::Range& range = keys::range_of("light", "cone");
-  return static_cast<float>(std::cos(std::clamp(angle, range.lowest, range.highest) * (std::numbers::pi / 360)));
+  return static_cast<float>(std::cos(half_in_radians(std::clamp(angle, range.lowest, range.highest))));
 }
 
 class LightWriter {
@@ -37,8 +40,8 @@ class LightWriter {
 
   void write(const animator::LightMotion& light) {
     TrackWriter<wire::Light> track(data_.lights);
-    const std::uint32_t frames =
-        frames_to_see(frames_.count, light.vector, light.color, light.intensity, light.reach, light.at, light.cone);
+    const std::uint32_t frames = frames_to_see(frames_.count, light.vector, light.color, light.intensity, light.reach,
+                                               light.at, light.cone, light.size);
     for (std::uint32_t frame = 0; frame < frames; ++frame) track.add(frame, light_at(light, frames_.first + frame));
     data_.light_tracks.push_back(track.write(data_.changes));
   }
@@ -51,7 +54,8 @@ class LightWriter {
         far ? animator::direction_at(motion.vector, frame) : animator::value_at(motion.vector, frame);
     light.vector = floats(vector);
     if (motion.kind == wire::LightKind::spot) aim(motion, vector, frame, light);
-    if (!motion.reach.empty()) light.reach = reach_at(motion, frame);
+    if (!motion.reach.empty()) light.reach = static_cast<float>(within("reach", motion, motion.reach, frame));
+    if (motion.casts) cast(motion, frame, light);
     return light;
   }
 
@@ -61,10 +65,18 @@ class LightWriter {
     return floats(glm::min(light, double{wire::kMostLight}));
   }
 
-  static float reach_at(const animator::LightMotion& motion, std::uint32_t frame) {
-    const double reach = animator::value_at(motion.reach, frame);
-    const keys::Range& range = keys::range_of("light", "reach");
-    return static_cast<float>(std::clamp(reach, range.lowest, range.highest));
+  // Splines go beyond a key's range.
+  static double within(std::string_view key, const animator::LightMotion& motion,
+                       const animator::Channel<double>& channel, std::uint32_t frame) {
+    const keys::Range& range = keys::object("light").key(key).range_of(static_cast<unsigned>(motion.kind));
+    return std::clamp(animator::value_at(channel, frame), range.lowest, range.highest);
+  }
+
+  static void cast(const animator::LightMotion& motion, std::uint32_t frame, wire::Light& light) {
+    const double size = within("size", motion, motion.size, frame);
+    const bool far = motion.kind == wire::LightKind::directional;
+    light.casts = 1;
+    light.size = static_cast<float>(far ? std::tan(half_in_radians(size)) : size / 2);
   }
 
   void aim(const animator::LightMotion& motion, const glm::dvec3& place, std::uint32_t frame,

@@ -10,34 +10,24 @@ namespace mars::film {
 using modeler::kMaterialNumbers;
 
 MaterialWriter::MaterialWriter(const animator::Film& film, WrittenFrames frames, wire::FilmData& data)
-    : film_(film), frames_(frames), data_(data) {
-  for (const animator::MaterialMotion& motion : film.materials) of_film_.emplace(motion.name, &motion);
-}
+    : film_(film), frames_(frames), data_(data), worn_(film) {}
 
-wire::Track MaterialWriter::track_of(const animator::Actor& actor, std::string name) {
-  bool of_film = !actor.material.empty();
-  if (of_film) name = actor.material;
-  const auto instead = std::find_if(actor.materials.begin(), actor.materials.end(),
-                                    [&](const auto& change) { return change.first == name; });
-  if (!of_film && instead != actor.materials.end()) {
-    name = instead->second;
-    of_film = true;
+wire::Track MaterialWriter::track_of(const animator::Actor& actor, const std::string& name) {
+  const auto worn = worn_.of(actor, name);
+  if (!worn) {
+    const std::string element = "actor '" + actor.name + "'";
+    throw Failure("uses the material '" + animator::WornMaterials::name_of(actor, name) + "', which there is not",
+                  film_.source.empty() ? element : film_.source + ": " + element, "add it to the film's materials");
   }
-  if (name.empty()) return shared("", modeler::default_material());
-  if (!of_film)
-    for (const modeler::NamedMaterial& own : film_.models[actor.model].materials)
-      if (own.name == name) return shared(std::to_string(actor.model) + "/" + name, own.material);
-  if (const auto found = of_film_.find(name); found != of_film_.end()) return shared("/" + name, *found->second);
-  const std::string element = "actor '" + actor.name + "'";
-  throw Failure("uses the material '" + name + "', which there is not",
-                film_.source.empty() ? element : film_.source + ": " + element, "add it to the film's materials");
+  if (worn->of_film) return shared(*worn->of_film);
+  return shared(worn->of_model ? worn->of_model->material : modeler::default_material());
 }
 
-// Segments of one material share a track. `key` names the material among all of the film's and its models'.
+// Segments of one material share a track.
 template <typename Material>
-wire::Track MaterialWriter::shared(const std::string& key, const Material& material) {
-  const auto known = tracks_.find(key);
-  return known != tracks_.end() ? known->second : tracks_.emplace(key, write(material)).first->second;
+wire::Track MaterialWriter::shared(const Material& material) {
+  const auto known = tracks_.find(&material);
+  return known != tracks_.end() ? known->second : tracks_.emplace(&material, write(material)).first->second;
 }
 
 wire::Material MaterialWriter::material_at(const animator::MaterialMotion& motion, std::uint32_t frame) const {

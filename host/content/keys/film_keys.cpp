@@ -23,6 +23,8 @@ constexpr std::string_view kNewSun[] = {"direction=1,-1,2"}, kNewBulb[] = {"plac
 constexpr Kind kLightKinds[] = {
     {"directional", "Sun", kNewSun}, {"point", "Bulb", kNewBulb}, {"spot", "Spot", kNewSpot}};
 static_assert(std::size(kLightKinds) == static_cast<std::size_t>(wire::kLastLightKind) + 1);
+constexpr Measure kLightSizes[] = {{{0, 90}, "degrees"}, {{0, kFarthest}}, {{0, kFarthest}}};
+static_assert(std::size(kLightSizes) == std::size(kLightKinds));
 
 constexpr std::string_view kSides[] = {"width", "height"}, kAngles[] = {"inner", "outer"};
 
@@ -274,6 +276,21 @@ Object light() {
         .number = 1,
         .range = {0, 1000},
         .keyed = true},
+       {.name = "shadow",
+        .type = "flag",
+        .meaning = "whether what stands in its light casts a shadow",
+        .see = "#shadows",
+        .json = "false",
+        .example = "true"},
+       {.name = "size",
+        .meaning =
+            "how wide the light is, which makes edges of its shadows soft: of a far light the angle that it takes "
+            "up in the sky, 90 degrees at most (the sun: 0.53), of others a length; 0: edges are sharp",
+        .number = 0,
+        .range = {0, kFarthest},
+        .keyed = true,
+        .example = "0.53",
+        .measures = kLightSizes},
        {.name = "keys",
         .type = "[light_key]",
         .meaning = "list of keys",

@@ -30,6 +30,12 @@ struct Kind {
 
 inline constexpr unsigned kEveryKind = ~0u;
 
+// Of a number that some of its object's kinds measure otherwise.
+struct Measure {
+  Range range;
+  std::string_view unit = {};
+};
+
 // One of `type`: "number", "whole" (a number), "choice" (of `choices`), "text", "flag" (true or false); a type of
 // types(), such as "color"; an object of objects(), such as "light"; "[light]": a list of them; "{material}": an object
 // of them by their names.
@@ -47,13 +53,15 @@ struct Key {
   bool keyed = false;                // keys of the film may change it
   std::string_view keyed_type = {};  // its type there, if it is not the same or a part
   bool required = false;
-  bool typed = true;              // `mars film` takes it as KEY=VALUE, `mars model` as --key
-  std::string_view example = {};  // how it is written, for messages; none: as the default
-  unsigned of = kEveryKind;       // bits of those of its object's kinds that have it
-  std::string_view label = {};    // of the studio's field; none: its name
-  bool rare = false;              // the studio's field is in a part that is shut at first
+  bool typed = true;                       // `mars film` takes it as KEY=VALUE, `mars model` as --key
+  std::string_view example = {};           // how it is written, for messages; none: as the default
+  unsigned of = kEveryKind;                // bits of those of its object's kinds that have it
+  std::span<const Measure> measures = {};  // of each kind, in place of range and unit; none: these are of every kind
+  std::string_view label = {};             // of the studio's field; none: its name
+  bool rare = false;                       // the studio's field is in a part that is shut at first
 
   constexpr bool is_of(unsigned kind) const { return (of >> kind & 1u) != 0; }
+  constexpr const Range& range_of(unsigned kind) const { return measures.empty() ? range : measures[kind].range; }
 };
 
 // What values of several keys look like.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string_view>
 
 #include "host/content/keys/key.h"
@@ -78,6 +79,23 @@ inline constexpr std::array kMaterialNumbers{
         kCookTorrance,
         {.name = "refraction", .meaning = "index of refraction", .number = 1.5, .range = {1.01, 100}, .keyed = true},
         {1.01, 4}}};
+
+// What a material is or is not, of all reflection models.
+struct MaterialFlag {
+  std::uint32_t wire::Material::*member;  // 0 or 1
+  Key key;
+};
+
+inline constexpr std::array kMaterialFlags{
+    MaterialFlag{
+        &wire::Material::casts,
+        {.name = "casts", .type = "flag", .meaning = "whether it casts shadows", .json = "true", .example = "false"}},
+    MaterialFlag{&wire::Material::receives,
+                 {.name = "receives",
+                  .type = "flag",
+                  .meaning = "whether shadows fall on it",
+                  .json = "true",
+                  .example = "false"}}};
 
 constexpr bool uses(wire::Reflection reflection, const MaterialNumber& number) {
   return (number.used_by & bit_of(reflection)) != 0;

@@ -341,6 +341,7 @@ std::vector<Key> material_keys() {
                   .meaning = "1: visible from outside only; 2: from both sides",
                   .json = "2",
                   .example = "1"});
+  for (const MaterialFlag& flag : kMaterialFlags) keys.push_back(flag.key);
   return keys;
 }
 

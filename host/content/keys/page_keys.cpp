@@ -44,12 +44,24 @@ Json kinds_of(const Object& object, const Key& key) {
   return kinds;
 }
 
+// Of each kind what it has in place of the key's own.
+Json measures_of(const Object& object, const Key& key) {
+  Json measures = Json::object();
+  for (unsigned kind = 0; kind < object.kinds.size(); ++kind) {
+    const auto& [range, unit] = key.measures[kind];
+    Json& measure = measures[std::string(object.kinds[kind].name)] = {{"least", range.lowest}, {"most", range.highest}};
+    if (!unit.empty()) measure["unit"] = unit;
+  }
+  return measures;
+}
+
 Json described(const Object& object) {
   Json json = Json::object();
   for (const Key& key : object.keys)
     if (key.typed) {
       Json& shown = json[std::string(key.name)] = described(key);
       if (key.of != kEveryKind) shown["of"] = kinds_of(object, key);
+      if (!key.measures.empty()) shown["measures"] = measures_of(object, key);
     }
   return json;
 }

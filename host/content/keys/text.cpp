@@ -95,7 +95,10 @@ std::vector<std::string> typed_forms(const Object& object) {
   for (const Key& key : object.keys) {
     if (!key.typed) continue;
     const std::string begun = std::string(key.name) + "=";
-    if (key.choices.empty()) forms.push_back(begun);
+    if (key.type == "flag")
+      forms.insert(forms.end(), {begun + "true", begun + "false"});
+    else if (key.choices.empty())
+      forms.push_back(begun);
     for (const std::string_view choice : key.choices) forms.push_back(begun + std::string(choice));
   }
   return forms;

@@ -165,6 +165,10 @@ std::vector<MaterialColumn> material_columns() {
   columns.push_back(
       {"interpolation", [](const wire::Material& m) { return std::string(word_of(m.interpolation)); }, false});
   columns.push_back({"sides", [](const wire::Material& m) { return std::to_string(m.sides); }, true});
+  for (const MaterialFlag& each : kMaterialFlags)
+    columns.push_back({std::string(each.key.name),
+                       [&each](const wire::Material& m) { return std::string(m.*each.member ? "true" : "false"); },
+                       false});
   return columns;
 }
 

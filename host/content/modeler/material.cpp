@@ -30,6 +30,7 @@ wire::Material read_shading(const document::Fields& fields) {
   material.reflection = static_cast<wire::Reflection>(fields.choice("reflection"));
   material.interpolation = static_cast<wire::Interpolation>(fields.choice("interpolation"));
   material.sides = document::read_count(fields.value("sides"), 1, 2);
+  for (const MaterialFlag& flag : kMaterialFlags) material.*flag.member = fields.flag(flag.key.name);
   refuse_unused(fields, material.reflection);
   return material;
 }

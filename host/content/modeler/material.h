@@ -11,8 +11,10 @@
 namespace mars::modeler {
 
 using keys::kInterpolations;
+using keys::kMaterialFlags;
 using keys::kMaterialNumbers;
 using keys::kReflections;
+using keys::MaterialFlag;
 using keys::MaterialNumber;
 using keys::uses;
 
@@ -29,7 +31,7 @@ const wire::Material& default_material();
 // The object under its material keys; others than those of `fields` are refused.
 wire::Material read_material(const document::Fields& fields);
 
-// The same, of what has no keys over time: reflection, interpolation and sides.
+// The same, of what has no keys over time: all but colour and numbers.
 wire::Material read_shading(const document::Fields& fields);
 
 // Numbers that the reflection model does not use.

@@ -110,6 +110,8 @@ Json material_of(const std::string& name, const wire::Material& material) {
   json["reflection"] = modeler::word_of(material.reflection);
   json["interpolation"] = modeler::word_of(material.interpolation);
   json["sides"] = material.sides;
+  for (const modeler::MaterialFlag& flag : modeler::kMaterialFlags)
+    json[std::string(flag.key.name)] = material.*flag.member != 0;
   for (const modeler::MaterialNumber& number : modeler::kMaterialNumbers)
     if (modeler::uses(material.reflection, number))
       json[std::string(number.key.name)] = document::rounded_to(material.*number.member, 6);

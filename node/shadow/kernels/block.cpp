@@ -1,4 +1,5 @@
 // Which points casters block.
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -7,6 +8,8 @@
 namespace mars::shadow::MARS_SET {
 
 namespace {
+
+constexpr std::ptrdiff_t kAhead = 2;  // vectors of points that are fetched
 
 // Corner `number` of a batch's triangles from lane k on.
 struct Corner {
@@ -86,9 +89,9 @@ std::uint32_t behind(const SmallTriangles& t, std::uint32_t n, const PointVector
     const Floats there =
         hn::Add(hn::Add(constant(t.z[0][n]), hn::Mul(hn::ConvertTo(kFloats, dy), constant(t.per_y[n]))),
                 hn::Mul(hn::ConvertTo(kFloats, dx), constant(t.per_x[n])));
-    const Floats bound = hn::Add(hn::Mul(hn::Load(kFloats, points.lateral + k), constant(t.slope[n])),
-                                 hn::Load(kFloats, points.along + k));
-    const auto nearer = hn::Gt(hn::Sub(there, hn::Load(kFloats, points.z + k)), bound);
+    const Floats z = hn::Load(kFloats, points.z + k), size = points.has_place ? z : constant(1.0f);
+    const Floats bound = hn::Mul(hn::Load(kFloats, points.error + k), hn::Add(constant(t.slope[n]), size));
+    const auto nearer = hn::Gt(hn::Sub(there, z), bound);
     // Within the bounds, so that no edge function overflows.
     auto inside = hn::And(integers(nearer),
                           hn::And(at_least(x, hn::Set(kInts, t.low_x[n])), at_least(hn::Set(kInts, t.high_x[n]), x)));
@@ -108,8 +111,8 @@ std::uint32_t behind(const SmallTriangles& t, std::uint32_t n, const PointVector
 
 }  // namespace
 
-std::uint32_t set_up(const GridVertices& vertices, const shape::Triangles& triangles, const shape::Batch& batch,
-                     SmallBatches& batches) {
+std::uint32_t set_up(const LightView& view, const GridVertices& vertices, const shape::Triangles& triangles,
+                     const shape::Batch& batch, SmallBatches& batches) {
   SmallTriangles& out = batches.batch[batches.count];
   constexpr std::int32_t kMost = std::numeric_limits<std::int32_t>::max();
   const Ints none = hn::Zero(kInts), off = hn::Set(kInts, kOffGrid);
@@ -154,7 +157,7 @@ std::uint32_t set_up(const GridVertices& vertices, const shape::Triangles& trian
     for (int e = 0; e < 3; ++e) hn::Store(*zs[e], kFloats, out.z[e] + k);
     hn::Store(per_x, kFloats, out.per_x + k);
     hn::Store(per_y, kFloats, out.per_y + k);
-    hn::Store(hn::Add(hn::Abs(per_x), hn::Abs(per_y)), kFloats, out.slope + k);
+    hn::Store(hn::Mul(hn::Add(hn::Abs(per_x), hn::Abs(per_y)), constant(view.per_step)), kFloats, out.slope + k);
     const Floats high_z = hn::Max(a.z, hn::Max(b.z, c.z));
     const Ints lows[2] = {hn::IfThenElse(drawn, low_x, hn::Set(kInts, kMost)),
                           hn::IfThenElse(drawn, low_y, hn::Set(kInts, kMost))};
@@ -203,9 +206,16 @@ std::uint32_t find(const BoxArrays& boxes, std::uint32_t first, std::uint32_t co
   return static_cast<std::uint32_t>(next - found);
 }
 
+static void fetch(const PointVector& points) {
+  constexpr std::size_t kCacheLine = 64;
+  for (std::size_t k = 0; k < sizeof points; k += kCacheLine)
+    __builtin_prefetch(reinterpret_cast<const std::byte*>(&points) + k);
+}
+
 // Behind the last batch of a sixteen lie batches of earlier calls: their bits are left out.
 void block(const SmallBatches& batches, PointVector* points, const std::uint32_t* found, std::uint32_t found_count) {
   for (const std::uint32_t* at = found; at != found + found_count; ++at) {
+    if (at + kAhead < found + found_count) fetch(points[at[kAhead]]);
     PointVector& here = points[*at];
     for (std::uint32_t first = 0; first < batches.count; first += kPointLanes) {
       const std::uint32_t rest = batches.count - first, all = rest < kPointLanes ? (1u << rest) - 1 : 0xffffu;

@@ -89,7 +89,7 @@ void fit_plane(PointVector& out) {
         return hn::ConvertTo(kFloats, hn::Sub(hn::Load(kInts, at + k), hn::Set(kInts, low)));
       };
       visit(hn::LoadMaskBits(kFloats, asked), place(out.x, out.box.low_x), place(out.y, out.box.low_y),
-            hn::Load(kFloats, out.z + k), hn::Load(kFloats, out.along + k));
+            hn::Load(kFloats, out.z + k), hn::Load(kFloats, out.error + k));
     }
   };
   const auto add = [](hn::Mask<FloatTag> mask, Floats number, Sums& sum) {
@@ -112,10 +112,10 @@ void fit_plane(PointVector& out) {
   out.per_x = is_plane ? (sxz * syy - syz * sxy) / determinant : 0;
   out.per_y = is_plane ? (syz * sxx - sxz * sxy) / determinant : 0;
   Floats least = constant(std::numeric_limits<float>::max()), room = least;
-  each([&](auto mask, Floats px, Floats py, Floats pz, Floats along) {
+  each([&](auto mask, Floats px, Floats py, Floats pz, Floats error) {
     const Floats plane = hn::Add(hn::Mul(constant(out.per_x), px), hn::Mul(constant(out.per_y), py));
     least = hn::Min(least, hn::IfThenElse(mask, hn::Sub(pz, plane), least));
-    room = hn::Min(room, hn::IfThenElse(mask, along, room));
+    room = hn::Min(room, hn::IfThenElse(mask, hn::Mul(error, out.has_place ? pz : constant(1.0f)), room));
   });
   out.least = MARS_SET::least(kFloats, least);
   // Half of what a caster must be nearer, for points are rounded here too; and less by what a small triangle's corners
@@ -155,7 +155,8 @@ GridBox project(const LightView& view, const float* const* place, std::uint32_t 
 void put_points(const LightView& view, const PointFrame& frame, float left, float top, const LanePlaces& places,
                 const float* inverse_w, std::uint32_t active, PointVector& out) {
   Bounds bounds;
-  out.active = out.blocked = 0;
+  out.active = out.blocked = out.noted = 0;
+  out.has_place = view.has_place;
   const Floats per_pixel = constant(1.0f / frame.scale);
   for (std::uint32_t k = 0; k < kPointLanes; k += kLanes) {
     const Floats x = hn::Add(constant(left), hn::Load(kFloats, places.x + k));
@@ -171,19 +172,13 @@ void put_points(const LightView& view, const PointFrame& frame, float left, floa
     }
     const std::uint8_t asked[8] = {static_cast<std::uint8_t>(active >> k), static_cast<std::uint8_t>(active >> k >> 8)};
     here = hn::And(here, hn::LoadMaskBits(kFloats, asked));
-    Floats e = hn::Add(hn::Mul(w, constant(frame.by_w)), constant(frame.grid));
-    Floats lateral = hn::Mul(e, constant(view.per_step)), along = e;
-    if (view.has_place) {
-      e = hn::Add(e, hn::Mul(seen.depth, constant(frame.by_depth)));
-      lateral = hn::Mul(hn::Mul(e, seen.z), constant(view.per_step));
-      along = hn::Mul(hn::Mul(e, seen.z), seen.z);
-    }
+    Floats error = hn::Add(hn::Mul(w, constant(frame.by_w)), constant(frame.grid));
+    if (view.has_place) error = hn::Mul(hn::Add(error, hn::Mul(seen.depth, constant(frame.by_depth))), seen.z);
     const Ints grid_x = on_grid(seen.x, here), grid_y = on_grid(seen.y, here);
     hn::Store(grid_x, kInts, out.x + k);
     hn::Store(grid_y, kInts, out.y + k);
     hn::Store(hn::IfThenElseZero(here, seen.z), kFloats, out.z + k);
-    hn::Store(hn::IfThenElseZero(here, lateral), kFloats, out.lateral + k);
-    hn::Store(hn::IfThenElseZero(here, along), kFloats, out.along + k);
+    hn::Store(hn::IfThenElseZero(here, error), kFloats, out.error + k);
     bounds.add(grid_x, grid_y, seen.z, here);
     out.active |= bits(kFloats, here) << k;
   }

@@ -36,7 +36,8 @@ class Identity(unittest.TestCase):
         text = "".join(json.dumps(RandomFilm(seed).json) for seed in range(FILMS))
         for word in ["attach", "ambient", "fog", "cone", "exposure", "spline", "bspline", "mesh", "metallic", "gouraud", "flat",
                      "coded", '"samples": 16', '"samples": 1,', "dice", "reach", "x_axis", '"at": {', '"curve": "none"',
-                     '"intervals": "keyframes"', '"up"', '"out": [']:
+                     '"intervals": "keyframes"', '"up"', '"out": [', '"shadow": true}', '"shadow": true, "size": ', '"casts": false',
+                     '"receives": false']:
             self.assertIn(word, text)
         commands = [command for seed in range(FILMS) for command in RandomFilm(seed).commands]
         self.assertTrue({"walk", "wave", "reduce"} <= {command[2] for command in commands})

@@ -82,7 +82,8 @@ class Edits:
     def set_light(self):
         lights = len(self.film.get("lights", []))
         return ["film", "FILM", "light", "set", str(self.choose.randint(1, lights)), f"intensity={self.number(0.5, 3)}",
-                f"color={self.numbers(0.2, 1)}"] if lights else None
+                f"color={self.numbers(0.2, 1)}",
+                *self.choose.choice([[], ["shadow=true"], ["shadow=false", "size=0.5"]])] if lights else None
 
     def remove_light(self):
         lights = len(self.film.get("lights", []))
@@ -97,7 +98,8 @@ class Edits:
 
     def set_material(self):
         return ["film", "FILM", "material", "set", self.choose.choice(sorted(self.film["materials"])),
-                self.choose.choice([f"ambient={self.number(0, 1)}", "interpolation=gouraud", "interpolation=flat", "sides=2"])]
+                self.choose.choice([f"ambient={self.number(0, 1)}", "interpolation=gouraud", "interpolation=flat", "sides=2", "casts=false",
+                                    "receives=false"])]
 
     # Poses and keys.
 

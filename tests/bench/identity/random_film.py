@@ -101,10 +101,15 @@ class RandomFilm:
         if kind == "spot":
             inner = self.number(5, 60)
             light.update(at=self.place(1), cone=[inner, inner + self.number(1, 60)])
+        widths = (0.1, 30) if kind == "far" else (0.05, 2)
+        if self.chance(0.6):
+            light["shadow"] = True
+            if self.chance(0.5):
+                light["size"] = self.number(*widths)
         if self.chance(0.2):
-            light["keys"] = self.keys({"intensity": lambda: self.number(0.5, 3)})
-            if any("intensity" in key for key in light["keys"]):
-                del light["intensity"]
+            light["keys"] = self.keys({"intensity": lambda: self.number(0.5, 3), "size": lambda: self.number(*widths)})
+            for name in {name for key in light["keys"] for name in key} & {"intensity", "size"}:
+                light.pop(name, None)
         return light
 
     def material(self, of_film):
@@ -115,6 +120,7 @@ class RandomFilm:
             material.update(roughness=self.number(0.05, 1), metallic=self.number(0, 1))
         else:
             material.update(diffuse=self.number(0.4, 1), specular=self.number(0, 1))
+        material.update({name: False for name in ("casts", "receives") if self.chance(0.2)})
         if of_film and self.chance(0.3):
             material["keys"] = self.keys({"color": self.color})
             if any("color" in key for key in material["keys"]):

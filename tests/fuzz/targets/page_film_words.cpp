@@ -13,7 +13,7 @@ constexpr const char* kSteps = R"(
 {"commands": [["film", "light", "add", "place=1,2,3", "at=0,0,0", "cone=20,30", "color=1,1,0", "intensity=2", "reach=9"], ["film", "light", "remove", "3"]]}
 {"commands": [["film", "camera", "near=0.5", "far=500", "fov=35", "up=0,1,0"]]}
 {"commands": [["film", "light", "add", "direction=1,2,3"], ["film", "light", "remove", "1"]]}
-{"commands": [["film", "material", "add", "gold", "color=1,0.8,0", "reflection=metallic-roughness", "roughness=0.3", "metallic=1", "--actor", "pip"], ["film", "material", "set", "gold", "ambient=0.2", "sides=2", "interpolation=phong"], ["film", "material", "remove", "gold"]]}
+{"commands": [["film", "material", "add", "gold", "color=1,0.8,0", "reflection=metallic-roughness", "roughness=0.3", "metallic=1", "--actor", "pip"], ["film", "material", "set", "gold", "ambient=0.2", "sides=2", "interpolation=phong", "casts=false", "receives=true"], ["film", "material", "remove", "gold"]]}
 )";
 constexpr const char* kOthers = R"(
 {"commands": [["film", "new", "frames=3", "--figure", "man"]]}

@@ -14,7 +14,7 @@ constexpr const char* kSteps = R"(
 {"commands": [["model", "add", "tail", "--parent", "hip", "--shape", "torus", "--with", "tube=0.2", "--fixed"], ["model", "remove", "tail", "--branch"]]}
 {"commands": [["model", "point", "hip", "--patch", "2", "--at", "0", "3", "--to", "0.5", "0.5", "0.5"]]}
 {"commands": [["model", "mirror", "left"], ["model", "mirror", "left", "left-leg"]]}
-{"commands": [["model", "set", "--material", "shirt", "--color", "0", "0", "1", "--name", "coat", "--reflection", "blinn-phong", "--exponent", "9", "--sides", "2", "--interpolation", "phong"]]}
+{"commands": [["model", "set", "--material", "shirt", "--color", "0", "0", "1", "--name", "coat", "--reflection", "blinn-phong", "--exponent", "9", "--sides", "2", "--interpolation", "phong", "--casts", "false", "--receives", "true"]]}
 {"commands": [["model", "add", "--material", "gold", "--color", "1", "1", "0", "--reflection", "metallic-roughness", "--roughness", "0.3", "--metallic", "1"], ["model", "remove", "--material", "gold"]]}
 {"commands": [["model", "scale", "2", "--branch", "hip", "--height", "3"], ["model", "scale", "1", "1", "2", "--joint", "hip", "--no-ground"], ["model", "show"]]}
 {"commands": [["model", "new", "--figure", "box", "--height", "1", "--replace"]]}

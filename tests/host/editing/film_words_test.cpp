@@ -153,6 +153,25 @@ TEST_F(FilmWords, ChangeALight) {
   EXPECT_NE(failure({"light", "set", "4", "raech=2"}).find("did you mean 'reach'?"), std::string::npos);
 }
 
+TEST_F(FilmWords, LetLightsCast) {
+  film({"light", "add", "place=1,2,3", "shadow=true", "size=0.5"});
+  EXPECT_EQ(json_["lights"][3], document::Json::parse(R"({"place": [1, 2, 3], "shadow": true, "size": 0.5})"));
+  film({"light", "set", "4", "shadow=false"});
+  EXPECT_EQ(json_["lights"][3]["shadow"], false);
+  EXPECT_NE(failure({"light", "set", "4", "shadow=yes"}).find("shadow: is a text"), std::string::npos);
+  film({"light", "set", "1", "size=0.53"});
+  EXPECT_NE(failure({"light", "set", "1", "size=100"}).find("from 0 to 90"), std::string::npos);
+}
+
+TEST_F(FilmWords, CopyWhatAModelsMaterialDoesWithShadows) {
+  film({"add", "tom", "--model", "man"});
+  json_["models"]["man"] = modeler::library_figure("man");
+  json_["models"]["man"]["materials"]["skin"]["casts"] = false;
+  film({"material", "add", "skin", "--actor", "tom", "receives=false"});
+  EXPECT_EQ(json_["materials"]["skin"]["casts"], false);
+  EXPECT_EQ(json_["materials"]["skin"]["receives"], false);
+}
+
 TEST_F(FilmWords, GiveActorsMaterials) {
   film({"add", "tom", "--model", "man"});
   film({"material", "add", "skin", "--actor", "tom", "exponent=12"});

@@ -77,13 +77,16 @@ TEST_F(ModelWordsTest, WriteValuesAsAFileDoes) {
          "--roughness",
          "0.25",
          "--sides",
-         "1"});
+         "1",
+         "--casts",
+         "false"});
   EXPECT_EQ(joint(0).dump(),
             R"({"name":"leg","x_axis":[1,1,0],)"
             R"("segment":{"shape":"rounded_box","sbb":[[0,0,0],[1,2,0.3]],"material":"fur","edge":[0.1,0.2,0.3]}})");
   EXPECT_EQ(
       model_.json()["materials"]["fur"],
-      document::Json::parse(R"({"color": [1, 0.5, 0], "roughness": 0.25, "reflection": "cook-torrance", "sides": 1})"));
+      document::Json::parse(R"({"color": [1, 0.5, 0], "roughness": 0.25, "reflection": "cook-torrance", "sides": 1,
+          "casts": false})"));
 }
 
 TEST_F(ModelWordsTest, AreRefusedByTheTable) {

@@ -102,6 +102,10 @@ TEST(FilmBlock, RefusesNumbersOutOfRange) {
       {"focal 0", [](FilmData& f) { f.cameras[0].focal = 0; }},
       {"near 0", [](FilmData& f) { f.cameras[0].near = 0; }},
       {"far before near", [](FilmData& f) { f.cameras[0].far = 0.05; }},
+      {"a material that casts twice", [](FilmData& f) { f.materials[1].casts = 2; }},
+      {"a material that receives twice", [](FilmData& f) { f.materials[1].receives = 2; }},
+      {"a light that casts twice", [](FilmData& f) { f.lights[0].casts = 2; }},
+      {"a light smaller than a point", [](FilmData& f) { f.lights[0].size = -1; }},
       {"light of no kind", [](FilmData& f) { f.lights[1].kind = static_cast<LightKind>(3); }},
   };
   for (const double bad : {kNan, kInfinity, -kInfinity, 1e30}) {
@@ -123,6 +127,7 @@ TEST(FilmBlock, RefusesNumbersOutOfRange) {
                                    {"near", [=](FilmData& f) { f.cameras[0].near = bad; }},
                                    {"far", [=](FilmData& f) { f.cameras[0].far = bad; }},
                                    {"light", [=](FilmData& f) { f.lights[1].vector[0] = b; }},
+                                   {"light's size", [=](FilmData& f) { f.lights[1].size = b; }},
                                    {"light's colour", [=](FilmData& f) { f.lights[0].color[2] = b; }}});
   }
   expect_refused(defects);

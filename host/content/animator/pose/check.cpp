@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <set>
 
 #include "host/content/animator/pose/attachments.h"
 #include "host/content/animator/pose/joint_frames.h"
 #include "host/content/animator/pose/limits_left.h"
+#include "host/content/animator/pose/worn_materials.h"
 #include "host/content/document/fields.h"
 #include "host/content/document/shell_word.h"
 
@@ -140,7 +142,9 @@ std::uint32_t last_of(const Channels&... channels) {
 
 std::uint32_t last_key(const CameraMotion& c) { return last_of(c.eye, c.at, c.up, c.fov, c.exposure); }
 
-std::uint32_t last_key(const LightMotion& l) { return last_of(l.vector, l.color, l.intensity, l.reach, l.at, l.cone); }
+std::uint32_t last_key(const LightMotion& l) {
+  return last_of(l.vector, l.color, l.intensity, l.reach, l.at, l.cone, l.size);
+}
 
 std::uint32_t last_key(const MaterialMotion& material) {
   std::uint32_t last = last_of(material.color);
@@ -163,6 +167,33 @@ void find_late_keys(const Film& film, std::vector<std::string>& lines) {
     find_late_keys(film, "material/" + material.name, last_key(material), lines);
 }
 
+// "material/oak", "actor 'tom', material 'skin'" of its model.
+std::string name_of(const Actor& actor, const WornMaterial& worn) {
+  return worn.of_film ? "material/" + worn.of_film->name
+                      : "actor '" + actor.name + "', material '" + worn.of_model->name + "'";
+}
+
+// Nodes light others at corners of triangles or once a triangle, which would not show where a shadow ends.
+bool fails_to_receive(const wire::Material& shading) {
+  return shading.receives && shading.interpolation != wire::Interpolation::phong;
+}
+
+void find_unreceived_shadows(const Film& film, std::vector<std::string>& lines) {
+  if (std::ranges::none_of(film.lights, &LightMotion::casts)) return;
+  const WornMaterials materials(film);
+  std::set<const void*> seen;
+  for (const Actor& actor : film.actors)
+    for (const modeler::Joint& joint : film.models[actor.model].joints) {
+      const auto worn = joint.segment ? materials.of(actor, joint.segment->material) : std::nullopt;
+      if (!worn || (!worn->of_film && !worn->of_model)) continue;
+      const wire::Material& shading = worn->of_film ? worn->of_film->shading : worn->of_model->material;
+      if (!fails_to_receive(shading) || !seen.insert(&shading).second) continue;
+      lines.push_back(name_of(actor, *worn) + ": no shadow falls on it, because its interpolation is " +
+                      std::string(modeler::word_of(shading.interpolation)) +
+                      " (make that phong, or set receives=false)");
+    }
+}
+
 }  // namespace
 
 Findings check_film(const Film& film) {
@@ -181,6 +212,7 @@ Findings check_film(const Film& film) {
     find_falls(film, number, lines);
   }
   find_late_keys(film, lines);
+  find_unreceived_shadows(film, lines);
   findings.trouble = !lines.empty();
   if (small > 0)
     lines.push_back(std::to_string(small) + (lines.empty() ? "" : " more") +

@@ -49,13 +49,15 @@ struct LightMotion {
   Channel<double> reach;     // empty if it does not fall off
   Channel<glm::dvec3> at;    // where a spot aims; of others empty
   Channel<glm::dvec2> cone;  // how wide a spot opens, degrees: fully lit within x, dark outside y; of others empty
+  bool casts = false;        // shadows
+  Channel<double> size;      // of what casts, how wide it is: of a directional light in degrees, else a length
 };
 
 struct MaterialMotion {
   std::string name;
   Channel<glm::dvec3> color;
   std::array<Channel<double>, modeler::kMaterialNumbers.size()> numbers;  // as in kMaterialNumbers
-  wire::Material shading = modeler::default_material();                   // reflection, interpolation and sides
+  wire::Material shading = modeler::default_material();                   // what is not keyed
 };
 
 // Light from all around, from above and from below.

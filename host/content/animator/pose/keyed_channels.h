@@ -30,9 +30,9 @@ inline constexpr CameraChannel kCameraChannels[] = {{"eye", &CameraMotion::eye},
 
 using LightChannel = KeyedChannel<LightMotion, double, glm::dvec2, glm::dvec3>;
 inline constexpr LightChannel kLightChannels[] = {
-    {"direction", &LightMotion::vector},   {"place", &LightMotion::vector}, {"at", &LightMotion::at},
-    {"cone", &LightMotion::cone},          {"reach", &LightMotion::reach},  {"color", &LightMotion::color},
-    {"intensity", &LightMotion::intensity}};
+    {"direction", &LightMotion::vector},    {"place", &LightMotion::vector}, {"at", &LightMotion::at},
+    {"cone", &LightMotion::cone},           {"reach", &LightMotion::reach},  {"color", &LightMotion::color},
+    {"intensity", &LightMotion::intensity}, {"size", &LightMotion::size}};
 
 // Calls act(key, channel) for each key that may be keyed and that things of this kind have, in the table's order.
 template <typename Motion, typename Channels, typename Act>

@@ -33,14 +33,14 @@ glm::dvec2 cone_of(const document::Element& element, const keys::Key& key) {
   return {inner, outer};
 }
 
-// Readers of a key's value for its channel.
-void read_value(const document::Element& element, const keys::Key& key, double& value) {
-  value = document::read_number(element, key.range);
+// Readers of a key's value for its channel, of a light of that kind.
+void read_value(const document::Element& element, const keys::Key& key, wire::LightKind kind, double& value) {
+  value = document::read_number(element, key.range_of(static_cast<unsigned>(kind)));
 }
-void read_value(const document::Element& element, const keys::Key& key, glm::dvec2& value) {
+void read_value(const document::Element& element, const keys::Key& key, wire::LightKind, glm::dvec2& value) {
   value = cone_of(element, key);
 }
-void read_value(const document::Element& element, const keys::Key& key, glm::dvec3& value) {
+void read_value(const document::Element& element, const keys::Key& key, wire::LightKind, glm::dvec3& value) {
   value = key.type == "color"       ? document::read_color(element)
           : key.name == "direction" ? direction_of(element)
                                     : place_of(element);
@@ -48,10 +48,10 @@ void read_value(const document::Element& element, const keys::Key& key, glm::dve
 
 // As settle() and add_key() want it.
 template <typename Value>
-auto reader_of(const keys::Key& key, const Channel<Value>&) {
-  return [&key](const document::Element& element) {
+auto reader_of(const keys::Key& key, wire::LightKind kind, const Channel<Value>&) {
+  return [&key, kind](const document::Element& element) {
     Value value{};
-    read_value(element, key, value);
+    read_value(element, key, kind, value);
     return value;
   };
 }
@@ -100,9 +100,10 @@ void refuse_keys_of_others(const document::Element& element, wire::LightKind kin
 
 // A channel of a key with neither a value nor a default stays empty.
 template <typename Value>
-void settle_by_table(Channel<Value>& channel, const document::Fields& fields, const keys::Key& key) {
+void settle_by_table(Channel<Value>& channel, const document::Fields& fields, const keys::Key& key,
+                     wire::LightKind kind) {
   const bool has_default = key.number || !key.json.empty();
-  if (has_default || fields.find(key.name)) settle(channel, fields, key.name, reader_of(key, channel));
+  if (has_default || fields.find(key.name)) settle(channel, fields, key.name, reader_of(key, kind, channel));
 }
 
 LightMotion read_light(const document::Element& element) {
@@ -111,14 +112,16 @@ LightMotion read_light(const document::Element& element) {
   LightMotion light;
   light.kind = kind_of(element, given.contains("direction"), given.contains("place"), given.contains("at"));
   refuse_keys_of_others(element, light.kind, given);
+  light.casts = fields.flag("shadow");
   if (const auto keys = fields.find("keys"))
     read_keys(*keys, keys::object("light_key"),
               [&](const document::Fields& at_frame, std::uint32_t frame, const Ease& ease) {
                 for_each_channel(light, [&](const keys::Key& key, auto& channel) {
-                  add_key(channel, at_frame, key.name, frame, ease, reader_of(key, channel));
+                  add_key(channel, at_frame, key.name, frame, ease, reader_of(key, light.kind, channel));
                 });
               });
-  for_each_channel(light, [&](const keys::Key& key, auto& channel) { settle_by_table(channel, fields, key); });
+  for_each_channel(light,
+                   [&](const keys::Key& key, auto& channel) { settle_by_table(channel, fields, key, light.kind); });
   return light;
 }
 

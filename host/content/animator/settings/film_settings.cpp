@@ -61,6 +61,9 @@ Json material_of(const wire::Material& material) {
     if (uses(material.reflection, each) && material.*each.member != modeler::default_material().*each.member)
       json[std::string(each.key.name)] = number(material.*each.member);
   if (material.sides != modeler::default_material().sides) json["sides"] = material.sides;
+  for (const modeler::MaterialFlag& flag : modeler::kMaterialFlags)
+    if (material.*flag.member != modeler::default_material().*flag.member)
+      json[std::string(flag.key.name)] = material.*flag.member != 0;
   return json;
 }
 

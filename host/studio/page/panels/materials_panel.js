@@ -2,7 +2,7 @@
 // models, and their ranges (`keys`: host/content/keys).
 
 import {element, keepingFocus} from "../dom.js";
-import {choice, colorField, line, part, sliderField, textField} from "../fields.js";
+import {choice, colorField, line, part, sliderField, textField, toggle} from "../fields.js";
 import {icon} from "../icons.js";
 import {hexOf} from "../numbers.js";
 import {materialStep, removeMaterialStep} from "../words.js";
@@ -109,11 +109,17 @@ export class MaterialsPanel {
     }});
     const sides = choice({name: "Sides", key: "material.sides", options: [["2", "Both"], ["1", "Outside only"]],
                           ...this.#changes((value) => ({sides: Number(value)}))});
+    const flags = Object.entries(this.#keys).filter(([, {type}]) => type === "flag").map(([key, {meaning, default: usual}]) => {
+      const shown = line(titled(key), this.#field(
+        toggle({name: titled(key), text: "", key: `material.${key}`, ...this.#changes((value) => ({[key]: value}))}), (now) => now[key] ?? usual));
+      shown.title = titled(meaning.replaceAll("`", ""));
+      return shown;
+    });
     return [
       part("Material", line("Name", this.#field(name, (now) => now.name)),
            line("Colour", this.#field(colorField({name: "Colour", key: "material.color", ...this.#changes((color) => ({color}))}), (now) => now.color ?? this.#keys.color.default))),
       part("Reflection", pick("Model", "reflection"), numbers),
-      part("Surface", pick("Shading", "interpolation"), line("Sides", this.#field(sides, (now) => String(now.sides ?? this.#keys.sides.default)))),
+      part("Surface", pick("Shading", "interpolation"), line("Sides", this.#field(sides, (now) => String(now.sides ?? this.#keys.sides.default))), flags),
     ];
   }
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <map>
 
 #include "host/content/animator/reading/rig.h"
 #include "host/content/film/light_writer.h"
@@ -160,6 +161,59 @@ TEST(Lighting, ASpotAimsAndOpensByHalfItsCone) {
   EXPECT_EQ(point.reach, 2);
 }
 
+TEST(Lighting, ALightCastsWhereItSaysSo) {
+  const wire::Light plain = light_at(compiled(lit(R"("direction": [0, 0, 1], "size": 10)")), 0);
+  EXPECT_EQ(plain.casts, 0u);
+  EXPECT_EQ(plain.size, 0) << "which nothing would show";
+  const wire::Light sharp = light_at(compiled(lit(R"("direction": [0, 0, 1], "shadow": true)")), 0);
+  EXPECT_EQ(sharp.casts, 1u);
+  EXPECT_EQ(sharp.size, 0);
+  const wire::Light sun = light_at(compiled(lit(R"("direction": [0, 0, 1], "shadow": true, "size": 90)")), 0);
+  EXPECT_FLOAT_EQ(sun.size, 1) << "the tangent of half the angle";
+  for (const char* aim : {"", R"(, "at": [0, 0, 1])"}) {
+    const std::string near = R"("place": [0, 0, 5], "shadow": true, "size": 120)";
+    EXPECT_EQ(light_at(compiled(lit(near + aim)), 0).size, 60) << "a radius" << aim;
+  }
+}
+
+TEST(Lighting, ALightsSizeMayChange) {
+  const CompiledFilm film = compiled(lit(R"("place": [0, 0, 5], "shadow": true, "keys": [
+      {"frame": 2, "size": 0}, {"frame": 4, "size": 4}])"));
+  for (const auto& [frame, radius] : std::map<std::uint32_t, float>{{2, 0}, {3, 1}, {4, 2}, {11, 2}})
+    EXPECT_EQ(light_at(film, frame).size, radius) << frame;
+  const CompiledFilm unseen = compiled(lit(R"("place": [0, 0, 5], "keys": [
+      {"frame": 2, "size": 0}, {"frame": 4, "size": 4}])"));
+  EXPECT_EQ(unseen.view().lights().size(), 1u);
+}
+
+TEST(Lighting, MaterialsCastAndReceiveUnlessTheySayOtherwise) {
+  EXPECT_EQ(material_of("").casts, 1u);
+  EXPECT_EQ(material_of("").receives, 1u);
+  EXPECT_EQ(material_of(R"("casts": false)").casts, 0u);
+  EXPECT_EQ(material_of(R"("receives": false, "keys": [{"frame": 0, "ambient": 0}])").receives, 0u);
+  const CompiledFilm own = compiled(R"({"frames": 1, "camera": {"eye": [0, -9, 0]}, "models": {"b": {
+      "materials": {"glass": {"casts": false}, "sky": {"receives": false}},
+      "joints": [{"name": "b", "segment": {"shape": "box", "material": "glass"}},
+                 {"name": "c", "segment": {"shape": "box", "material": "sky"}}]}},
+      "actors": [{"name": "b", "model": "b"}]})");
+  EXPECT_EQ(own.view().materials()[0].casts, 0u);
+  EXPECT_EQ(own.view().materials()[0].receives, 1u);
+  EXPECT_EQ(own.view().materials()[1].receives, 0u);
+}
+
+TEST(Lighting, RefusesShadowsThatMakeNoSense) {
+  const auto refused = [](const std::string& light) { return refusal(lit(light)); };
+  EXPECT_TRUE(
+      document::holds(refused(R"("direction": [0, 0, 1], "size": 91)"), "size: is 91 (write a number from 0 to 90)"));
+  EXPECT_TRUE(
+      document::holds(refused(R"("place": [0, 0, 1], "keys": [{"frame": 0, "size": -1}])"), "keys[0].size: is -1"));
+  EXPECT_EQ(refused(R"("place": [0, 0, 1], "size": 91)"), "");
+  EXPECT_TRUE(document::holds(refused(R"("direction": [0, 0, 1], "shadow": 1)"), "lights[0].shadow: is a number"));
+  EXPECT_TRUE(document::holds(refused(R"("place": [0, 0, 1], "keys": [{"frame": 0, "shadow": true}])"),
+                              "keys[0].shadow: does not belong to a key of a light"));
+  EXPECT_TRUE(document::holds(refusal(ball_film("", R"("casts": "no")")), "materials.m.casts: is a text"));
+}
+
 TEST(Lighting, RefusesLightsThatMakeNoSense) {
   const auto refused = [](const std::string& light) { return refusal(lit(light)); };
   EXPECT_TRUE(document::holds(refused(R"("direction": [0, 0, 1], "at": [0, 0, 0])"), "for a spot give place and at"));
@@ -192,9 +246,10 @@ TEST(Lighting, OvershootStaysWithinWhatNodesTake) {
   const std::string swing = R"("ease": [0.5, -10, 0.5, 10])";
   const CompiledFilm film = compiled(ball_film(
       R"("lights": [{"place": [0, 0, 5], "keys": [
-          {"frame": 0, "intensity": 0, "color": [0, 0, 0], "reach": 1, "at": [0, 0, 0], "cone": [1, 1], )" +
+          {"frame": 0, "intensity": 0, "color": [0, 0, 0], "reach": 1, "at": [0, 0, 0], "cone": [1, 1], "size": 0, )" +
           swing +
-          R"(}, {"frame": 11, "intensity": 1000, "color": [1, 1, 1], "reach": 9, "at": [0, 0, 1], "cone": [170, 180]}]}])",
+          R"(}, {"frame": 11, "intensity": 1000, "color": [1, 1, 1], "reach": 9, "at": [0, 0, 1], "cone": [170, 180],
+           "size": 1e9}], "shadow": true}])",
       R"("reflection": "cook-torrance", "keys": [{"frame": 0, "roughness": 0, "refraction": 1.01, )" + swing +
           R"(}, {"frame": 11, "roughness": 1, "refraction": 100}])"));
   EXPECT_NO_THROW(wire::PackedFilm(film.block(), "f"));

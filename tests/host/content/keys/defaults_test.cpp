@@ -47,7 +47,7 @@ constexpr const char* kFilm = R"({
   "frames": 5,
   "camera": {"keys": [{"frame": 0, "eye": {"actor": "tom", "joint": "hand", "offset": [1, -9, 2]}},
                       {"frame": 4, "eye": [2, -9, 3]}]},
-  "lights": [{"place": [3, -3, 5], "at": [0, 0, 1]},
+  "lights": [{"place": [3, -3, 5], "at": [0, 0, 1], "shadow": true},
              {"keys": [{"frame": 0, "direction": [0, -1, 1]}, {"frame": 4, "direction": [1, -1, 1]}]}],
   "fog": {"end": 50},
   "materials": {"plain": {}, "keyed": {"keys": [{"frame": 0, "ambient": 0}, {"frame": 4, "ambient": 1}]}},

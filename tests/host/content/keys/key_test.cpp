@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "host/content/keys/material_keys.h"
 #include "host/content/keys/text.h"
@@ -49,6 +51,18 @@ TEST(Keys, AreOfKindsThatTheirObjectHas) {
   });
 }
 
+TEST(Keys, AreMeasuredForEachKind) {
+  for_each_key([](const Object& object, const Key& key, const std::string& name) {
+    if (key.measures.empty() || object.name.ends_with("_key")) return;
+    ASSERT_EQ(key.measures.size(), object.kinds.size()) << name;
+    for (unsigned kind = 0; kind < object.kinds.size(); ++kind) {
+      EXPECT_GE(key.range_of(kind).lowest, key.range.lowest) << name;
+      EXPECT_LE(key.range_of(kind).highest, key.range.highest) << name;
+      EXPECT_LE(*key.number, key.range_of(kind).highest) << name;
+    }
+  });
+}
+
 // A light of each kind begins with keys that it has.
 TEST(Kinds, BeginWithTheirKeys) {
   const Object& light = object("light");
@@ -80,11 +94,26 @@ TEST(Keys, OfAMaterialLieInItsStruct) {
   }
 }
 
+TEST(Keys, OfAMaterialThatAreTrueOrFalseLieInItsStruct) {
+  for (const MaterialFlag& flag : kMaterialFlags) {
+    EXPECT_EQ(object("material").key(flag.key.name).type, "flag");
+    EXPECT_EQ(object("film_material").key(flag.key.name).type, "flag");
+    EXPECT_EQ(object("material_key").find(flag.key.name), nullptr) << flag.key.name;
+  }
+}
+
+TEST(Text, OffersBothValuesOfAFlag) {
+  const std::vector<std::string> forms = typed_forms(object("light"));
+  for (const char* form : {"shadow=true", "shadow=false", "size="})
+    EXPECT_EQ(std::ranges::count(forms, form), 1) << form;
+  EXPECT_EQ(std::ranges::count(forms, "shadow="), 0);
+}
+
 TEST(Text, OfAKeyIsAHelpWithAnExample) {
   EXPECT_EQ(help_of(kMaterialNumbers[0].key, "--ambient "),
             "Share of the film's ambient light that it reflects (0 to 10). Example: --ambient 0.1");
   EXPECT_EQ(range_of(object("camera").key("fov")), "0.01 to 179 degrees");
-  EXPECT_EQ(names_of(object("light")), "direction, place, at, cone, reach, color or intensity");
+  EXPECT_EQ(names_of(object("light")), "direction, place, at, cone, reach, color, intensity, shadow or size");
 }
 
 }  // namespace

@@ -80,6 +80,28 @@ TEST(PlantedKey, OfALightIsThePagesWithTheKindsThatHaveIt) {
       "begins_with": ["place=0,-4,5", "at=0,0,1"]})"));
 }
 
+TEST(MeasuredKey, HasRangeAndUnitOfEachKindOnThePage) {
+  EXPECT_EQ(keys_of_pages()["light"]["size"]["measures"],
+            nlohmann::ordered_json::parse(R"({"directional": {"least": 0.0, "most": 90.0, "unit": "degrees"},
+                "point": {"least": 0.0, "most": 1e9}, "spot": {"least": 0.0, "most": 1e9}})"));
+}
+
+TEST(Flag, IsTypedAsTrueOrFalse) {
+  const auto typed = [](const std::string& word) {
+    return editing::values_of(std::vector<std::string>{"shadow=" + word}, object("light"))["shadow"];
+  };
+  EXPECT_EQ(typed("true"), true);
+  EXPECT_EQ(typed("false"), false);
+  EXPECT_EQ(typed("yes"), "yes") << "which readers refuse";
+  document::Json values = document::Json::object();
+  cli::Program program("mars", "");
+  const cli::Command set = program.add_command("set", "");
+  editing::add_key_options(set, object("material"), values);
+  program.read({"set", "--casts", "false", "--receives", "true"});
+  EXPECT_EQ(values.dump(), R"({"casts":false,"receives":true})");
+  EXPECT_EQ(read(values.dump()).casts, 0u);
+}
+
 TEST(PlantedKey, OfAFilmIsThePages) {
   EXPECT_EQ(keys_of_pages()["film"]["grain"],
             nlohmann::ordered_json::parse(R"({"type": "number", "meaning": "noise of the picture", "least": 0.0,

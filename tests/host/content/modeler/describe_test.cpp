@@ -46,6 +46,17 @@ tin       0.8 0.8 0.8  metallic-roughness  0.1                                  
 )");
 }
 
+TEST(Describe, MaterialsSayWhatTheyDoWithShadowsIfOneDoesWhatIsUnusual) {
+  const document::Document document(
+      R"({"joints": [{"name": "hip"}], "materials": {"fur": {}, "glass": {"casts": false}}})", "m.json");
+  const std::string text = describe_model(read_model(document.root()));
+  EXPECT_EQ(text.substr(text.find("material  ")),
+            R"(material  color        ambient  diffuse  specular  exponent  sides  casts
+fur       0.8 0.8 0.8  0.1      0.65     0.45      32        2      true
+glass     0.8 0.8 0.8  0.1      0.65     0.45      32        2      false
+)");
+}
+
 TEST(Describe, TellsLimbsWhereAModelHasThem) {
   const document::Document document(R"({"joints": [{"name": "hip"}, {"name": "calf", "parent": "hip"}],
                               "limbs": {"left": {"knee": "calf"}}})",

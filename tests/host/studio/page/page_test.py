@@ -352,6 +352,8 @@ class Controls(Page):
         self.commit("model set --material trousers --diffuse 0.8")
         self.find('[data-key="material.diffuse.number"]').send_keys(Keys.CONTROL, "a", Keys.NULL, "5", Keys.ENTER)  # the slider ends at 2
         self.commit("model set --material trousers --diffuse 5")
+        self.find('input[type=checkbox][data-key="material.casts"]').click()
+        self.commit("model set --material trousers --casts false")
         self.js("""const color = document.querySelector('[data-key="material.color"]');
                    color.value = "#ff0080";
                    color.dispatchEvent(new Event("change", {bubbles: true}));""")
@@ -801,9 +803,23 @@ class Films(Page):
             self.write(f"light.{key}", text)
             self.commit(words)  # at the frame only what has keys
         self.find('[data-key="light/1"]').click()
-        self.until(fields, ["direction", "color", "intensity"])
+        self.until(fields, ["direction", "color", "intensity", "shadow", "size"])
         self.find('[data-key="light.add.spot"]').click()
         self.commit("film light add place=0,-4,5 at=0,0,1")
+
+    def test_a_light_casts_where_its_box_is_ticked(self):
+        self.scene()
+        self.find('[data-key="light/1"]').click()
+        shadow = self.find('input[type=checkbox][data-key="light.shadow"]')
+        self.assertFalse(shadow.is_selected())
+        shadow.click()
+        self.commit("film light set 1 shadow=true")
+        size = self.find('[data-key="light.size"]')
+        self.assertEqual([size.get_attribute("aria-valuemax"), self.js("return arguments[0].nextSibling.textContent", size)], ["90", "°"])
+        self.write("light.size", "0.53")
+        self.commit("film light set 1 size=0.53")
+        self.find('[data-key="light/2"]').click()
+        self.until(lambda: self.find('[data-key="light.size"]').get_attribute("aria-valuemax"), "1000000000")
 
     def test_what_is_typed_leaves_the_other_numbers_of_a_vector(self):
         self.scene()

@@ -49,7 +49,7 @@ def materials():
 def key(schema):
     bounds = {ours: schema[theirs] for ours, theirs in (("least", "minimum"), ("most", "maximum")) if theirs in schema}
     choices = {"choices": schema["enum"]} if "enum" in schema else {}
-    plain = "whole" if schema.get("type") == "integer" else schema.get("type")
+    plain = {"integer": "whole", "boolean": "flag"}.get(schema.get("type"), schema.get("type"))
     return bounds | choices | {"type": schema["$ref"].split("/")[-1] if "$ref" in schema else plain, "meaning": schema["description"]} | {
         name: schema[name] for name in ("default",) if name in schema}
 
@@ -76,6 +76,7 @@ def keys():
         keys[thing] |= planted
     for name, kinds in OF.items():
         keys["light"][name]["of"] = kinds
+    keys["light"]["size"]["measures"] = {"directional": {"least": 0, "most": 90, "unit": "degrees"}}
     keys["light"]["reach"]["without"] = "the same at all distances"
     keys["light"]["cone"]["parts"], keys["film"]["size"]["parts"] = ["inner", "outer"], ["width", "height"]
     keys["film"]["samples"]["choices"] = schema["$defs"]["samples"]["enum"]

@@ -2,7 +2,7 @@
 // host/content/keys): a key's type decides its control; its label, unit, range, default and meaning decide the rest. A
 // new key of a type that is known here has a field without a line of this page.
 
-import {choice, colorField, line, more, numberField, severalField, textField, vectorField} from "../../fields.js";
+import {choice, colorField, line, more, numberField, severalField, textField, toggle, vectorField} from "../../fields.js";
 import {written} from "../../numbers.js";
 
 const kUnits = {degrees: "°"};
@@ -10,6 +10,7 @@ const kUnits = {degrees: "°"};
 // What a type's values are changed by. What has choices or parts needs none of its own; others are written as text.
 const kControls = {
   number: numberField, whole: (options) => numberField({...options, digits: 0}), color: colorField, vector: vectorField,
+  flag: (options) => toggle({...options, text: ""}),
   // Of a point that goes along with an actor, the place; of light from above and below, what is from above.
   place_or_point: vectorField,
   color_or_ambient: (options) => {
@@ -61,7 +62,8 @@ export function keyFields(controls, {of, kind, now, words}) {
     shown.title = meaningOf(key);
     return shown;
   };
-  const keys = Object.entries(controls.project.keys[of]).filter(([, key]) => !key.of || key.of.includes(kind));
+  const keys = Object.entries(controls.project.keys[of]).filter(([, key]) => !key.of || key.of.includes(kind))
+    .map(([name, key]) => [name, {...key, ...key.measures?.[kind]}]);
   const rare = keys.filter(([, key]) => key.rare);
   return [keys.filter(([, key]) => !key.rare).map(field), rare.length > 0 && more(titled(of), rare.map(field))];
 }
