@@ -117,8 +117,7 @@ Sight ShadowRays::trace(const shadow::LightView& view, const shadow::PointFrame&
     ray.e += ray.at[2] * double{frame.by_depth};
   }
   // The way from the point to the light.
-  const Vec3 to_light =
-      ray.has_place() ? vector_of(view.place) - place : cross(vector_of(view.u), vector_of(view.v));
+  const Vec3 to_light = ray.has_place() ? vector_of(view.place) - place : cross(vector_of(view.u), vector_of(view.v));
   const double far = length(to_light);
   Sight sight = Sight::open;
   for (const Body& body : bodies_) {
@@ -126,7 +125,11 @@ Sight ShadowRays::trace(const shadow::LightView& view, const shadow::PointFrame&
     const double away = length(cross(to_light, from)) / far;
     if (away > body.radius * 1.01 + 10 * ray.e) continue;
     for (const auto& triangle : body.triangles) {
-      const Sight here = trace_triangle(ray, {looking.at(triangle[0]), looking.at(triangle[1]), looking.at(triangle[2])});
+      const Vec3 corner = triangle[0] - place;
+      const double reach = std::max(length(triangle[1] - triangle[0]), length(triangle[2] - triangle[0]));
+      if (length(cross(to_light, corner)) > (reach * 1.01 + 10 * ray.e) * far) continue;
+      const Sight here =
+          trace_triangle(ray, {looking.at(triangle[0]), looking.at(triangle[1]), looking.at(triangle[2])});
       if (here == Sight::blocked) return here;
       if (here == Sight::unsure) sight = here;
     }

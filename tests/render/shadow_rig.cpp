@@ -31,9 +31,10 @@ ShadowRig::ShadowRig(const wire::FilmData& film, std::string_view simd) : block_
   lay_out(reference_.movers, movers_);
   shadow::ShadowCaster caster(simd::best_instruction_set(simd), scene_);
   caster.begin(scene_, [] {});
-  shadow::Layer* const layers[] = {&still_.layer, &movers_.layer};
-  caster.cast(scene_, shadow::Casting::still, layers);
-  caster.cast(scene_, shadow::Casting::moving, layers);
+  const shadow::Layer* const drawn[] = {&still_.layer, &movers_.layer};
+  shadow::Layer kept{};
+  kept.begin(reference_.width, still_.layer.range);
+  caster.cast(scene_, drawn, kept);
 }
 
 void ShadowRig::lay_out(const std::vector<ReferenceSample>& from, Samples& to) const {
@@ -86,10 +87,16 @@ void ShadowRig::add_pairs(const std::vector<ReferenceSample>& from, const Sample
         if (!sample.triangle) continue;
         const double w = 1.0 / double{sample.depth};
         const double x = column + pattern.x[s] / 256.0, y = row + pattern.y[s] / 256.0;
-        out.push_back({light, column, row, number, *sample.triangle, w,
-                       {(x - double{p.center[0]}) / double{p.scale} * w,
-                        (double{p.center[1]} - y) / double{p.scale} * w, -w},
-                       has_size ? shadow::point_of_pair(column, row, number) : 0, (blocked >> number & 1) != 0});
+        out.push_back(
+            {light,
+             column,
+             row,
+             number,
+             *sample.triangle,
+             w,
+             {(x - double{p.center[0]}) / double{p.scale} * w, (double{p.center[1]} - y) / double{p.scale} * w, -w},
+             has_size ? shadow::point_of_pair(column, row, number) : 0,
+             (blocked >> number & 1) != 0});
       }
     }
 }

@@ -166,15 +166,16 @@ TEST_P(PixelGroupsTest, ResolveOverWhatStandsStill) {
   expect_run(out.runs[0], 0, 5);
 }
 
-// Pixels of columns that are named beside those of moving parts: with still groups alone, in the order of columns; those
-// which moving parts touch too are there once.
+// Pixels of columns that are named beside those of moving parts: with still groups alone, in the order of columns;
+// those which moving parts touch too are there once.
 TEST_P(PixelGroupsTest, ResolveOverInColumnsThatHaveNoGroups) {
   const std::initializer_list<Pixel> still_pixels = {
       all(kRed), {kRed, kGreen, kNothing, kNothing}, all(kGreen), all(kRed), all(kRed), all(kNothing), all(kBlue)};
   const std::initializer_list<Pixel> moving_pixels = {
       all(kNothing), all(kNothing), all(kBlue), {kBlue, kBlue, kNothing, kNothing}};
-  const std::uint32_t alone[] = {shown(1, 0, 0),     shown(0.25 + 0.1, 0.25 + 0.1, 0.1), shown(0, 0, 1),
-                                 shown(0.5, 0, 0.5), shown(1, 0, 0),                     shown(0.2, 0.2, 0.2),
+  const std::uint32_t alone[] = {shown(1, 0, 0), shown(0.25 + 0.1, 0.25 + 0.1, 0.1),
+                                 shown(0, 0, 1), shown(0.5, 0, 0.5),
+                                 shown(1, 0, 0), shown(0.2, 0.2, 0.2),
                                  shown(0, 0, 1)};
   using Columns = std::vector<std::uint32_t>;
   for (const Columns& columns :

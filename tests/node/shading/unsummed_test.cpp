@@ -137,8 +137,8 @@ struct Unsummed {
 
 Unsummed shade(const Scenery& s, const std::vector<Fragment>& fragments, simd::InstructionSet set) {
   Unsummed out(fragments.size(), s.casting);
-  shading_kernels(set).shade_unsummed(s.shading(), fragments.data(), static_cast<std::uint32_t>(fragments.size()), kLine,
-                                      out.light);
+  shading_kernels(set).shade_unsummed(s.shading(), fragments.data(), static_cast<std::uint32_t>(fragments.size()),
+                                      kLine, out.light);
   for (auto& channel : out.channels) std::fill(channel.end() - simd::kVectorSlack, channel.end(), 0.0f);
   return out;
 }
@@ -168,9 +168,8 @@ TEST(Unsummed, WhereAllLightArrivesIsLitAsWhereNothingCasts) {
     const std::vector<const float*> shares(s.casting, ones.data());
     const Light summed = light_of(
         count, [&](float* const* to) { kernels.sum_up(s.shading(), unsummed.light, shares.data(), count, to); });
-    const Light whole = light_of(count, [&](float* const* to) {
-      kernels.shade_fragments(s.shading(), fragments.data(), count, kLine, to);
-    });
+    const Light whole = light_of(
+        count, [&](float* const* to) { kernels.shade_fragments(s.shading(), fragments.data(), count, kLine, to); });
     for (std::size_t c = 0; c < 3; ++c)
       for (std::size_t k = 0; k < count; ++k) {
         const double most = s.space == wire::ColorSpace::coded ? 1 : 1e9;
@@ -252,7 +251,8 @@ TEST(Unsummed, PlanesThatTurnAwayDimByTheFormula) {
     s.lights.resize(1);
     s.lights[0].kind = wire::LightKind::directional;
     const Vec3 to_light = random_unit(random, -0.9);
-    for (std::size_t k = 0; k < 3; ++k) s.lights[0].vector[k] = static_cast<float>(to_light[k]), s.lights[0].color[k] = 1;
+    for (std::size_t k = 0; k < 3; ++k)
+      s.lights[0].vector[k] = static_cast<float>(to_light[k]), s.lights[0].color[k] = 1;
     s.casting = 1;
     s.space = wire::ColorSpace::linear;
     const auto fragments = random_fragments(random);

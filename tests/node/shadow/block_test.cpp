@@ -37,10 +37,10 @@ std::vector<std::uint32_t> all_of(const std::vector<PointVector>& points) {
 
 // Bits of triangles that are left to plain code.
 std::uint32_t block(simd::InstructionSet set, Grid& grid, const Mesh& mesh, const shape::Batch& batch,
-                    std::vector<PointVector>& points) {
+                    std::vector<PointVector>& points, const LightView& view = kFromAfar) {
   static SmallBatches small;
   small.count = 0;
-  const std::uint32_t large = shadow_kernels(set).set_up(grid.vertices(), mesh.triangles(), batch, small);
+  const std::uint32_t large = shadow_kernels(set).set_up(view, grid.vertices(), mesh.triangles(), batch, small);
   const auto all = all_of(points);
   shadow_kernels(set).block(small, points.data(), all.data(), static_cast<std::uint32_t>(all.size()));
   return large;
@@ -57,7 +57,8 @@ class OnGrid {
  public:
   OnGrid(const Grid& grid, const Mesh& mesh)
       : zeros_(grid.x.size()),
-        caster{{zeros_.data(), zeros_.data(), zeros_.data()},
+        caster{{},
+               {zeros_.data(), zeros_.data(), zeros_.data()},
                static_cast<std::uint32_t>(grid.x.size()),
                mesh.triangles()} {}
 
@@ -91,7 +92,7 @@ TEST(Block, IsThePlainTwinsEverywhere) {
     for (std::size_t k = 0; k < 60; ++k) places.push_back({grid.x[k], grid.y[k]});
     // All behind, or before all, so that rounding decides nothing.
     const bool behind = random.whole(0, 3) != 0;
-    const auto before = vectors_of(places, behind ? kFarBehind : -kFarBehind, 0, 1);
+    const auto before = vectors_of(places, behind ? kFarBehind : -kFarBehind, 1);
     auto plain = before;
     const OnGrid on_grid(grid, mesh);
     for (std::uint32_t k = 0; k < mesh.count(); ++k) block_plainly(kFromAfar, grid, on_grid.caster, k, plain);
@@ -114,7 +115,7 @@ TEST(Block, IsThePlainTwinsEverywhere) {
 }
 
 // Of triangles whose planes floats have exactly, each point where it is nearer by a little less and a little more than
-// the bound: lateral * slope + along.
+// the bound: error * (slope + 1).
 TEST(Block, BlocksWhatIsBehindByMoreThanTheBound) {
   Random random(54);
   for (int trial = 0; trial < 500; ++trial) {
@@ -131,11 +132,10 @@ TEST(Block, BlocksWhatIsBehindByMoreThanTheBound) {
     mesh.finish(16);
     const OnGrid on_grid(grid, mesh);
     const int x = random.whole(1, side / 2), y = random.whole(1, side / 4);
-    const int lateral = random.whole(0, 5), along = random.whole(1, 9);
-    const int bound = lateral * (std::abs(per_x) + std::abs(per_y)) + along;
+    const int error = random.whole(0, 5), bound = error * (std::abs(per_x) + std::abs(per_y) + 1);
     for (const float more : {0.0f, 0.5f}) {
       const float z = static_cast<float>(100 + per_x * x + per_y * y - bound) - more;
-      const auto before = vectors_of({{x + 1000, y - 1000}}, z, static_cast<float>(lateral), static_cast<float>(along));
+      const auto before = vectors_of({{x + 1000, y - 1000}}, z, static_cast<float>(error));
       auto plain = before;
       block_plainly(kFromAfar, grid, on_grid.caster, 0, plain);
       EXPECT_EQ(plain[0].blocked, more > 0 ? 1u : 0u) << trial;
@@ -173,7 +173,8 @@ TEST(Block, ThePlaneNearPointsLeavesOutNothing) {
                                      0xffff & ~(1u << trial % 16), points[0]);
       if (points[0].active == 0) continue;
       const GridBox& box = points[0].box;
-      const float along = points[0].along[(trial + 1) % kPointLanes];
+      const LightView& view = views.views[0];
+      const float error = points[0].error[(trial + 1) % kPointLanes] * (view.has_place ? box.low_z : 1.0f);
       Grid grid(12);
       Mesh mesh;
       const auto reach = [&](std::int32_t low, std::int32_t high) {
@@ -182,7 +183,7 @@ TEST(Block, ThePlaneNearPointsLeavesOutNothing) {
       };
       for (std::size_t k = 0; k < 12; ++k) {
         grid.x[k] = reach(box.low_x, box.high_x), grid.y[k] = reach(box.low_y, box.high_y);
-        const float d = points[0].least + along * static_cast<float>(random.real(-1, 9));
+        const float d = points[0].least + error * static_cast<float>(random.real(-1, 9));
         grid.z[k] = d + points[0].per_x * static_cast<float>(grid.x[k] - box.low_x) +
                     points[0].per_y * static_cast<float>(grid.y[k] - box.low_y);
       }
@@ -192,12 +193,14 @@ TEST(Block, ThePlaneNearPointsLeavesOutNothing) {
       all[0].least = -std::numeric_limits<float>::max(), all[0].room = 0;
       const OnGrid on_grid(grid, mesh);
       auto plain = points, all_plain = all;
-      block(set, grid, mesh, mesh.batches[0], points);
-      block(set, grid, mesh, mesh.batches[0], all);
+      LightView from_afar = kFromAfar;
+      from_afar.per_step = view.per_step;
+      block(set, grid, mesh, mesh.batches[0], points, view);
+      block(set, grid, mesh, mesh.batches[0], all, view);
       ASSERT_EQ(points[0].blocked, all[0].blocked) << simd::name_of(set) << ", trial " << trial;
       for (std::uint32_t k = 0; k < mesh.count(); ++k) {
-        block_plainly(kFromAfar, grid, on_grid.caster, k, plain);
-        block_plainly(kFromAfar, grid, on_grid.caster, k, all_plain);
+        block_plainly(from_afar, grid, on_grid.caster, k, plain);
+        block_plainly(from_afar, grid, on_grid.caster, k, all_plain);
       }
       ASSERT_EQ(plain[0].blocked, all_plain[0].blocked) << "plainly, trial " << trial;
       blocked += static_cast<std::size_t>(std::popcount(points[0].blocked));
@@ -241,7 +244,8 @@ struct Cells {
 // How many triangles cover each place, by triangles one by one.
 using BlockOne = std::function<void(std::uint32_t triangle, std::vector<PointVector>& points)>;
 
-std::vector<int> count_covers(const std::vector<GridPoint>& places, std::uint32_t triangles, const BlockOne& block_one) {
+std::vector<int> count_covers(const std::vector<GridPoint>& places, std::uint32_t triangles,
+                              const BlockOne& block_one) {
   std::vector<int> covers(places.size());
   auto points = vectors_of(places, kFarBehind);
   for (std::uint32_t k = 0; k < triangles; ++k) {
@@ -287,7 +291,8 @@ TEST(Block, AMeshCoversEachPlaceOnce) {
 TEST(Block, SmallAndLargeTrianglesShareEdges) {
   Random random(56);
   for (int trial = 0; trial < 200; ++trial) {
-    const std::int32_t high = random.whole(1000, kMostSmall), low = random.whole(0, 900), out = random.whole(200, 30000);
+    const std::int32_t high = random.whole(1000, kMostSmall), low = random.whole(0, 900),
+                       out = random.whole(200, 30000);
     Grid grid(4);
     const GridPoint corners[] = {{random.whole(-99, 99), 0}, {random.whole(-99, 99), high}, {-out, low}, {100000, low}};
     for (std::size_t k = 0; k < 4; ++k) grid.x[k] = corners[k].x, grid.y[k] = corners[k].y;
@@ -299,7 +304,8 @@ TEST(Block, SmallAndLargeTrianglesShareEdges) {
     for (int k = 0; k < 60; ++k) {
       const double y = random.whole(1, high - 1), x = corners[0].x + (corners[1].x - corners[0].x) * y / high;
       const auto at = static_cast<std::int32_t>(std::nearbyint(x));
-      if (y > low + 1 && y < high - high / 5) places.push_back({at + random.whole(-1, 1), static_cast<std::int32_t>(y)});
+      if (y > low + 1 && y < high - high / 5)
+        places.push_back({at + random.whole(-1, 1), static_cast<std::int32_t>(y)});
     }
     for (const simd::InstructionSet set : simd::all_sets()) {
       const auto covers = count_covers(places, 2, [&](std::uint32_t k, auto& points) {
@@ -342,7 +348,7 @@ TEST(Block, AFanThatReachesBehindTheLightHasNoGap) {
       mesh.add(0, k + 1, (k + 1) % kRim + 1);
     }
     mesh.finish(1);
-    const Caster caster{{axes[0].data(), axes[1].data(), axes[2].data()}, kRim + 1, mesh.triangles()};
+    const Caster caster{{}, {axes[0].data(), axes[1].data(), axes[2].data()}, kRim + 1, mesh.triangles()};
     Grid grid(kRim + 1);
     shadow_kernels(simd::best_instruction_set("")).project(view, caster.place, kRim + 1, grid.vertices());
     cut += static_cast<std::size_t>(std::count(grid.x.begin(), grid.x.begin() + kRim + 1, kOffGrid));

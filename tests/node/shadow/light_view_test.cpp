@@ -58,8 +58,8 @@ TEST(LightViews, OfADirectionalLightWithoutSizeAreOne) {
     EXPECT_EQ(views.spread, 0);
     expect_across(views.views[0], 1e-6);
     EXPECT_NEAR(dot(vector_of(views.views[0].axis), vector_of(light.vector.data())), 1, 1e-6);
-    // A quarter of a pixel at the nearest distance.
-    EXPECT_NEAR(views.views[0].per_step, 4 * kPicture.scale / kPicture.near, 1e-3 * double{views.views[0].per_step});
+    // A pixel at the nearest distance.
+    EXPECT_NEAR(views.views[0].per_step, kPicture.scale / kPicture.near, 1e-3 * double{views.views[0].per_step});
   }
 }
 

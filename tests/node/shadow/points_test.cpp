@@ -92,14 +92,14 @@ TEST(Pairs, EachSquareOfPixelsUsesEachPointEquallyOften) {
       std::array<std::uint32_t, kLightPoints> uses{};
       for (std::uint32_t line = top; line < top + 4; ++line)
         for (std::uint32_t column = left; column < left + 4; ++column) {
-          std::set<std::uint32_t> strata;
+          std::set<std::uint32_t> points;
           for (std::uint32_t pair = 0; pair < kPairs; ++pair) {
             const std::uint32_t point = point_of_pair(column, line, pair);
             ASSERT_LT(point, kLightPoints);
-            strata.insert(point / 4);
+            points.insert(point);
             ++uses[point];
           }
-          EXPECT_EQ(strata.size(), kPairs) << "a pixel's points are evenly spread";
+          EXPECT_EQ(points.size(), kPairs) << "a pixel uses a point twice";
         }
       for (const std::uint32_t n : uses) ASSERT_EQ(n, 4u) << left << ' ' << top;
     }
@@ -160,14 +160,15 @@ TEST(Points, OfALayerAreThoseThatMatterAndAreNotedAtTheirPairs) {
         const PairVectors vectors(shape::sample_pattern(samples), has_size);
         std::size_t expected = 0, active = 0;
         for (std::uint32_t point = 0; point < views.points; ++point) {
-          const PointSource source{shadow_kernels(simd::best_instruction_set("")), views.frame, pattern, vectors, 1,
-                                   point};
+          const PointSource source{
+              shadow_kernels(simd::best_instruction_set("")), views.frame, pattern, vectors, 1, point};
           Points points;
           points.clear();
-          points.add(source, views.views[point], layer, casting);
+          points.add(source, views.views[point], layer);
           points.finish();
           active += points.count();
-          for (std::size_t v = 0; v < points.tree().count(); ++v) points.vectors()[v].blocked = points.vectors()[v].active;
+          for (std::size_t v = 0; v < points.tree().count(); ++v)
+            points.vectors()[v].blocked = points.vectors()[v].active;
           points.note(source, casting);
         }
         for (std::uint32_t k = 0; k < kLast - kFirst; ++k)

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -47,8 +46,8 @@ struct Bounds {
               std::numeric_limits<std::int32_t>::max(), std::numeric_limits<std::int32_t>::min(),
               std::numeric_limits<float>::max(),        -std::numeric_limits<float>::max()};
   void add(std::int32_t x, std::int32_t y, float z) {
-    box = {std::min(box.low_x, x), std::max(box.high_x, x), std::min(box.low_y, y),
-           std::max(box.high_y, y), std::min(box.low_z, z), std::max(box.high_z, z)};
+    box = {std::min(box.low_x, x),  std::max(box.high_x, x), std::min(box.low_y, y),
+           std::max(box.high_y, y), std::min(box.low_z, z),  std::max(box.high_z, z)};
   }
 };
 
@@ -156,26 +155,21 @@ TEST(PutPoints, IsPlainCodesEverywhere) {
     const PointFrame& frame = views.frame;
     const Places at = random_places(random);
     const std::uint32_t asked = random.bits() & 0xffff;
-    PointVector plain;
-    std::memset(static_cast<void*>(&plain), 0, sizeof plain);
+    PointVector plain{};
     Bounds bounds;
     for (std::size_t k = 0; k < kPointLanes; ++k) {
       const float w = 1.0f / at.inverse_w[k], per_pixel = 1.0f / frame.scale;
       const float x = at.left + at.lanes.x[k], y = at.top + at.lanes.y[k];
       const float px = ((x - frame.center[0]) * per_pixel) * w, py = ((frame.center[1] - y) * per_pixel) * w;
       const Seen seen = see(view, px, py, -w);
-      const bool own = !view.is_face ||
-                       (std::abs(seen.across_u) <= seen.depth && std::abs(seen.across_v) <= seen.depth);
+      const bool own =
+          !view.is_face || (std::abs(seen.across_u) <= seen.depth && std::abs(seen.across_v) <= seen.depth);
       plain.x[k] = plain.y[k] = kOffGrid;
       if (!(asked >> k & 1) || !(at.inverse_w[k] > 0) || !seen.on_grid || !own) continue;
       plain.active |= 1u << k;
       plain.x[k] = on_grid(seen.x), plain.y[k] = on_grid(seen.y), plain.z[k] = seen.z;
-      float e = w * frame.by_w + frame.grid;
-      plain.lateral[k] = e * view.per_step, plain.along[k] = e;
-      if (view.has_place) {
-        e = e + seen.depth * frame.by_depth;
-        plain.lateral[k] = (e * seen.z) * view.per_step, plain.along[k] = (e * seen.z) * seen.z;
-      }
+      plain.error[k] = w * frame.by_w + frame.grid;
+      if (view.has_place) plain.error[k] = (plain.error[k] + seen.depth * frame.by_depth) * seen.z;
       bounds.add(plain.x[k], plain.y[k], plain.z[k]);
     }
     inactive += plain.active != asked, active += plain.active != 0;
@@ -190,8 +184,7 @@ TEST(PutPoints, IsPlainCodesEverywhere) {
         ASSERT_EQ(points.x[k], plain.x[k]);
         ASSERT_EQ(points.y[k], plain.y[k]);
         ASSERT_EQ(points.z[k], plain.z[k]);
-        ASSERT_EQ(points.lateral[k], plain.lateral[k]);
-        ASSERT_EQ(points.along[k], plain.along[k]);
+        ASSERT_EQ(points.error[k], plain.error[k]);
       }
       if (plain.active != 0) expect_same(points.box, bounds.box);
     }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <vector>
 
 #include "node/shadow/kernels.h"
@@ -57,9 +56,7 @@ struct Grid {
 // Triangles of some vertices, in batches of at most `a_batch`.
 class Mesh {
  public:
-  void add(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    a_.push_back(a), b_.push_back(b), c_.push_back(c);
-  }
+  void add(std::uint32_t a, std::uint32_t b, std::uint32_t c) { a_.push_back(a), b_.push_back(b), c_.push_back(c); }
   void finish(std::uint32_t a_batch) {
     count_ = static_cast<std::uint32_t>(a_.size());
     for (auto* corner : {&a_, &b_, &c_}) corner->resize(count_ + simd::kVectorSlack);
@@ -81,21 +78,19 @@ struct GridPoint {
   std::int32_t x, y;
 };
 
-// Of sixteen points each, the last one's other lanes inactive.
-inline std::vector<PointVector> vectors_of(const std::vector<GridPoint>& points, float z, float lateral = 0,
-                                           float along = 0) {
+// Of sixteen points each, the last one's other lanes inactive; the plane near them is level.
+inline std::vector<PointVector> vectors_of(const std::vector<GridPoint>& points, float z, float error = 0) {
   std::vector<PointVector> out;
   for (std::size_t k = 0; k < points.size(); ++k) {
     const std::size_t lane = k % kPointLanes;
     if (lane == 0) {
-      out.emplace_back();
-      std::memset(static_cast<void*>(&out.back()), 0, sizeof out.back());
+      out.push_back(PointVector{});
       out.back().box = {points[k].x, points[k].x, points[k].y, points[k].y, z, z};
       out.back().least = z;
     }
     PointVector& v = out.back();
     v.x[lane] = points[k].x, v.y[lane] = points[k].y, v.z[lane] = z;
-    v.lateral[lane] = lateral, v.along[lane] = along;
+    v.error[lane] = error;
     v.active |= 1u << lane;
     v.box.low_x = std::min(v.box.low_x, points[k].x), v.box.high_x = std::max(v.box.high_x, points[k].x);
     v.box.low_y = std::min(v.box.low_y, points[k].y), v.box.high_y = std::max(v.box.high_y, points[k].y);
