@@ -225,6 +225,7 @@ raster::Polygons Renderer::receive_some(group::AwaitedTriangles& awaited) {
 
 void Renderer::draw_lines(const geometry::LineRange& lines, const group::Pass& pass) {
   if (file_ && pass.number == 0) begin_writing();
+  if (canvas_->shadows && report_.is_keyframe()) canvas_->shadows->forget_still();
   if (!contributes()) return finish_exchange(pass);
   const shading::Shading shading = this->shading();
   prepared_ = {lines.first, lines.first};

@@ -215,6 +215,7 @@ GridBox ShadowCaster::bound_tile(std::uint32_t light, const LightView& view, con
 }
 
 void ShadowCaster::bound_still(const Layer& still) {
+  still_lines_ = still.range;
   still_bounds_.resize(lights());
   for (std::uint32_t light = 0; light < lights(); ++light) {
     still_bounds_[light].clear();

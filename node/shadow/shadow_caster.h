@@ -39,10 +39,12 @@ class ShadowCaster {
   using Layers = std::span<const Layer* const>;
   void cast(const geometry::Scene& scene, Layers drawn, const Layer& kept);
 
-  // Of what stands still throughout an interval: remembers where its points are.
+  // Of what stands still throughout an interval on the layer's lines: remembers where its points are.
   void bound_still(const Layer& still);
   void forget_still() { still_bounds_.clear(); }
-  bool knows_still() const { return !still_bounds_.empty(); }
+  bool knows_still(const geometry::LineRange& lines) const {
+    return !still_bounds_.empty() && still_lines_.first == lines.first && still_lines_.last == lines.last;
+  }
   // The squares of these whose points the scene's moving casters may block; all where that is not known.
   void find_shaded(const geometry::Scene& scene, std::vector<std::uint32_t>& tiles);
 
@@ -86,6 +88,7 @@ class ShadowCaster {
   Faces drawn_points_, kept_points_;
   std::vector<TileBounds> bounds_;                     // of a light that has a size
   std::vector<std::vector<TileBounds>> still_bounds_;  // by light and face
+  geometry::LineRange still_lines_{0, 0};              // of these bounds
   std::vector<std::int32_t> grid_x_, grid_y_;
   std::vector<float> grid_z_;
   std::unique_ptr<SmallBatches> small_;

@@ -49,7 +49,6 @@ std::size_t ShadowPainter::most_bytes_of_line() const {
 
 void ShadowPainter::begin(const Picture& picture, const std::function<void()>& look) {
   caster_.begin(picture.scene, look);
-  if (picture.is_keyframe) caster_.forget_still();
 }
 
 geometry::LineRange ShadowPainter::prepare(const Picture& picture, const geometry::LineRange& lines) {
@@ -236,7 +235,7 @@ void ShadowPainter::cast(const Picture& picture) {
   moving_.count_all_tiles();
   if (!picture.is_keyframe && picture.scene.any_moves()) {
     kept_.count_all_tiles();
-    if (!caster_.knows_still()) caster_.bound_still(kept_);
+    if (!caster_.knows_still(range_)) caster_.bound_still(kept_);
     caster_.find_shaded(picture.scene, kept_.tiles);
     for (const std::uint32_t tile : kept_.tiles) {
       const std::uint32_t first = tile / kept_.tiles_across() * kTile;

@@ -47,6 +47,8 @@ class ShadowPainter {
  public:
   ShadowPainter(simd::InstructionSet set, const geometry::Scene& scene);
 
+  // An interval begins, also on nodes that draw nothing of its keyframe.
+  void forget_still() { caster_.forget_still(); }
   // `look` is called now and then, while the picture is drawn.
   void begin(const Picture& picture, const std::function<void()>& look);
   // Prepares lines from the first of `lines` on, as many as there is memory for; says which.
