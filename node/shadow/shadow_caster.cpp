@@ -47,8 +47,8 @@ void ShadowCaster::begin(const geometry::Scene& scene, const std::function<void(
     lights_.push_back(light_views(light, scene.projection()));
 }
 
-void ShadowCaster::cast(const geometry::Scene& scene, Layers drawn, const Layer& kept) {
-  std::vector<const Layer*> all(drawn.begin(), drawn.end());
+void ShadowCaster::cast(const geometry::Scene& scene, Layers drawn, Layer& kept) {
+  std::vector<Layer*> all(drawn.begin(), drawn.end());
   all.push_back(&kept);
   for (std::uint32_t light = 0; light < lights(); ++light) {
     if (!has_size(light)) {
@@ -70,7 +70,7 @@ std::span<const LightView> ShadowCaster::views_of(std::uint32_t light, std::uint
 }
 
 // Of a light without size: points stay on its grids while casters stream by.
-void ShadowCaster::cast_from_point(const geometry::Scene& scene, std::uint32_t light, Layers drawn, const Layer& kept) {
+void ShadowCaster::cast_from_point(const geometry::Scene& scene, std::uint32_t light, Layers drawn, Layer& kept) {
   const PointSource source = source_of(light, 0);
   const auto views = views_of(light, 0);
   put_points(source, views, drawn, drawn_points_);
@@ -78,7 +78,7 @@ void ShadowCaster::cast_from_point(const geometry::Scene& scene, std::uint32_t l
   stream(scene, Casting::still, views, std::span(onto).first(1));
   for (Points& points : drawn_points_) points.note(source, Casting::still);
   if (!scene.any_moves()) return;
-  const Layer* const kept_alone[] = {&kept};
+  Layer* const kept_alone[] = {&kept};
   put_points(source, views, kept_alone, kept_points_);
   stream(scene, Casting::moving, views, onto);
   for (Faces* faces : onto)
@@ -127,7 +127,7 @@ void ShadowCaster::cast_from_all(const geometry::Scene& scene, Casting casting, 
 void ShadowCaster::put_points(const PointSource& source, std::span<const LightView> views, Layers onto, Faces& faces) {
   faces.resize(views.size());
   for (Points& points : faces) points.clear();
-  for (const Layer* layer : onto) add_points(source, views, *layer, faces);
+  for (Layer* layer : onto) add_points(source, views, *layer, faces);
   for (Points& points : faces) {
     points.finish();
     counts_.points += points.count();
