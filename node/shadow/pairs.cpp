@@ -3,7 +3,7 @@
 #include <bit>
 
 #include "hal/failure/failure.h"
-#include "node/shadow/light_view.h"
+#include "node/shadow/light_views.h"
 #include "node/shape/vertices.h"
 
 namespace mars::shadow {
@@ -53,7 +53,7 @@ std::uint32_t point_of_pair(std::uint32_t column, std::uint32_t line, std::uint3
 static_assert(kTile * kTile * kPairs / kLightPoints == kPointLanes,
               "a square has one vector for each point of a light");
 
-PairVectors::PairVectors(const shape::SamplePattern& pattern, bool has_size) {
+PairVectors::PairVectors(const shape::SamplePattern& pattern, bool has_size) : are_rows_(!has_size) {
   const auto samples = static_cast<std::uint32_t>(pattern.count);
   vectors_ = has_size ? 1 : kTile * kTile * samples / kPointLanes;
   if (has_size) {

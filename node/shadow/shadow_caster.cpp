@@ -47,8 +47,8 @@ void ShadowCaster::begin(const geometry::Scene& scene, const std::function<void(
     lights_.push_back(light_views(light, scene.projection()));
 }
 
-void ShadowCaster::cast(const geometry::Scene& scene, Layers drawn, const Layer& kept) {
-  std::vector<const Layer*> all(drawn.begin(), drawn.end());
+void ShadowCaster::cast(const geometry::Scene& scene, Layers drawn, Layer& kept) {
+  std::vector<Layer*> all(drawn.begin(), drawn.end());
   all.push_back(&kept);
   for (std::uint32_t light = 0; light < lights(); ++light) {
     if (!has_size(light)) {
@@ -70,7 +70,7 @@ std::span<const LightView> ShadowCaster::views_of(std::uint32_t light, std::uint
 }
 
 // Of a light without size: points stay on its grids while casters stream by.
-void ShadowCaster::cast_from_point(const geometry::Scene& scene, std::uint32_t light, Layers drawn, const Layer& kept) {
+void ShadowCaster::cast_from_point(const geometry::Scene& scene, std::uint32_t light, Layers drawn, Layer& kept) {
   const PointSource source = source_of(light, 0);
   const auto views = views_of(light, 0);
   put_points(source, views, drawn, drawn_points_);
@@ -78,7 +78,7 @@ void ShadowCaster::cast_from_point(const geometry::Scene& scene, std::uint32_t l
   stream(scene, Casting::still, views, std::span(onto).first(1));
   for (Points& points : drawn_points_) points.note(source, Casting::still);
   if (!scene.any_moves()) return;
-  const Layer* const kept_alone[] = {&kept};
+  Layer* const kept_alone[] = {&kept};
   put_points(source, views, kept_alone, kept_points_);
   stream(scene, Casting::moving, views, onto);
   for (Faces* faces : onto)
@@ -126,11 +126,11 @@ void ShadowCaster::cast_from_all(const geometry::Scene& scene, Casting casting, 
 
 void ShadowCaster::put_points(const PointSource& source, std::span<const LightView> views, Layers onto, Faces& faces) {
   faces.resize(views.size());
-  for (std::size_t f = 0; f < views.size(); ++f) {
-    faces[f].clear();
-    for (const Layer* layer : onto) faces[f].add(source, views[f], *layer);
-    faces[f].finish();
-    counts_.points += faces[f].count();
+  for (Points& points : faces) points.clear();
+  for (Layer* layer : onto) add_points(source, views, *layer, faces);
+  for (Points& points : faces) {
+    points.finish();
+    counts_.points += points.count();
   }
   look_();
 }
@@ -205,12 +205,12 @@ GridBox ShadowCaster::bound_tile(std::uint32_t light, const LightView& view, con
                                  std::uint32_t tile) const {
   const std::uint32_t n = pairs_a_sample(light), some = (1u << n) - 1;
   GridBox box = kNowhere;
-  for_each_vector(
-      {kernels_, lights_[light].frame, pattern_, hard_, light, 0}, layer, tile,
-      [&](const wire::StillPairs& pairs, const Lane& lane, std::uint16_t) {
-        return (pairs.lit >> (lane.sample * n) & some) != 0;
-      },
-      view, [&](const PointVector& points, std::uint32_t) { box = around(box, points.box); });
+  const auto counts = [n, some](const wire::StillPairs& pairs, const Lane& lane, std::uint16_t) {
+    return (pairs.lit >> (lane.sample * n) & some) != 0;
+  };
+  const PointSource source{kernels_, lights_[light].frame, pattern_, hard_, light, 0};
+  for_each_vector(source, layer, tile, counts, std::span(&view, 1),
+                  [&](const PointVector& points, std::uint32_t, std::size_t) { box = around(box, points.box); });
   return box;
 }
 

@@ -12,7 +12,7 @@
 #include "node/geometry/scene.h"
 #include "node/shadow/band.h"
 #include "node/shadow/casters.h"
-#include "node/shadow/light_view.h"
+#include "node/shadow/light_views.h"
 #include "node/shadow/points.h"
 
 namespace mars::shadow {
@@ -36,8 +36,8 @@ class ShadowCaster {
 
   // Lets casters block pairs: still ones of layers that are drawn now, moving ones of these and of `kept`, which knows
   // what still ones block.
-  using Layers = std::span<const Layer* const>;
-  void cast(const geometry::Scene& scene, Layers drawn, const Layer& kept);
+  using Layers = std::span<Layer* const>;
+  void cast(const geometry::Scene& scene, Layers drawn, Layer& kept);
 
   // Of what stands still throughout an interval on the layer's lines: remembers where its points are.
   void bound_still(const Layer& still);
@@ -70,7 +70,7 @@ class ShadowCaster {
   // Points of some layers, by face of a light.
   using Faces = std::vector<Points>;
 
-  void cast_from_point(const geometry::Scene& scene, std::uint32_t light, Layers drawn, const Layer& kept);
+  void cast_from_point(const geometry::Scene& scene, std::uint32_t light, Layers drawn, Layer& kept);
   void cast_from_all(const geometry::Scene& scene, Casting casting, std::uint32_t light, Layers onto);
   void put_points(const PointSource& source, std::span<const LightView> views, Layers onto, Faces& faces);
   void stream(const geometry::Scene& scene, Casting casting, std::span<const LightView> views,

@@ -244,7 +244,7 @@ void ShadowPainter::cast(const Picture& picture) {
           kept_.line(number).moved = new_moved();
     }
   }
-  const std::array<const Layer*, 2> drawn{&drawn_, &moving_};
+  const std::array<Layer*, 2> drawn{&drawn_, &moving_};
   caster_.cast(picture.scene, drawn, kept_);
 }
 
@@ -288,7 +288,7 @@ void ShadowPainter::sum_up(const Picture& picture, const LineGroups& groups, boo
 // Still pixels that moving casters take light from.
 void ShadowPainter::find_changed(const Line& line) {
   changed_.clear();
-  if (line.still_from == nullptr || line.still_from->moved == nullptr) return;
+  if (line.still_from == nullptr || !line.still_from->is_changed) return;
   for (std::uint32_t column = 0; column < width_; ++column) {
     std::uint32_t moved = 0;
     for (std::uint32_t light = 0; light < casting_; ++light)

@@ -1,6 +1,7 @@
 """The measuring scenes as films for one competition: culled, and with frames enough."""
 import copy
 import json
+import math
 import os
 
 EXAMPLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "examples")
@@ -16,7 +17,7 @@ def load(name, size=None, dice=None, samples=1, sun=0):
     with open(os.path.join(EXAMPLES, SHADOWED.get(name, name) + ".json")) as file:
         film = json.load(file)
     if name in SHADOWED:
-        film["lights"][0].update({"shadow": True, "size": sun} if sun else {"shadow": True})
+        film["lights"][0].update({"shadow": True, "size": math.degrees(2 * math.atan(sun))} if sun else {"shadow": True})
     for material in film["materials"].values():
         material["sides"] = 1
     film["samples"] = samples

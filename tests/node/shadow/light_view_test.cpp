@@ -1,5 +1,5 @@
 // Views of lights: how their points are spread, and that some view decides about each place.
-#include "node/shadow/light_view.h"
+#include "node/shadow/light_views.h"
 
 #include <gtest/gtest.h>
 

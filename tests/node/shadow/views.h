@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "node/shadow/kernels.h"
-#include "node/shadow/light_view.h"
+#include "node/shadow/light_views.h"
 #include "node/simd/vector_slack.h"
 #include "tests/node/shape/patches.h"
 
