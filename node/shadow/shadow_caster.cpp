@@ -34,6 +34,7 @@ ShadowCaster::ShadowCaster(simd::InstructionSet set, const geometry::Scene& scen
       samples_(static_cast<std::uint32_t>(pattern_.count)),
       hard_(pattern_, false),
       soft_(pattern_, true),
+      diced_(scene.film().patch_instances()),
       casters_(set),
       grid_x_(static_cast<std::size_t>(shape::Dicer::kMostVertices + simd::kVectorSlack)),
       grid_y_(grid_x_.size()),
@@ -96,7 +97,7 @@ void ShadowCaster::stream(const geometry::Scene& scene, Casting casting, std::sp
     }
     return false;
   };
-  casters_.begin(scene, casting);
+  casters_.begin(scene, casting, diced_);
   for (auto chunk = casters_.next(matters); !chunk.empty(); chunk = casters_.next(matters))
     for (Faces* faces : onto) block(chunk, views, *faces);
 }
@@ -113,7 +114,7 @@ void ShadowCaster::cast_from_all(const geometry::Scene& scene, Casting casting, 
     return std::ranges::any_of(
         bounds_, [&](TileBounds& face) { return face.tree.any(kernels_, box_of_hull(all.middle, hull), all.spread); });
   };
-  casters_.begin(scene, casting);
+  casters_.begin(scene, casting, diced_);
   for (auto chunk = casters_.next(matters); !chunk.empty(); chunk = casters_.next(matters))
     for (std::uint32_t point = 0; point < all.points; ++point) {
       const PointSource source = source_of(light, point);
@@ -135,13 +136,13 @@ void ShadowCaster::put_points(const PointSource& source, std::span<const LightVi
   look_();
 }
 
-void ShadowCaster::block(std::span<const Caster> casters, std::span<const LightView> views, Faces& faces) {
+void ShadowCaster::block(std::span<const Caster* const> casters, std::span<const LightView> views, Faces& faces) {
   for (std::size_t f = 0; f < views.size(); ++f) {
     if (faces[f].empty()) continue;
-    for (const Caster& caster : casters) block(caster, views[f], faces[f]);
+    for (const Caster* caster : casters) block(*caster, views[f], faces[f]);
     look_();
   }
-  counts_.surfaces += casters.size();
+  counts_.surfaces += casters_.take_diced();
 }
 
 void ShadowCaster::block(const Caster& caster, const LightView& view, Points& points) {

@@ -38,6 +38,8 @@ class ShadowCaster {
   // what still ones block.
   using Layers = std::span<Layer* const>;
   void cast(const geometry::Scene& scene, Layers drawn, Layer& kept);
+  // Where surfaces go that are diced for the camera.
+  DicedSurfaces& diced() { return diced_; }
 
   // Of what stands still throughout an interval on the layer's lines: remembers where its points are.
   void bound_still(const Layer& still);
@@ -75,7 +77,7 @@ class ShadowCaster {
   void put_points(const PointSource& source, std::span<const LightView> views, Layers onto, Faces& faces);
   void stream(const geometry::Scene& scene, Casting casting, std::span<const LightView> views,
               std::span<Faces* const> onto);
-  void block(std::span<const Caster> casters, std::span<const LightView> views, Faces& faces);
+  void block(std::span<const Caster* const> casters, std::span<const LightView> views, Faces& faces);
   void block(const Caster& caster, const LightView& view, Points& points);
   void block_large(const LightView& view, const Caster& caster, std::uint32_t triangle, Points& points);
 
@@ -83,6 +85,7 @@ class ShadowCaster {
   shape::SamplePattern pattern_;
   std::uint32_t samples_;
   PairVectors hard_, soft_;
+  DicedSurfaces diced_;
   CasterStream casters_;
   std::vector<LightViews> lights_;
   Faces drawn_points_, kept_points_;

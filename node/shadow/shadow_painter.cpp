@@ -12,7 +12,7 @@
 namespace mars::shadow {
 namespace {
 
-constexpr std::size_t kBandBytes = std::size_t{96} << 20;
+constexpr std::size_t kBandBytes = std::size_t{32} << 20;
 constexpr std::size_t kGrain = 64;  // of the arena
 
 bool receives(const wire::Material& material) {
@@ -34,6 +34,7 @@ ShadowPainter::ShadowPainter(simd::InstructionSet set, const geometry::Scene& sc
       still_groups_(std::size_t{width_} * samples_) {
   for (const auto& shares : shares_) share_rows_.push_back(shares.data());
   memory_ = messages::PrivateMemory(std::max(kBandBytes, 2 * most_bytes_of_line()));
+  memory_.prefer_large_pages();
   arena_ = raster::Arena(memory_.bytes());
 }
 
