@@ -390,7 +390,8 @@ struct Floor {
   double near, far;    // of the camera
 };
 
-void expect_nothing_blocked(std::span<const Floor> floors) {
+// At most `share` of the pairs of a picture are blocked.
+void expect_nothing_blocked(std::span<const Floor> floors, double share = 0) {
   Random random(801);
   std::size_t all = 0;
   for (const Floor& floor : floors)
@@ -407,9 +408,10 @@ void expect_nothing_blocked(std::span<const Floor> floors) {
         const wire::Camera camera =
             looking({0, 0, floor.eye}, {3 * floor.eye, floor.eye, 0.6 * floor.eye}, 50, floor.near, floor.far);
         const ShadowRig rig(alone(sheet(), where, light, camera, trial == 1 ? 4 : 1, trial == 0 ? 0 : 9));
-        const std::size_t blocked = count_blocked(rig, &all);
-        EXPECT_EQ(blocked, 0u) << "eye " << floor.eye << ", across " << floor.across << ", light " << height
-                               << ", trial " << trial;
+        const std::size_t before = all, blocked = count_blocked(rig, &all);
+        EXPECT_LE(static_cast<double>(blocked), share * static_cast<double>(all - before))
+            << blocked << ", eye " << floor.eye << ", across " << floor.across << ", light " << height << ", trial "
+            << trial;
       }
   EXPECT_GT(all, 50000u);
 }
@@ -420,11 +422,11 @@ TEST(Shadows, OfAFloorDoNotFallOnIt) {
   expect_nothing_blocked(kFloors);
 }
 
-// Their triangles are cut where they leave the guard band, and depths of their samples are further off than what a
-// caster must be nearer by (light_view.h).
-TEST(Shadows, DISABLED_OfALargeFloorDoNotFallOnIt) {
+// Their triangles are cut where they leave the guard band. Slivers among the pieces have planes that are further off
+// than most, and with them a few samples are.
+TEST(Shadows, OfALargeFloorHardlyFallOnIt) {
   constexpr Floor kFloors[] = {{1.7, 2000, 0.05, 5000}, {20, 1e4, 0.1, 1e5}};
-  expect_nothing_blocked(kFloors);
+  expect_nothing_blocked(kFloors, 0.01);
 }
 
 TEST(Shadows, OfASphereLieOnItsDarkSideAlone) {
