@@ -84,18 +84,18 @@ std::uint32_t behind(const SmallTriangles& t, std::uint32_t n, const PointVector
   std::uint32_t found = 0;
   for (std::uint32_t k = 0; k < kPointLanes; k += kLanes) {
     const Ints x = hn::Load(kInts, points.x + k), y = hn::Load(kInts, points.y + k);
+    // Most triangles have no point within their bounds; within these no edge function overflows.
+    auto inside = hn::And(at_least(x, hn::Set(kInts, t.low_x[n])), at_least(hn::Set(kInts, t.high_x[n]), x));
+    inside =
+        hn::And(inside, hn::And(at_least(y, hn::Set(kInts, t.low_y[n])), at_least(hn::Set(kInts, t.high_y[n]), y)));
+    if (hn::AllFalse(kInts, inside)) continue;
     const Ints dx = hn::Sub(x, hn::Set(kInts, t.x[0][n])), dy = hn::Sub(y, hn::Set(kInts, t.y[0][n]));
     const Floats there =
         hn::Add(hn::Add(constant(t.z[0][n]), hn::Mul(hn::ConvertTo(kFloats, dy), constant(t.per_y[n]))),
                 hn::Mul(hn::ConvertTo(kFloats, dx), constant(t.per_x[n])));
     const Floats z = hn::Load(kFloats, points.z + k), size = points.has_place ? z : constant(1.0f);
     const Floats bound = hn::Mul(hn::Load(kFloats, points.error + k), hn::Add(constant(t.slope[n]), size));
-    const auto nearer = hn::Gt(hn::Sub(there, z), bound);
-    // Within the bounds, so that no edge function overflows.
-    auto inside = hn::And(integers(nearer),
-                          hn::And(at_least(x, hn::Set(kInts, t.low_x[n])), at_least(hn::Set(kInts, t.high_x[n]), x)));
-    inside =
-        hn::And(inside, hn::And(at_least(y, hn::Set(kInts, t.low_y[n])), at_least(hn::Set(kInts, t.high_y[n]), y)));
+    inside = hn::And(inside, integers(hn::Gt(hn::Sub(there, z), bound)));
     if (hn::AllFalse(kInts, inside)) continue;
     for (int e = 0; e < 3; ++e) {
       const int to = e == 2 ? 0 : e + 1;
