@@ -14,7 +14,7 @@ constexpr double kPi = 3.14159265358979323846;
 // (kernels.h).
 constexpr double kTangentStep = 1.0 / (1 << 20);
 constexpr double kFloatError = 1.0 / (1 << 20);  // of a place's distance
-constexpr double kDepthError = 1.0 / (1 << 21);  // of 1 / w, in 1 / near
+constexpr double kDepthError = 1.0 / (1 << 23);  // of 1 / w, in 1 / near
 constexpr double kWidestFace = 0.70710678;       // cosine of half a face's angle
 
 Vector cross(const Vector& a, const Vector& b) {

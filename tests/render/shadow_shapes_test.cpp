@@ -390,8 +390,7 @@ struct Floor {
   double near, far;    // of the camera
 };
 
-// At most `share` of the pairs of a picture are blocked.
-void expect_nothing_blocked(std::span<const Floor> floors, double share = 0) {
+void expect_nothing_blocked(std::span<const Floor> floors) {
   Random random(801);
   std::size_t all = 0;
   for (const Floor& floor : floors)
@@ -408,10 +407,9 @@ void expect_nothing_blocked(std::span<const Floor> floors, double share = 0) {
         const wire::Camera camera =
             looking({0, 0, floor.eye}, {3 * floor.eye, floor.eye, 0.6 * floor.eye}, 50, floor.near, floor.far);
         const ShadowRig rig(alone(sheet(), where, light, camera, trial == 1 ? 4 : 1, trial == 0 ? 0 : 9));
-        const std::size_t before = all, blocked = count_blocked(rig, &all);
-        EXPECT_LE(static_cast<double>(blocked), share * static_cast<double>(all - before))
-            << blocked << ", eye " << floor.eye << ", across " << floor.across << ", light " << height << ", trial "
-            << trial;
+        const std::size_t blocked = count_blocked(rig, &all);
+        EXPECT_EQ(blocked, 0u) << "eye " << floor.eye << ", across " << floor.across << ", light " << height
+                               << ", trial " << trial;
       }
   EXPECT_GT(all, 50000u);
 }
@@ -422,11 +420,10 @@ TEST(Shadows, OfAFloorDoNotFallOnIt) {
   expect_nothing_blocked(kFloors);
 }
 
-// Their triangles are cut where they leave the guard band. Slivers among the pieces have planes that are further off
-// than most, and with them a few samples are.
-TEST(Shadows, OfALargeFloorHardlyFallOnIt) {
+// Their triangles are cut where they leave the guard band, far from the picture.
+TEST(Shadows, OfALargeFloorDoNotFallOnIt) {
   constexpr Floor kFloors[] = {{1.7, 2000, 0.05, 5000}, {20, 1e4, 0.1, 1e5}};
-  expect_nothing_blocked(kFloors, 0.01);
+  expect_nothing_blocked(kFloors);
 }
 
 TEST(Shadows, OfASphereLieOnItsDarkSideAlone) {
