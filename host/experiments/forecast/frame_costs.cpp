@@ -180,7 +180,7 @@ bool FrameCosts::is_kept(const wire::FrameCounts& keyframe, std::uint32_t line, 
 
 farm::NodeMemory FrameCosts::memory() const {
   return farm::share_node_memory(setting_.platform.memory, std::nullopt, setting_.film.settings(),
-                                setting_.film.casting_count());
+                                 setting_.film.casting_count());
 }
 
 wire::StillPlan FrameCosts::still_plan(int nodes) const {
