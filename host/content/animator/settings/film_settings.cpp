@@ -17,7 +17,6 @@ namespace {
 
 using document::Json;
 
-
 constexpr std::string_view kBelowSettings[] = {"camera", "lights", "materials", "models", "actors"};
 constexpr std::string_view kBelowOwnSettings[] = {"keys"};
 constexpr std::string_view kBelowAmbient[] = {"lights", "materials", "models", "actors"};
