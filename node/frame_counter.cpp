@@ -31,7 +31,9 @@ FrameCounter::FrameCounter(const wire::PackedFilm& film, simd::InstructionSet se
       moving_loads_(film.settings().height),
       sampled_((film.settings().height + step_ - 1) / step_),
       ids_(std::size_t{stride_} * film.settings().samples),
-      depths_(ids_.size()) {}
+      depths_(ids_.size()) {
+  if (film.casting_count() > 0) shadows_.emplace(scene_, set);
+}
 
 wire::FrameCounts FrameCounter::count_keyframe(std::uint32_t interval, std::span<const std::uint32_t> frames) {
   scene_.set_interval(interval);
@@ -64,7 +66,9 @@ wire::FrameCounts FrameCounter::count(wire::FrameKind kind, std::uint32_t frame)
     counts.lines[line].moving_samples = static_cast<double>(moving_loads_[line].samples());
     counts.lines[line].moving_width = moving_columns_[line].width();
   }
+  if (shadows_) shadows_->begin(scene_, kind, step_);
   estimate_seen(counts.lines, keyframe);
+  if (shadows_) shadows_->count(scene_, counts);
   return counts;
 }
 
@@ -126,10 +130,10 @@ void FrameCounter::estimate_seen(std::vector<wire::LineCounts>& lines, bool keyf
     SampledLine& line = sampled_[i];
     if (keyframe) {
       line.constant_depth.assign(ids_.size(), 0.0f);
-      constant[i] = draw(line.stationary, line_of(i), line.constant_depth);
+      constant[i] = draw(shadow::Casting::still, line.stationary, line_of(i), line.constant_depth);
     }
     depths_ = line.constant_depth;
-    moving[i] = draw(line.moving, line_of(i), depths_);
+    moving[i] = draw(shadow::Casting::moving, line.moving, line_of(i), depths_);
   }
   spread(constant, lines, &wire::LineCounts::constant,
          [](const wire::LineCounts& line) { return line.samples - line.moving_samples; });
@@ -153,7 +157,7 @@ void FrameCounter::spread(const std::vector<wire::SeenCounts>& seen, std::vector
 }
 
 // What is seen of `boxes` in front of `depths`, which become the boxes' depths.
-wire::SeenCounts FrameCounter::draw(std::span<const raster::EdgeBox> boxes, std::uint32_t line,
+wire::SeenCounts FrameCounter::draw(shadow::Casting kind, std::span<const raster::EdgeBox> boxes, std::uint32_t line,
                                     std::vector<float>& depths) {
   if (boxes.empty()) return {};
   std::ranges::fill(ids_, shading::kNoTriangle);
@@ -175,6 +179,8 @@ wire::SeenCounts FrameCounter::draw(std::span<const raster::EdgeBox> boxes, std:
     seen.block_pixels += 0 < in_block && in_block < kBlock ? kBlock : 0;
     in_block = 0;
   }
+  if (shadows_)
+    seen.points = shadows_->add(scene_, kind, {line, ids_.data(), depths.data(), stride_, triangles_.data()});
   return seen;
 }
 
