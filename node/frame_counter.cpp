@@ -52,6 +52,7 @@ wire::FrameCounts FrameCounter::count(wire::FrameKind kind, std::uint32_t frame)
   const bool keyframe = kind == wire::FrameKind::keyframe;
   scene_.set_frame(frame);
   triangles_.clear();
+  if (shadows_) shadows_->diced().clear();
   for (SampledLine& line : sampled_) line.stationary.clear(), line.moving.clear();
   std::ranges::fill(loads_, raster::LineLoad());
   std::ranges::fill(moving_loads_, raster::LineLoad());
@@ -79,7 +80,7 @@ wire::UnitCounts FrameCounter::count_share(std::uint32_t share, bool keyframe) {
   wire::WorkCounts work{};
   const Tessellation made = tessellator_.tessellate(
       scene_, {share, wire::kCountedShares}, {all, keyframe ? all : std::span<const std::uint8_t>(), share_loads_},
-      {arena, first}, work);
+      {arena, first}, work, shadows_ ? &shadows_->diced() : nullptr);
   for (std::size_t line = 0; line < loads_.size(); ++line) loads_[line] += share_loads_[line];
   for (const raster::UnsortedEdgeBox& box : made.polygons.moving) {
     moving_loads_[box.line] += raster::LineLoad(1, box.box.width());

@@ -107,8 +107,10 @@ Tessellation Renderer::tessellate() {
   const Scatter scatter{static_cast<std::uint32_t>(member()), static_cast<std::uint32_t>(contributors_)};
   const LineTable lines{canvas_->wanted_lines, report_.is_keyframe() ? canvas_->wanted_lines : unkept_lines(),
                         canvas_->line_loads};
+  shadow::DicedSurfaces* const diced = canvas_->shadows ? &canvas_->shadows->diced() : nullptr;
+  if (diced != nullptr) diced->clear();
   const Tessellation own = tessellator_.tessellate(scene(), scatter, lines, {memory_.arena(), memory_.first_triangle()},
-                                                   report_.strip().work);
+                                                   report_.strip().work, diced);
   std::transform_inclusive_scan(canvas_->line_loads.begin(), canvas_->line_loads.end(),
                                 canvas_->line_totals.begin() + 1, std::plus<>(),
                                 [](const raster::LineLoad& load) { return load.boxes(); });
@@ -225,6 +227,7 @@ raster::Polygons Renderer::receive_some(group::AwaitedTriangles& awaited) {
 
 void Renderer::draw_lines(const geometry::LineRange& lines, const group::Pass& pass) {
   if (file_ && pass.number == 0) begin_writing();
+  if (canvas_->shadows && report_.is_keyframe()) canvas_->shadows->forget_still();
   if (!contributes()) return finish_exchange(pass);
   const shading::Shading shading = this->shading();
   prepared_ = {lines.first, lines.first};

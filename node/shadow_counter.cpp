@@ -33,6 +33,7 @@ bool is_empty(const GridBox& box) { return box.low_x > box.high_x; }
 
 ShadowCounter::ShadowCounter(const geometry::Scene& scene, simd::InstructionSet set)
     : kernels_(shadow::shadow_kernels(set)),
+      diced_(scene.film().patch_instances()),
       casters_(set),
       stretches_((static_cast<std::uint32_t>(scene.width()) + kColumns - 1) / kColumns) {
   constexpr std::size_t kHull = 16 + simd::kVectorSlack;
@@ -144,8 +145,8 @@ double ShadowCounter::find_kept(const geometry::Scene& scene, Light& light) {
   for (std::size_t view = 0; view < light.views.views.size(); ++view) {
     Stretches& still = light.seen[number(Casting::still)][view];
     std::vector<std::uint8_t> is_shaded(still.all.size());
-    casters_.visit_hulls(scene, Casting::moving, [&](const float* const* hull, std::uint32_t count) {
-      const GridBox box = project(light.views.views[view], hull, count);
+    casters_.visit_hulls(scene, Casting::moving, [&](const shadow::Hull& hull) {
+      const GridBox box = project(light.views.views[view], hull);
       if (is_empty(box)) return;
       for (const std::uint32_t stretch : still.tree.find(kernels_, box, 0, found_))
         if (stretch < is_shaded.size()) is_shaded[stretch] = 1;
@@ -163,18 +164,19 @@ void ShadowCounter::count_casters(const geometry::Scene& scene, Light& light, Ca
     for (const Stretches& stretches : light.seen[number(seen)])
       views += std::ranges::any_of(stretches.all, [](const Stretch& s) { return s.points > 0; }) ? 1 : 0;
   if (keyframe_) views = std::max(views / static_cast<double>(onto.size()), std::min(views, 1.0));
-  const auto matters = [&](const float* const* hull, std::uint32_t count) {
+  const auto matters = [&](const shadow::Hull& hull) {
     Reach reach;
     for (std::size_t view = 0; view < light.views.views.size(); ++view)
-      extend(light, onto, view, project(light.views.views[view], hull, count), reach);
+      extend(light, onto, view, project(light.views.views[view], hull), reach);
     if (reach.views > 0) reaches.push_back(reach);
     return reach.views > 0;
   };
-  casters_.begin(scene, casting);
+  casters_.begin(scene, casting, diced_);
   for (auto chunk = casters_.next(matters); !chunk.empty(); chunk = casters_.next(matters)) {
     for (std::size_t i = 0; i < chunk.size(); ++i)
-      counts.casters.push_back({reaches[i].first, reaches[i].last + step_, static_cast<double>(chunk[i].vertices),
-                                chunk[i].vertices * views, chunk[i].triangles.count * reaches[i].views});
+      counts.casters.push_back({reaches[i].first, reaches[i].last + step_, !casters_.has_diced(*chunk[i]),
+                                static_cast<double>(chunk[i]->vertices), chunk[i]->vertices * views,
+                                chunk[i]->triangles.count * reaches[i].views});
     reaches.clear();
   }
 }
@@ -197,8 +199,9 @@ void ShadowCounter::extend(Light& light, std::span<const Casting> onto, std::siz
   reach.views += keyframe_ ? std::min(grids, 1.0) : grids;
 }
 
-GridBox ShadowCounter::project(const shadow::LightView& view, const float* const* hull, std::uint32_t count) {
-  return kernels_.project(view, hull, count, {grid_[0].data(), grid_[1].data(), grid_z_.data()});
+GridBox ShadowCounter::project(const shadow::LightView& view, const shadow::Hull& hull) {
+  const float* const along[] = {hull.along[0], hull.along[1], hull.along[2]};
+  return kernels_.project(view, along, hull.count, {grid_[0].data(), grid_[1].data(), grid_z_.data()});
 }
 
 }  // namespace mars::node

@@ -11,7 +11,7 @@
 #include "node/geometry/scene.h"
 #include "node/geometry/triangle.h"
 #include "node/shadow/casters.h"
-#include "node/shadow/light_view.h"
+#include "node/shadow/light_views.h"
 #include "node/shadow/points.h"
 #include "node/wire/frame_counts.h"
 
@@ -38,6 +38,8 @@ class ShadowCounter {
   double add(const geometry::Scene& scene, Casting seen, const SeenLine& line);
   // When all are added: the frame's casters, and of an inbetween the still points that moving ones may block.
   void count(const geometry::Scene& scene, wire::FrameCounts& counts);
+  // Where surfaces go that are diced for the camera.
+  shadow::DicedSurfaces& diced() { return diced_; }
 
  private:
   static constexpr std::uint32_t kColumns = shadow::kPointLanes;  // of a stretch
@@ -73,9 +75,10 @@ class ShadowCounter {
                      wire::FrameCounts& counts);
   double find_kept(const geometry::Scene& scene, Light& light);
   void extend(Light& light, std::span<const Casting> onto, std::size_t view, const shadow::GridBox& box, Reach& reach);
-  shadow::GridBox project(const shadow::LightView& view, const float* const* hull, std::uint32_t count);
+  shadow::GridBox project(const shadow::LightView& view, const shadow::Hull& hull);
 
   const shadow::ShadowKernels& kernels_;
+  shadow::DicedSurfaces diced_;
   shadow::CasterStream casters_;
   std::uint32_t stretches_;  // of a line
   std::uint32_t step_ = 1;

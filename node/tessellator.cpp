@@ -14,6 +14,7 @@ struct Tessellator::Output {
   wire::WorkCounts& work;
   shading::Shading shading;
   shading::ColoredSurface& colored;
+  shadow::DicedSurfaces* diced;
   SurfaceCounts counts{};
 
   void add_patch(const shape::Surface& surface, const raster::PatchIdentity& identity) {
@@ -29,6 +30,7 @@ struct Tessellator::Output {
   }
 
   void add(const shape::Surface& surface, const raster::PatchIdentity& identity) {
+    if (diced != nullptr) diced->keep(identity.patch, surface);
     ++work.patches;
     work.vertices += static_cast<std::uint64_t>(surface.vertex_count());
     work.triangles_tested += surface.triangles().count;
@@ -51,7 +53,7 @@ Tessellator::Tessellator(simd::InstructionSet set, Heartbeat* heartbeat)
     : instruction_set_(set), heartbeat_(heartbeat), dicer_(set), placer_(set), colored_(set) {}
 
 Tessellation Tessellator::tessellate(const geometry::Scene& scene, const Scatter& scatter, const LineTable& lines,
-                                     const TriangleSpace& space, wire::WorkCounts& work) {
+                                     const TriangleSpace& space, wire::WorkCounts& work, shadow::DicedSurfaces* diced) {
   std::ranges::fill(lines.loads, raster::LineLoad());
   work.patches = work.vertices = work.triangles_tested = 0;
   raster::SetUps out(space.arena.rest(), space.first, scene.pattern(), lines.loads);
@@ -59,7 +61,8 @@ Tessellation Tessellator::tessellate(const geometry::Scene& scene, const Scatter
                 out,
                 work,
                 shading::shading_of(scene),
-                colored_};
+                colored_,
+                diced};
   out.want(lines.wanted_still);
   const bool takes_part = scatter.index < scatter.count;
   if (takes_part && !lines.wanted_still.empty()) add(scene, false, scatter, output);

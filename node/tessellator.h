@@ -13,6 +13,7 @@
 #include "node/raster/arena.h"
 #include "node/raster/scanline.h"
 #include "node/raster/setup.h"
+#include "node/shadow/casters.h"
 #include "node/shading/colored_surface.h"
 #include "node/shape/dice.h"
 #include "node/wire/protocol.h"
@@ -60,9 +61,9 @@ class Tessellator {
   explicit Tessellator(simd::InstructionSet set, Heartbeat* heartbeat = nullptr);
 
   // Triangles of the scatter's patches and meshlets at the scene's frame, in the order of polygon numbers. They lie in
-  // `space`. Sets `lines.loads`, and the patches and vertices of `work`.
+  // `space`. Sets `lines.loads`, and the patches and vertices of `work`. `diced`, if any, gets their surfaces.
   Tessellation tessellate(const geometry::Scene& scene, const Scatter& scatter, const LineTable& lines,
-                          const TriangleSpace& space, wire::WorkCounts& work);
+                          const TriangleSpace& space, wire::WorkCounts& work, shadow::DicedSurfaces* diced = nullptr);
 
  private:
   struct Output;

@@ -60,6 +60,7 @@ std::string model_of(const FilmWords& words, const Json& film) {
 void run_new(const FilmWords& words) {
   Json film = animator::new_film();
   animator::set_film(film, values_of(words.fields, keys::object("film")));
+  animator::light_new_film(film, words.film.path());
   if (!words.model.empty()) animator::add_actor(film, {words.model, words.model});
   words.film.create(film);
 }
@@ -204,7 +205,8 @@ void add_actors(cli::Command film, const std::shared_ptr<FilmWords>& words) {
 
 void add_settings(cli::Command film, const std::shared_ptr<FilmWords>& words) {
   const char* const example = "frames=120 size=640,360 background=0.6,0.7,0.8";
-  cli::Command fresh = add_command(film, words, "new", "Make a film file with a camera", run_new);
+  cli::Command fresh =
+      add_command(film, words, "new", "Make a film file with a camera and lights, one of which casts shadows", run_new);
   add_fields(fresh, *words, "film", example);
   fresh.add("--figure", words->model, "Also add this figure of the library, at the origin. Example: --figure man")
       .type("FIGURE");

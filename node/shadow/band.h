@@ -17,6 +17,7 @@ struct LayerLine {
   // Of casting light l and column x at l * width + x.
   wire::StillPairs* pairs = nullptr;  // what matters, and what still casters block of it
   std::uint16_t* moved = nullptr;     // what moving casters block beside that
+  bool is_changed = false;            // they block any
 };
 
 struct Layer {

@@ -17,42 +17,88 @@
 
 namespace mars::shadow {
 
+// Points of eye space round a surface, one array an axis, which is longer by kVectorSlack.
+struct Hull {
+  float along[3][16 + simd::kVectorSlack];
+  std::uint32_t count = 0;
+};
+
 // A surface in eye space. Arrays are longer by kVectorSlack.
 struct Caster {
+  Hull hull;
   const float* place[3];
   std::uint32_t vertices;
   shape::Triangles triangles;
 };
 
+// Copies of surfaces, until there is no room for more.
+class CasterStore {
+ public:
+  // `casters`: for which it has a list beforehand; it grows where there are more, and the list then moves.
+  explicit CasterStore(std::size_t bytes, std::size_t casters = 0);
+
+  void clear();
+  bool has_room() const;
+  // Where it has room.
+  const Caster& add(const shape::Surface& surface, const Hull& hull);
+  std::span<const Caster> all() const { return casters_; }
+
+ private:
+  shape::Triangles copy(const shape::Triangles& triangles);
+  template <typename T>
+  const T* copy(const T* from, std::size_t count);
+
+  messages::PrivateMemory memory_;
+  raster::Arena arena_;
+  std::vector<Caster> casters_;
+};
+
+// Surfaces that were diced for the camera in this frame, so that they are not diced again.
+class DicedSurfaces {
+ public:
+  explicit DicedSurfaces(std::uint64_t patches);
+
+  void clear();
+  // Keeps surface number `patch`, where there is room.
+  void keep(std::uint32_t patch, const shape::Surface& surface);
+  // nullptr where it is not kept.
+  const Caster* find(std::uint32_t patch) const;
+
+ private:
+  CasterStore store_;
+  std::vector<std::uint32_t> place_;  // by patch: its place in the store and one; 0: it is not there
+};
+
 class CasterStream {
  public:
-  // Whether a surface within the hull of `count` points of eye space, one array an axis, may matter.
-  using Matters = std::function<bool(const float* const* points, std::uint32_t count)>;
+  // Whether a surface within the hull may matter.
+  using Matters = std::function<bool(const Hull& hull)>;
 
   explicit CasterStream(simd::InstructionSet set);
 
-  // From now on next() makes the casters of one kind, of the scene as it is.
-  void begin(const geometry::Scene& scene, Casting casting);
+  // From now on next() makes the casters of one kind, of the scene as it is; those that are in `diced` are taken from
+  // there.
+  void begin(const geometry::Scene& scene, Casting casting, const DicedSurfaces& diced);
   // The next chunk, of those that matter; empty at the end.
-  std::span<const Caster> next(const Matters& matters);
-  // Calls hull(points, count) for each of them.
-  void visit_hulls(const geometry::Scene& scene, Casting casting,
-                   const std::function<void(const float* const*, std::uint32_t)>& hull) const;
+  std::span<const Caster* const> next(const Matters& matters);
+  // Calls visit(hull) for each of that kind.
+  void visit_hulls(const geometry::Scene& scene, Casting casting, const std::function<void(const Hull&)>& visit) const;
+
+  // Whether a caster of the current chunk was diced for it.
+  bool has_diced(const Caster& caster) const;
 
  private:
-  bool add_patch(const wire::Patch& patch, const Matters& matters);
-  bool add_meshlet(const wire::Meshlet& meshlet, const Matters& matters);
-  void add(const shape::Surface& surface);
-  bool is_full() const { return arena_.rest().size() < kMostBytes; }
-
-  static const std::size_t kMostBytes;  // of a caster
+  void add_item(const wire::Shape& shape, std::uint32_t number, const Matters& matters);
+  void add_patch(const wire::Patch& patch, const Matters& matters);
+  void add_meshlet(const wire::Meshlet& meshlet, const Matters& matters);
+  void add(const shape::Surface& surface, const Hull& hull);
 
   shape::Dicer dicer_;
   geometry::MeshletPlacer placer_;
-  messages::PrivateMemory memory_;
-  raster::Arena arena_;
-  std::vector<Caster> chunk_;
+  CasterStore store_;
+  std::vector<const Caster*> chunk_;
   const geometry::Scene* scene_ = nullptr;
+  const DicedSurfaces* diced_ = nullptr;
   Casting casting_ = Casting::still;
   std::size_t segment_ = 0;  // the next
   std::uint64_t item_ = 0;   // of its patches and meshlets

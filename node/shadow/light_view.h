@@ -16,10 +16,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
-
-#include "node/geometry/eye_light.h"
-#include "node/shape/vertices.h"
 
 namespace mars::shadow {
 
@@ -42,21 +38,5 @@ struct PointFrame {
   float grid;
   float by_depth;
 };
-
-// Points of a light that has a size: a fixed set, of which each pixel has as many as its pairs (pairs.h).
-inline constexpr std::uint32_t kLightPoints = 64;
-
-// One light, seen from its points.
-struct LightViews {
-  std::uint32_t points;          // 1 or kLightPoints
-  std::uint32_t faces;           // views of a point
-  std::vector<LightView> views;  // point by point
-  LightView middle;              // the view of its middle; of six, the first
-  float spread;  // grid steps between what the middle and another point see, for each unit of z from caster to point
-  PointFrame frame;
-};
-
-// `light` casts.
-LightViews light_views(const geometry::EyeLight& light, const shape::Projection& projection);
 
 }  // namespace mars::shadow

@@ -39,6 +39,8 @@ class PairVectors {
   PairVectors(const shape::SamplePattern& pattern, bool has_size);
 
   std::uint32_t vectors() const { return vectors_; }
+  // Whether each four lanes are of neighbouring pixels of a line.
+  bool are_rows() const { return are_rows_; }
   const VectorLanes& lanes(std::uint32_t light_point, std::uint32_t vector) const {
     return lanes_[light_point * vectors_ + vector];
   }
@@ -47,6 +49,7 @@ class PairVectors {
   static Lane lane_of(std::uint32_t column, std::uint32_t line, std::uint32_t sample, std::uint32_t pair);
   void place(const shape::SamplePattern& pattern);
 
+  bool are_rows_;
   std::uint32_t vectors_;  // of a square, for one point of the light
   std::vector<VectorLanes> lanes_;
 };

@@ -119,37 +119,40 @@ void Points::clear() {
   count_ = 0;
 }
 
-void Points::add(const PointSource& source, const LightView& view, const Layer& layer) {
+void Points::add(Layer& layer, std::uint32_t tile, std::uint32_t vector, const PointVector& points) {
+  vectors_.push_back(points);
+  origins_.push_back({&layer, tile, vector});
+  tree_.add(points.box);
+  count_ += static_cast<std::uint64_t>(std::popcount(points.active));
+}
+
+void add_points(const PointSource& source, std::span<const LightView> views, Layer& layer, std::span<Points> points) {
+  const auto counts = [](const wire::StillPairs& pairs, const Lane& lane, std::uint16_t moved) {
+    const std::uint32_t open = pairs.lit & ~(pairs.blocked | moved);
+    return (open >> lane.pair & 1) != 0;
+  };
   for (const std::uint32_t tile : layer.tiles)
-    for_each_vector(
-        source, layer, tile,
-        [](const wire::StillPairs& pairs, const Lane& lane, std::uint16_t moved) {
-          const std::uint32_t open = pairs.lit & ~(pairs.blocked | moved);
-          return (open >> lane.pair & 1) != 0;
-        },
-        view,
-        [&](const PointVector& points, std::uint32_t vector) {
-          vectors_.push_back(points);
-          origins_.push_back({&layer, tile, vector});
-          tree_.add(points.box);
-          count_ += static_cast<std::uint64_t>(std::popcount(points.active));
-        });
+    for_each_vector(source, layer, tile, counts, views,
+                    [&](const PointVector& some, std::uint32_t vector, std::size_t view) {
+                      points[view].add(layer, tile, vector, some);
+                    });
 }
 
 void Points::note(const PointSource& source, Casting casting) {
   for (std::size_t i = 0; i < vectors_.size(); ++i) {
     const Origin& from = origins_[i];
-    const Layer& layer = *from.layer;
+    Layer& layer = *from.layer;
     const std::size_t of_light = std::size_t{source.light} * layer.width;
     const std::uint32_t left = from.tile % layer.tiles_across() * kTile, top = from.tile / layer.tiles_across() * kTile;
     const VectorLanes& lanes = source.vectors.lanes(source.light_point, from.vector);
     const std::uint32_t fresh = vectors_[i].blocked & ~std::exchange(vectors_[i].noted, vectors_[i].blocked);
     for (std::uint32_t bits = fresh; bits != 0; bits &= bits - 1) {
       const Lane lane = lanes.lane[static_cast<std::size_t>(std::countr_zero(bits))];
-      const LayerLine& line = layer.line(top + lane.line);
+      LayerLine& line = layer.line(top + lane.line);
       const std::size_t at = of_light + left + lane.column;
       std::uint16_t& blocked = casting == Casting::still ? line.pairs[at].blocked : line.moved[at];
       blocked = static_cast<std::uint16_t>(blocked | 1u << lane.pair);
+      line.is_changed |= casting == Casting::moving;
     }
   }
 }

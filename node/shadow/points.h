@@ -65,18 +65,17 @@ struct PointSource {
   std::uint32_t light_point;  // of it
 };
 
-// Puts those points of a square on the view's grid that count(pairs, lane, moved) says, `moved` being what moving
-// casters block; calls visit(points, vector) for each vector that has some.
+// Puts those points of a square on the views' grids that count(pairs, lane, moved) says, `moved` being what moving
+// casters block; calls visit(points, vector, view) for each vector that has some.
 template <typename Counts, typename Visit>
 void for_each_vector(const PointSource& source, const Layer& layer, std::uint32_t tile, const Counts& counts,
-                     const LightView& view, const Visit& visit);
+                     std::span<const LightView> views, const Visit& visit);
 
 // The points that one view decides about.
 class Points {
  public:
   void clear();
-  // Those of a layer that matter and are not blocked.
-  void add(const PointSource& source, const LightView& view, const Layer& layer);
+  void add(Layer& layer, std::uint32_t tile, std::uint32_t vector, const PointVector& points);
   void finish() { tree_.finish(); }
 
   bool empty() const { return vectors_.empty(); }
@@ -88,7 +87,7 @@ class Points {
 
  private:
   struct Origin {
-    const Layer* layer;
+    Layer* layer;
     std::uint32_t tile;
     std::uint32_t vector;
   };
@@ -99,6 +98,9 @@ class Points {
   std::uint64_t count_ = 0;
 };
 
+// Adds those of a layer that matter and are not blocked to the views that decide about them.
+void add_points(const PointSource& source, std::span<const LightView> views, Layer& layer, std::span<Points> points);
+
 // The lines of a square; nullptr where nothing is seen.
 using TileLines = std::array<const LayerLine*, kTile>;
 TileLines lines_of(const Layer& layer, std::uint32_t top);
@@ -107,9 +109,40 @@ TileLines lines_of(const Layer& layer, std::uint32_t top);
 // most casters are in its.
 std::uint32_t far_ones(const float* inverse_w, std::uint32_t active);
 
+// Where a square lies in its lines: its first pairs, its first column, and how many there are.
+struct TilePlace {
+  std::size_t pairs;
+  std::uint32_t left;
+  std::uint32_t columns;
+};
+
+// The depths of those points of a vector that count; which they are.
+template <typename Counts>
+std::uint32_t gather(const PointSource& source, const VectorLanes& lanes, const TileLines& lines,
+                     const TilePlace& place, const Counts& counts, float* inverse_w) {
+  std::uint32_t active = 0;
+  const auto take = [&](std::uint32_t k, const LayerLine& line) {
+    const Lane lane = lanes.lane[k];
+    const std::size_t at = place.pairs + lane.column;
+    const std::uint16_t moved = line.moved == nullptr ? std::uint16_t{0} : line.moved[at];
+    active |= static_cast<std::uint32_t>(counts(line.pairs[at], lane, moved)) << k;
+    inverse_w[k] = line.depth[lane.sample * line.stride + place.left + lane.column];
+  };
+  if (source.vectors.are_rows() && place.columns == kTile) {
+    for (std::uint32_t k = 0; k < kPointLanes; k += 4)
+      if (const LayerLine* line = lines[lanes.lane[k].line])
+        for (std::uint32_t i = k; i < k + 4; ++i) take(i, *line);
+    return active;
+  }
+  for (std::uint32_t k = 0; k < kPointLanes; ++k)
+    if (const LayerLine* line = lines[lanes.lane[k].line]; line != nullptr && lanes.lane[k].column < place.columns)
+      take(k, *line);
+  return active;
+}
+
 template <typename Counts, typename Visit>
 void for_each_vector(const PointSource& source, const Layer& layer, std::uint32_t tile, const Counts& counts,
-                     const LightView& view, const Visit& visit) {
+                     std::span<const LightView> views, const Visit& visit) {
   alignas(64) float inverse_w[kPointLanes] = {};
   const std::uint32_t left = tile % layer.tiles_across() * kTile, top = tile / layer.tiles_across() * kTile;
   const std::size_t first = std::size_t{source.light} * layer.width + left;
@@ -118,22 +151,15 @@ void for_each_vector(const PointSource& source, const Layer& layer, std::uint32_
   PointVector points;
   for (std::uint32_t v = 0; v < source.vectors.vectors(); ++v) {
     const VectorLanes& lanes = source.vectors.lanes(source.light_point, v);
-    std::uint32_t active = 0;
-    for (std::uint32_t k = 0; k < kPointLanes; ++k) {
-      const Lane lane = lanes.lane[k];
-      const LayerLine* line = lines[lane.line];
-      if (line == nullptr || lane.column >= columns) continue;
-      const std::size_t at = first + lane.column;
-      if (!counts(line->pairs[at], lane, line->moved == nullptr ? std::uint16_t{0} : line->moved[at])) continue;
-      active |= 1u << k;
-      inverse_w[k] = line->depth[lane.sample * line->stride + left + lane.column];
-    }
+    const std::uint32_t active = gather(source, lanes, lines, {first, left, columns}, counts, inverse_w);
     const std::uint32_t far = far_ones(inverse_w, active);
     for (const std::uint32_t some : {active & ~far, far}) {
       if (some == 0) continue;
-      source.kernels.put_points(view, source.frame, static_cast<float>(left), static_cast<float>(top), lanes.place,
-                                inverse_w, some, points);
-      if (points.active != 0) visit(points, v);
+      for (std::size_t f = 0; f < views.size(); ++f) {
+        source.kernels.put_points(views[f], source.frame, static_cast<float>(left), static_cast<float>(top),
+                                  lanes.place, inverse_w, some, points);
+        if (points.active != 0) visit(points, v, f);
+      }
     }
   }
 }

@@ -14,10 +14,10 @@ namespace {
 
 constexpr float kPlaceError = 1.0f / (1 << 20);
 
-float largest(const float* const* points, std::uint32_t count) {
+float largest(const Hull& hull) {
   float most = 0;
-  for (int axis = 0; axis < 3; ++axis)
-    for (std::uint32_t k = 0; k < count; ++k) most = std::max(most, std::abs(points[axis][k]));
+  for (const auto& along : hull.along)
+    for (std::uint32_t k = 0; k < hull.count; ++k) most = std::max(most, std::abs(along[k]));
   return most;
 }
 
@@ -34,6 +34,7 @@ ShadowCaster::ShadowCaster(simd::InstructionSet set, const geometry::Scene& scen
       samples_(static_cast<std::uint32_t>(pattern_.count)),
       hard_(pattern_, false),
       soft_(pattern_, true),
+      diced_(scene.film().patch_instances()),
       casters_(set),
       grid_x_(static_cast<std::size_t>(shape::Dicer::kMostVertices + simd::kVectorSlack)),
       grid_y_(grid_x_.size()),
@@ -47,8 +48,8 @@ void ShadowCaster::begin(const geometry::Scene& scene, const std::function<void(
     lights_.push_back(light_views(light, scene.projection()));
 }
 
-void ShadowCaster::cast(const geometry::Scene& scene, Layers drawn, const Layer& kept) {
-  std::vector<const Layer*> all(drawn.begin(), drawn.end());
+void ShadowCaster::cast(const geometry::Scene& scene, Layers drawn, Layer& kept) {
+  std::vector<Layer*> all(drawn.begin(), drawn.end());
   all.push_back(&kept);
   for (std::uint32_t light = 0; light < lights(); ++light) {
     if (!has_size(light)) {
@@ -70,7 +71,7 @@ std::span<const LightView> ShadowCaster::views_of(std::uint32_t light, std::uint
 }
 
 // Of a light without size: points stay on its grids while casters stream by.
-void ShadowCaster::cast_from_point(const geometry::Scene& scene, std::uint32_t light, Layers drawn, const Layer& kept) {
+void ShadowCaster::cast_from_point(const geometry::Scene& scene, std::uint32_t light, Layers drawn, Layer& kept) {
   const PointSource source = source_of(light, 0);
   const auto views = views_of(light, 0);
   put_points(source, views, drawn, drawn_points_);
@@ -78,7 +79,7 @@ void ShadowCaster::cast_from_point(const geometry::Scene& scene, std::uint32_t l
   stream(scene, Casting::still, views, std::span(onto).first(1));
   for (Points& points : drawn_points_) points.note(source, Casting::still);
   if (!scene.any_moves()) return;
-  const Layer* const kept_alone[] = {&kept};
+  Layer* const kept_alone[] = {&kept};
   put_points(source, views, kept_alone, kept_points_);
   stream(scene, Casting::moving, views, onto);
   for (Faces* faces : onto)
@@ -87,16 +88,16 @@ void ShadowCaster::cast_from_point(const geometry::Scene& scene, std::uint32_t l
 
 void ShadowCaster::stream(const geometry::Scene& scene, Casting casting, std::span<const LightView> views,
                           std::span<Faces* const> onto) {
-  const auto matters = [&](const float* const* hull, std::uint32_t count) {
+  const auto matters = [&](const Hull& hull) {
     for (std::size_t f = 0; f < views.size(); ++f) {
       if (std::ranges::all_of(onto, [f](const Faces* faces) { return (*faces)[f].empty(); })) continue;
-      const GridBox box = box_of_hull(views[f], hull, count);
+      const GridBox box = box_of_hull(views[f], hull);
       for (Faces* faces : onto)
         if ((*faces)[f].tree().any(kernels_, box, 0)) return true;
     }
     return false;
   };
-  casters_.begin(scene, casting);
+  casters_.begin(scene, casting, diced_);
   for (auto chunk = next_casters(matters); !chunk.empty(); chunk = next_casters(matters))
     for (Faces* faces : onto) block(chunk, views, *faces);
 }
@@ -108,13 +109,12 @@ void ShadowCaster::cast_from_all(const geometry::Scene& scene, Casting casting, 
   bounds_.clear();
   if (has_bounds(light))
     for (const Layer* layer : onto) bound(light, *layer, bounds_);
-  const auto matters = [&](const float* const* hull, std::uint32_t count) {
+  const auto matters = [&](const Hull& hull) {
     if (!has_bounds(light)) return true;
-    return std::ranges::any_of(bounds_, [&](TileBounds& face) {
-      return face.tree.any(kernels_, box_of_hull(all.middle, hull, count), all.spread);
-    });
+    return std::ranges::any_of(
+        bounds_, [&](TileBounds& face) { return face.tree.any(kernels_, box_of_hull(all.middle, hull), all.spread); });
   };
-  casters_.begin(scene, casting);
+  casters_.begin(scene, casting, diced_);
   for (auto chunk = next_casters(matters); !chunk.empty(); chunk = next_casters(matters))
     for (std::uint32_t point = 0; point < all.points; ++point) {
       const PointSource source = source_of(light, point);
@@ -127,31 +127,35 @@ void ShadowCaster::cast_from_all(const geometry::Scene& scene, Casting casting, 
 
 void ShadowCaster::put_points(const PointSource& source, std::span<const LightView> views, Layers onto, Faces& faces) {
   faces.resize(views.size());
-  for (std::size_t f = 0; f < views.size(); ++f) {
-    faces[f].clear();
-    for (const Layer* layer : onto) faces[f].add(source, views[f], *layer);
-    faces[f].finish();
-    counts_.points += faces[f].count();
+  for (Points& points : faces) points.clear();
+  for (Layer* layer : onto) add_points(source, views, *layer, faces);
+  for (Points& points : faces) {
+    points.finish();
+    counts_.points += points.count();
   }
   look_();
 }
 
-std::span<const Caster> ShadowCaster::next_casters(const CasterStream::Matters& matters) {
-  const std::span<const Caster> chunk = casters_.next(matters);
-  counts_.surfaces += chunk.size();
-  for (const Caster& caster : chunk) counts_.diced_vertices += caster.vertices;
+std::span<const Caster* const> ShadowCaster::next_casters(const CasterStream::Matters& matters) {
+  const std::span<const Caster* const> chunk = casters_.next(matters);
+  for (const Caster* caster : chunk) {
+    if (!casters_.has_diced(*caster)) continue;
+    ++counts_.surfaces;
+    counts_.diced_vertices += caster->vertices;
+  }
   return chunk;
 }
 
-void ShadowCaster::block(std::span<const Caster> casters, std::span<const LightView> views, Faces& faces) {
+void ShadowCaster::block(std::span<const Caster* const> casters, std::span<const LightView> views, Faces& faces) {
   for (std::size_t f = 0; f < views.size(); ++f) {
     if (faces[f].empty()) continue;
-    for (const Caster& caster : casters) block(caster, views[f], faces[f]);
+    for (const Caster* caster : casters) block(*caster, views[f], faces[f]);
     look_();
   }
 }
 
 void ShadowCaster::block(const Caster& caster, const LightView& view, Points& points) {
+  if (!points.tree().any(kernels_, box_of_hull(view, caster.hull), 0)) return;
   const GridVertices vertices{grid_x_.data(), grid_y_.data(), grid_z_.data()};
   const GridBox box = kernels_.project(view, caster.place, caster.vertices, vertices);
   counts_.vertices += caster.vertices;
@@ -180,11 +184,12 @@ void ShadowCaster::block_large(const LightView& view, const Caster& caster, std:
 }
 
 // A little wider, for vertices lie within the hull but for rounding.
-GridBox ShadowCaster::box_of_hull(const LightView& view, const float* const* hull, std::uint32_t count) {
-  GridBox box = kernels_.project(view, hull, count, {grid_x_.data(), grid_y_.data(), grid_z_.data()});
+GridBox ShadowCaster::box_of_hull(const LightView& view, const Hull& hull) {
+  const float* const points[3] = {hull.along[0], hull.along[1], hull.along[2]};
+  GridBox box = kernels_.project(view, points, hull.count, {grid_x_.data(), grid_y_.data(), grid_z_.data()});
   if (box.low_x > box.high_x) return box;
   const double nearer = view.has_place ? double{box.high_z} : 1.0;
-  const double margin = double{largest(hull, count)} * kPlaceError * nearer * view.per_step;
+  const double margin = double{largest(hull)} * kPlaceError * nearer * view.per_step;
   box.low_x = clamped(box.low_x - margin), box.high_x = clamped(box.high_x + margin);
   box.low_y = clamped(box.low_y - margin), box.high_y = clamped(box.high_y + margin);
   return box;
@@ -210,16 +215,17 @@ GridBox ShadowCaster::bound_tile(std::uint32_t light, const LightView& view, con
                                  std::uint32_t tile) const {
   const std::uint32_t n = pairs_a_sample(light), some = (1u << n) - 1;
   GridBox box = kNowhere;
-  for_each_vector(
-      {kernels_, lights_[light].frame, pattern_, hard_, light, 0}, layer, tile,
-      [&](const wire::StillPairs& pairs, const Lane& lane, std::uint16_t) {
-        return (pairs.lit >> (lane.sample * n) & some) != 0;
-      },
-      view, [&](const PointVector& points, std::uint32_t) { box = around(box, points.box); });
+  const auto counts = [n, some](const wire::StillPairs& pairs, const Lane& lane, std::uint16_t) {
+    return (pairs.lit >> (lane.sample * n) & some) != 0;
+  };
+  const PointSource source{kernels_, lights_[light].frame, pattern_, hard_, light, 0};
+  for_each_vector(source, layer, tile, counts, std::span(&view, 1),
+                  [&](const PointVector& points, std::uint32_t, std::size_t) { box = around(box, points.box); });
   return box;
 }
 
 void ShadowCaster::bound_still(const Layer& still) {
+  still_lines_ = still.range;
   still_bounds_.resize(lights());
   for (std::uint32_t light = 0; light < lights(); ++light) {
     still_bounds_[light].clear();
@@ -230,13 +236,13 @@ void ShadowCaster::bound_still(const Layer& still) {
 void ShadowCaster::find_shaded(const geometry::Scene& scene, std::vector<std::uint32_t>& tiles) {
   if (!std::ranges::all_of(std::views::iota(0u, lights()), [this](std::uint32_t l) { return has_bounds(l); })) return;
   is_shaded_.assign(tiles.empty() ? 0 : *std::ranges::max_element(tiles) + 1, std::uint8_t{0});
-  casters_.visit_hulls(scene, Casting::moving, [&](const float* const* hull, std::uint32_t count) {
+  casters_.visit_hulls(scene, Casting::moving, [&](const Hull& hull) {
     for (std::uint32_t light = 0; light < lights(); ++light) {
       const LightViews& all = lights_[light];
       for (std::size_t f = 0; f < still_bounds_[light].size(); ++f) {
         const LightView& view = has_size(light) ? all.middle : all.views[f];
         TileBounds& bounds = still_bounds_[light][f];
-        for (const std::uint32_t box : bounds.tree.find(kernels_, box_of_hull(view, hull, count), all.spread, found_))
+        for (const std::uint32_t box : bounds.tree.find(kernels_, box_of_hull(view, hull), all.spread, found_))
           if (bounds.tiles[box] < is_shaded_.size()) is_shaded_[bounds.tiles[box]] = 1;
       }
     }

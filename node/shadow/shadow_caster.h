@@ -12,7 +12,7 @@
 #include "node/geometry/scene.h"
 #include "node/shadow/band.h"
 #include "node/shadow/casters.h"
-#include "node/shadow/light_view.h"
+#include "node/shadow/light_views.h"
 #include "node/shadow/points.h"
 
 namespace mars::shadow {
@@ -37,13 +37,17 @@ class ShadowCaster {
 
   // Lets casters block pairs: still ones of layers that are drawn now, moving ones of these and of `kept`, which knows
   // what still ones block.
-  using Layers = std::span<const Layer* const>;
-  void cast(const geometry::Scene& scene, Layers drawn, const Layer& kept);
+  using Layers = std::span<Layer* const>;
+  void cast(const geometry::Scene& scene, Layers drawn, Layer& kept);
+  // Where surfaces go that are diced for the camera.
+  DicedSurfaces& diced() { return diced_; }
 
-  // Of what stands still throughout an interval: remembers where its points are.
+  // Of what stands still throughout an interval on the layer's lines: remembers where its points are.
   void bound_still(const Layer& still);
   void forget_still() { still_bounds_.clear(); }
-  bool knows_still() const { return !still_bounds_.empty(); }
+  bool knows_still(const geometry::LineRange& lines) const {
+    return !still_bounds_.empty() && still_lines_.first == lines.first && still_lines_.last == lines.last;
+  }
   // The squares of these whose points the scene's moving casters may block; all where that is not known.
   void find_shaded(const geometry::Scene& scene, std::vector<std::uint32_t>& tiles);
 
@@ -64,18 +68,18 @@ class ShadowCaster {
   std::span<const LightView> views_of(std::uint32_t light, std::uint32_t point) const;
   void bound(std::uint32_t light, const Layer& layer, std::vector<TileBounds>& faces) const;
   GridBox bound_tile(std::uint32_t light, const LightView& view, const Layer& layer, std::uint32_t tile) const;
-  GridBox box_of_hull(const LightView& view, const float* const* hull, std::uint32_t count);
+  GridBox box_of_hull(const LightView& view, const Hull& hull);
 
   // Points of some layers, by face of a light.
   using Faces = std::vector<Points>;
 
-  void cast_from_point(const geometry::Scene& scene, std::uint32_t light, Layers drawn, const Layer& kept);
+  void cast_from_point(const geometry::Scene& scene, std::uint32_t light, Layers drawn, Layer& kept);
   void cast_from_all(const geometry::Scene& scene, Casting casting, std::uint32_t light, Layers onto);
   void put_points(const PointSource& source, std::span<const LightView> views, Layers onto, Faces& faces);
   void stream(const geometry::Scene& scene, Casting casting, std::span<const LightView> views,
               std::span<Faces* const> onto);
-  std::span<const Caster> next_casters(const CasterStream::Matters& matters);
-  void block(std::span<const Caster> casters, std::span<const LightView> views, Faces& faces);
+  std::span<const Caster* const> next_casters(const CasterStream::Matters& matters);
+  void block(std::span<const Caster* const> casters, std::span<const LightView> views, Faces& faces);
   void block(const Caster& caster, const LightView& view, Points& points);
   void block_large(const LightView& view, const Caster& caster, std::uint32_t triangle, Points& points);
 
@@ -83,11 +87,13 @@ class ShadowCaster {
   shape::SamplePattern pattern_;
   std::uint32_t samples_;
   PairVectors hard_, soft_;
+  DicedSurfaces diced_;
   CasterStream casters_;
   std::vector<LightViews> lights_;
   Faces drawn_points_, kept_points_;
   std::vector<TileBounds> bounds_;                     // of a light that has a size
   std::vector<std::vector<TileBounds>> still_bounds_;  // by light and face
+  geometry::LineRange still_lines_{0, 0};              // of these bounds
   std::vector<std::int32_t> grid_x_, grid_y_;
   std::vector<float> grid_z_;
   std::unique_ptr<SmallBatches> small_;

@@ -12,7 +12,7 @@
 namespace mars::shadow {
 namespace {
 
-constexpr std::size_t kBandBytes = std::size_t{96} << 20;
+constexpr std::size_t kBandBytes = std::size_t{32} << 20;
 constexpr std::size_t kGrain = 64;  // of the arena
 
 bool receives(const wire::Material& material) {
@@ -34,6 +34,7 @@ ShadowPainter::ShadowPainter(simd::InstructionSet set, const geometry::Scene& sc
       still_groups_(std::size_t{width_} * samples_) {
   for (const auto& shares : shares_) share_rows_.push_back(shares.data());
   memory_ = messages::PrivateMemory(std::max(kBandBytes, 2 * most_bytes_of_line()));
+  memory_.prefer_large_pages();
   arena_ = raster::Arena(memory_.bytes());
 }
 
@@ -49,7 +50,6 @@ std::size_t ShadowPainter::most_bytes_of_line() const {
 
 void ShadowPainter::begin(const Picture& picture, const std::function<void()>& look) {
   caster_.begin(picture.scene, look);
-  if (picture.is_keyframe) caster_.forget_still();
 }
 
 geometry::LineRange ShadowPainter::see(const Picture& picture, const geometry::LineRange& lines) {
@@ -235,7 +235,7 @@ void ShadowPainter::cast(const Picture& picture) {
   moving_.count_all_tiles();
   if (!picture.is_keyframe && picture.scene.any_moves()) {
     kept_.count_all_tiles();
-    if (!caster_.knows_still()) caster_.bound_still(kept_);
+    if (!caster_.knows_still(range_)) caster_.bound_still(kept_);
     caster_.find_shaded(picture.scene, kept_.tiles);
     for (const std::uint32_t tile : kept_.tiles) {
       const std::uint32_t first = tile / kept_.tiles_across() * kTile;
@@ -244,7 +244,7 @@ void ShadowPainter::cast(const Picture& picture) {
           kept_.line(number).moved = new_moved();
     }
   }
-  const std::array<const Layer*, 2> drawn{&drawn_, &moving_};
+  const std::array<Layer*, 2> drawn{&drawn_, &moving_};
   caster_.cast(picture.scene, drawn, kept_);
 }
 
@@ -288,7 +288,7 @@ void ShadowPainter::sum_up(const Picture& picture, const LineGroups& groups, boo
 // Still pixels that moving casters take light from.
 void ShadowPainter::find_changed(const Line& line) {
   changed_.clear();
-  if (line.still_from == nullptr || line.still_from->moved == nullptr) return;
+  if (line.still_from == nullptr || !line.still_from->is_changed) return;
   for (std::uint32_t column = 0; column < width_; ++column) {
     std::uint32_t moved = 0;
     for (std::uint32_t light = 0; light < casting_; ++light)

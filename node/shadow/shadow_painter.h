@@ -40,6 +40,10 @@ class ShadowPainter {
  public:
   ShadowPainter(simd::InstructionSet set, const geometry::Scene& scene);
 
+  // An interval begins, also on nodes that draw nothing of its keyframe.
+  void forget_still() { caster_.forget_still(); }
+  // Where surfaces of the picture go that are diced for the camera, so that their shadows need not dice them again.
+  DicedSurfaces& diced() { return caster_.diced(); }
   // `look` is called now and then, while the picture is drawn.
   void begin(const Picture& picture, const std::function<void()>& look);
   // Prepares lines from the first of `lines` on, as many as there is memory for: decides what is seen on them; says

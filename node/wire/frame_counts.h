@@ -56,9 +56,11 @@ struct LineCounts {
   SeenCounts moving;
 };
 
-// A patch or meshlet that is diced for shadows on lines [first_line, last_line), by each node that draws one of them.
+// A patch or meshlet that may cast shadows on lines [first_line, last_line): a caster of each node that draws one of
+// them, who dices it if it has not diced it for the camera.
 struct CasterCounts {
   std::uint32_t first_line, last_line;
+  bool is_diced;  // for the camera, by one node
   double vertices;
   double put_vertices;  // on grids
   double triangles;     // set up on grids

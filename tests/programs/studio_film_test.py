@@ -21,11 +21,6 @@ def commands_of(title):
     return [line for line in lines if not re.match(r"mars (preview|model (set|check))|.*(list|check)\b", line)]
 
 
-def with_lights(command):
-    """A new film of the studio has lights, too."""
-    return "\nmars film film.json light rig" if command.startswith("mars film film.json new ") else ""
-
-
 class TutorialsFilmTest(StudioInBrowser):
     """docs/tutorial.md, sections 2 to 4."""
 
@@ -33,7 +28,7 @@ class TutorialsFilmTest(StudioInBrowser):
         """What the film is to be; and its models, beside the film that the page makes."""
         self.by_commands, self.by_hand = (self.folder / name for name in ("commands", "hand"))
         self.by_commands.mkdir()
-        lines = [line + with_lights(line) for title in ("1. A figure", "2. A film", "3. The figure walks, turns, waves and sits", "4. Keys by hand")
+        lines = [line for title in ("1. A figure", "2. A film", "3. The figure walks, turns, waves and sits", "4. Keys by hand")
                  for line in commands_of(title)]
         made = subprocess.run(["sh", "-ec", "\n".join(lines)], cwd=self.by_commands, capture_output=True, text=True, timeout=SECONDS,
                               env=dict(ENVIRONMENT, PATH=f"{PROGRAMS}:{os.environ['PATH']}"))

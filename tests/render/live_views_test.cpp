@@ -22,10 +22,13 @@ constexpr std::uint32_t kTeapot = 1, kSphere = 2, kLastBall = 11;  // segments o
 // A moment of the crowd, which can be edited, as a film of one frame or as a scene of the film that it was made from.
 class Moment {
  public:
-  Moment(std::uint32_t width, std::uint32_t height, std::uint32_t samples)
+  // With `shadows`, its lights cast.
+  Moment(std::uint32_t width, std::uint32_t height, std::uint32_t samples, bool shadows = false)
       : film_(richly_lit(with_samples(crowd(width, height, 1, 1), samples))),
         base_shapes_(film_.shapes.size()),
-        base_patches_(static_cast<std::uint32_t>(film_.patches.size())) {}
+        base_patches_(static_cast<std::uint32_t>(film_.patches.size())) {
+    if (shadows) film_ = casting(film_, {0.0f, 0.3f, 0.0f});
+  }
 
   const wire::FilmData& film() const { return film_; }
   // By rounding, pixels of several samples depend on what moves.
@@ -75,6 +78,7 @@ class Moment {
 
 struct Size {
   std::uint32_t width, height, samples;
+  bool shadows = false;
 };
 
 // An edit of a moment that is also said as a Draw's change.
@@ -146,7 +150,7 @@ class LiveViews : public testing::TestWithParam<int> {
   // An interval of a view: its keyframe and inbetweens of all kinds.
   void show(LiveHost& host, std::uint32_t view, const Size& size, const std::string& name,
             std::uint64_t still_memory = 64 << 20) {
-    Moment moment(size.width, size.height, size.samples);
+    Moment moment(size.width, size.height, size.samples, size.shadows);
     moment.give_shape(kSphere);
     moment.moving({kTeapot, kSphere, kLastBall});
     expect(host.finish(host.begin(view, moment.scene(), still_memory)), moment, name + "-keyframe");
@@ -185,6 +189,16 @@ TEST_P(LiveViews, ShowTheirMoments) {
   });
 }
 
+TEST_P(LiveViews, WithShadowsShowTheirMoments) {
+  run([&](LiveHost& host) {
+    host.load(base());
+    show(host, 0, {60, 40, 1, true}, "shadows-one-sample");
+    show(host, 1, {48, 32, 4, true}, "shadows-samples");
+    show(host, 0, {48, 32, 4, true}, "shadows-resized");
+    show(host, 2, {40, 27, 4, true}, "shadows-not-kept", 0);
+  });
+}
+
 TEST_P(LiveViews, OnSeveralMachines) {
   messages::Machines machines(2);
   messages::Counts counts;
@@ -193,6 +207,7 @@ TEST_P(LiveViews, OnSeveralMachines) {
         host.load(base());
         show(host, 0, {64, 48, 1}, "machines-one-sample");
         show(host, 1, {64, 48, 4}, "machines-samples");
+        show(host, 2, {48, 32, 4, true}, "machines-shadows");
       },
       [&](messages::Backend& inner) { return std::make_unique<messages::MachinesBackend>(inner, counts, machines); });
 }

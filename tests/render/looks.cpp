@@ -64,4 +64,13 @@ wire::FilmData richly_lit(wire::FilmData film) {
   return film;
 }
 
+wire::FilmData casting(wire::FilmData film, std::initializer_list<float> sizes) {
+  for (std::size_t k = 0; const float size : sizes) {
+    wire::Light& light = film.lights.at(k++);
+    light.casts = size >= 0 ? 1 : 0;
+    light.size = size >= 0 ? size : 0;
+  }
+  return film;
+}
+
 }  // namespace mars::test

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 
 #include "node/wire/film.h"
 
@@ -16,5 +17,8 @@ wire::FilmData in_pure_colors(wire::FilmData film);
 // In linear light, exposed, with the filmic curve, in fog, lit from above and below and by a spot besides; the segments
 // take turns with all reflection models and interpolations.
 wire::FilmData richly_lit(wire::FilmData film);
+
+// Its first lights cast shadows and are as large as said here; negative: does not cast.
+wire::FilmData casting(wire::FilmData film, std::initializer_list<float> sizes);
 
 }  // namespace mars::test

@@ -192,12 +192,15 @@ FrameTotals operator*(FrameTotals a, double part) {
   return a;
 }
 
-wire::UnitCounts casters_on(const wire::FrameCounts& counts, std::uint32_t first_line, std::uint32_t last_line) {
+wire::UnitCounts casters_on(const wire::FrameCounts& counts, std::uint32_t first_line, std::uint32_t last_line,
+                            int nodes) {
+  const double of_others = 1 - 1.0 / nodes;
   wire::UnitCounts units;
   for (const wire::CasterCounts& caster : counts.casters) {
     if (caster.last_line <= first_line || caster.first_line >= last_line) continue;
-    units[wire::Work::caster] += 1;
-    units[wire::Work::diced_vertex] += caster.vertices;
+    const double diced = caster.is_diced ? of_others : 1;
+    units[wire::Work::caster] += diced;
+    units[wire::Work::diced_vertex] += diced * caster.vertices;
     units[wire::Work::caster_vertex] += caster.put_vertices;
     units[wire::Work::caster_triangle] += caster.triangles;
   }
@@ -217,7 +220,7 @@ FrameTotals totals_on(const wire::FrameCounts& counts, std::uint32_t first_line,
     changed_to = std::min(band + band_lines, last_line);
     totals.changed += changed_to - std::max(band, first_line);
   }
-  totals.casters = casters_on(counts, first_line, last_line);
+  totals.casters = casters_on(counts, first_line, last_line, 1);
   return totals;
 }
 

@@ -29,8 +29,9 @@ FrameTotals totals_on(const wire::FrameCounts& counts, std::uint32_t first_line,
                       std::uint32_t band_lines);
 FrameTotals operator+(FrameTotals a, const FrameTotals& b);
 FrameTotals operator*(FrameTotals a, double part);
-// Of casters that matter on lines [first_line, last_line).
-wire::UnitCounts casters_on(const wire::FrameCounts& counts, std::uint32_t first_line, std::uint32_t last_line);
+// Of casters that matter on lines [first_line, last_line), for one of `nodes` that share the dicing for the camera.
+wire::UnitCounts casters_on(const wire::FrameCounts& counts, std::uint32_t first_line, std::uint32_t last_line,
+                            int nodes);
 wire::UnitCounts operator+(wire::UnitCounts a, const wire::UnitCounts& b);
 wire::UnitCounts operator*(wire::UnitCounts a, double part);
 

@@ -95,7 +95,7 @@ GroupKeyframe FrameCosts::keyframe(const wire::FrameCounts& counts, int nodes, i
     NodePart& node = keyframe.nodes[n];
     node.memory = std::min(node.memory, arena_bytes());
     node.strips = strips(homes.totals[n], keyframe_drawing(homes.totals[n], counts, homes.ranges[n]) +
-                                              casting(homes.totals[n], counts, homes.ranges[n]));
+                                              casting(homes.totals[n], counts, homes.ranges[n], contributors));
     node.compose = pasting(homes.totals[n]) + encoding(homes.ranges[n].count() + homes.totals[n].changed);
     if (inbetweens > 0) node.strips.pasting += saving(homes.totals[n]);
     if (n >= static_cast<std::size_t>(contributors)) node.strips = {0, 0, 0, 0};
@@ -244,15 +244,15 @@ double FrameCosts::keyframe_drawing(const FrameTotals& totals, const wire::Frame
   return costs_.of(units);
 }
 
-// Casters are diced again for each band of lines, by whoever draws it.
-double FrameCosts::casting(const FrameTotals& totals, const wire::FrameCounts& counts,
-                           const geometry::LineRange& lines) const {
+// `nodes` share the dicing for the camera. Other casters are diced again for each band of lines.
+double FrameCosts::casting(const FrameTotals& totals, const wire::FrameCounts& counts, const geometry::LineRange& lines,
+                           int nodes) const {
   if (setting_.film.casting_count() == 0 || lines.count() == 0) return 0;
   const double band = lines_of_band(totals, lines.count());
   double seconds = 0;
   for (double first = lines.first; first < lines.last; first += band)
     seconds += costs_.of(casters_on(counts, static_cast<std::uint32_t>(first),
-                                    static_cast<std::uint32_t>(std::min<double>(lines.last, first + band))));
+                                    static_cast<std::uint32_t>(std::min<double>(lines.last, first + band)), nodes));
   return seconds;
 }
 

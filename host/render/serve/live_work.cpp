@@ -136,7 +136,8 @@ void LiveWork::begin_scene(std::uint32_t number, View& view) {
   view.moving = wire::MovingParts(*view.interval);
   const std::uint32_t picture =
       pictures_.begin_keyframe(number, request.head.picture, *view.interval, view.moving.are_all());
-  const std::uint64_t still = view.interval->settings().samples > 1 ? still_memory_ : 0;
+  const bool has_groups = view.interval->settings().samples > 1 || view.interval->casting_count() > 0;
+  const std::uint64_t still = has_groups ? still_memory_ : 0;
   farm::Engine::send(engine_.all(), wire::kBeginView,
                      pictures::joined(wire::BeginView{number, picture, view.block.size(), still}, view.block));
 }

@@ -231,9 +231,9 @@ class FileProject : public Project {
 
   // As `mars film` would begin it.
   static Json new_film(const std::filesystem::path& path) {
-    const std::vector<editing::Command> commands{{"film", "add", "floor", "--model", "floor"},
-                                                 {"film", "light", "rig"}};
+    const std::vector<editing::Command> commands{{"film", "add", "floor", "--model", "floor"}};
     Json film = animator::new_film();
+    animator::light_new_film(film, path);
     editing::edit_film(film, path, commands);
     return film;
   }

@@ -1,7 +1,6 @@
 // Which points casters block.
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 
 #include "node/shadow/kernels/functions.h"
 
@@ -52,7 +51,7 @@ std::uint32_t overlapping(const SmallBatches& b, std::uint32_t first, const Grid
 Floats highest_before(const SmallTriangles& t, std::uint32_t k, const PointVector& points) {
   const Ints low_x = hn::Set(kInts, points.box.low_x), low_y = hn::Set(kInts, points.box.low_y);
   const Floats per_x = constant(points.per_x), per_y = constant(points.per_y);
-  Floats highest = constant(-std::numeric_limits<float>::max());
+  Floats highest = constant(-kFar);
   for (int c = 0; c < 3; ++c) {
     const Floats x = hn::ConvertTo(kFloats, hn::Sub(hn::Load(kInts, t.x[c] + k), low_x));
     const Floats y = hn::ConvertTo(kFloats, hn::Sub(hn::Load(kInts, t.y[c] + k), low_y));
@@ -85,18 +84,18 @@ std::uint32_t behind(const SmallTriangles& t, std::uint32_t n, const PointVector
   std::uint32_t found = 0;
   for (std::uint32_t k = 0; k < kPointLanes; k += kLanes) {
     const Ints x = hn::Load(kInts, points.x + k), y = hn::Load(kInts, points.y + k);
+    // Most triangles have no point within their bounds; within these no edge function overflows.
+    auto inside = hn::And(at_least(x, hn::Set(kInts, t.low_x[n])), at_least(hn::Set(kInts, t.high_x[n]), x));
+    inside =
+        hn::And(inside, hn::And(at_least(y, hn::Set(kInts, t.low_y[n])), at_least(hn::Set(kInts, t.high_y[n]), y)));
+    if (hn::AllFalse(kInts, inside)) continue;
     const Ints dx = hn::Sub(x, hn::Set(kInts, t.x[0][n])), dy = hn::Sub(y, hn::Set(kInts, t.y[0][n]));
     const Floats there =
         hn::Add(hn::Add(constant(t.z[0][n]), hn::Mul(hn::ConvertTo(kFloats, dy), constant(t.per_y[n]))),
                 hn::Mul(hn::ConvertTo(kFloats, dx), constant(t.per_x[n])));
     const Floats z = hn::Load(kFloats, points.z + k), size = points.has_place ? z : constant(1.0f);
     const Floats bound = hn::Mul(hn::Load(kFloats, points.error + k), hn::Add(constant(t.slope[n]), size));
-    const auto nearer = hn::Gt(hn::Sub(there, z), bound);
-    // Within the bounds, so that no edge function overflows.
-    auto inside = hn::And(integers(nearer),
-                          hn::And(at_least(x, hn::Set(kInts, t.low_x[n])), at_least(hn::Set(kInts, t.high_x[n]), x)));
-    inside =
-        hn::And(inside, hn::And(at_least(y, hn::Set(kInts, t.low_y[n])), at_least(hn::Set(kInts, t.high_y[n]), y)));
+    inside = hn::And(inside, integers(hn::Gt(hn::Sub(there, z), bound)));
     if (hn::AllFalse(kInts, inside)) continue;
     for (int e = 0; e < 3; ++e) {
       const int to = e == 2 ? 0 : e + 1;
@@ -114,10 +113,10 @@ std::uint32_t behind(const SmallTriangles& t, std::uint32_t n, const PointVector
 std::uint32_t set_up(const LightView& view, const GridVertices& vertices, const shape::Triangles& triangles,
                      const shape::Batch& batch, SmallBatches& batches) {
   SmallTriangles& out = batches.batch[batches.count];
-  constexpr std::int32_t kMost = std::numeric_limits<std::int32_t>::max();
+  constexpr std::int32_t kMost = kMostSteps;
   const Ints none = hn::Zero(kInts), off = hn::Set(kInts, kOffGrid);
   std::uint32_t large = 0;
-  GridBox box{kMost, -kMost, kMost, -kMost, 0, -std::numeric_limits<float>::max()};
+  GridBox box{kMost, -kMost, kMost, -kMost, 0, -kFar};
   for (std::uint32_t k = 0; k < kPointLanes; k += kLanes) {
     const auto there =
         k + batch.first < batch.last ? hn::FirstN(kInts, batch.last - batch.first - k) : hn::FirstN(kInts, 0);
@@ -163,7 +162,7 @@ std::uint32_t set_up(const LightView& view, const GridVertices& vertices, const 
                           hn::IfThenElse(drawn, low_y, hn::Set(kInts, kMost))};
     const Ints highs[2] = {hn::IfThenElse(drawn, high_x, hn::Set(kInts, -kMost)),
                            hn::IfThenElse(drawn, high_y, hn::Set(kInts, -kMost))};
-    const Floats high = hn::IfThenElse(floats(drawn), high_z, constant(-std::numeric_limits<float>::max()));
+    const Floats high = hn::IfThenElse(floats(drawn), high_z, constant(-kFar));
     hn::Store(lows[0], kInts, out.low_x + k);
     hn::Store(highs[0], kInts, out.high_x + k);
     hn::Store(lows[1], kInts, out.low_y + k);

@@ -12,6 +12,10 @@ using namespace simd::MARS_SET;
 
 static_assert(kPointLanes % kLanes == 0);
 
+// The largest numbers.
+inline constexpr std::int32_t kMostSteps = 0x7fffffff;
+inline constexpr float kFar = 3.4028234e38f;
+
 GridBox project(const LightView& view, const float* const* place, std::uint32_t count, const GridVertices& out);
 void put_points(const LightView& view, const PointFrame& frame, float left, float top, const LanePlaces& places,
                 const float* inverse_w, std::uint32_t active, PointVector& out);

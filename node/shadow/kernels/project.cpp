@@ -1,6 +1,5 @@
 // Places of eye space on a view's grid: vertices of casters, and points.
 #include <cstdint>
-#include <limits>
 
 #include "node/shadow/kernels/functions.h"
 
@@ -65,11 +64,11 @@ class Bounds {
   }
 
  private:
-  static constexpr std::int32_t kLow = std::numeric_limits<std::int32_t>::min();
-  static constexpr std::int32_t kHigh = std::numeric_limits<std::int32_t>::max();
+  static constexpr std::int32_t kLow = kOffGrid;
+  static constexpr std::int32_t kHigh = kMostSteps;
   Ints low_x_ = hn::Set(kInts, kHigh), high_x_ = hn::Set(kInts, kLow);
   Ints low_y_ = hn::Set(kInts, kHigh), high_y_ = hn::Set(kInts, kLow);
-  Floats low_z_ = constant(std::numeric_limits<float>::max()), high_z_ = constant(-std::numeric_limits<float>::max());
+  Floats low_z_ = constant(kFar), high_z_ = constant(-kFar);
 };
 
 // Sums over the active points.
@@ -111,7 +110,7 @@ void fit_plane(PointVector& out) {
   const bool is_plane = determinant > kOnALine * sxx * syy;
   out.per_x = is_plane ? (sxz * syy - syz * sxy) / determinant : 0;
   out.per_y = is_plane ? (syz * sxx - sxz * sxy) / determinant : 0;
-  Floats least = constant(std::numeric_limits<float>::max()), room = least;
+  Floats least = constant(kFar), room = least;
   each([&](auto mask, Floats px, Floats py, Floats pz, Floats error) {
     const Floats plane = hn::Add(hn::Mul(constant(out.per_x), px), hn::Mul(constant(out.per_y), py));
     least = hn::Min(least, hn::IfThenElse(mask, hn::Sub(pz, plane), least));
@@ -146,8 +145,7 @@ GridBox project(const LightView& view, const float* const* place, std::uint32_t 
     any_off |= !hn::AllFalse(kFloats, hn::AndNot(seen.on_grid, there));
     any_before |= !hn::AllFalse(kFloats, hn::And(there, seen.before));
   }
-  constexpr std::int32_t kMost = std::numeric_limits<std::int32_t>::max();
-  constexpr float kFar = std::numeric_limits<float>::max();
+  constexpr std::int32_t kMost = kMostSteps;
   if (!any_before) return {1, 0, 1, 0, 0, 0};
   return any_off ? GridBox{-kMost, kMost, -kMost, kMost, -kFar, kFar} : bounds.box();
 }

@@ -1,4 +1,5 @@
 """A competitor: a child process that renders a frame on demand (peer.h); or several, each with frames of its own."""
+import json
 import os
 import signal
 import subprocess
@@ -51,6 +52,11 @@ class Competitor:
     def picture(self, path):
         self.say(f"picture {path}")
         self.answer("done")
+
+    def cost(self):
+        """What shadows cost it (struct Cost of peer.h)."""
+        self.say("cost")
+        return json.loads(self.answer("cost"))
 
     def processor_seconds(self):
         """What it and its children have used so far."""

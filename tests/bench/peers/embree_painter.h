@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "node/shape/sample_pattern.h"
@@ -14,12 +15,18 @@ inline constexpr int kTile = 16;  // pixels; a multiple of a packet's sides
 struct Canvas {
   const Mesh& mesh;
   View standing, mover;
+  std::optional<float> sun;          // its size (embree_sun.h); none: no shadows
   std::vector<std::uint32_t> frame;  // row by row
 };
 
 // Which views rays into a tile may meet.
 struct Here {
   bool standing, mover;
+};
+
+// What may differ from what stands.
+struct Changes {
+  bool mover, shadow;
 };
 
 // Several threads may draw at a time, each a tile of its own.
@@ -31,8 +38,10 @@ class Painter {
   virtual void draw(const Area& tile, Here here) = 0;
   // What stands, and keeps of it what draw_mover() needs.
   virtual void keep(const Area& tile, bool standing_here) = 0;
-  // What moves, over a tile that shows what stands.
-  virtual void draw_mover(const Area& tile) = 0;
+  // What moves and its shadow, over a tile that shows what stands.
+  virtual void draw_changes(const Area& tile, Changes here) = 0;
+  // Whether shadow rays are traced; for measuring what they cost.
+  virtual void set_tracing(bool traces) = 0;
 };
 
 // `keeps`: whether keep() will be asked for.

@@ -5,11 +5,13 @@
 #include <limits>
 
 #include "tests/bench/peers/embree_painter.h"
+#include "tests/bench/peers/embree_sun.h"
 
 namespace mars::bench {
 namespace {
 
 constexpr float kFar = std::numeric_limits<float>::infinity();
+constexpr float kBeyond = 1e30f;  // what is farther is empty; infinity is no number to compare with under fast-math
 constexpr int kTilePixels = kTile * kTile;
 
 // Sums over the samples of a tile's pixels.
@@ -23,14 +25,14 @@ class Waiting {
  public:
   Waiting(const View& view, const Mesh& mesh, Sums& sums) : view_(view), mesh_(mesh), sums_(sums) {}
 
-  // A point that a ray of a packet met, for `samples` samples of a pixel.
-  void add(const RTCRayHit16& rays, int ray, int pixel, int samples) {
+  // A point that a ray of a packet met, for `samples` samples of a pixel, at which `share` of the light arrives.
+  void add(const RTCRayHit16& rays, int ray, int pixel, int samples, float share) {
     triangles_[count_] = static_cast<int>(rays.hit.primID[ray]);
     u_[count_] = rays.hit.u[ray], v_[count_] = rays.hit.v[ray];
     direction_[0][count_] = rays.ray.dir_x[ray];
     direction_[1][count_] = rays.ray.dir_y[ray];
     direction_[2][count_] = rays.ray.dir_z[ray];
-    pixels_[count_] = pixel, samples_[count_] = samples;
+    pixels_[count_] = pixel, samples_[count_] = samples, share_[count_] = share;
     if (++count_ == kPacket) shade_all();
   }
 
@@ -38,7 +40,7 @@ class Waiting {
     if (count_ == 0) return;
     const Directions directions{{got<Floats>(direction_[0]), got<Floats>(direction_[1]), got<Floats>(direction_[2])}};
     const Points points{got<Ints>(triangles_), got<Floats>(u_), got<Floats>(v_), directions};
-    const Levels levels = shade(view_, mesh_, points, kNumbers < count_);
+    const Levels levels = levels_of(shade(view_, mesh_, points, kNumbers < count_), got<Floats>(share_));
     for (int k = 0; k < count_; ++k) {
       for (int c = 0; c < 3; ++c) sums_.level[c][pixels_[k]] += static_cast<float>(samples_[k]) * levels.level[c][k];
       sums_.samples[pixels_[k]] += samples_[k];
@@ -54,9 +56,16 @@ class Waiting {
   Sums& sums_;
   int count_ = 0;
   alignas(64) int triangles_[kPacket] = {};
-  alignas(64) float u_[kPacket] = {}, v_[kPacket] = {}, direction_[3][kPacket] = {};
+  alignas(64) float u_[kPacket] = {}, v_[kPacket] = {}, direction_[3][kPacket] = {}, share_[kPacket] = {};
   int pixels_[kPacket], samples_[kPacket];
 };
+
+// Over the rays of `which`.
+float sum_of(Floats values, unsigned which) {
+  float sum = 0;
+  for (; which != 0; which &= which - 1) sum += values[std::countr_zero(which)];
+  return sum;
+}
 
 class SamplePainter : public Painter {
  public:
@@ -64,7 +73,8 @@ class SamplePainter : public Painter {
 
   void draw(const Area& tile, Here here) override;
   void keep(const Area& tile, bool standing_here) override;
-  void draw_mover(const Area& tile) override;
+  void draw_changes(const Area& tile, Changes here) override;
+  void set_tracing(bool traces) override { sun_->traces = traces; }
 
  private:
   // The samples of a block of pixels, a pixel after the other, and where their rays go.
@@ -78,22 +88,35 @@ class SamplePainter : public Painter {
     Floats depth;
     Levels levels;
   };
+  // The same, as shadows of what moves need it.
+  struct KeptLight {
+    Lit lit;
+    Ints open;
+  };
 
   void for_packets(const Area& tile, auto draw_packet) const;
-  void add(Waiting& waiting, const Area& tile, const Packet& packet, const RTCRayHit16& rays, Ints shown) const;
+  void add(Waiting& waiting, const Area& tile, const Packet& packet, const RTCRayHit16& rays, Ints shown,
+           Ints open) const;
+  void add_view(Waiting& waiting, const View& view, const Area& tile, const Packet& packet, const RTCRayHit16& rays,
+                Ints shown) const;
+  Ints open_rays(const View& view, const Packet& packet, const RTCRayHit16& rays, Ints shown, bool both) const;
+  Lit of_first_alike(const Lit& lit, Ints triangles, Ints met) const;
+  Levels levels_under_shadow(const Packet& packet, const Kept& own, Ints standing) const;
   void resolve(const Area& tile, const Sums& sums);
   int pixel_in(const Area& tile, const Packet& packet, int ray) const;
   unsigned samples_of(int ray) const { return pixel_bits_ << (ray / samples_ * samples_); }
-  Kept& kept(const Packet& packet);
+  std::size_t place(const Packet& packet) const;
 
   Canvas& canvas_;
+  std::optional<Sun> sun_;
   int samples_;
   int block_width_, block_height_;  // pixels of a packet
   unsigned pixel_bits_;             // of a packet's first pixel
   Ints column_, line_;              // of each ray's pixel in its block
   Floats x_, y_;                    // of each ray, pixels in its block
   std::vector<float> background_;
-  std::vector<Kept> kept_;  // by blocks, row by row
+  std::vector<Kept> kept_;             // by blocks, row by row
+  std::vector<KeptLight> kept_light_;  // the same; none without a sun
 };
 
 SamplePainter::SamplePainter(Canvas& canvas, bool keeps, const shape::SamplePattern& pattern)
@@ -101,17 +124,20 @@ SamplePainter::SamplePainter(Canvas& canvas, bool keeps, const shape::SamplePatt
   const int pixels = kPacket / samples_;
   block_width_ = pixels >= 8 ? 4 : pixels >= 2 ? 2 : 1;
   block_height_ = pixels / block_width_;
+  Ints number{};
   for (int k = 0; k < kPacket; ++k) {
     const int pixel = k / samples_, sample = pattern.by_distance[k % samples_];
-    column_[k] = pixel % block_width_, line_[k] = pixel / block_width_;
+    column_[k] = pixel % block_width_, line_[k] = pixel / block_width_, number[k] = k % samples_;
     x_[k] = static_cast<float>(column_[k]) + static_cast<float>(pattern.x[sample]) / 256;
     y_[k] = static_cast<float>(line_[k]) + static_cast<float>(pattern.y[sample]) / 256;
   }
   const MeshHead& head = canvas.mesh.head;
   for (const float level : head.background) background_.push_back(std::clamp(level, 0.0f, 1.0f));
-  if (keeps)
-    kept_.resize((head.width / static_cast<unsigned>(block_width_) + 1) *
-                 (head.height / static_cast<unsigned>(block_height_) + 1));
+  if (canvas.sun) sun_.emplace(*canvas.sun, Lanes{block_width_, block_height_, samples_, column_, line_, number});
+  if (!keeps) return;
+  kept_.resize((head.width / static_cast<unsigned>(block_width_) + 1) *
+               (head.height / static_cast<unsigned>(block_height_) + 1));
+  if (sun_) kept_light_.resize(kept_.size());
 }
 
 void SamplePainter::for_packets(const Area& tile, auto draw_packet) const {
@@ -128,15 +154,33 @@ int SamplePainter::pixel_in(const Area& tile, const Packet& packet, int ray) con
   return (packet.top - tile.top + line_[ray]) * kTile + packet.left - tile.left + column_[ray];
 }
 
-void SamplePainter::add(Waiting& waiting, const Area& tile, const Packet& packet, const RTCRayHit16& rays,
-                        Ints shown) const {
+void SamplePainter::add(Waiting& waiting, const Area& tile, const Packet& packet, const RTCRayHit16& rays, Ints shown,
+                        Ints open) const {
+  const Floats share = sun_ ? sun_->share(open) : Floats{} + 1;
   for (unsigned left = mask_of(shown); left != 0;) {
     const int ray = std::countr_zero(left);
     const Ints alike = got<Ints>(rays.hit.primID) == static_cast<int>(rays.hit.primID[ray]);
     const unsigned own = mask_of(alike) & left & samples_of(ray);
     left &= ~own;
-    waiting.add(rays, ray, pixel_in(tile, packet, ray), std::popcount(own));
+    const int samples = std::popcount(own);
+    waiting.add(rays, ray, pixel_in(tile, packet, ray), samples, sum_of(share, own) / static_cast<float>(samples));
   }
+}
+
+// With the light that arrives at each of its samples.
+void SamplePainter::add_view(Waiting& waiting, const View& view, const Area& tile, const Packet& packet,
+                             const RTCRayHit16& rays, Ints shown) const {
+  if (any(shown)) add(waiting, tile, packet, rays, shown, open_rays(view, packet, rays, shown, true));
+}
+
+// To the sun. `both`: past what moves, too.
+Ints SamplePainter::open_rays(const View& view, const Packet& packet, const RTCRayHit16& rays, Ints shown,
+                              bool both) const {
+  if (!sun_) return Ints{};
+  const Ints tried = shown & facing_light(view, rays) & sun_->all();
+  const Spots spots{packet.left, packet.top, packet.x, packet.y, got<Floats>(rays.ray.tfar)};
+  if (!both) return sun_->open(spots, tried, {&canvas_.standing});
+  return sun_->open(spots, tried, {&canvas_.standing, &canvas_.mover});
 }
 
 void SamplePainter::resolve(const Area& tile, const Sums& sums) {
@@ -169,27 +213,27 @@ void SamplePainter::draw(const Area& tile, Here here) {
     }
     if (here.mover) {
       covered = trace(canvas_.mover, directions_of(canvas_.mover, packet.x, packet.y), packet.inside, limit, before);
-      add(mover, tile, packet, before, covered);
+      add_view(mover, canvas_.mover, tile, packet, before, covered);
     }
-    add(standing, tile, packet, behind, shown & ~covered);
+    add_view(standing, canvas_.standing, tile, packet, behind, shown & ~covered);
   });
   standing.shade_all();
   mover.shade_all();
   resolve(tile, sums);
 }
 
-SamplePainter::Kept& SamplePainter::kept(const Packet& packet) {
+std::size_t SamplePainter::place(const Packet& packet) const {
   const unsigned blocks = canvas_.mesh.head.width / static_cast<unsigned>(block_width_) + 1;
-  return kept_[static_cast<unsigned>(packet.top / block_height_) * blocks +
-               static_cast<unsigned>(packet.left / block_width_)];
+  return static_cast<unsigned>(packet.top / block_height_) * blocks + static_cast<unsigned>(packet.left / block_width_);
 }
 
-// Once, before what is measured: every sample is shaded, as the first of its pixel that shows the same triangle.
+// Once, before what is measured: every sample is shaded, as the first of its pixel that shows the same triangle, but
+// with the light that arrives at the sample itself.
 void SamplePainter::keep(const Area& tile, bool standing_here) {
   draw(tile, {standing_here, false});
   const Levels empty{{Floats{} + background_[0], Floats{} + background_[1], Floats{} + background_[2]}};
   for_packets(tile, [&](const Packet& packet) {
-    Kept& own = kept(packet) = {Floats{} + kFar, empty};
+    Kept& own = kept_[place(packet)] = {Floats{} + kFar, empty};
     if (!standing_here) return;
     RTCRayHit16 rays;
     const View& view = canvas_.standing;
@@ -197,28 +241,56 @@ void SamplePainter::keep(const Area& tile, bool standing_here) {
     const Ints met = trace(view, directions, packet.inside, own.depth, rays);
     if (!any(met)) return;
     const Points points{got<Ints>(rays.hit.primID), got<Floats>(rays.hit.u), got<Floats>(rays.hit.v), directions};
-    const Levels levels = shade(view, canvas_.mesh, points, met);
+    const Lit lit = of_first_alike(shade(view, canvas_.mesh, points, met), points.triangles, met);
+    const Ints open = open_rays(view, packet, rays, met, false);
+    const Levels levels = levels_of(lit, sun_ ? sun_->share(open) : Floats{} + 1);
     own.depth = met ? got<Floats>(rays.ray.tfar) : own.depth;
-    for (unsigned left = mask_of(met); left != 0; left &= left - 1) {
-      const int ray = std::countr_zero(left);
-      const unsigned alike = mask_of(met & (points.triangles == points.triangles[ray])) & samples_of(ray);
-      for (int c = 0; c < 3; ++c) own.levels.level[c][ray] = levels.level[c][std::countr_zero(alike | 1u << ray)];
-    }
+    for (int c = 0; c < 3; ++c) own.levels.level[c] = met ? levels.level[c] : own.levels.level[c];
+    if (sun_) kept_light_[place(packet)] = {lit, open};
   });
 }
 
-void SamplePainter::draw_mover(const Area& tile) {
+// Each ray's as that of the first of its pixel that met the same triangle.
+Lit SamplePainter::of_first_alike(const Lit& lit, Ints triangles, Ints met) const {
+  Lit out = lit;
+  for (unsigned left = mask_of(met); left != 0; left &= left - 1) {
+    const int ray = std::countr_zero(left);
+    const int first = std::countr_zero(mask_of(met & (triangles == triangles[ray])) & samples_of(ray));
+    for (int c = 0; c < 3; ++c) {
+      out.base.level[c][ray] = lit.base.level[c][first];
+      out.term.level[c][ray] = lit.term.level[c][first];
+    }
+  }
+  return out;
+}
+
+// Of what stands, where what moves stops more of its light.
+Levels SamplePainter::levels_under_shadow(const Packet& packet, const Kept& own, Ints standing) const {
+  const KeptLight& light = kept_light_[place(packet)];
+  const Ints before = standing & light.open;
+  const Ints open = sun_->open({packet.left, packet.top, packet.x, packet.y, own.depth}, before, {&canvas_.mover});
+  const Ints changed = open != before;
+  const Levels levels = levels_of(light.lit, sun_->share(open));
+  Levels out;
+  for (int c = 0; c < 3; ++c) out.level[c] = changed ? levels.level[c] : own.levels.level[c];
+  return out;
+}
+
+void SamplePainter::draw_changes(const Area& tile, Changes here) {
   Sums sums;
   Waiting mover(canvas_.mover, canvas_.mesh, sums);
   for_packets(tile, [&](const Packet& packet) {
     RTCRayHit16 rays;
-    const Kept& own = kept(packet);
-    const Ints covered =
-        trace(canvas_.mover, directions_of(canvas_.mover, packet.x, packet.y), packet.inside, own.depth, rays);
-    if (any(covered)) add(mover, tile, packet, rays, covered);
+    const Kept& own = kept_[place(packet)];
+    Ints covered{};
+    if (here.mover)
+      covered = trace(canvas_.mover, directions_of(canvas_.mover, packet.x, packet.y), packet.inside, own.depth, rays);
+    add_view(mover, canvas_.mover, tile, packet, rays, covered);
+    const Ints standing = packet.inside & ~covered & (own.depth < kBeyond);
+    const Levels levels = here.shadow && any(standing) ? levels_under_shadow(packet, own, standing) : own.levels;
     for (unsigned left = mask_of(packet.inside & ~covered); left != 0; left &= left - 1) {
       const int ray = std::countr_zero(left), pixel = pixel_in(tile, packet, ray);
-      for (int c = 0; c < 3; ++c) sums.level[c][pixel] += own.levels.level[c][ray];
+      for (int c = 0; c < 3; ++c) sums.level[c][pixel] += levels.level[c][ray];
       ++sums.samples[pixel];
     }
   });

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
+
+#include "tests/bench/peers/light.h"
 
 namespace mars::bench {
 namespace {
@@ -58,8 +59,6 @@ void interpolate(const View& view, const Mesh& mesh, const Points& points, Ints 
   }
 }
 
-constexpr Motion kStill{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
-
 }  // namespace
 
 View view_of(const Mesh& mesh, bool moving, RTCDevice device) {
@@ -75,10 +74,11 @@ View view_of(const Mesh& mesh, bool moving, RTCDevice device) {
 }
 
 void set_motion(View& view, const MeshHead& head, const Motion& motion) {
-  const float eye[4][3] = {{0, 0, -1}, {1, 0, 0}, {0, 1, 0}, {head.to_light[0], head.to_light[1], head.to_light[2]}};
-  float* turned[4] = {view.ahead, view.right, view.up, view.to_light};
+  const auto& [across, down, to_light] = light_axes(head, {}).axis;
+  const std::array<float, 3> eye[6] = {{0, 0, -1}, {1, 0, 0}, {0, 1, 0}, to_light, across, down};
+  float* turned[6] = {view.ahead, view.right, view.up, view.to_light, view.across_light[0], view.across_light[1]};
   for (std::size_t c = 0; c < 3; ++c) {
-    for (int k = 0; k < 4; ++k)
+    for (int k = 0; k < 6; ++k)
       turned[k][c] = motion[0][c] * eye[k][0] + motion[1][c] * eye[k][1] + motion[2][c] * eye[k][2];
     view.origin[c] = -(motion[0][c] * motion[0][3] + motion[1][c] * motion[1][3] + motion[2][c] * motion[2][3]);
   }
@@ -124,7 +124,7 @@ Ints trace(const View& view, const Directions& directions, Ints inside, Floats l
   return met;
 }
 
-Levels shade(const View& view, const Mesh& mesh, const Points& points, Ints met) {
+Lit shade(const View& view, const Mesh& mesh, const Points& points, Ints met) {
   Floats normal[3] = {}, color[3] = {};
   interpolate(view, mesh, points, met, normal, color);
   const MeshHead& head = mesh.head;
@@ -137,13 +137,27 @@ Levels shade(const View& view, const Mesh& mesh, const Points& points, Ints met)
   const Floats rv = 2 * nl * nv - dot(direction, view.to_light) * toward;
   Floats shine = (nl > 0) & (rv > 0) ? rv : Floats{};
   for (std::uint32_t s = 0; s < head.squarings; ++s) shine *= shine;
+  Lit lit;
+  for (std::size_t c = 0; c < 3; ++c) {
+    lit.base.level[c] = color[c] * head.ambient;
+    lit.term.level[c] = (color[c] * head.diffuse * facing + head.specular * shine) * head.light[c];
+  }
+  return lit;
+}
+
+Levels levels_of(const Lit& lit, Floats share) {
   Levels levels;
   for (int c = 0; c < 3; ++c) {
-    const Floats level = color[c] * (head.ambient + head.diffuse * head.light[static_cast<std::size_t>(c)] * facing) +
-                         head.specular * head.light[static_cast<std::size_t>(c)] * shine;
+    const Floats level = lit.base.level[c] + share * lit.term.level[c];
     levels.level[c] = level < 1 ? level : Floats{} + 1;
   }
   return levels;
+}
+
+Ints facing_light(const View& view, const RTCRayHit16& rays) {
+  return got<Floats>(rays.hit.Ng_x) * view.to_light[0] + got<Floats>(rays.hit.Ng_y) * view.to_light[1] +
+             got<Floats>(rays.hit.Ng_z) * view.to_light[2] >
+         0;
 }
 
 }  // namespace mars::bench

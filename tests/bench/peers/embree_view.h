@@ -27,7 +27,7 @@ struct View {
   std::vector<std::uint8_t> tiles;  // 1: a ray there may meet it
   float origin[3];
   float ahead[3], right[3], up[3];  // a ray's direction: ahead + x * right + y * up, of length 1 along the eye's axis
-  float to_light[3];
+  float to_light[3], across_light[2][3];  // the latter: unit, across the light's rays
 
   bool empty() const { return normals.empty(); }
 };
@@ -61,7 +61,18 @@ struct Levels {
   Floats level[3];
 };
 
-// Those of the points of `met`.
-Levels shade(const View& view, const Mesh& mesh, const Points& points, Ints met);
+// A point's levels where nothing of the light arrives, and what all of it adds.
+struct Lit {
+  Levels base, term;
+};
+
+// Of the points of `met`.
+Lit shade(const View& view, const Mesh& mesh, const Points& points, Ints met);
+
+// 1 at most, where `share` of the light arrives.
+Levels levels_of(const Lit& lit, Floats share);
+
+// Of triangles that rays met: those whose face is towards the light.
+Ints facing_light(const View& view, const RTCRayHit16& rays);
 
 }  // namespace mars::bench

@@ -143,7 +143,6 @@ bool is_rigid(const Square& m) {
 }
 
 std::vector<Motion> motion_of(const wire::PackedFilm& film) {
-  constexpr Motion kStill{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
   std::vector<Motion> motion(film.settings().frames, kStill);
   const auto movers = film.moving(film.intervals()[0]);
   if (movers.empty()) return motion;

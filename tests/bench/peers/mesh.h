@@ -52,6 +52,8 @@ struct MeshPatch {
 // Takes what moves from its place at frame 0 to that at another: turns and shifts only, row by row.
 using Motion = std::array<std::array<float, 4>, 3>;
 
+inline constexpr Motion kStill{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+
 struct Mesh {
   MeshHead head;
   std::vector<Look> looks;

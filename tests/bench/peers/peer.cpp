@@ -15,7 +15,19 @@ double render(const Competitor& competitor, int frames) {
   return milliseconds_since(start) / frames;
 }
 
+std::string json_of(const Cost& cost) {
+  std::ostringstream text;
+  text << R"({"what": ")" << cost.what << R"(", "unit": ")" << cost.unit << R"(", "amount": )" << cost.amount
+       << R"(, "note": ")" << cost.note << "\"}";
+  return text.str();
+}
+
 }  // namespace
+
+std::optional<float> sun_of(const std::string& word) {
+  if (word == "none") return {};
+  return std::stof(word);
+}
 
 void write_ppm(const Picture& picture, const std::string& path) {
   std::vector<char> bytes;
@@ -39,15 +51,20 @@ std::optional<int> Orders::next_go() const {
     std::string order, argument;
     words >> order >> argument;
     if (order == "go") return std::stoi(argument);
-    if (order != "picture") throw std::runtime_error("unknown order: " + line);
-    write_ppm(last_picture_(), argument);
-    std::cout << "done" << std::endl;
+    if (order == "picture") {
+      write_ppm(last_picture_(), argument);
+      std::cout << "done" << std::endl;
+    } else if (order == "cost" && cost_) {
+      std::cout << "cost " << json_of(cost_()) << std::endl;
+    } else {
+      throw std::runtime_error("unknown order: " + line);
+    }
   }
   return {};
 }
 
 void obey(const Competitor& competitor) {
-  const Orders orders(competitor.last_picture);
+  const Orders orders(competitor.last_picture, competitor.cost);
   orders.send_ready(competitor.ready);
   while (const auto frames = orders.next_go()) orders.send_milliseconds(render(competitor, *frames));
 }

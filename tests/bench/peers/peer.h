@@ -3,6 +3,7 @@
 //   go N             "ms T"        renders N frames one after another, each until its last pixel is in memory;
 //                                  T milliseconds a frame
 //   picture FILE     "done"        writes the last frame as a PPM file
+//   cost             "cost JSON"   measures what shadows cost; of peers that draw them only
 //   (end of input)                 ends
 #pragma once
 
@@ -24,10 +25,22 @@ struct Picture {
 
 void write_ppm(const Picture& picture, const std::string& path);
 
+// What a part of a frame costs.
+struct Cost {
+  std::string what, unit;
+  double amount;
+  std::string note;
+};
+
+// The word that tells a peer the tangent of half the angle that the sun takes up in the sky: 0 is a point, "none" means
+// that nothing casts a shadow.
+std::optional<float> sun_of(const std::string& word);
+
 // The orders as they come, for a competitor that is asked what to do next.
 class Orders {
  public:
-  explicit Orders(std::function<Picture()> last_picture) : last_picture_(std::move(last_picture)) {}
+  explicit Orders(std::function<Picture()> last_picture, std::function<Cost()> cost = {})
+      : last_picture_(std::move(last_picture)), cost_(std::move(cost)) {}
 
   void send_ready(const std::string& text) const;
   // Draws pictures where they are wanted; frames of the next "go", none at the end of input. Throws
@@ -37,12 +50,14 @@ class Orders {
 
  private:
   std::function<Picture()> last_picture_;
+  std::function<Cost()> cost_;
 };
 
 struct Competitor {
   std::string ready;             // one line
   std::function<void()> render;  // the next frame
   std::function<Picture()> last_picture;
+  std::function<Cost()> cost;
 };
 
 // Obeys until the input ends.

@@ -1,15 +1,13 @@
-// Mesa's llvmpipe as a competitor: peer-llvmpipe MESH THREADS whole|inbetween SAMPLES, or peer-llvmpipe MESH THREADS
-// film SAMPLES FOLDER ENCODER, or peer-llvmpipe encoders, which names these. How it was made fast: README.md.
+// Mesa's llvmpipe as a competitor: peer-llvmpipe MESH THREADS whole|inbetween SAMPLES SHADOWS, or peer-llvmpipe MESH
+// THREADS film SAMPLES SHADOWS FOLDER ENCODER, or peer-llvmpipe encoders, which names these. How it was made fast:
+// README.md.
 //
 // The scene is in buffers once; a frame is a few draw calls and glReadPixels. Inbetweens begin from the standing
 // part's colours and depths, which another framebuffer keeps. Several samples a pixel are drawn and kept in
 // multisampled framebuffers, and resolved before they are read. Of a film, the standing part is drawn for the first
-// frame, and each frame is written to a file while the next ones are drawn.
-#define GL_GLEXT_PROTOTYPES
-#include <EGL/egl.h>
-#include <EGL/eglext.h>
-#include <GL/gl.h>
-#include <GL/glext.h>
+// frame, and each frame is written to a file while the next ones are drawn. Shadows come from a map of depths
+// (shadow_map.h): "map" is drawn in every whole frame, "kept-map" once. In inbetweens, what stands is shaded again from
+// stored light where a shadow of what moves may fall.
 #include <malloc.h>
 
 #include <algorithm>
@@ -19,153 +17,20 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 #include <string_view>
 #include <tuple>
 
 #include "tests/bench/peers/cover.h"
 #include "tests/bench/peers/frame_files.h"
+#include "tests/bench/peers/gl_parts.h"
+#include "tests/bench/peers/gl_shaders.h"
 #include "tests/bench/peers/mesh.h"
 #include "tests/bench/peers/peer.h"
+#include "tests/bench/peers/shadow_map.h"
 
 namespace mars::bench {
 namespace {
-
-// What stays the same for a scene is written into the shaders as numbers. Pictures are drawn upside down: OpenGL's
-// first line is the upper one then, and llvmpipe's samples are where ours are.
-constexpr const char* kVertexShader = R"(
-layout(location = 0) in vec3 place;
-layout(location = 1) in vec3 normal;
-uniform mat4x3 motion;
-centroid out vec3 n;
-void main() {
-  vec3 p = motion * vec4(place, 1.0);
-  gl_Position = vec4(LENS.x * p.x, -LENS.y * p.y, -LENS.z * p.z + LENS.w, -p.z);
-  n = mat3(motion) * normal;
-}
-)";
-
-constexpr const char* kFragmentShader = R"(
-centroid in vec3 n;
-uniform vec3 own;
-out vec4 pixel;
-void main() {
-  vec3 d = vec3(gl_FragCoord.x * REACH.x + REACH.y, REACH.z - gl_FragCoord.y * REACH.x, -1.0);
-  float shrink = inversesqrt(dot(n, n)), toward = -inversesqrt(dot(d, d));
-  float nl = dot(n, TO_LIGHT) * shrink;
-  float nv = dot(n, d) * shrink * toward;
-  float shine = nl > 0.0 ? clamp(2.0 * nl * nv - dot(d, TO_LIGHT) * toward, 0.0, 1.0) : 0.0;
-  for (int k = 0; k < SQUARINGS; ++k) shine *= shine;
-  pixel = vec4(own * (AMBIENT + DIFFUSE * LIGHT * max(nl, 0.0)) + SPECULAR * LIGHT * shine, 1.0);
-}
-)";
-
-template <typename... Numbers>
-std::string defined(const char* name, const char* type, Numbers... numbers) {
-  std::ostringstream text;
-  text.precision(9);
-  text << "#define " << name << ' ' << type << '(';
-  const char* comma = "";
-  ((text << comma << numbers, comma = ", "), ...);
-  text << ")\n";
-  return text.str();
-}
-
-// The film's numbers for both shaders. LENS: scale over half the picture's width and height, depth z * w = c * z + d;
-// REACH: of a pixel in the eye's plane at 1, and the upper left corner.
-std::string numbers_of(const MeshHead& head) {
-  const float far = 1000, near = head.near;
-  const auto w = static_cast<float>(head.width), h = static_cast<float>(head.height);
-  return "#version 330 core\n" +
-         defined("LENS", "vec4", 2 * head.scale / w, 2 * head.scale / h, (far + near) / (far - near),
-                 -2 * far * near / (far - near)) +
-         defined("REACH", "vec3", 1 / head.scale, -head.center[0] / head.scale, head.center[1] / head.scale) +
-         defined("TO_LIGHT", "vec3", head.to_light[0], head.to_light[1], head.to_light[2]) +
-         defined("LIGHT", "vec3", head.light[0], head.light[1], head.light[2]) +
-         defined("AMBIENT", "float", head.ambient) + defined("DIFFUSE", "float", head.diffuse) +
-         defined("SPECULAR", "float", head.specular) + defined("SQUARINGS", "int", head.squarings);
-}
-
-void check(bool fine, const std::string& what) {
-  if (!fine) throw std::runtime_error(what);
-}
-
-// A context without a window.
-void begin_gl() {
-  const auto get_display =
-      reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(eglGetProcAddress("eglGetPlatformDisplayEXT"));
-  check(get_display != nullptr, "this EGL has no platforms");
-  EGLDisplay display = get_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-  check(eglInitialize(display, nullptr, nullptr) == EGL_TRUE, "EGL cannot begin without a window");
-  eglBindAPI(EGL_OPENGL_API);
-  const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 3, EGL_NONE};
-  EGLContext context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted);
-  check(context != EGL_NO_CONTEXT, "EGL gives no context of OpenGL 3.3");
-  check(eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context) == EGL_TRUE, "EGL needs a surface here");
-}
-
-GLuint compile(GLenum kind, const std::string& text) {
-  const GLuint shader = glCreateShader(kind);
-  const char* source = text.c_str();
-  glShaderSource(shader, 1, &source, nullptr);
-  glCompileShader(shader);
-  GLint fine = 0;
-  glGetShaderiv(shader, GL_COMPILE_STATUS, &fine);
-  char words[1024] = "";
-  if (!fine) glGetShaderInfoLog(shader, sizeof words, nullptr, words);
-  check(fine, words);
-  return shader;
-}
-
-GLuint link(const MeshHead& head) {
-  const std::string numbers = numbers_of(head);
-  const GLuint program = glCreateProgram();
-  glAttachShader(program, compile(GL_VERTEX_SHADER, numbers + kVertexShader));
-  glAttachShader(program, compile(GL_FRAGMENT_SHADER, numbers + kFragmentShader));
-  glLinkProgram(program);
-  GLint fine = 0;
-  glGetProgramiv(program, GL_LINK_STATUS, &fine);
-  check(fine, "the shaders do not fit each other");
-  return program;
-}
-
-struct Box {
-  GLint left, top;  // lines as in the picture
-  GLsizei width, height;
-};
-
-// The box round both.
-Box round(const Box& a, const Box& b) {
-  if (a.width == 0) return b;
-  if (b.width == 0) return a;
-  const GLint left = std::min(a.left, b.left), top = std::min(a.top, b.top);
-  return {left, top, std::max(a.left + a.width, b.left + b.width) - left,
-          std::max(a.top + a.height, b.top + b.height) - top};
-}
-
-// `samples` 0: not multisampled.
-GLuint framebuffer(GLsizei width, GLsizei height, GLsizei samples) {
-  GLuint names[3];
-  glGenFramebuffers(1, &names[0]);
-  glBindFramebuffer(GL_FRAMEBUFFER, names[0]);
-  glGenRenderbuffers(2, &names[1]);
-  glBindRenderbuffer(GL_RENDERBUFFER, names[1]);
-  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_RGBA8, width, height);
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, names[1]);
-  glBindRenderbuffer(GL_RENDERBUFFER, names[2]);
-  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_DEPTH_COMPONENT32F, width, height);
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, names[2]);
-  check(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE, "no framebuffer of this size");
-  return names[0];
-}
-
-void copy(const Box& box, GLuint from, GLuint to, GLbitfield what) {
-  const GLint right = box.left + box.width, bottom = box.top + box.height;
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, from);
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, to);
-  glBlitFramebuffer(box.left, box.top, right, bottom, box.left, box.top, right, bottom, what, GL_NEAREST);
-}
 
 struct Corner {
   std::array<float, 3> place, normal;
@@ -199,48 +64,75 @@ std::vector<const MeshPatch*> by_distance(const Mesh& mesh, bool moving) {
 }
 
 enum class Course { whole, inbetween, film };
+enum class Shadows { none, map, kept_map };
 
-class Renderer {
+// Where pictures differ from what stands.
+struct Changes {
+  Box mover, shadow;
+};
+
+Changes round(const Changes& a, const Changes& b) { return {round(a.mover, b.mover), round(a.shadow, b.shadow)}; }
+
+struct Program {
+  GLuint name;
+  GLint motion_at, own_at;
+};
+
+Program link(const Shaders& shaders) {
+  const GLuint name = link_program(shaders.vertex, shaders.fragment);
+  return {name, glGetUniformLocation(name, "motion"), glGetUniformLocation(name, "own")};
+}
+
+class Renderer : public Geometry {
  public:
   // `files`: of a film's frames; none in other courses.
-  Renderer(const Mesh& mesh, Course course, int samples, FrameFiles* files);
+  Renderer(const Mesh& mesh, Course course, int samples, Shadows shadows, FrameFiles* files);
 
   void render();
+  Cost measure_map();
   Picture picture() const { return {mesh_.head.width, mesh_.head.height, *shown_}; }
+  void draw_depths(bool moving, GLint motion_at, const Motion& motion) const override;
 
  private:
   void load();
-  void set_motion(const Motion& motion);
-  void draw(bool moving, const Motion& motion);
+  void begin_shadows(GLsizei samples);
+  void target(GLuint framebuffer) const;
+  void draw(const Program& program, bool moving, const Motion& motion) const;
   void render_whole();
   void keep_standing();
-  Box draw_mover();
+  void restore(const Changes& where) const;
+  Changes draw_changes();
+  void draw_shadow(const Box& box) const;
   void render_inbetween();
   void render_of_film();
   Box mover_box(const Motion& motion) const;
+  Box shaded_box(const Motion& motion) const;
   Box whole() const { return {0, 0, width_, height_}; }
-  void read(const Box& box, std::vector<std::uint32_t>& pixels);
+  void read(const Box& box, std::vector<std::uint32_t>& pixels) const;
+  void read(const Changes& where, std::vector<std::uint32_t>& pixels) const;
 
   const Mesh& mesh_;
   Course course_;
+  Shadows shadows_;
   FrameFiles* files_;
   GLsizei width_, height_;
-  GLuint program_ = 0, drawn_ = 0, kept_ = 0, resolved_ = 0;  // the last only where there are several samples
-  GLint motion_at_ = -1, own_at_ = -1;
-  std::vector<Batch> batches_[2];  // what stands, what moves
-  std::uint32_t number_;           // of the last frame rendered; inbetweens are all but 0
+  Program surface_{}, kept_surface_{}, shadow_{};
+  GLuint drawn_ = 0, kept_ = 0, resolved_ = 0;  // the last only where there are several samples
+  std::vector<Batch> batches_[2];               // what stands, what moves
+  std::optional<ShadowMap> map_;
+  std::optional<ShadedAreas> shaded_areas_;
+  std::uint32_t number_;  // of the last frame rendered; inbetweens are all but 0
   std::vector<Outline> mover_;
-  Box before_{};                 // where what was drawn differs from what stands
-  std::vector<Box> in_buffers_;  // the same of each of the files' buffers
+  Changes before_{};                 // where what was drawn differs from what stands
+  std::vector<Changes> in_buffers_;  // the same of each of the files' buffers
   std::vector<std::uint32_t> pixels_;
   const std::vector<std::uint32_t>* shown_ = &pixels_;
 };
 
-constexpr Motion kStill{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
-
-Renderer::Renderer(const Mesh& mesh, Course course, int samples, FrameFiles* files)
+Renderer::Renderer(const Mesh& mesh, Course course, int samples, Shadows shadows, FrameFiles* files)
     : mesh_(mesh),
       course_(course),
+      shadows_(shadows),
       files_(files),
       width_(static_cast<GLsizei>(mesh.head.width)),
       height_(static_cast<GLsizei>(mesh.head.height)),
@@ -248,24 +140,42 @@ Renderer::Renderer(const Mesh& mesh, Course course, int samples, FrameFiles* fil
       mover_(outlines_of(mesh, true)),
       pixels_(mesh.head.width * std::size_t{mesh.head.height}) {
   const MeshHead& head = mesh.head;
-  program_ = link(head);
-  glUseProgram(program_);
-  motion_at_ = glGetUniformLocation(program_, "motion");
-  own_at_ = glGetUniformLocation(program_, "own");
   load();
   glEnable(GL_DEPTH_TEST);
   glEnable(GL_CULL_FACE);
   glFrontFace(GL_CW);
   glClearColor(head.background[0], head.background[1], head.background[2], 1);
-  glViewport(0, 0, width_, height_);
   glPixelStorei(GL_PACK_ROW_LENGTH, width_);
+  if (shadows_ != Shadows::none) map_.emplace(mesh, *this);
+  surface_ = link(surface_shaders(head, map_ ? map_->numbers() : ""));
   if (samples > 1) resolved_ = framebuffer(width_, height_, 0);
   kept_ = framebuffer(width_, height_, samples > 1 ? samples : 0);
+  if (map_ && course_ != Course::whole) begin_shadows(samples > 1 ? samples : 0);
   drawn_ = framebuffer(width_, height_, samples > 1 ? samples : 0);
+  if (shadows_ == Shadows::kept_map) map_->draw(kStill);
   if (course_ != Course::inbetween) return;
   keep_standing();
   copy(whole(), kept_, drawn_, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   read(whole(), pixels_);
+}
+
+// What shadows of what moves need: kept_, which is bound, gets two more colours.
+void Renderer::begin_shadows(GLsizei samples) {
+  const std::string map = map_->numbers();
+  kept_surface_ = link(kept_surface_shaders(mesh_.head, map));
+  shadow_ = link(shadow_shaders(mesh_.head, map, samples));
+  shaded_areas_.emplace(mesh_, 0.0f);
+  const GLenum formats[2] = {GL_RGBA32F, GL_RGBA16F};
+  const char* names[2] = {"bases", "terms"};
+  glUseProgram(shadow_.name);
+  for (GLuint k = 0; k < 2; ++k) {
+    glActiveTexture(GL_TEXTURE1 + k);
+    add_texture(1 + k, formats[k], width_, height_, samples);
+    glUniform1i(glGetUniformLocation(shadow_.name, names[k]), static_cast<GLint>(1 + k));
+  }
+  const GLenum buffers[3] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2};
+  glDrawBuffers(3, buffers);
+  check_framebuffer();
 }
 
 void Renderer::load() {
@@ -300,19 +210,36 @@ void Renderer::load() {
   }
 }
 
-void Renderer::set_motion(const Motion& m) {
+void set_motion(GLint motion_at, const Motion& m) {
   const float columns[12] = {m[0][0], m[1][0], m[2][0], m[0][1], m[1][1], m[2][1],
                              m[0][2], m[1][2], m[2][2], m[0][3], m[1][3], m[2][3]};
-  glUniformMatrix4x3fv(motion_at_, 1, GL_FALSE, columns);
+  glUniformMatrix4x3fv(motion_at, 1, GL_FALSE, columns);
 }
 
-void Renderer::draw(bool moving, const Motion& motion) {
-  set_motion(motion);
+void draw_indices(std::size_t first, std::size_t count) {
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
+                 reinterpret_cast<void*>(first * sizeof(std::uint32_t)));
+}
+
+void Renderer::target(GLuint framebuffer) const {
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+  glViewport(0, 0, width_, height_);
+}
+
+void Renderer::draw(const Program& program, bool moving, const Motion& motion) const {
+  glUseProgram(program.name);
+  set_motion(program.motion_at, motion);
   for (const Batch& batch : batches_[moving]) {
-    glUniform3fv(own_at_, 1, mesh_.looks[batch.look].data());
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(batch.count), GL_UNSIGNED_INT,
-                   reinterpret_cast<void*>(batch.first * sizeof(std::uint32_t)));
+    glUniform3fv(program.own_at, 1, mesh_.looks[batch.look].data());
+    draw_indices(batch.first, batch.count);
   }
+}
+
+void Renderer::draw_depths(bool moving, GLint motion_at, const Motion& motion) const {
+  if (batches_[moving].empty()) return;
+  set_motion(motion_at, motion);
+  const Batch &first = batches_[moving].front(), &last = batches_[moving].back();
+  draw_indices(first.first, last.first + last.count - first.first);
 }
 
 void Renderer::render() {
@@ -326,48 +253,78 @@ void Renderer::render() {
 }
 
 // From what was drawn.
-void Renderer::read(const Box& box, std::vector<std::uint32_t>& pixels) {
+void Renderer::read(const Box& box, std::vector<std::uint32_t>& pixels) const {
+  if (box.width == 0) return;
   if (resolved_ != 0) copy(box, drawn_, resolved_, GL_COLOR_BUFFER_BIT);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved_ != 0 ? resolved_ : drawn_);
   glReadPixels(box.left, box.top, box.width, box.height, GL_RGBA, GL_UNSIGNED_BYTE,
                &pixels[static_cast<std::size_t>(box.top) * mesh_.head.width + static_cast<std::size_t>(box.left)]);
 }
 
+void Renderer::read(const Changes& where, std::vector<std::uint32_t>& pixels) const {
+  read(where.mover, pixels);
+  read(where.shadow, pixels);
+}
+
 void Renderer::render_whole() {
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, drawn_);
+  if (shadows_ == Shadows::map) map_->draw(mesh_.motion[number_]);
+  target(drawn_);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  draw(true, mesh_.motion[number_]);  // it is in front, and hides
-  draw(false, kStill);
+  draw(surface_, true, mesh_.motion[number_]);  // it is in front, and hides
+  draw(surface_, false, kStill);
   read(whole(), pixels_);
 }
 
 void Renderer::keep_standing() {
-  glBindFramebuffer(GL_FRAMEBUFFER, kept_);
+  if (map_) map_->keep_standing();
+  target(kept_);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  draw(false, kStill);
+  constexpr float kNothing[4] = {};
+  for (GLint number = 1; map_ && number <= 2; ++number) glClearBufferfv(GL_COLOR, number, kNothing);
+  draw(map_ ? kept_surface_ : surface_, false, kStill);
 }
 
-// Over what stands; where it is.
-Box Renderer::draw_mover() {
-  const Box now = mover_box(mesh_.motion[number_]);
-  copy(round(before_, now), kept_, drawn_, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+// What stands, into what is drawn.
+void Renderer::restore(const Changes& where) const {
+  copy(where.mover, kept_, drawn_, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  if (where.shadow.width != 0) copy(where.shadow, kept_, drawn_, GL_COLOR_BUFFER_BIT);
+}
+
+// Over what stands; where they are.
+Changes Renderer::draw_changes() {
+  const Motion& motion = mesh_.motion[number_];
+  const Changes now{mover_box(motion), shaded_box(motion)};
+  if (map_) map_->draw_changes(motion);
+  restore(round(before_, now));
   before_ = now;
-  draw(true, mesh_.motion[number_]);
+  target(drawn_);
+  if (now.shadow.width != 0) draw_shadow(now.shadow);
+  draw(surface_, true, motion);
   return now;
 }
 
+void Renderer::draw_shadow(const Box& box) const {
+  glUseProgram(shadow_.name);
+  glDisable(GL_DEPTH_TEST);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(box.left, box.top, box.width, box.height);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDisable(GL_SCISSOR_TEST);
+  glEnable(GL_DEPTH_TEST);
+}
+
 void Renderer::render_inbetween() {
-  const Box before = before_;
-  read(round(before, draw_mover()), pixels_);
+  const Changes before = before_;
+  read(round(before, draw_changes()), pixels_);
 }
 
 void Renderer::render_of_film() {
   if (number_ == 0) {
     keep_standing();
-    before_ = whole();
-    in_buffers_.assign(files_->buffers().size(), whole());
+    before_ = {whole(), {}};
+    in_buffers_.assign(files_->buffers().size(), before_);
   }
-  const Box now = draw_mover();
+  const Changes now = draw_changes();
   const std::size_t at = files_->free_buffer();
   FrameBuffer& buffer = files_->buffers()[at];
   read(round(in_buffers_[at], now), buffer.pixels);
@@ -378,12 +335,36 @@ void Renderer::render_of_film() {
   if (number_ + 1 == mesh_.head.frames) files_->finish();
 }
 
+// What a frame needs of the map: all of it, or what moves.
+Cost Renderer::measure_map() {
+  constexpr int kRounds = 15;
+  double least = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < kRounds; ++round) {
+    glFinish();
+    const auto start = std::chrono::steady_clock::now();
+    if (course_ == Course::whole)
+      map_->draw(mesh_.motion[0]);
+    else
+      map_->draw_changes(mesh_.motion[1]);
+    glFinish();
+    least = std::min(least, milliseconds_since(start));
+  }
+  return {"a shadow map", "ms", least, course_ == Course::whole ? "the whole scene" : "what moves"};
+}
+
+Box box_of(const Area& area) { return {area.left, area.top, area.right - area.left, area.bottom - area.top}; }
+
 Box Renderer::mover_box(const Motion& motion) const {
   Box box{};
-  for (const Outline& outline : mover_) {
-    const Area area = cover(outline, mesh_.head, motion);
-    box = round(box, {area.left, area.top, area.right - area.left, area.bottom - area.top});
-  }
+  for (const Outline& outline : mover_) box = round(box, box_of(cover(outline, mesh_.head, motion)));
+  return box;
+}
+
+// Where a shadow of what moves may fall.
+Box Renderer::shaded_box(const Motion& motion) const {
+  Box box{};
+  if (!shaded_areas_) return box;
+  for (const Area& area : shaded_areas_->of(motion)) box = round(box, box_of(area));
   return box;
 }
 
@@ -394,14 +375,21 @@ Course course_of(std::string_view word) {
   return Course::film;
 }
 
+Shadows shadows_of(std::string_view word) {
+  if (word == "none") return Shadows::none;
+  if (word == "map") return Shadows::map;
+  check(word == "kept-map", "none of none, map, kept-map: " + std::string(word));
+  return Shadows::kept_map;
+}
+
 void run(int argc, char** argv) {
   if (argc == 2 && argv[1] == std::string_view("encoders")) {
     for (const std::string& name : png_encoders()) std::cout << name << '\n';
     return;
   }
-  check(argc >= 5, "usage: peer-llvmpipe MESH THREADS whole|inbetween|film SAMPLES [FOLDER ENCODER]");
+  check(argc >= 6, "usage: peer-llvmpipe MESH THREADS whole|inbetween|film SAMPLES SHADOWS [FOLDER ENCODER]");
   const Course course = course_of(argv[3]);
-  check(argc == (course == Course::film ? 7 : 5), "a film has a folder and an encoder, other courses have none");
+  check(argc == (course == Course::film ? 8 : 6), "a film has a folder and an encoder, other courses have none");
   // Mesa takes its memory again for every frame: it shall not go back to the system in between.
   mallopt(M_MMAP_THRESHOLD, 1 << 30);
   mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
@@ -415,12 +403,13 @@ void run(int argc, char** argv) {
   glGetIntegerv(GL_MAX_SAMPLES, &most);
   check(samples == 1 || samples <= most, "llvmpipe has " + std::to_string(most) + " samples a pixel at most");
   std::optional<FrameFiles> files;
-  if (course == Course::film) files.emplace(argv[5], argv[6], mesh.head.width, mesh.head.height);
-  Renderer renderer(mesh, course, samples, files ? &*files : nullptr);
+  if (course == Course::film) files.emplace(argv[6], argv[7], mesh.head.width, mesh.head.height);
+  Renderer renderer(mesh, course, samples, shadows_of(argv[5]), files ? &*files : nullptr);
   const std::string driver = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
   check(driver.find("llvmpipe") != std::string::npos, "not llvmpipe but " + driver);
   const std::string version = reinterpret_cast<const char*>(glGetString(GL_VERSION));
-  obey({version + ", " + driver, [&] { renderer.render(); }, [&] { return renderer.picture(); }});
+  obey({version + ", " + driver, [&] { renderer.render(); }, [&] { return renderer.picture(); },
+        [&] { return renderer.measure_map(); }});
   check(glGetError() == GL_NO_ERROR, "OpenGL found an error");
 }
 

@@ -9,6 +9,7 @@ processors: competitors have that number of threads or nodes, and may use no oth
 processor. README.md beside this program tells what each peer does."""
 import argparse
 import contextlib
+import itertools
 import json
 import os
 import platform
@@ -24,10 +25,14 @@ import ray_tracers
 from competitor import Competitor, Team, Trouble
 
 SCENES = ["s1", "s1m", "s2", "s3"]
+SUNS = {"hard": 0, "soft": 0.01}  # of lights that cast, the tangent of half the angle that they take up in the sky
+SUN_RAYS = 16        # to a soft one from each pixel, at least one from each sample
 MOST_RMS = 0.5       # of 255, between ours and Embree's picture of the same triangles
+MOST_RMS_OF_SHADOWS = 1.5  # the same; points of the sun and the beginning of rays differ
 WARMING = 5          # frames before those that count
 LLVMPIPE_SAMPLES = [1, 4]    # it can do no others
 ENCODERS = {"libpng": "libpng", "igzip": "ISA-L (libisal-dev)"}  # of peer-llvmpipe's files, and whose they are
+KEPT = ", map kept"  # from frame to frame, in a competitor's name
 FRAMES = "{frames}"  # in a command: the folder of a competitor's files
 FINE = 64            # quads along a patch's side that adaptive dicing is compared with
 MOST_IDLE = 0.05     # processor seconds a competitor may use in a second that is not its turn
@@ -55,23 +60,28 @@ def courses_of(scenes):
 
 
 class Heat:
-    """The competitors of one course, column and number of samples."""
+    """The competitors of one course, column, number of samples and size of the sun, which is none if nothing casts."""
 
-    def __init__(self, wanted, course, column, samples, folder):
+    def __init__(self, wanted, course, column, samples, sun, folder):
         self.programs = os.path.join(wanted.build, "bench", "peers")
-        self.course, self.column, self.samples, self.folder = course, column, samples, folder
+        self.course, self.column, self.samples, self.sun, self.folder = course, column, samples, sun, folder
         self.processors = sorted(os.sched_getaffinity(0))[:column]
-        film = films.load(course.scene, wanted.size, wanted.dice, samples)
+        film = films.load(course.scene, wanted.size, wanted.dice, samples, SUNS.get(sun))
+        self.moves = bool(films.turning(film))
         # The film has one turn more: after its last frame no order is read.
         self.film = films.lengthened(film, course.frames(WARMING + wanted.rounds + 1), course.interval)
         self.mesh = os.path.join(folder, "mesh")
-        self.make_mesh(films.lengthened(film, course.interval if films.turning(film) else 1, course.interval))
+        self.make_mesh(films.lengthened(film, course.interval if self.moves else 1, course.interval))
         self.competitors = []
         self.absent = []  # competitors that cannot be, with the reason
         self.begin_peers()
+        self.competes = sun is None or self.is_known(self.film)  # whether we do
+        self.adaptive = wanted.adaptive and self.competes and not self.moves
+        self.ray_tracers = wanted.ray_tracers and samples == 1 and sun is None and not self.moves
+        if not self.competes:
+            self.absent.append(("ours", "this MARS has no shadows"))
+            return
         self.begin_ours("ours", self.film)
-        self.adaptive = wanted.adaptive and not films.turning(film)
-        self.ray_tracers = wanted.ray_tracers and samples == 1 and not films.turning(film)
         if self.adaptive:
             self.begin_ours("ours, adaptive", self.diced("adaptive"))
 
@@ -86,10 +96,17 @@ class Heat:
         return path if os.path.exists(path) else None
 
     def make_mesh(self, film):
-        made = subprocess.run([self.program("bench-mesh"), self.save(film, "mesh.json"), self.mesh],
-                              stderr=subprocess.PIPE, text=True)
+        made = self.run_mesh(films.without_shadows(film), self.mesh)
         if made.returncode != 0:
             raise Trouble(made.stderr.strip())
+
+    def run_mesh(self, film, mesh):
+        return subprocess.run([self.program("bench-mesh"), self.save(film, "mesh.json"), mesh],
+                              stderr=subprocess.PIPE, text=True)
+
+    def is_known(self, film):
+        """Whether this MARS reads such a film."""
+        return self.run_mesh(film, os.devnull).returncode == 0
 
     def start(self, name, command, environment=None, processors=None):
         log = os.path.join(self.folder, f"{name}.log".replace(" ", "-"))
@@ -111,14 +128,16 @@ class Heat:
         embree = self.program("peer-embree")
         llvmpipe = self.program("peer-llvmpipe") if self.samples in LLVMPIPE_SAMPLES else None
         if embree:
-            self.begin("Embree", self.peer_command(embree, self.column))
+            self.begin("Embree", self.embree_command(embree, self.column))
         # Mesa's main thread prepares what its others draw: which number is best differs from scene to scene.
         for threads in (self.column - 1, self.column) if llvmpipe else ():
-            self.begin(f"llvmpipe {threads}", self.peer_command(llvmpipe, threads))
+            self.begin(f"llvmpipe {threads}", self.llvmpipe_command(llvmpipe, threads))
+            if self.sun and not self.moves:
+                self.begin(f"llvmpipe {threads}{KEPT}", self.llvmpipe_command(llvmpipe, threads, "kept-map"))
         # Inbetweens may go whole to single processors, as ours do.
         if self.course.what == "inbetween" and self.column > 1:
-            self.begin_team("Embree", embree, 1)
-            self.begin_team("llvmpipe", llvmpipe, 0)
+            self.begin_team("Embree", embree and self.embree_command(embree, 1))
+            self.begin_team("llvmpipe", llvmpipe and self.llvmpipe_command(llvmpipe, 0))
 
     def begin_writers(self):
         """llvmpipe, whose frames are made PNG files in several ways."""
@@ -131,16 +150,22 @@ class Heat:
                 self.absent.append((f"llvmpipe, {encoder}", f"not built: {library} was missing"))
                 continue
             for threads in self.column - 1, self.column:
-                self.begin(f"llvmpipe {threads}, {encoder}", self.peer_command(llvmpipe, threads) + [FRAMES, encoder])
+                self.begin(f"llvmpipe {threads}, {encoder}",
+                           self.llvmpipe_command(llvmpipe, threads) + [FRAMES, encoder])
 
-    def begin_team(self, name, program, threads):
-        if program:
-            command = self.peer_command(program, threads)
+    def begin_team(self, name, command):
+        if command:
             self.competitors.append(Team(f"{name}, {self.column} at a time", [
                 self.start(f"{name} {processor}", command, None, [processor]) for processor in self.processors]))
 
     def peer_command(self, program, threads):
         return [program, self.mesh, str(threads), self.course.what, str(self.samples)]
+
+    def embree_command(self, program, threads):
+        return self.peer_command(program, threads) + [str(SUNS.get(self.sun, "none"))]
+
+    def llvmpipe_command(self, program, threads, shadows="map"):
+        return self.peer_command(program, threads) + [shadows if self.sun else "none"]
 
     def begin_ours(self, name, film):
         self.begin_threads(f"{name}, threads", film)
@@ -174,6 +199,13 @@ class Heat:
         """Milliseconds that an inbetween of ours takes from its beginning to its frame."""
         return float(self.begin("latency", self.threads_command(self.save(self.film, "latency.json"), "latency"))
                      .answer("latency"))
+
+    def costs(self):
+        """What shadows cost each of the peers that draw alone; a map costs the same where it is kept."""
+        if not self.sun or self.course.what == "film":
+            return {}
+        return {competitor.name: competitor.cost() for competitor in self.competitors
+                if isinstance(competitor, Competitor) and not is_ours(competitor.name) and KEPT not in competitor.name}
 
     def end(self):
         for competitor in self.competitors:
@@ -220,13 +252,13 @@ def is_alike(row):
 def result_of(heat):
     """One heat's part of the JSON."""
     files = {competitor.name: heat.take_picture(competitor) for competitor in heat.competitors}
-    reference = files.get("Embree", files["ours, threads"])
+    reference = next(files[name] for name in ("Embree", "ours, threads", *files) if name in files)
     rows = [{"name": c.name, "note": c.note, "best": min(c.milliseconds), "middle": statistics.median(c.milliseconds),
              "milliseconds": c.milliseconds, "rms": pictures.rms(reference, files[c.name])}
             for c in heat.competitors]
-    result = {"course": heat.course.title, "column": heat.column, "samples": heat.samples, "competitors": rows,
-              "absent": heat.absent}
-    if heat.course.what == "inbetween":
+    result = {"course": heat.course.title, "column": heat.column, "samples": heat.samples, "sun": heat.sun,
+              "competitors": rows, "absent": heat.absent, "costs": heat.costs()}
+    if heat.course.what == "inbetween" and heat.competes:
         result["latency"] = heat.latency()
     if heat.adaptive:
         fine = heat.fine_picture()
@@ -253,11 +285,12 @@ def add_ratios(result):
 
 def add_costs(results):
     """To the rows of one course and column what their samples cost, in times of one sample."""
-    of_one = {row["name"]: row["best"] for result in results if result["samples"] == 1 for row in result["competitors"]}
+    of_one = {(row["name"], result["sun"]): row["best"]
+              for result in results if result["samples"] == 1 for row in result["competitors"]}
     for result in results:
         for row in result["competitors"]:
-            if result["samples"] > 1 and row["name"] in of_one:
-                row["cost"] = row["best"] / of_one[row["name"]]
+            if result["samples"] > 1 and (row["name"], result["sun"]) in of_one:
+                row["cost"] = row["best"] / of_one[row["name"], result["sun"]]
 
 
 def counted(count, what):
@@ -265,25 +298,32 @@ def counted(count, what):
 
 
 def check_alike(result):
+    most = MOST_RMS_OF_SHADOWS if result["sun"] else MOST_RMS
     for row in result["competitors"]:
-        if is_ours(row["name"]) and is_alike(row) and row["rms"] > MOST_RMS:
+        if is_ours(row["name"]) and is_alike(row) and row["rms"] > most:
             raise Trouble(f"{result['course']}, {counted(result['samples'], 'sample')}: the picture of {row['name']} "
-                          f"differs from Embree's by {row['rms']:.2f} of 255, more than {MOST_RMS}")
+                          f"differs from Embree's by {row['rms']:.2f} of 255, more than {most}")
 
 
 def run_course(wanted, course, column):
     """The results of all heats."""
     with contextlib.ExitStack() as ends:
         heats = []
-        for samples in wanted.samples:
+        suns = wanted.suns if course.scene in films.SHADOWED else [None]
+        for samples, sun in itertools.product(wanted.samples, suns):
             folder = ends.enter_context(tempfile.TemporaryDirectory())
-            heats.append(Heat(wanted, course, column, samples, folder))
+            heats.append(Heat(wanted, course, column, samples, sun, folder))
             ends.callback(heats[-1].end)
         compete(heats, wanted.rounds)
         check_idle(heats)
         results = [result_of(heat) for heat in heats]
         add_costs(results)
         return results
+
+
+def sun_rays(result):
+    """Of a pixel that has light, in Embree's pictures."""
+    return max(SUN_RAYS if SUNS[result["sun"]] else 1, result["samples"])
 
 
 def line_of(row, rms, best_peer):
@@ -294,11 +334,15 @@ def line_of(row, rms, best_peer):
 
 def tell(result):
     where = f"{result['course']}, {counted(result['column'], 'processor')}, {counted(result['samples'], 'sample')}"
+    if result["sun"]:
+        where += f", {result['sun']} sun: {counted(sun_rays(result), 'shadow ray')} a pixel"
     print(f"\n{where}")
     for row in filter(is_alike, result["competitors"]):
         print(line_of(row, "rms", result.get("best_peer")))
     for name, reason in result["absent"]:
         print(f"  {name:24} {reason}")
+    for name, cost in result["costs"].items():
+        print(f"  {name:24} {cost['what']} costs {cost['amount']:.2f} {cost['unit']} ({cost['note']})")
     for row in result.get("traced", []):
         print(f"  {row['name']:24} {row['milliseconds']:8.0f}, once".ljust(48) + f"RMS {row['rms']:.2f}")
     if "latency" in result:
@@ -328,8 +372,8 @@ def read_command_line():
 
     def scenes(text):
         names = text.split(",")
-        if not set(names) <= set(SCENES):
-            raise argparse.ArgumentTypeError(f"the scenes are {', '.join(SCENES)}")
+        if not set(names) <= {*SCENES, *films.SHADOWED}:
+            raise argparse.ArgumentTypeError(f"the scenes are {', '.join([*SCENES, *films.SHADOWED])}")
         return names
 
     def samples(text):
@@ -338,13 +382,23 @@ def read_command_line():
             raise argparse.ArgumentTypeError("a pixel has 1, 2, 4, 8 or 16 samples")
         return numbers
 
+    def suns(text):
+        names = text.split(",")
+        if not set(names) <= set(SUNS):
+            raise argparse.ArgumentTypeError(f"the suns are {', '.join(SUNS)}")
+        return names
+
     def size(text):
         return [int(n) for n in text.split("x")]
 
     parser = argparse.ArgumentParser(prog="mars bench peers", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", required=True, help=argparse.SUPPRESS)
-    parser.add_argument("--scenes", default=",".join(SCENES), type=scenes)
+    parser.add_argument("--scenes", default=",".join(SCENES), type=scenes,
+                        help=f"with shadows: {','.join(films.SHADOWED)}")
+    parser.add_argument("--suns", default=",".join(SUNS), type=suns,
+                        help="of scenes with shadows: hard: a point, one shadow ray a sample; "
+                             f"soft: a small disc, {SUN_RAYS} shadow rays a pixel")
     parser.add_argument("--rounds", default=15, type=int)
     parser.add_argument("--columns", default="1,2" if here > 1 else "1", type=processors, help="numbers of processors")
     parser.add_argument("--samples", default="1", type=samples, help="a pixel, as 1,4,16: each in turn with the others")
@@ -359,13 +413,14 @@ def read_command_line():
 
 def main():
     wanted = read_command_line()
-    results = []
+    results, told = [], 0
     print("ms a frame: best (middle)")
     for course in courses_of(wanted.scenes):
         for column in wanted.columns:
             results += run_course(wanted, course, column)
-            for result in results[-len(wanted.samples):]:
+            for result in results[told:]:
                 tell(result)
+            told = len(results)
     if wanted.output:
         with wanted.output as file:
             json.dump({"machine": processor_name(), "rounds": wanted.rounds, "results": results}, file, indent=1)

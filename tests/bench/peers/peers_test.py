@@ -62,6 +62,66 @@ class Benchmark(unittest.TestCase):
                 for row in result["competitors"]:
                     self.assertAlmostEqual(row["cost"], row["best"] / of_one[row["name"]])
 
+    @needs_llvmpipe
+    def test_shadows_compete_and_look_alike(self):
+        results = self.measured("--scenes", "s1s", "--rounds", "1", "--samples", "1,4")
+        self.assertEqual([(result["samples"], result["sun"]) for result in results],
+                         [(1, "hard"), (1, "soft"), (4, "hard"), (4, "soft")])
+        for result in results:
+            names = [row["name"] for row in result["competitors"]]
+            self.assertIn("llvmpipe 1, map kept", names)
+            for row in result["competitors"]:
+                self.assertLess(row["rms"], 2, f"{row['name']}, {result['samples']}, {result['sun']}")
+            self.assertIn("llvmpipe 1", result["costs"])
+            for name, cost in result["costs"].items():
+                self.assertGreater(cost["amount"], 1, name)
+
+    @needs_a_peer
+    def test_shadows_darken_pictures_and_inbetweens_have_them(self):
+        film = films.lengthened(films.load("s3", [384, 216], 4), 30, 30)
+        for peer, shadows in ("peer-embree", "0"), ("peer-embree", "0.01"), ("peer-llvmpipe", "map"):
+            for samples in "1", "4":
+                if peer in NOT_BUILT:
+                    continue
+                with self.subTest(peer=peer, shadows=shadows, samples=samples):
+                    whole, inbetween, without = self.draw(film, peer, [("whole", samples, shadows, 11),
+                                                                       ("inbetween", samples, shadows, 10),
+                                                                       ("whole", samples, "none", 11)])
+                    self.assertLess(pictures.rms(whole, inbetween), 0.5)
+                    self.assertGreater(pictures.rms(whole, without), 3)
+                    self.assertLess(sum(pictures.read(whole)[1]), sum(pictures.read(without)[1]))
+
+    def draw(self, film, peer, courses):
+        """The pictures of a peer's last frames."""
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        mesh = os.path.join(folder.name, "mesh")
+        subprocess.run([os.path.join(PEERS, "bench-mesh"), films.save(film, mesh + ".json"), mesh], check=True)
+        files = []
+        for course, samples, shadows, frames in courses:
+            files.append(os.path.join(folder.name, f"{len(files)}.ppm"))
+            subprocess.run([os.path.join(PEERS, peer), mesh, "1", course, samples, shadows],
+                           input=f"go {frames}\npicture {files[-1]}\n", text=True, check=True, stdout=subprocess.DEVNULL)
+        return files
+
+    @needs_llvmpipe
+    def test_a_film_has_the_shadows_of_its_inbetweens(self):
+        film = films.lengthened(films.load("s3", [384, 216], 4), 30, 30)
+        inbetween, whole = self.draw(film, "peer-llvmpipe", [("inbetween", "1", "map", 29), ("whole", "1", "map", 30)])
+        with tempfile.TemporaryDirectory() as folder:
+            mesh, shown = os.path.join(folder, "mesh"), os.path.join(folder, "shown.ppm")
+            subprocess.run([os.path.join(PEERS, "bench-mesh"), films.save(film, mesh + ".json"), mesh], check=True)
+            subprocess.run([LLVMPIPE, mesh, "1", "film", "1", "map", folder, "libpng"], check=True, text=True,
+                           input=f"go 30\npicture {shown}\n", stdout=subprocess.DEVNULL)
+            self.assertEqual(pictures.read(shown), pictures.read(inbetween))
+            self.assertLess(pictures.rms(shown, whole), 0.5)
+
+    def test_scenes_with_shadows_are_the_others_whose_light_casts(self):
+        for name, other in films.SHADOWED.items():
+            film = films.load(name, sun=0.01)
+            self.assertEqual(film["lights"], [{"direction": [-0.4, -0.7, 0.8], "shadow": True, "size": 0.01}])
+            self.assertEqual(films.without_shadows(film), films.load(other))
+
     @needs_a_peer
     def test_adaptive_dicing_is_told_apart(self):
         result, = self.measured("--scenes", "s1", "--rounds", "1", "--adaptive")
@@ -80,13 +140,14 @@ class Benchmark(unittest.TestCase):
                 files = pathlib.Path(folder, encoder)
                 files.mkdir()
                 shown = files / "shown.ppm"
-                subprocess.run([LLVMPIPE, mesh, "1", "film", "1", files, encoder], input=f"go 30\npicture {shown}\n",
+                subprocess.run([LLVMPIPE, mesh, "1", "film", "1", "none", files, encoder], input=f"go 30\npicture {shown}\n",
                                text=True, check=True, stdout=subprocess.DEVNULL)
                 self.assertEqual(len(list(files.glob("*.png"))), 30)
                 self.assertEqual(b"".join(png_rows(files / "frame-0029.png")), pictures.read(shown)[1], encoder)
 
     def test_a_library_that_was_missing_is_named(self):
-        result = {"course": "s3's film with files", "column": 1, "samples": 1, "absent": [("igzip", "not built")],
+        result = {"course": "s3's film with files", "column": 1, "samples": 1, "sun": None, "costs": {},
+                  "absent": [("igzip", "not built")],
                   "competitors": [{"name": "ours, threads", "best": 1, "middle": 1, "rms": 0}]}
         printed = io.StringIO()
         with contextlib.redirect_stdout(printed):
@@ -110,8 +171,8 @@ class Benchmark(unittest.TestCase):
     def test_pictures_that_differ_end_it(self):
         row = {"name": "ours, threads", "rms": peers.MOST_RMS + 0.1}
         with self.assertRaisesRegex(peers.Trouble, "s1, 4 samples: .* differs from Embree's by 0.60"):
-            peers.check_alike({"course": "s1", "samples": 4, "competitors": [row]})
-        peers.check_alike({"course": "s1", "samples": 4, "competitors": [{**row, "rms": peers.MOST_RMS}]})
+            peers.check_alike({"course": "s1", "samples": 4, "sun": None, "competitors": [row]})
+        peers.check_alike({"course": "s1", "samples": 4, "sun": None, "competitors": [{**row, "rms": peers.MOST_RMS}]})
 
     def test_rms(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -96,7 +96,7 @@ class Film:
         pictures, orders = [f"{prefix}-{frame}.ppm" for frame in frames], []
         for before, frame, picture in zip([-1] + frames, frames, pictures):
             orders += [f"go {frame - before}", f"picture {picture}"]
-        run([program, mesh, "1", "whole", str(samples)], input="\n".join(orders) + "\n")
+        run([program, mesh, "1", "whole", str(samples), "none"], input="\n".join(orders) + "\n")
         return pictures
 
     def rms(self, pictures, references):

@@ -153,6 +153,22 @@ TEST_F(FilmWords, ChangeALight) {
   EXPECT_NE(failure({"light", "set", "4", "raech=2"}).find("did you mean 'reach'?"), std::string::npos);
 }
 
+TEST(NewFilm, HasLightsOfWhichTheBrightestCasts) {
+  for (const char* color : {"linear", "coded"}) {
+    document::Json film = animator::new_film();
+    animator::set_film(film, {{"color", color}});
+    animator::light_new_film(film, "film.json");
+    ASSERT_EQ(film["lights"].size(), 3u);
+    EXPECT_EQ(film["lights"][0]["shadow"], true);
+    EXPECT_EQ(film["lights"][0]["size"], 0.53);
+    for (std::size_t other : {1, 2}) {
+      EXPECT_FALSE(film["lights"][other].contains("shadow"));
+      EXPECT_LT(film["lights"][other]["intensity"], film["lights"][0]["intensity"]);
+    }
+    EXPECT_EQ(film.contains("ambient"), std::string(color) == "linear");
+  }
+}
+
 TEST_F(FilmWords, LetLightsCast) {
   film({"light", "add", "place=1,2,3", "shadow=true", "size=0.5"});
   EXPECT_EQ(json_["lights"][3], document::Json::parse(R"({"place": [1, 2, 3], "shadow": true, "size": 0.5})"));

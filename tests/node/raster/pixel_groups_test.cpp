@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <initializer_list>
 #include <vector>
@@ -163,6 +164,69 @@ TEST_P(PixelGroupsTest, ResolveOverWhatStandsStill) {
   EXPECT_EQ(out.pixels[4], shown(0.25 + 0.1, 0.1, 0.25 + 0.1));
   ASSERT_EQ(out.layer.runs().size(), 1u);
   expect_run(out.runs[0], 0, 5);
+}
+
+// Pixels of columns that are named beside those of moving parts: with still groups alone, in the order of columns;
+// those which moving parts touch too are there once.
+TEST_P(PixelGroupsTest, ResolveOverInColumnsThatHaveNoGroups) {
+  const std::initializer_list<Pixel> still_pixels = {
+      all(kRed), {kRed, kGreen, kNothing, kNothing}, all(kGreen), all(kRed), all(kRed), all(kNothing), all(kBlue)};
+  const std::initializer_list<Pixel> moving_pixels = {
+      all(kNothing), all(kNothing), all(kBlue), {kBlue, kBlue, kNothing, kNothing}};
+  const std::uint32_t alone[] = {shown(1, 0, 0), shown(0.25 + 0.1, 0.25 + 0.1, 0.1),
+                                 shown(0, 0, 1), shown(0.5, 0, 0.5),
+                                 shown(1, 0, 0), shown(0.2, 0.2, 0.2),
+                                 shown(0, 0, 1)};
+  using Columns = std::vector<std::uint32_t>;
+  for (const Columns& columns :
+       {Columns{}, Columns{0}, Columns{0, 1}, Columns{1, 2}, Columns{2}, Columns{3, 4}, Columns{2, 3}, Columns{4},
+        Columns{6}, Columns{0, 2, 4, 6}, Columns{0, 1, 2, 3, 4, 5, 6}, Columns{5, 6}}) {
+    Still still;
+    Out pixels;
+    shade(still_pixels).copy_to(still.groups());
+    shade(moving_pixels).resolve_over(still.groups(), shading, kLine, pixels.layer, columns);
+    Columns expected = columns;
+    expected.insert(expected.end(), {2, 3});
+    std::sort(expected.begin(), expected.end());
+    expected.erase(std::unique(expected.begin(), expected.end()), expected.end());
+    ASSERT_EQ(pixels.layer.pixel_count(), expected.size());
+    Columns columns_of_runs;
+    for (const wire::Run& run : pixels.layer.runs())
+      for (std::uint32_t k = 0; k < run.count; ++k) columns_of_runs.push_back(run.first + k);
+    EXPECT_EQ(columns_of_runs, expected);
+    for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_EQ(pixels.pixels[k], alone[expected[k]]) << expected[k];
+  }
+}
+
+TEST_P(PixelGroupsTest, ResolveOverInColumnsAlone) {
+  Still still;
+  shade({all(kRed), all(kNothing), all(kGreen)}).copy_to(still.groups());
+  const std::uint32_t columns[] = {0, 2};
+  shade({}).resolve_over(still.groups(), shading, kLine, out.layer, columns);
+  ASSERT_EQ(out.layer.pixel_count(), 2u);
+  EXPECT_EQ(out.pixels[0], shown(1, 0, 0));
+  EXPECT_EQ(out.pixels[1], shown(0, 1, 0));
+  ASSERT_EQ(out.layer.runs().size(), 2u);
+  expect_run(out.runs[0], 0, 1);
+  expect_run(out.runs[1], 2, 1);
+}
+
+// What is copied out comes back, with light from elsewhere.
+TEST_P(PixelGroupsTest, AreRestoredWithLightFromElsewhere) {
+  shade({all(kRed), {kRed, kGreen, kNothing, kRed}, {kNothing, kNothing, kBlue, kGreen}});
+  const GroupCounts counts = groups.counts();
+  const std::size_t room = groups.count() + simd::kVectorSlack;
+  std::vector<shading::Fragment> fragments(room);
+  std::vector<std::uint32_t> masks(room), of(room);
+  groups.copy_to(Groups{fragments.data(), masks.data(), of.data()});
+  groups.resolve(shading, kLine, out.layer);
+  Out again;
+  groups.restore(counts, {fragments.data(), masks.data(), of.data()});
+  for (std::uint32_t k = 0; k < groups.count(); ++k)
+    for (std::size_t c = 0; c < 3; ++c) groups.light().channel[c][k] = fragments[k].triangle == c ? 1.0f : 0.0f;
+  groups.resolve(shading, kLine, again.layer);
+  ASSERT_EQ(again.layer.pixel_count(), out.layer.pixel_count());
+  for (std::size_t k = 0; k < out.layer.pixel_count(); ++k) EXPECT_EQ(again.pixels[k], out.pixels[k]);
 }
 
 INSTANTIATE_TEST_SUITE_P(Sets, PixelGroupsTest, testing::ValuesIn(simd::sets_here()),

@@ -199,5 +199,115 @@ TEST(StillLines, WithOneSampleAllLinesAreKept) {
   });
 }
 
+constexpr std::uint32_t kCasting = 2;
+
+StillLines casting_lines_of(const Neighbours& neighbours, std::uint64_t bytes, std::uint32_t samples) {
+  return {neighbours, kWidth, kHeight, shape::sample_pattern(samples), bytes, kCasting};
+}
+
+// As write() above, with light that is not summed up and pairs.
+bool write_unsummed(StillLines& still, std::uint32_t line, std::uint32_t groups, std::uint32_t samples) {
+  if (!still.begin_line(line, groups)) return false;
+  for (std::uint32_t s = 0; s < samples; ++s)
+    for (std::uint32_t x = 0; x < kWidth; ++x) still.depth(line, s)[x] = static_cast<float>(1000 * line + 100 * s + x);
+  const UnsummedStill out = still.unsummed(line);
+  for (std::uint32_t x = 0; x < kWidth; ++x) out.end[x] = groups * (x + 1) / kWidth;
+  for (std::uint32_t p = 0; p < kCasting * kWidth; ++p)
+    out.pairs[p] = {static_cast<std::uint16_t>(100 * line + p), static_cast<std::uint16_t>(~p)};
+  for (std::uint32_t k = 0; k < groups; ++k) {
+    wire::UnsummedGroup& group = out.group(k);
+    group = {k % (1u << samples), 0.25f, {static_cast<float>(line), 0.5f, static_cast<float>(k)}};
+    for (std::uint32_t t = 0; t < 3 * kCasting; ++t) group.terms()[t] = static_cast<float>(10 * k + t);
+  }
+  return true;
+}
+
+void expect_unsummed(StillLines& still, std::uint32_t line, std::uint32_t groups, std::uint32_t samples) {
+  ASSERT_TRUE(still.keeps(line)) << line;
+  for (std::uint32_t s = 0; s < samples; ++s)
+    for (std::uint32_t x = 0; x < kWidth; ++x)
+      ASSERT_EQ(still.depth(line, s)[x], static_cast<float>(1000 * line + 100 * s + x));
+  const UnsummedStill kept = still.unsummed(line);
+  for (std::uint32_t x = 0; x < kWidth; ++x) ASSERT_EQ(kept.end[x], groups * (x + 1) / kWidth);
+  for (std::uint32_t p = 0; p < kCasting * kWidth; ++p) {
+    ASSERT_EQ(kept.pairs[p].lit, static_cast<std::uint16_t>(100 * line + p));
+    ASSERT_EQ(kept.pairs[p].blocked, static_cast<std::uint16_t>(~p));
+  }
+  for (std::uint32_t k = 0; k < groups; ++k) {
+    const wire::UnsummedGroup& group = kept.group(k);
+    ASSERT_EQ(group.samples, k % (1u << samples));
+    ASSERT_EQ(group.fog, 0.25f);
+    ASSERT_EQ(group.base[0], static_cast<float>(line));
+    ASSERT_EQ(group.base[2], static_cast<float>(k));
+    for (std::uint32_t t = 0; t < 3 * kCasting; ++t) ASSERT_EQ(group.terms()[t], static_cast<float>(10 * k + t));
+  }
+}
+
+// With one sample, too, for pairs and groups are needed then.
+TEST(StillLines, WhereLightsCastComeBackAndTravel) {
+  as_node([](const Neighbours& alone) {
+    for (const std::uint32_t samples : {1u, 4u}) {
+      StillLines still = casting_lines_of(alone, 1 << 20, samples), other = casting_lines_of(alone, 1 << 20, samples);
+      EXPECT_TRUE(still.has_groups());
+      const std::uint32_t most = samples * kWidth;
+      for (StillLines* lines : {&still, &other}) lines->begin_interval(kInterval, {1, 8});
+      for (std::uint32_t line = 1; line < 7; ++line) ASSERT_TRUE(write_unsummed(still, line, most - line, samples));
+      for (std::uint32_t line = 1; line < 7; ++line) expect_unsummed(still, line, most - line, samples);
+      EXPECT_FALSE(still.keeps(7)) << "not written";
+      for (std::uint32_t line = 1; line < 7; ++line) {
+        EXPECT_LE(still.packed(line).size(), still.most_packed());
+        ASSERT_TRUE(other.is_packed(still.packed(line)));
+        other.unpack(still.packed(line));
+      }
+      for (std::uint32_t line = 1; line < 7; ++line) expect_unsummed(other, line, most - line, samples);
+    }
+  });
+}
+
+TEST(StillLines, WhereLightsCastThatDoNotFitAreNotKept) {
+  as_node([](const Neighbours& alone) {
+    const wire::StillPlan ample = wire::plan_still_lines(kWidth, kHeight, kSamples, 1 << 20, kCasting);
+    EXPECT_EQ(ample.groups_per_column, kSamples);
+    EXPECT_EQ(ample.lines, kHeight);
+    for (const std::uint64_t lines : {0u, 1u, 3u}) {
+      StillLines still = casting_lines_of(alone, lines * ample.line_bytes, kSamples);
+      still.begin_interval(kInterval, kAll);
+      std::uint32_t kept = 0;
+      for (std::uint32_t line = 0; line < kHeight; ++line) {
+        const bool written = write_unsummed(still, line, kWidth, kSamples);
+        EXPECT_EQ(still.keeps(line), written);
+        kept += written ? 1 : 0;
+      }
+      EXPECT_GE(kept, lines);
+      for (std::uint32_t line = 0; line < kept; ++line) expect_unsummed(still, line, kWidth, kSamples);
+    }
+  });
+}
+
+TEST(StillLines, WhereLightsCastOfOtherMachinesAreSound) {
+  as_node([](const Neighbours& alone) {
+    StillLines still = casting_lines_of(alone, 1 << 20, kSamples);
+    still.begin_interval(kInterval, {1, 8});
+    write_unsummed(still, 3, 5, kSamples);
+    const auto sound = still.packed(3);
+    ASSERT_TRUE(still.is_packed(sound));
+    const std::size_t group = wire::still_group_bytes(kCasting);
+    for (const std::size_t less : {std::size_t{1}, std::size_t{4}, group, 5 * group, sound.size()})
+      EXPECT_FALSE(still.is_packed(sound.first(sound.size() - less))) << less;
+    const auto takes = [&](std::size_t at, std::uint32_t word) {
+      std::vector<std::uint32_t> damaged(sound.size() / sizeof word);
+      std::memcpy(damaged.data(), sound.data(), sound.size());
+      damaged[at] = word;
+      return still.is_packed(std::as_bytes(std::span(damaged)));
+    };
+    const std::size_t groups = (sound.size() - 5 * group) / 4, ends = groups - kCasting * kWidth;
+    EXPECT_FALSE(takes(ends - 1, 6)) << "columns end behind the last group";
+    EXPECT_FALSE(takes(ends - kWidth, 6)) << "a column ends behind the next";
+    EXPECT_FALSE(takes(groups + group / 4, ~0u)) << "more samples than a pixel has";
+    EXPECT_TRUE(takes(groups - 1, ~0u)) << "any pairs";
+    EXPECT_TRUE(takes(groups + 1, ~0u)) << "light of any amount";
+  });
+}
+
 }  // namespace
 }  // namespace mars::raster

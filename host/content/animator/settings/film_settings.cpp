@@ -4,6 +4,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/animator/keys/edit.h"
+#include "host/content/animator/reading/read_film.h"
 #include "host/content/animator/reading/read_lights.h"
 #include "host/content/animator/reading/rig.h"
 #include "host/content/animator/keys/written.h"
@@ -15,6 +16,8 @@ namespace mars::animator {
 namespace {
 
 using document::Json;
+
+constexpr double kSun = 0.53;  // degrees that it takes up in the sky
 
 constexpr std::string_view kBelowSettings[] = {"camera", "lights", "materials", "models", "actors"};
 constexpr std::string_view kBelowOwnSettings[] = {"keys"};
@@ -138,6 +141,12 @@ void write_rig(Json& film, const Film& meaning) {
   if (film.contains("ambient") || meaning.color == wire::ColorSpace::coded) return;
   const Ambient ambient = rig_ambient(meaning.color);
   put_before(film, "ambient", {{"sky", written(ambient.sky)}, {"ground", written(ambient.ground)}}, kBelowAmbient);
+}
+
+void light_new_film(Json& film, const std::filesystem::path& path) {
+  const document::Document document(document::laid_out(film), path.string());
+  write_rig(film, read_film(document.root(), path.parent_path()));
+  film["lights"][0].update({{"shadow", true}, {"size", kSun}});
 }
 
 std::size_t add_light(Json& film, const Film& meaning, const Json& light) {

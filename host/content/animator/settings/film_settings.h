@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -21,6 +22,9 @@ void set_camera(document::Json& film, const document::Json& settings);
 
 // The lights of a film without any, and their ambient light, become its own.
 void write_rig(document::Json& film, const Film& meaning);
+// The same of a new film, to be written to `path`; the first of the lights, the brightest, casts shadows as the sun
+// does.
+void light_new_film(document::Json& film, const std::filesystem::path& path);
 // Its number, from 1. A film without lights of its own gets those first that it was shown with.
 std::size_t add_light(document::Json& film, const Film& meaning, const document::Json& light);
 // What the light has at all frames.

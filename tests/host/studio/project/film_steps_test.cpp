@@ -131,7 +131,8 @@ TEST_F(FilmSteps, CameraLightsAndSettingsHaveTheKeysOfTheTable) {
   };
   using Names = std::vector<std::string>;
   const Json light = project->describe()["lights"][0];
-  EXPECT_EQ(names(light), (Names{"thing", "kind", "place", "at", "cone", "color", "intensity", "keyed", "animated"}));
+  EXPECT_EQ(names(light), (Names{"thing", "kind", "place", "at", "cone", "color", "intensity", "shadow", "size",
+                                 "keyed", "animated"}));
   EXPECT_EQ(light["cone"], Json::parse("[32, 40]"));
   const Json camera = project->describe()["camera"];
   for (const char* name : {"eye", "at", "up", "fov", "exposure", "near", "far"})

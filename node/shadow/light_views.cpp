@@ -1,4 +1,4 @@
-#include "node/shadow/light_view.h"
+#include "node/shadow/light_views.h"
 
 #include <algorithm>
 #include <array>
