@@ -27,7 +27,7 @@ class Moment {
       : film_(richly_lit(with_samples(crowd(width, height, 1, 1), samples))),
         base_shapes_(film_.shapes.size()),
         base_patches_(static_cast<std::uint32_t>(film_.patches.size())) {
-    if (shadows) film_ = casting(film_, {0.0f, 0.3f, 0.0f});
+    if (shadows) film_ = casting(film_, {0.0f, 0.0f, 0.0f});
   }
 
   const wire::FilmData& film() const { return film_; }
@@ -192,10 +192,9 @@ TEST_P(LiveViews, ShowTheirMoments) {
 TEST_P(LiveViews, WithShadowsShowTheirMoments) {
   run([&](LiveHost& host) {
     host.load(base());
-    show(host, 0, {60, 40, 1, true}, "shadows-one-sample");
-    show(host, 1, {48, 32, 4, true}, "shadows-samples");
-    show(host, 0, {48, 32, 4, true}, "shadows-resized");
-    show(host, 2, {40, 27, 4, true}, "shadows-not-kept", 0);
+    show(host, 0, {48, 32, 1, true}, "shadows-one-sample");
+    show(host, 1, {40, 27, 4, true}, "shadows-samples");
+    show(host, 2, {32, 20, 4, true}, "shadows-not-kept", 0);
   });
 }
 
@@ -207,7 +206,7 @@ TEST_P(LiveViews, OnSeveralMachines) {
         host.load(base());
         show(host, 0, {64, 48, 1}, "machines-one-sample");
         show(host, 1, {64, 48, 4}, "machines-samples");
-        show(host, 2, {48, 32, 4, true}, "machines-shadows");
+        show(host, 2, {32, 20, 4, true}, "machines-shadows");
       },
       [&](messages::Backend& inner) { return std::make_unique<messages::MachinesBackend>(inner, counts, machines); });
 }

@@ -31,7 +31,7 @@ ShadowRig::ShadowRig(const wire::FilmData& film, std::string_view simd) : block_
   lay_out(reference_.movers, movers_);
   shadow::ShadowCaster caster(simd::best_instruction_set(simd), scene_);
   caster.begin(scene_, [] {});
-  const shadow::Layer* const drawn[] = {&still_.layer, &movers_.layer};
+  shadow::Layer* const drawn[] = {&still_.layer, &movers_.layer};
   shadow::Layer kept{};
   kept.begin(reference_.width, still_.layer.range);
   caster.cast(scene_, drawn, kept);

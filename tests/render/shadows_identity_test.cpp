@@ -59,16 +59,16 @@ wire::FilmData cut() {
 
 std::vector<Case> cases() {
   return {{"directional", casting(crowd(97, 61, 4, 4), {0.0f})},
-          {"directional_large", casting(with_samples(few(48, 32, 4, 4), 4), {0.05f})},
+          {"directional_large", casting(with_samples(few(40, 27, 3, 3), 4), {0.05f})},
           {"point", casting(crowd(64, 40, 4, 2), {-1.0f, 0.0f})},
-          {"point_large", casting(with_samples(few(40, 27, 3, 3), 4), {-1.0f, 0.4f})},
-          {"all", casting(richly_lit(few(48, 32, 4, 4)), {0.0f, 0.3f, 0.0f})},
-          {"all_4", casting(richly_lit(with_samples(few(48, 32, 4, 2), 4)), {0.03f, 0.0f, 0.2f})},
+          {"point_large", casting(with_samples(few(32, 20, 2, 2), 4), {-1.0f, 0.4f})},
+          {"all", casting(richly_lit(few(40, 27, 3, 3)), {0.0f, 0.3f, 0.0f})},
+          {"all_4", casting(richly_lit(with_samples(few(40, 27, 4, 2), 4)), {0.03f, 0.0f, 0.0f})},
           {"all_16", casting(richly_lit(with_samples(crowd(40, 24, 3, 3), 16)), {0.0f, 0.0f, 0.0f})},
-          {"large_16", casting(richly_lit(with_samples(few(40, 27, 3, 3), 16)), {0.1f, -1.0f, 0.2f})},
+          {"large_16", casting(richly_lit(with_samples(few(32, 20, 2, 2), 16)), {0.1f, -1.0f, 0.2f})},
           {"flight", casting(with_samples(flight(40, 24, 3), 4), {0.0f, 0.0f})},
-          {"ties", casting(with_samples(ties(40, 30), 4), {0.0f, 0.2f})},
-          {"one_column", casting(with_samples(few(1, 53, 3, 3), 2), {0.0f, 0.2f})},
+          {"ties", casting(with_samples(ties(32, 24), 4), {0.0f, 0.2f})},
+          {"one_column", casting(with_samples(few(1, 43, 2, 2), 2), {0.0f, 0.2f})},
           {"cut", cut()},
           {"nothing", casting(nothing(16, 12, 2), {})}};
 }

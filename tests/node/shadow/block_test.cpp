@@ -294,7 +294,8 @@ TEST(Block, SmallAndLargeTrianglesShareEdges) {
     const std::int32_t high = random.whole(1000, kMostSmall), low = random.whole(0, 900),
                        out = random.whole(200, 30000);
     Grid grid(4);
-    const GridPoint corners[] = {{random.whole(-99, 99), 0}, {random.whole(-99, 99), high}, {-out, low}, {100000, low}};
+    const std::int32_t left = random.whole(-99, 99), lean = random.whole(0, 1) * random.whole(-99, 99);
+    const GridPoint corners[] = {{left, 0}, {left + lean, high}, {-out, low}, {100000, low}};
     for (std::size_t k = 0; k < 4; ++k) grid.x[k] = corners[k].x, grid.y[k] = corners[k].y;
     Mesh mesh;
     mesh.add(0, 1, 2), mesh.add(0, 1, 3);

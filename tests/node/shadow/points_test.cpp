@@ -164,7 +164,7 @@ TEST(Points, OfALayerAreThoseThatMatterAndAreNotedAtTheirPairs) {
               shadow_kernels(simd::best_instruction_set("")), views.frame, pattern, vectors, 1, point};
           Points points;
           points.clear();
-          points.add(source, views.views[point], layer);
+          add_points(source, std::span(views.views).subspan(point, 1), layer, {&points, 1});
           points.finish();
           active += points.count();
           for (std::size_t v = 0; v < points.tree().count(); ++v)
