@@ -57,12 +57,13 @@ Tessellation Tessellator::tessellate(const geometry::Scene& scene, const Scatter
   std::ranges::fill(lines.loads, raster::LineLoad());
   work.patches = work.vertices = work.triangles_tested = 0;
   raster::SetUps out(space.arena.rest(), space.first, scene.pattern(), lines.loads);
-  Output output{{instruction_set_, scene.projection(), scene.width(), scene.height(), scene.pattern()},
-                out,
-                work,
-                shading::shading_of(scene),
-                colored_,
-                diced};
+  Output output{
+      {instruction_set_, scene.projection(), scene.width(), scene.height(), scene.pattern(), scene.casting_count() > 0},
+      out,
+      work,
+      shading::shading_of(scene),
+      colored_,
+      diced};
   out.want(lines.wanted_still);
   const bool takes_part = scatter.index < scatter.count;
   if (takes_part && !lines.wanted_still.empty()) add(scene, false, scatter, output);

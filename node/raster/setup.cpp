@@ -96,6 +96,17 @@ bool faces_eye(const shape::Vertices& v, const shape::Corner3& corners) {
   return std::abs(volume) > doubt ? volume < 0 : normals_face_eye(v, corners);
 }
 
+// Of a piece of a clipped triangle. Its corners may be as far out as the guard band, where differences of products of
+// floats have few digits left.
+void set_depth_exactly(const shape::Vertices& v, const shape::Corner3& corners, const Corners& t, std::int64_t area,
+                       geometry::Triangle& out) {
+  const double first = v.values[corners.a][shape::kDepth];
+  const double d1 = v.values[corners.b][shape::kDepth] - first, d2 = v.values[corners.c][shape::kDepth] - first;
+  const double x1 = t.x[1] - t.x[0], y1 = t.y[1] - t.y[0], x2 = t.x[2] - t.x[0], y2 = t.y[2] - t.y[0];
+  out.per_x[shape::kDepth] = static_cast<float>((d1 * y2 - d2 * y1) / static_cast<double>(area));
+  out.per_y[shape::kDepth] = static_cast<float>((d2 * x1 - d1 * x2) / static_cast<double>(area));
+}
+
 // A clipped triangle has at most nine corners.
 constexpr int kFew = 9 + simd::kVectorSlack;
 
@@ -133,13 +144,14 @@ std::size_t SetUps::bytes_left() const {
 }
 
 SetUp::SetUp(simd::InstructionSet set, const shape::Projection& projection, std::int32_t width, std::int32_t height,
-             const shape::SamplePattern& pattern)
+             const shape::SamplePattern& pattern, bool casting)
     : shape_kernels_(shape::shape_kernels(set)),
       kernels_(raster_kernels(set)),
       projection_(projection),
       width_(width),
       height_(height),
-      pattern_(pattern) {}
+      pattern_(pattern),
+      casting_(casting) {}
 
 void SetUp::add(const shape::Surface& surface, const PatchIdentity& identity, SetUps& out) {
   if (surface.reaches_outside()) return add_plainly(surface, identity, out);
@@ -240,7 +252,9 @@ void SetUp::add_whole(const shape::Vertices& v, const shape::Corner3& corners, s
   const ScreenShape shape{static_cast<float>(t.x[1] - t.x[0]), static_cast<float>(t.y[1] - t.y[0]),
                           static_cast<float>(t.x[2] - t.x[0]), static_cast<float>(t.y[2] - t.y[0]),
                           1.0f / static_cast<float>(area),     faces};
-  kernels_.set_up_planes(v, corners, shape, identity, *out.next++);
+  kernels_.set_up_planes(v, corners, shape, identity, *out.next);
+  if (casting_ && known) set_depth_exactly(v, corners, t, area, *out.next);
+  ++out.next;
 }
 
 }  // namespace mars::raster

@@ -42,9 +42,10 @@ struct SetUps : SetUpSpace {
 
 class SetUp {
  public:
-  // For a picture of width x height pixels.
+  // For a picture of width x height pixels. `casting`: lights cast shadows, so that samples must lie on their triangles
+  // within what node/shadow/light_view.h says, those of clipped triangles too.
   SetUp(simd::InstructionSet set, const shape::Projection& projection, std::int32_t width, std::int32_t height,
-        const shape::SamplePattern& pattern);
+        const shape::SamplePattern& pattern, bool casting = false);
 
   void add(const shape::Surface& surface, const PatchIdentity& identity, SetUps& out);
   // The same without the sixteen at a time: the plain twin.
@@ -67,6 +68,7 @@ class SetUp {
   std::int32_t width_;
   std::int32_t height_;
   shape::SamplePattern pattern_;
+  bool casting_;
   Classified classified_;
 };
 

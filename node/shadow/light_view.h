@@ -9,10 +9,11 @@
 // has one. What is plane in space is plane over the grid too.
 //
 // Rounding. A point lies off its surface by at most 1/256 of a pixel there, for triangles are snapped on the screen;
-// off its place on the grid by a step; and float arithmetic moves it by its distance times 2^-20 at most. Let e be the
-// sum of these lengths. A surface through the true point is then nearer to the light than the point by at most
-// e (1 + s), s the surface's slope towards the view: what is not nearer by more does not block it. This includes the
-// point's own triangle and those that meet it.
+// off its place on the grid by a step; float arithmetic moves it by its distance times 2^-20 at most; and its depth 1 /
+// w comes from a triangle's plane, which is off by some 2^-23 of the greatest depth there is, 1 / near. Let e be the
+// sum of these lengths. A surface through the true point is then nearer to the light than the point by at most e (1 +
+// s), s the surface's slope towards the view: what is not nearer by more does not block it. This includes the point's
+// own triangle and those that meet it.
 #pragma once
 
 #include <cstdint>
@@ -29,12 +30,13 @@ struct LightView {
   std::uint32_t is_face;  // of six: only points within 45 degrees of its axis are its own
 };
 
-// What points need of a picture: e of a point at distance w along the view axis is w * by_w + grid, and of lights with
-// a place depth * by_depth more.
+// What points need of a picture: e of a point at distance w along the view axis is (w by_square + by_w) w + grid, and
+// of lights with a place depth * by_depth more.
 struct PointFrame {
   float scale;  // as in shape::Projection
   float center[2];
   float by_w;
+  float by_square;
   float grid;
   float by_depth;
 };

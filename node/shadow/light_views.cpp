@@ -14,6 +14,7 @@ constexpr double kPi = 3.14159265358979323846;
 // (kernels.h).
 constexpr double kTangentStep = 1.0 / (1 << 20);
 constexpr double kFloatError = 1.0 / (1 << 20);  // of a place's distance
+constexpr double kDepthError = 1.0 / (1 << 23);  // of 1 / w, in 1 / near
 constexpr double kWidestFace = 0.70710678;       // cosine of half a face's angle
 
 Vector cross(const Vector& a, const Vector& b) {
@@ -175,6 +176,7 @@ LightViews light_views(const geometry::EyeLight& light, const shape::Projection&
   out.frame.scale = projection.scale;
   std::copy_n(projection.center, 2, out.frame.center);
   out.frame.by_w = static_cast<float>(1.0 / (128.0 * projection.scale) + kFloatError);
+  out.frame.by_square = static_cast<float>(kDepthError / projection.near);
   if (light.kind == wire::LightKind::directional)
     see_from_afar(light, projection, out);
   else

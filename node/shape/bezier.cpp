@@ -194,7 +194,8 @@ Rates rates(const ShapeKernels& kernels, const EyePatch& patch, const Projection
   if (const int n = dicing.fixed_rate; n > 0) return {n, n, {n, n, n, n}};
   static const CurvatureWeights weights = curvature_weights();
   const Fineness inside = kernels.estimate_curvature(weights, patch.point, projection, dicing.tolerances);
-  Rates out{std::min(whole_steps(inside.u), dicing.most_inside), std::min(whole_steps(inside.v), dicing.most_inside), {}};
+  Rates out{
+      std::min(whole_steps(inside.u), dicing.most_inside), std::min(whole_steps(inside.v), dicing.most_inside), {}};
   for (const Side side : {Side::bottom, Side::right, Side::top, Side::left}) {
     const Curve curve = edge(patch, side).curve;
     int& rate = out.side[static_cast<int>(side)];

@@ -34,7 +34,8 @@ Tolerances tolerances_of(std::uint32_t samples);
 struct Dicing {
   int fixed_rate;  // steps of every side and of the inside; 0: as few as the tolerances allow
   Tolerances tolerances;
-  int most_inside = kMaxRate;  // steps of the inside, at most; sides, which other patches share, have as many as they need
+  int most_inside =
+      kMaxRate;  // steps of the inside, at most; sides, which other patches share, have as many as they need
 };
 
 enum class Side { bottom, right, top, left };  // v = 0, u = 1, v = 1, u = 0

@@ -282,7 +282,7 @@ TEST(Boundaries, KernelsIncludeLittle) {
                        "node/shading/shading.h",
                        "node/shape/kernels.h",
                        "node/shadow/kernels.h",
-                       "node/shadow/light_views.h",
+                       "node/shadow/light_view.h",
                        "node/shadow/point_vector.h",
                        "node/color/encoding.h",
                        "node/color/kernels.h",

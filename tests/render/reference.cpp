@@ -45,7 +45,7 @@ void add_segment(const geometry::Scene& scene, std::size_t segment, Surfaces& su
   raster::PatchIdentity identity{scene.first_patch(segment), material, shape::mirrors(matrix),
                                  film.materials()[material].sides == 1, scene.moves(segment)};
   const auto add = [&](const shape::Surface& surface) {
-    const auto made = raster::plain_set_up(surface, scene.projection(), identity);
+    const auto made = raster::plain_set_up(surface, scene.projection(), identity, scene.casting_count() > 0);
     reference.triangles.insert(reference.triangles.end(), made.begin(), made.end());
     reference.moving.resize(reference.triangles.size(), identity.moving);
     ++identity.patch;

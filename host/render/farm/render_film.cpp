@@ -20,8 +20,8 @@ EngineOptions engine_options(const FarmOptions& farm, const sinks::SinkPool::Sha
 
 NodeMemory node_memory(const FilmRun& run) {
   const std::uint64_t asked = run.options.memory;
-  return share_node_memory(asked == 0 ? run.engine.node_memory() : asked, run.options.still_memory,
-                           run.film.settings(), run.film.casting_count());
+  return share_node_memory(asked == 0 ? run.engine.node_memory() : asked, run.options.still_memory, run.film.settings(),
+                           run.film.casting_count());
 }
 
 void let_nodes_write(const Writing& writing, const FilmRun& run, std::vector<GroupWork>& groups) {

@@ -170,7 +170,8 @@ void put_points(const LightView& view, const PointFrame& frame, float left, floa
     }
     const std::uint8_t asked[8] = {static_cast<std::uint8_t>(active >> k), static_cast<std::uint8_t>(active >> k >> 8)};
     here = hn::And(here, hn::LoadMaskBits(kFloats, asked));
-    Floats error = hn::Add(hn::Mul(w, constant(frame.by_w)), constant(frame.grid));
+    Floats error =
+        hn::Add(hn::Mul(hn::Add(hn::Mul(w, constant(frame.by_square)), constant(frame.by_w)), w), constant(frame.grid));
     if (view.has_place) error = hn::Mul(hn::Add(error, hn::Mul(seen.depth, constant(frame.by_depth))), seen.z);
     const Ints grid_x = on_grid(seen.x, here), grid_y = on_grid(seen.y, here);
     hn::Store(grid_x, kInts, out.x + k);

@@ -84,6 +84,16 @@ void set_planes(const PlainVertex (&t)[3], PlainTriangle& out) {
   }
 }
 
+void set_depth_exactly(const PlainVertex (&t)[3], PlainTriangle& out) {
+  const Corners& at = out.corners;
+  const double first = t[0].values[shape::kDepth];
+  const double d1 = t[1].values[shape::kDepth] - first, d2 = t[2].values[shape::kDepth] - first;
+  const double x1 = at.x[1] - at.x[0], y1 = at.y[1] - at.y[0], x2 = at.x[2] - at.x[0], y2 = at.y[2] - at.y[0];
+  const auto whole = static_cast<double>(area(at));
+  out.record.per_x[shape::kDepth] = static_cast<float>((d1 * y2 - d2 * y1) / whole);
+  out.record.per_y[shape::kDepth] = static_cast<float>((d2 * x1 - d1 * x2) / whole);
+}
+
 void add(const PlainVertex (&t)[3], const PlainVertex (&whole)[3], std::optional<bool> known,
          const PatchIdentity& identity, std::uint32_t index, std::vector<PlainTriangle>& out) {
   PlainTriangle made{};
@@ -106,7 +116,7 @@ void add(const PlainVertex (&t)[3], const PlainVertex (&whole)[3], std::optional
 
 // A fan of what is left; what clipping cut lies on its planes but for rounding.
 void add_clipped(const PlainVertex (&t)[3], const Projection& projection, const PatchIdentity& identity,
-                 std::uint32_t index, std::vector<PlainTriangle>& out) {
+                 std::uint32_t index, bool casting, std::vector<PlainTriangle>& out) {
   geometry::ClipPolygon polygon;
   for (const PlainVertex& corner : t) polygon.vertex[static_cast<std::size_t>(polygon.count++)] = corner.eye;
   geometry::clip(projection, polygon);
@@ -117,21 +127,24 @@ void add_clipped(const PlainVertex (&t)[3], const Projection& projection, const 
   const auto corner = [&](int k) { return project(wider, polygon.vertex[static_cast<std::size_t>(k)]); };
   for (int k = 1; k + 1 < polygon.count; ++k) {
     const PlainVertex piece[3] = {corner(0), corner(k), corner(k + 1)};
-    if (!piece[0].outside && !piece[1].outside && !piece[2].outside) add(piece, t, faces_eye(t), identity, index, out);
+    if (piece[0].outside || piece[1].outside || piece[2].outside) continue;
+    const std::size_t before = out.size();
+    add(piece, t, faces_eye(t), identity, index, out);
+    if (casting && out.size() > before) set_depth_exactly(piece, out.back());
   }
 }
 
 }  // namespace
 
 std::vector<PlainTriangle> plain_set_up(const shape::Surface& surface, const Projection& projection,
-                                        const PatchIdentity& identity) {
+                                        const PatchIdentity& identity, bool casting) {
   std::vector<PlainTriangle> out;
   for (std::uint32_t k = 0; k < surface.triangles().count; ++k) {
     const shape::Corner3 corners = surface.triangles()[k];
     const PlainVertex t[3] = {vertex(surface, projection, corners.a), vertex(surface, projection, corners.b),
                               vertex(surface, projection, corners.c)};
     if (t[0].outside || t[1].outside || t[2].outside)
-      add_clipped(t, projection, identity, k, out);
+      add_clipped(t, projection, identity, k, casting, out);
     else
       add(t, t, std::nullopt, identity, k, out);
   }

@@ -22,9 +22,9 @@ struct PlainTriangle {
   geometry::ClipVertex whole[3];  // those of the triangle of which clipping made it; the same where none did
 };
 
-// All that are not turned away or flat, in order, whether they cover a sample or not.
+// All that are not turned away or flat, in order, whether they cover a sample or not. `casting` as of SetUp.
 std::vector<PlainTriangle> plain_set_up(const shape::Surface& surface, const shape::Projection& projection,
-                                        const PatchIdentity& identity);
+                                        const PatchIdentity& identity, bool casting = false);
 
 // Twice the area in 1/65536 square pixel; y grows downwards, so negative where counter-clockwise to the eye.
 std::int64_t area(const Corners& corners);

@@ -50,7 +50,7 @@ Made set_up(simd::InstructionSet set, const Picture& picture, const shape::Surfa
   const shape::SamplePattern& pattern = shape::sample_pattern(picture.samples);
   SetUps out(memory.inside(), first, pattern, made.line_loads);
   out.want(wanted_lines.empty() ? all : wanted_lines);
-  SetUp set_up(set, picture.projection, picture.width, picture.height, pattern);
+  SetUp set_up(set, picture.projection, picture.width, picture.height, pattern, picture.casting);
   if (way == Way::at_a_time)
     set_up.add(surface, identity, out);
   else

@@ -27,6 +27,7 @@ struct Picture {
   std::int32_t width;
   std::int32_t height;
   std::uint32_t samples = 1;
+  bool casting = false;  // as of SetUp
 };
 
 // `bytes` of memory. Fails the test where anything outside it is written.

@@ -89,15 +89,18 @@ class SetUpTwins : public testing::Test {
   }
   void TearDown() override { simd::skip_sets_not_here(); }
 
-  // With each number of samples in turn.
+  // With each number of samples in turn, and where lights cast and do not.
   void expect_same(const EyePatch& patch, int rate, const PatchIdentity& identity) {
-    const Picture picture{kView, kWidth, kHeight, shape::kSampleCounts[calls++ % std::size(shape::kSampleCounts)]};
+    const Picture picture{kView, kWidth, kHeight, shape::kSampleCounts[calls % std::size(shape::kSampleCounts)],
+                          calls % 2 == 1};
+    ++calls;
     const shape::SamplePattern& pattern = shape::sample_pattern(picture.samples);
     Made expected;
     for (auto& [set, dicer] : dicers) {
       dicer.dice(patch, kView, shape::steps(rate));
       if (set == dicers[0].first) {
-        expected = expected_of(plain_set_up(dicer, kView, identity), pattern, identity.moving, &paths.turned_over);
+        expected = expected_of(plain_set_up(dicer, kView, identity, picture.casting), pattern, identity.moving,
+                               &paths.turned_over);
         paths.count(set, pattern, dicer, identity);
         paths.edge_boxes += static_cast<int>(expected.edge_boxes);
       }

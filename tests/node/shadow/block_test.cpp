@@ -293,10 +293,11 @@ TEST(Block, SmallAndLargeTrianglesShareEdges) {
   for (int trial = 0; trial < 200; ++trial) {
     const std::int32_t high = random.whole(1000, kMostSmall), low = random.whole(0, 900),
                        out = random.whole(200, 30000);
+    const std::int32_t side = random.whole(0, 1) ? 1 : -1;
     Grid grid(4);
     const std::int32_t left = random.whole(-99, 99), lean = random.whole(0, 1) * random.whole(-99, 99);
     const GridPoint corners[] = {{left, 0}, {left + lean, high}, {-out, low}, {100000, low}};
-    for (std::size_t k = 0; k < 4; ++k) grid.x[k] = corners[k].x, grid.y[k] = corners[k].y;
+    for (std::size_t k = 0; k < 4; ++k) grid.x[k] = side * corners[k].x, grid.y[k] = corners[k].y;
     Mesh mesh;
     mesh.add(0, 1, 2), mesh.add(0, 1, 3);
     mesh.finish(1);
@@ -306,7 +307,7 @@ TEST(Block, SmallAndLargeTrianglesShareEdges) {
       const double y = random.whole(1, high - 1), x = corners[0].x + (corners[1].x - corners[0].x) * y / high;
       const auto at = static_cast<std::int32_t>(std::nearbyint(x));
       if (y > low + 1 && y < high - high / 5)
-        places.push_back({at + random.whole(-1, 1), static_cast<std::int32_t>(y)});
+        places.push_back({side * (at + random.whole(-1, 1)), static_cast<std::int32_t>(y)});
     }
     for (const simd::InstructionSet set : simd::all_sets()) {
       const auto covers = count_covers(places, 2, [&](std::uint32_t k, auto& points) {

@@ -143,7 +143,7 @@ TEST(LightViews, OfALightWithAPlaceDecideAboutAllPlacesItShinesAt) {
   EXPECT_GT(one, 3);
 }
 
-// Movers, intervals and lines are not among what a grid depends on; where the picture is the same, so are its bits.
+// The grid has no more steps than floats and whole numbers of 32 bits take, and points are bounded by two of them.
 TEST(LightViews, StepsFitTheFarthestPlaces) {
   auto light = geometry::EyeLight{wire::LightKind::directional, {0.6f, 0, 0.8f}, {1, 1, 1}};
   light.casts = 1;

@@ -17,8 +17,6 @@ namespace {
 
 using document::Json;
 
-constexpr double kSun = 0.53;  // degrees that it takes up in the sky
-
 constexpr std::string_view kBelowSettings[] = {"camera", "lights", "materials", "models", "actors"};
 constexpr std::string_view kBelowOwnSettings[] = {"keys"};
 constexpr std::string_view kBelowAmbient[] = {"lights", "materials", "models", "actors"};
@@ -146,7 +144,7 @@ void write_rig(Json& film, const Film& meaning) {
 void light_new_film(Json& film, const std::filesystem::path& path) {
   const document::Document document(document::laid_out(film), path.string());
   write_rig(film, read_film(document.root(), path.parent_path()));
-  film["lights"][0].update({{"shadow", true}, {"size", kSun}});
+  film["lights"][0]["shadow"] = true;
 }
 
 std::size_t add_light(Json& film, const Film& meaning, const Json& light) {
