@@ -15,7 +15,7 @@ WIDTH, ROW, LEFT, RIGHT, TOP, BOTTOM = 1500, 26, 90, 20, 34, 46  # pixels
 LETTER = 7  # pixels of a letter
 PALE = 0.35
 COLORS = {"dice": "#8fb7e8", "sum": "#f2b36b", "map": "#c9c9f5", "exchange": "#ef8f8f", "fill": "#b5d991",
-          "scanline": "#7fcdbb", "depth": "#d5a6e0", "credit": "#e8e08f", "strip": "#9ecae1", "compose": "#74a9cf",
+          "scanline": "#7fcdbb", "shadow": "#9c8fb5", "depth": "#d5a6e0", "credit": "#e8e08f", "strip": "#9ecae1", "compose": "#74a9cf",
           "prepare": "#d0d1e6", "give": "#a6bddb"}
 WAITING, MESSAGE, OTHER = "#cccccc", "#555555", "#eeeeee"
 ARROWS = {"Strip": "#2171b5", "triangles": "#cb181d", "edge boxes": "#cb181d", "sums": "#e08214", "CZB": "#88419d"}

@@ -32,8 +32,16 @@ void charge_lines(FrameReport& report, const geometry::Scene& scene, const Lines
   charge(wire::Work::shaded, drawn.counts.shaded.samples);
   charge(wire::Work::light, drawn.counts.shaded.highlights * scene.lights().size());
   charge(wire::Work::facet_light, drawn.counts.shaded.facets * scene.lights().size());
-  charge(wire::Work::pixel, drawn.pixels);
   charge(wire::Work::still_byte, drawn.counts.still_bytes);
+  charge(wire::Work::casting_light, drawn.counts.shaded.samples * scene.casting_count());
+}
+
+void charge_shadows(FrameReport& report, const shadow::CastCounts& counts) {
+  report.charge(wire::Work::shadow_point, counts.points);
+  report.charge(wire::Work::caster, counts.surfaces);
+  report.charge(wire::Work::diced_vertex, counts.diced_vertices);
+  report.charge(wire::Work::caster_vertex, counts.vertices);
+  report.charge(wire::Work::caster_triangle, counts.triangles);
 }
 
 }  // namespace mars::node

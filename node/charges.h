@@ -8,6 +8,7 @@
 #include "node/geometry/line_range.h"
 #include "node/geometry/scene.h"
 #include "node/raster/scanline.h"
+#include "node/shadow/shadow_caster.h"
 #include "node/tessellator.h"
 #include "node/wire/work.h"
 
@@ -21,9 +22,11 @@ struct LinesDrawn {
   geometry::LineRange lines;
   raster::LineParts parts;  // their edge boxes
   std::uint64_t samples;    // those edge boxes cover
-  std::uint64_t pixels;     // in the strip that has the lines
   raster::DrawnCounts counts;
 };
+// But for pixels.
 void charge_lines(FrameReport& report, const geometry::Scene& scene, const LinesDrawn& drawn);
+
+void charge_shadows(FrameReport& report, const shadow::CastCounts& counts);
 
 }  // namespace mars::node

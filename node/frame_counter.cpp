@@ -31,7 +31,9 @@ FrameCounter::FrameCounter(const wire::PackedFilm& film, simd::InstructionSet se
       moving_loads_(film.settings().height),
       sampled_((film.settings().height + step_ - 1) / step_),
       ids_(std::size_t{stride_} * film.settings().samples),
-      depths_(ids_.size()) {}
+      depths_(ids_.size()) {
+  if (film.casting_count() > 0) shadows_.emplace(scene_, set);
+}
 
 wire::FrameCounts FrameCounter::count_keyframe(std::uint32_t interval, std::span<const std::uint32_t> frames) {
   scene_.set_interval(interval);
@@ -50,6 +52,7 @@ wire::FrameCounts FrameCounter::count(wire::FrameKind kind, std::uint32_t frame)
   const bool keyframe = kind == wire::FrameKind::keyframe;
   scene_.set_frame(frame);
   triangles_.clear();
+  if (shadows_) shadows_->diced().clear();
   for (SampledLine& line : sampled_) line.stationary.clear(), line.moving.clear();
   std::ranges::fill(loads_, raster::LineLoad());
   std::ranges::fill(moving_loads_, raster::LineLoad());
@@ -64,7 +67,9 @@ wire::FrameCounts FrameCounter::count(wire::FrameKind kind, std::uint32_t frame)
     counts.lines[line].moving_samples = static_cast<double>(moving_loads_[line].samples());
     counts.lines[line].moving_width = moving_columns_[line].width();
   }
+  if (shadows_) shadows_->begin(scene_, kind, step_);
   estimate_seen(counts.lines, keyframe);
+  if (shadows_) shadows_->count(scene_, counts);
   return counts;
 }
 
@@ -75,7 +80,7 @@ wire::UnitCounts FrameCounter::count_share(std::uint32_t share, bool keyframe) {
   wire::WorkCounts work{};
   const Tessellation made = tessellator_.tessellate(
       scene_, {share, wire::kCountedShares}, {all, keyframe ? all : std::span<const std::uint8_t>(), share_loads_},
-      {arena, first}, work);
+      {arena, first}, work, shadows_ ? &shadows_->diced() : nullptr);
   for (std::size_t line = 0; line < loads_.size(); ++line) loads_[line] += share_loads_[line];
   for (const raster::UnsortedEdgeBox& box : made.polygons.moving) {
     moving_loads_[box.line] += raster::LineLoad(1, box.box.width());
@@ -126,10 +131,10 @@ void FrameCounter::estimate_seen(std::vector<wire::LineCounts>& lines, bool keyf
     SampledLine& line = sampled_[i];
     if (keyframe) {
       line.constant_depth.assign(ids_.size(), 0.0f);
-      constant[i] = draw(line.stationary, line_of(i), line.constant_depth);
+      constant[i] = draw(shadow::Casting::still, line.stationary, line_of(i), line.constant_depth);
     }
     depths_ = line.constant_depth;
-    moving[i] = draw(line.moving, line_of(i), depths_);
+    moving[i] = draw(shadow::Casting::moving, line.moving, line_of(i), depths_);
   }
   spread(constant, lines, &wire::LineCounts::constant,
          [](const wire::LineCounts& line) { return line.samples - line.moving_samples; });
@@ -153,7 +158,7 @@ void FrameCounter::spread(const std::vector<wire::SeenCounts>& seen, std::vector
 }
 
 // What is seen of `boxes` in front of `depths`, which become the boxes' depths.
-wire::SeenCounts FrameCounter::draw(std::span<const raster::EdgeBox> boxes, std::uint32_t line,
+wire::SeenCounts FrameCounter::draw(shadow::Casting kind, std::span<const raster::EdgeBox> boxes, std::uint32_t line,
                                     std::vector<float>& depths) {
   if (boxes.empty()) return {};
   std::ranges::fill(ids_, shading::kNoTriangle);
@@ -175,6 +180,8 @@ wire::SeenCounts FrameCounter::draw(std::span<const raster::EdgeBox> boxes, std:
     seen.block_pixels += 0 < in_block && in_block < kBlock ? kBlock : 0;
     in_block = 0;
   }
+  if (shadows_)
+    seen.points = shadows_->add(scene_, kind, {line, ids_.data(), depths.data(), stride_, triangles_.data()});
   return seen;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "node/geometry/scene.h"
 #include "node/raster/kernels.h"
 #include "node/raster/line_load.h"
+#include "node/shadow_counter.h"
 #include "node/tessellator.h"
 #include "node/wire/frame_counts.h"
 
@@ -48,7 +50,8 @@ class FrameCounter {
   void spread(const std::vector<wire::SeenCounts>& seen, std::vector<wire::LineCounts>& lines,
               wire::SeenCounts wire::LineCounts::*to, double (*samples_of)(const wire::LineCounts&)) const;
   void estimate_seen(std::vector<wire::LineCounts>& lines, bool keyframe);
-  wire::SeenCounts draw(std::span<const raster::EdgeBox> boxes, std::uint32_t line, std::vector<float>& depths);
+  wire::SeenCounts draw(shadow::Casting kind, std::span<const raster::EdgeBox> boxes, std::uint32_t line,
+                        std::vector<float>& depths);
 
   void count_groups(std::uint32_t column, wire::SeenCounts& seen) const;
 
@@ -70,6 +73,7 @@ class FrameCounter {
   std::vector<SampledLine> sampled_;
   std::vector<std::uint32_t> ids_;
   std::vector<float> depths_;
+  std::optional<ShadowCounter> shadows_;  // where lights cast
 };
 
 }  // namespace mars::node

@@ -11,9 +11,9 @@ namespace mars::node {
 
 // Where PhaseTimes has each step, by Phase.
 inline constexpr std::array kPhaseTimes{
-    &wire::PhaseTimes::dice,    &wire::PhaseTimes::sum,      &wire::PhaseTimes::map,   &wire::PhaseTimes::exchange,
-    &wire::PhaseTimes::fill,    &wire::PhaseTimes::scanline, &wire::PhaseTimes::depth, &wire::PhaseTimes::credit,
-    &wire::PhaseTimes::compose, &wire::PhaseTimes::storage};
+    &wire::PhaseTimes::dice,   &wire::PhaseTimes::sum,      &wire::PhaseTimes::map,    &wire::PhaseTimes::exchange,
+    &wire::PhaseTimes::fill,   &wire::PhaseTimes::scanline, &wire::PhaseTimes::shadow, &wire::PhaseTimes::depth,
+    &wire::PhaseTimes::credit, &wire::PhaseTimes::compose,  &wire::PhaseTimes::storage};
 
 class FrameReport {
  public:

@@ -253,16 +253,18 @@ raster::StripBuffer& Renderer::begin_strip(bool constant) {
 
 std::uint32_t Renderer::draw_strip(const geometry::LineRange& lines, const shading::Shading& shading,
                                    raster::StripBuffer& out) {
-  const std::uint32_t line = draw_until_full(lines, shading, out);
-  const geometry::LineRange drawn{lines.first, line};
-  charge_lines(report_, scene(),
-               {drawn, parts_, canvas_->sums.samples_on(drawn), out.pixel_count(), canvas_->z_buffer.take_counts()});
+  std::uint32_t line = lines.first;
+  do {
+    if (canvas_->shadows && line < lines.last && !prepared_.has(line)) prepare_shadows({line, lines.last}, shading);
+    line = draw_until_full({line, canvas_->shadows ? prepared_.last : lines.last}, shading, out);
+  } while (line < lines.last && out.lines_that_fit() > 0 && !report_.is_cut());
   return line;
 }
 
 std::uint32_t Renderer::draw_until_full(const geometry::LineRange& lines, const shading::Shading& shading,
                                         raster::StripBuffer& out) {
   const PhaseScope scanline = phase(wire::Phase::scanline);
+  const std::uint64_t pixels = out.pixel_count();
   std::uint32_t line = lines.first;
   while (line < lines.last && out.lines_that_fit() > 0) {
     heartbeat_.look();
@@ -271,25 +273,39 @@ std::uint32_t Renderer::draw_until_full(const geometry::LineRange& lines, const 
       break;
     }
     const geometry::LineRange some{line, std::min(line + std::min(out.lines_that_fit(), kLinesABeat), lines.last)};
-    if (canvas_->shadows)
-      draw_with_shadows(some, lines.last, shading, out);
-    else if (report_.is_keyframe())
-      canvas_->z_buffer.draw_keyframe(parts_, some, shading, canvas_->still, out);
-    else
-      report_.strip().work.lines_drawn_again +=
-          canvas_->z_buffer.draw_inbetween(parts_, some, shading, canvas_->still, out);
+    draw_some(some, shading, out);
     line = some.last;
   }
+  if (!canvas_->shadows) charge_seen({lines.first, line}, canvas_->z_buffer.take_counts());
+  report_.charge(wire::Work::pixel, out.pixel_count() - pixels);
   return line;
 }
 
-// `last`: of the lines that are to be drawn.
-void Renderer::draw_with_shadows(const geometry::LineRange& some, std::uint32_t last, const shading::Shading& shading,
-                                 raster::StripBuffer& out) {
-  for (std::uint32_t line = some.first; line < some.last; ++line) {
-    if (!prepared_.has(line)) prepared_ = canvas_->shadows->prepare(picture(shading), {line, last});
-    canvas_->shadows->put_line(picture(shading), line, out);
+void Renderer::draw_some(const geometry::LineRange& some, const shading::Shading& shading, raster::StripBuffer& out) {
+  if (canvas_->shadows)
+    for (std::uint32_t line = some.first; line < some.last; ++line)
+      canvas_->shadows->put_line(picture(shading), line, out);
+  else if (report_.is_keyframe())
+    canvas_->z_buffer.draw_keyframe(parts_, some, shading, canvas_->still, out);
+  else
+    canvas_->z_buffer.draw_inbetween(parts_, some, shading, canvas_->still, out);
+}
+
+void Renderer::prepare_shadows(const geometry::LineRange& lines, const shading::Shading& shading) {
+  if (has_ended()) return report_.cut();
+  {
+    const PhaseScope scanline = phase(wire::Phase::scanline);
+    prepared_ = canvas_->shadows->see(picture(shading), lines);
+    charge_seen(prepared_, canvas_->shadows->take_counts());
   }
+  const PhaseScope shadow = phase(wire::Phase::shadow);
+  canvas_->shadows->cast(picture(shading));
+  charge_shadows(report_, canvas_->shadows->take_cast_counts());
+}
+
+void Renderer::charge_seen(const geometry::LineRange& lines, const raster::DrawnCounts& counts) {
+  report_.strip().work.lines_drawn_again += counts.drawn_again;
+  charge_lines(report_, scene(), {lines, parts_, canvas_->sums.samples_on(lines), counts});
 }
 
 shadow::Picture Renderer::picture(const shading::Shading& shading) const {

@@ -92,8 +92,11 @@ class Renderer {
   std::uint32_t draw_strip(const geometry::LineRange& lines, const shading::Shading& shading, raster::StripBuffer& out);
   std::uint32_t draw_until_full(const geometry::LineRange& lines, const shading::Shading& shading,
                                 raster::StripBuffer& out);
-  void draw_with_shadows(const geometry::LineRange& some, std::uint32_t last, const shading::Shading& shading,
-                         raster::StripBuffer& out);
+  // `some`, which are prepared where there are shadows.
+  void draw_some(const geometry::LineRange& some, const shading::Shading& shading, raster::StripBuffer& out);
+  // Prepares lines from the first of `lines` on, as many as there is memory for: what is seen, and what casters block.
+  void prepare_shadows(const geometry::LineRange& lines, const shading::Shading& shading);
+  void charge_seen(const geometry::LineRange& lines, const raster::DrawnCounts& counts);
   shadow::Picture picture(const shading::Shading& shading) const;
   int keyframe_writer() const;
   void begin_writing();

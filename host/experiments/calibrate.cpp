@@ -37,17 +37,21 @@ struct Phase {
   std::vector<Work> kinds;
 };
 
-const Phase kNodePhases[] = {{"dice",
-                              {"dice"},
-                              {Work::first_frame, Work::fresh_byte, Work::frame, Work::segment, Work::patch,
-                               Work::meshlet, Work::vertex, Work::mesh_vertex, Work::triangle_tested, Work::row_tested,
-                               Work::triangle, Work::edge_box_made, Work::vertex_light}},
-                             {"fill", {"fill"}, {Work::fresh_byte, Work::edge_box_filled}},
-                             {"map", {"sum", "map"}, {Work::line_mapped}},
-                             {"scanline",
-                              {"scanline"},
-                              {Work::first_frame, Work::frame, Work::line, Work::edge_box, Work::sample, Work::shaded,
-                               Work::light, Work::facet_light, Work::pixel, Work::still_byte}}};
+const Phase kNodePhases[] = {
+    {"dice",
+     {"dice"},
+     {Work::first_frame, Work::fresh_byte, Work::frame, Work::segment, Work::patch, Work::meshlet, Work::vertex,
+      Work::mesh_vertex, Work::triangle_tested, Work::row_tested, Work::triangle, Work::edge_box_made,
+      Work::vertex_light}},
+    {"fill", {"fill"}, {Work::fresh_byte, Work::edge_box_filled}},
+    {"map", {"sum", "map"}, {Work::line_mapped}},
+    {"scanline",
+     {"scanline"},
+     {Work::first_frame, Work::frame, Work::line, Work::edge_box, Work::sample, Work::shaded, Work::light,
+      Work::facet_light, Work::pixel, Work::still_byte, Work::casting_light}},
+    {"shadow",
+     {"shadow"},
+     {Work::shadow_point, Work::caster, Work::diced_vertex, Work::caster_vertex, Work::caster_triangle}}};
 const Phase kHostPhase{"host",
                        {"busy_seconds"},
                        {Work::host_strip, Work::host_run, Work::host_byte, Work::host_restored, Work::host_frame}};
@@ -83,6 +87,11 @@ Measurement measurement_of(const Seen& seen, const Phase& phase) {
   for (const Work kind : phase.kinds)
     measured.units.push_back(seen.charged.value(std::string(wire::kWorkNames[static_cast<std::size_t>(kind)]), 0.0));
   return measured;
+}
+
+// As shadows where no light casts.
+bool has_no_work(const Measurement& measured) {
+  return std::ranges::all_of(measured.units, [](double units) { return units == 0; });
 }
 
 const json& node_of(const json& frame) { return frame.at("nodes").front(); }
@@ -183,6 +192,7 @@ class Measuring {
   void fit(const Phase& phase, const std::vector<Seen>& all) {
     std::vector<Measurement> measurements;
     for (const Seen& seen : all) measurements.push_back(measurement_of(seen, phase));
+    std::erase_if(measurements, has_no_work);
     const Fit found = fit_costs(measurements, kSoft);
     for (std::size_t i = 0; i < phase.kinds.size(); ++i)
       calibration_.work[static_cast<std::size_t>(phase.kinds[i])] += found.costs[i];

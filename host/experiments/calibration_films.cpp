@@ -27,6 +27,8 @@ struct Bodies {
   int lights;
   int samples;
   const char* extent;
+  int casting = 0;   // of its lights, the first
+  double width = 0;  // in degrees, of the first
 };
 
 constexpr Bodies kBodies[] = {
@@ -56,6 +58,13 @@ constexpr Bodies kBodies[] = {
     {"stones", "stone", 16, 0.4, 1, "cook-torrance", "phong", 3, 1, "640x360"},
     {"rubble", "stone", 10, 0.6, 1, "phong", "phong", 2, 16, "320x180"},
     {"facets", "hills", 4, 1.6, 1, "blinn-phong", "flat", 3, 4, "480x270"},
+    {"shade", kMixed, 7, 1.2, 0, kMixed, "phong", 3, 4, "640x360", 1},
+    {"shades", "teapot", 3, 1.6, 0, "phong", "phong", 2, 1, "960x540", 2},
+    {"shadows", "sphere", 16, 0.4, 0, "blinn-phong", "phong", 1, 16, "320x180", 1},
+    {"lantern", kMixed, 5, 1.8, 0, kMixed, "phong", 3, 4, "320x180", 3},
+    {"lanterns", "stone", 12, 0.5, 1, "cook-torrance", "phong", 4, 1, "640x360", 4},
+    {"ridges", "hills", 2, 3, 1, "phong", "phong", 1, 4, "480x270", 1},
+    {"dusk", "teapot", 2, 2.5, 0, "phong", "phong", 1, 4, "320x180", 1, 2},
 };
 
 double wave(double x, double y) {
@@ -95,12 +104,14 @@ json sheet() {
 
 json own_shapes() { return {{"hills", mesh(48)}, {"stone", mesh(3)}, {"sheet", sheet()}}; }
 
-json lights(int count) {
-  const json all[] = {{{"direction", {-0.4, -0.7, 0.8}}},
-                      {{"direction", {0.9, -0.2, 0.3}}, {"intensity", 0.5}},
-                      {{"place", {4, -6, 5}}, {"intensity", 0.7}, {"reach", 12}},
-                      {{"place", {-5, -4, 3}}, {"intensity", 0.4}, {"reach", 10}}};
-  return json(std::vector<json>(all, all + count));
+json lights(const Bodies& bodies) {
+  json all[] = {{{"direction", {-0.4, -0.7, 0.8}}},
+                {{"direction", {0.9, -0.2, 0.3}}, {"intensity", 0.5}},
+                {{"place", {4, -6, 5}}, {"intensity", 0.7}, {"reach", 12}},
+                {{"place", {-5, -4, 3}}, {"intensity", 0.4}, {"reach", 10}}};
+  for (int i = 0; i < bodies.casting; ++i) all[i]["shadow"] = true;
+  if (bodies.width > 0) all[0]["size"] = bodies.width;
+  return json(std::vector<json>(all, all + bodies.lights));
 }
 
 // Every second one turns.
@@ -116,6 +127,7 @@ json actors(const Bodies& bodies, std::size_t models) {
       actor["keys"] = {{{"frame", 0}, {"turn", {0, 0, 0}}}, {{"frame", 8}, {"turn", {0, 0, 160}}}};
     all.push_back(actor);
   }
+  if (bodies.casting > 0) all.push_back({{"name", "wall"}, {"model", "wall"}});
   return all;
 }
 
@@ -130,11 +142,23 @@ json model(const Bodies& bodies, const std::string& shape, const std::string& re
   return model;
 }
 
-json models(const Bodies& bodies) {
+// Behind the bodies, for their shadows.
+json wall() {
+  const json segment = {{"shape", "box"}, {"sbb", {{-4, 1.5, -4}, {4, 1.7, 4}}}, {"material", "plaster"}};
+  return {{"joints", {{{"name", "wall"}, {"segment", segment}}}}, {"materials", {{"plaster", json::object()}}}};
+}
+
+json bodies_of(const Bodies& bodies) {
   if (std::string_view(bodies.shape) != kMixed) return {{"body0", model(bodies, bodies.shape, bodies.reflection)}};
   json all;
   for (std::size_t i = 0; i < kShapes.size() * kReflections.size(); ++i)
     all["body" + std::to_string(i)] = model(bodies, kShapes[i % kShapes.size()], kReflections[i % kReflections.size()]);
+  return all;
+}
+
+json models(const Bodies& bodies) {
+  json all = bodies_of(bodies);
+  if (bodies.casting > 0) all["wall"] = wall();
   return all;
 }
 
@@ -145,9 +169,9 @@ std::string film_text(const Bodies& bodies) {
                {"ambient", ambient},
                {"dice", bodies.dice == 0 ? json("adaptive") : json(bodies.dice)},
                {"camera", {{"eye", {0, -14, 4}}, {"at", {0, 0, 0}}, {"fov", 34}}},
-               {"lights", lights(bodies.lights)},
+               {"lights", lights(bodies)},
                {"models", all_models},
-               {"actors", actors(bodies, all_models.size())}})
+               {"actors", actors(bodies, bodies_of(bodies).size())}})
       .dump(1);
 }
 

@@ -1,5 +1,6 @@
 // Small films that span the kinds of work (node/wire/work.h): rows of bodies, some of which turn, of patches and of
-// meshes, coarse and fine, with all models of reflection, few and many lights, one sample a pixel and several.
+// meshes, coarse and fine, with all models of reflection, few and many lights, one sample a pixel and several, with and
+// without shadows.
 #pragma once
 
 #include <string>

@@ -167,6 +167,12 @@ std::vector<double> read_work(const document::Element& element, const fs::path& 
   return read_costs_of_work(work);
 }
 
+// As a calibration has them.
+void require_all_costs(const document::Element& root) {
+  const Fields work(Fields(root, kPlatformKeys).required("work"), kWorkKeys);
+  for (const string_view name : wire::kWorkNames) static_cast<void>(work.required(name));
+}
+
 Platform read(const document::Element& root, const fs::path& folder) {
   const Fields fields(root, kPlatformKeys);
   Platform platform;
@@ -192,6 +198,7 @@ Platform read_one(const std::string& name, const fs::path& folder) {
   const fs::path file = file_of(name, folder);
   const document::Document document = document::read_document(file);
   try {
+    if (name == kHere) require_all_costs(document.root());
     return read(document.root(), folder);
   } catch (const Failure&) {
     if (name != kHere) throw;

@@ -37,16 +37,15 @@ void ZBuffer::draw_line(LineParts parts, const shading::Shading& shading, std::u
   z_line_.forget_depths(moves ? both(extent, draw_moving(parts, shading, line, groups, out)) : extent);
 }
 
-std::uint32_t ZBuffer::draw_inbetween(LineParts parts, const geometry::LineRange& lines,
-                                      const shading::Shading& shading, StillLines& still, StripBuffer& out) {
-  std::uint32_t drawn_again = 0;
+void ZBuffer::draw_inbetween(LineParts parts, const geometry::LineRange& lines, const shading::Shading& shading,
+                             StillLines& still, StripBuffer& out) {
   for (std::uint32_t line = lines.first; line < lines.last; ++line) {
     shading::Extent extent = moving_extent(parts, line);
     if (is_empty(extent)) continue;
     check(still.has_memory_for(line), "moving parts stay on the lines that were given memory");
     const bool kept = still.keeps(line);
     ++counts_.lines;
-    drawn_again += kept ? 0 : 1;
+    counts_.drawn_again += kept ? 0 : 1;
     if (kept)
       take_depths(line, extent, still);
     else
@@ -54,7 +53,6 @@ std::uint32_t ZBuffer::draw_inbetween(LineParts parts, const geometry::LineRange
     draw_moving(parts, shading, line, kept && several() ? still.groups(line) : own_still(), out);
     z_line_.forget_depths(extent);
   }
-  return drawn_again;
 }
 
 shading::Extent ZBuffer::draw_still_again(LineParts parts, const shading::Shading& shading, std::uint32_t line) {

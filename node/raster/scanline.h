@@ -21,6 +21,7 @@ namespace mars::raster {
 // What was done since it was asked last.
 struct DrawnCounts {
   std::uint64_t lines = 0;
+  std::uint64_t drawn_again = 0;  // lines of an inbetween whose stationary parts were not kept
   std::uint64_t still_bytes = 0;
   shading::ShadedCounts shaded{};
 };
@@ -33,9 +34,9 @@ class ZBuffer {
   void draw_keyframe(LineParts parts, const geometry::LineRange& lines, const shading::Shading& shading,
                      StillLines& still, StripBuffer& out);
   // Draws what moves on these lines against `still` and each other. On lines that it does not keep the parts have what
-  // stands still too; says on how many this was drawn again.
-  std::uint32_t draw_inbetween(LineParts parts, const geometry::LineRange& lines, const shading::Shading& shading,
-                               StillLines& still, StripBuffer& out);
+  // stands still too, which is drawn again.
+  void draw_inbetween(LineParts parts, const geometry::LineRange& lines, const shading::Shading& shading,
+                      StillLines& still, StripBuffer& out);
 
   DrawnCounts take_counts() { return std::exchange(counts_, {}); }
 

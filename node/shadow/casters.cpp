@@ -1,6 +1,7 @@
 #include "node/shadow/casters.h"
 
 #include <algorithm>
+#include <functional>
 
 namespace mars::shadow {
 namespace {
@@ -152,6 +153,11 @@ std::span<const Caster* const> CasterStream::next(const Matters& matters) {
   return chunk_;
 }
 
+bool CasterStream::has_diced(const Caster& caster) const {
+  const std::span<const Caster> here = store_.all();
+  return !here.empty() && !std::less<>()(&caster, &here.front()) && !std::less<>()(&here.back(), &caster);
+}
+
 void CasterStream::add_item(const wire::Shape& shape, std::uint32_t number, const Matters& matters) {
   const auto patch = scene_->first_patch(segment_) + static_cast<std::uint32_t>(item_);
   if (const Caster* known = diced_->find(patch)) {
@@ -195,7 +201,6 @@ void CasterStream::add_meshlet(const wire::Meshlet& meshlet, const Matters& matt
 
 void CasterStream::add(const shape::Surface& surface, const Hull& hull) {
   chunk_.push_back(&store_.add(surface, hull));
-  ++diced_here_;
 }
 
 }  // namespace mars::shadow

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <functional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "hal/messages/private_memory.h"
@@ -85,8 +84,8 @@ class CasterStream {
   // Calls visit(hull) for each of that kind.
   void visit_hulls(const geometry::Scene& scene, Casting casting, const std::function<void(const Hull&)>& visit) const;
 
-  // Surfaces that were diced here since it was asked last.
-  std::uint64_t take_diced() { return std::exchange(diced_here_, 0); }
+  // Whether a caster of the current chunk was diced for it.
+  bool has_diced(const Caster& caster) const;
 
  private:
   void add_item(const wire::Shape& shape, std::uint32_t number, const Matters& matters);
@@ -100,7 +99,6 @@ class CasterStream {
   std::vector<const Caster*> chunk_;
   const geometry::Scene* scene_ = nullptr;
   const DicedSurfaces* diced_ = nullptr;
-  std::uint64_t diced_here_ = 0;
   Casting casting_ = Casting::still;
   std::size_t segment_ = 0;  // the next
   std::uint64_t item_ = 0;   // of its patches and meshlets

@@ -98,7 +98,7 @@ void ShadowCaster::stream(const geometry::Scene& scene, Casting casting, std::sp
     return false;
   };
   casters_.begin(scene, casting, diced_);
-  for (auto chunk = casters_.next(matters); !chunk.empty(); chunk = casters_.next(matters))
+  for (auto chunk = next_casters(matters); !chunk.empty(); chunk = next_casters(matters))
     for (Faces* faces : onto) block(chunk, views, *faces);
 }
 
@@ -115,7 +115,7 @@ void ShadowCaster::cast_from_all(const geometry::Scene& scene, Casting casting, 
         bounds_, [&](TileBounds& face) { return face.tree.any(kernels_, box_of_hull(all.middle, hull), all.spread); });
   };
   casters_.begin(scene, casting, diced_);
-  for (auto chunk = casters_.next(matters); !chunk.empty(); chunk = casters_.next(matters))
+  for (auto chunk = next_casters(matters); !chunk.empty(); chunk = next_casters(matters))
     for (std::uint32_t point = 0; point < all.points; ++point) {
       const PointSource source = source_of(light, point);
       const auto views = views_of(light, point);
@@ -136,13 +136,22 @@ void ShadowCaster::put_points(const PointSource& source, std::span<const LightVi
   look_();
 }
 
+std::span<const Caster* const> ShadowCaster::next_casters(const CasterStream::Matters& matters) {
+  const std::span<const Caster* const> chunk = casters_.next(matters);
+  for (const Caster* caster : chunk) {
+    if (!casters_.has_diced(*caster)) continue;
+    ++counts_.surfaces;
+    counts_.diced_vertices += caster->vertices;
+  }
+  return chunk;
+}
+
 void ShadowCaster::block(std::span<const Caster* const> casters, std::span<const LightView> views, Faces& faces) {
   for (std::size_t f = 0; f < views.size(); ++f) {
     if (faces[f].empty()) continue;
     for (const Caster* caster : casters) block(*caster, views[f], faces[f]);
     look_();
   }
-  counts_.surfaces += casters_.take_diced();
 }
 
 void ShadowCaster::block(const Caster& caster, const LightView& view, Points& points) {

@@ -19,10 +19,11 @@ namespace mars::shadow {
 
 // What was done since it was asked last.
 struct CastCounts {
-  std::uint64_t points = 0;     // put on a grid
-  std::uint64_t surfaces = 0;   // diced
-  std::uint64_t vertices = 0;   // put on a grid
-  std::uint64_t triangles = 0;  // set up
+  std::uint64_t points = 0;          // put on a grid
+  std::uint64_t surfaces = 0;        // diced
+  std::uint64_t diced_vertices = 0;  // of these
+  std::uint64_t vertices = 0;        // put on a grid
+  std::uint64_t triangles = 0;       // set up
 };
 
 class ShadowCaster {
@@ -77,6 +78,7 @@ class ShadowCaster {
   void put_points(const PointSource& source, std::span<const LightView> views, Layers onto, Faces& faces);
   void stream(const geometry::Scene& scene, Casting casting, std::span<const LightView> views,
               std::span<Faces* const> onto);
+  std::span<const Caster* const> next_casters(const CasterStream::Matters& matters);
   void block(std::span<const Caster* const> casters, std::span<const LightView> views, Faces& faces);
   void block(const Caster& caster, const LightView& view, Points& points);
   void block_large(const LightView& view, const Caster& caster, std::uint32_t triangle, Points& points);

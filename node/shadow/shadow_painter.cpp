@@ -52,7 +52,7 @@ void ShadowPainter::begin(const Picture& picture, const std::function<void()>& l
   caster_.begin(picture.scene, look);
 }
 
-geometry::LineRange ShadowPainter::prepare(const Picture& picture, const geometry::LineRange& lines) {
+geometry::LineRange ShadowPainter::see(const Picture& picture, const geometry::LineRange& lines) {
   arena_.clear();
   range_ = lines;
   for (Layer* layer : {&drawn_, &kept_, &moving_}) layer->begin(width_, lines);
@@ -68,7 +68,6 @@ geometry::LineRange ShadowPainter::prepare(const Picture& picture, const geometr
     else
       see_inbetween(picture, number);
   }
-  cast(picture);
   return range_;
 }
 

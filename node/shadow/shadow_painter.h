@@ -18,6 +18,7 @@
 #include "node/raster/arena.h"
 #include "node/raster/line_boxes.h"
 #include "node/raster/pixel_groups.h"
+#include "node/raster/scanline.h"
 #include "node/raster/still_lines.h"
 #include "node/raster/strip_buffer.h"
 #include "node/raster/z_line.h"
@@ -25,14 +26,6 @@
 #include "node/shadow/shadow_caster.h"
 
 namespace mars::shadow {
-
-// What was done since it was asked last.
-struct PaintCounts {
-  std::uint64_t lines = 0;
-  std::uint64_t drawn_again = 0;  // lines of an inbetween whose stationary parts were not kept
-  std::uint64_t still_bytes = 0;
-  shading::ShadedCounts shaded{};
-};
 
 // A frame as one node draws it.
 struct Picture {
@@ -53,12 +46,14 @@ class ShadowPainter {
   DicedSurfaces& diced() { return caster_.diced(); }
   // `look` is called now and then, while the picture is drawn.
   void begin(const Picture& picture, const std::function<void()>& look);
-  // Prepares lines from the first of `lines` on, as many as there is memory for; says which.
-  geometry::LineRange prepare(const Picture& picture, const geometry::LineRange& lines);
+  // Prepares lines from the first of `lines` on, as many as there is memory for: decides what is seen on them; says
+  // which. Then cast() finds what casters block of it.
+  geometry::LineRange see(const Picture& picture, const geometry::LineRange& lines);
+  void cast(const Picture& picture);
   // Puts a line that is prepared.
   void put_line(const Picture& picture, std::uint32_t line, raster::StripBuffer& out);
 
-  PaintCounts take_counts() { return std::exchange(counts_, {}); }
+  raster::DrawnCounts take_counts() { return std::exchange(counts_, {}); }
   CastCounts take_cast_counts() { return caster_.take_counts(); }
 
  private:
@@ -88,7 +83,6 @@ class ShadowPainter {
   void find_lit(const Picture& picture, const LineGroups& groups, wire::StillPairs* pairs) const;
   void fill_record(const LineGroups& groups, const raster::UnsummedStill& to) const;
   std::uint16_t* new_moved();
-  void cast(const Picture& picture);
 
   void sum_up(const Picture& picture, const LineGroups& groups, bool with_moved);
   float open_share(const LayerLine& from, std::uint32_t light, std::uint32_t column, std::uint32_t samples,
@@ -117,7 +111,7 @@ class ShadowPainter {
   std::vector<const float*> share_rows_;
   std::vector<std::uint32_t> changed_;  // columns
   std::vector<wire::StillGroup> still_groups_;
-  PaintCounts counts_;
+  raster::DrawnCounts counts_;
 };
 
 }  // namespace mars::shadow

@@ -32,14 +32,16 @@ struct SeenCounts {
   double highlights = 0;    // samples lit by models of highlights
   double facets = 0;        // and of rough surfaces
   double block_pixels = 0;  // of the compositor's blocks on this line, where the pixels do not fill them
+  double points = 0;        // of casting lights without size, which samples put on their grids
 
   SeenCounts& operator+=(const SeenCounts& more) {
     pixels += more.pixels, runs += more.runs, shaded += more.shaded, highlights += more.highlights;
-    facets += more.facets, block_pixels += more.block_pixels;
+    facets += more.facets, block_pixels += more.block_pixels, points += more.points;
     return *this;
   }
   SeenCounts operator*(double part) const {
-    return {pixels * part, runs * part, shaded * part, highlights * part, facets * part, block_pixels * part};
+    return {pixels * part, runs * part,         shaded * part, highlights * part,
+            facets * part, block_pixels * part, points * part};
   }
 };
 
@@ -54,6 +56,16 @@ struct LineCounts {
   SeenCounts moving;
 };
 
+// A patch or meshlet that may cast shadows on lines [first_line, last_line): a caster of each node that draws one of
+// them, who dices it if it has not diced it for the camera.
+struct CasterCounts {
+  std::uint32_t first_line, last_line;
+  bool is_diced;  // for the camera, by one node
+  double vertices;
+  double put_vertices;  // on grids
+  double triangles;     // set up on grids
+};
+
 struct FrameCounts {
   FrameKind kind = FrameKind::keyframe;
   std::uint32_t frame = 0;
@@ -61,6 +73,8 @@ struct FrameCounts {
   std::vector<LineCounts> lines;       // of the picture
   std::uint32_t first_still_line = 0;  // of those that inbetweens may touch (keyframes)
   std::uint32_t last_still_line = 0;
+  std::vector<CasterCounts> casters;
+  double kept_points = 0;  // of still parts, that an inbetween's moving casters may block
 };
 
 }  // namespace mars::wire

@@ -172,6 +172,7 @@ struct PhaseTimes {
   double exchange;  // triangles to the homes of their lines
   double fill;      // edge boxes into place
   double scanline;  // visibility and shading
+  double shadow;    // which points of lights' views casters block
   double depth;     // until all of CZB is there
   double credit;    // waiting for the host: for its credit, or until the slot's earlier strip is gone
   double compose;   // of a node that writes files: bands to records, of the frame and for it
@@ -186,6 +187,7 @@ enum class Phase : std::int32_t {
   exchange,
   fill,
   scanline,
+  shadow,
   depth,
   credit,
   compose,
@@ -193,7 +195,7 @@ enum class Phase : std::int32_t {
   keyframe,
   inbetween
 };
-inline constexpr std::array kPhaseNames{"dice",  "sum",    "map",     "exchange", "fill",     "scanline",
+inline constexpr std::array kPhaseNames{"dice",  "sum",    "map",     "exchange", "fill",     "scanline", "shadow",
                                         "depth", "credit", "compose", "storage",  "keyframe", "inbetween"};
 
 // Says that its sender lives. The host beats every few seconds from its start until its end. A node that has heard a

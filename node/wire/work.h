@@ -34,6 +34,12 @@ enum class Work : int {
   facet_light,      // lights times samples of rough surfaces
   pixel,            // sent
   still_byte,       // kept for inbetweens, or taken from what is kept
+  casting_light,    // for each group of samples, where lights cast: its light is kept apart, and summed later
+  shadow_point,     // put on a grid of a light's view
+  caster,           // patch or meshlet diced that may cast a shadow on such points
+  diced_vertex,     // of casters
+  caster_vertex,    // put on a grid
+  caster_triangle,  // set up on a grid
   // Of the host.
   host_strip,     // that the host takes
   host_run,       // of pixels
@@ -49,7 +55,7 @@ enum class Work : int {
 };
 
 // As platform files name them.
-inline constexpr std::array<std::string_view, 33> kWorkNames{
+inline constexpr std::array<std::string_view, 39> kWorkNames{
     "first_frame",
     "fresh_byte",
     "frame",
@@ -73,6 +79,12 @@ inline constexpr std::array<std::string_view, 33> kWorkNames{
     "facet_light",
     "pixel",
     "still_byte",
+    "casting_light",
+    "shadow_point",
+    "caster",
+    "diced_vertex",
+    "caster_vertex",
+    "caster_triangle",
     "host_strip",
     "host_run",
     "host_byte",

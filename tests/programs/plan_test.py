@@ -95,15 +95,25 @@ class Plans(ProgramTest):
 
     def test_what_another_version_measured_is_refused(self):
         platform = json.loads((SOURCES / "cluster/platforms/reference.json").read_text())
-        platform["work"]["sink_frame"] = 0.1
-        home = self.write("here.json", platform).parent / "home"
+        without_shadows = {kind: cost for kind, cost in platform["work"].items() if kind != "shadow_point"}
+        home = self.folder / "home"
         (home / ".local/share/mars").mkdir(parents=True)
-        (self.folder / "here.json").rename(home / ".local/share/mars/here.json")
-        run = self.mars("render", CUBES, "--sink", "none", "--backend", "simulated", "--platform", "here",
-                        env=dict(ENVIRONMENT, HOME=str(home), XDG_DATA_HOME=""))
-        self.assertEqual(run.returncode, 1)
-        self.assertClear(run.stderr, "another version of MARS measured this machine")
-        self.assertClear(run.stderr, "run mars calibrate")
+        for work in (dict(platform["work"], sink_frame=0.1), without_shadows):
+            self.write("here.json", dict(platform, work=work)).rename(home / ".local/share/mars/here.json")
+            run = self.mars("render", CUBES, "--sink", "none", "--backend", "simulated", "--platform", "here",
+                            env=dict(ENVIRONMENT, HOME=str(home), XDG_DATA_HOME=""))
+            self.assertEqual(run.returncode, 1)
+            self.assertClear(run.stderr, "another version of MARS measured this machine")
+            self.assertClear(run.stderr, "run mars calibrate")
+
+    def test_it_says_that_soft_shadows_are_not_in_it(self):
+        film = json.loads(CUBES.read_text())
+        for size, says in ((0, False), (0.53, True)):
+            film["lights"] = [{"direction": [-0.4, -0.7, 0.8], "shadow": True, "size": size}]
+            words = ["plan", self.write("film.json", film), "--platform", "fat-tree"]
+            self.assertEqual("soft shadows are not in the forecast" in self.succeed("mars", *words), says)
+            plan = json.loads(self.succeed("mars", *words, "--json"))
+            self.assertEqual(plan.get("leaves_out"), ["soft shadows"] if says else None)
 
     def test_it_foresees_who_should_write_files(self):
         words = ["plan", "s3", "--frames", "0-11", "--size", "640x360", "--nodes", 4, "--groups", 1, "--platform",

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -100,7 +101,7 @@ TEST_P(Tracing, PhasesAddUpToTheReport) {
       const bool gives_depth = strip.kind == wire::FrameKind::keyframe && host() > 1;
       const auto which = static_cast<wire::Phase>(phase);
       const bool writes = which == wire::Phase::compose || which == wire::Phase::storage;  // the host does here
-      const bool expected = !writes && (which != wire::Phase::depth || gives_depth);
+      const bool expected = !writes && which != wire::Phase::shadow && (which != wire::Phase::depth || gives_depth);
       EXPECT_EQ(count > 0, expected) << "phase " << phase << " of frame " << strip.frame << " on node " << strip.node;
     }
     EXPECT_GE(of(wire::Phase::fill).first, static_cast<int>(strip.work.passes));
@@ -223,6 +224,70 @@ TEST_P(Tracing, CountersBalance) {
 INSTANTIATE_TEST_SUITE_P(Runs, Tracing,
                          testing::Values(Case{1, 256 << 20}, Case{2, 256 << 20}, Case{3, 256 << 20}, Case{5, 256 << 20},
                                          Case{3, 340'000}));
+
+class TracingShadows : public testing::Test {
+ protected:
+  TracingShadows() {
+    wire::FilmData film = crowd(160, 120, kFrames, kInterval);
+    film.lights.front().casts = 1;
+    block_.emplace(film);
+  }
+
+  // Nothing is kept for inbetweens.
+  FilmRun render(int nodes, Trace* trace = nullptr) const {
+    RunOptions options;
+    options.nodes = nodes;
+    options.work.groups = 1;
+    options.farm.still_memory = 0;
+    options.farm.trace = trace;
+    return run_film(block_->bytes(), options);
+  }
+  static std::uint64_t charged(const wire::Strip& strip, wire::Work kind) {
+    return strip.work.charged[static_cast<std::size_t>(kind)];
+  }
+
+  std::optional<FilmBlock> block_;
+};
+
+TEST_F(TracingShadows, AreAPhaseOfEachFrame) {
+  Trace trace;
+  const FilmRun run = render(2, &trace);
+  std::map<std::pair<int, int>, double> spans;  // by node and frame
+  for (const auto& [event, rank] : trace.records())
+    if (event.kind == Kind::span && rank < 2 && event.what == static_cast<int>(wire::Phase::shadow))
+      spans[{rank, event.frame}] += event.end - event.begin;
+  for (const wire::Strip& strip : run.report.strips) {
+    EXPECT_GT(strip.times.shadow, 0) << "frame " << strip.frame;
+    EXPECT_GT(strip.times.scanline, 0) << "frame " << strip.frame;
+    EXPECT_NEAR((spans[{strip.node, static_cast<int>(strip.frame)}]), strip.times.shadow, 1e-12);
+  }
+}
+
+TEST_F(TracingShadows, AreWorkOfTheirOwn) {
+  using wire::Work;
+  for (const wire::Strip& strip : render(1).report.strips) {
+    for (const Work kind : {Work::casting_light, Work::shadow_point, Work::caster_vertex, Work::caster_triangle,
+                            Work::line, Work::shaded, Work::pixel})
+      EXPECT_GT(charged(strip, kind), 0u) << wire::kWorkNames[static_cast<std::size_t>(kind)] << " of " << strip.frame;
+    EXPECT_EQ(charged(strip, Work::casting_light), charged(strip, Work::shaded)) << "one light casts";
+    EXPECT_EQ(charged(strip, Work::pixel), strip.work.pixels);
+    EXPECT_EQ(strip.work.lines_drawn_again > 0, strip.kind == wire::FrameKind::inbetween) << strip.frame;
+  }
+}
+
+// Points are divided with the lines; casters are not: a node dices those of others.
+TEST_F(TracingShadows, OfSeveralNodesHaveThePointsOfOne) {
+  std::map<int, std::map<wire::Work, std::uint64_t>> sums;
+  for (const int nodes : {1, 3})
+    for (const wire::Strip& strip : render(nodes).report.strips)
+      for (const wire::Work kind : {wire::Work::shadow_point, wire::Work::casting_light, wire::Work::caster_vertex,
+                                    wire::Work::caster, wire::Work::diced_vertex})
+        sums[nodes][kind] += charged(strip, kind);
+  EXPECT_EQ(sums[1][wire::Work::shadow_point], sums[3][wire::Work::shadow_point]);
+  EXPECT_EQ(sums[1][wire::Work::casting_light], sums[3][wire::Work::casting_light]);
+  for (const wire::Work kind : {wire::Work::caster_vertex, wire::Work::caster, wire::Work::diced_vertex})
+    EXPECT_LT(sums[1][kind], sums[3][kind]) << wire::kWorkNames[static_cast<std::size_t>(kind)];
+}
 
 // A trace that is full takes no more, and the run goes on.
 TEST(TraceBound, IsHeld) {

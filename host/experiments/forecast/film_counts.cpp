@@ -14,7 +14,8 @@ double counting_seconds(const FrameTotals& frame) {
   const wire::UnitCounts& made = frame.made;
   return 5e-4 + (made[Work::patch] + made[Work::meshlet]) * 1e-6 + made[Work::vertex] * 8e-9 +
          made[Work::mesh_vertex] * 4e-9 + made[Work::triangle_tested] * 5e-9 + made[Work::triangle] * 2e-8 +
-         made[Work::edge_box_made] * 4e-9;
+         made[Work::edge_box_made] * 4e-9 + frame.casters[Work::caster] * 2e-6 +
+         frame.casters[Work::diced_vertex] * 8e-9;
 }
 
 // Inbetweens of a task that were counted.
@@ -175,18 +176,35 @@ wire::LineCounts operator+(const wire::LineCounts& a, const wire::LineCounts& b)
 }
 
 FrameTotals operator+(FrameTotals a, const FrameTotals& b) {
-  return {a.made + b.made, a.drawn + b.drawn, a.lines + b.lines, a.changed + b.changed};
+  return {a.made + b.made,       a.drawn + b.drawn,     a.lines + b.lines,
+          a.changed + b.changed, a.casters + b.casters, a.kept_points + b.kept_points};
 }
 
 FrameTotals operator*(FrameTotals a, double part) {
   wire::LineCounts& drawn = a.drawn;
   for (double* number : {&drawn.edge_boxes, &drawn.samples, &drawn.moving_edge_boxes, &drawn.moving_samples,
-                         &drawn.moving_width, &a.lines, &a.changed})
+                         &drawn.moving_width, &a.lines, &a.changed, &a.kept_points})
     *number *= part;
   drawn.constant = drawn.constant * part;
   drawn.moving = drawn.moving * part;
   a.made = a.made * part;
+  a.casters = a.casters * part;
   return a;
+}
+
+wire::UnitCounts casters_on(const wire::FrameCounts& counts, std::uint32_t first_line, std::uint32_t last_line,
+                            int nodes) {
+  const double of_others = 1 - 1.0 / nodes;
+  wire::UnitCounts units;
+  for (const wire::CasterCounts& caster : counts.casters) {
+    if (caster.last_line <= first_line || caster.first_line >= last_line) continue;
+    const double diced = caster.is_diced ? of_others : 1;
+    units[wire::Work::caster] += diced;
+    units[wire::Work::diced_vertex] += diced * caster.vertices;
+    units[wire::Work::caster_vertex] += caster.put_vertices;
+    units[wire::Work::caster_triangle] += caster.triangles;
+  }
+  return units;
 }
 
 FrameTotals totals_on(const wire::FrameCounts& counts, std::uint32_t first_line, std::uint32_t last_line,
@@ -202,12 +220,14 @@ FrameTotals totals_on(const wire::FrameCounts& counts, std::uint32_t first_line,
     changed_to = std::min(band + band_lines, last_line);
     totals.changed += changed_to - std::max(band, first_line);
   }
+  totals.casters = casters_on(counts, first_line, last_line, 1);
   return totals;
 }
 
 FrameTotals totals_of(const wire::FrameCounts& counts, std::uint32_t band_lines) {
   FrameTotals totals = totals_on(counts, 0, static_cast<std::uint32_t>(counts.lines.size()), band_lines);
   for (const wire::UnitCounts& share : counts.shares) totals.made = totals.made + share;
+  totals.kept_points = counts.kept_points;
   return totals;
 }
 

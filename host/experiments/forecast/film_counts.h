@@ -13,9 +13,11 @@ namespace mars::forecast {
 // Of a frame, or of a node's part of it.
 struct FrameTotals {
   wire::UnitCounts made;
-  wire::LineCounts drawn;  // on all lines
-  double lines = 0;        // with moving parts
-  double changed = 0;      // lines of bands in which these are seen (host/images/picture_bands.h)
+  wire::LineCounts drawn;    // on all lines
+  double lines = 0;          // with moving parts
+  double changed = 0;        // lines of bands in which these are seen (host/images/picture_bands.h)
+  wire::UnitCounts casters;  // that are diced once for all these lines
+  double kept_points = 0;
 
   double pixels() const { return drawn.constant.pixels + drawn.moving.pixels; }
   double runs() const { return drawn.constant.runs + drawn.moving.runs; }
@@ -27,6 +29,9 @@ FrameTotals totals_on(const wire::FrameCounts& counts, std::uint32_t first_line,
                       std::uint32_t band_lines);
 FrameTotals operator+(FrameTotals a, const FrameTotals& b);
 FrameTotals operator*(FrameTotals a, double part);
+// Of casters that matter on lines [first_line, last_line), for one of `nodes` that share the dicing for the camera.
+wire::UnitCounts casters_on(const wire::FrameCounts& counts, std::uint32_t first_line, std::uint32_t last_line,
+                            int nodes);
 wire::UnitCounts operator+(wire::UnitCounts a, const wire::UnitCounts& b);
 wire::UnitCounts operator*(wire::UnitCounts a, double part);
 

@@ -17,6 +17,7 @@ using wire::Work;
 constexpr double kTriangleBytes = 64, kUnsortedBoxBytes = 12, kBoxBytes = 8;
 constexpr double kFullStrip = 512 << 10;  // node/raster/strip_buffer.cpp
 constexpr double kShortSum = 64 << 10;    // hal/collectives/reduction.cpp
+constexpr double kBand = 96 << 20;        // node/shadow/shadow_painter.cpp
 
 // What each of `nodes` nodes makes: whole shares where these divide evenly, else equal parts of several.
 std::vector<wire::UnitCounts> made_by(const std::vector<wire::UnitCounts>& shares, int nodes) {
@@ -93,7 +94,8 @@ GroupKeyframe FrameCosts::keyframe(const wire::FrameCounts& counts, int nodes, i
   for (std::size_t n = 0; n < made.size(); ++n) {
     NodePart& node = keyframe.nodes[n];
     node.memory = std::min(node.memory, arena_bytes());
-    node.strips = strips(homes.totals[n], keyframe_drawing(homes.totals[n], counts, homes.ranges[n]));
+    node.strips = strips(homes.totals[n], keyframe_drawing(homes.totals[n], counts, homes.ranges[n]) +
+                                              casting(homes.totals[n], counts, homes.ranges[n], contributors));
     node.compose = pasting(homes.totals[n]) + encoding(homes.ranges[n].count() + homes.totals[n].changed);
     if (inbetweens > 0) node.strips.pasting += saving(homes.totals[n]);
     if (n >= static_cast<std::size_t>(contributors)) node.strips = {0, 0, 0, 0};
@@ -111,7 +113,7 @@ NodePart FrameCosts::inbetween(const FrameTotals& totals, const FrameTotals& aga
   NodePart part;
   part.dice = dicing(made) + setting_up(made) + costs_.of(Work::edge_box_filled, made[Work::edge_box_made]);
   part.exchange = costs_.of(Work::line_mapped, height());
-  part.strips = strips(totals, costs_.of(units));
+  part.strips = strips(totals, costs_.of(units) + costs_.of(totals.casters));
   part.compose = pasting(totals) + encoding(totals.changed);
   part.strips.pasting += costs_.of(Work::host_restored, totals.drawn.moving.block_pixels * pixel_bytes());
   part.memory = part.made_memory = std::min(arena_bytes(), made_bytes(made));
@@ -218,12 +220,15 @@ wire::UnitCounts FrameCosts::drawn_units(const FrameTotals& totals) const {
   units[Work::light] = seen.highlights * lights;
   units[Work::facet_light] = seen.facets * lights;
   units[Work::pixel] = seen.pixels;
+  units[Work::casting_light] = seen.shaded * setting_.film.casting_count();
+  units[Work::shadow_point] = seen.points + totals.kept_points;
   return units;
 }
 
 double FrameCosts::keyframe_drawing(const FrameTotals& totals, const wire::FrameCounts& counts,
                                     const geometry::LineRange& lines) const {
   const wire::FilmSettings& film = setting_.film.settings();
+  const std::uint32_t casting = setting_.film.casting_count();
   wire::UnitCounts units = drawn_units(totals);
   for (std::uint32_t i = lines.first; i < lines.last; ++i) {
     const wire::LineCounts& line = counts.lines[i];
@@ -231,9 +236,37 @@ double FrameCosts::keyframe_drawing(const FrameTotals& totals, const wire::Frame
     units[Work::line] += needed || line.edge_boxes > 0 ? 1 : 0;
     if (!needed) continue;
     units[Work::still_byte] += static_cast<double>(film.width) * film.samples * sizeof(float);
-    if (film.samples > 1) units[Work::still_byte] += line.constant.shaded * sizeof(wire::StillGroup);
+    if (film.samples > 1 || casting > 0)
+      units[Work::still_byte] += line.constant.shaded * static_cast<double>(wire::still_group_bytes(casting));
+    if (casting > 0)
+      units[Work::still_byte] += film.width * (sizeof(std::uint32_t) + casting * sizeof(wire::StillPairs));
   }
   return costs_.of(units);
+}
+
+// `nodes` share the dicing for the camera. Other casters are diced again for each band of lines.
+double FrameCosts::casting(const FrameTotals& totals, const wire::FrameCounts& counts, const geometry::LineRange& lines,
+                           int nodes) const {
+  if (setting_.film.casting_count() == 0 || lines.count() == 0) return 0;
+  const double band = lines_of_band(totals, lines.count());
+  double seconds = 0;
+  for (double first = lines.first; first < lines.last; first += band)
+    seconds += costs_.of(casters_on(counts, static_cast<std::uint32_t>(first),
+                                    static_cast<std::uint32_t>(std::min<double>(lines.last, first + band)), nodes));
+  return seconds;
+}
+
+// As much as there is memory for (node/shadow/shadow_painter.cpp): groups with their light, depths and pairs.
+double FrameCosts::lines_of_band(const FrameTotals& totals, double lines) const {
+  const wire::FilmSettings& film = setting_.film.settings();
+  const double casting = setting_.film.casting_count(), samples = static_cast<double>(film.width) * film.samples;
+  const double light = (4 + 3 * casting) * sizeof(float), group = 16 + light;
+  const double record = static_cast<double>(wire::still_group_bytes(setting_.film.casting_count()));
+  const double column = sizeof(std::uint32_t) + casting * 2 * (sizeof(wire::StillPairs) + sizeof(std::uint16_t));
+  const double most = samples * (2 * group + record + 2 * sizeof(float)) + film.width * column;
+  const double shaded = totals.drawn.constant.shaded + totals.drawn.moving.shaded;
+  const double each = shaded / lines * (group + record) + samples * sizeof(float) + film.width * column / 2;
+  return std::max(1.0, std::floor((std::max(kBand, 2 * most) - most) / each));
 }
 
 StripCosts FrameCosts::strips(const FrameTotals& totals, double seconds) const {
@@ -421,14 +454,17 @@ FrameCosts::StillLines FrameCosts::still_lines(const geometry::LineRange& home, 
   const wire::StillPlan plan = still_plan(1);
   const geometry::LineRange lines = geometry::overlap(home, {counts.first_still_line, counts.last_still_line});
   const double depths = static_cast<double>(film.width) * film.samples * sizeof(float);
+  const std::uint32_t casting = setting_.film.casting_count();
+  const bool groups = film.samples > 1 || casting > 0;
+  const std::size_t column = sizeof(std::uint32_t) + casting * sizeof(wire::StillPairs);
   StillLines still;
-  still.messages = film.samples > 1 ? lines.count() : std::min(1u, lines.count());
+  still.messages = groups ? lines.count() : std::min(1u, lines.count());
   for (std::uint32_t line = lines.first; line < lines.last; ++line) {
     if (!is_kept(counts, line, plan)) continue;
     still.bytes += depths;
-    if (film.samples > 1)
-      still.bytes += wire::kStillHeadBytes + static_cast<double>(film.width * sizeof(std::uint32_t)) +
-                     counts.lines[line].constant.shaded * sizeof(wire::StillGroup);
+    if (groups)
+      still.bytes += wire::kStillHeadBytes + static_cast<double>(film.width * column) +
+                     counts.lines[line].constant.shaded * static_cast<double>(wire::still_group_bytes(casting));
   }
   return still;
 }

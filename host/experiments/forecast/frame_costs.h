@@ -78,6 +78,9 @@ class FrameCosts {
   double keyframe_drawing(const FrameTotals& totals, const wire::FrameCounts& counts,
                           const geometry::LineRange& lines) const;
   StripCosts strips(const FrameTotals& totals, double seconds) const;
+  double casting(const FrameTotals& totals, const wire::FrameCounts& counts, const geometry::LineRange& lines,
+                 int nodes) const;
+  double lines_of_band(const FrameTotals& totals, double lines) const;
   double pasting(const FrameTotals& totals) const;
   double background(const wire::FrameCounts& keyframe) const;
   double encoding(double lines) const;

@@ -12,8 +12,8 @@ namespace {
 
 // That a node took itself, without waiting for the host.
 double own_seconds(const wire::PhaseTimes& times) {
-  return times.dice + times.sum + times.map + times.exchange + times.fill + times.scanline + times.depth +
-         times.compose;
+  return times.dice + times.sum + times.map + times.exchange + times.fill + times.scanline + times.shadow +
+         times.depth + times.compose;
 }
 
 // `slowness` 1: no longer.

@@ -97,9 +97,12 @@ void NodeRates::smooth(int number, double slowness, double now) {
 
 double work_of(const wire::WorkCounts& counts) {
   const auto units = [](double each, std::uint64_t count) { return each * static_cast<double>(count); };
+  const auto charged = [&](wire::Work kind) { return counts.charged[static_cast<std::size_t>(kind)]; };
   return 40'000 + units(900, counts.patches) + units(6, counts.vertices) + units(1.2, counts.triangles_tested) +
          units(12, counts.triangles) + units(6, counts.edge_boxes_diced) + units(8.5, counts.edge_boxes) +
-         units(0.2, counts.samples) + units(15, counts.pixels);
+         units(0.2, counts.samples) + units(15, counts.pixels) + units(63, charged(wire::Work::casting_light)) +
+         units(55, charged(wire::Work::shadow_point)) + units(2'300, charged(wire::Work::caster)) +
+         units(29, charged(wire::Work::caster_vertex)) + units(21, charged(wire::Work::caster_triangle));
 }
 
 }  // namespace mars::farm

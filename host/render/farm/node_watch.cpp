@@ -21,7 +21,7 @@ void NodeWatch::hear(int node, const wire::Beat& beat) { nodes_.at(static_cast<s
 
 void NodeWatch::note(const wire::PhaseTimes& times) {
   for (const auto step : {&wire::PhaseTimes::dice, &wire::PhaseTimes::map, &wire::PhaseTimes::fill,
-                          &wire::PhaseTimes::scanline, &wire::PhaseTimes::compose})
+                          &wire::PhaseTimes::scanline, &wire::PhaseTimes::shadow, &wire::PhaseTimes::compose})
     longest_.*step = std::max(longest_.*step, times.*step);
 }
 
@@ -39,6 +39,7 @@ double NodeWatch::patience(const wire::Beat& beat) const {
     case wire::Phase::map: usual = longest_.map; break;
     case wire::Phase::fill: usual = longest_.fill; break;
     case wire::Phase::scanline: usual = longest_.scanline; break;
+    case wire::Phase::shadow: usual = longest_.shadow; break;
     case wire::Phase::compose: usual = longest_.compose; break;
     default: break;
   }

@@ -39,6 +39,7 @@ struct Planned {
   std::vector<forecast::Forecast> by_nodes;   // ascending; the last has the nodes that were asked for
   std::vector<forecast::Forecast> otherwise;  // with files written by others, where that was compared
   double slots;                               // bytes of a node's strips
+  bool leaves_out_shadows = false;            // those of lights that have a size
 
   // Of each number of nodes.
   void take_sooner() {
@@ -70,6 +71,12 @@ experiments::Platform platform_of(const options::RenderOptions& options, const N
   return experiments::read_platform(name, folder);
 }
 
+// Which are not counted (node/shadow_counter.h).
+bool has_soft_shadows(const wire::PackedFilm& film) {
+  return std::ranges::any_of(film.lights(),
+                             [](const wire::Light& light) { return light.casts == 1 && light.size > 0; });
+}
+
 Planned plan(const options::RenderOptions& options, const NodesCode& code) {
   const film::CompiledFilm film = job::load_film_of(options, warn);
   const wire::PackedFilm view = film.view();
@@ -98,6 +105,7 @@ Planned plan(const options::RenderOptions& options, const NodesCode& code) {
   }
   // An interval says it, too.
   if (!platform.doubt.empty() && !planned.asked().spread) warn(experiments::doubt_text(platform));
+  planned.leaves_out_shadows = has_soft_shadows(view);
   planned.slots = planned.asked().run.host_memory.credits * static_cast<double>(wire::kSlotBytes);
   return planned;
 }
@@ -142,6 +150,8 @@ std::string text_of(const Planned& planned) {
   text += document::formatted("seconds     %.4g", asked.seconds()) + " (" + interval_text(planned) + ")\n";
   if (!planned.platform.doubt.empty() && asked.spread)
     text += "            the interval is wide, for the calibration was noisy: " + planned.platform.doubt + "\n";
+  if (planned.leaves_out_shadows)
+    text += "            soft shadows are not in the forecast: the rendering takes longer\n";
   if (planned.files) text += files_text(planned) + "\n";
   text += document::formatted("node hours  %.3g\n", asked.node_hours());
   text += "a node      " + megabytes(run.node_memory) + " for a frame, " + megabytes(planned.slots) + " for strips\n";
@@ -176,6 +186,7 @@ std::string json_text(const Planned& planned) {
   nlohmann::ordered_json all = json_of(planned, planned.asked());
   all["platform"] = planned.platform.name;
   if (!planned.platform.doubt.empty()) all["doubt"] = planned.platform.doubt;
+  if (planned.leaves_out_shadows) all["leaves_out"] = {"soft shadows"};
   all["counted"] = planned.counted;
   all["frames"] = planned.frames;
   all["slots"] = std::llround(planned.slots);

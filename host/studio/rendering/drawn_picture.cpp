@@ -42,6 +42,7 @@ Json seconds_of(const wire::PhaseTimes& times) {
           {"setup", times.sum + times.map + times.fill},
           {"exchange", times.exchange + times.depth},
           {"raster", times.scanline},
+          {"shadow", times.shadow},
           {"wait", times.credit}};
 }
 

@@ -6,6 +6,7 @@ export const kPhases = [  // of a node's work on a frame, in order
   ["setup", "Edge boxes", "#3fb8a7"],
   ["exchange", "Exchange", "#e0a83f"],
   ["raster", "Scan and shade", "#e07b4f"],
+  ["shadow", "Shadows", "#8b6fb0"],
   ["wait", "Wait to send", "#8a919c"],
 ];
 const kOther = "#8a919c";

@@ -47,6 +47,15 @@ OPERATIONS = {
     "facet_light": {"multiply": 40, "add": 28, "root": 2, "divide": 4, "compare": 4, "load": 20, "store": 14},
     "pixel": {"move": 2, "step": 1},
     "still_byte": {"move": 0.5, "step": 0.25},
+    "casting_light": {"multiply": 6, "add": 3, "load": 12, "store": 6},  # times its colour, then times what arrives
+    # The place from the depth, then on the grid.
+    "shadow_point": {"multiply": 12, "add": 10, "divide": 1, "integer": 2, "load": 18, "store": 6, "compare": 2},
+    "caster": {"multiply": 192, "add": 144, "load": 64, "compare": 96},  # control points, and their box on the grid
+    "diced_vertex": costs.OPERATIONS["vertex"],
+    "caster_vertex": {"multiply": 9, "add": 6, "integer": 2, "load": 12, "store": 3, "compare": 6},
+    # Three edges, a plane by one division, and the points of a row or two.
+    "caster_triangle": {"multiply": 16, "add": 24, "divide": 1, "load": 24, "store": 12, "compare": 18, "move": 12,
+                        "step": 3},
     "host_run": {"move": 12, "step": 2},
     "host_byte": {"move": 0.5, "step": 0.25},
     "host_restored": {"move": 0.5, "step": 0.25},

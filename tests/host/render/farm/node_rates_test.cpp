@@ -133,6 +133,17 @@ TEST(NodeRates, MoreWorkIsNotSlowness) {
 }
 
 // It waited for its portion, or for a keyframe.
+TEST(NodeRates, ShadowsAreWork) {
+  wire::WorkCounts counts{};
+  double before = work_of(counts);
+  for (const wire::Work kind : {wire::Work::casting_light, wire::Work::shadow_point, wire::Work::caster,
+                                wire::Work::caster_vertex, wire::Work::caster_triangle}) {
+    counts.charged[static_cast<std::size_t>(kind)] = 1000;
+    EXPECT_GT(work_of(counts), before + 1000);
+    before = work_of(counts);
+  }
+}
+
 TEST(NodeRates, TimeBeforeItCouldBeginDoesNotCount) {
   NodeRates rates(2);
   for (int k = 1; k <= 200; ++k) {

@@ -67,6 +67,19 @@ TEST_F(NodeWatchTest, ALongStepMayLastTenTimesItsUsualTime) {
   EXPECT_EQ(watch.hanging(), Nodes({0, 1, 2}));
 }
 
+TEST_F(NodeWatchTest, ShadowsMayLastTenTimesTheirUsualTime) {
+  wire::PhaseTimes times{};
+  times.shadow = 6;
+  watch.note(times);
+  watch.hear(0, {.frame = 3, .phase = wire::Phase::shadow});
+  watch.hear(1, {.frame = 3, .phase = wire::Phase::scanline});
+  watch.hear(2, {.frame = 3, .phase = wire::Phase::shadow});
+  pass(59, {});
+  EXPECT_EQ(watch.hanging(), Nodes({1}));
+  pass(2, {});
+  EXPECT_EQ(watch.hanging(), Nodes({0, 1, 2}));
+}
+
 TEST_F(NodeWatchTest, WhileTheJobIsSuspendedNothingCounts) {
   pass(1, {0, 1, 2});
   for (int times = 0; times < 10; ++times) {

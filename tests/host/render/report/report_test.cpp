@@ -18,6 +18,7 @@ wire::Strip strip_of(std::uint32_t frame, std::int32_t node, std::uint32_t last)
   strip.edge_box_total = 77;
   strip.load_ratio = 1.25;
   strip.times.dice = 0.5;
+  strip.times.shadow = 0.125;
   strip.work.triangles = 10 + static_cast<std::uint64_t>(node);
   strip.work.samples = 500;
   strip.work.lines_drawn_again = 30;
