@@ -1,5 +1,5 @@
 // Counts what the shadows of a frame take, as forecasts need it: which points are lit on some lines of the picture, and
-// to which of these lines each caster matters. Lights that have a size are not counted.
+// to which of the sampled lines each caster matters. Lights that have a size are not counted.
 #pragma once
 
 #include <array>

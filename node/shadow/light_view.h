@@ -11,8 +11,8 @@
 // Rounding. A point lies off its surface by at most 1/256 of a pixel there, for triangles are snapped on the screen;
 // off its place on the grid by a step; float arithmetic moves it by its distance times 2^-20 at most; and its depth 1 /
 // w comes from a triangle's plane, which is off by some 2^-23 of the greatest depth there is, 1 / near. Let e be the
-// sum of these lengths. A surface through the true point is then nearer to the light than the point by at most e (1 +
-// s), s the surface's slope towards the view: what is not nearer by more does not block it. This includes the point's
+// sum of the four lengths. A surface through the true point is then nearer to the light than the point by at most e (1
+// + s), s the surface's slope towards the view: what is not nearer by more does not block it. This includes the point's
 // own triangle and those that meet it.
 #pragma once
 

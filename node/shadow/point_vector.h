@@ -25,7 +25,7 @@ struct GridBox {
 // both grids (light_view.h).
 struct alignas(64) PointVector {
   GridBox box;
-  // A plane near them, so that casters that lie on it are told from those before it. With d = z - (per_x (x -
+  // A plane near them, which separates casters that lie on it from those before it. With d = z - (per_x (x -
   // box.low_x)
   // + per_y (y - box.low_y)), a caster whose d is nowhere above least + room blocks none.
   float per_x, per_y;

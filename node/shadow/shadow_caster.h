@@ -21,7 +21,7 @@ namespace mars::shadow {
 struct CastCounts {
   std::uint64_t points = 0;          // put on a grid
   std::uint64_t surfaces = 0;        // diced
-  std::uint64_t diced_vertices = 0;  // of these
+  std::uint64_t diced_vertices = 0;  // of diced surfaces
   std::uint64_t vertices = 0;        // put on a grid
   std::uint64_t triangles = 0;       // set up
 };
@@ -35,7 +35,7 @@ class ShadowCaster {
   std::uint32_t lights() const { return static_cast<std::uint32_t>(lights_.size()); }
   std::uint32_t pairs_a_sample(std::uint32_t light) const { return shadow::pairs_a_sample(samples_, has_size(light)); }
 
-  // Lets casters block pairs: still ones of layers that are drawn now, moving ones of these and of `kept`, which knows
+  // Lets casters block pairs: still ones of the layers `drawn`, moving ones of `drawn` and of `kept`, which knows
   // what still ones block.
   using Layers = std::span<Layer* const>;
   void cast(const geometry::Scene& scene, Layers drawn, Layer& kept);
@@ -48,7 +48,8 @@ class ShadowCaster {
   bool knows_still(const geometry::LineRange& lines) const {
     return !still_bounds_.empty() && still_lines_.first == lines.first && still_lines_.last == lines.last;
   }
-  // The squares of these whose points the scene's moving casters may block; all where that is not known.
+  // Leaves of `tiles`, squares of the still layer, those whose points the scene's moving casters may block; all where
+  // that is not known.
   void find_shaded(const geometry::Scene& scene, std::vector<std::uint32_t>& tiles);
 
   CastCounts take_counts() { return std::exchange(counts_, {}); }
@@ -93,7 +94,7 @@ class ShadowCaster {
   Faces drawn_points_, kept_points_;
   std::vector<TileBounds> bounds_;                     // of a light that has a size
   std::vector<std::vector<TileBounds>> still_bounds_;  // by light and face
-  geometry::LineRange still_lines_{0, 0};              // of these bounds
+  geometry::LineRange still_lines_{0, 0};              // that still_bounds_ are of
   std::vector<std::int32_t> grid_x_, grid_y_;
   std::vector<float> grid_z_;
   std::unique_ptr<SmallBatches> small_;

@@ -124,7 +124,7 @@ shading::Extent ShadowPainter::see_still(const Picture& picture, std::uint32_t n
   copy_depths(const_cast<float*>(layer.depth), {0, width_});
   std::fill_n(layer.pairs, std::size_t{width_} * casting_, wire::StillPairs{0, 0});
   find_lit(picture, line.still, layer.pairs);
-  fill_record(line.still, line.again);
+  if (keeps || picture.scene.any_moves()) fill_record(line.still, line.again);
   if (picture.scene.any_moves()) layer.moved = new_moved();
   line.still.from = line.still_from = &layer;
   z_line_.forget_ids(extent);

@@ -87,6 +87,13 @@ FilmRun run_film(std::span<const std::byte> film, const RunOptions& options) {
   return run;
 }
 
+std::uint64_t edge_boxes_of_inbetweens(const FilmRun& run) {
+  std::uint64_t count = 0;
+  for (const wire::Strip& strip : run.report.strips)
+    if (strip.kind == wire::FrameKind::inbetween) count += strip.work.edge_boxes;
+  return count;
+}
+
 void expect_same(const FilmRun& rendered, const FilmRun& expected, const wire::FilmSettings& settings,
                  const std::string& name) {
   EXPECT_FALSE(rendered.frames.empty()) << name << ": nothing was rendered";

@@ -54,6 +54,9 @@ FilmRun run_film(std::span<const std::byte> film, const RunOptions& options = {}
 FilmRun render_as_host(std::span<const std::byte> film, const RunOptions& options);
 void run_as_node(const RunOptions& options);
 
+// Drawn in all of them.
+std::uint64_t edge_boxes_of_inbetweens(const FilmRun& run);
+
 // EXPECTs at least one frame, and equal pictures for equal frames; where they differ writes both and their difference
 // as PNG files into the working directory, named after `name`.
 void expect_same(const FilmRun& rendered, const FilmRun& expected, const wire::FilmSettings& settings,

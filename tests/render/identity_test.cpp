@@ -197,13 +197,6 @@ TEST_P(Identity, InSeveralPassesWhenMemoryIsShort) {
   }
 }
 
-std::uint64_t edge_boxes_of_inbetweens(const FilmRun& run) {
-  std::uint64_t count = 0;
-  for (const wire::Strip& strip : run.report.strips)
-    if (strip.kind == wire::FrameKind::inbetween) count += strip.work.edge_boxes;
-  return count;
-}
-
 // Inbetweens draw stationary parts again on lines that are not kept.
 TEST_P(Identity, WithLittleMemoryForStationaryParts) {
   // A line of which each sample may show another triangle.

@@ -153,13 +153,6 @@ TEST_P(ShadowsIdentity, InSeveralPassesWhenMemoryIsShort) {
   }
 }
 
-std::uint64_t edge_boxes_of_inbetweens(const FilmRun& run) {
-  std::uint64_t count = 0;
-  for (const wire::Strip& strip : run.report.strips)
-    if (strip.kind == wire::FrameKind::inbetween) count += strip.work.edge_boxes;
-  return count;
-}
-
 TEST_P(ShadowsIdentity, WithLittleMemoryForStationaryParts) {
   const auto casts = static_cast<std::uint32_t>(std::ranges::count(film().lights, 1u, &wire::Light::casts));
   const std::uint64_t a_line =

@@ -65,7 +65,7 @@ class Benchmark(unittest.TestCase):
 
     @needs_llvmpipe
     def test_shadows_compete_and_look_alike(self):
-        results = self.measured("--scenes", "s1s", "--rounds", "1", "--samples", "1,4")
+        results = self.measured("--scenes", "s1s", "--rounds", "1", "--samples", "1,4", "--dice", "16")
         self.assertEqual([(result["samples"], result["sun"]) for result in results],
                          [(1, "hard"), (1, "soft"), (4, "hard"), (4, "soft")])
         for result in results:
