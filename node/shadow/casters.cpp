@@ -11,9 +11,9 @@ constexpr std::size_t kDicedBytes = std::size_t{48} << 20;
 constexpr std::size_t kMostCasters = std::size_t{1} << 14;  // of a chunk
 constexpr std::size_t kMostBytes =                          // of a caster
     (std::size_t{shape::Dicer::kMostVertices} + simd::kVectorSlack) * 3 * sizeof(float) +
-    (std::size_t{2} * shape::kMaxRate * shape::kMaxRate + 4 * shape::kMaxRate + simd::kVectorSlack) * 3 *
-        sizeof(std::uint32_t) +
-    std::size_t{2} * shape::kMaxRate * shape::kMaxRate * sizeof(shape::Batch) / 8 + 4096;
+    2 * ((std::size_t{2} * shape::kMaxRate * shape::kMaxRate + 4 * shape::kMaxRate + simd::kVectorSlack) *
+             (3 * sizeof(std::uint32_t) + sizeof(shape::Batch)) +
+         4096);
 constexpr int kUnseenRate = 32;  // of the inside of patches that no pixel shows
 
 void add_point(const float* place, Hull& hull) {
@@ -54,6 +54,16 @@ Hull hull_of(const shape::Surface& surface) {
   return hull;
 }
 
+// How many of the batches from `first` on are rows of equally many quads, of at most `most`, which is even: 1 if none.
+std::uint32_t equal_rows(const shape::Triangles& t, std::uint32_t first, std::uint32_t most) {
+  const auto size = [&t](std::uint32_t b) { return t.batches[b].last - t.batches[b].first; };
+  std::uint32_t rows = 0;
+  while (rows < most && first + rows < t.batch_count && t.batches[first + rows].consecutive &&
+         size(first + rows) == size(first))
+    ++rows;
+  return rows == most ? most : rows >= 2 ? 2 : 1;
+}
+
 bool casts(const geometry::Scene& scene, std::size_t segment, Casting casting) {
   return scene.moves(segment) == (casting == Casting::moving) &&
          scene.film().materials()[scene.material(segment)].casts == 1;
@@ -90,9 +100,40 @@ shape::Triangles CasterStore::copy(const shape::Triangles& t) {
     return other.count == t.count && other.batch_count == t.batch_count && are_equal(t.a, other.a) &&
            are_equal(t.b, other.b) && are_equal(t.c, other.c);
   };
-  if (!casters_.empty() && same(casters_.back().triangles)) return casters_.back().triangles;
-  return {copy(t.a, t.count), copy(t.b, t.count), copy(t.c, t.count), t.count, copy(t.batches, t.batch_count),
-          t.batch_count};
+  if (casters_.empty() || !same(before_)) {
+    before_ = {copy(t.a, t.count), copy(t.b, t.count), copy(t.c, t.count), t.count, copy(t.batches, t.batch_count),
+               t.batch_count};
+    compact_ = compact(before_);
+  }
+  return compact_;
+}
+
+// The same triangles with their rows cut, so that those of a batch are near each other: the batches of rows of quads,
+// two a row (Dicer::fill_inside), become pieces of two rows.
+shape::Triangles CasterStore::compact(const shape::Triangles& t) {
+  constexpr std::uint32_t kRows = 4;
+  const auto batches = arena_.take<shape::Batch>(t.count);
+  const std::uint32_t* const from[3] = {t.a, t.b, t.c};
+  std::uint32_t* to[3];
+  for (std::uint32_t*& corners : to) corners = arena_.take<std::uint32_t>(t.count + simd::kVectorSlack).data();
+  std::uint32_t count = 0, next = 0;
+  const auto add = [&](std::uint32_t first, std::uint32_t last) {
+    for (std::size_t c = 0; c < 3; ++c) std::copy(from[c] + first, from[c] + last, to[c] + next);
+    next += last - first;
+  };
+  for (std::uint32_t b = 0; b < t.batch_count;) {
+    const std::uint32_t rows = equal_rows(t, b, kRows), width = t.batches[b].last - t.batches[b].first;
+    const std::uint32_t piece = shape::kBatchTriangles / rows;
+    for (std::uint32_t k = 0; k < width; k += piece) {
+      const std::uint32_t first = next;
+      for (std::uint32_t row = 0; row < rows; ++row)
+        add(t.batches[b + row].first + k, t.batches[b + row].first + std::min(k + piece, width));
+      batches[count++] = {first, next, false};
+    }
+    b += rows;
+  }
+  for (std::uint32_t* corners : to) std::fill_n(corners + next, simd::kVectorSlack, 0u);
+  return {to[0], to[1], to[2], t.count, batches.data(), count};
 }
 
 const Caster& CasterStore::add(const shape::Surface& surface, const Hull& hull) {

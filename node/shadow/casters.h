@@ -45,12 +45,14 @@ class CasterStore {
 
  private:
   shape::Triangles copy(const shape::Triangles& triangles);
+  shape::Triangles compact(const shape::Triangles& triangles);
   template <typename T>
   const T* copy(const T* from, std::size_t count);
 
   messages::PrivateMemory memory_;
   raster::Arena arena_;
   std::vector<Caster> casters_;
+  shape::Triangles before_{}, compact_{};  // of the last surface
 };
 
 // Surfaces that were diced for the camera in this frame, so that they are not diced again.
