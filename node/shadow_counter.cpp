@@ -174,9 +174,9 @@ void ShadowCounter::count_casters(const geometry::Scene& scene, Light& light, Ca
   casters_.begin(scene, casting, diced_);
   for (auto chunk = casters_.next(matters); !chunk.empty(); chunk = casters_.next(matters)) {
     for (std::size_t i = 0; i < chunk.size(); ++i)
-      counts.casters.push_back({reaches[i].first, reaches[i].last + step_, !casters_.has_diced(*chunk[i]),
-                                static_cast<double>(chunk[i]->vertices), chunk[i]->vertices * views,
-                                chunk[i]->triangles.count * reaches[i].views});
+      counts.casters.push_back({reaches[i].first, reaches[i].last + step_, chunk[i].is_new,
+                                static_cast<double>(chunk[i].surface->vertices), chunk[i].surface->vertices * views,
+                                chunk[i].surface->triangles.count * reaches[i].views});
     reaches.clear();
   }
 }

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t kChunkBytes = std::size_t{24} << 20;
 constexpr std::size_t kDicedBytes = std::size_t{48} << 20;
-constexpr std::size_t kMostCasters = std::size_t{1} << 14;  // of a chunk
+constexpr std::size_t kMostCasters = std::size_t{1} << 12;  // of a chunk
 constexpr std::size_t kMostBytes =                          // of a caster
     (std::size_t{shape::Dicer::kMostVertices} + simd::kVectorSlack) * 3 * sizeof(float) +
     2 * ((std::size_t{2} * shape::kMaxRate * shape::kMaxRate + 4 * shape::kMaxRate + simd::kVectorSlack) *
@@ -33,22 +33,6 @@ Hull hull_of(const shape::EyeMatrix& matrix, const wire::Meshlet& meshlet) {
     const auto along = [&](std::size_t axis) { return (corner >> axis & 1 ? meshlet.high : meshlet.low)[axis]; };
     float place[3];
     shape::to_eye(matrix, {along(0), along(1), along(2)}, place);
-    add_point(place, hull);
-  }
-  return hull;
-}
-
-// The corners of the box round the vertices.
-Hull hull_of(const shape::Surface& surface) {
-  float low[3], high[3];
-  for (int axis = 0; axis < 3; ++axis) {
-    const float* const along = surface.vertices().place[axis];
-    const auto [least, greatest] = std::minmax_element(along, along + surface.vertex_count());
-    low[axis] = *least, high[axis] = *greatest;
-  }
-  Hull hull{};
-  for (int corner = 0; corner < 8; ++corner) {
-    const float place[3] = {(corner & 1 ? high : low)[0], (corner & 2 ? high : low)[1], (corner & 4 ? high : low)[2]};
     add_point(place, hull);
   }
   return hull;
@@ -136,14 +120,12 @@ shape::Triangles CasterStore::compact(const shape::Triangles& t) {
   return {to[0], to[1], to[2], t.count, batches.data(), count};
 }
 
-const Caster& CasterStore::add(const shape::Surface& surface, const Hull& hull) {
+const Caster& CasterStore::add(const shape::Surface& surface) {
   const shape::Vertices& v = surface.vertices();
   const auto vertices = static_cast<std::uint32_t>(surface.vertex_count());
   const shape::Triangles triangles = copy(surface.triangles());
-  casters_.push_back({hull,
-                      {copy(v.place[0], vertices), copy(v.place[1], vertices), copy(v.place[2], vertices)},
-                      vertices,
-                      triangles});
+  casters_.push_back(
+      {{copy(v.place[0], vertices), copy(v.place[1], vertices), copy(v.place[2], vertices)}, vertices, triangles});
   return casters_.back();
 }
 
@@ -156,7 +138,7 @@ void DicedSurfaces::clear() {
 
 void DicedSurfaces::keep(std::uint32_t patch, const shape::Surface& surface) {
   if (!store_.has_room()) return;
-  store_.add(surface, hull_of(surface));
+  store_.add(surface);
   place_[patch] = static_cast<std::uint32_t>(store_.all().size());
 }
 
@@ -176,7 +158,7 @@ void CasterStream::begin(const geometry::Scene& scene, Casting casting, const Di
   item_ = 0;
 }
 
-std::span<const Caster* const> CasterStream::next(const Matters& matters) {
+std::span<const ChunkCaster> CasterStream::next(const Matters& matters) {
   store_.clear();
   chunk_.clear();
   const wire::PackedFilm& film = scene_->film();
@@ -194,20 +176,19 @@ std::span<const Caster* const> CasterStream::next(const Matters& matters) {
   return chunk_;
 }
 
-bool CasterStream::has_diced(const Caster& caster) const {
-  const std::span<const Caster> here = store_.all();
-  return !here.empty() && !std::less<>()(&caster, &here.front()) && !std::less<>()(&here.back(), &caster);
-}
-
 void CasterStream::add_item(const wire::Shape& shape, std::uint32_t number, const Matters& matters) {
-  const auto patch = scene_->first_patch(segment_) + static_cast<std::uint32_t>(item_);
-  if (const Caster* known = diced_->find(patch)) {
-    if (matters(known->hull)) chunk_.push_back(known);
-  } else if (item_ < shape.patch_count) {
-    add_patch(scene_->film().patches_of(number)[item_], matters);
-  } else {
-    add_meshlet(scene_->film().meshlets_of(number)[item_ - shape.patch_count], matters);
-  }
+  const bool is_patch = item_ < shape.patch_count;
+  const auto patch = [&]() -> const wire::Patch& { return scene_->film().patches_of(number)[item_]; };
+  const auto meshlet = [&]() -> const wire::Meshlet& {
+    return scene_->film().meshlets_of(number)[item_ - shape.patch_count];
+  };
+  const Hull hull = is_patch ? hull_of(shape::to_eye(matrix_, patch())) : hull_of(matrix_, meshlet());
+  if (!matters(hull)) return;
+  const Caster* const known = diced_->find(scene_->first_patch(segment_) + static_cast<std::uint32_t>(item_));
+  if (known != nullptr)
+    chunk_.push_back({hull, known, false});
+  else
+    chunk_.push_back({hull, &store_.add(is_patch ? dice(patch()) : place(meshlet())), true});
 }
 
 void CasterStream::visit_hulls(const geometry::Scene& scene, Casting casting,
@@ -222,26 +203,18 @@ void CasterStream::visit_hulls(const geometry::Scene& scene, Casting casting,
   }
 }
 
-void CasterStream::add_patch(const wire::Patch& patch, const Matters& matters) {
+const shape::Surface& CasterStream::dice(const wire::Patch& patch) {
   const shape::EyePatch eye_patch = shape::to_eye(matrix_, patch);
-  const Hull hull = hull_of(eye_patch);
-  if (!matters(hull)) return;
   shape::Dicing dicing = scene_->dicing();
   const auto width = static_cast<float>(scene_->width()), height = static_cast<float>(scene_->height());
   if (shape::unseen(eye_patch, scene_->projection(), width, height)) dicing.most_inside = kUnseenRate;
   dicer_.dice(eye_patch, scene_->projection(), dicing);
-  add(dicer_, hull);
+  return dicer_;
 }
 
-void CasterStream::add_meshlet(const wire::Meshlet& meshlet, const Matters& matters) {
-  const Hull hull = hull_of(matrix_, meshlet);
-  if (!matters(hull)) return;
+const shape::Surface& CasterStream::place(const wire::Meshlet& meshlet) {
   placer_.place(map_, scene_->film(), meshlet, scene_->projection());
-  add(placer_, hull);
-}
-
-void CasterStream::add(const shape::Surface& surface, const Hull& hull) {
-  chunk_.push_back(&store_.add(surface, hull));
+  return placer_;
 }
 
 }  // namespace mars::shadow

@@ -25,7 +25,6 @@ struct Hull {
 
 // A surface in eye space. Arrays are longer by kVectorSlack.
 struct Caster {
-  Hull hull;
   const float* place[3];
   std::uint32_t vertices;
   shape::Triangles triangles;
@@ -40,7 +39,7 @@ class CasterStore {
   void clear();
   bool has_room() const;
   // Where it has room.
-  const Caster& add(const shape::Surface& surface, const Hull& hull);
+  const Caster& add(const shape::Surface& surface);
   std::span<const Caster> all() const { return casters_; }
 
  private:
@@ -71,6 +70,13 @@ class DicedSurfaces {
   std::vector<std::uint32_t> place_;  // by patch: its place in the store and one; 0: it is not there
 };
 
+// One of a chunk.
+struct ChunkCaster {
+  Hull hull;
+  const Caster* surface;
+  bool is_new;  // it was diced for this chunk
+};
+
 class CasterStream {
  public:
   // Whether a surface within the hull may matter.
@@ -82,23 +88,19 @@ class CasterStream {
   // there.
   void begin(const geometry::Scene& scene, Casting casting, const DicedSurfaces& diced);
   // The next chunk, of those that matter; empty at the end.
-  std::span<const Caster* const> next(const Matters& matters);
+  std::span<const ChunkCaster> next(const Matters& matters);
   // Calls visit(hull) for each of that kind.
   void visit_hulls(const geometry::Scene& scene, Casting casting, const std::function<void(const Hull&)>& visit) const;
 
-  // Whether a caster of the current chunk was diced for it.
-  bool has_diced(const Caster& caster) const;
-
  private:
   void add_item(const wire::Shape& shape, std::uint32_t number, const Matters& matters);
-  void add_patch(const wire::Patch& patch, const Matters& matters);
-  void add_meshlet(const wire::Meshlet& meshlet, const Matters& matters);
-  void add(const shape::Surface& surface, const Hull& hull);
+  const shape::Surface& dice(const wire::Patch& patch);
+  const shape::Surface& place(const wire::Meshlet& meshlet);
 
   shape::Dicer dicer_;
   geometry::MeshletPlacer placer_;
   CasterStore store_;
-  std::vector<const Caster*> chunk_;
+  std::vector<ChunkCaster> chunk_;
   const geometry::Scene* scene_ = nullptr;
   const DicedSurfaces* diced_ = nullptr;
   Casting casting_ = Casting::still;

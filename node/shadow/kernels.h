@@ -23,6 +23,15 @@ struct GridVertices {
 
 inline constexpr std::int32_t kOffGrid = -0x7fffffff - 1;
 
+// A hull's places on a view's grid; surfaces within it are off it by `margin` steps at most, and by `margin_z`.
+struct alignas(64) GridHull {
+  std::int32_t x[kPointLanes];
+  std::int32_t y[kPointLanes];
+  float z[kPointLanes];
+  std::uint32_t count;
+  float margin, margin_z;
+};
+
 // Triangles that are small on the grid: differences of their coordinates fit kMostSmall, so that edge functions are
 // exact in 32 bits. Turned so that they run counter-clockwise; bounds of those that are no such triangles are empty.
 struct alignas(64) SmallTriangles {
@@ -64,6 +73,10 @@ struct ShadowKernels {
   // how many.
   std::uint32_t (*find)(const BoxArrays& boxes, std::uint32_t first, std::uint32_t count, const GridBox& box,
                         float spread, std::uint32_t* found);
+  // Leaves those numbers in `found` of vectors before whose near plane (point_vector.h) the hull reaches, all of which
+  // is on the grid; says how many.
+  std::uint32_t (*find_below)(const GridHull& hull, const PointVector* points, std::uint32_t* found,
+                              std::uint32_t found_count);
   // Blocks those of the points `found` that the triangles are before.
   void (*block)(const SmallBatches& batches, PointVector* points, const std::uint32_t* found,
                 std::uint32_t found_count);

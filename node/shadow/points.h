@@ -116,6 +116,21 @@ struct TilePlace {
   std::uint32_t columns;
 };
 
+// Of four points next to each other, the first of which is `lane`.
+template <typename Counts>
+std::uint32_t gather_row(const Lane lane, const LayerLine& line, const TilePlace& place, const Counts& counts,
+                         float* inverse_w) {
+  const wire::StillPairs* const pairs = line.pairs + place.pairs + lane.column;
+  const std::uint16_t* const moved = line.moved == nullptr ? nullptr : line.moved + place.pairs + lane.column;
+  const float* const depth = line.depth + lane.sample * line.stride + place.left + lane.column;
+  std::uint32_t active = 0;
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    inverse_w[k] = depth[k];
+    active |= static_cast<std::uint32_t>(counts(pairs[k], lane, moved == nullptr ? std::uint16_t{0} : moved[k])) << k;
+  }
+  return active;
+}
+
 // The depths of those points of a vector that count; which they are.
 template <typename Counts>
 std::uint32_t gather(const PointSource& source, const VectorLanes& lanes, const TileLines& lines,
@@ -131,7 +146,7 @@ std::uint32_t gather(const PointSource& source, const VectorLanes& lanes, const 
   if (source.vectors.are_rows() && place.columns == kTile) {
     for (std::uint32_t k = 0; k < kPointLanes; k += 4)
       if (const LayerLine* line = lines[lanes.lane[k].line])
-        for (std::uint32_t i = k; i < k + 4; ++i) take(i, *line);
+        active |= gather_row(lanes.lane[k], *line, place, counts, inverse_w + k) << k;
     return active;
   }
   for (std::uint32_t k = 0; k < kPointLanes; ++k)

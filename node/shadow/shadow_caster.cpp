@@ -1,6 +1,7 @@
 #include "node/shadow/shadow_caster.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -25,6 +26,46 @@ std::int32_t clamped(double steps) {
   constexpr double kMost = std::numeric_limits<std::int32_t>::max();
   return static_cast<std::int32_t>(std::clamp(steps, -kMost, kMost));
 }
+
+// A plane that no place of a hull is before.
+class Lid {
+ public:
+  explicit Lid(const GridHull& hull) : x_(hull.x[0]), y_(hull.y[0]) {
+    if (hull.count == 16) tilt(hull);
+    const auto above = [&](std::uint32_t k) {
+      return hull.z[k] - per_x_ * (hull.x[k] - x_) - per_y_ * (hull.y[k] - y_);
+    };
+    z_ = above(0);
+    for (std::uint32_t k = 1; k < hull.count; ++k) z_ = std::max(z_, above(k));
+    z_ += hull.margin * (std::abs(per_x_) + std::abs(per_y_)) + hull.margin_z;
+  }
+
+  // Whether it is anywhere before the plane near the points, over their box: at a corner, if at all.
+  bool is_before(const PointVector& points) const {
+    const GridBox& box = points.box;
+    const double low = z_ + per_x_ * (box.low_x - x_) + per_y_ * (box.low_y - y_);
+    const double rise_x = (per_x_ - points.per_x) * (double{box.high_x} - box.low_x);
+    const double rise_y = (per_y_ - points.per_y) * (double{box.high_y} - box.low_y);
+    return low + std::max(rise_x, 0.0) + std::max(rise_y, 0.0) > double{points.least} + double{points.room};
+  }
+
+ private:
+  // As a patch's corners are.
+  void tilt(const GridHull& hull) {
+    const auto between = [&](std::uint32_t a, std::uint32_t b) {
+      return std::array{double{hull.x[b]} - hull.x[a], double{hull.y[b]} - hull.y[a], double{hull.z[b]} - hull.z[a]};
+    };
+    const auto [ax, ay, az] = between(0, 15);
+    const auto [bx, by, bz] = between(3, 12);
+    const double area = ax * by - ay * bx;
+    if (area == 0) return;
+    per_x_ = (az * by - bz * ay) / area;
+    per_y_ = (bz * ax - az * bx) / area;
+  }
+
+  double x_, y_, z_;
+  double per_x_ = 0, per_y_ = 0;
+};
 
 }  // namespace
 
@@ -136,60 +177,81 @@ void ShadowCaster::put_points(const PointSource& source, std::span<const LightVi
   look_();
 }
 
-std::span<const Caster* const> ShadowCaster::next_casters(const CasterStream::Matters& matters) {
-  const std::span<const Caster* const> chunk = casters_.next(matters);
-  for (const Caster* caster : chunk) {
-    if (!casters_.has_diced(*caster)) continue;
+std::span<const ChunkCaster> ShadowCaster::next_casters(const CasterStream::Matters& matters) {
+  const std::span<const ChunkCaster> chunk = casters_.next(matters);
+  for (const ChunkCaster& caster : chunk) {
+    if (!caster.is_new) continue;
     ++counts_.surfaces;
-    counts_.diced_vertices += caster->vertices;
+    counts_.diced_vertices += caster.surface->vertices;
   }
   return chunk;
 }
 
-void ShadowCaster::block(std::span<const Caster* const> casters, std::span<const LightView> views, Faces& faces) {
+void ShadowCaster::block(std::span<const ChunkCaster> casters, std::span<const LightView> views, Faces& faces) {
   for (std::size_t f = 0; f < views.size(); ++f) {
     if (faces[f].empty()) continue;
-    for (const Caster* caster : casters) block(*caster, views[f], faces[f]);
+    for (const ChunkCaster& caster : casters) {
+      const GridBox box = box_of_hull(views[f], caster.hull);
+      if (views.size() == 1 || faces[f].tree().any(kernels_, box, 0)) block(*caster.surface, views[f], faces[f]);
+    }
     look_();
   }
 }
 
-void ShadowCaster::block(const Caster& caster, const LightView& view, Points& points) {
-  if (!points.tree().any(kernels_, box_of_hull(view, caster.hull), 0)) return;
+void ShadowCaster::block(const Caster& surface, const LightView& view, Points& points) {
   const GridVertices vertices{grid_x_.data(), grid_y_.data(), grid_z_.data()};
-  const GridBox box = kernels_.project(view, caster.place, caster.vertices, vertices);
-  counts_.vertices += caster.vertices;
+  const GridBox box = kernels_.project(view, surface.place, surface.vertices, vertices);
+  counts_.vertices += surface.vertices;
   if (box.low_x > box.high_x) return;
-  const auto found = points.tree().find(kernels_, box, 0, found_);
+  const auto found = find_below(box, points);
   if (found.empty()) return;
-  counts_.triangles += caster.triangles.count;
-  for (std::uint32_t first = 0; first < caster.triangles.batch_count; first += kMostBatches) {
-    const std::uint32_t count = std::min(kMostBatches, caster.triangles.batch_count - first);
+  counts_.triangles += surface.triangles.count;
+  for (std::uint32_t first = 0; first < surface.triangles.batch_count; first += kMostBatches) {
+    const std::uint32_t count = std::min(kMostBatches, surface.triangles.batch_count - first);
     small_->count = 0;
     for (std::uint32_t b = 0; b < count; ++b) {
-      const shape::Batch& batch = caster.triangles.batches[first + b];
-      std::uint32_t large = kernels_.set_up(view, vertices, caster.triangles, batch, *small_);
+      const shape::Batch& batch = surface.triangles.batches[first + b];
+      std::uint32_t large = kernels_.set_up(view, vertices, surface.triangles, batch, *small_);
       for (; large != 0; large &= large - 1)
-        block_large(view, caster, batch.first + static_cast<std::uint32_t>(std::countr_zero(large)), points);
+        block_large(view, surface, batch.first + static_cast<std::uint32_t>(std::countr_zero(large)), found, points);
     }
     kernels_.block(*small_, points.vectors(), found.data(), static_cast<std::uint32_t>(found.size()));
   }
 }
 
-void ShadowCaster::block_large(const LightView& view, const Caster& caster, std::uint32_t triangle, Points& points) {
+// Vectors with a point that a surface of which this is the box, and the last hull that of box_of_hull(), may be before.
+std::span<const std::uint32_t> ShadowCaster::find_below(const GridBox& box, Points& points) {
+  const auto found = points.tree().find(kernels_, box, 0, found_);
+  if (!hull_is_on_grid_ || found.empty()) return found;
+  const Lid lid(hull_);
+  const auto is_clear = [&](std::uint32_t number) {
+    const PointVector& some = points.vectors()[number];
+    return (some.active & ~some.blocked) == 0 || !lid.is_before(some);
+  };
+  const auto left =
+      std::remove_if(found_.begin(), found_.begin() + static_cast<std::ptrdiff_t>(found.size()), is_clear);
+  return found.first(
+      kernels_.find_below(hull_, points.vectors(), found_.data(), static_cast<std::uint32_t>(left - found_.begin())));
+}
+
+void ShadowCaster::block_large(const LightView& view, const Caster& caster, std::uint32_t triangle,
+                               std::span<const std::uint32_t> found, Points& points) {
   const GridVertices vertices{grid_x_.data(), grid_y_.data(), grid_z_.data()};
-  for_each_piece(view, caster, vertices, triangle, [&](const LargeTriangle& piece) {
-    block_plainly(piece, points.vectors(), points.tree().find(kernels_, piece.box(), 0, found_by_large_));
-  });
+  for_each_piece(view, caster, vertices, triangle,
+                 [&](const LargeTriangle& piece) { block_plainly(piece, points.vectors(), found); });
 }
 
 // A little wider, for vertices lie within the hull but for rounding.
 GridBox ShadowCaster::box_of_hull(const LightView& view, const Hull& hull) {
   const float* const points[3] = {hull.along[0], hull.along[1], hull.along[2]};
-  GridBox box = kernels_.project(view, points, hull.count, {grid_x_.data(), grid_y_.data(), grid_z_.data()});
+  GridBox box = kernels_.project(view, points, hull.count, {hull_.x, hull_.y, hull_.z});
+  hull_is_on_grid_ = std::none_of(hull_.x, hull_.x + hull.count, [](std::int32_t x) { return x == kOffGrid; });
   if (box.low_x > box.high_x) return box;
-  const double nearer = view.has_place ? double{box.high_z} : 1.0;
-  const double margin = double{largest(hull)} * kPlaceError * nearer * view.per_step;
+  const double off = double{largest(hull)} * kPlaceError, nearer = view.has_place ? double{box.high_z} : 1.0;
+  const double margin = off * nearer * view.per_step;
+  hull_.count = hull.count;
+  hull_.margin = static_cast<float>(margin + 1);
+  hull_.margin_z = static_cast<float>(view.has_place ? off * nearer * nearer : off);
   box.low_x = clamped(box.low_x - margin), box.high_x = clamped(box.high_x + margin);
   box.low_y = clamped(box.low_y - margin), box.high_y = clamped(box.high_y + margin);
   return box;

@@ -79,10 +79,12 @@ class ShadowCaster {
   void put_points(const PointSource& source, std::span<const LightView> views, Layers onto, Faces& faces);
   void stream(const geometry::Scene& scene, Casting casting, std::span<const LightView> views,
               std::span<Faces* const> onto);
-  std::span<const Caster* const> next_casters(const CasterStream::Matters& matters);
-  void block(std::span<const Caster* const> casters, std::span<const LightView> views, Faces& faces);
-  void block(const Caster& caster, const LightView& view, Points& points);
-  void block_large(const LightView& view, const Caster& caster, std::uint32_t triangle, Points& points);
+  std::span<const ChunkCaster> next_casters(const CasterStream::Matters& matters);
+  void block(std::span<const ChunkCaster> casters, std::span<const LightView> views, Faces& faces);
+  void block(const Caster& surface, const LightView& view, Points& points);
+  std::span<const std::uint32_t> find_below(const GridBox& box, Points& points);
+  void block_large(const LightView& view, const Caster& caster, std::uint32_t triangle,
+                   std::span<const std::uint32_t> found, Points& points);
 
   const ShadowKernels& kernels_;
   shape::SamplePattern pattern_;
@@ -95,10 +97,12 @@ class ShadowCaster {
   std::vector<TileBounds> bounds_;                     // of a light that has a size
   std::vector<std::vector<TileBounds>> still_bounds_;  // by light and face
   geometry::LineRange still_lines_{0, 0};              // that still_bounds_ are of
+  GridHull hull_{};                                    // that box_of_hull() was asked for last
+  bool hull_is_on_grid_ = false;
   std::vector<std::int32_t> grid_x_, grid_y_;
   std::vector<float> grid_z_;
   std::unique_ptr<SmallBatches> small_;
-  std::vector<std::uint32_t> found_, found_by_large_;
+  std::vector<std::uint32_t> found_;
   std::vector<std::uint8_t> is_shaded_;  // by square of the picture
   std::function<void()> look_;
   CastCounts counts_;

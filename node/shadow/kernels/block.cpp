@@ -272,6 +272,32 @@ std::uint32_t find(const BoxArrays& boxes, std::uint32_t first, std::uint32_t co
   return static_cast<std::uint32_t>(next - found);
 }
 
+// A place's height over the plane is rounded by less than kRounding times the numbers that it is the sum of.
+std::uint32_t find_below(const GridHull& hull, const PointVector* points, std::uint32_t* found,
+                         std::uint32_t found_count) {
+  constexpr float kRounding = 1.0f / (1 << 21);
+  std::uint32_t left = 0;
+  for (std::uint32_t i = 0; i < found_count; ++i) {
+    const PointVector& here = points[found[i]];
+    const float tilt = (here.per_x < 0 ? -here.per_x : here.per_x) + (here.per_y < 0 ? -here.per_y : here.per_y);
+    const Floats limit = constant(here.least + here.room - hull.margin * tilt - hull.margin_z);
+    const Floats per_x = constant(here.per_x), per_y = constant(here.per_y);
+    bool reaches = false;
+    for (std::uint32_t k = 0; k < hull.count; k += kLanes) {
+      const Floats x = hn::ConvertTo(kFloats, hn::Sub(hn::Load(kInts, hull.x + k), hn::Set(kInts, here.box.low_x)));
+      const Floats y = hn::ConvertTo(kFloats, hn::Sub(hn::Load(kInts, hull.y + k), hn::Set(kInts, here.box.low_y)));
+      const Floats z = hn::Load(kFloats, hull.z + k), along_x = hn::Mul(per_x, x), along_y = hn::Mul(per_y, y);
+      const Floats size = hn::Add(hn::Add(hn::Abs(along_x), hn::Abs(along_y)), hn::Abs(z));
+      const Floats height = hn::Add(hn::Sub(z, hn::Add(along_x, along_y)), hn::Mul(size, constant(kRounding)));
+      const auto there = hn::FirstN(kFloats, hull.count - k);
+      reaches |= !hn::AllFalse(kFloats, hn::AndNot(hn::Lt(height, limit), there));
+    }
+    found[left] = found[i];
+    left += reaches;
+  }
+  return left;
+}
+
 static void fetch(const PointVector& points) {
   constexpr std::size_t kCacheLine = 64;
   for (std::size_t k = 0; k < sizeof points; k += kCacheLine)

@@ -23,6 +23,8 @@ std::uint32_t set_up(const LightView& view, const GridVertices& vertices, const 
                      const shape::Batch& batch, SmallBatches& out);
 std::uint32_t find(const BoxArrays& boxes, std::uint32_t first, std::uint32_t count, const GridBox& box, float spread,
                    std::uint32_t* found);
+std::uint32_t find_below(const GridHull& hull, const PointVector* points, std::uint32_t* found,
+                         std::uint32_t found_count);
 void block(const SmallBatches& batches, PointVector* points, const std::uint32_t* found, std::uint32_t found_count);
 
 // One bit a lane.
