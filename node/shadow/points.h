@@ -80,8 +80,15 @@ class Points {
 
   bool empty() const { return vectors_.empty(); }
   std::uint64_t count() const { return count_; }
+  std::size_t vector_count() const { return vectors_.size(); }
   BoxTree& tree() { return tree_; }
   PointVector* vectors() { return vectors_.data(); }
+  // Calls visit(layer, tile) for each vector i where some[i] is set.
+  template <typename Visit>
+  void visit_tiles(std::span<const std::uint8_t> some, const Visit& visit) const {
+    for (std::size_t i = 0; i < some.size(); ++i)
+      if (some[i] != 0) visit(origins_[i].layer, origins_[i].tile);
+  }
   // Writes down what is blocked since the last time.
   void note(const PointSource& source, Casting casting);
 
@@ -98,8 +105,9 @@ class Points {
   std::uint64_t count_ = 0;
 };
 
-// Adds those of a layer that matter and are not blocked to the views that decide about them.
-void add_points(const PointSource& source, std::span<const LightView> views, Layer& layer, std::span<Points> points);
+// Adds those of a layer's tiles that matter and are not blocked to the views that decide about them.
+void add_points(const PointSource& source, std::span<const LightView> views, Layer& layer,
+                std::span<const std::uint32_t> tiles, std::span<Points> points);
 
 // The lines of a square; nullptr where nothing is seen.
 using TileLines = std::array<const LayerLine*, kTile>;

@@ -13,59 +13,8 @@
 namespace mars::shadow {
 namespace {
 
-constexpr float kPlaceError = 1.0f / (1 << 20);
-
-float largest(const Hull& hull) {
-  float most = 0;
-  for (const auto& along : hull.along)
-    for (std::uint32_t k = 0; k < hull.count; ++k) most = std::max(most, std::abs(along[k]));
-  return most;
-}
-
-std::int32_t clamped(double steps) {
-  constexpr double kMost = std::numeric_limits<std::int32_t>::max();
-  return static_cast<std::int32_t>(std::clamp(steps, -kMost, kMost));
-}
-
-// A plane that no place of a hull is before.
-class Lid {
- public:
-  explicit Lid(const GridHull& hull) : x_(hull.x[0]), y_(hull.y[0]) {
-    if (hull.count == 16) tilt(hull);
-    const auto above = [&](std::uint32_t k) {
-      return hull.z[k] - per_x_ * (hull.x[k] - x_) - per_y_ * (hull.y[k] - y_);
-    };
-    z_ = above(0);
-    for (std::uint32_t k = 1; k < hull.count; ++k) z_ = std::max(z_, above(k));
-    z_ += hull.margin * (std::abs(per_x_) + std::abs(per_y_)) + hull.margin_z;
-  }
-
-  // Whether it is anywhere before the plane near the points, over their box: at a corner, if at all.
-  bool is_before(const PointVector& points) const {
-    const GridBox& box = points.box;
-    const double low = z_ + per_x_ * (box.low_x - x_) + per_y_ * (box.low_y - y_);
-    const double rise_x = (per_x_ - points.per_x) * (double{box.high_x} - box.low_x);
-    const double rise_y = (per_y_ - points.per_y) * (double{box.high_y} - box.low_y);
-    return low + std::max(rise_x, 0.0) + std::max(rise_y, 0.0) > double{points.least} + double{points.room};
-  }
-
- private:
-  // As a patch's corners are.
-  void tilt(const GridHull& hull) {
-    const auto between = [&](std::uint32_t a, std::uint32_t b) {
-      return std::array{double{hull.x[b]} - hull.x[a], double{hull.y[b]} - hull.y[a], double{hull.z[b]} - hull.z[a]};
-    };
-    const auto [ax, ay, az] = between(0, 15);
-    const auto [bx, by, bz] = between(3, 12);
-    const double area = ax * by - ay * bx;
-    if (area == 0) return;
-    per_x_ = (az * by - bz * ay) / area;
-    per_y_ = (bz * ax - az * bx) / area;
-  }
-
-  double x_, y_, z_;
-  double per_x_ = 0, per_y_ = 0;
-};
+// Towards a point.
+constexpr Shaft kRay{0, 0, 1, 1, 0, 0};
 
 }  // namespace
 
@@ -77,10 +26,8 @@ ShadowCaster::ShadowCaster(simd::InstructionSet set, const geometry::Scene& scen
       soft_(pattern_, true),
       diced_(scene.film().patch_instances()),
       casters_(set),
-      grid_x_(static_cast<std::size_t>(shape::Dicer::kMostVertices + simd::kVectorSlack)),
-      grid_y_(grid_x_.size()),
-      grid_z_(grid_x_.size()),
-      small_(new SmallBatches{}) {}
+      grid_(kernels_),
+      shafts_(kernels_) {}
 
 void ShadowCaster::begin(const geometry::Scene& scene, const std::function<void()>& look) {
   look_ = look;
@@ -104,6 +51,11 @@ void ShadowCaster::cast(const geometry::Scene& scene, Layers drawn, Layer& kept)
 
 PointSource ShadowCaster::source_of(std::uint32_t light, std::uint32_t point) const {
   return {kernels_, lights_[light].frame, pattern_, vectors_of(light), light, has_size(light) ? point : 0};
+}
+
+// Of points of all samples, whatever the light's size.
+PointSource ShadowCaster::samples_of(std::uint32_t light) const {
+  return {kernels_, lights_[light].frame, pattern_, hard_, light, 0};
 }
 
 std::span<const LightView> ShadowCaster::views_of(std::uint32_t light, std::uint32_t point) const {
@@ -132,7 +84,7 @@ void ShadowCaster::stream(const geometry::Scene& scene, Casting casting, std::sp
   const auto matters = [&](const Hull& hull) {
     for (std::size_t f = 0; f < views.size(); ++f) {
       if (std::ranges::all_of(onto, [f](const Faces* faces) { return (*faces)[f].empty(); })) continue;
-      const GridBox box = box_of_hull(views[f], hull);
+      const GridBox box = grid_.put(views[f], hull);
       for (Faces* faces : onto)
         if ((*faces)[f].tree().any(kernels_, box, 0)) return true;
     }
@@ -147,29 +99,36 @@ void ShadowCaster::stream(const geometry::Scene& scene, Casting casting, std::sp
 // decides about.
 void ShadowCaster::cast_from_all(const geometry::Scene& scene, Casting casting, std::uint32_t light, Layers onto) {
   const LightViews& all = lights_[light];
-  bounds_.clear();
-  if (has_bounds(light))
-    for (const Layer* layer : onto) bound(light, *layer, bounds_);
-  const auto matters = [&](const Hull& hull) {
-    if (!has_bounds(light)) return true;
-    return std::ranges::any_of(
-        bounds_, [&](TileBounds& face) { return face.tree.any(kernels_, box_of_hull(all.middle, hull), all.spread); });
-  };
+  shafts_.begin(all, samples_of(light), pairs_a_sample(light), onto);
+  const auto matters = [&](const Hull& hull) { return shafts_.meet(hull, grid_); };
   casters_.begin(scene, casting, diced_);
-  for (auto chunk = next_casters(matters); !chunk.empty(); chunk = next_casters(matters))
+  for (auto chunk = next_casters(matters); !chunk.empty(); chunk = next_casters(matters)) {
+    const Touched& some = shafts_.find(chunk, grid_);
+    if (some.casters.empty()) continue;
     for (std::uint32_t point = 0; point < all.points; ++point) {
       const PointSource source = source_of(light, point);
       const auto views = views_of(light, point);
-      put_points(source, views, onto, drawn_points_);
-      block(chunk, views, drawn_points_);
+      begin_points(views, drawn_points_);
+      for (std::size_t k = 0; k < onto.size(); ++k) add_points(source, views, *onto[k], some.tiles[k], drawn_points_);
+      finish_points(drawn_points_);
+      block(some.casters, views, drawn_points_);
       for (Points& points : drawn_points_) points.note(source, casting);
     }
+  }
 }
 
 void ShadowCaster::put_points(const PointSource& source, std::span<const LightView> views, Layers onto, Faces& faces) {
+  begin_points(views, faces);
+  for (Layer* layer : onto) add_points(source, views, *layer, layer->tiles, faces);
+  finish_points(faces);
+}
+
+void ShadowCaster::begin_points(std::span<const LightView> views, Faces& faces) {
   faces.resize(views.size());
   for (Points& points : faces) points.clear();
-  for (Layer* layer : onto) add_points(source, views, *layer, faces);
+}
+
+void ShadowCaster::finish_points(Faces& faces) {
   for (Points& points : faces) {
     points.finish();
     counts_.points += points.count();
@@ -191,7 +150,7 @@ void ShadowCaster::block(std::span<const ChunkCaster> casters, std::span<const L
   for (std::size_t f = 0; f < views.size(); ++f) {
     if (faces[f].empty()) continue;
     for (const ChunkCaster& caster : casters) {
-      const GridBox box = box_of_hull(views[f], caster.hull);
+      const GridBox box = grid_.put(views[f], caster.hull);
       if (views.size() == 1 || faces[f].tree().any(kernels_, box, 0)) block(*caster.surface, views[f], faces[f]);
     }
     look_();
@@ -199,67 +158,26 @@ void ShadowCaster::block(std::span<const ChunkCaster> casters, std::span<const L
 }
 
 void ShadowCaster::block(const Caster& surface, const LightView& view, Points& points) {
-  const GridVertices vertices{grid_x_.data(), grid_y_.data(), grid_z_.data()};
-  const GridBox box = kernels_.project(view, surface.place, surface.vertices, vertices);
+  const GridBox box = grid_.put(view, surface);
   counts_.vertices += surface.vertices;
   if (box.low_x > box.high_x) return;
-  const auto found = find_below(box, points);
+  const std::span<const std::uint32_t> found = grid_.find_below(box, kRay, points);
   if (found.empty()) return;
   counts_.triangles += surface.triangles.count;
-  for (std::uint32_t first = 0; first < surface.triangles.batch_count; first += kMostBatches) {
-    const std::uint32_t count = std::min(kMostBatches, surface.triangles.batch_count - first);
-    small_->count = 0;
-    for (std::uint32_t b = 0; b < count; ++b) {
-      const shape::Batch& batch = surface.triangles.batches[first + b];
-      std::uint32_t large = kernels_.set_up(view, vertices, surface.triangles, batch, *small_);
-      for (; large != 0; large &= large - 1)
-        block_large(view, surface, batch.first + static_cast<std::uint32_t>(std::countr_zero(large)), found, points);
-    }
-    kernels_.block(*small_, points.vectors(), found.data(), static_cast<std::uint32_t>(found.size()));
-  }
-}
-
-// Vectors with a point that a surface of which this is the box, and the last hull that of box_of_hull(), may be before.
-std::span<const std::uint32_t> ShadowCaster::find_below(const GridBox& box, Points& points) {
-  const auto found = points.tree().find(kernels_, box, 0, found_);
-  if (!hull_is_on_grid_ || found.empty()) return found;
-  const Lid lid(hull_);
-  const auto is_clear = [&](std::uint32_t number) {
-    const PointVector& some = points.vectors()[number];
-    return (some.active & ~some.blocked) == 0 || !lid.is_before(some);
-  };
-  const auto left =
-      std::remove_if(found_.begin(), found_.begin() + static_cast<std::ptrdiff_t>(found.size()), is_clear);
-  return found.first(
-      kernels_.find_below(hull_, points.vectors(), found_.data(), static_cast<std::uint32_t>(left - found_.begin())));
-}
-
-void ShadowCaster::block_large(const LightView& view, const Caster& caster, std::uint32_t triangle,
-                               std::span<const std::uint32_t> found, Points& points) {
-  const GridVertices vertices{grid_x_.data(), grid_y_.data(), grid_z_.data()};
-  for_each_piece(view, caster, vertices, triangle,
-                 [&](const LargeTriangle& piece) { block_plainly(piece, points.vectors(), found); });
-}
-
-// A little wider, for vertices lie within the hull but for rounding.
-GridBox ShadowCaster::box_of_hull(const LightView& view, const Hull& hull) {
-  const float* const points[3] = {hull.along[0], hull.along[1], hull.along[2]};
-  GridBox box = kernels_.project(view, points, hull.count, {hull_.x, hull_.y, hull_.z});
-  hull_is_on_grid_ = std::none_of(hull_.x, hull_.x + hull.count, [](std::int32_t x) { return x == kOffGrid; });
-  if (box.low_x > box.high_x) return box;
-  const double off = double{largest(hull)} * kPlaceError, nearer = view.has_place ? double{box.high_z} : 1.0;
-  const double margin = off * nearer * view.per_step;
-  hull_.count = hull.count;
-  hull_.margin = static_cast<float>(margin + 1);
-  hull_.margin_z = static_cast<float>(view.has_place ? off * nearer * nearer : off);
-  box.low_x = clamped(box.low_x - margin), box.high_x = clamped(box.high_x + margin);
-  box.low_y = clamped(box.low_y - margin), box.high_y = clamped(box.high_y + margin);
-  return box;
+  grid_.visit_batches(
+      view, surface,
+      [&](const SmallBatches& batches, std::uint32_t) {
+        kernels_.block(batches, points.vectors(), found.data(), static_cast<std::uint32_t>(found.size()));
+      },
+      [&](std::uint32_t triangle, std::uint32_t) {
+        for_each_piece(view, surface, grid_.vertices(), triangle,
+                       [&](const LargeTriangle& piece) { block_plainly(piece, points.vectors(), found); });
+      });
 }
 
 void ShadowCaster::bound(std::uint32_t light, const Layer& layer, std::vector<TileBounds>& faces) const {
   const LightViews& all = lights_[light];
-  const auto views = has_size(light) ? std::span(&all.middle, 1) : views_of(light, 0);
+  const auto views = has_size(light) ? std::span(all.middle) : views_of(light, 0);
   for (const LightView& view : views) {
     TileBounds& face = faces.emplace_back();
     face.tree.clear();
@@ -280,8 +198,7 @@ GridBox ShadowCaster::bound_tile(std::uint32_t light, const LightView& view, con
   const auto counts = [n, some](const wire::StillPairs& pairs, const Lane& lane, std::uint16_t) {
     return (pairs.lit >> (lane.sample * n) & some) != 0;
   };
-  const PointSource source{kernels_, lights_[light].frame, pattern_, hard_, light, 0};
-  for_each_vector(source, layer, tile, counts, std::span(&view, 1),
+  for_each_vector(samples_of(light), layer, tile, counts, std::span(&view, 1),
                   [&](const PointVector& points, std::uint32_t, std::size_t) { box = around(box, points.box); });
   return box;
 }
@@ -302,9 +219,9 @@ void ShadowCaster::find_shaded(const geometry::Scene& scene, std::vector<std::ui
     for (std::uint32_t light = 0; light < lights(); ++light) {
       const LightViews& all = lights_[light];
       for (std::size_t f = 0; f < still_bounds_[light].size(); ++f) {
-        const LightView& view = has_size(light) ? all.middle : all.views[f];
+        const LightView& view = has_size(light) ? all.middle.front() : all.views[f];
         TileBounds& bounds = still_bounds_[light][f];
-        for (const std::uint32_t box : bounds.tree.find(kernels_, box_of_hull(view, hull), all.spread, found_))
+        for (const std::uint32_t box : bounds.tree.find(kernels_, grid_.put(view, hull), all.spread, found_))
           if (bounds.tiles[box] < is_shaded_.size()) is_shaded_[bounds.tiles[box]] = 1;
       }
     }

@@ -47,20 +47,6 @@ std::uint32_t overlapping(const SmallBatches& b, std::uint32_t first, const Grid
   return found;
 }
 
-// How far a vector of triangles reaches before the plane near the points: at a corner, for both are planes.
-Floats highest_before(const SmallTriangles& t, std::uint32_t k, const PointVector& points) {
-  const Ints low_x = hn::Set(kInts, points.box.low_x), low_y = hn::Set(kInts, points.box.low_y);
-  const Floats per_x = constant(points.per_x), per_y = constant(points.per_y);
-  Floats highest = constant(-kFar);
-  for (int c = 0; c < 3; ++c) {
-    const Floats x = hn::ConvertTo(kFloats, hn::Sub(hn::Load(kInts, t.x[c] + k), low_x));
-    const Floats y = hn::ConvertTo(kFloats, hn::Sub(hn::Load(kInts, t.y[c] + k), low_y));
-    const Floats plane = hn::Add(hn::Mul(per_x, x), hn::Mul(per_y, y));
-    highest = hn::Max(highest, hn::Sub(hn::Load(kFloats, t.z[c] + k), plane));
-  }
-  return highest;
-}
-
 // Bits of the triangles whose bounds overlap the points' and that reach before the plane near them.
 std::uint32_t overlapping(const SmallTriangles& t, const PointVector& points) {
   const GridBox& box = points.box;
@@ -273,14 +259,18 @@ std::uint32_t find(const BoxArrays& boxes, std::uint32_t first, std::uint32_t co
 }
 
 // A place's height over the plane is rounded by less than kRounding times the numbers that it is the sum of.
-std::uint32_t find_below(const GridHull& hull, const PointVector* points, std::uint32_t* found,
+std::uint32_t find_below(const GridHull& hull, const Shaft& shaft, const PointVector* points, std::uint32_t* found,
                          std::uint32_t found_count) {
   constexpr float kRounding = 1.0f / (1 << 21);
   std::uint32_t left = 0;
   for (std::uint32_t i = 0; i < found_count; ++i) {
     const PointVector& here = points[found[i]];
-    const float tilt = (here.per_x < 0 ? -here.per_x : here.per_x) + (here.per_y < 0 ? -here.per_y : here.per_y);
-    const Floats limit = constant(here.least + here.room - hull.margin * tilt - hull.margin_z);
+    const float tilt = magnitude(here.per_x) + magnitude(here.per_y);
+    if (shaft.spread * tilt > kMostRise) {
+      found[left++] = found[i];
+      continue;
+    }
+    const Floats limit = constant(here.least + room(here, shaft) - hull.margin * tilt - hull.margin_z);
     const Floats per_x = constant(here.per_x), per_y = constant(here.per_y);
     bool reaches = false;
     for (std::uint32_t k = 0; k < hull.count; k += kLanes) {
