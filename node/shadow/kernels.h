@@ -88,8 +88,8 @@ struct ShadowKernels {
                         float spread, std::uint32_t* found);
   // Leaves those numbers in `found` of vectors before whose near plane (point_vector.h) the hull reaches, all of which
   // is on the grid, or which rise too much for that to say anything; says how many.
-  std::uint32_t (*find_below)(const GridHull& hull, const Shaft& shaft, const PointVector* points,
-                              std::uint32_t* found, std::uint32_t found_count);
+  std::uint32_t (*find_below)(const GridHull& hull, const Shaft& shaft, const PointVector* points, std::uint32_t* found,
+                              std::uint32_t found_count);
   // Blocks those of the points `found` that the triangles are before.
   void (*block)(const SmallBatches& batches, PointVector* points, const std::uint32_t* found,
                 std::uint32_t found_count);

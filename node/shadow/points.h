@@ -83,11 +83,11 @@ class Points {
   std::size_t vector_count() const { return vectors_.size(); }
   BoxTree& tree() { return tree_; }
   PointVector* vectors() { return vectors_.data(); }
-  // Calls visit(layer, tile) for each vector i where some[i] is set.
+  // Calls visit(layer, part) for each vector i of points of samples (PairVectors without size) where some[i] is set.
   template <typename Visit>
-  void visit_tiles(std::span<const std::uint8_t> some, const Visit& visit) const {
+  void visit_squares(std::span<const std::uint8_t> some, std::uint32_t samples, const Visit& visit) const {
     for (std::size_t i = 0; i < some.size(); ++i)
-      if (some[i] != 0) visit(origins_[i].layer, origins_[i].tile);
+      if (some[i] != 0) visit(origins_[i].layer, TilePart{origins_[i].tile, 1u << origins_[i].vector / samples});
   }
   // Writes down what is blocked since the last time.
   void note(const PointSource& source, Casting casting);
@@ -105,9 +105,9 @@ class Points {
   std::uint64_t count_ = 0;
 };
 
-// Adds those of a layer's tiles that matter and are not blocked to the views that decide about them.
-void add_points(const PointSource& source, std::span<const LightView> views, Layer& layer,
-                std::span<const std::uint32_t> tiles, std::span<Points> points);
+// Adds those of a part of a layer that matter and are not blocked to the views that decide about them.
+void add_points(const PointSource& source, std::span<const LightView> views, Layer& layer, const TilePart& part,
+                std::span<Points> points);
 
 // The lines of a square; nullptr where nothing is seen.
 using TileLines = std::array<const LayerLine*, kTile>;

@@ -109,7 +109,8 @@ void ShadowCaster::cast_from_all(const geometry::Scene& scene, Casting casting, 
       const PointSource source = source_of(light, point);
       const auto views = views_of(light, point);
       begin_points(views, drawn_points_);
-      for (std::size_t k = 0; k < onto.size(); ++k) add_points(source, views, *onto[k], some.tiles[k], drawn_points_);
+      for (std::size_t k = 0; k < onto.size(); ++k)
+        for (const TilePart& part : some.parts[k]) add_points(source, views, *onto[k], part, drawn_points_);
       finish_points(drawn_points_);
       block(some.casters, views, drawn_points_);
       for (Points& points : drawn_points_) points.note(source, casting);
@@ -119,7 +120,8 @@ void ShadowCaster::cast_from_all(const geometry::Scene& scene, Casting casting, 
 
 void ShadowCaster::put_points(const PointSource& source, std::span<const LightView> views, Layers onto, Faces& faces) {
   begin_points(views, faces);
-  for (Layer* layer : onto) add_points(source, views, *layer, layer->tiles, faces);
+  for (Layer* layer : onto)
+    for (const std::uint32_t tile : layer->tiles) add_points(source, views, *layer, {tile, TilePart::kAll}, faces);
   finish_points(faces);
 }
 

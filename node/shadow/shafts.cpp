@@ -21,12 +21,25 @@ Shaft shaft_of(const LightViews& light) {
   return {light.spread, tangent, 0.75f, 1, 2 / view.per_step, 0};
 }
 
+// Parts of a square that several faces found.
+void join_parts(std::vector<TilePart>& parts) {
+  std::ranges::sort(parts, {}, &TilePart::tile);
+  std::size_t last = 0;
+  for (std::size_t k = 1; k < parts.size(); ++k)
+    if (parts[k].tile == parts[last].tile)
+      parts[last].squares |= parts[k].squares;
+    else
+      parts[++last] = parts[k];
+  if (!parts.empty()) parts.resize(last + 1);
+}
+
 }  // namespace
 
 void Shafts::begin(const LightViews& light, const PointSource& source, std::uint32_t pairs_a_sample,
                    std::span<Layer* const> layers) {
   light_ = &light;
   layers_ = layers;
+  samples_ = static_cast<std::uint32_t>(source.pattern.count);
   const LightView& first = light.middle.front();
   shaft_ = shaft_of(light);
   points_.resize(light.middle.size());
@@ -69,10 +82,11 @@ bool Shafts::is_near(const Hull& hull) const {
 
 const Touched& Shafts::find(std::span<const ChunkCaster> casters, GridCaster& grid) {
   found_.casters.clear();
-  found_.tiles.assign(layers_.size(), {});
+  found_.parts.assign(layers_.size(), {});
   if (is_open_ || std::ranges::any_of(casters, [this](const ChunkCaster& caster) { return is_near(caster.hull); })) {
     found_.casters.assign(casters.begin(), casters.end());
-    for (std::size_t k = 0; k < layers_.size(); ++k) found_.tiles[k] = layers_[k]->tiles;
+    for (std::size_t k = 0; k < layers_.size(); ++k)
+      for (const std::uint32_t tile : layers_[k]->tiles) found_.parts[k].push_back({tile, TilePart::kAll});
     return found_;
   }
   touched_.resize(points_.size());
@@ -87,18 +101,21 @@ const Touched& Shafts::find(std::span<const ChunkCaster> casters, GridCaster& gr
       if (!points_[face].empty()) touch(caster, face, grid);
     keep_batches(caster);
   }
-  for (std::size_t face = 0; face < points_.size(); ++face)
-    points_[face].visit_tiles(touched_[face], [this](const Layer* layer, std::uint32_t tile) {
-      const auto at = static_cast<std::size_t>(std::ranges::find(layers_, layer) - layers_.begin());
-      std::vector<std::uint32_t>& tiles = found_.tiles[at];
-      if (tiles.empty() || tiles.back() != tile) tiles.push_back(tile);
-    });
-  if (points_.size() > 1)
-    for (std::vector<std::uint32_t>& tiles : found_.tiles) {
-      std::ranges::sort(tiles);
-      tiles.erase(std::unique(tiles.begin(), tiles.end()), tiles.end());
-    }
+  keep_parts();
   return found_;
+}
+
+void Shafts::keep_parts() {
+  for (std::size_t face = 0; face < points_.size(); ++face)
+    points_[face].visit_squares(touched_[face], samples_, [this](const Layer* layer, const TilePart& part) {
+      const auto at = static_cast<std::size_t>(std::ranges::find(layers_, layer) - layers_.begin());
+      std::vector<TilePart>& parts = found_.parts[at];
+      if (!parts.empty() && parts.back().tile == part.tile)
+        parts.back().squares |= part.squares;
+      else
+        parts.push_back(part);
+    });
+  if (points_.size() > 1) std::ranges::for_each(found_.parts, join_parts);
 }
 
 void Shafts::touch(const ChunkCaster& caster, std::size_t face, GridCaster& grid) {

@@ -18,8 +18,8 @@ namespace mars::shadow {
 
 // What shafts find. Its casters are good until the next time.
 struct Touched {
-  std::vector<ChunkCaster> casters;               // with those of their batches that matter
-  std::vector<std::vector<std::uint32_t>> tiles;  // by layer
+  std::vector<ChunkCaster> casters;          // with those of their batches that matter
+  std::vector<std::vector<TilePart>> parts;  // by layer
 };
 
 class Shafts {
@@ -38,7 +38,10 @@ class Shafts {
   void touch(const ChunkCaster& caster, std::size_t face, GridCaster& grid);
   void keep_batches(const ChunkCaster& caster);
 
+  void keep_parts();
+
   const ShadowKernels& kernels_;
+  std::uint32_t samples_ = 0;
   const LightViews* light_ = nullptr;
   std::span<Layer* const> layers_;
   Shaft shaft_{};
