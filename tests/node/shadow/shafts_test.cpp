@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -139,10 +138,11 @@ class ShaftsOfLights : public testing::TestWithParam<simd::InstructionSet> {
 
 TEST_P(ShaftsOfLights, LeaveOutNothing) {
   Random random(81);
+  const int trials = GetParam() == simd::best_instruction_set("") ? 60 : 5;
   std::size_t blocked = 0, met = 0, all = 0;
   for (const auto kind : {wire::LightKind::directional, wire::LightKind::point, wire::LightKind::spot})
     for (const std::uint32_t samples : {1u, 4u, 16u})
-      for (int trial = 0; trial < 3; ++trial) {
+      for (int trial = 0; trial < trials; ++trial) {
         const shape::SamplePattern& pattern = shape::sample_pattern(samples);
         const Surface surface(random);
         auto light = random_light(random, kind, std::pow(10, random.real(-3, -0.5)));
@@ -152,7 +152,7 @@ TEST_P(ShaftsOfLights, LeaveOutNothing) {
         Vec3 way{light.vector[0], light.vector[1], light.vector[2]};
         if (kind != wire::LightKind::directional) {
           const double far = random.real(0.2, 1);
-          for (std::size_t k = 0; k < 3; ++k) {
+          for (std::size_t k = 0; k < 1; ++k) {
             way[k] *= far;
             light.vector[k] = static_cast<float>(middle[k] + way[k]);
             light.axis[k] = static_cast<float>(-way[k] / shape::length(way));
@@ -160,15 +160,11 @@ TEST_P(ShaftsOfLights, LeaveOutNothing) {
         }
         const LightViews views = light_views(light, kPicture);
         Picture picture(surface, pattern, random);
-        std::vector<std::unique_ptr<Piece>> pieces;
-        for (int k = 0; k < 6; ++k) {
-          const double size = random.real(2, 12), height = k < 3 ? 0 : std::pow(10, random.real(-4, 0));
-          const Vec3 moved{way[0] * height, way[1] * height, way[2] * height};
-          pieces.push_back(
-              std::make_unique<Piece>(surface, random.real(-5, kWidth), random.real(-5, kHeight), size, moved));
-        }
-        std::vector<ChunkCaster> casters;
-        for (const auto& piece : pieces) casters.push_back({piece->hull, &piece->caster, true});
+        // Of one at a time: where there are several, one's squares hide what is left out of another's.
+        const double height = random.whole(0, 2) ? std::pow(10, random.real(-4, 0)) : 0;
+        const Piece piece(surface, random.real(-5, kWidth), random.real(-5, kHeight), random.real(0.5, 5),
+                          {way[0] * height, way[1] * height, way[2] * height});
+        const std::vector<ChunkCaster> casters{{piece.hull, &piece.caster, true}};
 
         Shafts shafts(kernels_);
         const PairVectors hard(pattern, false);
@@ -193,7 +189,7 @@ TEST_P(ShaftsOfLights, LeaveOutNothing) {
         for (const TilePart& part : some.parts[0]) met += static_cast<std::size_t>(std::popcount(part.squares));
       }
   EXPECT_GT(blocked, 1000u);
-  EXPECT_LT(met, all * 3 / 4) << "shafts leave out some";
+  EXPECT_LT(met, all / 2) << "shafts leave out some";
 }
 
 INSTANTIATE_TEST_SUITE_P(Sets, ShaftsOfLights, testing::ValuesIn(simd::sets_here()),
