@@ -6,14 +6,6 @@
 namespace mars::shadow {
 namespace {
 
-constexpr std::size_t kChunkBytes = std::size_t{24} << 20;
-constexpr std::size_t kDicedBytes = std::size_t{48} << 20;
-constexpr std::size_t kMostCasters = std::size_t{1} << 14;  // of a chunk
-constexpr std::size_t kMostBytes =                          // of a caster
-    (std::size_t{shape::Dicer::kMostVertices} + simd::kVectorSlack) * 3 * sizeof(float) +
-    (std::size_t{2} * shape::kMaxRate * shape::kMaxRate + 4 * shape::kMaxRate + simd::kVectorSlack) * 3 *
-        sizeof(std::uint32_t) +
-    std::size_t{2} * shape::kMaxRate * shape::kMaxRate * sizeof(shape::Batch) / 8 + 4096;
 constexpr int kUnseenRate = 32;  // of the inside of patches that no pixel shows
 
 void add_point(const float* place, Hull& hull) {
@@ -61,8 +53,11 @@ bool casts(const geometry::Scene& scene, std::size_t segment, Casting casting) {
 
 }  // namespace
 
-CasterStore::CasterStore(std::size_t bytes, std::size_t casters) : memory_(bytes), arena_(memory_.bytes()) {
-  casters_.reserve(casters);
+static_assert(sizeof(Caster) <= CasterStore::kBytesACaster / 4, "a quarter of the bytes is for the list");
+
+CasterStore::CasterStore(std::size_t bytes)
+    : most_(bytes / kBytesACaster), memory_(bytes - most_ * sizeof(Caster)), arena_(memory_.bytes()) {
+  casters_.reserve(most_);
   memory_.prefer_large_pages();
 }
 
@@ -71,7 +66,7 @@ void CasterStore::clear() {
   casters_.clear();
 }
 
-bool CasterStore::has_room() const { return arena_.rest().size() >= kMostBytes; }
+bool CasterStore::has_room() const { return arena_.rest().size() >= kMostBytes && casters_.size() < most_; }
 
 template <typename T>
 const T* CasterStore::copy(const T* from, std::size_t count) {
@@ -106,7 +101,7 @@ const Caster& CasterStore::add(const shape::Surface& surface, const Hull& hull) 
   return casters_.back();
 }
 
-DicedSurfaces::DicedSurfaces(std::uint64_t patches) : store_(kDicedBytes), place_(patches) {}
+DicedSurfaces::DicedSurfaces(std::uint64_t patches, std::size_t bytes) : store_(bytes), place_(patches) {}
 
 void DicedSurfaces::clear() {
   store_.clear();
@@ -123,8 +118,8 @@ const Caster* DicedSurfaces::find(std::uint32_t patch) const {
   return place_[patch] == 0 ? nullptr : &store_.all()[place_[patch] - 1];
 }
 
-CasterStream::CasterStream(simd::InstructionSet set) : dicer_(set), placer_(set), store_(kChunkBytes, kMostCasters) {
-  chunk_.reserve(kMostCasters);
+CasterStream::CasterStream(simd::InstructionSet set, std::size_t bytes) : dicer_(set), placer_(set), store_(bytes) {
+  chunk_.reserve(store_.most());
 }
 
 void CasterStream::begin(const geometry::Scene& scene, Casting casting, const DicedSurfaces& diced) {
@@ -146,7 +141,7 @@ std::span<const Caster* const> CasterStream::next(const Matters& matters) {
     matrix_ = scene_->matrix(segment_);
     map_ = geometry::eye_map(matrix_);
     for (; item_ < shape.size(); ++item_) {
-      if (!store_.has_room() || chunk_.size() == kMostCasters) return chunk_;
+      if (!store_.has_room() || chunk_.size() == store_.most()) return chunk_;
       add_item(shape, number, matters);
     }
   }

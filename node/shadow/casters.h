@@ -13,6 +13,7 @@
 #include "node/geometry/scene.h"
 #include "node/raster/arena.h"
 #include "node/shadow/band.h"
+#include "node/shadow/shadow_plan.h"
 #include "node/shape/dice.h"
 
 namespace mars::shadow {
@@ -34,11 +35,22 @@ struct Caster {
 // Copies of surfaces, until there is no room for more.
 class CasterStore {
  public:
-  // `casters`: for which it has a list beforehand; it grows where there are more, and the list then moves.
-  explicit CasterStore(std::size_t bytes, std::size_t casters = 0);
+  // A caster, together with its place in the list, has about as many.
+  static constexpr std::size_t kBytesACaster = 2048;
+  // Of a surface, at most, but for that place; and of a store that has room for one.
+  static constexpr std::size_t kMostBytes =
+      (std::size_t{shape::Dicer::kMostVertices} + simd::kVectorSlack) * 3 * sizeof(float) +
+      (std::size_t{2} * shape::kMaxRate * shape::kMaxRate + 4 * shape::kMaxRate + simd::kVectorSlack) * 3 *
+          sizeof(std::uint32_t) +
+      std::size_t{2} * shape::kMaxRate * shape::kMaxRate * sizeof(shape::Batch) / 8 + 4096;
+  static constexpr std::size_t kLeastBytes = kMostBytes * 4 / 3;
+
+  // `bytes`: of all that it has.
+  explicit CasterStore(std::size_t bytes);
 
   void clear();
   bool has_room() const;
+  std::size_t most() const { return most_; }  // casters
   // Where it has room.
   const Caster& add(const shape::Surface& surface, const Hull& hull);
   std::span<const Caster> all() const { return casters_; }
@@ -48,6 +60,7 @@ class CasterStore {
   template <typename T>
   const T* copy(const T* from, std::size_t count);
 
+  std::size_t most_;
   messages::PrivateMemory memory_;
   raster::Arena arena_;
   std::vector<Caster> casters_;
@@ -56,7 +69,7 @@ class CasterStore {
 // Surfaces that were diced for the camera in this frame, so that they are not diced again.
 class DicedSurfaces {
  public:
-  explicit DicedSurfaces(std::uint64_t patches);
+  explicit DicedSurfaces(std::uint64_t patches, std::size_t bytes = kMostDiced);
 
   void clear();
   // Keeps surface number `patch`, where there is room.
@@ -74,7 +87,7 @@ class CasterStream {
   // Whether a surface within the hull may matter.
   using Matters = std::function<bool(const Hull& hull)>;
 
-  explicit CasterStream(simd::InstructionSet set);
+  explicit CasterStream(simd::InstructionSet set, std::size_t bytes = kMostChunk);
 
   // From now on next() makes the casters of one kind, of the scene as it is; those that are in `diced` are taken from
   // there.

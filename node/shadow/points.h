@@ -25,6 +25,7 @@ class BoxTree {
   void add(const GridBox& box);
   void finish();  // before it is asked
   std::uint32_t count() const { return count_; }
+  std::size_t bytes() const;  // of memory, that it has
 
   // Whether a caster within `box` may block points of any box, by `spread` (kernels.h).
   bool any(const ShadowKernels& kernels, const GridBox& box, float spread);
@@ -80,6 +81,7 @@ class Points {
 
   bool empty() const { return vectors_.empty(); }
   std::uint64_t count() const { return count_; }
+  std::size_t bytes() const;  // of memory, that they have
   BoxTree& tree() { return tree_; }
   PointVector* vectors() { return vectors_.data(); }
   // Writes down what is blocked since the last time.

@@ -28,14 +28,15 @@ std::int32_t clamped(double steps) {
 
 }  // namespace
 
-ShadowCaster::ShadowCaster(simd::InstructionSet set, const geometry::Scene& scene)
+ShadowCaster::ShadowCaster(simd::InstructionSet set, const geometry::Scene& scene, const ShadowPlan& plan)
     : kernels_(shadow_kernels(set)),
       pattern_(scene.pattern()),
       samples_(static_cast<std::uint32_t>(pattern_.count)),
       hard_(pattern_, false),
       soft_(pattern_, true),
-      diced_(scene.film().patch_instances()),
-      casters_(set),
+      diced_(scene.film().patch_instances(), plan.diced),
+      casters_(set, plan.chunk),
+      points_bytes_(plan.points),
       grid_x_(static_cast<std::size_t>(shape::Dicer::kMostVertices + simd::kVectorSlack)),
       grid_y_(grid_x_.size()),
       grid_z_(grid_x_.size()),
@@ -127,13 +128,22 @@ void ShadowCaster::cast_from_all(const geometry::Scene& scene, Casting casting, 
 
 void ShadowCaster::put_points(const PointSource& source, std::span<const LightView> views, Layers onto, Faces& faces) {
   faces.resize(views.size());
-  for (Points& points : faces) points.clear();
+  forget_points(faces);
   for (Layer* layer : onto) add_points(source, views, *layer, faces);
   for (Points& points : faces) {
     points.finish();
     counts_.points += points.count();
   }
   look_();
+}
+
+// Grids that had many points before keep no memory that others need.
+void ShadowCaster::forget_points(Faces& faces) {
+  std::size_t bytes = 0;
+  for (const Faces* all : {&drawn_points_, &kept_points_})
+    for (const Points& points : *all) bytes += points.bytes();
+  if (bytes > points_bytes_) std::ranges::fill(faces, Points());
+  for (Points& points : faces) points.clear();
 }
 
 std::span<const Caster* const> ShadowCaster::next_casters(const CasterStream::Matters& matters) {

@@ -14,6 +14,7 @@
 #include "node/shadow/casters.h"
 #include "node/shadow/light_views.h"
 #include "node/shadow/points.h"
+#include "node/shadow/shadow_plan.h"
 
 namespace mars::shadow {
 
@@ -28,7 +29,8 @@ struct CastCounts {
 
 class ShadowCaster {
  public:
-  ShadowCaster(simd::InstructionSet set, const geometry::Scene& scene);
+  // `plan`: of the scene's film.
+  ShadowCaster(simd::InstructionSet set, const geometry::Scene& scene, const ShadowPlan& plan);
 
   // The lights as they are in the scene's frame. `look` is called now and then.
   void begin(const geometry::Scene& scene, const std::function<void()>& look);
@@ -77,6 +79,7 @@ class ShadowCaster {
   void cast_from_point(const geometry::Scene& scene, std::uint32_t light, Layers drawn, Layer& kept);
   void cast_from_all(const geometry::Scene& scene, Casting casting, std::uint32_t light, Layers onto);
   void put_points(const PointSource& source, std::span<const LightView> views, Layers onto, Faces& faces);
+  void forget_points(Faces& faces);
   void stream(const geometry::Scene& scene, Casting casting, std::span<const LightView> views,
               std::span<Faces* const> onto);
   std::span<const Caster* const> next_casters(const CasterStream::Matters& matters);
@@ -90,6 +93,7 @@ class ShadowCaster {
   PairVectors hard_, soft_;
   DicedSurfaces diced_;
   CasterStream casters_;
+  std::size_t points_bytes_;  // as in ShadowPlan
   std::vector<LightViews> lights_;
   Faces drawn_points_, kept_points_;
   std::vector<TileBounds> bounds_;                     // of a light that has a size

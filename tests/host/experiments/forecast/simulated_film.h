@@ -15,9 +15,9 @@ enum class Files { none, host, nodes };
 
 class SimulatedFilm {
  public:
-  // Small pictures, of some frames; with files of several bands.
+  // Small pictures, of some frames; with files of several bands. Lights that cast shadows have the `size`.
   SimulatedFilm(const std::string& name, const std::string& frames, const std::string& platform,
-                Files files = Files::none);
+                Files files = Files::none, float size = 0);
 
   wire::PackedFilm view() const { return film_.view(); }
   const std::vector<farm::Task>& tasks() const { return tasks_; }
