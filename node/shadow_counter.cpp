@@ -37,11 +37,11 @@ ShadowCounter::ShadowCounter(const geometry::Scene& scene, simd::InstructionSet 
     : kernels_(shadow::shadow_kernels(set)),
       diced_(scene.film().patch_instances()),
       casters_(set),
-      stretches_((static_cast<std::uint32_t>(scene.width()) + kColumns - 1) / kColumns),
+      stretches_((static_cast<std::uint32_t>(scene.width()) + kColumns - 1) / kColumns * 2),
       height_(static_cast<std::uint32_t>(scene.height())) {
-  constexpr std::size_t kHull = 16 + simd::kVectorSlack;
-  for (auto& axis : grid_) axis.resize(kHull);
-  grid_z_.resize(kHull);
+  constexpr std::size_t kVertices = shape::Dicer::kMostVertices + simd::kVectorSlack;
+  for (auto& axis : grid_) axis.resize(kVertices);
+  grid_z_.resize(kVertices);
 }
 
 // In an inbetween the still points are those of its keyframe.
@@ -95,14 +95,12 @@ bool ShadowCounter::is_lit(const geometry::Scene& scene, const geometry::EyeLigh
   return light.kind != wire::LightKind::spot || -dot(light.axis, to) > light.cos_outer * std::sqrt(dot(to, to));
 }
 
-// Of a light that has a size, still casters and moving ones come one after another, and points are put for either.
 double ShadowCounter::add(const geometry::Scene& scene, Casting seen, const SeenLine& line) {
   const auto width = static_cast<std::uint32_t>(scene.width());
   const auto samples = static_cast<std::uint32_t>(scene.pattern().count);
   double all = 0;
   for (Light& light : lights_) {
     const std::uint32_t pairs = shadow::pairs_a_sample(samples, light.has_size());
-    const double times = light.has_size() && scene.any_moves() ? 2 : 1;
     for (std::uint32_t first = 0; first < width; first += kColumns) {
       std::uint32_t active = 0;
       double points = 0;
@@ -113,38 +111,46 @@ double ShadowCounter::add(const geometry::Scene& scene, Casting seen, const Seen
           if (s == 0) active |= 1u << k;
         }
       add_stretch(light, seen, line, first, active, points);
-      all += points * times;
+      all += points;
     }
   }
   return all;
 }
 
+// Half as wide as a vector, which is as wide as nodes' squares.
 void ShadowCounter::add_stretch(Light& light, Casting seen, const SeenLine& line, std::uint32_t first,
                                 std::uint32_t active, double points) {
-  const double of_each = points * light.points_each / light.views.points;
-  for (std::size_t view = 0; view < light.counted.size(); ++view)
-    light.seen[number(seen)][view].all.push_back(stretch_on(light, light.counted[view], line, first, active, of_each));
-  if (light.has_size() && light.has_bounds())
-    light.seen_by_middle[number(seen)].all.push_back(
-        stretch_on(light, light.views.middle, line, first, active, points));
+  float inverse_w[kColumns] = {};
+  for (std::uint32_t left = active; left != 0; left &= left - 1) {
+    const int k = std::countr_zero(left);
+    inverse_w[k] = line.depths[first + static_cast<std::uint32_t>(k)];
+  }
+  constexpr std::uint32_t kHalf = (1u << kColumns / 2) - 1;
+  for (const std::uint32_t some : {active & kHalf, active & ~kHalf}) {
+    const double part = active != 0 ? std::popcount(some) / static_cast<double>(std::popcount(active)) : 0;
+    const auto on = [&](const shadow::LightView& view, double of_view) {
+      return stretch_on(view, light.views.frame, {line.number, first, some, inverse_w, points * part * of_view});
+    };
+    for (std::size_t view = 0; view < light.counted.size(); ++view)
+      light.seen[number(seen)][view].all.push_back(on(light.counted[view], light.points_each / light.views.points));
+    if (light.has_size() && light.has_bounds())
+      light.seen_by_middle[number(seen)].all.push_back(on(light.views.middle, 1));
+  }
 }
 
-ShadowCounter::Stretch ShadowCounter::stretch_on(const Light& light, const shadow::LightView& view,
-                                                 const SeenLine& line, std::uint32_t first, std::uint32_t active,
-                                                 double points) const {
-  if (active == 0) return {line.number, shadow::kNowhere, 0};
+ShadowCounter::Stretch ShadowCounter::stretch_on(const shadow::LightView& view, const shadow::PointFrame& frame,
+                                                 const SeenStretch& seen) const {
+  if (seen.active == 0) return {seen.line, shadow::kNowhere, 0};
   shadow::LanePlaces places;
-  float inverse_w[kColumns];
   for (std::uint32_t k = 0; k < kColumns; ++k) {
     places.x[k] = static_cast<float>(k) + 0.5f;
     places.y[k] = 0.5f;
-    inverse_w[k] = (active >> k & 1) != 0 ? line.depths[first + k] : 0;
   }
   shadow::PointVector on_grid{};
-  kernels_.put_points(view, light.views.frame, static_cast<float>(first), static_cast<float>(line.number), places,
-                      inverse_w, active, on_grid);
-  const double part = std::popcount(on_grid.active) / static_cast<double>(std::popcount(active));
-  return {line.number, on_grid.active != 0 ? on_grid.box : shadow::kNowhere, points * part};
+  kernels_.put_points(view, frame, static_cast<float>(seen.first), static_cast<float>(seen.line), places,
+                      seen.inverse_w, seen.active, on_grid);
+  const double part = std::popcount(on_grid.active) / static_cast<double>(std::popcount(seen.active));
+  return {seen.line, on_grid.active != 0 ? on_grid.box : shadow::kNowhere, seen.points * part};
 }
 
 // A stretch stands for the lines up to the next one that was added.
@@ -165,12 +171,28 @@ void ShadowCounter::count(const geometry::Scene& scene, wire::FrameCounts& count
       for (Stretches& stretches : light.seen[number(seen)]) finish(stretches);
       finish(light.seen_by_middle[number(seen)]);
     }
-  if (!keyframe_) counts.kept_points += count_kept(scene);
   for (Light& light : lights_) {
     constexpr std::array kMovingAlone{Casting::moving};
-    count_casters(scene, light, Casting::still, keyframe_ ? std::span<const Casting>(kKinds) : kMovingAlone, counts);
-    if (scene.any_moves()) count_casters(scene, light, Casting::moving, kKinds, counts);
+    const std::span<const Casting> drawn = keyframe_ ? std::span<const Casting>(kKinds) : kMovingAlone;
+    const double still = count_casters(scene, light, Casting::still, drawn, counts);
+    const double moving = scene.any_moves() ? count_casters(scene, light, Casting::moving, kKinds, counts) : 0;
+    light.times_drawn = light.has_size() ? still + moving : 1;
+    light.times_kept = light.has_size() ? moving : 1;
   }
+  if (!keyframe_) counts.kept_points += count_kept(scene);
+  scale_points(Casting::still, &wire::LineCounts::constant, counts.lines);
+  scale_points(Casting::moving, &wire::LineCounts::moving, counts.lines);
+}
+
+// By how often points of all lights are put.
+void ShadowCounter::scale_points(Casting seen, wire::SeenCounts wire::LineCounts::*of,
+                                 std::vector<wire::LineCounts>& lines) const {
+  double once = 0, put = 0;
+  for (const Light& light : lights_)
+    for (const Stretches& stretches : light.seen[number(seen)])
+      for (const Stretch& stretch : stretches.all) once += stretch.points, put += stretch.points * light.times_drawn;
+  if (once == put) return;
+  for (wire::LineCounts& line : lines) (line.*of).points *= put / once;
 }
 
 // Of all lights, still points on stretches that moving casters may keep from any light: on all, where that is not
@@ -186,7 +208,7 @@ double ShadowCounter::count_kept(const geometry::Scene& scene) {
   for (const Light& light : lights_)
     for (const Stretches& still : light.seen[number(Casting::still)])
       for (std::size_t i = 0; i < is_shaded_.size(); ++i)
-        points += is_shaded_[i] != 0 ? still.all[i].points * step_ : 0;
+        points += is_shaded_[i] != 0 ? still.all[i].points * step_ * light.times_kept : 0;
   return points;
 }
 
@@ -208,8 +230,9 @@ void ShadowCounter::mark_shaded(const shadow::LightView& view, const shadow::Hul
     if (stretch < is_shaded_.size()) is_shaded_[stretch] = 1;
 }
 
-void ShadowCounter::count_casters(const geometry::Scene& scene, Light& light, Casting casting,
-                                  std::span<const Casting> onto, wire::FrameCounts& counts) {
+// Returns the number of chunks.
+double ShadowCounter::count_casters(const geometry::Scene& scene, Light& light, Casting casting,
+                                    std::span<const Casting> onto, wire::FrameCounts& counts) {
   std::vector<Reach> reaches;  // of the chunk's casters
   double views = 0;            // with points, onto which each caster is put
   for (const Casting seen : onto)
@@ -218,54 +241,75 @@ void ShadowCounter::count_casters(const geometry::Scene& scene, Light& light, Ca
   if (keyframe_) views = std::max(views / static_cast<double>(onto.size()), std::min(views, 1.0));
   const auto matters = [&](const shadow::Hull& hull) {
     const Reach reach = reach_of(hull, light, onto);
-    const bool any = reach.first <= reach.last;
-    if (any) reaches.push_back(reach);
-    return any;
+    if (reach.lines.any()) reaches.push_back(reach);
+    return reach.lines.any();
   };
+  double chunks = 0;
   casters_.begin(scene, casting, diced_);
   for (auto chunk = casters_.next(matters); !chunk.empty(); chunk = casters_.next(matters)) {
-    for (std::size_t i = 0; i < chunk.size(); ++i)
-      counts.casters.push_back({reaches[i].first, reaches[i].last + step_, !casters_.has_diced(*chunk[i]),
-                                static_cast<double>(chunk[i]->vertices),
-                                chunk[i]->vertices * (light.has_size() ? reaches[i].near : views),
-                                chunk[i]->triangles.count * reaches[i].views});
+    for (std::size_t i = 0; i < chunk.size(); ++i) {
+      const auto& [lines, put, near, grids] = reaches[i];
+      const double triangles = chunk[i]->triangles.count, vertices = chunk[i]->vertices;
+      counts.casters.push_back({lines.first, lines.last + step_, put.first, put.any() ? put.last + step_ : put.first,
+                                !casters_.has_diced(*chunk[i]), vertices, vertices * (light.has_size() ? near : views),
+                                triangles * (light.has_size() ? grids_behind(*chunk[i], light, onto) : grids)});
+    }
     reaches.clear();
+    ++chunks;
   }
+  return chunks;
+}
+
+// Of a light that has a size, grids with points within the box of the caster's vertices.
+double ShadowCounter::grids_behind(const shadow::Caster& caster, Light& light, std::span<const Casting> onto) {
+  double grids = 0;
+  for (std::size_t view = 0; view < light.counted.size(); ++view) {
+    const GridBox box = kernels_.project(light.counted[view], caster.place, caster.vertices,
+                                         {grid_[0].data(), grid_[1].data(), grid_z_.data()});
+    const auto has_points = [&](Casting seen) {
+      return !light.seen[number(seen)][view].tree.find(kernels_, box, 0, found_).empty();
+    };
+    grids += !is_empty(box) && std::ranges::any_of(onto, has_points) ? light.points_each : 0;
+  }
+  return grids;
 }
 
 // A keyframe's points of both kinds lie on the same grid; so do all of a light that has a size.
 ShadowCounter::Reach ShadowCounter::reach_of(const shadow::Hull& hull, Light& light, std::span<const Casting> onto) {
   Reach reach;
-  if (!light.has_bounds()) {  // whatever is before its points: all are
-    reach.first = 0, reach.last = height_ - 1;
-  } else if (light.has_size()) {
-    const GridBox box = project(light.views.middle, hull);
-    bool any = false;
-    for (const Casting seen : onto) any |= extend(light.seen_by_middle[number(seen)], box, light.views.spread, reach);
-    if (!any) return reach;
-  }
-  Reach unused;
   for (std::size_t view = 0; view < light.counted.size(); ++view) {
     const GridBox box = project(light.counted[view], hull);
     double near = 0, grids = 0;
     for (const Casting seen : onto) {
       Stretches& stretches = light.seen[number(seen)][view];
       near += !is_empty(box) && stretches.tree.any(kernels_, box, 0) ? 1 : 0;
-      grids += extend(stretches, box, 0, light.has_size() ? unused : reach) ? 1 : 0;
+      grids += extend(stretches, box, 0, reach.put) ? 1 : 0;
     }
     const bool is_one = keyframe_ || light.has_size();
     reach.near += light.points_each * (is_one ? std::min(near, 1.0) : near);
     reach.views += light.points_each * (is_one ? std::min(grids, 1.0) : grids);
   }
+  reach.lines = matters_on(hull, light, onto, reach.put);
   return reach;
 }
 
+// All lines where it is not known what may be before a light's points.
+ShadowCounter::Lines ShadowCounter::matters_on(const shadow::Hull& hull, Light& light, std::span<const Casting> onto,
+                                               const Lines& put) {
+  if (!light.has_bounds()) return {0, height_ - 1};
+  if (!light.has_size()) return put;
+  const GridBox box = project(light.views.middle, hull);
+  Lines lines;
+  for (const Casting seen : onto) extend(light.seen_by_middle[number(seen)], box, light.views.spread, lines);
+  return lines;
+}
+
 // Whether any of its points may be behind a caster within the box.
-bool ShadowCounter::extend(Stretches& stretches, const GridBox& box, float spread, Reach& reach) {
+bool ShadowCounter::extend(Stretches& stretches, const GridBox& box, float spread, Lines& lines) {
   if (is_empty(box)) return false;
   const auto found = stretches.tree.find(kernels_, box, spread, found_);
   for (const std::uint32_t stretch : found)
-    if (stretch < stretches.all.size()) reach.add_line(stretches.all[stretch].line);
+    if (stretch < stretches.all.size()) lines.add(stretches.all[stretch].line);
   return !found.empty();
 }
 

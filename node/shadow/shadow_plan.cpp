@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kMostBand = std::size_t{32} << 20, kMostPoints = std::size_t{72} << 20;
 constexpr std::size_t kGrain = 64;          // of the band's arena
 constexpr std::size_t kVectorPlace = 64;    // beside a vector's points: where they come from, boxes round them
-constexpr std::size_t kTables = 2u << 20;   // grids, batches of triangles, views of lights, lists of squares
+constexpr std::size_t kTables = 6u << 20;   // a dicer, grids, batches of triangles, views of lights, lists of squares
 constexpr std::uint32_t kLinesOfLeast = 2;  // of a band
 
 std::size_t squares_of_row(const ShadowNeeds& needs) { return (std::size_t{needs.width} + kTile - 1) / kTile; }

@@ -57,9 +57,11 @@ struct LineCounts {
 };
 
 // A patch or meshlet that may cast shadows on lines [first_line, last_line): a caster of each node that draws one of
-// them, who dices it if it has not diced it for the camera.
+// them, who dices it if it has not diced it for the camera. Nodes that draw one of [first_put, last_put) put it on
+// grids.
 struct CasterCounts {
   std::uint32_t first_line, last_line;
+  std::uint32_t first_put, last_put;
   bool is_diced;  // for the camera, by one node
   double vertices;
   double put_vertices;  // on grids

@@ -197,10 +197,15 @@ wire::UnitCounts casters_on(const wire::FrameCounts& counts, std::uint32_t first
   const double of_others = 1 - 1.0 / nodes;
   wire::UnitCounts units;
   for (const wire::CasterCounts& caster : counts.casters) {
-    if (caster.last_line <= first_line || caster.first_line >= last_line) continue;
-    const double diced = caster.is_diced ? of_others : 1;
-    units[wire::Work::caster] += diced;
-    units[wire::Work::diced_vertex] += diced * caster.vertices;
+    const auto overlap = [&](std::uint32_t first, std::uint32_t last) {
+      return first < last_line && first_line < last;
+    };
+    if (overlap(caster.first_line, caster.last_line)) {
+      const double diced = caster.is_diced ? of_others : 1;
+      units[wire::Work::caster] += diced;
+      units[wire::Work::diced_vertex] += diced * caster.vertices;
+    }
+    if (!overlap(caster.first_put, caster.last_put)) continue;
     units[wire::Work::caster_vertex] += caster.put_vertices;
     units[wire::Work::caster_triangle] += caster.triangles;
   }

@@ -29,8 +29,8 @@ TEST(ShadowPlan, HasALeastAndAMost) {
     EXPECT_EQ(plan_shadows(needs, 1).bytes(), least_shadow_bytes(needs));
     EXPECT_EQ(plan_shadows(needs, 1 << 30).bytes(), most_shadow_bytes(needs));
   }
-  EXPECT_LT(least_shadow_bytes(kSmall), 6 * kMiB);
-  EXPECT_LT(least_shadow_bytes(kLarge), 70 * kMiB);
+  EXPECT_LT(least_shadow_bytes(kSmall), 10 * kMiB);
+  EXPECT_LT(least_shadow_bytes(kLarge), 80 * kMiB);
 }
 
 // Two lines, whatever they show; a row of squares; a caster, however finely it is diced.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string_view>
 
 #include "host/programs/node_counter.h"
 #include "tests/host/experiments/forecast/simulated_film.h"
@@ -88,16 +89,17 @@ TEST_P(Forecasts, CountWhatNodesDraw) {
 // One light that casts.
 struct Lit {
   Case film;
-  float size;  // 0: of a point
+  const char* how;
+  const char* light = "";
 };
 
-void PrintTo(const Lit& one, std::ostream* out) { *out << one.film.film << " of size " << one.size; }
+void PrintTo(const Lit& one, std::ostream* out) { *out << one.film.film << one.how; }
 
 class ForecastsOfShadows : public testing::TestWithParam<Lit> {
  protected:
   SimulatedFilm film() const {
-    const auto& [film, size] = GetParam();
-    return SimulatedFilm(film.film, film.frames, "fat-tree", Files::none, size);
+    const auto& [film, how, light] = GetParam();
+    return SimulatedFilm(film.film, film.frames, "fat-tree", Files::none, light);
   }
 };
 
@@ -128,7 +130,7 @@ TEST_P(ForecastsOfShadows, CountWhatNodesDo) {
     all = all + totals_of(film.counts().keyframes[task.keyframe], 1);
     for (const FrameTotals& inbetween : task.inbetweens) all = all + inbetween;
   }
-  const bool is_soft = GetParam().size > 0;
+  const bool is_soft = !std::string_view(GetParam().light).empty();
   const double points = all.drawn.constant.points + all.drawn.moving.points + all.kept_points;
   expect_near(points, charged(Work::shadow_point), is_soft ? 0.2 : 0.1, "points");
   for (const Work kind : {Work::caster, Work::diced_vertex, Work::caster_vertex, Work::caster_triangle})
@@ -136,14 +138,18 @@ TEST_P(ForecastsOfShadows, CountWhatNodesDo) {
                 std::string(wire::kWorkNames[static_cast<std::size_t>(kind)]));
 }
 
+constexpr const char *kSun = R"({"size": 0.53})", *kSky = R"({"size": 5})",
+                     *kLamp = R"({"direction": null, "place": [-15, -10, 25], "size": 1})",
+                     *kSpot =
+                         R"({"direction": null, "place": [20, -50, 60], "at": [0, -10, 0], "cone": 60, "size": 2})";
+
 INSTANTIATE_TEST_SUITE_P(Examples, ForecastsOfShadows,
-                         testing::Values(Lit{{"s1s", "0-0"}, 0}, Lit{{"s2s", "0-0"}, 0}, Lit{{"s3s", "0-11"}, 0},
-                                         Lit{{"s1s", "0-0"}, 0.53f}, Lit{{"s2s", "0-0"}, 0.53f},
-                                         Lit{{"s3s", "0-11"}, 0.53f}, Lit{{"s1s", "0-0"}, 5}, Lit{{"s3s", "0-11"}, 5}),
-                         [](const auto& each) {
-                           const float size = each.param.size;
-                           return std::string(each.param.film.film) + (size == 0 ? "" : size < 1 ? "_sun" : "_large");
-                         });
+                         testing::Values(Lit{{"s1s", "0-0"}, ""}, Lit{{"s2s", "0-0"}, ""}, Lit{{"s3s", "0-11"}, ""},
+                                         Lit{{"s1s", "0-0"}, "_sun", kSun}, Lit{{"s2s", "0-0"}, "_sun", kSun},
+                                         Lit{{"s3s", "0-11"}, "_sun", kSun}, Lit{{"s1s", "0-0"}, "_sky", kSky},
+                                         Lit{{"s3s", "0-11"}, "_sky", kSky}, Lit{{"s2s", "0-0"}, "_lamp", kLamp},
+                                         Lit{{"s3s", "0-2"}, "_spot", kSpot}),
+                         [](const auto& each) { return std::string(each.param.film.film) + each.param.how; });
 
 INSTANTIATE_TEST_SUITE_P(Examples, Forecasts,
                          testing::Values(Case{"demo", "0-7"}, Case{"visit", "100-109"}, Case{"s3", "0-11"},
