@@ -23,7 +23,8 @@ NodeMemory share_node_memory(std::uint64_t bytes, const AskedMemory& asked, cons
   NodeMemory memory;
   memory.shadows = shadow_bytes(asked.shadows.value_or(bytes / kPart), shadows);
   const std::uint64_t rest = bytes - std::min(bytes, memory.shadows);
-  if (film.samples > 1 || shadows.casting > 0) memory.still = std::min(asked.still.value_or(bytes / kPart), rest);
+  if (film.samples > 1 || shadows.casting > 0)
+    memory.still = std::min(asked.still.value_or(std::min(bytes / kPart, rest / 2)), rest);
   memory.frames = rest - memory.still;
   memory.still_plan = wire::plan_still_lines(film.width, film.height, film.samples, memory.still, shadows.casting);
   return memory;
