@@ -1,19 +1,13 @@
 #include "node/shadow/casters.h"
 
 #include <algorithm>
-#include <functional>
+#include <utility>
+
+#include "hal/failure/failure.h"
 
 namespace mars::shadow {
 namespace {
 
-constexpr std::size_t kChunkBytes = std::size_t{24} << 20;
-constexpr std::size_t kDicedBytes = std::size_t{48} << 20;
-constexpr std::size_t kMostCasters = std::size_t{1} << 12;  // of a chunk
-constexpr std::size_t kMostBytes =                          // of a caster
-    (std::size_t{shape::Dicer::kMostVertices} + simd::kVectorSlack) * 3 * sizeof(float) +
-    2 * ((std::size_t{2} * shape::kMaxRate * shape::kMaxRate + 4 * shape::kMaxRate + simd::kVectorSlack) *
-             (3 * sizeof(std::uint32_t) + sizeof(shape::Batch)) +
-         4096);
 constexpr int kUnseenRate = 32;  // of the inside of patches that no pixel shows
 
 void add_point(const float* place, Hull& hull) {
@@ -48,6 +42,36 @@ std::uint32_t equal_rows(const shape::Triangles& t, std::uint32_t first, std::ui
   return rows == most ? most : rows >= 2 ? 2 : 1;
 }
 
+// Batches whose triangles are near each other: those of rows of quads, two a row (Dicer::fill_inside), are cut into
+// pieces of two rows. Calls visit(first, last, at, ends) for triangles that come to place `at`, and whether a batch
+// ends there, as long as it says true; there are not more batches than before.
+template <typename Visit>
+bool visit_compact(const shape::Triangles& t, const Visit& visit) {
+  constexpr std::uint32_t kRows = 4;
+  std::uint32_t at = 0;
+  for (std::uint32_t b = 0; b < t.batch_count;) {
+    const std::uint32_t rows = equal_rows(t, b, kRows), width = t.batches[b].last - t.batches[b].first;
+    const std::uint32_t piece = shape::kBatchTriangles / rows;
+    for (std::uint32_t k = 0; k < width; k += piece)
+      for (std::uint32_t row = 0; row < rows; ++row) {
+        const std::uint32_t first = t.batches[b + row].first, some = std::min(piece, width - k);
+        if (!visit(first + k, first + k + some, at, row + 1 == rows)) return false;
+        at += some;
+      }
+    b += rows;
+  }
+  return true;
+}
+
+// Whether `compact` has the triangles of `t` so.
+bool is_compact(const shape::Triangles& compact, const shape::Triangles& t) {
+  if (compact.count != t.count) return false;
+  return visit_compact(t, [&](std::uint32_t first, std::uint32_t last, std::uint32_t at, bool) {
+    return std::equal(t.a + first, t.a + last, compact.a + at) && std::equal(t.b + first, t.b + last, compact.b + at) &&
+           std::equal(t.c + first, t.c + last, compact.c + at);
+  });
+}
+
 bool casts(const geometry::Scene& scene, std::size_t segment, Casting casting) {
   return scene.moves(segment) == (casting == Casting::moving) &&
          scene.film().materials()[scene.material(segment)].casts == 1;
@@ -55,8 +79,10 @@ bool casts(const geometry::Scene& scene, std::size_t segment, Casting casting) {
 
 }  // namespace
 
-CasterStore::CasterStore(std::size_t bytes, std::size_t casters) : memory_(bytes), arena_(memory_.bytes()) {
-  casters_.reserve(casters);
+CasterStore::CasterStore(std::size_t bytes, std::size_t beside)
+    : most_(bytes / kBytesACaster), memory_(bytes - most_ * (sizeof(Caster) + beside)), arena_(memory_.bytes()) {
+  check((sizeof(Caster) + beside) * 8 <= kBytesACaster * 3, "three eighths of the bytes are for lists");
+  casters_.reserve(most_);
   memory_.prefer_large_pages();
 }
 
@@ -65,7 +91,7 @@ void CasterStore::clear() {
   casters_.clear();
 }
 
-bool CasterStore::has_room() const { return arena_.rest().size() >= kMostBytes; }
+bool CasterStore::has_room() const { return arena_.rest().size() >= kMostBytes && casters_.size() < most_; }
 
 template <typename T>
 const T* CasterStore::copy(const T* from, std::size_t count) {
@@ -77,46 +103,18 @@ const T* CasterStore::copy(const T* from, std::size_t count) {
 
 // Many surfaces have the triangles of the one before.
 shape::Triangles CasterStore::copy(const shape::Triangles& t) {
-  const auto same = [&t](const shape::Triangles& other) {
-    const auto are_equal = [&t](const std::uint32_t* one, const std::uint32_t* two) {
-      return std::equal(one, one + t.count, two);
-    };
-    return other.count == t.count && other.batch_count == t.batch_count && are_equal(t.a, other.a) &&
-           are_equal(t.b, other.b) && are_equal(t.c, other.c);
-  };
-  if (casters_.empty() || !same(before_)) {
-    before_ = {copy(t.a, t.count), copy(t.b, t.count), copy(t.c, t.count), t.count, copy(t.batches, t.batch_count),
-               t.batch_count};
-    compact_ = compact(before_);
-  }
-  return compact_;
-}
-
-// The same triangles with their rows cut, so that those of a batch are near each other: the batches of rows of quads,
-// two a row (Dicer::fill_inside), become pieces of two rows.
-shape::Triangles CasterStore::compact(const shape::Triangles& t) {
-  constexpr std::uint32_t kRows = 4;
-  const auto batches = arena_.take<shape::Batch>(t.count);
-  const std::uint32_t* const from[3] = {t.a, t.b, t.c};
+  if (!casters_.empty() && is_compact(casters_.back().triangles, t)) return casters_.back().triangles;
+  const auto batches = arena_.take<shape::Batch>(t.batch_count);
   std::uint32_t* to[3];
   for (std::uint32_t*& corners : to) corners = arena_.take<std::uint32_t>(t.count + simd::kVectorSlack).data();
-  std::uint32_t count = 0, next = 0;
-  const auto add = [&](std::uint32_t first, std::uint32_t last) {
-    for (std::size_t c = 0; c < 3; ++c) std::copy(from[c] + first, from[c] + last, to[c] + next);
-    next += last - first;
-  };
-  for (std::uint32_t b = 0; b < t.batch_count;) {
-    const std::uint32_t rows = equal_rows(t, b, kRows), width = t.batches[b].last - t.batches[b].first;
-    const std::uint32_t piece = shape::kBatchTriangles / rows;
-    for (std::uint32_t k = 0; k < width; k += piece) {
-      const std::uint32_t first = next;
-      for (std::uint32_t row = 0; row < rows; ++row)
-        add(t.batches[b + row].first + k, t.batches[b + row].first + std::min(k + piece, width));
-      batches[count++] = {first, next, false};
-    }
-    b += rows;
-  }
-  for (std::uint32_t* corners : to) std::fill_n(corners + next, simd::kVectorSlack, 0u);
+  std::uint32_t count = 0, begin = 0;
+  visit_compact(t, [&](std::uint32_t first, std::uint32_t last, std::uint32_t at, bool ends) {
+    const std::uint32_t* const from[3] = {t.a, t.b, t.c};
+    for (std::size_t c = 0; c < 3; ++c) std::copy(from[c] + first, from[c] + last, to[c] + at);
+    if (ends) batches[count++] = {std::exchange(begin, at + last - first), at + last - first, false};
+    return true;
+  });
+  for (std::uint32_t* corners : to) std::fill_n(corners + t.count, simd::kVectorSlack, 0u);
   return {to[0], to[1], to[2], t.count, batches.data(), count};
 }
 
@@ -129,28 +127,35 @@ const Caster& CasterStore::add(const shape::Surface& surface) {
   return casters_.back();
 }
 
-DicedSurfaces::DicedSurfaces(std::uint64_t patches) : store_(kDicedBytes), place_(patches) {}
-
-void DicedSurfaces::clear() {
-  store_.clear();
-  std::ranges::fill(place_, 0u);
+// Of the bytes, movers get a quarter: they are diced again in each frame, whatever is kept of them.
+DicedSurfaces::DicedSurfaces(std::uint64_t patches, std::size_t bytes)
+    : still_{CasterStore(bytes - bytes / 4), {}}, moving_{CasterStore(bytes / 4), {}}, kept_(patches) {
+  for (Kind* kind : {&still_, &moving_}) kind->patches.reserve(kind->store.most());
 }
 
-void DicedSurfaces::keep(std::uint32_t patch, const shape::Surface& surface) {
-  if (!store_.has_room()) return;
-  store_.add(surface);
-  place_[patch] = static_cast<std::uint32_t>(store_.all().size());
+void DicedSurfaces::clear(Casting kind) {
+  Kind& some = of(kind);
+  for (const std::uint32_t patch : some.patches) kept_[patch] = nullptr;
+  some.patches.clear();
+  some.store.clear();
 }
 
-const Caster* DicedSurfaces::find(std::uint32_t patch) const {
-  return place_[patch] == 0 ? nullptr : &store_.all()[place_[patch] - 1];
+const Caster* DicedSurfaces::keep(Casting kind, std::uint32_t patch, const shape::Surface& surface) {
+  Kind& some = of(kind);
+  if (kept_[patch] == nullptr && some.store.has_room()) {
+    kept_[patch] = &some.store.add(surface);
+    some.patches.push_back(patch);
+  }
+  return kept_[patch];
 }
 
-CasterStream::CasterStream(simd::InstructionSet set) : dicer_(set), placer_(set), store_(kChunkBytes, kMostCasters) {
-  chunk_.reserve(kMostCasters);
+// A caster has a place in the chunk too; and one among those that shafts meet, with its batches, about sixteen.
+CasterStream::CasterStream(simd::InstructionSet set, std::size_t bytes)
+    : dicer_(set), placer_(set), store_(bytes, sizeof(ChunkCaster) + sizeof(Caster) + 16 * sizeof(shape::Batch)) {
+  chunk_.reserve(store_.most());
 }
 
-void CasterStream::begin(const geometry::Scene& scene, Casting casting, const DicedSurfaces& diced) {
+void CasterStream::begin(const geometry::Scene& scene, Casting casting, DicedSurfaces& diced) {
   scene_ = &scene;
   diced_ = &diced;
   casting_ = casting;
@@ -169,7 +174,7 @@ std::span<const ChunkCaster> CasterStream::next(const Matters& matters) {
     matrix_ = scene_->matrix(segment_);
     map_ = geometry::eye_map(matrix_);
     for (; item_ < shape.size(); ++item_) {
-      if (!store_.has_room() || chunk_.size() == kMostCasters) return chunk_;
+      if (!store_.has_room() || chunk_.size() == store_.most()) return chunk_;
       add_item(shape, number, matters);
     }
   }
@@ -184,11 +189,15 @@ void CasterStream::add_item(const wire::Shape& shape, std::uint32_t number, cons
   };
   const Hull hull = is_patch ? hull_of(shape::to_eye(matrix_, patch())) : hull_of(matrix_, meshlet());
   if (!matters(hull)) return;
-  const Caster* const known = diced_->find(scene_->first_patch(segment_) + static_cast<std::uint32_t>(item_));
-  if (known != nullptr)
-    chunk_.push_back({hull, known, false});
-  else
-    chunk_.push_back({hull, &store_.add(is_patch ? dice(patch()) : place(meshlet())), true});
+  const auto number_of_all = scene_->first_patch(segment_) + static_cast<std::uint32_t>(item_);
+  const Caster* const known = diced_->find(number_of_all);
+  const Caster& surface = known != nullptr ? *known : add(number_of_all, is_patch ? dice(patch()) : place(meshlet()));
+  chunk_.push_back({hull, &surface, number_of_all, known == nullptr});
+}
+
+const Caster& CasterStream::add(std::uint32_t patch, const shape::Surface& surface) {
+  const Caster* const kept = casting_ == Casting::still ? diced_->keep(casting_, patch, surface) : nullptr;
+  return kept != nullptr ? *kept : store_.add(surface);
 }
 
 void CasterStream::visit_hulls(const geometry::Scene& scene, Casting casting,

@@ -68,6 +68,13 @@ void BoxTree::clear() {
   count_ = 0;
 }
 
+std::size_t BoxTree::bytes() const {
+  std::size_t bytes = 0;
+  for (const Level& level : levels_) bytes += 5 * level.low_z.capacity() * sizeof(float);
+  for (const auto& found : found_) bytes += found.capacity() * sizeof(std::uint32_t);
+  return bytes;
+}
+
 void BoxTree::add(const GridBox& box) {
   add(0, box);
   ++count_;
@@ -117,6 +124,10 @@ void Points::clear() {
   origins_.clear();
   tree_.clear();
   count_ = 0;
+}
+
+std::size_t Points::bytes() const {
+  return vectors_.capacity() * sizeof(PointVector) + origins_.capacity() * sizeof(Origin) + tree_.bytes();
 }
 
 void Points::add(Layer& layer, std::uint32_t tile, std::uint32_t vector, const PointVector& points) {

@@ -25,6 +25,7 @@ class BoxTree {
   void add(const GridBox& box);
   void finish();  // before it is asked
   std::uint32_t count() const { return count_; }
+  std::size_t bytes() const;  // of memory, that it has
 
   // Whether a caster within `box` may block points of any box, by `spread` (kernels.h).
   bool any(const ShadowKernels& kernels, const GridBox& box, float spread);
@@ -81,6 +82,7 @@ class Points {
   bool empty() const { return vectors_.empty(); }
   std::uint64_t count() const { return count_; }
   std::size_t vector_count() const { return vectors_.size(); }
+  std::size_t bytes() const;  // of memory, that they have
   BoxTree& tree() { return tree_; }
   PointVector* vectors() { return vectors_.data(); }
   // Calls visit(layer, part) for each vector i of points of samples (PairVectors without size) where some[i] is set.

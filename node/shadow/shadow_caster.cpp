@@ -18,14 +18,15 @@ constexpr Shaft kRay{0, 0, 1, 1, 0, 0};
 
 }  // namespace
 
-ShadowCaster::ShadowCaster(simd::InstructionSet set, const geometry::Scene& scene)
+ShadowCaster::ShadowCaster(simd::InstructionSet set, const geometry::Scene& scene, const ShadowPlan& plan)
     : kernels_(shadow_kernels(set)),
       pattern_(scene.pattern()),
       samples_(static_cast<std::uint32_t>(pattern_.count)),
       hard_(pattern_, false),
       soft_(pattern_, true),
-      diced_(scene.film().patch_instances()),
-      casters_(set),
+      diced_(scene.film().patch_instances(), plan.diced),
+      casters_(set, plan.chunk),
+      points_bytes_(plan.points),
       grid_(kernels_),
       shafts_(kernels_) {}
 
@@ -127,7 +128,7 @@ void ShadowCaster::put_points(const PointSource& source, std::span<const LightVi
 
 void ShadowCaster::begin_points(std::span<const LightView> views, Faces& faces) {
   faces.resize(views.size());
-  for (Points& points : faces) points.clear();
+  forget_points(faces);
 }
 
 void ShadowCaster::finish_points(Faces& faces) {
@@ -136,6 +137,16 @@ void ShadowCaster::finish_points(Faces& faces) {
     counts_.points += points.count();
   }
   look_();
+}
+
+// Grids that had many points before keep no memory that others need.
+void ShadowCaster::forget_points(Faces& faces) {
+  std::size_t bytes = 0;
+  const Faces* const kinds[] = {&drawn_points_, &kept_points_, &shafts_.points()};
+  for (const Faces* all : kinds)
+    for (const Points& points : *all) bytes += points.bytes();
+  if (bytes > points_bytes_) std::ranges::fill(faces, Points());
+  for (Points& points : faces) points.clear();
 }
 
 std::span<const ChunkCaster> ShadowCaster::next_casters(const CasterStream::Matters& matters) {
@@ -203,6 +214,11 @@ GridBox ShadowCaster::bound_tile(std::uint32_t light, const LightView& view, con
   for_each_vector(samples_of(light), layer, tile, counts, std::span(&view, 1),
                   [&](const PointVector& points, std::uint32_t, std::size_t) { box = around(box, points.box); });
   return box;
+}
+
+void ShadowCaster::forget_still() {
+  still_bounds_.clear();
+  diced_.clear(Casting::still);
 }
 
 void ShadowCaster::bound_still(const Layer& still) {

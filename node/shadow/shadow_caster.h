@@ -15,6 +15,7 @@
 #include "node/shadow/grid_caster.h"
 #include "node/shadow/light_views.h"
 #include "node/shadow/points.h"
+#include "node/shadow/shadow_plan.h"
 #include "node/shadow/shafts.h"
 
 namespace mars::shadow {
@@ -30,7 +31,8 @@ struct CastCounts {
 
 class ShadowCaster {
  public:
-  ShadowCaster(simd::InstructionSet set, const geometry::Scene& scene);
+  // `plan`: of the scene's film.
+  ShadowCaster(simd::InstructionSet set, const geometry::Scene& scene, const ShadowPlan& plan);
 
   // The lights as they are in the scene's frame. `look` is called now and then.
   void begin(const geometry::Scene& scene, const std::function<void()>& look);
@@ -46,7 +48,7 @@ class ShadowCaster {
 
   // Of what stands still throughout an interval on the layer's lines: remembers where its points are.
   void bound_still(const Layer& still);
-  void forget_still() { still_bounds_.clear(); }
+  void forget_still();
   bool knows_still(const geometry::LineRange& lines) const {
     return !still_bounds_.empty() && still_lines_.first == lines.first && still_lines_.last == lines.last;
   }
@@ -78,9 +80,10 @@ class ShadowCaster {
 
   void cast_from_point(const geometry::Scene& scene, std::uint32_t light, Layers drawn, Layer& kept);
   void cast_from_all(const geometry::Scene& scene, Casting casting, std::uint32_t light, Layers onto);
-  static void begin_points(std::span<const LightView> views, Faces& faces);
+  void begin_points(std::span<const LightView> views, Faces& faces);
   void finish_points(Faces& faces);
   void put_points(const PointSource& source, std::span<const LightView> views, Layers onto, Faces& faces);
+  void forget_points(Faces& faces);
   void stream(const geometry::Scene& scene, Casting casting, std::span<const LightView> views,
               std::span<Faces* const> onto);
   std::span<const ChunkCaster> next_casters(const CasterStream::Matters& matters);
@@ -93,6 +96,7 @@ class ShadowCaster {
   PairVectors hard_, soft_;
   DicedSurfaces diced_;
   CasterStream casters_;
+  std::size_t points_bytes_;  // as in ShadowPlan
   std::vector<LightViews> lights_;
   Faces drawn_points_, kept_points_;
   GridCaster grid_;

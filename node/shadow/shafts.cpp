@@ -147,7 +147,7 @@ void Shafts::keep_batches(const ChunkCaster& caster) {
   Caster& some = surfaces_.emplace_back(*caster.surface);
   some.triangles.batches = kept_.data() + first;
   some.triangles.batch_count = static_cast<std::uint32_t>(kept_.size() - first);
-  found_.casters.push_back({caster.hull, &some, false});
+  found_.casters.push_back({caster.hull, &some, caster.patch, false});
 }
 
 }  // namespace mars::shadow

@@ -33,6 +33,9 @@ class Shafts {
   bool meet(const Hull& hull, GridCaster& grid);
   const Touched& find(std::span<const ChunkCaster> casters, GridCaster& grid);
 
+  // The shafts' points, by face.
+  const std::vector<Points>& points() const { return points_; }
+
  private:
   bool is_near(const Hull& hull) const;
   void touch(const ChunkCaster& caster, std::size_t face, GridCaster& grid);

@@ -57,6 +57,10 @@ class FrameCosts {
   // What inbetweens after such a keyframe draw again on a node of a group of `nodes`: stationary parts on lines that
   // are not kept.
   FrameTotals drawn_again(const wire::FrameCounts& keyframe, int nodes) const;
+  // Bytes that a machine keeps of such a keyframe for inbetweens of a group of `nodes`.
+  double still_bytes(const wire::FrameCounts& keyframe, int nodes) const;
+  // Of a node.
+  double shadow_bytes() const { return static_cast<double>(memory().shadows); }
   NodePart inbetween(const FrameTotals& totals, const FrameTotals& again) const;
   // Seconds of a processor that writes a whole file, which is encoded; its bytes.
   double writing() const;
@@ -71,7 +75,8 @@ class FrameCosts {
     double bytes = 0;
     double messages = 0;
   };
-  StillLines still_lines(const geometry::LineRange& home, const wire::FrameCounts& counts) const;
+  StillLines still_lines(const geometry::LineRange& home, const wire::FrameCounts& counts,
+                         const wire::StillPlan& plan) const;
   double dicing(const wire::UnitCounts& made) const;
   double setting_up(const wire::UnitCounts& made) const;
   wire::UnitCounts drawn_units(const FrameTotals& totals) const;

@@ -164,7 +164,7 @@ TEST_P(ShaftsOfLights, LeaveOutNothing) {
         const double height = random.whole(0, 2) ? std::pow(10, random.real(-4, 0)) : 0;
         const Piece piece(surface, random.real(-5, kWidth), random.real(-5, kHeight), random.real(0.5, 5),
                           {way[0] * height, way[1] * height, way[2] * height});
-        const std::vector<ChunkCaster> casters{{piece.hull, &piece.caster, true}};
+        const std::vector<ChunkCaster> casters{{piece.hull, &piece.caster, 0, true}};
 
         Shafts shafts(kernels_);
         const PairVectors hard(pattern, false);
