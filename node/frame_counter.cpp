@@ -38,7 +38,8 @@ FrameCounter::FrameCounter(const wire::PackedFilm& film, simd::InstructionSet se
 wire::FrameCounts FrameCounter::count_keyframe(std::uint32_t interval, std::span<const std::uint32_t> frames) {
   scene_.set_interval(interval);
   wire::FrameCounts counts = count(wire::FrameKind::keyframe, frames.front());
-  const geometry::LineRange still = scene_.moving_line_bounds(frames.subspan(1), boxes_);
+  sweep_.begin(scene_, frames.size() > 1 ? frames : frames.first(0), boxes_, [](const geometry::PictureBounds&) {});
+  const geometry::LineRange still = sweep_.lines();
   counts.first_still_line = still.first;
   counts.last_still_line = still.last;
   return counts;

@@ -11,6 +11,7 @@
 
 #include "hal/messages/private_memory.h"
 #include "node/geometry/scene.h"
+#include "node/geometry/sweep.h"
 #include "node/raster/kernels.h"
 #include "node/raster/line_load.h"
 #include "node/shadow_counter.h"
@@ -59,6 +60,7 @@ class FrameCounter {
 
   geometry::Scene scene_;
   const geometry::ShapeBoxes boxes_;
+  geometry::Sweep sweep_;  // of the interval
   Tessellator tessellator_;
   const raster::RasterKernels& kernels_;
   const std::uint32_t step_;    // one of `step_` lines is sampled

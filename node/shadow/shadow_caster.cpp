@@ -21,6 +21,13 @@ float largest(const Hull& hull) {
   return most;
 }
 
+Hull hull_of(const geometry::SweptHull& swept) {
+  Hull hull;
+  for (std::size_t axis = 0; axis < 3; ++axis) std::ranges::copy(swept.along[axis], hull.along[axis]);
+  hull.count = swept.count;
+  return hull;
+}
+
 std::int32_t clamped(double steps) {
   constexpr double kMost = std::numeric_limits<std::int32_t>::max();
   return static_cast<std::int32_t>(std::clamp(steps, -kMost, kMost));
@@ -233,19 +240,43 @@ void ShadowCaster::bound_still(const Layer& still) {
   }
 }
 
+bool ShadowCaster::all_have_bounds() const {
+  return std::ranges::all_of(std::views::iota(0u, lights()), [this](std::uint32_t l) { return has_bounds(l); });
+}
+
+// Calls visit(tile) for squares whose points a caster within the hull may block. Trees have a few boxes more than there
+// are squares.
+template <typename Visit>
+void ShadowCaster::visit_shaded(std::uint32_t light, const Hull& hull, std::vector<TileBounds>& faces,
+                                const Visit& visit) {
+  const LightViews& all = lights_[light];
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const GridBox box = box_of_hull(has_size(light) ? all.middle : all.views[f], hull);
+    for (const std::uint32_t found : faces[f].tree.find(kernels_, box, all.spread, found_))
+      if (found < faces[f].tiles.size()) visit(faces[f].tiles[found]);
+  }
+}
+
+void ShadowCaster::mark_shaded(const geometry::Sweep& sweep, const Layer& still, raster::StillMarks& marks) {
+  if (sweep.casters().empty()) return;
+  if (!all_have_bounds()) return marks.mark_all();
+  for (std::uint32_t light = 0; light < lights(); ++light) {
+    bounds_.clear();
+    bound(light, still, bounds_);
+    for (const geometry::SweptHull& caster : sweep.casters())
+      visit_shaded(light, hull_of(caster), bounds_, [&](std::uint32_t tile) { marks.mark_tile(tile); });
+    look_();
+  }
+}
+
 void ShadowCaster::find_shaded(const geometry::Scene& scene, std::vector<std::uint32_t>& tiles) {
-  if (!std::ranges::all_of(std::views::iota(0u, lights()), [this](std::uint32_t l) { return has_bounds(l); })) return;
+  if (!all_have_bounds()) return;
   is_shaded_.assign(tiles.empty() ? 0 : *std::ranges::max_element(tiles) + 1, std::uint8_t{0});
   casters_.visit_hulls(scene, Casting::moving, [&](const Hull& hull) {
-    for (std::uint32_t light = 0; light < lights(); ++light) {
-      const LightViews& all = lights_[light];
-      for (std::size_t f = 0; f < still_bounds_[light].size(); ++f) {
-        const LightView& view = has_size(light) ? all.middle : all.views[f];
-        TileBounds& bounds = still_bounds_[light][f];
-        for (const std::uint32_t box : bounds.tree.find(kernels_, box_of_hull(view, hull), all.spread, found_))
-          if (bounds.tiles[box] < is_shaded_.size()) is_shaded_[bounds.tiles[box]] = 1;
-      }
-    }
+    for (std::uint32_t light = 0; light < lights(); ++light)
+      visit_shaded(light, hull, still_bounds_[light], [&](std::uint32_t tile) {
+        if (tile < is_shaded_.size()) is_shaded_[tile] = 1;
+      });
   });
   std::erase_if(tiles, [this](std::uint32_t tile) { return is_shaded_[tile] == 0; });
 }

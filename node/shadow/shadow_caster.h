@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "node/geometry/scene.h"
+#include "node/geometry/sweep.h"
+#include "node/raster/still_marks.h"
 #include "node/shadow/band.h"
 #include "node/shadow/casters.h"
 #include "node/shadow/light_views.h"
@@ -42,6 +44,9 @@ class ShadowCaster {
   // Where surfaces go that are diced for the camera.
   DicedSurfaces& diced() { return diced_; }
 
+  // Marks the squares of what stands still whose points casters may block that are somewhere in the sweep.
+  void mark_shaded(const geometry::Sweep& sweep, const Layer& still, raster::StillMarks& marks);
+
   // Of what stands still throughout an interval on the layer's lines: remembers where its points are.
   void bound_still(const Layer& still);
   void forget_still() { still_bounds_.clear(); }
@@ -62,6 +67,7 @@ class ShadowCaster {
   };
 
   bool has_size(std::uint32_t light) const { return lights_[light].points > 1; }
+  bool all_have_bounds() const;
   // Whether it is known where points of all its views lie from where the middle sees them.
   bool has_bounds(std::uint32_t light) const { return !has_size(light) || !lights_[light].middle.has_place; }
   const PairVectors& vectors_of(std::uint32_t light) const { return has_size(light) ? soft_ : hard_; }
@@ -69,6 +75,8 @@ class ShadowCaster {
   std::span<const LightView> views_of(std::uint32_t light, std::uint32_t point) const;
   void bound(std::uint32_t light, const Layer& layer, std::vector<TileBounds>& faces) const;
   GridBox bound_tile(std::uint32_t light, const LightView& view, const Layer& layer, std::uint32_t tile) const;
+  template <typename Visit>
+  void visit_shaded(std::uint32_t light, const Hull& hull, std::vector<TileBounds>& faces, const Visit& visit);
   GridBox box_of_hull(const LightView& view, const Hull& hull);
 
   // Points of some layers, by face of a light.

@@ -463,7 +463,7 @@ FrameCosts::StillLines FrameCosts::still_lines(const geometry::LineRange& home, 
     if (!is_kept(counts, line, plan)) continue;
     still.bytes += depths;
     if (groups)
-      still.bytes += wire::kStillHeadBytes + static_cast<double>(film.width * column) +
+      still.bytes += wire::still_head_bytes(film.width) + static_cast<double>(film.width * column) +
                      counts.lines[line].constant.shaded * static_cast<double>(wire::still_group_bytes(casting));
   }
   return still;

@@ -21,7 +21,7 @@ constexpr geometry::LineRange kAll{0, kHeight};
 // Bytes for `lines` lines with `groups` groups a column.
 std::uint64_t bytes_for(std::uint32_t lines, std::uint32_t groups) {
   const std::uint64_t line =
-      wire::kStillHeadBytes + kWidth * (kSamples * sizeof(float) + sizeof(std::uint32_t) + groups * sizeof(StillGroup));
+      wire::still_head_bytes(kWidth) + kWidth * (kSamples * sizeof(float) + sizeof(std::uint32_t) + groups * sizeof(StillGroup));
   return lines * ((line + 63) / 64 * 64);
 }
 const std::uint64_t kAmple = bytes_for(kHeight, kSamples);
@@ -38,6 +38,13 @@ void as_node(const std::function<void(const Neighbours&)>& node) {
 
 StillLines lines_of(const Neighbours& neighbours, std::uint64_t bytes, std::uint32_t samples = kSamples) {
   return {neighbours, kWidth, kHeight, shape::sample_pattern(samples), bytes};
+}
+
+// As it travels.
+std::vector<std::byte> packed(const StillLines& still, std::uint32_t line) {
+  std::vector<std::byte> bytes(still.packed_bytes(line));
+  if (!bytes.empty()) still.pack(line, bytes.data());
+  return bytes;
 }
 
 // Depths and groups that tell their line and place; `groups` of them, evenly over the columns.
@@ -105,7 +112,7 @@ TEST(StillLines, WhereFewLinesFitTheOthersAreNotKept) {
     none.begin_interval(kInterval, kAll);
     EXPECT_FALSE(write(none, 0, 0));
     EXPECT_FALSE(none.keeps(0));
-    EXPECT_TRUE(none.packed(0).empty());
+    EXPECT_TRUE(packed(none, 0).empty());
   });
 }
 
@@ -140,7 +147,7 @@ TEST(StillLines, TravelBetweenMachinesWithMoreAndLessMemory) {
     ample.begin_interval(kInterval, {1, 8});
     small.begin_interval(kInterval, {1, 8});
     for (std::uint32_t line = 1; line < 8; ++line) write(ample, line, line == 2 ? 3 * kWidth : kWidth);
-    for (std::uint32_t line = 7; line >= 1; --line) small.unpack(ample.packed(line));
+    for (std::uint32_t line = 7; line >= 1; --line) small.unpack(packed(ample, line));
     for (std::uint32_t line = 1; line < 8; ++line) {
       if (line == 2 || line > 4)
         EXPECT_FALSE(small.keeps(line)) << line;
@@ -150,8 +157,8 @@ TEST(StillLines, TravelBetweenMachinesWithMoreAndLessMemory) {
     ample.begin_interval(kInterval + 1, {1, 8});
     small.begin_interval(kInterval + 1, {1, 8});
     write(small, 3, 4);
-    EXPECT_TRUE(small.packed(4).empty()) << "of the interval before";
-    ample.unpack(small.packed(3));
+    EXPECT_TRUE(packed(small, 4).empty()) << "of the interval before";
+    ample.unpack(packed(small, 3));
     expect_kept(ample, 3, 4);
     EXPECT_FALSE(ample.keeps(2));
   });
@@ -162,7 +169,8 @@ TEST(StillLines, OfOtherMachinesAreSound) {
     StillLines still = lines_of(alone, kAmple);
     still.begin_interval(kInterval, {1, 8});
     write(still, 3, 5);
-    const auto sound = still.packed(3);
+    const auto bytes = packed(still, 3);
+    const std::span sound(bytes);
     ASSERT_TRUE(still.is_packed(sound));
     for (const std::size_t size : {std::size_t{0}, std::size_t{3}, std::size_t{64}, sound.size() - 1})
       EXPECT_FALSE(still.is_packed(sound.first(size))) << size;
@@ -191,8 +199,9 @@ TEST(StillLines, WithOneSampleAllLinesAreKept) {
       std::ranges::fill(still.depth(line, 0), static_cast<float>(line));
     }
     EXPECT_FALSE(still.keeps(1));
-    const auto depths = still.depths({3, 6});
-    ASSERT_EQ(depths.size(), 3 * kWidth);
+    std::vector<float> depths(3 * kWidth);
+    ASSERT_EQ(still.depth_bytes({3, 6}), std::span(depths).size_bytes());
+    still.pack_depths({3, 6}, std::as_writable_bytes(std::span(depths)).data());
     for (std::uint32_t k = 0; k < depths.size(); ++k) EXPECT_EQ(depths[k], static_cast<float>(3 + k / kWidth));
     still.begin_interval(kInterval + 1, kAll);
     EXPECT_TRUE(still.keeps(11)) << "whoever reads lines waits until they are written";
@@ -255,9 +264,10 @@ TEST(StillLines, WhereLightsCastComeBackAndTravel) {
       for (std::uint32_t line = 1; line < 7; ++line) expect_unsummed(still, line, most - line, samples);
       EXPECT_FALSE(still.keeps(7)) << "not written";
       for (std::uint32_t line = 1; line < 7; ++line) {
-        EXPECT_LE(still.packed(line).size(), still.most_packed());
-        ASSERT_TRUE(other.is_packed(still.packed(line)));
-        other.unpack(still.packed(line));
+        const auto bytes = packed(still, line);
+        EXPECT_LE(bytes.size(), still.most_packed());
+        ASSERT_TRUE(other.is_packed(bytes));
+        other.unpack(bytes);
       }
       for (std::uint32_t line = 1; line < 7; ++line) expect_unsummed(other, line, most - line, samples);
     }
@@ -289,7 +299,8 @@ TEST(StillLines, WhereLightsCastOfOtherMachinesAreSound) {
     StillLines still = casting_lines_of(alone, 1 << 20, kSamples);
     still.begin_interval(kInterval, {1, 8});
     write_unsummed(still, 3, 5, kSamples);
-    const auto sound = still.packed(3);
+    const auto bytes = packed(still, 3);
+    const std::span sound(bytes);
     ASSERT_TRUE(still.is_packed(sound));
     const std::size_t group = wire::still_group_bytes(kCasting);
     for (const std::size_t less : {std::size_t{1}, std::size_t{4}, group, 5 * group, sound.size()})
