@@ -19,6 +19,7 @@ double share_of(double part, double whole) { return whole > 0 ? part / whole : 0
 FrameCounter::FrameCounter(const wire::PackedFilm& film, simd::InstructionSet set)
     : scene_(film),
       boxes_(film),
+      marks_(film.settings().width, film.settings().height),
       tessellator_(set),
       kernels_(raster::raster_kernels(set)),
       step_(std::max(1u, film.settings().height / kSampledLines)),
@@ -38,8 +39,13 @@ FrameCounter::FrameCounter(const wire::PackedFilm& film, simd::InstructionSet se
 wire::FrameCounts FrameCounter::count_keyframe(std::uint32_t interval, std::span<const std::uint32_t> frames) {
   scene_.set_interval(interval);
   wire::FrameCounts counts = count(wire::FrameKind::keyframe, frames.front());
-  sweep_.begin(scene_, frames.size() > 1 ? frames : frames.first(0), boxes_, [](const geometry::PictureBounds&) {});
+  marks_.clear();
+  sweep_.begin(scene_, frames.size() > 1 ? frames : frames.first(0), boxes_,
+               [this](const geometry::PictureBounds& bounds) { marks_.mark(bounds.lines, bounds.columns); });
+  if (shadows_) shadows_->mark_shaded(scene_, sweep_, marks_);
   const geometry::LineRange still = sweep_.lines();
+  for (std::uint32_t line = still.first; line < still.last; ++line)
+    counts.lines[line].kept_width = raster::count_columns(marks_.on(line), scene_.film().settings().width);
   counts.first_still_line = still.first;
   counts.last_still_line = still.last;
   return counts;

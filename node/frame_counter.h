@@ -14,6 +14,7 @@
 #include "node/geometry/sweep.h"
 #include "node/raster/kernels.h"
 #include "node/raster/line_load.h"
+#include "node/raster/still_marks.h"
 #include "node/shadow_counter.h"
 #include "node/tessellator.h"
 #include "node/wire/frame_counts.h"
@@ -61,6 +62,7 @@ class FrameCounter {
   geometry::Scene scene_;
   const geometry::ShapeBoxes boxes_;
   geometry::Sweep sweep_;  // of the interval
+  raster::StillMarks marks_;
   Tessellator tessellator_;
   const raster::RasterKernels& kernels_;
   const std::uint32_t step_;    // one of `step_` lines is sampled

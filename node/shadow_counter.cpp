@@ -55,6 +55,12 @@ void ShadowCounter::begin(const geometry::Scene& scene, wire::FrameKind kind, st
       if (keyframe_ || seen == shadow::Casting::moving) light.seen[number(seen)].assign(light.views.views.size(), {});
 }
 
+template <typename Hull>
+GridBox ShadowCounter::project(const shadow::LightView& view, const Hull& hull) {
+  const float* const along[] = {hull.along[0], hull.along[1], hull.along[2]};
+  return kernels_.project(view, along, hull.count, {grid_[0].data(), grid_[1].data(), grid_z_.data()});
+}
+
 // As shading decides whether it adds anything, but for what is beyond a light's reach.
 bool ShadowCounter::is_lit(const geometry::Scene& scene, const geometry::EyeLight& light, const SeenLine& line,
                            std::uint32_t column, std::size_t sample) const {
@@ -139,6 +145,26 @@ void ShadowCounter::count(const geometry::Scene& scene, wire::FrameCounts& count
   }
 }
 
+void ShadowCounter::mark_shaded(const geometry::Scene& scene, const geometry::Sweep& sweep, raster::StillMarks& marks) {
+  if (sweep.casters().empty()) return;
+  if (lights_.size() < scene.casting_count()) return marks.mark_all();
+  const auto mark = [&](const Stretch& stretch, std::size_t number) {
+    const auto first = static_cast<std::uint32_t>(number % stretches_) * kColumns;
+    marks.mark({stretch.line, std::min(stretch.line + step_, static_cast<std::uint32_t>(scene.height()))},
+               {first, std::min(first + kColumns, static_cast<std::uint32_t>(scene.width()))});
+  };
+  for (Light& light : lights_)
+    for (std::size_t view = 0; view < light.views.views.size(); ++view) {
+      Stretches& still = light.seen[number(Casting::still)][view];
+      for (const geometry::SweptHull& caster : sweep.casters()) {
+        const GridBox box = project(light.views.views[view], caster);
+        if (is_empty(box)) continue;
+        for (const std::uint32_t found : still.tree.find(kernels_, box, 0, found_))
+          if (found < still.all.size()) mark(still.all[found], found);
+      }
+    }
+}
+
 // Still points on stretches that moving casters may block.
 double ShadowCounter::find_kept(const geometry::Scene& scene, Light& light) {
   double points = 0;
@@ -197,11 +223,6 @@ void ShadowCounter::extend(Light& light, std::span<const Casting> onto, std::siz
     grids += found.empty() ? 0 : 1;
   }
   reach.views += keyframe_ ? std::min(grids, 1.0) : grids;
-}
-
-GridBox ShadowCounter::project(const shadow::LightView& view, const shadow::Hull& hull) {
-  const float* const along[] = {hull.along[0], hull.along[1], hull.along[2]};
-  return kernels_.project(view, along, hull.count, {grid_[0].data(), grid_[1].data(), grid_z_.data()});
 }
 
 }  // namespace mars::node

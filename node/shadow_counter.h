@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "node/geometry/scene.h"
+#include "node/geometry/sweep.h"
 #include "node/geometry/triangle.h"
+#include "node/raster/still_marks.h"
 #include "node/shadow/casters.h"
 #include "node/shadow/light_views.h"
 #include "node/shadow/points.h"
@@ -38,6 +40,8 @@ class ShadowCounter {
   double add(const geometry::Scene& scene, Casting seen, const SeenLine& line);
   // When all are added: the frame's casters, and of an inbetween the still points that moving ones may block.
   void count(const geometry::Scene& scene, wire::FrameCounts& counts);
+  // After count() of a keyframe: marks what of the picture shadows may change, all of it where lights have a size.
+  void mark_shaded(const geometry::Scene& scene, const geometry::Sweep& sweep, raster::StillMarks& marks);
   // Where surfaces go that are diced for the camera.
   shadow::DicedSurfaces& diced() { return diced_; }
 
@@ -75,7 +79,8 @@ class ShadowCounter {
                      wire::FrameCounts& counts);
   double find_kept(const geometry::Scene& scene, Light& light);
   void extend(Light& light, std::span<const Casting> onto, std::size_t view, const shadow::GridBox& box, Reach& reach);
-  shadow::GridBox project(const shadow::LightView& view, const shadow::Hull& hull);
+  template <typename Hull>
+  shadow::GridBox project(const shadow::LightView& view, const Hull& hull);
 
   const shadow::ShadowKernels& kernels_;
   shadow::DicedSurfaces diced_;

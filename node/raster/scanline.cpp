@@ -83,9 +83,9 @@ StillGroups ZBuffer::keep(std::uint32_t line, StillLines& still) {
   if (!still.lines().has(line)) return own_still();
   const std::uint32_t groups = several() ? groups_.count_on(still.marks().on(line)) : 0;
   if (!still.begin_line(line, groups)) return own_still();
-  for (std::uint32_t s = 0; s < samples_a_pixel(); ++s)
-    counts_.still_bytes += still.keep_depths(line, s, z_line_.depth(s)) * sizeof(float);
-  counts_.still_bytes += groups * sizeof(StillGroup);
+  std::uint32_t columns = 0;
+  for (std::uint32_t s = 0; s < samples_a_pixel(); ++s) columns = still.keep_depths(line, s, z_line_.depth(s));
+  counts_.still_bytes += still.kept_bytes(columns, groups);
   return several() ? still.groups(line) : own_still();
 }
 

@@ -145,16 +145,19 @@ void StillLines::unpack_depths(const geometry::LineRange& lines, const std::byte
     from = unpack_columns(from, marks_.on(line), width_, depths(line));
 }
 
-std::size_t StillLines::packed_bytes(std::size_t columns, std::size_t groups) const {
-  return wire::still_head_bytes(width_) + columns * wire::still_column_bytes(samples_, casting_) +
-         groups * group_bytes();
+std::size_t StillLines::kept_bytes(std::size_t columns, std::size_t groups) const {
+  if (!has_groups_) return columns * sizeof(float);
+  return columns * wire::still_column_bytes(samples_, casting_) + groups * group_bytes();
 }
 
 std::size_t StillLines::packed_bytes(std::uint32_t line) const {
-  return keeps(line) ? packed_bytes(count_columns(tiles(line), width_), head(line).groups) : 0;
+  if (!keeps(line)) return 0;
+  return wire::still_head_bytes(width_) + kept_bytes(count_columns(tiles(line), width_), head(line).groups);
 }
 
-std::size_t StillLines::most_packed() const { return packed_bytes(width_, std::size_t{width_} * samples_); }
+std::size_t StillLines::most_packed() const {
+  return wire::still_head_bytes(width_) + kept_bytes(width_, std::size_t{width_} * samples_);
+}
 
 void StillLines::pack(std::uint32_t line, std::byte* to) const {
   const MarkedTiles marked = tiles(line);
@@ -186,8 +189,9 @@ bool StillLines::is_packed(std::span<const std::byte> line) {
   const std::uint32_t beyond = wire::still_tiles(width_) % 64;
   if (beyond != 0 && marked.back() >> beyond != 0) return false;
   const std::size_t columns = count_columns(marked, width_);
-  if (line.size() != packed_bytes(columns, head.groups)) return false;
-  const std::size_t ends_at = wire::still_head_bytes(width_) + columns * samples_ * sizeof(float);
+  const std::size_t head_bytes = wire::still_head_bytes(width_);
+  if (line.size() != head_bytes + kept_bytes(columns, head.groups)) return false;
+  const std::size_t ends_at = head_bytes + columns * samples_ * sizeof(float);
   const auto groups = line.last(head.groups * group_bytes());
   return are_ends(line.subspan(ends_at, columns * sizeof(std::uint32_t)), head.groups) && are_groups(groups);
 }

@@ -85,6 +85,9 @@ class StillLines {
   // Copies a line's pairs to it.
   void keep_pairs(std::uint32_t line, const wire::StillPairs* from);
 
+  // What that many columns with that many groups take.
+  std::size_t kept_bytes(std::size_t columns, std::size_t groups) const;
+
   bool keeps(std::uint32_t line) const;
   // The columns that a kept line has.
   MarkedTiles columns(std::uint32_t line) const { return has_groups_ ? tiles(line) : marks_.on(line); }
@@ -127,7 +130,6 @@ class StillLines {
   wire::StillPairs* pairs(std::uint32_t line) const;
   std::byte* groups_of(std::uint32_t line) const;
 
-  std::size_t packed_bytes(std::size_t columns, std::size_t groups) const;
   static Head head_of(std::span<const std::byte> line);
   MarkedTiles read_tiles(std::span<const std::byte> line);
   static bool are_ends(std::span<const std::byte> ends, std::uint32_t groups);

@@ -157,8 +157,7 @@ void ShadowPainter::keep_groups(const Picture& picture) {
     std::uint32_t columns = 0;
     for (std::uint32_t s = 0; s < samples_; ++s)
       columns = still.keep_depths(number, s, drawn_.line(number).depth + std::size_t{s} * width_);
-    counts_.still_bytes +=
-        columns * wire::still_column_bytes(samples_, casting_) + count * wire::still_group_bytes(casting_);
+    counts_.still_bytes += still.kept_bytes(columns, count);
   }
 }
 

@@ -54,6 +54,7 @@ struct LineCounts {
   double moving_width = 0;  // in pixels, from the first edge box of moving parts to the last
   SeenCounts constant;
   SeenCounts moving;
+  double kept_width = 0;  // in pixels, of stationary parts for inbetweens (keyframes)
 };
 
 // A patch or meshlet that may cast shadows on lines [first_line, last_line): a caster of each node that draws one of
