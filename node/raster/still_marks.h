@@ -61,14 +61,14 @@ class StillMarks {
   void mark_all();
   // Tiles are numbered over the picture row by row.
   void mark_tile(std::uint32_t tile) { mark(tile / across_, tile % across_, tile % across_ + 1); }
+  bool has(std::uint32_t tile) const { return has_tile(row(tile / across_), tile % across_); }
   // Of the tiles that have any of these pixels.
   void mark(const geometry::LineRange& lines, const geometry::ColumnRange& columns);
 
-  MarkedTiles on(std::uint32_t line) const {
-    return std::span(bits_).subspan(line / wire::kStillTile * words_, words_);
-  }
+  MarkedTiles on(std::uint32_t line) const { return row(line / wire::kStillTile); }
 
  private:
+  MarkedTiles row(std::uint32_t number) const { return std::span(bits_).subspan(number * words_, words_); }
   void mark(std::uint32_t row, std::uint32_t first, std::uint32_t last);
 
   std::uint32_t across_;

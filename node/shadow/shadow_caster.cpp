@@ -115,7 +115,7 @@ void ShadowCaster::cast_from_all(const geometry::Scene& scene, Casting casting, 
   const LightViews& all = lights_[light];
   bounds_.clear();
   if (has_bounds(light))
-    for (const Layer* layer : onto) bound(light, *layer, bounds_);
+    for (const Layer* layer : onto) bound(light, *layer, layer->tiles, bounds_);
   const auto matters = [&](const Hull& hull) {
     if (!has_bounds(light)) return true;
     return std::ranges::any_of(
@@ -202,13 +202,14 @@ GridBox ShadowCaster::box_of_hull(const LightView& view, const Hull& hull) {
   return box;
 }
 
-void ShadowCaster::bound(std::uint32_t light, const Layer& layer, std::vector<TileBounds>& faces) const {
+void ShadowCaster::bound(std::uint32_t light, const Layer& layer, std::span<const std::uint32_t> tiles,
+                         std::vector<TileBounds>& faces) const {
   const LightViews& all = lights_[light];
   const auto views = has_size(light) ? std::span(&all.middle, 1) : views_of(light, 0);
   for (const LightView& view : views) {
     TileBounds& face = faces.emplace_back();
     face.tree.clear();
-    for (const std::uint32_t tile : layer.tiles) {
+    for (const std::uint32_t tile : tiles) {
       const GridBox box = bound_tile(light, view, layer, tile);
       if (box.low_x > box.high_x) continue;
       face.tree.add(box);
@@ -236,7 +237,7 @@ void ShadowCaster::bound_still(const Layer& still) {
   still_bounds_.resize(lights());
   for (std::uint32_t light = 0; light < lights(); ++light) {
     still_bounds_[light].clear();
-    if (has_bounds(light)) bound(light, still, still_bounds_[light]);
+    if (has_bounds(light)) bound(light, still, still.tiles, still_bounds_[light]);
   }
 }
 
@@ -260,9 +261,14 @@ void ShadowCaster::visit_shaded(std::uint32_t light, const Hull& hull, std::vect
 void ShadowCaster::mark_shaded(const geometry::Sweep& sweep, const Layer& still, raster::StillMarks& marks) {
   if (sweep.casters().empty()) return;
   if (!all_have_bounds()) return marks.mark_all();
+  std::vector<std::uint32_t> tiles = still.tiles;
   for (std::uint32_t light = 0; light < lights(); ++light) {
+    std::erase_if(tiles, [&](std::uint32_t tile) {
+      const std::uint32_t top = tile / still.tiles_across() * kTile;
+      return top >= sweep.lines().last || top + kTile <= sweep.lines().first || marks.has(tile);
+    });
     bounds_.clear();
-    bound(light, still, bounds_);
+    bound(light, still, tiles, bounds_);
     for (const geometry::SweptHull& caster : sweep.casters())
       visit_shaded(light, hull_of(caster), bounds_, [&](std::uint32_t tile) { marks.mark_tile(tile); });
     look_();

@@ -44,7 +44,8 @@ class ShadowCaster {
   // Where surfaces go that are diced for the camera.
   DicedSurfaces& diced() { return diced_; }
 
-  // Marks the squares of what stands still whose points casters may block that are somewhere in the sweep.
+  // Marks the squares of what stands still whose points casters may block that are somewhere in the sweep, as far as
+  // shadows of these may reach lines.
   void mark_shaded(const geometry::Sweep& sweep, const Layer& still, raster::StillMarks& marks);
 
   // Of what stands still throughout an interval on the layer's lines: remembers where its points are.
@@ -73,7 +74,8 @@ class ShadowCaster {
   const PairVectors& vectors_of(std::uint32_t light) const { return has_size(light) ? soft_ : hard_; }
   PointSource source_of(std::uint32_t light, std::uint32_t point) const;
   std::span<const LightView> views_of(std::uint32_t light, std::uint32_t point) const;
-  void bound(std::uint32_t light, const Layer& layer, std::vector<TileBounds>& faces) const;
+  void bound(std::uint32_t light, const Layer& layer, std::span<const std::uint32_t> tiles,
+             std::vector<TileBounds>& faces) const;
   GridBox bound_tile(std::uint32_t light, const LightView& view, const Layer& layer, std::uint32_t tile) const;
   template <typename Visit>
   void visit_shaded(std::uint32_t light, const Hull& hull, std::vector<TileBounds>& faces, const Visit& visit);
