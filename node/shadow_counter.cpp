@@ -81,6 +81,12 @@ void ShadowCounter::add_light(const geometry::EyeLight& light, const geometry::S
   }
 }
 
+template <typename Hull>
+GridBox ShadowCounter::project(const shadow::LightView& view, const Hull& hull) {
+  const float* const along[] = {hull.along[0], hull.along[1], hull.along[2]};
+  return kernels_.project(view, along, hull.count, {grid_[0].data(), grid_[1].data(), grid_z_.data()});
+}
+
 // As shading decides whether it adds anything, but for what is beyond a light's reach.
 bool ShadowCounter::is_lit(const geometry::Scene& scene, const geometry::EyeLight& light, const SeenLine& line,
                            std::uint32_t column, std::size_t sample) const {
@@ -203,6 +209,19 @@ void ShadowCounter::scale_points(Casting seen, wire::SeenCounts wire::LineCounts
   for (wire::LineCounts& line : lines) (line.*of).points *= put / once;
 }
 
+// All where it is not known what may be before a light's points.
+void ShadowCounter::mark_shaded(const geometry::Scene& scene, const geometry::Sweep& sweep, raster::StillMarks& marks) {
+  if (sweep.casters().empty()) return;
+  if (!std::ranges::all_of(lights_, &Light::has_bounds)) return marks.mark_all();
+  const auto mark = [&](const Stretch& stretch, std::size_t number) {
+    const auto first = static_cast<std::uint32_t>(number % stretches_) * kColumns;
+    marks.mark({stretch.line, std::min(stretch.line + step_, static_cast<std::uint32_t>(scene.height()))},
+               {first, std::min(first + kColumns, static_cast<std::uint32_t>(scene.width()))});
+  };
+  for (Light& light : lights_)
+    for (const geometry::SweptHull& caster : sweep.casters()) visit_shaded(light, caster, mark);
+}
+
 // Of all lights, still points on stretches that moving casters may keep from any light: on all, where that is not
 // known of a light.
 double ShadowCounter::count_kept(const geometry::Scene& scene) {
@@ -221,22 +240,29 @@ double ShadowCounter::count_kept(const geometry::Scene& scene) {
 }
 
 void ShadowCounter::find_shaded(const geometry::Scene& scene, Light& light) {
-  std::vector<Stretches>& still = light.seen[number(Casting::still)];
   casters_.visit_hulls(scene, Casting::moving, [&](const shadow::Hull& hull) {
-    if (light.has_size())
-      return mark_shaded(light.views.middle.front(), hull, light.views.spread,
-                         light.seen_by_middle[number(Casting::still)]);
-    for (std::size_t view = 0; view < light.counted.size(); ++view)
-      mark_shaded(light.counted[view], hull, 0, still[view]);
+    visit_shaded(light, hull, [this](const Stretch&, std::size_t stretch) { is_shaded_[stretch] = 1; });
   });
 }
 
-void ShadowCounter::mark_shaded(const shadow::LightView& view, const shadow::Hull& hull, float spread,
-                                Stretches& still) {
+// Calls visit(stretch, number) for still stretches with points that a caster within the hull may block.
+template <typename Hull, typename Visit>
+void ShadowCounter::visit_shaded(Light& light, const Hull& hull, const Visit& visit) {
+  std::vector<Stretches>& still = light.seen[number(Casting::still)];
+  if (light.has_size())
+    return visit_shaded(light.views.middle.front(), hull, light.views.spread,
+                        light.seen_by_middle[number(Casting::still)], visit);
+  for (std::size_t view = 0; view < light.counted.size(); ++view)
+    visit_shaded(light.counted[view], hull, 0, still[view], visit);
+}
+
+template <typename Hull, typename Visit>
+void ShadowCounter::visit_shaded(const shadow::LightView& view, const Hull& hull, float spread, Stretches& still,
+                                 const Visit& visit) {
   const GridBox box = project(view, hull);
   if (is_empty(box)) return;
-  for (const std::uint32_t stretch : still.tree.find(kernels_, box, spread, found_))
-    if (stretch < is_shaded_.size()) is_shaded_[stretch] = 1;
+  for (const std::uint32_t found : still.tree.find(kernels_, box, spread, found_))
+    if (found < still.all.size()) visit(still.all[found], found);
 }
 
 // Returns the number of chunks.
@@ -327,11 +353,6 @@ bool ShadowCounter::extend(Stretches& stretches, const GridBox& box, float sprea
   for (const std::uint32_t stretch : found)
     if (stretch < stretches.all.size()) lines.add(stretches.all[stretch].line);
   return !found.empty();
-}
-
-GridBox ShadowCounter::project(const shadow::LightView& view, const shadow::Hull& hull) {
-  const float* const along[] = {hull.along[0], hull.along[1], hull.along[2]};
-  return kernels_.project(view, along, hull.count, {grid_[0].data(), grid_[1].data(), grid_z_.data()});
 }
 
 }  // namespace mars::node

@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "node/geometry/scene.h"
+#include "node/geometry/sweep.h"
 #include "node/geometry/triangle.h"
+#include "node/raster/still_marks.h"
 #include "node/shadow/casters.h"
 #include "node/shadow/light_views.h"
 #include "node/shadow/points.h"
@@ -42,6 +44,8 @@ class ShadowCounter {
   double add(const geometry::Scene& scene, Casting seen, const SeenLine& line);
   // When all are added: the frame's casters, and of an inbetween the still points that moving ones may block.
   void count(const geometry::Scene& scene, wire::FrameCounts& counts);
+  // After count() of a keyframe: marks what of the picture shadows may change, all of it where lights have a size.
+  void mark_shaded(const geometry::Scene& scene, const geometry::Sweep& sweep, raster::StillMarks& marks);
   // Where surfaces go that are diced for the camera.
   shadow::DicedSurfaces& diced() { return diced_; }
 
@@ -106,21 +110,26 @@ class ShadowCounter {
   void scale_points(Casting seen, wire::SeenCounts wire::LineCounts::*of, std::vector<wire::LineCounts>& lines) const;
   double count_kept(const geometry::Scene& scene);
   void find_shaded(const geometry::Scene& scene, Light& light);
-  void mark_shaded(const shadow::LightView& view, const shadow::Hull& hull, float spread, Stretches& still);
+  template <typename Hull, typename Visit>
+  void visit_shaded(Light& light, const Hull& hull, const Visit& visit);
+  template <typename Hull, typename Visit>
+  void visit_shaded(const shadow::LightView& view, const Hull& hull, float spread, Stretches& still,
+                    const Visit& visit);
   Reach reach_of(const shadow::Hull& hull, Light& light, std::span<const Casting> onto);
   Lines matters_on(const shadow::Hull& hull, Light& light, std::span<const Casting> onto, const Lines& put);
   bool extend(Stretches& stretches, const shadow::GridBox& box, float spread, Lines& lines);
-  shadow::GridBox project(const shadow::LightView& view, const shadow::Hull& hull);
+  template <typename Hull>
+  shadow::GridBox project(const shadow::LightView& view, const Hull& hull);
 
   const shadow::ShadowKernels& kernels_;
   shadow::DicedSurfaces diced_;
+  std::vector<std::uint8_t> is_needed_;  // by patch: shadows of the interval needed it as a still caster
   shadow::CasterStream casters_;
   std::uint32_t stretches_;  // of a line
   std::uint32_t height_;     // of the picture
   std::uint32_t step_ = 1;
   bool keyframe_ = true;
   std::vector<Light> lights_;
-  std::vector<std::uint8_t> is_needed_;  // by patch: shadows of the interval needed it as a still caster
   std::vector<std::uint8_t> is_shaded_;  // by stretch
   std::array<std::vector<std::int32_t>, 2> grid_;
   std::vector<float> grid_z_;
