@@ -154,12 +154,12 @@ void Shafts::touch_all(std::size_t face) {
 
 void Shafts::touch(const LargeTriangle& piece, std::size_t face, std::uint64_t& touching, std::uint64_t bit) {
   Points& points = points_[face];
-  for (const std::uint32_t vector :
-       points.tree().find(kernels_, piece.box(), reach_[face].shaft.spread, found_by_large_))
-    if (may_block(piece, points.vectors()[vector], reach_[face].shaft)) {
-      touching |= bit;
-      touched_[face][vector] = 1;
-    }
+  const Shaft& shaft = reach_[face].shaft;
+  const auto found = points.tree().find(kernels_, piece.box(), shaft.spread, found_by_large_);
+  visit_behind(piece, shaft, points.vectors(), found, [&](std::uint32_t vector) {
+    touching |= bit;
+    touched_[face][vector] = 1;
+  });
 }
 
 void Shafts::keep_batches(const ChunkCaster& caster) {
