@@ -60,7 +60,7 @@ class Film:
         film["models"] = {name: os.path.join(films.EXAMPLES, model) if isinstance(model, str) else model
                           for name, model in film["models"].items()}
         other = copy.copy(self)
-        other.name = f"{self.name}-{rate}"
+        other.name = f"{self.name}-{rate or 'adaptive'}"
         other.path = films.save({**film, "dice": rate} if rate else film, os.path.join(self.folder, other.name + ".json"))
         return other
 
