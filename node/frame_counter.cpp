@@ -52,7 +52,7 @@ wire::FrameCounts FrameCounter::count(wire::FrameKind kind, std::uint32_t frame)
   const bool keyframe = kind == wire::FrameKind::keyframe;
   scene_.set_frame(frame);
   triangles_.clear();
-  if (shadows_) shadows_->diced().clear();
+  if (shadows_) shadows_->begin_frame(keyframe);
   for (SampledLine& line : sampled_) line.stationary.clear(), line.moving.clear();
   std::ranges::fill(loads_, raster::LineLoad());
   std::ranges::fill(moving_loads_, raster::LineLoad());

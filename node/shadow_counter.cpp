@@ -36,6 +36,7 @@ bool is_empty(const GridBox& box) { return box.low_x > box.high_x; }
 ShadowCounter::ShadowCounter(const geometry::Scene& scene, simd::InstructionSet set)
     : kernels_(shadow::shadow_kernels(set)),
       diced_(scene.film().patch_instances()),
+      is_needed_(scene.film().patch_instances()),
       casters_(set),
       stretches_((static_cast<std::uint32_t>(scene.width()) + kColumns - 1) / kColumns * 2),
       height_(static_cast<std::uint32_t>(scene.height())) {
@@ -45,6 +46,13 @@ ShadowCounter::ShadowCounter(const geometry::Scene& scene, simd::InstructionSet 
 }
 
 // In an inbetween the still points are those of its keyframe.
+void ShadowCounter::begin_frame(bool keyframe) {
+  diced_.clear(Casting::moving);
+  if (!keyframe) return;
+  diced_.clear(Casting::still);
+  std::ranges::fill(is_needed_, std::uint8_t{0});
+}
+
 void ShadowCounter::begin(const geometry::Scene& scene, wire::FrameKind kind, std::uint32_t step) {
   keyframe_ = kind == wire::FrameKind::keyframe;
   step_ = step;
@@ -134,7 +142,7 @@ void ShadowCounter::add_stretch(Light& light, Casting seen, const SeenLine& line
     for (std::size_t view = 0; view < light.counted.size(); ++view)
       light.seen[number(seen)][view].all.push_back(on(light.counted[view], light.points_each / light.views.points));
     if (light.has_size() && light.has_bounds())
-      light.seen_by_middle[number(seen)].all.push_back(on(light.views.middle, 1));
+      light.seen_by_middle[number(seen)].all.push_back(on(light.views.middle.front(), 1));
   }
 }
 
@@ -216,7 +224,8 @@ void ShadowCounter::find_shaded(const geometry::Scene& scene, Light& light) {
   std::vector<Stretches>& still = light.seen[number(Casting::still)];
   casters_.visit_hulls(scene, Casting::moving, [&](const shadow::Hull& hull) {
     if (light.has_size())
-      return mark_shaded(light.views.middle, hull, light.views.spread, light.seen_by_middle[number(Casting::still)]);
+      return mark_shaded(light.views.middle.front(), hull, light.views.spread,
+                         light.seen_by_middle[number(Casting::still)]);
     for (std::size_t view = 0; view < light.counted.size(); ++view)
       mark_shaded(light.counted[view], hull, 0, still[view]);
   });
@@ -249,15 +258,22 @@ double ShadowCounter::count_casters(const geometry::Scene& scene, Light& light, 
   for (auto chunk = casters_.next(matters); !chunk.empty(); chunk = casters_.next(matters)) {
     for (std::size_t i = 0; i < chunk.size(); ++i) {
       const auto& [lines, put, near, grids] = reaches[i];
-      const double triangles = chunk[i]->triangles.count, vertices = chunk[i]->vertices;
+      const double triangles = chunk[i].surface->triangles.count, vertices = chunk[i].surface->vertices;
       counts.casters.push_back({lines.first, lines.last + step_, put.first, put.any() ? put.last + step_ : put.first,
-                                !casters_.has_diced(*chunk[i]), vertices, vertices * (light.has_size() ? near : views),
-                                triangles * (light.has_size() ? grids_behind(*chunk[i], light, onto) : grids)});
+                                diced_by(chunk[i], casting), vertices, vertices * (light.has_size() ? near : views),
+                                triangles * (light.has_size() ? grids_behind(*chunk[i].surface, light, onto) : grids)});
     }
     reaches.clear();
     ++chunks;
   }
   return chunks;
+}
+
+// Those of which an earlier frame of the interval, or another light, found that they matter are kept.
+wire::DicedBy ShadowCounter::diced_by(const shadow::ChunkCaster& caster, Casting casting) {
+  const bool was_needed = std::exchange(is_needed_[caster.patch], std::uint8_t{casting == Casting::still}) != 0;
+  if (was_needed) return wire::DicedBy::shadows;
+  return caster.is_new ? wire::DicedBy::none : wire::DicedBy::camera;
 }
 
 // Of a light that has a size, grids with points within the box of the caster's vertices.
@@ -298,7 +314,7 @@ ShadowCounter::Lines ShadowCounter::matters_on(const shadow::Hull& hull, Light& 
                                                const Lines& put) {
   if (!light.has_bounds()) return {0, height_ - 1};
   if (!light.has_size()) return put;
-  const GridBox box = project(light.views.middle, hull);
+  const GridBox box = project(light.views.middle.front(), hull);
   Lines lines;
   for (const Casting seen : onto) extend(light.seen_by_middle[number(seen)], box, light.views.spread, lines);
   return lines;

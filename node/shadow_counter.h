@@ -34,6 +34,8 @@ class ShadowCounter {
 
   ShadowCounter(const geometry::Scene& scene, simd::InstructionSet set);
 
+  // Before surfaces are diced for the camera.
+  void begin_frame(bool keyframe);
   // The scene's frame, of which one line in `step` will be added.
   void begin(const geometry::Scene& scene, wire::FrameKind kind, std::uint32_t step);
   // Lines ascend. Returns the points of samples on it, of all lights.
@@ -75,7 +77,7 @@ class ShadowCounter {
 
     bool has_size() const { return views.points > 1; }
     // Whether its middle's view says what may be before the points of all its views.
-    bool has_bounds() const { return !has_size() || !views.middle.has_place; }
+    bool has_bounds() const { return !has_size() || !views.middle.front().has_place; }
   };
   // Of the added lines.
   struct Lines {
@@ -99,6 +101,7 @@ class ShadowCounter {
   void finish(Stretches& stretches) const;
   double count_casters(const geometry::Scene& scene, Light& light, Casting casting, std::span<const Casting> onto,
                        wire::FrameCounts& counts);
+  wire::DicedBy diced_by(const shadow::ChunkCaster& caster, Casting casting);
   double grids_behind(const shadow::Caster& caster, Light& light, std::span<const Casting> onto);
   void scale_points(Casting seen, wire::SeenCounts wire::LineCounts::*of, std::vector<wire::LineCounts>& lines) const;
   double count_kept(const geometry::Scene& scene);
@@ -117,6 +120,7 @@ class ShadowCounter {
   std::uint32_t step_ = 1;
   bool keyframe_ = true;
   std::vector<Light> lights_;
+  std::vector<std::uint8_t> is_needed_;  // by patch: shadows of the interval needed it as a still caster
   std::vector<std::uint8_t> is_shaded_;  // by stretch
   std::array<std::vector<std::int32_t>, 2> grid_;
   std::vector<float> grid_z_;

@@ -96,6 +96,18 @@ class Plane {
     per_y_ = (z2 * number(b.x - a.x) - z1 * number(c.x - a.x)) * inverse;
     slope_ = (std::abs(per_x_) + std::abs(per_y_)) * t.per_step;
   }
+  // Whether any of it over the points' box is before the plane near them: at a corner of the box, if at all.
+  bool reaches_before(const PointVector& points) const {
+    const GridBox& box = points.box;
+    const auto rise = [](double more, std::int32_t low, std::int32_t high) {
+      return std::max(0.0, more * (static_cast<double>(high) - low));
+    };
+    const double at_low =
+        a_.z + static_cast<double>(box.low_x - a_.x) * per_x_ + static_cast<double>(box.low_y - a_.y) * per_y_;
+    return at_low + rise(per_x_ - points.per_x, box.low_x, box.high_x) +
+               rise(per_y_ - points.per_y, box.low_y, box.high_y) >
+           double{points.least} + double{points.room};
+  }
   bool is_before(const PointVector& points, std::size_t k) const {
     const double there =
         a_.z + static_cast<double>(points.y[k] - a_.y) * per_y_ + static_cast<double>(points.x[k] - a_.x) * per_x_;
@@ -107,15 +119,6 @@ class Plane {
   GridPlace a_;
   double per_x_, per_y_, slope_;
 };
-
-// Whether the triangle reaches before the plane near the points.
-bool reaches_before(const PointVector& points, const GridPlace& a, const GridPlace& b, const GridPlace& c) {
-  const auto before = [&](const GridPlace& at) {
-    return at.z - (points.per_x * static_cast<double>(at.x - points.box.low_x) +
-                   points.per_y * static_cast<double>(at.y - points.box.low_y));
-  };
-  return std::max({before(a), before(b), before(c)}) > double{points.least} + double{points.room};
-}
 
 }  // namespace
 
@@ -157,7 +160,7 @@ void block_plainly(const LargeTriangle& triangle, PointVector* points, std::span
   for (const std::uint32_t number : found) {
     PointVector& here = points[number];
     if (here.box.low_x > high_x || here.box.high_x < low_x || here.box.low_y > high_y || here.box.high_y < low_y ||
-        !(high_z > here.box.low_z) || !reaches_before(here, a, b, c))
+        !(high_z > here.box.low_z) || !plane.reaches_before(here))
       continue;
     for (std::uint32_t left = here.active & ~here.blocked; left != 0; left &= left - 1) {
       const auto k = static_cast<std::size_t>(std::countr_zero(left));

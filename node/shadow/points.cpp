@@ -137,16 +137,16 @@ void Points::add(Layer& layer, std::uint32_t tile, std::uint32_t vector, const P
   count_ += static_cast<std::uint64_t>(std::popcount(points.active));
 }
 
-void add_points(const PointSource& source, std::span<const LightView> views, Layer& layer, std::span<Points> points) {
-  const auto counts = [](const wire::StillPairs& pairs, const Lane& lane, std::uint16_t moved) {
+void add_points(const PointSource& source, std::span<const LightView> views, Layer& layer, const TilePart& part,
+                std::span<Points> points) {
+  const auto counts = [&part](const wire::StillPairs& pairs, const Lane& lane, std::uint16_t moved) {
     const std::uint32_t open = pairs.lit & ~(pairs.blocked | moved);
-    return (open >> lane.pair & 1) != 0;
+    return ((open >> lane.pair) & (part.squares >> lane.square()) & 1) != 0;
   };
-  for (const std::uint32_t tile : layer.tiles)
-    for_each_vector(source, layer, tile, counts, views,
-                    [&](const PointVector& some, std::uint32_t vector, std::size_t view) {
-                      points[view].add(layer, tile, vector, some);
-                    });
+  for_each_vector(source, layer, part.tile, counts, views,
+                  [&](const PointVector& some, std::uint32_t vector, std::size_t view) {
+                    points[view].add(layer, part.tile, vector, some);
+                  });
 }
 
 void Points::note(const PointSource& source, Casting casting) {

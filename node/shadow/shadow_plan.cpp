@@ -20,9 +20,9 @@ constexpr std::uint32_t kLinesOfLeast = 2;  // of a band
 
 std::size_t squares_of_row(const ShadowNeeds& needs) { return (std::size_t{needs.width} + kTile - 1) / kTile; }
 
-// For a light without size; one with size has fewer points at a time.
+// For a light that has a size: shafts have what one without has, and each of its points a vector more.
 std::size_t bytes_of_square(const ShadowNeeds& needs) {
-  const std::size_t vectors = std::size_t{kTile} * kTile * needs.samples / kPointLanes;
+  const std::size_t vectors = std::size_t{kTile} * kTile * needs.samples / kPointLanes + 1;
   return (vectors + vectors / 2) * (sizeof(PointVector) + kVectorPlace);
 }
 

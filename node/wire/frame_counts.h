@@ -56,13 +56,19 @@ struct LineCounts {
   SeenCounts moving;
 };
 
+// Which nodes need not dice a caster for its shadows.
+enum class DicedBy : std::uint8_t {
+  none,
+  camera,   // the one node that diced it as a surface that the camera sees
+  shadows,  // all that need it, for they kept it in an earlier frame
+};
+
 // A patch or meshlet that may cast shadows on lines [first_line, last_line): a caster of each node that draws one of
-// them, who dices it if it has not diced it for the camera. Nodes that draw one of [first_put, last_put) put it on
-// grids.
+// them. Nodes that draw one of [first_put, last_put) put it on grids.
 struct CasterCounts {
   std::uint32_t first_line, last_line;
   std::uint32_t first_put, last_put;
-  bool is_diced;  // for the camera, by one node
+  DicedBy diced_by;
   double vertices;
   double put_vertices;  // on grids
   double triangles;     // set up on grids
