@@ -13,7 +13,6 @@
 #include "node/geometry/scene.h"
 #include "node/raster/arena.h"
 #include "node/shadow/band.h"
-#include "node/shadow/shadow_plan.h"
 #include "node/shape/dice.h"
 
 namespace mars::shadow {
@@ -64,6 +63,9 @@ class CasterStore {
   raster::Arena arena_;
   std::vector<Caster> casters_;
 };
+
+// Bytes of chunks of casters, and of surfaces diced for the camera, where there is enough memory (shadow_plan.h).
+inline constexpr std::size_t kMostChunk = std::size_t{32} << 20, kMostDiced = std::size_t{64} << 20;
 
 // Surfaces that need not be diced again: moving ones that were diced for the camera in this frame, and still ones that
 // were diced for anything since their interval began.

@@ -42,7 +42,4 @@ std::size_t squares_of_points(const ShadowNeeds& needs, std::size_t bytes);
 // And their lines, where each square of these lines has points.
 std::uint32_t lines_of_points(const ShadowNeeds& needs, std::size_t bytes);
 
-// Of chunks of casters, and of surfaces diced for the camera, where there is enough memory.
-inline constexpr std::size_t kMostChunk = std::size_t{32} << 20, kMostDiced = std::size_t{64} << 20;
-
 }  // namespace mars::shadow

@@ -74,9 +74,12 @@ struct FrameCosts::Homes {
   double edge_boxes;              // on all
 };
 
-FrameCosts::FrameCosts(const Setting& setting)
+FrameCosts::FrameCosts(const Setting& setting, int nodes)
     : setting_(setting),
       costs_(setting.platform),
+      memory_(farm::share_node_memory(setting.platform.memory, {}, setting.film.settings(),
+                                      shadow::shadow_needs(setting.film),
+                                      std::min(nodes, setting.platform.machine.nodes))),
       band_lines_(images::PictureBands(setting.picture, setting.film.settings().width, setting.film.settings().height)
                       .lines_a_band()) {}
 
@@ -196,21 +199,16 @@ double FrameCosts::kept_bytes(const wire::LineCounts& line) const {
          kept_groups(line) * static_cast<double>(wire::still_group_bytes(casting));
 }
 
-farm::NodeMemory FrameCosts::memory() const {
-  return farm::share_node_memory(setting_.platform.memory, {}, setting_.film.settings(),
-                                 shadow::shadow_needs(setting_.film));
-}
-
 wire::StillPlan FrameCosts::still_plan(int nodes) const {
   const wire::FilmSettings& film = setting_.film.settings();
   return wire::plan_still_lines(film.width, film.height, film.samples,
-                                memory().still * static_cast<std::uint64_t>(nodes_on_a_computer(nodes)),
+                                memory_.still * static_cast<std::uint64_t>(nodes_on_a_computer(nodes)),
                                 setting_.film.casting_count());
 }
 
 // Of one frame; where nodes share a computer, two frames' take turns (node/group/frame_memory.h).
 double FrameCosts::arena_bytes() const {
-  return static_cast<double>(memory().frames) / (setting_.platform.machine.nodes > 1 ? 2 : 1);
+  return static_cast<double>(memory_.frames) / (setting_.platform.machine.nodes > 1 ? 2 : 1);
 }
 
 // What is done again in each pass.
@@ -274,7 +272,7 @@ double FrameCosts::lines_of_band(const FrameTotals& totals, double lines) const 
   const double record = static_cast<double>(wire::still_group_bytes(setting_.film.casting_count()));
   const double column = sizeof(std::uint32_t) + casting * 2 * (sizeof(wire::StillPairs) + sizeof(std::uint16_t));
   const shadow::ShadowNeeds needs = shadow::shadow_needs(setting_.film);
-  const shadow::ShadowPlan plan = shadow::plan_shadows(needs, memory().shadows);
+  const shadow::ShadowPlan plan = shadow::plan_shadows(needs, memory_.shadows);
   const double shaded = totals.drawn.constant.shaded + totals.drawn.moving.shaded;
   const double each = shaded / lines * (group + record) + samples * sizeof(float) + film.width * column / 2;
   const double seen = std::floor(static_cast<double>(plan.band - shadow::band_bytes_of_line(needs)) / each);

@@ -107,7 +107,7 @@ farm::HostMemory host_memory(const farm::Plan& plan, const Setting& setting, int
 Rehearsal::Rehearsal(const FilmCounts& counts, const farm::Plan& plan, const Setting& setting, int nodes)
     : counts_(counts),
       plan_(plan),
-      costs_(setting),
+      costs_(setting, nodes),
       computers_(setting.platform.machine, nodes),
       routes_(setting.platform.machine.network, computers_.count(), computers_.of(nodes)),
       storage_(setting.platform.machine.storage, setting.platform.machine.network),

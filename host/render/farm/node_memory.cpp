@@ -14,18 +14,24 @@ std::uint64_t shadow_bytes(std::uint64_t bytes, const shadow::ShadowNeeds& shado
   return shadow::plan_shadows(shadows, bytes).bytes();
 }
 
+std::uint64_t frames_with_shadows(int nodes) {
+  constexpr std::uint64_t kMachine = std::uint64_t{768} << 20, kLeast = std::uint64_t{128} << 20;
+  return std::max(kMachine / static_cast<std::uint64_t>(nodes), kLeast);
+}
+
 std::string mebibytes(std::uint64_t bytes) { return std::to_string((bytes + (1 << 20) - 1) >> 20) + " MiB"; }
 
 }  // namespace
 
 NodeMemory share_node_memory(std::uint64_t bytes, const AskedMemory& asked, const wire::FilmSettings& film,
-                             const shadow::ShadowNeeds& shadows) {
+                             const shadow::ShadowNeeds& shadows, int nodes) {
   NodeMemory memory;
   memory.shadows = shadow_bytes(asked.shadows.value_or(bytes / kPart), shadows);
   const std::uint64_t rest = bytes - std::min(bytes, memory.shadows);
   if (film.samples > 1 || shadows.casting > 0)
     memory.still = std::min(asked.still.value_or(std::min(bytes / kPart, rest / 2)), rest);
   memory.frames = rest - memory.still;
+  if (shadows.casting > 0) memory.frames = std::min(memory.frames, frames_with_shadows(nodes));
   memory.still_plan = wire::plan_still_lines(film.width, film.height, film.samples, memory.still, shadows.casting);
   return memory;
 }

@@ -22,7 +22,7 @@ NodeMemory node_memory(const FilmRun& run) {
   const std::uint64_t bytes = run.options.memory == 0 ? run.engine.node_memory() : run.options.memory;
   const shadow::ShadowNeeds shadows = shadow::shadow_needs(run.film);
   if (!run.options.asked_memory.shadows) check_shadow_memory(bytes, shadows);
-  return share_node_memory(bytes, run.options.asked_memory, run.film.settings(), shadows);
+  return share_node_memory(bytes, run.options.asked_memory, run.film.settings(), shadows, run.engine.nodes_together());
 }
 
 void let_nodes_write(const Writing& writing, const FilmRun& run, std::vector<GroupWork>& groups) {

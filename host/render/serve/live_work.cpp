@@ -104,13 +104,14 @@ void LiveWork::load_film() {
   const wire::FilmSettings& settings = film_->settings();
   shadow::ShadowNeeds shadows = shadow::shadow_needs(*film_);
   shadows.casting = std::max(shadows.casting, 1u);
-  const farm::NodeMemory memory = farm::share_node_memory(engine_.node_memory(), {}, settings, shadows);
+  const std::uint64_t bytes = engine_.node_memory();
+  const farm::NodeMemory memory = farm::share_node_memory(bytes, {}, settings, shadows);
   still_memory_ = memory.still / kViewsAShare;
   shadow_memory_ = memory.shadows / kViewsAShare;
   wire::Load load{};
   load.mapping = mapping_;
   load.groups = 1;
-  load.memory = memory.frames;
+  load.memory = bytes - memory.still - std::min(memory.shadows, bytes / 2);
   load.still_memory = memory.still;
   load.live = 1;
   engine_.load_film(film_block_, load);

@@ -53,7 +53,7 @@ TEST(NodeMemory, AGivenPartIsTakenButNoMoreThanThereIs) {
 TEST(NodeMemory, ShadowsTakeAPart) {
   const shadow::ShadowNeeds needs{1920, 4, 2, 1000};
   const std::uint64_t least = shadow::least_shadow_bytes(needs), most = shadow::most_shadow_bytes(needs);
-  for (const std::uint64_t bytes : {2 * least, 8 * least, std::uint64_t{4096} * kMiB}) {
+  for (const std::uint64_t bytes : {2 * least, 8 * least, 16 * least}) {
     const NodeMemory memory = share_node_memory(bytes, {}, film(4), needs);
     EXPECT_LE(memory.shadows, std::max(least, bytes / 4));
     EXPECT_GE(memory.shadows, least);
@@ -63,6 +63,14 @@ TEST(NodeMemory, ShadowsTakeAPart) {
   EXPECT_EQ(share_node_memory(4096 * kMiB, {}, film(4), needs).shadows, most);
   EXPECT_EQ(share_node_memory(4096 * kMiB, {{}, 0}, film(4), needs).shadows, least);
   EXPECT_EQ(share_node_memory(4096 * kMiB, {}, film(4)).shadows, 0u);
+}
+
+TEST(NodeMemory, FramesWithShadowsTakePassesRatherThanGigabytes) {
+  const shadow::ShadowNeeds needs{1920, 4, 2, 1000};
+  EXPECT_EQ(share_node_memory(4096 * kMiB, {}, film(4), needs, 1).frames, 768 * kMiB);
+  EXPECT_EQ(share_node_memory(4096 * kMiB, {}, film(4), needs, 3).frames, 256 * kMiB);
+  EXPECT_EQ(share_node_memory(4096 * kMiB, {}, film(4), needs, 100).frames, 128 * kMiB);
+  EXPECT_GT(share_node_memory(4096 * kMiB, {}, film(4), {}, 100).frames, 1024 * kMiB);
 }
 
 TEST(NodeMemory, ShadowsThatNeedMoreThanHalfAreRefused) {
