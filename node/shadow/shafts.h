@@ -53,7 +53,6 @@ class Shafts {
   // `bit` is set in `touching` where the piece of a large triangle meets shafts.
   void touch(const LargeTriangle& piece, std::size_t face, std::uint64_t& touching, std::uint64_t bit);
   void keep_batches(const ChunkCaster& caster);
-
   void keep_parts();
 
   const ShadowKernels& kernels_;

@@ -7,7 +7,7 @@ namespace mars::shadow::MARS_SET {
 
 namespace {
 
-constexpr float kGridRounding = 2;    // steps by which places of two views differ, beside the spread
+constexpr float kGridRounding = 4;    // steps by which places of two views differ, beside the spread
 constexpr float kFloatRounding = 64;  // steps that a float of a place on the grid may be off
 constexpr std::int32_t kSmooth = 8;   // steps that a triangle is high, at least, for its slope to be near the surface's
 

@@ -221,11 +221,11 @@ TEST(BeginViewCommands, HaveTheirScene) {
               read_begin_view(message(view, Bytes(block.begin(), block.begin() + static_cast<long>(bytes))));
             }).empty();
   };
-  EXPECT_FALSE(refused({63, 1, block.size(), 0}, block.size()));
-  EXPECT_TRUE(refused({64, 1, block.size(), 0}, block.size()));
-  EXPECT_TRUE(refused({0, 1, block.size() + 1, 0}, block.size()));
-  EXPECT_TRUE(refused({0, 1, ~std::uint64_t{0}, 0}, block.size()));
-  EXPECT_TRUE(refused({0, 1, block.size(), 0}, block.size() - 1));
+  EXPECT_FALSE(refused({63, 1, block.size(), 0, 0}, block.size()));
+  EXPECT_TRUE(refused({64, 1, block.size(), 0, 0}, block.size()));
+  EXPECT_TRUE(refused({0, 1, block.size() + 1, 0, 0}, block.size()));
+  EXPECT_TRUE(refused({0, 1, ~std::uint64_t{0}, 0, 0}, block.size()));
+  EXPECT_TRUE(refused({0, 1, block.size(), 0, 0}, block.size() - 1));
   EXPECT_FALSE(refusal([] { read_begin_view({}); }).empty());
 }
 
