@@ -4,11 +4,11 @@
 
 namespace mars::node {
 
-Canvas::Canvas(const wire::PackedFilm& film, const raster::Neighbours& neighbours, std::uint64_t still_memory,
+Canvas::Canvas(const wire::PackedFilm& film, const raster::Neighbours& neighbours, const Memory& memory,
                simd::InstructionSet set)
     : scene(film),
       z_buffer(set, film.settings().width, scene.pattern()),
-      still(neighbours, film.settings().width, film.settings().height, scene.pattern(), still_memory,
+      still(neighbours, film.settings().width, film.settings().height, scene.pattern(), memory.still,
             film.casting_count()),
       sums(film.settings().height),
       triangle_exchange(static_cast<std::size_t>(neighbours.group().count), film.settings().height),
@@ -19,7 +19,8 @@ Canvas::Canvas(const wire::PackedFilm& film, const raster::Neighbours& neighbour
       awaited(film.settings().height),
       wanted_lines(film.settings().height),
       wanted_still_lines(film.settings().height) {
-  if (scene.casting_count() > 0) shadows.emplace(set, scene);
+  if (scene.casting_count() > 0)
+    shadows.emplace(set, scene, shadow::plan_shadows(shadow::shadow_needs(film), memory.shadows));
 }
 
 }  // namespace mars::node

@@ -19,9 +19,16 @@
 namespace mars::node {
 
 struct Canvas {
-  // The film's block, or a scene's, and `neighbours` outlive it. `still_memory` as in Load. Collective over a machine's
-  // nodes.
-  Canvas(const wire::PackedFilm& film, const raster::Neighbours& neighbours, std::uint64_t still_memory,
+  // Bytes, as in Load.
+  struct Memory {
+    std::uint64_t still;
+    std::uint64_t shadows;
+
+    bool operator==(const Memory&) const = default;
+  };
+
+  // The film's block, or a scene's, and `neighbours` outlive it. Collective over a machine's nodes.
+  Canvas(const wire::PackedFilm& film, const raster::Neighbours& neighbours, const Memory& memory,
          simd::InstructionSet set);
 
   geometry::Scene scene;

@@ -9,7 +9,9 @@ namespace mars::node {
 
 FilmFrames::FilmFrames(const wire::PackedFilm& film, const wire::Load& load, simd::InstructionSet set,
                        Renderer& renderer)
-    : renderer_(renderer), canvas_(film, renderer.neighbours(), load.still_memory, set), boxes_(film) {}
+    : renderer_(renderer),
+      canvas_(film, renderer.neighbours(), {load.still_memory, load.shadow_memory}, set),
+      boxes_(film) {}
 
 void FilmFrames::render(const wire::RenderCommand& command) {
   const wire::Render& render = command.render;

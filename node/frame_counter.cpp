@@ -59,12 +59,15 @@ wire::FrameCounts FrameCounter::count(wire::FrameKind kind, std::uint32_t frame)
   const bool keyframe = kind == wire::FrameKind::keyframe;
   scene_.set_frame(frame);
   triangles_.clear();
-  if (shadows_) shadows_->diced().clear();
+  if (shadows_) shadows_->begin_frame(keyframe);
   for (SampledLine& line : sampled_) line.stationary.clear(), line.moving.clear();
   std::ranges::fill(loads_, raster::LineLoad());
   std::ranges::fill(moving_loads_, raster::LineLoad());
   std::ranges::fill(moving_columns_, Columns());
-  wire::FrameCounts counts{kind, frame, {}, std::vector<wire::LineCounts>(loads_.size())};
+  wire::FrameCounts counts;
+  counts.kind = kind;
+  counts.frame = frame;
+  counts.lines.resize(loads_.size());
   for (std::uint32_t share = 0; share < wire::kCountedShares; ++share)
     counts.shares.push_back(count_share(share, keyframe));
   for (std::size_t line = 0; line < loads_.size(); ++line) {

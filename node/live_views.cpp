@@ -19,7 +19,7 @@ std::vector<std::uint64_t> words_of(std::span<const std::byte> bytes) {
 bool are_alike(const wire::PackedFilm& a, const wire::PackedFilm& b) {
   const wire::FilmSettings &one = a.settings(), &other = b.settings();
   return one.width == other.width && one.height == other.height && one.samples == other.samples &&
-         a.casting_count() == b.casting_count();
+         a.casting_count() == b.casting_count() && a.patch_instances() == b.patch_instances();
 }
 
 }  // namespace
@@ -65,18 +65,18 @@ void LiveViews::begin(std::span<const std::byte> begin_command) {
 
 // What is of the pictures' size stays where the size does.
 LiveViews::LiveView& LiveViews::put_scene(const wire::BeginViewCommand& command) {
-  const auto [number, picture, bytes, still_memory] = command.view;
+  const std::uint32_t number = command.view.view;
+  const Canvas::Memory memory{command.view.still_memory, command.view.shadow_memory};
   LiveScene scene(command.scene, film_);
   const auto known = views_.find(number);
-  if (known != views_.end() && known->second.still_memory == still_memory &&
-      are_alike(known->second.scene.film(), scene.film())) {
+  if (known != views_.end() && known->second.memory == memory && are_alike(known->second.scene.film(), scene.film())) {
     known->second.canvas.scene = geometry::Scene(scene.film());
     known->second.scene = std::move(scene);
     return known->second;
   }
   if (known != views_.end()) views_.erase(known);
-  Canvas canvas(scene.film(), renderer_.neighbours(), still_memory, instruction_set_);
-  return views_.emplace(number, LiveView{std::move(scene), still_memory, std::move(canvas)}).first->second;
+  Canvas canvas(scene.film(), renderer_.neighbours(), memory, instruction_set_);
+  return views_.emplace(number, LiveView{std::move(scene), memory, std::move(canvas)}).first->second;
 }
 
 void LiveViews::draw(std::span<const std::byte> draw_command) {

@@ -50,7 +50,7 @@ class LiveViews {
 
   struct LiveView {
     LiveScene scene;
-    std::uint64_t still_memory;
+    Canvas::Memory memory;
     Canvas canvas;
   };
 

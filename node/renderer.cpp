@@ -73,6 +73,7 @@ void Renderer::begin(Canvas& canvas, const Frame& frame, const HasEnded& has_end
   file_ = frame.is_written ? &file_output_.value() : nullptr;
   heartbeat_.begin_frame(frame.number);
   report_.begin(frame.kind, frame.number, frame.interval);
+  if (canvas.shadows && report_.is_keyframe()) canvas.shadows->forget_still();
   charge_begin(report_, scene(), std::exchange(is_first_, false));
 }
 
@@ -108,7 +109,7 @@ Tessellation Renderer::tessellate() {
   const LineTable lines{canvas_->wanted_lines, report_.is_keyframe() ? canvas_->wanted_lines : unkept_lines(),
                         canvas_->line_loads};
   shadow::DicedSurfaces* const diced = canvas_->shadows ? &canvas_->shadows->diced() : nullptr;
-  if (diced != nullptr) diced->clear();
+  if (diced != nullptr) diced->clear(shadow::Casting::moving);
   const Tessellation own = tessellator_.tessellate(scene(), scatter, lines, {memory_.arena(), memory_.first_triangle()},
                                                    report_.strip().work, diced);
   std::transform_inclusive_scan(canvas_->line_loads.begin(), canvas_->line_loads.end(),
@@ -227,7 +228,6 @@ raster::Polygons Renderer::receive_some(group::AwaitedTriangles& awaited) {
 
 void Renderer::draw_lines(const geometry::LineRange& lines, const group::Pass& pass) {
   if (file_ && pass.number == 0) begin_writing();
-  if (canvas_->shadows && report_.is_keyframe()) canvas_->shadows->forget_still();
   if (!contributes()) return finish_exchange(pass);
   const shading::Shading shading = this->shading();
   prepared_ = {lines.first, lines.first};

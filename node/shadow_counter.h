@@ -1,7 +1,9 @@
 // Counts what the shadows of a frame take, as forecasts need it: which points are lit on some lines of the picture, and
-// to which of the sampled lines each caster matters. Lights that have a size are not counted.
+// to which of the sampled lines each caster matters. Of a light that has a size, grids of a few points stand for those
+// of all; its points are put for each chunk of casters, as if those before blocked none.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -34,6 +36,8 @@ class ShadowCounter {
 
   ShadowCounter(const geometry::Scene& scene, simd::InstructionSet set);
 
+  // Before surfaces are diced for the camera.
+  void begin_frame(bool keyframe);
   // The scene's frame, of which one line in `step` will be added.
   void begin(const geometry::Scene& scene, wire::FrameKind kind, std::uint32_t step);
   // Lines ascend. Returns the points of samples on it, of all lights.
@@ -54,6 +58,13 @@ class ShadowCounter {
     shadow::GridBox box;
     double points;
   };
+  // What is seen of it: 1 / w by column, of those that count.
+  struct SeenStretch {
+    std::uint32_t line, first;  // column
+    std::uint32_t active;       // one bit a column
+    const float* inverse_w;
+    double points;
+  };
   // Those that one view sees, by place of the line among those added, then by column.
   struct Stretches {
     std::vector<Stretch> all;
@@ -62,33 +73,64 @@ class ShadowCounter {
   struct Light {
     geometry::EyeLight light;
     shadow::LightViews views;
-    std::array<std::vector<Stretches>, 2> seen;  // by Casting, then by view
+    std::vector<shadow::LightView> counted{};      // of one point, or of some that stand for all
+    double points_each = 1;                        // of the light, for which each of them stands
+    double times_drawn = 1, times_kept = 1;        // that points of drawn and of kept lines are put
+    std::array<std::vector<Stretches>, 2> seen{};  // by Casting, then by counted view
+    std::array<Stretches, 2> seen_by_middle{};     // of a light with size, by Casting
+
+    bool has_size() const { return views.points > 1; }
+    // Whether its middle's view says what may be before the points of all its views.
+    bool has_bounds() const { return !has_size() || !views.middle.front().has_place; }
   };
-  // On which of the added lines a caster matters, and on how many grids.
-  struct Reach {
+  // Of the added lines.
+  struct Lines {
     std::uint32_t first = 0xffffffff, last = 0;
-    double views = 0;
+
+    bool any() const { return first <= last; }
+    void add(std::uint32_t line) { first = std::min(first, line), last = std::max(last, line); }
+  };
+  // On which a caster matters, and those whose points it may be before: on how many grids there may be some, and are.
+  struct Reach {
+    Lines lines, put;
+    double near = 0, views = 0;
   };
 
   bool is_lit(const geometry::Scene& scene, const geometry::EyeLight& light, const SeenLine& line, std::uint32_t column,
               std::size_t sample) const;
   void add_stretch(Light& light, Casting seen, const SeenLine& line, std::uint32_t first, std::uint32_t active,
                    double points);
+  void add_light(const geometry::EyeLight& light, const geometry::Scene& scene);
+  Stretch stretch_on(const shadow::LightView& view, const shadow::PointFrame& frame, const SeenStretch& seen) const;
   void finish(Stretches& stretches) const;
-  void count_casters(const geometry::Scene& scene, Light& light, Casting casting, std::span<const Casting> onto,
-                     wire::FrameCounts& counts);
-  double find_kept(const geometry::Scene& scene, Light& light);
-  void extend(Light& light, std::span<const Casting> onto, std::size_t view, const shadow::GridBox& box, Reach& reach);
+  double count_casters(const geometry::Scene& scene, Light& light, Casting casting, std::span<const Casting> onto,
+                       wire::FrameCounts& counts);
+  wire::DicedBy diced_by(const shadow::ChunkCaster& caster, Casting casting);
+  double grids_behind(const shadow::Caster& caster, Light& light, std::span<const Casting> onto);
+  void scale_points(Casting seen, wire::SeenCounts wire::LineCounts::*of, std::vector<wire::LineCounts>& lines) const;
+  double count_kept(const geometry::Scene& scene);
+  void find_shaded(const geometry::Scene& scene, Light& light);
+  template <typename Hull, typename Visit>
+  void visit_shaded(Light& light, const Hull& hull, const Visit& visit);
+  template <typename Hull, typename Visit>
+  void visit_shaded(const shadow::LightView& view, const Hull& hull, float spread, Stretches& still,
+                    const Visit& visit);
+  Reach reach_of(const shadow::Hull& hull, Light& light, std::span<const Casting> onto);
+  Lines matters_on(const shadow::Hull& hull, Light& light, std::span<const Casting> onto, const Lines& put);
+  bool extend(Stretches& stretches, const shadow::GridBox& box, float spread, Lines& lines);
   template <typename Hull>
   shadow::GridBox project(const shadow::LightView& view, const Hull& hull);
 
   const shadow::ShadowKernels& kernels_;
   shadow::DicedSurfaces diced_;
+  std::vector<std::uint8_t> is_needed_;  // by patch: shadows of the interval needed it as a still caster
   shadow::CasterStream casters_;
   std::uint32_t stretches_;  // of a line
+  std::uint32_t height_;     // of the picture
   std::uint32_t step_ = 1;
   bool keyframe_ = true;
-  std::vector<Light> lights_;  // those without size
+  std::vector<Light> lights_;
+  std::vector<std::uint8_t> is_shaded_;  // by stretch
   std::array<std::vector<std::int32_t>, 2> grid_;
   std::vector<float> grid_z_;
   std::vector<std::uint32_t> found_;

@@ -30,7 +30,8 @@ struct Tessellator::Output {
   }
 
   void add(const shape::Surface& surface, const raster::PatchIdentity& identity) {
-    if (diced != nullptr) diced->keep(identity.patch, surface);
+    if (diced != nullptr)
+      diced->keep(identity.moving ? shadow::Casting::moving : shadow::Casting::still, identity.patch, surface);
     ++work.patches;
     work.vertices += static_cast<std::uint64_t>(surface.vertex_count());
     work.triangles_tested += surface.triangles().count;

@@ -257,10 +257,8 @@ SweptHull swept(const Hull& hull) {
   return out;
 }
 
-}  // namespace
-
 // One segment's way through the frames, as that of what casts shadows.
-class Sweep::Way {
+class Way {
  public:
   Way(std::vector<SweptHull>& casters, std::size_t places_a_hull) : casters_(casters), places_a_hull_(places_a_hull) {}
 
@@ -283,6 +281,8 @@ class Sweep::Way {
   std::size_t places_ = 0;
   Box world_, eye_;
 };
+
+}  // namespace
 
 void Sweep::begin(const Scene& scene, std::span<const std::uint32_t> frames, const ShapeBoxes& boxes,
                   const Cover& cover) {

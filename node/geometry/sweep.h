@@ -40,8 +40,6 @@ class Sweep {
   std::span<const SweptHull> casters() const { return casters_; }
 
  private:
-  class Way;
-
   void take_in(const LineRange& lines);
 
   std::vector<SweptHull> casters_;

@@ -1,19 +1,13 @@
 #include "node/shadow/casters.h"
 
 #include <algorithm>
-#include <functional>
+#include <utility>
+
+#include "hal/failure/failure.h"
 
 namespace mars::shadow {
 namespace {
 
-constexpr std::size_t kChunkBytes = std::size_t{24} << 20;
-constexpr std::size_t kDicedBytes = std::size_t{48} << 20;
-constexpr std::size_t kMostCasters = std::size_t{1} << 14;  // of a chunk
-constexpr std::size_t kMostBytes =                          // of a caster
-    (std::size_t{shape::Dicer::kMostVertices} + simd::kVectorSlack) * 3 * sizeof(float) +
-    (std::size_t{2} * shape::kMaxRate * shape::kMaxRate + 4 * shape::kMaxRate + simd::kVectorSlack) * 3 *
-        sizeof(std::uint32_t) +
-    std::size_t{2} * shape::kMaxRate * shape::kMaxRate * sizeof(shape::Batch) / 8 + 4096;
 constexpr int kUnseenRate = 32;  // of the inside of patches that no pixel shows
 
 void add_point(const float* place, Hull& hull) {
@@ -38,20 +32,44 @@ Hull hull_of(const shape::EyeMatrix& matrix, const wire::Meshlet& meshlet) {
   return hull;
 }
 
-// The corners of the box round the vertices.
-Hull hull_of(const shape::Surface& surface) {
-  float low[3], high[3];
-  for (int axis = 0; axis < 3; ++axis) {
-    const float* const along = surface.vertices().place[axis];
-    const auto [least, greatest] = std::minmax_element(along, along + surface.vertex_count());
-    low[axis] = *least, high[axis] = *greatest;
+// How many of the batches from `first` on are rows of equally many quads, of at most `most`, which is even: 1 if none.
+std::uint32_t equal_rows(const shape::Triangles& t, std::uint32_t first, std::uint32_t most) {
+  const auto size = [&t](std::uint32_t b) { return t.batches[b].last - t.batches[b].first; };
+  std::uint32_t rows = 0;
+  while (rows < most && first + rows < t.batch_count && t.batches[first + rows].consecutive &&
+         size(first + rows) == size(first))
+    ++rows;
+  return rows == most ? most : rows >= 2 ? 2 : 1;
+}
+
+// Batches whose triangles are near each other: those of rows of quads, two a row (Dicer::fill_inside), are cut into
+// pieces of two rows. Calls visit(first, last, at, ends) for triangles that come to place `at`, and whether a batch
+// ends there, as long as it says true; there are not more batches than before.
+template <typename Visit>
+bool visit_compact(const shape::Triangles& t, const Visit& visit) {
+  constexpr std::uint32_t kRows = 4;
+  std::uint32_t at = 0;
+  for (std::uint32_t b = 0; b < t.batch_count;) {
+    const std::uint32_t rows = equal_rows(t, b, kRows), width = t.batches[b].last - t.batches[b].first;
+    const std::uint32_t piece = shape::kBatchTriangles / rows;
+    for (std::uint32_t k = 0; k < width; k += piece)
+      for (std::uint32_t row = 0; row < rows; ++row) {
+        const std::uint32_t first = t.batches[b + row].first, some = std::min(piece, width - k);
+        if (!visit(first + k, first + k + some, at, row + 1 == rows)) return false;
+        at += some;
+      }
+    b += rows;
   }
-  Hull hull{};
-  for (int corner = 0; corner < 8; ++corner) {
-    const float place[3] = {(corner & 1 ? high : low)[0], (corner & 2 ? high : low)[1], (corner & 4 ? high : low)[2]};
-    add_point(place, hull);
-  }
-  return hull;
+  return true;
+}
+
+// Whether `compact` has the triangles of `t` so.
+bool is_compact(const shape::Triangles& compact, const shape::Triangles& t) {
+  if (compact.count != t.count) return false;
+  return visit_compact(t, [&](std::uint32_t first, std::uint32_t last, std::uint32_t at, bool) {
+    return std::equal(t.a + first, t.a + last, compact.a + at) && std::equal(t.b + first, t.b + last, compact.b + at) &&
+           std::equal(t.c + first, t.c + last, compact.c + at);
+  });
 }
 
 bool casts(const geometry::Scene& scene, std::size_t segment, Casting casting) {
@@ -61,8 +79,10 @@ bool casts(const geometry::Scene& scene, std::size_t segment, Casting casting) {
 
 }  // namespace
 
-CasterStore::CasterStore(std::size_t bytes, std::size_t casters) : memory_(bytes), arena_(memory_.bytes()) {
-  casters_.reserve(casters);
+CasterStore::CasterStore(std::size_t bytes, std::size_t beside)
+    : most_(bytes / kBytesACaster), memory_(bytes - most_ * (sizeof(Caster) + beside)), arena_(memory_.bytes()) {
+  check((sizeof(Caster) + beside) * 8 <= kBytesACaster * 3, "three eighths of the bytes are for lists");
+  casters_.reserve(most_);
   memory_.prefer_large_pages();
 }
 
@@ -71,7 +91,7 @@ void CasterStore::clear() {
   casters_.clear();
 }
 
-bool CasterStore::has_room() const { return arena_.rest().size() >= kMostBytes; }
+bool CasterStore::has_room() const { return arena_.rest().size() >= kMostBytes && casters_.size() < most_; }
 
 template <typename T>
 const T* CasterStore::copy(const T* from, std::size_t count) {
@@ -83,51 +103,59 @@ const T* CasterStore::copy(const T* from, std::size_t count) {
 
 // Many surfaces have the triangles of the one before.
 shape::Triangles CasterStore::copy(const shape::Triangles& t) {
-  const auto same = [&t](const shape::Triangles& other) {
-    const auto are_equal = [&t](const std::uint32_t* one, const std::uint32_t* two) {
-      return std::equal(one, one + t.count, two);
-    };
-    return other.count == t.count && other.batch_count == t.batch_count && are_equal(t.a, other.a) &&
-           are_equal(t.b, other.b) && are_equal(t.c, other.c);
-  };
-  if (!casters_.empty() && same(casters_.back().triangles)) return casters_.back().triangles;
-  return {copy(t.a, t.count), copy(t.b, t.count), copy(t.c, t.count), t.count, copy(t.batches, t.batch_count),
-          t.batch_count};
+  if (!casters_.empty() && is_compact(casters_.back().triangles, t)) return casters_.back().triangles;
+  const auto batches = arena_.take<shape::Batch>(t.batch_count);
+  std::uint32_t* to[3];
+  for (std::uint32_t*& corners : to) corners = arena_.take<std::uint32_t>(t.count + simd::kVectorSlack).data();
+  std::uint32_t count = 0, begin = 0;
+  visit_compact(t, [&](std::uint32_t first, std::uint32_t last, std::uint32_t at, bool ends) {
+    const std::uint32_t* const from[3] = {t.a, t.b, t.c};
+    for (std::size_t c = 0; c < 3; ++c) std::copy(from[c] + first, from[c] + last, to[c] + at);
+    if (ends) batches[count++] = {std::exchange(begin, at + last - first), at + last - first, false};
+    return true;
+  });
+  for (std::uint32_t* corners : to) std::fill_n(corners + t.count, simd::kVectorSlack, 0u);
+  return {to[0], to[1], to[2], t.count, batches.data(), count};
 }
 
-const Caster& CasterStore::add(const shape::Surface& surface, const Hull& hull) {
+const Caster& CasterStore::add(const shape::Surface& surface) {
   const shape::Vertices& v = surface.vertices();
   const auto vertices = static_cast<std::uint32_t>(surface.vertex_count());
   const shape::Triangles triangles = copy(surface.triangles());
-  casters_.push_back({hull,
-                      {copy(v.place[0], vertices), copy(v.place[1], vertices), copy(v.place[2], vertices)},
-                      vertices,
-                      triangles});
+  casters_.push_back(
+      {{copy(v.place[0], vertices), copy(v.place[1], vertices), copy(v.place[2], vertices)}, vertices, triangles});
   return casters_.back();
 }
 
-DicedSurfaces::DicedSurfaces(std::uint64_t patches) : store_(kDicedBytes), place_(patches) {}
-
-void DicedSurfaces::clear() {
-  store_.clear();
-  std::ranges::fill(place_, 0u);
+// Of the bytes, movers get a quarter: they are diced again in each frame, whatever is kept of them.
+DicedSurfaces::DicedSurfaces(std::uint64_t patches, std::size_t bytes)
+    : still_{CasterStore(bytes - bytes / 4), {}}, moving_{CasterStore(bytes / 4), {}}, kept_(patches) {
+  for (Kind* kind : {&still_, &moving_}) kind->patches.reserve(kind->store.most());
 }
 
-void DicedSurfaces::keep(std::uint32_t patch, const shape::Surface& surface) {
-  if (!store_.has_room()) return;
-  store_.add(surface, hull_of(surface));
-  place_[patch] = static_cast<std::uint32_t>(store_.all().size());
+void DicedSurfaces::clear(Casting kind) {
+  Kind& some = of(kind);
+  for (const std::uint32_t patch : some.patches) kept_[patch] = nullptr;
+  some.patches.clear();
+  some.store.clear();
 }
 
-const Caster* DicedSurfaces::find(std::uint32_t patch) const {
-  return place_[patch] == 0 ? nullptr : &store_.all()[place_[patch] - 1];
+const Caster* DicedSurfaces::keep(Casting kind, std::uint32_t patch, const shape::Surface& surface) {
+  Kind& some = of(kind);
+  if (kept_[patch] == nullptr && some.store.has_room()) {
+    kept_[patch] = &some.store.add(surface);
+    some.patches.push_back(patch);
+  }
+  return kept_[patch];
 }
 
-CasterStream::CasterStream(simd::InstructionSet set) : dicer_(set), placer_(set), store_(kChunkBytes, kMostCasters) {
-  chunk_.reserve(kMostCasters);
+// A caster has a place in the chunk too; and one among those that shafts meet, with its batches, about sixteen.
+CasterStream::CasterStream(simd::InstructionSet set, std::size_t bytes)
+    : dicer_(set), placer_(set), store_(bytes, sizeof(ChunkCaster) + sizeof(Caster) + 16 * sizeof(shape::Batch)) {
+  chunk_.reserve(store_.most());
 }
 
-void CasterStream::begin(const geometry::Scene& scene, Casting casting, const DicedSurfaces& diced) {
+void CasterStream::begin(const geometry::Scene& scene, Casting casting, DicedSurfaces& diced) {
   scene_ = &scene;
   diced_ = &diced;
   casting_ = casting;
@@ -135,7 +163,7 @@ void CasterStream::begin(const geometry::Scene& scene, Casting casting, const Di
   item_ = 0;
 }
 
-std::span<const Caster* const> CasterStream::next(const Matters& matters) {
+std::span<const ChunkCaster> CasterStream::next(const Matters& matters) {
   store_.clear();
   chunk_.clear();
   const wire::PackedFilm& film = scene_->film();
@@ -146,27 +174,30 @@ std::span<const Caster* const> CasterStream::next(const Matters& matters) {
     matrix_ = scene_->matrix(segment_);
     map_ = geometry::eye_map(matrix_);
     for (; item_ < shape.size(); ++item_) {
-      if (!store_.has_room() || chunk_.size() == kMostCasters) return chunk_;
+      if (!store_.has_room() || chunk_.size() == store_.most()) return chunk_;
       add_item(shape, number, matters);
     }
   }
   return chunk_;
 }
 
-bool CasterStream::has_diced(const Caster& caster) const {
-  const std::span<const Caster> here = store_.all();
-  return !here.empty() && !std::less<>()(&caster, &here.front()) && !std::less<>()(&here.back(), &caster);
+void CasterStream::add_item(const wire::Shape& shape, std::uint32_t number, const Matters& matters) {
+  const bool is_patch = item_ < shape.patch_count;
+  const auto patch = [&]() -> const wire::Patch& { return scene_->film().patches_of(number)[item_]; };
+  const auto meshlet = [&]() -> const wire::Meshlet& {
+    return scene_->film().meshlets_of(number)[item_ - shape.patch_count];
+  };
+  const Hull hull = is_patch ? hull_of(shape::to_eye(matrix_, patch())) : hull_of(matrix_, meshlet());
+  if (!matters(hull)) return;
+  const auto number_of_all = scene_->first_patch(segment_) + static_cast<std::uint32_t>(item_);
+  const Caster* const known = diced_->find(number_of_all);
+  const Caster& surface = known != nullptr ? *known : add(number_of_all, is_patch ? dice(patch()) : place(meshlet()));
+  chunk_.push_back({hull, &surface, number_of_all, known == nullptr});
 }
 
-void CasterStream::add_item(const wire::Shape& shape, std::uint32_t number, const Matters& matters) {
-  const auto patch = scene_->first_patch(segment_) + static_cast<std::uint32_t>(item_);
-  if (const Caster* known = diced_->find(patch)) {
-    if (matters(known->hull)) chunk_.push_back(known);
-  } else if (item_ < shape.patch_count) {
-    add_patch(scene_->film().patches_of(number)[item_], matters);
-  } else {
-    add_meshlet(scene_->film().meshlets_of(number)[item_ - shape.patch_count], matters);
-  }
+const Caster& CasterStream::add(std::uint32_t patch, const shape::Surface& surface) {
+  const Caster* const kept = casting_ == Casting::still ? diced_->keep(casting_, patch, surface) : nullptr;
+  return kept != nullptr ? *kept : store_.add(surface);
 }
 
 void CasterStream::visit_hulls(const geometry::Scene& scene, Casting casting,
@@ -181,26 +212,18 @@ void CasterStream::visit_hulls(const geometry::Scene& scene, Casting casting,
   }
 }
 
-void CasterStream::add_patch(const wire::Patch& patch, const Matters& matters) {
+const shape::Surface& CasterStream::dice(const wire::Patch& patch) {
   const shape::EyePatch eye_patch = shape::to_eye(matrix_, patch);
-  const Hull hull = hull_of(eye_patch);
-  if (!matters(hull)) return;
   shape::Dicing dicing = scene_->dicing();
   const auto width = static_cast<float>(scene_->width()), height = static_cast<float>(scene_->height());
   if (shape::unseen(eye_patch, scene_->projection(), width, height)) dicing.most_inside = kUnseenRate;
   dicer_.dice(eye_patch, scene_->projection(), dicing);
-  add(dicer_, hull);
+  return dicer_;
 }
 
-void CasterStream::add_meshlet(const wire::Meshlet& meshlet, const Matters& matters) {
-  const Hull hull = hull_of(matrix_, meshlet);
-  if (!matters(hull)) return;
+const shape::Surface& CasterStream::place(const wire::Meshlet& meshlet) {
   placer_.place(map_, scene_->film(), meshlet, scene_->projection());
-  add(placer_, hull);
-}
-
-void CasterStream::add(const shape::Surface& surface, const Hull& hull) {
-  chunk_.push_back(&store_.add(surface, hull));
+  return placer_;
 }
 
 }  // namespace mars::shadow

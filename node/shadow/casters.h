@@ -25,7 +25,6 @@ struct Hull {
 
 // A surface in eye space. Arrays are longer by kVectorSlack.
 struct Caster {
-  Hull hull;
   const float* place[3];
   std::uint32_t vertices;
   shape::Triangles triangles;
@@ -34,13 +33,24 @@ struct Caster {
 // Copies of surfaces, until there is no room for more.
 class CasterStore {
  public:
-  // `casters`: for which it has a list beforehand; it grows where there are more, and the list then moves.
-  explicit CasterStore(std::size_t bytes, std::size_t casters = 0);
+  // A caster, together with its places in lists, has about as many.
+  static constexpr std::size_t kBytesACaster = 2048;
+  // Of a surface, at most, but for these places; and of a store that has room for one.
+  static constexpr std::size_t kMostBytes =
+      (std::size_t{shape::Dicer::kMostVertices} + simd::kVectorSlack) * 3 * sizeof(float) +
+      (std::size_t{2} * shape::kMaxRate * shape::kMaxRate + 4 * shape::kMaxRate + simd::kVectorSlack) * 3 *
+          sizeof(std::uint32_t) +
+      std::size_t{2} * shape::kMaxRate * shape::kMaxRate * sizeof(shape::Batch) / 8 + 4096;
+  static constexpr std::size_t kLeastBytes = kMostBytes * 8 / 5;
+
+  // `bytes`: of all that it has, and of `beside` for each caster elsewhere.
+  explicit CasterStore(std::size_t bytes, std::size_t beside = 0);
 
   void clear();
   bool has_room() const;
+  std::size_t most() const { return most_; }  // casters
   // Where it has room.
-  const Caster& add(const shape::Surface& surface, const Hull& hull);
+  const Caster& add(const shape::Surface& surface);
   std::span<const Caster> all() const { return casters_; }
 
  private:
@@ -48,25 +58,45 @@ class CasterStore {
   template <typename T>
   const T* copy(const T* from, std::size_t count);
 
+  std::size_t most_;
   messages::PrivateMemory memory_;
   raster::Arena arena_;
   std::vector<Caster> casters_;
 };
 
-// Surfaces that were diced for the camera in this frame, so that they are not diced again.
+// Bytes of chunks of casters, and of surfaces diced for the camera, where there is enough memory (shadow_plan.h).
+inline constexpr std::size_t kMostChunk = std::size_t{32} << 20, kMostDiced = std::size_t{64} << 20;
+
+// Surfaces that need not be diced again: moving ones that were diced for the camera in this frame, and still ones that
+// were diced for anything since their interval began.
 class DicedSurfaces {
  public:
-  explicit DicedSurfaces(std::uint64_t patches);
+  explicit DicedSurfaces(std::uint64_t patches, std::size_t bytes = kMostDiced);
 
-  void clear();
-  // Keeps surface number `patch`, where there is room.
-  void keep(std::uint32_t patch, const shape::Surface& surface);
+  // Forgets those of one kind.
+  void clear(Casting kind);
+  // Keeps surface number `patch`, if it is not kept already; nullptr where there is no room.
+  const Caster* keep(Casting kind, std::uint32_t patch, const shape::Surface& surface);
   // nullptr where it is not kept.
-  const Caster* find(std::uint32_t patch) const;
+  const Caster* find(std::uint32_t patch) const { return kept_[patch]; }
 
  private:
-  CasterStore store_;
-  std::vector<std::uint32_t> place_;  // by patch: its place in the store and one; 0: it is not there
+  struct Kind {
+    CasterStore store;
+    std::vector<std::uint32_t> patches;
+  };
+  Kind& of(Casting kind) { return kind == Casting::still ? still_ : moving_; }
+
+  Kind still_, moving_;
+  std::vector<const Caster*> kept_;  // by patch
+};
+
+// One of a chunk.
+struct ChunkCaster {
+  Hull hull;
+  const Caster* surface;
+  std::uint32_t patch;
+  bool is_new;  // it was diced for this chunk
 };
 
 class CasterStream {
@@ -74,31 +104,28 @@ class CasterStream {
   // Whether a surface within the hull may matter.
   using Matters = std::function<bool(const Hull& hull)>;
 
-  explicit CasterStream(simd::InstructionSet set);
+  explicit CasterStream(simd::InstructionSet set, std::size_t bytes = kMostChunk);
 
   // From now on next() makes the casters of one kind, of the scene as it is; those that are in `diced` are taken from
-  // there.
-  void begin(const geometry::Scene& scene, Casting casting, const DicedSurfaces& diced);
+  // there, and still ones kept there.
+  void begin(const geometry::Scene& scene, Casting casting, DicedSurfaces& diced);
   // The next chunk, of those that matter; empty at the end.
-  std::span<const Caster* const> next(const Matters& matters);
+  std::span<const ChunkCaster> next(const Matters& matters);
   // Calls visit(hull) for each of that kind.
   void visit_hulls(const geometry::Scene& scene, Casting casting, const std::function<void(const Hull&)>& visit) const;
 
-  // Whether a caster of the current chunk was diced for it.
-  bool has_diced(const Caster& caster) const;
-
  private:
   void add_item(const wire::Shape& shape, std::uint32_t number, const Matters& matters);
-  void add_patch(const wire::Patch& patch, const Matters& matters);
-  void add_meshlet(const wire::Meshlet& meshlet, const Matters& matters);
-  void add(const shape::Surface& surface, const Hull& hull);
+  const Caster& add(std::uint32_t patch, const shape::Surface& surface);
+  const shape::Surface& dice(const wire::Patch& patch);
+  const shape::Surface& place(const wire::Meshlet& meshlet);
 
   shape::Dicer dicer_;
   geometry::MeshletPlacer placer_;
   CasterStore store_;
-  std::vector<const Caster*> chunk_;
+  std::vector<ChunkCaster> chunk_;
   const geometry::Scene* scene_ = nullptr;
-  const DicedSurfaces* diced_ = nullptr;
+  DicedSurfaces* diced_ = nullptr;
   Casting casting_ = Casting::still;
   std::size_t segment_ = 0;  // the next
   std::uint64_t item_ = 0;   // of its patches and meshlets

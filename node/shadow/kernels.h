@@ -23,6 +23,31 @@ struct GridVertices {
 
 inline constexpr std::int32_t kOffGrid = -0x7fffffff - 1;
 
+// From a point towards all places of a light, on the grid of its middle: at height h over the point it is h * spread
+// steps wide to each side. `bound` and `room` say what part of a vector's (point_vector.h) is certain for all of them.
+struct Shaft {
+  float spread;
+  float tangent;  // the same in units of length
+  float bound, room;
+  float rounding;  // of the grid, a part of the error
+  std::uint32_t has_place;
+};
+
+// Towards a point.
+inline constexpr Shaft kRay{0, 0, 1, 1, 0, 0};
+
+// Of planes, to the rise of a shaft's rays: what is nowhere before such a plane blocks no point on it.
+inline constexpr float kMostRise = 0.5f;
+
+// A hull's places on a view's grid; surfaces within it are off it by `margin` steps at most, and by `margin_z`.
+struct alignas(64) GridHull {
+  std::int32_t x[kPointLanes];
+  std::int32_t y[kPointLanes];
+  float z[kPointLanes];
+  std::uint32_t count;
+  float margin, margin_z;
+};
+
 // Triangles that are small on the grid: differences of their coordinates fit kMostSmall, so that edge functions are
 // exact in 32 bits. Turned so that they run counter-clockwise; bounds of those that are no such triangles are empty.
 struct alignas(64) SmallTriangles {
@@ -64,9 +89,16 @@ struct ShadowKernels {
   // how many.
   std::uint32_t (*find)(const BoxArrays& boxes, std::uint32_t first, std::uint32_t count, const GridBox& box,
                         float spread, std::uint32_t* found);
+  // Leaves those numbers in `found` of vectors before whose near plane (point_vector.h) the hull reaches, all of which
+  // is on the grid, or which rise too much for that to say anything; says how many.
+  std::uint32_t (*find_below)(const GridHull& hull, const Shaft& shaft, const PointVector* points, std::uint32_t* found,
+                              std::uint32_t found_count);
   // Blocks those of the points `found` that the triangles are before.
   void (*block)(const SmallBatches& batches, PointVector* points, const std::uint32_t* found,
                 std::uint32_t found_count);
+  // Sets bits of the batches that meet shafts of points `found`, and touched[i] of the vectors i that have these.
+  void (*touch)(const SmallBatches& batches, const Shaft& shaft, const PointVector* points, const std::uint32_t* found,
+                std::uint32_t found_count, std::uint64_t& touching, std::uint8_t* touched);
 };
 
 const ShadowKernels& shadow_kernels(simd::InstructionSet set);

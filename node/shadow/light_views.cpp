@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace mars::shadow {
 namespace {
@@ -134,7 +135,7 @@ void see_from_afar(const geometry::EyeLight& light, const shape::Projection& pro
   const double step = std::max(double{projection.near} / projection.scale, farthest / kMostSteps);
   const Vector axis = unit(vector_of(light.vector));
   out.faces = 1;
-  out.middle = far_view(axis, 0, 0, step);
+  out.middle = {far_view(axis, 0, 0, step)};
   for (std::uint32_t i = 0; i < out.points; ++i) {
     const auto [x, y] = out.points > 1 ? disc_point(i) : std::array<double, 2>{};
     out.views.push_back(far_view(axis, light.size * x, light.size * y, step));
@@ -156,14 +157,14 @@ void see_from_place(const geometry::EyeLight& light, const shape::Projection& pr
   const double nearest = projection.near / 64.0;
   const Vector middle = vector_of(light.vector);
   out.faces = static_cast<std::uint32_t>(axes.size());
-  out.middle = near_view(axes.front(), middle, nearest, !one);
+  for (const Vector& axis : axes) out.middle.push_back(near_view(axis, middle, nearest, !one));
   for (std::uint32_t i = 0; i < out.points; ++i) {
     Vector place = middle;
     const Vector way = out.points > 1 ? ball_point(i) : Vector{};
     for (std::size_t k = 0; k < 3; ++k) place[k] += light.size * way[k];
     for (const Vector& axis : axes) out.views.push_back(near_view(axis, place, nearest, !one));
   }
-  out.spread = static_cast<float>(light.size / kTangentStep);
+  out.spread = static_cast<float>(2 * std::numbers::sqrt2 * light.size / kTangentStep);
   out.frame.grid = 0;
   out.frame.by_depth = static_cast<float>(2 * kTangentStep + kFloatError);
 }
@@ -172,6 +173,7 @@ void see_from_place(const geometry::EyeLight& light, const shape::Projection& pr
 
 LightViews light_views(const geometry::EyeLight& light, const shape::Projection& projection) {
   LightViews out{};
+  out.size = light.size;
   out.points = light.size > 0 ? kLightPoints : 1;
   out.frame.scale = projection.scale;
   std::copy_n(projection.center, 2, out.frame.center);

@@ -15,10 +15,11 @@ inline constexpr std::uint32_t kLightPoints = 64;
 
 // One light, seen from its points.
 struct LightViews {
-  std::uint32_t points;          // 1 or kLightPoints
-  std::uint32_t faces;           // views of a point
-  std::vector<LightView> views;  // point by point
-  LightView middle;              // the view of its middle; of six, the first
+  std::uint32_t points;           // 1 or kLightPoints
+  std::uint32_t faces;            // views of a point
+  std::vector<LightView> views;   // point by point
+  std::vector<LightView> middle;  // views of its middle
+  float size;                     // as in geometry::EyeLight
   float spread;  // grid steps between what the middle and another point see, for each unit of z from caster to point
   PointFrame frame;
 };

@@ -9,8 +9,6 @@
 namespace mars::shadow {
 namespace {
 
-constexpr std::uint32_t kSquare = 4;  // pixels
-
 // The points that each pixel of a square uses, row by row of pixels, in the order of pairs. Chosen by how well a
 // pixel's points, and those of 2 x 2 pixels together, measure the part of the light on one side of a straight edge,
 // over all edges that cross an evenly bright disc, or a ball as it is seen from all sides (light_view.cpp): the minimum

@@ -25,9 +25,21 @@ std::uint32_t point_of_pair(std::uint32_t column, std::uint32_t line, std::uint3
 
 // Where the points of a vector lie in a square of kTile x kTile pixels.
 inline constexpr std::uint32_t kTile = 8;
+inline constexpr std::uint32_t kSquare = 4;
 struct Lane {
   std::uint8_t column, line, sample, pair;
+
+  // Of kSquare x kSquare pixels, row by row.
+  std::uint32_t square() const { return line / kSquare * (kTile / kSquare) + column / kSquare; }
 };
+// A square of the picture by number, and some of its squares of kSquare x kSquare pixels (Lane::square).
+struct TilePart {
+  static constexpr std::uint32_t kAll = 0xf;
+
+  std::uint32_t tile;
+  std::uint32_t squares;
+};
+
 struct VectorLanes {
   std::array<Lane, kPointLanes> lane;
   LanePlaces place;

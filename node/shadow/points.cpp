@@ -68,6 +68,13 @@ void BoxTree::clear() {
   count_ = 0;
 }
 
+std::size_t BoxTree::bytes() const {
+  std::size_t bytes = 0;
+  for (const Level& level : levels_) bytes += 5 * level.low_z.capacity() * sizeof(float);
+  for (const auto& found : found_) bytes += found.capacity() * sizeof(std::uint32_t);
+  return bytes;
+}
+
 void BoxTree::add(const GridBox& box) {
   add(0, box);
   ++count_;
@@ -119,6 +126,10 @@ void Points::clear() {
   count_ = 0;
 }
 
+std::size_t Points::bytes() const {
+  return vectors_.capacity() * sizeof(PointVector) + origins_.capacity() * sizeof(Origin) + tree_.bytes();
+}
+
 void Points::add(Layer& layer, std::uint32_t tile, std::uint32_t vector, const PointVector& points) {
   vectors_.push_back(points);
   origins_.push_back({&layer, tile, vector});
@@ -126,16 +137,16 @@ void Points::add(Layer& layer, std::uint32_t tile, std::uint32_t vector, const P
   count_ += static_cast<std::uint64_t>(std::popcount(points.active));
 }
 
-void add_points(const PointSource& source, std::span<const LightView> views, Layer& layer, std::span<Points> points) {
-  const auto counts = [](const wire::StillPairs& pairs, const Lane& lane, std::uint16_t moved) {
+void add_points(const PointSource& source, std::span<const LightView> views, Layer& layer, const TilePart& part,
+                std::span<Points> points) {
+  const auto counts = [&part](const wire::StillPairs& pairs, const Lane& lane, std::uint16_t moved) {
     const std::uint32_t open = pairs.lit & ~(pairs.blocked | moved);
-    return (open >> lane.pair & 1) != 0;
+    return ((open >> lane.pair) & (part.squares >> lane.square()) & 1) != 0;
   };
-  for (const std::uint32_t tile : layer.tiles)
-    for_each_vector(source, layer, tile, counts, views,
-                    [&](const PointVector& some, std::uint32_t vector, std::size_t view) {
-                      points[view].add(layer, tile, vector, some);
-                    });
+  for_each_vector(source, layer, part.tile, counts, views,
+                  [&](const PointVector& some, std::uint32_t vector, std::size_t view) {
+                    points[view].add(layer, part.tile, vector, some);
+                  });
 }
 
 void Points::note(const PointSource& source, Casting casting) {

@@ -25,6 +25,7 @@ class BoxTree {
   void add(const GridBox& box);
   void finish();  // before it is asked
   std::uint32_t count() const { return count_; }
+  std::size_t bytes() const;  // of memory, that it has
 
   // Whether a caster within `box` may block points of any box, by `spread` (kernels.h).
   bool any(const ShadowKernels& kernels, const GridBox& box, float spread);
@@ -80,8 +81,16 @@ class Points {
 
   bool empty() const { return vectors_.empty(); }
   std::uint64_t count() const { return count_; }
+  std::size_t vector_count() const { return vectors_.size(); }
+  std::size_t bytes() const;  // of memory, that they have
   BoxTree& tree() { return tree_; }
   PointVector* vectors() { return vectors_.data(); }
+  // Calls visit(layer, part) for each vector i of points of samples (PairVectors without size) where some[i] is set.
+  template <typename Visit>
+  void visit_squares(std::span<const std::uint8_t> some, std::uint32_t samples, const Visit& visit) const {
+    for (std::size_t i = 0; i < some.size(); ++i)
+      if (some[i] != 0) visit(origins_[i].layer, TilePart{origins_[i].tile, 1u << origins_[i].vector / samples});
+  }
   // Writes down what is blocked since the last time.
   void note(const PointSource& source, Casting casting);
 
@@ -98,8 +107,9 @@ class Points {
   std::uint64_t count_ = 0;
 };
 
-// Adds those of a layer that matter and are not blocked to the views that decide about them.
-void add_points(const PointSource& source, std::span<const LightView> views, Layer& layer, std::span<Points> points);
+// Adds those of a part of a layer that matter and are not blocked to the views that decide about them.
+void add_points(const PointSource& source, std::span<const LightView> views, Layer& layer, const TilePart& part,
+                std::span<Points> points);
 
 // The lines of a square; nullptr where nothing is seen.
 using TileLines = std::array<const LayerLine*, kTile>;
@@ -116,6 +126,21 @@ struct TilePlace {
   std::uint32_t columns;
 };
 
+// Of four points next to each other, the first of which is `lane`.
+template <typename Counts>
+std::uint32_t gather_row(const Lane lane, const LayerLine& line, const TilePlace& place, const Counts& counts,
+                         float* inverse_w) {
+  const wire::StillPairs* const pairs = line.pairs + place.pairs + lane.column;
+  const std::uint16_t* const moved = line.moved == nullptr ? nullptr : line.moved + place.pairs + lane.column;
+  const float* const depth = line.depth + lane.sample * line.stride + place.left + lane.column;
+  std::uint32_t active = 0;
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    inverse_w[k] = depth[k];
+    active |= static_cast<std::uint32_t>(counts(pairs[k], lane, moved == nullptr ? std::uint16_t{0} : moved[k])) << k;
+  }
+  return active;
+}
+
 // The depths of those points of a vector that count; which they are.
 template <typename Counts>
 std::uint32_t gather(const PointSource& source, const VectorLanes& lanes, const TileLines& lines,
@@ -131,7 +156,7 @@ std::uint32_t gather(const PointSource& source, const VectorLanes& lanes, const 
   if (source.vectors.are_rows() && place.columns == kTile) {
     for (std::uint32_t k = 0; k < kPointLanes; k += 4)
       if (const LayerLine* line = lines[lanes.lane[k].line])
-        for (std::uint32_t i = k; i < k + 4; ++i) take(i, *line);
+        active |= gather_row(lanes.lane[k], *line, place, counts, inverse_w + k) << k;
     return active;
   }
   for (std::uint32_t k = 0; k < kPointLanes; ++k)

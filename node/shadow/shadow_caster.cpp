@@ -1,6 +1,7 @@
 #include "node/shadow/shadow_caster.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -12,15 +13,6 @@
 namespace mars::shadow {
 namespace {
 
-constexpr float kPlaceError = 1.0f / (1 << 20);
-
-float largest(const Hull& hull) {
-  float most = 0;
-  for (const auto& along : hull.along)
-    for (std::uint32_t k = 0; k < hull.count; ++k) most = std::max(most, std::abs(along[k]));
-  return most;
-}
-
 Hull hull_of(const geometry::SweptHull& swept) {
   Hull hull;
   for (std::size_t axis = 0; axis < 3; ++axis) std::ranges::copy(swept.along[axis], hull.along[axis]);
@@ -28,25 +20,19 @@ Hull hull_of(const geometry::SweptHull& swept) {
   return hull;
 }
 
-std::int32_t clamped(double steps) {
-  constexpr double kMost = std::numeric_limits<std::int32_t>::max();
-  return static_cast<std::int32_t>(std::clamp(steps, -kMost, kMost));
-}
-
 }  // namespace
 
-ShadowCaster::ShadowCaster(simd::InstructionSet set, const geometry::Scene& scene)
+ShadowCaster::ShadowCaster(simd::InstructionSet set, const geometry::Scene& scene, const ShadowPlan& plan)
     : kernels_(shadow_kernels(set)),
       pattern_(scene.pattern()),
       samples_(static_cast<std::uint32_t>(pattern_.count)),
       hard_(pattern_, false),
       soft_(pattern_, true),
-      diced_(scene.film().patch_instances()),
-      casters_(set),
-      grid_x_(static_cast<std::size_t>(shape::Dicer::kMostVertices + simd::kVectorSlack)),
-      grid_y_(grid_x_.size()),
-      grid_z_(grid_x_.size()),
-      small_(new SmallBatches{}) {}
+      diced_(scene.film().patch_instances(), plan.diced),
+      casters_(set, plan.chunk),
+      points_bytes_(plan.points),
+      grid_(kernels_),
+      shafts_(kernels_) {}
 
 void ShadowCaster::begin(const geometry::Scene& scene, const std::function<void()>& look) {
   look_ = look;
@@ -70,6 +56,11 @@ void ShadowCaster::cast(const geometry::Scene& scene, Layers drawn, Layer& kept)
 
 PointSource ShadowCaster::source_of(std::uint32_t light, std::uint32_t point) const {
   return {kernels_, lights_[light].frame, pattern_, vectors_of(light), light, has_size(light) ? point : 0};
+}
+
+// Of points of all samples, whatever the light's size.
+PointSource ShadowCaster::samples_of(std::uint32_t light) const {
+  return {kernels_, lights_[light].frame, pattern_, hard_, light, 0};
 }
 
 std::span<const LightView> ShadowCaster::views_of(std::uint32_t light, std::uint32_t point) const {
@@ -98,7 +89,7 @@ void ShadowCaster::stream(const geometry::Scene& scene, Casting casting, std::sp
   const auto matters = [&](const Hull& hull) {
     for (std::size_t f = 0; f < views.size(); ++f) {
       if (std::ranges::all_of(onto, [f](const Faces* faces) { return (*faces)[f].empty(); })) continue;
-      const GridBox box = box_of_hull(views[f], hull);
+      const GridBox box = grid_.put(views[f], hull);
       for (Faces* faces : onto)
         if ((*faces)[f].tree().any(kernels_, box, 0)) return true;
     }
@@ -113,29 +104,38 @@ void ShadowCaster::stream(const geometry::Scene& scene, Casting casting, std::sp
 // decides about.
 void ShadowCaster::cast_from_all(const geometry::Scene& scene, Casting casting, std::uint32_t light, Layers onto) {
   const LightViews& all = lights_[light];
-  bounds_.clear();
-  if (has_bounds(light))
-    for (const Layer* layer : onto) bound(light, *layer, layer->tiles, bounds_);
-  const auto matters = [&](const Hull& hull) {
-    if (!has_bounds(light)) return true;
-    return std::ranges::any_of(
-        bounds_, [&](TileBounds& face) { return face.tree.any(kernels_, box_of_hull(all.middle, hull), all.spread); });
-  };
+  shafts_.begin(all, samples_of(light), pairs_a_sample(light), onto);
+  const auto matters = [&](const Hull& hull) { return shafts_.meet(hull, grid_); };
   casters_.begin(scene, casting, diced_);
-  for (auto chunk = next_casters(matters); !chunk.empty(); chunk = next_casters(matters))
+  for (auto chunk = next_casters(matters); !chunk.empty(); chunk = next_casters(matters)) {
+    const Touched& some = shafts_.find(chunk, grid_);
+    if (some.casters.empty()) continue;
     for (std::uint32_t point = 0; point < all.points; ++point) {
       const PointSource source = source_of(light, point);
       const auto views = views_of(light, point);
-      put_points(source, views, onto, drawn_points_);
-      block(chunk, views, drawn_points_);
+      begin_points(views, drawn_points_);
+      for (std::size_t k = 0; k < onto.size(); ++k)
+        for (const TilePart& part : some.parts[k]) add_points(source, views, *onto[k], part, drawn_points_);
+      finish_points(drawn_points_);
+      block(some.casters, views, drawn_points_);
       for (Points& points : drawn_points_) points.note(source, casting);
     }
+  }
 }
 
 void ShadowCaster::put_points(const PointSource& source, std::span<const LightView> views, Layers onto, Faces& faces) {
+  begin_points(views, faces);
+  for (Layer* layer : onto)
+    for (const std::uint32_t tile : layer->tiles) add_points(source, views, *layer, {tile, TilePart::kAll}, faces);
+  finish_points(faces);
+}
+
+void ShadowCaster::begin_points(std::span<const LightView> views, Faces& faces) {
   faces.resize(views.size());
-  for (Points& points : faces) points.clear();
-  for (Layer* layer : onto) add_points(source, views, *layer, faces);
+  forget_points(faces);
+}
+
+void ShadowCaster::finish_points(Faces& faces) {
   for (Points& points : faces) {
     points.finish();
     counts_.points += points.count();
@@ -143,79 +143,71 @@ void ShadowCaster::put_points(const PointSource& source, std::span<const LightVi
   look_();
 }
 
-std::span<const Caster* const> ShadowCaster::next_casters(const CasterStream::Matters& matters) {
-  const std::span<const Caster* const> chunk = casters_.next(matters);
-  for (const Caster* caster : chunk) {
-    if (!casters_.has_diced(*caster)) continue;
+// Grids that had many points before keep no memory that others need.
+void ShadowCaster::forget_points(Faces& faces) {
+  std::size_t bytes = 0;
+  const Faces* const kinds[] = {&drawn_points_, &kept_points_, &shafts_.points()};
+  for (const Faces* all : kinds)
+    for (const Points& points : *all) bytes += points.bytes();
+  if (bytes > points_bytes_) std::ranges::fill(faces, Points());
+  for (Points& points : faces) points.clear();
+}
+
+std::span<const ChunkCaster> ShadowCaster::next_casters(const CasterStream::Matters& matters) {
+  const std::span<const ChunkCaster> chunk = casters_.next(matters);
+  for (const ChunkCaster& caster : chunk) {
+    if (!caster.is_new) continue;
     ++counts_.surfaces;
-    counts_.diced_vertices += caster->vertices;
+    counts_.diced_vertices += caster.surface->vertices;
   }
   return chunk;
 }
 
-void ShadowCaster::block(std::span<const Caster* const> casters, std::span<const LightView> views, Faces& faces) {
+void ShadowCaster::block(std::span<const ChunkCaster> casters, std::span<const LightView> views, Faces& faces) {
   for (std::size_t f = 0; f < views.size(); ++f) {
     if (faces[f].empty()) continue;
-    for (const Caster* caster : casters) block(*caster, views[f], faces[f]);
+    for (const ChunkCaster& caster : casters) {
+      const GridBox box = grid_.put(views[f], caster.hull);
+      if (views.size() == 1 || faces[f].tree().any(kernels_, box, 0)) block(*caster.surface, views[f], faces[f]);
+    }
     look_();
   }
 }
 
-void ShadowCaster::block(const Caster& caster, const LightView& view, Points& points) {
-  if (!points.tree().any(kernels_, box_of_hull(view, caster.hull), 0)) return;
-  const GridVertices vertices{grid_x_.data(), grid_y_.data(), grid_z_.data()};
-  const GridBox box = kernels_.project(view, caster.place, caster.vertices, vertices);
-  counts_.vertices += caster.vertices;
+void ShadowCaster::block(const Caster& surface, const LightView& view, Points& points) {
+  const GridBox box = grid_.put(view, surface);
+  counts_.vertices += surface.vertices;
   if (box.low_x > box.high_x) return;
-  const auto found = points.tree().find(kernels_, box, 0, found_);
+  const std::span<const std::uint32_t> found = grid_.find_below(box, kRay, points);
   if (found.empty()) return;
-  counts_.triangles += caster.triangles.count;
-  for (std::uint32_t first = 0; first < caster.triangles.batch_count; first += kMostBatches) {
-    const std::uint32_t count = std::min(kMostBatches, caster.triangles.batch_count - first);
-    small_->count = 0;
-    for (std::uint32_t b = 0; b < count; ++b) {
-      const shape::Batch& batch = caster.triangles.batches[first + b];
-      std::uint32_t large = kernels_.set_up(view, vertices, caster.triangles, batch, *small_);
-      for (; large != 0; large &= large - 1)
-        block_large(view, caster, batch.first + static_cast<std::uint32_t>(std::countr_zero(large)), points);
-    }
-    kernels_.block(*small_, points.vectors(), found.data(), static_cast<std::uint32_t>(found.size()));
-  }
-}
-
-void ShadowCaster::block_large(const LightView& view, const Caster& caster, std::uint32_t triangle, Points& points) {
-  const GridVertices vertices{grid_x_.data(), grid_y_.data(), grid_z_.data()};
-  for_each_piece(view, caster, vertices, triangle, [&](const LargeTriangle& piece) {
-    block_plainly(piece, points.vectors(), points.tree().find(kernels_, piece.box(), 0, found_by_large_));
-  });
-}
-
-// A little wider, for vertices lie within the hull but for rounding.
-GridBox ShadowCaster::box_of_hull(const LightView& view, const Hull& hull) {
-  const float* const points[3] = {hull.along[0], hull.along[1], hull.along[2]};
-  GridBox box = kernels_.project(view, points, hull.count, {grid_x_.data(), grid_y_.data(), grid_z_.data()});
-  if (box.low_x > box.high_x) return box;
-  const double nearer = view.has_place ? double{box.high_z} : 1.0;
-  const double margin = double{largest(hull)} * kPlaceError * nearer * view.per_step;
-  box.low_x = clamped(box.low_x - margin), box.high_x = clamped(box.high_x + margin);
-  box.low_y = clamped(box.low_y - margin), box.high_y = clamped(box.high_y + margin);
-  return box;
+  counts_.triangles += surface.triangles.count;
+  grid_.visit_batches(
+      view, surface,
+      [&](const SmallBatches& batches, std::uint32_t) {
+        kernels_.block(batches, points.vectors(), found.data(), static_cast<std::uint32_t>(found.size()));
+      },
+      [&](std::uint32_t triangle, std::uint32_t) {
+        for_each_piece(view, surface, grid_.vertices(), triangle, [&](const LargeTriangle& piece) {
+          block_plainly(piece, points.vectors(), points.tree().find(kernels_, piece.box(), 0, found_));
+        });
+      });
 }
 
 void ShadowCaster::bound(std::uint32_t light, const Layer& layer, std::span<const std::uint32_t> tiles,
                          std::vector<TileBounds>& faces) const {
-  const LightViews& all = lights_[light];
-  const auto views = has_size(light) ? std::span(&all.middle, 1) : views_of(light, 0);
-  for (const LightView& view : views) {
+  for (const LightView& view : lights_[light].middle) {
     TileBounds& face = faces.emplace_back();
     face.tree.clear();
+    float high_z = 0;
     for (const std::uint32_t tile : tiles) {
       const GridBox box = bound_tile(light, view, layer, tile);
       if (box.low_x > box.high_x) continue;
+      high_z = std::max(high_z, box.high_z);
       face.tree.add(box);
       face.tiles.push_back(tile);
     }
     face.tree.finish();
+    face.reach = reach_of(lights_[light], high_z);
   }
 }
 
@@ -226,10 +218,14 @@ GridBox ShadowCaster::bound_tile(std::uint32_t light, const LightView& view, con
   const auto counts = [n, some](const wire::StillPairs& pairs, const Lane& lane, std::uint16_t) {
     return (pairs.lit >> (lane.sample * n) & some) != 0;
   };
-  const PointSource source{kernels_, lights_[light].frame, pattern_, hard_, light, 0};
-  for_each_vector(source, layer, tile, counts, std::span(&view, 1),
+  for_each_vector(samples_of(light), layer, tile, counts, std::span(&view, 1),
                   [&](const PointVector& points, std::uint32_t, std::size_t) { box = around(box, points.box); });
   return box;
+}
+
+void ShadowCaster::forget_still() {
+  still_bounds_.clear();
+  diced_.clear(Casting::still);
 }
 
 void ShadowCaster::bound_still(const Layer& still) {
@@ -237,30 +233,29 @@ void ShadowCaster::bound_still(const Layer& still) {
   still_bounds_.resize(lights());
   for (std::uint32_t light = 0; light < lights(); ++light) {
     still_bounds_[light].clear();
-    if (has_bounds(light)) bound(light, still, still.tiles, still_bounds_[light]);
+    bound(light, still, still.tiles, still_bounds_[light]);
   }
 }
 
-bool ShadowCaster::all_have_bounds() const {
-  return std::ranges::all_of(std::views::iota(0u, lights()), [this](std::uint32_t l) { return has_bounds(l); });
-}
-
-// Calls visit(tile) for squares whose points a caster within the hull may block. Trees have a few boxes more than there
-// are squares.
+// Calls visit(tile) for squares whose points a caster within the hull may block; all where that is not known. Trees
+// have a few boxes more than there are squares.
 template <typename Visit>
 void ShadowCaster::visit_shaded(std::uint32_t light, const Hull& hull, std::vector<TileBounds>& faces,
                                 const Visit& visit) {
   const LightViews& all = lights_[light];
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    const GridBox box = box_of_hull(has_size(light) ? all.middle : all.views[f], hull);
-    for (const std::uint32_t found : faces[f].tree.find(kernels_, box, all.spread, found_))
+    if (is_near(all, f, faces[f].reach, hull)) {
+      std::ranges::for_each(faces[f].tiles, visit);
+      continue;
+    }
+    for (const std::uint32_t found :
+         faces[f].tree.find(kernels_, grid_.put(all.middle[f], hull), faces[f].reach.shaft.spread, found_))
       if (found < faces[f].tiles.size()) visit(faces[f].tiles[found]);
   }
 }
 
 void ShadowCaster::mark_shaded(const geometry::Sweep& sweep, const Layer& still, raster::StillMarks& marks) {
   if (sweep.casters().empty()) return;
-  if (!all_have_bounds()) return marks.mark_all();
   std::vector<std::uint32_t> tiles = still.tiles;
   for (std::uint32_t light = 0; light < lights(); ++light) {
     std::erase_if(tiles, [&](std::uint32_t tile) {
@@ -276,7 +271,6 @@ void ShadowCaster::mark_shaded(const geometry::Sweep& sweep, const Layer& still,
 }
 
 void ShadowCaster::find_shaded(const geometry::Scene& scene, std::vector<std::uint32_t>& tiles) {
-  if (!all_have_bounds()) return;
   is_shaded_.assign(tiles.empty() ? 0 : *std::ranges::max_element(tiles) + 1, std::uint8_t{0});
   casters_.visit_hulls(scene, Casting::moving, [&](const Hull& hull) {
     for (std::uint32_t light = 0; light < lights(); ++light)

@@ -14,8 +14,11 @@
 #include "node/raster/still_marks.h"
 #include "node/shadow/band.h"
 #include "node/shadow/casters.h"
+#include "node/shadow/grid_caster.h"
 #include "node/shadow/light_views.h"
 #include "node/shadow/points.h"
+#include "node/shadow/shadow_plan.h"
+#include "node/shadow/shafts.h"
 
 namespace mars::shadow {
 
@@ -30,7 +33,8 @@ struct CastCounts {
 
 class ShadowCaster {
  public:
-  ShadowCaster(simd::InstructionSet set, const geometry::Scene& scene);
+  // `plan`: of the scene's film.
+  ShadowCaster(simd::InstructionSet set, const geometry::Scene& scene, const ShadowPlan& plan);
 
   // The lights as they are in the scene's frame. `look` is called now and then.
   void begin(const geometry::Scene& scene, const std::function<void()>& look);
@@ -50,7 +54,7 @@ class ShadowCaster {
 
   // Of what stands still throughout an interval on the layer's lines: remembers where its points are.
   void bound_still(const Layer& still);
-  void forget_still() { still_bounds_.clear(); }
+  void forget_still();
   bool knows_still(const geometry::LineRange& lines) const {
     return !still_bounds_.empty() && still_lines_.first == lines.first && still_lines_.last == lines.last;
   }
@@ -65,34 +69,34 @@ class ShadowCaster {
   struct TileBounds {
     BoxTree tree;
     std::vector<std::uint32_t> tiles;  // of each box
+    ShaftReach reach;
   };
 
   bool has_size(std::uint32_t light) const { return lights_[light].points > 1; }
-  bool all_have_bounds() const;
-  // Whether it is known where points of all its views lie from where the middle sees them.
-  bool has_bounds(std::uint32_t light) const { return !has_size(light) || !lights_[light].middle.has_place; }
   const PairVectors& vectors_of(std::uint32_t light) const { return has_size(light) ? soft_ : hard_; }
   PointSource source_of(std::uint32_t light, std::uint32_t point) const;
+  PointSource samples_of(std::uint32_t light) const;
   std::span<const LightView> views_of(std::uint32_t light, std::uint32_t point) const;
   void bound(std::uint32_t light, const Layer& layer, std::span<const std::uint32_t> tiles,
              std::vector<TileBounds>& faces) const;
   GridBox bound_tile(std::uint32_t light, const LightView& view, const Layer& layer, std::uint32_t tile) const;
   template <typename Visit>
   void visit_shaded(std::uint32_t light, const Hull& hull, std::vector<TileBounds>& faces, const Visit& visit);
-  GridBox box_of_hull(const LightView& view, const Hull& hull);
 
   // Points of some layers, by face of a light.
   using Faces = std::vector<Points>;
 
   void cast_from_point(const geometry::Scene& scene, std::uint32_t light, Layers drawn, Layer& kept);
   void cast_from_all(const geometry::Scene& scene, Casting casting, std::uint32_t light, Layers onto);
+  void begin_points(std::span<const LightView> views, Faces& faces);
+  void finish_points(Faces& faces);
   void put_points(const PointSource& source, std::span<const LightView> views, Layers onto, Faces& faces);
+  void forget_points(Faces& faces);
   void stream(const geometry::Scene& scene, Casting casting, std::span<const LightView> views,
               std::span<Faces* const> onto);
-  std::span<const Caster* const> next_casters(const CasterStream::Matters& matters);
-  void block(std::span<const Caster* const> casters, std::span<const LightView> views, Faces& faces);
-  void block(const Caster& caster, const LightView& view, Points& points);
-  void block_large(const LightView& view, const Caster& caster, std::uint32_t triangle, Points& points);
+  std::span<const ChunkCaster> next_casters(const CasterStream::Matters& matters);
+  void block(std::span<const ChunkCaster> casters, std::span<const LightView> views, Faces& faces);
+  void block(const Caster& surface, const LightView& view, Points& points);
 
   const ShadowKernels& kernels_;
   shape::SamplePattern pattern_;
@@ -100,15 +104,15 @@ class ShadowCaster {
   PairVectors hard_, soft_;
   DicedSurfaces diced_;
   CasterStream casters_;
+  std::size_t points_bytes_;  // as in ShadowPlan
   std::vector<LightViews> lights_;
   Faces drawn_points_, kept_points_;
-  std::vector<TileBounds> bounds_;                     // of a light that has a size
+  GridCaster grid_;
+  Shafts shafts_;
+  std::vector<TileBounds> bounds_;                     // of a light, by face
   std::vector<std::vector<TileBounds>> still_bounds_;  // by light and face
   geometry::LineRange still_lines_{0, 0};              // that still_bounds_ are of
-  std::vector<std::int32_t> grid_x_, grid_y_;
-  std::vector<float> grid_z_;
-  std::unique_ptr<SmallBatches> small_;
-  std::vector<std::uint32_t> found_, found_by_large_;
+  std::vector<std::uint32_t> found_;
   std::vector<std::uint8_t> is_shaded_;  // by square of the picture
   std::function<void()> look_;
   CastCounts counts_;

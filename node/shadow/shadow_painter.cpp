@@ -14,7 +14,6 @@
 namespace mars::shadow {
 namespace {
 
-constexpr std::size_t kBandBytes = std::size_t{32} << 20;
 constexpr std::size_t kGrain = 64;  // of the arena
 
 bool receives(const wire::Material& material) {
@@ -23,7 +22,7 @@ bool receives(const wire::Material& material) {
 
 }  // namespace
 
-ShadowPainter::ShadowPainter(simd::InstructionSet set, const geometry::Scene& scene)
+ShadowPainter::ShadowPainter(simd::InstructionSet set, const geometry::Scene& scene, const ShadowPlan& plan)
     : raster_kernels_(raster::raster_kernels(set)),
       shading_kernels_(shading::shading_kernels(set)),
       width_(static_cast<std::uint32_t>(scene.width())),
@@ -31,25 +30,17 @@ ShadowPainter::ShadowPainter(simd::InstructionSet set, const geometry::Scene& sc
       casting_(scene.casting_count()),
       z_line_(set, width_, scene.pattern()),
       groups_(set, width_, samples_),
-      caster_(set, scene),
+      caster_(set, scene, plan),
+      bytes_of_line_(band_bytes_of_line(shadow_needs(scene.film()))),
+      most_squares_(squares_of_points(shadow_needs(scene.film()), plan.points)),
+      memory_(plan.band),
+      arena_(memory_.bytes()),
       shares_(casting_, std::vector<float>(std::size_t{width_} * samples_ + simd::kVectorSlack)),
       still_groups_(std::size_t{width_} * samples_),
       no_ends_(width_),
       row_tiles_(wire::still_tile_words(width_)) {
   for (const auto& shares : shares_) share_rows_.push_back(shares.data());
-  memory_ = messages::PrivateMemory(std::max(kBandBytes, 2 * most_bytes_of_line()));
   memory_.prefer_large_pages();
-  arena_ = raster::Arena(memory_.bytes());
-}
-
-// Of both kinds: groups with their light and, of still ones, a record; depths; pairs, and what movers block.
-std::size_t ShadowPainter::most_bytes_of_line() const {
-  const std::size_t samples = std::size_t{width_} * samples_ + 2 * simd::kVectorSlack;
-  const std::size_t light = (4 + 3 * std::size_t{casting_}) * sizeof(float);
-  const std::size_t group = sizeof(shading::Fragment) + 2 * sizeof(std::uint32_t) + light;
-  const std::size_t arrays = 2 * (12 + 3 * std::size_t{casting_}) * kGrain;
-  const std::size_t column = sizeof(std::uint32_t) + casting_ * 2 * (sizeof(wire::StillPairs) + sizeof(std::uint16_t));
-  return samples * (2 * group + wire::still_group_bytes(casting_) + 2 * sizeof(float)) + width_ * column + arrays;
 }
 
 void ShadowPainter::begin(const Picture& picture, const std::function<void()>& look) {
@@ -59,11 +50,12 @@ void ShadowPainter::begin(const Picture& picture, const std::function<void()>& l
 geometry::LineRange ShadowPainter::see(const Picture& picture, const geometry::LineRange& lines) {
   arena_.clear();
   range_ = lines;
-  for (Layer* layer : {&drawn_, &kept_, &moving_}) layer->begin(width_, lines);
-  lines_.assign(lines.count(), {});
-  const std::size_t most = most_bytes_of_line();
-  for (std::uint32_t number = lines.first; number < lines.last; ++number) {
-    if (arena_.rest().size() < most) {
+  const std::size_t moved_bytes = width_ * casting_ * sizeof(std::uint16_t) + kGrain;
+  std::size_t to_come = 0;  // of still lines, for what movers block (cast)
+  for (Layer* layer : {&drawn_, &kept_, &moving_}) layer->begin(width_, range_);
+  lines_.assign(range_.count(), {});
+  for (std::uint32_t number = range_.first; number < range_.last; ++number) {
+    if (arena_.rest().size() < bytes_of_line_ + to_come) {
       range_.last = number;
       break;
     }
@@ -71,6 +63,7 @@ geometry::LineRange ShadowPainter::see(const Picture& picture, const geometry::L
       see_keyframe(picture, number);
     else
       see_inbetween(picture, number);
+    if (kept_.line(number).depth != nullptr) to_come += moved_bytes;
   }
   drawn_.range = kept_.range = moving_.range = range_;
   drawn_.count_all_tiles();
@@ -284,9 +277,35 @@ void ShadowPainter::cast(const Picture& picture) {
           kept_.line(number).moved = new_moved();
     }
   }
-  const std::array<Layer*, 2> drawn{&drawn_, &moving_};
-  caster_.cast(picture.scene, drawn, kept_);
+  cast_by_rows(picture.scene);
   if (picture.is_keyframe) keep_pairs(picture.still);
+}
+
+// On squares of as many rows at a time as there is memory for points of.
+void ShadowPainter::cast_by_rows(const geometry::Scene& scene) {
+  const std::array<Layer*, 3> layers{&drawn_, &moving_, &kept_};
+  for (std::size_t k = 0; k < layers.size(); ++k) std::swap(layers[k]->tiles, tiles_[k]);
+  std::array<std::size_t, 3> done{};
+  const auto rest_up_to = [&](std::size_t k, std::uint32_t row) {
+    const auto rest = std::span(std::as_const(tiles_[k])).subspan(done[k]);
+    return rest.first(
+        static_cast<std::size_t>(std::ranges::lower_bound(rest, row * drawn_.tiles_across()) - rest.begin()));
+  };
+  for (std::uint32_t row = range_.first / kTile, end = row; row * kTile < range_.last; row = end) {
+    const auto count_up_to = [&](std::uint32_t to) {
+      return rest_up_to(0, to).size() + rest_up_to(1, to).size() + rest_up_to(2, to).size();
+    };
+    do {
+      ++end;
+    } while (end * kTile < range_.last && count_up_to(end + 1) <= most_squares_);
+    if (count_up_to(end) == 0) continue;
+    for (std::size_t k = 0; k < layers.size(); ++k) {
+      const auto some = rest_up_to(k, end);
+      layers[k]->tiles.assign(some.begin(), some.end());
+      done[k] += some.size();
+    }
+    caster_.cast(scene, std::span(layers).first(2), kept_);
+  }
 }
 
 void ShadowPainter::count_kept_tiles(const raster::StillLines& still) {

@@ -8,6 +8,7 @@
 // moving ones.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <utility>
@@ -25,6 +26,7 @@
 #include "node/raster/z_line.h"
 #include "node/shadow/band.h"
 #include "node/shadow/shadow_caster.h"
+#include "node/shadow/shadow_plan.h"
 
 namespace mars::shadow {
 
@@ -40,7 +42,8 @@ struct Picture {
 
 class ShadowPainter {
  public:
-  ShadowPainter(simd::InstructionSet set, const geometry::Scene& scene);
+  // `plan`: of the scene's film.
+  ShadowPainter(simd::InstructionSet set, const geometry::Scene& scene, const ShadowPlan& plan);
 
   // An interval begins, also on nodes that draw nothing of its keyframe.
   void forget_still() { caster_.forget_still(); }
@@ -75,12 +78,12 @@ class ShadowPainter {
     bool is_kept = false;                   // a keyframe's, for inbetweens
   };
 
-  std::size_t most_bytes_of_line() const;
   void see_keyframe(const Picture& picture, std::uint32_t number);
   void see_inbetween(const Picture& picture, std::uint32_t number);
   shading::Extent see_still(const Picture& picture, std::uint32_t number);
   void see_kept(const Picture& picture, std::uint32_t number);
   shading::Extent see_moving(const Picture& picture, std::uint32_t number);
+  void cast_by_rows(const geometry::Scene& scene);
   LineGroups shade(const Picture& picture, std::uint32_t number, const shading::Extent& extent);
   void copy_depths(float* to, const shading::Extent& extent);
   raster::UnsummedStill new_record(std::uint32_t groups);
@@ -108,11 +111,14 @@ class ShadowPainter {
   ShadowCaster caster_;
 
   // Of the band.
+  std::size_t bytes_of_line_;  // at most
+  std::size_t most_squares_;   // that there is memory for points of
   messages::PrivateMemory memory_;
   raster::Arena arena_;
   Layer drawn_, kept_, moving_;  // kept_: still lines of the interval's keyframe; drawn_: those drawn now
   std::vector<Line> lines_;
   geometry::LineRange range_{0, 0};
+  std::array<std::vector<std::uint32_t>, 3> tiles_;  // of the three layers, to be cast on
 
   // Of a line that is put.
   std::vector<std::vector<float>> shares_;  // by casting light

@@ -57,11 +57,19 @@ struct LineCounts {
   double kept_width = 0;  // in pixels, of stationary parts for inbetweens (keyframes)
 };
 
+// Which nodes need not dice a caster for its shadows.
+enum class DicedBy : std::uint8_t {
+  none,
+  camera,   // the one node that diced it as a surface that the camera sees
+  shadows,  // all that need it, for they kept it in an earlier frame
+};
+
 // A patch or meshlet that may cast shadows on lines [first_line, last_line): a caster of each node that draws one of
-// them, who dices it if it has not diced it for the camera.
+// them. Nodes that draw one of [first_put, last_put) put it on grids.
 struct CasterCounts {
   std::uint32_t first_line, last_line;
-  bool is_diced;  // for the camera, by one node
+  std::uint32_t first_put, last_put;
+  DicedBy diced_by;
   double vertices;
   double put_vertices;  // on grids
   double triangles;     // set up on grids

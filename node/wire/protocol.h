@@ -84,7 +84,7 @@ struct Hello {
   std::int32_t machine;              // lowest node id on the same machine; its own if it shares no memory with them
   std::int32_t rank;                 // its number in the job that started it (MPI's)
   std::array<std::int32_t, 5> seat;  // core, L2, L3, NUMA domain, package that hold it; -1: several
-  std::uint64_t memory;              // bytes it may use for triangles and edge boxes of its frames
+  std::uint64_t memory;              // bytes it may use for its frames, still lines and shadows
   std::array<char, 64> binding;      // processors it is bound to, as hwloc lists them; "" if free
   std::array<char, 16> simd;         // widest instruction set its kernels use
   std::array<char, 128> apart;       // why it shares no memory with other nodes of its machine; "" if it does
@@ -115,7 +115,8 @@ struct Load {
   std::uint64_t still_memory;  // bytes that a node adds to what its machine keeps of stationary parts for inbetweens
   std::uint32_t live;     // 1: BeginViews and Draws follow, no Renders; another Load may come, which ends all views
   std::uint32_t watched;  // 1: strips say how many edge boxes each of their lines has
-  std::uint64_t orders;   // bytes behind the machines, for the node's frame writer; 0: all frames go to the host
+  std::uint64_t shadow_memory;  // bytes for drawing shadows, on every node
+  std::uint64_t orders;         // bytes behind the machines, for the node's frame writer; 0: all frames go to the host
 };
 
 // The node has the film and its slots.
@@ -226,7 +227,8 @@ struct BeginView {
   std::uint32_t view;     // below kMostViews
   std::uint32_t picture;  // 1, 2, ...
   std::uint64_t scene_bytes;
-  std::uint64_t still_memory;  // as in Load, for this view
+  std::uint64_t still_memory;   // as in Load, for this view
+  std::uint64_t shadow_memory;  // and for shadows
 };
 
 // To the node that draws it: a picture of the view's interval, an inbetween. Followed by all that differs from the

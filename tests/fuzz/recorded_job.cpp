@@ -85,7 +85,7 @@ test::RunOptions RecordedJob::options() const {
   options.work.groups = 1;
   options.format = format_;
   options.memory = 4 << 20;
-  options.farm.still_memory = 1 << 20;
+  options.farm.asked_memory.still = 1 << 20;
   options.make_sinks = make_sinks;
   return options;
 }

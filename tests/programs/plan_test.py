@@ -106,14 +106,30 @@ class Plans(ProgramTest):
             self.assertClear(run.stderr, "another version of MARS measured this machine")
             self.assertClear(run.stderr, "run mars calibrate")
 
-    def test_it_says_that_soft_shadows_are_not_in_it(self):
-        film = json.loads(CUBES.read_text())
-        for size, says in ((0, False), (0.53, True)):
-            film["lights"] = [{"direction": [-0.4, -0.7, 0.8], "shadow": True, "size": size}]
-            words = ["plan", self.write("film.json", film), "--platform", "fat-tree"]
-            self.assertEqual("soft shadows are not in the forecast" in self.succeed("mars", *words), says)
-            plan = json.loads(self.succeed("mars", *words, "--json"))
-            self.assertEqual(plan.get("leaves_out"), ["soft shadows"] if says else None)
+    def plan_of_light(self, light, *words, **options):
+        film = dict(json.loads(CUBES.read_text()), lights=[dict(light, direction=[-0.4, -0.7, 0.8])])
+        return self.mars("plan", self.write("film.json", film), "--json", *words, **options)
+
+    def test_soft_shadows_take_longer(self):
+        seconds = [json.loads(self.plan_of_light(light, "--platform", "fat-tree").stdout)["seconds"]
+                   for light in ({}, {"shadow": True}, {"shadow": True, "size": 0.53})]
+        self.assertEqual(seconds, sorted(seconds))
+        self.assertGreater(seconds[2], 2 * seconds[1])
+
+    def test_it_says_what_memory_shadows_take(self):
+        plans = [self.plan_of_light({"shadow": casts}, "--platform", "fat-tree") for casts in (False, True)]
+        without, shadows = (json.loads(plan.stdout) for plan in plans)
+        self.assertEqual(without["shadow_memory"], 0)
+        self.assertGreater(shadows["shadow_memory"], 100e6)
+        more = shadows["machine_memory"] - without["machine_memory"]
+        self.assertGreaterEqual(more, shadows["shadow_memory"])
+
+    def test_shadows_for_which_there_is_no_memory_are_refused(self):
+        platform = json.loads((SOURCES / "cluster/platforms/reference.json").read_text())
+        platform["computers"]["memory"] = 4 << 20
+        small = self.plan_of_light({"shadow": True}, "--platform", self.write("small.json", platform))
+        self.assertEqual(small.returncode, 1)
+        self.assertClear(small.stderr, "set MARS_MEMORY to ")
 
     def test_it_foresees_who_should_write_files(self):
         words = ["plan", "s3", "--frames", "0-11", "--size", "640x360", "--nodes", 4, "--groups", 1, "--platform",

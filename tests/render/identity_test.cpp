@@ -179,7 +179,7 @@ TEST_P(Identity, InSeveralPassesWhenMemoryIsShort) {
     RunOptions options;
     options.nodes = nodes;
     options.memory = memory;
-    options.farm.still_memory = 0;
+    options.farm.asked_memory.still = 0;
     const FilmRun run = expect_as_from_scratch(options, "passes");
     std::uint32_t passes = 1;
     for (const wire::Strip& strip : run.report.strips) {
@@ -206,7 +206,7 @@ TEST_P(Identity, WithLittleMemoryForStationaryParts) {
     const auto edge_boxes = [&](std::optional<std::uint64_t> still_memory, const std::string& how) {
       RunOptions options;
       options.nodes = static_cast<int>(nodes);
-      options.farm.still_memory = still_memory;
+      options.farm.asked_memory.still = still_memory;
       return edge_boxes_of_inbetweens(expect_as_from_scratch(options, how));
     };
     const std::uint64_t kept = edge_boxes({}, "still-memory");

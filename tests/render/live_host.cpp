@@ -110,7 +110,7 @@ void LiveHost::load(const wire::FilmData& film) {
 std::uint32_t LiveHost::begin(std::uint32_t view, const wire::FilmData& scene, std::uint64_t still_memory) {
   const auto block = wire::pack_scene(scene);
   const std::uint32_t picture = ++last_picture_;
-  auto message = message_of(wire::BeginView{view, picture, block.size(), still_memory});
+  auto message = message_of(wire::BeginView{view, picture, block.size(), still_memory, 0});
   append(message, std::span<const std::byte>(block));
   for (int node = 0; node < nodes_; ++node) send(wire::kBeginView, node, message);
   const wire::FilmSettings& settings = scene.settings;

@@ -29,7 +29,8 @@ ShadowRig::ShadowRig(const wire::FilmData& film, std::string_view simd) : block_
   reference_ = draw_reference(block_.view(), 0);
   lay_out(reference_.still, still_);
   lay_out(reference_.movers, movers_);
-  shadow::ShadowCaster caster(simd::best_instruction_set(simd), scene_);
+  shadow::ShadowCaster caster(simd::best_instruction_set(simd), scene_,
+                              shadow::plan_shadows(shadow::shadow_needs(scene_.film()), 1 << 30));
   caster.begin(scene_, [] {});
   shadow::Layer* const drawn[] = {&still_.layer, &movers_.layer};
   shadow::Layer kept{};

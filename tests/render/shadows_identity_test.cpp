@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "host/content/modeler/primitives.h"
+#include "node/shadow/shadow_plan.h"
 #include "node/wire/still_plan.h"
 #include "tests/hal/machines_backend.h"
 #include "tests/node/simd/instruction_sets.h"
@@ -155,7 +156,10 @@ TEST_P(ShadowsIdentity, InSeveralPassesWhenMemoryIsShort) {
   for (const int nodes : {1, 3}) {
     RunOptions options;
     options.nodes = nodes;
-    options.memory = 150'000 + 200 * settings().height + 20'000 * (settings().samples - 1);
+    const std::uint64_t others = 150'000 + 200 * settings().height + 20'000 * (settings().samples - 1);
+    const auto needs = shadow::shadow_needs(FilmBlock(film()).view());
+    options.farm.asked_memory = {others / 4, 0};  // as little as possible for shadows
+    options.memory = shadow::least_shadow_bytes(needs) + others;
     const FilmRun run = expect_as_from_scratch(options, "passes");
     std::uint32_t passes_of_inbetweens = 1;
     for (const wire::Strip& strip : run.report.strips)
@@ -173,7 +177,7 @@ TEST_P(ShadowsIdentity, WithLittleMemoryForStationaryParts) {
       wire::plan_still_lines(settings().width, 1, settings().samples, std::uint64_t{1} << 40, casts).line_bytes;
   for (const std::uint64_t lines : {settings().height / 3, 0u}) {
     RunOptions options;
-    options.farm.still_memory = lines * a_line;
+    options.farm.asked_memory.still = lines * a_line;
     const FilmRun run = expect_as_from_scratch(options, "still-memory-of-" + std::to_string(lines));
     if (is("directional") || is("all_4") || is("all_16")) {
       EXPECT_GT(edge_boxes_of_inbetweens(run), edge_boxes_of_inbetweens(draw({}))) << "lines are drawn again";

@@ -223,7 +223,7 @@ void run_with(std::uint64_t still, const wire::FilmData& data, const Nodes& node
               std::uint64_t memory = 256 << 20) {
   messages::Machines machines(nodes.each);
   RunOptions options = options_of(nodes, memory);
-  options.farm.still_memory = still;
+  options.farm.asked_memory.still = still;
   options.wrap = [&](messages::Backend& inner) {
     return std::make_unique<messages::MachinesBackend>(inner, out.counts, machines);
   };

@@ -238,7 +238,7 @@ class TracingShadows : public testing::Test {
     RunOptions options;
     options.nodes = nodes;
     options.work.groups = 1;
-    options.farm.still_memory = 0;
+    options.farm.asked_memory.still = 0;
     options.farm.trace = trace;
     return run_film(block_->bytes(), options);
   }

@@ -193,15 +193,29 @@ FrameTotals operator*(FrameTotals a, double part) {
   return a;
 }
 
+// The part of the nodes that need a caster that dice it.
+double diced_by(wire::DicedBy others, int nodes) {
+  switch (others) {
+    case wire::DicedBy::none: return 1;
+    case wire::DicedBy::camera: return 1 - 1.0 / nodes;
+    case wire::DicedBy::shadows: return 0;
+  }
+  return 1;
+}
+
 wire::UnitCounts casters_on(const wire::FrameCounts& counts, std::uint32_t first_line, std::uint32_t last_line,
                             int nodes) {
-  const double of_others = 1 - 1.0 / nodes;
   wire::UnitCounts units;
   for (const wire::CasterCounts& caster : counts.casters) {
-    if (caster.last_line <= first_line || caster.first_line >= last_line) continue;
-    const double diced = caster.is_diced ? of_others : 1;
-    units[wire::Work::caster] += diced;
-    units[wire::Work::diced_vertex] += diced * caster.vertices;
+    const auto overlap = [&](std::uint32_t first, std::uint32_t last) {
+      return first < last_line && first_line < last;
+    };
+    if (overlap(caster.first_line, caster.last_line)) {
+      const double diced = diced_by(caster.diced_by, nodes);
+      units[wire::Work::caster] += diced;
+      units[wire::Work::diced_vertex] += diced * caster.vertices;
+    }
+    if (!overlap(caster.first_put, caster.last_put)) continue;
     units[wire::Work::caster_vertex] += caster.put_vertices;
     units[wire::Work::caster_triangle] += caster.triangles;
   }

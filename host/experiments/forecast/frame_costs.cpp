@@ -17,7 +17,6 @@ using wire::Work;
 constexpr double kTriangleBytes = 64, kUnsortedBoxBytes = 12, kBoxBytes = 8;
 constexpr double kFullStrip = 512 << 10;  // node/raster/strip_buffer.cpp
 constexpr double kShortSum = 64 << 10;    // hal/collectives/reduction.cpp
-constexpr double kBand = 96 << 20;        // node/shadow/shadow_painter.cpp
 
 // What each of `nodes` nodes makes: whole shares where these divide evenly, else equal parts of several.
 std::vector<wire::UnitCounts> made_by(const std::vector<wire::UnitCounts>& shares, int nodes) {
@@ -75,9 +74,12 @@ struct FrameCosts::Homes {
   double edge_boxes;              // on all
 };
 
-FrameCosts::FrameCosts(const Setting& setting)
+FrameCosts::FrameCosts(const Setting& setting, int nodes)
     : setting_(setting),
       costs_(setting.platform),
+      memory_(farm::share_node_memory(setting.platform.memory, {}, setting.film.settings(),
+                                      shadow::shadow_needs(setting.film),
+                                      std::min(nodes, setting.platform.machine.nodes))),
       band_lines_(images::PictureBands(setting.picture, setting.film.settings().width, setting.film.settings().height)
                       .lines_a_band()) {}
 
@@ -172,6 +174,10 @@ FrameTotals FrameCosts::drawn_again(const wire::FrameCounts& keyframe, int nodes
   return again;
 }
 
+double FrameCosts::still_bytes(const wire::FrameCounts& keyframe, int nodes) const {
+  return still_lines({0, setting_.film.settings().height}, keyframe, still_plan(nodes)).bytes;
+}
+
 // A line is kept where it has memory for its groups (node/raster/still_lines.h).
 bool FrameCosts::is_kept(const wire::FrameCounts& keyframe, std::uint32_t line, const wire::StillPlan& plan) const {
   const wire::FilmSettings& film = setting_.film.settings();
@@ -193,21 +199,16 @@ double FrameCosts::kept_bytes(const wire::LineCounts& line) const {
          kept_groups(line) * static_cast<double>(wire::still_group_bytes(casting));
 }
 
-farm::NodeMemory FrameCosts::memory() const {
-  return farm::share_node_memory(setting_.platform.memory, std::nullopt, setting_.film.settings(),
-                                 setting_.film.casting_count());
-}
-
 wire::StillPlan FrameCosts::still_plan(int nodes) const {
   const wire::FilmSettings& film = setting_.film.settings();
   return wire::plan_still_lines(film.width, film.height, film.samples,
-                                memory().still * static_cast<std::uint64_t>(nodes_on_a_computer(nodes)),
+                                memory_.still * static_cast<std::uint64_t>(nodes_on_a_computer(nodes)),
                                 setting_.film.casting_count());
 }
 
 // Of one frame; where nodes share a computer, two frames' take turns (node/group/frame_memory.h).
 double FrameCosts::arena_bytes() const {
-  return static_cast<double>(memory().frames) / (setting_.platform.machine.nodes > 1 ? 2 : 1);
+  return static_cast<double>(memory_.frames) / (setting_.platform.machine.nodes > 1 ? 2 : 1);
 }
 
 // What is done again in each pass.
@@ -262,17 +263,20 @@ double FrameCosts::casting(const FrameTotals& totals, const wire::FrameCounts& c
   return seconds;
 }
 
-// As much as there is memory for (node/shadow/shadow_painter.cpp): groups with their light, depths and pairs.
+// As many as there is memory for: groups with their light, depths and pairs (node/shadow/shadow_painter.cpp), and
+// points.
 double FrameCosts::lines_of_band(const FrameTotals& totals, double lines) const {
   const wire::FilmSettings& film = setting_.film.settings();
   const double casting = setting_.film.casting_count(), samples = static_cast<double>(film.width) * film.samples;
   const double light = (4 + 3 * casting) * sizeof(float), group = 16 + light;
   const double record = static_cast<double>(wire::still_group_bytes(setting_.film.casting_count()));
   const double column = sizeof(std::uint32_t) + casting * 2 * (sizeof(wire::StillPairs) + sizeof(std::uint16_t));
-  const double most = samples * (2 * group + record + 2 * sizeof(float)) + film.width * column;
+  const shadow::ShadowNeeds needs = shadow::shadow_needs(setting_.film);
+  const shadow::ShadowPlan plan = shadow::plan_shadows(needs, memory_.shadows);
   const double shaded = totals.drawn.constant.shaded + totals.drawn.moving.shaded;
   const double each = shaded / lines * (group + record) + samples * sizeof(float) + film.width * column / 2;
-  return std::max(1.0, std::floor((std::max(kBand, 2 * most) - most) / each));
+  const double seen = std::floor(static_cast<double>(plan.band - shadow::band_bytes_of_line(needs)) / each);
+  return std::max(1.0, std::min<double>(seen, shadow::lines_of_points(needs, plan.points)));
 }
 
 StripCosts FrameCosts::strips(const FrameTotals& totals, double seconds) const {
@@ -399,7 +403,7 @@ void FrameCosts::add_still(GroupKeyframe& keyframe, const Homes& homes, const wi
   double all_bytes = 0, all_messages = 0, most = 0;
   std::vector<StillLines> still(nodes);
   for (std::size_t n = 0; n < nodes; ++n) {
-    still[n] = still_lines(homes.ranges[n], counts);
+    still[n] = still_lines(homes.ranges[n], counts, still_plan(1));
     all_bytes += still[n].bytes, all_messages += still[n].messages;
     most = std::max(most, still[n].bytes);
   }
@@ -455,9 +459,9 @@ void FrameCosts::add_bands(GroupKeyframe& keyframe, const Homes& homes, const wi
 }
 
 // Of those on `home`, what a node sends to one computer.
-FrameCosts::StillLines FrameCosts::still_lines(const geometry::LineRange& home, const wire::FrameCounts& counts) const {
+FrameCosts::StillLines FrameCosts::still_lines(const geometry::LineRange& home, const wire::FrameCounts& counts,
+                                               const wire::StillPlan& plan) const {
   const wire::FilmSettings& film = setting_.film.settings();
-  const wire::StillPlan plan = still_plan(1);
   const geometry::LineRange lines = geometry::overlap(home, {counts.first_still_line, counts.last_still_line});
   const bool groups = film.samples > 1 || setting_.film.casting_count() > 0;
   StillLines still;

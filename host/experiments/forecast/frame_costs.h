@@ -50,13 +50,18 @@ struct HostCosts {
 
 class FrameCosts {
  public:
-  explicit FrameCosts(const Setting& setting);
+  // `nodes`: of all groups.
+  FrameCosts(const Setting& setting, int nodes);
 
   // Of a group of `nodes`, of which `contributors` contribute, and which then draw `inbetweens`.
   GroupKeyframe keyframe(const wire::FrameCounts& counts, int nodes, int contributors, std::size_t inbetweens) const;
   // What inbetweens after such a keyframe draw again on a node of a group of `nodes`: stationary parts on lines that
   // are not kept.
   FrameTotals drawn_again(const wire::FrameCounts& keyframe, int nodes) const;
+  // Bytes that a machine keeps of such a keyframe for inbetweens of a group of `nodes`.
+  double still_bytes(const wire::FrameCounts& keyframe, int nodes) const;
+  // Of a node.
+  double shadow_bytes() const { return static_cast<double>(memory_.shadows); }
   NodePart inbetween(const FrameTotals& totals, const FrameTotals& again) const;
   // Seconds of a processor that writes a whole file, which is encoded; its bytes.
   double writing() const;
@@ -71,7 +76,8 @@ class FrameCosts {
     double bytes = 0;
     double messages = 0;
   };
-  StillLines still_lines(const geometry::LineRange& home, const wire::FrameCounts& counts) const;
+  StillLines still_lines(const geometry::LineRange& home, const wire::FrameCounts& counts,
+                         const wire::StillPlan& plan) const;
   double dicing(const wire::UnitCounts& made) const;
   double setting_up(const wire::UnitCounts& made) const;
   wire::UnitCounts drawn_units(const FrameTotals& totals) const;
@@ -91,7 +97,6 @@ class FrameCosts {
   double kept_groups(const wire::LineCounts& line) const;
   double kept_bytes(const wire::LineCounts& line) const;
   wire::StillPlan still_plan(int nodes) const;
-  farm::NodeMemory memory() const;
   double made_bytes(const wire::UnitCounts& made) const;
   double arena_bytes() const;
   double passes(const wire::UnitCounts& made, double home_boxes, bool travels) const;
@@ -108,6 +113,7 @@ class FrameCosts {
 
   const Setting setting_;
   const Costs costs_;
+  const farm::NodeMemory memory_;  // of a node
   const std::uint32_t band_lines_;
 };
 

@@ -22,7 +22,7 @@ HostSide::HostSide(Clockwork& clockwork, Computers& computers, simulated::Storag
       costs_(setting.platform),
       self_(nodes),
       outward_(std::move(outward)),
-      file_bytes_(FrameCosts(setting).file_bytes()),
+      file_bytes_(FrameCosts(setting, nodes).file_bytes()),
       buffers_(memory.frames),
       free_buffers_(memory.frames, kNothing),
       groups_(plan.groups.size()),

@@ -107,13 +107,13 @@ farm::HostMemory host_memory(const farm::Plan& plan, const Setting& setting, int
 Rehearsal::Rehearsal(const FilmCounts& counts, const farm::Plan& plan, const Setting& setting, int nodes)
     : counts_(counts),
       plan_(plan),
-      costs_(setting),
+      costs_(setting, nodes),
       computers_(setting.platform.machine, nodes),
       routes_(setting.platform.machine.network, computers_.count(), computers_.of(nodes)),
       storage_(setting.platform.machine.storage, setting.platform.machine.network),
       nodes_write_(setting.nodes_write()),
       nodes_(static_cast<std::size_t>(nodes)),
-      result_{0, {}, 0, 0, 0, host_memory(plan, setting, nodes)},
+      result_{0, {}, 0, 0, 0, costs_.shadow_bytes(), 0, host_memory(plan, setting, nodes)},
       host_(
           clockwork_, computers_, storage_, plan, setting, result_.host_memory, nodes,
           {[this](std::size_t group, std::size_t task) { receive_task(group, task); },
@@ -128,6 +128,10 @@ Rehearsal::Rehearsal(const FilmCounts& counts, const farm::Plan& plan, const Set
     }
   }
   for (const TaskCounts& task : counts.tasks) host_.add_costs(costs_.host_costs(task, counts.keyframes[task.keyframe]));
+  for (const TaskCounts& task : counts.tasks)
+    if (!task.inbetweens.empty())
+      result_.still_memory = std::max(result_.still_memory,
+                                      costs_.still_bytes(counts.keyframes[task.keyframe], plan.groups.front().count));
   std::vector<FrameTotals> again;
   for (const wire::FrameCounts& keyframe : counts.keyframes)
     again.push_back(costs_.drawn_again(keyframe, plan.groups.front().count));

@@ -17,7 +17,9 @@ struct Rehearsed {
   std::vector<events::ExpectedFrame> frames;  // as they are composed, after the first command
   double bytes_to_nodes = 0;
   double bytes_to_host = 0;
-  double node_memory = 0;  // bytes of a node's arena, at most
+  double node_memory = 0;    // bytes of a node's arena, at most
+  double shadow_memory = 0;  // and for shadows
+  double still_memory = 0;   // of still lines, that machines keep for a group, at most
   farm::HostMemory host_memory;
 };
 

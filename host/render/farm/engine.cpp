@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -157,6 +158,12 @@ void Engine::send(const collectives::Group& nodes, long type, std::span<const st
 }
 
 std::uint64_t Engine::node_memory() const { return std::ranges::min(inbox_.hellos(), {}, &wire::Hello::memory).memory; }
+
+int Engine::nodes_together() const {
+  std::map<std::int32_t, int> nodes;
+  for (const wire::Hello& hello : inbox_.hellos()) ++nodes[hello.machine];
+  return std::ranges::max_element(nodes, {}, &std::pair<const std::int32_t, int>::second)->second;
+}
 
 double Engine::seconds() const { return dclock() - begun_; }
 

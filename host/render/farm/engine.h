@@ -100,6 +100,8 @@ class Engine {
   collectives::Group all() const { return {0, static_cast<int>(inbox_.hellos().size())}; }
   // Of a node, where none is asked for: that of the node with least.
   std::uint64_t node_memory() const;
+  // Of a machine, at most.
+  int nodes_together() const;
   void set_doing(const std::string& doing);
 
   double seconds() const;                                // since run() was called

@@ -26,12 +26,12 @@ namespace mars::farm {
 // Pictures are those of the sinks.
 struct FarmOptions : EngineOptions {
   wire::Mapping mapping = wire::Mapping::cost;
-  std::uint64_t memory = 0;                   // bytes on a node; 0: as the node with the least offers
-  std::optional<std::uint64_t> still_memory;  // bytes, as in NodeMemory; none: as share_node_memory says
-  bool each_frame = false;                    // report what is known of each frame, which grows with the film
-  bool adapts = false;                        // slow nodes get fewer inbetweens; long tasks are given in portions
-  watch::Watch* watch = nullptr;              // none: nobody watches; it ends before the film does
-  const Writing* writing = nullptr;           // none: the host composes all frames for the sinks
+  std::uint64_t memory = 0;          // bytes on a node; 0: as the node with the least offers
+  AskedMemory asked_memory;          // of parts of it
+  bool each_frame = false;           // report what is known of each frame, which grows with the film
+  bool adapts = false;               // slow nodes get fewer inbetweens; long tasks are given in portions
+  watch::Watch* watch = nullptr;     // none: nobody watches; it ends before the film does
+  const Writing* writing = nullptr;  // none: the host composes all frames for the sinks
 };
 
 struct FinishedFrame {

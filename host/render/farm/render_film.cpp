@@ -19,9 +19,10 @@ EngineOptions engine_options(const FarmOptions& farm, const sinks::SinkPool::Sha
 }
 
 NodeMemory node_memory(const FilmRun& run) {
-  const std::uint64_t asked = run.options.memory;
-  return share_node_memory(asked == 0 ? run.engine.node_memory() : asked, run.options.still_memory, run.film.settings(),
-                           run.film.casting_count());
+  const std::uint64_t bytes = run.options.memory == 0 ? run.engine.node_memory() : run.options.memory;
+  const shadow::ShadowNeeds shadows = shadow::shadow_needs(run.film);
+  if (!run.options.asked_memory.shadows) check_shadow_memory(bytes, shadows);
+  return share_node_memory(bytes, run.options.asked_memory, run.film.settings(), shadows, run.engine.nodes_together());
 }
 
 void let_nodes_write(const Writing& writing, const FilmRun& run, std::vector<GroupWork>& groups) {
@@ -40,6 +41,7 @@ bool load_film(std::span<const std::byte> film_block, const FilmRun& run, std::v
   load.groups = static_cast<std::int32_t>(run.plan.groups.size());
   load.memory = run.report.node_memory.frames;
   load.still_memory = run.report.node_memory.still;
+  load.shadow_memory = run.report.node_memory.shadows;
   const Writing* const writing = run.options.writing;
   const NodeInbox& inbox = run.engine.inbox();
   const bool nodes_write = writing != nullptr && (!writing->is_wanted || writing->is_wanted(inbox.hellos()));

@@ -30,7 +30,8 @@ ordered_json memory_json(const farm::NodeMemory& memory) {
           {"still", memory.still},
           {"still_line_bytes", memory.still_plan.line_bytes},
           {"still_groups", memory.still_plan.groups_per_column},
-          {"still_lines", memory.still_plan.lines}};
+          {"still_lines", memory.still_plan.lines},
+          {"shadows", memory.shadows}};
 }
 
 // What the furthest neighbours share across each dimension of the hypercube of all nodes.

@@ -102,12 +102,16 @@ void LiveWork::load_film() {
   film_block_ = std::exchange(next_film_, std::nullopt)->body;
   film_.emplace(film_block_, "the studio's film");
   const wire::FilmSettings& settings = film_->settings();
-  const farm::NodeMemory memory = farm::share_node_memory(engine_.node_memory(), std::nullopt, settings, 1);
+  shadow::ShadowNeeds shadows = shadow::shadow_needs(*film_);
+  shadows.casting = std::max(shadows.casting, 1u);
+  const std::uint64_t bytes = engine_.node_memory();
+  const farm::NodeMemory memory = farm::share_node_memory(bytes, {}, settings, shadows);
   still_memory_ = memory.still / kViewsAShare;
+  shadow_memory_ = memory.shadows / kViewsAShare;
   wire::Load load{};
   load.mapping = mapping_;
   load.groups = 1;
-  load.memory = memory.frames;
+  load.memory = bytes - memory.still - std::min(memory.shadows, bytes / 2);
   load.still_memory = memory.still;
   load.live = 1;
   engine_.load_film(film_block_, load);
@@ -138,8 +142,9 @@ void LiveWork::begin_scene(std::uint32_t number, View& view) {
       pictures_.begin_keyframe(number, request.head.picture, *view.interval, view.moving.are_all());
   const bool has_groups = view.interval->settings().samples > 1 || view.interval->casting_count() > 0;
   const std::uint64_t still = has_groups ? still_memory_ : 0;
-  farm::Engine::send(engine_.all(), wire::kBeginView,
-                     pictures::joined(wire::BeginView{number, picture, view.block.size(), still}, view.block));
+  farm::Engine::send(
+      engine_.all(), wire::kBeginView,
+      pictures::joined(wire::BeginView{number, picture, view.block.size(), still, shadow_memory_}, view.block));
 }
 
 // The inbetween that has waited longest, if a node is idle.

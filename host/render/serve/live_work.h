@@ -59,6 +59,7 @@ class LiveWork : public farm::WorkGiver {
   std::vector<std::byte> film_block_;
   std::optional<wire::PackedFilm> film_;  // that nodes have
   std::uint64_t still_memory_ = 0;        // of a node, for a view
+  std::uint64_t shadow_memory_ = 0;       // and for shadows
   std::map<std::uint32_t, View> views_;
   std::uint32_t requested_ = 0;  // the last picture
   std::size_t turn_ = 0;         // the node that is asked next whether it is idle

@@ -11,10 +11,12 @@
 #include <vector>
 
 #include "host/child/programs.h"
+#include "hal/messages/settings.h"
 #include "host/cli/command.h"
 #include "host/content/document/text.h"
 #include "host/experiments/forecast/forecast.h"
 #include "host/images/picture_format.h"
+#include "host/render/farm/node_memory.h"
 #include "host/render/session/session.h"
 #include "host/shell/job/film_of.h"
 #include "host/shell/options/render_options.h"
@@ -23,6 +25,7 @@
 namespace mars::commands {
 namespace {
 
+constexpr std::string_view kHere = "here";
 constexpr double kCounting = 0.7;  // seconds, about
 constexpr double kWorthIt = 1.05;  // times the shortest: more nodes than that takes are not worth it
 
@@ -39,7 +42,7 @@ struct Planned {
   std::vector<forecast::Forecast> by_nodes;   // ascending; the last has the nodes that were asked for
   std::vector<forecast::Forecast> otherwise;  // with files written by others, where that was compared
   double slots;                               // bytes of a node's strips
-  bool leaves_out_shadows = false;            // those of lights that have a size
+  double machine = 0;                         // bytes that all processes of the host's machine use
 
   // Of each number of nodes.
   void take_sooner() {
@@ -59,7 +62,7 @@ void warn(const std::string& line) { std::cerr << "mars: warning: " << line << '
 
 // Machines that would render: this one, which is calibrated first, unless the options name others.
 experiments::Platform platform_of(const options::RenderOptions& options, const NodesCode& code) {
-  constexpr std::string_view kHere = "here", kReference = "reference";
+  constexpr std::string_view kReference = "reference";
   const std::filesystem::path folder = experiments::platforms_folder(child::own_file());
   std::string name = options.platform.empty() ? std::string(kHere) : options.platform;
   const bool costs_of_here = name == kHere || name.ends_with(":here");
@@ -71,16 +74,33 @@ experiments::Platform platform_of(const options::RenderOptions& options, const N
   return experiments::read_platform(name, folder);
 }
 
-// Which are not counted (node/shadow_counter.h).
-bool has_soft_shadows(const wire::PackedFilm& film) {
-  return std::ranges::any_of(film.lights(),
-                             [](const wire::Light& light) { return light.casts == 1 && light.size > 0; });
+// Of the host and of the nodes beside it. Nodes of one machine have the memory of two frames.
+double machine_bytes(const Planned& planned, const film::CompiledFilm& film) {
+  constexpr double kProgram = 8 << 20;  // and MPI
+  constexpr double kOfSample = 8 + 44;  // of the line that is drawn
+  const forecast::Forecast& asked = planned.asked();
+  const wire::FilmSettings& settings = film.view().settings();
+  const int nodes = std::min(asked.nodes, planned.platform.machine.nodes);
+  const double groups = std::ceil(static_cast<double>(asked.groups) * nodes / asked.nodes);
+  const double line = kOfSample * settings.width * settings.samples;
+  const double slots = planned.slots + static_cast<double>(wire::kSlotBytes);  // and that of the next strip
+  const double node = asked.run.node_memory * (nodes > 1 ? 2 : 1) + asked.run.shadow_memory + slots + line + kProgram;
+  return nodes * node + groups * asked.run.still_memory + static_cast<double>(film.block().size()) +
+         static_cast<double>(asked.run.host_memory.most_bytes()) + kProgram;
+}
+
+// Of this machine, MARS_MEMORY is what a node has.
+std::uint64_t node_memory(const options::RenderOptions& options, const experiments::Platform& platform) {
+  const bool is_here = options.platform.empty() || options.platform == kHere;
+  return is_here ? messages::read_settings().memory.value_or(platform.memory) : platform.memory;
 }
 
 Planned plan(const options::RenderOptions& options, const NodesCode& code) {
   const film::CompiledFilm film = job::load_film_of(options, warn);
   const wire::PackedFilm view = film.view();
-  const experiments::Platform platform = platform_of(options, code);
+  experiments::Platform platform = platform_of(options, code);
+  platform.memory = node_memory(options, platform);
+  farm::check_shadow_memory(platform.memory, shadow::shadow_needs(view));
   const auto frames = options.frames.of_film(view.settings().frames);
   const std::vector<farm::Task> tasks = farm::make_tasks(view, frames, !options.no_coherence);
   const forecast::FilmCounts counts =
@@ -105,8 +125,8 @@ Planned plan(const options::RenderOptions& options, const NodesCode& code) {
   }
   // An interval says it, too.
   if (!platform.doubt.empty() && !planned.asked().spread) warn(experiments::doubt_text(platform));
-  planned.leaves_out_shadows = has_soft_shadows(view);
   planned.slots = planned.asked().run.host_memory.credits * static_cast<double>(wire::kSlotBytes);
+  planned.machine = machine_bytes(planned, film);
   return planned;
 }
 
@@ -150,11 +170,13 @@ std::string text_of(const Planned& planned) {
   text += document::formatted("seconds     %.4g", asked.seconds()) + " (" + interval_text(planned) + ")\n";
   if (!planned.platform.doubt.empty() && asked.spread)
     text += "            the interval is wide, for the calibration was noisy: " + planned.platform.doubt + "\n";
-  if (planned.leaves_out_shadows)
-    text += "            soft shadows are not in the forecast: the rendering takes longer\n";
   if (planned.files) text += files_text(planned) + "\n";
   text += document::formatted("node hours  %.3g\n", asked.node_hours());
   text += "a node      " + megabytes(run.node_memory) + " for a frame, " + megabytes(planned.slots) + " for strips\n";
+  if (run.shadow_memory > 0) text += "            " + megabytes(run.shadow_memory) + " for shadows\n";
+  text += "a machine   " + megabytes(planned.machine) + " with its nodes" +
+          (run.still_memory > 0 ? ", of which " + megabytes(run.still_memory) + " a group for still lines" : "") +
+          ", and the host\n";
   text += "the host    " + megabytes(static_cast<double>(run.host_memory.most_bytes())) + " at most\n";
   text += "messages    " + megabytes(run.bytes_to_nodes) + " between nodes, " + megabytes(run.bytes_to_host) +
           " to the host\n";
@@ -173,6 +195,8 @@ nlohmann::ordered_json json_of(const Planned& planned, const forecast::Forecast&
                                 {"seconds", forecast.seconds()},
                                 {"node_hours", forecast.node_hours()},
                                 {"node_memory", std::llround(forecast.run.node_memory)},
+                                {"shadow_memory", std::llround(forecast.run.shadow_memory)},
+                                {"still_memory", std::llround(forecast.run.still_memory)},
                                 {"host_memory", forecast.run.host_memory.most_bytes()},
                                 {"bytes_to_nodes", std::llround(forecast.run.bytes_to_nodes)},
                                 {"bytes_to_host", std::llround(forecast.run.bytes_to_host)}};
@@ -186,10 +210,10 @@ std::string json_text(const Planned& planned) {
   nlohmann::ordered_json all = json_of(planned, planned.asked());
   all["platform"] = planned.platform.name;
   if (!planned.platform.doubt.empty()) all["doubt"] = planned.platform.doubt;
-  if (planned.leaves_out_shadows) all["leaves_out"] = {"soft shadows"};
   all["counted"] = planned.counted;
   all["frames"] = planned.frames;
   all["slots"] = std::llround(planned.slots);
+  all["machine_memory"] = std::llround(planned.machine);
   all["best"] = json_of(planned, planned.best());
   for (const forecast::Forecast& each : planned.by_nodes) all["by_nodes"].push_back(json_of(planned, each));
   return all.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

@@ -47,20 +47,6 @@ std::uint32_t overlapping(const SmallBatches& b, std::uint32_t first, const Grid
   return found;
 }
 
-// How far a vector of triangles reaches before the plane near the points: at a corner, for both are planes.
-Floats highest_before(const SmallTriangles& t, std::uint32_t k, const PointVector& points) {
-  const Ints low_x = hn::Set(kInts, points.box.low_x), low_y = hn::Set(kInts, points.box.low_y);
-  const Floats per_x = constant(points.per_x), per_y = constant(points.per_y);
-  Floats highest = constant(-kFar);
-  for (int c = 0; c < 3; ++c) {
-    const Floats x = hn::ConvertTo(kFloats, hn::Sub(hn::Load(kInts, t.x[c] + k), low_x));
-    const Floats y = hn::ConvertTo(kFloats, hn::Sub(hn::Load(kInts, t.y[c] + k), low_y));
-    const Floats plane = hn::Add(hn::Mul(per_x, x), hn::Mul(per_y, y));
-    highest = hn::Max(highest, hn::Sub(hn::Load(kFloats, t.z[c] + k), plane));
-  }
-  return highest;
-}
-
 // Bits of the triangles whose bounds overlap the points' and that reach before the plane near them.
 std::uint32_t overlapping(const SmallTriangles& t, const PointVector& points) {
   const GridBox& box = points.box;
@@ -79,33 +65,100 @@ std::uint32_t overlapping(const SmallTriangles& t, const PointVector& points) {
   return found;
 }
 
+// Where a lane's triangle is before its point by more than both grids' rounding, and covers it. `inside`: lanes whose
+// points lie within their triangles' bounds, where no edge function overflows. Both come from arrays of lanes or from
+// one number for all of them.
+template <typename OfTriangle, typename OfPoint>
+hn::Mask<IntTag> covered(hn::Mask<IntTag> inside, const SmallTriangles& t, const PointVector& points,
+                         const OfTriangle& triangle, const OfPoint& point) {
+  const Ints x = point(points.x), y = point(points.y);
+  const Ints dx = hn::Sub(x, triangle(t.x[0])), dy = hn::Sub(y, triangle(t.y[0]));
+  const Floats there = hn::Add(hn::Add(triangle(t.z[0]), hn::Mul(hn::ConvertTo(kFloats, dy), triangle(t.per_y))),
+                               hn::Mul(hn::ConvertTo(kFloats, dx), triangle(t.per_x)));
+  const Floats z = point(points.z), size = points.has_place ? z : constant(1.0f);
+  const Floats bound = hn::Mul(point(points.error), hn::Add(triangle(t.slope), size));
+  inside = hn::And(inside, integers(hn::Gt(hn::Sub(there, z), bound)));
+  if (hn::AllFalse(kInts, inside)) return inside;
+  for (int e = 0; e < 3; ++e) {
+    const int to = e == 2 ? 0 : e + 1;
+    const Ints from_x = triangle(t.x[e]), from_y = triangle(t.y[e]);
+    const Ints function = cross(hn::Sub(triangle(t.x[to]), from_x), hn::Sub(triangle(t.y[to]), from_y),
+                                hn::Sub(x, from_x), hn::Sub(y, from_y));
+    inside = hn::And(inside, at_least(function, triangle(t.least[e])));
+  }
+  return inside;
+}
+
+struct OfLanes {  // from lane k on
+  std::uint32_t k;
+  Ints operator()(const std::int32_t* all) const { return hn::Load(kInts, all + k); }
+  Floats operator()(const float* all) const { return hn::Load(kFloats, all + k); }
+};
+
+struct OfOne {
+  std::uint32_t number;
+  Ints operator()(const std::int32_t* all) const { return hn::Set(kInts, all[number]); }
+  Floats operator()(const float* all) const { return constant(all[number]); }
+};
+
+template <typename OfTriangle, typename OfPoint>
+hn::Mask<IntTag> within_bounds(const SmallTriangles& t, const PointVector& points, const OfTriangle& triangle,
+                               const OfPoint& point) {
+  const Ints x = point(points.x), y = point(points.y);
+  const auto across = hn::And(at_least(x, triangle(t.low_x)), at_least(triangle(t.high_x), x));
+  return hn::And(across, hn::And(at_least(y, triangle(t.low_y)), at_least(triangle(t.high_y), y)));
+}
+
 // Bits of the points that are inside the triangle and behind it.
 std::uint32_t behind(const SmallTriangles& t, std::uint32_t n, const PointVector& points) {
   std::uint32_t found = 0;
   for (std::uint32_t k = 0; k < kPointLanes; k += kLanes) {
-    const Ints x = hn::Load(kInts, points.x + k), y = hn::Load(kInts, points.y + k);
-    // Most triangles have no point within their bounds; within these no edge function overflows.
-    auto inside = hn::And(at_least(x, hn::Set(kInts, t.low_x[n])), at_least(hn::Set(kInts, t.high_x[n]), x));
-    inside =
-        hn::And(inside, hn::And(at_least(y, hn::Set(kInts, t.low_y[n])), at_least(hn::Set(kInts, t.high_y[n]), y)));
-    if (hn::AllFalse(kInts, inside)) continue;
-    const Ints dx = hn::Sub(x, hn::Set(kInts, t.x[0][n])), dy = hn::Sub(y, hn::Set(kInts, t.y[0][n]));
-    const Floats there =
-        hn::Add(hn::Add(constant(t.z[0][n]), hn::Mul(hn::ConvertTo(kFloats, dy), constant(t.per_y[n]))),
-                hn::Mul(hn::ConvertTo(kFloats, dx), constant(t.per_x[n])));
-    const Floats z = hn::Load(kFloats, points.z + k), size = points.has_place ? z : constant(1.0f);
-    const Floats bound = hn::Mul(hn::Load(kFloats, points.error + k), hn::Add(constant(t.slope[n]), size));
-    inside = hn::And(inside, integers(hn::Gt(hn::Sub(there, z), bound)));
-    if (hn::AllFalse(kInts, inside)) continue;
-    for (int e = 0; e < 3; ++e) {
-      const int to = e == 2 ? 0 : e + 1;
-      const Ints function = cross(hn::Set(kInts, t.x[to][n] - t.x[e][n]), hn::Set(kInts, t.y[to][n] - t.y[e][n]),
-                                  hn::Sub(x, hn::Set(kInts, t.x[e][n])), hn::Sub(y, hn::Set(kInts, t.y[e][n])));
-      inside = hn::And(inside, at_least(function, hn::Set(kInts, t.least[e][n])));
-    }
-    found |= bits(kInts, inside) << k;
+    const OfOne triangle{n};
+    const OfLanes point{k};
+    const auto inside = within_bounds(t, points, triangle, point);
+    if (!hn::AllFalse(kInts, inside)) found |= bits(kInts, covered(inside, t, points, triangle, point)) << k;
   }
   return found;
+}
+
+// Whether the point is inside any of the triangles and behind it.
+bool is_behind_any(const SmallTriangles& t, std::uint32_t n, const PointVector& points) {
+  for (std::uint32_t k = 0; k < kPointLanes; k += kLanes) {
+    const OfLanes triangle{k};
+    const OfOne point{n};
+    const auto inside = within_bounds(t, points, triangle, point);
+    if (!hn::AllFalse(kInts, inside) && !hn::AllFalse(kInts, covered(inside, t, points, triangle, point))) return true;
+  }
+  return false;
+}
+
+// Bits of the open points within the bounds of batch n.
+std::uint32_t open_within(const SmallBatches& b, std::uint32_t n, const PointVector& points) {
+  std::uint32_t found = 0;
+  for (std::uint32_t k = 0; k < kPointLanes; k += kLanes) {
+    const Ints x = hn::Load(kInts, points.x + k), y = hn::Load(kInts, points.y + k);
+    const auto across = hn::And(at_least(x, hn::Set(kInts, b.low_x[n])), at_least(hn::Set(kInts, b.high_x[n]), x));
+    const auto along = hn::And(at_least(y, hn::Set(kInts, b.low_y[n])), at_least(hn::Set(kInts, b.high_y[n]), y));
+    const auto below = hn::Lt(hn::Load(kFloats, points.z + k), constant(b.high_z[n]));
+    found |= bits(kInts, hn::And(hn::And(across, along), integers(below))) << k;
+  }
+  return found & points.active & ~points.blocked;
+}
+
+// Takes whichever are fewer one by one, the triangles or the points.
+void block(const SmallBatches& batches, std::uint32_t number, PointVector& points) {
+  std::uint32_t open = open_within(batches, number, points);
+  if (open == 0) return;
+  const SmallTriangles& batch = batches.batch[number];
+  std::uint32_t before = overlapping(batch, points);
+  if (before == 0) return;
+  if (__builtin_popcount(open) < __builtin_popcount(before)) {
+    for (; open != 0; open &= open - 1)
+      if (is_behind_any(batch, static_cast<std::uint32_t>(__builtin_ctz(open)), points)) points.blocked |= open & -open;
+    return;
+  }
+  for (; before != 0 && (open & ~points.blocked) != 0; before &= before - 1)
+    points.blocked |= behind(batch, static_cast<std::uint32_t>(__builtin_ctz(before)), points) & points.active;
 }
 
 }  // namespace
@@ -205,6 +258,36 @@ std::uint32_t find(const BoxArrays& boxes, std::uint32_t first, std::uint32_t co
   return static_cast<std::uint32_t>(next - found);
 }
 
+// A place's height over the plane is rounded by less than kRounding times the numbers that it is the sum of.
+std::uint32_t find_below(const GridHull& hull, const Shaft& shaft, const PointVector* points, std::uint32_t* found,
+                         std::uint32_t found_count) {
+  constexpr float kRounding = 1.0f / (1 << 21);
+  std::uint32_t left = 0;
+  for (std::uint32_t i = 0; i < found_count; ++i) {
+    const PointVector& here = points[found[i]];
+    const float tilt = magnitude(here.per_x) + magnitude(here.per_y);
+    if (shaft.spread * tilt > kMostRise) {
+      found[left++] = found[i];
+      continue;
+    }
+    const Floats limit = constant(here.least + room(here, shaft) - hull.margin * tilt - hull.margin_z);
+    const Floats per_x = constant(here.per_x), per_y = constant(here.per_y);
+    bool reaches = false;
+    for (std::uint32_t k = 0; k < hull.count; k += kLanes) {
+      const Floats x = hn::ConvertTo(kFloats, hn::Sub(hn::Load(kInts, hull.x + k), hn::Set(kInts, here.box.low_x)));
+      const Floats y = hn::ConvertTo(kFloats, hn::Sub(hn::Load(kInts, hull.y + k), hn::Set(kInts, here.box.low_y)));
+      const Floats z = hn::Load(kFloats, hull.z + k), along_x = hn::Mul(per_x, x), along_y = hn::Mul(per_y, y);
+      const Floats size = hn::Add(hn::Add(hn::Abs(along_x), hn::Abs(along_y)), hn::Abs(z));
+      const Floats height = hn::Add(hn::Sub(z, hn::Add(along_x, along_y)), hn::Mul(size, constant(kRounding)));
+      const auto there = hn::FirstN(kFloats, hull.count - k);
+      reaches |= !hn::AllFalse(kFloats, hn::AndNot(hn::Lt(height, limit), there));
+    }
+    found[left] = found[i];
+    left += reaches;
+  }
+  return left;
+}
+
 static void fetch(const PointVector& points) {
   constexpr std::size_t kCacheLine = 64;
   for (std::size_t k = 0; k < sizeof points; k += kCacheLine)
@@ -219,13 +302,7 @@ void block(const SmallBatches& batches, PointVector* points, const std::uint32_t
     for (std::uint32_t first = 0; first < batches.count; first += kPointLanes) {
       const std::uint32_t rest = batches.count - first, all = rest < kPointLanes ? (1u << rest) - 1 : 0xffffu;
       std::uint32_t some = overlapping(batches, first, here.box) & all;
-      for (; some != 0; some &= some - 1) {
-        const SmallTriangles& batch = batches.batch[first + static_cast<std::uint32_t>(__builtin_ctz(some))];
-        for (std::uint32_t left = overlapping(batch, here); left != 0; left &= left - 1) {
-          if ((here.active & ~here.blocked) == 0) break;
-          here.blocked |= behind(batch, static_cast<std::uint32_t>(__builtin_ctz(left)), here) & here.active;
-        }
-      }
+      for (; some != 0; some &= some - 1) block(batches, first + static_cast<std::uint32_t>(__builtin_ctz(some)), here);
     }
   }
 }

@@ -23,6 +23,10 @@ std::uint32_t set_up(const LightView& view, const GridVertices& vertices, const 
                      const shape::Batch& batch, SmallBatches& out);
 std::uint32_t find(const BoxArrays& boxes, std::uint32_t first, std::uint32_t count, const GridBox& box, float spread,
                    std::uint32_t* found);
+std::uint32_t find_below(const GridHull& hull, const Shaft& shaft, const PointVector* points, std::uint32_t* found,
+                         std::uint32_t found_count);
+void touch(const SmallBatches& batches, const Shaft& shaft, const PointVector* points, const std::uint32_t* found,
+           std::uint32_t found_count, std::uint64_t& touching, std::uint8_t* touched);
 void block(const SmallBatches& batches, PointVector* points, const std::uint32_t* found, std::uint32_t found_count);
 
 // One bit a lane.
@@ -44,6 +48,28 @@ auto greatest(Tag tag, hn::Vec<Tag> lanes) {
 
 // a >= b, which Highway has for some sets alone.
 inline hn::Mask<IntTag> at_least(Ints a, Ints b) { return hn::Not(hn::Lt(a, b)); }
+
+inline float magnitude(float number) { return number < 0 ? -number : number; }
+
+// How far a vector of triangles reaches before the plane near the points: at a corner, for both are planes.
+inline Floats highest_before(const SmallTriangles& t, std::uint32_t k, const PointVector& points) {
+  const Ints low_x = hn::Set(kInts, points.box.low_x), low_y = hn::Set(kInts, points.box.low_y);
+  const Floats per_x = constant(points.per_x), per_y = constant(points.per_y);
+  Floats highest = constant(-kFar);
+  for (int c = 0; c < 3; ++c) {
+    const Floats x = hn::ConvertTo(kFloats, hn::Sub(hn::Load(kInts, t.x[c] + k), low_x));
+    const Floats y = hn::ConvertTo(kFloats, hn::Sub(hn::Load(kInts, t.y[c] + k), low_y));
+    const Floats plane = hn::Add(hn::Mul(per_x, x), hn::Mul(per_y, y));
+    highest = hn::Max(highest, hn::Sub(hn::Load(kFloats, t.z[c] + k), plane));
+  }
+  return highest;
+}
+
+// What of the room (point_vector.h) is certain for all points of the light.
+inline float room(const PointVector& points, const Shaft& shaft) {
+  const float part = points.room * shaft.room;
+  return part < points.room ? part : points.room;
+}
 
 inline hn::Mask<IntTag> integers(hn::Mask<FloatTag> mask) { return hn::RebindMask(kInts, mask); }
 inline hn::Mask<FloatTag> floats(hn::Mask<IntTag> mask) { return hn::RebindMask(kFloats, mask); }

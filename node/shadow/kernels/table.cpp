@@ -3,6 +3,6 @@
 namespace mars::shadow::MARS_SET {
 
 extern const ShadowKernels shadow_kernels;
-const ShadowKernels shadow_kernels = {project, put_points, set_up, find, block};
+const ShadowKernels shadow_kernels = {project, put_points, set_up, find, find_below, block, touch};
 
 }  // namespace mars::shadow::MARS_SET

@@ -43,7 +43,11 @@ def arguments(words=None):
     return parser.parse_args(words)
 
 
-def random_way(choose, mpi):
+def casts(path):
+    return any(light.get("shadow") for light in json.loads(path.read_text()).get("lights", []))
+
+
+def random_way(choose, mpi, film):
     """Options of mars render, and its environment."""
     nodes = choose.randint(1, 9)
     way = {"--backend": choose.choice(["threads", "threads", *(["mpi"] if mpi else [])]), "--nodes": str(nodes)}
@@ -59,7 +63,7 @@ def random_way(choose, mpi):
     if choose.random() < 0.6:
         environment["MARS_SIMD"] = choose.choice(["sse2", "sse4", "avx2", "avx512"])
     if choose.random() < 0.3:
-        environment["MARS_MEMORY"] = choose.choice(["1", "2", "8"])
+        environment["MARS_MEMORY"] = choose.choice(["24", "32"] if casts(film) else ["1", "2", "8"])  # shadows need some
     return way, environment
 
 
@@ -154,7 +158,7 @@ def examine(films, seed, options, mpi):
     choose = random.Random(f"ways of {seed}")
 
     def examined(name):
-        pixels, wrong = compare(films, path, [random_way(choose, mpi) for _ in range(options.ways - 1)])
+        pixels, wrong = compare(films, path, [random_way(choose, mpi, path) for _ in range(options.ways - 1)])
         print(f"{name:>8}  {pixels}  {described(json.loads(path.read_text()))}", flush=True)
         return pixels, wrong
 

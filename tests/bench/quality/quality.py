@@ -24,6 +24,7 @@ FINER = 4                    # reference pixels along a pixel's side
 MOST_RMS = {("demo", 16): 1.5}  # of 255, at 960x540
 SCENES = ["s1", "s1m", "s2", "s3"]
 DICED = ["demo", "visit", "meadow", "teapot"]
+PENUMBRA_FRAMES = 6
 FINEST = 256                 # quads along a patch's side
 MOST_BY_DICING = 0.05        # of 255, that adaptive dicing may add with several samples
 
@@ -42,9 +43,9 @@ def run(command, **options):
 class Film:
     """A film of the examples. `folder`: for what is made of it."""
 
-    def __init__(self, build, name, size, folder):
+    def __init__(self, build, name, size, folder, path=None):
         self.build, self.name, self.size, self.folder = build, name, size, folder
-        self.path = os.path.join(films.EXAMPLES, name + ".json")
+        self.path = path or os.path.join(films.EXAMPLES, name + ".json")
         if name in SCENES:
             self.path = films.save(films.load(name), os.path.join(folder, name + ".json"))
         with open(self.path) as file:
@@ -52,15 +53,16 @@ class Film:
         self.count = film["frames"]
         self.color = film.get("color", "linear")
 
-    def diced(self, rate):
-        """The same film with rate x rate quads a patch."""
+    def diced(self, rate=None):
+        """The same film with rate x rate quads a patch, or as finely as before. No light casts shadows: so many quads
+        would take long."""
         with open(self.path) as file:
-            film = json.load(file)
+            film = films.without_shadows(json.load(file))
         film["models"] = {name: os.path.join(films.EXAMPLES, model) if isinstance(model, str) else model
                           for name, model in film["models"].items()}
         other = copy.copy(self)
-        other.name = f"{self.name}-{rate}"
-        other.path = films.save({**film, "dice": rate}, os.path.join(self.folder, other.name + ".json"))
+        other.name = f"{self.name}-{rate or 'adaptive'}"
+        other.path = films.save({**film, "dice": rate} if rate else film, os.path.join(self.folder, other.name + ".json"))
         return other
 
     def shown(self):
@@ -119,9 +121,9 @@ def measure(film, samples):
 
 def measure_dicing(film, samples):
     """By samples, the distance of adaptively and of finely diced pictures to a finely diced reference."""
-    fine, frames = film.diced(FINEST), [film.count // 2]
+    plain, fine, frames = film.diced(), film.diced(FINEST), [film.count // 2]
     references = fine.references(frames)
-    return {s: [one.rms(one.render(s, frames), references)[0] for one in (film, fine)] for s in samples}
+    return {s: [one.rms(one.render(s, frames), references)[0] for one in (plain, fine)] for s in samples}
 
 
 def print_dicing(build, size, names, samples, folder):
@@ -134,6 +136,41 @@ def print_dicing(build, size, names, samples, folder):
             good &= s == 1 or adaptive - fine <= MOST_BY_DICING
     if not good:
         raise Trouble(f"adaptive dicing adds more than {MOST_BY_DICING} with several samples")
+
+
+def penumbra_film(wide):
+    """A bar over a floor that is seen from above, whose shadow has a penumbra `wide` pixels wide at 960x540, and moves by
+    0.4 pixels a frame."""
+    def box(low, high):
+        return {"joints": [{"name": "box", "segment": {"shape": "box", "sbb": [low, high], "material": "white"}}]}
+
+    return {
+        "frames": PENUMBRA_FRAMES, "size": [960, 540], "camera": {"eye": [0, -0.01, 40], "at": [0, 0, 0], "fov": 12},
+        "lights": [{"direction": [0.6, 0.2, 1], "shadow": True, "size": 14.25 * wide / 64}],
+        "materials": {"white": {"color": [1, 1, 1], "ambient": 0.1, "diffuse": 0.9, "specular": 0}},
+        "models": {"floor": box([-30, -30, -1], [30, 30, 0]), "bar": box([-1.5, -30, 0], [1.5, 30, 0.1])},
+        "actors": [{"name": "floor", "model": "floor"},
+                   {"name": "bar", "model": "bar",
+                    "keys": [{"frame": 0, "place": [0, 0, 4], "turn": [0, 0, 7]},
+                             {"frame": PENUMBRA_FRAMES - 1, "place": [0.0062 * (PENUMBRA_FRAMES - 1), 0, 4],
+                              "turn": [0, 0, 7]}]}]}
+
+
+def print_penumbra(build, size, samples, folder):
+    """How grainy a penumbra is, and how much more it changes from frame to frame than the reference does."""
+    print("penumbra, RMS of 255".ljust(28) + "".join(f"{s:>8}" for s in samples) + "  samples")
+    for wide in 16, 64:
+        path = films.save(penumbra_film(wide), os.path.join(folder, f"penumbra-{wide}.json"))
+        film = Film(build, f"penumbra-{wide}", size, folder, path)
+        frames = range(PENUMBRA_FRAMES)
+        references = film.references(frames)
+        pictures = {s: film.render(s, frames) for s in samples}
+        grain = [max(film.rms(pictures[s], references)) for s in samples]
+        due = film.rms(references[1:], references)
+        flicker = [max(film.rms(pictures[s][1:], pictures[s])) for s in samples]
+        print(f"  {wide} pixels: from reference".ljust(28) + "".join(f"{rms:8.2f}" for rms in grain))
+        print("    from frame to frame".ljust(28) + "".join(f"{rms:8.2f}" for rms in flicker) +
+              f"  (reference {max(due):.2f})", flush=True)
 
 
 def variation(lights):
@@ -180,6 +217,8 @@ def read_command_line():
     parser.add_argument("--build", required=True, help=argparse.SUPPRESS)
     parser.add_argument("--dicing", action="store_true",
                         help=f"compare adaptive dicing with {FINEST} x {FINEST} quads a patch instead; takes minutes")
+    parser.add_argument("--penumbra", action="store_true",
+                        help="measure the grain of penumbras 16 and 64 pixels wide, and how much it moves, instead")
     parser.add_argument("--films", type=names, help="of the examples (demo,s1,s3; with --dicing " + ",".join(DICED) + ")")
     parser.add_argument("--samples", type=numbers, help="(1,2,4,8,16; with --dicing 1,4,16)")
     parser.add_argument("--size", default="960x540", type=size, help="of the pictures")
@@ -193,6 +232,8 @@ def main():
         if wanted.dicing:
             return print_dicing(wanted.build, wanted.size, wanted.films or DICED, wanted.samples or [1, 4, 16], folder)
         samples = wanted.samples or [1, 2, 4, 8, 16]
+        if wanted.penumbra:
+            return print_penumbra(wanted.build, wanted.size, samples, folder)
         for name in wanted.films or ["demo", "s1", "s3"]:
             results.append(measure(Film(wanted.build, name, wanted.size, folder), samples))
             print_distances(results[-1])

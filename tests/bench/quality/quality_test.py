@@ -57,6 +57,14 @@ class Pictures(unittest.TestCase):
         self.assertLess(distances[4][0], distances[1][0] / 2)
         self.assertLess(distances[16][0], distances[4][0] * 0.7)
 
+    def test_penumbras_are_less_grainy_with_more_samples(self):
+        path = quality.films.save(quality.penumbra_film(32), self.file("penumbra.json"))
+        film = quality.Film(BUILD, "penumbra", SMALL, self.folder, path)
+        references = film.references([0])
+        grain = {s: film.rms(film.render(s, [0]), references)[0] for s in (1, 4)}
+        self.assertLess(grain[4], grain[1] * 0.8)
+        self.assertLess(grain[4], 4)
+
     def test_edges_crawl_less_with_more_samples(self):
         film = quality.Film(BUILD, "fan", [480, 270], self.folder)
         one, sixteen = (quality.variation(film.lights(samples)) for samples in (1, 16))

@@ -16,13 +16,16 @@
 #include "host/render/farm/farm.h"
 #include "host/render/trace/trace_file.h"
 #include "node/firmware.h"
+#include "node/shadow/shadow_plan.h"
+#include "node/wire/still_plan.h"
 #include "tests/hal/machines_backend.h"
 
 namespace mars::bench {
 namespace {
 
-// Bytes of all nodes together for a frame's triangles and edge boxes: enough for one pass.
-constexpr std::uint64_t kMemory = std::uint64_t{1} << 30;
+// Bytes of all nodes together for a frame's triangles and edge boxes, and of each at least where inbetweens are drawn,
+// each by one node: enough for one pass.
+constexpr std::uint64_t kMemory = std::uint64_t{1} << 30, kLeastMemory = std::uint64_t{64} << 20;
 
 struct Course {
   std::string film;
@@ -30,6 +33,16 @@ struct Course {
   int nodes_each;  // on a machine
   bool whole;
 };
+
+// Of a film with shadows: these take little, and all still lines are kept, on top of kMemory.
+farm::AskedMemory asked_memory(const wire::PackedFilm& film) {
+  const wire::FilmSettings& settings = film.settings();
+  if (film.casting_count() == 0) return {};
+  constexpr std::uint64_t kAll = std::uint64_t{1} << 40;
+  const auto still =
+      wire::plan_still_lines(settings.width, settings.height, settings.samples, kAll, film.casting_count());
+  return {still.bytes(), shadow::least_shadow_bytes(shadow::shadow_needs(film))};
+}
 
 farm::FarmReport render(const film::CompiledFilm& film, const Course& course) {
   const wire::FilmSettings& settings = film.view().settings();
@@ -40,6 +53,7 @@ farm::FarmReport render(const film::CompiledFilm& film, const Course& course) {
   work.groups = 1;
   farm::FarmOptions options;
   options.each_frame = true;
+  options.asked_memory = asked_memory(film.view());
   sinks::NullSink sink;
   sinks::SinkPool pool(sink, {settings.width, settings.height, 16, 3, 1});
   return farm::render_film(film.block(), farm::make_plan(film.view(), work, course.nodes), options, pool, {});
@@ -48,11 +62,15 @@ farm::FarmReport render(const film::CompiledFilm& film, const Course& course) {
 void count_messages(const Course& course, messages::Counts& counts) {
   const film::CompiledFilm film = film::load_film(course.film);
   messages::Machines machines(course.nodes_each);
+  const farm::AskedMemory more = asked_memory(film.view());
+  const std::uint64_t each = kMemory / static_cast<std::uint64_t>(course.nodes);
+  const std::uint64_t memory =
+      (course.whole ? each : std::max(each, kLeastMemory)) + more.still.value_or(0) + more.shadows.value_or(0);
   farm::FarmReport report;
   threads::run_threads(
       course.nodes, [&] { report = render(film, course); },
       [&] {
-        node::run_node({"", "", {}, kMemory / static_cast<std::uint64_t>(course.nodes), ""});
+        node::run_node({"", "", {}, memory, ""});
       },
       [&](messages::Backend& inner) { return std::make_unique<messages::MachinesBackend>(inner, counts, machines); });
   if (std::ranges::any_of(report.strips, [](const wire::Strip& strip) { return strip.work.passes > 1; }))

@@ -10,6 +10,7 @@ import tempfile
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "peers"))
 import films  # noqa: E402
 import messages_sent  # noqa: E402
+import shadow_traffic  # noqa: E402
 
 ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 KEYFRAMES = 2  # counted in each run, beside the first
@@ -77,7 +78,13 @@ def main():
     parser.add_argument("--each", nargs="+", default=["1", "4", "all"], help="nodes on each machine; default: 1 4 all")
     parser.add_argument("--mpi", type=int, nargs="+", default=[], metavar="NODES",
                         help="also this many nodes as MPI processes of this machine, by their trace")
+    parser.add_argument("--shadows", action="store_true",
+                        help="instead: what shadows add to s3s and demo")
+    parser.add_argument("--size", default="480x270", help="of pictures with --shadows; default: 480x270")
     wanted = parser.parse_args()
+    if wanted.shadows:
+        with tempfile.TemporaryDirectory() as folder:
+            return shadow_traffic.show(wanted.build, wanted.nodes, [int(side) for side in wanted.size.split("x")], folder)
     with tempfile.TemporaryDirectory() as folder:
         for scene in wanted.scenes:
             measure(scene, wanted, folder)

@@ -57,7 +57,7 @@ Message sound_render(bool listed, bool goes_on) {
 
 Message sound_view() {
   const Message block = wire::pack_scene(wire::small_scene());
-  Message message = message_of(wire::BeginView{1, 2, block.size(), 0});
+  Message message = message_of(wire::BeginView{1, 2, block.size(), 0, 0});
   message.insert(message.end(), block.begin(), block.end());
   return message;
 }

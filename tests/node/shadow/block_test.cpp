@@ -57,8 +57,7 @@ class OnGrid {
  public:
   OnGrid(const Grid& grid, const Mesh& mesh)
       : zeros_(grid.x.size()),
-        caster{{},
-               {zeros_.data(), zeros_.data(), zeros_.data()},
+        caster{{zeros_.data(), zeros_.data(), zeros_.data()},
                static_cast<std::uint32_t>(grid.x.size()),
                mesh.triangles()} {}
 
@@ -350,7 +349,7 @@ TEST(Block, AFanThatReachesBehindTheLightHasNoGap) {
       mesh.add(0, k + 1, (k + 1) % kRim + 1);
     }
     mesh.finish(1);
-    const Caster caster{{}, {axes[0].data(), axes[1].data(), axes[2].data()}, kRim + 1, mesh.triangles()};
+    const Caster caster{{axes[0].data(), axes[1].data(), axes[2].data()}, kRim + 1, mesh.triangles()};
     Grid grid(kRim + 1);
     shadow_kernels(simd::best_instruction_set("")).project(view, caster.place, kRim + 1, grid.vertices());
     cut += static_cast<std::size_t>(std::count(grid.x.begin(), grid.x.begin() + kRim + 1, kOffGrid));

@@ -69,16 +69,17 @@ TEST(LightViews, OfADirectionalLightWithSizeSeeItsDisc) {
     const double size = random.real(0.001, 0.5);
     const LightViews views = light_views(random_light(random, wire::LightKind::directional, size), kPicture);
     ASSERT_EQ(views.views.size(), kLightPoints);
-    const Vec3 axis = vector_of(views.middle.axis);
+    const Vec3 axis = vector_of(views.middle.front().axis);
     std::vector<std::array<double, 2>> disc;
     for (const LightView& view : views.views) {
       // What is on the way to a point of the disc is seen at one place.
       const Vec3 way = shape::cross(vector_of(view.u), vector_of(view.v));
       EXPECT_NEAR(dot(way, axis), 1, 1e-5);
-      disc.push_back({dot(way, vector_of(views.middle.u)) / size, dot(way, vector_of(views.middle.v)) / size});
+      disc.push_back(
+          {dot(way, vector_of(views.middle.front().u)) / size, dot(way, vector_of(views.middle.front().v)) / size});
     }
     expect_even(disc, 0.05);
-    EXPECT_NEAR(double{views.spread}, size * double{views.middle.per_step}, 1e-3 * double{views.spread});
+    EXPECT_NEAR(double{views.spread}, size * double{views.middle.front().per_step}, 1e-3 * double{views.spread});
   }
 }
 
@@ -150,8 +151,8 @@ TEST(LightViews, StepsFitTheFarthestPlaces) {
   const shape::Projection wide = shape::projection(4000, 3000, 2, 0.001, 1e6);
   const LightViews views = light_views(light, wide);
   const double farthest = double{wide.far} / double{wide.corner};
-  EXPECT_LE(farthest * double{views.middle.per_step}, 1 << 29);
-  EXPECT_GE(double{views.frame.grid}, 2 / double{views.middle.per_step} * 0.999);
+  EXPECT_LE(farthest * double{views.middle.front().per_step}, 1 << 29);
+  EXPECT_GE(double{views.frame.grid}, 2 / double{views.middle.front().per_step} * 0.999);
 }
 
 }  // namespace

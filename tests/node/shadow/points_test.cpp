@@ -164,7 +164,8 @@ TEST(Points, OfALayerAreThoseThatMatterAndAreNotedAtTheirPairs) {
               shadow_kernels(simd::best_instruction_set("")), views.frame, pattern, vectors, 1, point};
           Points points;
           points.clear();
-          add_points(source, std::span(views.views).subspan(point, 1), layer, {&points, 1});
+          for (const std::uint32_t tile : layer.tiles)
+            add_points(source, std::span(views.views).subspan(point, 1), layer, {tile, TilePart::kAll}, {&points, 1});
           points.finish();
           active += points.count();
           for (std::size_t v = 0; v < points.tree().count(); ++v)

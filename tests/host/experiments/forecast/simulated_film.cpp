@@ -1,6 +1,10 @@
 #include "tests/host/experiments/forecast/simulated_film.h"
 
+#include <gtest/gtest.h>
+
 #include <array>
+#include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "hal/nx/nx_messages.h"
 #include "hal/simulated/run_simulated.h"
@@ -14,18 +18,26 @@
 namespace mars::forecast {
 namespace {
 
-film::CompiledFilm small_film(const std::string& name, Files files) {
+film::CompiledFilm small_film(const std::string& name, Files files, const std::string& light_patch) {
   film::CompileOptions options;
   options.size = files == Files::none ? std::array<std::uint32_t, 2>{160, 90} : std::array<std::uint32_t, 2>{640, 360};
-  return film::load_film(std::string(MARS_SOURCE_DIR) + "/examples/" + name + ".json", options);
+  const std::string path = std::string(MARS_SOURCE_DIR) + "/examples/" + name + ".json";
+  if (light_patch.empty()) return film::load_film(path, options);
+  std::ifstream file(path);
+  nlohmann::json film = nlohmann::json::parse(file);
+  for (nlohmann::json& light : film["lights"])
+    if (light.contains("shadow")) light.merge_patch(nlohmann::json::parse(light_patch));
+  const std::string changed = testing::TempDir() + name + "-lit.json";
+  std::ofstream(changed) << film;
+  return film::load_film(changed, options);
 }
 
 }  // namespace
 
 SimulatedFilm::SimulatedFilm(const std::string& name, const std::string& frames, const std::string& platform,
-                             Files files)
+                             Files files, const std::string& light)
     : files_(files),
-      film_(small_film(name, files)),
+      film_(small_film(name, files, light)),
       platform_(experiments::read_platform(platform, std::string(MARS_SOURCE_DIR) + "/cluster/platforms")),
       tasks_(farm::make_tasks(view(), film::FrameSet(frames).of_film(view().settings().frames), true)),
       counts_(count_film(view(), tasks_, *programs::make_node_counter(view()), {10}, images::PictureFormat::png)) {}

@@ -15,9 +15,10 @@ enum class Files { none, host, nodes };
 
 class SimulatedFilm {
  public:
-  // Small pictures, of some frames; with files of several bands.
+  // Small pictures, of some frames; with files of several bands. `light` changes lights that
+  // cast shadows: a patch of JSON (RFC 7396).
   SimulatedFilm(const std::string& name, const std::string& frames, const std::string& platform,
-                Files files = Files::none);
+                Files files = Files::none, const std::string& light = "");
 
   wire::PackedFilm view() const { return film_.view(); }
   const std::vector<farm::Task>& tasks() const { return tasks_; }

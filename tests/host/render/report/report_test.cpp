@@ -70,7 +70,8 @@ TEST(Report, HasEveryFrameWithEveryNodeThatDrewIt) {
                                          {"still", 1 << 18},
                                          {"still_line_bytes", 3520},
                                          {"still_groups", 1},
-                                         {"still_lines", 54}}));
+                                         {"still_lines", 54},
+                                         {"shadows", 0}}));
   ASSERT_EQ(report["frames"].size(), 2u);
   const json& keyframe = report["frames"][0];
   EXPECT_EQ(keyframe["frame"], 0);
