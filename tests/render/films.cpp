@@ -245,7 +245,7 @@ wire::FilmData corner(std::uint32_t width, std::uint32_t height, std::uint32_t f
   FilmMaker maker(width, height, frames);
   const std::uint32_t box = maker.add_shape(modeler::make_box()), ball = maker.add_shape(modeler::make_sphere());
   const std::uint32_t clay = maker.add_material(kClay);
-  maker.add_segment(box, clay, {placed({-12, -12, -24}, 24)});
+  maker.add_segment(box, clay, {{{{{24, 0, 0, -12}, {0, 24, 0, -12}, {0, 0, 0.2, -0.2}}}}});
   std::vector<wire::Matrix> motion;
   for (std::uint32_t f = 0; f < frames; ++f) motion.push_back(placed({0.1 * f - 2.5, 1, 0}, 0.4));
   maker.add_segment(ball, clay, motion);
