@@ -166,20 +166,18 @@ std::span<const ChunkCaster> ShadowCaster::next_casters(const CasterStream::Matt
 void ShadowCaster::block(std::span<const ChunkCaster> casters, std::span<const LightView> views, Faces& faces) {
   for (std::size_t f = 0; f < views.size(); ++f) {
     if (faces[f].empty()) continue;
-    for (const ChunkCaster& caster : casters) {
-      const GridBox box = grid_.put(views[f], caster.hull);
-      if (views.size() == 1 || faces[f].tree().any(kernels_, box, 0)) block(*caster.surface, views[f], faces[f]);
-    }
+    for (const ChunkCaster& caster : casters) block(caster, views[f], faces[f]);
     look_();
   }
 }
 
-void ShadowCaster::block(const Caster& surface, const LightView& view, Points& points) {
-  const GridBox box = grid_.put(view, surface);
-  counts_.vertices += surface.vertices;
-  if (box.low_x > box.high_x) return;
-  const std::span<const std::uint32_t> found = grid_.find_below(box, kRay, points);
+void ShadowCaster::block(const ChunkCaster& caster, const LightView& view, Points& points) {
+  const std::span<const std::uint32_t> found = grid_.find_below(grid_.put(view, caster.hull), kRay, points);
   if (found.empty()) return;
+  const Caster& surface = *caster.surface;
+  counts_.vertices += surface.vertices;
+  const GridBox box = grid_.put(view, surface);
+  if (box.low_x > box.high_x) return;
   counts_.triangles += surface.triangles.count;
   grid_.visit_batches(
       view, surface,

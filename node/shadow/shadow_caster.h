@@ -96,7 +96,7 @@ class ShadowCaster {
               std::span<Faces* const> onto);
   std::span<const ChunkCaster> next_casters(const CasterStream::Matters& matters);
   void block(std::span<const ChunkCaster> casters, std::span<const LightView> views, Faces& faces);
-  void block(const Caster& surface, const LightView& view, Points& points);
+  void block(const ChunkCaster& caster, const LightView& view, Points& points);
 
   const ShadowKernels& kernels_;
   shape::SamplePattern pattern_;
