@@ -31,9 +31,11 @@ class GridCaster {
   std::span<std::uint32_t> find_below(const GridBox& box, const Shaft& shaft, Points& points);
 
   // Calls visit(batches, first) for the triangles of the surface, kMostBatches at a time, of which `first` is the
-  // number of the first batch; before, visit_large(triangle, batch) for those that are not small.
+  // number of the first batch; before, visit_large(triangle, batch) for those that are not small. Others that do not
+  // meet `where` may be left out.
   template <typename Visit, typename VisitLarge>
-  void visit_batches(const LightView& view, const Caster& surface, const Visit& visit, const VisitLarge& visit_large);
+  void visit_batches(const LightView& view, const Caster& surface, const GridBox& where, const Visit& visit,
+                     const VisitLarge& visit_large);
 
  private:
   const ShadowKernels& kernels_;
@@ -47,7 +49,7 @@ class GridCaster {
 };
 
 template <typename Visit, typename VisitLarge>
-void GridCaster::visit_batches(const LightView& view, const Caster& surface, const Visit& visit,
+void GridCaster::visit_batches(const LightView& view, const Caster& surface, const GridBox& where, const Visit& visit,
                                const VisitLarge& visit_large) {
   const shape::Triangles& triangles = surface.triangles;
   for (std::uint32_t first = 0; first < triangles.batch_count; first += kMostBatches) {
@@ -55,7 +57,7 @@ void GridCaster::visit_batches(const LightView& view, const Caster& surface, con
     small_->count = 0;
     for (std::uint32_t b = first; b < last; ++b) {
       const shape::Batch& batch = triangles.batches[b];
-      std::uint32_t large = kernels_.set_up(view, vertices_, triangles, batch, *small_);
+      std::uint32_t large = kernels_.set_up(view, vertices_, triangles, batch, where, *small_);
       for (; large != 0; large &= large - 1)
         visit_large(batch.first + static_cast<std::uint32_t>(std::countr_zero(large)), b);
     }

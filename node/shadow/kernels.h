@@ -80,10 +80,10 @@ struct ShadowKernels {
   // bit.
   void (*put_points)(const LightView& view, const PointFrame& frame, float left, float top, const LanePlaces& places,
                      const float* inverse_w, std::uint32_t active, PointVector& out);
-  // Sets up the triangles of a batch, the next of `out`; bits of those that are not small, which are left to the
-  // caller.
+  // Sets up the triangles of a batch, the next of `out`, whose bounds are empty where none meets `where`; bits of those
+  // that are not small, which are left to the caller.
   std::uint32_t (*set_up)(const LightView& view, const GridVertices& vertices, const shape::Triangles& triangles,
-                          const shape::Batch& batch, SmallBatches& out);
+                          const shape::Batch& batch, const GridBox& where, SmallBatches& out);
   // Of boxes [first, first + count), a multiple of kPointLanes, those with points that a caster within `box` may block,
   // where the grid's places of points of one light differ by `spread` (light_view.h). Their numbers go to `found`; says
   // how many.

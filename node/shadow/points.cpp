@@ -19,6 +19,8 @@ const GridBox kNowhere{std::numeric_limits<std::int32_t>::max(),
                        kFar,
                        -kFar};
 
+const GridBox kEverywhere{kNowhere.high_x, kNowhere.low_x, kNowhere.high_y, kNowhere.low_y, -kFar, kFar};
+
 GridBox around(const GridBox& a, const GridBox& b) {
   return {std::min(a.low_x, b.low_x),   std::max(a.high_x, b.high_x), std::min(a.low_y, b.low_y),
           std::max(a.high_y, b.high_y), std::min(a.low_z, b.low_z),   std::max(a.high_z, b.high_z)};

@@ -14,8 +14,8 @@
 
 namespace mars::shadow {
 
-// Round nothing, and round both.
-extern const GridBox kNowhere;
+// Round nothing, round all, and round both.
+extern const GridBox kNowhere, kEverywhere;
 GridBox around(const GridBox& a, const GridBox& b);
 
 // Boxes, boxes round sixteen of them each, and so on up to sixteen.

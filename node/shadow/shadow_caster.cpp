@@ -179,8 +179,10 @@ void ShadowCaster::block(const ChunkCaster& caster, const LightView& view, Point
   const GridBox box = grid_.put(view, surface);
   if (box.low_x > box.high_x) return;
   counts_.triangles += surface.triangles.count;
+  GridBox where = kNowhere;
+  for (const std::uint32_t vector : found) where = around(where, points.vectors()[vector].box);
   grid_.visit_batches(
-      view, surface,
+      view, surface, where,
       [&](const SmallBatches& batches, std::uint32_t) {
         kernels_.block(batches, points.vectors(), found.data(), static_cast<std::uint32_t>(found.size()));
       },

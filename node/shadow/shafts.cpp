@@ -9,7 +9,7 @@
 namespace mars::shadow {
 namespace {
 
-constexpr float kEverywhere = std::numeric_limits<float>::max();
+constexpr float kAnywhere = std::numeric_limits<float>::max();
 
 // Parts of a square that several faces found.
 void join_parts(std::vector<TilePart>& parts) {
@@ -34,7 +34,7 @@ ShaftReach reach_of(const LightViews& light, float high_z) {
   const LightView& view = light.middle.front();
   if (view.has_place == 0) return {{light.spread, light.size, 0.75f, 1, 2 / view.per_step, 0}, 0};
   const float r = light.size, depth = 1 / high_z;
-  if (depth < 2 * r) return {{light.spread, 2 * std::numbers::sqrt2_v<float> * r, 0.25f, 0.25f, 0, 1}, kEverywhere};
+  if (depth < 2 * r) return {{light.spread, 2 * std::numbers::sqrt2_v<float> * r, 0.25f, 0.25f, 0, 1}, kAnywhere};
   const float tangent = 1.001f * std::numbers::sqrt2_v<float> * r * depth / (depth - r);
   const float near = (r + view.nearest) * (std::numbers::sqrt3_v<float> * depth + r) / (depth - r) + r;
   return {{tangent * view.per_step, tangent, 0.25f, 0.25f, 0, 1}, 1.001f * near};
@@ -43,13 +43,13 @@ ShaftReach reach_of(const LightViews& light, float high_z) {
 bool is_near(const LightViews& light, std::size_t face, const ShaftReach& reach, const Hull& hull) {
   const LightView& view = light.middle[face];
   if (view.has_place == 0 || light.size == 0) return false;
-  float least = kEverywhere;  // depth
+  float least = kAnywhere;  // depth
   for (std::uint32_t k = 0; k < hull.count; ++k) {
     float depth = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) depth += view.axis[axis] * (hull.along[axis][k] - view.place[axis]);
     least = std::min(least, depth);
   }
-  if (least > 2 * view.nearest && reach.near < kEverywhere) return false;
+  if (least > 2 * view.nearest && reach.near < kAnywhere) return false;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto [low, high] = std::minmax_element(hull.along[axis], hull.along[axis] + hull.count);
     if (*low > view.place[axis] + reach.near || *high < view.place[axis] - reach.near) return false;
@@ -135,7 +135,7 @@ void Shafts::touch(const ChunkCaster& caster, std::size_t face, GridCaster& grid
   const std::span<std::uint32_t> below = grid.find_below(box, shaft, points);
   if (below.empty()) return;
   grid.visit_batches(
-      view, *caster.surface,
+      view, *caster.surface, kEverywhere,
       [&](const SmallBatches& batches, std::uint32_t first) {
         kernels_.touch(batches, shaft, points.vectors(), below.data(), static_cast<std::uint32_t>(below.size()),
                        batches_[first / kMostBatches], touched_[face].data());

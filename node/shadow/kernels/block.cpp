@@ -164,7 +164,7 @@ void block(const SmallBatches& batches, std::uint32_t number, PointVector& point
 }  // namespace
 
 std::uint32_t set_up(const LightView& view, const GridVertices& vertices, const shape::Triangles& triangles,
-                     const shape::Batch& batch, SmallBatches& batches) {
+                     const shape::Batch& batch, const GridBox& where, SmallBatches& batches) {
   SmallTriangles& out = batches.batch[batches.count];
   constexpr std::int32_t kMost = kMostSteps;
   const Ints none = hn::Zero(kInts), off = hn::Set(kInts, kOffGrid);
@@ -182,6 +182,14 @@ std::uint32_t set_up(const LightView& view, const GridVertices& vertices, const 
     const auto small =
         hn::And(on, hn::And(at_least(most, hn::Sub(high_x, low_x)), at_least(most, hn::Sub(high_y, low_y))));
     large |= bits(kInts, hn::AndNot(small, there)) << k;
+    const auto meets =
+        hn::And(hn::And(at_least(high_x, hn::Set(kInts, where.low_x)), at_least(hn::Set(kInts, where.high_x), low_x)),
+                hn::And(at_least(high_y, hn::Set(kInts, where.low_y)), at_least(hn::Set(kInts, where.high_y), low_y)));
+    if (hn::AllFalse(kInts, hn::And(meets, hn::And(small, there)))) {
+      hn::Store(hn::Set(kInts, kMost), kInts, out.low_x + k);
+      hn::Store(hn::Set(kInts, -kMost), kInts, out.high_x + k);
+      continue;
+    }
     Ints x1 = hn::Sub(b.x, a.x), y1 = hn::Sub(b.y, a.y), x2 = hn::Sub(c.x, a.x), y2 = hn::Sub(c.y, a.y);
     const Ints area = hn::IfThenElseZero(small, cross(x1, y1, x2, y2));
     const auto turned = hn::Lt(area, none);

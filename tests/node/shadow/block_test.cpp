@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "node/shadow/block_plainly.h"
+#include "node/shadow/points.h"
 #include "tests/node/shadow/views.h"
 #include "tests/node/simd/instruction_sets.h"
 
@@ -40,7 +41,8 @@ std::uint32_t block(simd::InstructionSet set, Grid& grid, const Mesh& mesh, cons
                     std::vector<PointVector>& points, const LightView& view = kFromAfar) {
   static SmallBatches small;
   small.count = 0;
-  const std::uint32_t large = shadow_kernels(set).set_up(view, grid.vertices(), mesh.triangles(), batch, small);
+  const std::uint32_t large =
+      shadow_kernels(set).set_up(view, grid.vertices(), mesh.triangles(), batch, kEverywhere, small);
   const auto all = all_of(points);
   shadow_kernels(set).block(small, points.data(), all.data(), static_cast<std::uint32_t>(all.size()));
   return large;

@@ -121,7 +121,7 @@ class ShaftsOfLights : public testing::TestWithParam<simd::InstructionSet> {
     const GridBox box = grid_.put(view, *caster.surface);
     const auto found = grid_.find_below(box, kRay, points);
     grid_.visit_batches(
-        view, *caster.surface,
+        view, *caster.surface, kEverywhere,
         [&](const SmallBatches& batches, std::uint32_t) {
           kernels_.block(batches, points.vectors(), found.data(), static_cast<std::uint32_t>(found.size()));
         },
