@@ -12,15 +12,6 @@ namespace {
 // (r + nearest) (2 sqrt(3) + 1) + r where it leaves the middle's view.
 constexpr float kNearPoints = 2, kNearCasters = 6, kNearest = 5;
 
-// Near a far light's point, two views differ by the rounding of their grids. In views of places at least two sizes away
-// a difference of 1 / depth is a quarter of the middle's at least.
-Shaft shaft_of(const LightViews& light) {
-  const LightView& view = light.middle.front();
-  const float tangent = light.spread / view.per_step;
-  if (view.has_place != 0) return {light.spread, tangent, 0.25f, 0.25f, 0, 1};
-  return {light.spread, tangent, 0.75f, 1, 2 / view.per_step, 0};
-}
-
 // Parts of a square that several faces found.
 void join_parts(std::vector<TilePart>& parts) {
   std::ranges::sort(parts, {}, &TilePart::tile);
@@ -34,6 +25,15 @@ void join_parts(std::vector<TilePart>& parts) {
 }
 
 }  // namespace
+
+// Near a far light's point, two views differ by the rounding of their grids. In views of places at least two sizes away
+// a difference of 1 / depth is a quarter of the middle's at least.
+Shaft shaft_of(const LightViews& light) {
+  const LightView& view = light.middle.front();
+  const float tangent = light.spread / view.per_step;
+  if (view.has_place != 0) return {light.spread, tangent, 0.25f, 0.25f, 0, 1};
+  return {light.spread, tangent, 0.75f, 1, 2 / view.per_step, 0};
+}
 
 void Shafts::begin(const LightViews& light, const PointSource& source, std::uint32_t pairs_a_sample,
                    std::span<Layer* const> layers) {

@@ -22,6 +22,9 @@ struct Touched {
   std::vector<std::vector<TilePart>> parts;  // by layer
 };
 
+// Towards a light that has a size.
+Shaft shaft_of(const LightViews& light);
+
 class Shafts {
  public:
   explicit Shafts(const ShadowKernels& kernels) : kernels_(kernels) {}
