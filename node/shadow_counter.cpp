@@ -83,6 +83,7 @@ void ShadowCounter::add_light(const geometry::EyeLight& light, const geometry::S
   for (std::uint32_t k = 0; k < counted; ++k) {
     const std::uint32_t point = (2 * k + 1) * views.points / (2 * counted);
     const auto of_point = std::span(views.views).subspan(std::size_t{point} * views.faces, views.faces);
+    added.counted_points.push_back(point);
     added.counted.insert(added.counted.end(), of_point.begin(), of_point.end());
   }
 }
@@ -142,14 +143,28 @@ void ShadowCounter::add_stretch(Light& light, Casting seen, const SeenLine& line
   for (std::uint32_t from = 0; from < kColumns; from += kSquare) {
     const std::uint32_t some = active & ((1u << kSquare) - 1) << from;
     const double part = active != 0 ? std::popcount(some) / static_cast<double>(std::popcount(active)) : 0;
-    const auto on = [&](const shadow::LightView& view, double of_view) {
-      return stretch_on(view, light.views.frame, {line.number, first, some, inverse_w, points * part * of_view});
+    const auto on = [&](const shadow::LightView& view, std::uint32_t lanes) {
+      return stretch_on(view, light.views.frame, {line.number, first, lanes, inverse_w, points * part});
     };
     for (std::size_t view = 0; view < light.counted.size(); ++view)
-      light.seen[number(seen)][view].all.push_back(on(light.counted[view], light.points_each / light.views.points));
+      light.seen[number(seen)][view].all.push_back(
+          on(light.counted[view], some & using_point(light, view, first, line.number)));
     for (std::size_t face = 0; light.has_size() && face < light.views.middle.size(); ++face)
-      light.seen_by_middle[number(seen)][face].all.push_back(on(light.views.middle[face], 1));
+      light.seen_by_middle[number(seen)][face].all.push_back(on(light.views.middle[face], some));
   }
+}
+
+// Columns whose pixels use the point of a counted view.
+std::uint32_t ShadowCounter::using_point(const Light& light, std::size_t view, std::uint32_t first,
+                                         std::uint32_t line) const {
+  constexpr std::uint32_t kAll = 0xffffffff;
+  if (!light.has_size()) return kAll;
+  const std::uint32_t point = light.counted_points[view / light.views.faces];
+  std::uint32_t columns = 0;
+  for (std::uint32_t k = 0; k < kColumns; ++k)
+    for (std::uint32_t pair = 0; pair < shadow::kPairs; ++pair)
+      columns |= static_cast<std::uint32_t>(shadow::point_of_pair(first + k, line, pair) == point) << k;
+  return columns;
 }
 
 ShadowCounter::Stretch ShadowCounter::stretch_on(const shadow::LightView& view, const shadow::PointFrame& frame,
@@ -206,7 +221,7 @@ void ShadowCounter::scale_points(Casting seen, wire::SeenCounts wire::LineCounts
   double once = 0, put = 0;
   for (const Light& light : lights_) {
     double points = 0;
-    for (const Stretches& stretches : light.seen[number(seen)])
+    for (const Stretches& stretches : (light.has_size() ? light.seen_by_middle : light.seen)[number(seen)])
       for (const Stretch& stretch : stretches.all) points += stretch.points;
     once += points;
     put += light.has_size() ? light.put[number(seen)] : points;

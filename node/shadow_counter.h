@@ -75,6 +75,7 @@ class ShadowCounter {
     geometry::EyeLight light;
     shadow::LightViews views;
     std::vector<shadow::LightView> counted{};                // of one point, or of some that stand for all
+    std::vector<std::uint32_t> counted_points{};             // their numbers
     double points_each = 1;                                  // of the light, for which each of them stands
     std::array<std::vector<Stretches>, 2> seen{};            // by Casting, then by counted view
     std::array<std::vector<Stretches>, 2> seen_by_middle{};  // of a light with size, by Casting and face
@@ -102,6 +103,7 @@ class ShadowCounter {
   void add_stretch(Light& light, Casting seen, const SeenLine& line, std::uint32_t first, std::uint32_t active,
                    double points);
   void add_light(const geometry::EyeLight& light, const geometry::Scene& scene);
+  std::uint32_t using_point(const Light& light, std::size_t view, std::uint32_t first, std::uint32_t line) const;
   Stretch stretch_on(const shadow::LightView& view, const shadow::PointFrame& frame, const SeenStretch& seen) const;
   void finish(Stretches& stretches);
   void count_casters(const geometry::Scene& scene, Light& light, Casting casting, std::span<const Casting> onto,
