@@ -410,11 +410,15 @@ ShadowCounter::Reach ShadowCounter::reach_of(const shadow::Hull& hull, Light& li
   return reach;
 }
 
-// Adds those of points that may be behind a caster within the box.
+// Adds those of points that may be behind a caster within the box, and the others of their squares.
 void ShadowCounter::extend(Stretches& stretches, const GridBox& box, float spread, Lines& lines) {
   if (is_empty(box)) return;
-  for (const std::uint32_t stretch : stretches.points.tree().find(kernels_, box, spread, found_))
-    if (stretch < stretches.all.size()) lines.add(stretches.all[stretch].line);
+  for (const std::uint32_t stretch : stretches.points.tree().find(kernels_, box, spread, found_)) {
+    if (stretch >= stretches.all.size()) continue;
+    const std::uint32_t line = stretches.all[stretch].line, top = line / shadow::kTile * shadow::kTile;
+    lines.add(top);
+    lines.add(std::max(line, top + shadow::kTile - std::min(step_, shadow::kTile)));
+  }
 }
 
 }  // namespace mars::node
