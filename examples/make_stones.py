@@ -172,10 +172,10 @@ def film():
     return {
         "frames": 48, "rate": 24, "size": [960, 540], "background": [0.70, 0.80, 0.90],
         "camera": {"eye": [0.5, -11, 4.4], "at": [0, 0.6, 0.9], "fov": 36},
-        "ambient": {"sky": [0.78, 0.88, 1.0], "ground": [0.50, 0.52, 0.40]},
-        "lights": [{"direction": [0.6, -0.6, 0.7], "color": [1, 0.95, 0.86], "intensity": 1.5},
-                   {"direction": [-0.8, -0.3, 0.4], "color": [0.75, 0.85, 1.0], "intensity": 0.3},
-                   {"direction": [-0.4, 0.6, 0.8], "color": [1, 0.95, 0.88], "intensity": 0.4}],
+        "ambient": {"sky": [0.78, 0.88, 1.0], "ground": [0.62, 0.65, 0.50]},
+        "lights": [{"direction": [0.6, -0.6, 0.7], "color": [1, 0.95, 0.86], "intensity": 1.6, "shadow": True},
+                   {"direction": [-0.8, -0.3, 0.4], "color": [0.75, 0.85, 1.0], "intensity": 0.45},
+                   {"direction": [-0.4, 0.6, 0.8], "color": [1, 0.95, 0.88], "intensity": 0.25}],
         "materials": {"ball": glazed([0.72, 0.28, 0.32])},
         "models": {name: f"models/{name}.json" for name in ("landscape", "rock", "pebble", "star", "house")} | {
             "ball": {"joints": [{"name": "ball", "segment": {"shape": "sphere", "sbb": [[-0.55, -0.55, 0], [0.55, 0.55, 1.1]],

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "node/geometry/scene.h"
+#include "node/geometry/sweep.h"
 #include "node/group/exchange.h"
 #include "node/group/group_sums.h"
 #include "node/group/still_exchange.h"
@@ -39,6 +40,7 @@ struct Canvas {
   group::StillExchange still_exchange;
 
   // Of the current interval.
+  geometry::Sweep sweep;                  // empty where moving parts may be anywhere
   std::vector<std::uint8_t> contributes;  // 1: the node draws inbetweens; by nodes of the group
 
   // Of the current frame, by line.

@@ -34,11 +34,21 @@ void FilmFrames::render(const wire::RenderCommand& command) {
 // Inbetweens that are left may come to any node.
 void FilmFrames::begin_interval(const wire::RenderCommand& command) {
   canvas_.scene.set_interval(command.render.interval);
-  canvas_.still.begin_interval(command.render.interval,
-                               canvas_.scene.moving_line_bounds(command.frames.subspan(1), boxes_));
+  begin_still(command);
   std::ranges::fill(canvas_.contributes, static_cast<std::uint8_t>(command.left().empty() ? 0 : 1));
   for (std::size_t k = 0; k < command.inbetweens().size(); ++k)
     canvas_.contributes[static_cast<std::size_t>(command.contributor(k))] = 1;
+}
+
+// The keyframe keeps what inbetweens may change. Where shadows of moving parts may be, homes of lines mark when they
+// see what stands still.
+void FilmFrames::begin_still(const wire::RenderCommand& command) {
+  raster::StillMarks& marks = canvas_.still.marks();
+  marks.clear();
+  const auto frames = command.frames.size() > 1 ? command.frames : std::span<const std::uint32_t>();
+  canvas_.sweep.begin(canvas_.scene, frames, boxes_,
+                      [&](const geometry::PictureBounds& bounds) { marks.mark(bounds.lines, bounds.columns); });
+  canvas_.still.begin_interval(command.render.interval, canvas_.sweep.lines());
 }
 
 void FilmFrames::draw_inbetweens(const wire::RenderCommand& command) {

@@ -21,6 +21,7 @@ class FilmFrames {
 
  private:
   void begin_interval(const wire::RenderCommand& command);
+  void begin_still(const wire::RenderCommand& command);
   void draw_inbetweens(const wire::RenderCommand& command);
 
   Renderer& renderer_;

@@ -19,6 +19,7 @@ double share_of(double part, double whole) { return whole > 0 ? part / whole : 0
 FrameCounter::FrameCounter(const wire::PackedFilm& film, simd::InstructionSet set)
     : scene_(film),
       boxes_(film),
+      marks_(film.settings().width, film.settings().height),
       tessellator_(set),
       kernels_(raster::raster_kernels(set)),
       step_(std::max(1u, film.settings().height / kSampledLines)),
@@ -38,7 +39,13 @@ FrameCounter::FrameCounter(const wire::PackedFilm& film, simd::InstructionSet se
 wire::FrameCounts FrameCounter::count_keyframe(std::uint32_t interval, std::span<const std::uint32_t> frames) {
   scene_.set_interval(interval);
   wire::FrameCounts counts = count(wire::FrameKind::keyframe, frames.front());
-  const geometry::LineRange still = scene_.moving_line_bounds(frames.subspan(1), boxes_);
+  marks_.clear();
+  sweep_.begin(scene_, frames.size() > 1 ? frames : frames.first(0), boxes_,
+               [this](const geometry::PictureBounds& bounds) { marks_.mark(bounds.lines, bounds.columns); });
+  if (shadows_) shadows_->mark_shaded(scene_, sweep_, marks_);
+  const geometry::LineRange still = sweep_.lines();
+  for (std::uint32_t line = still.first; line < still.last; ++line)
+    counts.lines[line].kept_width = raster::count_columns(marks_.on(line), scene_.film().settings().width);
   counts.first_still_line = still.first;
   counts.last_still_line = still.last;
   return counts;
@@ -57,7 +64,10 @@ wire::FrameCounts FrameCounter::count(wire::FrameKind kind, std::uint32_t frame)
   std::ranges::fill(loads_, raster::LineLoad());
   std::ranges::fill(moving_loads_, raster::LineLoad());
   std::ranges::fill(moving_columns_, Columns());
-  wire::FrameCounts counts{kind, frame, {}, std::vector<wire::LineCounts>(loads_.size())};
+  wire::FrameCounts counts;
+  counts.kind = kind;
+  counts.frame = frame;
+  counts.lines.resize(loads_.size());
   for (std::uint32_t share = 0; share < wire::kCountedShares; ++share)
     counts.shares.push_back(count_share(share, keyframe));
   for (std::size_t line = 0; line < loads_.size(); ++line) {

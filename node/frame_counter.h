@@ -11,8 +11,10 @@
 
 #include "hal/messages/private_memory.h"
 #include "node/geometry/scene.h"
+#include "node/geometry/sweep.h"
 #include "node/raster/kernels.h"
 #include "node/raster/line_load.h"
+#include "node/raster/still_marks.h"
 #include "node/shadow_counter.h"
 #include "node/tessellator.h"
 #include "node/wire/frame_counts.h"
@@ -59,6 +61,8 @@ class FrameCounter {
 
   geometry::Scene scene_;
   const geometry::ShapeBoxes boxes_;
+  geometry::Sweep sweep_;  // of the interval
+  raster::StillMarks marks_;
   Tessellator tessellator_;
   const raster::RasterKernels& kernels_;
   const std::uint32_t step_;    // one of `step_` lines is sampled

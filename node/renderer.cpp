@@ -309,7 +309,7 @@ void Renderer::charge_seen(const geometry::LineRange& lines, const raster::Drawn
 }
 
 shadow::Picture Renderer::picture(const shading::Shading& shading) const {
-  return {scene(), shading, parts_, canvas_->still, report_.is_keyframe()};
+  return {scene(), canvas_->sweep, shading, parts_, canvas_->still, report_.is_keyframe()};
 }
 
 void Renderer::finish_exchange(const group::Pass& pass) {

@@ -49,6 +49,7 @@ ShadowCounter::ShadowCounter(const geometry::Scene& scene, simd::InstructionSet 
       is_needed_(scene.film().patch_instances()),
       casters_(set),
       stretches_((static_cast<std::uint32_t>(scene.width()) + kColumns - 1) / kColumns * (kColumns / kSquare)),
+      height_(static_cast<std::uint32_t>(scene.height())),
       grid_(kernels_) {}
 
 // In an inbetween the still points are those of its keyframe.
@@ -86,6 +87,14 @@ void ShadowCounter::add_light(const geometry::EyeLight& light, const geometry::S
     added.counted_points.push_back(point);
     added.counted.insert(added.counted.end(), of_point.begin(), of_point.end());
   }
+}
+
+template <typename Hull>
+GridBox ShadowCounter::project(const shadow::LightView& view, const Hull& hull) {
+  const float* const along[] = {hull.along[0], hull.along[1], hull.along[2]};
+  std::int32_t x[2 * kColumns], y[2 * kColumns];
+  float z[2 * kColumns];
+  return kernels_.project(view, along, hull.count, {x, y, z});
 }
 
 // As shading decides whether it adds anything, but for what is beyond a light's reach.
@@ -230,6 +239,19 @@ void ShadowCounter::scale_points(Casting seen, wire::SeenCounts wire::LineCounts
   for (wire::LineCounts& line : lines) (line.*of).points *= put / once;
 }
 
+// All where it is not known what may be before a light's points.
+void ShadowCounter::mark_shaded(const geometry::Scene& scene, const geometry::Sweep& sweep, raster::StillMarks& marks) {
+  if (sweep.casters().empty()) return;
+  if (!std::ranges::all_of(lights_, &Light::has_bounds)) return marks.mark_all();
+  const auto mark = [&](const Stretch& stretch, std::size_t number) {
+    const auto first = static_cast<std::uint32_t>(number % stretches_) * kSquare;
+    marks.mark({stretch.line, std::min(stretch.line + step_, static_cast<std::uint32_t>(scene.height()))},
+               {first, std::min(first + kSquare, static_cast<std::uint32_t>(scene.width()))});
+  };
+  for (Light& light : lights_)
+    for (const geometry::SweptHull& caster : sweep.casters()) visit_shaded(light, caster, mark);
+}
+
 // Of lights without size, still points on stretches that moving casters may keep from any light: on all, where that is
 // not known of a light. Of others, those that shafts found.
 double ShadowCounter::count_kept(const geometry::Scene& scene) {
@@ -253,25 +275,34 @@ double ShadowCounter::count_kept(const geometry::Scene& scene) {
 }
 
 void ShadowCounter::find_shaded(const geometry::Scene& scene, Light& light) {
-  const std::size_t kind = number(Casting::still);
   casters_.visit_hulls(scene, Casting::moving, [&](const shadow::Hull& hull) {
-    if (light.has_size())
-      return mark_shaded(light.views.middle.front(), hull, light.views.spread, light.seen_by_middle[kind].front());
-    for (std::size_t view = 0; view < light.counted.size(); ++view)
-      mark_shaded(light.counted[view], hull, 0, light.seen[kind][view]);
+    visit_shaded(light, hull, [this](const Stretch&, std::size_t stretch) { is_shaded_[stretch] = 1; });
   });
 }
 
-void ShadowCounter::mark_shaded(const shadow::LightView& view, const shadow::Hull& hull, float spread,
-                                Stretches& still) {
-  const GridBox box = grid_.put(view, hull);
+// Calls visit(stretch, number) for still stretches with points that a caster within the hull may block.
+template <typename Hull, typename Visit>
+void ShadowCounter::visit_shaded(Light& light, const Hull& hull, const Visit& visit) {
+  std::vector<Stretches>& still = light.seen[number(Casting::still)];
+  if (light.has_size())
+    return visit_shaded(light.views.middle.front(), hull, light.views.spread,
+                        light.seen_by_middle[number(Casting::still)].front(), visit);
+  for (std::size_t view = 0; view < light.counted.size(); ++view)
+    visit_shaded(light.counted[view], hull, 0, still[view], visit);
+}
+
+template <typename Hull, typename Visit>
+void ShadowCounter::visit_shaded(const shadow::LightView& view, const Hull& hull, float spread, Stretches& still,
+                                 const Visit& visit) {
+  const GridBox box = project(view, hull);
   if (is_empty(box)) return;
-  for (const std::uint32_t stretch : still.points.tree().find(kernels_, box, spread, found_))
-    if (stretch < is_shaded_.size()) is_shaded_[stretch] = 1;
+  for (const std::uint32_t found : still.points.tree().find(kernels_, box, spread, found_))
+    if (found < still.all.size()) visit(still.all[found], found);
 }
 
 void ShadowCounter::count_casters(const geometry::Scene& scene, Light& light, Casting casting,
                                   std::span<const Casting> onto, wire::FrameCounts& counts) {
+  find_reach(light, onto);
   std::vector<Reach> reaches;  // of the chunk's casters
   const auto matters = [&](const shadow::Hull& hull) {
     const Reach reach = reach_of(hull, light, onto);
@@ -293,6 +324,18 @@ void ShadowCounter::count_casters(const geometry::Scene& scene, Light& light, Ca
                                 diced_by(chunk[i], casting), vertices, vertices * views, triangles * behind});
     }
     reaches.clear();
+  }
+}
+
+// Of shafts to a light that has a size, by face.
+void ShadowCounter::find_reach(Light& light, std::span<const Casting> onto) const {
+  light.reach.clear();
+  for (std::size_t face = 0; light.has_size() && face < light.views.middle.size(); ++face) {
+    float high_z = 0;
+    for (const Casting seen : onto)
+      for (const Stretch& stretch : light.seen_by_middle[number(seen)][face].all)
+        if (stretch.seen.active != 0) high_z = std::max(high_z, stretch.seen.box.high_z);
+    light.reach.push_back(shadow::reach_of(light.views, high_z));
   }
 }
 
@@ -335,14 +378,26 @@ bool ShadowCounter::meet_shafts(const shadow::ChunkCaster& caster, Light& light,
   bool any = false;
   for (std::size_t face = 0; face < light.views.middle.size(); ++face) {
     const shadow::LightView& view = light.views.middle[face];
+    const bool is_near = shadow::is_near(light.views, face, light.reach[face], caster.hull);
     grid_.put(view, caster.hull);
     const GridBox box = grid_.put(view, *caster.surface);
-    if (is_empty(box)) continue;
-    for (const Casting seen : onto)
-      any |=
-          touch(view, shadow::shaft_of(light.views), caster, box, light.seen_by_middle[number(seen)][face], reach.put);
+    if (is_empty(box) && !is_near) continue;
+    for (const Casting seen : onto) {
+      Stretches& stretches = light.seen_by_middle[number(seen)][face];
+      any |= is_near ? touch_all(stretches, reach.put)
+                     : touch(view, light.reach[face].shaft, caster, box, stretches, reach.put);
+    }
   }
   return any;
+}
+
+bool ShadowCounter::touch_all(Stretches& stretches, Lines& put) {
+  for (std::size_t i = 0; i < stretches.all.size(); ++i) {
+    if (stretches.all[i].seen.active == 0) continue;
+    stretches.is_met[i] = 1;
+    put.add(stretches.all[i].line);
+  }
+  return !stretches.points.empty();
 }
 
 // As shadow::Shafts does.
@@ -403,10 +458,12 @@ ShadowCounter::Reach ShadowCounter::reach_of(const shadow::Hull& hull, Light& li
     reach.views += light.points_each * (is_one_grid(light) ? std::min(grids, 1.0) : grids);
   }
   if (!light.has_size()) reach.put = reach.lines;
-  for (std::size_t face = 0; light.has_size() && face < light.views.middle.size(); ++face)
+  for (std::size_t face = 0; light.has_size() && face < light.views.middle.size(); ++face) {
+    if (shadow::is_near(light.views, face, light.reach[face], hull)) reach.lines = {0, height_ - 1};
+    const GridBox box = grid_.put(light.views.middle[face], hull);
     for (const Casting seen : onto)
-      extend(light.seen_by_middle[number(seen)][face], grid_.put(light.views.middle[face], hull), light.views.spread,
-             reach.lines);
+      extend(light.seen_by_middle[number(seen)][face], box, light.reach[face].shaft.spread, reach.lines);
+  }
   return reach;
 }
 

@@ -1,7 +1,7 @@
 // Counts what the shadows of a frame take, as forecasts need it: which points are lit on some lines of the picture, and
 // to which of the sampled lines each caster matters. Of a light that has a size, grids of a few points stand for those
 // of all; its points are put for each chunk of casters, as if those before blocked none, where shafts meet the casters'
-// boxes. None of its points and casters is taken to be so near to it that there are no shafts.
+// boxes.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,9 @@
 #include <vector>
 
 #include "node/geometry/scene.h"
+#include "node/geometry/sweep.h"
 #include "node/geometry/triangle.h"
+#include "node/raster/still_marks.h"
 #include "node/shadow/casters.h"
 #include "node/shadow/grid_caster.h"
 #include "node/shadow/light_views.h"
@@ -45,6 +47,8 @@ class ShadowCounter {
   double add(const geometry::Scene& scene, Casting seen, const SeenLine& line);
   // When all are added: the frame's casters, and of an inbetween the still points that moving ones may block.
   void count(const geometry::Scene& scene, wire::FrameCounts& counts);
+  // After count() of a keyframe: marks what of the picture shadows may change, all of it where lights have a size.
+  void mark_shaded(const geometry::Scene& scene, const geometry::Sweep& sweep, raster::StillMarks& marks);
   // Where surfaces go that are diced for the camera.
   shadow::DicedSurfaces& diced() { return diced_; }
 
@@ -79,6 +83,7 @@ class ShadowCounter {
     double points_each = 1;                                  // of the light, for which each of them stands
     std::array<std::vector<Stretches>, 2> seen{};            // by Casting, then by counted view
     std::array<std::vector<Stretches>, 2> seen_by_middle{};  // of a light with size, by Casting and face
+    std::vector<shadow::ShaftReach> reach{};                 // by face, of the casters that are counted
     std::array<double, 2> put{};                             // points of a light with size that are put, by Casting
 
     bool has_size() const { return views.points > 1; }
@@ -109,9 +114,11 @@ class ShadowCounter {
   void count_casters(const geometry::Scene& scene, Light& light, Casting casting, std::span<const Casting> onto,
                      wire::FrameCounts& counts);
   wire::DicedBy diced_by(const shadow::ChunkCaster& caster, Casting casting);
+  void find_reach(Light& light, std::span<const Casting> onto) const;
   void put_met(Light& light, std::span<const Casting> onto);
   void widen(const std::vector<Stretch>& all, std::vector<std::uint8_t>& is_met) const;
   bool meet_shafts(const shadow::ChunkCaster& caster, Light& light, std::span<const Casting> onto, Reach& reach);
+  bool touch_all(Stretches& stretches, Lines& put);
   bool touch(const shadow::LightView& view, const shadow::Shaft& shaft, const shadow::ChunkCaster& caster,
              const shadow::GridBox& box, Stretches& stretches, Lines& put);
   double grids_behind(const shadow::ChunkCaster& caster, Light& light, std::span<const Casting> onto);
@@ -120,18 +127,25 @@ class ShadowCounter {
   void scale_points(Casting seen, wire::SeenCounts wire::LineCounts::*of, std::vector<wire::LineCounts>& lines) const;
   double count_kept(const geometry::Scene& scene);
   void find_shaded(const geometry::Scene& scene, Light& light);
-  void mark_shaded(const shadow::LightView& view, const shadow::Hull& hull, float spread, Stretches& still);
+  template <typename Hull, typename Visit>
+  void visit_shaded(Light& light, const Hull& hull, const Visit& visit);
+  template <typename Hull, typename Visit>
+  void visit_shaded(const shadow::LightView& view, const Hull& hull, float spread, Stretches& still,
+                    const Visit& visit);
   Reach reach_of(const shadow::Hull& hull, Light& light, std::span<const Casting> onto);
   void extend(Stretches& stretches, const shadow::GridBox& box, float spread, Lines& lines);
+  template <typename Hull>
+  shadow::GridBox project(const shadow::LightView& view, const Hull& hull);
 
   const shadow::ShadowKernels& kernels_;
   shadow::DicedSurfaces diced_;
+  std::vector<std::uint8_t> is_needed_;  // by patch: shadows of the interval needed it as a still caster
   shadow::CasterStream casters_;
   std::uint32_t stretches_;  // of a line
+  std::uint32_t height_;     // of the picture
   std::uint32_t step_ = 1;
   bool keyframe_ = true;
   std::vector<Light> lights_;
-  std::vector<std::uint8_t> is_needed_;  // by patch: shadows of the interval needed it as a still caster
   std::vector<std::uint8_t> is_shaded_;  // by stretch
   shadow::Layer nowhere_{};              // that points are of
   shadow::GridCaster grid_;

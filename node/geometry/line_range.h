@@ -1,4 +1,4 @@
-// A stretch of a picture's scanlines.
+// Stretches of a picture's scanlines and columns.
 #pragma once
 
 #include <algorithm>
@@ -14,6 +14,12 @@ struct LineRange {
   std::uint32_t count() const { return last - first; }
   bool has(std::uint32_t line) const { return first <= line && line < last; }
   bool operator==(const LineRange&) const = default;
+};
+
+// Columns [first, last) of a line.
+struct ColumnRange {
+  std::uint32_t first = 0;
+  std::uint32_t last = 0;
 };
 
 inline LineRange overlap(const LineRange& a, const LineRange& b) {

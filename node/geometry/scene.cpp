@@ -108,38 +108,4 @@ std::uint32_t Scene::material(std::size_t segment) const {
   return moved > 0 ? moved_[moved - 1].material : film_.value_at(film_.segments()[segment].material, frame_);
 }
 
-LineRange Scene::moving_line_bounds(std::span<const std::uint32_t> frames, const ShapeBoxes& boxes) const {
-  if (casting_count_ > 0 && any_moves() && !frames.empty()) return {0, film_.settings().height};
-  LineRange lines{film_.settings().height, 0};
-  for (const std::uint32_t frame : frames)
-    for (const std::uint32_t segment : movers_) {
-      const LineRange one = lines_of(segment, frame, boxes.of(film_.segments()[segment].shape));
-      lines = {std::min(lines.first, one.first), std::max(lines.last, one.last)};
-    }
-  return lines.first < lines.last ? lines : LineRange{0, 0};
-}
-
-LineRange Scene::lines_of(std::size_t segment, std::uint32_t frame, const ShapeBoxes::Box& box) const {
-  const wire::Camera& camera = film_.camera_at(frame);
-  const shape::Projection p = projection_of(camera, width(), height());
-  const shape::EyeMatrix m = shape::eye_matrix(camera.world_to_eye, film_.matrix_at(film_.segments()[segment], frame));
-  const auto all = static_cast<float>(height());
-  float top = all, bottom = 0;
-  for (int corner = 0; corner < 8; ++corner) {
-    float place[3];
-    for (int axis = 0; axis < 3; ++axis) place[axis] = (corner >> axis & 1 ? box.high : box.low)[axis];
-    const auto row = [&](int r) {
-      return m.m[r][0] * place[0] + m.m[r][1] * place[1] + m.m[r][2] * place[2] + m.m[r][3];
-    };
-    const float w = -row(2);
-    if (!(w >= p.near)) return {0, film_.settings().height};
-    const float y = p.center[1] - p.scale * row(1) / w;
-    top = std::min(top, y);
-    bottom = std::max(bottom, y);
-  }
-  constexpr float kMargin = 1;  // pixels, for snapping and rounding
-  const float first = std::clamp(top - kMargin, 0.0f, all), last = std::clamp(bottom + kMargin + 1, 0.0f, all);
-  return {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last)};
-}
-
 }  // namespace mars::geometry

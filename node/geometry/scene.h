@@ -56,6 +56,7 @@ class Scene {
   // The world's z axis in eye space.
   std::array<float, 3> up() const;
 
+  std::span<const std::uint32_t> movers() const { return movers_; }
   bool any_moves() const { return !movers_.empty(); }
   bool moves(std::size_t segment) const { return moves_[segment] != 0; }
   // Number of the segment's first patch or meshlet among all of the film.
@@ -63,12 +64,7 @@ class Scene {
   shape::EyeMatrix matrix(std::size_t segment) const;
   std::uint32_t material(std::size_t segment) const;
 
-  // Lines that the interval's moving parts can touch at any of `frames`; a bound, never too small.
-  LineRange moving_line_bounds(std::span<const std::uint32_t> frames, const ShapeBoxes& boxes) const;
-
  private:
-  LineRange lines_of(std::size_t segment, std::uint32_t frame, const ShapeBoxes::Box& box) const;
-
   wire::PackedFilm film_;
   shape::Tolerances tolerances_;
   std::vector<std::uint32_t> first_patch_;

@@ -49,21 +49,40 @@ void StillExchange::send_home_lines(const Plan& plan, raster::StillLines& still)
   const int self = plan.self();
   const geometry::LineRange lines = plan.lines_of(self);
   if (lines.count() == 0) return;
+  bool is_packed = false;
   for (int to = plan.first(); to < plan.last(); ++to) {
     if (to == self || !plan.collects(to)) continue;
-    if (plan.share_a_machine(self, to))
+    if (plan.share_a_machine(self, to)) {
       pending_.add(isend(wire::kStillLines, nullptr, 0, to, 0));
-    else
-      send_lines(lines, to, still);
+      continue;
+    }
+    if (!std::exchange(is_packed, true)) pack(lines, still);
+    send_lines(lines, to, still);
   }
 }
 
-void StillExchange::send_lines(const geometry::LineRange& lines, int to, raster::StillLines& still) {
-  const auto send = [&](std::span<const std::byte> message) {
-    pending_.add(isend(wire::kStillLines, message.data(), static_cast<long>(message.size()), to, 0));
+// The same for all receivers.
+void StillExchange::pack(const geometry::LineRange& lines, const raster::StillLines& still) {
+  std::size_t bytes = one_each_ ? 0 : still.depth_bytes(lines);
+  if (one_each_)
+    for (std::uint32_t line = lines.first; line < lines.last; ++line) bytes += still.packed_bytes(line);
+  if (packed_.size() < bytes) packed_.resize(bytes);
+  if (!one_each_) return still.pack_depths(lines, packed_.data());
+  std::byte* to = packed_.data();
+  for (std::uint32_t line = lines.first; line < lines.last; ++line) {
+    if (still.keeps(line)) still.pack(line, to);
+    to += still.packed_bytes(line);
+  }
+}
+
+void StillExchange::send_lines(const geometry::LineRange& lines, int to, const raster::StillLines& still) {
+  const std::byte* next = packed_.data();
+  const auto send = [&](std::size_t bytes) {
+    pending_.add(isend(wire::kStillLines, next, static_cast<long>(bytes), to, 0));
+    next += bytes;
   };
-  if (!one_each_) return send(std::as_bytes(still.depths(lines)));
-  for (std::uint32_t line = lines.first; line < lines.last; ++line) send(still.packed(line));
+  if (!one_each_) return send(still.depth_bytes(lines));
+  for (std::uint32_t line = lines.first; line < lines.last; ++line) send(still.packed_bytes(line));
 }
 
 void StillExchange::collect_lines(const Plan& plan, raster::StillLines& still) {
@@ -84,14 +103,13 @@ void StillExchange::receive_message(const Plan& plan, raster::StillLines& still)
   const int from = static_cast<int>(infonode());
   constexpr const char* kWhat = "still lines";
   wire::require_sense(plan.has(from), from, kWhat);
-  if (!one_each_ && !plan.share_a_machine(from, plan.self())) {
-    const auto depths = std::as_writable_bytes(still.depths(plan.lines_of(from)));
-    wire::require_sense(bytes == depths.size(), from, kWhat);
-    crecv(wire::kStillLines, depths.data(), infocount());
-    return;
-  }
   line_.resize(std::max(line_.size(), bytes));
   crecv(wire::kStillLines, line_.data(), infocount());
+  if (plan.share_a_machine(from, plan.self())) return wire::require_sense(bytes == 0, from, kWhat);
+  if (!one_each_) {
+    wire::require_sense(bytes == still.depth_bytes(plan.lines_of(from)), from, kWhat);
+    return still.unpack_depths(plan.lines_of(from), line_.data());
+  }
   if (bytes == 0) return;
   const auto line = std::span(std::as_const(line_)).first(bytes);
   wire::require_sense(still.is_packed(line), from, kWhat);

@@ -1,5 +1,5 @@
 // What stands still, for the nodes that draw inbetweens: after a keyframe each machine that has such nodes, the
-// contributors, gets the lines that inbetweens may touch (raster/still_lines.h), once.
+// contributors, gets what inbetweens may change of the lines that they may touch (raster/still_lines.h), once.
 //
 // The group's nodes on a machine write their home lines there. The first of them, its head, receives the lines of other
 // machines and an empty message from each node of its own that has written, and then notifies the machine's
@@ -39,7 +39,8 @@ class StillExchange {
   class Plan;
 
   void send_home_lines(const Plan& plan, raster::StillLines& still);
-  void send_lines(const geometry::LineRange& lines, int to, raster::StillLines& still);
+  void pack(const geometry::LineRange& lines, const raster::StillLines& still);
+  void send_lines(const geometry::LineRange& lines, int to, const raster::StillLines& still);
   std::size_t messages_of(const geometry::LineRange& lines) const { return one_each_ ? lines.count() : 1; }
   void collect_lines(const Plan& plan, raster::StillLines& still);
   void receive_message(const Plan& plan, raster::StillLines& still);
@@ -49,6 +50,7 @@ class StillExchange {
   bool one_each_;  // a message has one line
   PendingMessages pending_;
   std::vector<std::uint8_t> collectors_;  // Plan's
+  std::vector<std::byte> packed_;         // home lines, one after the other, as they are sent
   std::vector<std::byte> line_;           // that was received
 };
 

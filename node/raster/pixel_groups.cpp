@@ -46,15 +46,28 @@ void PixelGroups::restore(const GroupCounts& counts, const Groups& from) {
   std::copy_n(from.pixels, count(), pixels_.data());
 }
 
+std::uint32_t PixelGroups::count_on(MarkedTiles marked) const {
+  return static_cast<std::uint32_t>(
+      std::ranges::count_if(std::span(fragments_).first(count()),
+                            [&](const shading::Fragment& group) { return has_column(marked, group.column); }));
+}
+
+void PixelGroups::copy_to(const StillGroups& still, MarkedTiles marked) const {
+  copy_some(still, [&](std::uint32_t column) { return has_column(marked, column); });
+}
+
 void PixelGroups::copy_to(const StillGroups& still) const {
-  const std::span groups(fragments_.data(), count());
+  copy_some(still, [](std::uint32_t) { return true; });
+}
+
+template <typename Has>
+void PixelGroups::copy_some(const StillGroups& still, const Has& has) const {
   std::fill_n(still.end, width_, 0u);
-  for (const shading::Fragment& group : groups) ++still.end[group.column];
+  for (std::uint32_t k = 0; k < count(); ++k) still.end[fragments_[k].column] += has(fragments_[k].column) ? 1 : 0;
   std::exclusive_scan(still.end, still.end + width_, still.end, 0u);
-  const float *red = light_[0].data(), *green = light_[1].data(), *blue = light_[2].data();
-  const std::uint32_t* mask = masks_.data();
-  for (const shading::Fragment& group : groups)
-    still.groups[still.end[group.column]++] = {{*red++, *green++, *blue++}, *mask++};
+  for (std::uint32_t k = 0; k < count(); ++k)
+    if (const std::uint32_t column = fragments_[k].column; has(column))
+      still.groups[still.end[column]++] = {{light_[0][k], light_[1][k], light_[2][k]}, masks_[k]};
 }
 
 void PixelGroups::resolve(const shading::Shading& shading, std::uint32_t line, StripBuffer::Layer& out) {

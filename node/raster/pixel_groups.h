@@ -35,7 +35,10 @@ class PixelGroups {
   void restore(const GroupCounts& counts, const Groups& from);
   Light light() { return {light_[0].data(), light_[1].data(), light_[2].data()}; }
 
-  // Copies the groups, of a whole line.
+  // Of a whole line's groups, how many are on marked columns.
+  std::uint32_t count_on(MarkedTiles marked) const;
+  // Copies these, or all.
+  void copy_to(const StillGroups& still, MarkedTiles marked) const;
   void copy_to(const StillGroups& still) const;
 
   // Both resolve() and resolve_over() use the groups up.
@@ -48,6 +51,8 @@ class PixelGroups {
                     StripBuffer::Layer& out, std::span<const std::uint32_t> columns = {});
 
  private:
+  template <typename Has>
+  void copy_some(const StillGroups& still, const Has& has) const;
   Groups groups() { return {fragments_.data(), masks_.data(), pixels_.data()}; }
   void add_pixels(std::span<const std::uint32_t> columns);
   void move_pixel(std::uint32_t from, std::uint32_t to);

@@ -28,7 +28,10 @@ void ZBuffer::draw_line(LineParts parts, const shading::Shading& shading, std::u
   if (several()) shade_groups(shading, line, extent);
   const StillGroups groups = keep(line, still);
   if (several()) {
-    if (moves || still.lines().has(line)) groups_.copy_to(groups);
+    if (groups.end != still_end_.data())
+      groups_.copy_to(groups, still.columns(line));
+    else if (moves)
+      groups_.copy_to(groups);
     groups_.resolve(shading, line, out.constant());
     z_line_.forget_ids(extent);
   } else {
@@ -77,20 +80,18 @@ shading::Extent ZBuffer::draw_moving(LineParts parts, const shading::Shading& sh
 }
 
 StillGroups ZBuffer::keep(std::uint32_t line, StillLines& still) {
-  if (!still.lines().has(line) || !still.begin_line(line, groups_.count())) return own_still();
-  for (std::uint32_t s = 0; s < samples_a_pixel(); ++s) {
-    const auto kept = still.depth(line, s);
-    std::copy_n(z_line_.depth(s), kept.size(), kept.data());
-    counts_.still_bytes += kept.size_bytes();
-  }
-  counts_.still_bytes += groups_.count() * sizeof(StillGroup);
+  if (!still.lines().has(line)) return own_still();
+  const std::uint32_t groups = several() ? groups_.count_on(still.marks().on(line)) : 0;
+  if (!still.begin_line(line, groups)) return own_still();
+  std::uint32_t columns = 0;
+  for (std::uint32_t s = 0; s < samples_a_pixel(); ++s) columns = still.keep_depths(line, s, z_line_.depth(s));
+  counts_.still_bytes += still.kept_bytes(columns, groups);
   return several() ? still.groups(line) : own_still();
 }
 
 void ZBuffer::take_depths(std::uint32_t line, const shading::Extent& extent, StillLines& still) {
   for (std::uint32_t s = 0; s < samples_a_pixel(); ++s)
-    std::copy_n(still.depth(line, s).data() + extent.first, extent.last - extent.first,
-                z_line_.depth(s) + extent.first);
+    still.take_depths(line, s, {extent.first, extent.last}, z_line_.depth(s));
   counts_.still_bytes += std::uint64_t{extent.last - extent.first} * samples_a_pixel() * sizeof(float);
 }
 

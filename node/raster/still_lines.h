@@ -1,8 +1,12 @@
-// What an interval's inbetweens need of its stationary parts, on the lines that its moving parts may touch: CZB, the
-// depth of each sample; and, where a pixel has several samples, each shaded group of CFB (pixel_groups.h), for the part
-// of a pixel that a moving part leaves uncovered. Where lights cast shadows, each group's light before it is summed up,
-// and what blocks it, for the shadows of moving parts. Each machine has it once for each group of nodes: the group's
-// nodes there write their home lines, and all of them read it.
+// What an interval's inbetweens need of its stationary parts, on the columns of lines that its moving parts or their
+// shadows may change: CZB, the depth of each sample; and, where a pixel has several samples, each shaded group of CFB
+// (pixel_groups.h), for the part of a pixel that a moving part leaves uncovered. Where lights cast shadows, each
+// group's light before it is summed up, and what blocks it, for the shadows of moving parts. Each machine has it once
+// for each group of nodes: the group's nodes there write their home lines, and all of them read it.
+//
+// Which columns these are, all nodes know before a keyframe where only moving parts count; where shadows do, a line's
+// home finds it, and the line says it. What lies in its memory on other columns has no meaning, but that they have
+// neither groups nor pairs.
 //
 // Home lines are written in a keyframe, after the group's sum of EBC: no node leaves that before all have come to it
 // and so have finished the inbetweens of the interval before. Inbetweens read, after StillExchange::complete. A line
@@ -16,6 +20,7 @@
 
 #include "node/geometry/line_range.h"
 #include "node/raster/neighbours.h"
+#include "node/raster/still_marks.h"
 #include "node/shape/sample_pattern.h"
 #include "node/wire/still_plan.h"
 
@@ -62,31 +67,53 @@ class StillLines {
   // Whether moving parts may be on the line.
   bool has_memory_for(std::uint32_t line) const { return all_move_ || lines_.has(line); }
 
-  // Writing a line: its depths, row by row of the pattern; then its groups, of which there are `count`, unless they
-  // are more than fit. Whether the line is kept.
+  // The columns that lines are written with: all, until that is changed.
+  StillMarks& marks() { return marks_; }
+
+  // Whether a line with that many groups is kept for sure.
+  bool has_room(std::uint32_t line, std::uint32_t groups) const {
+    return lines_.has(line) && has_slot(line) && (!has_groups_ || groups <= width_ * plan_.groups_per_column);
+  }
+  // Writing a line: the depths of marked columns, row by row of the pattern; then their groups, of which there are
+  // `groups`, unless they are more than fit. Whether the line is kept.
   bool begin_line(std::uint32_t line, std::uint32_t groups);
   std::span<float> depth(std::uint32_t line, std::uint32_t sample);
+  // Copies a row of depths to it; says how many.
+  std::uint32_t keep_depths(std::uint32_t line, std::uint32_t sample, const float* from);
   StillGroups groups(std::uint32_t line);
   UnsummedStill unsummed(std::uint32_t line);
+  // Copies a line's pairs to it.
+  void keep_pairs(std::uint32_t line, const wire::StillPairs* from);
+
+  // What that many columns with that many groups take.
+  std::size_t kept_bytes(std::size_t columns, std::size_t groups) const;
 
   bool keeps(std::uint32_t line) const;
+  // The columns that a kept line has.
+  MarkedTiles columns(std::uint32_t line) const { return has_groups_ ? tiles(line) : marks_.on(line); }
 
-  // Whether lines have groups: else they lie one after the other, depths alone.
+  // Copies depths that it has of these columns.
+  void take_depths(std::uint32_t line, std::uint32_t sample, const geometry::ColumnRange& of, float* to) const;
+
+  // Whether lines have groups: else they are depths alone, on columns that all nodes know.
   bool has_groups() const { return has_groups_; }
-  // Of lines without groups.
-  std::span<float> depths(const geometry::LineRange& lines);
+  // Lines without groups as they travel to another machine: their bytes, and from and to memory.
+  std::size_t depth_bytes(const geometry::LineRange& lines) const;
+  void pack_depths(const geometry::LineRange& lines, std::byte* to) const;
+  void unpack_depths(const geometry::LineRange& lines, const std::byte* from);
   // A line with groups as it travels to another machine; nothing where it is not kept.
-  std::span<const std::byte> packed(std::uint32_t line) const;
+  std::size_t packed_bytes(std::uint32_t line) const;
+  void pack(std::uint32_t line, std::byte* to) const;
   // Bytes of a line that any machine may send.
   std::size_t most_packed() const;
   // Whether it is such a line, sound to the last group.
-  bool is_packed(std::span<const std::byte> line) const;
+  bool is_packed(std::span<const std::byte> line);
   // A line that came from there, and is_packed(); not kept where it does not fit here.
   void unpack(std::span<const std::byte> line);
 
  private:
-  // The beginning of a line with groups.
-  struct alignas(64) Head {
+  // The beginning of a line with groups. Its tiles follow.
+  struct Head {
     std::uint32_t kept;  // 1: all of it is there
     std::uint32_t interval;
     std::uint32_t line;
@@ -94,19 +121,31 @@ class StillLines {
   };
 
   bool has_slot(std::uint32_t line) const { return line - lines_.first < plan_.lines; }
+  // What lies in a line's memory, in this order.
   std::byte* slot(std::uint32_t line) const;
   Head& head(std::uint32_t line) const { return *reinterpret_cast<Head*>(slot(line)); }
-  static Head head_of(std::span<const std::byte> line);
-  std::size_t packed_bytes(std::size_t groups) const;
-  std::size_t group_bytes() const { return wire::still_group_bytes(static_cast<std::uint32_t>(casting_)); }
-  std::size_t column_bytes() const { return sizeof(std::uint32_t) + casting_ * sizeof(wire::StillPairs); }
+  std::span<std::uint64_t> tiles(std::uint32_t line) const;
+  float* depths(std::uint32_t line) const;
+  std::uint32_t* ends(std::uint32_t line) const;
+  wire::StillPairs* pairs(std::uint32_t line) const;
+  std::byte* groups_of(std::uint32_t line) const;
 
-  std::size_t width_;
-  std::size_t samples_;
-  std::size_t casting_;
+  static Head head_of(std::span<const std::byte> line);
+  MarkedTiles read_tiles(std::span<const std::byte> line);
+  static bool are_ends(std::span<const std::byte> ends, std::uint32_t groups);
+  bool are_groups(std::span<const std::byte> groups) const;
+  void fill_ends(std::uint32_t line);
+  void forget_pairs(std::uint32_t line);
+  std::size_t group_bytes() const { return wire::still_group_bytes(casting_); }
+
+  std::uint32_t width_;
+  std::uint32_t samples_;
+  std::uint32_t casting_;
   bool has_groups_;
   wire::StillPlan plan_;
   NeighboursMemory memory_;
+  StillMarks marks_;
+  std::vector<std::uint64_t> received_tiles_;  // of a line in hand
   std::uint32_t interval_ = 0;
   geometry::LineRange lines_{0, 0};
   bool all_move_ = false;

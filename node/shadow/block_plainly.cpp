@@ -96,8 +96,10 @@ class Plane {
     per_y_ = (z2 * number(b.x - a.x) - z1 * number(c.x - a.x)) * inverse;
     slope_ = (std::abs(per_x_) + std::abs(per_y_)) * t.per_step;
   }
-  // Whether any of it over the points' box is before the plane near them: at a corner of the box, if at all.
-  bool reaches_before(const PointVector& points) const {
+  // Whether it may block points from places of the light: not if it rises less than a shaft's rays and nothing of it
+  // over the points' box is before the plane near them, which would be at a corner of the box.
+  bool may_block(const PointVector& points, const Shaft& shaft) const {
+    if (shaft.spread * (std::abs(per_x_) + std::abs(per_y_)) > double{kMostRise}) return true;
     const GridBox& box = points.box;
     const auto rise = [](double more, std::int32_t low, std::int32_t high) {
       return std::max(0.0, more * (static_cast<double>(high) - low));
@@ -106,7 +108,7 @@ class Plane {
         a_.z + static_cast<double>(box.low_x - a_.x) * per_x_ + static_cast<double>(box.low_y - a_.y) * per_y_;
     return at_low + rise(per_x_ - points.per_x, box.low_x, box.high_x) +
                rise(per_y_ - points.per_y, box.low_y, box.high_y) >
-           double{points.least} + double{points.room};
+           double{points.least} + std::min(double{points.room}, double{points.room} * shaft.room);
   }
   bool is_before(const PointVector& points, std::size_t k) const {
     const double there =
@@ -147,6 +149,15 @@ void for_each_piece(const LightView& view, const Caster& caster, const GridVerti
     visit({polygon.corner[0], polygon.corner[k], polygon.corner[k + 1], view.per_step});
 }
 
+void visit_behind(const LargeTriangle& triangle, const Shaft& shaft, const PointVector* points,
+                  std::span<const std::uint32_t> found, const std::function<void(std::uint32_t)>& visit) {
+  const Wide area = cross(triangle.a, triangle.b, triangle.c.x, triangle.c.y);
+  if (area == 0) return;
+  const Plane plane(triangle, area);
+  for (const std::uint32_t number : found)
+    if (plane.may_block(points[number], shaft)) visit(number);
+}
+
 void block_plainly(const LargeTriangle& triangle, PointVector* points, std::span<const std::uint32_t> found) {
   GridPlace a = triangle.a, b = triangle.b, c = triangle.c;
   Wide area = cross(a, b, c.x, c.y);
@@ -160,7 +171,7 @@ void block_plainly(const LargeTriangle& triangle, PointVector* points, std::span
   for (const std::uint32_t number : found) {
     PointVector& here = points[number];
     if (here.box.low_x > high_x || here.box.high_x < low_x || here.box.low_y > high_y || here.box.high_y < low_y ||
-        !(high_z > here.box.low_z) || !plane.reaches_before(here))
+        !(high_z > here.box.low_z) || !plane.may_block(here, kRay))
       continue;
     for (std::uint32_t left = here.active & ~here.blocked; left != 0; left &= left - 1) {
       const auto k = static_cast<std::size_t>(std::countr_zero(left));

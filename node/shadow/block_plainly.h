@@ -29,6 +29,11 @@ struct LargeTriangle {
 void for_each_piece(const LightView& view, const Caster& caster, const GridVertices& vertices, std::uint32_t number,
                     const std::function<void(const LargeTriangle&)>& visit);
 
+// Calls visit(number) for those of the vectors `found` of which it may block points from places of a light whose shafts
+// these are.
+void visit_behind(const LargeTriangle& triangle, const Shaft& shaft, const PointVector* points,
+                  std::span<const std::uint32_t> found, const std::function<void(std::uint32_t)>& visit);
+
 // Blocks those of the points `found` that the triangle is before.
 void block_plainly(const LargeTriangle& triangle, PointVector* points, std::span<const std::uint32_t> found);
 

@@ -24,6 +24,8 @@ std::int32_t clamped(double steps) {
   return static_cast<std::int32_t>(std::clamp(steps, -kMost, kMost));
 }
 
+double number(std::int32_t steps) { return steps; }
+
 // A plane that no place of a hull is before.
 class Lid {
  public:
@@ -44,8 +46,8 @@ class Lid {
     const GridBox& box = points.box;
     const double room = double{points.room};
     const double low = z_ + per_x_ * (box.low_x - x_) + per_y_ * (box.low_y - y_);
-    const double rise_x = (per_x_ - points.per_x) * (double{box.high_x} - box.low_x);
-    const double rise_y = (per_y_ - points.per_y) * (double{box.high_y} - box.low_y);
+    const double rise_x = (per_x_ - points.per_x) * (number(box.high_x) - number(box.low_x));
+    const double rise_y = (per_y_ - points.per_y) * (number(box.high_y) - number(box.low_y));
     return low + std::max(rise_x, 0.0) + std::max(rise_y, 0.0) >
            double{points.least} + std::min(room, room * shaft.room);
   }
@@ -54,7 +56,8 @@ class Lid {
   // As a patch's corners are.
   void tilt(const GridHull& hull) {
     const auto between = [&](std::uint32_t a, std::uint32_t b) {
-      return std::array{double{hull.x[b]} - hull.x[a], double{hull.y[b]} - hull.y[a], double{hull.z[b]} - hull.z[a]};
+      return std::array{number(hull.x[b]) - number(hull.x[a]), number(hull.y[b]) - number(hull.y[a]),
+                        double{hull.z[b]} - hull.z[a]};
     };
     const auto [ax, ay, az] = between(0, 15);
     const auto [bx, by, bz] = between(3, 12);

@@ -33,6 +33,9 @@ struct Shaft {
   std::uint32_t has_place;
 };
 
+// Towards a point.
+inline constexpr Shaft kRay{0, 0, 1, 1, 0, 0};
+
 // Of planes, to the rise of a shaft's rays: what is nowhere before such a plane blocks no point on it.
 inline constexpr float kMostRise = 0.5f;
 

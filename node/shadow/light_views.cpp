@@ -164,8 +164,6 @@ void see_from_place(const geometry::EyeLight& light, const shape::Projection& pr
     for (std::size_t k = 0; k < 3; ++k) place[k] += light.size * way[k];
     for (const Vector& axis : axes) out.views.push_back(near_view(axis, place, nearest, !one));
   }
-  // A ray from a place at depth d to a point of the light o away moves over the grid by |o| sqrt(1 + x^2) d / (d - |o|)
-  // for each unit of 1 / depth, x being at most 1, and d at least 2 |o| (shafts.cpp).
   out.spread = static_cast<float>(2 * std::numbers::sqrt2 * light.size / kTangentStep);
   out.frame.grid = 0;
   out.frame.by_depth = static_cast<float>(2 * kTangentStep + kFloatError);

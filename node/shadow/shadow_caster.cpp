@@ -13,8 +13,12 @@
 namespace mars::shadow {
 namespace {
 
-// Towards a point.
-constexpr Shaft kRay{0, 0, 1, 1, 0, 0};
+Hull hull_of(const geometry::SweptHull& swept) {
+  Hull hull;
+  for (std::size_t axis = 0; axis < 3; ++axis) std::ranges::copy(swept.along[axis], hull.along[axis]);
+  hull.count = swept.count;
+  return hull;
+}
 
 }  // namespace
 
@@ -183,24 +187,27 @@ void ShadowCaster::block(const Caster& surface, const LightView& view, Points& p
         kernels_.block(batches, points.vectors(), found.data(), static_cast<std::uint32_t>(found.size()));
       },
       [&](std::uint32_t triangle, std::uint32_t) {
-        for_each_piece(view, surface, grid_.vertices(), triangle,
-                       [&](const LargeTriangle& piece) { block_plainly(piece, points.vectors(), found); });
+        for_each_piece(view, surface, grid_.vertices(), triangle, [&](const LargeTriangle& piece) {
+          block_plainly(piece, points.vectors(), points.tree().find(kernels_, piece.box(), 0, found_));
+        });
       });
 }
 
-void ShadowCaster::bound(std::uint32_t light, const Layer& layer, std::vector<TileBounds>& faces) const {
-  const LightViews& all = lights_[light];
-  const auto views = has_size(light) ? std::span(all.middle) : views_of(light, 0);
-  for (const LightView& view : views) {
+void ShadowCaster::bound(std::uint32_t light, const Layer& layer, std::span<const std::uint32_t> tiles,
+                         std::vector<TileBounds>& faces) const {
+  for (const LightView& view : lights_[light].middle) {
     TileBounds& face = faces.emplace_back();
     face.tree.clear();
-    for (const std::uint32_t tile : layer.tiles) {
+    float high_z = 0;
+    for (const std::uint32_t tile : tiles) {
       const GridBox box = bound_tile(light, view, layer, tile);
       if (box.low_x > box.high_x) continue;
+      high_z = std::max(high_z, box.high_z);
       face.tree.add(box);
       face.tiles.push_back(tile);
     }
     face.tree.finish();
+    face.reach = reach_of(lights_[light], high_z);
   }
 }
 
@@ -226,23 +233,50 @@ void ShadowCaster::bound_still(const Layer& still) {
   still_bounds_.resize(lights());
   for (std::uint32_t light = 0; light < lights(); ++light) {
     still_bounds_[light].clear();
-    if (has_bounds(light)) bound(light, still, still_bounds_[light]);
+    bound(light, still, still.tiles, still_bounds_[light]);
+  }
+}
+
+// Calls visit(tile) for squares whose points a caster within the hull may block; all where that is not known. Trees
+// have a few boxes more than there are squares.
+template <typename Visit>
+void ShadowCaster::visit_shaded(std::uint32_t light, const Hull& hull, std::vector<TileBounds>& faces,
+                                const Visit& visit) {
+  const LightViews& all = lights_[light];
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    if (is_near(all, f, faces[f].reach, hull)) {
+      std::ranges::for_each(faces[f].tiles, visit);
+      continue;
+    }
+    for (const std::uint32_t found :
+         faces[f].tree.find(kernels_, grid_.put(all.middle[f], hull), faces[f].reach.shaft.spread, found_))
+      if (found < faces[f].tiles.size()) visit(faces[f].tiles[found]);
+  }
+}
+
+void ShadowCaster::mark_shaded(const geometry::Sweep& sweep, const Layer& still, raster::StillMarks& marks) {
+  if (sweep.casters().empty()) return;
+  std::vector<std::uint32_t> tiles = still.tiles;
+  for (std::uint32_t light = 0; light < lights(); ++light) {
+    std::erase_if(tiles, [&](std::uint32_t tile) {
+      const std::uint32_t top = tile / still.tiles_across() * kTile;
+      return top >= sweep.lines().last || top + kTile <= sweep.lines().first || marks.has(tile);
+    });
+    bounds_.clear();
+    bound(light, still, tiles, bounds_);
+    for (const geometry::SweptHull& caster : sweep.casters())
+      visit_shaded(light, hull_of(caster), bounds_, [&](std::uint32_t tile) { marks.mark_tile(tile); });
+    look_();
   }
 }
 
 void ShadowCaster::find_shaded(const geometry::Scene& scene, std::vector<std::uint32_t>& tiles) {
-  if (!std::ranges::all_of(std::views::iota(0u, lights()), [this](std::uint32_t l) { return has_bounds(l); })) return;
   is_shaded_.assign(tiles.empty() ? 0 : *std::ranges::max_element(tiles) + 1, std::uint8_t{0});
   casters_.visit_hulls(scene, Casting::moving, [&](const Hull& hull) {
-    for (std::uint32_t light = 0; light < lights(); ++light) {
-      const LightViews& all = lights_[light];
-      for (std::size_t f = 0; f < still_bounds_[light].size(); ++f) {
-        const LightView& view = has_size(light) ? all.middle.front() : all.views[f];
-        TileBounds& bounds = still_bounds_[light][f];
-        for (const std::uint32_t box : bounds.tree.find(kernels_, grid_.put(view, hull), all.spread, found_))
-          if (bounds.tiles[box] < is_shaded_.size()) is_shaded_[bounds.tiles[box]] = 1;
-      }
-    }
+    for (std::uint32_t light = 0; light < lights(); ++light)
+      visit_shaded(light, hull, still_bounds_[light], [&](std::uint32_t tile) {
+        if (tile < is_shaded_.size()) is_shaded_[tile] = 1;
+      });
   });
   std::erase_if(tiles, [this](std::uint32_t tile) { return is_shaded_[tile] == 0; });
 }

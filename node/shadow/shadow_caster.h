@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "node/geometry/scene.h"
+#include "node/geometry/sweep.h"
+#include "node/raster/still_marks.h"
 #include "node/shadow/band.h"
 #include "node/shadow/casters.h"
 #include "node/shadow/grid_caster.h"
@@ -46,6 +48,10 @@ class ShadowCaster {
   // Where surfaces go that are diced for the camera.
   DicedSurfaces& diced() { return diced_; }
 
+  // Marks the squares of what stands still whose points casters may block that are somewhere in the sweep, as far as
+  // shadows of these may reach lines.
+  void mark_shaded(const geometry::Sweep& sweep, const Layer& still, raster::StillMarks& marks);
+
   // Of what stands still throughout an interval on the layer's lines: remembers where its points are.
   void bound_still(const Layer& still);
   void forget_still();
@@ -63,17 +69,19 @@ class ShadowCaster {
   struct TileBounds {
     BoxTree tree;
     std::vector<std::uint32_t> tiles;  // of each box
+    ShaftReach reach;
   };
 
   bool has_size(std::uint32_t light) const { return lights_[light].points > 1; }
-  // Whether it is known where points of all its views lie from where the middle sees them.
-  bool has_bounds(std::uint32_t light) const { return !has_size(light) || !lights_[light].middle.front().has_place; }
   const PairVectors& vectors_of(std::uint32_t light) const { return has_size(light) ? soft_ : hard_; }
   PointSource source_of(std::uint32_t light, std::uint32_t point) const;
   PointSource samples_of(std::uint32_t light) const;
   std::span<const LightView> views_of(std::uint32_t light, std::uint32_t point) const;
-  void bound(std::uint32_t light, const Layer& layer, std::vector<TileBounds>& faces) const;
+  void bound(std::uint32_t light, const Layer& layer, std::span<const std::uint32_t> tiles,
+             std::vector<TileBounds>& faces) const;
   GridBox bound_tile(std::uint32_t light, const LightView& view, const Layer& layer, std::uint32_t tile) const;
+  template <typename Visit>
+  void visit_shaded(std::uint32_t light, const Hull& hull, std::vector<TileBounds>& faces, const Visit& visit);
 
   // Points of some layers, by face of a light.
   using Faces = std::vector<Points>;
@@ -101,6 +109,7 @@ class ShadowCaster {
   Faces drawn_points_, kept_points_;
   GridCaster grid_;
   Shafts shafts_;
+  std::vector<TileBounds> bounds_;                     // of a light, by face
   std::vector<std::vector<TileBounds>> still_bounds_;  // by light and face
   geometry::LineRange still_lines_{0, 0};              // that still_bounds_ are of
   std::vector<std::uint32_t> found_;

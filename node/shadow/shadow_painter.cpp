@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <functional>
 #include <numeric>
 #include <span>
 
+#include "hal/failure/failure.h"
 #include "node/shading/finish_light.h"
 #include "node/simd/vector_slack.h"
 
@@ -34,7 +36,9 @@ ShadowPainter::ShadowPainter(simd::InstructionSet set, const geometry::Scene& sc
       memory_(plan.band),
       arena_(memory_.bytes()),
       shares_(casting_, std::vector<float>(std::size_t{width_} * samples_ + simd::kVectorSlack)),
-      still_groups_(std::size_t{width_} * samples_) {
+      still_groups_(std::size_t{width_} * samples_),
+      no_ends_(width_),
+      row_tiles_(wire::still_tile_words(width_)) {
   for (const auto& shares : shares_) share_rows_.push_back(shares.data());
   memory_.prefer_large_pages();
 }
@@ -61,6 +65,10 @@ geometry::LineRange ShadowPainter::see(const Picture& picture, const geometry::L
       see_inbetween(picture, number);
     if (kept_.line(number).depth != nullptr) to_come += moved_bytes;
   }
+  drawn_.range = kept_.range = moving_.range = range_;
+  drawn_.count_all_tiles();
+  moving_.count_all_tiles();
+  if (picture.is_keyframe && picture.still.lines().count() > 0) keep_groups(picture);
   return range_;
 }
 
@@ -78,18 +86,20 @@ void ShadowPainter::see_inbetween(const Picture& picture, std::uint32_t number) 
     see_kept(picture, number);
     if (raster::is_empty(moving)) return;
     for (std::uint32_t s = 0; s < samples_; ++s)
-      std::copy_n(picture.still.depth(number, s).data() + moving.first, moving.last - moving.first,
-                  z_line_.depth(s) + moving.first);
+      picture.still.take_depths(number, s, {moving.first, moving.last}, z_line_.depth(s));
     counts_.still_bytes += std::uint64_t{moving.last - moving.first} * samples_ * sizeof(float);
   } else if (picture.still.has_memory_for(number)) {
     still = see_still(picture, number);
     ++counts_.drawn_again;
+  } else {
+    check(raster::is_empty(moving), "moving parts stay on the lines that were given memory");
   }
   ++counts_.lines;
   z_line_.forget_depths(raster::both(still, raster::both(moving, see_moving(picture, number))));
 }
 
-// What inbetweens need goes to where they look for it.
+// Where moving parts may be in the picture, still groups are recorded: here, unless they surely go to where inbetweens
+// look for them.
 shading::Extent ShadowPainter::see_still(const Picture& picture, std::uint32_t number) {
   const shading::Extent extent =
       z_line_.draw(picture.parts, &raster::LineBoxes::stationary, picture.shading.triangles, number);
@@ -97,35 +107,65 @@ shading::Extent ShadowPainter::see_still(const Picture& picture, std::uint32_t n
   LayerLine& layer = drawn_.line(number);
   line.still = shade(picture, number, extent);
   const std::uint32_t count = line.still.count();
-  const bool keeps =
-      picture.is_keyframe && picture.still.lines().has(number) && picture.still.begin_line(number, count);
-  if (keeps) {
-    line.again = picture.still.unsummed(number);
-    layer.depth = picture.still.depth(number, 0).data();
-    counts_.still_bytes += std::uint64_t{width_} * (samples_ * sizeof(float) + sizeof(std::uint32_t) +
-                                                    casting_ * sizeof(wire::StillPairs)) +
-                           count * wire::still_group_bytes(casting_);
-  } else {
-    const std::size_t bytes = wire::still_group_bytes(casting_);
-    line.again = {arena_.take<std::uint32_t>(width_).data(),
-                  arena_.take<wire::StillPairs>(std::size_t{width_} * casting_).data(),
-                  arena_.take<std::byte>(count * bytes).data(), bytes};
-    layer.depth = arena_.take<float>(std::size_t{width_} * samples_).data();
-  }
+  float* const depths = arena_.take<float>(std::size_t{width_} * samples_).data();
+  layer.depth = depths;
   layer.stride = width_;
-  layer.pairs = line.again.pairs;
-  copy_depths(const_cast<float*>(layer.depth), {0, width_});
+  layer.pairs = arena_.take<wire::StillPairs>(std::size_t{width_} * casting_).data();
+  copy_depths(depths, {0, width_});
   std::fill_n(layer.pairs, std::size_t{width_} * casting_, wire::StillPairs{0, 0});
   find_lit(picture, line.still, layer.pairs);
-  if (keeps || picture.scene.any_moves()) fill_record(line.still, line.again);
-  if (picture.scene.any_moves()) layer.moved = new_moved();
+  line.again.end = no_ends_.data();
+  if (picture.scene.any_moves()) {
+    layer.moved = new_moved();
+    if (!picture.is_keyframe || !picture.still.has_room(number, count)) {
+      line.again = new_record(count);
+      fill_record(line.still, line.again, [](std::uint32_t) { return true; });
+    }
+  }
   line.still.from = line.still_from = &layer;
   z_line_.forget_ids(extent);
   return extent;
 }
 
+raster::UnsummedStill ShadowPainter::new_record(std::uint32_t groups) {
+  const std::size_t bytes = wire::still_group_bytes(casting_);
+  return {arena_.take<std::uint32_t>(width_).data(), nullptr, arena_.take<std::byte>(groups * bytes).data(), bytes};
+}
+
+// What inbetweens need of the band, but for pairs, which casters are still to block.
+void ShadowPainter::keep_groups(const Picture& picture) {
+  raster::StillLines& still = picture.still;
+  caster_.mark_shaded(picture.sweep, drawn_, still.marks());
+  for (std::uint32_t number = range_.first; number < range_.last; ++number) {
+    Line& line = lines_[number - range_.first];
+    if (!still.lines().has(number)) continue;
+    const raster::MarkedTiles marked = still.marks().on(number);
+    const auto has = [&](std::uint32_t column) { return raster::has_column(marked, column); };
+    std::uint32_t count = 0;
+    for (std::uint32_t k = 0; k < line.still.count(); ++k) count += has(line.still.groups.fragments[k].column) ? 1 : 0;
+    line.is_kept = still.begin_line(number, count);
+    if (!line.is_kept || !raster::any(marked)) continue;
+    if (line.again.end == no_ends_.data()) line.again = still.unsummed(number);
+    fill_record(line.still, still.unsummed(number), has);
+    std::uint32_t columns = 0;
+    for (std::uint32_t s = 0; s < samples_; ++s)
+      columns = still.keep_depths(number, s, drawn_.line(number).depth + std::size_t{s} * width_);
+    counts_.still_bytes += still.kept_bytes(columns, count);
+  }
+}
+
+void ShadowPainter::keep_pairs(raster::StillLines& still) {
+  for (std::uint32_t number = range_.first; number < range_.last; ++number) {
+    if (!lines_[number - range_.first].is_kept || !raster::any(still.columns(number))) continue;
+    still.keep_pairs(number, drawn_.line(number).pairs);
+  }
+}
+
+// A line without columns has nothing that may change.
 void ShadowPainter::see_kept(const Picture& picture, std::uint32_t number) {
   Line& line = lines_[number - range_.first];
+  line.again.end = no_ends_.data();
+  if (!raster::any(picture.still.columns(number))) return;
   LayerLine& layer = kept_.line(number);
   line.again = picture.still.unsummed(number);
   layer.depth = picture.still.depth(number, 0).data();
@@ -207,14 +247,17 @@ void ShadowPainter::find_lit(const Picture& picture, const LineGroups& groups, w
   }
 }
 
-// As raster::PixelGroups::copy_to does.
-void ShadowPainter::fill_record(const LineGroups& groups, const raster::UnsummedStill& to) const {
+// As raster::PixelGroups::copy_to does, of the columns that `has` says.
+template <typename Has>
+void ShadowPainter::fill_record(const LineGroups& groups, const raster::UnsummedStill& to, const Has& has) const {
+  const shading::Fragment* const fragments = groups.groups.fragments;
   std::fill_n(to.end, width_, 0u);
-  for (std::uint32_t k = 0; k < groups.count(); ++k) ++to.end[groups.groups.fragments[k].column];
+  for (std::uint32_t k = 0; k < groups.count(); ++k) to.end[fragments[k].column] += has(fragments[k].column) ? 1 : 0;
   std::exclusive_scan(to.end, to.end + width_, to.end, 0u);
   const bool foggy = groups.light.fog != nullptr;
   for (std::uint32_t k = 0; k < groups.count(); ++k) {
-    wire::UnsummedGroup& group = to.group(to.end[groups.groups.fragments[k].column]++);
+    if (!has(fragments[k].column)) continue;
+    wire::UnsummedGroup& group = to.group(to.end[fragments[k].column]++);
     group.samples = groups.groups.masks[k];
     group.fog = foggy ? groups.light.fog[k] : 0;
     for (std::size_t c = 0; c < 3; ++c) group.base[c] = groups.light.base[c][k];
@@ -223,11 +266,8 @@ void ShadowPainter::fill_record(const LineGroups& groups, const raster::Unsummed
 }
 
 void ShadowPainter::cast(const Picture& picture) {
-  drawn_.range = kept_.range = moving_.range = range_;
-  drawn_.count_all_tiles();
-  moving_.count_all_tiles();
   if (!picture.is_keyframe && picture.scene.any_moves()) {
-    kept_.count_all_tiles();
+    count_kept_tiles(picture.still);
     if (!caster_.knows_still(range_)) caster_.bound_still(kept_);
     caster_.find_shaded(picture.scene, kept_.tiles);
     for (const std::uint32_t tile : kept_.tiles) {
@@ -238,6 +278,7 @@ void ShadowPainter::cast(const Picture& picture) {
     }
   }
   cast_by_rows(picture.scene);
+  if (picture.is_keyframe) keep_pairs(picture.still);
 }
 
 // On squares of as many rows at a time as there is memory for points of.
@@ -264,6 +305,19 @@ void ShadowPainter::cast_by_rows(const geometry::Scene& scene) {
       done[k] += some.size();
     }
     caster_.cast(scene, std::span(layers).first(2), kept_);
+  }
+}
+
+void ShadowPainter::count_kept_tiles(const raster::StillLines& still) {
+  kept_.tiles.clear();
+  for (std::uint32_t row = range_.first / kTile; row * kTile < range_.last; ++row) {
+    std::ranges::fill(row_tiles_, std::uint64_t{0});
+    for (std::uint32_t number = row * kTile; number < (row + 1) * kTile; ++number)
+      if (range_.has(number) && kept_.line(number).depth != nullptr)
+        std::ranges::transform(row_tiles_, still.columns(number), row_tiles_.begin(), std::bit_or<>());
+    raster::visit_columns(row_tiles_, width_, [&](std::uint32_t first, std::uint32_t last) {
+      for (std::uint32_t x = first; x < last; x += kTile) kept_.tiles.push_back(row * kept_.tiles_across() + x / kTile);
+    });
   }
 }
 

@@ -16,6 +16,7 @@
 
 #include "hal/messages/private_memory.h"
 #include "node/geometry/scene.h"
+#include "node/geometry/sweep.h"
 #include "node/raster/arena.h"
 #include "node/raster/line_boxes.h"
 #include "node/raster/pixel_groups.h"
@@ -32,6 +33,7 @@ namespace mars::shadow {
 // A frame as one node draws it.
 struct Picture {
   const geometry::Scene& scene;
+  const geometry::Sweep& sweep;  // of the interval
   const shading::Shading& shading;
   raster::LineParts parts;
   raster::StillLines& still;
@@ -73,6 +75,7 @@ class ShadowPainter {
     LineGroups still, moving;
     raster::UnsummedStill again{};          // what still groups are summed up again from, where movers are
     const LayerLine* still_from = nullptr;  // their pairs
+    bool is_kept = false;                   // a keyframe's, for inbetweens
   };
 
   void see_keyframe(const Picture& picture, std::uint32_t number);
@@ -83,8 +86,13 @@ class ShadowPainter {
   void cast_by_rows(const geometry::Scene& scene);
   LineGroups shade(const Picture& picture, std::uint32_t number, const shading::Extent& extent);
   void copy_depths(float* to, const shading::Extent& extent);
+  raster::UnsummedStill new_record(std::uint32_t groups);
+  void keep_groups(const Picture& picture);
+  void keep_pairs(raster::StillLines& still);
+  void count_kept_tiles(const raster::StillLines& still);
   void find_lit(const Picture& picture, const LineGroups& groups, wire::StillPairs* pairs) const;
-  void fill_record(const LineGroups& groups, const raster::UnsummedStill& to) const;
+  template <typename Has>
+  void fill_record(const LineGroups& groups, const raster::UnsummedStill& to, const Has& has) const;
   std::uint16_t* new_moved();
 
   void sum_up(const Picture& picture, const LineGroups& groups, bool with_moved);
@@ -117,6 +125,8 @@ class ShadowPainter {
   std::vector<const float*> share_rows_;
   std::vector<std::uint32_t> changed_;  // columns
   std::vector<wire::StillGroup> still_groups_;
+  std::vector<std::uint32_t> no_ends_;    // of a line without groups
+  std::vector<std::uint64_t> row_tiles_;  // of a row of tiles
   raster::DrawnCounts counts_;
 };
 

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <bit>
 #include <cstddef>
+#include <limits>
+#include <numbers>
 
 namespace mars::shadow {
 namespace {
 
-// Of a light with a place and size r, points nearer than kNearPoints r, and casters nearer than kNearCasters r and
-// kNearest of the nearest depth, have no shafts: a ray from a point at depth d >= 2 r is nearer to the middle than
-// (r + nearest) (2 sqrt(3) + 1) + r where it leaves the middle's view.
-constexpr float kNearPoints = 2, kNearCasters = 6, kNearest = 5;
+constexpr float kEverywhere = std::numeric_limits<float>::max();
 
 // Parts of a square that several faces found.
 void join_parts(std::vector<TilePart>& parts) {
@@ -26,13 +25,36 @@ void join_parts(std::vector<TilePart>& parts) {
 
 }  // namespace
 
-// Near a far light's point, two views differ by the rounding of their grids. In views of places at least two sizes away
-// a difference of 1 / depth is a quarter of the middle's at least.
-Shaft shaft_of(const LightViews& light) {
+// From a point at depth d to a point of the light o away from its middle, |o| <= r, a ray moves over the grid by
+// |o| sqrt(1 + x^2) d / (d - |o|) for each unit of 1 / depth, x being at most 1. It is within (r + nearest) (sqrt(3) d
+// + r) / (d - r) + r of the middle where it is nearer than the view's nearest depth. Near a far light's point, two
+// views differ by the rounding of their grids; in views of places a difference of 1 / depth is a quarter of the
+// middle's at least, for d >= 2 r.
+ShaftReach reach_of(const LightViews& light, float high_z) {
   const LightView& view = light.middle.front();
-  const float tangent = light.spread / view.per_step;
-  if (view.has_place != 0) return {light.spread, tangent, 0.25f, 0.25f, 0, 1};
-  return {light.spread, tangent, 0.75f, 1, 2 / view.per_step, 0};
+  if (view.has_place == 0) return {{light.spread, light.size, 0.75f, 1, 2 / view.per_step, 0}, 0};
+  const float r = light.size, depth = 1 / high_z;
+  if (depth < 2 * r) return {{light.spread, 2 * std::numbers::sqrt2_v<float> * r, 0.25f, 0.25f, 0, 1}, kEverywhere};
+  const float tangent = 1.001f * std::numbers::sqrt2_v<float> * r * depth / (depth - r);
+  const float near = (r + view.nearest) * (std::numbers::sqrt3_v<float> * depth + r) / (depth - r) + r;
+  return {{tangent * view.per_step, tangent, 0.25f, 0.25f, 0, 1}, 1.001f * near};
+}
+
+bool is_near(const LightViews& light, std::size_t face, const ShaftReach& reach, const Hull& hull) {
+  const LightView& view = light.middle[face];
+  if (view.has_place == 0 || light.size == 0) return false;
+  float least = kEverywhere;  // depth
+  for (std::uint32_t k = 0; k < hull.count; ++k) {
+    float depth = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) depth += view.axis[axis] * (hull.along[axis][k] - view.place[axis]);
+    least = std::min(least, depth);
+  }
+  if (least > 2 * view.nearest && reach.near < kEverywhere) return false;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto [low, high] = std::minmax_element(hull.along[axis], hull.along[axis] + hull.count);
+    if (*low > view.place[axis] + reach.near || *high < view.place[axis] - reach.near) return false;
+  }
+  return true;
 }
 
 void Shafts::begin(const LightViews& light, const PointSource& source, std::uint32_t pairs_a_sample,
@@ -40,11 +62,9 @@ void Shafts::begin(const LightViews& light, const PointSource& source, std::uint
   light_ = &light;
   layers_ = layers;
   samples_ = static_cast<std::uint32_t>(source.pattern.count);
-  const LightView& first = light.middle.front();
-  shaft_ = shaft_of(light);
   points_.resize(light.middle.size());
   for (Points& points : points_) points.clear();
-  is_open_ = false;
+  std::vector<float> high_z(points_.size(), 0.0f);
   const std::uint32_t some = (1u << pairs_a_sample) - 1;
   const auto counts = [&](const wire::StillPairs& pairs, const Lane& lane, std::uint16_t moved) {
     const std::uint32_t open = pairs.lit & ~static_cast<std::uint32_t>(pairs.blocked | moved);
@@ -54,41 +74,27 @@ void Shafts::begin(const LightViews& light, const PointSource& source, std::uint
     for (const std::uint32_t tile : layer->tiles)
       for_each_vector(source, *layer, tile, counts, light.middle,
                       [&](const PointVector& vector, std::uint32_t number, std::size_t face) {
-                        is_open_ |= first.has_place != 0 && vector.box.high_z * kNearPoints * light.size > 1;
+                        high_z[face] = std::max(high_z[face], vector.box.high_z);
                         points_[face].add(*layer, tile, number, vector);
                       });
   for (Points& points : points_) points.finish();
+  reach_.clear();
+  for (const float high : high_z) reach_.push_back(reach_of(light, high));
 }
 
 bool Shafts::meet(const Hull& hull, GridCaster& grid) {
-  if (is_open_ || is_near(hull)) return true;
-  for (std::size_t face = 0; face < points_.size(); ++face)
-    if (!points_[face].empty() &&
-        points_[face].tree().any(kernels_, grid.put(light_->middle[face], hull), shaft_.spread))
+  for (std::size_t face = 0; face < points_.size(); ++face) {
+    if (points_[face].empty()) continue;
+    if (is_near(*light_, face, reach_[face], hull)) return true;
+    if (points_[face].tree().any(kernels_, grid.put(light_->middle[face], hull), reach_[face].shaft.spread))
       return true;
-  return false;
-}
-
-bool Shafts::is_near(const Hull& hull) const {
-  const LightView& view = light_->middle.front();
-  if (!view.has_place) return false;
-  const float reach = kNearCasters * light_->size + kNearest * view.nearest;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto [low, high] = std::minmax_element(hull.along[axis], hull.along[axis] + hull.count);
-    if (*low > view.place[axis] + reach || *high < view.place[axis] - reach) return false;
   }
-  return true;
+  return false;
 }
 
 const Touched& Shafts::find(std::span<const ChunkCaster> casters, GridCaster& grid) {
   found_.casters.clear();
   found_.parts.assign(layers_.size(), {});
-  if (is_open_ || std::ranges::any_of(casters, [this](const ChunkCaster& caster) { return is_near(caster.hull); })) {
-    found_.casters.assign(casters.begin(), casters.end());
-    for (std::size_t k = 0; k < layers_.size(); ++k)
-      for (const std::uint32_t tile : layers_[k]->tiles) found_.parts[k].push_back({tile, TilePart::kAll});
-    return found_;
-  }
   touched_.resize(points_.size());
   for (std::size_t face = 0; face < points_.size(); ++face) touched_[face].assign(points_[face].vector_count(), 0);
   std::size_t batches = 0;
@@ -120,22 +126,40 @@ void Shafts::keep_parts() {
 
 void Shafts::touch(const ChunkCaster& caster, std::size_t face, GridCaster& grid) {
   const LightView& view = light_->middle[face];
+  const Shaft& shaft = reach_[face].shaft;
   Points& points = points_[face];
-  if (!points.tree().any(kernels_, grid.put(view, caster.hull), shaft_.spread)) return;
+  if (is_near(*light_, face, reach_[face], caster.hull)) return touch_all(face);
+  if (!points.tree().any(kernels_, grid.put(view, caster.hull), shaft.spread)) return;
   const GridBox box = grid.put(view, *caster.surface);
   if (box.low_x > box.high_x) return;
-  const std::span<std::uint32_t> below = grid.find_below(box, shaft_, points);
+  const std::span<std::uint32_t> below = grid.find_below(box, shaft, points);
   if (below.empty()) return;
   grid.visit_batches(
       view, *caster.surface,
       [&](const SmallBatches& batches, std::uint32_t first) {
-        kernels_.touch(batches, shaft_, points.vectors(), below.data(), static_cast<std::uint32_t>(below.size()),
+        kernels_.touch(batches, shaft, points.vectors(), below.data(), static_cast<std::uint32_t>(below.size()),
                        batches_[first / kMostBatches], touched_[face].data());
       },
-      [&](std::uint32_t, std::uint32_t batch) {
-        batches_[batch / kMostBatches] |= std::uint64_t{1} << batch % kMostBatches;
-        for (const std::uint32_t vector : below) touched_[face][vector] = 1;
+      [&](std::uint32_t triangle, std::uint32_t batch) {
+        for_each_piece(view, *caster.surface, grid.vertices(), triangle, [&](const LargeTriangle& piece) {
+          touch(piece, face, batches_[batch / kMostBatches], std::uint64_t{1} << batch % kMostBatches);
+        });
       });
+}
+
+void Shafts::touch_all(std::size_t face) {
+  std::ranges::fill(batches_, ~std::uint64_t{0});
+  std::ranges::fill(touched_[face], std::uint8_t{1});
+}
+
+void Shafts::touch(const LargeTriangle& piece, std::size_t face, std::uint64_t& touching, std::uint64_t bit) {
+  Points& points = points_[face];
+  const Shaft& shaft = reach_[face].shaft;
+  const auto found = points.tree().find(kernels_, piece.box(), shaft.spread, found_by_large_);
+  visit_behind(piece, shaft, points.vectors(), found, [&](std::uint32_t vector) {
+    touching |= bit;
+    touched_[face][vector] = 1;
+  });
 }
 
 void Shafts::keep_batches(const ChunkCaster& caster) {

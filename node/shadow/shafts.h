@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "node/shadow/band.h"
+#include "node/shadow/block_plainly.h"
 #include "node/shadow/casters.h"
 #include "node/shadow/grid_caster.h"
 #include "node/shadow/light_views.h"
@@ -16,14 +17,21 @@
 
 namespace mars::shadow {
 
+// Of points on a grid of a light's middle: their shafts, and how near to a light with a place a surface may be that
+// blocks them though it is not before that grid's view: all may where the points are too near the light.
+struct ShaftReach {
+  Shaft shaft;
+  float near;
+};
+// `high_z`: the greatest z of the points.
+ShaftReach reach_of(const LightViews& light, float high_z);
+bool is_near(const LightViews& light, std::size_t face, const ShaftReach& reach, const Hull& hull);
+
 // What shafts find. Its casters are good until the next time.
 struct Touched {
   std::vector<ChunkCaster> casters;          // with those of their batches that matter
   std::vector<std::vector<TilePart>> parts;  // by layer
 };
-
-// Towards a light that has a size.
-Shaft shaft_of(const LightViews& light);
 
 class Shafts {
  public:
@@ -40,8 +48,10 @@ class Shafts {
   const std::vector<Points>& points() const { return points_; }
 
  private:
-  bool is_near(const Hull& hull) const;
   void touch(const ChunkCaster& caster, std::size_t face, GridCaster& grid);
+  void touch_all(std::size_t face);
+  // `bit` is set in `touching` where the piece of a large triangle meets shafts.
+  void touch(const LargeTriangle& piece, std::size_t face, std::uint64_t& touching, std::uint64_t bit);
   void keep_batches(const ChunkCaster& caster);
 
   void keep_parts();
@@ -50,13 +60,13 @@ class Shafts {
   std::uint32_t samples_ = 0;
   const LightViews* light_ = nullptr;
   std::span<Layer* const> layers_;
-  Shaft shaft_{};
-  bool is_open_ = false;                            // any place may be met: points or casters are too near the light
+  std::vector<ShaftReach> reach_;                   // by face
   std::vector<Points> points_;                      // by face
   std::vector<std::vector<std::uint8_t>> touched_;  // vectors
   std::vector<std::uint64_t> batches_;              // of a caster, one bit each
   std::vector<Caster> surfaces_;
   std::vector<shape::Batch> kept_;
+  std::vector<std::uint32_t> found_by_large_;
   Touched found_;
 };
 

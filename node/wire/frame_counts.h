@@ -54,6 +54,7 @@ struct LineCounts {
   double moving_width = 0;  // in pixels, from the first edge box of moving parts to the last
   SeenCounts constant;
   SeenCounts moving;
+  double kept_width = 0;  // in pixels, of stationary parts for inbetweens (keyframes)
 };
 
 // Which nodes need not dice a caster for its shadows.

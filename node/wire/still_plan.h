@@ -34,9 +34,24 @@ struct StillPairs {
   std::uint16_t blocked;
 };
 
-// With several samples a pixel, and where lights cast shadows, each line has a head, depths, the number of groups up to
-// each column, pairs of each casting light, and the groups.
-inline constexpr std::size_t kStillHeadBytes = 64;
+// What is kept of a line is kept by tiles of this number of columns (raster/still_marks.h).
+inline constexpr std::uint32_t kStillTile = 8;
+constexpr std::uint32_t still_tiles(std::uint32_t width) { return (width + kStillTile - 1) / kStillTile; }
+// One bit each.
+constexpr std::size_t still_tile_words(std::uint32_t width) { return (std::size_t{still_tiles(width)} + 63) / 64; }
+
+// Of a column: depths, the number of groups up to it, pairs.
+constexpr std::size_t still_column_bytes(std::uint32_t samples, std::uint32_t casting) {
+  return samples * sizeof(float) + sizeof(std::uint32_t) + casting * sizeof(StillPairs);
+}
+
+// With several samples a pixel, and where lights cast shadows, each line has a head and its tiles, depths, the number
+// of groups up to each column, pairs of each casting light, and the groups.
+inline constexpr std::size_t kStillHeadBytes = 16;
+constexpr std::size_t whole_cache_lines(std::size_t bytes) { return (bytes + 63) / 64 * 64; }
+constexpr std::size_t still_head_bytes(std::uint32_t width) {
+  return whole_cache_lines(kStillHeadBytes + still_tile_words(width) * sizeof(std::uint64_t));
+}
 
 struct StillPlan {
   std::size_t line_bytes;           // of a line

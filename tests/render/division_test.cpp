@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "node/group/mapping.h"
+#include "node/wire/still_plan.h"
 #include "tests/hal/machines_backend.h"
 #include "tests/render/film_run.h"
 #include "tests/render/films.h"
@@ -394,6 +395,25 @@ TEST(Division, DepthGoesOnlyWhereItIsNeeded) {
   EXPECT_EQ(bytes[4], 0u);
   EXPECT_GT(written[4], 0u);
   EXPECT_LT(written[4], 200u * 200 * sizeof(float) / 3) << "and no other line of a machine's CZB is touched";
+}
+
+// And of these lines only columns: of a picture of which moving parts and their shadows change a corner.
+TEST(Division, OfLinesOnlyWhatMayChangeIsKeptAndSent) {
+  const wire::FilmData alone = corner(320, 240, 4);
+  for (const wire::FilmData& film : {alone, with_samples(alone, 4), casting(alone, {0.0f}), casting(alone, {0.02f}),
+                                     casting(with_samples(alone, 4), {0.0f})}) {
+    const auto casts = static_cast<std::uint32_t>(film.lights.front().casts);
+    const std::uint32_t samples = film.settings.samples;
+    const wire::StillPlan plan = wire::plan_still_lines(320, 240, samples, std::uint64_t{1} << 40, casts);
+    const std::uint64_t all =  // with a group a pixel
+        240 * (plan.line_bytes - 320 * wire::still_group_bytes(casts) * (std::max(plan.groups_per_column, 1u) - 1));
+    SCOPED_TRACE(testing::Message() << samples << " samples, " << casts << " lights cast");
+    Counted counted;
+    run_counted(film, {2, 1}, counted);
+    const std::uint64_t bytes = counted.counts.sent({.type = wire::kStillLines}).bytes;
+    EXPECT_GT(bytes, 0u);
+    EXPECT_LT(bytes, all / 15);
+  }
 }
 
 }  // namespace

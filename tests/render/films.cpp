@@ -222,6 +222,38 @@ wire::FilmData ties(std::uint32_t width, std::uint32_t height) {
   return maker.make();
 }
 
+wire::FilmData overhead(std::uint32_t width, std::uint32_t height, std::uint32_t frames, std::uint32_t interval) {
+  FilmMaker maker(width, height, frames);
+  const std::uint32_t box = maker.add_shape(modeler::make_box()), ball = maker.add_shape(modeler::make_sphere());
+  const std::uint32_t clay = maker.add_material(kClay),
+                      green = maker.add_material({{0.2f, 0.6f, 0.3f}, 0.2f, 0.7f, 0, 1, 2});
+  maker.add_segment(box, clay, {placed({-8, -8, -16}, 16)});
+  maker.add_segment(box, green, {placed({0.5, -1, 0}, 1.5, 0.4)});
+  maker.add_segment(ball, clay, {placed({-3, 0.5, 0}, 1.7)});
+  for (const double y : {-0.6, 1.5}) {
+    std::vector<wire::Matrix> motion;
+    for (std::uint32_t f = 0; f < frames; ++f) motion.push_back(placed({4.0 * f / frames - 2.5 + y, y, 9}, 1.2));
+    maker.add_segment(ball, green, motion);
+  }
+  maker.add_light({wire::LightKind::directional, {-0.28f, 0, 0.96f}, {0.8f, 0.8f, 0.8f}});
+  maker.add_light({wire::LightKind::point, {0, -1, 20}, {0.7f, 0.7f, 0.9f}});
+  maker.set_cameras({looking({0, -14, 6}, {0, 0, 0}, 30)});
+  return maker.make(interval);
+}
+
+wire::FilmData corner(std::uint32_t width, std::uint32_t height, std::uint32_t frames) {
+  FilmMaker maker(width, height, frames);
+  const std::uint32_t box = maker.add_shape(modeler::make_box()), ball = maker.add_shape(modeler::make_sphere());
+  const std::uint32_t clay = maker.add_material(kClay);
+  maker.add_segment(box, clay, {placed({-12, -12, -24}, 24)});
+  std::vector<wire::Matrix> motion;
+  for (std::uint32_t f = 0; f < frames; ++f) motion.push_back(placed({0.1 * f - 2.5, 1, 0}, 0.4));
+  maker.add_segment(ball, clay, motion);
+  maker.add_light({wire::LightKind::directional, {-0.6f, 0, 0.8f}, {1, 1, 1}});
+  maker.set_cameras({looking({0, -10, 10}, {0, 0, 0}, 25)});
+  return maker.make();
+}
+
 wire::FilmData nothing(std::uint32_t width, std::uint32_t height, std::uint32_t frames) {
   FilmMaker maker(width, height, frames);
   maker.set_cameras({looking({1, -3, 1.6}, {0, 0, 0}, 40)});

@@ -55,6 +55,11 @@ wire::FilmData crowd(std::uint32_t width, std::uint32_t height, std::uint32_t fr
 wire::FilmData flight(std::uint32_t width, std::uint32_t height, std::uint32_t frames);
 // Coinciding bodies, stationary and moving: every depth ties.
 wire::FilmData ties(std::uint32_t width, std::uint32_t height);
+// Balls that fly above the picture, whose shadows run over still bodies on a floor, with a light from afar and a lamp
+// above them.
+wire::FilmData overhead(std::uint32_t width, std::uint32_t height, std::uint32_t frames, std::uint32_t interval);
+// A floor in whose corner a small ball rolls.
+wire::FilmData corner(std::uint32_t width, std::uint32_t height, std::uint32_t frames);
 // No patch at all.
 wire::FilmData nothing(std::uint32_t width, std::uint32_t height, std::uint32_t frames);
 

@@ -71,6 +71,10 @@ std::vector<Case> cases() {
           {"ties", casting(with_samples(ties(32, 24), 4), {0.0f, 0.2f})},
           {"one_column", casting(with_samples(few(1, 43, 2, 2), 2), {0.0f, 0.2f})},
           {"cut", cut()},
+          {"overhead", casting(overhead(128, 96, 6, 3), {0.0f})},
+          {"overhead_4", casting(with_samples(overhead(128, 96, 4, 4), 4), {-1.0f, 0.0f})},
+          {"overhead_large", casting(richly_lit(with_samples(overhead(96, 72, 3, 3), 4)), {0.04f, 0.0f})},
+          {"corner", casting(with_samples(corner(160, 120, 4), 4), {0.0f})},
           {"nothing", casting(nothing(16, 12, 2), {})}};
 }
 
@@ -97,6 +101,16 @@ class ShadowsIdentity : public testing::TestWithParam<Case> {
     return run;
   }
 };
+
+TEST_P(ShadowsIdentity, ShadowsOfWhatIsNotInThePictureRunOverIt) {
+  if (!is("overhead") && !is("overhead_4") && !is("overhead_large")) return;
+  const Pixels& first = drawn_from_scratch().frames.at(0);
+  const Pixels& last = drawn_from_scratch().frames.at(settings().frames - 1);
+  std::size_t changed = 0;
+  for (std::size_t k = 0; k < first.size(); ++k) changed += first[k] != last[k] ? 1 : 0;
+  EXPECT_GT(changed, first.size() / 100);
+  EXPECT_LT(changed, first.size() / 4);
+}
 
 TEST_P(ShadowsIdentity, AnyNumberOfNodes) {
   for (const int nodes : {1, 2, 3}) {

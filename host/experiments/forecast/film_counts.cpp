@@ -169,7 +169,8 @@ wire::LineCounts operator+(const wire::LineCounts& a, const wire::LineCounts& b)
                         a.moving_samples + b.moving_samples,
                         a.moving_width + b.moving_width,
                         a.constant,
-                        a.moving};
+                        a.moving,
+                        a.kept_width + b.kept_width};
   both.constant += b.constant;
   both.moving += b.moving;
   return both;

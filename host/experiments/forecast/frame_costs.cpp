@@ -183,7 +183,20 @@ bool FrameCosts::is_kept(const wire::FrameCounts& keyframe, std::uint32_t line, 
   const wire::FilmSettings& film = setting_.film.settings();
   if (plan.groups_per_column == 0) return true;
   return line - keyframe.first_still_line < plan.lines &&
-         keyframe.lines[line].constant.shaded <= static_cast<double>(film.width) * plan.groups_per_column;
+         kept_groups(keyframe.lines[line]) <= static_cast<double>(film.width) * plan.groups_per_column;
+}
+
+// As evenly over a line's columns as what is seen there.
+double FrameCosts::kept_groups(const wire::LineCounts& line) const {
+  return line.constant.shaded * line.kept_width / setting_.film.settings().width;
+}
+
+// Of a line that is kept.
+double FrameCosts::kept_bytes(const wire::LineCounts& line) const {
+  const std::uint32_t samples = setting_.film.settings().samples, casting = setting_.film.casting_count();
+  if (samples == 1 && casting == 0) return line.kept_width * sizeof(float);
+  return line.kept_width * static_cast<double>(wire::still_column_bytes(samples, casting)) +
+         kept_groups(line) * static_cast<double>(wire::still_group_bytes(casting));
 }
 
 wire::StillPlan FrameCosts::still_plan(int nodes) const {
@@ -228,19 +241,12 @@ wire::UnitCounts FrameCosts::drawn_units(const FrameTotals& totals) const {
 
 double FrameCosts::keyframe_drawing(const FrameTotals& totals, const wire::FrameCounts& counts,
                                     const geometry::LineRange& lines) const {
-  const wire::FilmSettings& film = setting_.film.settings();
-  const std::uint32_t casting = setting_.film.casting_count();
   wire::UnitCounts units = drawn_units(totals);
   for (std::uint32_t i = lines.first; i < lines.last; ++i) {
     const wire::LineCounts& line = counts.lines[i];
     const bool needed = counts.first_still_line <= i && i < counts.last_still_line;
     units[Work::line] += needed || line.edge_boxes > 0 ? 1 : 0;
-    if (!needed) continue;
-    units[Work::still_byte] += static_cast<double>(film.width) * film.samples * sizeof(float);
-    if (film.samples > 1 || casting > 0)
-      units[Work::still_byte] += line.constant.shaded * static_cast<double>(wire::still_group_bytes(casting));
-    if (casting > 0)
-      units[Work::still_byte] += film.width * (sizeof(std::uint32_t) + casting * sizeof(wire::StillPairs));
+    if (needed) units[Work::still_byte] += kept_bytes(line);
   }
   return costs_.of(units);
 }
@@ -386,7 +392,7 @@ void FrameCosts::add_exchange(GroupKeyframe& keyframe, const Homes& homes, const
   }
 }
 
-// CZB, and with several samples shaded groups, of the lines that inbetweens may touch: to all other computers that
+// CZB, and with several samples shaded groups, of what inbetweens may change: to all other computers that
 // draw inbetweens.
 void FrameCosts::add_still(GroupKeyframe& keyframe, const Homes& homes, const wire::FrameCounts& counts,
                            std::size_t inbetweens) const {
@@ -457,18 +463,13 @@ FrameCosts::StillLines FrameCosts::still_lines(const geometry::LineRange& home, 
                                                const wire::StillPlan& plan) const {
   const wire::FilmSettings& film = setting_.film.settings();
   const geometry::LineRange lines = geometry::overlap(home, {counts.first_still_line, counts.last_still_line});
-  const double depths = static_cast<double>(film.width) * film.samples * sizeof(float);
-  const std::uint32_t casting = setting_.film.casting_count();
-  const bool groups = film.samples > 1 || casting > 0;
-  const std::size_t column = sizeof(std::uint32_t) + casting * sizeof(wire::StillPairs);
+  const bool groups = film.samples > 1 || setting_.film.casting_count() > 0;
   StillLines still;
   still.messages = groups ? lines.count() : std::min(1u, lines.count());
   for (std::uint32_t line = lines.first; line < lines.last; ++line) {
     if (!is_kept(counts, line, plan)) continue;
-    still.bytes += depths;
-    if (groups)
-      still.bytes += wire::kStillHeadBytes + static_cast<double>(film.width * column) +
-                     counts.lines[line].constant.shaded * static_cast<double>(wire::still_group_bytes(casting));
+    still.bytes +=
+        kept_bytes(counts.lines[line]) + (groups ? static_cast<double>(wire::still_head_bytes(film.width)) : 0);
   }
   return still;
 }

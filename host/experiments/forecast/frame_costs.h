@@ -94,6 +94,8 @@ class FrameCosts {
                  std::size_t inbetweens) const;
   double saving(const FrameTotals& totals) const;
   bool is_kept(const wire::FrameCounts& keyframe, std::uint32_t line, const wire::StillPlan& plan) const;
+  double kept_groups(const wire::LineCounts& line) const;
+  double kept_bytes(const wire::LineCounts& line) const;
   wire::StillPlan still_plan(int nodes) const;
   double made_bytes(const wire::UnitCounts& made) const;
   double arena_bytes() const;

@@ -1,6 +1,6 @@
 """What a run's report says about the whole film, and the floors below which no run can come."""
 
-NODE_PHASES = ("dice", "map", "fill", "scanline", "compose")  # computing; the others wait or exchange
+NODE_PHASES = ("dice", "map", "fill", "scanline", "shadow", "compose")  # computing; the others wait or exchange
 
 
 def frames_of(report, kind):

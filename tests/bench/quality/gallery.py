@@ -30,6 +30,7 @@ REFLECTIONS = {
     "metallic 0": {"reflection": "metallic-roughness", "metallic": 0, "roughness": 0.35},
     "metallic 1": {"reflection": "metallic-roughness", "metallic": 1, "roughness": 0.35}}
 INTERPOLATIONS = ["flat", "gouraud", "phong"]
+SUNS = [0, 2, 8, 30]  # degrees that they take up in the sky
 
 
 def tile(number, label, part, scale):
@@ -90,19 +91,57 @@ class Gallery:
         sheet(self.file("models"), len(REFLECTIONS), tiles)
 
     def colors(self):
-        with open(os.path.join(films.EXAMPLES, "demo.json")) as file:
-            film = json.load(file)
-        film["models"] = {name: os.path.join(films.EXAMPLES, model) if isinstance(model, str) else model
-                          for name, model in film["models"].items()}
-        film["size"] = [480, 270]
-        pictures = {color: self.render(f"demo-{color}", {**film, "color": color}, 36) for color in ("coded", "linear")}
-        sheet(self.file("colors"), 2, [(color, picture, (0, 0, 480, 270)) for color, picture in pictures.items()])
+        self.two_demos("colors", {color: {"color": color} for color in ("coded", "linear")})
+
+    def walk(self):
+        sun, *others = demo()["lights"]
+        self.two_demos("walk", {"no light casts shadows": {},
+                                "the sun casts shadows": {"lights": [{**sun, "shadow": True}, *others]}})
+
+    def two_demos(self, name, changes):
+        """By label: what is changed in the demo."""
+        pictures = [(label, self.render(f"{name}-{k}", {**demo(), "size": [480, 270], **changed}, 36))
+                    for k, (label, changed) in enumerate(changes.items())]
+        sheet(self.file(name), 2, [(label, picture, (0, 0, 480, 270)) for label, picture in pictures])
+
+    def suns(self):
+        side = 232
+        pictures = [(f"size {size}", self.render(f"sun-{size}", ball_and_poles(side, size))) for size in SUNS]
+        sheet(self.file("suns"), len(SUNS), [(label, picture, (0, 0, side, side)) for label, picture in pictures])
+
+
+def demo():
+    with open(os.path.join(films.EXAMPLES, "demo.json")) as file:
+        film = json.load(file)
+    film["models"] = {name: os.path.join(films.EXAMPLES, model) if isinstance(model, str) else model
+                      for name, model in film["models"].items()}
+    return film
+
+
+def model(shape, box, material="glaze"):
+    return {"joints": [{"name": shape, "segment": {"shape": shape, "sbb": box, "material": material}}]}
+
+
+def ball_and_poles(side, size):
+    """They stand on a floor in the light of a sun that takes up `size` degrees in the sky."""
+    def glaze(color):
+        return {"color": color, "reflection": "cook-torrance", "ambient": 0.35, "diffuse": 0.75, "roughness": 0.3}
+    return {"frames": 1, "size": [side, side], "ambient": {"sky": [0.76, 0.86, 1], "ground": [0.62, 0.57, 0.5]},
+            "camera": {"eye": [0.8, -8, 5.2], "at": [0.6, 0.4, 0.75], "fov": 32},
+            "lights": [{"direction": [-0.8, -0.3, 0.66], "color": [1, 0.95, 0.86], "intensity": 1.6, "shadow": True,
+                        "size": size},
+                       {"direction": [0.5, -0.8, 0.4], "color": [0.75, 0.85, 1], "intensity": 0.3}],
+            "materials": {"floor": {"color": [0.74, 0.72, 0.68], "ambient": 0.35, "diffuse": 0.8, "specular": 0},
+                          "rose": glaze([0.86, 0.4, 0.5]), "sand": glaze([0.9, 0.78, 0.52])},
+            "models": {"floor": model("box", [[-40, -40, -0.2], [40, 60, 0]], "floor"),
+                       "ball": model("sphere", [[-0.8, -0.8, 0], [0.8, 0.8, 1.6]], "rose"),
+                       "pole": model("cylinder", [[-0.1, -0.1, 0], [0.1, 0.1, 2.4]], "sand")},
+            "actors": [{"name": "floor", "model": "floor"}, {"name": "ball", "model": "ball", "place": [-0.75, -0.9, 0]},
+                       *[{"name": f"pole-{k}", "model": "pole", "place": [-1.3 + 1.1 * k, 0.9, 0]} for k in range(3)]]}
 
 
 def still_life(side, material):
     """A teapot and a sphere in the default light, diced coarsely, so that interpolations differ."""
-    def model(shape, box):
-        return {"joints": [{"name": shape, "segment": {"shape": shape, "sbb": box, "material": "glaze"}}]}
     return {"frames": 1, "size": [side, side], "background": [0.32, 0.34, 0.38], "dice": 5,
             "camera": {"eye": [0.3, -13, 5], "at": [0.3, 0, 1], "fov": 30},
             "materials": {"glaze": {"color": [0.75, 0.33, 0.18], **material}},
@@ -120,6 +159,8 @@ def main():
         gallery.details()
         gallery.models()
         gallery.colors()
+        gallery.walk()
+        gallery.suns()
 
 
 if __name__ == "__main__":

@@ -53,15 +53,16 @@ class Film:
         self.count = film["frames"]
         self.color = film.get("color", "linear")
 
-    def diced(self, rate):
-        """The same film with rate x rate quads a patch."""
+    def diced(self, rate=None):
+        """The same film with rate x rate quads a patch, or as finely as before. No light casts shadows: so many quads
+        would take long."""
         with open(self.path) as file:
-            film = json.load(file)
+            film = films.without_shadows(json.load(file))
         film["models"] = {name: os.path.join(films.EXAMPLES, model) if isinstance(model, str) else model
                           for name, model in film["models"].items()}
         other = copy.copy(self)
-        other.name = f"{self.name}-{rate}"
-        other.path = films.save({**film, "dice": rate}, os.path.join(self.folder, other.name + ".json"))
+        other.name = f"{self.name}-{rate or 'adaptive'}"
+        other.path = films.save({**film, "dice": rate} if rate else film, os.path.join(self.folder, other.name + ".json"))
         return other
 
     def shown(self):
@@ -120,9 +121,9 @@ def measure(film, samples):
 
 def measure_dicing(film, samples):
     """By samples, the distance of adaptively and of finely diced pictures to a finely diced reference."""
-    fine, frames = film.diced(FINEST), [film.count // 2]
+    plain, fine, frames = film.diced(), film.diced(FINEST), [film.count // 2]
     references = fine.references(frames)
-    return {s: [one.rms(one.render(s, frames), references)[0] for one in (film, fine)] for s in samples}
+    return {s: [one.rms(one.render(s, frames), references)[0] for one in (plain, fine)] for s in samples}
 
 
 def print_dicing(build, size, names, samples, folder):

@@ -7,7 +7,8 @@ import numpy
 import noise
 from runs import KINDS
 
-# Steps in which a node computes, and the work that makes their time; in all other steps it waits for others.
+# Steps in which a node computes, and the work that makes their time. Reports have no such work of `shadow`; in all other
+# steps a node waits for others.
 WORK = {"dice": lambda work: work["vertices"],
         "fill": lambda work: work["edge_boxes_diced"],
         "scanline": lambda work: 7 * work["edge_boxes"] + 2 * work["samples"]}  # docs/measuring.md

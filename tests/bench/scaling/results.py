@@ -7,7 +7,7 @@ import numpy
 import fits
 import machines
 import study
-from runs import KINDS, PHASES
+from runs import KINDS, PHASES, seconds_of
 
 WAITS = ("sum", "exchange", "depth", "credit", "host")  # steps in which a node waits for others
 STEPS = (*PHASES, "host")
@@ -18,13 +18,13 @@ def steps_of(run):
     """Seconds of a run by step, of the mean node; "host" is the rest of the film's time, in which a node has nothing to
     do: the host has not given it a task yet, or composes the last frames."""
     nodes = run["per_node"]
-    steps = {phase: sum(node[kind]["seconds"][phase] for node in nodes for kind in KINDS) / len(nodes) for phase in PHASES}
+    steps = {phase: sum(seconds_of(node[kind], phase) for node in nodes for kind in KINDS) / len(nodes) for phase in PHASES}
     return {**steps, "host": max(0.0, run["seconds"] - sum(steps.values()))}
 
 
 def computing(run):
     """Seconds that each node computes."""
-    return [sum(node[kind]["seconds"][phase] for kind in KINDS for phase in PHASES if phase not in WAITS)
+    return [sum(seconds_of(node[kind], phase) for kind in KINDS for phase in PHASES if phase not in WAITS)
             for node in run["per_node"]]
 
 

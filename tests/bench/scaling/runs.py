@@ -10,7 +10,7 @@ import usage
 from study import Trouble
 
 FORMAT = "mars-scaling 2"
-PHASES = ("dice", "sum", "map", "exchange", "fill", "scanline", "depth", "credit")
+PHASES = ("dice", "sum", "map", "exchange", "fill", "scanline", "shadow", "depth", "credit")
 PEAKS = ("memory", "passes")  # of the work counts; all others are sums
 KINDS = ("keyframe", "inbetween")
 
@@ -107,9 +107,14 @@ def condensed(report):
             "load_ratio": sum(load) / len(load) if load else None, "per_node": nodes}
 
 
+def seconds_of(part, phase):
+    """0 for a phase that an older MARS does not have."""
+    return part["seconds"].get(phase, 0.0)
+
+
 def sums_of(parts):
     """Of a node's parts of frames."""
-    seconds = {phase: sum(part["seconds"][phase] for part in parts) for phase in PHASES}
+    seconds = {phase: sum(seconds_of(part, phase) for part in parts) for phase in PHASES}
     work = {}
     for part in parts:
         for name, count in part["work"].items():

@@ -276,6 +276,13 @@ class Apart(unittest.TestCase):
         self.assertEqual(slower.cause().name, "dice")
         self.assertEqual((answers.answer(faster.times[0]), faster.cause().name), ("faster", "dice"))
 
+    def test_an_older_mars_has_no_phase_of_shadows(self):
+        """Measured studies have none, either."""
+        header, runs = measured.study(2, repeats=10, times=lambda host, phase: 5 / 3 if phase == "dice" else 1, **CALM)
+        for seconds in (node[kind]["seconds"] for run in runs for node in run["per_node"] for kind in ("keyframe", "inbetween")):
+            seconds.update(dice=0.6 * seconds["dice"], shadow=0.4 * seconds["dice"])
+        self.assertEqual(apart(measured.study(1, repeats=10, **CALM), (header, runs)).cause().name, "shadow")
+
     def test_a_step_that_waits_is_named_where_none_computes_longer(self):
         waits = measured.study(2, repeats=10, times=lambda host, phase: 6 if phase == "exchange" else 1)
         self.assertEqual(apart(measured.study(1, repeats=10), waits).cause().name, "exchange")

@@ -1,6 +1,7 @@
 // Compiled films as nodes read them: PackedFilm refuses a block, or all of it can be read without harm.
 #include "node/geometry/meshlets.h"
 #include "node/geometry/scene.h"
+#include "node/geometry/sweep.h"
 #include "node/simd/instruction_set.h"
 #include "node/wire/film.h"
 #include "tests/fuzz/edits.h"
@@ -32,7 +33,7 @@ void read_all(const wire::PackedFilm& film) {
     scene.set_interval(i);
     const std::uint32_t frame = film.intervals()[i].first_frame;
     scene.set_frame(frame);
-    scene.moving_line_bounds({&frame, 1}, boxes);
+    geometry::Sweep().begin(scene, {&frame, 1}, boxes, [](const geometry::PictureBounds&) {});
   }
   read_shapes(film, scene.projection(), last);
 }

@@ -20,8 +20,8 @@ constexpr geometry::LineRange kAll{0, kHeight};
 
 // Bytes for `lines` lines with `groups` groups a column.
 std::uint64_t bytes_for(std::uint32_t lines, std::uint32_t groups) {
-  const std::uint64_t line =
-      wire::kStillHeadBytes + kWidth * (kSamples * sizeof(float) + sizeof(std::uint32_t) + groups * sizeof(StillGroup));
+  const std::uint64_t line = wire::still_head_bytes(kWidth) +
+                             kWidth * (kSamples * sizeof(float) + sizeof(std::uint32_t) + groups * sizeof(StillGroup));
   return lines * ((line + 63) / 64 * 64);
 }
 const std::uint64_t kAmple = bytes_for(kHeight, kSamples);
@@ -38,6 +38,13 @@ void as_node(const std::function<void(const Neighbours&)>& node) {
 
 StillLines lines_of(const Neighbours& neighbours, std::uint64_t bytes, std::uint32_t samples = kSamples) {
   return {neighbours, kWidth, kHeight, shape::sample_pattern(samples), bytes};
+}
+
+// As it travels.
+std::vector<std::byte> packed(const StillLines& still, std::uint32_t line) {
+  std::vector<std::byte> bytes(still.packed_bytes(line));
+  if (!bytes.empty()) still.pack(line, bytes.data());
+  return bytes;
 }
 
 // Depths and groups that tell their line and place; `groups` of them, evenly over the columns.
@@ -105,7 +112,7 @@ TEST(StillLines, WhereFewLinesFitTheOthersAreNotKept) {
     none.begin_interval(kInterval, kAll);
     EXPECT_FALSE(write(none, 0, 0));
     EXPECT_FALSE(none.keeps(0));
-    EXPECT_TRUE(none.packed(0).empty());
+    EXPECT_TRUE(packed(none, 0).empty());
   });
 }
 
@@ -140,7 +147,7 @@ TEST(StillLines, TravelBetweenMachinesWithMoreAndLessMemory) {
     ample.begin_interval(kInterval, {1, 8});
     small.begin_interval(kInterval, {1, 8});
     for (std::uint32_t line = 1; line < 8; ++line) write(ample, line, line == 2 ? 3 * kWidth : kWidth);
-    for (std::uint32_t line = 7; line >= 1; --line) small.unpack(ample.packed(line));
+    for (std::uint32_t line = 7; line >= 1; --line) small.unpack(packed(ample, line));
     for (std::uint32_t line = 1; line < 8; ++line) {
       if (line == 2 || line > 4)
         EXPECT_FALSE(small.keeps(line)) << line;
@@ -150,8 +157,8 @@ TEST(StillLines, TravelBetweenMachinesWithMoreAndLessMemory) {
     ample.begin_interval(kInterval + 1, {1, 8});
     small.begin_interval(kInterval + 1, {1, 8});
     write(small, 3, 4);
-    EXPECT_TRUE(small.packed(4).empty()) << "of the interval before";
-    ample.unpack(small.packed(3));
+    EXPECT_TRUE(packed(small, 4).empty()) << "of the interval before";
+    ample.unpack(packed(small, 3));
     expect_kept(ample, 3, 4);
     EXPECT_FALSE(ample.keeps(2));
   });
@@ -162,7 +169,8 @@ TEST(StillLines, OfOtherMachinesAreSound) {
     StillLines still = lines_of(alone, kAmple);
     still.begin_interval(kInterval, {1, 8});
     write(still, 3, 5);
-    const auto sound = still.packed(3);
+    const auto bytes = packed(still, 3);
+    const std::span sound(bytes);
     ASSERT_TRUE(still.is_packed(sound));
     for (const std::size_t size : {std::size_t{0}, std::size_t{3}, std::size_t{64}, sound.size() - 1})
       EXPECT_FALSE(still.is_packed(sound.first(size))) << size;
@@ -191,8 +199,9 @@ TEST(StillLines, WithOneSampleAllLinesAreKept) {
       std::ranges::fill(still.depth(line, 0), static_cast<float>(line));
     }
     EXPECT_FALSE(still.keeps(1));
-    const auto depths = still.depths({3, 6});
-    ASSERT_EQ(depths.size(), 3 * kWidth);
+    std::vector<float> depths(3 * kWidth);
+    ASSERT_EQ(still.depth_bytes({3, 6}), std::span(depths).size_bytes());
+    still.pack_depths({3, 6}, std::as_writable_bytes(std::span(depths)).data());
     for (std::uint32_t k = 0; k < depths.size(); ++k) EXPECT_EQ(depths[k], static_cast<float>(3 + k / kWidth));
     still.begin_interval(kInterval + 1, kAll);
     EXPECT_TRUE(still.keeps(11)) << "whoever reads lines waits until they are written";
@@ -255,9 +264,10 @@ TEST(StillLines, WhereLightsCastComeBackAndTravel) {
       for (std::uint32_t line = 1; line < 7; ++line) expect_unsummed(still, line, most - line, samples);
       EXPECT_FALSE(still.keeps(7)) << "not written";
       for (std::uint32_t line = 1; line < 7; ++line) {
-        EXPECT_LE(still.packed(line).size(), still.most_packed());
-        ASSERT_TRUE(other.is_packed(still.packed(line)));
-        other.unpack(still.packed(line));
+        const auto bytes = packed(still, line);
+        EXPECT_LE(bytes.size(), still.most_packed());
+        ASSERT_TRUE(other.is_packed(bytes));
+        other.unpack(bytes);
       }
       for (std::uint32_t line = 1; line < 7; ++line) expect_unsummed(other, line, most - line, samples);
     }
@@ -289,7 +299,8 @@ TEST(StillLines, WhereLightsCastOfOtherMachinesAreSound) {
     StillLines still = casting_lines_of(alone, 1 << 20, kSamples);
     still.begin_interval(kInterval, {1, 8});
     write_unsummed(still, 3, 5, kSamples);
-    const auto sound = still.packed(3);
+    const auto bytes = packed(still, 3);
+    const std::span sound(bytes);
     ASSERT_TRUE(still.is_packed(sound));
     const std::size_t group = wire::still_group_bytes(kCasting);
     for (const std::size_t less : {std::size_t{1}, std::size_t{4}, group, 5 * group, sound.size()})
@@ -306,6 +317,156 @@ TEST(StillLines, WhereLightsCastOfOtherMachinesAreSound) {
     EXPECT_FALSE(takes(groups + group / 4, ~0u)) << "more samples than a pixel has";
     EXPECT_TRUE(takes(groups - 1, ~0u)) << "any pairs";
     EXPECT_TRUE(takes(groups + 1, ~0u)) << "light of any amount";
+  });
+}
+
+constexpr std::uint32_t kWide = 40, kOfTile = 3;  // columns of a line; groups of a marked tile
+constexpr std::uint32_t kMarked[] = {1, 3};       // tiles
+
+bool is_marked(std::uint32_t column) { return column / wire::kStillTile == 1 || column / wire::kStillTile == 3; }
+
+void mark(StillLines& still) {
+  still.marks().clear();
+  for (const std::uint32_t tile : kMarked) still.marks().mark({0, kHeight}, {8 * tile, 8 * tile + 1});
+}
+
+// Three groups on the first column of each marked tile; depths and pairs of all columns.
+void write_marked(StillLines& still, std::uint32_t line, std::uint32_t casting) {
+  ASSERT_TRUE(still.begin_line(line, 2 * kOfTile));
+  std::vector<float> depths(kWide);
+  for (std::uint32_t s = 0; s < kSamples; ++s) {
+    for (std::uint32_t x = 0; x < kWide; ++x) depths[x] = static_cast<float>(100 * s + x + 1);
+    EXPECT_EQ(still.keep_depths(line, s, depths.data()), 16u);
+  }
+  std::uint32_t* const end = casting > 0 ? still.unsummed(line).end : still.groups(line).end;
+  for (std::uint32_t x = 0; x < kWide; ++x) end[x] = x < 8 ? 0 : x < 24 ? kOfTile : 2 * kOfTile;
+  for (std::uint32_t k = 0; k < 2 * kOfTile; ++k)
+    if (casting > 0)
+      still.unsummed(line).group(k) = {k, 0.5f, {1, 2, 3}};
+    else
+      still.groups(line).groups[k] = {{1, 2, 3}, k};
+  std::vector<wire::StillPairs> pairs(std::size_t{casting} * kWide);
+  for (std::uint32_t p = 0; p < pairs.size(); ++p) pairs[p] = {static_cast<std::uint16_t>(p + 1), 7};
+  if (casting > 0) still.keep_pairs(line, pairs.data());
+}
+
+// All of them, as an interval before did.
+void write_all(StillLines& still, std::uint32_t line, std::uint32_t casting) {
+  still.marks().mark_all();
+  ASSERT_TRUE(still.begin_line(line, kWide));
+  const std::vector<float> depths(kWide, 99.0f);
+  for (std::uint32_t s = 0; s < kSamples; ++s) still.keep_depths(line, s, depths.data());
+  std::fill_n(casting > 0 ? still.unsummed(line).end : still.groups(line).end, kWide, kWide);
+  const std::vector<wire::StillPairs> pairs(std::size_t{casting} * kWide, wire::StillPairs{5, 5});
+  if (casting > 0) still.keep_pairs(line, pairs.data());
+}
+
+void expect_marked(StillLines& still, std::uint32_t line, std::uint32_t casting) {
+  ASSERT_TRUE(still.keeps(line));
+  for (std::uint32_t s = 0; s < kSamples; ++s) {
+    std::vector<float> depths(kWide);
+    still.take_depths(line, s, {3, kWide - 12}, depths.data());
+    for (std::uint32_t x = 0; x < kWide; ++x)
+      EXPECT_EQ(depths[x], is_marked(x) && x < kWide - 12 ? static_cast<float>(100 * s + x + 1) : 0.0f) << x;
+  }
+  const std::uint32_t* const end = casting > 0 ? still.unsummed(line).end : still.groups(line).end;
+  for (std::uint32_t x = 0; x < kWide; ++x) {
+    EXPECT_EQ(has_column(still.columns(line), x), is_marked(x));
+    EXPECT_EQ(end[x] - (x == 0 ? 0 : end[x - 1]), x == 8 || x == 24 ? kOfTile : 0) << x;
+    for (std::uint32_t l = 0; l < casting; ++l) {
+      const wire::StillPairs pairs = still.unsummed(line).pairs[l * kWide + x];
+      EXPECT_EQ(pairs.lit, is_marked(x) ? l * kWide + x + 1 : 0u);
+      EXPECT_EQ(pairs.blocked, is_marked(x) ? 7u : 0u);
+    }
+  }
+}
+
+// On other columns there is nothing, whatever was there before; they do not travel.
+TEST(StillLines, AreKeptOnMarkedColumnsAlone) {
+  as_node([](const Neighbours& alone) {
+    for (const std::uint32_t casting : {0u, kCasting}) {
+      const auto lines = [&] {
+        return StillLines(alone, kWide, kHeight, shape::sample_pattern(kSamples), 1 << 20, casting);
+      };
+      StillLines home = lines(), other = lines();
+      for (StillLines* still : {&home, &other}) {
+        still->begin_interval(kInterval, {1, 8});
+        for (std::uint32_t line = 1; line < 8; ++line) write_all(*still, line, casting);
+        still->begin_interval(kInterval + 1, {1, 8});
+      }
+      mark(home);
+      for (std::uint32_t line = 1; line < 8; ++line) {
+        write_marked(home, line, casting);
+        expect_marked(home, line, casting);
+        const auto bytes = packed(home, line);
+        EXPECT_EQ(bytes.size(), wire::still_head_bytes(kWide) + 16 * wire::still_column_bytes(kSamples, casting) +
+                                    2 * kOfTile * wire::still_group_bytes(casting));
+        ASSERT_TRUE(other.is_packed(bytes));
+        other.unpack(bytes);
+        expect_marked(other, line, casting);
+      }
+    }
+  });
+}
+
+TEST(StillLines, ALineWithoutColumnsIsKept) {
+  as_node([](const Neighbours& alone) {
+    StillLines home = lines_of(alone, kAmple), other = lines_of(alone, kAmple);
+    for (StillLines* still : {&home, &other}) still->begin_interval(kInterval, kAll);
+    home.marks().clear();
+    ASSERT_TRUE(home.begin_line(5, 0));
+    const auto bytes = packed(home, 5);
+    EXPECT_EQ(bytes.size(), wire::still_head_bytes(kWidth));
+    ASSERT_TRUE(other.is_packed(bytes));
+    other.unpack(bytes);
+    EXPECT_TRUE(other.keeps(5));
+    EXPECT_FALSE(any(other.columns(5)));
+  });
+}
+
+TEST(StillLines, MarkedColumnsOfOtherMachinesAreSound) {
+  as_node([](const Neighbours& alone) {
+    StillLines still(alone, kWide, kHeight, shape::sample_pattern(kSamples), 1 << 20, kCasting);
+    still.begin_interval(kInterval, {1, 8});
+    mark(still);
+    write_marked(still, 3, kCasting);
+    const auto sound = packed(still, 3);
+    const auto takes = [&](std::uint64_t tiles) {
+      auto damaged = sound;
+      std::memcpy(damaged.data() + wire::kStillHeadBytes, &tiles, sizeof tiles);
+      return still.is_packed(damaged);
+    };
+    EXPECT_TRUE(takes(0b01010));
+    EXPECT_FALSE(takes(0b01011)) << "more columns than come";
+    EXPECT_FALSE(takes(0b00010)) << "fewer";
+    EXPECT_FALSE(takes(0b1000010)) << "beyond the line";
+  });
+}
+
+// CZB alone: all nodes know the columns.
+TEST(StillLines, WithOneSampleMarkedColumnsTravel) {
+  as_node([](const Neighbours& alone) {
+    StillLines home(alone, kWide, kHeight, shape::sample_pattern(1), 0),
+        other(alone, kWide, kHeight, shape::sample_pattern(1), 0);
+    std::vector<float> depths(kWide);
+    for (std::uint32_t x = 0; x < kWide; ++x) depths[x] = static_cast<float>(x + 1);
+    for (StillLines* still : {&home, &other}) {
+      still->begin_interval(kInterval, {2, kHeight});
+      mark(*still);
+    }
+    for (std::uint32_t line = 3; line < 6; ++line) {
+      ASSERT_TRUE(home.begin_line(line, 0));
+      EXPECT_EQ(home.keep_depths(line, 0, depths.data()), 16u);
+    }
+    std::vector<std::byte> bytes(home.depth_bytes({3, 6}));
+    EXPECT_EQ(bytes.size(), 3 * 16 * sizeof(float));
+    home.pack_depths({3, 6}, bytes.data());
+    other.unpack_depths({3, 6}, bytes.data());
+    for (std::uint32_t line = 3; line < 6; ++line) {
+      std::vector<float> taken(kWide);
+      other.take_depths(line, 0, {0, kWide}, taken.data());
+      for (std::uint32_t x = 0; x < kWide; ++x) EXPECT_EQ(taken[x], is_marked(x) ? depths[x] : 0.0f);
+    }
   });
 }
 

@@ -22,7 +22,6 @@ using shape::Vec3;
 
 constexpr std::uint32_t kWidth = 40, kHeight = 24;
 constexpr int kSide = 13;  // vertices of a caster
-constexpr Shaft kRay{0, 0, 1, 1, 0, 0};
 
 // A surface that is seen all over the picture: w is its distance along the view axis.
 struct Surface {

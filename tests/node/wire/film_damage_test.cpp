@@ -7,6 +7,7 @@
 #include "hal/failure/failure.h"
 #include "node/geometry/meshlets.h"
 #include "node/geometry/scene.h"
+#include "node/geometry/sweep.h"
 #include "node/simd/instruction_set.h"
 #include "node/wire/film.h"
 #include "tests/node/shape/patches.h"
@@ -27,7 +28,10 @@ std::uint64_t walk(const PackedFilm& film) {
     scene.set_interval(i);
     for (const std::uint32_t frame : {film.intervals()[i].first_frame, last}) {
       scene.set_frame(frame);
-      sum += scene.moving_line_bounds({&frame, 1}, geometry::ShapeBoxes(film)).last;
+      geometry::Sweep sweep;
+      sweep.begin(scene, {&frame, 1}, geometry::ShapeBoxes(film),
+                  [&](const geometry::PictureBounds& bounds) { sum += bounds.columns.last; });
+      sum += sweep.lines().last;
       for (std::size_t s = 0; s < film.segments().size(); ++s) sum += scene.material(s) + scene.first_patch(s);
     }
   }
