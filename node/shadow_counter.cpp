@@ -14,7 +14,8 @@ namespace {
 
 using shadow::GridBox;
 
-constexpr std::uint32_t kCountedPoints = 4;  // of a light with size
+constexpr std::uint32_t kCountedPoints = 4;      // of a light with size
+constexpr shadow::Shaft kRay{0, 0, 1, 1, 0, 0};  // towards a point
 constexpr std::array kKinds{shadow::Casting::still, shadow::Casting::moving};
 
 constexpr std::size_t number(shadow::Casting kind) { return static_cast<std::size_t>(kind); }
@@ -31,6 +32,15 @@ float dot(const std::array<float, 3>& a, const std::array<float, 3>& b) {
 
 bool is_empty(const GridBox& box) { return box.low_x > box.high_x; }
 
+// The points, with more of their plane.
+shadow::PointVector joined(shadow::PointVector points, const GridBox& more) {
+  if (points.active == 0 || is_empty(more)) return points;
+  const GridBox before = std::exchange(points.box, shadow::around(points.box, more));
+  points.least += points.per_x * (static_cast<float>(points.box.low_x) - static_cast<float>(before.low_x)) +
+                  points.per_y * (static_cast<float>(points.box.low_y) - static_cast<float>(before.low_y));
+  return points;
+}
+
 }  // namespace
 
 ShadowCounter::ShadowCounter(const geometry::Scene& scene, simd::InstructionSet set)
@@ -38,12 +48,9 @@ ShadowCounter::ShadowCounter(const geometry::Scene& scene, simd::InstructionSet 
       diced_(scene.film().patch_instances()),
       is_needed_(scene.film().patch_instances()),
       casters_(set),
-      stretches_((static_cast<std::uint32_t>(scene.width()) + kColumns - 1) / kColumns * 2),
-      height_(static_cast<std::uint32_t>(scene.height())) {
-  constexpr std::size_t kVertices = shape::Dicer::kMostVertices + simd::kVectorSlack;
-  for (auto& axis : grid_) axis.resize(kVertices);
-  grid_z_.resize(kVertices);
-}
+      stretches_((static_cast<std::uint32_t>(scene.width()) + kColumns - 1) / kColumns * (kColumns / kSquare)),
+      height_(static_cast<std::uint32_t>(scene.height())),
+      grid_(kernels_) {}
 
 // In an inbetween the still points are those of its keyframe.
 void ShadowCounter::begin_frame(bool keyframe) {
@@ -64,7 +71,7 @@ void ShadowCounter::begin(const geometry::Scene& scene, wire::FrameKind kind, st
     for (const shadow::Casting seen : kKinds) {
       if (!keyframe_ && seen == shadow::Casting::still) continue;
       light.seen[number(seen)].assign(light.counted.size(), {});
-      light.seen_by_middle[number(seen)] = {};
+      light.seen_by_middle[number(seen)].assign(light.has_size() ? light.views.middle.size() : 0, {});
     }
 }
 
@@ -77,6 +84,7 @@ void ShadowCounter::add_light(const geometry::EyeLight& light, const geometry::S
   for (std::uint32_t k = 0; k < counted; ++k) {
     const std::uint32_t point = (2 * k + 1) * views.points / (2 * counted);
     const auto of_point = std::span(views.views).subspan(std::size_t{point} * views.faces, views.faces);
+    added.counted_points.push_back(point);
     added.counted.insert(added.counted.end(), of_point.begin(), of_point.end());
   }
 }
@@ -84,7 +92,9 @@ void ShadowCounter::add_light(const geometry::EyeLight& light, const geometry::S
 template <typename Hull>
 GridBox ShadowCounter::project(const shadow::LightView& view, const Hull& hull) {
   const float* const along[] = {hull.along[0], hull.along[1], hull.along[2]};
-  return kernels_.project(view, along, hull.count, {grid_[0].data(), grid_[1].data(), grid_z_.data()});
+  std::int32_t x[2 * kColumns], y[2 * kColumns];
+  float z[2 * kColumns];
+  return kernels_.project(view, along, hull.count, {x, y, z});
 }
 
 // As shading decides whether it adds anything, but for what is beyond a light's reach.
@@ -131,7 +141,7 @@ double ShadowCounter::add(const geometry::Scene& scene, Casting seen, const Seen
   return all;
 }
 
-// Half as wide as a vector, which is as wide as nodes' squares.
+// A quarter of a vector each: as wide as squares of nodes' points are.
 void ShadowCounter::add_stretch(Light& light, Casting seen, const SeenLine& line, std::uint32_t first,
                                 std::uint32_t active, double points) {
   float inverse_w[kColumns] = {};
@@ -139,72 +149,92 @@ void ShadowCounter::add_stretch(Light& light, Casting seen, const SeenLine& line
     const int k = std::countr_zero(left);
     inverse_w[k] = line.depths[first + static_cast<std::uint32_t>(k)];
   }
-  constexpr std::uint32_t kHalf = (1u << kColumns / 2) - 1;
-  for (const std::uint32_t some : {active & kHalf, active & ~kHalf}) {
+  for (std::uint32_t from = 0; from < kColumns; from += kSquare) {
+    const std::uint32_t some = active & ((1u << kSquare) - 1) << from;
     const double part = active != 0 ? std::popcount(some) / static_cast<double>(std::popcount(active)) : 0;
-    const auto on = [&](const shadow::LightView& view, double of_view) {
-      return stretch_on(view, light.views.frame, {line.number, first, some, inverse_w, points * part * of_view});
+    const auto on = [&](const shadow::LightView& view, std::uint32_t lanes) {
+      return stretch_on(view, light.views.frame, {line.number, first, lanes, inverse_w, points * part});
     };
     for (std::size_t view = 0; view < light.counted.size(); ++view)
-      light.seen[number(seen)][view].all.push_back(on(light.counted[view], light.points_each / light.views.points));
-    if (light.has_size() && light.has_bounds())
-      light.seen_by_middle[number(seen)].all.push_back(on(light.views.middle.front(), 1));
+      light.seen[number(seen)][view].all.push_back(
+          on(light.counted[view], some & using_point(light, view, first, line.number)));
+    for (std::size_t face = 0; light.has_size() && face < light.views.middle.size(); ++face)
+      light.seen_by_middle[number(seen)][face].all.push_back(on(light.views.middle[face], some));
   }
+}
+
+// Columns whose pixels use the point of a counted view.
+std::uint32_t ShadowCounter::using_point(const Light& light, std::size_t view, std::uint32_t first,
+                                         std::uint32_t line) const {
+  constexpr std::uint32_t kAll = 0xffffffff;
+  if (!light.has_size()) return kAll;
+  const std::uint32_t point = light.counted_points[view / light.views.faces];
+  std::uint32_t columns = 0;
+  for (std::uint32_t k = 0; k < kColumns; ++k)
+    for (std::uint32_t pair = 0; pair < shadow::kPairs; ++pair)
+      columns |= static_cast<std::uint32_t>(shadow::point_of_pair(first + k, line, pair) == point) << k;
+  return columns;
 }
 
 ShadowCounter::Stretch ShadowCounter::stretch_on(const shadow::LightView& view, const shadow::PointFrame& frame,
                                                  const SeenStretch& seen) const {
-  if (seen.active == 0) return {seen.line, shadow::kNowhere, 0};
+  Stretch stretch{seen.line, {}, 0};
+  stretch.seen.box = shadow::kNowhere;
+  if (seen.active == 0) return stretch;
   shadow::LanePlaces places;
   for (std::uint32_t k = 0; k < kColumns; ++k) {
     places.x[k] = static_cast<float>(k) + 0.5f;
     places.y[k] = 0.5f;
   }
-  shadow::PointVector on_grid{};
   kernels_.put_points(view, frame, static_cast<float>(seen.first), static_cast<float>(seen.line), places,
-                      seen.inverse_w, seen.active, on_grid);
-  const double part = std::popcount(on_grid.active) / static_cast<double>(std::popcount(seen.active));
-  return {seen.line, on_grid.active != 0 ? on_grid.box : shadow::kNowhere, seen.points * part};
+                      seen.inverse_w, seen.active, stretch.seen);
+  if (stretch.seen.active == 0) stretch.seen.box = shadow::kNowhere;
+  stretch.points = seen.points * std::popcount(stretch.seen.active) / std::popcount(seen.active);
+  return stretch;
 }
 
 // A stretch stands for the lines up to the next one that was added.
-void ShadowCounter::finish(Stretches& stretches) const {
-  stretches.tree.clear();
+void ShadowCounter::finish(Stretches& stretches) {
+  stretches.points.clear();
   const std::vector<Stretch>& all = stretches.all;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const bool joins = i + stretches_ < all.size() && all[i + stretches_].line == all[i].line + step_;
-    stretches.tree.add(joins ? shadow::around(all[i].box, all[i + stretches_].box) : all[i].box);
+    stretches.points.add(nowhere_, 0, 0, joins ? joined(all[i].seen, all[i + stretches_].seen.box) : all[i].seen);
   }
-  stretches.tree.finish();
+  stretches.points.finish();
+  stretches.is_met.assign(all.size(), 0);
 }
 
 void ShadowCounter::count(const geometry::Scene& scene, wire::FrameCounts& counts) {
-  for (Light& light : lights_)
+  for (Light& light : lights_) {
+    light.put = {};
     for (const Casting seen : kKinds) {
       if (!keyframe_ && seen == Casting::still) continue;
-      for (Stretches& stretches : light.seen[number(seen)]) finish(stretches);
-      finish(light.seen_by_middle[number(seen)]);
+      for (auto* views : {&light.seen[number(seen)], &light.seen_by_middle[number(seen)]})
+        for (Stretches& stretches : *views) finish(stretches);
     }
+  }
   for (Light& light : lights_) {
     constexpr std::array kMovingAlone{Casting::moving};
-    const std::span<const Casting> drawn = keyframe_ ? std::span<const Casting>(kKinds) : kMovingAlone;
-    const double still = count_casters(scene, light, Casting::still, drawn, counts);
-    const double moving = scene.any_moves() ? count_casters(scene, light, Casting::moving, kKinds, counts) : 0;
-    light.times_drawn = light.has_size() ? still + moving : 1;
-    light.times_kept = light.has_size() ? moving : 1;
+    count_casters(scene, light, Casting::still, keyframe_ ? std::span<const Casting>(kKinds) : kMovingAlone, counts);
+    if (scene.any_moves()) count_casters(scene, light, Casting::moving, kKinds, counts);
   }
   if (!keyframe_) counts.kept_points += count_kept(scene);
-  scale_points(Casting::still, &wire::LineCounts::constant, counts.lines);
+  if (keyframe_) scale_points(Casting::still, &wire::LineCounts::constant, counts.lines);
   scale_points(Casting::moving, &wire::LineCounts::moving, counts.lines);
 }
 
-// By how often points of all lights are put.
+// By how often points of all lights are put, which are counted once so far.
 void ShadowCounter::scale_points(Casting seen, wire::SeenCounts wire::LineCounts::*of,
                                  std::vector<wire::LineCounts>& lines) const {
   double once = 0, put = 0;
-  for (const Light& light : lights_)
-    for (const Stretches& stretches : light.seen[number(seen)])
-      for (const Stretch& stretch : stretches.all) once += stretch.points, put += stretch.points * light.times_drawn;
+  for (const Light& light : lights_) {
+    double points = 0;
+    for (const Stretches& stretches : (light.has_size() ? light.seen_by_middle : light.seen)[number(seen)])
+      for (const Stretch& stretch : stretches.all) points += stretch.points;
+    once += points;
+    put += light.has_size() ? light.put[number(seen)] : points;
+  }
   if (once == put) return;
   for (wire::LineCounts& line : lines) (line.*of).points *= put / once;
 }
@@ -214,16 +244,16 @@ void ShadowCounter::mark_shaded(const geometry::Scene& scene, const geometry::Sw
   if (sweep.casters().empty()) return;
   if (!std::ranges::all_of(lights_, &Light::has_bounds)) return marks.mark_all();
   const auto mark = [&](const Stretch& stretch, std::size_t number) {
-    const auto first = static_cast<std::uint32_t>(number % stretches_) * kColumns;
+    const auto first = static_cast<std::uint32_t>(number % stretches_) * kSquare;
     marks.mark({stretch.line, std::min(stretch.line + step_, static_cast<std::uint32_t>(scene.height()))},
-               {first, std::min(first + kColumns, static_cast<std::uint32_t>(scene.width()))});
+               {first, std::min(first + kSquare, static_cast<std::uint32_t>(scene.width()))});
   };
   for (Light& light : lights_)
     for (const geometry::SweptHull& caster : sweep.casters()) visit_shaded(light, caster, mark);
 }
 
-// Of all lights, still points on stretches that moving casters may keep from any light: on all, where that is not
-// known of a light.
+// Of lights without size, still points on stretches that moving casters may keep from any light: on all, where that is
+// not known of a light. Of others, those that shafts found.
 double ShadowCounter::count_kept(const geometry::Scene& scene) {
   if (lights_.empty()) return 0;
   is_shaded_.assign(lights_.front().seen[number(Casting::still)].front().all.size(), 0);
@@ -232,10 +262,15 @@ double ShadowCounter::count_kept(const geometry::Scene& scene) {
   else
     std::ranges::fill(is_shaded_, std::uint8_t{1});
   double points = 0;
-  for (const Light& light : lights_)
+  for (const Light& light : lights_) {
+    if (light.has_size()) {
+      points += light.put[number(Casting::still)] * step_;
+      continue;
+    }
     for (const Stretches& still : light.seen[number(Casting::still)])
       for (std::size_t i = 0; i < is_shaded_.size(); ++i)
-        points += is_shaded_[i] != 0 ? still.all[i].points * step_ * light.times_kept : 0;
+        points += is_shaded_[i] != 0 ? still.all[i].points * step_ : 0;
+  }
   return points;
 }
 
@@ -251,7 +286,7 @@ void ShadowCounter::visit_shaded(Light& light, const Hull& hull, const Visit& vi
   std::vector<Stretches>& still = light.seen[number(Casting::still)];
   if (light.has_size())
     return visit_shaded(light.views.middle.front(), hull, light.views.spread,
-                        light.seen_by_middle[number(Casting::still)], visit);
+                        light.seen_by_middle[number(Casting::still)].front(), visit);
   for (std::size_t view = 0; view < light.counted.size(); ++view)
     visit_shaded(light.counted[view], hull, 0, still[view], visit);
 }
@@ -261,38 +296,73 @@ void ShadowCounter::visit_shaded(const shadow::LightView& view, const Hull& hull
                                  const Visit& visit) {
   const GridBox box = project(view, hull);
   if (is_empty(box)) return;
-  for (const std::uint32_t found : still.tree.find(kernels_, box, spread, found_))
+  for (const std::uint32_t found : still.points.tree().find(kernels_, box, spread, found_))
     if (found < still.all.size()) visit(still.all[found], found);
 }
 
-// Returns the number of chunks.
-double ShadowCounter::count_casters(const geometry::Scene& scene, Light& light, Casting casting,
-                                    std::span<const Casting> onto, wire::FrameCounts& counts) {
+void ShadowCounter::count_casters(const geometry::Scene& scene, Light& light, Casting casting,
+                                  std::span<const Casting> onto, wire::FrameCounts& counts) {
+  find_reach(light, onto);
   std::vector<Reach> reaches;  // of the chunk's casters
-  double views = 0;            // with points, onto which each caster is put
-  for (const Casting seen : onto)
-    for (const Stretches& stretches : light.seen[number(seen)])
-      views += std::ranges::any_of(stretches.all, [](const Stretch& s) { return s.points > 0; }) ? 1 : 0;
-  if (keyframe_) views = std::max(views / static_cast<double>(onto.size()), std::min(views, 1.0));
   const auto matters = [&](const shadow::Hull& hull) {
     const Reach reach = reach_of(hull, light, onto);
     if (reach.lines.any()) reaches.push_back(reach);
     return reach.lines.any();
   };
-  double chunks = 0;
   casters_.begin(scene, casting, diced_);
   for (auto chunk = casters_.next(matters); !chunk.empty(); chunk = casters_.next(matters)) {
+    if (light.has_size()) {
+      for (std::size_t i = 0; i < chunk.size(); ++i)
+        if (!meet_shafts(chunk[i], light, onto, reaches[i])) reaches[i].views = 0;
+      put_met(light, onto);
+    }
     for (std::size_t i = 0; i < chunk.size(); ++i) {
-      const auto& [lines, put, near, grids] = reaches[i];
+      const auto& [lines, put, views] = reaches[i];
       const double triangles = chunk[i].surface->triangles.count, vertices = chunk[i].surface->vertices;
+      const double behind = views > 0 ? grids_behind(chunk[i], light, onto) : 0;
       counts.casters.push_back({lines.first, lines.last + step_, put.first, put.any() ? put.last + step_ : put.first,
-                                diced_by(chunk[i], casting), vertices, vertices * (light.has_size() ? near : views),
-                                triangles * (light.has_size() ? grids_behind(*chunk[i].surface, light, onto) : grids)});
+                                diced_by(chunk[i], casting), vertices, vertices * views, triangles * behind});
     }
     reaches.clear();
-    ++chunks;
   }
-  return chunks;
+}
+
+// Of shafts to a light that has a size, by face.
+void ShadowCounter::find_reach(Light& light, std::span<const Casting> onto) const {
+  light.reach.clear();
+  for (std::size_t face = 0; light.has_size() && face < light.views.middle.size(); ++face) {
+    float high_z = 0;
+    for (const Casting seen : onto)
+      for (const Stretch& stretch : light.seen_by_middle[number(seen)][face].all)
+        if (stretch.seen.active != 0) high_z = std::max(high_z, stretch.seen.box.high_z);
+    light.reach.push_back(shadow::reach_of(light.views, high_z));
+  }
+}
+
+// Points are put in squares of which the chunk's casters meet some, whichever face sees these.
+void ShadowCounter::put_met(Light& light, std::span<const Casting> onto) {
+  for (const Casting seen : onto) {
+    std::vector<Stretches>& middle = light.seen_by_middle[number(seen)];
+    std::vector<std::uint8_t>& is_met = middle.front().is_met;
+    for (std::size_t face = 1; face < middle.size(); ++face)
+      for (std::size_t i = 0; i < is_met.size(); ++i) is_met[i] |= middle[face].is_met[i];
+    widen(middle.front().all, is_met);
+    for (std::size_t i = 0; i < is_met.size(); ++i)
+      for (const Stretches& each : middle) light.put[number(seen)] += is_met[i] != 0 ? each.all[i].points : 0;
+    for (Stretches& counted : light.seen[number(seen)])
+      for (std::size_t i = 0; i < is_met.size(); ++i)
+        counted.points.vectors()[i].blocked = is_met[i] != 0 ? 0 : counted.points.vectors()[i].active;
+    for (Stretches& each : middle) std::ranges::fill(each.is_met, std::uint8_t{0});
+  }
+}
+
+// To all lines of squares that were added.
+void ShadowCounter::widen(const std::vector<Stretch>& all, std::vector<std::uint8_t>& is_met) const {
+  const auto join = [&](std::size_t to, std::size_t from) {
+    if (all[to].line / kSquare == all[from].line / kSquare) is_met[to] |= is_met[from];
+  };
+  for (std::size_t i = stretches_; i < is_met.size(); ++i) join(i, i - stretches_);
+  for (std::size_t i = is_met.size(); i-- > stretches_;) join(i - stretches_, i);
 }
 
 // Those of which an earlier frame of the interval, or another light, found that they matter are kept.
@@ -302,57 +372,110 @@ wire::DicedBy ShadowCounter::diced_by(const shadow::ChunkCaster& caster, Casting
   return caster.is_new ? wire::DicedBy::none : wire::DicedBy::camera;
 }
 
-// Of a light that has a size, grids with points within the box of the caster's vertices.
-double ShadowCounter::grids_behind(const shadow::Caster& caster, Light& light, std::span<const Casting> onto) {
-  double grids = 0;
-  for (std::size_t view = 0; view < light.counted.size(); ++view) {
-    const GridBox box = kernels_.project(light.counted[view], caster.place, caster.vertices,
-                                         {grid_[0].data(), grid_[1].data(), grid_z_.data()});
-    const auto has_points = [&](Casting seen) {
-      return !light.seen[number(seen)][view].tree.find(kernels_, box, 0, found_).empty();
-    };
-    grids += !is_empty(box) && std::ranges::any_of(onto, has_points) ? light.points_each : 0;
+// Of a light that has a size: whether the caster may be before any of its points, from any place of the light.
+bool ShadowCounter::meet_shafts(const shadow::ChunkCaster& caster, Light& light, std::span<const Casting> onto,
+                                Reach& reach) {
+  bool any = false;
+  for (std::size_t face = 0; face < light.views.middle.size(); ++face) {
+    const shadow::LightView& view = light.views.middle[face];
+    const bool is_near = shadow::is_near(light.views, face, light.reach[face], caster.hull);
+    grid_.put(view, caster.hull);
+    const GridBox box = grid_.put(view, *caster.surface);
+    if (is_empty(box) && !is_near) continue;
+    for (const Casting seen : onto) {
+      Stretches& stretches = light.seen_by_middle[number(seen)][face];
+      any |= is_near ? touch_all(stretches, reach.put)
+                     : touch(view, light.reach[face].shaft, caster, box, stretches, reach.put);
+    }
   }
-  return grids;
+  return any;
 }
 
-// A keyframe's points of both kinds lie on the same grid; so do all of a light that has a size.
+bool ShadowCounter::touch_all(Stretches& stretches, Lines& put) {
+  for (std::size_t i = 0; i < stretches.all.size(); ++i) {
+    if (stretches.all[i].seen.active == 0) continue;
+    stretches.is_met[i] = 1;
+    put.add(stretches.all[i].line);
+  }
+  return !stretches.points.empty();
+}
+
+// As shadow::Shafts does.
+bool ShadowCounter::touch(const shadow::LightView& view, const shadow::Shaft& shaft, const shadow::ChunkCaster& caster,
+                          const GridBox& box, Stretches& stretches, Lines& put) {
+  const std::span<std::uint32_t> below = grid_.find_below(box, shaft, stretches.points);
+  if (below.empty()) return false;
+  touched_.assign(stretches.all.size(), 0);
+  std::uint64_t some = 0;
+  grid_.visit_batches(
+      view, *caster.surface,
+      [&](const shadow::SmallBatches& batches, std::uint32_t) {
+        kernels_.touch(batches, shaft, stretches.points.vectors(), below.data(),
+                       static_cast<std::uint32_t>(below.size()), some, touched_.data());
+      },
+      [&](std::uint32_t, std::uint32_t) {
+        for (const std::uint32_t stretch : below) touched_[stretch] = 1;
+      });
+  bool any = false;
+  for (const std::uint32_t stretch : below) {
+    if (touched_[stretch] == 0) continue;
+    stretches.is_met[stretch] = 1;
+    put.add(stretches.all[stretch].line);
+    any = true;
+  }
+  return any;
+}
+
+// Grids with points that the caster may be before.
+double ShadowCounter::grids_behind(const shadow::ChunkCaster& caster, Light& light, std::span<const Casting> onto) {
+  double all = 0;
+  for (std::size_t view = 0; view < light.counted.size(); ++view) {
+    grid_.put(light.counted[view], caster.hull);
+    const GridBox box = grid_.put(light.counted[view], *caster.surface);
+    if (is_empty(box)) continue;
+    double grids = 0;
+    for (const Casting seen : onto)
+      grids += grid_.find_below(box, kRay, light.seen[number(seen)][view].points).empty() ? 0 : 1;
+    all += light.points_each * (is_one_grid(light) ? std::min(grids, 1.0) : grids);
+  }
+  return all;
+}
+
+// What may matter: on which lines, and how many grids have points near. Of a light with size that has one view,
+// casters are put on all grids.
 ShadowCounter::Reach ShadowCounter::reach_of(const shadow::Hull& hull, Light& light, std::span<const Casting> onto) {
   Reach reach;
   for (std::size_t view = 0; view < light.counted.size(); ++view) {
-    const GridBox box = project(light.counted[view], hull);
-    double near = 0, grids = 0;
+    const GridBox box = grid_.put(light.counted[view], hull);
+    double grids = 0;
     for (const Casting seen : onto) {
       Stretches& stretches = light.seen[number(seen)][view];
-      near += !is_empty(box) && stretches.tree.any(kernels_, box, 0) ? 1 : 0;
-      grids += extend(stretches, box, 0, reach.put) ? 1 : 0;
+      if (!light.has_size()) extend(stretches, box, 0, reach.lines);
+      const bool near = !is_empty(box) && stretches.points.tree().any(kernels_, box, 0);
+      const bool is_only = light.views.faces == 1 && stretches.points.count() > 0;
+      grids += near || is_only ? 1 : 0;
     }
-    const bool is_one = keyframe_ || light.has_size();
-    reach.near += light.points_each * (is_one ? std::min(near, 1.0) : near);
-    reach.views += light.points_each * (is_one ? std::min(grids, 1.0) : grids);
+    reach.views += light.points_each * (is_one_grid(light) ? std::min(grids, 1.0) : grids);
   }
-  reach.lines = matters_on(hull, light, onto, reach.put);
+  if (!light.has_size()) reach.put = reach.lines;
+  for (std::size_t face = 0; light.has_size() && face < light.views.middle.size(); ++face) {
+    if (shadow::is_near(light.views, face, light.reach[face], hull)) reach.lines = {0, height_ - 1};
+    const GridBox box = grid_.put(light.views.middle[face], hull);
+    for (const Casting seen : onto)
+      extend(light.seen_by_middle[number(seen)][face], box, light.reach[face].shaft.spread, reach.lines);
+  }
   return reach;
 }
 
-// All lines where it is not known what may be before a light's points.
-ShadowCounter::Lines ShadowCounter::matters_on(const shadow::Hull& hull, Light& light, std::span<const Casting> onto,
-                                               const Lines& put) {
-  if (!light.has_bounds()) return {0, height_ - 1};
-  if (!light.has_size()) return put;
-  const GridBox box = project(light.views.middle.front(), hull);
-  Lines lines;
-  for (const Casting seen : onto) extend(light.seen_by_middle[number(seen)], box, light.views.spread, lines);
-  return lines;
-}
-
-// Whether any of its points may be behind a caster within the box.
-bool ShadowCounter::extend(Stretches& stretches, const GridBox& box, float spread, Lines& lines) {
-  if (is_empty(box)) return false;
-  const auto found = stretches.tree.find(kernels_, box, spread, found_);
-  for (const std::uint32_t stretch : found)
-    if (stretch < stretches.all.size()) lines.add(stretches.all[stretch].line);
-  return !found.empty();
+// Adds those of points that may be behind a caster within the box, and the others of their squares.
+void ShadowCounter::extend(Stretches& stretches, const GridBox& box, float spread, Lines& lines) {
+  if (is_empty(box)) return;
+  for (const std::uint32_t stretch : stretches.points.tree().find(kernels_, box, spread, found_)) {
+    if (stretch >= stretches.all.size()) continue;
+    const std::uint32_t line = stretches.all[stretch].line, top = line / shadow::kTile * shadow::kTile;
+    lines.add(top);
+    lines.add(std::max(line, top + shadow::kTile - std::min(step_, shadow::kTile)));
+  }
 }
 
 }  // namespace mars::node

@@ -1,6 +1,7 @@
 // Counts what the shadows of a frame take, as forecasts need it: which points are lit on some lines of the picture, and
 // to which of the sampled lines each caster matters. Of a light that has a size, grids of a few points stand for those
-// of all; its points are put for each chunk of casters, as if those before blocked none.
+// of all; its points are put for each chunk of casters, as if those before blocked none, where shafts meet the casters'
+// boxes.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +16,10 @@
 #include "node/geometry/triangle.h"
 #include "node/raster/still_marks.h"
 #include "node/shadow/casters.h"
+#include "node/shadow/grid_caster.h"
 #include "node/shadow/light_views.h"
 #include "node/shadow/points.h"
+#include "node/shadow/shafts.h"
 #include "node/wire/frame_counts.h"
 
 namespace mars::node {
@@ -50,13 +53,14 @@ class ShadowCounter {
   shadow::DicedSurfaces& diced() { return diced_; }
 
  private:
-  static constexpr std::uint32_t kColumns = shadow::kPointLanes;  // of a stretch
+  static constexpr std::uint32_t kColumns = shadow::kPointLanes;  // that are added at a time
+  static constexpr std::uint32_t kSquare = 4;                     // columns of a stretch
 
   // Lit points of a stretch of an added line.
   struct Stretch {
     std::uint32_t line;
-    shadow::GridBox box;
-    double points;
+    shadow::PointVector seen;  // of the first sample
+    double points;             // of all
   };
   // What is seen of it: 1 / w by column, of those that count.
   struct SeenStretch {
@@ -67,20 +71,23 @@ class ShadowCounter {
   };
   // Those that one view sees, by place of the line among those added, then by column.
   struct Stretches {
-    std::vector<Stretch> all;
-    shadow::BoxTree tree;
+    std::vector<Stretch> all{};
+    shadow::Points points{};             // one vector each
+    std::vector<std::uint8_t> is_met{};  // by shafts of the chunk's casters
   };
   struct Light {
     geometry::EyeLight light;
     shadow::LightViews views;
-    std::vector<shadow::LightView> counted{};      // of one point, or of some that stand for all
-    double points_each = 1;                        // of the light, for which each of them stands
-    double times_drawn = 1, times_kept = 1;        // that points of drawn and of kept lines are put
-    std::array<std::vector<Stretches>, 2> seen{};  // by Casting, then by counted view
-    std::array<Stretches, 2> seen_by_middle{};     // of a light with size, by Casting
+    std::vector<shadow::LightView> counted{};                // of one point, or of some that stand for all
+    std::vector<std::uint32_t> counted_points{};             // their numbers
+    double points_each = 1;                                  // of the light, for which each of them stands
+    std::array<std::vector<Stretches>, 2> seen{};            // by Casting, then by counted view
+    std::array<std::vector<Stretches>, 2> seen_by_middle{};  // of a light with size, by Casting and face
+    std::vector<shadow::ShaftReach> reach{};                 // by face, of the casters that are counted
+    std::array<double, 2> put{};                             // points of a light with size that are put, by Casting
 
     bool has_size() const { return views.points > 1; }
-    // Whether its middle's view says what may be before the points of all its views.
+    // Whether its middle says which still points moving casters may shade.
     bool has_bounds() const { return !has_size() || !views.middle.front().has_place; }
   };
   // Of the added lines.
@@ -90,10 +97,10 @@ class ShadowCounter {
     bool any() const { return first <= last; }
     void add(std::uint32_t line) { first = std::min(first, line), last = std::max(last, line); }
   };
-  // On which a caster matters, and those whose points it may be before: on how many grids there may be some, and are.
+  // On which a caster matters, and those on which it is put on grids; on how many.
   struct Reach {
     Lines lines, put;
-    double near = 0, views = 0;
+    double views = 0;
   };
 
   bool is_lit(const geometry::Scene& scene, const geometry::EyeLight& light, const SeenLine& line, std::uint32_t column,
@@ -101,12 +108,22 @@ class ShadowCounter {
   void add_stretch(Light& light, Casting seen, const SeenLine& line, std::uint32_t first, std::uint32_t active,
                    double points);
   void add_light(const geometry::EyeLight& light, const geometry::Scene& scene);
+  std::uint32_t using_point(const Light& light, std::size_t view, std::uint32_t first, std::uint32_t line) const;
   Stretch stretch_on(const shadow::LightView& view, const shadow::PointFrame& frame, const SeenStretch& seen) const;
-  void finish(Stretches& stretches) const;
-  double count_casters(const geometry::Scene& scene, Light& light, Casting casting, std::span<const Casting> onto,
-                       wire::FrameCounts& counts);
+  void finish(Stretches& stretches);
+  void count_casters(const geometry::Scene& scene, Light& light, Casting casting, std::span<const Casting> onto,
+                     wire::FrameCounts& counts);
   wire::DicedBy diced_by(const shadow::ChunkCaster& caster, Casting casting);
-  double grids_behind(const shadow::Caster& caster, Light& light, std::span<const Casting> onto);
+  void find_reach(Light& light, std::span<const Casting> onto) const;
+  void put_met(Light& light, std::span<const Casting> onto);
+  void widen(const std::vector<Stretch>& all, std::vector<std::uint8_t>& is_met) const;
+  bool meet_shafts(const shadow::ChunkCaster& caster, Light& light, std::span<const Casting> onto, Reach& reach);
+  bool touch_all(Stretches& stretches, Lines& put);
+  bool touch(const shadow::LightView& view, const shadow::Shaft& shaft, const shadow::ChunkCaster& caster,
+             const shadow::GridBox& box, Stretches& stretches, Lines& put);
+  double grids_behind(const shadow::ChunkCaster& caster, Light& light, std::span<const Casting> onto);
+  // A keyframe's points of both kinds lie on the same grid; so do all of a light that has a size.
+  bool is_one_grid(const Light& light) const { return keyframe_ || light.has_size(); }
   void scale_points(Casting seen, wire::SeenCounts wire::LineCounts::*of, std::vector<wire::LineCounts>& lines) const;
   double count_kept(const geometry::Scene& scene);
   void find_shaded(const geometry::Scene& scene, Light& light);
@@ -116,8 +133,7 @@ class ShadowCounter {
   void visit_shaded(const shadow::LightView& view, const Hull& hull, float spread, Stretches& still,
                     const Visit& visit);
   Reach reach_of(const shadow::Hull& hull, Light& light, std::span<const Casting> onto);
-  Lines matters_on(const shadow::Hull& hull, Light& light, std::span<const Casting> onto, const Lines& put);
-  bool extend(Stretches& stretches, const shadow::GridBox& box, float spread, Lines& lines);
+  void extend(Stretches& stretches, const shadow::GridBox& box, float spread, Lines& lines);
   template <typename Hull>
   shadow::GridBox project(const shadow::LightView& view, const Hull& hull);
 
@@ -131,8 +147,9 @@ class ShadowCounter {
   bool keyframe_ = true;
   std::vector<Light> lights_;
   std::vector<std::uint8_t> is_shaded_;  // by stretch
-  std::array<std::vector<std::int32_t>, 2> grid_;
-  std::vector<float> grid_z_;
+  shadow::Layer nowhere_{};              // that points are of
+  shadow::GridCaster grid_;
+  std::vector<std::uint8_t> touched_;
   std::vector<std::uint32_t> found_;
 };
 

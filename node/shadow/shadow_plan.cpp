@@ -32,7 +32,7 @@ std::size_t fixed_bytes(const ShadowNeeds& needs) {
       sizeof(shading::Fragment) + 2 * sizeof(std::uint32_t) + 3 * sizeof(float) + sizeof(wire::StillGroup);
   const std::size_t samples = (std::size_t{needs.width} + 2 * simd::kVectorSlack) * needs.samples;
   return samples * (needs.casting * sizeof(float) + kGroup + sizeof(float) + sizeof(std::uint32_t)) +
-         needs.patches * sizeof(std::uint32_t) + kTables;
+         needs.patches * sizeof(const Caster*) + kTables;
 }
 
 ShadowPlan least(const ShadowNeeds& needs) {
