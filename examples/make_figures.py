@@ -201,6 +201,8 @@ SKY = {"sky": [0.76, 0.86, 1.0], "ground": [0.62, 0.57, 0.50]}
 LIGHTS = [{"direction": [-0.4, -0.45, 0.95], "color": [1.0, 0.95, 0.86], "intensity": 1.3, "shadow": True},
           {"direction": [0.9, -0.1, 0.35], "color": [0.70, 0.82, 1.0], "intensity": 0.3},
           {"place": [-3, -4, 5], "color": [1.0, 0.90, 0.75], "intensity": 0.5, "reach": 6}]
+# Of the robot arm: on 16 nodes, forecasts of it with shadows are 17 % too long.
+NO_SHADOWS = [{key: value for key, value in LIGHTS[0].items() if key != "shadow"}, *LIGHTS[1:]]
 FLOOR = {"joints": [{"name": "floor", "limits": {},
                      "segment": {"shape": "box", "sbb": [[-80, -40, -0.2], [80, 120, 0]], "material": "floor"}}]}
 GLAZE = {"floor": matt([0.74, 0.72, 0.68]) | {"sides": 1}, "copper": metal([0.95, 0.62, 0.45], 0.3),
@@ -298,7 +300,7 @@ def robot_film():
               standing("table-left", "table", round(x, 4), round(y, 4)), standing("table-right", "table", *other),
               standing("ball-1", "ball", -1.6, 2.2), standing("ball-2", "ball", -2.4, 0.9)]
     camera = {"eye": [6.2, -2.8, 3.3], "at": [0.6, 0.15, 1.2], "fov": 36}
-    return film(96, [640, 360], camera, models, actors, intervals="keyframes")
+    return film(96, [640, 360], camera, models, actors, lights=NO_SHADOWS, intervals="keyframes")
 
 
 # Other people of the man's segments: how each differs from him.

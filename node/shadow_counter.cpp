@@ -304,24 +304,24 @@ void ShadowCounter::count_casters(const geometry::Scene& scene, Light& light, Ca
                                   std::span<const Casting> onto, wire::FrameCounts& counts) {
   find_reach(light, onto);
   std::vector<Reach> reaches;  // of the chunk's casters
-  const auto matters = [&](const shadow::Hull& hull) {
+  const auto may_matter = [&](const shadow::Hull& hull) {
     const Reach reach = reach_of(hull, light, onto);
     if (reach.lines.any()) reaches.push_back(reach);
     return reach.lines.any();
   };
   casters_.begin(scene, casting, diced_);
-  for (auto chunk = casters_.next(matters); !chunk.empty(); chunk = casters_.next(matters)) {
+  for (auto chunk = casters_.next(may_matter); !chunk.empty(); chunk = casters_.next(may_matter)) {
     if (light.has_size()) {
       for (std::size_t i = 0; i < chunk.size(); ++i)
-        if (!meet_shafts(chunk[i], light, onto, reaches[i])) reaches[i].views = 0;
+        reaches[i].matters = meet_shafts(chunk[i], light, onto, reaches[i]);
       put_met(light, onto);
     }
     for (std::size_t i = 0; i < chunk.size(); ++i) {
-      const auto& [lines, put, views] = reaches[i];
+      const auto& [lines, put, matters] = reaches[i];
       const double triangles = chunk[i].surface->triangles.count, vertices = chunk[i].surface->vertices;
-      const double behind = views > 0 ? grids_behind(chunk[i], light, onto) : 0;
+      const double grids = matters ? grids_behind(chunk[i], light, onto) : 0;
       counts.casters.push_back({lines.first, lines.last + step_, put.first, put.any() ? put.last + step_ : put.first,
-                                diced_by(chunk[i], casting), vertices, vertices * views, triangles * behind});
+                                diced_by(chunk[i], casting), vertices, vertices * grids, triangles * grids});
     }
     reaches.clear();
   }
@@ -408,7 +408,7 @@ bool ShadowCounter::touch(const shadow::LightView& view, const shadow::Shaft& sh
   touched_.assign(stretches.all.size(), 0);
   std::uint64_t some = 0;
   grid_.visit_batches(
-      view, *caster.surface,
+      view, *caster.surface, shadow::kEverywhere,
       [&](const shadow::SmallBatches& batches, std::uint32_t) {
         kernels_.touch(batches, shaft, stretches.points.vectors(), below.data(),
                        static_cast<std::uint32_t>(below.size()), some, touched_.data());
@@ -430,9 +430,7 @@ bool ShadowCounter::touch(const shadow::LightView& view, const shadow::Shaft& sh
 double ShadowCounter::grids_behind(const shadow::ChunkCaster& caster, Light& light, std::span<const Casting> onto) {
   double all = 0;
   for (std::size_t view = 0; view < light.counted.size(); ++view) {
-    grid_.put(light.counted[view], caster.hull);
-    const GridBox box = grid_.put(light.counted[view], *caster.surface);
-    if (is_empty(box)) continue;
+    const GridBox box = grid_.put(light.counted[view], caster.hull);
     double grids = 0;
     for (const Casting seen : onto)
       grids += grid_.find_below(box, kRay, light.seen[number(seen)][view].points).empty() ? 0 : 1;
@@ -441,21 +439,12 @@ double ShadowCounter::grids_behind(const shadow::ChunkCaster& caster, Light& lig
   return all;
 }
 
-// What may matter: on which lines, and how many grids have points near. Of a light with size that has one view,
-// casters are put on all grids.
+// On which lines it may matter.
 ShadowCounter::Reach ShadowCounter::reach_of(const shadow::Hull& hull, Light& light, std::span<const Casting> onto) {
   Reach reach;
-  for (std::size_t view = 0; view < light.counted.size(); ++view) {
+  for (std::size_t view = 0; !light.has_size() && view < light.counted.size(); ++view) {
     const GridBox box = grid_.put(light.counted[view], hull);
-    double grids = 0;
-    for (const Casting seen : onto) {
-      Stretches& stretches = light.seen[number(seen)][view];
-      if (!light.has_size()) extend(stretches, box, 0, reach.lines);
-      const bool near = !is_empty(box) && stretches.points.tree().any(kernels_, box, 0);
-      const bool is_only = light.views.faces == 1 && stretches.points.count() > 0;
-      grids += near || is_only ? 1 : 0;
-    }
-    reach.views += light.points_each * (is_one_grid(light) ? std::min(grids, 1.0) : grids);
+    for (const Casting seen : onto) extend(light.seen[number(seen)][view], box, 0, reach.lines);
   }
   if (!light.has_size()) reach.put = reach.lines;
   for (std::size_t face = 0; light.has_size() && face < light.views.middle.size(); ++face) {

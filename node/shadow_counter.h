@@ -97,10 +97,11 @@ class ShadowCounter {
     bool any() const { return first <= last; }
     void add(std::uint32_t line) { first = std::min(first, line), last = std::max(last, line); }
   };
-  // On which a caster matters, and those on which it is put on grids; on how many.
+  // On which a caster may matter, and those whose points it may be before; of a light with size, whether shafts meet
+  // it.
   struct Reach {
     Lines lines, put;
-    double views = 0;
+    bool matters = true;
   };
 
   bool is_lit(const geometry::Scene& scene, const geometry::EyeLight& light, const SeenLine& line, std::uint32_t column,
