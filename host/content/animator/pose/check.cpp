@@ -194,6 +194,14 @@ void find_unreceived_shadows(const Film& film, std::vector<std::string>& lines) 
     }
 }
 
+void find_unused_sizes(const Film& film, std::vector<std::string>& lines) {
+  const auto is_wide = [](const Key<double>& size) { return size.value > 0; };
+  for (std::size_t i = 0; i < film.lights.size(); ++i)
+    if (!film.lights[i].casts && std::ranges::any_of(film.lights[i].size, is_wide))
+      lines.push_back("light/" + std::to_string(i + 1) +
+                      ": its size has no effect, because it casts no shadows (set shadow=true, or size=0)");
+}
+
 }  // namespace
 
 Findings check_film(const Film& film) {
@@ -213,6 +221,7 @@ Findings check_film(const Film& film) {
   }
   find_late_keys(film, lines);
   find_unreceived_shadows(film, lines);
+  find_unused_sizes(film, lines);
   findings.trouble = !lines.empty();
   if (small > 0)
     lines.push_back(std::to_string(small) + (lines.empty() ? "" : " more") +

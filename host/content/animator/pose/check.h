@@ -1,6 +1,6 @@
 // What an animator would want to know of a film before it is rendered: joints that leave their limits between
 // keys (those with several freedoms make the smallest turn, which may), keys behind the end, what is keyed and
-// never moves, places that jump, materials on which no shadow falls.
+// never moves, places that jump, materials on which no shadow falls, sizes of lights that cast none.
 #pragma once
 
 #include <string>

@@ -228,5 +228,13 @@ TEST(Check, TellsOnWhatNoShadowFalls) {
   EXPECT_EQ(lines_of_shadows(R"({"place": [0, 0, 9]})"), std::vector<std::string>{});
 }
 
+TEST(Check, TellsOfASizeWithoutShadow) {
+  const std::string line = "light/2: its size has no effect, because it casts no shadows (set shadow=true, or size=0)";
+  EXPECT_EQ(lines_of_shadows(R"({"place": [0, 0, 9], "size": 1})"), std::vector<std::string>{line});
+  EXPECT_EQ(lines_of_shadows(R"({"place": [0, 0, 9], "keys": [{"frame": 1, "size": 1}]})"),
+            std::vector<std::string>{line});
+  EXPECT_EQ(lines_of_shadows(R"({"place": [0, 0, 9], "size": 0})"), std::vector<std::string>{});
+}
+
 }  // namespace
 }  // namespace mars::animator
