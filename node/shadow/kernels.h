@@ -49,7 +49,7 @@ struct alignas(64) GridHull {
 };
 
 // Triangles that are small on the grid: differences of their coordinates fit kMostSmall, so that edge functions are
-// exact in 32 bits. Turned so that they run counter-clockwise; bounds of those that are no such triangles are empty.
+// exact in 32 bits. Turned so that they run counter-clockwise; bounds of those that are not small are empty.
 struct alignas(64) SmallTriangles {
   std::int32_t x[3][kPointLanes];
   std::int32_t y[3][kPointLanes];

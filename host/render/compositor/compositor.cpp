@@ -45,11 +45,14 @@ Compositor::Compositor(std::uint32_t width, std::uint32_t height, std::uint32_t 
 
 // Frames of the interval before may still be on their way.
 void Compositor::begin_interval(std::uint64_t plain) {
-  if (name_ != 0 || background_->plain != plain)
-    background_ = std::make_shared<Background>(width_, height_, background_->constant.block(), format_);
-  background_->plain = plain;
+  if (name_ != 0 || background_->plain != plain) begin_background(plain);
   name_ = 0;
   last_number_.reset();
+}
+
+void Compositor::begin_background(std::uint64_t plain) {
+  background_ = std::make_shared<Background>(width_, height_, background_->constant.block(), format_);
+  background_->plain = plain;
 }
 
 void Compositor::paste_constant(std::span<const wire::Run> runs, std::span<const std::uint32_t> pixels,
@@ -57,6 +60,10 @@ void Compositor::paste_constant(std::span<const wire::Run> runs, std::span<const
   check_runs(runs, pixels.size());
   check(keyframe == nullptr || keyframe->background == name_, "a keyframe has all CFB so far");
   if (runs.empty()) return;
+  // Intervals before, which showed nothing, may have shown this one: whoever knows it (FrameEncoder) must not take it
+  // for the new one.
+  if (name_ == 0) begin_background(background_->plain);
+  if (keyframe != nullptr) keyframe->shown = background_;
   name_ = new_name();
   count_pasted(runs, pixels);
   if (keyframe != nullptr) count_pasted(runs, pixels);

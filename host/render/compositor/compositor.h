@@ -71,6 +71,7 @@ class Compositor {
  private:
   void count_pasted(std::span<const wire::Run> runs, std::span<const std::uint32_t> pixels);
   void check_runs(std::span<const wire::Run> runs, std::size_t words) const;
+  void begin_background(std::uint64_t plain);
   void extend_background(std::uint32_t row, std::span<const wire::Run> runs);
   void refresh(Frame& frame, std::uint32_t row, std::span<const wire::Run> runs);
   void count_filled_lines(std::span<const wire::Run> runs);

@@ -15,7 +15,7 @@ std::uint64_t shadow_bytes(std::uint64_t bytes, const shadow::ShadowNeeds& shado
 }
 
 std::uint64_t frames_with_shadows(int nodes) {
-  constexpr std::uint64_t kMachine = std::uint64_t{768} << 20, kLeast = std::uint64_t{128} << 20;
+  constexpr std::uint64_t kMachine = std::uint64_t{1280} << 20, kLeast = std::uint64_t{128} << 20;
   return std::max(kMachine / static_cast<std::uint64_t>(nodes), kLeast);
 }
 

@@ -26,7 +26,7 @@ struct AskedMemory {
 
 // Of `bytes`, what inbetweens need gets a quarter where pixels have several samples or lights cast shadows. Where
 // these do, their shadows get a quarter too, but not less than they need, whatever `bytes` is, and not more than is of
-// use. The rest is for frames, but where lights cast not more than an equal part of 768 MiB for the `nodes` of a
+// use. The rest is for frames, but where lights cast not more than an equal part of 1280 MiB for the `nodes` of a
 // machine, and 128 MiB at least: several passes take little time beside shadows.
 NodeMemory share_node_memory(std::uint64_t bytes, const AskedMemory& asked, const wire::FilmSettings& film,
                              const shadow::ShadowNeeds& shadows = {}, int nodes = 1);

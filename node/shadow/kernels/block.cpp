@@ -205,7 +205,9 @@ std::uint32_t set_up(const LightView& view, const GridVertices& vertices, const 
     const auto number = [](Ints i) { return hn::ConvertTo(kFloats, i); };
     const Floats per_x = hn::Mul(hn::Sub(hn::Mul(z1, number(y2)), hn::Mul(z2, number(y1))), inverse);
     const Floats per_y = hn::Mul(hn::Sub(hn::Mul(z2, number(x1)), hn::Mul(z1, number(x2))), inverse);
-    const auto drawn = hn::And(hn::And(small, there), hn::Ne(area, none));
+    // Those without area, too: their slope is infinite or no number, so that they block nothing, but seen from another
+    // point of a light they may have one (touch.cpp).
+    const auto drawn = hn::And(small, there);
     const Ints *xs[3] = {&a.x, &b.x, &c.x}, *ys[3] = {&a.y, &b.y, &c.y};
     for (int e = 0; e < 3; ++e) {
       const int to = e == 2 ? 0 : e + 1;

@@ -315,6 +315,24 @@ TEST(Compositor, EachIntervalHasItsPlainBackground) {
   }
 }
 
+// Who has looked at the background of an interval in which nothing stood still must not take the next one's for it.
+TEST(Compositor, AnIntervalThatShowsSomethingHasABackgroundOfItsOwn) {
+  Compositor compositor(20, 10, 4);
+  Frame empty(20, 10, 4), full(20, 10, 4);
+  compositor.begin_interval(kPlain);
+  compositor.begin_frame(empty);
+  compositor.finish_frame(empty, 0);
+  const std::shared_ptr<const Background> plain = empty.shown;
+  compositor.begin_interval(kPlain);
+  compositor.begin_frame(full);
+  EXPECT_EQ(full.shown, plain);
+  compositor.paste_constant(std::vector<wire::Run>{{3, 2, 1}}, Pixels{7}, &full);
+  compositor.finish_frame(full, 1);
+  EXPECT_NE(full.shown, plain);
+  compositor.begin_frame(empty);
+  EXPECT_EQ(empty.shown, full.shown);
+}
+
 TEST(Compositor, AKeyframeThatMissedPixelsIsABug) {
   Compositor compositor(64, 64, 16);
   Frame frame(64, 64, 16);

@@ -67,8 +67,8 @@ TEST(NodeMemory, ShadowsTakeAPart) {
 
 TEST(NodeMemory, FramesWithShadowsTakePassesRatherThanGigabytes) {
   const shadow::ShadowNeeds needs{1920, 4, 2, 1000};
-  EXPECT_EQ(share_node_memory(4096 * kMiB, {}, film(4), needs, 1).frames, 768 * kMiB);
-  EXPECT_EQ(share_node_memory(4096 * kMiB, {}, film(4), needs, 3).frames, 256 * kMiB);
+  EXPECT_EQ(share_node_memory(4096 * kMiB, {}, film(4), needs, 1).frames, 1280 * kMiB);
+  EXPECT_EQ(share_node_memory(4096 * kMiB, {}, film(4), needs, 3).frames, 1280 * kMiB / 3);
   EXPECT_EQ(share_node_memory(4096 * kMiB, {}, film(4), needs, 100).frames, 128 * kMiB);
   EXPECT_GT(share_node_memory(4096 * kMiB, {}, film(4), {}, 100).frames, 1024 * kMiB);
 }
