@@ -157,12 +157,15 @@ TEST_P(ShaftsOfLights, LeaveOutNothing) {
             light.axis[k] = static_cast<float>(-way[k] / shape::length(way));
           }
         }
-        const LightViews views = light_views(light, kPicture);
+        // Where steps are wide, many triangles have no area on the middle's grid.
+        shape::Projection steps = kPicture;
+        if (trial % 2 != 0) steps.near = 3;
+        const LightViews views = light_views(light, steps);
         Picture picture(surface, pattern, random);
         // Of one at a time: where there are several, one's squares hide what is left out of another's.
         const double height = random.whole(0, 2) ? std::pow(10, random.real(-4, 0)) : 0;
-        const Piece piece(surface, random.real(-5, kWidth), random.real(-5, kHeight),
-                          std::pow(10, random.real(-2, 0.7)), {way[0] * height, way[1] * height, way[2] * height});
+        const Piece piece(surface, random.real(-5, kWidth), random.real(-5, kHeight), random.real(0.5, 5),
+                          {way[0] * height, way[1] * height, way[2] * height});
         const std::vector<ChunkCaster> casters{{piece.hull, &piece.caster, 0, true}};
 
         Shafts shafts(kernels_);
