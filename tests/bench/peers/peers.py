@@ -75,7 +75,7 @@ class Heat:
         self.competitors = []
         self.absent = []  # competitors that cannot be, with the reason
         self.begin_peers()
-        self.competes = sun is None or self.is_known(self.film)  # whether we do
+        self.competes = sun is None or self.is_known(film)  # whether we do
         self.adaptive = wanted.adaptive and self.competes and not self.moves
         self.ray_tracers = wanted.ray_tracers and samples == 1 and sun is None and not self.moves
         if not self.competes:
@@ -105,7 +105,7 @@ class Heat:
                               stderr=subprocess.PIPE, text=True)
 
     def is_known(self, film):
-        """Whether this MARS reads such a film."""
+        """Whether this MARS reads such a film, of one interval."""
         return self.run_mesh(film, os.devnull).returncode == 0
 
     def start(self, name, command, environment=None, processors=None):
