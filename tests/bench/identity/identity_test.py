@@ -74,7 +74,7 @@ class Identity(unittest.TestCase):
     def test_films_are_alike_in_all_ways_and_others_are_told(self):
         for seed in (3, 11):
             path = self.films.write(seed)
-            ways = [identity.random_way(random.Random(seed), False) for _ in range(2)]
+            ways = [identity.random_way(random.Random(seed), False, path) for _ in range(2)]
             pixels, wrong = identity.compare(self.films, path, [*ways, ({"--samples": "16", "--size": "40x40"}, {})])
             self.assertEqual(len(pixels), 32)
             self.assertEqual([" --samples 16 --size 40x40" in command for command in wrong], [True])

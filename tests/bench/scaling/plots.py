@@ -17,7 +17,8 @@ matplotlib.rcParams.update({
 LINES = ["#1f5f99", "#d1603d", "#3a8f5c", "#8a5aa8", "#b8902b", "#4a4f57", "#c2497f", "#3f9fb0"]
 QUIET = "#9aa0a8"
 # Computing in cold colours, waiting in warm ones, the rest grey.
-COLOURS = dict(zip(STEPS, ["#16456e", "#f0c36d", "#7a6fb0", "#e39a4f", "#5b9bc9", "#2b7a78", "#c9563c", "#a23b4e", "#c9ccd1"]))
+COLOURS = dict(zip(STEPS, ["#16456e", "#f0c36d", "#7a6fb0", "#e39a4f", "#5b9bc9", "#2b7a78", "#86b8a5", "#c9563c",
+                           "#a23b4e", "#c9ccd1"], strict=True))
 WIDTH, HEIGHT = 9.6, 3.5  # inches
 
 
