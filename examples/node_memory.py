@@ -23,7 +23,7 @@ LIGHTS = [{"direction": [-0.4, -0.7, 0.8], "color": [0.4, 0.4, 0.4], "shadow": T
 
 
 def film(name, folder, frames):
-    """The scene, diced adaptively, with so many frames."""
+    """The scene, diced adaptively, with `frames` frames."""
     with open(os.path.join(EXAMPLES, name + ".json")) as file:
         scene = json.load(file)
     del scene["dice"]

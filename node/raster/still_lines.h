@@ -92,7 +92,7 @@ class StillLines {
   // The columns that a kept line has.
   MarkedTiles columns(std::uint32_t line) const { return has_groups_ ? tiles(line) : marks_.on(line); }
 
-  // Copies depths that it has of these columns.
+  // Copies depths that it has of the columns.
   void take_depths(std::uint32_t line, std::uint32_t sample, const geometry::ColumnRange& of, float* to) const;
 
   // Whether lines have groups: else they are depths alone, on columns that all nodes know.

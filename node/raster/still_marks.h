@@ -62,7 +62,7 @@ class StillMarks {
   // Tiles are numbered over the picture row by row.
   void mark_tile(std::uint32_t tile) { mark(tile / across_, tile % across_, tile % across_ + 1); }
   bool has(std::uint32_t tile) const { return has_tile(row(tile / across_), tile % across_); }
-  // Of the tiles that have any of these pixels.
+  // Of tiles with a pixel on both the lines and the columns.
   void mark(const geometry::LineRange& lines, const geometry::ColumnRange& columns);
 
   MarkedTiles on(std::uint32_t line) const { return row(line / wire::kStillTile); }

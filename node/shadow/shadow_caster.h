@@ -49,7 +49,7 @@ class ShadowCaster {
   DicedSurfaces& diced() { return diced_; }
 
   // Marks the squares of what stands still whose points casters may block that are somewhere in the sweep, as far as
-  // shadows of these may reach lines.
+  // their shadows may reach lines.
   void mark_shaded(const geometry::Sweep& sweep, const Layer& still, raster::StillMarks& marks);
 
   // Of what stands still throughout an interval on the layer's lines: remembers where its points are.

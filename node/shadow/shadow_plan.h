@@ -21,7 +21,7 @@ ShadowNeeds shadow_needs(const wire::PackedFilm& film);
 // Bytes of each kind.
 struct ShadowPlan {
   std::size_t band = 0;    // what is seen on the lines that are drawn at a time
-  std::size_t points = 0;  // that some rows of squares of these (pairs.h) have on the grids of one light
+  std::size_t points = 0;  // of some rows of the band's squares (pairs.h), on the grids of one light
   std::size_t chunk = 0;   // of casters that stream by
   std::size_t diced = 0;   // surfaces that the camera sees, so that they are not diced again
   std::size_t fixed = 0;   // whatever the memory is
@@ -39,7 +39,7 @@ std::size_t band_bytes_of_line(const ShadowNeeds& needs);
 // Squares whose points fit `bytes`; those of a row at least. Every other vector of points (point_vector.h) may be split
 // in two, because some are far behind the others or on another grid.
 std::size_t squares_of_points(const ShadowNeeds& needs, std::size_t bytes);
-// And their lines, where each square of these lines has points.
+// And the lines of as many squares, if all squares of a line have points.
 std::uint32_t lines_of_points(const ShadowNeeds& needs, std::size_t bytes);
 
 }  // namespace mars::shadow

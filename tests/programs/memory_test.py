@@ -4,21 +4,16 @@ what mars plan says covers what processes take."""
 import json
 import os
 import subprocess
+import sys
 import time
 import unittest
 
 from harness import ENVIRONMENT, EXAMPLES, PROGRAMS, SANITIZED, ProgramTest, family, main
 
+sys.path.append(str(EXAMPLES))
+from node_memory import proportional_bytes  # noqa: E402
+
 SIZE = ["--size", "480x270"]
-
-
-def proportional_bytes(process):
-    """Pages of several processes count in part for each; 0 where it has ended."""
-    try:
-        with open(f"/proc/{process}/smaps_rollup") as file:
-            return next(int(line.split()[1]) * 1024 for line in file if line.startswith("Pss:"))
-    except (OSError, StopIteration):
-        return 0
 
 
 class Memory(ProgramTest):

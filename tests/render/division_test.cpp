@@ -397,7 +397,7 @@ TEST(Division, DepthGoesOnlyWhereItIsNeeded) {
   EXPECT_LT(written[4], 200u * 200 * sizeof(float) / 3) << "and no other line of a machine's CZB is touched";
 }
 
-// And of these lines only columns: of a picture of which moving parts and their shadows change a corner.
+// And of kept lines only columns: of a picture of which moving parts and their shadows change a corner.
 TEST(Division, OfLinesOnlyWhatMayChangeIsKeptAndSent) {
   const wire::FilmData alone = corner(320, 240, 4);
   for (const wire::FilmData& film : {alone, with_samples(alone, 4), casting(alone, {0.0f}), casting(alone, {0.02f}),

@@ -54,7 +54,7 @@ class Film:
         self.color = film.get("color", "linear")
 
     def diced(self, rate=None):
-        """The same film with rate x rate quads a patch, or as finely as before. No light casts shadows: so many quads
+        """The same film with rate x rate quads a patch, or as finely as before. No light casts shadows: 65,536 quads
         would take long."""
         with open(self.path) as file:
             film = films.without_shadows(json.load(file))
