@@ -17,6 +17,7 @@ Canvas::Canvas(const wire::PackedFilm& film, const raster::Neighbours& neighbour
       line_loads(film.settings().height),
       line_totals(film.settings().height + 1),
       awaited(film.settings().height),
+      still_bytes(film.settings().height),
       wanted_lines(film.settings().height),
       wanted_still_lines(film.settings().height) {
   if (scene.casting_count() > 0)

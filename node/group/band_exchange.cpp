@@ -6,6 +6,7 @@
 #include "node/group/collectors.h"
 #include "node/wire/commands.h"
 #include "node/wire/protocol.h"
+#include "node/wire/still_plan.h"
 
 namespace mars::group {
 
@@ -52,7 +53,7 @@ class BandExchange::Background : public Relayed {
   bool has_part(int node) const override { return plan_.composes(node); }
   bool is_left() const override { return writer_.has_background(); }
   std::size_t fill(std::span<std::byte> piece) override {
-    const std::span<const std::byte> bands = writer_.next_background(Relay::kPieceBytes);
+    const std::span<const std::byte> bands = writer_.next_background(wire::kRelayPiece);
     std::ranges::copy(bands, piece.begin());
     return bands.size();
   }

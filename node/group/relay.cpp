@@ -7,6 +7,7 @@
 #include "hal/messages/process.h"
 #include "hal/nx/nx_messages.h"
 #include "node/wire/commands.h"
+#include "node/wire/still_plan.h"
 
 namespace mars::group {
 
@@ -45,7 +46,7 @@ class Relay::Ring {
 Relay::Relay(long type, std::size_t most, const char* what)
     : type_(type), what_(what), sending_(kSending), receiving_(kReceiving) {
   constexpr std::size_t kLine = 64;
-  const std::size_t piece = (sizeof(Head) + std::max(most, kPieceBytes) + kLine - 1) / kLine * kLine;
+  const std::size_t piece = (sizeof(Head) + std::max(most, wire::kRelayPiece) + kLine - 1) / kLine * kLine;
   memory_ = messages::PrivateMemory(piece * (kSending + kReceiving));
   std::span<std::byte> rest = memory_.bytes();
   for (auto* buffers : {&sending_, &receiving_})

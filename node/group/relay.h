@@ -34,10 +34,8 @@ class Relayed {
 
 class Relay {
  public:
-  // A piece has about as much, unless its smallest part is larger.
-  static constexpr std::size_t kPieceBytes = std::size_t{64} << 10;
-
-  // Messages have that `type`; fill() writes `most` bytes at most. `what` they carry, for failures.
+  // Messages have that `type`; fill() writes about wire::kRelayPiece bytes, or `most` where that is more. `what` they
+  // carry, for failures.
   Relay(long type, std::size_t most, const char* what);
 
   // Collective over the group. The head of a machine with contributors returns when it has all, and so do these.

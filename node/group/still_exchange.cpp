@@ -5,6 +5,7 @@
 
 #include "node/wire/commands.h"
 #include "node/wire/protocol.h"
+#include "node/wire/still_plan.h"
 
 namespace mars::group {
 namespace {
@@ -47,7 +48,7 @@ class StillExchange::Lines : public Relayed {
     std::size_t bytes = 0;
     for (std::size_t line = 0; lines.last < left_.last; ++lines.last, bytes += line) {
       line = still_.depth_bytes({lines.last, lines.last + 1});
-      if (bytes > 0 && bytes + line > Relay::kPieceBytes) break;
+      if (bytes > 0 && bytes + line > wire::kRelayPiece) break;
     }
     left_.first = lines.last;
     std::memcpy(piece.data(), &lines, sizeof lines);
@@ -72,7 +73,7 @@ class StillExchange::Lines : public Relayed {
     for (; left_.count() > 0; ++left_.first) {
       const LineBytes line = still_.packed_bytes(left_.first);
       if (line == 0) continue;
-      if (bytes > 0 && bytes + sizeof line + line > Relay::kPieceBytes) break;
+      if (bytes > 0 && bytes + sizeof line + line > wire::kRelayPiece) break;
       std::memcpy(piece.data() + bytes, &line, sizeof line);
       still_.pack(left_.first, piece.data() + bytes + sizeof line);
       bytes += sizeof line + line;

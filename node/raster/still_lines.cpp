@@ -145,6 +145,12 @@ void StillLines::unpack_depths(const geometry::LineRange& lines, const std::byte
     from = unpack_columns(from, marks_.on(line), width_, depths(line));
 }
 
+std::uint64_t StillLines::foreseen_bytes(std::uint32_t line) const {
+  if (!lines_.has(line)) return 0;
+  const std::uint32_t columns = count_columns(marks_.on(line), width_);
+  return kept_bytes(columns, columns);
+}
+
 std::size_t StillLines::kept_bytes(std::size_t columns, std::size_t groups) const {
   if (!has_groups_) return columns * sizeof(float);
   return columns * wire::still_column_bytes(samples_, casting_) + groups * group_bytes();

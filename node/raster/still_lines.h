@@ -85,6 +85,8 @@ class StillLines {
   // Copies a line's pairs to it.
   void keep_pairs(std::uint32_t line, const wire::StillPairs* from);
 
+  // Of a line about, if a column has one group; known before the keyframe, and the same on all nodes.
+  std::uint64_t foreseen_bytes(std::uint32_t line) const;
   // What that many columns with that many groups take.
   std::size_t kept_bytes(std::size_t columns, std::size_t groups) const;
 

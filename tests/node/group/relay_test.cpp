@@ -27,7 +27,7 @@ namespace {
 
 constexpr long kType = 9;
 constexpr std::size_t kWord = sizeof(std::uint32_t);
-constexpr std::size_t kMostWords = 40'000;  // in a piece: more than Relay::kPieceBytes
+constexpr std::size_t kMostWords = 40'000;  // in a piece: more than wire::kRelayPiece
 
 struct Group {
   int nodes;
