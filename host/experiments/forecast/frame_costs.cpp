@@ -431,8 +431,8 @@ void FrameCosts::add_bands(GroupKeyframe& keyframe, const Homes& homes, const wi
   }
 }
 
-// What each node has goes round the computers that draw inbetweens (node/group/relay.h): a head receives all but its
-// own, and passes on all but what began behind it.
+// What each node has goes round the computers that draw inbetweens, which are the first (node/group/relay.h): a head
+// receives all but its own, and passes on all but what the next has, the last nothing that came from beyond them.
 void FrameCosts::add_relay(GroupKeyframe& keyframe, const std::vector<StillLines>& of, std::size_t inbetweens,
                            double NodePart::*seconds, double NodePart::*wait) const {
   const auto near = static_cast<std::size_t>(nodes_on_a_computer(static_cast<int>(of.size())));
@@ -441,6 +441,8 @@ void FrameCosts::add_relay(GroupKeyframe& keyframe, const std::vector<StillLines
   StillLines all;
   std::vector<StillLines> on(computers);
   for (std::size_t n = 0; n < of.size(); ++n) all += of[n], on[n / near] += of[n];
+  StillLines beyond;
+  for (std::size_t computer = collecting; computer < computers; ++computer) beyond += on[computer];
   const double piece = all.messages > 0 ? all.bytes / all.messages : 0;
   const auto sends = [&](NodePart& node, const StillLines& some) {
     node.*seconds += some.messages * costs_.to_send(piece);
@@ -454,7 +456,8 @@ void FrameCosts::add_relay(GroupKeyframe& keyframe, const std::vector<StillLines
     if (computer >= collecting || n % near != 0) continue;
     const StillLines in = all - on[computer];
     node.*seconds += in.messages * costs_.to_receive(piece);
-    if (collecting > 1) sends(node, in - on[(computer + 1) % collecting]);
+    const bool is_last = computer + 1 == collecting;
+    if (collecting > 1) sends(node, in - on[(computer + 1) % collecting] - (is_last ? beyond : StillLines()));
     node.*wait = costs_.on_the_way(in.bytes, false) + static_cast<double>(collecting - 1) * step;
   }
 }
