@@ -165,7 +165,15 @@ FrameTotals FrameCosts::drawn_again(const wire::FrameCounts& keyframe, int nodes
 }
 
 double FrameCosts::still_bytes(const wire::FrameCounts& keyframe, int nodes) const {
-  return still_lines({0, setting_.film.settings().height}, keyframe, still_plan(nodes)).bytes;
+  const wire::FilmSettings& film = setting_.film.settings();
+  const bool has_heads = film.samples > 1 || setting_.film.casting_count() > 0;
+  const wire::StillPlan plan = still_plan(nodes);
+  double bytes = 0;
+  for (std::uint32_t line = keyframe.first_still_line; line < keyframe.last_still_line; ++line)
+    if (is_kept(keyframe, line, plan))
+      bytes +=
+          kept_bytes(keyframe.lines[line]) + (has_heads ? static_cast<double>(wire::still_head_bytes(film.width)) : 0);
+  return bytes;
 }
 
 // A line is kept where it has memory for its groups (node/raster/still_lines.h).
@@ -204,6 +212,17 @@ double FrameCosts::column_bytes(double groups) const {
   if (samples == 1 && casting == 0) return sizeof(float);
   return static_cast<double>(wire::still_column_bytes(samples, casting)) +
          groups * static_cast<double>(wire::still_group_bytes(casting));
+}
+
+// As it travels; where nothing is seen, columns have no depths.
+double FrameCosts::packed_bytes(const wire::LineCounts& line) const {
+  const wire::FilmSettings& film = setting_.film.settings();
+  const std::uint32_t casting = setting_.film.casting_count();
+  if (film.samples == 1 && casting == 0) return kept_bytes(line);
+  const double shown = line.kept_width * std::min(1.0, line.constant.pixels / film.width);
+  return static_cast<double>(wire::still_head_bytes(film.width)) + line.kept_width +
+         shown * static_cast<double>(wire::still_packed_bytes(film.samples, casting)) +
+         kept_groups(line) * static_cast<double>(wire::still_packed_group_bytes(casting));
 }
 
 wire::StillPlan FrameCosts::still_plan(int nodes) const {
@@ -470,16 +489,11 @@ double FrameCosts::pieces(double bytes, double smallest) const {
 // Of those on `home`, in pieces.
 FrameCosts::StillLines FrameCosts::still_lines(const geometry::LineRange& home, const wire::FrameCounts& counts,
                                                const wire::StillPlan& plan) const {
-  const wire::FilmSettings& film = setting_.film.settings();
   const geometry::LineRange lines = geometry::overlap(home, {counts.first_still_line, counts.last_still_line});
-  const bool groups = film.samples > 1 || setting_.film.casting_count() > 0;
   StillLines still;
   if (lines.count() == 0) return still;
-  for (std::uint32_t line = lines.first; line < lines.last; ++line) {
-    if (!is_kept(counts, line, plan)) continue;
-    still.bytes +=
-        kept_bytes(counts.lines[line]) + (groups ? static_cast<double>(wire::still_head_bytes(film.width)) : 0);
-  }
+  for (std::uint32_t line = lines.first; line < lines.last; ++line)
+    if (is_kept(counts, line, plan)) still.bytes += packed_bytes(counts.lines[line]);
   still.messages = std::max(1.0, pieces(still.bytes, still.bytes / lines.count()));
   return still;
 }

@@ -104,6 +104,7 @@ class FrameCosts {
   double kept_groups(const wire::LineCounts& line) const;
   double kept_bytes(const wire::LineCounts& line) const;
   double column_bytes(double groups) const;
+  double packed_bytes(const wire::LineCounts& line) const;
   std::vector<std::uint64_t> line_weights(const wire::FrameCounts& counts, std::size_t inbetweens) const;
   wire::StillPlan still_plan(int nodes) const;
   double made_bytes(const wire::UnitCounts& made) const;
