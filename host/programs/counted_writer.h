@@ -28,14 +28,14 @@ class CountedWriter : public wire::FrameWriter {
   std::size_t shared_bytes() const override { return 1; }
   void share(std::span<std::byte>) override {}
   void begin_keyframe(const Keyframe& keyframe) override;
-  void begin_inbetween(std::uint32_t frame) override;
+  void begin_inbetween(std::uint32_t frame, const wire::LineSpan& home) override;
   void paste(const wire::Strip& strip, std::span<const wire::Run> runs, std::span<const std::uint32_t> pixels) override;
   std::span<const std::byte> edge() override;
   void add_edge(std::span<const std::byte>) override {}
   void finish_bands() override;
   std::span<const std::byte> background() override { return background_; }
   void add_background(std::span<const std::byte>) override {}
-  std::span<const std::byte> picture() override { return picture_; }
+  std::span<const std::byte> picture() override;
   void add_picture(std::span<const std::byte>) override {}
   void write() override;
   bool is_full() override;

@@ -69,7 +69,7 @@ double HostSide::give(std::size_t group) {
   groups_[group].tasks.push_back(number);
   outward_.task(group, number);
   return nodes * costs_.host_to_send(
-                     static_cast<double>(farm::render_command(plan_.tasks[number], plan_.groups[group], 1).size()));
+                     static_cast<double>(farm::render_command(plan_.tasks[number], plan_.groups[group], {1}).size()));
 }
 
 void HostSide::go_on() {

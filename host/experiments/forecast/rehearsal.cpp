@@ -174,7 +174,7 @@ double Rehearsal::fresh_seconds(Node& node) {
 
 void Rehearsal::receive_task(std::size_t group, std::size_t task) {
   const collectives::Group& nodes = groups_[group].nodes;
-  const auto bytes = static_cast<double>(farm::render_command(plan_.tasks[task], nodes, 1).size());
+  const auto bytes = static_cast<double>(farm::render_command(plan_.tasks[task], nodes, {1}).size());
   const double each = costs_.costs().host_to_send(bytes);
   for (int member = 0; member < nodes.count; ++member) {
     const int n = nodes.first + member;

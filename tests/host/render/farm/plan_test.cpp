@@ -74,8 +74,8 @@ wire::Render head_of(const std::vector<std::byte>& message) {
 
 TEST(Plan, ATasksFirstPortionNamesAllFramesAndLaterOnesTheirOwn) {
   const Task task{3, {10, 11, 12, 14, 15, 16}, 100};
-  const auto first = render_command(task, {0, 2}, {4, 3}, 2), then = render_command(task, {2, 1, {2}}, {4, 3}, 2),
-             last = render_command(task, {3, 2}, {4, 3}, 2);
+  const auto first = render_command(task, {0, 2}, {4, 3}, {2}), then = render_command(task, {2, 1, {2}}, {4, 3}, {2}),
+             last = render_command(task, {3, 2}, {4, 3}, {2});
   EXPECT_EQ(head_of(first).frame_count, 6u);
   EXPECT_EQ(head_of(first).drawn, 3u) << "and the keyframe";
   EXPECT_EQ(head_of(first).goes_on, 0);
@@ -93,7 +93,7 @@ TEST(Plan, ATasksFirstPortionNamesAllFramesAndLaterOnesTheirOwn) {
 
 TEST(Plan, AWholeTaskIsTold) {
   const Task task{3, {10, 11, 12}, 100};
-  const auto all = render_command(task, {4, 3}, 2);
+  const auto all = render_command(task, {4, 3}, {2});
   EXPECT_EQ(all.size(), 40u) << "as long as ever: simulated times count it";
   EXPECT_EQ(head_of(all).drawn, 3u);
   EXPECT_EQ(head_of(all).cycle, 0);
@@ -102,7 +102,7 @@ TEST(Plan, AWholeTaskIsTold) {
 TEST(Plan, InbetweensGoRoundTheGroup) {
   Frames counts(3);
   for (std::uint64_t inbetween = 0; inbetween < 300; ++inbetween)
-    ++counts.at(static_cast<std::size_t>(wire::contributor_of_inbetween(inbetween, 3)));
+    ++counts.at(static_cast<std::size_t>(wire::team_of_inbetween(inbetween, {0, 3}, 0).first));
   EXPECT_EQ(counts, (Frames{100, 100, 100}));
 }
 
