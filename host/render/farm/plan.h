@@ -41,7 +41,7 @@ struct PlanRequest {
   bool coherence = true;              // no: every frame is a task of its own
   std::uint32_t groups = 0;           // that work side by side; 0: see make_groups
   std::int32_t contributors = 0;      // as in Plan
-  std::int32_t sharers = 1;           // as in Plan
+  std::int32_t sharers = 1;           // as in Plan; 0: 1
   std::uint32_t most_frames = 0;      // of a task, as in make_tasks
 };
 

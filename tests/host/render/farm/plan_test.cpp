@@ -35,6 +35,32 @@ TEST(Plan, WithoutCoherenceEveryFrameIsATask) {
   EXPECT_EQ(plan.tasks[2].interval, 1u);
 }
 
+TEST(Plan, LongIntervalsMayBeCutIntoTasksOfAboutEqualLength) {
+  const EmptyFilm film({7, 2});
+  const Plan plan = make_plan(film.view(), {.frames = {0, 1, 2, 3, 4, 5, 6, 7, 8}, .most_frames = 3}, 4);
+  ASSERT_EQ(plan.tasks.size(), 4u);
+  EXPECT_EQ(plan.tasks[0].frames, (Frames{0, 1}));
+  EXPECT_EQ(plan.tasks[1].frames, (Frames{2, 3}));
+  EXPECT_EQ(plan.tasks[2].frames, (Frames{4, 5, 6}));
+  EXPECT_EQ(plan.tasks[2].interval, 0u);
+  EXPECT_EQ(plan.tasks[2].first_inbetween, 2u);
+  EXPECT_EQ(plan.tasks[3].frames, (Frames{7, 8}));
+  EXPECT_EQ(plan.tasks[3].interval, 1u);
+  EXPECT_EQ(plan.tasks[3].first_inbetween, 4u);
+  EXPECT_EQ(plan.keyframes(), 4u);
+  EXPECT_EQ(plan.inbetweens(), 5u);
+}
+
+TEST(Plan, NodesOfAGroupFormTeamsOfSharersAtLeast) {
+  Plan plan;
+  EXPECT_EQ(plan.teams_of({0, 7}), 7);
+  plan.sharers = 3;
+  EXPECT_EQ(plan.teams_of({0, 7}), 2);
+  EXPECT_EQ(plan.teams_of({4, 2}), 1) << "of all nodes";
+  plan.sharers = 0;
+  EXPECT_EQ(plan.teams_of({0, 7}), 7);
+}
+
 TEST(Plan, OneFrame) {
   const EmptyFilm film({4, 4});
   const Plan plan = make_plan(film.view(), {{6}}, 8);
