@@ -13,6 +13,7 @@ Canvas::Canvas(const wire::PackedFilm& film, const raster::Neighbours& neighbour
       sums(film.settings().height),
       triangle_exchange(static_cast<std::size_t>(neighbours.group().count), film.settings().height),
       still_exchange(neighbours, still),
+      team_lines(film.settings().height, static_cast<std::size_t>(neighbours.group().count)),
       contributes(static_cast<std::size_t>(neighbours.group().count)),
       line_loads(film.settings().height),
       line_totals(film.settings().height + 1),

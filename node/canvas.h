@@ -11,6 +11,7 @@
 #include "node/group/exchange.h"
 #include "node/group/group_sums.h"
 #include "node/group/still_exchange.h"
+#include "node/group/team_lines.h"
 #include "node/raster/neighbours.h"
 #include "node/raster/scanline.h"
 #include "node/raster/still_lines.h"
@@ -38,6 +39,7 @@ struct Canvas {
   group::GroupSums sums;
   group::TriangleExchange triangle_exchange;
   group::StillExchange still_exchange;
+  group::TeamLines team_lines;
 
   // Of the current interval.
   geometry::Sweep sweep;                  // empty where moving parts may be anywhere

@@ -6,6 +6,7 @@
 
 #include "node/group/band_exchange.h"
 #include "node/group/outbox.h"
+#include "node/group/team_bands.h"
 #include "node/heartbeat.h"
 #include "node/raster/neighbours.h"
 #include "node/wire/frame_writer.h"
@@ -23,6 +24,8 @@ class FileOutput {
   void paste(wire::Strip& header);
   // Once all of a keyframe's home lines are pasted; as BandExchange.
   void exchange_bands(const group::BandNeeds& needs) { exchange_.complete(needs, writer_); }
+  // Bands of an inbetween that a team draws; as TeamBands.
+  group::TeamBands& team_bands() { return team_bands_; }
   // The frame is whole here: waits until its file can be written beside the drawing, unless the host has stopped.
   void write();
   // Files that are whole, and warnings, go to the host.
@@ -34,6 +37,7 @@ class FileOutput {
   Heartbeat& heartbeat_;
   raster::NeighboursMemory shared_;
   group::BandExchange exchange_;
+  group::TeamBands team_bands_;
 };
 
 }  // namespace mars::node

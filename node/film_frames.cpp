@@ -34,10 +34,13 @@ void FilmFrames::render(const wire::RenderCommand& command) {
 // Inbetweens that are left may come to any node.
 void FilmFrames::begin_interval(const wire::RenderCommand& command) {
   canvas_.scene.set_interval(command.render.interval);
+  renderer_.join(wire::own_team(static_cast<int>(mynode()), command.group(), command.render.teams));
   begin_still(command);
   std::ranges::fill(canvas_.contributes, static_cast<std::uint8_t>(command.left().empty() ? 0 : 1));
-  for (std::size_t k = 0; k < command.inbetweens().size(); ++k)
-    canvas_.contributes[static_cast<std::size_t>(command.contributor(k))] = 1;
+  for (std::size_t k = 0; k < command.inbetweens().size(); ++k) {
+    const collectives::Group team = command.team(k);
+    std::fill_n(canvas_.contributes.begin() + (team.first - command.render.group_first), team.count, std::uint8_t{1});
+  }
 }
 
 // The keyframe keeps what inbetweens may change. Where shadows of moving parts may be, homes of lines mark when they
@@ -55,10 +58,16 @@ void FilmFrames::draw_inbetweens(const wire::RenderCommand& command) {
   const auto inbetweens = command.inbetweens();
   const int self = static_cast<int>(mynode());
   for (std::size_t k = 0; k < inbetweens.size() && !renderer_.outbox().stopped(); ++k) {
-    if (command.render.group_first + command.contributor(k) != self) continue;
+    const collectives::Group team = command.team(k);
+    if (self < team.first || self >= team.first + team.count) continue;
     canvas_.scene.set_frame(inbetweens[k]);
-    renderer_.draw(canvas_,
-                   {wire::FrameKind::inbetween, inbetweens[k], command.render.interval, {self, 1}, 1, writes_});
+    renderer_.draw(canvas_, {wire::FrameKind::inbetween,
+                             inbetweens[k],
+                             command.render.interval,
+                             {self, 1},
+                             1,
+                             writes_,
+                             {team, command.writer(k), &boxes_}});
   }
 }
 

@@ -41,7 +41,12 @@ void Renderer::send_trace() {
   if (tracer_) tracer_->send();
 }
 
+void Renderer::join(const collectives::Group& team) {
+  if (file_output_) file_output_->team_bands().join(team);
+}
+
 void Renderer::finish() {
+  if (file_output_) file_output_->team_bands().finish();
   outbox_.flush();
   if (tracer_) tracer_->finish();
 }
@@ -70,6 +75,7 @@ void Renderer::begin(Canvas& canvas, const Frame& frame, const HasEnded& has_end
   has_ended_ = &has_ended;
   group_ = frame.group;
   contributors_ = static_cast<std::size_t>(frame.contributors);
+  sharing_ = frame.sharing;
   file_ = frame.is_written ? &file_output_.value() : nullptr;
   heartbeat_.begin_frame(frame.number);
   report_.begin(frame.kind, frame.number, frame.interval);
@@ -77,11 +83,24 @@ void Renderer::begin(Canvas& canvas, const Frame& frame, const HasEnded& has_end
   charge_begin(report_, scene(), std::exchange(is_first_, false));
 }
 
-// Every line is wanted, so that all edge boxes are counted.
+geometry::LineRange Renderer::share_lines() {
+  if (!sharing_.is_shared()) return {0, static_cast<std::uint32_t>(canvas_->line_loads.size())};
+  const PhaseScope map = phase(wire::Phase::map);
+  group::FileBands bands;
+  if (file_) bands = {file_->writer().lines_of_band(), scene().film().settings().width * pixel_bytes(pixel_format_)};
+  const auto ranges = canvas_->team_lines.divide(scene(), *sharing_.boxes, canvas_->sweep.lines(),
+                                                 static_cast<std::size_t>(sharing_.team.count), bands);
+  report_.charge(wire::Work::vertex, canvas_->team_lines.points());
+  return ranges[static_cast<std::size_t>(mynode() - sharing_.team.first)];
+}
+
+// Every line that may be the caller's is wanted, so that all edge boxes are counted.
 Tessellation Renderer::tessellate_all() {
   memory_.begin_frame();
   parts_.clear();
-  std::ranges::fill(canvas_->wanted_lines, std::uint8_t{1});
+  own_lines_ = share_lines();
+  std::ranges::fill(canvas_->wanted_lines, std::uint8_t{0});
+  std::ranges::fill(std::span(canvas_->wanted_lines).subspan(own_lines_.first, own_lines_.count()), std::uint8_t{1});
   const Tessellation own = tessellate();
   report_.strip().work.triangles = own.made.triangles;
   report_.strip().work.edge_boxes_diced = own.made.edge_boxes;
@@ -106,18 +125,20 @@ Tessellation Renderer::tessellate_part(const group::Pass& pass) {
 Tessellation Renderer::tessellate() {
   const PhaseScope dice = phase(wire::Phase::dice);
   const Scatter scatter{static_cast<std::uint32_t>(member()), static_cast<std::uint32_t>(contributors_)};
+  std::optional<OwnLines> own;
+  if (sharing_.is_shared()) own.emplace(OwnLines{*sharing_.boxes, own_lines_});
   const LineTable lines{canvas_->wanted_lines, report_.is_keyframe() ? canvas_->wanted_lines : unkept_lines(),
-                        canvas_->line_loads};
+                        canvas_->line_loads, own ? &*own : nullptr};
   shadow::DicedSurfaces* const diced = canvas_->shadows ? &canvas_->shadows->diced() : nullptr;
   if (diced != nullptr) diced->clear(shadow::Casting::moving);
-  const Tessellation own = tessellator_.tessellate(scene(), scatter, lines, {memory_.arena(), memory_.first_triangle()},
-                                                   report_.strip().work, diced);
+  const Tessellation made = tessellator_.tessellate(
+      scene(), scatter, lines, {memory_.arena(), memory_.first_triangle()}, report_.strip().work, diced);
   std::transform_inclusive_scan(canvas_->line_loads.begin(), canvas_->line_loads.end(),
                                 canvas_->line_totals.begin() + 1, std::plus<>(),
                                 [](const raster::LineLoad& load) { return load.boxes(); });
-  charge_tessellation(report_, scene(), own);
+  charge_tessellation(report_, scene(), made);
   report_.charge(wire::Work::fresh_byte, memory_.arena().take_fresh());
-  return own;
+  return made;
 }
 
 // Those of the pass on which an inbetween needs stationary parts; none where all are kept.
@@ -153,7 +174,10 @@ std::uint32_t Renderer::map_to_homes(const group::MadeCounts& made) {
   const PhaseScope map = phase(wire::Phase::map);
   const auto weights = canvas_->sums.weights(mapping_);
   const auto drawing = homes().first(contributors_);
-  group::map_lines(mapping_, weights, drawing);
+  if (sharing_.is_shared())
+    drawing.front() = own_lines_;
+  else
+    group::map_lines(mapping_, weights, drawing);
   const auto height = static_cast<std::uint32_t>(canvas_->line_loads.size());
   std::ranges::fill(homes().subspan(contributors_), geometry::LineRange{height, height});
   report_.strip().load_ratio = group::load_ratio(weights, drawing);
@@ -329,14 +353,16 @@ void Renderer::finish_exchange(const group::Pass& pass) {
   if (file_) finish_writing();
 }
 
-// Nodes take turns in writing keyframes.
-int Renderer::keyframe_writer() const {
+// Nodes take turns.
+int Renderer::frame_writer() const {
+  if (sharing_.is_shared()) return sharing_.writer;
   return group_.first + static_cast<int>(report_.strip().interval % contributors_);
 }
 
 void Renderer::begin_writing() {
   const wire::Strip& strip = report_.strip();
-  if (!report_.is_keyframe()) return file_->writer().begin_inbetween(strip.frame);
+  if (!report_.is_keyframe())
+    return file_->writer().begin_inbetween(strip.frame, {own_lines_.first, own_lines_.last});
   const wire::PackedFilm& film = scene().film();
   const wire::FilmSettings& settings = film.settings();
   const auto encoding =
@@ -356,17 +382,39 @@ void Renderer::paste_strip(const geometry::LineRange& lines) {
   file_->paste(report_.strip());
 }
 
-// An inbetween is whole where it is drawn.
+// An inbetween that one node draws is whole there.
 void Renderer::finish_writing() {
   bool is_whole = true;
   if (report_.is_keyframe()) {
     const PhaseScope compose = phase(wire::Phase::compose);
-    const int writer = keyframe_writer();
+    const int writer = frame_writer();
     file_->exchange_bands({group_, homes(), canvas_->contributes, writer});
     is_whole = writer == static_cast<int>(mynode());
+  } else if (sharing_.is_shared()) {
+    is_whole = exchange_team_bands();
   }
   const PhaseScope storage = phase(wire::Phase::storage);
   if (is_whole) file_->write();
+}
+
+// Bands go to the node that writes the file; whether it is the caller, which has all then. Nodes of which all know that
+// they have no lines send nothing.
+bool Renderer::exchange_team_bands() {
+  const PhaseScope compose = phase(wire::Phase::compose);
+  const std::uint32_t frame = report_.strip().frame;
+  const int self = static_cast<int>(mynode()), writer = frame_writer();
+  if (writer != self) {
+    if (own_lines_.count() > 0 && !outbox_.stopped()) file_->team_bands().send(frame, file_->writer().picture(), writer);
+    return false;
+  }
+  const auto ranges = canvas_->team_lines.ranges();
+  for (int node = sharing_.team.first; node < sharing_.team.first + sharing_.team.count; ++node) {
+    if (node == self || ranges[static_cast<std::size_t>(node - sharing_.team.first)].count() == 0) continue;
+    const auto bands = file_->team_bands().receive(frame, node, outbox_);
+    if (!bands) return false;
+    file_->writer().add_picture(*bands);
+  }
+  return true;
 }
 
 void Renderer::finish_triangles() {

@@ -1,5 +1,5 @@
 // How a node draws a picture of a view: a keyframe together with the other nodes of its group (thesis 4.8, four steps),
-// an inbetween alone (4.9). What views share is here: a frame's memory, and strips on their way to the host.
+// an inbetween alone (4.9), or its own lines of one. What views share is here: a frame's memory, and strips on their way to the host.
 #pragma once
 
 #include <cstddef>
@@ -26,6 +26,15 @@
 
 namespace mars::node {
 
+// An inbetween that several nodes draw, each its lines.
+struct Sharing {
+  collectives::Group team{0, 1};  // one node draws all of it
+  int writer = 0;                 // of the team, where nodes write files
+  const geometry::ShapeBoxes* boxes = nullptr;
+
+  bool is_shared() const { return team.count > 1; }
+};
+
 // Of a view's picture: of a film, a frame and its interval; else the picture's number and its view's.
 struct Frame {
   wire::FrameKind kind;
@@ -34,6 +43,7 @@ struct Frame {
   collectives::Group group;   // that draws it
   std::int32_t contributors;  // of it, the first; the others take part in what all do together
   bool is_written = false;    // into a file, by these nodes; else it goes to the host
+  Sharing sharing{};          // of an inbetween
 };
 
 class Renderer {
@@ -49,6 +59,9 @@ class Renderer {
   // Draws the caller's share of the view's scene as it is now, and sends it; once it `has_ended`, sends no more of it
   // but its last strip. Collective over the frame's group.
   void draw(Canvas& canvas, const Frame& frame, const HasEnded& has_ended = {});
+
+  // The caller draws inbetweens with these nodes from now on.
+  void join(const collectives::Group& team);
 
   const raster::Neighbours& neighbours() const { return neighbours_; }
 
@@ -67,6 +80,8 @@ class Renderer {
 
  private:
   void begin(Canvas& canvas, const Frame& frame, const HasEnded& has_ended);
+  // The caller's lines of a shared inbetween; else all.
+  geometry::LineRange share_lines();
   Tessellation tessellate_all();
   Tessellation tessellate_part(const group::Pass& pass);
   Tessellation tessellate();
@@ -99,10 +114,11 @@ class Renderer {
   void prepare_shadows(const geometry::LineRange& lines, const shading::Shading& shading);
   void charge_seen(const geometry::LineRange& lines, const raster::DrawnCounts& counts);
   shadow::Picture picture(const shading::Shading& shading) const;
-  int keyframe_writer() const;
+  int frame_writer() const;
   void begin_writing();
   void paste_strip(const geometry::LineRange& lines);
   void finish_writing();
+  bool exchange_team_bands();
   // Waits until what was sent to nodes is gone; after the last pass of a keyframe nodes give each other CZB.
   void finish_exchange(const group::Pass& pass);
   void finish_triangles();
@@ -139,6 +155,8 @@ class Renderer {
   FileOutput* file_ = nullptr;            // none: it goes to the host
   collectives::Group group_;              // that draws it
   std::size_t contributors_ = 1;          // of it
+  Sharing sharing_;                       // of it
+  geometry::LineRange own_lines_{0, 0};   // share_lines()
   std::vector<raster::LineBoxes> parts_;  // edge boxes of the lines to be drawn; own ones first
   geometry::LineRange prepared_{0, 0};    // lines whose shadows are known
   std::vector<geometry::LineRange> homes_;

@@ -1,11 +1,24 @@
 #include "node/tessellator.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 
+#include "node/geometry/picture_box.h"
 #include "node/shading/shading_of.h"
 
 namespace mars::node {
+namespace {
+
+geometry::PictureSize size_of(const geometry::Scene& scene) {
+  return {static_cast<std::uint32_t>(scene.width()), static_cast<std::uint32_t>(scene.height())};
+}
+
+bool meet(const geometry::PictureBounds& bounds, const geometry::LineRange& lines) {
+  return geometry::overlap(bounds.lines, lines).count() > 0;
+}
+
+}  // namespace
 
 // Sets up a surface's triangles, stores them and counts the work.
 struct Tessellator::Output {
@@ -15,6 +28,8 @@ struct Tessellator::Output {
   shading::Shading shading;
   shading::ColoredSurface& colored;
   shadow::DicedSurfaces* diced;
+  const OwnLines* all_own;         // as in LineTable
+  const OwnLines* own = nullptr;  // of the current segment, where only some of it may touch them
   SurfaceCounts counts{};
 
   void add_patch(const shape::Surface& surface, const raster::PatchIdentity& identity) {
@@ -64,7 +79,8 @@ Tessellation Tessellator::tessellate(const geometry::Scene& scene, const Scatter
       work,
       shading::shading_of(scene),
       colored_,
-      diced};
+      diced,
+      lines.own};
   out.want(lines.wanted_still);
   const bool takes_part = scatter.index < scatter.count;
   if (takes_part && !lines.wanted_still.empty()) add(scene, false, scatter, output);
@@ -92,6 +108,9 @@ void Tessellator::add_segment(const geometry::Scene& scene, std::size_t segment,
   const std::uint32_t first = scene.first_patch(segment);
   std::uint64_t i = (scatter.index + scatter.count - first % scatter.count) % scatter.count;
   if (i >= shape.size()) return;
+  const Touches touches = Tessellator::touches(scene, segment, output.all_own);
+  if (touches == Touches::nothing) return;
+  output.own = touches == Touches::perhaps ? output.all_own : nullptr;
   const shape::EyeMatrix matrix = scene.matrix(segment);
   const std::uint32_t material = scene.material(segment);
   raster::PatchIdentity identity{0, material, shape::mirrors(matrix), film.materials()[material].sides == 1,
@@ -110,11 +129,24 @@ void Tessellator::add_segment(const geometry::Scene& scene, std::size_t segment,
   }
 }
 
+Tessellator::Touches Tessellator::touches(const geometry::Scene& scene, std::size_t segment, const OwnLines* own) {
+  if (own == nullptr) return Touches::only;
+  const geometry::ShapeBoxes::Box& box = own->boxes.of(scene.film().segments()[segment].shape);
+  const geometry::PictureBounds bounds = geometry::picture_box(
+      scene.matrix(segment), std::to_array(box.low), std::to_array(box.high), scene.projection(), size_of(scene));
+  if (!meet(bounds, own->lines)) return Touches::nothing;
+  const bool inside = own->lines.first <= bounds.lines.first && bounds.lines.last <= own->lines.last;
+  return inside ? Touches::only : Touches::perhaps;
+}
+
 void Tessellator::add_patch(const geometry::Scene& scene, const shape::EyeMatrix& matrix, const wire::Patch& patch,
                             const raster::PatchIdentity& identity, Output& output) {
   const shape::EyePatch eye_patch = shape::to_eye(matrix, patch);
   const auto width = static_cast<float>(scene.width()), height = static_cast<float>(scene.height());
   if (shape::unseen(eye_patch, scene.projection(), width, height)) return;
+  if (output.own != nullptr &&
+      !meet(geometry::picture_box(eye_patch.point, 16, scene.projection(), size_of(scene)), output.own->lines))
+    return;
   dicer_.dice(eye_patch, scene.projection(), scene.dicing());
   output.add_patch(dicer_, identity);
 }
@@ -123,6 +155,10 @@ void Tessellator::add_meshlet(const geometry::Scene& scene, const shape::EyeMatr
                               const wire::Meshlet& meshlet, const raster::PatchIdentity& identity, Output& output) {
   const auto width = static_cast<float>(scene.width()), height = static_cast<float>(scene.height());
   if (geometry::unseen(matrix, meshlet, scene.projection(), width, height)) return;
+  if (output.own != nullptr &&
+      !meet(geometry::picture_box(matrix, meshlet.low, meshlet.high, scene.projection(), size_of(scene)),
+            output.own->lines))
+    return;
   placer_.place(map, scene.film(), meshlet, scene.projection());
   output.add_meshlet(placer_, identity);
 }

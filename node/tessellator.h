@@ -26,11 +26,18 @@ struct Scatter {
   std::uint32_t count = 1;
 };
 
+// Surfaces that surely touch none of these lines of the picture are not made.
+struct OwnLines {
+  const geometry::ShapeBoxes& boxes;
+  geometry::LineRange lines;
+};
+
 // One a line of the picture.
 struct LineTable {
   std::span<const std::uint8_t> wanted;        // 1: edge boxes of moving parts there are stored and counted
   std::span<const std::uint8_t> wanted_still;  // of stationary ones, which are not made where it is empty
   std::span<raster::LineLoad> loads;
+  const OwnLines* own = nullptr;  // none: surfaces of all lines are made
 };
 
 // Where triangles go: they count from `first`, whole triangles before the arena.
@@ -67,9 +74,12 @@ class Tessellator {
 
  private:
   struct Output;
+  // What of a segment may touch own lines.
+  enum class Touches { nothing, perhaps, only };
 
   void add(const geometry::Scene& scene, bool moving, const Scatter& scatter, Output& output);
   void add_segment(const geometry::Scene& scene, std::size_t segment, const Scatter& scatter, Output& output);
+  static Touches touches(const geometry::Scene& scene, std::size_t segment, const OwnLines* own);
   void add_patch(const geometry::Scene& scene, const shape::EyeMatrix& matrix, const wire::Patch& patch,
                  const raster::PatchIdentity& identity, Output& output);
   void add_meshlet(const geometry::Scene& scene, const shape::EyeMatrix& matrix, const shape::EyeMap& map,

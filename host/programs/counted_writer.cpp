@@ -22,7 +22,7 @@ void CountedWriter::begin_keyframe(const Keyframe& keyframe) {
   for (auto* message : {&edge_, &background_, &picture_}) message->clear();
 }
 
-void CountedWriter::begin_inbetween(std::uint32_t frame) {
+void CountedWriter::begin_inbetween(std::uint32_t frame, const wire::LineSpan&) {
   frame_ = frame;
   touched_.assign(touched_.size(), false);
 }
@@ -98,6 +98,14 @@ std::span<const std::byte> CountedWriter::next_background(std::size_t bytes) {
   }
   background_.resize(given);
   return background_;
+}
+
+std::span<const std::byte> CountedWriter::picture() {
+  if (frame_ == keyframe_.frame) return picture_;
+  std::size_t bytes = 0;
+  for (std::uint32_t band = 0; band < bands_.count(); ++band) bytes += touched_[band] ? record_bytes(band) : 0;
+  picture_.resize(bytes);
+  return picture_;
 }
 
 // A thread writes one file after another.

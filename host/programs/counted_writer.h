@@ -28,7 +28,7 @@ class CountedWriter : public wire::FrameWriter {
   std::size_t shared_bytes() const override { return 1; }
   void share(std::span<std::byte>) override {}
   void begin_keyframe(const Keyframe& keyframe) override;
-  void begin_inbetween(std::uint32_t frame) override;
+  void begin_inbetween(std::uint32_t frame, const wire::LineSpan& home) override;
   void paste(const wire::Strip& strip, std::span<const wire::Run> runs, std::span<const std::uint32_t> pixels) override;
   std::span<const std::byte> edge() override;
   void add_edge(std::span<const std::byte>) override {}
@@ -37,7 +37,7 @@ class CountedWriter : public wire::FrameWriter {
   std::span<const std::byte> next_background(std::size_t bytes) override;
   std::size_t most_band_bytes() const override;
   void add_background(std::span<const std::byte>) override {}
-  std::span<const std::byte> picture() override { return picture_; }
+  std::span<const std::byte> picture() override;
   void add_picture(std::span<const std::byte>) override {}
   void write() override;
   bool is_full() override;

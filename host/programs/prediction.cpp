@@ -27,6 +27,8 @@ forecast::Setting setting_of(const session::RenderJob& job, const wire::PackedFi
   forecast::Setting setting{film, platform, job.mapping, job.format};
   setting.files = !job.folder.empty() || job.counts_files;
   if (job.writers == session::Writers::nodes) setting.writers = forecast::Writers::nodes;
+  setting.sharers = job.sharers;
+  setting.most_frames = job.most_frames;
   const session::HostMachine host = session::host_machine(job.host);
   setting.host_budget = host.memory;
   setting.sink_threads = session::sink_threads(host);
@@ -57,7 +59,7 @@ Counted count(const session::RenderJob& job, const wire::PackedFilm& film, const
 
 session::Prediction predict(const Counted& counted, const forecast::Setting& setting, std::uint32_t groups, int nodes) {
   forecast::Forecast best = forecast::forecast(counted.counts, counted.tasks, setting, nodes, groups);
-  return {best.groups, best.contributors, course_of(std::move(best))};
+  return {best.groups, best.contributors, best.sharers, best.most_frames, course_of(std::move(best))};
 }
 
 // How machines are joined is not known: the links are taken as those of Gigabit Ethernet.
@@ -99,7 +101,12 @@ session::Prediction predict_here(const session::RenderJob& job, const wire::Pack
   std::uint32_t groups = request.groups;
   if (groups == 0 && !chooses)
     groups = static_cast<std::uint32_t>(farm::make_groups(nodes, 0, counted->tasks.size()).size());
-  session::Prediction prediction = predict(*counted, setting_of(job, film, platform), groups, nodes);
+  forecast::Setting setting = setting_of(job, film, platform);
+  if (!chooses) {
+    setting.sharers = std::max(setting.sharers, 1);
+    if (setting.most_frames == 0) setting.most_frames = forecast::kUncut;
+  }
+  session::Prediction prediction = predict(*counted, setting, groups, nodes);
   if (!chooses) prediction.contributors = 0;
   prediction.nodes_write_sooner = [=](int nodes_a_machine) {
     const experiments::Platform several = several_machines(platform, nodes_a_machine);

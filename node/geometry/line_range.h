@@ -22,6 +22,12 @@ struct ColumnRange {
   std::uint32_t last = 0;
 };
 
+// A rectangle of a picture.
+struct PictureBounds {
+  LineRange lines;
+  ColumnRange columns;
+};
+
 inline LineRange overlap(const LineRange& a, const LineRange& b) {
   const std::uint32_t first = std::max(a.first, b.first), last = std::min(a.last, b.last);
   return {first, std::max(first, last)};

@@ -20,11 +20,6 @@ struct SweptHull {
   std::uint32_t count;
 };
 
-struct PictureBounds {
-  LineRange lines;
-  ColumnRange columns;
-};
-
 class Sweep {
  public:
   using Cover = std::function<void(const PictureBounds&)>;

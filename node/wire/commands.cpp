@@ -93,6 +93,7 @@ RenderCommand read_render(std::span<const std::byte> message, const PackedFilm& 
   require(render.interval < film.intervals().size(), kName, "the interval");
   require(is_group_of(render, receiver.node, receiver.nodes, receiver.groups), kName, "the group");
   require(render.contributors >= 1 && render.contributors <= render.group_count, kName, "the contributors");
+  require(render.teams >= 0 && render.teams <= render.group_count, kName, "the teams");
   const Interval& interval = film.intervals()[render.interval];
   require(render.frame_count >= 1 && render.frame_count <= interval.frame_count, kName, "the frames");
   frames.resize(render.frame_count);
@@ -104,8 +105,8 @@ RenderCommand read_render(std::span<const std::byte> message, const PackedFilm& 
   require(render.goes_on == 0 || (render.drawn == render.frame_count && are_next(all, receiver.left)), kName,
           "with which frames it goes on");
   const auto cycle = items_behind<std::int32_t>(message, sizeof render + listed * sizeof(std::uint32_t));
-  require(std::ranges::all_of(cycle, [&](auto node) { return node >= 0 && node < render.group_count; }), kName,
-          "the cycle");
+  const std::int32_t teams = team_count({render.group_first, render.group_count}, render.teams);
+  require(std::ranges::all_of(cycle, [&](auto team) { return team >= 0 && team < teams; }), kName, "the cycle");
   return {render, all, cycle};
 }
 

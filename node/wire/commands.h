@@ -32,9 +32,13 @@ struct RenderCommand {
     return frames.first(render.drawn).subspan(render.goes_on == 1 ? 0 : 1);
   }
   std::span<const std::uint32_t> left() const { return frames.subspan(render.drawn); }
-  // The node that draws inbetweens()[k], counted from the group's first.
-  std::int32_t contributor(std::size_t k) const {
-    return contributor_of_inbetween(render.first_inbetween + k, render.group_count, cycle);
+  collectives::Group group() const { return {render.group_first, render.group_count}; }
+  // The nodes that draw inbetweens()[k], and the one that writes it.
+  collectives::Group team(std::size_t k) const {
+    return team_of_inbetween(render.first_inbetween + k, group(), render.teams, cycle);
+  }
+  std::int32_t writer(std::size_t k) const {
+    return writer_of_inbetween(render.first_inbetween + k, group(), render.teams, team(k));
   }
 };
 

@@ -5,8 +5,9 @@
 // Pictures are cut into bands of lines. In a keyframe each node composes its home lines; the band that two homes share
 // is composed by the node that has its first line, which gets the other's lines as an edge. Of each of its bands it
 // has then a record: what a file needs of the band, and a hash. The records of the stationary parts' bands, with the
-// pixels that inbetweens may show, lie once on each machine in memory that the group's nodes there share. A node that
-// draws an inbetween composes the bands that moving parts touch, and takes the records of all others from there.
+// pixels that inbetweens may show, lie once on each machine in memory that the group's nodes there share. Nodes that
+// draw an inbetween, each whole bands of it, compose the bands that moving parts touch; the one that writes its file
+// gets the others' records, and takes those of all other bands from that memory.
 #pragma once
 
 #include <cstddef>
@@ -56,14 +57,15 @@ class FrameWriter {
     bool has_inbetweens;
   };
   virtual void begin_keyframe(const Keyframe& keyframe) = 0;
-  // Of the interval whose background is there.
-  virtual void begin_inbetween(std::uint32_t frame) = 0;
+  // Of the interval whose background is there, of which the caller draws `home`, whole bands.
+  virtual void begin_inbetween(std::uint32_t frame, const LineSpan& home) = 0;
   // Pixels of lines [strip.first_line, strip.last_line) of the frame, which come from the top; runs and words of pixels
   // as in Strip.
   virtual void paste(const Strip& strip, std::span<const Run> runs, std::span<const std::uint32_t> pixels) = 0;
 
-  // When the caller's part of a keyframe is pasted. Each result is valid until the next keyframe begins; what comes
-  // from another node is checked, and throws Failure where it makes no sense.
+  // When the caller's part of a keyframe is pasted, or, for picture() and add_picture(), of any frame. Each result is
+  // valid until the next frame begins; what comes from another node is checked, and throws Failure where it makes no
+  // sense.
 
   // The lines of a band that begins in another's home; empty: none.
   virtual std::span<const std::byte> edge() = 0;
@@ -76,7 +78,7 @@ class FrameWriter {
   virtual std::span<const std::byte> next_background(std::size_t bytes) = 0;
   virtual std::size_t most_band_bytes() const = 0;
   virtual void add_background(std::span<const std::byte> background) = 0;
-  // For the node that writes the keyframe.
+  // For the node that writes the frame.
   virtual std::span<const std::byte> picture() = 0;
   virtual void add_picture(std::span<const std::byte> picture) = 0;
 

@@ -17,7 +17,8 @@
 //   both ways      Beat, at any time
 //   node -> node   film block to one node a machine; counts a line; Triangles and StillLines, in any order of the
 //   senders: those of two keyframes, or of
-//                  two passes of one, cannot mix, for all nodes of the group meet between them
+//                  two passes of one, cannot mix, for all nodes of the group meet between them; Bands, each sender's in
+//                  the order of the frames
 #pragma once
 
 #include <array>
@@ -25,6 +26,7 @@
 #include <cstdint>
 #include <span>
 
+#include "hal/collectives/group.h"
 #include "hal/messages/offer.h"
 #include "node/wire/film_parts.h"
 #include "node/wire/pixel_format.h"
@@ -62,6 +64,14 @@ enum MessageType : long {
   kBackground,  // what inbetweens need of bands, in pieces as still lines; empty within a machine, once they are there
   kPicture,     // the sender's bands of a keyframe, for the node that writes it
   kWrite,       // host -> node, before any Render: empty; the node's group writes its frames. Other groups send strips
+  kBands,       // InbetweenBands, then the sender's bands of an inbetween, for the node of its team that writes it;
+                // empty: no more are to come
+};
+
+// Bands of an inbetween.
+struct InbetweenBands {
+  std::uint32_t frame;
+  std::uint32_t unused = 0;
 };
 
 // Of triangles and their edge boxes on the receiver's lines.
@@ -127,9 +137,9 @@ struct Loaded {
 };
 
 // Frames of one interval for one group: the first is the keyframe, rendered by the group's first `contributors` nodes,
-// the others go whole to single nodes (contributor_of_inbetween). They follow each other from first_frame on; or, where
-// `listed` is 1, their numbers (uint32), ascending, follow the struct. Then follows the cycle of `cycle` nodes (int32,
-// counted from the group's first).
+// each of the others goes to one team of nodes, which divide its lines (team_of_inbetween). They follow each other from
+// first_frame on; or, where `listed` is 1, their numbers (uint32), ascending, follow the struct. Then follows the cycle
+// of `cycle` teams (int32).
 //
 // Only the first `drawn` frames are drawn now. The others are in Renders that go on: these have inbetweens alone, the
 // next of those left, and draw all of them.
@@ -145,18 +155,44 @@ struct Render {
   std::uint16_t cycle;            // 0: turns
   std::uint8_t listed;
   std::uint8_t goes_on;
+  std::int32_t teams;  // that the group's nodes form side by side, 1..group_count; 0: each node is one
+  std::uint32_t unused;
 };
 
-// Nodes in a cycle, at most.
+// Teams in a cycle, at most.
 inline constexpr std::size_t kMostCycle = 0xffff;
 
-// The node of a group of `group_count` that draws an inbetween, counted from the group's first: by the cycle over the
-// whole film, or in turns where there is none. `inbetween` is the inbetween's number in the film
-// (Render::first_inbetween and on).
-constexpr std::int32_t contributor_of_inbetween(std::uint64_t inbetween, std::int32_t group_count,
-                                                std::span<const std::int32_t> cycle = {}) {
-  if (!cycle.empty()) return cycle[inbetween % cycle.size()];
-  return static_cast<std::int32_t>(inbetween % static_cast<std::uint64_t>(group_count));
+// The teams of a group, `teams` as in Render.
+constexpr std::int32_t team_count(const collectives::Group& group, std::int32_t teams) {
+  return teams == 0 ? group.count : teams;
+}
+
+constexpr collectives::Group team_of(const collectives::Group& group, std::int32_t teams, std::int32_t number) {
+  const collectives::Group team = collectives::group_of(group.count, team_count(group, teams), number);
+  return {group.first + team.first, team.count};
+}
+
+// The team that has the node.
+constexpr collectives::Group own_team(std::int32_t node, const collectives::Group& group, std::int32_t teams) {
+  for (std::int32_t number = 0; number < team_count(group, teams); ++number)
+    if (const auto team = team_of(group, teams, number); node < team.first + team.count) return team;
+  return {node, 1};
+}
+
+// The team that draws an inbetween: by the cycle over the whole film, or in turns where there is none. `inbetween` is
+// the inbetween's number in the film (Render::first_inbetween and on).
+constexpr collectives::Group team_of_inbetween(std::uint64_t inbetween, const collectives::Group& group,
+                                               std::int32_t teams, std::span<const std::int32_t> cycle = {}) {
+  if (!cycle.empty()) return team_of(group, teams, cycle[inbetween % cycle.size()]);
+  return team_of(group, teams,
+                 static_cast<std::int32_t>(inbetween % static_cast<std::uint64_t>(team_count(group, teams))));
+}
+
+// The node of that team that writes it, where nodes write files: they take turns.
+constexpr std::int32_t writer_of_inbetween(std::uint64_t inbetween, const collectives::Group& group,
+                                           std::int32_t teams, const collectives::Group& team) {
+  const std::uint64_t turn = inbetween / static_cast<std::uint64_t>(team_count(group, teams));
+  return team.first + static_cast<std::int32_t>(turn % static_cast<std::uint64_t>(team.count));
 }
 
 // Gives a slot, which is permission to send one strip.

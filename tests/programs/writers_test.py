@@ -48,7 +48,8 @@ class Writers(ProgramTest):
                 alone = ["--backend", "threads", "--nodes", 1, *words, "--format", ending]
                 self.assertEqual(self.render(path, wanted, *alone).returncode, 0)
                 for nodes in (chance.choice([1, 2]), chance.choice([3, 4, 5])):
-                    how = ["--backend", "threads", "--nodes", nodes, "--groups", chance.randint(1, nodes), *words,
+                    how = ["--backend", "threads", "--nodes", nodes, "--groups", chance.randint(1, nodes),
+                           "--sharers", chance.randint(1, nodes), *chance.choice([[], ["--cut", 4]]), *words,
                            "--format", ending, *chance.choice([[], ["--no-coherence"]])]
                     done = self.render(path, "nodes", *NODES, *how, "--overwrite", "--report", "report.json")
                     self.assertEqual((done.returncode, done.stderr), (0, ""), (name, how))

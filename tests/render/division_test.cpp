@@ -65,6 +65,8 @@ struct Cluster {
   int nodes_each = 1;  // of its machines
   std::uint32_t groups = 1;
   wire::Mapping mapping = wire::Mapping::greedy;
+  std::int32_t sharers = 1;
+  std::uint32_t most_frames = 0;
 };
 
 void run_counted(const wire::FilmData& film, const Cluster& cluster, Counted& out,
@@ -74,6 +76,8 @@ void run_counted(const wire::FilmData& film, const Cluster& cluster, Counted& ou
   options.nodes = cluster.nodes;
   options.work.groups = cluster.groups;
   options.farm.mapping = cluster.mapping;
+  options.work.sharers = cluster.sharers;
+  options.work.most_frames = cluster.most_frames;
   options.work.frames = std::move(frames);
   out.strip_bytes.assign(static_cast<std::size_t>(cluster.nodes) + 1, 0);
   options.wrap = [&](messages::Backend& inner) {
@@ -267,6 +271,58 @@ TEST_P(Division, InbetweensSendNothingToNodesAndDrawNothingStationary) {
   EXPECT_EQ(contributors.size(), std::min<std::size_t>(nodes, kFrames - 1)) << "round robin";
   // All triangles that nodes gave each other are the keyframe's: one message at most for each pair.
   EXPECT_LE(counted.counts.sent({.type = wire::kTriangles}).messages, static_cast<std::uint64_t>(nodes * (nodes - 1)));
+}
+
+// Each node draws its own lines, and makes what touches them: no edge box twice, few patches twice, without a message.
+TEST_P(Division, NodesThatShareAnInbetweenDivideIt) {
+  const int nodes = GetParam().nodes;
+  Counted alone, shared;
+  run_counted(film_, {1}, alone);
+  run_counted(film_, {.nodes = nodes, .sharers = nodes}, shared);
+  std::map<std::uint32_t, Strip> whole;
+  for (const Strip& strip : of_kind(alone, FrameKind::inbetween)) whole[strip.frame] = strip;
+  std::map<std::uint32_t, std::map<std::int32_t, Strip>> parts;
+  for (const Strip& strip : of_kind(shared, FrameKind::inbetween)) parts[strip.frame][strip.node] = strip;
+  ASSERT_EQ(parts.size(), kFrames - 1u);
+  std::uint64_t patches_alone = 0, patches = 0, most_patches = 0, boxes_alone = 0, most_boxes = 0;
+  for (const auto& [frame, of_nodes] : parts) {
+    ASSERT_EQ(of_nodes.size(), static_cast<std::size_t>(nodes));
+    std::uint32_t next = 0;
+    std::uint64_t edge_boxes = 0, diced = 0, pixels = 0, frame_patches = 0, frame_most = 0, boxes_most = 0;
+    for (const auto& [node, strip] : of_nodes) {
+      EXPECT_EQ(strip.first_line, next) << "lines tile the picture in order of nodes";
+      next = strip.last_line;
+      edge_boxes += strip.work.edge_boxes;
+      diced += strip.work.edge_boxes_diced;
+      pixels += strip.work.pixels;
+      frame_patches += strip.work.patches;
+      frame_most = std::max(frame_most, strip.work.patches);
+      boxes_most = std::max(boxes_most, strip.work.edge_boxes);
+      EXPECT_EQ(strip.work.bytes_to_nodes, 0u);
+    }
+    EXPECT_EQ(next, film_.settings.height);
+    EXPECT_EQ(edge_boxes, whole[frame].work.edge_boxes);
+    EXPECT_EQ(diced, whole[frame].work.edge_boxes_diced) << "of others' lines none";
+    EXPECT_EQ(pixels, whole[frame].work.pixels);
+    patches_alone += whole[frame].work.patches, patches += frame_patches, most_patches += frame_most;
+    boxes_alone += whole[frame].work.edge_boxes, most_boxes += boxes_most;
+  }
+  EXPECT_GE(patches, patches_alone);
+  EXPECT_EQ(shared.counts.sent({.type = wire::kBands}).messages, 0u) << "the host writes";
+  if (nodes == 1) return;
+  EXPECT_LT(most_patches, patches_alone) << "dicing is divided";
+  EXPECT_LT(most_boxes, boxes_alone * 3 / 4) << "the load is divided, too";
+}
+
+// The first frame of each piece is drawn as a keyframe, others as inbetweens: as often as all must be.
+TEST_P(Division, PiecesOfAnIntervalAreTasksOfTheirOwn) {
+  Counted counted;
+  run_counted(film_, {.nodes = GetParam().nodes, .most_frames = 4}, counted);
+  std::set<std::uint32_t> keyframes, inbetweens;
+  for (const Strip& strip : of_kind(counted, FrameKind::keyframe)) keyframes.insert(strip.frame);
+  for (const Strip& strip : of_kind(counted, FrameKind::inbetween)) inbetweens.insert(strip.frame);
+  EXPECT_EQ(keyframes, (std::set<std::uint32_t>{0, 3}));
+  EXPECT_EQ(inbetweens, (std::set<std::uint32_t>{1, 2, 4, 5}));
 }
 
 TEST_P(Division, BytesReportedAreBytesSent) {

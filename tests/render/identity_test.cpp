@@ -124,6 +124,38 @@ TEST_P(Identity, AnyContributorsToKeyframes) {
   }
 }
 
+TEST_P(Identity, AnySharersOfInbetweens) {
+  for (const auto& [nodes, groups, sharers] : {std::tuple{2, 1u, 2}, {5, 1u, 2}, {6, 2u, 3}, {7, 1u, 7}}) {
+    RunOptions options;
+    options.nodes = nodes;
+    options.work.groups = groups;
+    options.work.sharers = sharers;
+    expect_as_from_scratch(options, std::to_string(nodes) + "-nodes-sharers-" + std::to_string(sharers));
+  }
+}
+
+TEST_P(Identity, SharedInbetweensWhereMemoryIsShort) {
+  for (const auto& [memory, still] : {std::pair{std::uint64_t{300'000} + 200 * settings().height, 0}, {256 << 20, 0}}) {
+    RunOptions options;
+    options.nodes = 3;
+    options.work.sharers = 3;
+    options.memory = memory;
+    options.farm.asked_memory.still = still;
+    expect_as_from_scratch(options, "sharers-short-memory");
+  }
+}
+
+TEST_P(Identity, AnyCutsOfIntervals) {
+  for (const auto& [groups, most, sharers] : {std::tuple{1u, 2u, 1}, {2u, 3u, 1}, {3u, 1u, 1}, {2u, 2u, 2}}) {
+    RunOptions options;
+    options.nodes = 5;
+    options.work.groups = groups;
+    options.work.most_frames = most;
+    options.work.sharers = sharers;
+    expect_as_from_scratch(options, std::to_string(groups) + "-groups-most-" + std::to_string(most));
+  }
+}
+
 TEST_P(Identity, AnyMachines) {
   for (const auto& [nodes, nodes_each, groups] : {std::tuple{4, 1, 1u}, {5, 2, 1u}, {7, 3, 2u}}) {
     messages::Machines machines(nodes_each);

@@ -120,6 +120,17 @@ TEST_P(ShadowsIdentity, AnyNumberOfNodes) {
   }
 }
 
+TEST_P(ShadowsIdentity, SharedInbetweensAndCutIntervals) {
+  for (const auto& [nodes, groups, sharers, most] : {std::tuple{3, 1u, 3, 0u}, {5, 2u, 2, 0u}, {4, 2u, 2, 2u}}) {
+    RunOptions options;
+    options.nodes = nodes;
+    options.work.groups = groups;
+    options.work.sharers = sharers;
+    options.work.most_frames = most;
+    expect_as_from_scratch(options, std::to_string(nodes) + "-nodes-sharers-" + std::to_string(sharers));
+  }
+}
+
 TEST_P(ShadowsIdentity, AnyGroupsContributorsAndMachines) {
   for (const auto& [nodes, groups, contributors, nodes_each] :
        {std::tuple{4, 2u, 0, 4}, {2, 1u, 1, 2}, {3, 1u, 2, 1}, {5, 2u, 2, 2}}) {

@@ -1,15 +1,19 @@
 #include "host/experiments/forecast/forecast.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
 #include <utility>
 
 namespace mars::forecast {
 namespace {
 
-constexpr double kAlike = 1.01;  // times as long, a film
-constexpr double kSoon = 0.75;   // times as long, a keyframe: much sooner, as messages may wait more than is forecast
+constexpr double kAlike = 1.01;   // times as long, a film
+constexpr double kSoon = 0.75;    // times as long, a keyframe: much sooner, as messages may wait more than is forecast
+constexpr double kShorter = 0.98;  // times as long, a film whose intervals are cut, or its inbetweens shared
 
-constexpr int kWorseInARow = 3;  // numbers of contributors, and fewer are not tried
+constexpr int kWorseInARow = 3;  // numbers of contributors, or of groups, and fewer are not tried
 
 // Both of as many nodes in as many groups.
 bool is_better(const Rehearsed& one, const Rehearsed& other) {
@@ -19,58 +23,166 @@ bool is_better(const Rehearsed& one, const Rehearsed& other) {
   return key < kSoon * other_key || (one.seconds < other.seconds && kSoon * key < other_key);
 }
 
-// All of the first few, then twice as many each time.
-std::vector<int> numbers_of_groups(int most) {
-  std::vector<int> numbers;
-  for (int groups = 1; groups < most; groups = groups < 4 ? groups + 1 : 2 * groups) numbers.push_back(groups);
-  numbers.push_back(most);
-  return numbers;
+// Tasks, and what their frames have to be drawn.
+struct Cut {
+  std::vector<farm::Task> tasks;
+  FilmCounts counts;
+
+  std::size_t longest() const {
+    return std::ranges::max(tasks, {}, [](const farm::Task& task) { return task.frames.size(); }).frames.size();
+  }
+  double inbetweens() const {  // of a task, on average
+    std::size_t all = 0;
+    for (const farm::Task& task : tasks) all += task.frames.size() - 1;
+    return static_cast<double>(all) / static_cast<double>(tasks.size());
+  }
+};
+
+// A piece's keyframe is taken to have what its interval's first frame has.
+Cut cut_into_pieces(const Cut& whole, std::uint32_t most_frames) {
+  Cut cut{farm::cut_tasks(whole.tasks, most_frames), {whole.counts.keyframes, {}, whole.counts.counted}};
+  std::size_t task = 0, first = 0;  // of the pieces' frames, the task and the place there
+  for (const farm::Task& piece : cut.tasks) {
+    const TaskCounts& counts = whole.counts.tasks[task];
+    const auto begin = counts.inbetweens.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto count = static_cast<std::ptrdiff_t>(piece.frames.size());
+    cut.counts.tasks.push_back({counts.keyframe, {begin, begin + count - 1}});
+    first += piece.frames.size();
+    if (first == whole.tasks[task].frames.size()) ++task, first = 0;
+  }
+  return cut;
 }
 
-// Keyframes by all nodes of a group, or by half as many, a quarter ... A host that takes strips slowly delays keyframes
-// of many contributors much, but films little: inbetweens are drawn meanwhile.
-Forecast with_groups(const FilmCounts& counts, const std::vector<farm::Task>& tasks, const Setting& setting, int nodes,
-                     int groups) {
-  farm::Plan plan{tasks, farm::make_groups(nodes, groups, tasks.size()), 0};
-  const auto rehearsed = [&](std::int32_t contributors) {
-    plan.contributors = contributors;
-    return Forecast{nodes,
-                    static_cast<std::uint32_t>(plan.groups.size()),
-                    setting.writers,
-                    contributors,
-                    rehearse(counts, plan, setting, nodes),
-                    experiments::spread_for(setting.platform.spread, nodes, setting.files),
-                    experiments::middle_for(setting.platform.spread, nodes, setting.files)};
-  };
-  Forecast best = rehearsed(0);
-  int worse = 0;  // in a row
-  for (std::int32_t fewer = plan.groups.front().count / 2; fewer >= 1 && worse < kWorseInARow; fewer /= 2) {
-    Forecast next = rehearsed(fewer);
-    ++worse;
-    if (!is_better(next.run, best.run)) continue;
-    best = std::move(next);
-    worse = 0;
+// The fastest of the ways to divide a film among `nodes` nodes.
+class Search {
+ public:
+  Search(const FilmCounts& counts, const std::vector<farm::Task>& tasks, const Setting& setting, int nodes)
+      : whole_(cut_into_pieces({tasks, counts}, setting.most_frames > 0 ? setting.most_frames : kUncut)),
+        setting_(setting),
+        nodes_(nodes) {}
+
+  // `groups` 0: any number of them.
+  Forecast best(std::uint32_t groups) {
+    if (groups > 0)
+      take(with_groups(0, static_cast<int>(groups)), 1);
+    else
+      try_groups();
+    if (setting_.most_frames == 0) try_cuts(groups);
+    if (setting_.most_frames != kUncut && setting_.most_frames > 0) best_->most_frames = setting_.most_frames;
+    return std::move(*best_);
   }
-  return best;
-}
+
+ private:
+  const Cut& cut(std::uint32_t most_frames) {
+    if (most_frames == 0) return whole_;
+    auto [found, fresh] = cuts_.try_emplace(most_frames);
+    if (fresh) found->second = cut_into_pieces(whole_, most_frames);
+    return found->second;
+  }
+
+  bool take(Forecast next, double at_most) {
+    if (best_ && next.run.seconds >= at_most * best_->run.seconds) return false;
+    best_ = std::move(next);
+    return true;
+  }
+
+  Forecast rehearsed(const Cut& cut, const farm::Plan& plan) const {
+    return Forecast{nodes_,
+                    static_cast<std::uint32_t>(plan.groups.size()),
+                    setting_.writers,
+                    plan.contributors,
+                    plan.sharers,
+                    0,
+                    rehearse(cut.counts, plan, setting_, nodes_),
+                    experiments::spread_for(setting_.platform.spread, nodes_, setting_.files),
+                    experiments::middle_for(setting_.platform.spread, nodes_, setting_.files)};
+  }
+
+  Forecast with_groups(std::uint32_t most_frames, int groups) {
+    const Cut& cut = this->cut(most_frames);
+    farm::Plan plan{cut.tasks, farm::make_groups(nodes_, groups, cut.tasks.size()), 0,
+                    std::max(setting_.sharers, 1)};
+    Forecast best = with_contributors(cut, plan);
+    plan.contributors = best.contributors;
+    if (setting_.sharers == 0) best = with_sharers(cut, plan, std::move(best));
+    best.most_frames = most_frames;
+    return best;
+  }
+
+  Forecast with_sharers(const Cut& cut, farm::Plan plan, Forecast best) const {
+    for (const std::int32_t sharers : numbers_of_sharers(cut, plan.groups.front().count)) {
+      plan.sharers = sharers;
+      Forecast next = rehearsed(cut, plan);
+      if (next.run.seconds < kShorter * best.run.seconds) best = std::move(next);
+    }
+    return best;
+  }
+
+  // Keyframes by all nodes of a group, or by half as many, a quarter ... A host that takes strips slowly delays
+  // keyframes of many contributors much, but films little: inbetweens are drawn meanwhile.
+  Forecast with_contributors(const Cut& cut, farm::Plan plan) const {
+    Forecast best = rehearsed(cut, plan);
+    int worse = 0;  // in a row
+    for (std::int32_t fewer = plan.groups.front().count / 2; fewer >= 1 && worse < kWorseInARow; fewer /= 2) {
+      plan.contributors = fewer;
+      Forecast next = rehearsed(cut, plan);
+      ++worse;
+      if (!is_better(next.run, best.run)) continue;
+      best = std::move(next);
+      worse = 0;
+    }
+    return best;
+  }
+
+  // Of an inbetween, where nodes of a group may have none otherwise: so that each node has about one of a task, or two.
+  static std::vector<std::int32_t> numbers_of_sharers(const Cut& cut, int nodes) {
+    const double inbetweens = cut.inbetweens();
+    if (inbetweens == 0 || nodes < 2 || inbetweens >= 3 * nodes) return {};
+    std::set<std::int32_t> numbers;
+    for (const double turns : {1.0, 2.0, 4.0})
+      numbers.insert(std::clamp(static_cast<std::int32_t>(turns * nodes / inbetweens), 1, nodes));
+    numbers.erase(1);
+    return {numbers.begin(), numbers.end()};
+  }
+
+  // From the most on, which take the least time to try: half as many each time, and all of the last few.
+  void try_groups() {
+    const int most = std::min(nodes_, static_cast<int>(whole_.tasks.size()));
+    int worse = 0;
+    for (int groups = most; groups >= 1 && worse < kWorseInARow; groups = groups <= 4 ? groups - 1 : groups / 2)
+      worse = take(with_groups(0, groups), 1) ? 0 : worse + 1;
+    const auto coarse = static_cast<int>(best_->groups);
+    if (coarse > 4)
+      for (const int some : {coarse * 3 / 4, std::min(most, coarse * 3 / 2)}) take(with_groups(0, some), 1);
+  }
+
+  // Into two pieces, three, four, six ... as long as that pays.
+  void try_cuts(std::uint32_t groups) {
+    const std::size_t longest = whole_.longest();
+    const auto uncut = static_cast<int>(best_->groups);
+    for (int pieces = 2; static_cast<std::size_t>(pieces) <= longest / 2; pieces += std::max(1, pieces / 2)) {
+      const auto most_frames = static_cast<std::uint32_t>((longest + static_cast<std::size_t>(pieces) - 1) /
+                                                          static_cast<std::size_t>(pieces));
+      bool pays = false;
+      for (const int some : groups > 0 ? std::set{static_cast<int>(groups)}
+                                       : std::set{std::min(uncut, nodes_), std::min(uncut * pieces, nodes_)})
+        pays |= take(with_groups(most_frames, some), kShorter);
+      if (!pays) return;
+    }
+  }
+
+  const Cut whole_;
+  const Setting& setting_;
+  const int nodes_;
+  std::map<std::uint32_t, Cut> cuts_;  // by frames of a task, at most
+  std::optional<Forecast> best_;
+};
 
 }  // namespace
 
 Forecast forecast(const FilmCounts& counts, const std::vector<farm::Task>& tasks, const Setting& setting, int nodes,
                   std::uint32_t groups) {
-  if (groups > 0) return with_groups(counts, tasks, setting, nodes, static_cast<int>(groups));
-  const int most = std::min(nodes, static_cast<int>(tasks.size()));
-  Forecast best;
-  best.nodes = 0;
-  const auto try_groups = [&](int some) {
-    Forecast next = with_groups(counts, tasks, setting, nodes, some);
-    if (best.nodes == 0 || next.run.seconds < best.run.seconds) best = std::move(next);
-  };
-  for (const int some : numbers_of_groups(most)) try_groups(some);
-  const auto coarse = static_cast<int>(best.groups);
-  if (coarse > 4)
-    for (const int some : {coarse * 3 / 4, std::min(most, coarse * 3 / 2)}) try_groups(some);
-  return best;
+  return Search(counts, tasks, setting, nodes).best(groups);
 }
 
 std::vector<Forecast> forecasts_up_to(const FilmCounts& counts, const std::vector<farm::Task>& tasks,

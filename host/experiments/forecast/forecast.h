@@ -1,5 +1,5 @@
-// A forecast of a rendering: its seconds, memory and bytes on a platform, and with how many groups of nodes, and how
-// many nodes that draw a keyframe, it is shortest. It follows from counted frames and the platform alone, so that it is
+// A forecast of a rendering: its seconds, memory and bytes on a platform, and with how many groups of nodes, how many
+// nodes that draw a keyframe or an inbetween, and which cuts of intervals into tasks it is shortest. It follows from counted frames and the platform alone, so that it is
 // the same every time.
 #pragma once
 
@@ -24,6 +24,8 @@ struct Forecast {
   std::uint32_t groups = 1;
   Writers writers = Writers::host;            // of files
   std::int32_t contributors = 0;              // to a keyframe, as in farm::Plan
+  std::int32_t sharers = 1;                   // of an inbetween, as in farm::Plan
+  std::uint32_t most_frames = 0;              // of a task, as in farm::make_tasks
   Rehearsed run;                              // by the platform's costs
   std::optional<experiments::Spread> spread;  // of such forecasts
   double middle = 1;                          // of renderings' times over such forecasts, also where no spread is known
@@ -35,7 +37,7 @@ struct Forecast {
   double node_hours() const { return nodes * seconds() / 3600; }
 };
 
-// `groups`: 0: those that make the rendering shortest.
+// `tasks`: not cut. `groups`: 0: those that make the rendering shortest.
 Forecast forecast(const FilmCounts& counts, const std::vector<farm::Task>& tasks, const Setting& setting, int nodes,
                   std::uint32_t groups);
 

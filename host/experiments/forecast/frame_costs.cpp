@@ -18,6 +18,7 @@ using wire::Work;
 constexpr double kTriangleBytes = 64, kUnsortedBoxBytes = 12, kBoxBytes = 8;
 constexpr double kFullStrip = 512 << 10;  // node/raster/strip_buffer.cpp
 constexpr double kShortSum = 64 << 10;    // hal/collectives/reduction.cpp
+constexpr double kSharedUnevenly = 1.15;  // of a shared inbetween, the largest part over the mean
 
 // What each of `nodes` nodes makes: whole shares where these divide evenly, else equal parts of several.
 std::vector<wire::UnitCounts> made_by(const std::vector<wire::UnitCounts>& shares, int nodes) {
@@ -97,7 +98,12 @@ GroupKeyframe FrameCosts::keyframe(const wire::FrameCounts& counts, int nodes, i
   return keyframe;
 }
 
-NodePart FrameCosts::inbetween(const FrameTotals& totals, const FrameTotals& again) const {
+// Nodes that share an inbetween divide its lines by bounds of what they have, and so less evenly than others; patches
+// between two nodes' lines are made by both. Bands that are encoded are not divided.
+NodePart FrameCosts::inbetween(const FrameTotals& whole, const FrameTotals& whole_again, int sharers) const {
+  const bool is_shared = sharers > 1;
+  const FrameTotals totals = is_shared ? whole * (kSharedUnevenly / sharers) : whole;
+  const FrameTotals again = is_shared ? whole_again * (kSharedUnevenly / sharers) : whole_again;
   const wire::UnitCounts made = totals.made + again.made;
   wire::UnitCounts units = drawn_units(totals + again);
   units[Work::line] = totals.lines + again.lines;
@@ -106,7 +112,10 @@ NodePart FrameCosts::inbetween(const FrameTotals& totals, const FrameTotals& aga
   part.dice = dicing(made) + setting_up(made) + costs_.of(Work::edge_box_filled, made[Work::edge_box_made]);
   part.exchange = costs_.of(Work::line_mapped, height());
   part.strips = strips(totals, costs_.of(units) + costs_.of(totals.casters));
-  part.compose = pasting(totals) + encoding(totals.changed);
+  const double bands = whole.changed / band_lines_;
+  const double changed = is_shared ? std::ceil(bands / sharers) * band_lines_ : whole.changed;
+  part.compose = pasting(totals) + encoding(changed);
+  if (is_shared) part.bytes_to_nodes = whole.changed / sharers * line_bytes() * setting_.platform.file_part;
   part.strips.pasting += costs_.of(Work::host_restored, totals.drawn.moving.block_pixels * pixel_bytes());
   part.memory = part.made_memory = std::min(arena_bytes(), made_bytes(made));
   return part;

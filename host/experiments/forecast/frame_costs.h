@@ -62,7 +62,8 @@ class FrameCosts {
   double still_bytes(const wire::FrameCounts& keyframe, int nodes) const;
   // Of a node.
   double shadow_bytes() const { return static_cast<double>(memory_.shadows); }
-  NodePart inbetween(const FrameTotals& totals, const FrameTotals& again) const;
+  // Of each of `sharers` nodes that draw it together.
+  NodePart inbetween(const FrameTotals& totals, const FrameTotals& again, int sharers = 1) const;
   // Seconds of a processor that writes a whole file, which is encoded; its bytes.
   double writing() const;
   double file_bytes() const { return setting_.platform.file_part * height() * line_bytes(); }

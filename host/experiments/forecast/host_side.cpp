@@ -61,15 +61,22 @@ double HostSide::give(std::size_t group) {
   const std::size_t number = next_task_++;
   TaskState& task = tasks_[number];
   const auto& frames = plan_.tasks[number].frames;
-  const int nodes = plan_.groups[group].count, contributors = plan_.contributors_of(plan_.groups[group]);
+  const collectives::Group& nodes = plan_.groups[group];
+  const farm::Division division = plan_.division_of(nodes);
   task.group = group;
   task.left = frames.size();
   for (std::size_t frame = 0; frame < frames.size(); ++frame)
-    task.frames.push_back({frame == 0 ? contributors : 1, false, 0, {}});
+    task.frames.push_back({frame == 0 ? division.contributors
+                                      : wire::team_of_inbetween(plan_.tasks[number].first_inbetween + frame - 1, nodes,
+                                                                division.teams)
+                                            .count,
+                           false,
+                           0,
+                           {}});
   groups_[group].tasks.push_back(number);
   outward_.task(group, number);
-  return nodes * costs_.host_to_send(
-                     static_cast<double>(farm::render_command(plan_.tasks[number], plan_.groups[group], 1).size()));
+  return nodes.count *
+         costs_.host_to_send(static_cast<double>(farm::render_command(plan_.tasks[number], nodes, division).size()));
 }
 
 void HostSide::go_on() {

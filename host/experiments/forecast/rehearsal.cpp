@@ -30,6 +30,8 @@ class Rehearsal {
   struct Node {
     std::size_t group = 0;
     int member = 0;
+    std::uint64_t team = 0;        // of the group's
+    collectives::Group of_team{};  // its nodes
     int slots = 0;
     bool waits_for_slot = false;
     bool idle = true;
@@ -45,11 +47,19 @@ class Rehearsal {
   };
   struct GroupState {
     collectives::Group nodes;
+    std::int32_t teams = 1;
     int come = 0;  // of its nodes, to where all wait
+  };
+  // An inbetween that a team draws, where nodes write files.
+  struct TeamFrame {
+    int come = 0;                // of other nodes' bands
+    bool writer_waits = false;  // for them
   };
 
   const GroupKeyframe& keyframe_of(std::size_t task, const collectives::Group& group);
   const NodePart& part_of(const Node& node);
+  const std::vector<std::vector<NodePart>>& inbetweens_of(int sharers);
+  int writer_of(const Node& node) const;
   double fresh_seconds(Node& node);
   void receive_task(std::size_t group, std::size_t task);
   void begin_task(int n);
@@ -65,6 +75,10 @@ class Rehearsal {
   void receive_credit(int n);
   void finish_drawing(int n);
   void exchange_bands(int n);
+  void exchange_team_bands(int n);
+  void receive_team_bands(int writer, std::size_t task, std::size_t frame);
+  void collect_team_bands(int n);
+  void send_drawn(int n);
   void wait_for_bands(int n);
   void write_file(int n);
   void begin_file(int n);
@@ -91,7 +105,8 @@ class Rehearsal {
   simulated::StorageUse storage_;
   const bool nodes_write_;
   std::map<std::array<std::size_t, 3>, GroupKeyframe> keyframes_;  // by number, nodes and inbetweens
-  std::vector<std::vector<NodePart>> inbetweens_;                  // by task
+  std::map<int, std::vector<std::vector<NodePart>>> inbetweens_;  // by nodes that share one, and by task
+  std::vector<std::vector<TeamFrame>> team_frames_;               // by task
   std::vector<Node> nodes_;
   std::vector<GroupState> groups_;
   Rehearsed result_;
@@ -119,26 +134,41 @@ Rehearsal::Rehearsal(const FilmCounts& counts, const farm::Plan& plan, const Set
           {[this](std::size_t group, std::size_t task) { receive_task(group, task); },
            [this](int node) { later(node, way_from_host(node, sizeof(wire::Credit)), &Rehearsal::receive_credit); }}) {
   for (std::size_t g = 0; g < plan.groups.size(); ++g) {
-    groups_.push_back({plan.groups[g]});
+    groups_.push_back({plan.groups[g], wire::team_count(plan.groups[g], plan.teams_of(plan.groups[g]))});
     for (int member = 0; member < plan.groups[g].count; ++member) {
       Node& node = nodes_[static_cast<std::size_t>(plan.groups[g].first + member)];
       node.group = g;
       node.member = member;
       node.slots = result_.host_memory.credits;
     }
+    for (std::int32_t number = 0; number < groups_.back().teams; ++number) {
+      const collectives::Group team = wire::team_of(plan.groups[g], groups_.back().teams, number);
+      for (int n = team.first; n < team.first + team.count; ++n) {
+        nodes_[static_cast<std::size_t>(n)].team = static_cast<std::uint64_t>(number);
+        nodes_[static_cast<std::size_t>(n)].of_team = team;
+      }
+    }
   }
+  for (const farm::Task& task : plan.tasks) team_frames_.emplace_back(task.frames.size());
   for (const TaskCounts& task : counts.tasks) host_.add_costs(costs_.host_costs(task, counts.keyframes[task.keyframe]));
   for (const TaskCounts& task : counts.tasks)
     if (!task.inbetweens.empty())
       result_.still_memory = std::max(result_.still_memory,
                                       costs_.still_bytes(counts.keyframes[task.keyframe], plan.groups.front().count));
+}
+
+const std::vector<std::vector<NodePart>>& Rehearsal::inbetweens_of(int sharers) {
+  const auto [found, fresh] = inbetweens_.try_emplace(sharers);
+  if (!fresh) return found->second;
   std::vector<FrameTotals> again;
-  for (const wire::FrameCounts& keyframe : counts.keyframes)
-    again.push_back(costs_.drawn_again(keyframe, plan.groups.front().count));
-  for (const TaskCounts& task : counts.tasks) {
-    std::vector<NodePart>& parts = inbetweens_.emplace_back();
-    for (const FrameTotals& totals : task.inbetweens) parts.push_back(costs_.inbetween(totals, again[task.keyframe]));
+  for (const wire::FrameCounts& keyframe : counts_.keyframes)
+    again.push_back(costs_.drawn_again(keyframe, plan_.groups.front().count));
+  for (const TaskCounts& task : counts_.tasks) {
+    std::vector<NodePart>& parts = found->second.emplace_back();
+    for (const FrameTotals& totals : task.inbetweens)
+      parts.push_back(costs_.inbetween(totals, again[task.keyframe], sharers));
   }
+  return found->second;
 }
 
 Rehearsed Rehearsal::run() {
@@ -152,7 +182,8 @@ Rehearsed Rehearsal::run() {
 const GroupKeyframe& Rehearsal::keyframe_of(std::size_t task, const collectives::Group& group) {
   const std::size_t number = counts_.tasks[task].keyframe;
   const auto size = static_cast<std::size_t>(group.count);
-  const std::size_t inbetweens = std::min(size, counts_.tasks[task].inbetweens.size());
+  const std::size_t a_team = size / static_cast<std::size_t>(plan_.teams_of(group));
+  const std::size_t inbetweens = std::min(size, counts_.tasks[task].inbetweens.size() * a_team);  // nodes that draw them
   const auto [found, fresh] = keyframes_.try_emplace({number, size, inbetweens});
   if (fresh)
     found->second = costs_.keyframe(counts_.keyframes[number], group.count, plan_.contributors_of(group), inbetweens);
@@ -160,7 +191,7 @@ const GroupKeyframe& Rehearsal::keyframe_of(std::size_t task, const collectives:
 }
 
 const NodePart& Rehearsal::part_of(const Node& node) {
-  if (node.frame > 0) return inbetweens_[node.task][node.frame - 1];
+  if (node.frame > 0) return inbetweens_of(node.of_team.count)[node.task][node.frame - 1];
   return node.keyframe->nodes[static_cast<std::size_t>(node.member)];
 }
 
@@ -174,7 +205,7 @@ double Rehearsal::fresh_seconds(Node& node) {
 
 void Rehearsal::receive_task(std::size_t group, std::size_t task) {
   const collectives::Group& nodes = groups_[group].nodes;
-  const auto bytes = static_cast<double>(farm::render_command(plan_.tasks[task], nodes, 1).size());
+  const auto bytes = static_cast<double>(farm::render_command(plan_.tasks[task], nodes, {1}).size());
   const double each = costs_.costs().host_to_send(bytes);
   for (int member = 0; member < nodes.count; ++member) {
     const int n = nodes.first + member;
@@ -256,7 +287,8 @@ void Rehearsal::draw_strip(int n) {
 void Rehearsal::finish_strip(int n) {
   const Node& node = nodes_[static_cast<std::size_t>(n)];
   const bool several = node.keyframe->nodes.size() > 1;
-  if (node.strips_left > 1 || node.frame > 0 || !several || inbetweens_[node.task].empty()) return send_strip(n);
+  if (node.strips_left > 1 || node.frame > 0 || !several || counts_.tasks[node.task].inbetweens.empty())
+    return send_strip(n);
   work(n, part_of(node).still, &Rehearsal::wait_for_group);
 }
 
@@ -282,10 +314,10 @@ void Rehearsal::send_strip(int n) {
 void Rehearsal::end_frame(int n) {
   Node& node = nodes_[static_cast<std::size_t>(n)];
   const farm::Task& task = plan_.tasks[node.task];
-  const auto count = static_cast<std::size_t>(groups_[node.group].nodes.count);
+  const auto teams = static_cast<std::uint64_t>(groups_[node.group].teams);
   // The next inbetween k whose number in the film has this node's turn.
   std::size_t k = node.frame;
-  while (k < task.frames.size() - 1 && (task.first_inbetween + k) % count != static_cast<std::size_t>(node.member)) ++k;
+  while (k < task.frames.size() - 1 && (task.first_inbetween + k) % teams != node.team) ++k;
   if (k == task.frames.size() - 1) return begin_task(n);
   node.frame = k + 1;
   const NodePart& part = part_of(node);
@@ -303,6 +335,7 @@ void Rehearsal::send_to_host(StripSent message) {
 // A keyframe's, after what inbetweens need else.
 void Rehearsal::exchange_bands(int n) {
   const Node& node = nodes_[static_cast<std::size_t>(n)];
+  if (node.frame > 0 && node.of_team.count > 1) return exchange_team_bands(n);
   if (node.frame > 0 || node.keyframe->nodes.size() == 1) return write_file(n);
   work(n, part_of(node).bands, &Rehearsal::wait_for_bands);
 }
@@ -311,6 +344,52 @@ void Rehearsal::wait_for_bands(int n) {
   wait_for_all(
       n, [this](int node) { return part_of(nodes_[static_cast<std::size_t>(node)]).bands_wait; },
       &Rehearsal::write_file);
+}
+
+// Of an inbetween.
+int Rehearsal::writer_of(const Node& node) const {
+  const GroupState& group = groups_[node.group];
+  return wire::writer_of_inbetween(plan_.tasks[node.task].first_inbetween + node.frame - 1, group.nodes, group.teams,
+                                   node.of_team);
+}
+
+void Rehearsal::exchange_team_bands(int n) {
+  Node& node = nodes_[static_cast<std::size_t>(n)];
+  const int writer = writer_of(node);
+  TeamFrame& frame = team_frames_[node.task][node.frame];
+  if (writer == n) {
+    if (frame.come == node.of_team.count - 1) return collect_team_bands(n);
+    frame.writer_waits = true;
+    return;
+  }
+  const double bytes = part_of(node).bytes_to_nodes;
+  result_.bytes_to_nodes += bytes;
+  const double arrival = routes_.arrival(computers_.of(n), computers_.of(writer), static_cast<std::size_t>(bytes),
+                                         clockwork_.now(), clockwork_.now());
+  clockwork_.at(arrival, [this, writer, task = node.task, number = node.frame] {
+    receive_team_bands(writer, task, number);
+  });
+  work(n, costs_.costs().to_send(bytes), &Rehearsal::send_drawn);
+}
+
+void Rehearsal::receive_team_bands(int writer, std::size_t task, std::size_t number) {
+  TeamFrame& frame = team_frames_[task][number];
+  ++frame.come;
+  if (frame.writer_waits && frame.come == nodes_[static_cast<std::size_t>(writer)].of_team.count - 1)
+    collect_team_bands(writer);
+}
+
+void Rehearsal::collect_team_bands(int n) {
+  const Node& node = nodes_[static_cast<std::size_t>(n)];
+  work(n, (node.of_team.count - 1) * costs_.costs().to_receive(part_of(node).bytes_to_nodes), &Rehearsal::write_file);
+}
+
+// Of a node that has drawn its part of an inbetween, which another writes.
+void Rehearsal::send_drawn(int n) {
+  const Node& node = nodes_[static_cast<std::size_t>(n)];
+  const auto drawn = static_cast<double>(sizeof(wire::Strip));
+  send_to_host({n, node.task, node.frame, drawn, 0, true});
+  work(n, costs_.costs().to_send(drawn), &Rehearsal::end_frame);
 }
 
 // Nodes of a group take turns in writing keyframes.

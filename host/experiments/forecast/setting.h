@@ -14,6 +14,9 @@ namespace mars::forecast {
 
 enum class Writers { host, nodes };
 
+// Frames of a task, at most: no interval is cut.
+inline constexpr std::uint32_t kUncut = 0xffffffff;
+
 struct Setting {
   const wire::PackedFilm& film;
   const experiments::Platform& platform;
@@ -21,6 +24,8 @@ struct Setting {
   images::PictureFormat picture = images::PictureFormat::png;
   bool files = true;  // else frames go nowhere
   Writers writers = Writers::host;
+  std::int32_t sharers = 0;       // of an inbetween, as in farm::Plan; 0: as it is fastest
+  std::uint32_t most_frames = 0;  // of a task, as in farm::make_tasks; 0: as it is fastest
   std::uint32_t sink_threads = 2;
   std::uint64_t host_budget = std::uint64_t{1} << 30;  // bytes, as share_host_memory takes it
 

@@ -25,12 +25,12 @@ void BandComposer::begin_keyframe(const images::Lines& lines, std::uint64_t back
   if (lines.count() > 0) begin_band();
 }
 
-void BandComposer::begin_inbetween(Still still, Take take) {
+void BandComposer::begin_inbetween(const images::Lines& lines, Still still, Take take) {
   take_ = std::move(take);
   still_of_ = std::move(still);
-  lines_ = {0, bands_.height()};
-  next_ = 0;
-  begin_band();
+  lines_ = lines;
+  next_ = lines.first;
+  if (lines.count() > 0) begin_band();
 }
 
 void BandComposer::begin_band() {

@@ -31,8 +31,8 @@ class BandComposer {
   // Lines [lines.first, lines.end) of a keyframe, on which `background` shows where nothing is drawn. `take` gets every
   // band of them, the first and the last perhaps in part.
   void begin_keyframe(const images::Lines& lines, std::uint64_t background, Take take);
-  // A whole inbetween: `take` gets the bands that moving parts touch.
-  void begin_inbetween(Still still, Take take);
+  // Lines of an inbetween, whole bands: `take` gets the bands that moving parts touch.
+  void begin_inbetween(const images::Lines& lines, Still still, Take take);
 
   // The next lines, up to `end`: the first `constant` runs are of stationary parts. Runs and words of pixels as in
   // wire::Strip, of which they have been checked.

@@ -65,11 +65,13 @@ void NodeWriter::begin_keyframe(const Keyframe& keyframe) {
                            [this](const BandComposer::Part& part) { take_keyframe_part(part); });
 }
 
-void NodeWriter::begin_inbetween(std::uint32_t frame) {
+void NodeWriter::begin_inbetween(std::uint32_t frame, const wire::LineSpan& home) {
   frame_ = frame;
   is_keyframe_ = false;
+  pictures_.clear();
   for (std::vector<std::byte>& record : drawn_) record.clear();
   composer_.begin_inbetween(
+      lines_of(home),
       [this](std::uint32_t band) {
         check(inbetweens_touch(band), "inbetweens draw where they were foreseen");
         return background_.pixels(band);
@@ -182,6 +184,14 @@ void NodeWriter::add_background(std::span<const std::byte> background) {
   }
 }
 
+// Of an inbetween the bands that moving parts touch.
+std::span<const std::byte> NodeWriter::picture() {
+  if (is_keyframe_) return picture_message_;
+  picture_message_.clear();
+  for (const std::vector<std::byte>& record : drawn_) append(picture_message_, record);
+  return picture_message_;
+}
+
 void NodeWriter::add_picture(std::span<const std::byte> picture) {
   pictures_.emplace_back(picture.begin(), picture.end());
 }
@@ -198,12 +208,11 @@ std::vector<BandRecord> NodeWriter::records() const {
       band = read->record;
     }
   };
-  if (is_keyframe_) {
-    for (const std::vector<std::byte>& message : pictures_) add(message);
-  } else {
+  for (const std::vector<std::byte>& message : pictures_) add(message);
+  if (!is_keyframe_) {
     for (std::uint32_t band = 0; band < bands_.count(); ++band) {
       add(drawn_[band]);
-      if (!drawn_[band].empty()) continue;
+      if (!all[band].encoded.empty()) continue;
       const std::optional<BandRecord> still = background_.record(band, keyframe_.interval);
       require(still.has_value(), "bands");
       all[band] = *still;

@@ -26,7 +26,7 @@ class NodeWriter : public wire::FrameWriter {
   std::size_t shared_bytes() const override { return background_.bytes(); }
   void share(std::span<std::byte> memory) override { background_.use(memory); }
   void begin_keyframe(const Keyframe& keyframe) override;
-  void begin_inbetween(std::uint32_t frame) override;
+  void begin_inbetween(std::uint32_t frame, const wire::LineSpan& home) override;
   void paste(const wire::Strip& strip, std::span<const wire::Run> runs, std::span<const std::uint32_t> pixels) override;
   std::span<const std::byte> edge() override { return edge_; }
   void add_edge(std::span<const std::byte> edge) override;
@@ -35,7 +35,7 @@ class NodeWriter : public wire::FrameWriter {
   std::span<const std::byte> next_background(std::size_t bytes) override;
   std::size_t most_band_bytes() const override { return background_.band_bytes(); }
   void add_background(std::span<const std::byte> background) override;
-  std::span<const std::byte> picture() override { return picture_message_; }
+  std::span<const std::byte> picture() override;
   void add_picture(std::span<const std::byte> picture) override;
   void write() override;
   bool is_full() override { return files_.is_full(); }
@@ -75,11 +75,11 @@ class NodeWriter : public wire::FrameWriter {
   std::vector<std::byte> edge_, background_message_, picture_message_;
   std::size_t background_given_ = 0;  // bytes of the message
   SharedBand shared_;
-  std::vector<std::vector<std::byte>> pictures_;  // messages; of a node that writes the keyframe
 
   // The frame that was begun last.
   std::uint32_t frame_ = 0;
   bool is_keyframe_ = false;
+  std::vector<std::vector<std::byte>> pictures_;  // messages; of a node that writes the frame
   std::vector<std::vector<std::byte>> drawn_;  // by band: an inbetween's records; empty: as the background's
 
   FrameFiles files_;

@@ -29,30 +29,30 @@ void paste_strip(const StripMessage& strip, compositor::Frame& picture, composit
   compositor.paste_moving(picture, strip.moving_runs(), strip.moving_pixels());
 }
 
-Assembly::Assembly(const Task& task, const collectives::Group& group, std::int32_t contributors,
+Assembly::Assembly(const Task& task, const collectives::Group& group, const Division& division,
                    Assignments& assignments)
     : group_(group),
+      teams_(division.teams),
       interval_(task.interval),
       keyframe_(task.frames.front()),
       alone_(task.frames.size() == 1),
       not_begun_(task.frames.size()) {
   for (const std::uint32_t frame : task.frames) parts_[frame] = {};
   Parts& keyframe = parts_[keyframe_];
-  keyframe.nodes = {group.first, contributors};
-  keyframe.nodes_left = contributors;
-  for (int node = group.first; node < group.first + contributors; ++node)
+  keyframe.nodes = {group.first, division.contributors};
+  keyframe.nodes_left = division.contributors;
+  for (int node = group.first; node < group.first + division.contributors; ++node)
     assignments.give(node, {keyframe_, interval_, wire::FrameKind::keyframe});
 }
 
 void Assembly::give(const Task& task, const Portion& portion, Assignments& assignments) {
   for (std::size_t k = portion.first; k < portion.first + portion.count; ++k) {
     const std::uint32_t frame = task.frames[1 + k];
-    const std::int32_t node =
-        group_.first + wire::contributor_of_inbetween(task.first_inbetween + k, group_.count, portion.cycle);
     Parts& parts = parts_.at(frame);
-    parts.nodes = {node, 1};
-    parts.nodes_left = 1;
-    assignments.give(node, {frame, interval_, wire::FrameKind::inbetween});
+    parts.nodes = wire::team_of_inbetween(task.first_inbetween + k, group_, teams_, portion.cycle);
+    parts.nodes_left = parts.nodes.count;
+    for (int node = parts.nodes.first; node < parts.nodes.first + parts.nodes.count; ++node)
+      assignments.give(node, {frame, interval_, wire::FrameKind::inbetween});
   }
 }
 

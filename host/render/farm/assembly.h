@@ -31,8 +31,8 @@ void paste_strip(const StripMessage& strip, compositor::Frame& picture, composit
 
 class Assembly {
  public:
-  // `group` draws the task, its first `contributors` nodes the keyframe, which is given to them.
-  Assembly(const Task& task, const collectives::Group& group, std::int32_t contributors, Assignments& assignments);
+  // `group` draws the task, its first nodes the keyframe, which is given to them.
+  Assembly(const Task& task, const collectives::Group& group, const Division& division, Assignments& assignments);
 
   std::uint32_t interval() const { return interval_; }
   // These inbetweens are given to nodes.
@@ -86,6 +86,7 @@ class Assembly {
   bool begin(Parts& parts, const compositor::Compositor& compositor, sinks::SinkPool& sinks);
 
   collectives::Group group_;
+  std::int32_t teams_;
   std::uint32_t interval_;
   std::uint32_t keyframe_;
   bool alone_;                             // the keyframe has no inbetweens: nobody needs its saved background

@@ -11,7 +11,7 @@ FilmPictures::FilmPictures(const FilmRun& run) : run_(run), watch_(run.options.w
   for (const collectives::Group& group : run.plan.groups) {
     group_numbers_.insert(group_numbers_.end(), static_cast<std::size_t>(group.count),
                           static_cast<std::uint32_t>(groups_.size()));
-    groups_.emplace_back(group, run.plan.contributors_of(group), run.sinks.shape(), run.engine.assignments());
+    groups_.emplace_back(group, run.plan.division_of(group), run.sinks.shape(), run.engine.assignments());
   }
 }
 

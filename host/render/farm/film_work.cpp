@@ -65,19 +65,21 @@ void FilmWork::give_portion(GroupWork& to) {
   const std::vector<Standing> before = to.standings(rates_);
   const Portion portion =
       to.give_portion(before, run_.options.adapts ? kTurnsInPortion * before.size() : task.frames.size());
-  Engine::send(to.group(), wire::kRender, render_command(task, portion, to.group(), to.contributors()));
-  note_given(to.group(), before, portion);
+  Engine::send(to.group(), wire::kRender, render_command(task, portion, to.group(), to.division()));
+  note_given(to, before, portion);
 }
 
-// Nodes that had nothing left of a task that goes on were idle until now.
-void FilmWork::note_given(const collectives::Group& group, const std::vector<Standing>& before,
-                          const Portion& portion) {
+// Teams that had nothing left of a task that goes on were idle until now.
+void FilmWork::note_given(const GroupWork& group, const std::vector<Standing>& before, const Portion& portion) {
   const double now = run_.engine.seconds();
-  for (std::size_t member = 0; member < before.size(); ++member) {
-    const int node = group.first + static_cast<int>(member);
-    if (portion.first > 0 && before[member].waiting == 0) rates_.ready(node, now);
-    if (!portion.cycle.empty())
-      rates_.given(node, std::ranges::count(portion.cycle, static_cast<std::int32_t>(member)) > 0);
+  for (std::int32_t number = 0; number < group.team_count(); ++number) {
+    const bool was_idle = portion.first > 0 && before[static_cast<std::size_t>(number)].waiting == 0;
+    const bool has_some = std::ranges::count(portion.cycle, number) > 0;
+    const collectives::Group team = group.team(number);
+    for (int node = team.first; node < team.first + team.count; ++node) {
+      if (was_idle) rates_.ready(node, now);
+      if (!portion.cycle.empty()) rates_.given(node, has_some);
+    }
   }
 }
 

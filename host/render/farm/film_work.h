@@ -29,7 +29,7 @@ class FilmWork : public WorkGiver {
   void give_when_asked();
   void give(GroupWork& to);
   void give_portion(GroupWork& to);
-  void note_given(const collectives::Group& group, const std::vector<Standing>& before, const Portion& portion);
+  void note_given(const GroupWork& group, const std::vector<Standing>& before, const Portion& portion);
   void adapt(const wire::Strip& last, GroupWork& by);
   void report_slow_nodes();
 

@@ -5,15 +5,15 @@
 
 namespace mars::farm {
 
-GroupWork::GroupWork(const collectives::Group& group, std::int32_t contributors, const sinks::SinkPool::Shape& sinks,
+GroupWork::GroupWork(const collectives::Group& group, const Division& division, const sinks::SinkPool::Shape& sinks,
                      Assignments& assignments)
     : group_(group),
-      contributors_(contributors),
+      division_(division),
       assignments_(&assignments),
       compositor_(sinks.width, sinks.height, sinks.block, sinks.format) {}
 
 void GroupWork::give(const Task& task, std::uint64_t background, double now) {
-  tasks_.push_back({Assembly(task, group_, contributors_, *assignments_), background, now});
+  tasks_.push_back({Assembly(task, group_, division_, *assignments_), background, now});
   open_ = &task;
   next_inbetween_ = 0;
   if (tasks_.size() == 1) begin_interval();
@@ -21,9 +21,15 @@ void GroupWork::give(const Task& task, std::uint64_t background, double now) {
 
 std::vector<Standing> GroupWork::standings(const NodeRates& rates) const {
   std::vector<Standing> standings;
-  for (int node = group_.first; node < group_.first + group_.count; ++node)
-    standings.push_back({assignments_->inbetweens(node, tasks_.back().assembly.interval()), rates.slowness(node),
-                         rates.is_forgotten(node)});
+  for (std::int32_t number = 0; number < team_count(); ++number) {
+    Standing& standing = standings.emplace_back();
+    for (int node = team(number).first; node < team(number).first + team(number).count; ++node) {
+      const std::size_t waiting = assignments_->inbetweens(node, tasks_.back().assembly.interval());
+      standing.waiting = std::max(standing.waiting, waiting);
+      standing.slowness = std::max(standing.slowness, rates.slowness(node));
+      standing.forgotten |= rates.is_forgotten(node);
+    }
+  }
   return standings;
 }
 

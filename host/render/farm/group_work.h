@@ -18,11 +18,14 @@ namespace mars::farm {
 class GroupWork {
  public:
   // For pictures that go to `sinks`. What its nodes are to draw goes into `assignments`, which outlives it.
-  GroupWork(const collectives::Group& group, std::int32_t contributors, const sinks::SinkPool::Shape& sinks,
+  GroupWork(const collectives::Group& group, const Division& division, const sinks::SinkPool::Shape& sinks,
             Assignments& assignments);
 
   const collectives::Group& group() const { return group_; }
-  std::int32_t contributors() const { return contributors_; }  // to keyframes
+  const Division& division() const { return division_; }
+  // The group's teams, in order.
+  std::int32_t team_count() const { return wire::team_count(group_, division_.teams); }
+  collectives::Group team(std::int32_t number) const { return wire::team_of(group_, division_.teams, number); }
   // Whether its nodes write the frames' files; at first they send strips.
   bool writes() const { return writes_; }
   void let_nodes_write() { writes_ = true; }
@@ -37,9 +40,9 @@ class GroupWork {
   // Whether portions of it are left.
   bool is_open() const { return open_ != nullptr; }
   const Task& open_task() const { return *open_; }
-  // How its nodes are getting on; `rates` are of all nodes.
+  // How its teams are getting on, each as its slowest node; `rates` are of all nodes.
   std::vector<Standing> standings(const NodeRates& rates) const;
-  // The next `most` inbetweens, or as many as are left, are its nodes' from now on.
+  // The next `most` inbetweens, or as many as are left, are its teams' from now on.
   Portion give_portion(const std::vector<Standing>& standings, std::size_t most);
 
   // A strip of what its node was given.
@@ -74,7 +77,7 @@ class GroupWork {
   void begin_interval() { compositor_.begin_interval(tasks_.front().background); }
 
   collectives::Group group_;
-  std::int32_t contributors_;
+  Division division_;
   Assignments* assignments_;
   bool writes_ = false;
   compositor::Compositor compositor_;  // the first task's

@@ -20,17 +20,21 @@ std::int32_t Plan::contributors_of(const collectives::Group& group) const {
   return contributors == 0 ? group.count : std::min(contributors, group.count);
 }
 
+std::int32_t Plan::teams_of(const collectives::Group& group) const {
+  return std::max(1, group.count / std::max(sharers, 1));
+}
+
 Plan make_plan(const wire::PackedFilm& film, const PlanRequest& request, int nodes) {
-  Plan plan{make_tasks(film, request.frames, request.coherence), {}, 0};
+  Plan plan{make_tasks(film, request.frames, request.coherence, request.most_frames), {}, request.contributors,
+            request.sharers};
   plan.groups = make_groups(nodes, static_cast<int>(request.groups), plan.tasks.size());
-  plan.contributors = request.contributors;
   return plan;
 }
 
 Portion whole(const Task& task) { return {0, task.frames.size() - 1}; }
 
 std::vector<std::byte> render_command(const Task& task, const Portion& portion, const collectives::Group& group,
-                                      std::int32_t contributors) {
+                                      const Division& division) {
   const bool goes_on = portion.first > 0;
   const std::span<const std::uint32_t> all(task.frames);
   const auto frames = goes_on ? all.subspan(1 + portion.first, portion.count) : all;
@@ -39,7 +43,8 @@ std::vector<std::byte> render_command(const Task& task, const Portion& portion, 
   command.interval = task.interval;
   command.group_first = group.first;
   command.group_count = group.count;
-  command.contributors = contributors;
+  command.contributors = division.contributors;
+  command.teams = division.teams;
   command.frame_count = static_cast<std::uint32_t>(frames.size());
   command.first_frame = frames.front();
   command.first_inbetween = task.first_inbetween + portion.first;
@@ -56,11 +61,12 @@ std::vector<std::byte> render_command(const Task& task, const Portion& portion, 
   return message;
 }
 
-std::vector<std::byte> render_command(const Task& task, const collectives::Group& group, std::int32_t contributors) {
-  return render_command(task, whole(task), group, contributors);
+std::vector<std::byte> render_command(const Task& task, const collectives::Group& group, const Division& division) {
+  return render_command(task, whole(task), group, division);
 }
 
-std::vector<Task> make_tasks(const wire::PackedFilm& film, std::span<const std::uint32_t> frames, bool coherence) {
+std::vector<Task> make_tasks(const wire::PackedFilm& film, std::span<const std::uint32_t> frames, bool coherence,
+                             std::uint32_t most_frames) {
   std::vector<Task> tasks;
   std::uint64_t inbetweens = 0;
   std::uint32_t interval = 0;
@@ -74,7 +80,23 @@ std::vector<Task> make_tasks(const wire::PackedFilm& film, std::span<const std::
       tasks.push_back({interval, {}, inbetweens});
     tasks.back().frames.push_back(frame);
   }
-  return tasks;
+  return most_frames > 0 ? cut_tasks(tasks, most_frames) : tasks;
+}
+
+std::vector<Task> cut_tasks(std::span<const Task> tasks, std::uint32_t most_frames) {
+  std::vector<Task> pieces;
+  std::uint64_t inbetweens = 0;
+  for (const Task& task : tasks) {
+    const std::size_t all = task.frames.size(), count = (all + most_frames - 1) / most_frames;
+    for (std::size_t piece = 0; piece < count; ++piece) {
+      const auto at = [&](std::size_t number) {
+        return task.frames.begin() + static_cast<std::ptrdiff_t>(all * number / count);
+      };
+      pieces.push_back({task.interval, {at(piece), at(piece + 1)}, inbetweens});
+      inbetweens += pieces.back().frames.size() - 1;
+    }
+  }
+  return pieces;
 }
 
 std::vector<collectives::Group> make_groups(int nodes, int groups, std::size_t tasks) {

@@ -251,16 +251,18 @@ struct Planned {
   Prediction prediction;
 };
 
-// By what is predicted of it, unless the person says how many groups.
+// By what is predicted of it, as far as the person does not say.
 Planned plan_of(const wire::PackedFilm& film, const std::vector<std::uint32_t>& frames, const RenderJob& job,
                 EventReporter& reporter, farm::Heartbeats& heartbeats) {
   const auto nodes = static_cast<int>(numnodes());
-  farm::PlanRequest request{frames, job.coherence, job.groups};
+  farm::PlanRequest request{frames, job.coherence, job.groups, 0, job.sharers, job.most_frames};
   Prediction prediction;
   if (job.predict) {
     heartbeats.during("loading", [&] { prediction = job.predict(film, request, nodes); });
     if (request.groups == 0) request.groups = prediction.groups;
     request.contributors = prediction.contributors;
+    if (request.sharers == 0) request.sharers = prediction.sharers;
+    if (request.most_frames == 0) request.most_frames = prediction.most_frames;
     if (!prediction.warning.empty()) reporter.report(events::Warning{prediction.warning});
     reporter.expect(std::exchange(prediction.course, {}));
   }

@@ -32,6 +32,8 @@ struct HostMachine {
 struct Prediction {
   std::uint32_t groups = 0;       // that make it shortest; 0: as make_groups says
   std::int32_t contributors = 0;  // to keyframes, with these groups, as in farm::Plan
+  std::int32_t sharers = 1;       // of inbetweens, so too
+  std::uint32_t most_frames = 0;  // of a task, as in farm::PlanRequest
   events::Course course{};        // of its frames
   std::string warning{};          // why nothing is predicted; "": none
   // Whether nodes would write frames' files sooner than the host, with this many nodes on a machine; none: nothing is
@@ -56,6 +58,8 @@ struct RenderJob {
   bool adapts = true;                  // as in farm::FarmOptions
   std::uint32_t block = 16;            // side of the compositor's blocks, pixels
   std::uint32_t groups = 0;            // as in PlanRequest
+  std::int32_t sharers = 0;            // so too; 0: as predicted
+  std::uint32_t most_frames = 0;       // so too; 0: as predicted
   std::string report;                  // file for the measurements; "": none
   std::string trace;                   // file for a picture of the run; "": none
   std::string watch;                   // socket of who watches; "": nobody does

@@ -24,8 +24,8 @@ constexpr std::array kHostSpanNames{"load film", "give", "strip", "prepare", "co
 constexpr std::array kMessageNames{"",      "Hello",      "Load",    "film",      "Loaded", "Render",    "Credit",
                                    "Strip", "Fault",      "Stop",    "Clock",     "Trace",  "triangles", "CZB",
                                    "Beat",  "BeginView",  "Draw",    "CloseView", "Drawn",  "Written",   "Storage",
-                                   "edge",  "background", "picture", "Write"};
-static_assert(kMessageNames.size() == wire::kWrite + 1);
+                                   "edge",  "background", "picture", "Write",     "bands"};
+static_assert(kMessageNames.size() == wire::kBands + 1);
 constexpr std::array kCounterNames{"credits", "strips on the way", "frames with the sinks"};
 
 // Names contain what people typed, which need not be UTF-8.

@@ -110,6 +110,8 @@ Planned plan(const options::RenderOptions& options, const NodesCode& code) {
   setting.files = options.sink == options::SinkKind::files || options.write != options::WriteWhere::automatic;
   setting.sink_threads = session::sink_threads({platform.host_memory, platform.host_processors()});
   setting.host_budget = platform.host_memory;
+  setting.sharers = static_cast<std::int32_t>(options.sharers);
+  setting.most_frames = options.cut;
   const int nodes = options.nodes == 0 ? topology::Machine::here().processors() : static_cast<int>(options.nodes);
   const auto forecasts = [&](forecast::Writers writers) {
     setting.writers = writers;
@@ -135,6 +137,17 @@ std::string megabytes(double bytes) { return document::formatted("%.1f MB", byte
 std::string in_groups(const forecast::Forecast& forecast) {
   return document::counted(static_cast<std::size_t>(forecast.nodes), "node") + " in " +
          document::counted(forecast.groups, "group");
+}
+
+// "": as by default.
+std::string division_text(const forecast::Forecast& forecast) {
+  std::string text;
+  if (forecast.sharers > 1)
+    text += ", of which " + document::counted(static_cast<std::size_t>(forecast.sharers), "node") +
+            " share an inbetween";
+  if (forecast.most_frames > 0)
+    text += ", intervals cut after " + document::counted(forecast.most_frames, "frame");
+  return text;
 }
 
 std::string interval_text(const Planned& planned) {
@@ -166,7 +179,7 @@ std::string text_of(const Planned& planned) {
   const forecast::Forecast &asked = planned.asked(), &best = planned.best();
   const forecast::Rehearsed& run = asked.run;
   std::string text = "platform    " + planned.platform.name + "\n";
-  text += "nodes       " + in_groups(asked) + "\n";
+  text += "nodes       " + in_groups(asked) + division_text(asked) + "\n";
   text += document::formatted("seconds     %.4g", asked.seconds()) + " (" + interval_text(planned) + ")\n";
   if (!planned.platform.doubt.empty() && asked.spread)
     text += "            the interval is wide, for the calibration was noisy: " + planned.platform.doubt + "\n";
@@ -192,6 +205,8 @@ std::string text_of(const Planned& planned) {
 nlohmann::ordered_json json_of(const Planned& planned, const forecast::Forecast& forecast) {
   nlohmann::ordered_json all = {{"nodes", forecast.nodes},
                                 {"groups", forecast.groups},
+                                {"sharers", forecast.sharers},
+                                {"cut", forecast.most_frames},
                                 {"seconds", forecast.seconds()},
                                 {"node_hours", forecast.node_hours()},
                                 {"node_memory", std::llround(forecast.run.node_memory)},

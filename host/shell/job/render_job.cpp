@@ -44,6 +44,8 @@ session::RenderJob job_of(const options::RenderOptions& options, const std::stri
   job.coherence = !options.no_coherence;
   job.block = options.block;
   job.groups = options.groups;
+  job.sharers = static_cast<std::int32_t>(options.sharers);
+  job.most_frames = options.cut;
   job.report = options.report;
   job.trace = options.trace;
   job.watch = options.watch;

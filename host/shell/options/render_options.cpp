@@ -229,6 +229,13 @@ std::vector<Entry> table() {
       number(plans, "--groups", {&RenderOptions::groups, true, many},
              "Groups of nodes; each renders intervals of its own. 1: all nodes work on the same interval, as in the "
              "thesis. Example: --groups 1"),
+      number(plans, "--sharers", {&RenderOptions::sharers, true, many},
+             "Nodes that draw an inbetween together, each its lines: same pictures; worth it where there are fewer "
+             "inbetweens than nodes; default: as it is forecast to be soonest, or 1. Example: --sharers 4"),
+      number(plans, "--cut", {&RenderOptions::cut, true, many},
+             "Frames of an interval that a group of nodes is given in one go, at most: more groups may then work on "
+             "one interval, each draws a keyframe of it; same pictures; default: as it is forecast to be soonest, or "
+             "all. Example: --cut 12"),
       option(plans, "--format", "png|png16|exr", &RenderOptions::format,
              "Files of the frames: PNG of 8 or 16 bits, or EXR: half floats of light before exposure and curve; "
              "default: png. Example: --format exr"),

@@ -40,6 +40,8 @@ struct RenderOptions {
   bool no_coherence = false;  // every frame from scratch
   std::uint32_t block = 16;   // side of the compositor's blocks, pixels
   std::uint32_t groups = 0;   // intervals rendered at a time; 0: chosen by the plan
+  std::uint32_t sharers = 0;  // nodes that draw an inbetween together; 0: chosen by the plan
+  std::uint32_t cut = 0;      // frames of an interval that a group draws in one go, at most; 0: chosen by the plan
   bool overwrite = false;     // render frames that the folder has already, too
   bool kept_film = false;     // the folder's film.mars, even if `film` has changed; `film` if the folder has none
   SinkKind sink = SinkKind::files;

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """mars bench identity: whether films have the same bits however they are rendered. Random films
 (random_film.py) are rendered in several random ways each: over threads, processes and MPI, by 1 to 9
-nodes in any groups, with and without coherence, by each instruction set, with little memory, by every
+nodes in any groups and teams, with and without cuts and coherence, by each instruction set, with little memory, by every
 mapping. One way of a film draws it from nothing with one node.
 
 Then commands edit each film at random (random_edits.py), and it is rendered in as many ways again. One
@@ -53,6 +53,10 @@ def random_way(choose, mpi, film):
     way = {"--backend": choose.choice(["threads", "threads", *(["mpi"] if mpi else [])]), "--nodes": str(nodes)}
     if choose.random() < 0.6:
         way["--groups"] = str(choose.randint(1, nodes))
+    if choose.random() < 0.4:
+        way["--sharers"] = str(choose.randint(1, nodes))
+    if choose.random() < 0.3:
+        way["--cut"] = str(choose.randint(1, 8))
     if choose.random() < 0.3:
         way["--no-coherence"] = None
     if choose.random() < 0.5:

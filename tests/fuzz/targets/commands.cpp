@@ -48,6 +48,7 @@ Message sound_render(bool listed, bool goes_on) {
   render.drawn = render.frame_count;
   render.listed = listed && !goes_on ? 1 : 0;
   render.cycle = listed ? 2 : 0;
+  render.teams = 2;
   render.goes_on = goes_on ? 1 : 0;
   Message message = message_of(render);
   if (render.listed == 1) append(message, {0, 1});
@@ -94,8 +95,11 @@ void read_render(std::span<const std::byte> message) {
   std::vector<std::uint32_t> frames;
   const wire::RenderCommand command = wire::read_render(message, film(), {kNode, kNodes, kGroups, left}, frames);
   for (const std::uint32_t frame : command.frames) check(frame < film().settings().frames, "frames are the film's");
-  for (const std::int32_t member : command.cycle)
-    check(member >= 0 && member < command.render.group_count, "the cycle's nodes are the group's");
+  for (std::size_t k = 0; k < command.inbetweens().size(); ++k) {
+    const collectives::Group group = command.group(), team = command.team(k);
+    check(team.count > 0 && team.first >= group.first && team.first + team.count <= group.first + group.count,
+          "teams are the group's");
+  }
 }
 
 // The scene as nodes read it, who copy its block.

@@ -150,8 +150,8 @@ TEST_F(RenderCommands, ACycleFollowsTheFrames) {
   const RenderCommand command = read(bytes);
   EXPECT_TRUE(std::ranges::equal(command.frames, std::vector{0u, 1u}));
   EXPECT_TRUE(std::ranges::equal(command.cycle, std::vector{1, 1, 0}));
-  EXPECT_EQ(command.contributor(0), 1) << "inbetween 7 of the film";
-  EXPECT_EQ(command.contributor(1), 0);
+  EXPECT_EQ(command.team(0), (collectives::Group{1, 1})) << "inbetween 7 of the film";
+  EXPECT_EQ(command.team(1), (collectives::Group{0, 1}));
   EXPECT_TRUE(refused(render, {0, 1, 1, 1, 2})) << "of two nodes";
   EXPECT_TRUE(refused(render, {0, 1, 1, 1, 0xffffffff}));
   EXPECT_TRUE(refused(render, {0, 1, 1, 1}));
@@ -190,6 +190,22 @@ TEST_F(RenderCommands, OfNoSuchContributors) {
   EXPECT_TRUE(refused({0, 0, 2, 0, 2, 0, 7, 2, 0, 1, 0}, {0, 1}));
   EXPECT_TRUE(refused({0, 0, 2, 3, 2, 0, 7, 2, 0, 1, 0}, {0, 1}));
   EXPECT_FALSE(refused({0, 0, 2, 1, 2, 0, 7, 2, 0, 1, 0}, {0, 1}));
+}
+
+TEST_F(RenderCommands, OfNoSuchTeams) {
+  Render render = sound_;
+  for (const std::int32_t teams : {-1, 3}) {
+    render.teams = teams;
+    EXPECT_TRUE(refused(render, {0, 1})) << teams;
+  }
+  for (const std::int32_t teams : {0, 1, 2}) {
+    render.teams = teams;
+    EXPECT_FALSE(refused(render, {0, 1})) << teams;
+  }
+  render.teams = 1;
+  render.cycle = 1;
+  EXPECT_FALSE(refused(render, {0, 1, 0}));
+  EXPECT_TRUE(refused(render, {0, 1, 1})) << "there is one team";
 }
 
 TEST_F(RenderCommands, OfAnotherSize) {

@@ -81,8 +81,28 @@ class Group {
   void render_inbetween(std::size_t node) {
     Drawing inbetween = draw(1);
     inbetween.constant = {};
-    writers_[node]->begin_inbetween(1);
+    writers_[node]->begin_inbetween(1, {0, bands_.height()});
     paste(*writers_[node], inbetween, {0, bands_.height()});
+    writers_[node]->write();
+    Words whole = drawing_.still;
+    put(inbetween.moving, whole);
+    expect_file(*writers_[node], 1, whole);
+  }
+
+  // By all nodes together, each some bands; `node` writes it.
+  void render_shared_inbetween(std::size_t node) {
+    Drawing inbetween = draw(1);
+    inbetween.constant = {};
+    for (std::size_t k = 0; k < writers_.size(); ++k) {
+      const auto at = [&](std::size_t number) {
+        const auto band = static_cast<std::uint32_t>(bands_.count() * number / writers_.size());
+        return std::min(band * bands_.lines_a_band(), bands_.height());
+      };
+      writers_[k]->begin_inbetween(1, {at(k), at(k + 1)});
+      paste(*writers_[k], inbetween, {at(k), at(k + 1)});
+    }
+    for (std::size_t from = 0; from < writers_.size(); ++from)
+      if (from != node) writers_[node]->add_picture(copy(writers_[from]->picture()));
     writers_[node]->write();
     Words whole = drawing_.still;
     put(inbetween.moving, whole);
@@ -216,6 +236,7 @@ TEST(NodeWriter, FilesAreThoseOfWholePictures) {
         Group group(format, 320, 300, nodes, ++seed);
         group.render_keyframe(true);
         for (int node = 0; node < nodes; ++node) group.render_inbetween(static_cast<std::size_t>(node));
+        for (int node = 0; node < nodes; ++node) group.render_shared_inbetween(static_cast<std::size_t>(node));
         group.render_keyframe(false);
       }
 }
@@ -232,6 +253,9 @@ TEST(NodeWriter, RefusesWhatMakesNoSense) {
       damaged[random() % std::min<std::size_t>(damaged.size(), 64)] = static_cast<std::byte>(random());
     document::failure_of([&] { group.writer(1).add_background(damaged); });
     document::failure_of([&] { group.writer(1).add_edge(damaged); });
+    group.writer(1).begin_inbetween(1, {0, 0});
+    group.writer(1).add_picture(damaged);
+    document::failure_of([&] { group.writer(1).write(); });
   }
 }
 

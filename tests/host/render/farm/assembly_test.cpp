@@ -64,7 +64,7 @@ Drawn draw(std::mt19937& random, const Task& task, int nodes, StripStore& store)
     const int contributors = keyframe ? nodes : 1;
     for (int contributor = 0; contributor < contributors; ++contributor) {
       const std::uint64_t inbetween = task.first_inbetween + frame - task.frames.front() - 1;
-      const int node = keyframe ? contributor : wire::contributor_of_inbetween(inbetween, nodes);
+      const int node = keyframe ? contributor : wire::team_of_inbetween(inbetween, {0, nodes}, 0).first;
       const std::uint32_t passes = 1 + random() % 3;
       const std::uint32_t parts = static_cast<std::uint32_t>(contributors) * passes;
       for (std::uint32_t pass = 0; pass < passes; ++pass) {
@@ -110,7 +110,7 @@ void expect_put_together(unsigned seed) {
     Drawn drawn = draw(random, task, nodes, store);
     expected.merge(drawn.pictures);
     Assignments assignments(static_cast<std::size_t>(nodes));
-    Assembly assembly(task, {0, nodes}, nodes, assignments);
+    Assembly assembly(task, {0, nodes}, {nodes}, assignments);
     assembly.give(task, whole(task), assignments);
     compositor.begin_interval(kPlain);
     EXPECT_EQ(assembly.interval(), number);
@@ -149,7 +149,7 @@ struct OneTask {
       : pool(sink, {kWidth, kHeight, kBlock, buffers, 1, kPlain}),
         task{0, std::move(frames), 0},
         assignments(static_cast<std::size_t>(nodes)),
-        assembly(task, {0, nodes}, nodes, assignments) {
+        assembly(task, {0, nodes}, {nodes}, assignments) {
     assembly.give(task, whole(task), assignments);
     compositor.begin_interval(kPlain);
   }
@@ -219,7 +219,7 @@ TEST(Assembly, FramesInTheMakingLeaveABufferToThoseThatAreWhole) {
 TEST(Assembly, GivesItsFramesToTheNodesThatDrawThem) {
   const Task task{3, {4, 5, 6, 7}, 0};
   Assignments assignments(5);
-  Assembly assembly(task, {2, 3}, 2, assignments);
+  Assembly assembly(task, {2, 3}, {2}, assignments);
   EXPECT_TRUE(assignments.is_given(2, {4, 3, wire::FrameKind::keyframe}));
   EXPECT_TRUE(assignments.is_given(3, {4, 3, wire::FrameKind::keyframe}));
   EXPECT_FALSE(assignments.is_given(4, {4, 3, wire::FrameKind::keyframe})) << "two contribute";

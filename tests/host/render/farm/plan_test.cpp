@@ -35,6 +35,32 @@ TEST(Plan, WithoutCoherenceEveryFrameIsATask) {
   EXPECT_EQ(plan.tasks[2].interval, 1u);
 }
 
+TEST(Plan, LongIntervalsMayBeCutIntoTasksOfAboutEqualLength) {
+  const EmptyFilm film({7, 2});
+  const Plan plan = make_plan(film.view(), {.frames = {0, 1, 2, 3, 4, 5, 6, 7, 8}, .most_frames = 3}, 4);
+  ASSERT_EQ(plan.tasks.size(), 4u);
+  EXPECT_EQ(plan.tasks[0].frames, (Frames{0, 1}));
+  EXPECT_EQ(plan.tasks[1].frames, (Frames{2, 3}));
+  EXPECT_EQ(plan.tasks[2].frames, (Frames{4, 5, 6}));
+  EXPECT_EQ(plan.tasks[2].interval, 0u);
+  EXPECT_EQ(plan.tasks[2].first_inbetween, 2u);
+  EXPECT_EQ(plan.tasks[3].frames, (Frames{7, 8}));
+  EXPECT_EQ(plan.tasks[3].interval, 1u);
+  EXPECT_EQ(plan.tasks[3].first_inbetween, 4u);
+  EXPECT_EQ(plan.keyframes(), 4u);
+  EXPECT_EQ(plan.inbetweens(), 5u);
+}
+
+TEST(Plan, NodesOfAGroupFormTeamsOfSharersAtLeast) {
+  Plan plan;
+  EXPECT_EQ(plan.teams_of({0, 7}), 7);
+  plan.sharers = 3;
+  EXPECT_EQ(plan.teams_of({0, 7}), 2);
+  EXPECT_EQ(plan.teams_of({4, 2}), 1) << "of all nodes";
+  plan.sharers = 0;
+  EXPECT_EQ(plan.teams_of({0, 7}), 7);
+}
+
 TEST(Plan, OneFrame) {
   const EmptyFilm film({4, 4});
   const Plan plan = make_plan(film.view(), {{6}}, 8);
@@ -74,8 +100,8 @@ wire::Render head_of(const std::vector<std::byte>& message) {
 
 TEST(Plan, ATasksFirstPortionNamesAllFramesAndLaterOnesTheirOwn) {
   const Task task{3, {10, 11, 12, 14, 15, 16}, 100};
-  const auto first = render_command(task, {0, 2}, {4, 3}, 2), then = render_command(task, {2, 1, {2}}, {4, 3}, 2),
-             last = render_command(task, {3, 2}, {4, 3}, 2);
+  const auto first = render_command(task, {0, 2}, {4, 3}, {2}), then = render_command(task, {2, 1, {2}}, {4, 3}, {2}),
+             last = render_command(task, {3, 2}, {4, 3}, {2});
   EXPECT_EQ(head_of(first).frame_count, 6u);
   EXPECT_EQ(head_of(first).drawn, 3u) << "and the keyframe";
   EXPECT_EQ(head_of(first).goes_on, 0);
@@ -93,7 +119,7 @@ TEST(Plan, ATasksFirstPortionNamesAllFramesAndLaterOnesTheirOwn) {
 
 TEST(Plan, AWholeTaskIsTold) {
   const Task task{3, {10, 11, 12}, 100};
-  const auto all = render_command(task, {4, 3}, 2);
+  const auto all = render_command(task, {4, 3}, {2});
   EXPECT_EQ(all.size(), 40u) << "as long as ever: simulated times count it";
   EXPECT_EQ(head_of(all).drawn, 3u);
   EXPECT_EQ(head_of(all).cycle, 0);
@@ -102,7 +128,7 @@ TEST(Plan, AWholeTaskIsTold) {
 TEST(Plan, InbetweensGoRoundTheGroup) {
   Frames counts(3);
   for (std::uint64_t inbetween = 0; inbetween < 300; ++inbetween)
-    ++counts.at(static_cast<std::size_t>(wire::contributor_of_inbetween(inbetween, 3)));
+    ++counts.at(static_cast<std::size_t>(wire::team_of_inbetween(inbetween, {0, 3}, 0).first));
   EXPECT_EQ(counts, (Frames{100, 100, 100}));
 }
 

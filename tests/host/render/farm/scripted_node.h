@@ -168,7 +168,8 @@ class ScriptedNode {
     std::vector<std::uint32_t> own;
     if (command.render.goes_on == 0) own.push_back(command.frames.front());
     for (std::size_t k = 0; k < read.inbetweens().size(); ++k)
-      if (command.render.group_first + read.contributor(k) == mynode()) own.push_back(read.inbetweens()[k]);
+      if (const auto team = read.team(k); mynode() >= team.first && mynode() < team.first + team.count)
+        own.push_back(read.inbetweens()[k]);
     return own;
   }
 

@@ -18,7 +18,7 @@ std::map<int, int> counts(const std::vector<Standing>& nodes, std::uint64_t firs
   const Cycle cycle = share_out(nodes, first, count);
   std::map<int, int> drawn;
   for (std::size_t k = 0; k < count; ++k)
-    ++drawn[wire::contributor_of_inbetween(first + k, static_cast<std::int32_t>(nodes.size()), cycle)];
+    ++drawn[wire::team_of_inbetween(first + k, {0, static_cast<std::int32_t>(nodes.size())}, 0, cycle).first];
   return drawn;
 }
 
