@@ -16,6 +16,7 @@ Canvas::Canvas(const wire::PackedFilm& film, const raster::Neighbours& neighbour
       team_lines(film.settings().height, static_cast<std::size_t>(neighbours.group().count)),
       contributes(static_cast<std::size_t>(neighbours.group().count)),
       line_loads(film.settings().height),
+      other_loads(film.settings().height),
       line_totals(film.settings().height + 1),
       awaited(film.settings().height),
       still_bytes(film.settings().height),

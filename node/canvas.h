@@ -45,8 +45,11 @@ struct Canvas {
   geometry::Sweep sweep;                  // empty where moving parts may be anywhere
   std::vector<std::uint8_t> contributes;  // 1: the node draws inbetweens; by nodes of the group
 
+  group::ExchangeRecord exchange_record;  // of keyframes so far
+
   // Of the current frame, by line.
   std::vector<raster::LineLoad> line_loads;      // of own triangles
+  std::vector<raster::LineLoad> other_loads;     // of others', made again
   std::vector<std::uint64_t> line_totals;        // of their edge boxes, before each line and at the end
   std::vector<std::uint64_t> awaited;            // edge boxes of other nodes that are to come
   std::vector<std::uint64_t> still_bytes;        // that are kept for inbetweens, about

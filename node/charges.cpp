@@ -8,18 +8,18 @@ void charge_begin(FrameReport& report, const geometry::Scene& scene, bool is_fir
   report.charge(wire::Work::segment, scene.film().segments().size());
 }
 
-void charge_tessellation(FrameReport& report, const geometry::Scene& scene, const Tessellation& own) {
+void charge_tessellation(FrameReport& report, const geometry::Scene& scene, const Tessellation& made,
+                         std::uint64_t tested) {
   const auto charge = [&](wire::Work kind, std::uint64_t units) { report.charge(kind, units); };
-  const std::uint64_t tested = report.strip().work.triangles_tested;
-  charge(wire::Work::patch, own.surfaces.patches);
-  charge(wire::Work::meshlet, own.surfaces.meshlets);
-  charge(wire::Work::vertex, own.surfaces.vertices);
-  charge(wire::Work::mesh_vertex, own.surfaces.mesh_vertices);
+  charge(wire::Work::patch, made.surfaces.patches);
+  charge(wire::Work::meshlet, made.surfaces.meshlets);
+  charge(wire::Work::vertex, made.surfaces.vertices);
+  charge(wire::Work::mesh_vertex, made.surfaces.mesh_vertices);
   charge(wire::Work::triangle_tested, tested);
   charge(wire::Work::row_tested, tested * static_cast<std::uint64_t>(scene.pattern().count));
-  charge(wire::Work::triangle, own.made.triangles);
-  charge(wire::Work::edge_box_made, own.made.edge_boxes);
-  charge(wire::Work::vertex_light, own.surfaces.colored * scene.lights().size());
+  charge(wire::Work::triangle, made.made.triangles);
+  charge(wire::Work::edge_box_made, made.made.edge_boxes);
+  charge(wire::Work::vertex_light, made.surfaces.colored * scene.lights().size());
 }
 
 void charge_lines(FrameReport& report, const geometry::Scene& scene, const LinesDrawn& drawn) {

@@ -16,7 +16,9 @@ namespace mars::node {
 
 void charge_begin(FrameReport& report, const geometry::Scene& scene, bool is_first_frame);
 
-void charge_tessellation(FrameReport& report, const geometry::Scene& scene, const Tessellation& own);
+// Of `tested` triangles.
+void charge_tessellation(FrameReport& report, const geometry::Scene& scene, const Tessellation& made,
+                         std::uint64_t tested);
 
 struct LinesDrawn {
   geometry::LineRange lines;

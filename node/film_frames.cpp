@@ -25,7 +25,9 @@ void FilmFrames::render(const wire::RenderCommand& command) {
                              render.interval,
                              {render.group_first, render.group_count},
                              render.contributors,
-                             writes_});
+                             writes_,
+                             {},
+                             &boxes_});
   }
   draw_inbetweens(command);
   messages::keep_to_nobody();
@@ -67,7 +69,8 @@ void FilmFrames::draw_inbetweens(const wire::RenderCommand& command) {
                              {self, 1},
                              1,
                              writes_,
-                             {team, command.writer(k), &boxes_}});
+                             {team, command.writer(k)},
+                             &boxes_});
   }
 }
 

@@ -24,6 +24,7 @@ Renderer::Renderer(const wire::Load& load, std::span<const std::int32_t> machine
                    Heartbeat& heartbeat, wire::FrameWriter* writer)
     : heartbeat_(heartbeat),
       mapping_(load.mapping),
+      exchange_(load.exchange),
       pixel_format_(load.pixel_format),
       tessellator_(set, &heartbeat),
       neighbours_(machines, load.groups),
@@ -31,6 +32,7 @@ Renderer::Renderer(const wire::Load& load, std::span<const std::int32_t> machine
       outbox_(load.pixel_format, load.credits, neighbours_.group(), load.watched == 1),
       homes_(group_size()),
       pass_homes_(group_size()),
+      others_(group_size()),
       is_watched_(load.watched == 1) {
   parts_.reserve(neighbours_.nodes().size() + 1);
   if (load.traced == 1) tracer_.emplace();
@@ -65,6 +67,8 @@ void Renderer::draw(Canvas& canvas, const Frame& frame, const HasEnded& has_ende
     if (!pass.is_last()) send_trace();
   }
   report_.end();
+  if (report_.is_keyframe() && triangles_travel())
+    canvas_->exchange_record.note(makes_again(), report_.strip().times.exchange);
   memory_.end_frame();
   outbox_.discard_sent();
   send_trace();
@@ -76,6 +80,7 @@ void Renderer::begin(Canvas& canvas, const Frame& frame, const HasEnded& has_end
   group_ = frame.group;
   contributors_ = static_cast<std::size_t>(frame.contributors);
   sharing_ = frame.sharing;
+  boxes_ = frame.boxes;
   file_ = frame.is_written ? &file_output_.value() : nullptr;
   heartbeat_.begin_frame(frame.number);
   report_.begin(frame.kind, frame.number, frame.interval);
@@ -88,7 +93,7 @@ geometry::LineRange Renderer::share_lines() {
   const PhaseScope map = phase(wire::Phase::map);
   group::FileBands bands;
   if (file_) bands = {file_->writer().lines_of_band(), scene().film().settings().width * pixel_bytes(pixel_format_)};
-  const auto ranges = canvas_->team_lines.divide(scene(), *sharing_.boxes, canvas_->sweep.lines(),
+  const auto ranges = canvas_->team_lines.divide(scene(), *boxes_, canvas_->sweep.lines(),
                                                  static_cast<std::size_t>(sharing_.team.count), bands);
   report_.charge(wire::Work::vertex, canvas_->team_lines.points());
   return ranges[static_cast<std::size_t>(mynode() - sharing_.team.first)];
@@ -126,7 +131,7 @@ Tessellation Renderer::tessellate() {
   const PhaseScope dice = phase(wire::Phase::dice);
   const Scatter scatter{static_cast<std::uint32_t>(member()), static_cast<std::uint32_t>(contributors_)};
   std::optional<OwnLines> own;
-  if (sharing_.is_shared()) own.emplace(OwnLines{*sharing_.boxes, own_lines_});
+  if (sharing_.is_shared()) own.emplace(OwnLines{*boxes_, own_lines_});
   const LineTable lines{canvas_->wanted_lines, report_.is_keyframe() ? canvas_->wanted_lines : unkept_lines(),
                         canvas_->line_loads, own ? &*own : nullptr};
   shadow::DicedSurfaces* const diced = canvas_->shadows ? &canvas_->shadows->diced() : nullptr;
@@ -136,7 +141,7 @@ Tessellation Renderer::tessellate() {
   std::transform_inclusive_scan(canvas_->line_loads.begin(), canvas_->line_loads.end(),
                                 canvas_->line_totals.begin() + 1, std::plus<>(),
                                 [](const raster::LineLoad& load) { return load.boxes(); });
-  charge_tessellation(report_, scene(), made);
+  charge_tessellation(report_, scene(), made, report_.strip().work.triangles_tested);
   report_.charge(wire::Work::fresh_byte, memory_.arena().take_fresh());
   return made;
 }
@@ -200,32 +205,43 @@ std::span<const std::uint64_t> Renderer::foreseen_still_bytes() {
 void Renderer::sum_up(const group::MadeCounts& made) {
   const bool large = group::is_large(group::own_bytes(made, triangles_travel()), memory_.frame_bytes());
   const PhaseScope sum = phase(wire::Phase::sum);
-  canvas_->sums.add_up(group_, {canvas_->line_loads, made.edge_boxes, large, foreseen_still_bytes()});
+  canvas_->sums.add_up(group_, {canvas_->line_loads, made.edge_boxes, large, foreseen_still_bytes(),
+                                canvas_->exchange_record.expected(report_.strip().times.dice)});
   report_.strip().edge_box_total = canvas_->sums.ebc().back();
 }
 
-// Neighbours read each other's edge boxes where they lie; the others' are sent.
+bool Renderer::makes_again() const {
+  if (!triangles_travel() || boxes_ == nullptr || exchange_ == wire::Exchange::send) return false;
+  return exchange_ == wire::Exchange::again || group::is_sooner_again(canvas_->sums.exchange());
+}
+
+// Neighbours read each other's edge boxes where they lie; the others' are sent, or made again.
 geometry::LineRange Renderer::exchange_triangles(const raster::Polygons& own, const group::Pass& pass) {
   const auto homes_now = std::span(pass_homes_).first(homes().size());
   std::ranges::transform(homes(), homes_now.begin(),
                          [&](const geometry::LineRange& home) { return group::part_of(home, pass); });
   const geometry::LineRange lines = homes_now[member()];
   if (group_.count > 1) {
-    send_triangles(own, homes_now);
-    if (triangles_travel()) receive_triangles(lines);
+    if (makes_again())
+      make_triangles_again(lines);
+    else
+      send_triangles(own, homes_now);
   }
   for (const raster::LineBoxes& part : parts_) report_.strip().work.edge_boxes += part.count(lines);
   return lines;
 }
 
 void Renderer::send_triangles(const raster::Polygons& own, std::span<const geometry::LineRange> homes_now) {
-  const PhaseScope exchange = phase(wire::Phase::exchange);
-  canvas_->triangle_exchange.send_triangles(group_, own, homes_now, canvas_->line_loads, memory_);
-  memory_.read_published(parts_);
+  {
+    const PhaseScope exchange = phase(wire::Phase::exchange);
+    canvas_->triangle_exchange.send_triangles(group_, own, homes_now, canvas_->line_loads, memory_);
+    memory_.read_published(parts_);
+  }
+  if (triangles_travel()) receive_triangles(homes_now[member()]);
 }
 
 // As many edge boxes as EBC counts on `lines` beside those that are there.
-void Renderer::receive_triangles(const geometry::LineRange& lines) {
+raster::LineFiller Renderer::await_triangles(const geometry::LineRange& lines) {
   const auto totals = memory_.arena().take<std::uint64_t>(lines.count() + 1);
   totals[0] = 0;
   for (std::uint32_t i = 0; i < lines.count(); ++i) {
@@ -236,11 +252,15 @@ void Renderer::receive_triangles(const geometry::LineRange& lines) {
     canvas_->awaited[i] = all - there;
     totals[i + 1] = totals[i] + canvas_->awaited[i];
   }
+  return {lines, totals, memory_.first_triangle(), memory_.arena()};
+}
+
+void Renderer::receive_triangles(const geometry::LineRange& lines) {
+  raster::LineFiller filler = await_triangles(lines);
   const wire::PackedFilm& film = scene().film();
   group::AwaitedTriangles awaited{lines, std::span(canvas_->awaited).first(lines.count()), film.settings().width,
                                   film.settings().samples, film.materials().size()};
-  raster::LineFiller filler(lines, totals, memory_.first_triangle(), memory_.arena());
-  for (std::uint64_t left = totals.back(); left > 0;) {
+  for (std::uint64_t left = filler.box_count(); left > 0;) {
     const raster::Polygons others = receive_some(awaited);
     heartbeat_.look();
     const PhaseScope fill = phase(wire::Phase::fill);
@@ -250,6 +270,40 @@ void Renderer::receive_triangles(const geometry::LineRange& lines) {
     report_.charge(wire::Work::edge_box_filled, came);
   }
   parts_.push_back(filler.finish());
+}
+
+void Renderer::make_triangles_again(const geometry::LineRange& lines) {
+  memory_.read_published(parts_);
+  raster::LineFiller filler = await_triangles(lines);
+  const Tessellation others = tessellate_others(lines);
+  const PhaseScope fill = phase(wire::Phase::fill);
+  filler.add(others.polygons);
+  parts_.push_back(filler.finish());
+  report_.charge(wire::Work::edge_box_filled, filler.box_count());
+}
+
+// What nodes of other machines made for `lines`.
+Tessellation Renderer::tessellate_others(const geometry::LineRange& lines) {
+  const PhaseScope exchange = phase(wire::Phase::exchange);
+  for (std::size_t k = 0; k < contributors_; ++k) {
+    const int node = group_.first + static_cast<int>(k);
+    others_[k] = node == static_cast<int>(mynode()) || memory_.reads(node) ? 0 : 1;
+  }
+  std::ranges::fill(canvas_->wanted_lines, std::uint8_t{0});
+  std::ranges::fill(std::span(canvas_->wanted_lines).subspan(lines.first, lines.count()), std::uint8_t{1});
+  const OwnLines own{*boxes_, lines};
+  const auto count = static_cast<std::uint32_t>(contributors_);
+  wire::WorkCounts work{};
+  const Tessellation others =
+      tessellator_.tessellate(scene(), {.count = count, .remainders = std::span(others_).first(contributors_)},
+                              {canvas_->wanted_lines, canvas_->wanted_lines, canvas_->other_loads, &own},
+                              {memory_.arena(), memory_.first_triangle()}, work);
+  check(others.all_stored, "what is made again fits where it would have been received");
+  report_.strip().work.patches += work.patches;
+  report_.strip().work.vertices += work.vertices;
+  report_.strip().work.triangles_tested += work.triangles_tested;
+  charge_tessellation(report_, scene(), others, work.triangles_tested);
+  return others;
 }
 
 raster::Polygons Renderer::receive_some(group::AwaitedTriangles& awaited) {
@@ -361,8 +415,7 @@ int Renderer::frame_writer() const {
 
 void Renderer::begin_writing() {
   const wire::Strip& strip = report_.strip();
-  if (!report_.is_keyframe())
-    return file_->writer().begin_inbetween(strip.frame, {own_lines_.first, own_lines_.last});
+  if (!report_.is_keyframe()) return file_->writer().begin_inbetween(strip.frame, {own_lines_.first, own_lines_.last});
   const wire::PackedFilm& film = scene().film();
   const wire::FilmSettings& settings = film.settings();
   const auto encoding =
@@ -404,7 +457,8 @@ bool Renderer::exchange_team_bands() {
   const std::uint32_t frame = report_.strip().frame;
   const int self = static_cast<int>(mynode()), writer = frame_writer();
   if (writer != self) {
-    if (own_lines_.count() > 0 && !outbox_.stopped()) file_->team_bands().send(frame, file_->writer().picture(), writer);
+    if (own_lines_.count() > 0 && !outbox_.stopped())
+      file_->team_bands().send(frame, file_->writer().picture(), writer);
     return false;
   }
   const auto ranges = canvas_->team_lines.ranges();

@@ -1,5 +1,6 @@
 // How a node draws a picture of a view: a keyframe together with the other nodes of its group (thesis 4.8, four steps),
-// an inbetween alone (4.9), or its own lines of one. What views share is here: a frame's memory, and strips on their way to the host.
+// an inbetween alone (4.9), or its own lines of one. What views share is here: a frame's memory, and strips on their
+// way to the host.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +31,6 @@ namespace mars::node {
 struct Sharing {
   collectives::Group team{0, 1};  // one node draws all of it
   int writer = 0;                 // of the team, where nodes write files
-  const geometry::ShapeBoxes* boxes = nullptr;
 
   bool is_shared() const { return team.count > 1; }
 };
@@ -40,10 +40,11 @@ struct Frame {
   wire::FrameKind kind;
   std::uint32_t number;
   std::uint32_t interval;
-  collectives::Group group;   // that draws it
-  std::int32_t contributors;  // of it, the first; the others take part in what all do together
-  bool is_written = false;    // into a file, by these nodes; else it goes to the host
-  Sharing sharing{};          // of an inbetween
+  collectives::Group group;                     // that draws it
+  std::int32_t contributors;                    // of it, the first; the others take part in what all do together
+  bool is_written = false;                      // into a file, by these nodes; else it goes to the host
+  Sharing sharing{};                            // of an inbetween
+  const geometry::ShapeBoxes* boxes = nullptr;  // of a film's shapes
 };
 
 class Renderer {
@@ -96,10 +97,16 @@ class Renderer {
   std::span<const std::uint64_t> foreseen_still_bytes();
   // Returns the number of passes.
   std::uint32_t map_to_homes(const group::MadeCounts& made);
+  // Whether it takes the group less time to make triangles of other machines again than to send them; the same on all
+  // its nodes.
+  bool makes_again() const;
   // Sets parts_; returns the lines to be drawn.
   geometry::LineRange exchange_triangles(const raster::Polygons& own, const group::Pass& pass);
   void send_triangles(const raster::Polygons& own, std::span<const geometry::LineRange> homes_now);
+  raster::LineFiller await_triangles(const geometry::LineRange& lines);
   void receive_triangles(const geometry::LineRange& lines);
+  void make_triangles_again(const geometry::LineRange& lines);
+  Tessellation tessellate_others(const geometry::LineRange& lines);
   raster::Polygons receive_some(group::AwaitedTriangles& awaited);
   void draw_lines(const geometry::LineRange& lines, const group::Pass& pass);
   raster::StripBuffer& begin_strip(bool constant);
@@ -139,6 +146,7 @@ class Renderer {
   Heartbeat& heartbeat_;
   std::optional<Tracer> tracer_;
   wire::Mapping mapping_;
+  wire::Exchange exchange_;
   wire::PixelFormat pixel_format_;
   Tessellator tessellator_;
   raster::Neighbours neighbours_;
@@ -152,15 +160,17 @@ class Renderer {
   // Of the current frame.
   Canvas* canvas_ = nullptr;  // that it is of
   const HasEnded* has_ended_ = nullptr;
-  FileOutput* file_ = nullptr;            // none: it goes to the host
-  collectives::Group group_;              // that draws it
-  std::size_t contributors_ = 1;          // of it
-  Sharing sharing_;                       // of it
+  FileOutput* file_ = nullptr;    // none: it goes to the host
+  collectives::Group group_;      // that draws it
+  std::size_t contributors_ = 1;  // of it
+  Sharing sharing_;               // of it
+  const geometry::ShapeBoxes* boxes_ = nullptr;
   geometry::LineRange own_lines_{0, 0};   // share_lines()
   std::vector<raster::LineBoxes> parts_;  // edge boxes of the lines to be drawn; own ones first
   geometry::LineRange prepared_{0, 0};    // lines whose shadows are known
   std::vector<geometry::LineRange> homes_;
   std::vector<geometry::LineRange> pass_homes_;
+  std::vector<std::uint8_t> others_;  // 1: a node of the group whose memory the caller cannot read
   const bool is_watched_;
   std::vector<std::uint32_t> watched_;  // watched_edge_boxes'
   FrameReport report_;

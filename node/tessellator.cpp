@@ -28,7 +28,7 @@ struct Tessellator::Output {
   shading::Shading shading;
   shading::ColoredSurface& colored;
   shadow::DicedSurfaces* diced;
-  const OwnLines* all_own;         // as in LineTable
+  const OwnLines* all_own;        // as in LineTable
   const OwnLines* own = nullptr;  // of the current segment, where only some of it may touch them
   SurfaceCounts counts{};
 
@@ -65,6 +65,16 @@ struct Tessellator::Output {
   }
 };
 
+bool Scatter::any() const {
+  return remainders.empty() ? index < count : std::ranges::count(remainders, std::uint8_t{1}) > 0;
+}
+
+std::uint64_t Scatter::from(std::uint64_t number) const {
+  if (remainders.empty()) return number + (index + count - number % count) % count;
+  while (remainders[number % count] == 0) ++number;
+  return number;
+}
+
 Tessellator::Tessellator(simd::InstructionSet set, Heartbeat* heartbeat)
     : instruction_set_(set), heartbeat_(heartbeat), dicer_(set), placer_(set), colored_(set) {}
 
@@ -82,7 +92,7 @@ Tessellation Tessellator::tessellate(const geometry::Scene& scene, const Scatter
       diced,
       lines.own};
   out.want(lines.wanted_still);
-  const bool takes_part = scatter.index < scatter.count;
+  const bool takes_part = scatter.any();
   if (takes_part && !lines.wanted_still.empty()) add(scene, false, scatter, output);
   const std::size_t stationary = out.boxes().size();
   out.want(lines.wanted);
@@ -106,7 +116,8 @@ void Tessellator::add_segment(const geometry::Scene& scene, std::size_t segment,
   const std::uint32_t number = film.segments()[segment].shape;
   const wire::Shape& shape = film.shape(number);
   const std::uint32_t first = scene.first_patch(segment);
-  std::uint64_t i = (scatter.index + scatter.count - first % scatter.count) % scatter.count;
+  const auto from = [&](std::uint64_t place) { return scatter.from(first + place) - first; };
+  std::uint64_t i = from(0);
   if (i >= shape.size()) return;
   const Touches touches = Tessellator::touches(scene, segment, output.all_own);
   if (touches == Touches::nothing) return;
@@ -115,14 +126,14 @@ void Tessellator::add_segment(const geometry::Scene& scene, std::size_t segment,
   const std::uint32_t material = scene.material(segment);
   raster::PatchIdentity identity{0, material, shape::mirrors(matrix), film.materials()[material].sides == 1,
                                  scene.moves(segment)};
-  for (const auto patches = film.patches_of(number); i < shape.patch_count; i += scatter.count) {
+  for (const auto patches = film.patches_of(number); i < shape.patch_count; i = from(i + 1)) {
     look_now_and_then();
     identity.patch = first + static_cast<std::uint32_t>(i);
     add_patch(scene, matrix, patches[i], identity, output);
   }
   if (i >= shape.size()) return;
   const shape::EyeMap map = geometry::eye_map(matrix);
-  for (const auto meshlets = film.meshlets_of(number); i < shape.size(); i += scatter.count) {
+  for (const auto meshlets = film.meshlets_of(number); i < shape.size(); i = from(i + 1)) {
     look_now_and_then();
     identity.patch = first + static_cast<std::uint32_t>(i);
     add_meshlet(scene, matrix, map, meshlets[i - shape.patch_count], identity, output);

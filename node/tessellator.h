@@ -20,10 +20,16 @@
 
 namespace mars::node {
 
-// Patches and meshlets whose number is `index` modulo `count`; none where that is no remainder.
+// Patches and meshlets whose number is `index` modulo `count`, none where that is no remainder; or those whose number
+// has one of several remainders, with 1 in `remainders`.
 struct Scatter {
   std::uint32_t index = 0;
   std::uint32_t count = 1;
+  std::span<const std::uint8_t> remainders{};
+
+  bool any() const;
+  // The first of them from `number` on.
+  std::uint64_t from(std::uint64_t number) const;
 };
 
 // Surfaces that surely touch none of these lines of the picture are not made.

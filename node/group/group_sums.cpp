@@ -12,13 +12,15 @@ namespace mars::group {
 
 using raster::LineLoad;
 
-GroupSums::GroupSums(std::size_t lines) : sums_(lines + 2), work_(sums_.size()), ebc_(lines + 1), costs_(lines + 1) {}
+GroupSums::GroupSums(std::size_t lines) : sums_(lines + 4), work_(sums_.size()), ebc_(lines + 1), costs_(lines + 1) {}
 
 void GroupSums::add_up(const collectives::Group& group, const OwnLoad& own) {
   const std::size_t lines = own.lines.size();
   std::ranges::transform(own.lines, sums_.begin(), &LineLoad::packed);
   sums_[lines] = own.edge_boxes;
   sums_[lines + 1] = own.large ? 1 : 0;
+  sums_[lines + 2] = own.exchange.sending;
+  sums_[lines + 3] = own.exchange.making;
   if (group.count > 1) collectives::group_sum(group, sums_, work_);
   for (std::size_t line = 0; line < lines; ++line) {
     const LineLoad load = LineLoad::of_packed(sums_[line]);

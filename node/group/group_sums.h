@@ -1,5 +1,5 @@
-// The sums over a group in a keyframe, in one message exchange: what there is to draw on each line (EBC), and how many
-// nodes might be short of memory.
+// The sums over a group in a keyframe, in one message exchange: what there is to draw on each line (EBC), how many
+// nodes might be short of memory, and how long the exchange of triangles takes.
 #pragma once
 
 #include <cstddef>
@@ -9,6 +9,7 @@
 
 #include "hal/collectives/group.h"
 #include "node/geometry/line_range.h"
+#include "node/group/exchange_times.h"
 #include "node/raster/line_load.h"
 #include "node/wire/protocol.h"
 
@@ -21,6 +22,7 @@ struct OwnLoad {
   bool large;                               // these take much of its memory (is_large, passes.h)
   // Of each line, about what is kept for inbetweens; the same on all nodes. Empty: nothing.
   std::span<const std::uint64_t> still_bytes{};
+  ExchangeTimes exchange{};
 };
 
 class GroupSums {
@@ -41,12 +43,14 @@ class GroupSums {
   // Of all nodes, that edge boxes cover on these lines.
   std::uint64_t samples_on(const geometry::LineRange& range) const;
   // Nodes whose load is large.
-  std::uint64_t large() const { return sums_.back(); }
+  std::uint64_t large() const { return sums_[ebc_.size()]; }
+  // Of all nodes.
+  ExchangeTimes exchange() const { return {sums_[ebc_.size() + 1], sums_[ebc_.size() + 2]}; }
 
  private:
   void check_bounds(std::uint64_t edge_boxes) const;
 
-  std::vector<std::uint64_t> sums_;  // each line's load, packed; edge boxes; large nodes
+  std::vector<std::uint64_t> sums_;  // each line's load, packed; edge boxes; large nodes; ExchangeTimes
   std::vector<std::uint64_t> work_;
   std::vector<std::uint64_t> ebc_;
   std::vector<std::uint64_t> costs_;

@@ -50,6 +50,8 @@ class LineFiller {
   LineFiller(const geometry::LineRange& lines, std::span<const std::uint64_t> totals, const geometry::Triangle* first,
              Arena& arena);
 
+  // Of all that were counted.
+  std::uint64_t box_count() const { return boxes_.size(); }
   void add(const Polygons& polygons);
   // check()s that the boxes are exactly those that were counted.
   LineBoxes finish() const;

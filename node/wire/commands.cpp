@@ -63,6 +63,7 @@ LoadCommand read_load(std::span<const std::byte> message, int nodes, const std::
   require(load.film_bytes > 0, kName, "the film's size");
   require(load.credits >= 1 && load.credits <= kMaxCredits, kName, "credits");
   require(load.mapping <= Mapping::cost, kName, "the mapping");
+  require(load.exchange <= Exchange::again, kName, "the exchange of triangles");
   require(load.groups >= 1 && load.groups <= nodes, kName, "the number of groups");
   require(load.traced <= 1, kName, "whether to trace");
   require(load.watched <= 1, kName, "whether it is watched");

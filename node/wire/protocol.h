@@ -104,6 +104,10 @@ static_assert(offsetof(Hello, host) == sizeof(WireStamp), "where every version h
 
 enum class Mapping : std::uint32_t { greedy, optimal, cost };
 
+// How triangles come to the homes of their lines on other machines: they are sent; or the homes make them again, which
+// is work instead of messages; or as it took less time in earlier keyframes.
+enum class Exchange : std::uint32_t { automatic, send, again };
+
 // Bytes of the film block in one kFilmBlock message; the last has the rest. Few, for nodes pass on what they have while
 // more comes.
 inline constexpr std::uint64_t kFilmPiece = std::uint64_t{1} << 20;
@@ -122,6 +126,7 @@ struct Load {
   std::int32_t groups;   // that the nodes form side by side (collectives::group_of), for all Render commands
   std::uint32_t traced;  // 1: the node records what it does and sends it as Trace
   PixelFormat pixel_format;
+  Exchange exchange;
   std::uint64_t still_memory;  // bytes that a node adds to what its machine keeps of stationary parts for inbetweens
   std::uint32_t live;     // 1: BeginViews and Draws follow, no Renders; another Load may come, which ends all views
   std::uint32_t watched;  // 1: strips say how many edge boxes each of their lines has

@@ -97,9 +97,10 @@ RunOptions options_of(const Nodes& nodes, std::uint64_t memory) {
 }
 
 void run(const wire::FilmData& data, const Nodes& nodes, SharedRun& out, int slow = -1, long slow_type = wire::kStrip,
-         std::uint64_t memory = 256 << 20) {
+         std::uint64_t memory = 256 << 20, wire::Exchange exchange = wire::Exchange::send) {
   messages::Machines machines(nodes.each);
   RunOptions options = options_of(nodes, memory);
+  options.farm.exchange = exchange;
   options.wrap = [&](messages::Backend& inner) {
     return std::make_unique<SlowNode>(inner, out.counts, machines, slow, slow_type);
   };
@@ -192,6 +193,35 @@ TEST(Sharing, NodesThatCannotReadEachOthersTrianglesSendThem) {
   EXPECT_GT(messages(2, 3), 0u);
   EXPECT_GT(messages(3, 2), 0u);
   EXPECT_EQ(apart, 2);
+}
+
+// Of all keyframes.
+std::uint64_t patches_diced(const SharedRun& run) {
+  std::uint64_t patches = 0;
+  for (const wire::Strip& strip : run.film.report.strips)
+    if (strip.last == 1 && strip.kind == wire::FrameKind::keyframe) patches += strip.work.patches;
+  return patches;
+}
+
+// Where it takes longer to send triangles than to make them again, they travel in the first keyframes alone.
+TEST(Sharing, TrianglesAreSentOrMadeAgain) {
+  for (const std::uint32_t samples : {1u, 4u}) {
+    const wire::FilmData data = film(1, samples);
+    const FilmRun expected = from_scratch(data);
+    for (const Nodes& nodes : {Nodes{4, 2}, {4, 1}, {6, 3}, {5, 2}, {6, 1, 2}}) {
+      SCOPED_TRACE(testing::PrintToString(nodes));
+      SharedRun sent, chosen, again;
+      run(data, nodes, sent);
+      run(data, nodes, chosen, 1, wire::kTriangles, 256 << 20, wire::Exchange::automatic);
+      run(data, nodes, again, -1, wire::kStrip, 256 << 20, wire::Exchange::again);
+      for (const SharedRun* rendered : {&chosen, &again}) expect_pictures(*rendered, data, expected);
+      const auto messages = [](const SharedRun& run) { return run.counts.sent({.type = wire::kTriangles}).messages; };
+      EXPECT_EQ(messages(again), 0u);
+      EXPECT_GT(messages(chosen), 0u);
+      EXPECT_LT(messages(chosen), messages(sent));
+      EXPECT_GT(patches_diced(again), patches_diced(sent));
+    }
+  }
 }
 
 TEST(Sharing, NoLineOfCzbTravelsOnOneMachine) {

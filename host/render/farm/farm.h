@@ -26,6 +26,7 @@ namespace mars::farm {
 // Pictures are those of the sinks.
 struct FarmOptions : EngineOptions {
   wire::Mapping mapping = wire::Mapping::cost;
+  wire::Exchange exchange = wire::Exchange::send;
   std::uint64_t memory = 0;          // bytes on a node; 0: as the node with the least offers
   AskedMemory asked_memory;          // of parts of it
   bool each_frame = false;           // report what is known of each frame, which grows with the film

@@ -38,6 +38,7 @@ bool load_film(std::span<const std::byte> film_block, const FilmRun& run, std::v
   run.report.film_bytes = film_block.size();
   wire::Load load{};
   load.mapping = run.options.mapping;
+  load.exchange = run.options.exchange;
   load.groups = static_cast<std::int32_t>(run.plan.groups.size());
   load.memory = run.report.node_memory.frames;
   load.still_memory = run.report.node_memory.still;

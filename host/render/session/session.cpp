@@ -105,6 +105,7 @@ farm::FarmOptions farm_options(const RenderJob& job, const farm::HostMemory& mem
                                farm::Heartbeats& heartbeats, watch::Watch* watch) {
   farm::FarmOptions farm;
   farm.mapping = job.mapping;
+  farm.exchange = job.exchange;
   farm.credits = memory.credits;
   farm.each_frame = !job.report.empty();
   farm.adapts = job.adapts;

@@ -54,6 +54,7 @@ struct RenderJob {
   Writers writers = Writers::automatic;
   film::FrameSet frames;
   wire::Mapping mapping = wire::Mapping::cost;
+  wire::Exchange exchange = wire::Exchange::automatic;
   bool coherence = true;
   bool adapts = true;                  // as in farm::FarmOptions
   std::uint32_t block = 16;            // side of the compositor's blocks, pixels

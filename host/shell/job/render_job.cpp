@@ -41,6 +41,7 @@ session::RenderJob job_of(const options::RenderOptions& options, const std::stri
   job.writers = writers_of(options.write);
   job.frames = options.frames;
   job.mapping = options.mapping;
+  job.exchange = options.exchange;
   job.coherence = !options.no_coherence;
   job.block = options.block;
   job.groups = options.groups;

@@ -43,6 +43,8 @@ template <>
 constexpr std::array kWords<images::PictureFormat>{"png", "png16", "exr"};
 template <>
 constexpr std::array kWords<wire::Mapping>{"greedy", "optimal", "cost"};
+template <>
+constexpr std::array kWords<wire::Exchange>{"auto", "send", "again"};
 
 template <typename Enumeration>
 requires std::is_enum_v<Enumeration>
@@ -218,6 +220,10 @@ std::vector<Entry> table() {
           plans, "--mapping", "greedy|optimal|cost", &RenderOptions::mapping,
           "How scanlines are divided among nodes: by edge boxes with the thesis's heuristic, exactly by edge boxes, or "
           "exactly by edge boxes and the samples that they cover; default: cost. Example: --mapping greedy"),
+      option(submits, "--exchange", "auto|send|again", &RenderOptions::exchange,
+             "How triangles come to nodes on other machines that draw their lines: sent, or made there again, which "
+             "takes work instead of messages; same pictures; default: auto, as it takes less time. Example: --exchange "
+             "send"),
       option(
           compiles, "--intervals", "auto|keyframes", &RenderOptions::intervals,
           "Where render intervals are cut: where it saves work, or at the animator's keyframes. With several samples a "

@@ -36,6 +36,7 @@ struct RenderOptions {
   std::optional<images::PictureSize> size;  // none: the film's own
   std::optional<std::uint32_t> samples;     // of a pixel; none: the film's own
   wire::Mapping mapping = wire::Mapping::cost;
+  wire::Exchange exchange = wire::Exchange::automatic;
   Intervals intervals = Intervals::automatic;
   bool no_coherence = false;  // every frame from scratch
   std::uint32_t block = 16;   // side of the compositor's blocks, pixels

@@ -99,6 +99,7 @@ TEST_F(LoadCommands, WithValuesThatMakeNoSense) {
   EXPECT_TRUE(refused([&] { load_.live = 2; }));
   EXPECT_TRUE(refused([&] { load_.live = 1; })) << "of two groups";
   EXPECT_TRUE(refused([&] { load_.mapping = static_cast<Mapping>(3); }));
+  EXPECT_TRUE(refused([&] { load_.exchange = static_cast<Exchange>(3); }));
   EXPECT_TRUE(refused([&] { machines_[0] = 1; }));
   EXPECT_TRUE(refused([&] { machines_[2] = -1; }));
   EXPECT_TRUE(refused([&] { machines_[2] = 1; })) << "node 1 is on machine 0";

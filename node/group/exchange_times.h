@@ -1,0 +1,47 @@
+// Which way triangles come to homes of their lines on other machines, by what it took in earlier keyframes: they are
+// sent, or their homes make them again.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+namespace mars::group {
+
+// Nanoseconds of either way, of a node or of all nodes of a group. 0: not known.
+struct ExchangeTimes {
+  std::uint64_t sending = 0;
+  std::uint64_t making = 0;
+};
+
+// By the times of all nodes of a group, so that they choose alike.
+constexpr bool is_sooner_again(const ExchangeTimes& all) { return all.making + all.making / 4 < all.sending; }
+
+// A node's.
+class ExchangeRecord {
+ public:
+  // `dicing`: seconds of own triangles. Where it is not known, making others' is taken to need twice as much, for some
+  // surfaces lie on lines of several homes.
+  ExchangeTimes expected(double dicing) const {
+    return {sending_.last, making_.last > 0 ? making_.last : nanoseconds(2 * dicing)};
+  }
+
+  void note(bool made_again, double seconds) { (made_again ? making_ : sending_).note(nanoseconds(seconds)); }
+
+ private:
+  // The first time does not count: connections are made then, and caches fill.
+  struct Way {
+    bool is_new = true;
+    std::uint64_t last = 0;
+
+    void note(std::uint64_t time) {
+      if (!is_new) last = std::max<std::uint64_t>(time, 1);
+      is_new = false;
+    }
+  };
+
+  static std::uint64_t nanoseconds(double seconds) { return static_cast<std::uint64_t>(std::max(0.0, seconds) * 1e9); }
+
+  Way sending_, making_;
+};
+
+}  // namespace mars::group
