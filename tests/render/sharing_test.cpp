@@ -203,7 +203,6 @@ std::uint64_t patches_diced(const SharedRun& run) {
   return patches;
 }
 
-// Where it takes longer to send triangles than to make them again, they travel in the first keyframes alone.
 TEST(Sharing, TrianglesAreSentOrMadeAgain) {
   for (const std::uint32_t samples : {1u, 4u}) {
     const wire::FilmData data = film(1, samples);
@@ -218,8 +217,9 @@ TEST(Sharing, TrianglesAreSentOrMadeAgain) {
       const auto messages = [](const SharedRun& run) { return run.counts.sent({.type = wire::kTriangles}).messages; };
       EXPECT_EQ(messages(again), 0u);
       EXPECT_GT(messages(chosen), 0u);
-      EXPECT_LT(messages(chosen), messages(sent));
+      EXPECT_LE(messages(chosen), messages(sent));
       EXPECT_GT(patches_diced(again), patches_diced(sent));
+      EXPECT_LT(patches_diced(again), static_cast<std::uint64_t>(nodes.count) * patches_diced(sent));
     }
   }
 }

@@ -17,7 +17,7 @@ import messages_sent  # noqa: E402
 import traffic  # noqa: E402
 
 TESTBED = os.path.join(HERE, "..", "..", "..", "cluster", "testbed", "testbed.sh")
-HOSTS = ("n1", "n2", "n3", "n4")
+HOSTS = ("n1", "n2", "n3", "n4")  # beside the head, n0
 NAME = f"bench-{os.getpid()}"
 WARM = 3  # keyframes of each run that do not count
 
@@ -27,10 +27,15 @@ def testbed(*words, **more):
 
 
 class Cluster:
-    """The hosts, whose folder is seen by all: each has a /tmp of its own."""
+    """The hosts, whose folder is seen by all: each has a /tmp of its own. Each receives at `rate`; None: at any."""
+
+    def __init__(self, rate):
+        self.rate = rate
 
     def __enter__(self):
         testbed("up", stdout=subprocess.DEVNULL)
+        for host in HOSTS if self.rate else ():
+            testbed("slow", host, self.rate)
         self.folder = tempfile.TemporaryDirectory(dir="/var/tmp")
         return self
 
@@ -89,11 +94,12 @@ def main():
     parser.add_argument("--against", metavar="BUILD", help="the folder of another build, to be measured in turn")
     parser.add_argument("--scenes", nargs="+", default=["s2"], choices=["s1", "s1m", "s2"])
     parser.add_argument("--hosts", type=int, nargs="+", default=[1, 2, 4], choices=range(1, len(HOSTS) + 1))
+    parser.add_argument("--rate", help="at which each host receives, for example 100mbit; default: no limit")
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--keyframes", type=int, default=20, help="counted in each run")
     wanted = parser.parse_args()
     builds = traffic.builds_of(wanted)
-    with Cluster() as cluster:
+    with Cluster(wanted.rate) as cluster:
         for scene in wanted.scenes:
             measure(cluster, scene, wanted, builds)
 
