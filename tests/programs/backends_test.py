@@ -28,7 +28,8 @@ class Backends(ProgramTest):
 
     def test_any_division_of_work(self):
         for options in [["--no-coherence"], ["--intervals", "keyframes"], ["--mapping", "optimal"],
-                        ["--mapping", "cost"], ["--groups", 1], ["--sharers", 3], ["--cut", 2], ["--block", 7]]:
+                        ["--mapping", "cost"], ["--groups", 1], ["--sharers", 3], ["--cut", 2],
+                        ["--exchange", "again"], ["--block", 7]]:
             with self.subTest(options=options):
                 self.assertEqual(self.hash_of("--nodes", 3, *options), self.expected())
 

@@ -57,6 +57,8 @@ def random_way(choose, mpi, film):
         way["--sharers"] = str(choose.randint(1, nodes))
     if choose.random() < 0.3:
         way["--cut"] = str(choose.randint(1, 8))
+    if choose.random() < 0.4:
+        way["--exchange"] = choose.choice(["send", "again"])
     if choose.random() < 0.3:
         way["--no-coherence"] = None
     if choose.random() < 0.5:

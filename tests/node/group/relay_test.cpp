@@ -161,6 +161,35 @@ TEST(Relay, EachMachineSendsNoMoreThanIsThere) {
   }
 }
 
+// A node that fails while pieces go round ends the others, wherever it is.
+TEST(Relay, ANodeThatFailsEndsAll) {
+  const Group group{4, 1, {1, 1, 1, 1}, std::vector<std::vector<std::uint32_t>>(4, some_words(400'000, 0))};
+  class Failing : public Words {
+   public:
+    using Words::Words;
+    void take(int owner, std::span<const std::byte> piece) override {
+      if (mynode() == 2 && ++pieces_ == 7) throw Failure("it fails", "", "");
+      Words::take(owner, piece);
+    }
+
+   private:
+    int pieces_ = 0;
+  };
+  messages::Counts counts;
+  try {
+    run(group, counts, [&] {
+      const raster::Neighbours neighbours(machines_of(group), 1);
+      Relay relay(kType, kMostWords * kWord, "words");
+      std::vector<std::uint8_t> collects(4);
+      Failing words(group);
+      relay.exchange(Collectors(neighbours.group(), group.contributes, neighbours, collects), words);
+    });
+    ADD_FAILURE() << "the others go on";
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.problem, "it fails");
+  }
+}
+
 // A message of a node that has no part, or of no owner, or too short for its head, ends the job.
 TEST(Relay, RefusesWhatMakesNoSense) {
   struct Head {
