@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -43,16 +44,41 @@ struct Storage {
   double byte = 0;
 };
 
+// So many computers of one speed.
+struct SpeedKind {
+  int computers = 1;
+  double speed = 1;  // 2: work takes half as long
+};
+
+enum class Lengths { fixed, exponential };
+
+// What makes computers slower than they should be, drawn from a seed (pace.h).
+struct Noise {
+  std::uint32_t seed = 0;
+  double stragglers = 0;                         // the part of the nodes' computers that are slow all the time
+  double least_slowdown = 1, most_slowdown = 1;  // how many times as long work takes there, all as likely
+  double detours = 0;                            // a second: the system takes a processor, each at moments of its own
+  double detour = 0;                             // seconds, in the mean
+  Lengths lengths = Lengths::fixed;              // of detours
+};
+
 struct Machine {
-  int nodes = 1;               // of the job on a computer, the last has the rest
-  int processors = 1;          // of a computer
-  bool host_apart = false;     // the host has a computer of its own; else it is on the first node's
-  int host_processors = 1;     // of that
+  int nodes = 1;            // of the job on a computer, the last has the rest
+  int processors = 1;       // of a computer
+  bool host_apart = false;  // the host has a computer of its own; else it is on the first node's
+  int host_processors = 1;  // of that
+  double host_speed = 1;    // of that
+  // Of the nodes' computers, in turn: after the last kind comes the first again. None: all have speed 1.
+  std::vector<SpeedKind> speeds{};
+  Noise noise{};
   std::vector<double> work{};  // by kind, seconds a unit (Backend::charge)
-  // How many times as long work takes on a computer that begins it at a time; none: all are as fast.
+  // How many times as long again work takes on a computer that begins it at a time; none: no longer.
   std::function<double(int computer, double now)> slowness{};
   Network network{};
   Storage storage{};
+
+  // Whether some of the nodes' computers are slower than others, for a while or always.
+  bool is_uneven() const { return !speeds.empty() || noise.stragglers > 0 || noise.detours > 0 || slowness; }
 };
 
 }  // namespace mars::simulated

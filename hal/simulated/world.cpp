@@ -9,65 +9,37 @@
 namespace mars::simulated {
 namespace {
 
-int computers_of(const Machine& machine, int nodes) { return (nodes + machine.nodes - 1) / machine.nodes; }
+// Processors that ranks share, and channels that a message holds all at once, must be used in the order of time.
+bool must_be_ordered(const Machine& machine, const Computers& computers) {
+  return machine.network.topology == Topology::hypercube || computers.any_crowded();
+}
 
 }  // namespace
 
 World::World(const Machine& machine, int nodes)
     : machine_(machine),
       nodes_(nodes),
-      routes_(machine.network, computers_of(machine, nodes), machine.host_apart ? computers_of(machine, nodes) : 0),
+      computers_(machine_, nodes),
+      routes_(machine.network, computers_.count(), computers_.of(nodes)),
       storage_(machine.storage, machine.network),
+      ordered_(must_be_ordered(machine, computers_)),
       left_(nodes + 1) {
   check(nodes >= 1 && machine.nodes >= 1 && machine.processors >= 1, "there are a node and a processor");
-  const int computers = computers_of(machine, nodes);
-  processors_.assign(static_cast<std::size_t>(computers), std::vector<double>(machine.processors));
-  if (machine.host_apart) processors_.emplace_back(machine.host_processors);
-  ordered_ = must_be_ordered();
   for (int rank = 0; rank <= nodes; ++rank) {
     ranks_.push_back(std::make_unique<Rank>());
     if (rank < nodes) queue_.emplace(0, rank);
   }
 }
 
-int World::computer_of(int rank) const {
-  if (rank < nodes_) return rank / machine_.nodes;
-  return machine_.host_apart ? computers_of(machine_, nodes_) : 0;
-}
-
-int World::nodes_on(int computer) const { return std::clamp(nodes_ - computer * machine_.nodes, 0, machine_.nodes); }
-
-// Processors that ranks share, and channels that a message holds all at once, must be used in the order of time.
-bool World::must_be_ordered() const {
-  bool shared = machine_.network.topology == Topology::hypercube;
-  for (std::size_t computer = 0; computer < processors_.size(); ++computer)
-    shared |= workers_on(static_cast<int>(computer)) > processors_[computer].size();
-  return shared;
-}
-
-std::size_t World::workers_on(int computer) const {
-  return static_cast<std::size_t>(nodes_on(computer)) + (computer_of(nodes_) == computer ? 1 : 0);
-}
-
-// Ranks with a processor each never wait for one.
 void World::work(int rank, double seconds) {
+  if (computers_.crowded(computer_of(rank))) let_earlier_run(rank);
   Rank& self = *ranks_[rank];
-  const int computer = computer_of(rank);
-  std::vector<double>& processors = processors_[computer];
-  if (machine_.slowness) seconds *= machine_.slowness(computer, self.clock);
-  if (workers_on(computer) <= processors.size()) {
-    self.clock += seconds;
-    return;
-  }
-  let_earlier_run(rank);
-  double& free = *std::ranges::min_element(processors);
-  self.clock = free = std::max(self.clock, free) + seconds;
+  self.clock = computers_.work(rank, self.clock, seconds);
 }
 
 double World::reserve(int rank, double seconds) {
   let_earlier_run(rank);
-  double& free = *std::ranges::min_element(processors_[computer_of(rank)]);
-  return free = std::max(clock(rank), free) + seconds;
+  return computers_.reserve(rank, clock(rank), seconds);
 }
 
 double World::store(int rank, double begin, double bytes) {

@@ -23,6 +23,7 @@
 
 #include "hal/messages/backend.h"
 #include "hal/messages/message_pool.h"
+#include "hal/simulated/computers.h"
 #include "hal/simulated/machine.h"
 #include "hal/simulated/routes.h"
 #include "hal/simulated/storage_use.h"
@@ -37,8 +38,8 @@ class World {
   World(const Machine& machine, int nodes);
 
   int nodes() const { return nodes_; }
-  int computer_of(int rank) const;
-  int nodes_on(int computer) const;
+  int computer_of(int rank) const { return computers_.of(rank); }
+  int nodes_on(int computer) const { return computers_.nodes_on(computer); }
   const Machine& machine() const { return machine_; }
 
   // Of the running rank.
@@ -118,8 +119,6 @@ class World {
     std::weak_ptr<std::byte> bytes;  // when all have
   };
 
-  bool must_be_ordered() const;
-  std::size_t workers_on(int computer) const;
   static void note_arrivals(Rank& self);
   const Queue& others_of(const Rank& self) const { return self.community == nullptr ? queue_ : *self.community; }
   void let_earlier_run(int rank);
@@ -134,15 +133,15 @@ class World {
 
   const Machine machine_;
   const int nodes_;
+  Computers computers_;
   Routes routes_;
   StorageUse storage_;
   messages::MessagePool pool_;  // of messages on their way, and all ranks'
   std::vector<std::unique_ptr<Rank>> ranks_;
-  Queue queue_;                                  // all that neither run nor wait for ever
-  std::map<int, Queue> communities_;             // communities by their first rank
-  bool ordered_;                                 // ranks share what they must use in the order of time
-  std::vector<std::vector<double>> processors_;  // by computer: busy until
-  std::uint64_t messages_ = 0;                   // sent so far
+  Queue queue_;                       // all that neither run nor wait for ever
+  std::map<int, Queue> communities_;  // communities by their first rank
+  const bool ordered_;                // ranks share what they must use in the order of time
+  std::uint64_t messages_ = 0;        // sent so far
   int finished_ = 0;
   int left_;  // that have not ended
   std::exception_ptr failure_;

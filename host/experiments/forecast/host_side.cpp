@@ -12,8 +12,9 @@ constexpr std::size_t kNothing = static_cast<std::size_t>(-1);
 
 }  // namespace
 
-HostSide::HostSide(Clockwork& clockwork, Computers& computers, simulated::StorageUse& storage, const farm::Plan& plan,
-                   const Setting& setting, const farm::HostMemory& memory, int nodes, Outward outward)
+HostSide::HostSide(Clockwork& clockwork, simulated::Computers& computers, simulated::StorageUse& storage,
+                   const farm::Plan& plan, const Setting& setting, const farm::HostMemory& memory, int nodes,
+                   Outward outward)
     : clockwork_(clockwork),
       computers_(computers),
       storage_(storage),

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "hal/simulated/computers.h"
 #include "hal/simulated/storage_use.h"
 #include "host/experiments/forecast/clockwork.h"
-#include "host/experiments/forecast/computers.h"
 #include "host/experiments/forecast/costs.h"
 #include "host/experiments/forecast/frame_costs.h"
 #include "host/experiments/forecast/setting.h"
@@ -39,8 +39,8 @@ class HostSide {
     std::function<void(int node)> credit;
   };
 
-  HostSide(Clockwork& clockwork, Computers& computers, simulated::StorageUse& storage, const farm::Plan& plan,
-           const Setting& setting, const farm::HostMemory& memory, int nodes, Outward outward);
+  HostSide(Clockwork& clockwork, simulated::Computers& computers, simulated::StorageUse& storage,
+           const farm::Plan& plan, const Setting& setting, const farm::HostMemory& memory, int nodes, Outward outward);
 
   // Of each task in order.
   void add_costs(HostCosts costs) { host_costs_.push_back(std::move(costs)); }
@@ -83,7 +83,7 @@ class HostSide {
   void note(const StripSent& strip);
 
   Clockwork& clockwork_;
-  Computers& computers_;
+  simulated::Computers& computers_;
   simulated::StorageUse& storage_;
   const farm::Plan& plan_;
   const Setting setting_;

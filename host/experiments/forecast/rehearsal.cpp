@@ -7,10 +7,10 @@
 #include <map>
 #include <utility>
 
+#include "hal/simulated/computers.h"
 #include "hal/simulated/routes.h"
 #include "hal/simulated/storage_use.h"
 #include "host/experiments/forecast/clockwork.h"
-#include "host/experiments/forecast/computers.h"
 #include "host/experiments/forecast/frame_costs.h"
 #include "host/experiments/forecast/host_side.h"
 #include "node/wire/frame_writer.h"
@@ -86,7 +86,7 @@ class Rehearsal {
   const farm::Plan& plan_;
   const FrameCosts costs_;
   Clockwork clockwork_;
-  Computers computers_;
+  simulated::Computers computers_;
   simulated::Routes routes_;
   simulated::StorageUse storage_;
   const bool nodes_write_;
