@@ -38,10 +38,14 @@ struct Network {
   std::vector<EndCost> host_end{};         // of the host, whether it sends or receives; empty: as the nodes'
 };
 
-// File storage that all computers share: it opens one file after another, and takes their bytes one after another.
+// File storage that all computers share: one server opens files, one after another; others take their bytes, each one
+// file after another.
 struct Storage {
-  double opening = 0;  // of a file
-  double byte = 0;
+  double opening = 0;      // of a file
+  double byte = 0;         // of a server
+  int servers = 1;         // that take bytes
+  double stripe = 0;       // bytes of a file on a server, the next are on the next server; 0: a file is on one
+  double writer_byte = 0;  // of a computer that writes
 };
 
 // So many computers of one speed.

@@ -44,7 +44,7 @@ double World::reserve(int rank, double seconds) {
 
 double World::store(int rank, double begin, double bytes) {
   let_earlier_run(rank);
-  return storage_.write(begin, bytes, floor_at(clock(rank)));
+  return storage_.write(computer_of(rank), begin, bytes, floor_at(clock(rank)));
 }
 
 double World::seconds_of(const std::vector<EndCost>& costs, std::size_t length) const {

@@ -169,7 +169,7 @@ void HostSide::submit(std::size_t task, std::size_t place) {
   double end = now;
   if (setting_.files) {
     const double made = computers_.reserve(self_, now, host_costs_[task].files[place]);
-    end = storage_.write(made, file_bytes_, now);
+    end = storage_.write(computers_.of(self_), made, file_bytes_, now);
   }
   ended_ = std::max(ended_, end);
   clockwork_.at(end, [this, task] {

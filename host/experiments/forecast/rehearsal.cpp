@@ -333,7 +333,7 @@ void Rehearsal::begin_file(int n) {
   ++node.files;
   const double begun = std::max(clockwork_.now(), node.file_there);
   const double made = std::max(begun, computers_.reserve(n, clockwork_.now(), costs_.writing()));
-  node.file_there = storage_.write(made, costs_.file_bytes(), clockwork_.now());
+  node.file_there = storage_.write(computers_.of(n), made, costs_.file_bytes(), clockwork_.now());
   clockwork_.at(node.file_there, [this, n, task = node.task, frame = node.frame] { end_file(n, task, frame); });
   const auto drawn = static_cast<double>(sizeof(wire::Strip));
   send_to_host({n, node.task, node.frame, drawn, 0, true});
