@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace mars::simulated {
@@ -36,6 +37,8 @@ struct Network {
   double copy_byte = 0;                    // of the processor, at each end
   std::vector<EndCost> send{}, receive{};  // ascending
   std::vector<EndCost> host_end{};         // of the host, whether it sends or receives; empty: as the nodes'
+  // Bytes: longer messages between computers wait until their receiver has answered an announcement (routes.h).
+  std::size_t eager = std::numeric_limits<std::size_t>::max();
 };
 
 // File storage that all computers share: one server opens files, one after another; others take their bytes, each one

@@ -64,10 +64,11 @@ void World::send(int from, int to, int type, const void* data, std::size_t lengt
   work(from, end_seconds(from, machine_.network.send, length));
   let_earlier_run(from);
   const double now = clock(from);
-  const double arrival =
-      from == to ? now : routes_.arrival(computer_of(from), computer_of(to), length, now, floor_at(now));
+  const int here = computer_of(from), there = computer_of(to);
+  const bool announced = routes_.announces(here, there, length);
+  const double arrival = from == to ? now : routes_.arrival(here, there, announced ? 0 : length, now, floor_at(now));
   Rank& receiver = *ranks_[to];
-  receiver.coming.push_back({arrival, messages_++, pool_.copy({from, type, length}, data)});
+  receiver.coming.push_back({arrival, messages_++, pool_.copy({from, type, length}, data), announced});
   std::ranges::push_heap(receiver.coming, Later());
   if (receiver.waits && arrival < receiver.due) set_due(to, std::max(arrival, receiver.clock));
 }
@@ -90,13 +91,25 @@ std::optional<messages::Envelope> World::peek(int rank) {
 }
 
 void World::take(int rank, void* buffer) {
+  const Taken taken = begin_take(rank, buffer);
   Rank& self = *ranks_[rank];
-  messages::Message* const message = self.arrived.front().message;
+  self.clock = std::max(self.clock, taken.there);
+  end_take(rank, taken.length);
+}
+
+// The receiver answers an announcement here, in a call, as where MPI's progress is in its calls alone; the sender's
+// adapter then sends the bytes whatever its processor does.
+World::Taken World::begin_take(int rank, void* buffer) {
+  Rank& self = *ranks_[rank];
+  if (self.arrived.front().announced) let_earlier_run(rank);
+  const auto [arrival, number, message, announced] = self.arrived.front();
   self.arrived.pop_front();
-  const std::size_t length = message->envelope.length;
+  const auto [from, type, length] = message->envelope;
   if (length > 0) std::memcpy(buffer, message->bytes(), length);
   pool_.release(message);
-  work(rank, end_seconds(rank, machine_.network.receive, length));
+  if (!announced) return {length, self.clock};
+  const double now = self.clock;
+  return {length, routes_.rest_arrival(computer_of(from), computer_of(rank), length, now, floor_at(now))};
 }
 
 void World::set_alarm(int rank, double time) {

@@ -51,7 +51,15 @@ class World {
   void send(int from, int to, int type, const void* data, std::size_t length);
   // The first message that has arrived, in the order of arrival.
   std::optional<messages::Envelope> peek(int rank);
+  // What peek returned. Waits for the rest of an announced message.
   void take(int rank, void* buffer);
+  struct Taken {
+    std::size_t length;
+    double there;  // when all of it is
+  };
+  // The same without waiting. When all is there, end_take is due.
+  Taken begin_take(int rank, void* buffer);
+  void end_take(int rank, std::size_t length) { work(rank, end_seconds(rank, machine_.network.receive, length)); }
   // Until a message comes that neither peek nor a wait has seen yet, an alarm, or `seconds` have passed.
   void wait(int rank, double seconds);
   // The rank will not wait beyond `time`.
@@ -91,6 +99,7 @@ class World {
     double arrival;
     std::uint64_t number;  // among all
     messages::Message* message;
+    bool announced;  // only that: its bytes begin to move when it is taken
   };
   struct Later {
     bool operator()(const Message& a, const Message& b) const {

@@ -12,7 +12,8 @@ double Costs::on_the_way(double bytes, bool same_computer) const {
   const simulated::Network& network = machine_.network;
   if (same_computer) return network.local_latency + network.local_byte * bytes;
   const double parts = network.topology == simulated::Topology::hypercube ? 1 : 2;
-  return network.latency + parts * network.hop + network.byte * bytes;
+  const double ways = bytes > static_cast<double>(network.eager) ? 3 : 1;
+  return ways * (network.latency + parts * network.hop) + network.byte * bytes;
 }
 
 double Costs::end(const std::vector<simulated::EndCost>& costs, double bytes) const {

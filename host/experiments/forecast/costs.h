@@ -23,7 +23,7 @@ class Costs {
   double host_to_send(double bytes) const { return host_end(machine_.network.send, bytes); }
   double host_to_receive(double bytes) const { return host_end(machine_.network.receive, bytes); }
 
-  // Seconds on the way between two nodes, where nothing else is.
+  // Seconds on the way between two nodes, where nothing else is, and the receiver answers announcements at once.
   double on_the_way(double bytes, bool same_computer) const;
 
  private:

@@ -82,6 +82,13 @@ void HostSide::go_on() {
   }
   const StripSent strip = arrived_.front();
   arrived_.pop_front();
+  // It waits for the rest of an announced one alone.
+  const double there = outward_.answer(strip);
+  if (there > clockwork_.now()) return clockwork_.at(there, [this, strip] { receive(strip); });
+  receive(strip);
+}
+
+void HostSide::receive(const StripSent& strip) {
   busy(costs_.host_to_receive(strip.bytes) + costs_.of(Work::host_strip, 1), [this, strip] {
     if (strip.written) return finish_written(strip);
     if (!setting_.nodes_write()) note(strip);

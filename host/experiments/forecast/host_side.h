@@ -33,10 +33,12 @@ struct StripSent {
 
 class HostSide {
  public:
-  // What reaches nodes: a task for all of a group, a credit for one.
+  // What reaches nodes: a task for all of a group, a credit for one, and the answer to a strip that was announced,
+  // which says when all of it is there.
   struct Outward {
     std::function<void(std::size_t group, std::size_t task)> task;
     std::function<void(int node)> credit;
+    std::function<double(const StripSent& strip)> answer;
   };
 
   HostSide(Clockwork& clockwork, simulated::Computers& computers, simulated::StorageUse& storage,
@@ -80,6 +82,7 @@ class HostSide {
   void finish_written(const StripSent& file);
   void submit(std::size_t task, std::size_t number);
   void busy(double seconds, Clockwork::Action then);
+  void receive(const StripSent& strip);
   void note(const StripSent& strip);
 
   Clockwork& clockwork_;

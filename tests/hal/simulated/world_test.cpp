@@ -39,6 +39,84 @@ TEST(World, AMessageTakesItsEndsAndItsWay) {
   EXPECT_DOUBLE_EQ(came, kSend + kLatency + 1000 * kByte + kReceive);
 }
 
+// Messages of more than 1000 bytes are announced, and a node's 5000 bytes are received by another once it has worked.
+double time_of_announced(double work, std::size_t eager = 1000) {
+  Machine machine = simulated::machine();
+  machine.network.eager = eager;
+  double came = 0;
+  run_simulated(machine, 2, nothing, [&] {
+    std::vector<char> data(5000, static_cast<char>(mynode()));
+    if (mynode() == 1) return csend(1, data.data(), 5000, 0, 0);
+    messages::charge(kKind, static_cast<std::uint64_t>(work));
+    crecv(1, data.data(), 5000);
+    EXPECT_EQ(data.back(), 1);
+    came = dclock();
+  });
+  return came;
+}
+
+TEST(World, ALongMessageMovesOnceItsReceiverHasAnswered) {
+  constexpr double kMove = 5000 * kByte + kReceive;
+  EXPECT_DOUBLE_EQ(time_of_announced(0), kSend + 3 * kLatency + kMove) << "one more round trip";
+  EXPECT_DOUBLE_EQ(time_of_announced(1), 1 + 2 * kLatency + kMove) << "it answers in its call";
+  EXPECT_DOUBLE_EQ(time_of_announced(0, 5000), kSend + kLatency + kMove) << "is not announced";
+  EXPECT_DOUBLE_EQ(time_of_announced(1, 5000), 1 + kReceive);
+}
+
+TEST(World, ReceiversGoOnWhileAnnouncedMessagesMove) {
+  Machine announcing = machine();
+  announcing.network.eager = 1000;
+  double begun = 0, came = 0;
+  run_simulated(announcing, 2, nothing, [&] {
+    std::vector<char> data(5000000);
+    if (mynode() == 1) return csend(1, data.data(), 5000000, 0, 0);
+    const long message = irecv(1, data.data(), 5000000);
+    while (iprobe(2) == 0 && begun == 0) {
+      messages::charge(kKind, 1);
+      msgdone(message);
+      begun = dclock();
+    }
+    messages::charge(kKind, 4);
+    msgwait(message);
+    came = dclock();
+  });
+  EXPECT_DOUBLE_EQ(came, begun + 2 * kLatency + 5 + kReceive) << "5 s, of which it works 4";
+}
+
+TEST(World, AnnouncedMessagesAreNotOvertaken) {
+  Machine announcing = machine();
+  announcing.network.eager = 1000;
+  std::vector<long> types;
+  run_simulated(announcing, 2, nothing, [&] {
+    std::vector<char> data(5000);
+    if (mynode() == 1) {
+      csend(1, data.data(), 5000, 0, 0);
+      return csend(2, data.data(), 10, 0, 0);
+    }
+    for (int i = 0; i < 2; ++i) {
+      crecv(-1, data.data(), 5000);
+      types.push_back(infotype());
+    }
+  });
+  EXPECT_EQ(types, (std::vector<long>{1, 2}));
+}
+
+TEST(World, WithinAComputerNothingIsAnnounced) {
+  Machine one = machine();
+  one.nodes = one.processors = 2;
+  one.network.eager = 1000;
+  const auto end = [&] {
+    return run_simulated(one, 2, nothing, [] {
+      std::vector<char> data(5000);
+      if (mynode() == 1) return csend(1, data.data(), 5000, 0, 0);
+      crecv(1, data.data(), 5000);
+    });
+  };
+  const double announcing = end();
+  one.network.eager = 5000;
+  EXPECT_EQ(announcing, end());
+}
+
 TEST(World, MessagesAreTakenInTheOrderOfSimulatedTime) {
   std::vector<long> order;
   const auto host = [&](World& world) {
