@@ -22,10 +22,10 @@ double drawn(std::initializer_list<std::uint64_t> numbers) {
 }
 
 double speed_of(const std::vector<SpeedKind>& kinds, int computer) {
-  int all = 0;
+  std::int64_t all = 0;
   for (const SpeedKind& kind : kinds) all += kind.computers;
   if (all == 0) return 1;
-  int place = computer % all;
+  std::int64_t place = computer % all;
   for (const SpeedKind& kind : kinds)
     if ((place -= kind.computers) < 0) return kind.speed;
   return 1;
