@@ -23,10 +23,14 @@ class Costs {
   double host_to_send(double bytes) const { return host_end(machine_.network.send, bytes); }
   double host_to_receive(double bytes) const { return host_end(machine_.network.receive, bytes); }
 
-  // Seconds on the way between two nodes, where nothing else is, and the receiver answers announcements at once.
+  // Seconds on the way between two nodes, where nothing else is.
   double on_the_way(double bytes, bool same_computer) const;
+  // Seconds that messages of `bytes` together, from other computers, take longer if they are announced: their receiver
+  // answers them one after another.
+  double answers(double messages, double bytes) const;
 
  private:
+  double empty_on_the_way() const;
   double end(const std::vector<simulated::EndCost>& costs, double bytes) const;
   double host_end(const std::vector<simulated::EndCost>& costs, double bytes) const {
     return end(machine_.network.host_end.empty() ? costs : machine_.network.host_end, bytes);

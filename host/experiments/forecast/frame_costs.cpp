@@ -340,7 +340,8 @@ void FrameCosts::add_sum(GroupKeyframe& keyframe, int nodes) const {
   const bool halves = bytes >= kShortSum && corners >= 4;
   double sent = 0;
   const auto exchange = [&](double so_many, bool same_computer) {
-    keyframe.sum += costs_.to_send(so_many) + costs_.on_the_way(so_many, same_computer) + costs_.to_receive(so_many);
+    keyframe.sum += costs_.to_send(so_many) + costs_.on_the_way(so_many, same_computer) + costs_.to_receive(so_many) +
+                    (same_computer ? 0 : costs_.answers(1, so_many));
     sent += so_many;
   };
   double part = bytes;
@@ -384,7 +385,7 @@ void FrameCosts::add_exchange(GroupKeyframe& keyframe, const Homes& homes, const
     node.exchange += ends(messages_out, out, [&](double b) { return costs_.to_send(b); }) +
                      ends(messages_in, in, [&](double b) { return costs_.to_receive(b); }) +
                      costs_.of(Work::edge_box_filled, boxes_in);
-    node.exchange_wait = costs_.on_the_way(std::max(in, out), false);
+    node.exchange_wait = costs_.on_the_way(std::max(in, out), false) + costs_.answers(messages_in, in);
     node.bytes_to_nodes += out;
     const double travelling = made[n][Work::edge_box_made] * far * (kUnsortedBoxBytes + kTriangleBytes) + in;
     const double in_pass = (node.memory + travelling + boxes_in * kBoxBytes) / keyframe.passes;
@@ -417,7 +418,7 @@ void FrameCosts::add_still(GroupKeyframe& keyframe, const Homes& homes, const wi
     if (computer >= collecting || n % near != 0 || all_messages <= messages) continue;
     const double in = all_bytes - bytes, messages_in = all_messages - messages;
     node.still += messages_in * costs_.to_receive(in / messages_in);
-    node.still_wait = costs_.on_the_way(bytes_until(computer, in, most), false);
+    node.still_wait = costs_.on_the_way(bytes_until(computer, in, most), false) + costs_.answers(messages_in, in);
   }
 }
 
@@ -454,7 +455,8 @@ void FrameCosts::add_bands(GroupKeyframe& keyframe, const Homes& homes, const wi
     const double in = all - background_bytes(n);
     node.bands += static_cast<double>(nodes - 1) * costs_.to_receive(in / static_cast<double>(nodes - 1));
     node.bands_wait =
-        costs_.on_the_way(bytes_until(computer, in, most) + file_bytes() / static_cast<double>(nodes), false);
+        costs_.on_the_way(bytes_until(computer, in, most) + file_bytes() / static_cast<double>(nodes), false) +
+        costs_.answers(static_cast<double>(nodes - 1), in);
   }
 }
 

@@ -202,7 +202,7 @@ TEST(World, AFailureEndsAllRanks) {
 }
 
 // Two groups of four, each of which passes a message around after work, and tells the host.
-std::vector<double> times_of_groups(bool keep) {
+std::vector<double> times_of_groups(bool keep, const Machine& machine = simulated::machine()) {
   std::vector<double> times;
   const auto host = [&](World& world) {
     for (int i = 0; i < world.nodes(); ++i) {
@@ -211,7 +211,7 @@ std::vector<double> times_of_groups(bool keep) {
       times.push_back(static_cast<double>(infonode()));
     }
   };
-  times.push_back(run_simulated(machine(), 8, host, [keep] {
+  times.push_back(run_simulated(machine, 8, host, [keep] {
     const long self = mynode(), first = self / 4 * 4;
     if (keep) messages::keep_to(static_cast<int>(first), 4);
     messages::charge(kKind, static_cast<std::uint64_t>(1 + self * 7 % 5));
@@ -225,6 +225,25 @@ std::vector<double> times_of_groups(bool keep) {
 TEST(World, EveryRunGivesTheSameTimes) { EXPECT_EQ(times_of_groups(true), times_of_groups(true)); }
 
 TEST(World, GroupsThatRunAheadChangeNoTime) { EXPECT_EQ(times_of_groups(true), times_of_groups(false)); }
+
+Machine noisy(std::uint32_t seed) {
+  Machine noisy = machine();
+  noisy.noise = {.seed = seed, .stragglers = 0.3, .least_slowdown = 1.5, .most_slowdown = 2};
+  noisy.noise.detours = 20;
+  noisy.noise.detour = 0.01;
+  noisy.noise.lengths = Lengths::exponential;
+  return noisy;
+}
+
+TEST(World, NoiseIsThatOfItsSeed) {
+  EXPECT_EQ(times_of_groups(true, noisy(1)), times_of_groups(true, noisy(1)));
+  EXPECT_NE(times_of_groups(true, noisy(1)), times_of_groups(true, noisy(2)));
+  EXPECT_GT(times_of_groups(true, noisy(1)).front(), times_of_groups(true).front());
+}
+
+TEST(World, NoiseDoesNotDependOnWhoRunsAhead) {
+  EXPECT_EQ(times_of_groups(true, noisy(1)), times_of_groups(false, noisy(1)));
+}
 
 TEST(World, WhoWaitsForAnybodyDoesNotRunAhead) {
   double heard = 0;

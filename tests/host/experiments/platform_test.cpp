@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <string>
@@ -144,6 +145,15 @@ TEST_F(Platforms, SayWhichCostsAreNotIdentified) {
   add("wrong", R"({}, "not_identified": ["pixels"])");
   const std::string failure = failure_of([&] { read("wrong"); });
   EXPECT_TRUE(holds(failure, "wrong.json:6: not_identified[0]") && holds(failure, "pixel")) << failure;
+}
+
+TEST(ReferencePlatform, SaysWhichCostsAreNotIdentified) {
+  using wire::Work;
+  const std::string platforms = std::string(MARS_SOURCE_DIR) + "/cluster/platforms";
+  for (const char* name : {"reference", "fat-tree"})
+    for (const Work kind : {Work::pixel, Work::line, Work::triangle_tested})
+      EXPECT_EQ(std::ranges::count(read_platform(name, platforms).unidentified, kind), 1) << name;
+  EXPECT_TRUE(read_platform("ipsc2", platforms).unidentified.empty()) << "costs are counted operations there";
 }
 
 TEST_F(Platforms, OfACalibrationSayIt) {
