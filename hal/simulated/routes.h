@@ -24,7 +24,8 @@ class Routes {
 
   // Whether only an announcement goes at first, an empty message.
   bool announces(int from, int to, std::size_t bytes) const { return from != to && bytes > network_.eager; }
-  // When the last byte arrives of an announced message that `to` answers at `time`: the answer, then the bytes.
+  // When the last byte arrives of an announced message that `to` answers at `time`: the answer, then the bytes. Where
+  // these hold channels, others that are given until the answer comes wait behind them.
   double rest_arrival(int from, int to, std::size_t bytes, double time, double floor) {
     return arrival(from, to, bytes, arrival(to, from, 0, time, floor), floor);
   }
