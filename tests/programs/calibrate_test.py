@@ -54,6 +54,18 @@ class Calibrations(ProgramTest):
         self.assertNotEqual(seconds(1), seconds(2))
         self.assertGreater(seconds(1), self.simulate("fat-tree")["total_seconds"])
 
+    def test_slow_computers_get_fewer_inbetweens(self):
+        def report(**changed):
+            platform = json.loads((SOURCES / "cluster/platforms/ipsc2.json").read_text())
+            platform["computers"].update(changed)
+            self.succeed("mars", "render", EXAMPLES / "cubes.json", "--sink", "none", "--size", "64x36", "--samples", 1,
+                         "--backend", "simulated", "--nodes", 4, "--groups", 1, "--report", "report.json",
+                         "--platform", self.write("slow.json", platform))
+            return json.loads((self.folder / "report.json").read_text())
+
+        self.assertEqual(report()["slow"], [])
+        self.assertEqual([time["node"] for time in report(speeds=[[3, 1], [1, 0.25]])["slow"]], [3])
+
     def test_nodes_together_count_what_one_counts(self):
         def charged(nodes):
             self.succeed("mars", "render", EXAMPLES / "stones.json", *FEW, "--backend", "threads", "--nodes", nodes,
