@@ -58,9 +58,10 @@ class Calibrations(ProgramTest):
         def report(**changed):
             platform = json.loads((SOURCES / "cluster/platforms/ipsc2.json").read_text())
             platform["computers"].update(changed)
-            self.succeed("mars", "render", EXAMPLES / "cubes.json", "--sink", "none", "--size", "64x36", "--samples", 1,
-                         "--backend", "simulated", "--nodes", 4, "--groups", 1, "--report", "report.json",
-                         "--platform", self.write("slow.json", platform))
+            done = self.mars("render", EXAMPLES / "cubes.json", "--sink", "none", "--size", "64x36", "--samples", 1,
+                             "--backend", "simulated", "--nodes", 4, "--groups", 1, "--report", "report.json",
+                             "--platform", self.write("slow.json", platform))
+            self.assertEqual(done.returncode, 0, done.stderr)
             return json.loads((self.folder / "report.json").read_text())
 
         self.assertEqual(report()["slow"], [])
