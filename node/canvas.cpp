@@ -12,11 +12,12 @@ Canvas::Canvas(const wire::PackedFilm& film, const raster::Neighbours& neighbour
             film.casting_count()),
       sums(film.settings().height),
       triangle_exchange(static_cast<std::size_t>(neighbours.group().count), film.settings().height),
-      still_exchange(neighbours, still.has_groups(), film.settings().height),
+      still_exchange(neighbours, still),
       contributes(static_cast<std::size_t>(neighbours.group().count)),
       line_loads(film.settings().height),
       line_totals(film.settings().height + 1),
       awaited(film.settings().height),
+      still_bytes(film.settings().height),
       wanted_lines(film.settings().height),
       wanted_still_lines(film.settings().height) {
   if (scene.casting_count() > 0)

@@ -47,6 +47,7 @@ struct Canvas {
   std::vector<raster::LineLoad> line_loads;      // of own triangles
   std::vector<std::uint64_t> line_totals;        // of their edge boxes, before each line and at the end
   std::vector<std::uint64_t> awaited;            // edge boxes of other nodes that are to come
+  std::vector<std::uint64_t> still_bytes;        // that are kept for inbetweens, about
   std::vector<std::uint8_t> wanted_lines;        // in the current pass
   std::vector<std::uint8_t> wanted_still_lines;  // of stationary parts in an inbetween
 };

@@ -19,7 +19,7 @@ FileOutput::FileOutput(wire::FrameWriter& writer, const raster::Neighbours& neig
       outbox_(outbox),
       heartbeat_(heartbeat),
       shared_(neighbours, writer.shared_bytes(), writer.shared_bytes(), raster::NeighboursMemory::Contents::own),
-      exchange_(neighbours) {
+      exchange_(neighbours, writer) {
   writer_.share(shared_.bytes());
 }
 

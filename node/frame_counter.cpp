@@ -42,13 +42,19 @@ wire::FrameCounts FrameCounter::count_keyframe(std::uint32_t interval, std::span
   marks_.clear();
   sweep_.begin(scene_, frames.size() > 1 ? frames : frames.first(0), boxes_,
                [this](const geometry::PictureBounds& bounds) { marks_.mark(bounds.lines, bounds.columns); });
+  note_marked(counts, &wire::LineCounts::swept_width);
   if (shadows_) shadows_->mark_shaded(scene_, sweep_, marks_);
+  note_marked(counts, &wire::LineCounts::kept_width);
   const geometry::LineRange still = sweep_.lines();
-  for (std::uint32_t line = still.first; line < still.last; ++line)
-    counts.lines[line].kept_width = raster::count_columns(marks_.on(line), scene_.film().settings().width);
   counts.first_still_line = still.first;
   counts.last_still_line = still.last;
   return counts;
+}
+
+void FrameCounter::note_marked(wire::FrameCounts& counts, double wire::LineCounts::*width) const {
+  const geometry::LineRange still = sweep_.lines();
+  for (std::uint32_t line = still.first; line < still.last; ++line)
+    counts.lines[line].*width = raster::count_columns(marks_.on(line), scene_.film().settings().width);
 }
 
 wire::FrameCounts FrameCounter::count_inbetween(std::uint32_t frame) {

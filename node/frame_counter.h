@@ -46,6 +46,7 @@ class FrameCounter {
   };
 
   wire::FrameCounts count(wire::FrameKind kind, std::uint32_t frame);
+  void note_marked(wire::FrameCounts& counts, double wire::LineCounts::*width) const;
   wire::UnitCounts count_share(std::uint32_t share, bool keyframe);
   void keep_sampled(std::span<const raster::UnsortedEdgeBox> boxes, const geometry::Triangle* triangles, bool moving);
   wire::UnitCounts units_of(const Tessellation& made, const wire::WorkCounts& work) const;

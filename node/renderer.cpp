@@ -166,10 +166,17 @@ std::uint32_t Renderer::map_to_homes(const group::MadeCounts& made) {
   return passes;
 }
 
+std::span<const std::uint64_t> Renderer::foreseen_still_bytes() {
+  if (!report_.is_keyframe()) return {};
+  for (std::uint32_t line = 0; line < canvas_->still_bytes.size(); ++line)
+    canvas_->still_bytes[line] = canvas_->still.foreseen_bytes(line);
+  return canvas_->still_bytes;
+}
+
 void Renderer::sum_up(const group::MadeCounts& made) {
   const bool large = group::is_large(group::own_bytes(made, triangles_travel()), memory_.frame_bytes());
   const PhaseScope sum = phase(wire::Phase::sum);
-  canvas_->sums.add_up(group_, {canvas_->line_loads, made.edge_boxes, large});
+  canvas_->sums.add_up(group_, {canvas_->line_loads, made.edge_boxes, large, foreseen_still_bytes()});
   report_.strip().edge_box_total = canvas_->sums.ebc().back();
 }
 

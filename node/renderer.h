@@ -78,6 +78,7 @@ class Renderer {
   void fill_own_lines(const raster::Polygons& own);
   // Of EBC and what each mapping weighs lines by, over the group.
   void sum_up(const group::MadeCounts& made);
+  std::span<const std::uint64_t> foreseen_still_bytes();
   // Returns the number of passes.
   std::uint32_t map_to_homes(const group::MadeCounts& made);
   // Sets parts_; returns the lines to be drawn.

@@ -64,7 +64,7 @@ std::span<const std::byte> CountedWriter::edge() {
 }
 
 void CountedWriter::finish_bands() {
-  std::size_t background = 0, picture = 0;
+  std::size_t picture = 0;
   std::uint64_t encoded = 0;
   for (std::uint32_t band = 0; band < bands_.count(); ++band) {
     if (!composes(band)) continue;
@@ -72,12 +72,32 @@ void CountedWriter::finish_bands() {
     picture += record_bytes(band);
     encoded += pixels;
     if (!keyframe_.has_inbetweens) continue;
-    background += record_bytes(band) + (inbetweens_touch(band) ? pixels : 0);
     encoded += touched_[band] ? pixels : 0;
   }
   charge(experiments::encoded_byte(bands_.format()), encoded);
-  background_.resize(background);
   picture_.resize(picture);
+  next_background_ = 0;
+  find_background();
+}
+
+std::size_t CountedWriter::background_bytes(std::uint32_t band) const {
+  return record_bytes(band) + (inbetweens_touch(band) ? pixel_bytes(bands_.lines_of(band)) : 0);
+}
+
+std::size_t CountedWriter::most_band_bytes() const { return record_bytes(0) + pixel_bytes(bands_.lines_of(0)); }
+
+void CountedWriter::find_background() {
+  while (has_background() && !(keyframe_.has_inbetweens && composes(next_background_))) ++next_background_;
+}
+
+std::span<const std::byte> CountedWriter::next_background(std::size_t bytes) {
+  std::size_t given = 0;
+  while (has_background() && (given == 0 || given + background_bytes(next_background_) <= bytes)) {
+    given += background_bytes(next_background_++);
+    find_background();
+  }
+  background_.resize(given);
+  return background_;
 }
 
 // A thread writes one file after another.

@@ -33,7 +33,9 @@ class CountedWriter : public wire::FrameWriter {
   std::span<const std::byte> edge() override;
   void add_edge(std::span<const std::byte>) override {}
   void finish_bands() override;
-  std::span<const std::byte> background() override { return background_; }
+  bool has_background() const override { return next_background_ < bands_.count(); }
+  std::span<const std::byte> next_background(std::size_t bytes) override;
+  std::size_t most_band_bytes() const override;
   void add_background(std::span<const std::byte>) override {}
   std::span<const std::byte> picture() override { return picture_; }
   void add_picture(std::span<const std::byte>) override {}
@@ -53,6 +55,8 @@ class CountedWriter : public wire::FrameWriter {
   bool inbetweens_touch(std::uint32_t band) const;
   std::size_t pixel_bytes(const images::Lines& lines) const { return bands_.words_of(lines) * sizeof(std::uint32_t); }
   std::size_t record_bytes(std::uint32_t band) const;
+  std::size_t background_bytes(std::uint32_t band) const;
+  void find_background();
   double now() const { return world_.clock(node_); }
   void charge(wire::Work kind, std::uint64_t units) const;
 
@@ -65,6 +69,7 @@ class CountedWriter : public wire::FrameWriter {
   std::uint32_t frame_ = 0;    // that was begun last
   std::vector<bool> touched_;  // its bands, by moving parts that were pasted
   std::vector<std::byte> edge_, background_, picture_;
+  std::uint32_t next_background_ = 0;  // own band for other machines; the number of bands: none
   std::deque<File> under_way_;
 };
 

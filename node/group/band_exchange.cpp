@@ -6,6 +6,7 @@
 #include "node/group/collectors.h"
 #include "node/wire/commands.h"
 #include "node/wire/protocol.h"
+#include "node/wire/still_plan.h"
 
 namespace mars::group {
 
@@ -44,8 +45,28 @@ class BandExchange::Plan : public Collectors {
   const int writer_;
 };
 
-BandExchange::BandExchange(const raster::Neighbours& neighbours)
+// What inbetweens need of bands.
+class BandExchange::Background : public Relayed {
+ public:
+  Background(const Plan& plan, wire::FrameWriter& writer) : plan_(plan), writer_(writer) {}
+
+  bool has_part(int node) const override { return plan_.composes(node); }
+  bool is_left() const override { return writer_.has_background(); }
+  std::size_t fill(std::span<std::byte> piece) override {
+    const std::span<const std::byte> bands = writer_.next_background(wire::kRelayPiece);
+    std::ranges::copy(bands, piece.begin());
+    return bands.size();
+  }
+  void take(int, std::span<const std::byte> piece) override { writer_.add_background(piece); }
+
+ private:
+  const Plan& plan_;
+  wire::FrameWriter& writer_;
+};
+
+BandExchange::BandExchange(const raster::Neighbours& neighbours, const wire::FrameWriter& writer)
     : neighbours_(neighbours),
+      relay_(wire::kBackground, writer.most_band_bytes(), "bands"),
       pending_(static_cast<std::size_t>(neighbours.group().count)),
       collectors_(static_cast<std::size_t>(neighbours.group().count)) {}
 
@@ -53,8 +74,9 @@ void BandExchange::complete(const BandNeeds& needs, wire::FrameWriter& writer) {
   const Plan plan(needs, neighbours_, collectors_, writer.lines_of_band());
   exchange_edges(plan, writer);
   writer.finish_bands();
-  send_bands(plan, writer);
-  collect_background(plan, writer);
+  send_picture(plan, writer);
+  Background background(plan, writer);
+  relay_.exchange(plan, background);
   collect_picture(plan, writer);
   pending_.wait();
 }
@@ -66,24 +88,9 @@ void BandExchange::exchange_edges(const Plan& plan, wire::FrameWriter& writer) {
     if (plan.has_edge(node) && plan.composer_of_edge(node) == self) writer.add_edge(receive(wire::kEdge, plan));
 }
 
-void BandExchange::send_bands(const Plan& plan, wire::FrameWriter& writer) {
+void BandExchange::send_picture(const Plan& plan, wire::FrameWriter& writer) {
   const int self = plan.self();
-  if (!plan.composes(self)) return;
-  for (int to = plan.first(); to < plan.last(); ++to)
-    if (to != self && plan.collects(to))
-      send(wire::kBackground, plan.share_a_machine(self, to) ? std::span<const std::byte>() : writer.background(), to);
-  if (plan.writer() != self) send(wire::kPicture, writer.picture(), plan.writer());
-}
-
-void BandExchange::collect_background(const Plan& plan, wire::FrameWriter& writer) {
-  const int self = plan.self();
-  if (plan.collects(self)) {
-    for (int from = plan.first(); from < plan.last(); ++from)
-      if (from != self && plan.composes(from)) writer.add_background(receive(wire::kBackground, plan));
-    plan.for_others_here([](int node) { csend(wire::kBackground, nullptr, 0, node, 0); });
-  } else if (plan.contributes(self)) {
-    crecv(wire::kBackground, nullptr, 0);
-  }
+  if (plan.composes(self) && plan.writer() != self) send(wire::kPicture, writer.picture(), plan.writer());
 }
 
 void BandExchange::collect_picture(const Plan& plan, wire::FrameWriter& writer) {

@@ -1,5 +1,6 @@
 // A keyframe whose file its group writes (wire/frame_writer.h): edges of bands go to the nodes that compose these, what
-// inbetweens need of bands to each machine that has contributors, once, and all bands to the node that writes the file.
+// inbetweens need of bands to each machine that has contributors, once (relay.h), and all bands to the node that writes
+// the file.
 #pragma once
 
 #include <cstddef>
@@ -10,6 +11,7 @@
 #include "hal/collectives/group.h"
 #include "node/geometry/line_range.h"
 #include "node/group/pending_messages.h"
+#include "node/group/relay.h"
 #include "node/raster/neighbours.h"
 #include "node/wire/frame_writer.h"
 
@@ -25,7 +27,7 @@ struct BandNeeds {
 
 class BandExchange {
  public:
-  explicit BandExchange(const raster::Neighbours& neighbours);
+  BandExchange(const raster::Neighbours& neighbours, const wire::FrameWriter& writer);
 
   // Collective over the group, of which each node has pasted its home lines. A contributor returns when the interval's
   // background is there, the writer when it has the keyframe.
@@ -33,15 +35,16 @@ class BandExchange {
 
  private:
   class Plan;
+  class Background;
 
   void exchange_edges(const Plan& plan, wire::FrameWriter& writer);
-  void send_bands(const Plan& plan, wire::FrameWriter& writer);
-  void collect_background(const Plan& plan, wire::FrameWriter& writer);
+  void send_picture(const Plan& plan, wire::FrameWriter& writer);
   void collect_picture(const Plan& plan, wire::FrameWriter& writer);
   void send(long type, std::span<const std::byte> message, int to);
   std::span<const std::byte> receive(long type, const Plan& plan);
 
   const raster::Neighbours& neighbours_;
+  Relay relay_;
   PendingMessages pending_;
   std::vector<std::uint8_t> collectors_;  // Plan's
   std::vector<std::byte> message_;        // that was received

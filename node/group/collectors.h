@@ -32,6 +32,7 @@ class Collectors {
   bool has(int node) const { return node >= first() && node < last(); }
   bool contributes(int node) const { return contributes_[index(node)] == 1; }
   bool share_a_machine(int a, int b) const { return neighbours_.are(a, b); }
+  int head_of(int node) const { return neighbours_.head_of(node); }
   // Whether it is the head of a machine with contributors.
   bool collects(int node) const { return collects_[index(node)] == 1; }
 

@@ -23,7 +23,7 @@ void GroupSums::add_up(const collectives::Group& group, const OwnLoad& own) {
   for (std::size_t line = 0; line < lines; ++line) {
     const LineLoad load = LineLoad::of_packed(sums_[line]);
     ebc_[line + 1] = ebc_[line] + load.boxes();
-    costs_[line + 1] = costs_[line] + line_cost(load);
+    costs_[line + 1] = costs_[line] + line_cost(load, own.still_bytes.empty() ? 0 : own.still_bytes[line]);
   }
   check_bounds(sums_[lines]);
 }

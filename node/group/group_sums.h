@@ -19,6 +19,8 @@ struct OwnLoad {
   std::span<const raster::LineLoad> lines;  // of its own triangles
   std::uint64_t edge_boxes;                 // on all lines
   bool large;                               // these take much of its memory (is_large, passes.h)
+  // Of each line, about what is kept for inbetweens; the same on all nodes. Empty: nothing.
+  std::span<const std::uint64_t> still_bytes{};
 };
 
 class GroupSums {

@@ -12,11 +12,13 @@
 namespace mars::group {
 
 // What a line costs to draw: ns for a box and for a sample with AVX-512, as `mars bench lines` measures them
-// (docs/measuring.md). All nodes take the same, whatever their instruction set, so that they map alike.
+// (docs/measuring.md), and for ten bytes that are kept of it for inbetweens and sent
+// (cluster/platforms/reference.json). All nodes take the same, whatever their instruction set, so that they map alike.
 inline constexpr std::uint64_t kBoxCost = 7;
 inline constexpr std::uint64_t kSampleCost = 2;
-constexpr std::uint64_t line_cost(const raster::LineLoad& load) {
-  return kBoxCost * load.boxes() + kSampleCost * load.samples();
+inline constexpr std::uint64_t kTenStillBytesCost = 6;
+constexpr std::uint64_t line_cost(const raster::LineLoad& load, std::uint64_t still_bytes = 0) {
+  return kBoxCost * load.boxes() + kSampleCost * load.samples() + kTenStillBytesCost * still_bytes / 10;
 }
 
 // `totals`: lines + 1 running totals, totals[0] = 0 and totals[i] = the weight of lines [0, i).

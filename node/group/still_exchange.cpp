@@ -1,123 +1,111 @@
 #include "node/group/still_exchange.h"
 
 #include <algorithm>
-#include <cstddef>
-#include <utility>
+#include <cstring>
 
-#include "hal/nx/nx_messages.h"
-#include "node/group/collectors.h"
 #include "node/wire/commands.h"
 #include "node/wire/protocol.h"
+#include "node/wire/still_plan.h"
 
 namespace mars::group {
+namespace {
 
-// The lines that each node sends, and their receivers.
-class StillExchange::Plan : public Collectors {
+constexpr const char* kWhat = "still lines";
+
+// Before lines that are depths alone, and before each line with groups.
+using LineBytes = std::uint64_t;
+
+std::size_t most_bytes(const raster::StillLines& still) { return still.most_packed() + sizeof(geometry::LineRange); }
+
+}  // namespace
+
+// Home lines of nodes, in pieces of several.
+class StillExchange::Lines : public Relayed {
  public:
-  Plan(const StillNeeds& needs, const geometry::LineRange& lines, const raster::Neighbours& neighbours,
-       std::span<std::uint8_t> collectors)
-      : Collectors(needs.group, needs.contributes, neighbours, collectors), homes_(needs.homes), lines_(lines) {}
+  Lines(const StillNeeds& needs, raster::StillLines& still)
+      : needs_(needs), still_(still), left_(lines_of(static_cast<int>(mynode()))) {}
 
-  // Needed lines that `node` is home of.
-  geometry::LineRange lines_of(int node) const { return geometry::overlap(homes_[index(node)], lines_); }
+  bool has_part(int node) const override { return lines_of(node).count() > 0; }
+  bool is_left() const override { return left_.count() > 0; }
+
+  std::size_t fill(std::span<std::byte> piece) override {
+    return still_.has_groups() ? fill_with_lines(piece) : fill_with_depths(piece);
+  }
+
+  void take(int owner, std::span<const std::byte> piece) override {
+    still_.has_groups() ? take_lines(owner, piece) : take_depths(owner, piece);
+  }
 
  private:
-  const std::span<const geometry::LineRange> homes_;
-  const geometry::LineRange lines_;  // that inbetweens may touch
+  // Needed lines that `node` is home of.
+  geometry::LineRange lines_of(int node) const {
+    return geometry::overlap(needs_.homes[static_cast<std::size_t>(node - needs_.group.first)], still_.lines());
+  }
+
+  // As many as a piece has, but one at least.
+  std::size_t fill_with_depths(std::span<std::byte> piece) {
+    geometry::LineRange lines{left_.first, left_.first};
+    std::size_t bytes = 0;
+    for (std::size_t line = 0; lines.last < left_.last; ++lines.last, bytes += line) {
+      line = still_.depth_bytes({lines.last, lines.last + 1});
+      if (bytes > 0 && bytes + line > wire::kRelayPiece) break;
+    }
+    left_.first = lines.last;
+    std::memcpy(piece.data(), &lines, sizeof lines);
+    still_.pack_depths(lines, piece.data() + sizeof lines);
+    return sizeof lines + bytes;
+  }
+
+  void take_depths(int owner, std::span<const std::byte> piece) {
+    geometry::LineRange lines{};
+    wire::require_sense(piece.size() >= sizeof lines, owner, kWhat);
+    std::memcpy(&lines, piece.data(), sizeof lines);
+    const geometry::LineRange all = lines_of(owner);
+    wire::require_sense(all.first <= lines.first && lines.first <= lines.last && lines.last <= all.last &&
+                            piece.size() == sizeof lines + still_.depth_bytes(lines),
+                        owner, kWhat);
+    still_.unpack_depths(lines, piece.data() + sizeof lines);
+  }
+
+  // Those that are kept.
+  std::size_t fill_with_lines(std::span<std::byte> piece) {
+    std::size_t bytes = 0;
+    for (; left_.count() > 0; ++left_.first) {
+      const LineBytes line = still_.packed_bytes(left_.first);
+      if (line == 0) continue;
+      if (bytes > 0 && bytes + sizeof line + line > wire::kRelayPiece) break;
+      std::memcpy(piece.data() + bytes, &line, sizeof line);
+      still_.pack(left_.first, piece.data() + bytes + sizeof line);
+      bytes += sizeof line + line;
+    }
+    return bytes;
+  }
+
+  void take_lines(int owner, std::span<const std::byte> piece) {
+    while (!piece.empty()) {
+      LineBytes bytes = 0;
+      wire::require_sense(piece.size() >= sizeof bytes, owner, kWhat);
+      std::memcpy(&bytes, piece.data(), sizeof bytes);
+      piece = piece.subspan(sizeof bytes);
+      wire::require_sense(bytes <= piece.size() && still_.is_packed(piece.first(bytes)), owner, kWhat);
+      still_.unpack(piece.first(bytes));
+      piece = piece.subspan(bytes);
+    }
+  }
+
+  const StillNeeds& needs_;
+  raster::StillLines& still_;
+  geometry::LineRange left_;  // of the caller
 };
 
-StillExchange::StillExchange(const raster::Neighbours& neighbours, bool one_each, std::size_t height)
+StillExchange::StillExchange(const raster::Neighbours& neighbours, const raster::StillLines& still)
     : neighbours_(neighbours),
-      one_each_(one_each),
-      pending_(height),
+      relay_(wire::kStillLines, most_bytes(still), kWhat),
       collectors_(static_cast<std::size_t>(neighbours.group().count)) {}
 
 void StillExchange::complete(const StillNeeds& needs, raster::StillLines& still) {
-  const Plan plan(needs, still.lines(), neighbours_, collectors_);
-  const int self = plan.self();
-  send_home_lines(plan, still);
-  if (plan.collects(self)) {
-    collect_lines(plan, still);
-    notify_contributors(plan);
-  } else if (plan.contributes(self)) {
-    crecv(wire::kStillLines, nullptr, 0);
-  }
-  pending_.wait();
-}
-
-void StillExchange::send_home_lines(const Plan& plan, raster::StillLines& still) {
-  const int self = plan.self();
-  const geometry::LineRange lines = plan.lines_of(self);
-  if (lines.count() == 0) return;
-  bool is_packed = false;
-  for (int to = plan.first(); to < plan.last(); ++to) {
-    if (to == self || !plan.collects(to)) continue;
-    if (plan.share_a_machine(self, to)) {
-      pending_.add(isend(wire::kStillLines, nullptr, 0, to, 0));
-      continue;
-    }
-    if (!std::exchange(is_packed, true)) pack(lines, still);
-    send_lines(lines, to, still);
-  }
-}
-
-// The same for all receivers.
-void StillExchange::pack(const geometry::LineRange& lines, const raster::StillLines& still) {
-  std::size_t bytes = one_each_ ? 0 : still.depth_bytes(lines);
-  if (one_each_)
-    for (std::uint32_t line = lines.first; line < lines.last; ++line) bytes += still.packed_bytes(line);
-  if (packed_.size() < bytes) packed_.resize(bytes);
-  if (!one_each_) return still.pack_depths(lines, packed_.data());
-  std::byte* to = packed_.data();
-  for (std::uint32_t line = lines.first; line < lines.last; ++line) {
-    if (still.keeps(line)) still.pack(line, to);
-    to += still.packed_bytes(line);
-  }
-}
-
-void StillExchange::send_lines(const geometry::LineRange& lines, int to, const raster::StillLines& still) {
-  const std::byte* next = packed_.data();
-  const auto send = [&](std::size_t bytes) {
-    pending_.add(isend(wire::kStillLines, next, static_cast<long>(bytes), to, 0));
-    next += bytes;
-  };
-  if (!one_each_) return send(still.depth_bytes(lines));
-  for (std::uint32_t line = lines.first; line < lines.last; ++line) send(still.packed_bytes(line));
-}
-
-void StillExchange::collect_lines(const Plan& plan, raster::StillLines& still) {
-  const int self = plan.self();
-  if (one_each_) line_.reserve(still.most_packed());
-  std::size_t left = 0;
-  for (int from = plan.first(); from < plan.last(); ++from) {
-    const geometry::LineRange lines = plan.lines_of(from);
-    if (from == self || lines.count() == 0) continue;
-    left += plan.share_a_machine(from, self) ? 1 : messages_of(lines);
-  }
-  for (; left > 0; --left) receive_message(plan, still);
-}
-
-void StillExchange::receive_message(const Plan& plan, raster::StillLines& still) {
-  cprobe(wire::kStillLines);
-  const auto bytes = static_cast<std::size_t>(infocount());
-  const int from = static_cast<int>(infonode());
-  constexpr const char* kWhat = "still lines";
-  wire::require_sense(plan.has(from), from, kWhat);
-  line_.resize(std::max(line_.size(), bytes));
-  crecv(wire::kStillLines, line_.data(), infocount());
-  if (plan.share_a_machine(from, plan.self())) return wire::require_sense(bytes == 0, from, kWhat);
-  if (!one_each_) {
-    wire::require_sense(bytes == still.depth_bytes(plan.lines_of(from)), from, kWhat);
-    return still.unpack_depths(plan.lines_of(from), line_.data());
-  }
-  if (bytes == 0) return;
-  const auto line = std::span(std::as_const(line_)).first(bytes);
-  wire::require_sense(still.is_packed(line), from, kWhat);
-  still.unpack(line);
-}
-
-void StillExchange::notify_contributors(const Plan& plan) const {
-  plan.for_others_here([](int node) { csend(wire::kStillLines, nullptr, 0, node, 0); });
+  Lines lines(needs, still);
+  relay_.exchange(Collectors(needs.group, needs.contributes, neighbours_, collectors_), lines);
 }
 
 }  // namespace mars::group

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <type_traits>
 
 #include "hal/failure/failure.h"
 
@@ -145,6 +146,12 @@ void StillLines::unpack_depths(const geometry::LineRange& lines, const std::byte
     from = unpack_columns(from, marks_.on(line), width_, depths(line));
 }
 
+std::uint64_t StillLines::foreseen_bytes(std::uint32_t line) const {
+  if (!lines_.has(line)) return 0;
+  const std::uint32_t columns = count_columns(marks_.on(line), width_);
+  return kept_bytes(columns, columns);
+}
+
 std::size_t StillLines::kept_bytes(std::size_t columns, std::size_t groups) const {
   if (!has_groups_) return columns * sizeof(float);
   return columns * wire::still_column_bytes(samples_, casting_) + groups * group_bytes();
@@ -152,21 +159,76 @@ std::size_t StillLines::kept_bytes(std::size_t columns, std::size_t groups) cons
 
 std::size_t StillLines::packed_bytes(std::uint32_t line) const {
   if (!keeps(line)) return 0;
-  return wire::still_head_bytes(width_) + kept_bytes(count_columns(tiles(line), width_), head(line).groups);
+  return wire::still_head_bytes(width_) + count_columns(tiles(line), width_) +
+         count_shown(line) * wire::still_packed_bytes(samples_, casting_) +
+         head(line).groups * wire::still_packed_group_bytes(casting_);
 }
 
 std::size_t StillLines::most_packed() const {
-  return wire::still_head_bytes(width_) + kept_bytes(width_, std::size_t{width_} * samples_);
+  if (!has_groups_) return width_ * sizeof(float);
+  return wire::still_head_bytes(width_) + width_ * (1 + wire::still_packed_bytes(samples_, casting_)) +
+         std::size_t{width_} * samples_ * wire::still_packed_group_bytes(casting_);
+}
+
+// Calls visit(first, last) for marked columns with groups.
+template <typename Visit>
+void StillLines::visit_shown(std::uint32_t line, const Visit& visit) const {
+  const std::uint32_t* const end = ends(line);
+  const auto shows = [&](std::uint32_t column) { return end[column] > (column == 0 ? 0 : end[column - 1]); };
+  visit_columns(tiles(line), width_, [&](std::uint32_t first, std::uint32_t last) {
+    for (std::uint32_t begin = first; begin < last;) {
+      if (!shows(begin)) {
+        ++begin;
+        continue;
+      }
+      std::uint32_t next = begin + 1;
+      while (next < last && shows(next)) ++next;
+      visit(begin, next);
+      begin = next;
+    }
+  });
+}
+
+std::uint32_t StillLines::count_shown(std::uint32_t line) const {
+  std::uint32_t count = 0;
+  visit_shown(line, [&](std::uint32_t first, std::uint32_t last) { count += last - first; });
+  return count;
 }
 
 void StillLines::pack(std::uint32_t line, std::byte* to) const {
-  const MarkedTiles marked = tiles(line);
   std::memcpy(to, slot(line), wire::still_head_bytes(width_));
-  to += wire::still_head_bytes(width_);
-  for (std::size_t s = 0; s < samples_; ++s) to = pack_columns(depths(line) + s * width_, marked, width_, to);
-  to = pack_columns(ends(line), marked, width_, to);
-  for (std::size_t l = 0; l < casting_; ++l) to = pack_columns(pairs(line) + l * width_, marked, width_, to);
-  std::memcpy(to, groups_of(line), head(line).groups * group_bytes());
+  to = pack_counts(line, to + wire::still_head_bytes(width_));
+  const auto pack_shown = [&](const auto* row) {
+    visit_shown(line, [&](std::uint32_t first, std::uint32_t last) {
+      std::memcpy(to, row + first, (last - first) * sizeof *row);
+      to += (last - first) * sizeof *row;
+    });
+  };
+  for (std::size_t s = 0; s < samples_; ++s) pack_shown(depths(line) + s * width_);
+  for (std::size_t l = 0; l < casting_; ++l) pack_shown(pairs(line) + l * width_);
+  pack_groups(line, to);
+}
+
+std::byte* StillLines::pack_counts(std::uint32_t line, std::byte* to) const {
+  const std::uint32_t* const end = ends(line);
+  visit_columns(tiles(line), width_, [&](std::uint32_t first, std::uint32_t last) {
+    std::uint32_t before = first == 0 ? 0 : end[first - 1];
+    for (std::uint32_t x = first; x < last; before = end[x++]) *to++ = static_cast<std::byte>(end[x] - before);
+  });
+  return to;
+}
+
+std::byte* StillLines::pack_groups(std::uint32_t line, std::byte* to) const {
+  const std::uint32_t count = head(line).groups;
+  if (casting_ > 0) return std::copy_n(groups_of(line), count * group_bytes(), to);
+  const auto* const groups = reinterpret_cast<const StillGroup*>(groups_of(line));
+  for (std::uint32_t k = 0; k < count; ++k, to += sizeof groups->light)
+    std::memcpy(to, groups[k].light, sizeof groups->light);
+  for (std::uint32_t k = 0; k < count; ++k, to += sizeof(std::uint16_t)) {
+    const auto samples = static_cast<std::uint16_t>(groups[k].samples);
+    std::memcpy(to, &samples, sizeof samples);
+  }
+  return to;
 }
 
 // A message's bytes are not aligned as a line's own.
@@ -181,64 +243,103 @@ MarkedTiles StillLines::read_tiles(std::span<const std::byte> line) {
   return received_tiles_;
 }
 
+// None where the line is not as long as its counts of groups say.
+std::optional<StillLines::Packed> StillLines::read_packed(std::span<const std::byte> line) {
+  const std::size_t columns = count_columns(read_tiles(line), width_);
+  std::span<const std::byte> rest = line.subspan(wire::still_head_bytes(width_));
+  if (rest.size() < columns) return std::nullopt;
+  Packed packed{.counts = rest.first(columns), .depths = {}, .pairs = {}, .groups = {}};
+  std::size_t shown = 0, groups = 0;
+  for (const std::byte count : packed.counts) {
+    if (std::to_integer<std::uint32_t>(count) > samples_) return std::nullopt;
+    shown += count != std::byte{0} ? 1 : 0;
+    groups += std::to_integer<std::size_t>(count);
+  }
+  rest = rest.subspan(columns);
+  const std::size_t depths = shown * samples_ * sizeof(float), pairs = shown * casting_ * sizeof(wire::StillPairs);
+  const std::size_t group = wire::still_packed_group_bytes(casting_);
+  if (groups != head_of(line).groups || rest.size() != depths + pairs + groups * group) return std::nullopt;
+  packed.depths = rest.first(depths);
+  packed.pairs = rest.subspan(depths, pairs);
+  packed.groups = rest.subspan(depths + pairs);
+  return packed;
+}
+
 bool StillLines::is_packed(std::span<const std::byte> line) {
   if (!has_groups_ || line.size() < wire::still_head_bytes(width_)) return false;
   const Head head = head_of(line);
   if (head.kept != 1 || head.interval != interval_ || !lines_.has(head.line)) return false;
-  const MarkedTiles marked = read_tiles(line);
   const std::uint32_t beyond = wire::still_tiles(width_) % 64;
-  if (beyond != 0 && marked.back() >> beyond != 0) return false;
-  const std::size_t columns = count_columns(marked, width_);
-  const std::size_t head_bytes = wire::still_head_bytes(width_);
-  if (line.size() != head_bytes + kept_bytes(columns, head.groups)) return false;
-  const std::size_t ends_at = head_bytes + columns * samples_ * sizeof(float);
-  const auto groups = line.last(head.groups * group_bytes());
-  return are_ends(line.subspan(ends_at, columns * sizeof(std::uint32_t)), head.groups) && are_groups(groups);
-}
-
-bool StillLines::are_ends(std::span<const std::byte> ends, std::uint32_t groups) {
-  std::uint32_t before = 0;
-  for (std::size_t at = 0; at < ends.size(); at += sizeof before) {
-    std::uint32_t end;
-    std::memcpy(&end, ends.data() + at, sizeof end);
-    if (end < before) return false;
-    before = end;
-  }
-  return before == groups;
+  if (beyond != 0 && read_tiles(line).back() >> beyond != 0) return false;
+  const std::optional<Packed> packed = read_packed(line);
+  return packed && are_groups(packed->groups);
 }
 
 bool StillLines::are_groups(std::span<const std::byte> groups) const {
-  const std::size_t samples_at = casting_ > 0 ? offsetof(wire::UnsummedGroup, samples) : offsetof(StillGroup, samples);
-  for (std::size_t at = 0; at < groups.size(); at += group_bytes()) {
-    std::uint32_t samples;
-    std::memcpy(&samples, groups.data() + at + samples_at, sizeof samples);
-    if (samples >> samples_ != 0) return false;
-  }
-  return true;
+  const std::size_t count = groups.size() / wire::still_packed_group_bytes(casting_);
+  const auto are_samples = [&]<typename Samples>(Samples samples, std::size_t at, std::size_t stride) {
+    for (std::size_t k = 0; k < count; ++k) {
+      std::memcpy(&samples, groups.data() + at + k * stride, sizeof samples);
+      if (std::uint32_t{samples} >> samples_ != 0) return false;
+    }
+    return true;
+  };
+  if (casting_ > 0) return are_samples(std::uint32_t{}, offsetof(wire::UnsummedGroup, samples), group_bytes());
+  return are_samples(std::uint16_t{}, count * sizeof(StillGroup::light), sizeof(std::uint16_t));
 }
 
 void StillLines::unpack(std::span<const std::byte> line) {
-  const Head packed = head_of(line);
-  if (!begin_line(packed.line, packed.groups)) return;
-  const MarkedTiles marked = read_tiles(line);
-  std::ranges::copy(marked, tiles(packed.line).begin());
-  const std::byte* from = line.data() + wire::still_head_bytes(width_);
-  for (std::size_t s = 0; s < samples_; ++s)
-    from = unpack_columns(from, marked, width_, depths(packed.line) + s * width_);
-  from = unpack_columns(from, marked, width_, ends(packed.line));
-  fill_ends(packed.line);
-  for (std::size_t l = 0; l < casting_; ++l)
-    from = unpack_columns(from, marked, width_, pairs(packed.line) + l * width_);
-  forget_pairs(packed.line);
-  std::memcpy(groups_of(packed.line), from, packed.groups * group_bytes());
+  const Head head = head_of(line);
+  if (!begin_line(head.line, head.groups)) return;
+  const std::optional<Packed> packed = read_packed(line);
+  std::ranges::copy(received_tiles_, tiles(head.line).begin());
+  unpack_counts(head.line, packed->counts);
+  const std::byte* from = packed->depths.data();
+  const auto unpack_shown = [&](auto* row) {
+    visit_columns(tiles(head.line), width_, [&](std::uint32_t first, std::uint32_t last) {
+      std::fill(row + first, row + last, std::remove_pointer_t<decltype(row)>{});
+    });
+    visit_shown(head.line, [&](std::uint32_t first, std::uint32_t last) {
+      std::memcpy(row + first, from, (last - first) * sizeof *row);
+      from += (last - first) * sizeof *row;
+    });
+  };
+  for (std::size_t s = 0; s < samples_; ++s) unpack_shown(depths(head.line) + s * width_);
+  for (std::size_t l = 0; l < casting_; ++l) unpack_shown(pairs(head.line) + l * width_);
+  forget_pairs(head.line);
+  unpack_groups(head.line, packed->groups);
 }
 
-// Other columns have no groups.
-void StillLines::fill_ends(std::uint32_t line) {
+// Other columns have none.
+void StillLines::unpack_counts(std::uint32_t line, std::span<const std::byte> counts) {
   std::uint32_t* const end = ends(line);
-  visit_other_columns(tiles(line), width_, [&](std::uint32_t first, std::uint32_t last) {
-    std::fill(end + first, end + last, first == 0 ? 0 : end[first - 1]);
+  std::uint32_t sum = 0, done = 0;
+  const auto fill_to = [&](std::uint32_t column) {
+    std::fill(end + done, end + column, sum);
+    done = column;
+  };
+  visit_columns(tiles(line), width_, [&](std::uint32_t first, std::uint32_t last) {
+    fill_to(first);
+    for (; done < last; ++done, counts = counts.subspan(1))
+      end[done] = sum += std::to_integer<std::uint32_t>(counts.front());
   });
+  fill_to(width_);
+}
+
+void StillLines::unpack_groups(std::uint32_t line, std::span<const std::byte> from) {
+  if (casting_ > 0) {
+    std::ranges::copy(from, groups_of(line));
+    return;
+  }
+  auto* const groups = reinterpret_cast<StillGroup*>(groups_of(line));
+  const std::uint32_t count = head(line).groups;
+  const std::byte* const samples = from.data() + count * sizeof groups->light;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    std::uint16_t of_group;
+    std::memcpy(groups[k].light, from.data() + k * sizeof groups->light, sizeof groups->light);
+    std::memcpy(&of_group, samples + k * sizeof of_group, sizeof of_group);
+    groups[k].samples = of_group;
+  }
 }
 
 void StillLines::keep_pairs(std::uint32_t line, const wire::StillPairs* from) {

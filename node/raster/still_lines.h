@@ -15,6 +15,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -85,6 +86,8 @@ class StillLines {
   // Copies a line's pairs to it.
   void keep_pairs(std::uint32_t line, const wire::StillPairs* from);
 
+  // Of a line about, if a column has one group; known before the keyframe, and the same on all nodes.
+  std::uint64_t foreseen_bytes(std::uint32_t line) const;
   // What that many columns with that many groups take.
   std::size_t kept_bytes(std::size_t columns, std::size_t groups) const;
 
@@ -130,11 +133,25 @@ class StillLines {
   wire::StillPairs* pairs(std::uint32_t line) const;
   std::byte* groups_of(std::uint32_t line) const;
 
+  // Parts of a line as it travels: its head and tiles, and of marked columns in this order ...
+  struct Packed {
+    std::span<const std::byte> counts;  // a byte each, of groups
+    std::span<const std::byte> depths;  // sample by sample, of columns with groups
+    std::span<const std::byte> pairs;   // light by light, of the same columns
+    std::span<const std::byte> groups;
+  };
+
   static Head head_of(std::span<const std::byte> line);
   MarkedTiles read_tiles(std::span<const std::byte> line);
-  static bool are_ends(std::span<const std::byte> ends, std::uint32_t groups);
+  std::optional<Packed> read_packed(std::span<const std::byte> line);
   bool are_groups(std::span<const std::byte> groups) const;
-  void fill_ends(std::uint32_t line);
+  template <typename Visit>
+  void visit_shown(std::uint32_t line, const Visit& visit) const;
+  std::uint32_t count_shown(std::uint32_t line) const;
+  std::byte* pack_counts(std::uint32_t line, std::byte* to) const;
+  std::byte* pack_groups(std::uint32_t line, std::byte* to) const;
+  void unpack_counts(std::uint32_t line, std::span<const std::byte> counts);
+  void unpack_groups(std::uint32_t line, std::span<const std::byte> from);
   void forget_pairs(std::uint32_t line);
   std::size_t group_bytes() const { return wire::still_group_bytes(casting_); }
 

@@ -54,7 +54,8 @@ struct LineCounts {
   double moving_width = 0;  // in pixels, from the first edge box of moving parts to the last
   SeenCounts constant;
   SeenCounts moving;
-  double kept_width = 0;  // in pixels, of stationary parts for inbetweens (keyframes)
+  double kept_width = 0;   // in pixels, of stationary parts for inbetweens (keyframes)
+  double swept_width = 0;  // of it, what moving parts alone may change: all nodes know it before the keyframe
 };
 
 // Which nodes need not dice a caster for its shadows.

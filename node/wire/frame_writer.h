@@ -68,11 +68,15 @@ class FrameWriter {
   // The lines of a band that begins in another's home; empty: none.
   virtual std::span<const std::byte> edge() = 0;
   virtual void add_edge(std::span<const std::byte> edge) = 0;
-  // Once all edges of own bands are there: these bands, in memory that is shared; for other machines; for the node that
-  // writes the keyframe.
+  // Once all edges of own bands are there: these bands, in memory that is shared.
   virtual void finish_bands() = 0;
-  virtual std::span<const std::byte> background() = 0;
+  // For other machines: whether any are left; the next of them, as many as `bytes` hold, but one at least, which has no
+  // more than most_band_bytes().
+  virtual bool has_background() const = 0;
+  virtual std::span<const std::byte> next_background(std::size_t bytes) = 0;
+  virtual std::size_t most_band_bytes() const = 0;
   virtual void add_background(std::span<const std::byte> background) = 0;
+  // For the node that writes the keyframe.
   virtual std::span<const std::byte> picture() = 0;
   virtual void add_picture(std::span<const std::byte> picture) = 0;
 

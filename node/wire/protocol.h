@@ -48,8 +48,8 @@ enum MessageType : long {
   kClock,       // host -> node: empty, asks for the time; node -> host: its dclock(), a double
   kTrace,       // messages::Event ..., closed by one of kind lost
   kTriangles,   // TriangleHead, edge boxes, triangles, each from a cache line on
-  kStillLines,  // what inbetweens need of home lines (raster/still_lines.h); empty within a machine, once they are
-                // written
+  kStillLines,  // what inbetweens need of home lines (raster/still_lines.h), in pieces that go round machines
+                // (group/relay.h); empty within a machine, once they are written
   kBeat,
   kBeginView,  // BeginView, then a scene block: begins an interval of a view
   kDraw,       // Draw, then what moved: the next inbetween of a view's interval
@@ -59,7 +59,7 @@ enum MessageType : long {
   kWritten,     // Written
   kStorage,     // node -> host: text, a warning about storage
   kEdge,        // lines of a band, for the node that composes it
-  kBackground,  // what inbetweens need of the sender's bands; empty within a machine, once they are there
+  kBackground,  // what inbetweens need of bands, in pieces as still lines; empty within a machine, once they are there
   kPicture,     // the sender's bands of a keyframe, for the node that writes it
   kWrite,       // host -> node, before any Render: empty; the node's group writes its frames. Other groups send strips
 };

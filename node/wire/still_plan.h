@@ -53,6 +53,19 @@ constexpr std::size_t still_head_bytes(std::uint32_t width) {
   return whole_cache_lines(kStillHeadBytes + still_tile_words(width) * sizeof(std::uint64_t));
 }
 
+// Of a line as it travels to another machine: of a column, the number of its groups; of one that has any, depths and
+// pairs; of a group, light and samples.
+constexpr std::size_t still_packed_bytes(std::uint32_t samples, std::uint32_t casting) {
+  return samples * sizeof(float) + casting * sizeof(StillPairs);
+}
+constexpr std::size_t still_packed_group_bytes(std::uint32_t casting) {
+  return casting == 0 ? sizeof(StillGroup::light) + sizeof(std::uint16_t) : still_group_bytes(casting);
+}
+
+// Bytes of a message in which such lines, or bands of a background, go round machines (node/group/relay.h), unless a
+// line or a band is larger: few, so that messages are on all links at the same time.
+inline constexpr std::size_t kRelayPiece = std::size_t{64} << 10;
+
 struct StillPlan {
   std::size_t line_bytes;           // of a line
   std::uint32_t groups_per_column;  // that a line has memory for on average; 0 where there are none

@@ -120,6 +120,9 @@ void expect_pictures(const SharedRun& rendered, const wire::FilmData& data, cons
 
 std::uint64_t depth_bytes(const SharedRun& run) { return run.counts.sent({.type = wire::kStillLines}).bytes; }
 
+// Of a message of still lines, before these.
+constexpr std::uint64_t kMostHeads = 64;
+
 TEST(Sharing, AnyMachinesAndGroups) {
   for (const auto& [interval, samples] : {std::pair{4u, 1u}, {1u, 1u}, {4u, 4u}}) {
     const wire::FilmData data = film(interval, samples);
@@ -205,7 +208,8 @@ TEST(Sharing, LinesTravelOnceToEachMachine) {
   const std::uint64_t bytes = depth_bytes(two_nodes);
   EXPECT_GT(bytes, 0u);
   EXPECT_LE(bytes, std::uint64_t{kWidth} * kHeight * sizeof(float) * kFrames / 6);
-  EXPECT_EQ(depth_bytes(six_nodes), bytes);
+  EXPECT_NEAR(static_cast<double>(depth_bytes(six_nodes)), static_cast<double>(bytes),
+              static_cast<double>(kMostHeads * six_nodes.counts.sent({.type = wire::kStillLines}).messages));
 }
 
 // Of all frames.
@@ -250,8 +254,8 @@ TEST(Sharing, LinesThatAreNotKeptAreDrawnAgain) {
   }
 }
 
-// A line that is not kept is a message as well, without content: whoever waits for it knows how many come.
-TEST(Sharing, EachLineTravelsOnceKeptOrNot) {
+// Many lines are one message; lines that are not kept take nothing of it.
+TEST(Sharing, KeptLinesTravelTogether) {
   const wire::FilmData data = film(6, 4);
   const auto sent = [&](std::uint64_t still) {
     SharedRun rendered;
@@ -259,14 +263,13 @@ TEST(Sharing, EachLineTravelsOnceKeptOrNot) {
     return rendered.counts.sent({.type = wire::kStillLines});
   };
   const auto none = sent(0), few = sent(50'000), all = sent(10'000'000);
-  EXPECT_GT(all.messages, 2u * 2 * 40) << "two intervals, to two machines each";
-  EXPECT_LE(all.messages, 2u * 2 * kHeight);
-  EXPECT_EQ(all.empty, 0u);
-  EXPECT_EQ(few.messages, all.messages);
-  EXPECT_GT(few.empty, 0u);
-  EXPECT_LT(few.empty, few.messages);
-  EXPECT_EQ(none.messages, all.messages);
-  EXPECT_EQ(none.bytes, 0u);
+  constexpr std::uint64_t kParts = 2 * 3 * 2;  // of two intervals, of three nodes, to two others each
+  EXPECT_EQ(none.messages, kParts);
+  EXPECT_LE(none.bytes, kParts * kMostHeads);
+  EXPECT_GT(few.bytes, none.bytes);
+  EXPECT_GT(all.bytes, few.bytes);
+  EXPECT_GT(all.messages, kParts);
+  EXPECT_LT(all.messages, kParts + all.bytes / 30'000);
 }
 
 // Its triangles too may not fit: an inbetween then draws both in several passes.

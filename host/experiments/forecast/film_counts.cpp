@@ -170,7 +170,8 @@ wire::LineCounts operator+(const wire::LineCounts& a, const wire::LineCounts& b)
                         a.moving_width + b.moving_width,
                         a.constant,
                         a.moving,
-                        a.kept_width + b.kept_width};
+                        a.kept_width + b.kept_width,
+                        a.swept_width + b.swept_width};
   both.constant += b.constant;
   both.moving += b.moving;
   return both;

@@ -13,8 +13,10 @@ constexpr int kWorseInARow = 3;  // numbers of contributors, and fewer are not t
 
 // Both of as many nodes in as many groups.
 bool is_better(const Rehearsed& one, const Rehearsed& other) {
-  if (one.seconds < other.seconds) return true;
-  return one.seconds < kAlike * other.seconds && one.frames.front().seconds < kSoon * other.frames.front().seconds;
+  if (kAlike * one.seconds < other.seconds) return true;
+  if (kAlike * other.seconds < one.seconds) return false;
+  const double key = one.frames.front().seconds, other_key = other.frames.front().seconds;
+  return key < kSoon * other_key || (one.seconds < other.seconds && kSoon * key < other_key);
 }
 
 // All of the first few, then twice as many each time.

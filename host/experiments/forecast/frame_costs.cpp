@@ -7,6 +7,7 @@
 #include <span>
 
 #include "host/images/picture_bands.h"
+#include "node/wire/still_plan.h"
 
 namespace mars::forecast {
 namespace {
@@ -36,26 +37,14 @@ wire::UnitCounts in_whole_patches(const wire::UnitCounts& made) {
   return patches > 0 ? made * (std::ceil(patches - 1e-6) / patches) : made;
 }
 
-// Bytes on the way until a computer has what all others send it. All send to the first computer first, so that the
-// port of whoever sends `most` to each is busy with the computers before.
-double bytes_until(std::size_t computer, double in, double most) {
-  return in + most * static_cast<double>(std::max<std::size_t>(computer, 1) - 1);
-}
-
 }  // namespace
 
 // The lines of each node of a group, and what is on them.
 struct FrameCosts::Homes {
-  Homes(const wire::FrameCounts& counts, int nodes, int contributors, wire::Mapping mapping, std::uint32_t samples,
-        std::uint32_t band_lines)
+  Homes(const wire::FrameCounts& counts, int nodes, int contributors, wire::Mapping mapping,
+        const std::vector<std::uint64_t>& weights, std::uint32_t samples, std::uint32_t band_lines)
       : ranges(static_cast<std::size_t>(nodes), geometry::LineRange{0, 0}) {
     const FrameTotals all = totals_of(counts, band_lines);
-    std::vector<std::uint64_t> weights{0};
-    for (const wire::LineCounts& line : counts.lines) {
-      const raster::LineLoad load(static_cast<std::uint64_t>(line.edge_boxes),
-                                  static_cast<std::uint64_t>(line.samples));
-      weights.push_back(weights.back() + (mapping == wire::Mapping::cost ? group::line_cost(load) : load.boxes()));
-    }
     group::map_lines(mapping, weights, std::span(ranges).first(static_cast<std::size_t>(contributors)));
     edge_boxes = all.drawn.edge_boxes;
     const double rows =
@@ -89,7 +78,8 @@ GroupKeyframe FrameCosts::keyframe(const wire::FrameCounts& counts, int nodes, i
   keyframe.nodes.resize(static_cast<std::size_t>(nodes));
   auto made = made_by(counts.shares, contributors);
   made.resize(keyframe.nodes.size());
-  const Homes homes(counts, nodes, contributors, setting_.mapping, setting_.film.settings().samples, band_lines_);
+  const Homes homes(counts, nodes, contributors, setting_.mapping, line_weights(counts, inbetweens),
+                    setting_.film.settings().samples, band_lines_);
   add_dicing(keyframe, homes, made);
   if (nodes > 1) add_sum(keyframe, nodes);
   if (contributors > nodes_on_a_computer(nodes)) add_exchange(keyframe, homes, made, contributors);
@@ -175,7 +165,15 @@ FrameTotals FrameCosts::drawn_again(const wire::FrameCounts& keyframe, int nodes
 }
 
 double FrameCosts::still_bytes(const wire::FrameCounts& keyframe, int nodes) const {
-  return still_lines({0, setting_.film.settings().height}, keyframe, still_plan(nodes)).bytes;
+  const wire::FilmSettings& film = setting_.film.settings();
+  const bool has_heads = film.samples > 1 || setting_.film.casting_count() > 0;
+  const wire::StillPlan plan = still_plan(nodes);
+  double bytes = 0;
+  for (std::uint32_t line = keyframe.first_still_line; line < keyframe.last_still_line; ++line)
+    if (is_kept(keyframe, line, plan))
+      bytes +=
+          kept_bytes(keyframe.lines[line]) + (has_heads ? static_cast<double>(wire::still_head_bytes(film.width)) : 0);
+  return bytes;
 }
 
 // A line is kept where it has memory for its groups (node/raster/still_lines.h).
@@ -193,10 +191,38 @@ double FrameCosts::kept_groups(const wire::LineCounts& line) const {
 
 // Of a line that is kept.
 double FrameCosts::kept_bytes(const wire::LineCounts& line) const {
+  return line.kept_width * column_bytes(line.constant.shaded / setting_.film.settings().width);
+}
+
+// As nodes weigh lines (node/group/group_sums.h), which know what is kept but for its groups.
+std::vector<std::uint64_t> FrameCosts::line_weights(const wire::FrameCounts& counts, std::size_t inbetweens) const {
+  std::vector<std::uint64_t> weights{0};
+  for (const wire::LineCounts& line : counts.lines) {
+    const raster::LineLoad load(static_cast<std::uint64_t>(line.edge_boxes), static_cast<std::uint64_t>(line.samples));
+    const double still = inbetweens > 0 ? line.swept_width * column_bytes(1) : 0;
+    const std::uint64_t cost = group::line_cost(load, static_cast<std::uint64_t>(still));
+    weights.push_back(weights.back() + (setting_.mapping == wire::Mapping::cost ? cost : load.boxes()));
+  }
+  return weights;
+}
+
+// Of a column with so many groups.
+double FrameCosts::column_bytes(double groups) const {
   const std::uint32_t samples = setting_.film.settings().samples, casting = setting_.film.casting_count();
-  if (samples == 1 && casting == 0) return line.kept_width * sizeof(float);
-  return line.kept_width * static_cast<double>(wire::still_column_bytes(samples, casting)) +
-         kept_groups(line) * static_cast<double>(wire::still_group_bytes(casting));
+  if (samples == 1 && casting == 0) return sizeof(float);
+  return static_cast<double>(wire::still_column_bytes(samples, casting)) +
+         groups * static_cast<double>(wire::still_group_bytes(casting));
+}
+
+// As it travels; where nothing is seen, columns have no depths.
+double FrameCosts::packed_bytes(const wire::LineCounts& line) const {
+  const wire::FilmSettings& film = setting_.film.settings();
+  const std::uint32_t casting = setting_.film.casting_count();
+  if (film.samples == 1 && casting == 0) return kept_bytes(line);
+  const double shown = line.kept_width * std::min(1.0, line.constant.pixels / film.width);
+  return static_cast<double>(wire::still_head_bytes(film.width)) + line.kept_width +
+         shown * static_cast<double>(wire::still_packed_bytes(film.samples, casting)) +
+         kept_groups(line) * static_cast<double>(wire::still_packed_group_bytes(casting));
 }
 
 wire::StillPlan FrameCosts::still_plan(int nodes) const {
@@ -393,86 +419,85 @@ void FrameCosts::add_exchange(GroupKeyframe& keyframe, const Homes& homes, const
   }
 }
 
-// CZB, and with several samples shaded groups, of what inbetweens may change: to all other computers that
-// draw inbetweens.
+// CZB, and with several samples shaded groups, of what inbetweens may change.
 void FrameCosts::add_still(GroupKeyframe& keyframe, const Homes& homes, const wire::FrameCounts& counts,
                            std::size_t inbetweens) const {
-  const auto nodes = keyframe.nodes.size();
-  const auto near = static_cast<std::size_t>(nodes_on_a_computer(static_cast<int>(nodes)));
-  const std::size_t computers = (nodes + near - 1) / near, collecting = std::min(computers, inbetweens);
-  if (computers == 1) return;
-  double all_bytes = 0, all_messages = 0, most = 0;
-  std::vector<StillLines> still(nodes);
-  for (std::size_t n = 0; n < nodes; ++n) {
-    still[n] = still_lines(homes.ranges[n], counts, still_plan(1));
-    all_bytes += still[n].bytes, all_messages += still[n].messages;
-    most = std::max(most, still[n].bytes);
-  }
-  for (std::size_t n = 0; n < nodes; ++n) {
-    NodePart& node = keyframe.nodes[n];
-    const std::size_t computer = n / near;
-    const auto receivers = static_cast<double>(collecting - (computer < collecting ? 1 : 0));
-    const auto& [bytes, messages] = still[n];
-    if (messages > 0) node.still += receivers * messages * costs_.to_send(bytes / messages);
-    node.bytes_to_nodes += receivers * bytes;
-    if (computer >= collecting || n % near != 0 || all_messages <= messages) continue;
-    const double in = all_bytes - bytes, messages_in = all_messages - messages;
-    node.still += messages_in * costs_.to_receive(in / messages_in);
-    node.still_wait = costs_.on_the_way(bytes_until(computer, in, most), false) + costs_.answers(messages_in, in);
-  }
+  std::vector<StillLines> still;
+  for (const geometry::LineRange& home : homes.ranges) still.push_back(still_lines(home, counts, still_plan(1)));
+  add_relay(keyframe, still, inbetweens, &NodePart::still, &NodePart::still_wait);
 }
 
-// Bands of what stands still to all other computers that draw inbetweens, with pixels where these may draw; bands of
-// the keyframe to the node that writes it, which in the long run each node is as often.
+// Bands of what stands still, with pixels where inbetweens may draw; bands of the keyframe to the node that writes it,
+// which in the long run each node is as often.
 void FrameCosts::add_bands(GroupKeyframe& keyframe, const Homes& homes, const wire::FrameCounts& counts,
                            int contributors, std::size_t inbetweens) const {
   const auto nodes = keyframe.nodes.size();
-  const auto near = static_cast<std::size_t>(nodes_on_a_computer(static_cast<int>(nodes)));
-  const std::size_t computers = (nodes + near - 1) / near, collecting = std::min(computers, inbetweens);
+  if (nodes == 1) return;
   const geometry::LineRange touched{counts.first_still_line, counts.last_still_line};
-  const auto picture_bytes = [&](std::size_t n) {
-    return homes.ranges[n].count() * line_bytes() * setting_.platform.file_part;
-  };
-  const auto background_bytes = [&](std::size_t n) {
-    return picture_bytes(n) + geometry::overlap(homes.ranges[n], touched).count() * line_bytes();
-  };
-  double all = 0, most = 0;
-  for (std::size_t n = 0; n < nodes; ++n) {
-    all += background_bytes(n);
-    most = std::max(most, background_bytes(n));
+  const double written = file_bytes() / static_cast<double>(nodes);  // by a node
+  std::vector<StillLines> background(nodes);
+  for (std::size_t n = 0; n < static_cast<std::size_t>(contributors); ++n) {
+    const geometry::LineRange& home = homes.ranges[n];
+    const double picture = home.count() * line_bytes() * setting_.platform.file_part;
+    background[n].bytes = picture + geometry::overlap(home, touched).count() * line_bytes();
+    background[n].messages = pieces(background[n].bytes, band_lines_ * line_bytes());
+    keyframe.nodes[n].bands += costs_.to_send(picture);
+    keyframe.nodes[n].bytes_to_nodes += picture;
   }
-  for (std::size_t n = 0; n < nodes; ++n) {
-    NodePart& node = keyframe.nodes[n];
-    const std::size_t computer = n / near;
-    const auto receivers = static_cast<double>(collecting - (computer < collecting ? 1 : 0));
-    if (n < static_cast<std::size_t>(contributors) && nodes > 1) {
-      node.bands += costs_.to_send(picture_bytes(n)) + receivers * costs_.to_send(background_bytes(n));
-      node.bytes_to_nodes += picture_bytes(n) + receivers * background_bytes(n);
-    }
-    if (nodes > 1)  // what one writer receives, by turns
-      node.bands += costs_.to_receive(file_bytes() / static_cast<double>(nodes));
-    if (computer >= collecting || n % near != 0 || computers == 1) continue;
-    const double in = all - background_bytes(n);
-    node.bands += static_cast<double>(nodes - 1) * costs_.to_receive(in / static_cast<double>(nodes - 1));
-    node.bands_wait =
-        costs_.on_the_way(bytes_until(computer, in, most) + file_bytes() / static_cast<double>(nodes), false) +
-        costs_.answers(static_cast<double>(nodes - 1), in);
+  add_relay(keyframe, background, inbetweens, &NodePart::bands, &NodePart::bands_wait);
+  for (NodePart& node : keyframe.nodes) {
+    node.bands += costs_.to_receive(written);
+    node.bands_wait = std::max(node.bands_wait, costs_.on_the_way(written, false));
   }
 }
 
-// Of those on `home`, what a node sends to one computer.
+// What each node has goes round the computers that draw inbetweens, which are the first (node/group/relay.h): a head
+// receives all but its own, and passes on all but what the next has, the last nothing that came from beyond them.
+void FrameCosts::add_relay(GroupKeyframe& keyframe, const std::vector<StillLines>& of, std::size_t inbetweens,
+                           double NodePart::*seconds, double NodePart::*wait) const {
+  const auto near = static_cast<std::size_t>(nodes_on_a_computer(static_cast<int>(of.size())));
+  const std::size_t computers = (of.size() + near - 1) / near, collecting = std::min(computers, inbetweens);
+  if (computers == 1 || collecting == 0) return;
+  StillLines all;
+  std::vector<StillLines> on(computers);
+  for (std::size_t n = 0; n < of.size(); ++n) all += of[n], on[n / near] += of[n];
+  StillLines beyond;
+  for (std::size_t computer = collecting; computer < computers; ++computer) beyond += on[computer];
+  const double piece = all.messages > 0 ? all.bytes / all.messages : 0;
+  const auto sends = [&](NodePart& node, const StillLines& some) {
+    node.*seconds += some.messages * costs_.to_send(piece);
+    node.bytes_to_nodes += some.bytes;
+  };
+  const double step =
+      costs_.to_receive(piece) + costs_.to_send(piece) + costs_.on_the_way(piece, false) + costs_.answers(1, piece);
+  for (std::size_t n = 0; n < of.size(); ++n) {
+    NodePart& node = keyframe.nodes[n];
+    const std::size_t computer = n / near;
+    if (collecting > 1 || computer > 0) sends(node, of[n]);
+    if (computer >= collecting || n % near != 0) continue;
+    const StillLines in = all - on[computer];
+    node.*seconds += in.messages * costs_.to_receive(piece);
+    const bool is_last = computer + 1 == collecting;
+    if (collecting > 1) sends(node, in - on[(computer + 1) % collecting] - (is_last ? beyond : StillLines()));
+    node.*wait = costs_.on_the_way(in.bytes, false) + costs_.answers(in.messages, in.bytes) +
+                 static_cast<double>(collecting - 1) * step;
+  }
+}
+
+// In which so many bytes go round, of which `smallest` stay together.
+double FrameCosts::pieces(double bytes, double smallest) const {
+  return std::ceil(bytes / std::max(smallest, static_cast<double>(wire::kRelayPiece)));
+}
+
+// Of those on `home`, in pieces.
 FrameCosts::StillLines FrameCosts::still_lines(const geometry::LineRange& home, const wire::FrameCounts& counts,
                                                const wire::StillPlan& plan) const {
-  const wire::FilmSettings& film = setting_.film.settings();
   const geometry::LineRange lines = geometry::overlap(home, {counts.first_still_line, counts.last_still_line});
-  const bool groups = film.samples > 1 || setting_.film.casting_count() > 0;
   StillLines still;
-  still.messages = groups ? lines.count() : std::min(1u, lines.count());
-  for (std::uint32_t line = lines.first; line < lines.last; ++line) {
-    if (!is_kept(counts, line, plan)) continue;
-    still.bytes +=
-        kept_bytes(counts.lines[line]) + (groups ? static_cast<double>(wire::still_head_bytes(film.width)) : 0);
-  }
+  if (lines.count() == 0) return still;
+  for (std::uint32_t line = lines.first; line < lines.last; ++line)
+    if (is_kept(counts, line, plan)) still.bytes += packed_bytes(counts.lines[line]);
+  still.messages = std::max(1.0, pieces(still.bytes, still.bytes / lines.count()));
   return still;
 }
 

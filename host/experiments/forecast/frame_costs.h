@@ -72,9 +72,16 @@ class FrameCosts {
  private:
   struct Homes;
 
+  // Or bands: in messages.
   struct StillLines {
     double bytes = 0;
     double messages = 0;
+
+    StillLines& operator+=(const StillLines& more) {
+      bytes += more.bytes, messages += more.messages;
+      return *this;
+    }
+    StillLines operator-(const StillLines& less) const { return {bytes - less.bytes, messages - less.messages}; }
   };
   StillLines still_lines(const geometry::LineRange& home, const wire::FrameCounts& counts,
                          const wire::StillPlan& plan) const;
@@ -96,6 +103,9 @@ class FrameCosts {
   bool is_kept(const wire::FrameCounts& keyframe, std::uint32_t line, const wire::StillPlan& plan) const;
   double kept_groups(const wire::LineCounts& line) const;
   double kept_bytes(const wire::LineCounts& line) const;
+  double column_bytes(double groups) const;
+  double packed_bytes(const wire::LineCounts& line) const;
+  std::vector<std::uint64_t> line_weights(const wire::FrameCounts& counts, std::size_t inbetweens) const;
   wire::StillPlan still_plan(int nodes) const;
   double made_bytes(const wire::UnitCounts& made) const;
   double arena_bytes() const;
@@ -106,6 +116,9 @@ class FrameCosts {
                     int contributors) const;
   void add_still(GroupKeyframe& keyframe, const Homes& homes, const wire::FrameCounts& counts,
                  std::size_t inbetweens) const;
+  void add_relay(GroupKeyframe& keyframe, const std::vector<StillLines>& of, std::size_t inbetweens,
+                 double NodePart::*seconds, double NodePart::*wait) const;
+  double pieces(double bytes, double smallest) const;
   int nodes_on_a_computer(int nodes) const;
   double pixel_bytes() const { return static_cast<double>(wire::pixel_bytes(setting_.pixels())); }
   double line_bytes() const { return setting_.film.settings().width * pixel_bytes(); }

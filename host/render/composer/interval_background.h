@@ -18,7 +18,9 @@ class IntervalBackground {
   explicit IntervalBackground(const images::PictureBands& bands);
 
   // Pages are used as bands are written.
-  std::size_t bytes() const { return (pixel_bytes_ + slot_bytes_) * bands_.count(); }
+  std::size_t bytes() const { return band_bytes() * bands_.count(); }
+  // Of a band at most.
+  std::size_t band_bytes() const { return pixel_bytes_ + slot_bytes_; }
   void use(std::span<std::byte> memory) { memory_ = memory; }
 
   // A record, and the band's pixels or none of them.

@@ -59,6 +59,7 @@ void NodeWriter::begin_keyframe(const Keyframe& keyframe) {
   is_keyframe_ = true;
   for (auto* message : {&edge_, &background_message_, &picture_message_}) message->clear();
   pictures_.clear();
+  background_given_ = 0;
   shared_.lines = 0;
   composer_.begin_keyframe(lines_of(keyframe.home), keyframe.background,
                            [this](const BandComposer::Part& part) { take_keyframe_part(part); });
@@ -157,6 +158,19 @@ void NodeWriter::finish_band(std::uint32_t band, bool is_touched, std::span<cons
 bool NodeWriter::inbetweens_touch(std::uint32_t band) const {
   const images::Lines lines = bands_.lines_of(band);
   return lines.first < keyframe_.touched.end && keyframe_.touched.first < lines.end;
+}
+
+std::span<const std::byte> NodeWriter::next_background(std::size_t bytes) {
+  const std::span<const std::byte> left = std::span(background_message_).subspan(background_given_);
+  std::size_t given = 0;
+  for (std::span<const std::byte> rest = left; !rest.empty();) {
+    take_record(rest, bands_);
+    const std::size_t with_it = left.size() - rest.size();
+    if (given > 0 && with_it > bytes) break;
+    given = with_it;
+  }
+  background_given_ += given;
+  return left.first(given);
 }
 
 void NodeWriter::add_background(std::span<const std::byte> background) {

@@ -31,7 +31,9 @@ class NodeWriter : public wire::FrameWriter {
   std::span<const std::byte> edge() override { return edge_; }
   void add_edge(std::span<const std::byte> edge) override;
   void finish_bands() override;
-  std::span<const std::byte> background() override { return background_message_; }
+  bool has_background() const override { return background_given_ < background_message_.size(); }
+  std::span<const std::byte> next_background(std::size_t bytes) override;
+  std::size_t most_band_bytes() const override { return background_.band_bytes(); }
   void add_background(std::span<const std::byte> background) override;
   std::span<const std::byte> picture() override { return picture_message_; }
   void add_picture(std::span<const std::byte> picture) override;
@@ -71,6 +73,7 @@ class NodeWriter : public wire::FrameWriter {
   // The keyframe that was begun last, and its interval.
   Keyframe keyframe_{};
   std::vector<std::byte> edge_, background_message_, picture_message_;
+  std::size_t background_given_ = 0;  // bytes of the message
   SharedBand shared_;
   std::vector<std::vector<std::byte>> pictures_;  // messages; of a node that writes the keyframe
 

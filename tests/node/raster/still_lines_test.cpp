@@ -47,13 +47,22 @@ std::vector<std::byte> packed(const StillLines& still, std::uint32_t line) {
   return bytes;
 }
 
+// Of `groups` groups evenly over the columns: where column `x` ends, and whether it has any.
+std::uint32_t end_of(std::uint32_t x, std::uint32_t groups) { return groups * (x + 1) / kWidth; }
+bool shows(std::uint32_t x, std::uint32_t groups) { return end_of(x, groups) > (x == 0 ? 0 : end_of(x - 1, groups)); }
+
+// Where nothing is seen, there is no depth.
+float depth_of(std::uint32_t line, std::uint32_t sample, std::uint32_t x, std::uint32_t groups) {
+  return shows(x, groups) ? static_cast<float>(1000 * line + 100 * sample + x) : 0;
+}
+
 // Depths and groups that tell their line and place; `groups` of them, evenly over the columns.
 bool write(StillLines& still, std::uint32_t line, std::uint32_t groups) {
   if (!still.begin_line(line, groups)) return false;
   for (std::uint32_t s = 0; s < kSamples; ++s)
-    for (std::uint32_t x = 0; x < kWidth; ++x) still.depth(line, s)[x] = static_cast<float>(1000 * line + 100 * s + x);
+    for (std::uint32_t x = 0; x < kWidth; ++x) still.depth(line, s)[x] = depth_of(line, s, x, groups);
   const StillGroups out = still.groups(line);
-  for (std::uint32_t x = 0; x < kWidth; ++x) out.end[x] = groups * (x + 1) / kWidth;
+  for (std::uint32_t x = 0; x < kWidth; ++x) out.end[x] = end_of(x, groups);
   for (std::uint32_t k = 0; k < groups; ++k)
     out.groups[k] = {{static_cast<float>(line), 0.5f, static_cast<float>(k)}, k};
   return true;
@@ -62,8 +71,7 @@ bool write(StillLines& still, std::uint32_t line, std::uint32_t groups) {
 void expect_kept(StillLines& still, std::uint32_t line, std::uint32_t groups) {
   ASSERT_TRUE(still.keeps(line)) << line;
   for (std::uint32_t s = 0; s < kSamples; ++s)
-    for (std::uint32_t x = 0; x < kWidth; ++x)
-      ASSERT_EQ(still.depth(line, s)[x], static_cast<float>(1000 * line + 100 * s + x));
+    for (std::uint32_t x = 0; x < kWidth; ++x) ASSERT_EQ(still.depth(line, s)[x], depth_of(line, s, x, groups));
   std::uint32_t k = 0;
   for (std::uint32_t x = 0; x < kWidth; ++x)
     for (const StillGroup& group : still.groups(line).of(x)) {
@@ -164,28 +172,32 @@ TEST(StillLines, TravelBetweenMachinesWithMoreAndLessMemory) {
   });
 }
 
+// Whether a line in which a byte is another is still one.
+bool takes(StillLines& still, std::vector<std::byte> line, std::size_t at, std::uint32_t byte) {
+  line[at] = static_cast<std::byte>(byte);
+  return still.is_packed(line);
+}
+
 TEST(StillLines, OfOtherMachinesAreSound) {
   as_node([](const Neighbours& alone) {
     StillLines still = lines_of(alone, kAmple);
     still.begin_interval(kInterval, {1, 8});
     write(still, 3, 5);
-    const auto bytes = packed(still, 3);
-    const std::span sound(bytes);
+    const auto sound = packed(still, 3);
     ASSERT_TRUE(still.is_packed(sound));
     for (const std::size_t size : {std::size_t{0}, std::size_t{3}, std::size_t{64}, sound.size() - 1})
-      EXPECT_FALSE(still.is_packed(sound.first(size))) << size;
-    const auto takes = [&](std::size_t at, std::uint32_t word) {
-      std::vector<std::uint32_t> damaged(sound.size() / sizeof word);
-      std::memcpy(damaged.data(), sound.data(), sound.size());
-      damaged[at] = word;
-      return still.is_packed(std::as_bytes(std::span(damaged)));
-    };
-    for (std::size_t at = 0; at < 4; ++at) EXPECT_FALSE(takes(at, 99)) << "word " << at << " of its head";
-    const std::size_t groups = sound.size() / 4 - 5 * sizeof(StillGroup) / 4;
-    EXPECT_FALSE(takes(groups - 1, 6)) << "columns end behind the last group";
-    EXPECT_FALSE(takes(groups - kWidth, 6)) << "a column ends behind the next";
-    EXPECT_FALSE(takes(groups + 3, ~0u)) << "more samples than a pixel has";
-    EXPECT_TRUE(takes(groups, 0)) << "light of any amount";
+      EXPECT_FALSE(still.is_packed(std::span(sound).first(size))) << size;
+    for (std::size_t at = 0; at < 16; at += 4)
+      EXPECT_FALSE(takes(still, sound, at, 99)) << "byte " << at << " of its head";
+    const std::size_t counts = wire::still_head_bytes(kWidth),
+                      groups = sound.size() - 5 * wire::still_packed_group_bytes(0);
+    EXPECT_EQ(groups, counts + kWidth + 5 * wire::still_packed_bytes(kSamples, 0)) << "five columns have a group";
+    EXPECT_FALSE(takes(still, sound, counts, 1)) << "more groups than the line has";
+    EXPECT_FALSE(takes(still, sound, counts + 1, 0)) << "fewer";
+    EXPECT_FALSE(takes(still, sound, counts + 1, kSamples + 1)) << "more than a pixel has samples";
+    EXPECT_FALSE(takes(still, sound, sound.size() - 1, 0xff)) << "more samples than a pixel has";
+    EXPECT_TRUE(takes(still, sound, groups, 0xff)) << "light of any amount";
+    EXPECT_TRUE(takes(still, sound, groups - 1, 0xff)) << "any depth";
   });
 }
 
@@ -214,15 +226,19 @@ StillLines casting_lines_of(const Neighbours& neighbours, std::uint64_t bytes, s
   return {neighbours, kWidth, kHeight, shape::sample_pattern(samples), bytes, kCasting};
 }
 
+wire::StillPairs pairs_of(std::uint32_t line, std::uint32_t p, std::uint32_t groups) {
+  if (!shows(p % kWidth, groups)) return {0, 0};
+  return {static_cast<std::uint16_t>(100 * line + p), static_cast<std::uint16_t>(~p)};
+}
+
 // As write() above, with light that is not summed up and pairs.
 bool write_unsummed(StillLines& still, std::uint32_t line, std::uint32_t groups, std::uint32_t samples) {
   if (!still.begin_line(line, groups)) return false;
   for (std::uint32_t s = 0; s < samples; ++s)
-    for (std::uint32_t x = 0; x < kWidth; ++x) still.depth(line, s)[x] = static_cast<float>(1000 * line + 100 * s + x);
+    for (std::uint32_t x = 0; x < kWidth; ++x) still.depth(line, s)[x] = depth_of(line, s, x, groups);
   const UnsummedStill out = still.unsummed(line);
-  for (std::uint32_t x = 0; x < kWidth; ++x) out.end[x] = groups * (x + 1) / kWidth;
-  for (std::uint32_t p = 0; p < kCasting * kWidth; ++p)
-    out.pairs[p] = {static_cast<std::uint16_t>(100 * line + p), static_cast<std::uint16_t>(~p)};
+  for (std::uint32_t x = 0; x < kWidth; ++x) out.end[x] = end_of(x, groups);
+  for (std::uint32_t p = 0; p < kCasting * kWidth; ++p) out.pairs[p] = pairs_of(line, p, groups);
   for (std::uint32_t k = 0; k < groups; ++k) {
     wire::UnsummedGroup& group = out.group(k);
     group = {k % (1u << samples), 0.25f, {static_cast<float>(line), 0.5f, static_cast<float>(k)}};
@@ -234,13 +250,12 @@ bool write_unsummed(StillLines& still, std::uint32_t line, std::uint32_t groups,
 void expect_unsummed(StillLines& still, std::uint32_t line, std::uint32_t groups, std::uint32_t samples) {
   ASSERT_TRUE(still.keeps(line)) << line;
   for (std::uint32_t s = 0; s < samples; ++s)
-    for (std::uint32_t x = 0; x < kWidth; ++x)
-      ASSERT_EQ(still.depth(line, s)[x], static_cast<float>(1000 * line + 100 * s + x));
+    for (std::uint32_t x = 0; x < kWidth; ++x) ASSERT_EQ(still.depth(line, s)[x], depth_of(line, s, x, groups));
   const UnsummedStill kept = still.unsummed(line);
-  for (std::uint32_t x = 0; x < kWidth; ++x) ASSERT_EQ(kept.end[x], groups * (x + 1) / kWidth);
+  for (std::uint32_t x = 0; x < kWidth; ++x) ASSERT_EQ(kept.end[x], end_of(x, groups));
   for (std::uint32_t p = 0; p < kCasting * kWidth; ++p) {
-    ASSERT_EQ(kept.pairs[p].lit, static_cast<std::uint16_t>(100 * line + p));
-    ASSERT_EQ(kept.pairs[p].blocked, static_cast<std::uint16_t>(~p));
+    ASSERT_EQ(kept.pairs[p].lit, pairs_of(line, p, groups).lit);
+    ASSERT_EQ(kept.pairs[p].blocked, pairs_of(line, p, groups).blocked);
   }
   for (std::uint32_t k = 0; k < groups; ++k) {
     const wire::UnsummedGroup& group = kept.group(k);
@@ -299,30 +314,23 @@ TEST(StillLines, WhereLightsCastOfOtherMachinesAreSound) {
     StillLines still = casting_lines_of(alone, 1 << 20, kSamples);
     still.begin_interval(kInterval, {1, 8});
     write_unsummed(still, 3, 5, kSamples);
-    const auto bytes = packed(still, 3);
-    const std::span sound(bytes);
+    const auto sound = packed(still, 3);
     ASSERT_TRUE(still.is_packed(sound));
-    const std::size_t group = wire::still_group_bytes(kCasting);
+    const std::size_t group = wire::still_packed_group_bytes(kCasting);
     for (const std::size_t less : {std::size_t{1}, std::size_t{4}, group, 5 * group, sound.size()})
-      EXPECT_FALSE(still.is_packed(sound.first(sound.size() - less))) << less;
-    const auto takes = [&](std::size_t at, std::uint32_t word) {
-      std::vector<std::uint32_t> damaged(sound.size() / sizeof word);
-      std::memcpy(damaged.data(), sound.data(), sound.size());
-      damaged[at] = word;
-      return still.is_packed(std::as_bytes(std::span(damaged)));
-    };
-    const std::size_t groups = (sound.size() - 5 * group) / 4, ends = groups - kCasting * kWidth;
-    EXPECT_FALSE(takes(ends - 1, 6)) << "columns end behind the last group";
-    EXPECT_FALSE(takes(ends - kWidth, 6)) << "a column ends behind the next";
-    EXPECT_FALSE(takes(groups + group / 4, ~0u)) << "more samples than a pixel has";
-    EXPECT_TRUE(takes(groups - 1, ~0u)) << "any pairs";
-    EXPECT_TRUE(takes(groups + 1, ~0u)) << "light of any amount";
+      EXPECT_FALSE(still.is_packed(std::span(sound).first(sound.size() - less))) << less;
+    const std::size_t counts = wire::still_head_bytes(kWidth), groups = sound.size() - 5 * group;
+    EXPECT_FALSE(takes(still, sound, counts + kWidth - 1, 2)) << "more groups than the line has";
+    EXPECT_FALSE(takes(still, sound, groups + group, 0xff)) << "more samples than a pixel has";
+    EXPECT_TRUE(takes(still, sound, groups - 1, 0xff)) << "any pairs";
+    EXPECT_TRUE(takes(still, sound, groups + 4, 0xff)) << "light of any amount";
   });
 }
 
 constexpr std::uint32_t kWide = 40, kOfTile = 3;  // columns of a line; groups of a marked tile
 constexpr std::uint32_t kMarked[] = {1, 3};       // tiles
 
+bool has_some(std::uint32_t column) { return column == 8 || column == 24; }
 bool is_marked(std::uint32_t column) { return column / wire::kStillTile == 1 || column / wire::kStillTile == 3; }
 
 void mark(StillLines& still) {
@@ -330,12 +338,13 @@ void mark(StillLines& still) {
   for (const std::uint32_t tile : kMarked) still.marks().mark({0, kHeight}, {8 * tile, 8 * tile + 1});
 }
 
-// Three groups on the first column of each marked tile; depths and pairs of all columns.
+// Three groups on the first column of each marked tile; depths and pairs there, and on columns that are not kept.
 void write_marked(StillLines& still, std::uint32_t line, std::uint32_t casting) {
   ASSERT_TRUE(still.begin_line(line, 2 * kOfTile));
   std::vector<float> depths(kWide);
   for (std::uint32_t s = 0; s < kSamples; ++s) {
-    for (std::uint32_t x = 0; x < kWide; ++x) depths[x] = static_cast<float>(100 * s + x + 1);
+    for (std::uint32_t x = 0; x < kWide; ++x)
+      depths[x] = is_marked(x) && !has_some(x) ? 0 : static_cast<float>(100 * s + x + 1);
     EXPECT_EQ(still.keep_depths(line, s, depths.data()), 16u);
   }
   std::uint32_t* const end = casting > 0 ? still.unsummed(line).end : still.groups(line).end;
@@ -346,7 +355,8 @@ void write_marked(StillLines& still, std::uint32_t line, std::uint32_t casting) 
     else
       still.groups(line).groups[k] = {{1, 2, 3}, k};
   std::vector<wire::StillPairs> pairs(std::size_t{casting} * kWide);
-  for (std::uint32_t p = 0; p < pairs.size(); ++p) pairs[p] = {static_cast<std::uint16_t>(p + 1), 7};
+  for (std::uint32_t p = 0; p < pairs.size(); ++p)
+    if (has_some(p % kWide) || !is_marked(p % kWide)) pairs[p] = {static_cast<std::uint16_t>(p + 1), 7};
   if (casting > 0) still.keep_pairs(line, pairs.data());
 }
 
@@ -367,16 +377,16 @@ void expect_marked(StillLines& still, std::uint32_t line, std::uint32_t casting)
     std::vector<float> depths(kWide);
     still.take_depths(line, s, {3, kWide - 12}, depths.data());
     for (std::uint32_t x = 0; x < kWide; ++x)
-      EXPECT_EQ(depths[x], is_marked(x) && x < kWide - 12 ? static_cast<float>(100 * s + x + 1) : 0.0f) << x;
+      EXPECT_EQ(depths[x], has_some(x) && x < kWide - 12 ? static_cast<float>(100 * s + x + 1) : 0.0f) << x;
   }
   const std::uint32_t* const end = casting > 0 ? still.unsummed(line).end : still.groups(line).end;
   for (std::uint32_t x = 0; x < kWide; ++x) {
     EXPECT_EQ(has_column(still.columns(line), x), is_marked(x));
-    EXPECT_EQ(end[x] - (x == 0 ? 0 : end[x - 1]), x == 8 || x == 24 ? kOfTile : 0) << x;
+    EXPECT_EQ(end[x] - (x == 0 ? 0 : end[x - 1]), has_some(x) ? kOfTile : 0) << x;
     for (std::uint32_t l = 0; l < casting; ++l) {
       const wire::StillPairs pairs = still.unsummed(line).pairs[l * kWide + x];
-      EXPECT_EQ(pairs.lit, is_marked(x) ? l * kWide + x + 1 : 0u);
-      EXPECT_EQ(pairs.blocked, is_marked(x) ? 7u : 0u);
+      EXPECT_EQ(pairs.lit, has_some(x) ? l * kWide + x + 1 : 0u);
+      EXPECT_EQ(pairs.blocked, has_some(x) ? 7u : 0u);
     }
   }
 }
@@ -399,8 +409,8 @@ TEST(StillLines, AreKeptOnMarkedColumnsAlone) {
         write_marked(home, line, casting);
         expect_marked(home, line, casting);
         const auto bytes = packed(home, line);
-        EXPECT_EQ(bytes.size(), wire::still_head_bytes(kWide) + 16 * wire::still_column_bytes(kSamples, casting) +
-                                    2 * kOfTile * wire::still_group_bytes(casting));
+        EXPECT_EQ(bytes.size(), wire::still_head_bytes(kWide) + 16 + 2 * wire::still_packed_bytes(kSamples, casting) +
+                                    2 * kOfTile * wire::still_packed_group_bytes(casting));
         ASSERT_TRUE(other.is_packed(bytes));
         other.unpack(bytes);
         expect_marked(other, line, casting);
