@@ -96,8 +96,8 @@ TEST(ForecastsOfClusters, AreAsSimulated) {
        {Cluster{"slow computers", "fat-tree", "{}", R"({"computers": {"speeds": [[1, 0.5]]}})", 1.5},
         Cluster{"detours", "fat-tree", "{}",
                 R"({"noise": {"seed": 3, "detours": 2000, "detour": 1.5e-4, "lengths": "exponential"}})", 1.3},
-        Cluster{"announced messages", "ethernet", R"({"network": {"latency": 1e-3}})",
-                R"({"network": {"latency": 1e-3, "eager": 1000}})", 1.1},
+        Cluster{"announced messages", "ethernet", R"({"network": {"latency": 5e-4}})",
+                R"({"network": {"latency": 5e-4, "eager": 1000}})", 1.08},
         Cluster{"a slow server", "ethernet", "{}", R"({"storage": {"rate": 1e6}})", 1.5},
         Cluster{"slow writers", "ethernet", "{}", R"({"storage": {"writer_rate": 2e6}})", 1.5}}) {
     const auto film = [&](const char* patch) {
