@@ -8,6 +8,8 @@ namespace mars::simulated {
 
 class Calendar {
  public:
+  // When work of `seconds` could begin, not before `time`.
+  double free_at(double time, double seconds) const;
   // When work of `seconds` begins that could begin at `time`. Nothing comes that begins before `floor`.
   double book(double time, double seconds, double floor);
 

@@ -22,6 +22,14 @@ class Routes {
   // arrive in the order in which they are given. No message will be given with a time before `floor`.
   double arrival(int from, int to, std::size_t bytes, double time, double floor);
 
+  // Whether only an announcement goes at first, an empty message.
+  bool announces(int from, int to, std::size_t bytes) const { return from != to && bytes > network_.eager; }
+  // When the last byte arrives of an announced message that `to` answers at `time`: the answer, then the bytes. Where
+  // these hold channels, others that are given until the answer comes wait behind them.
+  double rest_arrival(int from, int to, std::size_t bytes, double time, double floor) {
+    return arrival(from, to, bytes, arrival(to, from, 0, time, floor), floor);
+  }
+
  private:
   struct Part {
     std::uint64_t name;

@@ -1,5 +1,6 @@
 #include "hal/simulated/simulated_backend.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "hal/failure/failure.h"
@@ -10,6 +11,8 @@ namespace {
 // As the contract says: who gives so much has nothing to do before a message comes.
 constexpr std::chrono::microseconds kPatient{5000};
 
+constexpr messages::Ticket kSent = 0;  // of a message that is sent at once
+
 }  // namespace
 
 void SimulatedBackend::send(int to, int type, const void* data, std::size_t length) {
@@ -18,7 +21,29 @@ void SimulatedBackend::send(int to, int type, const void* data, std::size_t leng
 
 messages::Ticket SimulatedBackend::start_send(int to, int type, const void* data, std::size_t length) {
   send(to, type, data, length);
-  return 0;
+  return kSent;
+}
+
+std::optional<messages::Ticket> SimulatedBackend::start_take(void* buffer) {
+  const World::Taken taken = world_.begin_take(rank_, buffer);
+  if (taken.there <= seconds()) {
+    world_.end_take(rank_, taken.length);
+    return std::nullopt;
+  }
+  world_.set_alarm(rank_, taken.there);
+  auto place = std::ranges::find(coming_, World::kNever, &World::Taken::there);
+  if (place == coming_.end()) place = coming_.insert(place, World::Taken{});
+  *place = taken;
+  return kSent + 1 + static_cast<messages::Ticket>(place - coming_.begin());
+}
+
+bool SimulatedBackend::sent(messages::Ticket ticket) {
+  if (ticket == kSent) return true;
+  World::Taken& message = coming_[static_cast<std::size_t>(ticket - kSent - 1)];
+  if (message.there > seconds()) return false;
+  message.there = World::kNever;
+  world_.end_take(rank_, message.length);
+  return true;
 }
 
 void SimulatedBackend::idle(int, std::chrono::microseconds longest) {

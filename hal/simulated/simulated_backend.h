@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "hal/messages/backend.h"
 #include "hal/messages/pages.h"
@@ -23,9 +24,10 @@ class SimulatedBackend : public messages::Backend {
   int nodes() const override { return world_.nodes(); }
   void send(int to, int type, const void* data, std::size_t length) override;
   messages::Ticket start_send(int to, int type, const void* data, std::size_t length) override;
-  bool sent(messages::Ticket) override { return true; }
+  bool sent(messages::Ticket ticket) override;
   std::optional<messages::Envelope> peek() override { return world_.peek(rank_); }
   void take(void* buffer) override { world_.take(rank_, buffer); }
+  std::optional<messages::Ticket> start_take(void* buffer) override;
   void idle(int turn, std::chrono::microseconds longest) override;
   double seconds() const override { return world_.clock(rank_); }
   bool has_machine_clock() const override { return false; }
@@ -44,7 +46,8 @@ class SimulatedBackend : public messages::Backend {
  private:
   World& world_;
   const int rank_;
-  int shared_ = 0;  // blocks of shared memory so far
+  std::vector<World::Taken> coming_;  // and not yet there; of a free place, never
+  int shared_ = 0;                    // blocks of shared memory so far
   bool finishing_ = false;
 };
 

@@ -9,70 +9,42 @@
 namespace mars::simulated {
 namespace {
 
-int computers_of(const Machine& machine, int nodes) { return (nodes + machine.nodes - 1) / machine.nodes; }
+// Processors that ranks share, and channels that a message holds all at once, must be used in the order of time.
+bool must_be_ordered(const Machine& machine, const Computers& computers) {
+  return machine.network.topology == Topology::hypercube || computers.any_crowded();
+}
 
 }  // namespace
 
 World::World(const Machine& machine, int nodes)
     : machine_(machine),
       nodes_(nodes),
-      routes_(machine.network, computers_of(machine, nodes), machine.host_apart ? computers_of(machine, nodes) : 0),
+      computers_(machine_, nodes),
+      routes_(machine.network, computers_.count(), computers_.of(nodes)),
       storage_(machine.storage, machine.network),
+      ordered_(must_be_ordered(machine, computers_)),
       left_(nodes + 1) {
   check(nodes >= 1 && machine.nodes >= 1 && machine.processors >= 1, "there are a node and a processor");
-  const int computers = computers_of(machine, nodes);
-  processors_.assign(static_cast<std::size_t>(computers), std::vector<double>(machine.processors));
-  if (machine.host_apart) processors_.emplace_back(machine.host_processors);
-  ordered_ = must_be_ordered();
   for (int rank = 0; rank <= nodes; ++rank) {
     ranks_.push_back(std::make_unique<Rank>());
     if (rank < nodes) queue_.emplace(0, rank);
   }
 }
 
-int World::computer_of(int rank) const {
-  if (rank < nodes_) return rank / machine_.nodes;
-  return machine_.host_apart ? computers_of(machine_, nodes_) : 0;
-}
-
-int World::nodes_on(int computer) const { return std::clamp(nodes_ - computer * machine_.nodes, 0, machine_.nodes); }
-
-// Processors that ranks share, and channels that a message holds all at once, must be used in the order of time.
-bool World::must_be_ordered() const {
-  bool shared = machine_.network.topology == Topology::hypercube;
-  for (std::size_t computer = 0; computer < processors_.size(); ++computer)
-    shared |= workers_on(static_cast<int>(computer)) > processors_[computer].size();
-  return shared;
-}
-
-std::size_t World::workers_on(int computer) const {
-  return static_cast<std::size_t>(nodes_on(computer)) + (computer_of(nodes_) == computer ? 1 : 0);
-}
-
-// Ranks with a processor each never wait for one.
 void World::work(int rank, double seconds) {
+  if (computers_.crowded(computer_of(rank))) let_earlier_run(rank);
   Rank& self = *ranks_[rank];
-  const int computer = computer_of(rank);
-  std::vector<double>& processors = processors_[computer];
-  if (machine_.slowness) seconds *= machine_.slowness(computer, self.clock);
-  if (workers_on(computer) <= processors.size()) {
-    self.clock += seconds;
-    return;
-  }
-  let_earlier_run(rank);
-  double& free = *std::ranges::min_element(processors);
-  self.clock = free = std::max(self.clock, free) + seconds;
+  self.clock = computers_.work(rank, self.clock, seconds);
 }
 
 double World::reserve(int rank, double seconds) {
   let_earlier_run(rank);
-  double& free = *std::ranges::min_element(processors_[computer_of(rank)]);
-  return free = std::max(clock(rank), free) + seconds;
+  return computers_.reserve(rank, clock(rank), seconds);
 }
 
 double World::store(int rank, double begin, double bytes) {
   let_earlier_run(rank);
-  return storage_.write(begin, bytes, floor_at(clock(rank)));
+  return storage_.write(computer_of(rank), begin, bytes, floor_at(clock(rank)));
 }
 
 double World::seconds_of(const std::vector<EndCost>& costs, std::size_t length) const {
@@ -92,10 +64,11 @@ void World::send(int from, int to, int type, const void* data, std::size_t lengt
   work(from, end_seconds(from, machine_.network.send, length));
   let_earlier_run(from);
   const double now = clock(from);
-  const double arrival =
-      from == to ? now : routes_.arrival(computer_of(from), computer_of(to), length, now, floor_at(now));
+  const int here = computer_of(from), there = computer_of(to);
+  const bool announced = routes_.announces(here, there, length);
+  const double arrival = from == to ? now : routes_.arrival(here, there, announced ? 0 : length, now, floor_at(now));
   Rank& receiver = *ranks_[to];
-  receiver.coming.push_back({arrival, messages_++, pool_.copy({from, type, length}, data)});
+  receiver.coming.push_back({arrival, messages_++, pool_.copy({from, type, length}, data), announced});
   std::ranges::push_heap(receiver.coming, Later());
   if (receiver.waits && arrival < receiver.due) set_due(to, std::max(arrival, receiver.clock));
 }
@@ -118,13 +91,25 @@ std::optional<messages::Envelope> World::peek(int rank) {
 }
 
 void World::take(int rank, void* buffer) {
+  const Taken taken = begin_take(rank, buffer);
   Rank& self = *ranks_[rank];
-  messages::Message* const message = self.arrived.front().message;
+  self.clock = std::max(self.clock, taken.there);
+  end_take(rank, taken.length);
+}
+
+// The receiver answers an announcement here, in a call, as where MPI's progress is in its calls alone; the sender's
+// adapter then sends the bytes whatever its processor does.
+World::Taken World::begin_take(int rank, void* buffer) {
+  Rank& self = *ranks_[rank];
+  if (self.arrived.front().announced) let_earlier_run(rank);
+  const auto [arrival, number, message, announced] = self.arrived.front();
   self.arrived.pop_front();
-  const std::size_t length = message->envelope.length;
+  const auto [from, type, length] = message->envelope;
   if (length > 0) std::memcpy(buffer, message->bytes(), length);
   pool_.release(message);
-  work(rank, end_seconds(rank, machine_.network.receive, length));
+  if (!announced) return {length, self.clock};
+  const double now = self.clock;
+  return {length, routes_.rest_arrival(computer_of(from), computer_of(rank), length, now, floor_at(now))};
 }
 
 void World::set_alarm(int rank, double time) {

@@ -23,6 +23,7 @@
 
 #include "hal/messages/backend.h"
 #include "hal/messages/message_pool.h"
+#include "hal/simulated/computers.h"
 #include "hal/simulated/machine.h"
 #include "hal/simulated/routes.h"
 #include "hal/simulated/storage_use.h"
@@ -37,8 +38,8 @@ class World {
   World(const Machine& machine, int nodes);
 
   int nodes() const { return nodes_; }
-  int computer_of(int rank) const;
-  int nodes_on(int computer) const;
+  int computer_of(int rank) const { return computers_.of(rank); }
+  int nodes_on(int computer) const { return computers_.nodes_on(computer); }
   const Machine& machine() const { return machine_; }
 
   // Of the running rank.
@@ -50,7 +51,15 @@ class World {
   void send(int from, int to, int type, const void* data, std::size_t length);
   // The first message that has arrived, in the order of arrival.
   std::optional<messages::Envelope> peek(int rank);
+  // What peek returned. Waits for the rest of an announced message.
   void take(int rank, void* buffer);
+  struct Taken {
+    std::size_t length;
+    double there;  // when all of it is
+  };
+  // The same without waiting. When all is there, end_take is due.
+  Taken begin_take(int rank, void* buffer);
+  void end_take(int rank, std::size_t length) { work(rank, end_seconds(rank, machine_.network.receive, length)); }
   // Until a message comes that neither peek nor a wait has seen yet, an alarm, or `seconds` have passed.
   void wait(int rank, double seconds);
   // The rank will not wait beyond `time`.
@@ -90,6 +99,7 @@ class World {
     double arrival;
     std::uint64_t number;  // among all
     messages::Message* message;
+    bool announced;  // only that: its bytes begin to move when it is taken
   };
   struct Later {
     bool operator()(const Message& a, const Message& b) const {
@@ -118,8 +128,6 @@ class World {
     std::weak_ptr<std::byte> bytes;  // when all have
   };
 
-  bool must_be_ordered() const;
-  std::size_t workers_on(int computer) const;
   static void note_arrivals(Rank& self);
   const Queue& others_of(const Rank& self) const { return self.community == nullptr ? queue_ : *self.community; }
   void let_earlier_run(int rank);
@@ -134,15 +142,15 @@ class World {
 
   const Machine machine_;
   const int nodes_;
+  Computers computers_;
   Routes routes_;
   StorageUse storage_;
   messages::MessagePool pool_;  // of messages on their way, and all ranks'
   std::vector<std::unique_ptr<Rank>> ranks_;
-  Queue queue_;                                  // all that neither run nor wait for ever
-  std::map<int, Queue> communities_;             // communities by their first rank
-  bool ordered_;                                 // ranks share what they must use in the order of time
-  std::vector<std::vector<double>> processors_;  // by computer: busy until
-  std::uint64_t messages_ = 0;                   // sent so far
+  Queue queue_;                       // all that neither run nor wait for ever
+  std::map<int, Queue> communities_;  // communities by their first rank
+  const bool ordered_;                // ranks share what they must use in the order of time
+  std::uint64_t messages_ = 0;        // sent so far
   int finished_ = 0;
   int left_;  // that have not ended
   std::exception_ptr failure_;

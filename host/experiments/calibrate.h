@@ -9,6 +9,7 @@
 #include "host/experiments/measured_run.h"
 #include "host/experiments/message_costs.h"
 #include "host/experiments/spread.h"
+#include "node/wire/work.h"
 
 namespace mars::experiments {
 
@@ -27,7 +28,8 @@ struct PhaseFit {
 };
 
 struct Calibration {
-  std::vector<double> work;  // by kind (node/wire/work.h), seconds a unit
+  std::vector<double> work;              // by kind (node/wire/work.h), seconds a unit
+  std::vector<wire::Work> unidentified;  // kinds whose costs times cannot tell from those of others, ascending
   std::vector<PhaseFit> phases;
   double copy_rate = 0;
   std::vector<Spread> spread;  // of forecasts by it, where they were tried

@@ -27,8 +27,9 @@ struct Bodies {
   int lights;
   int samples;
   const char* extent;
-  int casting = 0;   // of its lights, the first
-  double width = 0;  // in degrees, of the first
+  int casting = 0;       // of its lights, the first
+  double width = 0;      // in degrees, of the first
+  bool outside = false;  // as many again cast shadows from outside the picture
 };
 
 constexpr Bodies kBodies[] = {
@@ -65,6 +66,8 @@ constexpr Bodies kBodies[] = {
     {"lanterns", "stone", 12, 0.5, 1, "cook-torrance", "phong", 4, 1, "640x360", 4},
     {"ridges", "hills", 2, 3, 1, "phong", "phong", 1, 4, "480x270", 1},
     {"dusk", "teapot", 2, 2.5, 0, "phong", "phong", 1, 4, "320x180", 1, 2},
+    {"outside", "teapot", 3, 1.6, 0, "phong", "phong", 2, 4, "480x270", 1, 0, true},
+    {"beyond", "sphere", 12, 0.4, 0, "phong", "phong", 1, 1, "480x270", 1, 0, true},
 };
 
 double wave(double x, double y) {
@@ -114,19 +117,28 @@ json lights(const Bodies& bodies) {
   return json(std::vector<json>(all, all + bodies.lights));
 }
 
+// On the way to the first light, out of the camera's sight.
+constexpr std::array<double, 3> kOutside{-3.6, -6.3, 7.2};
+
 // Every second one turns.
-json actors(const Bodies& bodies, std::size_t models) {
-  json all = json::array();
+void add_actors(json& all, const Bodies& bodies, std::size_t models, const char* names,
+                const std::array<double, 3>& center) {
   for (int i = 0; i < bodies.side * bodies.side; ++i) {
     const double step = 6.5 / bodies.side;
     const double x = (i % bodies.side + 0.5) * step - 3.25, z = (static_cast<double>(i) / bodies.side) * step - 3.0;
-    json actor = {{"name", "a" + std::to_string(i)},
+    json actor = {{"name", names + std::to_string(i)},
                   {"model", "body" + std::to_string(static_cast<std::size_t>(i) % models)},
-                  {"place", {x, 0, z}}};
+                  {"place", {center[0] + x, center[1], center[2] + z}}};
     if (i % 2 == 1 || bodies.side == 1)
       actor["keys"] = {{{"frame", 0}, {"turn", {0, 0, 0}}}, {{"frame", 8}, {"turn", {0, 0, 160}}}};
     all.push_back(actor);
   }
+}
+
+json actors(const Bodies& bodies, std::size_t models) {
+  json all = json::array();
+  add_actors(all, bodies, models, "a", {0, 0, 0});
+  if (bodies.outside) add_actors(all, bodies, models, "outside", kOutside);
   if (bodies.casting > 0) all.push_back({{"name", "wall"}, {"model", "wall"}});
   return all;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
+#include <utility>
 
 namespace mars::experiments {
 namespace {
@@ -36,7 +37,37 @@ class Squares {
     return x;
   }
 
+  // With each kind's units scaled to length 1, what others leave of one is 1 over its place in the inverse of A'A.
+  std::vector<double> explained() const {
+    std::vector<Costs> alike = products_;
+    for (std::size_t i = 0; i < alike.size(); ++i)
+      for (std::size_t j = 0; j < alike.size(); ++j) {
+        const double length = std::sqrt(products_[i][i] * products_[j][j]);
+        alike[i][j] = (length > 0 ? alike[i][j] / length : 0) + (i == j ? kRidge : 0);
+      }
+    invert(alike);
+    std::vector<double> parts;
+    for (std::size_t i = 0; i < alike.size(); ++i)
+      parts.push_back(products_[i][i] > 0 ? std::clamp(1 - 1 / alike[i][i], 0.0, 1.0) : 1);
+    return parts;
+  }
+
  private:
+  static constexpr double kRidge = 1e-9;  // of kinds that are always counted together
+
+  // Of positive definite matrices, in place.
+  static void invert(std::vector<Costs>& a) {
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      const double pivot = std::exchange(a[k][k], 1);
+      for (double& each : a[k]) each /= pivot;
+      for (std::size_t i = 0; i < a.size(); ++i) {
+        if (i == k) continue;
+        const double factor = std::exchange(a[i][k], 0);
+        for (std::size_t j = 0; j < a.size(); ++j) a[i][j] -= factor * a[k][j];
+      }
+    }
+  }
+
   double improve(Costs& x, std::size_t i) const {
     const double weight = products_[i][i];
     if (weight == 0) return 0;
@@ -87,6 +118,13 @@ Fit fit_costs(std::span<const Measurement> measurements, double soft) {
   fit.median_error = quantile(errors, 0.5);
   fit.high_error = quantile(errors, 0.9);
   return fit;
+}
+
+std::vector<double> explained_by_others(std::span<const Measurement> measurements, double soft) {
+  if (measurements.empty()) return {};
+  Squares squares(measurements.front().units.size());
+  for (const Measurement& measured : measurements) squares.add(measured, soft);
+  return squares.explained();
 }
 
 }  // namespace mars::experiments

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -21,29 +22,37 @@ using std::string_view;
 using wire::Work;
 
 constexpr string_view kHere = "here";
-constexpr string_view kPlatformNames[] = {"name",    "about",   "doubt", "computers", "host",
-                                          "network", "storage", "work",  "spread"};
-constexpr string_view kComputerNames[] = {"nodes", "processors", "memory"};
-constexpr string_view kHostNames[] = {"apart", "processors", "memory"};
-constexpr string_view kStorageNames[] = {"rate", "openings", "file_part"};
-constexpr string_view kNetworkNames[] = {"topology",  "latency",    "hop",           "rate",        "uplink",
-                                         "leaf",      "send",       "receive",       "host_end",    "copy_rate",
-                                         "host_rate", "local_rate", "local_latency", "host_latency"};
+constexpr string_view kPlatformNames[] = {"name",    "about",   "doubt", "computers", "host",          "noise",
+                                          "network", "storage", "work",  "spread",    "not_identified"};
+constexpr string_view kComputerNames[] = {"nodes", "processors", "memory", "speeds"};
+constexpr string_view kHostNames[] = {"apart", "processors", "memory", "speed"};
+constexpr string_view kNoiseNames[] = {"seed", "stragglers", "slowdown", "detours", "detour", "lengths"};
+constexpr string_view kStorageNames[] = {"rate", "openings", "file_part", "servers", "stripe", "writer_rate"};
+constexpr string_view kNetworkNames[] = {"topology", "latency",   "hop",        "rate",          "uplink",
+                                         "leaf",     "send",      "receive",    "host_end",      "copy_rate",
+                                         "eager",    "host_rate", "local_rate", "local_latency", "host_latency"};
 constexpr string_view kSpreadNames[] = {"nodes", "files", "low", "middle", "high"};
 constexpr Keys kPlatformKeys{"platform", kPlatformNames};
 constexpr Keys kComputerKeys{"computer", kComputerNames};
 constexpr Keys kHostKeys{"host", kHostNames};
+constexpr Keys kNoiseKeys{"noise", kNoiseNames};
 constexpr Keys kNetworkKeys{"network", kNetworkNames};
 constexpr Keys kStorageKeys{"storage", kStorageNames};
 constexpr Keys kWorkKeys{"work", wire::kWorkNames};
 constexpr Keys kSpreadKeys{"spread", kSpreadNames};
 constexpr std::array<string_view, 4> kTopologies{"switch", "hypercube", "fat tree", "dragonfly"};
+constexpr std::array<string_view, 2> kLengths{"fixed", "exponential"};
 
 constexpr document::Range kSeconds{0, 1e6};
 constexpr document::Range kRates{1, 1e15};  // bytes, or files, a second
 constexpr document::Range kParts{1e-4, 2};
 constexpr document::Range kRatios{1e-3, 1e3};
+constexpr document::Range kSlowdowns{1, 1e3};
+constexpr document::Range kDetours{0, 1e6};  // a second
+constexpr double kMostOfDetours = 0.9;       // of a processor's time
 constexpr std::uint32_t kMany = 1 << 20;
+constexpr std::uint32_t kManyServers = 1 << 16;
+constexpr std::uint32_t kLongest = 1u << 31;  // bytes of a message
 
 // Seconds a byte, or a file; 0 where the rate is not given: as fast as can be.
 double unit_seconds(const Fields& fields, string_view key) {
@@ -67,11 +76,59 @@ std::vector<simulated::EndCost> read_costs(const Fields& fields, string_view key
   for (const document::Element pair : *list) {
     document::require_size(pair, 2);
     auto item = pair.begin();
-    const auto from = static_cast<std::size_t>(document::read_count(*item, 0, 1u << 31));
+    const auto from = static_cast<std::size_t>(document::read_count(*item, 0, kLongest));
     if (!costs.empty() && from <= costs.back().from) pair.refuse("is not in order", "sort the costs by their bytes");
     costs.push_back({from, document::read_number(*++item, kSeconds)});
   }
   return costs;
+}
+
+// [computers, speed] pairs.
+std::vector<simulated::SpeedKind> read_speeds(const Fields& computers) {
+  std::vector<simulated::SpeedKind> kinds;
+  const auto list = computers.find("speeds");
+  if (!list) return kinds;
+  document::require_kind(*list, document::Kind::list);
+  for (const document::Element pair : *list) {
+    document::require_size(pair, 2);
+    auto item = pair.begin();
+    const auto count = static_cast<int>(document::read_count(*item, 1, kMany));
+    kinds.push_back({count, document::read_number(*++item, kRatios)});
+  }
+  if (kinds.empty()) list->refuse("is empty", "give [computers, speed] pairs, or leave it out");
+  return kinds;
+}
+
+// A number, or the least and the greatest.
+void read_slowdown(const document::Element& element, simulated::Noise& noise) {
+  if (element.kind() == document::Kind::number) {
+    noise.least_slowdown = noise.most_slowdown = document::read_number(element, kSlowdowns);
+    return;
+  }
+  document::require_kind(element, document::Kind::list);
+  document::require_size(element, 2);
+  auto item = element.begin();
+  noise.least_slowdown = document::read_number(*item, kSlowdowns);
+  noise.most_slowdown = document::read_number(*++item, kSlowdowns);
+  if (noise.most_slowdown < noise.least_slowdown) element.refuse("is not in order", "the least comes first");
+}
+
+simulated::Noise read_noise(const Fields& platform) {
+  simulated::Noise noise;
+  const auto element = platform.find("noise");
+  if (!element) return noise;
+  const Fields fields(*element, kNoiseKeys);
+  noise.seed = fields.count("seed", 0, 0, std::numeric_limits<std::uint32_t>::max());
+  noise.stragglers = fields.number("stragglers", 0, {0, 1});
+  if (noise.stragglers > 0) read_slowdown(fields.required("slowdown"), noise);
+  noise.detours = fields.number("detours", 0, kDetours);
+  noise.lengths = static_cast<simulated::Lengths>(fields.choice("lengths", 0, kLengths));
+  if (noise.detours == 0) return noise;
+  const document::Element detour = fields.required("detour");
+  noise.detour = document::read_number(detour, kSeconds);
+  if (noise.detours * noise.detour > kMostOfDetours)
+    detour.refuse("times detours is more than 90 % of the time", "give fewer or shorter detours");
+  return noise;
 }
 
 simulated::Network read_network(const document::Element& element) {
@@ -91,6 +148,7 @@ simulated::Network read_network(const document::Element& element) {
   network.send = read_costs(fields, "send");
   network.receive = read_costs(fields, "receive");
   network.host_end = read_costs(fields, "host_end");
+  if (const auto eager = fields.find("eager")) network.eager = document::read_count(*eager, 0, kLongest);
   return network;
 }
 
@@ -101,6 +159,9 @@ void read_storage(const Fields& platform, Platform& into) {
   const Fields fields(*storage, kStorageKeys);
   into.machine.storage.byte = unit_seconds(fields, "rate");
   into.machine.storage.opening = unit_seconds(fields, "openings");
+  into.machine.storage.writer_byte = unit_seconds(fields, "writer_rate");
+  into.machine.storage.servers = static_cast<int>(fields.count("servers", 1, 1, kManyServers));
+  into.machine.storage.stripe = fields.count("stripe", 0, 1, kLongest);
   into.file_part = fields.number("file_part", into.file_part, kParts);
 }
 
@@ -158,13 +219,31 @@ fs::path file_named(const document::Element& element, const fs::path& folder) {
   }
 }
 
-// Those that `element` gives, or those of the platform that it names, which gives them itself.
-std::vector<double> read_work(const document::Element& element, const fs::path& folder) {
-  if (element.kind() != document::Kind::text) return read_costs_of_work(element);
+std::vector<Work> read_unidentified(const Fields& platform) {
+  std::vector<Work> kinds;
+  const auto list = platform.find("not_identified");
+  if (!list) return kinds;
+  document::require_kind(*list, document::Kind::list);
+  for (const document::Element kind : *list)
+    kinds.push_back(static_cast<Work>(document::read_choice(kind, wire::kWorkNames)));
+  return kinds;
+}
+
+// Costs that a platform gives itself.
+void read_own_work(const Fields& fields, Platform& into) {
+  into.machine.work = read_costs_of_work(fields.required("work"));
+  into.unidentified = read_unidentified(fields);
+}
+
+// Those that it gives, or those of the platform that it names, which gives them itself.
+void read_work(const Fields& fields, const fs::path& folder, Platform& into) {
+  const document::Element element = fields.required("work");
+  if (element.kind() != document::Kind::text) return read_own_work(fields, into);
   const document::Document other = document::read_document(file_named(element, folder));
-  const document::Element work = Fields(other.root(), kPlatformKeys).required("work");
+  const Fields others(other.root(), kPlatformKeys);
+  const document::Element work = others.required("work");
   if (work.kind() == document::Kind::text) work.refuse("is work of work", "name a platform that has costs of its own");
-  return read_costs_of_work(work);
+  read_own_work(others, into);
 }
 
 // As a calibration has them.
@@ -184,12 +263,15 @@ Platform read(const document::Element& root, const fs::path& folder) {
   platform.machine.nodes = static_cast<int>(computers.count("nodes", 1, 1, kMany));
   platform.machine.processors = static_cast<int>(computers.count("processors", 1, 1, kMany));
   const Fields host(fields.required("host"), kHostKeys);
+  platform.machine.speeds = read_speeds(computers);
+  platform.machine.noise = read_noise(fields);
   platform.machine.host_apart = read_flag(host, "apart");
+  platform.machine.host_speed = host.number("speed", 1, kRatios);
   platform.machine.host_processors = static_cast<int>(host.count("processors", 1, 1, kMany));
   platform.host_memory = static_cast<std::uint64_t>(host.number("memory", 1ull << 36, {1 << 20, 1e15}));
   platform.machine.network = read_network(fields.required("network"));
   read_storage(fields, platform);
-  platform.machine.work = read_work(fields.required("work"), folder);
+  read_work(fields, folder, platform);
   platform.spread = read_spreads(fields);
   return platform;
 }
@@ -217,6 +299,7 @@ Platform read_platform(const std::string& name, const fs::path& folder) {
   platform.doubt = costs.doubt;
   platform.spread.clear();
   platform.machine.work = costs.machine.work;
+  platform.unidentified = costs.unidentified;
   return platform;
 }
 
@@ -224,6 +307,16 @@ std::string doubt_text(const Platform& platform) {
   if (platform.doubt.empty()) return "";
   return "platform " + platform.name + " was measured on a machine that was too busy: " + platform.doubt +
          " (run mars calibrate when nothing else runs)";
+}
+
+std::string unidentified_text(const Platform& platform, std::span<const Work> kinds) {
+  std::vector<string_view> names;
+  for (const Work kind : kinds)
+    if (std::ranges::count(platform.unidentified, kind) > 0)
+      names.push_back(wire::kWorkNames[static_cast<std::size_t>(kind)]);
+  if (names.empty()) return "";
+  return "platform " + platform.name + ": what " + document::joined(names) +
+         " cost is not identified: the times that were measured cannot tell it from the costs of other work";
 }
 
 double file_seconds(const simulated::Machine& machine, images::PictureFormat format, const images::FileWork& work) {

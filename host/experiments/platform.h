@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,12 +18,13 @@ namespace mars::experiments {
 
 struct Platform {
   std::string name;
-  std::string about;              // what it is, and where its numbers come from
-  std::string doubt;              // why its costs cannot be trusted; "": they can
-  std::uint64_t memory = 0;       // bytes that a node may use for its frames
-  std::uint64_t host_memory = 0;  // bytes that the host may use
-  double file_part = 0.1;         // of the bytes of a picture's pixels, those that its file has
-  std::vector<Spread> spread;     // of forecasts by its costs, where it is the machine that was measured
+  std::string about;                       // what it is, and where its numbers come from
+  std::string doubt;                       // why its costs cannot be trusted; "": they can
+  std::uint64_t memory = 0;                // bytes that a node may use for its frames
+  std::uint64_t host_memory = 0;           // bytes that the host may use
+  double file_part = 0.1;                  // of the bytes of a picture's pixels, those that its file has
+  std::vector<wire::Work> unidentified{};  // kinds whose costs measured times cannot tell from those of others
+  std::vector<Spread> spread;              // of forecasts by its costs, where it is the machine that was measured
   simulated::Machine machine;
 
   // For the host and its sinks.
@@ -35,6 +37,11 @@ Platform read_platform(const std::string& name, const std::filesystem::path& fol
 
 // That its costs cannot be trusted, and why; "" where they can.
 std::string doubt_text(const Platform& platform);
+
+// That costs of some of these kinds are not identified, and which; "" where all are. Where they make up most of a time,
+// it is as sure only for films in which they are as frequent, relative to other work, as in the films that were
+// measured.
+std::string unidentified_text(const Platform& platform, std::span<const wire::Work> kinds);
 
 // Machines like this one, which has `processors`, with a node on each of them and the costs of platform `name`.
 Platform like_here(const std::string& name, const std::filesystem::path& folder, int processors);

@@ -43,7 +43,7 @@ void run(const options::RenderOptions& options, const experiments::Platform& pla
   const auto host = [&](simulated::World& world) {
     the_world = &world;
     session::RenderJob job = job::job_of(options, "simulated");
-    job.adapts = false;  // a platform's computers are all as fast
+    job.adapts = platform.machine.is_uneven();
     job.host = {platform.host_memory, platform.host_processors()};
     job.counts_files = options.sink == options::SinkKind::none && job.writers != session::Writers::automatic;
     charge_files(job, platform, world);

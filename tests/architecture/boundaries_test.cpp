@@ -149,8 +149,8 @@ TEST(Boundaries, NodeOpensNoFileAndPrintsNothing) {
 
 // Of the node, the host knows the wire, pure shape, what a pixel is, how lines are divided and what memory shadows
 // take; only programs link both
-// sides, and choose a transport. What simulated machines are like, the ways between them and who uses their storage,
-// forecasts read too.
+// sides, and choose a transport. What simulated machines are like, their processors, the ways between them and who uses
+// their storage, forecasts read too.
 TEST(Boundaries, HostAndNodeShareTheWire) {
   for (const Source& source : sources()) {
     if (!begins(source.path, "host/") || begins(source.path, "host/programs/")) continue;
@@ -159,8 +159,8 @@ TEST(Boundaries, HostAndNodeShareTheWire) {
                   include == "node/color/encoding.h" || include == "node/group/mapping.h" ||
                   include == "node/shadow/shadow_plan.h")
           << source.path << " includes " << include;
-      const bool is_model = include == "hal/simulated/machine.h" || include == "hal/simulated/routes.h" ||
-                            include == "hal/simulated/storage_use.h";
+      const bool is_model = include == "hal/simulated/computers.h" || include == "hal/simulated/machine.h" ||
+                            include == "hal/simulated/routes.h" || include == "hal/simulated/storage_use.h";
       EXPECT_FALSE(is_transport(include) && !is_model) << source.path << " includes " << include;
     }
   }

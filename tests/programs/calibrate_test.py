@@ -2,7 +2,7 @@
 
 import json
 
-from harness import ENVIRONMENT, EXAMPLES, ProgramTest, main
+from harness import ENVIRONMENT, EXAMPLES, SOURCES, ProgramTest, main
 
 KINDS = ["patch", "meshlet", "vertex", "mesh_vertex", "triangle_tested", "triangle", "edge_box_made", "edge_box",
          "sample", "shaded", "facet_light", "pixel"]  # whose units do not depend on the number of nodes
@@ -30,6 +30,8 @@ class Calibrations(ProgramTest):
         platform.pop("doubt", None)
         file.write_text(json.dumps(platform))
         self.assertNotIn("spread", platform)
+        self.assertEqual(len(platform["not_identified"]), printed.count("   not identified\n"))
+        self.assertGreater(len(platform["not_identified"]), 0)
         costs = platform["work"]
         for kind in ["patch", "edge_box", "light", "encoded_byte"]:
             self.assertGreater(costs[kind] + costs["first_frame"], 0)
@@ -41,6 +43,29 @@ class Calibrations(ProgramTest):
         first, second = self.simulate("fat-tree"), self.simulate("fat-tree")
         self.assertEqual(first["frames"], second["frames"])
         self.assertEqual(first["total_seconds"], second["total_seconds"])
+
+    def test_noise_is_that_of_its_seed(self):
+        def seconds(seed):
+            platform = json.loads((SOURCES / "cluster/platforms/fat-tree.json").read_text())
+            platform["noise"] = {"seed": seed, "stragglers": 0.5, "slowdown": [1.2, 2], "detours": 1000, "detour": 1e-4}
+            return self.simulate(self.write("noisy.json", platform))["total_seconds"]
+
+        self.assertEqual(seconds(1), seconds(1))
+        self.assertNotEqual(seconds(1), seconds(2))
+        self.assertGreater(seconds(1), self.simulate("fat-tree")["total_seconds"])
+
+    def test_slow_computers_get_fewer_inbetweens(self):
+        def report(**changed):
+            platform = json.loads((SOURCES / "cluster/platforms/ipsc2.json").read_text())
+            platform["computers"].update(changed)
+            done = self.mars("render", EXAMPLES / "cubes.json", "--sink", "none", "--size", "64x36", "--samples", 1,
+                             "--backend", "simulated", "--nodes", 4, "--groups", 1, "--report", "report.json",
+                             "--platform", self.write("slow.json", platform))
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return json.loads((self.folder / "report.json").read_text())
+
+        self.assertEqual(report()["slow"], [])
+        self.assertEqual([time["node"] for time in report(speeds=[[3, 1], [1, 0.25]])["slow"]], [3])
 
     def test_nodes_together_count_what_one_counts(self):
         def charged(nodes):

@@ -25,8 +25,12 @@ class Costs {
 
   // Seconds on the way between two nodes, where nothing else is.
   double on_the_way(double bytes, bool same_computer) const;
+  // Seconds that messages of `bytes` together, from other computers, take longer if they are announced: their receiver
+  // answers them one after another.
+  double answers(double messages, double bytes) const;
 
  private:
+  double empty_on_the_way() const;
   double end(const std::vector<simulated::EndCost>& costs, double bytes) const;
   double host_end(const std::vector<simulated::EndCost>& costs, double bytes) const {
     return end(machine_.network.host_end.empty() ? costs : machine_.network.host_end, bytes);

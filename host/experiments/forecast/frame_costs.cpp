@@ -375,7 +375,8 @@ void FrameCosts::add_sum(GroupKeyframe& keyframe, int nodes) const {
   const bool halves = bytes >= kShortSum && corners >= 4;
   double sent = 0;
   const auto exchange = [&](double so_many, bool same_computer) {
-    keyframe.sum += costs_.to_send(so_many) + costs_.on_the_way(so_many, same_computer) + costs_.to_receive(so_many);
+    keyframe.sum += costs_.to_send(so_many) + costs_.on_the_way(so_many, same_computer) + costs_.to_receive(so_many) +
+                    (same_computer ? 0 : costs_.answers(1, so_many));
     sent += so_many;
   };
   double part = bytes;
@@ -419,7 +420,7 @@ void FrameCosts::add_exchange(GroupKeyframe& keyframe, const Homes& homes, const
     node.exchange += ends(messages_out, out, [&](double b) { return costs_.to_send(b); }) +
                      ends(messages_in, in, [&](double b) { return costs_.to_receive(b); }) +
                      costs_.of(Work::edge_box_filled, boxes_in);
-    node.exchange_wait = costs_.on_the_way(std::max(in, out), false);
+    node.exchange_wait = costs_.on_the_way(std::max(in, out), false) + costs_.answers(messages_in, in);
     node.bytes_to_nodes += out;
     const double travelling = made[n][Work::edge_box_made] * far * (kUnsortedBoxBytes + kTriangleBytes) + in;
     const double in_pass = (node.memory + travelling + boxes_in * kBoxBytes) / keyframe.passes;
@@ -476,7 +477,8 @@ void FrameCosts::add_relay(GroupKeyframe& keyframe, const std::vector<StillLines
     node.*seconds += some.messages * costs_.to_send(piece);
     node.bytes_to_nodes += some.bytes;
   };
-  const double step = costs_.to_receive(piece) + costs_.to_send(piece) + costs_.on_the_way(piece, false);
+  const double step =
+      costs_.to_receive(piece) + costs_.to_send(piece) + costs_.on_the_way(piece, false) + costs_.answers(1, piece);
   for (std::size_t n = 0; n < of.size(); ++n) {
     NodePart& node = keyframe.nodes[n];
     const std::size_t computer = n / near;
@@ -486,7 +488,8 @@ void FrameCosts::add_relay(GroupKeyframe& keyframe, const std::vector<StillLines
     node.*seconds += in.messages * costs_.to_receive(piece);
     const bool is_last = computer + 1 == collecting;
     if (collecting > 1) sends(node, in - on[(computer + 1) % collecting] - (is_last ? beyond : StillLines()));
-    node.*wait = costs_.on_the_way(in.bytes, false) + static_cast<double>(collecting - 1) * step;
+    node.*wait = costs_.on_the_way(in.bytes, false) + costs_.answers(in.messages, in.bytes) +
+                 static_cast<double>(collecting - 1) * step;
   }
 }
 

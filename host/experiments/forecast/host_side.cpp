@@ -12,8 +12,9 @@ constexpr std::size_t kNothing = static_cast<std::size_t>(-1);
 
 }  // namespace
 
-HostSide::HostSide(Clockwork& clockwork, Computers& computers, simulated::StorageUse& storage, const farm::Plan& plan,
-                   const Setting& setting, const farm::HostMemory& memory, int nodes, Outward outward)
+HostSide::HostSide(Clockwork& clockwork, simulated::Computers& computers, simulated::StorageUse& storage,
+                   const farm::Plan& plan, const Setting& setting, const farm::HostMemory& memory, int nodes,
+                   Outward outward)
     : clockwork_(clockwork),
       computers_(computers),
       storage_(storage),
@@ -88,6 +89,13 @@ void HostSide::go_on() {
   }
   const StripSent strip = arrived_.front();
   arrived_.pop_front();
+  // It waits for the rest of an announced one alone.
+  const double there = outward_.answer(strip);
+  if (there > clockwork_.now()) return clockwork_.at(there, [this, strip] { receive(strip); });
+  receive(strip);
+}
+
+void HostSide::receive(const StripSent& strip) {
   busy(costs_.host_to_receive(strip.bytes) + costs_.of(Work::host_strip, 1), [this, strip] {
     if (strip.written) return finish_written(strip);
     if (!setting_.nodes_write()) note(strip);
@@ -175,7 +183,7 @@ void HostSide::submit(std::size_t task, std::size_t place) {
   double end = now;
   if (setting_.files) {
     const double made = computers_.reserve(self_, now, host_costs_[task].files[place]);
-    end = storage_.write(made, file_bytes_, now);
+    end = storage_.write(computers_.of(self_), made, file_bytes_, now);
   }
   ended_ = std::max(ended_, end);
   clockwork_.at(end, [this, task] {

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "hal/simulated/computers.h"
 #include "hal/simulated/storage_use.h"
 #include "host/experiments/forecast/clockwork.h"
-#include "host/experiments/forecast/computers.h"
 #include "host/experiments/forecast/costs.h"
 #include "host/experiments/forecast/frame_costs.h"
 #include "host/experiments/forecast/setting.h"
@@ -33,14 +33,16 @@ struct StripSent {
 
 class HostSide {
  public:
-  // What reaches nodes: a task for all of a group, a credit for one.
+  // What reaches nodes: a task for all of a group, a credit for one, and the answer to a strip that was announced,
+  // which says when all of it is there.
   struct Outward {
     std::function<void(std::size_t group, std::size_t task)> task;
     std::function<void(int node)> credit;
+    std::function<double(const StripSent& strip)> answer;
   };
 
-  HostSide(Clockwork& clockwork, Computers& computers, simulated::StorageUse& storage, const farm::Plan& plan,
-           const Setting& setting, const farm::HostMemory& memory, int nodes, Outward outward);
+  HostSide(Clockwork& clockwork, simulated::Computers& computers, simulated::StorageUse& storage,
+           const farm::Plan& plan, const Setting& setting, const farm::HostMemory& memory, int nodes, Outward outward);
 
   // Of each task in order.
   void add_costs(HostCosts costs) { host_costs_.push_back(std::move(costs)); }
@@ -80,10 +82,11 @@ class HostSide {
   void finish_written(const StripSent& file);
   void submit(std::size_t task, std::size_t number);
   void busy(double seconds, Clockwork::Action then);
+  void receive(const StripSent& strip);
   void note(const StripSent& strip);
 
   Clockwork& clockwork_;
-  Computers& computers_;
+  simulated::Computers& computers_;
   simulated::StorageUse& storage_;
   const farm::Plan& plan_;
   const Setting setting_;

@@ -7,10 +7,10 @@
 #include <map>
 #include <utility>
 
+#include "hal/simulated/computers.h"
 #include "hal/simulated/routes.h"
 #include "hal/simulated/storage_use.h"
 #include "host/experiments/forecast/clockwork.h"
-#include "host/experiments/forecast/computers.h"
 #include "host/experiments/forecast/frame_costs.h"
 #include "host/experiments/forecast/host_side.h"
 #include "node/wire/frame_writer.h"
@@ -91,16 +91,14 @@ class Rehearsal {
   void later(int n, double time, void (Rehearsal::*then)(int)) {
     clockwork_.at(time, [this, n, then] { (this->*then)(n); });
   }
-  double way_from_host(int n, double bytes) {
-    return routes_.arrival(computers_.of(static_cast<int>(nodes_.size())), computers_.of(n),
-                           static_cast<std::size_t>(bytes), clockwork_.now(), clockwork_.now());
-  }
+  double way_from_host(int n, double bytes);
+  double answer(const StripSent& strip);
 
   const FilmCounts& counts_;
   const farm::Plan& plan_;
   const FrameCosts costs_;
   Clockwork clockwork_;
-  Computers computers_;
+  simulated::Computers computers_;
   simulated::Routes routes_;
   simulated::StorageUse storage_;
   const bool nodes_write_;
@@ -129,10 +127,10 @@ Rehearsal::Rehearsal(const FilmCounts& counts, const farm::Plan& plan, const Set
       nodes_write_(setting.nodes_write()),
       nodes_(static_cast<std::size_t>(nodes)),
       result_{0, {}, 0, 0, 0, costs_.shadow_bytes(), 0, host_memory(plan, setting, nodes)},
-      host_(
-          clockwork_, computers_, storage_, plan, setting, result_.host_memory, nodes,
-          {[this](std::size_t group, std::size_t task) { receive_task(group, task); },
-           [this](int node) { later(node, way_from_host(node, sizeof(wire::Credit)), &Rehearsal::receive_credit); }}) {
+      host_(clockwork_, computers_, storage_, plan, setting, result_.host_memory, nodes,
+            {[this](std::size_t group, std::size_t task) { receive_task(group, task); },
+             [this](int node) { later(node, way_from_host(node, sizeof(wire::Credit)), &Rehearsal::receive_credit); },
+             [this](const StripSent& strip) { return answer(strip); }}) {
   for (std::size_t g = 0; g < plan.groups.size(); ++g) {
     groups_.push_back({plan.groups[g], wire::team_count(plan.groups[g], plan.teams_of(plan.groups[g]))});
     for (int member = 0; member < plan.groups[g].count; ++member) {
@@ -324,11 +322,29 @@ void Rehearsal::end_frame(int n) {
   work(n, part.dice + part.exchange + fresh_seconds(node), &Rehearsal::begin_strips);
 }
 
+// Nodes answer announcements at once.
+double Rehearsal::way_from_host(int n, double bytes) {
+  const int host = computers_.of(static_cast<int>(nodes_.size())), computer = computers_.of(n);
+  const auto length = static_cast<std::size_t>(bytes);
+  const double now = clockwork_.now();
+  if (!routes_.announces(host, computer, length)) return routes_.arrival(host, computer, length, now, now);
+  return routes_.rest_arrival(host, computer, length, routes_.arrival(host, computer, 0, now, now), now);
+}
+
+// Of the host, which takes it now: when all of it is there.
+double Rehearsal::answer(const StripSent& strip) {
+  const int host = computers_.of(static_cast<int>(nodes_.size())), computer = computers_.of(strip.node);
+  const auto length = static_cast<std::size_t>(strip.bytes);
+  const double now = clockwork_.now();
+  return routes_.announces(computer, host, length) ? routes_.rest_arrival(computer, host, length, now, now) : now;
+}
+
 // On its way from now on.
 void Rehearsal::send_to_host(StripSent message) {
-  const auto host = static_cast<int>(nodes_.size());
-  const double arrival = routes_.arrival(computers_.of(message.node), computers_.of(host),
-                                         static_cast<std::size_t>(message.bytes), clockwork_.now(), clockwork_.now());
+  const int host = computers_.of(static_cast<int>(nodes_.size())), computer = computers_.of(message.node);
+  const auto length = static_cast<std::size_t>(message.bytes);
+  const double arrival = routes_.arrival(computer, host, routes_.announces(computer, host, length) ? 0 : length,
+                                         clockwork_.now(), clockwork_.now());
   clockwork_.at(arrival, [this, message] { host_.arrive(message); });
 }
 
@@ -412,7 +428,7 @@ void Rehearsal::begin_file(int n) {
   ++node.files;
   const double begun = std::max(clockwork_.now(), node.file_there);
   const double made = std::max(begun, computers_.reserve(n, clockwork_.now(), costs_.writing()));
-  node.file_there = storage_.write(made, costs_.file_bytes(), clockwork_.now());
+  node.file_there = storage_.write(computers_.of(n), made, costs_.file_bytes(), clockwork_.now());
   clockwork_.at(node.file_there, [this, n, task = node.task, frame = node.frame] { end_file(n, task, frame); });
   const auto drawn = static_cast<double>(sizeof(wire::Strip));
   send_to_host({n, node.task, node.frame, drawn, 0, true});

@@ -33,6 +33,15 @@ TEST_P(Simulated, HoldOnACluster) {
       cluster(), GetParam(), [](simulated::World&) { run_rules(); }, run_rules);
 }
 
+// Every message that is not empty.
+TEST_P(Simulated, HoldWhereMessagesAreAnnounced) {
+  simulated::Machine machine = cluster();
+  machine.nodes = 1;
+  machine.network.eager = 0;
+  simulated::run_simulated(
+      machine, GetParam(), [](simulated::World&) { run_rules(); }, run_rules);
+}
+
 INSTANTIATE_TEST_SUITE_P(Rules, Simulated, testing::Values(1, 2, 3, 4, 7, 8, 16, 32));
 
 }  // namespace

@@ -39,6 +39,84 @@ TEST(World, AMessageTakesItsEndsAndItsWay) {
   EXPECT_DOUBLE_EQ(came, kSend + kLatency + 1000 * kByte + kReceive);
 }
 
+// Messages of more than 1000 bytes are announced, and a node's 5000 bytes are received by another once it has worked.
+double time_of_announced(double work, std::size_t eager = 1000) {
+  Machine machine = simulated::machine();
+  machine.network.eager = eager;
+  double came = 0;
+  run_simulated(machine, 2, nothing, [&] {
+    std::vector<char> data(5000, static_cast<char>(mynode()));
+    if (mynode() == 1) return csend(1, data.data(), 5000, 0, 0);
+    messages::charge(kKind, static_cast<std::uint64_t>(work));
+    crecv(1, data.data(), 5000);
+    EXPECT_EQ(data.back(), 1);
+    came = dclock();
+  });
+  return came;
+}
+
+TEST(World, ALongMessageMovesOnceItsReceiverHasAnswered) {
+  constexpr double kMove = 5000 * kByte + kReceive;
+  EXPECT_DOUBLE_EQ(time_of_announced(0), kSend + 3 * kLatency + kMove) << "one more round trip";
+  EXPECT_DOUBLE_EQ(time_of_announced(1), 1 + 2 * kLatency + kMove) << "it answers in its call";
+  EXPECT_DOUBLE_EQ(time_of_announced(0, 5000), kSend + kLatency + kMove) << "is not announced";
+  EXPECT_DOUBLE_EQ(time_of_announced(1, 5000), 1 + kReceive);
+}
+
+TEST(World, ReceiversGoOnWhileAnnouncedMessagesMove) {
+  Machine announcing = machine();
+  announcing.network.eager = 1000;
+  double begun = 0, came = 0;
+  run_simulated(announcing, 2, nothing, [&] {
+    std::vector<char> data(5000000);
+    if (mynode() == 1) return csend(1, data.data(), 5000000, 0, 0);
+    const long message = irecv(1, data.data(), 5000000);
+    while (iprobe(2) == 0 && begun == 0) {
+      messages::charge(kKind, 1);
+      msgdone(message);
+      begun = dclock();
+    }
+    messages::charge(kKind, 4);
+    msgwait(message);
+    came = dclock();
+  });
+  EXPECT_DOUBLE_EQ(came, begun + 2 * kLatency + 5 + kReceive) << "5 s, of which it works 4";
+}
+
+TEST(World, AnnouncedMessagesAreNotOvertaken) {
+  Machine announcing = machine();
+  announcing.network.eager = 1000;
+  std::vector<long> types;
+  run_simulated(announcing, 2, nothing, [&] {
+    std::vector<char> data(5000);
+    if (mynode() == 1) {
+      csend(1, data.data(), 5000, 0, 0);
+      return csend(2, data.data(), 10, 0, 0);
+    }
+    for (int i = 0; i < 2; ++i) {
+      crecv(-1, data.data(), 5000);
+      types.push_back(infotype());
+    }
+  });
+  EXPECT_EQ(types, (std::vector<long>{1, 2}));
+}
+
+TEST(World, WithinAComputerNothingIsAnnounced) {
+  Machine one = machine();
+  one.nodes = one.processors = 2;
+  one.network.eager = 1000;
+  const auto end = [&] {
+    return run_simulated(one, 2, nothing, [] {
+      std::vector<char> data(5000);
+      if (mynode() == 1) return csend(1, data.data(), 5000, 0, 0);
+      crecv(1, data.data(), 5000);
+    });
+  };
+  const double announcing = end();
+  one.network.eager = 5000;
+  EXPECT_EQ(announcing, end());
+}
+
 TEST(World, MessagesAreTakenInTheOrderOfSimulatedTime) {
   std::vector<long> order;
   const auto host = [&](World& world) {
@@ -124,22 +202,24 @@ TEST(World, AFailureEndsAllRanks) {
 }
 
 // Two groups of four, each of which passes a message around after work, and tells the host.
-std::vector<double> times_of_groups(bool keep) {
+std::vector<double> times_of_groups(bool keep, const Machine& machine = simulated::machine()) {
   std::vector<double> times;
   const auto host = [&](World& world) {
     for (int i = 0; i < world.nodes(); ++i) {
-      crecv(1, nullptr, 0);
+      double token = 0;
+      crecv(1, &token, sizeof token);
       times.push_back(dclock());
       times.push_back(static_cast<double>(infonode()));
     }
   };
-  times.push_back(run_simulated(machine(), 8, host, [keep] {
+  times.push_back(run_simulated(machine, 8, host, [keep] {
+    double token = 0;
     const long self = mynode(), first = self / 4 * 4;
     if (keep) messages::keep_to(static_cast<int>(first), 4);
     messages::charge(kKind, static_cast<std::uint64_t>(1 + self * 7 % 5));
-    csend(2, nullptr, 0, first + (self + 1) % 4, 0);
-    crecv(2, nullptr, 0);
-    csend(1, nullptr, 0, myhost(), 0);
+    csend(2, &token, sizeof token, first + (self + 1) % 4, 0);
+    crecv(2, &token, sizeof token);
+    csend(1, &token, sizeof token, myhost(), 0);
   }));
   return times;
 }
@@ -147,6 +227,32 @@ std::vector<double> times_of_groups(bool keep) {
 TEST(World, EveryRunGivesTheSameTimes) { EXPECT_EQ(times_of_groups(true), times_of_groups(true)); }
 
 TEST(World, GroupsThatRunAheadChangeNoTime) { EXPECT_EQ(times_of_groups(true), times_of_groups(false)); }
+
+TEST(World, GroupsThatRunAheadChangeNoTimeWhereMessagesAreAnnounced) {
+  Machine announcing = machine();
+  announcing.network.eager = 0;
+  EXPECT_EQ(times_of_groups(true, announcing), times_of_groups(false, announcing));
+  EXPECT_GT(times_of_groups(true, announcing).back(), times_of_groups(true).back());
+}
+
+Machine noisy(std::uint32_t seed) {
+  Machine noisy = machine();
+  noisy.noise = {.seed = seed, .stragglers = 0.3, .least_slowdown = 1.5, .most_slowdown = 2};
+  noisy.noise.detours = 20;
+  noisy.noise.detour = 0.01;
+  noisy.noise.lengths = Lengths::exponential;
+  return noisy;
+}
+
+TEST(World, NoiseIsThatOfItsSeed) {
+  EXPECT_EQ(times_of_groups(true, noisy(1)), times_of_groups(true, noisy(1)));
+  EXPECT_NE(times_of_groups(true, noisy(1)), times_of_groups(true, noisy(2)));
+  EXPECT_GT(times_of_groups(true, noisy(1)).front(), times_of_groups(true).front());
+}
+
+TEST(World, NoiseDoesNotDependOnWhoRunsAhead) {
+  EXPECT_EQ(times_of_groups(true, noisy(1)), times_of_groups(false, noisy(1)));
+}
 
 TEST(World, WhoWaitsForAnybodyDoesNotRunAhead) {
   double heard = 0;

@@ -51,6 +51,27 @@ TEST(Fit, LeavesOutTimesThatAreFarFromAll) {
   EXPECT_LT(fit.median_error, 0.05);
 }
 
+TEST(Fit, SaysWhichUnitsFollowFromOthers) {
+  std::vector<Measurement> all = measurements({1e-7, 1e-7, 1e-7, 1e-7, 1e-7}, 60);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> about(0.98, 1.02);
+  for (Measurement& m : all) {
+    m.units[2] = (3 * m.units[0] + m.units[1]) * about(random);
+    m.units[4] = 0;
+  }
+  const std::vector<double> explained = explained_by_others(all, kSoft);
+  for (const std::size_t kind : {0u, 2u}) EXPECT_GT(explained[kind], 0.99) << kind;
+  EXPECT_LT(explained[3], 0.8) << "depends on no other";
+  EXPECT_EQ(explained[4], 1) << "was never counted";
+  EXPECT_TRUE(explained_by_others({}, kSoft).empty());
+}
+
+TEST(Fit, UnitsThatAreAlwaysCountedTogetherExplainEachOther) {
+  std::vector<Measurement> all = measurements({1e-7, 1e-7}, 40);
+  for (Measurement& m : all) m.units[1] = 2 * m.units[0];
+  for (const double part : explained_by_others(all, kSoft)) EXPECT_NEAR(part, 1, 1e-6);
+}
+
 TEST(Fit, OfNothingIsNothing) { EXPECT_TRUE(fit_costs({}, kSoft).costs.empty()); }
 
 }  // namespace

@@ -2,6 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "host/content/document/whole_file.h"
 #include "host/experiments/calibrate.h"
 #include "node/wire/work.h"
@@ -24,8 +31,10 @@ constexpr const char* kSmall = R"({
 
 class Platforms : public testing::Test {
  protected:
-  void add(const std::string& name, const std::string& work) {
+  // `computers`: keys of these, too.
+  void add(const std::string& name, const std::string& work, const std::string& computers = "") {
     std::string text = kSmall;
+    text.insert(text.find("\"nodes\""), computers);
     text.replace(text.find("WORK"), 4, work);
     document::write_whole_file(folder_ / (name + ".json"), text);
   }
@@ -58,6 +67,105 @@ TEST_F(Platforms, SayWhatStorageTakes) {
   EXPECT_DOUBLE_EQ(platform.machine.storage.byte, 5e-10);
   EXPECT_DOUBLE_EQ(platform.machine.storage.opening, 2e-3);
   EXPECT_DOUBLE_EQ(platform.file_part, 0.25);
+}
+
+TEST_F(Platforms, SayHowComputersDiffer) {
+  add("small", R"({}, "noise": {"seed": 7, "stragglers": 0.1, "slowdown": [1.5, 3], "detours": 100, "detour": 1e-4,
+                                "lengths": "exponential"})",
+      R"("speeds": [[3, 1], [1, 0.5]], )");
+  const simulated::Machine machine = read("small").machine;
+  ASSERT_EQ(machine.speeds.size(), 2u);
+  EXPECT_EQ(machine.speeds[0].computers, 3);
+  EXPECT_DOUBLE_EQ(machine.speeds[1].speed, 0.5);
+  EXPECT_EQ(machine.noise.seed, 7u);
+  EXPECT_DOUBLE_EQ(machine.noise.stragglers, 0.1);
+  EXPECT_DOUBLE_EQ(machine.noise.least_slowdown, 1.5);
+  EXPECT_DOUBLE_EQ(machine.noise.most_slowdown, 3);
+  EXPECT_DOUBLE_EQ(machine.noise.detours, 100);
+  EXPECT_DOUBLE_EQ(machine.noise.detour, 1e-4);
+  EXPECT_EQ(machine.noise.lengths, simulated::Lengths::exponential);
+  EXPECT_TRUE(machine.is_uneven());
+}
+
+TEST_F(Platforms, AreEvenWhereTheySayNothingElse) {
+  add("small", "{}");
+  const simulated::Machine machine = read("small").machine;
+  EXPECT_FALSE(machine.is_uneven());
+  EXPECT_EQ(machine.host_speed, 1);
+  EXPECT_EQ(machine.network.eager, std::numeric_limits<std::size_t>::max());
+  EXPECT_EQ(machine.storage.servers, 1);
+}
+
+TEST_F(Platforms, SayHowStorageIsDivided) {
+  add("small", R"({}, "storage": {"rate": 1e9, "servers": 16, "stripe": 1048576, "writer_rate": 2e9})");
+  const simulated::Storage storage = read("small").machine.storage;
+  EXPECT_EQ(storage.servers, 16);
+  EXPECT_EQ(storage.stripe, 1048576);
+  EXPECT_DOUBLE_EQ(storage.writer_byte, 5e-10);
+}
+
+TEST_F(Platforms, RefuseNoiseThatCannotBe) {
+  const auto refusal = [&](const std::string& noise) {
+    add("small", R"({}, "noise": )" + noise);
+    return failure_of([&] { read("small"); });
+  };
+  for (const auto& [noise, text] :
+       {std::pair{R"({"detours": 1000, "detour": 1e-3})", "noise.detour: times detours is more than 90 %"},
+        {R"({"detours": 1000})", "detour"},
+        {R"({"stragglers": 0.5})", "slowdown"},
+        {R"({"stragglers": 0.5, "slowdown": 0.5})", "noise.slowdown"},
+        {R"({"stragglers": 0.5, "slowdown": [3, 2]})", "noise.slowdown: is not in order"},
+        {R"({"lengths": "long"})", "noise.lengths"}})
+    EXPECT_TRUE(holds(refusal(noise), text) && holds(refusal(noise), "small.json:6")) << noise << refusal(noise);
+}
+
+TEST_F(Platforms, RefuseSpeedsThatCannotBe) {
+  for (const auto& [speeds, text] : {std::pair{"[]", "computers.speeds: is empty"},
+                                     {"[[0, 1]]", "computers.speeds"},
+                                     {"[[1, 0]]", "computers.speeds"},
+                                     {"[1, 2]", "computers.speeds"}}) {
+    add("small", "{}", std::string(R"("speeds": )") + speeds + ", ");
+    const std::string failure = failure_of([&] { read("small"); });
+    EXPECT_TRUE(holds(failure, text) && holds(failure, "small.json:3")) << failure;
+  }
+}
+
+TEST_F(Platforms, SayWhichCostsAreNotIdentified) {
+  using wire::Work;
+  add("measured", R"({"pixel": 0, "light": 1e-9}, "not_identified": ["pixel", "line"])");
+  add("small", R"("measured")");
+  add("sure", R"({"pixel": 1e-9})");
+  for (const char* name : {"measured", "small", "sure:small", "sure:measured"}) {
+    EXPECT_EQ(read(name).unidentified, (std::vector{Work::pixel, Work::line})) << name;
+    const std::string text = unidentified_text(read(name), std::array{Work::light, Work::pixel});
+    EXPECT_TRUE(holds(text, "what pixel cost is not identified")) << text;
+    EXPECT_EQ(unidentified_text(read(name), std::array{Work::light}), "");
+  }
+  EXPECT_TRUE(read("small:sure").unidentified.empty());
+  add("wrong", R"({}, "not_identified": ["pixels"])");
+  const std::string failure = failure_of([&] { read("wrong"); });
+  EXPECT_TRUE(holds(failure, "wrong.json:6: not_identified[0]") && holds(failure, "pixel")) << failure;
+}
+
+TEST(ReferencePlatform, SaysWhichCostsAreNotIdentified) {
+  using wire::Work;
+  const std::string platforms = std::string(MARS_SOURCE_DIR) + "/cluster/platforms";
+  for (const char* name : {"reference", "fat-tree"})
+    for (const Work kind : {Work::pixel, Work::line, Work::triangle_tested})
+      EXPECT_EQ(std::ranges::count(read_platform(name, platforms).unidentified, kind), 1) << name;
+  EXPECT_TRUE(read_platform("ipsc2", platforms).unidentified.empty()) << "costs are counted operations there";
+}
+
+TEST_F(Platforms, OfACalibrationSayIt) {
+  Calibration calibration;
+  calibration.work.assign(wire::kWorkNames.size(), 1e-9);
+  calibration.copy_rate = 1e10;
+  EXPECT_FALSE(holds(table_text(calibration), "not identified"));
+  calibration.unidentified = {wire::Work::line, wire::Work::pixel};
+  EXPECT_TRUE(holds(table_text(calibration), "pixel                      1.000   not identified\n"));
+  document::write_whole_file(folder_ / "sure.json",
+                             platform_text(calibration, {1e-6, 2e9, 3e-7}, {"sure", "made up", 6, 1 << 30}));
+  EXPECT_EQ(read("sure").unidentified, calibration.unidentified);
 }
 
 TEST_F(Platforms, TakeCostsOfWorkFromAnother) {

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -67,6 +70,48 @@ TEST(ForecastsOfFiles, AreAsSimulated) {
                         std::to_string(nodes) + " nodes");
       }
     }
+}
+
+// A platform of MARS, changed by a patch of JSON.
+std::string changed_platform(const std::string& name, const char* patch) {
+  std::ifstream file(std::string(MARS_SOURCE_DIR) + "/cluster/platforms/" + name + ".json");
+  nlohmann::json platform = nlohmann::json::parse(file);
+  platform.merge_patch(nlohmann::json::parse(patch));
+  const std::string changed = testing::TempDir() + name + "-changed.json";
+  std::ofstream(changed) << platform;
+  return changed;
+}
+
+struct Cluster {
+  const char* how;
+  const char* platform;
+  const char* even;   // a patch
+  const char* patch;  // another
+  double least;       // times as long the latter takes, simulated and forecast
+};
+
+// Each takes so much longer that a forecast that left it out would be far off.
+TEST(ForecastsOfClusters, AreAsSimulated) {
+  for (const Cluster& cluster :
+       {Cluster{"slow computers", "fat-tree", "{}", R"({"computers": {"speeds": [[1, 0.5]]}})", 1.5},
+        Cluster{"detours", "fat-tree", "{}",
+                R"({"noise": {"seed": 3, "detours": 2000, "detour": 1.5e-4, "lengths": "exponential"}})", 1.3},
+        Cluster{"announced messages", "ethernet", R"({"network": {"latency": 5e-4}})",
+                R"({"network": {"latency": 5e-4, "eager": 1000}})", 1.08},
+        Cluster{"a slow server", "ethernet", "{}", R"({"storage": {"rate": 1e6}})", 1.5},
+        Cluster{"slow writers", "ethernet", "{}", R"({"storage": {"writer_rate": 2e6}})", 1.5}}) {
+    const auto film = [&](const char* patch) {
+      return SimulatedFilm("s3", "0-11", changed_platform(cluster.platform, patch), Files::nodes);
+    };
+    const SimulatedFilm even = film(cluster.even), changed = film(cluster.patch);
+    const Forecast forecast = changed.forecast(4, 1);
+    const auto simulated = [&](const SimulatedFilm& film) {
+      return film.render(4, 1, forecast.contributors).total_seconds;
+    };
+    expect_near(forecast.run.seconds, simulated(changed), kWithin, cluster.how);
+    EXPECT_GT(simulated(changed), cluster.least * simulated(even)) << cluster.how;
+    EXPECT_GT(forecast.run.seconds, cluster.least * even.forecast(4, 1).run.seconds) << cluster.how;
+  }
 }
 
 // What is made is counted; what is seen is estimated from some lines.

@@ -54,8 +54,8 @@ Forecast SimulatedFilm::forecast(int nodes, std::uint32_t groups) const {
   return forecast::forecast(counts_, tasks_, setting(film), nodes, groups);
 }
 
-farm::FarmReport SimulatedFilm::render(int nodes, std::uint32_t groups) const {
-  const farm::Plan plan{tasks_, farm::make_groups(nodes, static_cast<int>(groups), tasks_.size())};
+farm::FarmReport SimulatedFilm::render(int nodes, std::uint32_t groups, std::int32_t contributors) const {
+  const farm::Plan plan{tasks_, farm::make_groups(nodes, static_cast<int>(groups), tasks_.size()), contributors};
   const wire::FilmSettings& settings = view().settings();
   const images::PictureBands bands(images::PictureFormat::png, settings.width, settings.height);
   farm::FarmReport report;

@@ -1,6 +1,7 @@
 // A film of examples/, counted and forecast, and rendered on simulated machines to compare.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "hal/simulated/world.h"
@@ -26,7 +27,8 @@ class SimulatedFilm {
   const experiments::Platform& platform() const { return platform_; }
 
   Forecast forecast(int nodes, std::uint32_t groups) const;
-  farm::FarmReport render(int nodes, std::uint32_t groups) const;
+  // `contributors`: as in farm::Plan.
+  farm::FarmReport render(int nodes, std::uint32_t groups, std::int32_t contributors = 0) const;
 
  private:
   Setting setting(const wire::PackedFilm& film) const;
