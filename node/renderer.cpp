@@ -354,8 +354,7 @@ int Renderer::frame_writer() const {
 
 void Renderer::begin_writing() {
   const wire::Strip& strip = report_.strip();
-  if (!report_.is_keyframe())
-    return file_->writer().begin_inbetween(strip.frame, {own_lines_.first, own_lines_.last});
+  if (!report_.is_keyframe()) return file_->writer().begin_inbetween(strip.frame, {own_lines_.first, own_lines_.last});
   const wire::PackedFilm& film = scene().film();
   const wire::FilmSettings& settings = film.settings();
   const auto encoding =
@@ -397,7 +396,8 @@ bool Renderer::exchange_team_bands() {
   const std::uint32_t frame = report_.strip().frame;
   const int self = static_cast<int>(mynode()), writer = frame_writer();
   if (writer != self) {
-    if (own_lines_.count() > 0 && !outbox_.stopped()) file_->team_bands().send(frame, file_->writer().picture(), writer);
+    if (own_lines_.count() > 0 && !outbox_.stopped())
+      file_->team_bands().send(frame, file_->writer().picture(), writer);
     return false;
   }
   const auto ranges = canvas_->team_lines.ranges();

@@ -1,5 +1,6 @@
 // How a node draws a picture of a view: a keyframe together with the other nodes of its group (thesis 4.8, four steps),
-// an inbetween alone (4.9), or its own lines of one. What views share is here: a frame's memory, and strips on their way to the host.
+// an inbetween alone (4.9), or its own lines of one. What views share is here: a frame's memory, and strips on their
+// way to the host.
 #pragma once
 
 #include <cstddef>

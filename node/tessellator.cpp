@@ -28,7 +28,7 @@ struct Tessellator::Output {
   shading::Shading shading;
   shading::ColoredSurface& colored;
   shadow::DicedSurfaces* diced;
-  const OwnLines* all_own;         // as in LineTable
+  const OwnLines* all_own;        // as in LineTable
   const OwnLines* own = nullptr;  // of the current segment, where only some of it may touch them
   SurfaceCounts counts{};
 

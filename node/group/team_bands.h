@@ -1,5 +1,6 @@
-// Bands of an inbetween that a team of nodes draws and encodes together (wire/frame_writer.h): each node sends its own to
-// the node that writes the file. Nodes get ahead of each other by whole frames, so bands may come before they are needed.
+// Bands of an inbetween that a team of nodes draws and encodes together (wire/frame_writer.h): each node sends its own
+// to the node that writes the file. Nodes get ahead of each other by whole frames, so bands may come before they are
+// needed.
 #pragma once
 
 #include <array>

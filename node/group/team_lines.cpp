@@ -30,8 +30,7 @@ std::span<const geometry::LineRange> TeamLines::divide(const geometry::Scene& sc
   std::ranges::fill(steps_, std::uint64_t{0});
   points_ = 0;
   for (const std::uint32_t segment : scene.movers()) add_segment(scene, segment, boxes, nodes);
-  if (scene.casting_count() > 0)
-    add({touched, {0, static_cast<std::uint32_t>(scene.width()) / 4}}, 0, scene);
+  if (scene.casting_count() > 0) add({touched, {0, static_cast<std::uint32_t>(scene.width()) / 4}}, 0, scene);
   add_up_bands(bands);
   const auto ranges = std::span(ranges_).first(nodes);
   map_optimal(totals_, ranges);

@@ -1,6 +1,6 @@
-// How the nodes of a team divide the lines of an inbetween that they draw together: evenly by what lines cost, as far as
-// boxes round moving parts say. So all find the same ranges without a message, before anything is diced, and each node
-// dices only what may touch its lines.
+// How the nodes of a team divide the lines of an inbetween that they draw together: evenly by what lines cost, as far
+// as boxes round moving parts say. So all find the same ranges without a message, before anything is diced, and each
+// node dices only what may touch its lines.
 #pragma once
 
 #include <cstddef>
