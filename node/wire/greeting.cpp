@@ -20,12 +20,11 @@ constexpr std::uint32_t hash_of(std::initializer_list<std::size_t> sizes) {
   return hash;
 }
 
-constexpr std::uint32_t kSizes =
-    hash_of({sizeof(Hello),    sizeof(Load),    sizeof(Loaded),       sizeof(Render), sizeof(Credit), sizeof(Strip),
-             sizeof(Run),      sizeof(Fault),   sizeof(FilmSettings), sizeof(Patch),  sizeof(Shape),  sizeof(Segment),
-             sizeof(Material), sizeof(Matrix),  sizeof(Camera),       sizeof(Light),  sizeof(Track),  sizeof(Change),
-             sizeof(Interval), sizeof(Meshlet), sizeof(AmbientLight), sizeof(Fog),    sizeof(Beat),
-             sizeof(InbetweenBands)});
+constexpr std::uint32_t kSizes = hash_of(
+    {sizeof(Hello),    sizeof(Load),    sizeof(Loaded),       sizeof(Render), sizeof(Credit), sizeof(Strip),
+     sizeof(Run),      sizeof(Fault),   sizeof(FilmSettings), sizeof(Patch),  sizeof(Shape),  sizeof(Segment),
+     sizeof(Material), sizeof(Matrix),  sizeof(Camera),       sizeof(Light),  sizeof(Track),  sizeof(Change),
+     sizeof(Interval), sizeof(Meshlet), sizeof(AmbientLight), sizeof(Fog),    sizeof(Beat),   sizeof(InbetweenBands)});
 
 std::string version_of(const WireStamp& stamp) {
   const auto& [major, minor, patch] = stamp.release;

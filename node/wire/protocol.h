@@ -194,8 +194,8 @@ constexpr collectives::Group team_of_inbetween(std::uint64_t inbetween, const co
 }
 
 // The node of that team that writes it, where nodes write files: they take turns.
-constexpr std::int32_t writer_of_inbetween(std::uint64_t inbetween, const collectives::Group& group,
-                                           std::int32_t teams, const collectives::Group& team) {
+constexpr std::int32_t writer_of_inbetween(std::uint64_t inbetween, const collectives::Group& group, std::int32_t teams,
+                                           const collectives::Group& team) {
   const std::uint64_t turn = inbetween / static_cast<std::uint64_t>(team_count(group, teams));
   return team.first + static_cast<std::int32_t>(turn % static_cast<std::uint64_t>(team.count));
 }

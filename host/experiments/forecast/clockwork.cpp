@@ -17,15 +17,17 @@ void Clockwork::at(double time, Action action) {
   std::push_heap(events_.begin(), events_.end());
 }
 
-void Clockwork::run() {
+bool Clockwork::run(double limit) {
   while (!events_.empty()) {
     std::pop_heap(events_.begin(), events_.end());
     const Event event = events_.back();
     events_.pop_back();
     now_ = event.time;
+    if (now_ > limit) return false;
     free_.push_back(event.action);
     std::exchange(actions_[event.action], {})();
   }
+  return true;
 }
 
 }  // namespace mars::forecast

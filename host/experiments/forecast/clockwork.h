@@ -15,8 +15,8 @@ class Clockwork {
   double now() const { return now_; }
   // Actions of one time happen in the order in which they were given.
   void at(double time, Action action);
-  // Until nothing is left to happen.
-  void run();
+  // Until nothing is left to happen, or what does is later than `limit`: false.
+  bool run(double limit);
 
  private:
   struct Event {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -9,11 +10,15 @@
 namespace mars::forecast {
 namespace {
 
-constexpr double kAlike = 1.01;   // times as long, a film
-constexpr double kSoon = 0.75;    // times as long, a keyframe: much sooner, as messages may wait more than is forecast
+constexpr double kAlike = 1.01;    // times as long, a film
+constexpr double kSoon = 0.75;     // times as long, a keyframe: much sooner, as messages may wait more than is forecast
 constexpr double kShorter = 0.98;  // times as long, a film whose intervals are cut, or its inbetweens shared
 
-constexpr int kWorseInARow = 3;  // numbers of contributors, or of groups, and fewer are not tried
+// In a row that are worse, and fewer are not tried: numbers of contributors, of groups, of sharers.
+constexpr int kWorseContributors = 3, kWorseGroups = 2, kWorseSharers = 2;
+
+constexpr double kAlmost = 0.97;  // of a film's time: what takes that long decides it
+constexpr double kUseless = 2;    // times as long as the best, a film: such a rehearsal is not played to its end
 
 // Both of as many nodes in as many groups.
 bool is_better(const Rehearsed& one, const Rehearsed& other) {
@@ -23,6 +28,9 @@ bool is_better(const Rehearsed& one, const Rehearsed& other) {
   return key < kSoon * other_key || (one.seconds < other.seconds && kSoon * key < other_key);
 }
 
+// Then it hardly matters what nodes do.
+bool is_bound_by_host(const Rehearsed& run) { return run.host_busy > kAlmost * run.seconds; }
+
 // Tasks, and what their frames have to be drawn.
 struct Cut {
   std::vector<farm::Task> tasks;
@@ -31,10 +39,14 @@ struct Cut {
   std::size_t longest() const {
     return std::ranges::max(tasks, {}, [](const farm::Task& task) { return task.frames.size(); }).frames.size();
   }
-  double inbetweens() const {  // of a task, on average
-    std::size_t all = 0;
-    for (const farm::Task& task : tasks) all += task.frames.size() - 1;
-    return static_cast<double>(all) / static_cast<double>(tasks.size());
+  // Of the task of an inbetween, on average.
+  double inbetweens() const {
+    double all = 0, squares = 0;
+    for (const farm::Task& task : tasks) {
+      const auto count = static_cast<double>(task.frames.size() - 1);
+      all += count, squares += count * count;
+    }
+    return all > 0 ? squares / all : 0;
   }
 };
 
@@ -67,7 +79,7 @@ class Search {
       take(with_groups(0, static_cast<int>(groups)), 1);
     else
       try_groups();
-    if (setting_.most_frames == 0) try_cuts(groups);
+    if (setting_.most_frames == 0 && !is_bound_by_host(best_->run)) try_cuts(groups);
     if (setting_.most_frames != kUncut && setting_.most_frames > 0) best_->most_frames = setting_.most_frames;
     return std::move(*best_);
   }
@@ -86,34 +98,39 @@ class Search {
     return true;
   }
 
-  Forecast rehearsed(const Cut& cut, const farm::Plan& plan) const {
+  Forecast rehearsed(const Cut& cut, const farm::Plan& plan, double limit) const {
     return Forecast{nodes_,
                     static_cast<std::uint32_t>(plan.groups.size()),
                     setting_.writers,
                     plan.contributors,
                     plan.sharers,
                     0,
-                    rehearse(cut.counts, plan, setting_, nodes_),
+                    rehearse(cut.counts, plan, setting_, nodes_, limit),
                     experiments::spread_for(setting_.platform.spread, nodes_, setting_.files),
                     experiments::middle_for(setting_.platform.spread, nodes_, setting_.files)};
   }
 
   Forecast with_groups(std::uint32_t most_frames, int groups) {
     const Cut& cut = this->cut(most_frames);
-    farm::Plan plan{cut.tasks, farm::make_groups(nodes_, groups, cut.tasks.size()), 0,
-                    std::max(setting_.sharers, 1)};
-    Forecast best = with_contributors(cut, plan);
+    farm::Plan plan{cut.tasks, farm::make_groups(nodes_, groups, cut.tasks.size()), 0, std::max(setting_.sharers, 1)};
+    // Of pieces keyframes are drawn as those of intervals.
+    if (most_frames > 0) plan.contributors = std::min(best_->contributors, plan.groups.front().count);
+    Forecast best = most_frames > 0 ? rehearsed(cut, plan, best_->run.seconds) : with_contributors(cut, plan);
     plan.contributors = best.contributors;
-    if (setting_.sharers == 0) best = with_sharers(cut, plan, std::move(best));
+    if (setting_.sharers == 0 && !is_bound_by_host(best.run)) best = with_sharers(cut, plan, std::move(best));
     best.most_frames = most_frames;
     return best;
   }
 
   Forecast with_sharers(const Cut& cut, farm::Plan plan, Forecast best) const {
+    int worse = 0;
     for (const std::int32_t sharers : numbers_of_sharers(cut, plan.groups.front().count)) {
       plan.sharers = sharers;
-      Forecast next = rehearsed(cut, plan);
-      if (next.run.seconds < kShorter * best.run.seconds) best = std::move(next);
+      Forecast next = rehearsed(cut, plan, std::min(best.run.seconds, best_ ? best_->run.seconds : best.run.seconds));
+      if (next.run.seconds < kShorter * best.run.seconds)
+        best = std::move(next), worse = 0;
+      else if (++worse == kWorseSharers)
+        break;
     }
     return best;
   }
@@ -121,11 +138,13 @@ class Search {
   // Keyframes by all nodes of a group, or by half as many, a quarter ... A host that takes strips slowly delays
   // keyframes of many contributors much, but films little: inbetweens are drawn meanwhile.
   Forecast with_contributors(const Cut& cut, farm::Plan plan) const {
-    Forecast best = rehearsed(cut, plan);
+    const auto limit = [this](double own) { return std::min(own, best_ ? best_->run.seconds : own) * kUseless; };
+    Forecast best = rehearsed(cut, plan, limit(std::numeric_limits<double>::infinity()));
     int worse = 0;  // in a row
-    for (std::int32_t fewer = plan.groups.front().count / 2; fewer >= 1 && worse < kWorseInARow; fewer /= 2) {
+    for (std::int32_t fewer = plan.groups.front().count / 2; fewer >= 1 && worse < kWorseContributors; fewer /= 2) {
+      if (is_bound_by_host(best.run)) break;
       plan.contributors = fewer;
-      Forecast next = rehearsed(cut, plan);
+      Forecast next = rehearsed(cut, plan, limit(best.run.seconds));
       ++worse;
       if (!is_better(next.run, best.run)) continue;
       best = std::move(next);
@@ -134,13 +153,14 @@ class Search {
     return best;
   }
 
-  // Of an inbetween, where nodes of a group may have none otherwise: so that each node has about one of a task, or two.
+  // Of an inbetween, where nodes of a group may have none otherwise: as many as leave each team one of a task, or two
+  // ...
   static std::vector<std::int32_t> numbers_of_sharers(const Cut& cut, int nodes) {
     const double inbetweens = cut.inbetweens();
     if (inbetweens == 0 || nodes < 2 || inbetweens >= 3 * nodes) return {};
     std::set<std::int32_t> numbers;
-    for (const double turns : {1.0, 2.0, 4.0})
-      numbers.insert(std::clamp(static_cast<std::int32_t>(turns * nodes / inbetweens), 1, nodes));
+    for (const double turns : {1.0, 2.0, 3.0, 4.0, 8.0})
+      numbers.insert(nodes / std::clamp(static_cast<std::int32_t>(std::ceil(inbetweens / turns)), 1, nodes));
     numbers.erase(1);
     return {numbers.begin(), numbers.end()};
   }
@@ -149,7 +169,7 @@ class Search {
   void try_groups() {
     const int most = std::min(nodes_, static_cast<int>(whole_.tasks.size()));
     int worse = 0;
-    for (int groups = most; groups >= 1 && worse < kWorseInARow; groups = groups <= 4 ? groups - 1 : groups / 2)
+    for (int groups = most; groups >= 1 && worse < kWorseGroups; groups = groups <= 4 ? groups - 1 : groups / 2)
       worse = take(with_groups(0, groups), 1) ? 0 : worse + 1;
     const auto coarse = static_cast<int>(best_->groups);
     if (coarse > 4)
@@ -186,10 +206,16 @@ Forecast forecast(const FilmCounts& counts, const std::vector<farm::Task>& tasks
 }
 
 std::vector<Forecast> forecasts_up_to(const FilmCounts& counts, const std::vector<farm::Task>& tasks,
-                                      const Setting& setting, int most, std::uint32_t groups) {
+                                      const Setting& setting, int most, std::uint32_t groups,
+                                      const Progress& progress) {
+  std::vector<int> numbers;
+  for (int nodes = 1; nodes < most; nodes *= 2) numbers.push_back(nodes);
+  numbers.push_back(most);
   std::vector<Forecast> all;
-  for (int nodes = 1; nodes < most; nodes *= 2) all.push_back(forecast(counts, tasks, setting, nodes, 0));
-  all.push_back(forecast(counts, tasks, setting, most, groups));
+  for (const int nodes : numbers) {
+    all.push_back(forecast(counts, tasks, setting, nodes, nodes == most ? groups : 0));
+    if (progress) progress(static_cast<int>(all.size()), static_cast<int>(numbers.size()));
+  }
   return all;
 }
 

@@ -1,9 +1,10 @@
 // A forecast of a rendering: its seconds, memory and bytes on a platform, and with how many groups of nodes, how many
-// nodes that draw a keyframe or an inbetween, and which cuts of intervals into tasks it is shortest. It follows from counted frames and the platform alone, so that it is
-// the same every time.
+// nodes that draw a keyframe or an inbetween, and which cuts of intervals into tasks it is shortest. It follows from
+// counted frames and the platform alone, so that it is the same every time.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -41,8 +42,12 @@ struct Forecast {
 Forecast forecast(const FilmCounts& counts, const std::vector<farm::Task>& tasks, const Setting& setting, int nodes,
                   std::uint32_t groups);
 
+// Of what is done, how much of all.
+using Progress = std::function<void(int done, int all)>;
+
 // By numbers of nodes: powers of two below `most`, and `most`; `groups` of it, where they are given.
 std::vector<Forecast> forecasts_up_to(const FilmCounts& counts, const std::vector<farm::Task>& tasks,
-                                      const Setting& setting, int most, std::uint32_t groups);
+                                      const Setting& setting, int most, std::uint32_t groups,
+                                      const Progress& progress = {});
 
 }  // namespace mars::forecast

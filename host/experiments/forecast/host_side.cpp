@@ -45,6 +45,7 @@ void HostSide::wake() {
 }
 
 void HostSide::busy(double seconds, Clockwork::Action then) {
+  busy_seconds_ += seconds;
   clockwork_.at(computers_.work(self_, clockwork_.now(), seconds), std::move(then));
 }
 
@@ -67,13 +68,13 @@ double HostSide::give(std::size_t group) {
   task.group = group;
   task.left = frames.size();
   for (std::size_t frame = 0; frame < frames.size(); ++frame)
-    task.frames.push_back({frame == 0 ? division.contributors
-                                      : wire::team_of_inbetween(plan_.tasks[number].first_inbetween + frame - 1, nodes,
-                                                                division.teams)
-                                            .count,
-                           false,
-                           0,
-                           {}});
+    task.frames.push_back(
+        {frame == 0
+             ? division.contributors
+             : wire::team_of_inbetween(plan_.tasks[number].first_inbetween + frame - 1, nodes, division.teams).count,
+         false,
+         0,
+         {}});
   groups_[group].tasks.push_back(number);
   outward_.task(group, number);
   return nodes.count *

@@ -50,6 +50,8 @@ class HostSide {
   void arrive(const StripSent& strip);
 
   std::vector<events::ExpectedFrame>& frames() { return composed_; }
+  // Seconds that its loop worked.
+  double busy_seconds() const { return busy_seconds_; }
   // When the sinks had taken the last frame.
   double ended() const { return ended_; }
 
@@ -105,6 +107,7 @@ class HostSide {
   bool idle_ = true;
   std::vector<events::ExpectedFrame> composed_;
   double ended_ = 0;
+  double busy_seconds_ = 0;
 };
 
 }  // namespace mars::forecast

@@ -24,7 +24,7 @@ class Rehearsal {
  public:
   Rehearsal(const FilmCounts& counts, const farm::Plan& plan, const Setting& setting, int nodes);
 
-  Rehearsed run();
+  Rehearsed run(double limit);
 
  private:
   struct Node {
@@ -52,7 +52,7 @@ class Rehearsal {
   };
   // An inbetween that a team draws, where nodes write files.
   struct TeamFrame {
-    int come = 0;                // of other nodes' bands
+    int come = 0;               // of other nodes' bands
     bool writer_waits = false;  // for them
   };
 
@@ -103,8 +103,8 @@ class Rehearsal {
   simulated::StorageUse storage_;
   const bool nodes_write_;
   std::map<std::array<std::size_t, 3>, GroupKeyframe> keyframes_;  // by number, nodes and inbetweens
-  std::map<int, std::vector<std::vector<NodePart>>> inbetweens_;  // by nodes that share one, and by task
-  std::vector<std::vector<TeamFrame>> team_frames_;               // by task
+  std::map<int, std::vector<std::vector<NodePart>>> inbetweens_;   // by nodes that share one, and by task
+  std::vector<std::vector<TeamFrame>> team_frames_;                // by task
   std::vector<Node> nodes_;
   std::vector<GroupState> groups_;
   Rehearsed result_;
@@ -169,11 +169,12 @@ const std::vector<std::vector<NodePart>>& Rehearsal::inbetweens_of(int sharers) 
   return found->second;
 }
 
-Rehearsed Rehearsal::run() {
+Rehearsed Rehearsal::run(double limit) {
   host_.begin();
-  clockwork_.run();
-  result_.seconds = host_.ended();
+  const bool ended = clockwork_.run(limit);
+  result_.seconds = ended ? host_.ended() : std::numeric_limits<double>::infinity();
   result_.frames = std::move(host_.frames());
+  result_.host_busy = host_.busy_seconds();
   return std::move(result_);
 }
 
@@ -181,7 +182,8 @@ const GroupKeyframe& Rehearsal::keyframe_of(std::size_t task, const collectives:
   const std::size_t number = counts_.tasks[task].keyframe;
   const auto size = static_cast<std::size_t>(group.count);
   const std::size_t a_team = size / static_cast<std::size_t>(plan_.teams_of(group));
-  const std::size_t inbetweens = std::min(size, counts_.tasks[task].inbetweens.size() * a_team);  // nodes that draw them
+  const std::size_t inbetweens =
+      std::min(size, counts_.tasks[task].inbetweens.size() * a_team);  // nodes that draw them
   const auto [found, fresh] = keyframes_.try_emplace({number, size, inbetweens});
   if (fresh)
     found->second = costs_.keyframe(counts_.keyframes[number], group.count, plan_.contributors_of(group), inbetweens);
@@ -382,9 +384,8 @@ void Rehearsal::exchange_team_bands(int n) {
   result_.bytes_to_nodes += bytes;
   const double arrival = routes_.arrival(computers_.of(n), computers_.of(writer), static_cast<std::size_t>(bytes),
                                          clockwork_.now(), clockwork_.now());
-  clockwork_.at(arrival, [this, writer, task = node.task, number = node.frame] {
-    receive_team_bands(writer, task, number);
-  });
+  clockwork_.at(arrival,
+                [this, writer, task = node.task, number = node.frame] { receive_team_bands(writer, task, number); });
   work(n, costs_.costs().to_send(bytes), &Rehearsal::send_drawn);
 }
 
@@ -450,8 +451,8 @@ void Rehearsal::receive_credit(int n) {
 
 }  // namespace
 
-Rehearsed rehearse(const FilmCounts& counts, const farm::Plan& plan, const Setting& setting, int nodes) {
-  return Rehearsal(counts, plan, setting, nodes).run();
+Rehearsed rehearse(const FilmCounts& counts, const farm::Plan& plan, const Setting& setting, int nodes, double limit) {
+  return Rehearsal(counts, plan, setting, nodes).run(limit);
 }
 
 }  // namespace mars::forecast

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "host/experiments/forecast/film_counts.h"
@@ -21,8 +22,11 @@ struct Rehearsed {
   double shadow_memory = 0;  // and for shadows
   double still_memory = 0;   // of still lines, that machines keep for a group, at most
   farm::HostMemory host_memory;
+  double host_busy = 0;  // seconds that the host's loop works
 };
 
-Rehearsed rehearse(const FilmCounts& counts, const farm::Plan& plan, const Setting& setting, int nodes);
+// A rendering that takes longer than `limit` is not played to its end: its seconds are infinite.
+Rehearsed rehearse(const FilmCounts& counts, const farm::Plan& plan, const Setting& setting, int nodes,
+                   double limit = std::numeric_limits<double>::infinity());
 
 }  // namespace mars::forecast

@@ -80,7 +80,7 @@ class NodeWriter : public wire::FrameWriter {
   std::uint32_t frame_ = 0;
   bool is_keyframe_ = false;
   std::vector<std::vector<std::byte>> pictures_;  // messages; of a node that writes the frame
-  std::vector<std::vector<std::byte>> drawn_;  // by band: an inbetween's records; empty: as the background's
+  std::vector<std::vector<std::byte>> drawn_;     // by band: an inbetween's records; empty: as the background's
 
   FrameFiles files_;
 };

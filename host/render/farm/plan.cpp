@@ -25,7 +25,9 @@ std::int32_t Plan::teams_of(const collectives::Group& group) const {
 }
 
 Plan make_plan(const wire::PackedFilm& film, const PlanRequest& request, int nodes) {
-  Plan plan{make_tasks(film, request.frames, request.coherence, request.most_frames), {}, request.contributors,
+  Plan plan{make_tasks(film, request.frames, request.coherence, request.most_frames),
+            {},
+            request.contributors,
             request.sharers};
   plan.groups = make_groups(nodes, static_cast<int>(request.groups), plan.tasks.size());
   return plan;

@@ -15,13 +15,13 @@
 #include "hal/failure/failure.h"
 #include "host/child/environment.h"
 #include "host/child/programs.h"
-#include "host/child/standard_streams.h"
 #include "host/cli/command.h"
 #include "host/content/document/text.h"
 #include "host/content/document/whole_file.h"
 #include "host/experiments/calibrate.h"
 #include "host/experiments/platform.h"
 #include "host/experiments/trials/trials.h"
+#include "host/shell/commands/shown_progress.h"
 #include "host/shell/launch/command.h"
 #include "host/shell/launch/mpi_messages.h"
 #include "topology/machine.h"
@@ -76,13 +76,6 @@ experiments::CalibratedMachine this_machine(const fs::path& file) {
   return {file.stem().string(),
           std::string(name) + ", measured by mars calibrate of MARS " MARS_VERSION " on " + day + ".", processors,
           topology::memory_share(machine.memory(), topology::memory_limit(), processors)};
-}
-
-auto shown_progress(const char* doing) {
-  return [doing](int done, int all) {
-    if (isatty(STDERR_FILENO))
-      child::raw_error() << '\r' << doing << ": " << 100 * done / all << " %" << (done == all ? "\n" : "");
-  };
 }
 
 // Where what --platform here names is written, in a folder that is there.

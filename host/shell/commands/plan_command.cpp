@@ -18,6 +18,7 @@
 #include "host/images/picture_format.h"
 #include "host/render/farm/node_memory.h"
 #include "host/render/session/session.h"
+#include "host/shell/commands/shown_progress.h"
 #include "host/shell/job/film_of.h"
 #include "host/shell/options/render_options.h"
 #include "topology/machine.h"
@@ -27,6 +28,7 @@ namespace {
 
 constexpr std::string_view kHere = "here";
 constexpr double kCounting = 0.7;  // seconds, about
+constexpr int kMany = 256;         // nodes: forecasts take seconds
 constexpr double kWorthIt = 1.05;  // times the shortest: more nodes than that takes are not worth it
 
 struct PlanWords {
@@ -115,7 +117,8 @@ Planned plan(const options::RenderOptions& options, const NodesCode& code) {
   const int nodes = options.nodes == 0 ? topology::Machine::here().processors() : static_cast<int>(options.nodes);
   const auto forecasts = [&](forecast::Writers writers) {
     setting.writers = writers;
-    return forecast::forecasts_up_to(counts, tasks, setting, nodes, options.groups);
+    return forecast::forecasts_up_to(counts, tasks, setting, nodes, options.groups,
+                                     nodes >= kMany ? shown_progress("forecasting") : forecast::Progress());
   };
   Planned planned{platform, counts.counted, frames.size(), setting.files, {}, {}, 0};
   planned.by_nodes =
@@ -143,10 +146,9 @@ std::string in_groups(const forecast::Forecast& forecast) {
 std::string division_text(const forecast::Forecast& forecast) {
   std::string text;
   if (forecast.sharers > 1)
-    text += ", of which " + document::counted(static_cast<std::size_t>(forecast.sharers), "node") +
-            " share an inbetween";
-  if (forecast.most_frames > 0)
-    text += ", intervals cut after " + document::counted(forecast.most_frames, "frame");
+    text +=
+        ", of which " + document::counted(static_cast<std::size_t>(forecast.sharers), "node") + " share an inbetween";
+  if (forecast.most_frames > 0) text += ", intervals cut after " + document::counted(forecast.most_frames, "frame");
   return text;
 }
 

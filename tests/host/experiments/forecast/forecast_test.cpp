@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "host/programs/node_counter.h"
@@ -47,8 +48,9 @@ class Forecasts : public testing::TestWithParam<Case> {};
 TEST_P(Forecasts, AreAsSimulated) {
   const SimulatedFilm film(GetParam().film, GetParam().frames, "fat-tree");
   for (const int nodes : {1, 2, 4, 16}) {
-    const Rehearsed forecast = film.forecast(nodes, 1).run;
-    const farm::FarmReport report = film.render(nodes, 1);
+    const Forecast choice = film.forecast(nodes, 1);
+    const Rehearsed& forecast = choice.run;
+    const farm::FarmReport report = film.render(choice);
     const std::string where = " on " + std::to_string(nodes) + " nodes";
     expect_near(forecast.seconds, report.total_seconds, kWithin, "seconds" + where);
     expect_near(forecast.bytes_to_host, sum_of(report, &wire::WorkCounts::bytes_to_host), kWithin, "to host" + where);
@@ -64,8 +66,8 @@ TEST(ForecastsOfFiles, AreAsSimulated) {
     for (const Case& one : {Case{"s3", "0-11"}, Case{"visit", "100-109"}, Case{"stones", "0-9"}}) {
       const SimulatedFilm film(one.film, one.frames, "fat-tree", files);
       for (const int nodes : {1, 4}) {
-        const double forecast = film.forecast(nodes, 1).run.seconds, measured = film.render(nodes, 1).total_seconds;
-        expect_near(forecast, measured, kWithin,
+        const Forecast forecast = film.forecast(nodes, 1);
+        expect_near(forecast.run.seconds, film.render(forecast).total_seconds, kWithin,
                     std::string(one.film) + (files == Files::host ? ", host writes, " : ", nodes write, ") +
                         std::to_string(nodes) + " nodes");
       }
@@ -105,13 +107,35 @@ TEST(ForecastsOfClusters, AreAsSimulated) {
     };
     const SimulatedFilm even = film(cluster.even), changed = film(cluster.patch);
     const Forecast forecast = changed.forecast(4, 1);
-    const auto simulated = [&](const SimulatedFilm& film) {
-      return film.render(4, 1, forecast.contributors).total_seconds;
-    };
+    const auto simulated = [&](const SimulatedFilm& film) { return film.render(forecast).total_seconds; };
     expect_near(forecast.run.seconds, simulated(changed), kWithin, cluster.how);
     EXPECT_GT(simulated(changed), cluster.least * simulated(even)) << cluster.how;
     EXPECT_GT(forecast.run.seconds, cluster.least * even.forecast(4, 1).run.seconds) << cluster.how;
   }
+}
+
+TEST(ForecastsOfTeams, AreAsSimulated) {
+  for (const Files files : {Files::none, Files::nodes})
+    for (const Case& one : {Case{"s3", "0-11"}, Case{"visit", "100-109"}, Case{"demo", "0-7"}}) {
+      const SimulatedFilm film(one.film, one.frames, "fat-tree", files);
+      for (const auto& [nodes, groups, sharers, most] :
+           {std::tuple{4, 1u, 2, kUncut}, {8, 1u, 8, kUncut}, {8, 2u, 2, 5u}}) {
+        const Forecast forecast = film.forecast(nodes, groups, sharers, most);
+        expect_near(forecast.run.seconds, film.render(forecast).total_seconds, 0.2,
+                    std::string(one.film) + (files == Files::nodes ? ", nodes write, " : ", ") +
+                        std::to_string(sharers) + " of " + std::to_string(nodes) + " share");
+      }
+    }
+}
+
+// A film of fewer inbetweens than nodes.
+TEST(ForecastsOfTeams, ChooseThemWhereTheyPay) {
+  const SimulatedFilm film("s3", "0-11", "fat-tree", Files::nodes);
+  const Forecast chosen = film.forecast(32, 0), alone = film.forecast(32, 0, 1, kUncut);
+  EXPECT_GT(chosen.sharers, 1);
+  EXPECT_LT(chosen.run.seconds, alone.run.seconds * 0.9);
+  EXPECT_LT(film.render(chosen).total_seconds, film.render(alone).total_seconds * 0.95);
+  EXPECT_EQ(film.forecast(2, 1).sharers, 1) << "each node has inbetweens of its own";
 }
 
 // What is made is counted; what is seen is estimated from some lines.
@@ -153,10 +177,11 @@ class ForecastsOfShadows : public testing::TestWithParam<Lit> {
 TEST_P(ForecastsOfShadows, AreAsSimulated) {
   const SimulatedFilm film = this->film();
   for (const int nodes : GetParam().nodes) {
-    const farm::FarmReport report = film.render(nodes, 1);
+    const Forecast forecast = film.forecast(nodes, 1);
+    const farm::FarmReport report = film.render(forecast);
     const std::string where = "on " + std::to_string(nodes) + " nodes";
-    expect_near(film.forecast(nodes, 1).run.seconds, report.total_seconds, 0.2, where);
-    expect_near(film.forecast(nodes, 1).run.bytes_to_nodes, sum_of(report, &wire::WorkCounts::bytes_to_nodes), 0.2,
+    expect_near(forecast.run.seconds, report.total_seconds, 0.2, where);
+    expect_near(forecast.run.bytes_to_nodes, sum_of(report, &wire::WorkCounts::bytes_to_nodes), 0.2,
                 "bytes to nodes, " + where);
   }
 }
@@ -211,14 +236,12 @@ INSTANTIATE_TEST_SUITE_P(Examples, Forecasts,
 // Of all numbers of groups, the one chosen takes hardly longer than the best.
 void expect_best_groups(const SimulatedFilm& film, int nodes) {
   const auto most = std::min(static_cast<std::uint32_t>(nodes), static_cast<std::uint32_t>(film.tasks().size()));
-  const std::uint32_t chosen = film.forecast(nodes, 0).groups;
-  double best = 1e30, own = 0;
-  for (std::uint32_t groups = 1; groups <= most; ++groups) {
-    const double seconds = film.render(nodes, groups).total_seconds;
-    best = std::min(best, seconds);
-    if (groups == chosen) own = seconds;
-  }
-  EXPECT_LE(own, 1.05 * best) << chosen << " groups of " << nodes << " nodes on " << film.platform().name;
+  const Forecast chosen = film.forecast(nodes, 0);
+  const double own = film.render(chosen).total_seconds;
+  double best = 1e30;
+  for (std::uint32_t groups = 1; groups <= most; ++groups)
+    best = std::min(best, film.render(nodes, groups).total_seconds);
+  EXPECT_LE(own, 1.05 * best) << chosen.groups << " groups of " << nodes << " nodes on " << film.platform().name;
   EXPECT_GT(own, 0);
 }
 

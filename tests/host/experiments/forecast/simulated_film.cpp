@@ -49,13 +49,24 @@ Setting SimulatedFilm::setting(const wire::PackedFilm& film) const {
   return setting;
 }
 
-Forecast SimulatedFilm::forecast(int nodes, std::uint32_t groups) const {
+Forecast SimulatedFilm::forecast(int nodes, std::uint32_t groups, std::int32_t sharers,
+                                 std::uint32_t most_frames) const {
   const wire::PackedFilm film = view();
-  return forecast::forecast(counts_, tasks_, setting(film), nodes, groups);
+  Setting setting = this->setting(film);
+  setting.sharers = sharers;
+  setting.most_frames = most_frames;
+  return forecast::forecast(counts_, tasks_, setting, nodes, groups);
 }
 
-farm::FarmReport SimulatedFilm::render(int nodes, std::uint32_t groups, std::int32_t contributors) const {
-  const farm::Plan plan{tasks_, farm::make_groups(nodes, static_cast<int>(groups), tasks_.size()), contributors};
+farm::FarmReport SimulatedFilm::render(int nodes, std::uint32_t groups) const {
+  return render(Forecast{.nodes = nodes, .groups = groups, .run = {}, .spread = {}});
+}
+
+farm::FarmReport SimulatedFilm::render(const Forecast& forecast) const {
+  const int nodes = forecast.nodes;
+  const farm::Plan plan{farm::cut_tasks(tasks_, forecast.most_frames > 0 ? forecast.most_frames : kUncut),
+                        farm::make_groups(nodes, static_cast<int>(forecast.groups), tasks_.size()),
+                        forecast.contributors, forecast.sharers};
   const wire::FilmSettings& settings = view().settings();
   const images::PictureBands bands(images::PictureFormat::png, settings.width, settings.height);
   farm::FarmReport report;

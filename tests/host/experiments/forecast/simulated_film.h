@@ -26,9 +26,12 @@ class SimulatedFilm {
   const FilmCounts& counts() const { return counts_; }
   const experiments::Platform& platform() const { return platform_; }
 
-  Forecast forecast(int nodes, std::uint32_t groups) const;
-  // `contributors`: as in farm::Plan.
-  farm::FarmReport render(int nodes, std::uint32_t groups, std::int32_t contributors = 0) const;
+  // `sharers`, `most_frames`: as in Setting.
+  Forecast forecast(int nodes, std::uint32_t groups, std::int32_t sharers = 0, std::uint32_t most_frames = 0) const;
+  // All nodes of a group draw keyframes, one an inbetween.
+  farm::FarmReport render(int nodes, std::uint32_t groups) const;
+  // As the forecast says.
+  farm::FarmReport render(const Forecast& forecast) const;
 
  private:
   Setting setting(const wire::PackedFilm& film) const;
