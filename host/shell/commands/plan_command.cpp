@@ -104,7 +104,7 @@ Planned plan(const options::RenderOptions& options, const NodesCode& code) {
   const auto frames = options.frames.of_film(view.settings().frames);
   const std::vector<farm::Task> tasks = farm::make_tasks(view, frames, !options.no_coherence);
   const forecast::FilmCounts counts =
-      forecast::count_film(view, tasks, *code.make_counter(view), {kCounting}, options.format);
+      forecast::count_film(view, tasks, *code.make_counter(view, forecast::Lines::some), {kCounting}, options.format);
   forecast::Setting setting{view, platform, options.mapping, options.format};
   // As simulations count files that go nowhere.
   setting.files = options.sink == options::SinkKind::files || options.write != options::WriteWhere::automatic;

@@ -198,7 +198,7 @@ TEST(Forecast, OfFewFramesCountedIsCloseToThatOfAll) {
   Setting setting{view, film.platform()};
   setting.files = false;
   const FilmCounts few =
-      count_film(view, film.tasks(), *programs::make_node_counter(view), {10, 0.05}, images::PictureFormat::png);
+      count_film(view, film.tasks(), *programs::make_node_counter(view, Lines::some), {10, 0.05}, images::PictureFormat::png);
   EXPECT_LT(few.counted, 10u);
   EXPECT_NEAR(forecast(few, film.tasks(), setting, 4, 1).run.seconds, film.forecast(4, 1).run.seconds,
               0.1 * film.forecast(4, 1).run.seconds);

@@ -40,7 +40,7 @@ SimulatedFilm::SimulatedFilm(const std::string& name, const std::string& frames,
       film_(small_film(name, files, light)),
       platform_(experiments::read_platform(platform, std::string(MARS_SOURCE_DIR) + "/cluster/platforms")),
       tasks_(farm::make_tasks(view(), film::FrameSet(frames).of_film(view().settings().frames), true)),
-      counts_(count_film(view(), tasks_, *programs::make_node_counter(view()), {10}, images::PictureFormat::png)) {}
+      counts_(count_film(view(), tasks_, *programs::make_node_counter(view(), Lines::some), {10}, images::PictureFormat::png)) {}
 
 Setting SimulatedFilm::setting(const wire::PackedFilm& film) const {
   Setting setting{film, platform_};
