@@ -163,7 +163,8 @@ NodePart FrameCosts::inbetween(const FrameTotals& totals, const FrameTotals& aga
   part.strips = strips(totals, costs_.of(units) + costs_.of(totals.casters));
   part.compose = pasting(totals) + encoding(totals.changed);
   part.strips.pasting += costs_.of(Work::host_restored, totals.drawn.moving.block_pixels * pixel_bytes());
-  part.memory = part.made_memory = std::min(arena_bytes(), made_bytes(made));
+  part.memory = std::min(arena_bytes(), made_bytes(made));
+  part.made_memory = std::min(arena_bytes(), fresh_bytes(made));
   return part;
 }
 
@@ -359,6 +360,12 @@ double FrameCosts::made_bytes(const wire::UnitCounts& made) const {
          3 * 8 * height();
 }
 
+// Nodes count as fresh what triangles take as they are made.
+double FrameCosts::fresh_bytes(const wire::UnitCounts& made) const {
+  return static_cast<double>(kTriangleBytes) * made[Work::triangle] +
+         static_cast<double>(kUnsortedBoxBytes) * made[Work::edge_box_made];
+}
+
 // As node/group/passes.h bounds them.
 double FrameCosts::passes(const wire::UnitCounts& made, double home_boxes, bool travels) const {
   const double a_box = kTriangleBytes + kUnsortedBoxBytes;
@@ -383,7 +390,7 @@ void FrameCosts::add_dicing(GroupKeyframe& keyframe, const Homes& homes,
     if (most > 1) keyframe.nodes[n].dice += most * dicing(made[n]) + once;
     keyframe.nodes[n].map = costs_.of(Work::line_mapped, height());
     keyframe.nodes[n].memory = made_bytes(made[n]);
-    keyframe.nodes[n].made_memory = std::min(arena_bytes(), made_bytes(made[n]));
+    keyframe.nodes[n].made_memory = std::min(arena_bytes(), fresh_bytes(made[n]));
   }
 }
 

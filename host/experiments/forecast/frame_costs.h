@@ -29,7 +29,7 @@ struct NodePart {
   StripCosts strips;
   double compose = 0;      // of a node that writes files: pasting, and of an inbetween encoding
   double memory = 0;       // bytes of its arena
-  double made_memory = 0;  // of this memory, what the node makes itself
+  double made_memory = 0;  // of this memory, what the node's own triangles take
 };
 
 struct GroupKeyframe {
@@ -110,6 +110,7 @@ class FrameCosts {
   double kept_bytes(const wire::LineCounts& line) const;
   wire::StillPlan still_plan(int nodes) const;
   double made_bytes(const wire::UnitCounts& made) const;
+  double fresh_bytes(const wire::UnitCounts& made) const;
   double arena_bytes() const;
   double passes(const wire::UnitCounts& made, double home_boxes, bool travels) const;
   void add_dicing(GroupKeyframe& keyframe, const Homes& homes, const std::vector<wire::UnitCounts>& made) const;

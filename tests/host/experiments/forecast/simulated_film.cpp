@@ -54,8 +54,19 @@ Forecast SimulatedFilm::forecast(int nodes, std::uint32_t groups) const {
   return forecast::forecast(counts_, tasks_, setting(film), nodes, groups);
 }
 
+Rehearsed SimulatedFilm::counted(int nodes, std::uint32_t groups) const {
+  const wire::PackedFilm film = view();
+  if (!exact_)
+    exact_ = count_exactly(film, tasks_, programs::make_node_counter, images::PictureFormat::png, 2, {});
+  return rehearse(*exact_, plan(nodes, groups), setting(film), nodes);
+}
+
+farm::Plan SimulatedFilm::plan(int nodes, std::uint32_t groups) const {
+  return {tasks_, farm::make_groups(nodes, static_cast<int>(groups), tasks_.size())};
+}
+
 farm::FarmReport SimulatedFilm::render(int nodes, std::uint32_t groups) const {
-  const farm::Plan plan{tasks_, farm::make_groups(nodes, static_cast<int>(groups), tasks_.size())};
+  const farm::Plan plan = this->plan(nodes, groups);
   const wire::FilmSettings& settings = view().settings();
   const images::PictureBands bands(images::PictureFormat::png, settings.width, settings.height);
   farm::FarmReport report;
