@@ -1,6 +1,7 @@
 #include "node/frame_counter.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "node/simd/vector_slack.h"
 
@@ -14,7 +15,7 @@ constexpr std::size_t kShareBytes = std::size_t{16} << 20;  // of a share's tria
 constexpr std::size_t kKeptBytes = std::size_t{768} << 20;  // of triangles and edge boxes whose visibility is decided
 constexpr std::size_t kBoxBytes = sizeof(geometry::Triangle) + sizeof(raster::EdgeBox);  // at most
 
-constexpr std::uint32_t kBlock = 16;  // side of the compositor's blocks, by default
+constexpr std::uint32_t kBlock = wire::kCountedBlock;
 
 double share_of(double part, double whole) { return whole > 0 ? part / whole : 0; }
 
@@ -38,6 +39,8 @@ FrameCounter::FrameCounter(const wire::PackedFilm& film, simd::InstructionSet se
       sampled_((film.settings().height + step_ - 1) / step_),
       ids_(std::size_t{stride_} * film.settings().samples),
       depths_(ids_.size()) {
+  for (BlockRow* row : {&constant_row_, &moving_row_})
+    for (auto* lines : {&row->shown, &row->filled}) lines->resize((film.settings().width + kBlock - 1) / kBlock);
   if (film.casting_count() > 0) shadows_.emplace(scene_, set);
 }
 
@@ -87,7 +90,7 @@ wire::FrameCounts FrameCounter::count(wire::FrameKind kind, std::uint32_t frame)
     counts.lines[line].moving_width = moving_columns_[line].width();
   }
   if (shadows_) shadows_->begin(scene_, kind, step_);
-  estimate_seen(counts.lines, keyframe);
+  estimate_seen(counts, keyframe);
   if (shadows_) shadows_->count(scene_, counts);
   return counts;
 }
@@ -207,7 +210,8 @@ std::uint32_t FrameCounter::line_of(std::size_t sampled) const {
 }
 
 // Of the samples that boxes cover, lines about a sampled one are taken to show as much as that does.
-void FrameCounter::estimate_seen(std::vector<wire::LineCounts>& lines, bool keyframe) {
+void FrameCounter::estimate_seen(wire::FrameCounts& counts, bool keyframe) {
+  std::vector<wire::LineCounts>& lines = counts.lines;
   Seen seen{std::vector<wire::SeenCounts>(sampled_.size()), std::vector<wire::SeenCounts>(sampled_.size())};
   if (is_short_)
     see_in_bands(keyframe, seen);
@@ -217,6 +221,8 @@ void FrameCounter::estimate_seen(std::vector<wire::LineCounts>& lines, bool keyf
          [](const wire::LineCounts& line) { return line.samples - line.moving_samples; });
   spread(seen.moving, lines, &wire::LineCounts::moving,
          [](const wire::LineCounts& line) { return line.moving_samples; });
+  counts.constant_blocks = std::exchange(constant_blocks_, {});
+  counts.moving_blocks = std::exchange(moving_blocks_, {});
 }
 
 // Lines from `first` on whose triangles memory holds for sure.
@@ -247,10 +253,33 @@ void FrameCounter::see(bool keyframe, Seen& seen) {
       line.constant_depth.assign(ids_.size(), 0.0f);
       seen.constant[i] = draw(shadow::Casting::still, line.stationary, line_of(i), line.constant_depth);
     }
-    if (line.moving.empty()) continue;
-    depths_ = line.constant_depth;
-    seen.moving[i] = draw(shadow::Casting::moving, line.moving, line_of(i), depths_);
+    if (!line.moving.empty()) {
+      depths_ = line.constant_depth;
+      seen.moving[i] = draw(shadow::Casting::moving, line.moving, line_of(i), depths_);
+    }
+    if (step_ == 1) end_block_rows(line_of(i));
   }
+}
+
+void FrameCounter::end_block_rows(std::uint32_t line) {
+  if ((line + 1) % kBlock != 0 && line + 1 < loads_.size()) return;
+  end_block_row(line, constant_row_, constant_blocks_);
+  end_block_row(line, moving_row_, moving_blocks_);
+}
+
+// `line`: the row's last.
+void FrameCounter::end_block_row(std::uint32_t line, BlockRow& row, std::vector<wire::BlockStretch>& stretches) const {
+  const std::uint32_t lines = line % kBlock + 1;
+  const auto is_filled = [&](std::size_t column) { return row.filled[column] == lines; };
+  for (std::size_t first = 0, last; first < row.shown.size(); first = last) {
+    last = first + 1;
+    if (row.shown[first] == 0) continue;
+    while (last < row.shown.size() && row.shown[last] > 0 && is_filled(last) == is_filled(first)) ++last;
+    stretches.push_back({static_cast<std::uint16_t>(line / kBlock), static_cast<std::uint16_t>(first),
+                         static_cast<std::uint16_t>(last), static_cast<std::uint16_t>(is_filled(first) ? 1 : 0)});
+  }
+  std::ranges::fill(row.shown, std::uint16_t{0});
+  std::ranges::fill(row.filled, std::uint16_t{0});
 }
 
 void FrameCounter::spread(const std::vector<wire::SeenCounts>& seen, std::vector<wire::LineCounts>& lines,
@@ -289,6 +318,10 @@ wire::SeenCounts FrameCounter::draw(shadow::Casting kind, std::span<const raster
     before = shown;
     in_block += shown ? 1 : 0;
     if ((x + 1) % kBlock != 0 && x + 1 < extent.last) continue;
+    const std::uint32_t column = x / kBlock, width = std::min(kBlock, scene_.film().settings().width - column * kBlock);
+    BlockRow& row = row_of(kind);
+    row.shown[column] += in_block > 0 ? 1 : 0;
+    row.filled[column] += in_block == width ? 1 : 0;
     seen.block_pixels += 0 < in_block && in_block < kBlock ? kBlock : 0;
     in_block = 0;
   }

@@ -50,6 +50,10 @@ class FrameCounter {
   struct Seen {
     std::vector<wire::SeenCounts> constant, moving;  // by sampled line
   };
+  // Of a row of the host's blocks, by column, on how many lines its blocks have pixels, and are filled by them.
+  struct BlockRow {
+    std::vector<std::uint16_t> shown, filled;
+  };
   using Visit = std::function<void(const Tessellation& made, const wire::WorkCounts& work)>;
 
   wire::FrameCounts count(wire::FrameKind kind, std::uint32_t frame);
@@ -66,9 +70,12 @@ class FrameCounter {
   std::uint32_t band_end(std::uint32_t first) const;
   void see_in_bands(bool keyframe, Seen& seen);
   void see(bool keyframe, Seen& seen);
+  void end_block_rows(std::uint32_t line);
+  void end_block_row(std::uint32_t line, BlockRow& row, std::vector<wire::BlockStretch>& stretches) const;
   void spread(const std::vector<wire::SeenCounts>& seen, std::vector<wire::LineCounts>& lines,
               wire::SeenCounts wire::LineCounts::*to, double (*samples_of)(const wire::LineCounts&)) const;
-  void estimate_seen(std::vector<wire::LineCounts>& lines, bool keyframe);
+  void estimate_seen(wire::FrameCounts& counts, bool keyframe);
+  BlockRow& row_of(shadow::Casting kind) { return kind == shadow::Casting::still ? constant_row_ : moving_row_; }
   wire::SeenCounts draw(shadow::Casting kind, std::span<const raster::EdgeBox> boxes, std::uint32_t line,
                         std::vector<float>& depths);
 
@@ -97,6 +104,8 @@ class FrameCounter {
   bool is_short_ = false;                       // of memory: not all are
   std::vector<geometry::Triangle> triangles_;   // of the sampled lines
   std::vector<SampledLine> sampled_;
+  BlockRow constant_row_, moving_row_;
+  std::vector<wire::BlockStretch> constant_blocks_, moving_blocks_;  // of the frame
   std::vector<std::uint32_t> ids_;
   std::vector<float> depths_;
   std::optional<ShadowCounter> shadows_;  // where lights cast

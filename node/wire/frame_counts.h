@@ -93,14 +93,25 @@ struct MadeSurface {
   std::uint32_t lines = 0;
 };
 
+// The side of the host's blocks of pixels, by default.
+inline constexpr std::uint32_t kCountedBlock = 16;
+
+// Neighbouring blocks of a row that have pixels of a frame.
+struct BlockStretch {
+  std::uint16_t row, first, last;  // columns of blocks [first, last)
+  std::uint16_t filled;            // 1: pixels fill them; else they do not fill any
+};
+
 struct FrameCounts {
   FrameKind kind = FrameKind::keyframe;
   std::uint32_t frame = 0;
   UnitCounts made;                         // what triangles take; an inbetween's of moving parts only
   std::vector<MadeSurface> surfaces;       // of a keyframe
   std::vector<SurfaceLine> surface_lines;  // of one surface after the other
-  std::vector<LineCounts> lines;           // of the picture
-  std::uint32_t first_still_line = 0;      // of those that inbetweens may touch (keyframes)
+  // What the host's blocks show, row by row, where all lines were drawn.
+  std::vector<BlockStretch> constant_blocks, moving_blocks;
+  std::vector<LineCounts> lines;       // of the picture
+  std::uint32_t first_still_line = 0;  // of those that inbetweens may touch (keyframes)
   std::uint32_t last_still_line = 0;
   std::vector<CasterCounts> casters;
   double kept_points = 0;  // of still parts, that an inbetween's moving casters may block

@@ -163,11 +163,19 @@ void pass_caster(Archive& archive, Of& caster) {
 }
 
 template <typename Archive, typename Of>
+void pass_blocks(Archive& archive, Of& blocks) {
+  archive.items(blocks, [](auto& to, auto& stretch) {
+    for (auto* number : {&stretch.row, &stretch.first, &stretch.last, &stretch.filled}) to.whole(*number);
+  });
+}
+
+template <typename Archive, typename Of>
 void pass_totals(Archive& archive, Of& totals) {
   pass_units(archive, totals.made);
   pass_line(archive, totals.drawn);
   for (auto* number : {&totals.lines, &totals.changed, &totals.kept_points}) archive.real(*number);
   pass_units(archive, totals.casters);
+  pass_blocks(archive, totals.blocks);
 }
 
 template <typename Archive, typename Of>
@@ -175,6 +183,8 @@ void pass_keyframe(Archive& archive, Of& keyframe) {
   archive.whole(keyframe.frame);
   pass_units(archive, keyframe.made);
   archive.items(keyframe.lines, [](auto& to, auto& line) { pass_line(to, line); });
+  pass_blocks(archive, keyframe.constant_blocks);
+  pass_blocks(archive, keyframe.moving_blocks);
   archive.whole(keyframe.first_still_line);
   archive.whole(keyframe.last_still_line);
   archive.items(keyframe.casters, [](auto& to, auto& caster) { pass_caster(to, caster); });

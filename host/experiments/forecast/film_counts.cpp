@@ -328,6 +328,7 @@ FrameTotals totals_on(const wire::FrameCounts& counts, std::uint32_t first_line,
 FrameTotals totals_of(const wire::FrameCounts& counts, std::uint32_t band_lines) {
   FrameTotals totals = totals_on(counts, 0, static_cast<std::uint32_t>(counts.lines.size()), band_lines);
   totals.made = counts.made;
+  totals.blocks = counts.moving_blocks;
   totals.kept_points = counts.kept_points;
   return totals;
 }

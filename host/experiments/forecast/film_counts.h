@@ -20,6 +20,7 @@ struct FrameTotals {
   double changed = 0;        // lines of bands in which these are seen (host/images/picture_bands.h)
   wire::UnitCounts casters;  // that are diced once for all these lines
   double kept_points = 0;
+  std::vector<wire::BlockStretch> blocks{};  // that moving parts change, if it was counted exactly
 
   double pixels() const { return drawn.constant.pixels + drawn.moving.pixels; }
   double runs() const { return drawn.constant.runs + drawn.moving.runs; }

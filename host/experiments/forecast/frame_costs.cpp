@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -13,6 +14,7 @@ namespace {
 using wire::Work;
 
 constexpr double kFullStrip = 512 << 10;  // node/raster/strip_buffer.cpp
+constexpr std::uint32_t kLinesABeat = 4;  // node/renderer.cpp
 constexpr double kBandHead = 80;          // host/render/composer/band_record.h
 
 // Home of each line.
@@ -122,11 +124,13 @@ GroupKeyframe FrameCosts::keyframe(const KeyframeCounts& counts, const SurfaceTa
   for (std::size_t n = 0; n < made.size(); ++n) {
     NodePart& node = keyframe.nodes[n];
     node.memory = std::min(node.memory, arena_bytes());
-    node.strips = strips(homes.totals[n], keyframe_drawing(homes.totals[n], counts, homes.ranges[n]) +
-                                              casting(homes.totals[n], counts, homes.ranges[n], group.contributors));
+    node.strips = strips(homes.totals[n],
+                         keyframe_drawing(homes.totals[n], counts, homes.ranges[n]) +
+                             casting(homes.totals[n], counts, homes.ranges[n], group.contributors),
+                         strip_sizes(counts, homes.ranges[n]));
     node.compose = pasting(homes.totals[n]);
-    if (group.has_inbetweens()) node.strips.pasting += saving(homes.totals[n]);
-    if (n >= static_cast<std::size_t>(group.contributors)) node.strips = {0, 0, 0, 0};
+    if (group.has_inbetweens()) node.strips.pasting += saving(homes.totals[n], counts.constant_blocks.empty());
+    if (n >= static_cast<std::size_t>(group.contributors)) node.strips = {0, 0, 0, {}};
   }
   keyframe.homes = homes.ranges;
   return keyframe;
@@ -160,9 +164,10 @@ NodePart FrameCosts::inbetween(const FrameTotals& totals, const FrameTotals& aga
   NodePart part;
   part.dice = dicing(made) + setting_up(made) + costs_.of(Work::edge_box_filled, made[Work::edge_box_made]);
   part.map = costs_.of(Work::line_mapped, height());
-  part.strips = strips(totals, costs_.of(units) + costs_.of(totals.casters));
+  part.strips = strips(totals, costs_.of(units) + costs_.of(totals.casters), strip_sizes(strip_bytes(totals.drawn)));
   part.compose = pasting(totals) + encoding(totals.changed);
-  part.strips.pasting += costs_.of(Work::host_restored, totals.drawn.moving.block_pixels * pixel_bytes());
+  if (totals.blocks.empty())
+    part.strips.pasting += costs_.of(Work::host_restored, totals.drawn.moving.block_pixels * pixel_bytes());
   part.memory = std::min(arena_bytes(), made_bytes(made));
   part.made_memory = std::min(arena_bytes(), fresh_bytes(made));
   return part;
@@ -189,10 +194,12 @@ double FrameCosts::background(const wire::FrameCounts& keyframe) const {
 }
 
 // CFB goes into the saved background too, whose blocks are plain before.
-double FrameCosts::saving(const FrameTotals& totals) const {
+// `restores`: else that is counted block by block (HostBlocks).
+double FrameCosts::saving(const FrameTotals& totals, bool restores) const {
   const wire::SeenCounts& seen = totals.drawn.constant;
+  const double restored = restores ? (seen.pixels + seen.block_pixels / 2) * pixel_bytes() : 0;
   return costs_.of(Work::host_run, seen.runs) + costs_.of(Work::host_byte, seen.pixels * pixel_bytes()) +
-         costs_.of(Work::host_restored, (seen.pixels + seen.block_pixels / 2) * pixel_bytes());
+         costs_.of(Work::host_restored, restored);
 }
 
 FrameTotals FrameCosts::drawn_again(const wire::FrameCounts& keyframe, int nodes) const {
@@ -335,13 +342,37 @@ double FrameCosts::lines_of_band(const FrameTotals& totals, double lines) const 
   return std::max(1.0, std::min<double>(seen, shadow::lines_of_points(needs, plan.points)));
 }
 
-StripCosts FrameCosts::strips(const FrameTotals& totals, double seconds) const {
-  StripCosts strips{seconds, 0, 0, 1};
-  const double content = totals.pixels() * pixel_bytes() + totals.runs() * sizeof(wire::Run);
-  strips.count = 1 + static_cast<std::uint32_t>(content / kFullStrip);
-  strips.bytes = content + strips.count * static_cast<double>(sizeof(wire::Strip));
-  strips.pasting = pasting(totals);
+// `sizes`: bytes of pixels and runs in each strip.
+StripCosts FrameCosts::strips(const FrameTotals& totals, double seconds, std::vector<double> sizes) const {
+  StripCosts strips{seconds, 0, pasting(totals), std::move(sizes)};
+  const double content = std::accumulate(strips.parts.begin(), strips.parts.end(), 0.0);
+  strips.bytes = content + strips.count() * static_cast<double>(sizeof(wire::Strip));
+  for (double& part : strips.parts) part = content > 0 ? part / content : 1.0 / strips.count();
   return strips;
+}
+
+double FrameCosts::strip_bytes(const wire::LineCounts& line) const {
+  return (line.constant.pixels + line.moving.pixels) * pixel_bytes() +
+         (line.constant.runs + line.moving.runs) * sizeof(wire::Run);
+}
+
+// Full ones, and the rest.
+std::vector<double> FrameCosts::strip_sizes(double bytes) const {
+  std::vector<double> sizes;
+  for (; bytes > kFullStrip; bytes -= kFullStrip) sizes.push_back(kFullStrip);
+  sizes.push_back(bytes);
+  return sizes;
+}
+
+// A strip ends after some lines.
+std::vector<double> FrameCosts::strip_sizes(const wire::FrameCounts& counts, const geometry::LineRange& lines) const {
+  std::vector<double> sizes{0};
+  const double full = kFullStrip - sizeof(wire::Strip);
+  for (std::uint32_t line = lines.first; line < lines.last; ++line) {
+    if (sizes.back() >= full && (line - lines.first) % kLinesABeat == 0) sizes.push_back(0);
+    sizes.back() += strip_bytes(counts.lines[line]);
+  }
+  return sizes;
 }
 
 double FrameCosts::pasting(const FrameTotals& totals) const {

@@ -19,8 +19,10 @@ namespace mars::forecast {
 struct StripCosts {
   double seconds = 0;  // of drawing, all strips
   double bytes = 0;
-  double pasting = 0;  // seconds of the host
-  std::uint32_t count = 1;
+  double pasting = 0;              // seconds of the host
+  std::vector<double> parts{1.0};  // of each strip, of all of that
+
+  std::uint32_t count() const { return static_cast<std::uint32_t>(parts.size()); }
 };
 
 struct NodePart {
@@ -79,7 +81,9 @@ class FrameCosts {
   // Of a node.
   double shadow_bytes() const { return static_cast<double>(memory_.shadows); }
   NodePart inbetween(const FrameTotals& totals, const FrameTotals& again) const;
-  // Seconds of a processor that writes a whole file, which is encoded; its bytes.
+  // Seconds of a processor that encodes lines.
+  double encoding(double lines) const;
+  // And that writes a whole file, which is encoded; its bytes.
   double writing() const;
   double file_bytes() const { return setting_.platform.file_part * height() * line_bytes(); }
   HostCosts host_costs(const TaskCounts& task, const wire::FrameCounts& keyframe) const;
@@ -94,16 +98,18 @@ class FrameCosts {
   wire::UnitCounts drawn_units(const FrameTotals& totals) const;
   double keyframe_drawing(const FrameTotals& totals, const wire::FrameCounts& counts,
                           const geometry::LineRange& lines) const;
-  StripCosts strips(const FrameTotals& totals, double seconds) const;
+  StripCosts strips(const FrameTotals& totals, double seconds, std::vector<double> sizes) const;
+  double strip_bytes(const wire::LineCounts& line) const;
+  std::vector<double> strip_sizes(double bytes) const;
+  std::vector<double> strip_sizes(const wire::FrameCounts& counts, const geometry::LineRange& lines) const;
   double casting(const FrameTotals& totals, const wire::FrameCounts& counts, const geometry::LineRange& lines,
                  int nodes) const;
   double lines_of_band(const FrameTotals& totals, double lines) const;
   double pasting(const FrameTotals& totals) const;
   double background(const wire::FrameCounts& keyframe) const;
-  double encoding(double lines) const;
   NodeBands bands_of(const std::vector<geometry::LineRange>& homes, std::size_t node, const wire::FrameCounts& counts,
                      bool has_inbetweens) const;
-  double saving(const FrameTotals& totals) const;
+  double saving(const FrameTotals& totals, bool restores) const;
   bool is_kept(const wire::FrameCounts& keyframe, std::uint32_t line, const wire::StillPlan& plan) const;
   bool has_groups() const;
   double packed_bytes(const wire::LineCounts& line) const;

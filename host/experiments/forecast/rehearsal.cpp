@@ -53,6 +53,7 @@ class Rehearsal {
   std::shared_ptr<const TaskKeyframe> keyframe_of(std::size_t task, const collectives::Group& group);
   std::shared_ptr<const GroupKeyframe> shared_keyframe(std::size_t number, const KeyframeGroup& group);
   const NodePart& part_of(const Node& node);
+  double next_part(const Node& node);
   double fresh_seconds(Node& node);
   void receive_task(std::size_t group, std::size_t task);
   void begin_task(int n);
@@ -121,7 +122,7 @@ Rehearsal::Rehearsal(const FilmCounts& counts, const farm::Plan& plan, const Set
       nodes_(static_cast<std::size_t>(nodes)),
       result_{0, {}, 0, 0, 0, costs_.shadow_bytes(), 0, host_memory(plan, setting, nodes)},
       host_(
-          clockwork_, computers_, storage_, plan, setting, result_.host_memory, nodes,
+          clockwork_, computers_, storage_, counts, plan, setting, result_.host_memory, nodes,
           {[this](std::size_t group, std::size_t task) { receive_task(group, task); },
            [this](int node) { later(node, way_from_host(node, sizeof(wire::Credit)), &Rehearsal::receive_credit); }}) {
   for (std::size_t g = 0; g < plan.groups.size(); ++g) {
@@ -187,6 +188,12 @@ const NodePart& Rehearsal::part_of(const Node& node) {
   return node.keyframe->drawn->nodes[static_cast<std::size_t>(node.member)];
 }
 
+// Of the strip that is next.
+double Rehearsal::next_part(const Node& node) {
+  const std::vector<double>& parts = part_of(node).strips.parts;
+  return parts[parts.size() - node.strips_left];
+}
+
 // Of a frame that the node begins: its first, or one that takes more memory than any before.
 double Rehearsal::fresh_seconds(Node& node) {
   const double memory = part_of(node).made_memory;
@@ -246,7 +253,7 @@ void Rehearsal::exchange_triangles(int n) {
 void Rehearsal::begin_strips(int n) {
   Node& node = nodes_[static_cast<std::size_t>(n)];
   const NodePart& part = part_of(node);
-  node.strips_left = part.strips.count;
+  node.strips_left = part.strips.count();
   result_.bytes_to_host += nodes_write_ ? static_cast<double>(sizeof(wire::Strip)) : part.strips.bytes;
   result_.node_memory = std::max(result_.node_memory, part.memory);
   draw_strip(n);
@@ -266,7 +273,7 @@ void Rehearsal::draw_strip(int n) {
   }
   --node.slots;
   const StripCosts& strips = part_of(node).strips;
-  work(n, strips.seconds / strips.count, &Rehearsal::finish_strip);
+  work(n, strips.seconds * next_part(node), &Rehearsal::finish_strip);
 }
 
 // The last strip of a keyframe goes once the group's nodes have given each other what inbetweens need.
@@ -282,8 +289,9 @@ void Rehearsal::send_strip(int n) {
   if (node.strips_left == 0) return end_frame(n);  // it does not contribute
   const StripCosts& strips = part_of(node).strips;
   const bool same_computer = computers_.of(n) == computers_.of(static_cast<int>(nodes_.size()));
-  const double bytes = same_computer ? kOnTheSameComputer : strips.bytes / strips.count;
-  const StripSent strip{n, node.task, node.frame, bytes, strips.pasting / strips.count, --node.strips_left == 0};
+  const double part = next_part(node);
+  const double bytes = same_computer ? kOnTheSameComputer : strips.bytes * part;
+  const StripSent strip{n, node.task, node.frame, bytes, strips.pasting * part, --node.strips_left == 0};
   const double sent = computers_.work(n, clockwork_.now(), costs_.costs().to_send(bytes));
   clockwork_.at(sent, [this, strip] { send_to_host(strip); });
   later(n, sent, strip.last ? &Rehearsal::end_frame : &Rehearsal::draw_strip);

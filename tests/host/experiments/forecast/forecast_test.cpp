@@ -107,6 +107,26 @@ TEST(Counted, Kinds) {
   double kept=0; for (auto& l: counts.keyframes[0].lines) kept += l.kept_width; std::printf("kept %f\n", kept);
 }
 
+TEST(Counted, Frames) {
+  const char* e = std::getenv("CASE");
+  char name[40], frames[40], platform[40]; int files, nodes, groups;
+  std::sscanf(e, "%s %s %s %d %d %d", name, frames, platform, &files, &nodes, &groups);
+  const SimulatedFilm film(name, frames, platform, static_cast<Files>(files));
+  const farm::FarmReport report = film.render(nodes, groups);
+  const Rehearsed counted = film.counted(nodes, groups);
+  std::printf("%zu tasks:", film.tasks().size()); for (auto& t : film.tasks()) std::printf(" %zu", t.frames.size()); std::printf("\n");
+  std::printf("total %f %f\n", counted.seconds, report.total_seconds);
+  auto other = report.frames;
+  for (std::size_t i = 0; i < counted.frames.size(); ++i)
+    std::printf("frame %zu: %f %s; simulated %u: %f %s\n", i, counted.frames[i].seconds, counted.frames[i].kind == wire::FrameKind::keyframe ? "K" : "i", other[i].number, other[i].seconds, other[i].kind == wire::FrameKind::keyframe ? "K" : "i");
+  for (const wire::Strip& strip : report.strips) if (strip.last && strip.kind == wire::FrameKind::keyframe) {
+    std::printf("node %d frame %u:", strip.node, strip.frame);
+    const auto& s = strip.times;
+    for (std::size_t k = 0; k < sizeof s / sizeof(double); ++k) std::printf(" %.6f", reinterpret_cast<const double*>(&s)[k]);
+    std::printf("\n");
+  }
+}
+
 TEST(Counted, Table) {
   for (const char* platform : {"fat-tree", "ethernet"})
     for (const Files files : {Files::none, Files::host, Files::nodes})
