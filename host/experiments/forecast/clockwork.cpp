@@ -17,8 +17,8 @@ void Clockwork::at(double time, Action action) {
   std::push_heap(events_.begin(), events_.end());
 }
 
-void Clockwork::run() {
-  while (!events_.empty()) {
+bool Clockwork::run(double until) {
+  while (!events_.empty() && events_.front().time <= until) {
     std::pop_heap(events_.begin(), events_.end());
     const Event event = events_.back();
     events_.pop_back();
@@ -26,6 +26,7 @@ void Clockwork::run() {
     free_.push_back(event.action);
     std::exchange(actions_[event.action], {})();
   }
+  return events_.empty();
 }
 
 }  // namespace mars::forecast

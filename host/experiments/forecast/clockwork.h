@@ -15,8 +15,8 @@ class Clockwork {
   double now() const { return now_; }
   // Actions of one time happen in the order in which they were given.
   void at(double time, Action action);
-  // Until nothing is left to happen.
-  void run();
+  // Until nothing is left to happen, or until that time; whether nothing is left.
+  bool run(double until);
 
  private:
   struct Event {

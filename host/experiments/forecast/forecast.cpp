@@ -1,6 +1,7 @@
 #include "host/experiments/forecast/forecast.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace mars::forecast {
@@ -9,26 +10,30 @@ namespace {
 constexpr double kAlike = 1.01;  // times as long, a film
 constexpr double kSoon = 0.75;   // times as long, a keyframe: much sooner, as messages may wait more than is forecast
 
+constexpr double kForever = std::numeric_limits<double>::infinity();
+
 constexpr int kWorseInARow = 3;  // numbers of contributors, and fewer are not tried
 
-// Both of as many nodes in as many groups.
+// Both of as many nodes in as many groups. One that took too long to be better is not known to its end.
 bool is_better(const Rehearsed& one, const Rehearsed& other) {
   if (one.seconds < other.seconds) return true;
   return one.seconds < kAlike * other.seconds && one.frames.front().seconds < kSoon * other.frames.front().seconds;
 }
 
-// All of the first few, then twice as many each time.
+// The most first: it is often the best, and then others need not be played to their ends. All of the few, and between
+// twice as many each time.
 std::vector<int> numbers_of_groups(int most) {
   std::vector<int> numbers;
   for (int groups = 1; groups < most; groups = groups < 4 ? groups + 1 : 2 * groups) numbers.push_back(groups);
   numbers.push_back(most);
+  std::ranges::reverse(numbers);
   return numbers;
 }
 
 // Keyframes by all nodes of a group, or by half as many, a quarter ... A host that takes strips slowly delays keyframes
 // of many contributors much, but films little: inbetweens are drawn meanwhile.
 Forecast with_groups(const FilmCounts& counts, const std::vector<farm::Task>& tasks, const Setting& setting, int nodes,
-                     int groups) {
+                     int groups, double limit) {
   farm::Plan plan{tasks, farm::make_groups(nodes, groups, tasks.size()), 0};
   const auto rehearsed = [&](std::int32_t contributors) {
     plan.contributors = contributors;
@@ -36,17 +41,19 @@ Forecast with_groups(const FilmCounts& counts, const std::vector<farm::Task>& ta
                     static_cast<std::uint32_t>(plan.groups.size()),
                     setting.writers,
                     contributors,
-                    rehearse(counts, plan, setting, nodes),
+                    rehearse(counts, plan, setting, nodes, limit),
                     experiments::spread_for(setting.platform.spread, nodes, setting.files),
                     experiments::middle_for(setting.platform.spread, nodes, setting.files)};
   };
   Forecast best = rehearsed(0);
+  limit = std::min(limit, kAlike * best.run.seconds);
   int worse = 0;  // in a row
   for (std::int32_t fewer = plan.groups.front().count / 2; fewer >= 1 && worse < kWorseInARow; fewer /= 2) {
     Forecast next = rehearsed(fewer);
     ++worse;
     if (!is_better(next.run, best.run)) continue;
     best = std::move(next);
+    limit = std::min(limit, kAlike * best.run.seconds);
     worse = 0;
   }
   return best;
@@ -56,13 +63,14 @@ Forecast with_groups(const FilmCounts& counts, const std::vector<farm::Task>& ta
 
 Forecast forecast(const FilmCounts& counts, const std::vector<farm::Task>& tasks, const Setting& setting, int nodes,
                   std::uint32_t groups) {
-  if (groups > 0) return with_groups(counts, tasks, setting, nodes, static_cast<int>(groups));
+  if (groups > 0) return with_groups(counts, tasks, setting, nodes, static_cast<int>(groups), kForever);
   const int most = std::min(nodes, static_cast<int>(tasks.size()));
   Forecast best;
   best.nodes = 0;
   const auto try_groups = [&](int some) {
-    Forecast next = with_groups(counts, tasks, setting, nodes, some);
-    if (best.nodes == 0 || next.run.seconds < best.run.seconds) best = std::move(next);
+    const double limit = best.nodes == 0 ? kForever : kAlike * best.run.seconds;
+    Forecast next = with_groups(counts, tasks, setting, nodes, some, limit);
+    if (best.nodes == 0 || next.run.seconds <= best.run.seconds) best = std::move(next);
   };
   for (const int some : numbers_of_groups(most)) try_groups(some);
   const auto coarse = static_cast<int>(best.groups);

@@ -30,7 +30,7 @@ class Rehearsal {
  public:
   Rehearsal(const FilmCounts& counts, const farm::Plan& plan, const Setting& setting, int nodes);
 
-  Rehearsed run();
+  Rehearsed run(double limit);
 
  private:
   struct Node {
@@ -147,10 +147,10 @@ Rehearsal::Rehearsal(const FilmCounts& counts, const farm::Plan& plan, const Set
   }
 }
 
-Rehearsed Rehearsal::run() {
+Rehearsed Rehearsal::run(double limit) {
   host_.begin();
-  clockwork_.run();
-  result_.seconds = host_.ended();
+  const bool ended = clockwork_.run(limit);
+  result_.seconds = ended ? host_.ended() : std::numeric_limits<double>::infinity();
   result_.bytes_to_nodes = exchanges_.bytes();
   result_.frames = std::move(host_.frames());
   return std::move(result_);
@@ -367,8 +367,8 @@ void Rehearsal::receive_credit(int n) {
 
 }  // namespace
 
-Rehearsed rehearse(const FilmCounts& counts, const farm::Plan& plan, const Setting& setting, int nodes) {
-  return Rehearsal(counts, plan, setting, nodes).run();
+Rehearsed rehearse(const FilmCounts& counts, const farm::Plan& plan, const Setting& setting, int nodes, double limit) {
+  return Rehearsal(counts, plan, setting, nodes).run(limit);
 }
 
 }  // namespace mars::forecast

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "host/experiments/forecast/film_counts.h"
@@ -23,6 +24,8 @@ struct Rehearsed {
   farm::HostMemory host_memory;
 };
 
-Rehearsed rehearse(const FilmCounts& counts, const farm::Plan& plan, const Setting& setting, int nodes);
+// `limit`: one that takes longer is not played to its end, and takes infinite seconds.
+Rehearsed rehearse(const FilmCounts& counts, const farm::Plan& plan, const Setting& setting, int nodes,
+                   double limit = std::numeric_limits<double>::infinity());
 
 }  // namespace mars::forecast

@@ -116,6 +116,7 @@ TEST(Counted, Frames) {
   const Rehearsed counted = film.counted(nodes, groups);
   std::printf("%zu tasks:", film.tasks().size()); for (auto& t : film.tasks()) std::printf(" %zu", t.frames.size()); std::printf("\n");
   std::printf("total %f %f\n", counted.seconds, report.total_seconds);
+  for (std::size_t k = wire::kNodeKinds; k < wire::kWorkNames.size(); ++k) std::printf("%s %llu %g us\n", wire::kWorkNames[k].data(), (unsigned long long)report.charged[k - wire::kNodeKinds], 1e6 * report.charged[k - wire::kNodeKinds] * film.platform().machine.work[k]);
   auto other = report.frames;
   for (std::size_t i = 0; i < counted.frames.size(); ++i)
     std::printf("frame %zu: %f %s; simulated %u: %f %s\n", i, counted.frames[i].seconds, counted.frames[i].kind == wire::FrameKind::keyframe ? "K" : "i", other[i].number, other[i].seconds, other[i].kind == wire::FrameKind::keyframe ? "K" : "i");

@@ -12,6 +12,7 @@
 #include "host/programs/counted_writer.h"
 #include "host/programs/node_counter.h"
 #include "host/programs/simulated_files.h"
+#include "host/render/farm/assembly.h"
 #include "host/render/sinks/counted_files.h"
 #include "node/firmware.h"
 
@@ -99,7 +100,8 @@ farm::FarmReport SimulatedFilm::render(const farm::Plan& plan, int nodes, simula
   sinks::NullSink none;
   sinks::CountedFiles files({setting.picture, settings.width, settings.height}, platform_.file_part);
   sinks::ServedSinks sinks(files_ == Files::host ? static_cast<sinks::Sink&>(files) : none,
-                           {settings.width, settings.height, 16, memory.frames, setting.sink_threads},
+                           {settings.width, settings.height, 16, memory.frames, setting.sink_threads,
+                            farm::background_pixel(film, film.intervals().front(), setting.pixels()), setting.pixels()},
                            programs::serve_files(world, setting.picture));
   farm::FarmOptions options;
   const farm::Writing writing = programs::counted_writing();
