@@ -16,6 +16,8 @@ class Computers {
 
   // Of the nodes.
   int count() const { return (nodes_ + machine_.nodes - 1) / machine_.nodes; }
+  // Nodes, but on the last.
+  int nodes_on_each() const { return machine_.nodes; }
   // Of a node, or of the host, whose rank is the number of nodes.
   int of(int rank) const;
   int nodes_on(int computer) const;

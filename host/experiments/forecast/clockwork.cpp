@@ -27,7 +27,7 @@ bool Clockwork::run(double limit) {
     free_.push_back(event.action);
     std::exchange(actions_[event.action], {})();
   }
-  return true;
+  return events_.empty();
 }
 
 }  // namespace mars::forecast

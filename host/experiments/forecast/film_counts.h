@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
 #include "host/experiments/forecast/counter.h"
+#include "host/experiments/forecast/surface_table.h"
 #include "host/images/picture_format.h"
 
 namespace mars::forecast {
@@ -18,6 +20,7 @@ struct FrameTotals {
   double changed = 0;        // lines of bands in which these are seen (host/images/picture_bands.h)
   wire::UnitCounts casters;  // that are diced once for all these lines
   double kept_points = 0;
+  std::vector<wire::BlockStretch> blocks{};  // that moving parts change, if it was counted exactly
 
   double pixels() const { return drawn.constant.pixels + drawn.moving.pixels; }
   double runs() const { return drawn.constant.runs + drawn.moving.runs; }
@@ -40,10 +43,19 @@ struct TaskCounts {
   std::vector<FrameTotals> inbetweens;  // of each
 };
 
+// Its own surfaces are in the film's table.
+struct KeyframeCounts : wire::FrameCounts {
+  std::vector<PlacedSurface> placed;
+};
+
 struct FilmCounts {
-  std::vector<wire::FrameCounts> keyframes;  // that were counted
+  std::vector<KeyframeCounts> keyframes;  // that were counted
+  SurfaceTable surfaces;                  // of all of them
   std::vector<TaskCounts> tasks;
   std::size_t counted = 0;  // frames
+  bool is_exact = false;    // all frames, and what they show on all lines
+
+  void add_keyframe(wire::FrameCounts counts);
 };
 
 // What counting may take, by the work that it does: so that the same frames are counted every time.
@@ -56,5 +68,10 @@ struct Budget {
 // For pictures of that format.
 FilmCounts count_film(const wire::PackedFilm& film, std::span<const farm::Task> tasks, Counter& counter,
                       const Budget& budget, images::PictureFormat format);
+
+// Of all frames exactly, by that many counters at a time, each of which may take a gigabyte.
+using CountProgress = std::function<void(std::size_t frames, std::size_t of_all)>;
+FilmCounts count_exactly(const wire::PackedFilm& film, std::span<const farm::Task> tasks, const MakeCounter& make,
+                         images::PictureFormat format, int counters, const CountProgress& progress);
 
 }  // namespace mars::forecast

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <memory>
 #include <set>
 #include <utility>
 
@@ -34,7 +35,8 @@ bool is_bound_by_host(const Rehearsed& run) { return run.host_busy > kAlmost * r
 // Tasks, and what their frames have to be drawn.
 struct Cut {
   std::vector<farm::Task> tasks;
-  FilmCounts counts;
+  const FilmCounts* counts = nullptr;
+  std::shared_ptr<const FilmCounts> own{};  // of pieces
 
   std::size_t longest() const {
     return std::ranges::max(tasks, {}, [](const farm::Task& task) { return task.frames.size(); }).frames.size();
@@ -52,16 +54,21 @@ struct Cut {
 
 // A piece's keyframe is taken to have what its interval's first frame has.
 Cut cut_into_pieces(const Cut& whole, std::uint32_t most_frames) {
-  Cut cut{farm::cut_tasks(whole.tasks, most_frames), {whole.counts.keyframes, {}, whole.counts.counted}};
+  Cut cut{farm::cut_tasks(whole.tasks, most_frames)};
+  if (cut.tasks.size() == whole.tasks.size()) return whole;
+  const auto pieces = std::make_shared<FilmCounts>(*whole.counts);
+  pieces->tasks.clear();
   std::size_t task = 0, first = 0;  // of the pieces' frames, the task and the place there
   for (const farm::Task& piece : cut.tasks) {
-    const TaskCounts& counts = whole.counts.tasks[task];
+    const TaskCounts& counts = whole.counts->tasks[task];
     const auto begin = counts.inbetweens.begin() + static_cast<std::ptrdiff_t>(first);
     const auto count = static_cast<std::ptrdiff_t>(piece.frames.size());
-    cut.counts.tasks.push_back({counts.keyframe, {begin, begin + count - 1}});
+    pieces->tasks.push_back({counts.keyframe, {begin, begin + count - 1}});
     first += piece.frames.size();
     if (first == whole.tasks[task].frames.size()) ++task, first = 0;
   }
+  cut.counts = pieces.get();
+  cut.own = pieces;
   return cut;
 }
 
@@ -69,7 +76,7 @@ Cut cut_into_pieces(const Cut& whole, std::uint32_t most_frames) {
 class Search {
  public:
   Search(const FilmCounts& counts, const std::vector<farm::Task>& tasks, const Setting& setting, int nodes)
-      : whole_(cut_into_pieces({tasks, counts}, setting.most_frames > 0 ? setting.most_frames : kUncut)),
+      : whole_(cut_into_pieces({tasks, &counts}, setting.most_frames > 0 ? setting.most_frames : kUncut)),
         setting_(setting),
         nodes_(nodes) {}
 
@@ -79,7 +86,8 @@ class Search {
       take(with_groups(0, static_cast<int>(groups)), 1);
     else
       try_groups();
-    if (setting_.most_frames == 0 && !is_bound_by_host(best_->run)) try_cuts(groups);
+    // Exact counts are of uncut tasks.
+    if (setting_.most_frames == 0 && !whole_.counts->is_exact && !is_bound_by_host(best_->run)) try_cuts(groups);
     if (setting_.most_frames != kUncut && setting_.most_frames > 0) best_->most_frames = setting_.most_frames;
     return std::move(*best_);
   }
@@ -105,7 +113,7 @@ class Search {
                     plan.contributors,
                     plan.sharers,
                     0,
-                    rehearse(cut.counts, plan, setting_, nodes_, limit),
+                    rehearse(*cut.counts, plan, setting_, nodes_, limit),
                     experiments::spread_for(setting_.platform.spread, nodes_, setting_.files),
                     experiments::middle_for(setting_.platform.spread, nodes_, setting_.files)};
   }

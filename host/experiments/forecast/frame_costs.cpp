@@ -1,10 +1,10 @@
 #include "host/experiments/forecast/frame_costs.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include "host/images/picture_bands.h"
 #include "node/wire/still_plan.h"
@@ -14,54 +14,82 @@ namespace {
 
 using wire::Work;
 
-// As nodes have them in memory and send them (node/geometry/triangle.h, node/raster/edge_box.h).
-constexpr double kTriangleBytes = 64, kUnsortedBoxBytes = 12, kBoxBytes = 8;
 constexpr double kFullStrip = 512 << 10;  // node/raster/strip_buffer.cpp
-constexpr double kShortSum = 64 << 10;    // hal/collectives/reduction.cpp
+constexpr std::uint32_t kLinesABeat = 4;  // node/renderer.cpp
+constexpr double kBandHead = 80;          // host/render/composer/band_record.h
 constexpr double kSharedUnevenly = 1.15;  // of a shared inbetween, the largest part over the mean
+constexpr double kPieceHead = 8;          // node/group/relay.cpp
+constexpr double kLinesHead = 8;          // node/group/still_exchange.cpp: of a line with groups, or of all in a piece
 
-// What each of `nodes` nodes makes: whole shares where these divide evenly, else equal parts of several.
-std::vector<wire::UnitCounts> made_by(const std::vector<wire::UnitCounts>& shares, int nodes) {
-  std::vector<wire::UnitCounts> made(static_cast<std::size_t>(nodes));
-  // Numbers that are `share` modulo the number of shares are on nodes that are the same modulo `step`.
-  const std::size_t step = std::gcd(shares.size(), made.size());
-  const double part = static_cast<double>(step) / static_cast<double>(nodes);
-  for (std::size_t node = 0; node < made.size(); ++node)
-    for (std::size_t share = node % step; share < shares.size(); share += step)
-      made[node] = made[node] + shares[share] * part;
-  return made;
+// Home of each line.
+std::vector<int> homes_of_lines(const std::vector<geometry::LineRange>& ranges, std::size_t height) {
+  std::vector<int> homes(height);
+  for (std::size_t node = 0; node < ranges.size(); ++node)
+    for (std::uint32_t line = ranges[node].first; line < ranges[node].last; ++line)
+      homes[line] = static_cast<int>(node);
+  return homes;
 }
 
-// Patches are not divided: a node that makes any of them makes whole ones.
-wire::UnitCounts in_whole_patches(const wire::UnitCounts& made) {
-  const double patches = made[Work::patch] + made[Work::meshlet];
-  return patches > 0 ? made * (std::ceil(patches - 1e-6) / patches) : made;
+// As many parts in each piece as it has, but one at least; `head` bytes before them.
+std::vector<double> in_pieces(const std::vector<double>& parts, double head) {
+  std::vector<double> pieces{head};
+  for (const double part : parts) {
+    if (pieces.back() > head && pieces.back() - head + part > static_cast<double>(wire::kRelayPiece))
+      pieces.push_back(head);
+    pieces.back() += part;
+  }
+  return pieces;
 }
+
+// What one node has for each home.
+class ParcelSums {
+ public:
+  explicit ParcelSums(std::size_t homes) : of_(homes) {}
+
+  void add(const wire::MadeSurface& surface, std::span<const wire::SurfaceLine> lines, const std::vector<int>& homes) {
+    int home = -1;
+    for (std::uint32_t i = 0; i < lines.size(); ++i) {
+      const wire::SurfaceLine& line = lines[i];
+      const bool enters = std::exchange(home, homes[surface.first_line + i]) != homes[surface.first_line + i];
+      Parcel& parcel = of_[static_cast<std::size_t>(home)];
+      if (parcel.edge_boxes == 0 && line.edge_boxes > 0) touched_.push_back(home);
+      parcel.edge_boxes += line.edge_boxes;
+      parcel.triangles += line.begin + (enters ? line.go_on : 0);
+    }
+  }
+
+  // Leaves none.
+  std::vector<Parcel> take() {
+    std::vector<Parcel> parcels;
+    for (const int home : std::exchange(touched_, {})) {
+      Parcel& parcel = of_[static_cast<std::size_t>(home)];
+      parcels.push_back({home, parcel.edge_boxes, parcel.triangles});
+      parcel = {};
+    }
+    return parcels;
+  }
+
+ private:
+  std::vector<Parcel> of_;    // by home
+  std::vector<int> touched_;  // homes
+};
 
 }  // namespace
 
 // The lines of each node of a group, and what is on them.
 struct FrameCosts::Homes {
   Homes(const wire::FrameCounts& counts, int nodes, int contributors, wire::Mapping mapping,
-        const std::vector<std::uint64_t>& weights, std::uint32_t samples, std::uint32_t band_lines)
+        const std::vector<std::uint64_t>& weights, std::uint32_t band_lines)
       : ranges(static_cast<std::size_t>(nodes), geometry::LineRange{0, 0}) {
-    const FrameTotals all = totals_of(counts, band_lines);
     group::map_lines(mapping, weights, std::span(ranges).first(static_cast<std::size_t>(contributors)));
-    edge_boxes = all.drawn.edge_boxes;
-    const double rows =
-        all.made[Work::triangle] > 0 ? edge_boxes / all.made[Work::triangle] : 1;  // of samples, of a triangle
-    const double taller = std::max(0.0, rows / samples - 1);                       // in lines
-    for (const geometry::LineRange& range : ranges) {
+    const auto height = static_cast<std::uint32_t>(counts.lines.size());
+    std::fill(ranges.begin() + contributors, ranges.end(), geometry::LineRange{height, height});
+    for (const geometry::LineRange& range : ranges)
       totals.push_back(totals_on(counts, range.first, range.last, band_lines));
-      const double boxes = totals.back().drawn.edge_boxes;
-      triangles.push_back(std::min(boxes, boxes / rows * (1 + taller / std::max(1u, range.count()))));
-    }
   }
 
   std::vector<geometry::LineRange> ranges;
   std::vector<FrameTotals> totals;
-  std::vector<double> triangles;  // with an edge box there
-  double edge_boxes;              // on all
 };
 
 FrameCosts::FrameCosts(const Setting& setting, int nodes)
@@ -73,29 +101,70 @@ FrameCosts::FrameCosts(const Setting& setting, int nodes)
       band_lines_(images::PictureBands(setting.picture, setting.film.settings().width, setting.film.settings().height)
                       .lines_a_band()) {}
 
-GroupKeyframe FrameCosts::keyframe(const wire::FrameCounts& counts, int nodes, int contributors,
-                                   std::size_t inbetweens) const {
+// Of each of `nodes`, whole patches and meshlets.
+std::vector<wire::UnitCounts> FrameCosts::made_by(const KeyframeCounts& counts, const SurfaceTable& surfaces,
+                                                  int nodes) const {
+  std::vector<wire::UnitCounts> made(static_cast<std::size_t>(nodes));
+  const auto samples = static_cast<double>(setting_.film.settings().samples);
+  const auto lights = static_cast<double>(setting_.film.light_tracks().size());
+  for (const PlacedSurface& placed : counts.placed) {
+    const wire::MadeSurface& surface = surfaces[placed.surface];
+    wire::UnitCounts& units = made[placed.number % made.size()];
+    units[surface.is_meshlet != 0 ? Work::meshlet : Work::patch] += 1;
+    units[surface.is_meshlet != 0 ? Work::mesh_vertex : Work::vertex] += surface.vertices;
+    units[Work::triangle_tested] += surface.triangles_tested;
+    units[Work::row_tested] += surface.triangles_tested * samples;
+    units[Work::triangle] += surface.triangles;
+    units[Work::edge_box_made] += surface.edge_boxes;
+    units[Work::vertex_light] += surface.colored * lights;
+  }
+  return made;
+}
+
+GroupKeyframe FrameCosts::keyframe(const KeyframeCounts& counts, const SurfaceTable& surfaces,
+                                   const KeyframeGroup& group) const {
   GroupKeyframe keyframe;
-  keyframe.nodes.resize(static_cast<std::size_t>(nodes));
-  auto made = made_by(counts.shares, contributors);
+  keyframe.nodes.resize(static_cast<std::size_t>(group.count()));
+  auto made = made_by(counts, surfaces, group.contributors);
   made.resize(keyframe.nodes.size());
-  const Homes homes(counts, nodes, contributors, setting_.mapping, line_weights(counts, inbetweens),
-                    setting_.film.settings().samples, band_lines_);
+  const Homes homes(counts, group.count(), group.contributors, setting_.mapping,
+                    line_weights(counts, group.has_inbetweens()), band_lines_);
   add_dicing(keyframe, homes, made);
-  if (nodes > 1) add_sum(keyframe, nodes);
-  if (contributors > nodes_on_a_computer(nodes)) add_exchange(keyframe, homes, made, contributors);
+  if (group.count() > 1) keyframe.sum = sum_steps(group.count(), 8 * (height() + 2));
+  if (group.contributors > nodes_on_a_computer(group.count())) add_exchange(keyframe, homes, counts, surfaces, group);
   for (std::size_t n = 0; n < made.size(); ++n) {
     NodePart& node = keyframe.nodes[n];
     node.memory = std::min(node.memory, arena_bytes());
-    node.strips = strips(homes.totals[n], keyframe_drawing(homes.totals[n], counts, homes.ranges[n]) +
-                                              casting(homes.totals[n], counts, homes.ranges[n], contributors));
-    node.compose = pasting(homes.totals[n]) + encoding(homes.ranges[n].count() + homes.totals[n].changed);
-    if (inbetweens > 0) node.strips.pasting += saving(homes.totals[n]);
-    if (n >= static_cast<std::size_t>(contributors)) node.strips = {0, 0, 0, 0};
+    node.strips = strips(homes.totals[n],
+                         keyframe_drawing(homes.totals[n], counts, homes.ranges[n]) +
+                             casting(homes.totals[n], counts, homes.ranges[n], group.contributors),
+                         strip_sizes(counts, homes.ranges[n]));
+    node.compose = pasting(homes.totals[n]);
+    if (group.has_inbetweens()) node.strips.pasting += saving(homes.totals[n], counts.constant_blocks.empty());
+    if (n >= static_cast<std::size_t>(group.contributors)) node.strips = {0, 0, 0, {}};
   }
-  if (inbetweens > 0) add_still(keyframe, homes, counts, inbetweens);
-  if (setting_.nodes_write()) add_bands(keyframe, homes, counts, contributors, inbetweens);
+  keyframe.homes = homes.ranges;
   return keyframe;
+}
+
+// CZB, and with several samples shaded groups, of what inbetweens may change. Of bands those of what stands still, with
+// pixels where inbetweens may draw, and those of the keyframe to the node that writes it.
+KeyframeGifts FrameCosts::gifts(const GroupKeyframe& keyframe, const wire::FrameCounts& counts,
+                                const KeyframeGroup& group) const {
+  KeyframeGifts gifts;
+  const bool has_inbetweens = group.has_inbetweens();
+  if (group.count() > 1 && has_inbetweens) {
+    std::vector<std::vector<double>> messages;
+    for (const geometry::LineRange& home : keyframe.homes) messages.push_back(still_messages(home, counts));
+    gifts.still = still_steps(machines_of(group), messages);
+  }
+  if (setting_.nodes_write()) {
+    std::vector<NodeBands> bands;
+    for (std::size_t node = 0; node < keyframe.homes.size(); ++node)
+      bands.push_back(bands_of(keyframe.homes, node, counts, has_inbetweens));
+    gifts.bands = band_steps(machines_of(group), bands, group.writer);
+  }
+  return gifts;
 }
 
 // Nodes that share an inbetween divide its lines by bounds of what they have, and so less evenly than others; patches
@@ -110,14 +179,16 @@ NodePart FrameCosts::inbetween(const FrameTotals& whole, const FrameTotals& whol
   units[Work::still_byte] = totals.drawn.moving_width * setting_.film.settings().samples * sizeof(float);
   NodePart part;
   part.dice = dicing(made) + setting_up(made) + costs_.of(Work::edge_box_filled, made[Work::edge_box_made]);
-  part.exchange = costs_.of(Work::line_mapped, height());
-  part.strips = strips(totals, costs_.of(units) + costs_.of(totals.casters));
+  part.map = costs_.of(Work::line_mapped, height());
+  part.strips = strips(totals, costs_.of(units) + costs_.of(totals.casters), strip_sizes(strip_bytes(totals.drawn)));
   const double bands = whole.changed / band_lines_;
   const double changed = is_shared ? std::ceil(bands / sharers) * band_lines_ : whole.changed;
   part.compose = pasting(totals) + encoding(changed);
-  if (is_shared) part.bytes_to_nodes = whole.changed / sharers * line_bytes() * setting_.platform.file_part;
-  part.strips.pasting += costs_.of(Work::host_restored, totals.drawn.moving.block_pixels * pixel_bytes());
-  part.memory = part.made_memory = std::min(arena_bytes(), made_bytes(made));
+  if (is_shared) part.team_bytes = whole.changed / sharers * line_bytes() * setting_.platform.file_part;
+  if (totals.blocks.empty())
+    part.strips.pasting += costs_.of(Work::host_restored, totals.drawn.moving.block_pixels * pixel_bytes());
+  part.memory = std::min(arena_bytes(), made_bytes(made));
+  part.made_memory = std::min(arena_bytes(), fresh_bytes(made));
   return part;
 }
 
@@ -142,10 +213,12 @@ double FrameCosts::background(const wire::FrameCounts& keyframe) const {
 }
 
 // CFB goes into the saved background too, whose blocks are plain before.
-double FrameCosts::saving(const FrameTotals& totals) const {
+// `restores`: else that is counted block by block (HostBlocks).
+double FrameCosts::saving(const FrameTotals& totals, bool restores) const {
   const wire::SeenCounts& seen = totals.drawn.constant;
+  const double restored = restores ? (seen.pixels + seen.block_pixels / 2) * pixel_bytes() : 0;
   return costs_.of(Work::host_run, seen.runs) + costs_.of(Work::host_byte, seen.pixels * pixel_bytes()) +
-         costs_.of(Work::host_restored, (seen.pixels + seen.block_pixels / 2) * pixel_bytes());
+         costs_.of(Work::host_restored, restored);
 }
 
 FrameTotals FrameCosts::drawn_again(const wire::FrameCounts& keyframe, int nodes) const {
@@ -174,14 +247,11 @@ FrameTotals FrameCosts::drawn_again(const wire::FrameCounts& keyframe, int nodes
 }
 
 double FrameCosts::still_bytes(const wire::FrameCounts& keyframe, int nodes) const {
-  const wire::FilmSettings& film = setting_.film.settings();
-  const bool has_heads = film.samples > 1 || setting_.film.casting_count() > 0;
   const wire::StillPlan plan = still_plan(nodes);
+  const double head = has_groups() ? static_cast<double>(wire::still_head_bytes(setting_.film.settings().width)) : 0;
   double bytes = 0;
   for (std::uint32_t line = keyframe.first_still_line; line < keyframe.last_still_line; ++line)
-    if (is_kept(keyframe, line, plan))
-      bytes +=
-          kept_bytes(keyframe.lines[line]) + (has_heads ? static_cast<double>(wire::still_head_bytes(film.width)) : 0);
+    if (is_kept(keyframe, line, plan)) bytes += head + kept_bytes(keyframe.lines[line]);
   return bytes;
 }
 
@@ -190,48 +260,47 @@ bool FrameCosts::is_kept(const wire::FrameCounts& keyframe, std::uint32_t line, 
   const wire::FilmSettings& film = setting_.film.settings();
   if (plan.groups_per_column == 0) return true;
   return line - keyframe.first_still_line < plan.lines &&
-         kept_groups(keyframe.lines[line]) <= static_cast<double>(film.width) * plan.groups_per_column;
+         keyframe.lines[line].constant.kept_groups <= static_cast<double>(film.width) * plan.groups_per_column;
 }
 
-// As evenly over a line's columns as what is seen there.
-double FrameCosts::kept_groups(const wire::LineCounts& line) const {
-  return line.constant.shaded * line.kept_width / setting_.film.settings().width;
+// Whether lines have groups.
+bool FrameCosts::has_groups() const {
+  return setting_.film.settings().samples > 1 || setting_.film.casting_count() > 0;
 }
 
-// Of a line that is kept.
-double FrameCosts::kept_bytes(const wire::LineCounts& line) const {
-  return line.kept_width * column_bytes(line.constant.shaded / setting_.film.settings().width);
+// Of a line that is kept, as it travels; where nothing is seen, columns have no depths.
+double FrameCosts::packed_bytes(const wire::LineCounts& line) const {
+  if (!has_groups()) return kept_bytes(line);
+  const wire::FilmSettings& film = setting_.film.settings();
+  const std::uint32_t casting = setting_.film.casting_count();
+  const double shown = line.kept_width * std::min(1.0, line.constant.pixels / film.width);
+  return kLinesHead + static_cast<double>(wire::still_head_bytes(film.width)) + line.kept_width +
+         shown * static_cast<double>(wire::still_packed_bytes(film.samples, casting)) +
+         line.constant.kept_groups * static_cast<double>(wire::still_packed_group_bytes(casting));
 }
 
 // As nodes weigh lines (node/group/group_sums.h), which know what is kept but for its groups.
-std::vector<std::uint64_t> FrameCosts::line_weights(const wire::FrameCounts& counts, std::size_t inbetweens) const {
+std::vector<std::uint64_t> FrameCosts::line_weights(const wire::FrameCounts& counts, bool has_inbetweens) const {
+  const std::uint32_t samples = setting_.film.settings().samples, casting = setting_.film.casting_count();
+  const double column =
+      has_groups() ? static_cast<double>(wire::still_column_bytes(samples, casting) + wire::still_group_bytes(casting))
+                   : sizeof(float);
   std::vector<std::uint64_t> weights{0};
   for (const wire::LineCounts& line : counts.lines) {
     const raster::LineLoad load(static_cast<std::uint64_t>(line.edge_boxes), static_cast<std::uint64_t>(line.samples));
-    const double still = inbetweens > 0 ? line.swept_width * column_bytes(1) : 0;
+    const double still = has_inbetweens ? line.swept_width * column : 0;
     const std::uint64_t cost = group::line_cost(load, static_cast<std::uint64_t>(still));
     weights.push_back(weights.back() + (setting_.mapping == wire::Mapping::cost ? cost : load.boxes()));
   }
   return weights;
 }
 
-// Of a column with so many groups.
-double FrameCosts::column_bytes(double groups) const {
+// Of a line that is kept.
+double FrameCosts::kept_bytes(const wire::LineCounts& line) const {
   const std::uint32_t samples = setting_.film.settings().samples, casting = setting_.film.casting_count();
-  if (samples == 1 && casting == 0) return sizeof(float);
-  return static_cast<double>(wire::still_column_bytes(samples, casting)) +
-         groups * static_cast<double>(wire::still_group_bytes(casting));
-}
-
-// As it travels; where nothing is seen, columns have no depths.
-double FrameCosts::packed_bytes(const wire::LineCounts& line) const {
-  const wire::FilmSettings& film = setting_.film.settings();
-  const std::uint32_t casting = setting_.film.casting_count();
-  if (film.samples == 1 && casting == 0) return kept_bytes(line);
-  const double shown = line.kept_width * std::min(1.0, line.constant.pixels / film.width);
-  return static_cast<double>(wire::still_head_bytes(film.width)) + line.kept_width +
-         shown * static_cast<double>(wire::still_packed_bytes(film.samples, casting)) +
-         kept_groups(line) * static_cast<double>(wire::still_packed_group_bytes(casting));
+  if (!has_groups()) return line.kept_width * sizeof(float);
+  return line.kept_width * static_cast<double>(wire::still_column_bytes(samples, casting)) +
+         line.constant.kept_groups * static_cast<double>(wire::still_group_bytes(casting));
 }
 
 wire::StillPlan FrameCosts::still_plan(int nodes) const {
@@ -314,13 +383,37 @@ double FrameCosts::lines_of_band(const FrameTotals& totals, double lines) const 
   return std::max(1.0, std::min<double>(seen, shadow::lines_of_points(needs, plan.points)));
 }
 
-StripCosts FrameCosts::strips(const FrameTotals& totals, double seconds) const {
-  StripCosts strips{seconds, 0, 0, 1};
-  const double content = totals.pixels() * pixel_bytes() + totals.runs() * sizeof(wire::Run);
-  strips.count = 1 + static_cast<std::uint32_t>(content / kFullStrip);
-  strips.bytes = content + strips.count * static_cast<double>(sizeof(wire::Strip));
-  strips.pasting = pasting(totals);
+// `sizes`: bytes of pixels and runs in each strip.
+StripCosts FrameCosts::strips(const FrameTotals& totals, double seconds, std::vector<double> sizes) const {
+  StripCosts strips{seconds, 0, pasting(totals), std::move(sizes)};
+  const double content = std::accumulate(strips.parts.begin(), strips.parts.end(), 0.0);
+  strips.bytes = content + strips.count() * static_cast<double>(sizeof(wire::Strip));
+  for (double& part : strips.parts) part = content > 0 ? part / content : 1.0 / strips.count();
   return strips;
+}
+
+double FrameCosts::strip_bytes(const wire::LineCounts& line) const {
+  return (line.constant.pixels + line.moving.pixels) * pixel_bytes() +
+         (line.constant.runs + line.moving.runs) * sizeof(wire::Run);
+}
+
+// Full ones, and the rest.
+std::vector<double> FrameCosts::strip_sizes(double bytes) const {
+  std::vector<double> sizes;
+  for (; bytes > kFullStrip; bytes -= kFullStrip) sizes.push_back(kFullStrip);
+  sizes.push_back(bytes);
+  return sizes;
+}
+
+// A strip ends after some lines.
+std::vector<double> FrameCosts::strip_sizes(const wire::FrameCounts& counts, const geometry::LineRange& lines) const {
+  std::vector<double> sizes{0};
+  const double full = kFullStrip - sizeof(wire::Strip);
+  for (std::uint32_t line = lines.first; line < lines.last; ++line) {
+    if (sizes.back() >= full && (line - lines.first) % kLinesABeat == 0) sizes.push_back(0);
+    sizes.back() += strip_bytes(counts.lines[line]);
+  }
+  return sizes;
 }
 
 double FrameCosts::pasting(const FrameTotals& totals) const {
@@ -337,6 +430,12 @@ double FrameCosts::writing() const { return costs_.of(Work::file, 1) + costs_.of
 double FrameCosts::made_bytes(const wire::UnitCounts& made) const {
   return made[Work::triangle] * kTriangleBytes + made[Work::edge_box_made] * (kUnsortedBoxBytes + kBoxBytes) +
          3 * 8 * height();
+}
+
+// Nodes count as fresh what triangles take as they are made.
+double FrameCosts::fresh_bytes(const wire::UnitCounts& made) const {
+  return static_cast<double>(kTriangleBytes) * made[Work::triangle] +
+         static_cast<double>(kUnsortedBoxBytes) * made[Work::edge_box_made];
 }
 
 // As node/group/passes.h bounds them.
@@ -357,157 +456,99 @@ void FrameCosts::add_dicing(GroupKeyframe& keyframe, const Homes& homes,
   for (std::size_t n = 0; n < made.size(); ++n)
     most = std::max(most, passes(made[n], homes.totals[n].drawn.edge_boxes, travels));
   for (std::size_t n = 0; n < made.size(); ++n) {
-    const wire::UnitCounts whole = in_whole_patches(made[n]);
-    const double once = setting_up(whole);
-    const double filled = costs_.of(Work::edge_box_filled, whole[Work::edge_box_made]);
-    keyframe.nodes[n].dice = dicing(whole) + once + filled;
-    if (most > 1) keyframe.nodes[n].dice += most * dicing(whole) + once;
-    keyframe.nodes[n].exchange = costs_.of(Work::line_mapped, height());
+    const double once = setting_up(made[n]);
+    const double filled = costs_.of(Work::edge_box_filled, made[n][Work::edge_box_made]);
+    keyframe.nodes[n].dice = dicing(made[n]) + once + filled;
+    if (most > 1) keyframe.nodes[n].dice += most * dicing(made[n]) + once;
+    keyframe.nodes[n].map = costs_.of(Work::line_mapped, height());
     keyframe.nodes[n].memory = made_bytes(made[n]);
-    keyframe.nodes[n].made_memory = std::min(arena_bytes(), made_bytes(made[n]));
+    keyframe.nodes[n].made_memory = std::min(arena_bytes(), fresh_bytes(made[n]));
   }
 }
 
-// Across each dimension of the group's hypercube (hal/collectives/reduction.cpp).
-void FrameCosts::add_sum(GroupKeyframe& keyframe, int nodes) const {
-  const double bytes = 8 * (height() + 2);
-  const int corners = static_cast<int>(std::bit_floor(static_cast<unsigned>(nodes)));
-  const bool halves = bytes >= kShortSum && corners >= 4;
-  double sent = 0;
-  const auto exchange = [&](double so_many, bool same_computer) {
-    keyframe.sum += costs_.to_send(so_many) + costs_.on_the_way(so_many, same_computer) + costs_.to_receive(so_many) +
-                    (same_computer ? 0 : costs_.answers(1, so_many));
-    sent += so_many;
-  };
-  double part = bytes;
-  for (int bit = 1; bit < corners; bit *= 2) {
-    const bool near = 2 * bit <= nodes_on_a_computer(nodes);
-    if (halves) part /= 2, exchange(part, near);
-    exchange(halves ? part : bytes, near);
+// To homes on other computers.
+void FrameCosts::add_exchange(GroupKeyframe& keyframe, const Homes& homes, const KeyframeCounts& counts,
+                              const SurfaceTable& surfaces, const KeyframeGroup& group) const {
+  const auto nodes = static_cast<std::size_t>(group.contributors);
+  const Machines machines = machines_of(group);
+  const std::vector<int> home_of = homes_of_lines(homes.ranges, counts.lines.size());
+  std::vector<std::vector<PlacedSurface>> by_node(nodes);
+  for (const PlacedSurface& placed : counts.placed) by_node[placed.number % nodes].push_back(placed);
+  ParcelSums sums(nodes);
+  std::vector<std::vector<Parcel>> parcels(keyframe.nodes.size());
+  std::vector<double> travelling(nodes), boxes_in(nodes);
+  for (std::size_t n = 0; n < nodes; ++n) {
+    for (const PlacedSurface& placed : by_node[n])
+      sums.add(surfaces[placed.surface], surfaces.lines(placed.surface), home_of);
+    parcels[n] = sums.take();
+    std::erase_if(parcels[n], [&](const Parcel& to) { return machines.are_together(static_cast<int>(n), to.home); });
+    for (const Parcel& parcel : parcels[n]) {
+      const auto home = static_cast<std::size_t>(parcel.home);
+      travelling[n] += static_cast<double>(parcel.edge_boxes * (kUnsortedBoxBytes + kTriangleBytes));
+      travelling[home] += parcel.bytes();
+      boxes_in[home] += static_cast<double>(parcel.edge_boxes);
+    }
   }
-  if (corners < nodes)
-    for (int way = 0; way < 2; ++way) exchange(bytes, false);
-  for (NodePart& node : keyframe.nodes) node.bytes_to_nodes += sent;
-}
-
-// To homes on other computers. Each node has a part of what is on any home.
-void FrameCosts::add_exchange(GroupKeyframe& keyframe, const Homes& homes, const std::vector<wire::UnitCounts>& made,
-                              int contributors) const {
-  const auto nodes = static_cast<std::size_t>(contributors);
-  const double far =
-      1 - static_cast<double>(nodes_on_a_computer(static_cast<int>(made.size()))) / static_cast<double>(nodes);
-  double home_messages = 0, home_bytes = 0;  // that one node sends, if it has an equal part of all
-  std::vector<double> parcels(nodes), bytes(nodes);
-  for (std::size_t h = 0; h < nodes; ++h) {
-    const double each = 1 / static_cast<double>(nodes);
-    parcels[h] = 1 - std::exp(-homes.triangles[h] * each);
-    bytes[h] = each * (homes.totals[h].drawn.edge_boxes * kUnsortedBoxBytes + homes.triangles[h] * kTriangleBytes) +
-               parcels[h] * 96;
-    home_messages += parcels[h] * far;
-    home_bytes += bytes[h] * far;
-  }
+  keyframe.triangles = triangle_steps(parcels, costs_.of(Work::edge_box_filled, 1));
   for (std::size_t n = 0; n < nodes; ++n) {
     NodePart& node = keyframe.nodes[n];
-    const double part =
-        homes.edge_boxes > 0 ? made[n][Work::edge_box_made] / homes.edge_boxes * static_cast<double>(nodes) : 0;
-    const double out = home_bytes * part, messages_out = home_messages;
-    const double in = bytes[n] * static_cast<double>(nodes) * far;
-    const double messages_in = parcels[n] * static_cast<double>(nodes) * far;
-    const double boxes_in = homes.totals[n].drawn.edge_boxes * far;
-    const auto ends = [&](double messages, double all, const auto& cost) {
-      return messages > 0 ? messages * cost(all / messages) : 0;
-    };
-    node.exchange += ends(messages_out, out, [&](double b) { return costs_.to_send(b); }) +
-                     ends(messages_in, in, [&](double b) { return costs_.to_receive(b); }) +
-                     costs_.of(Work::edge_box_filled, boxes_in);
-    node.exchange_wait = costs_.on_the_way(std::max(in, out), false) + costs_.answers(messages_in, in);
-    node.bytes_to_nodes += out;
-    const double travelling = made[n][Work::edge_box_made] * far * (kUnsortedBoxBytes + kTriangleBytes) + in;
-    const double in_pass = (node.memory + travelling + boxes_in * kBoxBytes) / keyframe.passes;
+    const double in_pass = (node.memory + travelling[n] + boxes_in[n] * kBoxBytes) / keyframe.passes;
     node.memory = std::max(keyframe.passes > 1 ? std::min(arena_bytes(), node.memory) : 0, in_pass);
   }
 }
 
-// CZB, and with several samples shaded groups, of what inbetweens may change.
-void FrameCosts::add_still(GroupKeyframe& keyframe, const Homes& homes, const wire::FrameCounts& counts,
-                           std::size_t inbetweens) const {
-  std::vector<StillLines> still;
-  for (const geometry::LineRange& home : homes.ranges) still.push_back(still_lines(home, counts, still_plan(1)));
-  add_relay(keyframe, still, inbetweens, &NodePart::still, &NodePart::still_wait);
+Machines FrameCosts::machines_of(const KeyframeGroup& group) const {
+  return Machines(group.nodes.first, setting_.platform.machine.nodes, group.draws);
 }
 
-// Bands of what stands still, with pixels where inbetweens may draw; bands of the keyframe to the node that writes it,
-// which in the long run each node is as often.
-void FrameCosts::add_bands(GroupKeyframe& keyframe, const Homes& homes, const wire::FrameCounts& counts,
-                           int contributors, std::size_t inbetweens) const {
-  const auto nodes = keyframe.nodes.size();
-  if (nodes == 1) return;
-  const geometry::LineRange touched{counts.first_still_line, counts.last_still_line};
-  const double written = file_bytes() / static_cast<double>(nodes);  // by a node
-  std::vector<StillLines> background(nodes);
-  for (std::size_t n = 0; n < static_cast<std::size_t>(contributors); ++n) {
-    const geometry::LineRange& home = homes.ranges[n];
-    const double picture = home.count() * line_bytes() * setting_.platform.file_part;
-    background[n].bytes = picture + geometry::overlap(home, touched).count() * line_bytes();
-    background[n].messages = pieces(background[n].bytes, band_lines_ * line_bytes());
-    keyframe.nodes[n].bands += costs_.to_send(picture);
-    keyframe.nodes[n].bytes_to_nodes += picture;
-  }
-  add_relay(keyframe, background, inbetweens, &NodePart::bands, &NodePart::bands_wait);
-  for (NodePart& node : keyframe.nodes) {
-    node.bands += costs_.to_receive(written);
-    node.bands_wait = std::max(node.bands_wait, costs_.on_the_way(written, false));
-  }
-}
-
-// What each node has goes round the computers that draw inbetweens, which are the first (node/group/relay.h): a head
-// receives all but its own, and passes on all but what the next has, the last nothing that came from beyond them.
-void FrameCosts::add_relay(GroupKeyframe& keyframe, const std::vector<StillLines>& of, std::size_t inbetweens,
-                           double NodePart::*seconds, double NodePart::*wait) const {
-  const auto near = static_cast<std::size_t>(nodes_on_a_computer(static_cast<int>(of.size())));
-  const std::size_t computers = (of.size() + near - 1) / near, collecting = std::min(computers, inbetweens);
-  if (computers == 1 || collecting == 0) return;
-  StillLines all;
-  std::vector<StillLines> on(computers);
-  for (std::size_t n = 0; n < of.size(); ++n) all += of[n], on[n / near] += of[n];
-  StillLines beyond;
-  for (std::size_t computer = collecting; computer < computers; ++computer) beyond += on[computer];
-  const double piece = all.messages > 0 ? all.bytes / all.messages : 0;
-  const auto sends = [&](NodePart& node, const StillLines& some) {
-    node.*seconds += some.messages * costs_.to_send(piece);
-    node.bytes_to_nodes += some.bytes;
-  };
-  const double step =
-      costs_.to_receive(piece) + costs_.to_send(piece) + costs_.on_the_way(piece, false) + costs_.answers(1, piece);
-  for (std::size_t n = 0; n < of.size(); ++n) {
-    NodePart& node = keyframe.nodes[n];
-    const std::size_t computer = n / near;
-    if (collecting > 1 || computer > 0) sends(node, of[n]);
-    if (computer >= collecting || n % near != 0) continue;
-    const StillLines in = all - on[computer];
-    node.*seconds += in.messages * costs_.to_receive(piece);
-    const bool is_last = computer + 1 == collecting;
-    if (collecting > 1) sends(node, in - on[(computer + 1) % collecting] - (is_last ? beyond : StillLines()));
-    node.*wait = costs_.on_the_way(in.bytes, false) + costs_.answers(in.messages, in.bytes) +
-                 static_cast<double>(collecting - 1) * step;
-  }
-}
-
-// In which so many bytes go round, of which `smallest` stay together.
-double FrameCosts::pieces(double bytes, double smallest) const {
-  return std::ceil(bytes / std::max(smallest, static_cast<double>(wire::kRelayPiece)));
-}
-
-// Of those on `home`, in pieces.
-FrameCosts::StillLines FrameCosts::still_lines(const geometry::LineRange& home, const wire::FrameCounts& counts,
-                                               const wire::StillPlan& plan) const {
+// In which lines of `home` go round machines.
+std::vector<double> FrameCosts::still_messages(const geometry::LineRange& home, const wire::FrameCounts& counts) const {
   const geometry::LineRange lines = geometry::overlap(home, {counts.first_still_line, counts.last_still_line});
-  StillLines still;
-  if (lines.count() == 0) return still;
+  if (lines.count() == 0) return {};
+  const wire::StillPlan plan = still_plan(1);
+  std::vector<double> kept;
   for (std::uint32_t line = lines.first; line < lines.last; ++line)
-    if (is_kept(counts, line, plan)) still.bytes += packed_bytes(counts.lines[line]);
-  still.messages = std::max(1.0, pieces(still.bytes, still.bytes / lines.count()));
-  return still;
+    if (is_kept(counts, line, plan)) kept.push_back(packed_bytes(counts.lines[line]));
+  return in_pieces(kept, kPieceHead + (has_groups() ? 0 : kLinesHead));
+}
+
+// As programs::CountedWriter has them.
+NodeBands FrameCosts::bands_of(const std::vector<geometry::LineRange>& homes, std::size_t node,
+                               const wire::FrameCounts& counts, bool has_inbetweens) const {
+  const geometry::LineRange& home = homes[node];
+  NodeBands bands;
+  if (home.count() == 0) return bands;
+  const auto height = static_cast<std::uint32_t>(counts.lines.size());
+  // What is seen of moving parts in the node's lines of the band that begins at `first`.
+  const auto is_touched = [&](std::uint32_t first) {
+    const geometry::LineRange own = geometry::overlap(home, {first, std::min(height, first + band_lines_)});
+    const auto lines = std::span(counts.lines).subspan(own.first, own.count());
+    return std::ranges::any_of(lines, [](const wire::LineCounts& line) { return line.moving.pixels > 0; });
+  };
+  if (const std::uint32_t first = home.first / band_lines_ * band_lines_; first < home.first) {
+    const std::uint32_t lines = std::min(home.last, first + band_lines_) - home.first;
+    bands.edge = lines * line_bytes() * (is_touched(first) ? 2 : 1);
+    const auto composer = std::ranges::find_if(homes, [&](const auto& other) { return other.has(first); });
+    bands.composer = static_cast<int>(composer - homes.begin());
+  }
+  double encoded = 0;
+  std::vector<double> backgrounds;
+  for (std::uint32_t first = (home.first + band_lines_ - 1) / band_lines_ * band_lines_; first < home.last;
+       first += band_lines_) {
+    const std::uint32_t last = std::min(height, first + band_lines_);
+    const double pixels = (last - first) * line_bytes();
+    const double record = kBandHead + std::floor(setting_.platform.file_part * pixels);
+    bands.composes = true;
+    bands.picture += record;
+    encoded += last - first;
+    if (!has_inbetweens) continue;
+    const bool may_change = first < counts.last_still_line && counts.first_still_line < last;
+    backgrounds.push_back(record + (may_change ? pixels : 0));
+    encoded += is_touched(first) ? last - first : 0;
+  }
+  bands.background = in_pieces(backgrounds, kPieceHead);
+  bands.encoding = encoding(encoded);
+  return bands;
 }
 
 // Of a group of `nodes` nodes.

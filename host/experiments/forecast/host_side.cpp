@@ -13,21 +13,26 @@ constexpr std::size_t kNothing = static_cast<std::size_t>(-1);
 }  // namespace
 
 HostSide::HostSide(Clockwork& clockwork, simulated::Computers& computers, simulated::StorageUse& storage,
-                   const farm::Plan& plan, const Setting& setting, const farm::HostMemory& memory, int nodes,
-                   Outward outward)
+                   const FilmCounts& counts, const farm::Plan& plan, const Setting& setting,
+                   const farm::HostMemory& memory, int nodes, Outward outward)
     : clockwork_(clockwork),
       computers_(computers),
       storage_(storage),
       plan_(plan),
       setting_(setting),
-      costs_(setting.platform),
+      frame_costs_(setting, nodes),
+      costs_(frame_costs_.costs()),
       self_(nodes),
       outward_(std::move(outward)),
-      file_bytes_(FrameCosts(setting, nodes).file_bytes()),
       buffers_(memory.frames),
-      free_buffers_(memory.frames, kNothing),
+      free_buffers_{{0, kNothing}},
+      bands_(setting.picture, setting.film.settings().width, setting.film.settings().height),
       groups_(plan.groups.size()),
-      tasks_(plan.tasks.size()) {}
+      tasks_(plan.tasks.size()) {
+  if (!counts.is_exact || setting.nodes_write()) return;
+  blocks_.emplace(counts, bands_.width(), bands_.height(), static_cast<double>(wire::pixel_bytes(setting.pixels())));
+  for (TaskState& task : tasks_) task.kept_bands.resize(bands_.count());
+}
 
 void HostSide::begin() {
   idle_ = false;
@@ -114,7 +119,7 @@ void HostSide::note(const StripSent& strip) {
 
 // Buffers of frames that sinks have taken.
 void HostSide::take_back() {
-  for (const std::size_t task : std::exchange(taken_, {})) free_buffers_.push_back(task);
+  for (const Buffer& buffer : std::exchange(taken_, {})) free_buffers_.push_back(buffer);
 }
 
 bool HostSide::compose_one() {
@@ -133,16 +138,23 @@ bool HostSide::compose_one() {
   return false;
 }
 
-// As sinks::SinkPool gives buffers to frames that are whole, and earlier to others.
+// As sinks::SinkPool gives buffers to frames that are whole, and earlier to others. It makes a new one where none is
+// free.
 bool HostSide::begin_frame(std::size_t task, std::size_t number) {
   Frame& frame = tasks_[task].frames[number];
   if (frame.has_picture) return true;
   const std::size_t left = frame.contributors_left == 0 ? 0 : std::max<std::size_t>(1, buffers_ / 2);
-  if (free_buffers_.size() <= left) return false;
-  auto buffer = std::ranges::find(free_buffers_.rbegin(), free_buffers_.rend(), task);
+  if (free_buffers_.size() + buffers_ - made_ <= left) return false;
+  if (free_buffers_.empty()) free_buffers_.push_back({made_++, kNothing});
+  auto buffer = std::ranges::find(free_buffers_.rbegin(), free_buffers_.rend(), task, &Buffer::task);
   if (buffer == free_buffers_.rend()) buffer = free_buffers_.rbegin();
-  if (*buffer != task && number > 0) frame.begun = host_costs_[task].background;
-  free_buffers_.erase(std::next(buffer).base());
+  frame.buffer = buffer->number;
+  if (blocks_)
+    blocks_->begin(frame.buffer, task, number);
+  else if (buffer->task != task && number > 0)
+    frame.begun = host_costs_[task].background;
+  std::swap(*buffer, free_buffers_.back());
+  free_buffers_.pop_back();
   return frame.has_picture = true;
 }
 
@@ -157,6 +169,7 @@ bool HostSide::compose(std::size_t group, std::size_t number, std::size_t place)
   }
   seconds += static_cast<double>(free.size()) * costs_.host_to_send(sizeof(wire::Credit));
   const bool whole = frame.contributors_left == 0;
+  if (blocks_) seconds += restore(number, place, whole);
   if (whole) {
     seconds += costs_.of(Work::host_frame, 1);
     task.background_there |= place == 0;
@@ -168,6 +181,31 @@ bool HostSide::compose(std::size_t group, std::size_t number, std::size_t place)
     go_on();
   });
   return true;
+}
+
+// All of the frame's pixels at once, with its first strips. Sinks restore the rest, if there are any.
+double HostSide::restore(std::size_t task, std::size_t place, bool whole) {
+  Frame& frame = tasks_[task].frames[place];
+  double bytes = 0;
+  if (!std::exchange(frame.is_pasted, true)) bytes += blocks_->paste(frame.buffer, task, place);
+  if (whole && !setting_.files) bytes += blocks_->restore(frame.buffer);
+  return costs_.of(Work::host_restored, bytes);
+}
+
+// As sinks::FrameEncoder encodes bands: those of the background once.
+double HostSide::file_seconds(std::size_t task, std::size_t place) {
+  if (!blocks_) return host_costs_[task].files[place];
+  const std::size_t buffer = tasks_[task].frames[place].buffer;
+  double lines = 0;
+  for (std::size_t band = 0; band < bands_.count(); ++band) {
+    const images::Lines of_band = bands_.lines_of(band);
+    const bool is_changed = blocks_->is_changed(buffer, of_band.first, of_band.end);
+    if (!is_changed && tasks_[task].kept_bands[band]) continue;
+    if (!is_changed) tasks_[task].kept_bands[band] = true;
+    blocks_->forget_stale(buffer, of_band.first, of_band.end);
+    lines += of_band.count();
+  }
+  return frame_costs_.encoding(lines) + frame_costs_.writing();
 }
 
 void HostSide::finish_written(const StripSent& file) {
@@ -183,12 +221,13 @@ void HostSide::submit(std::size_t task, std::size_t place) {
   composed_.push_back({now, place == 0 ? wire::FrameKind::keyframe : wire::FrameKind::inbetween});
   double end = now;
   if (setting_.files) {
-    const double made = computers_.reserve(self_, now, host_costs_[task].files[place]);
-    end = storage_.write(computers_.of(self_), made, file_bytes_, now);
+    const double made = computers_.reserve(self_, now, file_seconds(task, place));
+    end = storage_.write(computers_.of(self_), made, frame_costs_.file_bytes(), now);
   }
   ended_ = std::max(ended_, end);
-  clockwork_.at(end, [this, task] {
-    taken_.push_back(task);
+  const std::size_t buffer = tasks_[task].frames[place].buffer;
+  clockwork_.at(end, [this, task, buffer] {
+    taken_.push_back({buffer, task});
     wake();
   });
   give_tasks();

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -14,7 +15,9 @@
 #include "host/experiments/forecast/clockwork.h"
 #include "host/experiments/forecast/costs.h"
 #include "host/experiments/forecast/frame_costs.h"
+#include "host/experiments/forecast/host_blocks.h"
 #include "host/experiments/forecast/setting.h"
+#include "host/images/picture_bands.h"
 #include "host/render/events/course.h"
 #include "host/render/farm/plan.h"
 
@@ -42,7 +45,8 @@ class HostSide {
   };
 
   HostSide(Clockwork& clockwork, simulated::Computers& computers, simulated::StorageUse& storage,
-           const farm::Plan& plan, const Setting& setting, const farm::HostMemory& memory, int nodes, Outward outward);
+           const FilmCounts& counts, const farm::Plan& plan, const Setting& setting, const farm::HostMemory& memory,
+           int nodes, Outward outward);
 
   // Of each task in order.
   void add_costs(HostCosts costs) { host_costs_.push_back(std::move(costs)); }
@@ -59,7 +63,9 @@ class HostSide {
   struct Frame {
     int contributors_left;
     bool has_picture = false;
-    double begun = 0;               // seconds that this took
+    std::size_t buffer = 0;  // then
+    double begun = 0;        // seconds that this took
+    bool is_pasted = false;
     std::vector<StripSent> strips;  // that wait
   };
   struct GroupState {
@@ -71,6 +77,11 @@ class HostSide {
     std::size_t left = 0;  // frames
     std::vector<Frame> frames;
     std::vector<std::size_t> waiting;  // with strips
+    std::vector<bool> kept_bands;      // of the background, that sinks have encoded
+  };
+  struct Buffer {
+    std::size_t number;
+    std::size_t task;  // whose background it shows
   };
 
   void wake();
@@ -83,6 +94,8 @@ class HostSide {
   bool compose(std::size_t group, std::size_t task, std::size_t number);
   void finish_written(const StripSent& file);
   void submit(std::size_t task, std::size_t number);
+  double restore(std::size_t task, std::size_t place, bool whole);
+  double file_seconds(std::size_t task, std::size_t place);
   void busy(double seconds, Clockwork::Action then);
   void receive(const StripSent& strip);
   void note(const StripSent& strip);
@@ -92,18 +105,21 @@ class HostSide {
   simulated::StorageUse& storage_;
   const farm::Plan& plan_;
   const Setting setting_;
-  const Costs costs_;
+  const FrameCosts frame_costs_;
+  const Costs& costs_;
   const int self_;
   const Outward outward_;
-  const double file_bytes_;
-  const std::size_t buffers_;
-  std::vector<std::size_t> free_buffers_;  // the tasks whose background they show; the one given back last is last
-  std::vector<HostCosts> host_costs_;      // by task
+  const std::size_t buffers_;         // at most
+  std::size_t made_ = 1;              // so far
+  std::vector<Buffer> free_buffers_;  // the one given back last is last
+  const images::PictureBands bands_;
+  std::optional<HostBlocks> blocks_;   // of the buffers, where frames were counted exactly
+  std::vector<HostCosts> host_costs_;  // by task
   std::vector<GroupState> groups_;
   std::vector<TaskState> tasks_;
   std::size_t next_task_ = 0;
   std::deque<StripSent> arrived_;
-  std::deque<std::size_t> taken_;  // of frames that sinks have taken, the tasks
+  std::deque<Buffer> taken_;  // of frames that sinks have taken
   bool idle_ = true;
   std::vector<events::ExpectedFrame> composed_;
   double ended_ = 0;

@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <deque>
-#include <functional>
 #include <map>
+#include <memory>
 #include <utility>
 
 #include "hal/simulated/computers.h"
 #include "hal/simulated/routes.h"
 #include "hal/simulated/storage_use.h"
 #include "host/experiments/forecast/clockwork.h"
+#include "host/experiments/forecast/exchanges.h"
 #include "host/experiments/forecast/frame_costs.h"
 #include "host/experiments/forecast/host_side.h"
 #include "node/wire/frame_writer.h"
@@ -19,6 +20,11 @@ namespace mars::forecast {
 namespace {
 
 constexpr double kOnTheSameComputer = sizeof(wire::Strip);  // of a strip whose pixels the host reads where they lie
+
+struct TaskKeyframe {
+  std::shared_ptr<const GroupKeyframe> drawn;
+  KeyframeGifts gifts;
+};
 
 class Rehearsal {
  public:
@@ -42,13 +48,8 @@ class Rehearsal {
     std::size_t task = 0;
     std::size_t frame = 0;  // of the task that it draws
     std::uint32_t strips_left = 0;
-    double memory = 0;                        // bytes that it used so far
-    const GroupKeyframe* keyframe = nullptr;  // of the task
-  };
-  struct GroupState {
-    collectives::Group nodes;
-    std::int32_t teams = 1;
-    int come = 0;  // of its nodes, to where all wait
+    double memory = 0;                             // bytes that it used so far
+    std::shared_ptr<const TaskKeyframe> keyframe;  // of the task
   };
   // An inbetween that a team draws, where nodes write files.
   struct TeamFrame {
@@ -56,20 +57,22 @@ class Rehearsal {
     bool writer_waits = false;  // for them
   };
 
-  const GroupKeyframe& keyframe_of(std::size_t task, const collectives::Group& group);
+  std::shared_ptr<const TaskKeyframe> keyframe_of(std::size_t task, const collectives::Group& group);
+  std::shared_ptr<const GroupKeyframe> shared_keyframe(std::size_t number, const KeyframeGroup& group);
   const NodePart& part_of(const Node& node);
   const std::vector<std::vector<NodePart>>& inbetweens_of(int sharers);
   int writer_of(const Node& node) const;
+  double next_part(const Node& node);
   double fresh_seconds(Node& node);
   void receive_task(std::size_t group, std::size_t task);
   void begin_task(int n);
-  void wait_for_all(int n, const std::function<double(int)>& wait, void (Rehearsal::*then)(int));
+  void exchange(int n, const Exchange& exchange, void (Rehearsal::*then)(int));
   void sum(int n);
-  void exchange(int n);
+  void map(int n);
+  void exchange_triangles(int n);
   void begin_strips(int n);
   void draw_strip(int n);
   void finish_strip(int n);
-  void wait_for_group(int n);
   void send_strip(int n);
   void end_frame(int n);
   void receive_credit(int n);
@@ -79,7 +82,6 @@ class Rehearsal {
   void receive_team_bands(int writer, std::size_t task, std::size_t frame);
   void collect_team_bands(int n);
   void send_drawn(int n);
-  void wait_for_bands(int n);
   void write_file(int n);
   void begin_file(int n);
   void end_file(int n, std::size_t task, std::size_t frame);
@@ -102,11 +104,14 @@ class Rehearsal {
   simulated::Routes routes_;
   simulated::StorageUse storage_;
   const bool nodes_write_;
-  std::map<std::array<std::size_t, 3>, GroupKeyframe> keyframes_;  // by number, nodes and inbetweens
-  std::map<int, std::vector<std::vector<NodePart>>> inbetweens_;   // by nodes that share one, and by task
-  std::vector<std::vector<TeamFrame>> team_frames_;                // by task
+  Exchanges exchanges_;
+  // By number, nodes, place on a machine, and whether inbetweens follow. Those of exact counts are used once.
+  std::map<std::array<std::size_t, 4>, std::shared_ptr<const GroupKeyframe>> keyframes_;
+  std::vector<std::weak_ptr<const TaskKeyframe>> task_keyframes_;
+  std::map<int, std::vector<std::vector<NodePart>>> inbetweens_;  // by nodes that share one, and by task
+  std::vector<std::vector<TeamFrame>> team_frames_;               // by task
+  std::vector<std::int32_t> teams_;                               // by group
   std::vector<Node> nodes_;
-  std::vector<GroupState> groups_;
   Rehearsed result_;
   HostSide host_;
 };
@@ -125,22 +130,24 @@ Rehearsal::Rehearsal(const FilmCounts& counts, const farm::Plan& plan, const Set
       routes_(setting.platform.machine.network, computers_.count(), computers_.of(nodes)),
       storage_(setting.platform.machine.storage, setting.platform.machine.network),
       nodes_write_(setting.nodes_write()),
+      exchanges_(clockwork_, computers_, routes_, costs_.costs(), nodes),
+      task_keyframes_(counts.tasks.size()),
       nodes_(static_cast<std::size_t>(nodes)),
       result_{0, {}, 0, 0, 0, costs_.shadow_bytes(), 0, host_memory(plan, setting, nodes)},
-      host_(clockwork_, computers_, storage_, plan, setting, result_.host_memory, nodes,
+      host_(clockwork_, computers_, storage_, counts, plan, setting, result_.host_memory, nodes,
             {[this](std::size_t group, std::size_t task) { receive_task(group, task); },
              [this](int node) { later(node, way_from_host(node, sizeof(wire::Credit)), &Rehearsal::receive_credit); },
              [this](const StripSent& strip) { return answer(strip); }}) {
   for (std::size_t g = 0; g < plan.groups.size(); ++g) {
-    groups_.push_back({plan.groups[g], wire::team_count(plan.groups[g], plan.teams_of(plan.groups[g]))});
+    teams_.push_back(wire::team_count(plan.groups[g], plan.teams_of(plan.groups[g])));
     for (int member = 0; member < plan.groups[g].count; ++member) {
       Node& node = nodes_[static_cast<std::size_t>(plan.groups[g].first + member)];
       node.group = g;
       node.member = member;
       node.slots = result_.host_memory.credits;
     }
-    for (std::int32_t number = 0; number < groups_.back().teams; ++number) {
-      const collectives::Group team = wire::team_of(plan.groups[g], groups_.back().teams, number);
+    for (std::int32_t number = 0; number < teams_.back(); ++number) {
+      const collectives::Group team = wire::team_of(plan.groups[g], teams_.back(), number);
       for (int n = team.first; n < team.first + team.count; ++n) {
         nodes_[static_cast<std::size_t>(n)].team = static_cast<std::uint64_t>(number);
         nodes_[static_cast<std::size_t>(n)].of_team = team;
@@ -173,26 +180,52 @@ Rehearsed Rehearsal::run(double limit) {
   host_.begin();
   const bool ended = clockwork_.run(limit);
   result_.seconds = ended ? host_.ended() : std::numeric_limits<double>::infinity();
+  result_.bytes_to_nodes += exchanges_.bytes();
   result_.frames = std::move(host_.frames());
   result_.host_busy = host_.busy_seconds();
   return std::move(result_);
 }
 
-const GroupKeyframe& Rehearsal::keyframe_of(std::size_t task, const collectives::Group& group) {
-  const std::size_t number = counts_.tasks[task].keyframe;
-  const auto size = static_cast<std::size_t>(group.count);
-  const std::size_t a_team = size / static_cast<std::size_t>(plan_.teams_of(group));
-  const std::size_t inbetweens =
-      std::min(size, counts_.tasks[task].inbetweens.size() * a_team);  // nodes that draw them
-  const auto [found, fresh] = keyframes_.try_emplace({number, size, inbetweens});
-  if (fresh)
-    found->second = costs_.keyframe(counts_.keyframes[number], group.count, plan_.contributors_of(group), inbetweens);
-  return found->second;
+// The same for all nodes of the group that takes the task.
+std::shared_ptr<const TaskKeyframe> Rehearsal::keyframe_of(std::size_t number, const collectives::Group& group) {
+  if (auto known = task_keyframes_[number].lock()) return known;
+  const farm::Task& task = plan_.tasks[number];
+  const auto count = static_cast<std::size_t>(group.count);
+  KeyframeGroup members{group, plan_.contributors_of(group), std::vector<std::uint8_t>(count), 0};
+  members.writer = static_cast<int>(task.interval % static_cast<std::uint32_t>(members.contributors));
+  const std::int32_t teams = wire::team_count(group, plan_.teams_of(group));
+  for (std::size_t k = 0; k < std::min(static_cast<std::size_t>(teams), task.frames.size() - 1); ++k) {
+    const auto number = static_cast<std::int32_t>((task.first_inbetween + k) % static_cast<std::uint64_t>(teams));
+    const collectives::Group team = wire::team_of(group, teams, number);
+    std::fill_n(members.draws.begin() + (team.first - group.first), team.count, std::uint8_t{1});
+  }
+  const std::size_t counted = counts_.tasks[number].keyframe;
+  auto keyframe = std::make_shared<TaskKeyframe>(shared_keyframe(counted, members));
+  keyframe->gifts = costs_.gifts(*keyframe->drawn, counts_.keyframes[counted], members);
+  task_keyframes_[number] = keyframe;
+  return keyframe;
+}
+
+std::shared_ptr<const GroupKeyframe> Rehearsal::shared_keyframe(std::size_t number, const KeyframeGroup& group) {
+  const auto make = [&] {
+    return std::make_shared<const GroupKeyframe>(costs_.keyframe(counts_.keyframes[number], counts_.surfaces, group));
+  };
+  if (counts_.is_exact) return make();
+  const auto place = static_cast<std::size_t>(group.nodes.first % computers_.nodes_on_each());
+  auto& known = keyframes_[{number, static_cast<std::size_t>(group.count()), place, group.has_inbetweens() ? 1u : 0u}];
+  if (known == nullptr) known = make();
+  return known;
 }
 
 const NodePart& Rehearsal::part_of(const Node& node) {
   if (node.frame > 0) return inbetweens_of(node.of_team.count)[node.task][node.frame - 1];
-  return node.keyframe->nodes[static_cast<std::size_t>(node.member)];
+  return node.keyframe->drawn->nodes[static_cast<std::size_t>(node.member)];
+}
+
+// Of the strip that is next.
+double Rehearsal::next_part(const Node& node) {
+  const std::vector<double>& parts = part_of(node).strips.parts;
+  return parts[parts.size() - node.strips_left];
 }
 
 // Of a frame that the node begins: its first, or one that takes more memory than any before.
@@ -204,7 +237,7 @@ double Rehearsal::fresh_seconds(Node& node) {
 }
 
 void Rehearsal::receive_task(std::size_t group, std::size_t task) {
-  const collectives::Group& nodes = groups_[group].nodes;
+  const collectives::Group& nodes = plan_.groups[group];
   const auto bytes = static_cast<double>(farm::render_command(plan_.tasks[task], nodes, {1}).size());
   const double each = costs_.costs().host_to_send(bytes);
   for (int member = 0; member < nodes.count; ++member) {
@@ -230,37 +263,31 @@ void Rehearsal::begin_task(int n) {
   node.task = node.tasks.front();
   node.tasks.pop_front();
   node.frame = 0;
-  node.keyframe = &keyframe_of(node.task, groups_[node.group].nodes);
+  node.keyframe = keyframe_of(node.task, plan_.groups[node.group]);
   work(n, part_of(node).dice + fresh_seconds(node), &Rehearsal::sum);
 }
 
-// Once all nodes of the group have come, each goes on after its own wait.
-void Rehearsal::wait_for_all(int n, const std::function<double(int)>& wait, void (Rehearsal::*then)(int)) {
-  GroupState& group = groups_[nodes_[static_cast<std::size_t>(n)].group];
-  if (++group.come < group.nodes.count) return;
-  group.come = 0;
-  for (int node = group.nodes.first; node < group.nodes.first + group.nodes.count; ++node)
-    later(node, clockwork_.now() + wait(node), then);
+void Rehearsal::exchange(int n, const Exchange& exchange, void (Rehearsal::*then)(int)) {
+  if (exchange.empty()) return (this->*then)(n);
+  const Node& node = nodes_[static_cast<std::size_t>(n)];
+  exchanges_.begin(n, plan_.groups[node.group].first, exchange[static_cast<std::size_t>(node.member)],
+                   [this, n, then] { (this->*then)(n); });
 }
 
-void Rehearsal::sum(int n) {
-  const GroupKeyframe& keyframe = *nodes_[static_cast<std::size_t>(n)].keyframe;
-  if (keyframe.nodes.size() == 1) return exchange(n);
-  wait_for_all(
-      n, [&](int) { return keyframe.sum; }, &Rehearsal::exchange);
+void Rehearsal::sum(int n) { exchange(n, nodes_[static_cast<std::size_t>(n)].keyframe->drawn->sum, &Rehearsal::map); }
+
+void Rehearsal::map(int n) {
+  work(n, part_of(nodes_[static_cast<std::size_t>(n)]).map, &Rehearsal::exchange_triangles);
 }
 
-void Rehearsal::exchange(int n) {
-  const NodePart& part = part_of(nodes_[static_cast<std::size_t>(n)]);
-  const double end = computers_.work(n, clockwork_.now(), part.exchange);
-  later(n, std::max(end, clockwork_.now() + part.exchange_wait), &Rehearsal::begin_strips);
+void Rehearsal::exchange_triangles(int n) {
+  exchange(n, nodes_[static_cast<std::size_t>(n)].keyframe->drawn->triangles, &Rehearsal::begin_strips);
 }
 
 void Rehearsal::begin_strips(int n) {
   Node& node = nodes_[static_cast<std::size_t>(n)];
   const NodePart& part = part_of(node);
-  node.strips_left = part.strips.count;
-  result_.bytes_to_nodes += node.frame == 0 ? part.bytes_to_nodes : 0;
+  node.strips_left = part.strips.count();
   result_.bytes_to_host += nodes_write_ ? static_cast<double>(sizeof(wire::Strip)) : part.strips.bytes;
   result_.node_memory = std::max(result_.node_memory, part.memory);
   draw_strip(n);
@@ -280,22 +307,14 @@ void Rehearsal::draw_strip(int n) {
   }
   --node.slots;
   const StripCosts& strips = part_of(node).strips;
-  work(n, strips.seconds / strips.count, &Rehearsal::finish_strip);
+  work(n, strips.seconds * next_part(node), &Rehearsal::finish_strip);
 }
 
 // The last strip of a keyframe goes once the group's nodes have given each other what inbetweens need.
 void Rehearsal::finish_strip(int n) {
   const Node& node = nodes_[static_cast<std::size_t>(n)];
-  const bool several = node.keyframe->nodes.size() > 1;
-  if (node.strips_left > 1 || node.frame > 0 || !several || counts_.tasks[node.task].inbetweens.empty())
-    return send_strip(n);
-  work(n, part_of(node).still, &Rehearsal::wait_for_group);
-}
-
-void Rehearsal::wait_for_group(int n) {
-  wait_for_all(
-      n, [this](int node) { return part_of(nodes_[static_cast<std::size_t>(node)]).still_wait; },
-      &Rehearsal::send_strip);
+  if (node.strips_left > 1 || node.frame > 0) return send_strip(n);
+  exchange(n, node.keyframe->gifts.still, &Rehearsal::send_strip);
 }
 
 void Rehearsal::send_strip(int n) {
@@ -304,8 +323,9 @@ void Rehearsal::send_strip(int n) {
   if (node.strips_left == 0) return end_frame(n);  // it does not contribute
   const StripCosts& strips = part_of(node).strips;
   const bool same_computer = computers_.of(n) == computers_.of(static_cast<int>(nodes_.size()));
-  const double bytes = same_computer ? kOnTheSameComputer : strips.bytes / strips.count;
-  const StripSent strip{n, node.task, node.frame, bytes, strips.pasting / strips.count, --node.strips_left == 0};
+  const double part = next_part(node);
+  const double bytes = same_computer ? kOnTheSameComputer : strips.bytes * part;
+  const StripSent strip{n, node.task, node.frame, bytes, strips.pasting * part, --node.strips_left == 0};
   const double sent = computers_.work(n, clockwork_.now(), costs_.costs().to_send(bytes));
   clockwork_.at(sent, [this, strip] { send_to_host(strip); });
   later(n, sent, strip.last ? &Rehearsal::end_frame : &Rehearsal::draw_strip);
@@ -314,14 +334,14 @@ void Rehearsal::send_strip(int n) {
 void Rehearsal::end_frame(int n) {
   Node& node = nodes_[static_cast<std::size_t>(n)];
   const farm::Task& task = plan_.tasks[node.task];
-  const auto teams = static_cast<std::uint64_t>(groups_[node.group].teams);
+  const auto teams = static_cast<std::uint64_t>(teams_[node.group]);
   // The next inbetween k whose number in the film has this node's turn.
   std::size_t k = node.frame;
   while (k < task.frames.size() - 1 && (task.first_inbetween + k) % teams != node.team) ++k;
   if (k == task.frames.size() - 1) return begin_task(n);
   node.frame = k + 1;
   const NodePart& part = part_of(node);
-  work(n, part.dice + part.exchange + fresh_seconds(node), &Rehearsal::begin_strips);
+  work(n, part.dice + part.map + fresh_seconds(node), &Rehearsal::begin_strips);
 }
 
 // Nodes answer announcements at once.
@@ -354,21 +374,14 @@ void Rehearsal::send_to_host(StripSent message) {
 void Rehearsal::exchange_bands(int n) {
   const Node& node = nodes_[static_cast<std::size_t>(n)];
   if (node.frame > 0 && node.of_team.count > 1) return exchange_team_bands(n);
-  if (node.frame > 0 || node.keyframe->nodes.size() == 1) return write_file(n);
-  work(n, part_of(node).bands, &Rehearsal::wait_for_bands);
-}
-
-void Rehearsal::wait_for_bands(int n) {
-  wait_for_all(
-      n, [this](int node) { return part_of(nodes_[static_cast<std::size_t>(node)]).bands_wait; },
-      &Rehearsal::write_file);
+  if (node.frame > 0) return write_file(n);
+  exchange(n, node.keyframe->gifts.bands, &Rehearsal::write_file);
 }
 
 // Of an inbetween.
 int Rehearsal::writer_of(const Node& node) const {
-  const GroupState& group = groups_[node.group];
-  return wire::writer_of_inbetween(plan_.tasks[node.task].first_inbetween + node.frame - 1, group.nodes, group.teams,
-                                   node.of_team);
+  return wire::writer_of_inbetween(plan_.tasks[node.task].first_inbetween + node.frame - 1, plan_.groups[node.group],
+                                   teams_[node.group], node.of_team);
 }
 
 void Rehearsal::exchange_team_bands(int n) {
@@ -380,7 +393,7 @@ void Rehearsal::exchange_team_bands(int n) {
     frame.writer_waits = true;
     return;
   }
-  const double bytes = part_of(node).bytes_to_nodes;
+  const double bytes = part_of(node).team_bytes;
   result_.bytes_to_nodes += bytes;
   const double arrival = routes_.arrival(computers_.of(n), computers_.of(writer), static_cast<std::size_t>(bytes),
                                          clockwork_.now(), clockwork_.now());
@@ -398,7 +411,7 @@ void Rehearsal::receive_team_bands(int writer, std::size_t task, std::size_t num
 
 void Rehearsal::collect_team_bands(int n) {
   const Node& node = nodes_[static_cast<std::size_t>(n)];
-  work(n, (node.of_team.count - 1) * costs_.costs().to_receive(part_of(node).bytes_to_nodes), &Rehearsal::write_file);
+  work(n, (node.of_team.count - 1) * costs_.costs().to_receive(part_of(node).team_bytes), &Rehearsal::write_file);
 }
 
 // Of a node that has drawn its part of an inbetween, which another writes.
@@ -411,7 +424,7 @@ void Rehearsal::send_drawn(int n) {
 
 // Nodes of a group take turns in writing keyframes.
 bool Rehearsal::writes(const Node& node) const {
-  const collectives::Group& group = groups_[node.group].nodes;
+  const collectives::Group& group = plan_.groups[node.group];
   const auto turn =
       static_cast<int>(plan_.tasks[node.task].interval % static_cast<std::uint32_t>(plan_.contributors_of(group)));
   return node.frame > 0 || node.member == turn;

@@ -12,6 +12,7 @@
 #include "host/programs/counted_writer.h"
 #include "host/programs/node_counter.h"
 #include "host/programs/simulated_files.h"
+#include "host/render/farm/assembly.h"
 #include "host/render/sinks/counted_files.h"
 #include "node/firmware.h"
 
@@ -40,7 +41,7 @@ SimulatedFilm::SimulatedFilm(const std::string& name, const std::string& frames,
       film_(small_film(name, files, light)),
       platform_(experiments::read_platform(platform, std::string(MARS_SOURCE_DIR) + "/cluster/platforms")),
       tasks_(farm::make_tasks(view(), film::FrameSet(frames).of_film(view().settings().frames), true)),
-      counts_(count_film(view(), tasks_, *programs::make_node_counter(view()), {10}, images::PictureFormat::png)) {}
+      counts_(count_film(view(), tasks_, *programs::make_node_counter(view(), Lines::some), {10}, images::PictureFormat::png)) {}
 
 Setting SimulatedFilm::setting(const wire::PackedFilm& film) const {
   Setting setting{film, platform_};
@@ -56,6 +57,17 @@ Forecast SimulatedFilm::forecast(int nodes, std::uint32_t groups, std::int32_t s
   setting.sharers = sharers;
   setting.most_frames = most_frames;
   return forecast::forecast(counts_, tasks_, setting, nodes, groups);
+}
+
+Rehearsed SimulatedFilm::counted(int nodes, std::uint32_t groups) const {
+  const wire::PackedFilm film = view();
+  if (!exact_)
+    exact_ = count_exactly(film, tasks_, programs::make_node_counter, images::PictureFormat::png, 2, {});
+  return rehearse(*exact_, plan(nodes, groups), setting(film), nodes);
+}
+
+farm::Plan SimulatedFilm::plan(int nodes, std::uint32_t groups) const {
+  return {tasks_, farm::make_groups(nodes, static_cast<int>(groups), tasks_.size())};
 }
 
 farm::FarmReport SimulatedFilm::render(int nodes, std::uint32_t groups) const {
@@ -99,7 +111,8 @@ farm::FarmReport SimulatedFilm::render(const farm::Plan& plan, int nodes, simula
   sinks::NullSink none;
   sinks::CountedFiles files({setting.picture, settings.width, settings.height}, platform_.file_part);
   sinks::ServedSinks sinks(files_ == Files::host ? static_cast<sinks::Sink&>(files) : none,
-                           {settings.width, settings.height, 16, memory.frames, setting.sink_threads},
+                           {settings.width, settings.height, 16, memory.frames, setting.sink_threads,
+                            farm::background_pixel(film, film.intervals().front(), setting.pixels()), setting.pixels()},
                            programs::serve_files(world, setting.picture));
   farm::FarmOptions options;
   const farm::Writing writing = programs::counted_writing();

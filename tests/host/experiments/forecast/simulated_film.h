@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "hal/simulated/world.h"
@@ -24,16 +25,20 @@ class SimulatedFilm {
   wire::PackedFilm view() const { return film_.view(); }
   const std::vector<farm::Task>& tasks() const { return tasks_; }
   const FilmCounts& counts() const { return counts_; }
+  const FilmCounts& exact() const { return *exact_; }
   const experiments::Platform& platform() const { return platform_; }
 
   // `sharers`, `most_frames`: as in Setting.
   Forecast forecast(int nodes, std::uint32_t groups, std::int32_t sharers = 0, std::uint32_t most_frames = 0) const;
+  // The same from all frames, counted exactly.
+  Rehearsed counted(int nodes, std::uint32_t groups) const;
   // All nodes of a group draw keyframes, one an inbetween.
   farm::FarmReport render(int nodes, std::uint32_t groups) const;
   // As the forecast says.
   farm::FarmReport render(const Forecast& forecast) const;
 
  private:
+  farm::Plan plan(int nodes, std::uint32_t groups) const;
   Setting setting(const wire::PackedFilm& film) const;
   farm::FarmReport render(const farm::Plan& plan, int nodes, simulated::World& world) const;
 
@@ -42,6 +47,7 @@ class SimulatedFilm {
   experiments::Platform platform_;
   std::vector<farm::Task> tasks_;
   FilmCounts counts_;
+  mutable std::optional<FilmCounts> exact_;  // once they were needed
 };
 
 }  // namespace mars::forecast
