@@ -24,7 +24,7 @@ class SimulatedFilm {
   wire::PackedFilm view() const { return film_.view(); }
   const std::vector<farm::Task>& tasks() const { return tasks_; }
   const FilmCounts& counts() const { return counts_; }
-  const FilmCounts& exact() const { return *exact_; }
+  FilmCounts count_exactly() const;
   const experiments::Platform& platform() const { return platform_; }
 
   Forecast forecast(int nodes, std::uint32_t groups) const;
