@@ -50,7 +50,9 @@ Step send(std::uint8_t label, int to, double bytes, double seconds) {
   return {Step::Kind::send, label, to, 0, bytes, seconds};
 }
 
-Step receive(std::uint8_t label, std::uint32_t count) { return {Step::Kind::receive, label, -1, count, 0, 0}; }
+Step receive(std::uint8_t label, std::uint32_t count, int next) {
+  return {Step::Kind::receive, label, next, count, 0, 0};
+}
 
 Machines::Machines(int first, int near, std::span<const std::uint8_t> draws)
     : first_(first), near_(near), draws_(draws.begin(), draws.end()), collects_(draws.size()) {
@@ -59,6 +61,12 @@ Machines::Machines(int first, int near, std::span<const std::uint8_t> draws)
 }
 
 int Machines::head_of(int node) const { return std::max(0, (first_ + node) / near_ * near_ - first_); }
+
+int Machines::next_head(int node) const {
+  for (int i = 1; i < nodes(); ++i)
+    if (const int other = (node + i) % nodes(); collects(other) && !are_together(node, other)) return other;
+  return -1;
+}
 
 Exchange sum_steps(int nodes, double bytes) {
   const auto corners = static_cast<int>(std::bit_floor(static_cast<unsigned>(nodes)));
@@ -121,6 +129,30 @@ Exchange still_steps(const Machines& machines, const std::vector<std::vector<dou
       coming += static_cast<std::uint32_t>(near ? std::min<std::size_t>(1, theirs) : theirs);
     }
     collect(of(exchange, node), machines, node, receive(kStill, coming), kStillThere);
+  }
+  return exchange;
+}
+
+Exchange chain_steps(const Machines& machines, const std::vector<std::vector<double>>& messages) {
+  Exchange exchange(messages.size());
+  for (int node = 0; node < machines.nodes(); ++node) {
+    Steps& steps = of(exchange, node);
+    const std::vector<double>& own = messages[static_cast<std::size_t>(node)];
+    const int head = machines.head_of(node), next = machines.next_head(node);
+    const int receivers = machines.heads() - (machines.collects(head) ? 1 : 0);
+    if (node != head && !own.empty() && machines.collects(head)) steps.push_back(send(kStill, head, 0));
+    for (std::size_t i = 0; i < own.size() && next >= 0; ++i) {
+      steps.push_back(send(kStill, next, own[i]));
+      steps.back().count = static_cast<std::uint32_t>(receivers - 1);
+    }
+    std::uint32_t coming = 0;
+    for (int other = 0; other < machines.nodes(); ++other) {
+      const std::size_t theirs = messages[static_cast<std::size_t>(other)].size();
+      if (other == node) continue;
+      coming +=
+          static_cast<std::uint32_t>(machines.are_together(node, other) ? std::min<std::size_t>(1, theirs) : theirs);
+    }
+    collect(steps, machines, node, receive(kStill, coming, next), kStillThere);
   }
   return exchange;
 }
