@@ -25,6 +25,31 @@ class Plans(ProgramTest):
         self.assertLessEqual(plan["best"]["seconds"], 1.05 * min(each["seconds"] for each in plan["by_nodes"]))
         self.assertAlmostEqual(plan["node_hours"], 4 * plan["seconds"] / 3600)
 
+    def test_all_frames_are_counted_once(self):
+        counts = self.folder / "cubes.counts"
+        words = ["mars", "plan", CUBES, "--nodes", 4, "--counted", counts, "--platform"]
+        first = self.succeed(*words, "fat-tree")
+        self.assertRegex(first, r"counted +96 of 96 frames")
+        written = counts.read_bytes()
+        self.assertEqual(self.succeed(*words, "fat-tree"), first)
+        self.assertIn("counted     96 of 96 frames", self.succeed(*words, "ethernet"))
+        self.assertEqual(counts.read_bytes(), written)
+
+    def test_counts_of_another_film_or_damaged_ones_are_refused(self):
+        counts = self.folder / "cubes.counts"
+        words = ["plan", CUBES, "--nodes", 2, "--platform", "fat-tree", "--counted", counts]
+        self.succeed("mars", *words)
+        written = counts.read_bytes()
+        other = self.mars(*words, "--frames", "0-9")
+        self.assertEqual(other.returncode, 1)
+        self.assertIn("has counts of another film, of other frames or for other files", other.stderr)
+        self.assertIn("remove it, so that the film is counted again, or name another file", other.stderr)
+        self.assertEqual(counts.read_bytes(), written)
+        counts.write_bytes(written[:-1] + b"x")
+        self.assertIn("is damaged", self.mars(*words).stderr)
+        folder = self.mars("plan", CUBES, "--platform", "fat-tree", "--counted", self.folder / "none" / "cubes.counts")
+        self.assertEqual(folder.returncode, 1)
+
     def test_the_first_forecast_calibrates_or_says_why_not(self):
         home = dict(ENVIRONMENT, HOME=str(self.folder), XDG_DATA_HOME="")
         first = self.mars("plan", CUBES, "--json", env=home)

@@ -32,24 +32,15 @@ void sum_at_corner(Steps& steps, int node, int corners, double bytes) {
   for (int bit = corners / 2; bit > 0; bit /= 2, part *= 2) swap(steps, label++, node ^ bit, part);
 }
 
-// The head of each machine waits for what is sent to it and passes it on, then says so to the machine's nodes.
-void collect(Steps& steps, const Machines& machines, int node, Step messages, std::uint8_t there) {
+// The head of each machine waits for what is sent to it, then says so to the machine's nodes.
+void collect(Steps& steps, const Machines& machines, int node, const Step& messages, std::uint8_t there) {
   if (!machines.collects(node)) {
     if (machines.draws(node)) steps.push_back(receive(there, 1));
     return;
   }
-  messages.node = machines.next_head(node);
   if (messages.count > 0) steps.push_back(messages);
   for (int other = node + 1; other < machines.nodes() && machines.are_together(node, other); ++other)
     if (machines.draws(other)) steps.push_back(send(there, other, 0));
-}
-
-// How many heads a message of `owner` has yet to come to when the first one has it.
-std::uint32_t hops_of(const Machines& machines, int owner) {
-  const int head = machines.head_of(owner), entry = machines.next_head(head);
-  std::uint32_t hops = 0;
-  for (int at = machines.next_head(entry); at != entry && at != head; at = machines.next_head(at)) ++hops;
-  return hops;
 }
 
 // Labels of what goes round machines, and of the word that all of it is there.
@@ -57,14 +48,14 @@ struct RelayLabels {
   std::uint8_t pieces, there;
 };
 
-// Where a ring would have more messages than that, or than some for each machine, neighbouring pieces are taken as one:
+// Where a ring would have more messages than that, or than some for each node, neighbouring pieces are taken as one:
 // the ring is full of them anyway.
-constexpr std::size_t kManyPieces = 512, kManyOfAMachine = 4;
+constexpr std::size_t kManyPieces = 512, kManyOfANode = 4;
 
 std::vector<std::vector<double>> with_few_pieces(std::vector<std::vector<double>> pieces) {
   std::size_t all = 0;
   for (const std::vector<double>& own : pieces) all += own.size();
-  const std::size_t together = all / std::max(kManyPieces, kManyOfAMachine * pieces.size()) + 1;
+  const std::size_t together = all / std::max(kManyPieces, kManyOfANode * pieces.size()) + 1;
   if (together == 1) return pieces;
   for (std::vector<double>& own : pieces) {
     std::vector<double> few;
@@ -77,7 +68,8 @@ std::vector<std::vector<double>> with_few_pieces(std::vector<std::vector<double>
   return pieces;
 }
 
-// `pieces` of each node go once round the heads of machines; a node says its own head when what it has is there.
+// `all_pieces` of each node go to the next machine that draws inbetweens, whose head passes them on, until they have
+// been to all others. A node says its own head when what it has is there.
 void relay(Exchange& exchange, const Machines& machines, const std::vector<std::vector<double>>& all_pieces,
            const RelayLabels& labels) {
   const std::vector<std::vector<double>> pieces = with_few_pieces(all_pieces);
@@ -86,18 +78,20 @@ void relay(Exchange& exchange, const Machines& machines, const std::vector<std::
   for (int node = 0; node < machines.nodes(); ++node) {
     Steps& steps = of(exchange, node);
     const std::vector<double>& own = pieces[static_cast<std::size_t>(node)];
-    const int head = machines.head_of(node), entry = machines.next_head(head);
-    if (!own.empty() && head != node && machines.collects(head)) steps.push_back(send(labels.pieces, head, 0));
-    const std::uint32_t hops = hops_of(machines, node);
-    for (const double bytes : own)
-      if (entry != head) steps.push_back(pass_on(send(labels.pieces, entry, bytes), hops));
+    const int head = machines.head_of(node), next = machines.next_head(node);
+    const int receivers = machines.heads() - (machines.collects(head) ? 1 : 0);
+    if (node != head && !own.empty() && machines.collects(head)) steps.push_back(send(labels.pieces, head, 0));
+    for (std::size_t i = 0; i < own.size() && next >= 0; ++i) {
+      steps.push_back(send(labels.pieces, next, own[i]));
+      steps.back().count = static_cast<std::uint32_t>(receivers - 1);
+    }
     std::uint32_t near = 0, telling = 0;
     for (int other = head; other < machines.nodes() && machines.are_together(node, other); ++other) {
       const auto count = static_cast<std::uint32_t>(pieces[static_cast<std::size_t>(other)].size());
       near += count;
       telling += other != node && count > 0 ? 1 : 0;
     }
-    collect(steps, machines, node, receive(labels.pieces, all - near + telling), labels.there);
+    collect(steps, machines, node, receive(labels.pieces, all - near + telling, next), labels.there);
   }
 }
 
@@ -109,12 +103,9 @@ Step send(std::uint8_t label, int to, double bytes, double seconds) {
   return {Step::Kind::send, label, to, 0, bytes, seconds};
 }
 
-Step pass_on(Step message, std::uint32_t hops) {
-  message.count = hops;
-  return message;
+Step receive(std::uint8_t label, std::uint32_t count, int next) {
+  return {Step::Kind::receive, label, next, count, 0, 0};
 }
-
-Step receive(std::uint8_t label, std::uint32_t count) { return {Step::Kind::receive, label, -1, count, 0, 0}; }
 
 Machines::Machines(int first, int near, std::span<const std::uint8_t> draws)
     : first_(first), near_(near), draws_(draws.begin(), draws.end()), collects_(draws.size()) {
@@ -122,13 +113,13 @@ Machines::Machines(int first, int near, std::span<const std::uint8_t> draws)
     if (this->draws(node)) collects_[static_cast<std::size_t>(head_of(node))] = 1;
 }
 
-int Machines::next_head(int node) const {
-  for (int step = 1; step <= nodes(); ++step)
-    if (const int other = (node + step) % nodes(); collects(other)) return other;
-  return node;
-}
-
 int Machines::head_of(int node) const { return std::max(0, (first_ + node) / near_ * near_ - first_); }
+
+int Machines::next_head(int node) const {
+  for (int i = 1; i < nodes(); ++i)
+    if (const int other = (node + i) % nodes(); collects(other) && !are_together(node, other)) return other;
+  return -1;
+}
 
 Exchange sum_steps(int nodes, double bytes) {
   const auto corners = static_cast<int>(std::bit_floor(static_cast<unsigned>(nodes)));

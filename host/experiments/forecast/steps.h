@@ -2,6 +2,7 @@
 // are the patterns of all exchanges, as node/group and hal/collectives have them; exchanges.h plays them through.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -31,9 +32,8 @@ using Exchange = std::vector<Steps>;  // by node
 
 Step work(double seconds);
 Step send(std::uint8_t label, int to, double bytes, double seconds = 0);
-// A message that goes on from receiver to receiver so often.
-Step pass_on(Step message, std::uint32_t hops);
-Step receive(std::uint8_t label, std::uint32_t count);
+// `next`: to whom messages go on that have way to go.
+Step receive(std::uint8_t label, std::uint32_t count, int next = -1);
 
 // A group's nodes, from node `first` of the job on, on their machines, which have `near` each. The group's first on a
 // machine receives for it, where one of its nodes draws inbetweens.
@@ -43,11 +43,12 @@ class Machines {
 
   int nodes() const { return static_cast<int>(draws_.size()); }
   int head_of(int node) const;
+  // The head of the next machine, in turn, that draws inbetweens; -1: there is none but the node's own.
+  int next_head(int node) const;
+  int heads() const { return static_cast<int>(std::ranges::count(collects_, 1)); }
   bool are_together(int a, int b) const { return head_of(a) == head_of(b); }
   bool draws(int node) const { return draws_[static_cast<std::size_t>(node)] == 1; }
   bool collects(int node) const { return collects_[static_cast<std::size_t>(node)] == 1; }
-  // The first head that collects after `node`, round the group; the node itself where there is no other.
-  int next_head(int node) const;
 
  private:
   int first_, near_;

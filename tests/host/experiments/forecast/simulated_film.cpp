@@ -41,7 +41,8 @@ SimulatedFilm::SimulatedFilm(const std::string& name, const std::string& frames,
       film_(small_film(name, files, light)),
       platform_(experiments::read_platform(platform, std::string(MARS_SOURCE_DIR) + "/cluster/platforms")),
       tasks_(farm::make_tasks(view(), film::FrameSet(frames).of_film(view().settings().frames), true)),
-      counts_(count_film(view(), tasks_, *programs::make_node_counter(view(), Lines::some), {10}, images::PictureFormat::png)) {}
+      counts_(count_film(view(), tasks_, *programs::make_node_counter(view(), Lines::some), {10},
+                         images::PictureFormat::png)) {}
 
 Setting SimulatedFilm::setting(const wire::PackedFilm& film) const {
   Setting setting{film, platform_};
@@ -59,10 +60,13 @@ Forecast SimulatedFilm::forecast(int nodes, std::uint32_t groups, std::int32_t s
   return forecast::forecast(counts_, tasks_, setting, nodes, groups);
 }
 
+FilmCounts SimulatedFilm::count_exactly() const {
+  return forecast::count_exactly(view(), tasks_, programs::make_node_counter, images::PictureFormat::png, 2, {});
+}
+
 Rehearsed SimulatedFilm::counted(int nodes, std::uint32_t groups) const {
   const wire::PackedFilm film = view();
-  if (!exact_)
-    exact_ = count_exactly(film, tasks_, programs::make_node_counter, images::PictureFormat::png, 2, {});
+  if (!exact_) exact_ = count_exactly();
   return rehearse(*exact_, plan(nodes, groups), setting(film), nodes);
 }
 

@@ -25,7 +25,7 @@ class SimulatedFilm {
   wire::PackedFilm view() const { return film_.view(); }
   const std::vector<farm::Task>& tasks() const { return tasks_; }
   const FilmCounts& counts() const { return counts_; }
-  const FilmCounts& exact() const { return *exact_; }
+  FilmCounts count_exactly() const;
   const experiments::Platform& platform() const { return platform_; }
 
   // `sharers`, `most_frames`: as in Setting.
