@@ -35,6 +35,10 @@ struct Network {
   double copy_byte = 0;                    // of the processor, at each end
   std::vector<EndCost> send{}, receive{};  // ascending
   std::vector<EndCost> host_end{};         // of the host, whether it sends or receives; empty: as the nodes'
+  // Messages of such a type take no time; none: all do.
+  std::function<bool(int type)> is_free{};
+
+  bool takes_time(int type) const { return !is_free || !is_free(type); }
 };
 
 // File storage that all computers share: it opens one file after another, and takes their bytes one after another.

@@ -89,11 +89,12 @@ double World::end_seconds(int rank, const std::vector<EndCost>& costs, std::size
 
 void World::send(int from, int to, int type, const void* data, std::size_t length) {
   check_running();
-  work(from, end_seconds(from, machine_.network.send, length));
+  const bool takes_time = machine_.network.takes_time(type);
+  if (takes_time) work(from, end_seconds(from, machine_.network.send, length));
   let_earlier_run(from);
   const double now = clock(from);
   const double arrival =
-      from == to ? now : routes_.arrival(computer_of(from), computer_of(to), length, now, floor_at(now));
+      from == to || !takes_time ? now : routes_.arrival(computer_of(from), computer_of(to), length, now, floor_at(now));
   Rank& receiver = *ranks_[to];
   receiver.coming.push_back({arrival, messages_++, pool_.copy({from, type, length}, data)});
   std::ranges::push_heap(receiver.coming, Later());
@@ -122,9 +123,10 @@ void World::take(int rank, void* buffer) {
   messages::Message* const message = self.arrived.front().message;
   self.arrived.pop_front();
   const std::size_t length = message->envelope.length;
+  const int type = message->envelope.type;
   if (length > 0) std::memcpy(buffer, message->bytes(), length);
   pool_.release(message);
-  work(rank, end_seconds(rank, machine_.network.receive, length));
+  if (machine_.network.takes_time(type)) work(rank, end_seconds(rank, machine_.network.receive, length));
 }
 
 void World::set_alarm(int rank, double time) {

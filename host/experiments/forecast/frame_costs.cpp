@@ -6,7 +6,9 @@
 #include <numeric>
 #include <span>
 
+#include "hal/messages/message_types.h"
 #include "host/images/picture_bands.h"
+#include "node/wire/protocol.h"
 
 namespace mars::forecast {
 namespace {
@@ -104,6 +106,8 @@ GroupKeyframe FrameCosts::keyframe(const wire::FrameCounts& counts, int nodes, i
   }
   if (inbetweens > 0) add_still(keyframe, homes, counts, inbetweens);
   if (setting_.nodes_write()) add_bands(keyframe, homes, counts, contributors, inbetweens);
+  leave_out_free_messages(keyframe);
+  if (setting_.even.keyframes) even_out(keyframe, static_cast<std::size_t>(contributors));
   return keyframe;
 }
 
@@ -378,13 +382,14 @@ void FrameCosts::add_exchange(GroupKeyframe& keyframe, const Homes& homes, const
     const double in = bytes[n] * static_cast<double>(nodes) * far;
     const double messages_in = parcels[n] * static_cast<double>(nodes) * far;
     const double boxes_in = homes.totals[n].drawn.edge_boxes * far;
+    const bool takes_time = costs_.takes_time(wire::kTriangles);
     const auto ends = [&](double messages, double all, const auto& cost) {
-      return messages > 0 ? messages * cost(all / messages) : 0;
+      return takes_time && messages > 0 ? messages * cost(all / messages) : 0;
     };
     node.exchange += ends(messages_out, out, [&](double b) { return costs_.to_send(b); }) +
                      ends(messages_in, in, [&](double b) { return costs_.to_receive(b); }) +
                      costs_.of(Work::edge_box_filled, boxes_in);
-    node.exchange_wait = costs_.on_the_way(std::max(in, out), false);
+    node.exchange_wait = takes_time ? costs_.on_the_way(std::max(in, out), false) : 0;
     node.bytes_to_nodes += out;
     const double travelling = made[n][Work::edge_box_made] * far * (kUnsortedBoxBytes + kTriangleBytes) + in;
     const double in_pass = (node.memory + travelling + boxes_in * kBoxBytes) / keyframe.passes;
@@ -472,6 +477,28 @@ FrameCosts::StillLines FrameCosts::still_lines(const geometry::LineRange& home, 
         kept_bytes(counts.lines[line]) + (groups ? static_cast<double>(wire::still_head_bytes(film.width)) : 0);
   }
   return still;
+}
+
+void FrameCosts::leave_out_free_messages(GroupKeyframe& keyframe) const {
+  if (!costs_.takes_time(messages::kFirstInternalType)) keyframe.sum = 0;
+  for (NodePart& node : keyframe.nodes) {
+    if (!costs_.takes_time(wire::kStillLines)) node.still = node.still_wait = 0;
+    if (!costs_.takes_time(wire::kPicture)) node.bands = node.bands_wait = 0;
+  }
+}
+
+// Each of the nodes that contribute does the mean of what all do.
+void FrameCosts::even_out(GroupKeyframe& keyframe, std::size_t contributors) {
+  const auto nodes = std::span(keyframe.nodes).first(contributors);
+  const auto mean = [&](const auto& seconds_of) {
+    double all = 0;
+    for (NodePart& node : nodes) all += seconds_of(node);
+    for (NodePart& node : nodes) seconds_of(node) = all / static_cast<double>(contributors);
+  };
+  mean([](NodePart& node) -> double& { return node.dice; });
+  mean([](NodePart& node) -> double& { return node.exchange; });
+  mean([](NodePart& node) -> double& { return node.strips.seconds; });
+  mean([](NodePart& node) -> double& { return node.compose; });
 }
 
 // Of a group of `nodes` nodes.

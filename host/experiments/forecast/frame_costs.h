@@ -106,6 +106,8 @@ class FrameCosts {
                     int contributors) const;
   void add_still(GroupKeyframe& keyframe, const Homes& homes, const wire::FrameCounts& counts,
                  std::size_t inbetweens) const;
+  void leave_out_free_messages(GroupKeyframe& keyframe) const;
+  static void even_out(GroupKeyframe& keyframe, std::size_t contributors);
   int nodes_on_a_computer(int nodes) const;
   double pixel_bytes() const { return static_cast<double>(wire::pixel_bytes(setting_.pixels())); }
   double line_bytes() const { return setting_.film.settings().width * pixel_bytes(); }

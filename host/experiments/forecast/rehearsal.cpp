@@ -72,12 +72,15 @@ class Rehearsal {
   void send_to_host(StripSent message);
   bool writes(const Node& node) const;
 
+  // The node draws and composes: idle nodes may help.
+  double drawing(int n, double seconds);
   // `then` happens to the node when it has worked so long.
   void work(int n, double seconds, void (Rehearsal::*then)(int));
   void later(int n, double time, void (Rehearsal::*then)(int)) {
     clockwork_.at(time, [this, n, then] { (this->*then)(n); });
   }
   double way_from_host(int n, double bytes) {
+    if (!costs_.costs().takes_time(wire::kStrip)) return clockwork_.now();
     return routes_.arrival(computers_.of(static_cast<int>(nodes_.size())), computers_.of(n),
                            static_cast<std::size_t>(bytes), clockwork_.now(), clockwork_.now());
   }
@@ -90,6 +93,7 @@ class Rehearsal {
   simulated::Routes routes_;
   simulated::StorageUse storage_;
   const bool nodes_write_;
+  const std::vector<walls::Pace> paces_;
   std::map<std::array<std::size_t, 3>, GroupKeyframe> keyframes_;  // by number, nodes and inbetweens
   std::vector<std::vector<NodePart>> inbetweens_;                  // by task
   std::vector<Node> nodes_;
@@ -112,8 +116,17 @@ Rehearsal::Rehearsal(const FilmCounts& counts, const farm::Plan& plan, const Set
       routes_(setting.platform.machine.network, computers_.count(), computers_.of(nodes)),
       storage_(setting.platform.machine.storage, setting.platform.machine.network),
       nodes_write_(setting.nodes_write()),
+      paces_(setting.even.paces),
       nodes_(static_cast<std::size_t>(nodes)),
-      result_{0, {}, 0, 0, 0, costs_.shadow_bytes(), 0, host_memory(plan, setting, nodes)},
+      result_{0,
+              {},
+              0,
+              0,
+              0,
+              costs_.shadow_bytes(),
+              0,
+              host_memory(plan, setting, nodes),
+              std::vector<walls::Busy>(nodes_.size())},
       host_(
           clockwork_, computers_, storage_, plan, setting, result_.host_memory, nodes,
           {[this](std::size_t group, std::size_t task) { receive_task(group, task); },
@@ -190,6 +203,14 @@ void Rehearsal::work(int n, double seconds, void (Rehearsal::*then)(int)) {
   later(n, computers_.work(n, clockwork_.now(), seconds), then);
 }
 
+double Rehearsal::drawing(int n, double seconds) {
+  const auto number = static_cast<std::size_t>(n);
+  const auto [busy, pace] = nodes_[number].frame == 0 ? std::pair(&walls::Busy::keyframes, &walls::Pace::keyframes)
+                                                      : std::pair(&walls::Busy::inbetweens, &walls::Pace::inbetweens);
+  result_.busy[number].*busy += seconds;
+  return paces_.empty() ? seconds : seconds * paces_[number].*pace;
+}
+
 void Rehearsal::begin_task(int n) {
   Node& node = nodes_[static_cast<std::size_t>(n)];
   if (node.tasks.empty()) {
@@ -200,7 +221,7 @@ void Rehearsal::begin_task(int n) {
   node.tasks.pop_front();
   node.frame = 0;
   node.keyframe = &keyframe_of(node.task, groups_[node.group].nodes);
-  work(n, part_of(node).dice + fresh_seconds(node), &Rehearsal::sum);
+  work(n, drawing(n, part_of(node).dice + fresh_seconds(node)), &Rehearsal::sum);
 }
 
 // Once all nodes of the group have come, each goes on after its own wait.
@@ -241,7 +262,7 @@ void Rehearsal::draw_strip(int n) {
   if (nodes_write_) {
     node.strips_left = 0;
     const NodePart& part = part_of(node);
-    return work(n, part.strips.seconds + part.compose, &Rehearsal::finish_strip);
+    return work(n, drawing(n, part.strips.seconds + part.compose), &Rehearsal::finish_strip);
   }
   if (node.slots == 0) {
     node.waits_for_slot = true;
@@ -249,7 +270,7 @@ void Rehearsal::draw_strip(int n) {
   }
   --node.slots;
   const StripCosts& strips = part_of(node).strips;
-  work(n, strips.seconds / strips.count, &Rehearsal::finish_strip);
+  work(n, drawing(n, strips.seconds / strips.count), &Rehearsal::finish_strip);
 }
 
 // The last strip of a keyframe goes once the group's nodes have given each other what inbetweens need.
@@ -274,7 +295,7 @@ void Rehearsal::send_strip(int n) {
   const bool same_computer = computers_.of(n) == computers_.of(static_cast<int>(nodes_.size()));
   const double bytes = same_computer ? kOnTheSameComputer : strips.bytes / strips.count;
   const StripSent strip{n, node.task, node.frame, bytes, strips.pasting / strips.count, --node.strips_left == 0};
-  const double sent = computers_.work(n, clockwork_.now(), costs_.costs().to_send(bytes));
+  const double sent = computers_.work(n, clockwork_.now(), costs_.costs().to_send_host(bytes));
   clockwork_.at(sent, [this, strip] { send_to_host(strip); });
   later(n, sent, strip.last ? &Rehearsal::end_frame : &Rehearsal::draw_strip);
 }
@@ -289,14 +310,17 @@ void Rehearsal::end_frame(int n) {
   if (k == task.frames.size() - 1) return begin_task(n);
   node.frame = k + 1;
   const NodePart& part = part_of(node);
-  work(n, part.dice + part.exchange + fresh_seconds(node), &Rehearsal::begin_strips);
+  work(n, drawing(n, part.dice + part.exchange + fresh_seconds(node)), &Rehearsal::begin_strips);
 }
 
 // On its way from now on.
 void Rehearsal::send_to_host(StripSent message) {
   const auto host = static_cast<int>(nodes_.size());
-  const double arrival = routes_.arrival(computers_.of(message.node), computers_.of(host),
-                                         static_cast<std::size_t>(message.bytes), clockwork_.now(), clockwork_.now());
+  const double now = clockwork_.now();
+  const bool takes_time = costs_.costs().takes_time(wire::kStrip);
+  const double arrival = takes_time ? routes_.arrival(computers_.of(message.node), computers_.of(host),
+                                                      static_cast<std::size_t>(message.bytes), now, now)
+                                    : now;
   clockwork_.at(arrival, [this, message] { host_.arrive(message); });
 }
 
@@ -337,7 +361,7 @@ void Rehearsal::begin_file(int n) {
   clockwork_.at(node.file_there, [this, n, task = node.task, frame = node.frame] { end_file(n, task, frame); });
   const auto drawn = static_cast<double>(sizeof(wire::Strip));
   send_to_host({n, node.task, node.frame, drawn, 0, true});
-  work(n, costs_.costs().to_send(drawn), &Rehearsal::end_frame);
+  work(n, costs_.costs().to_send_host(drawn), &Rehearsal::end_frame);
 }
 
 void Rehearsal::end_file(int n, std::size_t task, std::size_t frame) {

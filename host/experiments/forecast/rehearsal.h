@@ -21,6 +21,7 @@ struct Rehearsed {
   double shadow_memory = 0;  // and for shadows
   double still_memory = 0;   // of still lines, that machines keep for a group, at most
   farm::HostMemory host_memory;
+  std::vector<walls::Busy> busy;  // by node
 };
 
 Rehearsed rehearse(const FilmCounts& counts, const farm::Plan& plan, const Setting& setting, int nodes);

@@ -54,6 +54,12 @@ Forecast SimulatedFilm::forecast(int nodes, std::uint32_t groups) const {
   return forecast::forecast(counts_, tasks_, setting(film), nodes, groups);
 }
 
+walls::Explanation SimulatedFilm::explain(int nodes, std::uint32_t groups) const {
+  const wire::PackedFilm film = view();
+  Forecast all{nodes, groups};
+  return forecast::explain(counts_, tasks_, setting(film), all);
+}
+
 farm::FarmReport SimulatedFilm::render(int nodes, std::uint32_t groups) const {
   const farm::Plan plan{tasks_, farm::make_groups(nodes, static_cast<int>(groups), tasks_.size())};
   const wire::FilmSettings& settings = view().settings();

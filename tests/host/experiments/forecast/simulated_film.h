@@ -2,9 +2,11 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
 #include "hal/simulated/world.h"
 #include "host/content/film/compile.h"
+#include "host/experiments/forecast/explain.h"
 #include "host/experiments/forecast/forecast.h"
 #include "host/render/farm/farm.h"
 
@@ -25,7 +27,12 @@ class SimulatedFilm {
   const FilmCounts& counts() const { return counts_; }
   const experiments::Platform& platform() const { return platform_; }
 
+  // Of both forecasts and renderings from now on.
+  void set_platform(experiments::Platform platform) { platform_ = std::move(platform); }
+
   Forecast forecast(int nodes, std::uint32_t groups) const;
+  // Without searching for contributors, all nodes of a group being that.
+  walls::Explanation explain(int nodes, std::uint32_t groups) const;
   farm::FarmReport render(int nodes, std::uint32_t groups) const;
 
  private:
