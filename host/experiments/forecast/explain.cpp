@@ -29,11 +29,13 @@ std::optional<Wall> wall_of(int type) {
     case wire::kEdge:
     case wire::kBackground:
     case wire::kPicture: return Wall::bands;
+    case wire::kWrite:
     case wire::kRender:
     case wire::kCredit:
     case wire::kStrip:
     case wire::kDrawn:
-    case wire::kWritten: return Wall::host;
+    case wire::kWritten:
+    case wire::kStorage: return Wall::host;
     default: return std::nullopt;
   }
 }

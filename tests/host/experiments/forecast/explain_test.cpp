@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 
+#include "host/render/report/replay.h"
 #include "host/render/walls/walls_text.h"
 #include "tests/host/experiments/forecast/simulated_film.h"
 
@@ -45,43 +46,52 @@ class Explained : public testing::TestWithParam<Bound> {
   }
 };
 
+
 TEST_P(Explained, AsByAblation) {
   const Bound& one = GetParam();
-  SimulatedFilm film = this->film();
+  const SimulatedFilm film = this->film();
   const walls::Explanation explanation = film.explain(one.nodes, 1);
-  const double whole = film.render(one.nodes, 1).total_seconds;
-  std::cout << walls::line_of(explanation) << "\n" << walls::table_of(explanation) << whole << " s simulated\n";
+  const farm::FarmReport report = film.render(one.nodes, 1);
+  const walls::Explanation recorded = report::explain(report);
+  const double whole = report.total_seconds;
+  printf("%s\n%s\n%.5g simulated %.5g replayed\n", walls::line_of(explanation).c_str(), walls::line_of(recorded).c_str(), whole, report::Replay(report).seconds({}));
   for (const walls::FoundWall& found : explanation.walls) {
     SimulatedFilm ablated = film;
-    ablated.set_platform(
-        without(film.platform(), {found.wall}, one.files == Files::nodes ? Writers::nodes : Writers::host));
+    ablated.set_platform(without(film.platform(), {found.wall}, one.files == Files::nodes ? Writers::nodes : Writers::host));
     const double seconds = ablated.render(one.nodes, 1).total_seconds;
-    std::cout << walls::name_of(found.wall) << " " << explanation.seconds - found.without << " " << whole - seconds
-              << "\n";
+    double rec = 0;
+    for (auto& r : recorded.walls) if (r.wall == found.wall) rec = recorded.seconds - r.without;
+    printf("%12s alone %5.1f forecast %6.2f %%  recorded %6.2f  simulated %6.2f\n", std::string(walls::name_of(found.wall)).c_str(), 100*found.alone/whole, 100*(explanation.seconds - found.without)/explanation.seconds, 100*rec/recorded.seconds,
+        100*(whole - seconds)/whole);
   }
 }
 
 void as_it_is(experiments::Platform&) {}
+void scale(experiments::Platform& p, std::size_t from, std::size_t to, double by) { for (auto i = from; i < to; ++i) p.machine.work[i] *= by; }
 
-INSTANTIATE_TEST_SUITE_P(Walls, Explained,
-                         testing::Values(Bound{Wall::compute, "demo", "0-7", 2, Files::none, "fat-tree", as_it_is},
-                                         Bound{Wall::imbalance, "s1", "0-0", 16, Files::none, "fat-tree", as_it_is},
-                                         Bound{Wall::sum, "s1", "0-0", 16, Files::none, "ethernet", as_it_is},
-                                         Bound{Wall::exchange, "bodies", "5-5", 16, Files::none, "ethernet", as_it_is},
-                                         Bound{Wall::still, "s3", "0-11", 16, Files::none, "ethernet", as_it_is},
-                                         Bound{Wall::bands, "visit", "100-109", 8, Files::nodes, "ethernet", as_it_is},
-                                         Bound{Wall::host, "visit", "100-109", 8, Files::host, "fat-tree", as_it_is},
-                                         Bound{Wall::encoder, "visit", "100-109", 8, Files::host, "fat-tree", as_it_is},
-                                         Bound{Wall::storage, "visit", "100-109", 8, Files::nodes, "fat-tree",
-                                               [](experiments::Platform& platform) {
-                                                 platform.machine.storage.opening = 0.01;
-                                               }},
-                                         Bound{Wall::frame, "demo", "0-1", 8, Files::none, "fat-tree", as_it_is}),
-                         [](const auto& each) {
-                           std::string name(walls::name_of(each.param.wall));
-                           std::erase(name, ' ');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Walls, Explained,
+    testing::Values(Bound{Wall::compute, "demo", "0-7", 2, Files::none, "fat-tree", as_it_is},
+                    Bound{Wall::imbalance, "s1", "0-0", 16, Files::none, "fat-tree", [](experiments::Platform& p) { p.machine.work[(size_t)wire::Work::shaded] *= 30; }},
+                    Bound{Wall::sum, "s1", "0-0", 64, Files::none, "fat-tree", [](experiments::Platform& p) { scale(p, 0, wire::kNodeKinds, 0.05); p.machine.network.latency = 1e-3; }},
+                    Bound{Wall::exchange, "bodies", "5-5", 16, Files::none, "ethernet", [](experiments::Platform& p) { p.machine.network.byte *= 5; }},
+                    Bound{Wall::still, "s3s", "0-11", 16, Files::none, "ethernet", as_it_is},
+                    Bound{Wall::still, "stones", "0-11", 16, Files::none, "ethernet", as_it_is},
+                    Bound{Wall::still, "caterpillar", "0-11", 16, Files::none, "ethernet", as_it_is},
+                    Bound{Wall::still, "teapot", "0-11", 16, Files::none, "ethernet", as_it_is},
+                    Bound{Wall::bands, "visit", "100-109", 8, Files::nodes, "ethernet", [](experiments::Platform& p) { p.file_part=1; }},
+                    Bound{Wall::host, "visit", "100-109", 8, Files::host, "fat-tree", [](experiments::Platform& p) { scale(p, wire::kNodeKinds, (size_t)wire::Work::file, 20); }},
+                    Bound{Wall::encoder, "visit", "100-109", 8, Files::host, "fat-tree", [](experiments::Platform& p) { p.machine.host_processors=1; scale(p, (size_t)wire::Work::file,  p.machine.work.size(), 5);}},
+                    Bound{Wall::storage, "visit", "100-109", 8, Files::nodes, "fat-tree",
+                          [](experiments::Platform& platform) { platform.machine.storage.opening = 0.01; }},
+                    Bound{Wall::storage, "visit", "100-109", 8, Files::host, "fat-tree",
+                          [](experiments::Platform& platform) { platform.machine.storage.opening = 0.01; }},
+                    Bound{Wall::frame, "demo", "0-1", 8, Files::none, "fat-tree", as_it_is}),
+    [](const auto& each) {
+      std::string name(walls::name_of(each.param.wall));
+      std::erase(name, ' ');
+      return name + std::to_string(each.index);
+    });
 
 }  // namespace
 }  // namespace mars::forecast

@@ -46,6 +46,7 @@ Setting SimulatedFilm::setting(const wire::PackedFilm& film) const {
   Setting setting{film, platform_};
   setting.files = files_ != Files::none;
   setting.writers = files_ == Files::nodes ? Writers::nodes : Writers::host;
+  setting.sink_threads = static_cast<std::uint32_t>(platform_.host_processors());
   return setting;
 }
 
@@ -56,7 +57,9 @@ Forecast SimulatedFilm::forecast(int nodes, std::uint32_t groups) const {
 
 walls::Explanation SimulatedFilm::explain(int nodes, std::uint32_t groups) const {
   const wire::PackedFilm film = view();
-  Forecast all{nodes, groups};
+  Forecast all;
+  all.nodes = nodes;
+  all.groups = groups;
   return forecast::explain(counts_, tasks_, setting(film), all);
 }
 
