@@ -353,13 +353,25 @@ void Renderer::paste_strip(const geometry::LineRange& lines) {
 void Renderer::finish_writing() {
   bool is_whole = true;
   if (report_.is_keyframe()) {
-    const PhaseScope compose = phase(wire::Phase::compose);
     const int writer = keyframe_writer();
-    file_->exchange_bands({group_, homes(), canvas_->contributes, writer});
+    exchange_bands({group_, homes(), canvas_->contributes, writer});
     is_whole = writer == static_cast<int>(mynode());
   }
   const PhaseScope storage = phase(wire::Phase::storage);
   if (is_whole) file_->write();
+}
+
+void Renderer::exchange_bands(const group::BandNeeds& needs) {
+  {
+    const PhaseScope bands = phase(wire::Phase::bands);
+    file_->exchange_edges(needs);
+  }
+  {
+    const PhaseScope compose = phase(wire::Phase::compose);
+    file_->writer().finish_bands();
+  }
+  const PhaseScope bands = phase(wire::Phase::bands);
+  file_->exchange_bands(needs);
 }
 
 void Renderer::finish_triangles() {

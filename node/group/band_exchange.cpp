@@ -49,10 +49,12 @@ BandExchange::BandExchange(const raster::Neighbours& neighbours)
       pending_(static_cast<std::size_t>(neighbours.group().count)),
       collectors_(static_cast<std::size_t>(neighbours.group().count)) {}
 
+void BandExchange::exchange_edges(const BandNeeds& needs, wire::FrameWriter& writer) {
+  exchange_edges(Plan(needs, neighbours_, collectors_, writer.lines_of_band()), writer);
+}
+
 void BandExchange::complete(const BandNeeds& needs, wire::FrameWriter& writer) {
   const Plan plan(needs, neighbours_, collectors_, writer.lines_of_band());
-  exchange_edges(plan, writer);
-  writer.finish_bands();
   send_bands(plan, writer);
   collect_background(plan, writer);
   collect_picture(plan, writer);

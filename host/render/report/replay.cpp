@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <ranges>
+#include <limits>
+#include <set>
 #include <unordered_map>
+#include <utility>
 
 namespace mars::report {
 
@@ -21,15 +23,6 @@ struct Replay::Run {
   double kept(Wall wall, double seconds) const { return without.has(wall) ? 0 : seconds; }
 };
 
-namespace {
-
-template <typename Parts, typename Of>
-double least(const Parts& parts, Of of) {
-  return std::ranges::min(parts | std::views::transform(of));
-}
-
-}  // namespace
-
 // The first of a frame's strips comes after those of frames that its nodes drew before: all nodes of a group meet in
 // the sum of a keyframe.
 Replay::Replay(const farm::FarmReport& report) : report_(report) {
@@ -37,12 +30,13 @@ Replay::Replay(const farm::FarmReport& report) : report_(report) {
   for (const wire::Strip& strip : report.strips) {
     if (strip.last == 0) continue;
     const auto [place, fresh] = places.try_emplace(strip.frame, frames_.size());
-    if (fresh) frames_.push_back({strip.kind == wire::FrameKind::keyframe, {}, 0, 0});
+    if (fresh) frames_.push_back({strip.interval, strip.kind == wire::FrameKind::keyframe, {}, 0, 0});
     Frame& frame = frames_[place->second];
     frame.parts.push_back(part_of(strip));
     frame.host += static_cast<double>(strip.work.bytes_to_host);
     frame.strips += strip.number + 1;
   }
+  find_waiting();
   share_out_host();
   const double files = static_cast<double>(report.files.files);
   if (files > 0) making_ = report.files.making_seconds / files;
@@ -50,10 +44,26 @@ Replay::Replay(const farm::FarmReport& report) : report_(report) {
   if (all_files > 0) storing_ = report.storing_seconds / all_files;
 }
 
-Replay::Part Replay::part_of(const wire::Strip& strip) const {
+Replay::Part Replay::part_of(const wire::Strip& strip) {
   const wire::PhaseTimes& times = strip.times;
-  return {static_cast<std::size_t>(strip.node),      times.dice + times.fill, times.sum,  times.exchange,
-          times.map + times.scanline + times.shadow, times.compose,           times.depth};
+  Part part{static_cast<std::size_t>(strip.node)};
+  part.before = times.dice + times.fill;
+  part.sum = times.sum;
+  part.exchange = times.exchange;
+  part.drawing = times.map + times.scanline + times.shadow;
+  part.compose = times.compose;
+  part.still = times.depth;
+  part.bands = times.bands;
+  return part;
+}
+
+// Nodes that draw inbetweens of an interval wait in its keyframe for what these need.
+void Replay::find_waiting() {
+  std::set<std::pair<std::uint32_t, std::size_t>> drawn;  // by interval and node
+  for (const Frame& frame : frames_)
+    if (!frame.is_keyframe) drawn.emplace(frame.interval, frame.parts.front().node);
+  for (Frame& frame : frames_)
+    for (Part& part : frame.parts) part.waits = frame.is_keyframe && drawn.contains({frame.interval, part.node});
 }
 
 void Replay::share_out_host() {
@@ -67,6 +77,7 @@ Walls Replay::there() const {
   const bool several = std::ranges::any_of(report_.groups, [](const auto& group) { return group.count > 1; });
   if (several) there = there.with({Wall::imbalance, Wall::sum, Wall::exchange, Wall::still});
   if (report_.nodes.size() > 1) there.add(Wall::frame);
+  if (several && report_.node_files > 0) there.add(Wall::bands);
   if (report_.node_files > 0 || making_ > 0) there.add(Wall::encoder);
   if (storing_ > 0) there.add(Wall::storage);
   return there;
@@ -86,22 +97,29 @@ void Replay::draw(Run& run, const Frame& frame, const std::vector<walls::Pace>& 
     run.busy[part.node].*busy += seconds;
     run.nodes[part.node] += seconds * (paces.empty() ? 1 : paces[part.node].*pace);
   };
-  // All wait for the last, then for messages.
-  const auto meet = [&](double Part::*step, Wall wall) {
+  // Those that wait go on after the last of all, and after messages.
+  const auto meet = [&](double Part::*step, Wall wall, bool all_wait) {
     if (frame.parts.size() == 1) return;
-    double last = 0;
-    for (const Part& part : frame.parts) last = std::max(last, run.nodes[part.node]);
-    last += run.kept(wall, least(frame.parts, [step](const Part& part) { return part.*step; }));
-    for (const Part& part : frame.parts) run.nodes[part.node] = last;
+    const auto waits = [all_wait](const Part& part) { return all_wait || part.waits; };
+    double last = 0, messages = std::numeric_limits<double>::max();
+    for (const Part& part : frame.parts) {
+      last = std::max(last, run.nodes[part.node]);
+      if (waits(part)) messages = std::min(messages, part.*step);
+    }
+    for (const Part& part : frame.parts) {
+      double& node = run.nodes[part.node];
+      node = waits(part) ? last + run.kept(wall, messages) : node + run.kept(wall, part.*step);
+    }
   };
   for (const Part& part : frame.parts) work(part, &Part::before, Wall::compute);
-  meet(&Part::sum, Wall::sum);
+  meet(&Part::sum, Wall::sum, true);
   for (const Part& part : frame.parts) {
     run.nodes[part.node] += run.kept(Wall::exchange, part.exchange);
     work(part, &Part::drawing, Wall::compute);
-    work(part, &Part::compose, Wall::encoder);
   }
-  if (mean(&Part::still) > 0) meet(&Part::still, Wall::still);
+  meet(&Part::still, Wall::still, false);
+  for (const Part& part : frame.parts) work(part, &Part::compose, Wall::encoder);
+  meet(&Part::bands, Wall::bands, false);
   double drawn = 0;
   for (const Part& part : frame.parts) drawn = std::max(drawn, run.nodes[part.node]);
   run.drawn.push_back(drawn);

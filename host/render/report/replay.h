@@ -4,9 +4,9 @@
 //
 // Known are the times of each node's steps, and of the host, of sinks and of storage only sums. So each frame's part of
 // a sum is taken: of the host's by the bytes that it received, of others an equal one. What a step waited for others is
-// told apart from its messages where all nodes of a group wait for each other: the least that any of them spent there
-// is taken for the messages. Waiting for credit or storage is left out, as it follows from what the host and storage
-// take.
+// told apart from its messages where nodes of a group wait for each other: the least that any of them spent there is
+// taken for the messages. Waiting for credit or storage is left out, as it follows from what the host and storage take.
+// What the run took beyond all this is the host's: messages to it and from it.
 #pragma once
 
 #include <vector>
@@ -35,9 +35,12 @@ class Replay {
     double exchange = 0;  // of triangles
     double drawing = 0;   // work after them
     double compose = 0;
-    double still = 0;  // messages and waiting
+    double still = 0;    // messages and waiting
+    double bands = 0;    // messages and waiting
+    bool waits = false;  // for lines and bands of others, as it draws inbetweens of the interval
   };
   struct Frame {
+    std::uint32_t interval = 0;
     bool is_keyframe = false;
     std::vector<Part> parts;  // by node
     double host = 0;          // seconds of its loop
@@ -45,7 +48,8 @@ class Replay {
   };
   struct Run;
 
-  Part part_of(const wire::Strip& strip) const;
+  static Part part_of(const wire::Strip& strip);
+  void find_waiting();
   void share_out_host();
   void draw(Run& run, const Frame& frame, const std::vector<walls::Pace>& paces) const;
   double finish(Run& run) const;

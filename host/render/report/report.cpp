@@ -46,10 +46,10 @@ ordered_json dimensions_json(const std::vector<wire::Hello>& hellos) {
 }
 
 ordered_json seconds_json(const wire::PhaseTimes& times) {
-  return {{"dice", times.dice},         {"sum", times.sum},        {"map", times.map},
-          {"exchange", times.exchange}, {"fill", times.fill},      {"scanline", times.scanline},
-          {"shadow", times.shadow},     {"depth", times.depth},    {"credit", times.credit},
-          {"compose", times.compose},   {"storage", times.storage}};
+  return {{"dice", times.dice},         {"sum", times.sum},     {"map", times.map},
+          {"exchange", times.exchange}, {"fill", times.fill},   {"scanline", times.scanline},
+          {"shadow", times.shadow},     {"depth", times.depth}, {"credit", times.credit},
+          {"compose", times.compose},   {"bands", times.bands}, {"storage", times.storage}};
 }
 
 // What was done at all.
