@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <set>
 #include <unordered_map>
 #include <utility>
@@ -15,6 +14,8 @@ using walls::Walls;
 
 // A run that is played through.
 struct Replay::Run {
+  Run(Walls removed, std::size_t count) : without(removed), nodes(count), busy(count) {}
+
   const Walls without;
   std::vector<double> nodes;      // until when each was busy
   std::vector<walls::Busy> busy;  // what each did
@@ -37,6 +38,7 @@ Replay::Replay(const farm::FarmReport& report) : report_(report) {
     frame.strips += strip.number + 1;
   }
   find_waiting();
+  tell_messages_from_waiting();
   share_out_host();
   const double files = static_cast<double>(report.files.files);
   if (files > 0) making_ = report.files.making_seconds / files;
@@ -83,7 +85,9 @@ Walls Replay::there() const {
   return there;
 }
 
-void Replay::draw(Run& run, const Frame& frame, const std::vector<walls::Pace>& paces) const {
+// `meet`: how long nodes wait for each other in a step.
+template <typename Meet>
+void Replay::draw(Run& run, const Frame& frame, const std::vector<walls::Pace>& paces, const Meet& meet) {
   const auto mean = [&](double Part::*step) {
     double all = 0;
     for (const Part& part : frame.parts) all += part.*step;
@@ -97,32 +101,45 @@ void Replay::draw(Run& run, const Frame& frame, const std::vector<walls::Pace>& 
     run.busy[part.node].*busy += seconds;
     run.nodes[part.node] += seconds * (paces.empty() ? 1 : paces[part.node].*pace);
   };
-  // Those that wait go on after the last of all, and after messages.
-  const auto meet = [&](double Part::*step, Wall wall, bool all_wait) {
-    if (frame.parts.size() == 1) return;
-    const auto waits = [all_wait](const Part& part) { return all_wait || part.waits; };
-    double last = 0, messages = std::numeric_limits<double>::max();
-    for (const Part& part : frame.parts) {
-      last = std::max(last, run.nodes[part.node]);
-      if (waits(part)) messages = std::min(messages, part.*step);
-    }
-    for (const Part& part : frame.parts) {
-      double& node = run.nodes[part.node];
-      node = waits(part) ? last + run.kept(wall, messages) : node + run.kept(wall, part.*step);
-    }
-  };
   for (const Part& part : frame.parts) work(part, &Part::before, Wall::compute);
-  meet(&Part::sum, Wall::sum, true);
+  meet(&Part::sum, Wall::sum);
   for (const Part& part : frame.parts) {
     run.nodes[part.node] += run.kept(Wall::exchange, part.exchange);
     work(part, &Part::drawing, Wall::compute);
   }
-  meet(&Part::still, Wall::still, false);
+  meet(&Part::still, Wall::still);
   for (const Part& part : frame.parts) work(part, &Part::compose, Wall::encoder);
-  meet(&Part::bands, Wall::bands, false);
+  meet(&Part::bands, Wall::bands);
   double drawn = 0;
   for (const Part& part : frame.parts) drawn = std::max(drawn, run.nodes[part.node]);
   run.drawn.push_back(drawn);
+}
+
+double Replay::last_of(const Run& run, const Frame& frame) {
+  double last = 0;
+  for (const Part& part : frame.parts) last = std::max(last, run.nodes[part.node]);
+  return last;
+}
+
+// All nodes of a group wait in its sum.
+bool Replay::waits(const Frame& frame, const Part& part, double Part::*step) {
+  return frame.parts.size() > 1 && (step == &Part::sum || part.waits);
+}
+
+// What a node spent in a step after the last had come to it.
+void Replay::tell_messages_from_waiting() {
+  Run run(Walls(), report_.nodes.size());
+  for (Frame& frame : frames_) {
+    const auto meet = [&](double Part::*step, Wall) {
+      const double last = last_of(run, frame);
+      for (Part& part : frame.parts) {
+        double& node = run.nodes[part.node];
+        const double begun = std::exchange(node, node + part.*step);
+        if (waits(frame, part, step)) part.*step = std::max(0.0, node - std::max(begun, last));
+      }
+    };
+    draw(run, frame, {}, meet);
+  }
 }
 
 double Replay::finish(Run& run) const {
@@ -148,8 +165,17 @@ double Replay::finish(Run& run) const {
 }
 
 double Replay::played(Walls without, const std::vector<walls::Pace>& paces, std::vector<walls::Busy>* busy) const {
-  Run run{without, std::vector<double>(report_.nodes.size()), std::vector<walls::Busy>(report_.nodes.size()), {}};
-  for (const Frame& frame : frames_) draw(run, frame, paces);
+  Run run(without, report_.nodes.size());
+  for (const Frame& frame : frames_) {
+    const auto meet = [&](double Part::*step, Wall wall) {
+      const double last = last_of(run, frame);
+      for (const Part& part : frame.parts) {
+        double& node = run.nodes[part.node];
+        node = (waits(frame, part, step) ? last : node) + run.kept(wall, part.*step);
+      }
+    };
+    draw(run, frame, paces, meet);
+  }
   const double end = finish(run);
   if (busy != nullptr) *busy = std::move(run.busy);
   return end;
@@ -165,8 +191,11 @@ walls::Explanation explain(const farm::FarmReport& report) {
   const Replay replay(report);
   const double whole = replay.seconds({});
   if (whole <= 0) return {};
-  return walls::explain([&](Walls without) { return replay.seconds(without) * report.total_seconds / whole; },
-                        replay.there());
+  const double beyond = std::max(0.0, report.total_seconds - whole), scale = report.total_seconds / (whole + beyond);
+  const auto seconds = [&](Walls without) {
+    return (replay.seconds(without) + (without.has(Wall::host) ? 0 : beyond)) * scale;
+  };
+  return walls::explain(seconds, replay.there());
 }
 
 }  // namespace mars::report

@@ -4,8 +4,8 @@
 //
 // Known are the times of each node's steps, and of the host, of sinks and of storage only sums. So each frame's part of
 // a sum is taken: of the host's by the bytes that it received, of others an equal one. What a step waited for others is
-// told apart from its messages where nodes of a group wait for each other: the least that any of them spent there is
-// taken for the messages. Waiting for credit or storage is left out, as it follows from what the host and storage take.
+// told apart from its messages where nodes of a group wait for each other: messages are what a node spent there after
+// the last had come. Waiting for credit or storage is left out, as it follows from what the host and storage take.
 // What the run took beyond all this is the host's: messages to it and from it.
 #pragma once
 
@@ -31,12 +31,12 @@ class Replay {
   struct Part {
     std::size_t node;
     double before = 0;    // seconds of work until the group's sum
-    double sum = 0;       // messages and waiting
+    double sum = 0;       // messages
     double exchange = 0;  // of triangles
     double drawing = 0;   // work after them
     double compose = 0;
-    double still = 0;    // messages and waiting
-    double bands = 0;    // messages and waiting
+    double still = 0;    // messages
+    double bands = 0;    // messages
     bool waits = false;  // for lines and bands of others, as it draws inbetweens of the interval
   };
   struct Frame {
@@ -51,7 +51,11 @@ class Replay {
   static Part part_of(const wire::Strip& strip);
   void find_waiting();
   void share_out_host();
-  void draw(Run& run, const Frame& frame, const std::vector<walls::Pace>& paces) const;
+  void tell_messages_from_waiting();
+  template <typename Meet>
+  static void draw(Run& run, const Frame& frame, const std::vector<walls::Pace>& paces, const Meet& meet);
+  static double last_of(const Run& run, const Frame& frame);
+  static bool waits(const Frame& frame, const Part& part, double Part::*step);
   double finish(Run& run) const;
   double played(walls::Walls without, const std::vector<walls::Pace>& paces, std::vector<walls::Busy>* busy) const;
 

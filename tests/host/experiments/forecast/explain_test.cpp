@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 
 #include "host/render/report/replay.h"
@@ -47,6 +48,23 @@ class Explained : public testing::TestWithParam<Bound> {
 };
 
 
+// Seconds that each node worked for frames of a kind.
+std::vector<double> work_of(const farm::FarmReport& report, wire::FrameKind kind) {
+  std::vector<double> seconds(report.nodes.size());
+  for (const wire::Strip& strip : report.strips)
+    if (strip.last == 1 && strip.kind == kind)
+      seconds[static_cast<std::size_t>(strip.node)] += strip.times.dice + strip.times.fill + strip.times.map + strip.times.scanline + strip.times.shadow;
+  return seconds;
+}
+
+experiments::Platform without_unevenness(experiments::Platform platform, Wall wall, const farm::FarmReport& report) {
+  std::vector<double> seconds = work_of(report, wall == Wall::frame ? wire::FrameKind::inbetween : wire::FrameKind::keyframe);
+  const double mean = std::reduce(seconds.begin(), seconds.end()) / static_cast<double>(seconds.size());
+  for (double& own : seconds) own = own <= 0 ? 1 : wall == Wall::frame ? std::min(1.0, mean / own) : mean / own;
+  platform.machine.slowness = [seconds](int computer, double) { return computer < (int)seconds.size() ? seconds[static_cast<std::size_t>(computer)] : 1.0; };
+  return platform;
+}
+
 TEST_P(Explained, AsByAblation) {
   const Bound& one = GetParam();
   const SimulatedFilm film = this->film();
@@ -58,6 +76,7 @@ TEST_P(Explained, AsByAblation) {
   for (const walls::FoundWall& found : explanation.walls) {
     SimulatedFilm ablated = film;
     ablated.set_platform(without(film.platform(), {found.wall}, one.files == Files::nodes ? Writers::nodes : Writers::host));
+    if (found.wall == Wall::frame || found.wall == Wall::imbalance) ablated.set_platform(without_unevenness(film.platform(), found.wall, report));
     const double seconds = ablated.render(one.nodes, 1).total_seconds;
     double rec = 0;
     for (auto& r : recorded.walls) if (r.wall == found.wall) rec = recorded.seconds - r.without;
@@ -73,14 +92,14 @@ INSTANTIATE_TEST_SUITE_P(
     Walls, Explained,
     testing::Values(Bound{Wall::compute, "demo", "0-7", 2, Files::none, "fat-tree", as_it_is},
                     Bound{Wall::imbalance, "s3s", "0-0", 32, Files::none, "fat-tree", [](experiments::Platform& p) { scale(p, 0, (size_t)wire::Work::casting_light, 0); }},
-                    Bound{Wall::imbalance, "s1s", "0-0", 8, Files::none, "fat-tree", [](experiments::Platform& p) { scale(p, 0, (size_t)wire::Work::casting_light, 0); }},
-                    Bound{Wall::imbalance, "s2s", "0-0", 8, Files::none, "fat-tree", [](experiments::Platform& p) { scale(p, 0, (size_t)wire::Work::casting_light, 0); }},
+                    Bound{Wall::imbalance, "s3s", "0-0", 64, Files::none, "fat-tree", [](experiments::Platform& p) { scale(p, 0, (size_t)wire::Work::casting_light, 0);scale(p, (size_t)wire::Work::casting_light,wire::kNodeKinds, 10); }},
+                    Bound{Wall::imbalance, "s1", "0-0", 32, Files::none, "fat-tree", [](experiments::Platform& p) { scale(p, 0, wire::kNodeKinds, 0); p.machine.work[(size_t)wire::Work::line]=1e-4; }},
                     Bound{Wall::sum, "s1", "0-0", 64, Files::none, "fat-tree", [](experiments::Platform& p) { scale(p, 0, wire::kNodeKinds, 0.05); p.machine.network.latency = 1e-3; }},
                     Bound{Wall::exchange, "bodies", "5-5", 16, Files::none, "ethernet", [](experiments::Platform& p) { p.machine.network.byte *= 5; p.machine.network.host_byte=1e-12; }},
-                    Bound{Wall::still, "caterpillar", "0-11", 16, Files::none, "ethernet", [](experiments::Platform& p) { scale(p, 0, wire::kNodeKinds, 0.2);}},
-                    Bound{Wall::still, "teapot", "0-11", 16, Files::none, "ethernet", [](experiments::Platform& p) { scale(p, 0, wire::kNodeKinds, 0.2);p.machine.network.host_byte=1e-12;}},
+                    Bound{Wall::still, "caterpillar", "0-11", 16, Files::none, "ethernet", [](experiments::Platform& p) { scale(p, 0, wire::kNodeKinds, 0.2);p.machine.network.host_byte=1e-12;}},
                     Bound{Wall::still, "stones", "0-11", 16, Files::none, "ethernet", [](experiments::Platform& p) { scale(p, 0, wire::kNodeKinds, 0.2);p.machine.network.host_byte=1e-12;}},
-                    Bound{Wall::still, "s3s", "0-11", 16, Files::none, "ethernet", [](experiments::Platform& p) { scale(p, 0, wire::kNodeKinds, 0.2);p.machine.network.host_byte=1e-12;}},
+                    Bound{Wall::still, "stones", "0-11", 4, Files::none, "ethernet", [](experiments::Platform& p) { scale(p, 0, wire::kNodeKinds, 0.2);p.machine.network.host_byte=1e-12;}},
+                    Bound{Wall::still, "teapot", "0-11", 4, Files::none, "ethernet", [](experiments::Platform& p) { scale(p, 0, wire::kNodeKinds, 0.1);p.machine.network.host_byte=1e-12;}},
                     Bound{Wall::bands, "visit", "100-109", 8, Files::nodes, "ethernet", [](experiments::Platform& p) { p.file_part=1; }},
                     Bound{Wall::bands, "demo", "0-7", 8, Files::nodes, "ethernet", [](experiments::Platform& p) { p.file_part=1;p.machine.storage={}; }},
                     Bound{Wall::bands, "demo", "0-7", 4, Files::nodes, "ethernet", [](experiments::Platform& p) { p.file_part=1;p.machine.storage={}; p.machine.network.byte *=4; }},
