@@ -11,9 +11,8 @@ constexpr double kNoGain = 0.02;
 // A wall that takes less is none.
 constexpr double kNothing = 1e-3;
 
-// Work that is not evenly divided. Without work they are nothing.
+// Work that is not evenly divided: parts of what work takes.
 const Walls kUneven{Wall::imbalance, Wall::frame};
-const Walls kWork = Walls{Wall::compute}.with(kUneven);
 
 class Explainer {
  public:
@@ -30,18 +29,16 @@ class Explainer {
   double gain(Wall wall, Walls gone);
   double alone(Wall wall);
   std::optional<Wall> binding(Walls gone);
-  // With `wall` other walls go, too.
-  static Walls removed(Wall wall) { return wall == Wall::compute ? kWork : Walls{wall}; }
 
   const SecondsWithout& ask_;
   const Walls there_;
   std::map<unsigned long, double> known_;
 };
 
-// Beyond what walls gain that are part of it.
+// Of work: beyond what walls gain that are part of it.
 double Explainer::gain(Wall wall, Walls gone) {
-  const Walls parts = wall == Wall::compute ? kUneven : Walls();
-  return seconds(gone.with(parts)) - seconds(gone.with(removed(wall)));
+  const Walls beside = wall == Wall::compute ? gone.with(kUneven) : gone;
+  return seconds(beside) - seconds(beside.with({wall}));
 }
 
 // What is uneven is work: beside evenly divided work.
@@ -64,15 +61,15 @@ Explanation Explainer::explain() {
   const std::optional<Wall> first = binding({});
   if (!first) return found;
   for (const Wall wall : there_.list()) {
-    const FoundWall one{wall, alone(wall), seconds(removed(wall))};
+    const FoundWall one{wall, alone(wall), seconds({wall})};
     const bool takes_time = std::max(one.alone, found.seconds - one.without) > kNothing * found.seconds;
     if (wall == *first || takes_time) found.walls.push_back(one);
   }
   std::ranges::stable_sort(found.walls, std::greater<>(),
                            [&](const FoundWall& one) { return std::pair(one.wall == *first, gain(one.wall, {})); });
-  const Walls gone = removed(*first);
+  const Walls gone{*first};
   found.next = binding(gone);
-  if (found.next) found.without_next = seconds(gone.with(removed(*found.next)));
+  if (found.next) found.without_next = seconds(gone.with({*found.next}));
   return found;
 }
 
