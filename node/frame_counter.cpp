@@ -8,7 +8,11 @@ namespace mars::node {
 namespace {
 
 constexpr std::uint32_t kSampledLines = 64;
-constexpr std::size_t kShareBytes = std::size_t{16} << 20;  // what does not fit is counted, and taken for unseen
+constexpr std::uint32_t kShares = 64;                       // that triangles are made in, at least
+constexpr std::uint32_t kMostShares = 1 << 24;              // beyond, a patch's may not fit
+constexpr std::size_t kShareBytes = std::size_t{16} << 20;  // of a share's triangles; one with more is divided
+constexpr std::size_t kKeptBytes = std::size_t{768} << 20;  // of triangles and edge boxes whose visibility is decided
+constexpr std::size_t kBoxBytes = sizeof(geometry::Triangle) + sizeof(raster::EdgeBox);  // at most
 
 constexpr std::uint32_t kBlock = 16;  // side of the compositor's blocks, by default
 
@@ -16,13 +20,13 @@ double share_of(double part, double whole) { return whole > 0 ? part / whole : 0
 
 }  // namespace
 
-FrameCounter::FrameCounter(const wire::PackedFilm& film, simd::InstructionSet set)
+FrameCounter::FrameCounter(const wire::PackedFilm& film, simd::InstructionSet set, bool is_exact)
     : scene_(film),
       boxes_(film),
       marks_(film.settings().width, film.settings().height),
       tessellator_(set),
       kernels_(raster::raster_kernels(set)),
-      step_(std::max(1u, film.settings().height / kSampledLines)),
+      step_(is_exact ? 1 : std::max(1u, film.settings().height / kSampledLines)),
       stride_(film.settings().width + 2 * simd::kVectorSlack),
       memory_(kShareBytes),
       all_lines_(film.settings().height, 1),
@@ -30,6 +34,7 @@ FrameCounter::FrameCounter(const wire::PackedFilm& film, simd::InstructionSet se
       loads_(film.settings().height),
       moving_columns_(film.settings().height),
       moving_loads_(film.settings().height),
+      surface_(film.settings().height),
       sampled_((film.settings().height + step_ - 1) / step_),
       ids_(std::size_t{stride_} * film.settings().samples),
       depths_(ids_.size()) {
@@ -38,14 +43,20 @@ FrameCounter::FrameCounter(const wire::PackedFilm& film, simd::InstructionSet se
 
 wire::FrameCounts FrameCounter::count_keyframe(std::uint32_t interval, std::span<const std::uint32_t> frames) {
   scene_.set_interval(interval);
-  wire::FrameCounts counts = count(wire::FrameKind::keyframe, frames.front());
+  scene_.set_frame(frames.front());
   marks_.clear();
   sweep_.begin(scene_, frames.size() > 1 ? frames : frames.first(0), boxes_,
                [this](const geometry::PictureBounds& bounds) { marks_.mark(bounds.lines, bounds.columns); });
+  wire::FrameCounts counts = count(wire::FrameKind::keyframe, frames.front());
   if (shadows_) shadows_->mark_shaded(scene_, sweep_, marks_);
   const geometry::LineRange still = sweep_.lines();
-  for (std::uint32_t line = still.first; line < still.last; ++line)
-    counts.lines[line].kept_width = raster::count_columns(marks_.on(line), scene_.film().settings().width);
+  const std::uint32_t width = scene_.film().settings().width;
+  for (std::uint32_t line = still.first; line < still.last; ++line) {
+    wire::LineCounts& on_line = counts.lines[line];
+    on_line.kept_width = raster::count_columns(marks_.on(line), width);
+    // What shadows keep is known now only: as evenly over the columns as what is seen there.
+    if (shadows_) on_line.constant.kept_groups = on_line.constant.shaded * on_line.kept_width / width;
+  }
   counts.first_still_line = still.first;
   counts.last_still_line = still.last;
   return counts;
@@ -58,9 +69,8 @@ wire::FrameCounts FrameCounter::count_inbetween(std::uint32_t frame) {
 wire::FrameCounts FrameCounter::count(wire::FrameKind kind, std::uint32_t frame) {
   const bool keyframe = kind == wire::FrameKind::keyframe;
   scene_.set_frame(frame);
-  triangles_.clear();
   if (shadows_) shadows_->begin_frame(keyframe);
-  for (SampledLine& line : sampled_) line.stationary.clear(), line.moving.clear();
+  forget_kept({0, static_cast<std::uint32_t>(loads_.size())});
   std::ranges::fill(loads_, raster::LineLoad());
   std::ranges::fill(moving_loads_, raster::LineLoad());
   std::ranges::fill(moving_columns_, Columns());
@@ -68,8 +78,7 @@ wire::FrameCounts FrameCounter::count(wire::FrameKind kind, std::uint32_t frame)
   counts.kind = kind;
   counts.frame = frame;
   counts.lines.resize(loads_.size());
-  for (std::uint32_t share = 0; share < wire::kCountedShares; ++share)
-    counts.shares.push_back(count_share(share, keyframe));
+  make_all(keyframe, [&](const Tessellation& made, const wire::WorkCounts& work) { add_share(made, work, counts); });
   for (std::size_t line = 0; line < loads_.size(); ++line) {
     counts.lines[line].edge_boxes = static_cast<double>(loads_[line].boxes());
     counts.lines[line].samples = static_cast<double>(loads_[line].samples());
@@ -83,22 +92,70 @@ wire::FrameCounts FrameCounter::count(wire::FrameKind kind, std::uint32_t frame)
   return counts;
 }
 
-wire::UnitCounts FrameCounter::count_share(std::uint32_t share, bool keyframe) {
+void FrameCounter::make_all(bool keyframe, const Visit& visit) {
+  for (std::uint32_t share = 0; share < kShares; ++share) make({share, kShares}, keyframe, visit);
+}
+
+// A share that the memory does not hold is made in two.
+void FrameCounter::make(const Scatter& scatter, bool keyframe, const Visit& visit) {
   raster::Arena arena(memory_.bytes());
   auto* const first = reinterpret_cast<geometry::Triangle*>(memory_.bytes().data());
   const std::span<const std::uint8_t> all = all_lines_;
   wire::WorkCounts work{};
+  marked_.clear();
   const Tessellation made = tessellator_.tessellate(
-      scene_, {share, wire::kCountedShares}, {all, keyframe ? all : std::span<const std::uint8_t>(), share_loads_},
-      {arena, first}, work, shadows_ ? &shadows_->diced() : nullptr);
+      scene_, scatter, {all, keyframe ? all : std::span<const std::uint8_t>(), share_loads_}, {arena, first}, work,
+      {shadows_ ? &shadows_->diced() : nullptr, keyframe ? &marked_ : nullptr});
+  if (made.all_stored || scatter.count >= kMostShares) return visit(made, work);
+  make({scatter.index, 2 * scatter.count}, keyframe, visit);
+  make({scatter.index + scatter.count, 2 * scatter.count}, keyframe, visit);
+}
+
+void FrameCounter::add_share(const Tessellation& made, const wire::WorkCounts& work, wire::FrameCounts& counts) {
+  const wire::UnitCounts units = units_of(made, work);
+  for (std::size_t kind = 0; kind < units.units.size(); ++kind) counts.made.units[kind] += units.units[kind];
   for (std::size_t line = 0; line < loads_.size(); ++line) loads_[line] += share_loads_[line];
   for (const raster::UnsortedEdgeBox& box : made.polygons.moving) {
     moving_loads_[box.line] += raster::LineLoad(1, box.box.width());
     moving_columns_[box.line].add(box.box.first, box.box.last());
   }
-  keep_sampled(made.polygons.stationary, made.polygons.triangles, false);
-  keep_sampled(made.polygons.moving, made.polygons.triangles, true);
-  return units_of(made, work);
+  mark_surfaces(made.polygons, counts);
+  keep_sampled(made);
+}
+
+// The latest edge boxes are first, those of moving parts before the others.
+void FrameCounter::mark_surfaces(const raster::Polygons& polygons, wire::FrameCounts& counts) {
+  const raster::UnsortedEdgeBox* end = polygons.stationary.data() + polygons.stationary.size();
+  for (const SurfaceMark& mark : marked_) {
+    const auto boxes = static_cast<std::size_t>(mark.edge_boxes);
+    end -= boxes;
+    counts.surfaces.push_back(mark_surface(mark, {end, boxes}, counts.surface_lines));
+  }
+}
+
+wire::MadeSurface FrameCounter::mark_surface(const SurfaceMark& mark, std::span<const raster::UnsortedEdgeBox> boxes,
+                                             std::vector<wire::SurfaceLine>& lines) {
+  const auto count = [](std::uint64_t number) { return static_cast<std::uint32_t>(number); };
+  geometry::LineRange all{count(surface_.size()), 0};
+  for (std::size_t i = boxes.size(); i > 0;) {
+    const std::uint32_t triangle = boxes[i - 1].box.triangle;
+    geometry::LineRange of_triangle{count(surface_.size()), 0};
+    for (; i > 0 && boxes[i - 1].box.triangle == triangle; --i) {
+      const std::uint32_t line = boxes[i - 1].line;
+      ++surface_[line].edge_boxes;
+      of_triangle = {std::min(of_triangle.first, line), std::max(of_triangle.last, line + 1)};
+    }
+    ++surface_[of_triangle.first].begin;
+    for (std::uint32_t line = of_triangle.first + 1; line < of_triangle.last; ++line) ++surface_[line].go_on;
+    all = {std::min(all.first, of_triangle.first), std::max(all.last, of_triangle.last)};
+  }
+  if (boxes.empty()) all = {0, 0};
+  const auto used = std::span(surface_).subspan(all.first, all.count());
+  lines.insert(lines.end(), used.begin(), used.end());
+  std::ranges::fill(used, wire::SurfaceLine());
+  return {mark.patch,          mark.is_meshlet ? 1u : 0u, count(mark.vertices),   count(mark.triangles_tested),
+          count(mark.colored), count(mark.triangles),     count(mark.edge_boxes), all.first,
+          all.count()};
 }
 
 wire::UnitCounts FrameCounter::units_of(const Tessellation& made, const wire::WorkCounts& work) const {
@@ -117,12 +174,27 @@ wire::UnitCounts FrameCounter::units_of(const Tessellation& made, const wire::Wo
   return units;
 }
 
+void FrameCounter::forget_kept(const geometry::LineRange& lines) {
+  triangles_.clear();
+  for (SampledLine& line : sampled_) line.stationary.clear(), line.moving.clear();
+  kept_ = lines;
+  is_short_ = false;
+}
+
+void FrameCounter::keep_sampled(const Tessellation& made) {
+  keep_sampled(made.polygons.stationary, made.polygons.triangles, false);
+  keep_sampled(made.polygons.moving, made.polygons.triangles, true);
+}
+
 // Boxes of a triangle follow each other.
 void FrameCounter::keep_sampled(std::span<const raster::UnsortedEdgeBox> boxes, const geometry::Triangle* triangles,
                                 bool moving) {
   std::uint32_t last = 0xffffffff;
-  for (const raster::UnsortedEdgeBox& unsorted : boxes) {
-    if (unsorted.line % step_ != step_ / 2) continue;
+  is_short_ |= (triangles_.size() + boxes.size()) * kBoxBytes > kKeptBytes && kept_.count() > step_;
+  if (is_short_) return;
+  for (std::size_t i = boxes.size(); i-- > 0;) {
+    const raster::UnsortedEdgeBox& unsorted = boxes[i];
+    if (unsorted.line % step_ != step_ / 2 || !kept_.has(unsorted.line)) continue;
     if (unsorted.box.triangle != last) triangles_.push_back(triangles[last = unsorted.box.triangle]);
     SampledLine& line = sampled_[unsorted.line / step_];
     raster::EdgeBox& box = (moving ? line.moving : line.stationary).emplace_back(unsorted.box);
@@ -136,19 +208,49 @@ std::uint32_t FrameCounter::line_of(std::size_t sampled) const {
 
 // Of the samples that boxes cover, lines about a sampled one are taken to show as much as that does.
 void FrameCounter::estimate_seen(std::vector<wire::LineCounts>& lines, bool keyframe) {
-  std::vector<wire::SeenCounts> constant(sampled_.size()), moving(sampled_.size());
-  for (std::size_t i = 0; i < sampled_.size() && line_of(i) < lines.size(); ++i) {
+  Seen seen{std::vector<wire::SeenCounts>(sampled_.size()), std::vector<wire::SeenCounts>(sampled_.size())};
+  if (is_short_)
+    see_in_bands(keyframe, seen);
+  else
+    see(keyframe, seen);
+  spread(seen.constant, lines, &wire::LineCounts::constant,
+         [](const wire::LineCounts& line) { return line.samples - line.moving_samples; });
+  spread(seen.moving, lines, &wire::LineCounts::moving,
+         [](const wire::LineCounts& line) { return line.moving_samples; });
+}
+
+// Lines from `first` on whose triangles memory holds for sure.
+std::uint32_t FrameCounter::band_end(std::uint32_t first) const {
+  std::uint64_t boxes = 0;
+  std::uint32_t line = first;
+  do boxes += loads_[line++].boxes();
+  while (line < loads_.size() && (boxes + loads_[line].boxes()) * kBoxBytes <= kKeptBytes / 2);
+  return line;
+}
+
+// The frame's triangles are made again for each band of lines.
+void FrameCounter::see_in_bands(bool keyframe, Seen& seen) {
+  const auto height = static_cast<std::uint32_t>(loads_.size());
+  for (std::uint32_t first = 0; first < height; first = kept_.last) {
+    forget_kept({first, band_end(first)});
+    make_all(keyframe, [this](const Tessellation& made, const wire::WorkCounts&) { keep_sampled(made); });
+    see(keyframe, seen);
+  }
+}
+
+// On those of the kept lines that are sampled.
+void FrameCounter::see(bool keyframe, Seen& seen) {
+  for (std::size_t i = 0; i < sampled_.size() && line_of(i) < loads_.size(); ++i) {
+    if (!kept_.has(line_of(i))) continue;
     SampledLine& line = sampled_[i];
     if (keyframe) {
       line.constant_depth.assign(ids_.size(), 0.0f);
-      constant[i] = draw(shadow::Casting::still, line.stationary, line_of(i), line.constant_depth);
+      seen.constant[i] = draw(shadow::Casting::still, line.stationary, line_of(i), line.constant_depth);
     }
+    if (line.moving.empty()) continue;
     depths_ = line.constant_depth;
-    moving[i] = draw(shadow::Casting::moving, line.moving, line_of(i), depths_);
+    seen.moving[i] = draw(shadow::Casting::moving, line.moving, line_of(i), depths_);
   }
-  spread(constant, lines, &wire::LineCounts::constant,
-         [](const wire::LineCounts& line) { return line.samples - line.moving_samples; });
-  spread(moving, lines, &wire::LineCounts::moving, [](const wire::LineCounts& line) { return line.moving_samples; });
 }
 
 void FrameCounter::spread(const std::vector<wire::SeenCounts>& seen, std::vector<wire::LineCounts>& lines,
@@ -190,9 +292,18 @@ wire::SeenCounts FrameCounter::draw(shadow::Casting kind, std::span<const raster
     seen.block_pixels += 0 < in_block && in_block < kBlock ? kBlock : 0;
     in_block = 0;
   }
+  if (kind == shadow::Casting::still && !shadows_) count_kept_groups(line, extent, seen);
   if (shadows_)
     seen.points = shadows_->add(scene_, kind, {line, ids_.data(), depths.data(), stride_, triangles_.data()});
   return seen;
+}
+
+void FrameCounter::count_kept_groups(std::uint32_t line, const shading::Extent& extent, wire::SeenCounts& seen) const {
+  wire::SeenCounts kept;
+  raster::visit_columns(marks_.on(line), scene_.film().settings().width, [&](std::uint32_t first, std::uint32_t last) {
+    for (std::uint32_t x = std::max(first, extent.first); x < std::min(last, extent.last); ++x) count_groups(x, kept);
+  });
+  seen.kept_groups = kept.shaded;
 }
 
 // Triangles that a pixel shows.

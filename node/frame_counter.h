@@ -1,10 +1,11 @@
 // Counts what a frame has to be drawn, as forecasts need it: makes its triangles as nodes do, forgets them share by
-// share, and decides on some of its lines what is seen. It shades nothing and sends nothing.
+// share, and decides on some of its lines, or on all, what is seen. It shades nothing and sends nothing.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -23,8 +24,8 @@ namespace mars::node {
 
 class FrameCounter {
  public:
-  // The film's block outlives it.
-  FrameCounter(const wire::PackedFilm& film, simd::InstructionSet set);
+  // The film's block outlives it. `is_exact`: visibility is decided on all lines.
+  FrameCounter(const wire::PackedFilm& film, simd::InstructionSet set, bool is_exact = false);
 
   // Of frames of one interval, ascending, the first: what a group's nodes have together.
   wire::FrameCounts count_keyframe(std::uint32_t interval, std::span<const std::uint32_t> frames);
@@ -45,10 +46,26 @@ class FrameCounter {
     double width() const { return first < last ? last - first : 0; }
   };
 
+  // What lines show.
+  struct Seen {
+    std::vector<wire::SeenCounts> constant, moving;  // by sampled line
+  };
+  using Visit = std::function<void(const Tessellation& made, const wire::WorkCounts& work)>;
+
   wire::FrameCounts count(wire::FrameKind kind, std::uint32_t frame);
-  wire::UnitCounts count_share(std::uint32_t share, bool keyframe);
+  void make_all(bool keyframe, const Visit& visit);
+  void make(const Scatter& scatter, bool keyframe, const Visit& visit);
+  void add_share(const Tessellation& made, const wire::WorkCounts& work, wire::FrameCounts& counts);
+  void mark_surfaces(const raster::Polygons& polygons, wire::FrameCounts& counts);
+  wire::MadeSurface mark_surface(const SurfaceMark& mark, std::span<const raster::UnsortedEdgeBox> boxes,
+                                 std::vector<wire::SurfaceLine>& lines);
+  void forget_kept(const geometry::LineRange& lines);
+  void keep_sampled(const Tessellation& made);
   void keep_sampled(std::span<const raster::UnsortedEdgeBox> boxes, const geometry::Triangle* triangles, bool moving);
   wire::UnitCounts units_of(const Tessellation& made, const wire::WorkCounts& work) const;
+  std::uint32_t band_end(std::uint32_t first) const;
+  void see_in_bands(bool keyframe, Seen& seen);
+  void see(bool keyframe, Seen& seen);
   void spread(const std::vector<wire::SeenCounts>& seen, std::vector<wire::LineCounts>& lines,
               wire::SeenCounts wire::LineCounts::*to, double (*samples_of)(const wire::LineCounts&)) const;
   void estimate_seen(std::vector<wire::LineCounts>& lines, bool keyframe);
@@ -56,6 +73,7 @@ class FrameCounter {
                         std::vector<float>& depths);
 
   void count_groups(std::uint32_t column, wire::SeenCounts& seen) const;
+  void count_kept_groups(std::uint32_t line, const shading::Extent& extent, wire::SeenCounts& seen) const;
 
   std::uint32_t line_of(std::size_t sampled) const;
 
@@ -73,6 +91,10 @@ class FrameCounter {
   std::vector<raster::LineLoad> loads_;  // of all shares
   std::vector<Columns> moving_columns_;
   std::vector<raster::LineLoad> moving_loads_;  // of the edge boxes, moving parts'
+  std::vector<SurfaceMark> marked_;             // of a share
+  std::vector<wire::SurfaceLine> surface_;      // by line: of the surface in hand
+  geometry::LineRange kept_{0, 0};              // of these lines the triangles are kept
+  bool is_short_ = false;                       // of memory: not all are
   std::vector<geometry::Triangle> triangles_;   // of the sampled lines
   std::vector<SampledLine> sampled_;
   std::vector<std::uint32_t> ids_;

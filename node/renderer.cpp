@@ -111,7 +111,7 @@ Tessellation Renderer::tessellate() {
   shadow::DicedSurfaces* const diced = canvas_->shadows ? &canvas_->shadows->diced() : nullptr;
   if (diced != nullptr) diced->clear(shadow::Casting::moving);
   const Tessellation own = tessellator_.tessellate(scene(), scatter, lines, {memory_.arena(), memory_.first_triangle()},
-                                                   report_.strip().work, diced);
+                                                   report_.strip().work, {diced});
   std::transform_inclusive_scan(canvas_->line_loads.begin(), canvas_->line_loads.end(),
                                 canvas_->line_totals.begin() + 1, std::plus<>(),
                                 [](const raster::LineLoad& load) { return load.boxes(); });

@@ -14,24 +14,33 @@ struct Tessellator::Output {
   wire::WorkCounts& work;
   shading::Shading shading;
   shading::ColoredSurface& colored;
-  shadow::DicedSurfaces* diced;
+  const SurfaceWatch& watch;
   SurfaceCounts counts{};
 
   void add_patch(const shape::Surface& surface, const raster::PatchIdentity& identity) {
     ++counts.patches;
     counts.vertices += static_cast<std::uint64_t>(surface.vertex_count());
-    add(surface, identity);
+    add_marked(surface, identity, false);
   }
 
   void add_meshlet(const shape::Surface& surface, const raster::PatchIdentity& identity) {
     ++counts.meshlets;
     counts.mesh_vertices += static_cast<std::uint64_t>(surface.vertex_count());
+    add_marked(surface, identity, true);
+  }
+
+  void add_marked(const shape::Surface& surface, const raster::PatchIdentity& identity, bool is_meshlet) {
+    const std::uint64_t triangles = out.touching, edge_boxes = out.edge_boxes, colored = counts.colored;
     add(surface, identity);
+    if (watch.marks != nullptr)
+      watch.marks->push_back({identity.patch, is_meshlet, static_cast<std::uint64_t>(surface.vertex_count()),
+                              surface.triangles().count, counts.colored - colored, out.touching - triangles,
+                              out.edge_boxes - edge_boxes});
   }
 
   void add(const shape::Surface& surface, const raster::PatchIdentity& identity) {
-    if (diced != nullptr)
-      diced->keep(identity.moving ? shadow::Casting::moving : shadow::Casting::still, identity.patch, surface);
+    if (watch.diced != nullptr)
+      watch.diced->keep(identity.moving ? shadow::Casting::moving : shadow::Casting::still, identity.patch, surface);
     ++work.patches;
     work.vertices += static_cast<std::uint64_t>(surface.vertex_count());
     work.triangles_tested += surface.triangles().count;
@@ -54,7 +63,7 @@ Tessellator::Tessellator(simd::InstructionSet set, Heartbeat* heartbeat)
     : instruction_set_(set), heartbeat_(heartbeat), dicer_(set), placer_(set), colored_(set) {}
 
 Tessellation Tessellator::tessellate(const geometry::Scene& scene, const Scatter& scatter, const LineTable& lines,
-                                     const TriangleSpace& space, wire::WorkCounts& work, shadow::DicedSurfaces* diced) {
+                                     const TriangleSpace& space, wire::WorkCounts& work, const SurfaceWatch& watch) {
   std::ranges::fill(lines.loads, raster::LineLoad());
   work.patches = work.vertices = work.triangles_tested = 0;
   raster::SetUps out(space.arena.rest(), space.first, scene.pattern(), lines.loads);
@@ -64,7 +73,7 @@ Tessellation Tessellator::tessellate(const geometry::Scene& scene, const Scatter
       work,
       shading::shading_of(scene),
       colored_,
-      diced};
+      watch};
   out.want(lines.wanted_still);
   const bool takes_part = scatter.index < scatter.count;
   if (takes_part && !lines.wanted_still.empty()) add(scene, false, scatter, output);

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "node/geometry/meshlets.h"
 #include "node/geometry/scene.h"
@@ -48,6 +49,20 @@ struct SurfaceCounts {
   std::uint64_t colored = 0;        // vertices and flat triangles that were shaded
 };
 
+// One of them, as it was made.
+struct SurfaceMark {
+  std::uint32_t patch;  // its number
+  bool is_meshlet;
+  std::uint64_t vertices, triangles_tested, colored;
+  std::uint64_t triangles, edge_boxes;  // on wanted lines
+};
+
+// Who is interested in each surface; either may be nullptr.
+struct SurfaceWatch {
+  shadow::DicedSurfaces* diced = nullptr;     // gets the surfaces
+  std::vector<SurfaceMark>* marks = nullptr;  // gets what was made of them, in their order
+};
+
 struct Tessellation {
   raster::Polygons polygons;
   SurfaceCounts surfaces;
@@ -61,9 +76,9 @@ class Tessellator {
   explicit Tessellator(simd::InstructionSet set, Heartbeat* heartbeat = nullptr);
 
   // Triangles of the scatter's patches and meshlets at the scene's frame, in the order of polygon numbers. They lie in
-  // `space`. Sets `lines.loads`, and the patches and vertices of `work`. `diced`, if any, gets their surfaces.
+  // `space`. Sets `lines.loads`, and the patches and vertices of `work`.
   Tessellation tessellate(const geometry::Scene& scene, const Scatter& scatter, const LineTable& lines,
-                          const TriangleSpace& space, wire::WorkCounts& work, shadow::DicedSurfaces* diced = nullptr);
+                          const TriangleSpace& space, wire::WorkCounts& work, const SurfaceWatch& watch = {});
 
  private:
   struct Output;

@@ -206,7 +206,18 @@ int World::first_after(const Rank& last) const {
 double World::floor_at(double now) const { return queue_.empty() ? now : std::min(now, queue_.begin()->first); }
 
 void World::keep_to(int rank, int first, int count) {
-  ranks_[rank]->community = ordered_ || count == nodes_ ? nullptr : &communities_[first];
+  ranks_[rank]->runs_ahead = !ordered_ && count < nodes_;
+  if (!ranks_[rank]->runs_ahead) return;
+  for (int other = first; other < first + count; ++other) join(other, communities_[first]);
+}
+
+void World::join(int rank, Queue& community) {
+  Rank& self = *ranks_[rank];
+  if (self.community == &community) return;
+  const bool is_due = queue_.contains({self.due, rank});
+  drop(rank);
+  self.community = &community;
+  if (is_due) set_due(rank, self.due);
 }
 
 void World::end(int rank) {

@@ -4,7 +4,8 @@
 // run of a program gives the same times. Among equal times the lower rank is first.
 //
 // Ranks that wait for each other alone (keep_to) are a community: it runs ahead of others until its ranks all wait, so
-// that few communities hold the memory of work in hand. Others meet it at the host, which waits until all have come to
+// that few communities hold the memory of work in hand. Within it, time's order holds, also for those of its ranks that
+// have yet to hear of their common work. Others meet it at the host, which waits until all have come to
 // its time, and in the network, where a message takes the first free stretch whenever it is given.
 #pragma once
 
@@ -105,7 +106,8 @@ class World {
     std::vector<Message> coming;  // a heap, the earliest arrival first
     std::deque<Message> arrived;  // and noted
     std::multiset<double> alarms;
-    Queue* community = nullptr;  // none: it is of no community
+    Queue* community = nullptr;  // with all ranks of its group that are due; none: it is of no group
+    bool runs_ahead = false;     // with the community
     Turn turn;
   };
   struct Block {
@@ -121,12 +123,13 @@ class World {
   bool must_be_ordered() const;
   std::size_t workers_on(int computer) const;
   static void note_arrivals(Rank& self);
-  const Queue& others_of(const Rank& self) const { return self.community == nullptr ? queue_ : *self.community; }
+  const Queue& others_of(const Rank& self) const { return self.runs_ahead ? *self.community : queue_; }
   void let_earlier_run(int rank);
   void pass_turn(int rank);
   int next_rank(const Rank& last);
   int first_after(const Rank& last) const;
   void set_due(int rank, double due);
+  void join(int rank, Queue& community);
   void drop(int rank);
   double floor_at(double now) const;
   double seconds_of(const std::vector<EndCost>& costs, std::size_t length) const;

@@ -8,7 +8,8 @@ namespace {
 
 class NodeCounter : public forecast::Counter {
  public:
-  explicit NodeCounter(const wire::PackedFilm& film) : counter_(film, simd::best_instruction_set("")) {}
+  NodeCounter(const wire::PackedFilm& film, forecast::Lines lines)
+      : counter_(film, simd::best_instruction_set(""), lines == forecast::Lines::all) {}
 
   wire::FrameCounts count_keyframe(const farm::Task& task) override {
     return counter_.count_keyframe(task.interval, task.frames);
@@ -21,8 +22,8 @@ class NodeCounter : public forecast::Counter {
 
 }  // namespace
 
-std::unique_ptr<forecast::Counter> make_node_counter(const wire::PackedFilm& film) {
-  return std::make_unique<NodeCounter>(film);
+std::unique_ptr<forecast::Counter> make_node_counter(const wire::PackedFilm& film, forecast::Lines lines) {
+  return std::make_unique<NodeCounter>(film, lines);
 }
 
 }  // namespace mars::programs

@@ -5,6 +5,6 @@
 
 namespace mars::programs {
 
-std::unique_ptr<forecast::Counter> make_node_counter(const wire::PackedFilm& film);
+std::unique_ptr<forecast::Counter> make_node_counter(const wire::PackedFilm& film, forecast::Lines lines);
 
 }  // namespace mars::programs

@@ -12,10 +12,6 @@
 
 namespace mars::wire {
 
-// Patches and meshlets of a frame are counted in this number of shares, by their number modulo it: a node of a group of
-// 1, 2, 4 ... makes the triangles of whole shares.
-inline constexpr std::uint32_t kCountedShares = 64;
-
 // Units of a node's work by kind.
 struct UnitCounts {
   std::array<double, kNodeKinds> units{};
@@ -33,15 +29,17 @@ struct SeenCounts {
   double facets = 0;        // and of rough surfaces
   double block_pixels = 0;  // of the compositor's blocks on this line, where the pixels do not fill them
   double points = 0;        // of casting lights without size, which samples put on their grids
+  double kept_groups = 0;   // of those shaded, in columns that are kept for inbetweens
 
   SeenCounts& operator+=(const SeenCounts& more) {
     pixels += more.pixels, runs += more.runs, shaded += more.shaded, highlights += more.highlights;
     facets += more.facets, block_pixels += more.block_pixels, points += more.points;
+    kept_groups += more.kept_groups;
     return *this;
   }
   SeenCounts operator*(double part) const {
     return {pixels * part, runs * part,         shaded * part, highlights * part,
-            facets * part, block_pixels * part, points * part};
+            facets * part, block_pixels * part, points * part, kept_groups * part};
   }
 };
 
@@ -75,12 +73,34 @@ struct CasterCounts {
   double triangles;     // set up on grids
 };
 
+// The triangles of one patch or meshlet on a line.
+struct SurfaceLine {
+  std::uint32_t edge_boxes = 0;
+  std::uint32_t begin = 0;  // triangles whose first edge box is here
+  std::uint32_t go_on = 0;  // triangles with edge boxes before, and here or behind
+};
+
+// A patch or meshlet that nodes make triangles of, of which the camera may see some.
+struct MadeSurface {
+  std::uint32_t number = 0;  // of all patches and meshlets: of n nodes, node `number` modulo n makes it
+  std::uint32_t is_meshlet = 0;
+  std::uint32_t vertices = 0;
+  std::uint32_t triangles_tested = 0;
+  std::uint32_t colored = 0;  // vertices and flat triangles that are shaded
+  std::uint32_t triangles = 0;
+  std::uint32_t edge_boxes = 0;
+  std::uint32_t first_line = 0;  // with edge boxes
+  std::uint32_t lines = 0;
+};
+
 struct FrameCounts {
   FrameKind kind = FrameKind::keyframe;
   std::uint32_t frame = 0;
-  std::vector<UnitCounts> shares;      // kCountedShares: what triangles take; an inbetween's of moving parts only
-  std::vector<LineCounts> lines;       // of the picture
-  std::uint32_t first_still_line = 0;  // of those that inbetweens may touch (keyframes)
+  UnitCounts made;                         // what triangles take; an inbetween's of moving parts only
+  std::vector<MadeSurface> surfaces;       // of a keyframe
+  std::vector<SurfaceLine> surface_lines;  // of one surface after the other
+  std::vector<LineCounts> lines;           // of the picture
+  std::uint32_t first_still_line = 0;      // of those that inbetweens may touch (keyframes)
   std::uint32_t last_still_line = 0;
   std::vector<CasterCounts> casters;
   double kept_points = 0;  // of still parts, that an inbetween's moving casters may block

@@ -12,6 +12,8 @@ class Computers {
   Computers(const simulated::Machine& machine, int nodes);
 
   int count() const { return (nodes_ + machine_.nodes - 1) / machine_.nodes; }
+  // Nodes, but on the last.
+  int nodes_on_each() const { return machine_.nodes; }
   // Of a node, or of the host, whose rank is the number of nodes.
   int of(int rank) const;
   // When a rank has done work that it begins now. Ranks with a processor each never wait for one.

@@ -19,6 +19,9 @@ class Counter {
   virtual wire::FrameCounts count_inbetween(std::uint32_t frame) = 0;
 };
 
-using MakeCounter = std::function<std::unique_ptr<Counter>(const wire::PackedFilm& film)>;
+// How many lines of a frame are drawn to find what they show.
+enum class Lines { some, all };
+
+using MakeCounter = std::function<std::unique_ptr<Counter>(const wire::PackedFilm& film, Lines lines)>;
 
 }  // namespace mars::forecast

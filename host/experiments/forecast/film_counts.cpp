@@ -1,7 +1,12 @@
 #include "host/experiments/forecast/film_counts.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <future>
+#include <mutex>
+#include <optional>
+#include <utility>
 
 #include "host/images/picture_bands.h"
 
@@ -99,7 +104,7 @@ void FilmCount::count_first() {
 }
 
 void FilmCount::count_keyframe(std::size_t task) {
-  counts_.keyframes.push_back(counter_.count_keyframe(tasks_[task]));
+  counts_.add_keyframe(counter_.count_keyframe(tasks_[task]));
   counted_tasks_.push_back(task);
   ++counts_.counted;
 }
@@ -150,7 +155,88 @@ void FilmCount::estimate(std::size_t task) {
   counts_.tasks.push_back(std::move(counts));
 }
 
+// Each counter takes the next task; what it counted is added in the order of tasks.
+class ExactCount {
+ public:
+  ExactCount(std::span<const farm::Task> tasks, std::uint32_t band_lines, const CountProgress& progress)
+      : tasks_(tasks), band_lines_(band_lines), progress_(progress), counted_(tasks.size()) {
+    for (const farm::Task& task : tasks) frames_ += task.frames.size();
+  }
+
+  void run(Counter& counter) try {
+    while (const auto task = next()) count(*task, counter);
+  } catch (...) {
+    next_ = tasks_.size();  // others need not go on
+    throw;
+  }
+
+  FilmCounts take() {
+    counts_.is_exact = true;
+    return std::move(counts_);
+  }
+
+ private:
+  struct Counted {
+    std::optional<wire::FrameCounts> keyframe;
+    std::vector<FrameTotals> inbetweens;
+  };
+
+  std::optional<std::size_t> next() {
+    const std::size_t task = next_++;
+    return task < tasks_.size() ? std::optional(task) : std::nullopt;
+  }
+
+  void count(std::size_t number, Counter& counter) {
+    const farm::Task& task = tasks_[number];
+    Counted counted;
+    counted.keyframe = counter.count_keyframe(task);
+    note_frame();
+    for (const std::uint32_t frame : std::span(task.frames).subspan(1)) {
+      counted.inbetweens.push_back(totals_of(counter.count_inbetween(frame), band_lines_));
+      note_frame();
+    }
+    add(number, std::move(counted));
+  }
+
+  void note_frame() {
+    const std::lock_guard lock(mutex_);
+    ++counts_.counted;
+    if (progress_) progress_(counts_.counted, frames_);
+  }
+
+  void add(std::size_t number, Counted counted) {
+    const std::lock_guard lock(mutex_);
+    counted_[number] = std::move(counted);
+    for (; added_ < tasks_.size() && counted_[added_].keyframe; ++added_) {
+      Counted next = std::exchange(counted_[added_], {});
+      counts_.tasks.push_back({counts_.keyframes.size(), std::move(next.inbetweens)});
+      counts_.add_keyframe(*std::move(next.keyframe));
+    }
+  }
+
+  const std::span<const farm::Task> tasks_;
+  const std::uint32_t band_lines_;
+  const CountProgress& progress_;
+  std::size_t frames_ = 0;
+  std::atomic<std::size_t> next_ = 0;
+  std::mutex mutex_;
+  std::vector<Counted> counted_;  // by task, and not added yet
+  std::size_t added_ = 0;         // tasks
+  FilmCounts counts_;
+};
+
 }  // namespace
+
+void FilmCounts::add_keyframe(wire::FrameCounts counts) {
+  KeyframeCounts& keyframe = keyframes.emplace_back(KeyframeCounts{std::move(counts), {}});
+  std::span<const wire::SurfaceLine> lines = keyframe.surface_lines;
+  for (const wire::MadeSurface& surface : keyframe.surfaces) {
+    keyframe.placed.push_back({surface.number, surfaces.add(surface, lines.first(surface.lines))});
+    lines = lines.subspan(surface.lines);
+  }
+  keyframe.surfaces = {};
+  keyframe.surface_lines = {};
+}
 
 wire::UnitCounts operator+(wire::UnitCounts a, const wire::UnitCounts& b) {
   for (std::size_t kind = 0; kind < a.units.size(); ++kind) a.units[kind] += b.units[kind];
@@ -241,7 +327,7 @@ FrameTotals totals_on(const wire::FrameCounts& counts, std::uint32_t first_line,
 
 FrameTotals totals_of(const wire::FrameCounts& counts, std::uint32_t band_lines) {
   FrameTotals totals = totals_on(counts, 0, static_cast<std::uint32_t>(counts.lines.size()), band_lines);
-  for (const wire::UnitCounts& share : counts.shares) totals.made = totals.made + share;
+  totals.made = counts.made;
   totals.kept_points = counts.kept_points;
   return totals;
 }
@@ -250,6 +336,18 @@ FilmCounts count_film(const wire::PackedFilm& film, std::span<const farm::Task> 
                       const Budget& budget, images::PictureFormat format) {
   const images::PictureBands bands(format, film.settings().width, film.settings().height);
   return FilmCount(film, tasks, counter, bands.lines_a_band()).count(budget);
+}
+
+FilmCounts count_exactly(const wire::PackedFilm& film, std::span<const farm::Task> tasks, const MakeCounter& make,
+                         images::PictureFormat format, int counters, const CountProgress& progress) {
+  const images::PictureBands bands(format, film.settings().width, film.settings().height);
+  ExactCount count(tasks, bands.lines_a_band(), progress);
+  std::vector<std::future<void>> others;
+  for (int other = 1; other < counters; ++other)
+    others.push_back(std::async(std::launch::async, [&] { count.run(*make(film, Lines::all)); }));
+  count.run(*make(film, Lines::all));
+  for (std::future<void>& other : others) other.get();
+  return count.take();
 }
 
 }  // namespace mars::forecast

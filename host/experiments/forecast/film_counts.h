@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
 #include "host/experiments/forecast/counter.h"
+#include "host/experiments/forecast/surface_table.h"
 #include "host/images/picture_format.h"
 
 namespace mars::forecast {
@@ -40,10 +42,19 @@ struct TaskCounts {
   std::vector<FrameTotals> inbetweens;  // of each
 };
 
+// Its own surfaces are in the film's table.
+struct KeyframeCounts : wire::FrameCounts {
+  std::vector<PlacedSurface> placed;
+};
+
 struct FilmCounts {
-  std::vector<wire::FrameCounts> keyframes;  // that were counted
+  std::vector<KeyframeCounts> keyframes;  // that were counted
+  SurfaceTable surfaces;                  // of all of them
   std::vector<TaskCounts> tasks;
   std::size_t counted = 0;  // frames
+  bool is_exact = false;    // all frames, and what they show on all lines
+
+  void add_keyframe(wire::FrameCounts counts);
 };
 
 // What counting may take, by the work that it does: so that the same frames are counted every time.
@@ -56,5 +67,10 @@ struct Budget {
 // For pictures of that format.
 FilmCounts count_film(const wire::PackedFilm& film, std::span<const farm::Task> tasks, Counter& counter,
                       const Budget& budget, images::PictureFormat format);
+
+// Of all frames exactly, by that many counters at a time, each of which may take a gigabyte.
+using CountProgress = std::function<void(std::size_t frames, std::size_t of_all)>;
+FilmCounts count_exactly(const wire::PackedFilm& film, std::span<const farm::Task> tasks, const MakeCounter& make,
+                         images::PictureFormat format, int counters, const CountProgress& progress);
 
 }  // namespace mars::forecast

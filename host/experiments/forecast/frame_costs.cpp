@@ -1,57 +1,76 @@
 #include "host/experiments/forecast/frame_costs.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <numeric>
 #include <span>
+#include <utility>
 
-#include "hal/messages/message_types.h"
 #include "host/images/picture_bands.h"
-#include "node/wire/protocol.h"
 
 namespace mars::forecast {
 namespace {
 
 using wire::Work;
 
-// As nodes have them in memory and send them (node/geometry/triangle.h, node/raster/edge_box.h).
-constexpr double kTriangleBytes = 64, kUnsortedBoxBytes = 12, kBoxBytes = 8;
 constexpr double kFullStrip = 512 << 10;  // node/raster/strip_buffer.cpp
-constexpr double kShortSum = 64 << 10;    // hal/collectives/reduction.cpp
+constexpr double kBandHead = 80;          // host/render/composer/band_record.h
 
-// What each of `nodes` nodes makes: whole shares where these divide evenly, else equal parts of several.
-std::vector<wire::UnitCounts> made_by(const std::vector<wire::UnitCounts>& shares, int nodes) {
-  std::vector<wire::UnitCounts> made(static_cast<std::size_t>(nodes));
-  // Numbers that are `share` modulo the number of shares are on nodes that are the same modulo `step`.
-  const std::size_t step = std::gcd(shares.size(), made.size());
-  const double part = static_cast<double>(step) / static_cast<double>(nodes);
-  for (std::size_t node = 0; node < made.size(); ++node)
-    for (std::size_t share = node % step; share < shares.size(); share += step)
-      made[node] = made[node] + shares[share] * part;
-  return made;
+// Home of each line.
+std::vector<int> homes_of_lines(const std::vector<geometry::LineRange>& ranges, std::size_t height) {
+  std::vector<int> homes(height);
+  for (std::size_t node = 0; node < ranges.size(); ++node)
+    for (std::uint32_t line = ranges[node].first; line < ranges[node].last; ++line)
+      homes[line] = static_cast<int>(node);
+  return homes;
 }
 
-// Patches are not divided: a node that makes any of them makes whole ones.
-wire::UnitCounts in_whole_patches(const wire::UnitCounts& made) {
-  const double patches = made[Work::patch] + made[Work::meshlet];
-  return patches > 0 ? made * (std::ceil(patches - 1e-6) / patches) : made;
-}
+// What one node has for each home.
+class ParcelSums {
+ public:
+  explicit ParcelSums(std::size_t homes) : of_(homes) {}
 
-// Bytes on the way until a computer has what all others send it. All send to the first computer first, so that the
-// port of whoever sends `most` to each is busy with the computers before.
-double bytes_until(std::size_t computer, double in, double most) {
-  return in + most * static_cast<double>(std::max<std::size_t>(computer, 1) - 1);
+  void add(const wire::MadeSurface& surface, std::span<const wire::SurfaceLine> lines, const std::vector<int>& homes) {
+    int home = -1;
+    for (std::uint32_t i = 0; i < lines.size(); ++i) {
+      const wire::SurfaceLine& line = lines[i];
+      const bool enters = std::exchange(home, homes[surface.first_line + i]) != homes[surface.first_line + i];
+      Parcel& parcel = of_[static_cast<std::size_t>(home)];
+      if (parcel.edge_boxes == 0 && line.edge_boxes > 0) touched_.push_back(home);
+      parcel.edge_boxes += line.edge_boxes;
+      parcel.triangles += line.begin + (enters ? line.go_on : 0);
+    }
+  }
+
+  // Leaves none.
+  std::vector<Parcel> take() {
+    std::vector<Parcel> parcels;
+    for (const int home : std::exchange(touched_, {})) {
+      Parcel& parcel = of_[static_cast<std::size_t>(home)];
+      parcels.push_back({home, parcel.edge_boxes, parcel.triangles});
+      parcel = {};
+    }
+    return parcels;
+  }
+
+ private:
+  std::vector<Parcel> of_;    // by home
+  std::vector<int> touched_;  // homes
+};
+
+// Each of the nodes does the mean of what all do.
+template <typename Nodes, typename Of>
+void even_out(const Nodes& nodes, const Of& seconds_of) {
+  double all = 0;
+  for (auto& node : nodes) all += seconds_of(node);
+  for (auto& node : nodes) seconds_of(node) = all / static_cast<double>(nodes.size());
 }
 
 }  // namespace
 
 // The lines of each node of a group, and what is on them.
 struct FrameCosts::Homes {
-  Homes(const wire::FrameCounts& counts, int nodes, int contributors, wire::Mapping mapping, std::uint32_t samples,
-        std::uint32_t band_lines)
+  Homes(const wire::FrameCounts& counts, int nodes, int contributors, wire::Mapping mapping, std::uint32_t band_lines)
       : ranges(static_cast<std::size_t>(nodes), geometry::LineRange{0, 0}) {
-    const FrameTotals all = totals_of(counts, band_lines);
     std::vector<std::uint64_t> weights{0};
     for (const wire::LineCounts& line : counts.lines) {
       const raster::LineLoad load(static_cast<std::uint64_t>(line.edge_boxes),
@@ -59,21 +78,14 @@ struct FrameCosts::Homes {
       weights.push_back(weights.back() + (mapping == wire::Mapping::cost ? group::line_cost(load) : load.boxes()));
     }
     group::map_lines(mapping, weights, std::span(ranges).first(static_cast<std::size_t>(contributors)));
-    edge_boxes = all.drawn.edge_boxes;
-    const double rows =
-        all.made[Work::triangle] > 0 ? edge_boxes / all.made[Work::triangle] : 1;  // of samples, of a triangle
-    const double taller = std::max(0.0, rows / samples - 1);                       // in lines
-    for (const geometry::LineRange& range : ranges) {
+    const auto height = static_cast<std::uint32_t>(counts.lines.size());
+    std::fill(ranges.begin() + contributors, ranges.end(), geometry::LineRange{height, height});
+    for (const geometry::LineRange& range : ranges)
       totals.push_back(totals_on(counts, range.first, range.last, band_lines));
-      const double boxes = totals.back().drawn.edge_boxes;
-      triangles.push_back(std::min(boxes, boxes / rows * (1 + taller / std::max(1u, range.count()))));
-    }
   }
 
   std::vector<geometry::LineRange> ranges;
   std::vector<FrameTotals> totals;
-  std::vector<double> triangles;  // with an edge box there
-  double edge_boxes;              // on all
 };
 
 FrameCosts::FrameCosts(const Setting& setting, int nodes)
@@ -85,30 +97,76 @@ FrameCosts::FrameCosts(const Setting& setting, int nodes)
       band_lines_(images::PictureBands(setting.picture, setting.film.settings().width, setting.film.settings().height)
                       .lines_a_band()) {}
 
-GroupKeyframe FrameCosts::keyframe(const wire::FrameCounts& counts, int nodes, int contributors,
-                                   std::size_t inbetweens) const {
+// Of each of `nodes`, whole patches and meshlets.
+std::vector<wire::UnitCounts> FrameCosts::made_by(const KeyframeCounts& counts, const SurfaceTable& surfaces,
+                                                  int nodes) const {
+  std::vector<wire::UnitCounts> made(static_cast<std::size_t>(nodes));
+  const auto samples = static_cast<double>(setting_.film.settings().samples);
+  const auto lights = static_cast<double>(setting_.film.light_tracks().size());
+  for (const PlacedSurface& placed : counts.placed) {
+    const wire::MadeSurface& surface = surfaces[placed.surface];
+    wire::UnitCounts& units = made[placed.number % made.size()];
+    units[surface.is_meshlet != 0 ? Work::meshlet : Work::patch] += 1;
+    units[surface.is_meshlet != 0 ? Work::mesh_vertex : Work::vertex] += surface.vertices;
+    units[Work::triangle_tested] += surface.triangles_tested;
+    units[Work::row_tested] += surface.triangles_tested * samples;
+    units[Work::triangle] += surface.triangles;
+    units[Work::edge_box_made] += surface.edge_boxes;
+    units[Work::vertex_light] += surface.colored * lights;
+  }
+  return made;
+}
+
+GroupKeyframe FrameCosts::keyframe(const KeyframeCounts& counts, const SurfaceTable& surfaces,
+                                   const KeyframeGroup& group) const {
   GroupKeyframe keyframe;
-  keyframe.nodes.resize(static_cast<std::size_t>(nodes));
-  auto made = made_by(counts.shares, contributors);
+  keyframe.nodes.resize(static_cast<std::size_t>(group.count()));
+  auto made = made_by(counts, surfaces, group.contributors);
   made.resize(keyframe.nodes.size());
-  const Homes homes(counts, nodes, contributors, setting_.mapping, setting_.film.settings().samples, band_lines_);
+  const Homes homes(counts, group.count(), group.contributors, setting_.mapping, band_lines_);
   add_dicing(keyframe, homes, made);
-  if (nodes > 1) add_sum(keyframe, nodes);
-  if (contributors > nodes_on_a_computer(nodes)) add_exchange(keyframe, homes, made, contributors);
+  if (group.count() > 1) keyframe.sum = sum_steps(group.count(), 8 * (height() + 2));
+  if (group.contributors > nodes_on_a_computer(group.count())) add_exchange(keyframe, homes, counts, surfaces, group);
   for (std::size_t n = 0; n < made.size(); ++n) {
     NodePart& node = keyframe.nodes[n];
     node.memory = std::min(node.memory, arena_bytes());
     node.strips = strips(homes.totals[n], keyframe_drawing(homes.totals[n], counts, homes.ranges[n]) +
-                                              casting(homes.totals[n], counts, homes.ranges[n], contributors));
-    node.compose = pasting(homes.totals[n]) + encoding(homes.ranges[n].count() + homes.totals[n].changed);
-    if (inbetweens > 0) node.strips.pasting += saving(homes.totals[n]);
-    if (n >= static_cast<std::size_t>(contributors)) node.strips = {0, 0, 0, 0};
+                                              casting(homes.totals[n], counts, homes.ranges[n], group.contributors));
+    node.compose = pasting(homes.totals[n]);
+    if (group.has_inbetweens()) node.strips.pasting += saving(homes.totals[n]);
+    if (n >= static_cast<std::size_t>(group.contributors)) node.strips = {0, 0, 0, 0};
   }
-  if (inbetweens > 0) add_still(keyframe, homes, counts, inbetweens);
-  if (setting_.nodes_write()) add_bands(keyframe, homes, counts, contributors, inbetweens);
-  leave_out_free_messages(keyframe);
-  if (setting_.even.keyframes) even_out(keyframe, static_cast<std::size_t>(contributors));
+  keyframe.homes = homes.ranges;
+  if (setting_.even.keyframes) {
+    const auto contribute = std::span(keyframe.nodes).first(static_cast<std::size_t>(group.contributors));
+    even_out(contribute, [](NodePart& node) -> double& { return node.dice; });
+    even_out(contribute, [](NodePart& node) -> double& { return node.strips.seconds; });
+    even_out(contribute, [](NodePart& node) -> double& { return node.compose; });
+  }
   return keyframe;
+}
+
+// CZB, and with several samples shaded groups, of what inbetweens may change. Of bands those of what stands still, with
+// pixels where inbetweens may draw, and those of the keyframe to the node that writes it.
+KeyframeGifts FrameCosts::gifts(const GroupKeyframe& keyframe, const wire::FrameCounts& counts,
+                                const KeyframeGroup& group) const {
+  KeyframeGifts gifts;
+  const bool has_inbetweens = group.has_inbetweens();
+  if (group.count() > 1 && has_inbetweens) {
+    std::vector<std::vector<double>> messages;
+    for (const geometry::LineRange& home : keyframe.homes) messages.push_back(still_messages(home, counts));
+    gifts.still = still_steps(machines_of(group), messages);
+  }
+  if (setting_.nodes_write()) {
+    std::vector<NodeBands> bands;
+    for (std::size_t node = 0; node < keyframe.homes.size(); ++node)
+      bands.push_back(bands_of(keyframe.homes, node, counts, has_inbetweens));
+    if (setting_.even.keyframes)
+      even_out(std::span(bands).first(static_cast<std::size_t>(group.contributors)),
+               [](NodeBands& node) -> double& { return node.encoding; });
+    gifts.bands = band_steps(machines_of(group), bands, group.writer);
+  }
+  return gifts;
 }
 
 NodePart FrameCosts::inbetween(const FrameTotals& totals, const FrameTotals& again) const {
@@ -118,11 +176,12 @@ NodePart FrameCosts::inbetween(const FrameTotals& totals, const FrameTotals& aga
   units[Work::still_byte] = totals.drawn.moving_width * setting_.film.settings().samples * sizeof(float);
   NodePart part;
   part.dice = dicing(made) + setting_up(made) + costs_.of(Work::edge_box_filled, made[Work::edge_box_made]);
-  part.exchange = costs_.of(Work::line_mapped, height());
+  part.map = costs_.of(Work::line_mapped, height());
   part.strips = strips(totals, costs_.of(units) + costs_.of(totals.casters));
   part.compose = pasting(totals) + encoding(totals.changed);
   part.strips.pasting += costs_.of(Work::host_restored, totals.drawn.moving.block_pixels * pixel_bytes());
-  part.memory = part.made_memory = std::min(arena_bytes(), made_bytes(made));
+  part.memory = std::min(arena_bytes(), made_bytes(made));
+  part.made_memory = std::min(arena_bytes(), fresh_bytes(made));
   return part;
 }
 
@@ -179,7 +238,11 @@ FrameTotals FrameCosts::drawn_again(const wire::FrameCounts& keyframe, int nodes
 }
 
 double FrameCosts::still_bytes(const wire::FrameCounts& keyframe, int nodes) const {
-  return still_lines({0, setting_.film.settings().height}, keyframe, still_plan(nodes)).bytes;
+  const wire::StillPlan plan = still_plan(nodes);
+  double bytes = 0;
+  for (std::uint32_t line = keyframe.first_still_line; line < keyframe.last_still_line; ++line)
+    if (is_kept(keyframe, line, plan)) bytes += packed_bytes(keyframe.lines[line]);
+  return bytes;
 }
 
 // A line is kept where it has memory for its groups (node/raster/still_lines.h).
@@ -187,20 +250,26 @@ bool FrameCosts::is_kept(const wire::FrameCounts& keyframe, std::uint32_t line, 
   const wire::FilmSettings& film = setting_.film.settings();
   if (plan.groups_per_column == 0) return true;
   return line - keyframe.first_still_line < plan.lines &&
-         kept_groups(keyframe.lines[line]) <= static_cast<double>(film.width) * plan.groups_per_column;
+         keyframe.lines[line].constant.kept_groups <= static_cast<double>(film.width) * plan.groups_per_column;
 }
 
-// As evenly over a line's columns as what is seen there.
-double FrameCosts::kept_groups(const wire::LineCounts& line) const {
-  return line.constant.shaded * line.kept_width / setting_.film.settings().width;
+// Whether lines have groups, each of which then travels by itself (node/group/still_exchange.h).
+bool FrameCosts::has_groups() const {
+  return setting_.film.settings().samples > 1 || setting_.film.casting_count() > 0;
+}
+
+// Of a line that is kept, as it travels.
+double FrameCosts::packed_bytes(const wire::LineCounts& line) const {
+  return kept_bytes(line) +
+         (has_groups() ? static_cast<double>(wire::still_head_bytes(setting_.film.settings().width)) : 0);
 }
 
 // Of a line that is kept.
 double FrameCosts::kept_bytes(const wire::LineCounts& line) const {
   const std::uint32_t samples = setting_.film.settings().samples, casting = setting_.film.casting_count();
-  if (samples == 1 && casting == 0) return line.kept_width * sizeof(float);
+  if (!has_groups()) return line.kept_width * sizeof(float);
   return line.kept_width * static_cast<double>(wire::still_column_bytes(samples, casting)) +
-         kept_groups(line) * static_cast<double>(wire::still_group_bytes(casting));
+         line.constant.kept_groups * static_cast<double>(wire::still_group_bytes(casting));
 }
 
 wire::StillPlan FrameCosts::still_plan(int nodes) const {
@@ -308,6 +377,12 @@ double FrameCosts::made_bytes(const wire::UnitCounts& made) const {
          3 * 8 * height();
 }
 
+// Nodes count as fresh what triangles take as they are made.
+double FrameCosts::fresh_bytes(const wire::UnitCounts& made) const {
+  return static_cast<double>(kTriangleBytes) * made[Work::triangle] +
+         static_cast<double>(kUnsortedBoxBytes) * made[Work::edge_box_made];
+}
+
 // As node/group/passes.h bounds them.
 double FrameCosts::passes(const wire::UnitCounts& made, double home_boxes, bool travels) const {
   const double a_box = kTriangleBytes + kUnsortedBoxBytes;
@@ -326,179 +401,98 @@ void FrameCosts::add_dicing(GroupKeyframe& keyframe, const Homes& homes,
   for (std::size_t n = 0; n < made.size(); ++n)
     most = std::max(most, passes(made[n], homes.totals[n].drawn.edge_boxes, travels));
   for (std::size_t n = 0; n < made.size(); ++n) {
-    const wire::UnitCounts whole = in_whole_patches(made[n]);
-    const double once = setting_up(whole);
-    const double filled = costs_.of(Work::edge_box_filled, whole[Work::edge_box_made]);
-    keyframe.nodes[n].dice = dicing(whole) + once + filled;
-    if (most > 1) keyframe.nodes[n].dice += most * dicing(whole) + once;
-    keyframe.nodes[n].exchange = costs_.of(Work::line_mapped, height());
+    const double once = setting_up(made[n]);
+    const double filled = costs_.of(Work::edge_box_filled, made[n][Work::edge_box_made]);
+    keyframe.nodes[n].dice = dicing(made[n]) + once + filled;
+    if (most > 1) keyframe.nodes[n].dice += most * dicing(made[n]) + once;
+    keyframe.nodes[n].map = costs_.of(Work::line_mapped, height());
     keyframe.nodes[n].memory = made_bytes(made[n]);
-    keyframe.nodes[n].made_memory = std::min(arena_bytes(), made_bytes(made[n]));
+    keyframe.nodes[n].made_memory = std::min(arena_bytes(), fresh_bytes(made[n]));
   }
 }
 
-// Across each dimension of the group's hypercube (hal/collectives/reduction.cpp).
-void FrameCosts::add_sum(GroupKeyframe& keyframe, int nodes) const {
-  const double bytes = 8 * (height() + 2);
-  const int corners = static_cast<int>(std::bit_floor(static_cast<unsigned>(nodes)));
-  const bool halves = bytes >= kShortSum && corners >= 4;
-  double sent = 0;
-  const auto exchange = [&](double so_many, bool same_computer) {
-    keyframe.sum += costs_.to_send(so_many) + costs_.on_the_way(so_many, same_computer) + costs_.to_receive(so_many);
-    sent += so_many;
-  };
-  double part = bytes;
-  for (int bit = 1; bit < corners; bit *= 2) {
-    const bool near = 2 * bit <= nodes_on_a_computer(nodes);
-    if (halves) part /= 2, exchange(part, near);
-    exchange(halves ? part : bytes, near);
+// To homes on other computers.
+void FrameCosts::add_exchange(GroupKeyframe& keyframe, const Homes& homes, const KeyframeCounts& counts,
+                              const SurfaceTable& surfaces, const KeyframeGroup& group) const {
+  const auto nodes = static_cast<std::size_t>(group.contributors);
+  const Machines machines = machines_of(group);
+  const std::vector<int> home_of = homes_of_lines(homes.ranges, counts.lines.size());
+  std::vector<std::vector<PlacedSurface>> by_node(nodes);
+  for (const PlacedSurface& placed : counts.placed) by_node[placed.number % nodes].push_back(placed);
+  ParcelSums sums(nodes);
+  std::vector<std::vector<Parcel>> parcels(keyframe.nodes.size());
+  std::vector<double> travelling(nodes), boxes_in(nodes);
+  for (std::size_t n = 0; n < nodes; ++n) {
+    for (const PlacedSurface& placed : by_node[n])
+      sums.add(surfaces[placed.surface], surfaces.lines(placed.surface), home_of);
+    parcels[n] = sums.take();
+    std::erase_if(parcels[n], [&](const Parcel& to) { return machines.are_together(static_cast<int>(n), to.home); });
+    for (const Parcel& parcel : parcels[n]) {
+      const auto home = static_cast<std::size_t>(parcel.home);
+      travelling[n] += static_cast<double>(parcel.edge_boxes * (kUnsortedBoxBytes + kTriangleBytes));
+      travelling[home] += parcel.bytes();
+      boxes_in[home] += static_cast<double>(parcel.edge_boxes);
+    }
   }
-  if (corners < nodes)
-    for (int way = 0; way < 2; ++way) exchange(bytes, false);
-  for (NodePart& node : keyframe.nodes) node.bytes_to_nodes += sent;
-}
-
-// To homes on other computers. Each node has a part of what is on any home.
-void FrameCosts::add_exchange(GroupKeyframe& keyframe, const Homes& homes, const std::vector<wire::UnitCounts>& made,
-                              int contributors) const {
-  const auto nodes = static_cast<std::size_t>(contributors);
-  const double far =
-      1 - static_cast<double>(nodes_on_a_computer(static_cast<int>(made.size()))) / static_cast<double>(nodes);
-  double home_messages = 0, home_bytes = 0;  // that one node sends, if it has an equal part of all
-  std::vector<double> parcels(nodes), bytes(nodes);
-  for (std::size_t h = 0; h < nodes; ++h) {
-    const double each = 1 / static_cast<double>(nodes);
-    parcels[h] = 1 - std::exp(-homes.triangles[h] * each);
-    bytes[h] = each * (homes.totals[h].drawn.edge_boxes * kUnsortedBoxBytes + homes.triangles[h] * kTriangleBytes) +
-               parcels[h] * 96;
-    home_messages += parcels[h] * far;
-    home_bytes += bytes[h] * far;
-  }
+  keyframe.triangles = triangle_steps(parcels, costs_.of(Work::edge_box_filled, 1));
   for (std::size_t n = 0; n < nodes; ++n) {
     NodePart& node = keyframe.nodes[n];
-    const double part =
-        homes.edge_boxes > 0 ? made[n][Work::edge_box_made] / homes.edge_boxes * static_cast<double>(nodes) : 0;
-    const double out = home_bytes * part, messages_out = home_messages;
-    const double in = bytes[n] * static_cast<double>(nodes) * far;
-    const double messages_in = parcels[n] * static_cast<double>(nodes) * far;
-    const double boxes_in = homes.totals[n].drawn.edge_boxes * far;
-    const bool takes_time = costs_.takes_time(wire::kTriangles);
-    const auto ends = [&](double messages, double all, const auto& cost) {
-      return takes_time && messages > 0 ? messages * cost(all / messages) : 0;
-    };
-    node.exchange += ends(messages_out, out, [&](double b) { return costs_.to_send(b); }) +
-                     ends(messages_in, in, [&](double b) { return costs_.to_receive(b); }) +
-                     costs_.of(Work::edge_box_filled, boxes_in);
-    node.exchange_wait = takes_time ? costs_.on_the_way(std::max(in, out), false) : 0;
-    node.bytes_to_nodes += out;
-    const double travelling = made[n][Work::edge_box_made] * far * (kUnsortedBoxBytes + kTriangleBytes) + in;
-    const double in_pass = (node.memory + travelling + boxes_in * kBoxBytes) / keyframe.passes;
+    const double in_pass = (node.memory + travelling[n] + boxes_in[n] * kBoxBytes) / keyframe.passes;
     node.memory = std::max(keyframe.passes > 1 ? std::min(arena_bytes(), node.memory) : 0, in_pass);
   }
 }
 
-// CZB, and with several samples shaded groups, of what inbetweens may change: to all other computers that
-// draw inbetweens.
-void FrameCosts::add_still(GroupKeyframe& keyframe, const Homes& homes, const wire::FrameCounts& counts,
-                           std::size_t inbetweens) const {
-  const auto nodes = keyframe.nodes.size();
-  const auto near = static_cast<std::size_t>(nodes_on_a_computer(static_cast<int>(nodes)));
-  const std::size_t computers = (nodes + near - 1) / near, collecting = std::min(computers, inbetweens);
-  if (computers == 1) return;
-  double all_bytes = 0, all_messages = 0, most = 0;
-  std::vector<StillLines> still(nodes);
-  for (std::size_t n = 0; n < nodes; ++n) {
-    still[n] = still_lines(homes.ranges[n], counts, still_plan(1));
-    all_bytes += still[n].bytes, all_messages += still[n].messages;
-    most = std::max(most, still[n].bytes);
-  }
-  for (std::size_t n = 0; n < nodes; ++n) {
-    NodePart& node = keyframe.nodes[n];
-    const std::size_t computer = n / near;
-    const auto receivers = static_cast<double>(collecting - (computer < collecting ? 1 : 0));
-    const auto& [bytes, messages] = still[n];
-    if (messages > 0) node.still += receivers * messages * costs_.to_send(bytes / messages);
-    node.bytes_to_nodes += receivers * bytes;
-    if (computer >= collecting || n % near != 0 || all_messages <= messages) continue;
-    const double in = all_bytes - bytes, messages_in = all_messages - messages;
-    node.still += messages_in * costs_.to_receive(in / messages_in);
-    node.still_wait = costs_.on_the_way(bytes_until(computer, in, most), false);
-  }
+Machines FrameCosts::machines_of(const KeyframeGroup& group) const {
+  return Machines(group.nodes.first, setting_.platform.machine.nodes, group.draws);
 }
 
-// Bands of what stands still to all other computers that draw inbetweens, with pixels where these may draw; bands of
-// the keyframe to the node that writes it, which in the long run each node is as often.
-void FrameCosts::add_bands(GroupKeyframe& keyframe, const Homes& homes, const wire::FrameCounts& counts,
-                           int contributors, std::size_t inbetweens) const {
-  const auto nodes = keyframe.nodes.size();
-  const auto near = static_cast<std::size_t>(nodes_on_a_computer(static_cast<int>(nodes)));
-  const std::size_t computers = (nodes + near - 1) / near, collecting = std::min(computers, inbetweens);
-  const geometry::LineRange touched{counts.first_still_line, counts.last_still_line};
-  const auto picture_bytes = [&](std::size_t n) {
-    return homes.ranges[n].count() * line_bytes() * setting_.platform.file_part;
-  };
-  const auto background_bytes = [&](std::size_t n) {
-    return picture_bytes(n) + geometry::overlap(homes.ranges[n], touched).count() * line_bytes();
-  };
-  double all = 0, most = 0;
-  for (std::size_t n = 0; n < nodes; ++n) {
-    all += background_bytes(n);
-    most = std::max(most, background_bytes(n));
-  }
-  for (std::size_t n = 0; n < nodes; ++n) {
-    NodePart& node = keyframe.nodes[n];
-    const std::size_t computer = n / near;
-    const auto receivers = static_cast<double>(collecting - (computer < collecting ? 1 : 0));
-    if (n < static_cast<std::size_t>(contributors) && nodes > 1) {
-      node.bands += costs_.to_send(picture_bytes(n)) + receivers * costs_.to_send(background_bytes(n));
-      node.bytes_to_nodes += picture_bytes(n) + receivers * background_bytes(n);
-    }
-    if (nodes > 1)  // what one writer receives, by turns
-      node.bands += costs_.to_receive(file_bytes() / static_cast<double>(nodes));
-    if (computer >= collecting || n % near != 0 || computers == 1) continue;
-    const double in = all - background_bytes(n);
-    node.bands += static_cast<double>(nodes - 1) * costs_.to_receive(in / static_cast<double>(nodes - 1));
-    node.bands_wait =
-        costs_.on_the_way(bytes_until(computer, in, most) + file_bytes() / static_cast<double>(nodes), false);
-  }
-}
-
-// Of those on `home`, what a node sends to one computer.
-FrameCosts::StillLines FrameCosts::still_lines(const geometry::LineRange& home, const wire::FrameCounts& counts,
-                                               const wire::StillPlan& plan) const {
-  const wire::FilmSettings& film = setting_.film.settings();
+// Those with lines of `home`.
+std::vector<double> FrameCosts::still_messages(const geometry::LineRange& home, const wire::FrameCounts& counts) const {
   const geometry::LineRange lines = geometry::overlap(home, {counts.first_still_line, counts.last_still_line});
-  const bool groups = film.samples > 1 || setting_.film.casting_count() > 0;
-  StillLines still;
-  still.messages = groups ? lines.count() : std::min(1u, lines.count());
-  for (std::uint32_t line = lines.first; line < lines.last; ++line) {
-    if (!is_kept(counts, line, plan)) continue;
-    still.bytes +=
-        kept_bytes(counts.lines[line]) + (groups ? static_cast<double>(wire::still_head_bytes(film.width)) : 0);
-  }
-  return still;
+  if (lines.count() == 0) return {};
+  const wire::StillPlan plan = still_plan(1);
+  std::vector<double> messages(has_groups() ? lines.count() : 1);
+  for (std::uint32_t i = 0; i < lines.count(); ++i)
+    if (is_kept(counts, lines.first + i, plan))
+      messages[has_groups() ? i : 0] += packed_bytes(counts.lines[lines.first + i]);
+  return messages;
 }
 
-void FrameCosts::leave_out_free_messages(GroupKeyframe& keyframe) const {
-  if (!costs_.takes_time(messages::kFirstInternalType)) keyframe.sum = 0;
-  for (NodePart& node : keyframe.nodes) {
-    if (!costs_.takes_time(wire::kStillLines)) node.still = node.still_wait = 0;
-    if (!costs_.takes_time(wire::kPicture)) node.bands = node.bands_wait = 0;
-  }
-}
-
-// Each of the nodes that contribute does the mean of what all do.
-void FrameCosts::even_out(GroupKeyframe& keyframe, std::size_t contributors) {
-  const auto nodes = std::span(keyframe.nodes).first(contributors);
-  const auto mean = [&](const auto& seconds_of) {
-    double all = 0;
-    for (NodePart& node : nodes) all += seconds_of(node);
-    for (NodePart& node : nodes) seconds_of(node) = all / static_cast<double>(contributors);
+// As programs::CountedWriter has them.
+NodeBands FrameCosts::bands_of(const std::vector<geometry::LineRange>& homes, std::size_t node,
+                               const wire::FrameCounts& counts, bool has_inbetweens) const {
+  const geometry::LineRange& home = homes[node];
+  NodeBands bands;
+  if (home.count() == 0) return bands;
+  const auto height = static_cast<std::uint32_t>(counts.lines.size());
+  // What is seen of moving parts in the node's lines of the band that begins at `first`.
+  const auto is_touched = [&](std::uint32_t first) {
+    const geometry::LineRange own = geometry::overlap(home, {first, std::min(height, first + band_lines_)});
+    const auto lines = std::span(counts.lines).subspan(own.first, own.count());
+    return std::ranges::any_of(lines, [](const wire::LineCounts& line) { return line.moving.pixels > 0; });
   };
-  mean([](NodePart& node) -> double& { return node.dice; });
-  mean([](NodePart& node) -> double& { return node.exchange; });
-  mean([](NodePart& node) -> double& { return node.strips.seconds; });
-  mean([](NodePart& node) -> double& { return node.compose; });
+  if (const std::uint32_t first = home.first / band_lines_ * band_lines_; first < home.first) {
+    const std::uint32_t lines = std::min(home.last, first + band_lines_) - home.first;
+    bands.edge = lines * line_bytes() * (is_touched(first) ? 2 : 1);
+    const auto composer = std::ranges::find_if(homes, [&](const auto& other) { return other.has(first); });
+    bands.composer = static_cast<int>(composer - homes.begin());
+  }
+  double encoded = 0;
+  for (std::uint32_t first = (home.first + band_lines_ - 1) / band_lines_ * band_lines_; first < home.last;
+       first += band_lines_) {
+    const std::uint32_t last = std::min(height, first + band_lines_);
+    const double pixels = (last - first) * line_bytes();
+    const double record = kBandHead + std::floor(setting_.platform.file_part * pixels);
+    bands.composes = true;
+    bands.picture += record;
+    encoded += last - first;
+    if (!has_inbetweens) continue;
+    const bool may_change = first < counts.last_still_line && counts.first_still_line < last;
+    bands.background += record + (may_change ? pixels : 0);
+    encoded += is_touched(first) ? last - first : 0;
+  }
+  bands.encoding = encoding(encoded);
+  return bands;
 }
 
 // Of a group of `nodes` nodes.

@@ -2,12 +2,15 @@
 // or an inbetween.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
+#include "hal/collectives/group.h"
 #include "host/experiments/forecast/costs.h"
 #include "host/experiments/forecast/film_counts.h"
 #include "host/experiments/forecast/setting.h"
+#include "host/experiments/forecast/steps.h"
 #include "node/group/mapping.h"
 
 namespace mars::forecast {
@@ -21,24 +24,36 @@ struct StripCosts {
 };
 
 struct NodePart {
-  double dice = 0;           // until the group's sum
-  double exchange = 0;       // mapping, messages and filling
-  double exchange_wait = 0;  // for the network, beyond
+  double dice = 0;  // until the group's sum
+  double map = 0;   // lines to homes
   StripCosts strips;
-  double compose = 0;     // of a node that writes files: pasting and encoding
-  double bands = 0;       // encoded ones, sent and received
-  double bands_wait = 0;  // for the network, beyond
-  double still = 0;       // lines for inbetweens, sent and received
-  double still_wait = 0;  // for the network, beyond
-  double bytes_to_nodes = 0;
+  double compose = 0;      // of a node that writes files: pasting, and of an inbetween encoding
   double memory = 0;       // bytes of its arena
-  double made_memory = 0;  // of this memory, what the node makes itself
+  double made_memory = 0;  // of this memory, what the node's own triangles take
 };
 
 struct GroupKeyframe {
   std::vector<NodePart> nodes;
-  double sum = 0;     // seconds of the group's sum, once all have come to it
-  double passes = 1;  // over its lines
+  std::vector<geometry::LineRange> homes;  // of the nodes
+  double passes = 1;                       // over their lines
+  Exchange sum, triangles;
+};
+
+// What its nodes give each other once it is drawn.
+struct KeyframeGifts {
+  Exchange still;  // lines for inbetweens
+  Exchange bands;  // of files, where nodes write them
+};
+
+// Who draws a keyframe, and then its inbetweens.
+struct KeyframeGroup {
+  collectives::Group nodes;
+  int contributors;                 // of the nodes, to the keyframe
+  std::vector<std::uint8_t> draws;  // of the nodes: 1: inbetweens
+  int writer;                       // of the keyframe's file, within the group
+
+  int count() const { return nodes.count; }
+  bool has_inbetweens() const { return std::ranges::count(draws, 1) > 0; }
 };
 
 // What the host does of a task: seconds to show its background in a buffer that shows another, as far as a frame needs
@@ -53,8 +68,9 @@ class FrameCosts {
   // `nodes`: of all groups.
   FrameCosts(const Setting& setting, int nodes);
 
-  // Of a group of `nodes`, of which `contributors` contribute, and which then draw `inbetweens`.
-  GroupKeyframe keyframe(const wire::FrameCounts& counts, int nodes, int contributors, std::size_t inbetweens) const;
+  // It is the same whoever of the group draws inbetweens and writes the file.
+  GroupKeyframe keyframe(const KeyframeCounts& counts, const SurfaceTable& surfaces, const KeyframeGroup& group) const;
+  KeyframeGifts gifts(const GroupKeyframe& keyframe, const wire::FrameCounts& counts, const KeyframeGroup& group) const;
   // What inbetweens after such a keyframe draw again on a node of a group of `nodes`: stationary parts on lines that
   // are not kept.
   FrameTotals drawn_again(const wire::FrameCounts& keyframe, int nodes) const;
@@ -72,12 +88,7 @@ class FrameCosts {
  private:
   struct Homes;
 
-  struct StillLines {
-    double bytes = 0;
-    double messages = 0;
-  };
-  StillLines still_lines(const geometry::LineRange& home, const wire::FrameCounts& counts,
-                         const wire::StillPlan& plan) const;
+  std::vector<double> still_messages(const geometry::LineRange& home, const wire::FrameCounts& counts) const;
   double dicing(const wire::UnitCounts& made) const;
   double setting_up(const wire::UnitCounts& made) const;
   wire::UnitCounts drawn_units(const FrameTotals& totals) const;
@@ -90,24 +101,23 @@ class FrameCosts {
   double pasting(const FrameTotals& totals) const;
   double background(const wire::FrameCounts& keyframe) const;
   double encoding(double lines) const;
-  void add_bands(GroupKeyframe& keyframe, const Homes& homes, const wire::FrameCounts& counts, int contributors,
-                 std::size_t inbetweens) const;
+  NodeBands bands_of(const std::vector<geometry::LineRange>& homes, std::size_t node, const wire::FrameCounts& counts,
+                     bool has_inbetweens) const;
   double saving(const FrameTotals& totals) const;
   bool is_kept(const wire::FrameCounts& keyframe, std::uint32_t line, const wire::StillPlan& plan) const;
-  double kept_groups(const wire::LineCounts& line) const;
+  bool has_groups() const;
+  double packed_bytes(const wire::LineCounts& line) const;
   double kept_bytes(const wire::LineCounts& line) const;
   wire::StillPlan still_plan(int nodes) const;
   double made_bytes(const wire::UnitCounts& made) const;
+  double fresh_bytes(const wire::UnitCounts& made) const;
   double arena_bytes() const;
   double passes(const wire::UnitCounts& made, double home_boxes, bool travels) const;
   void add_dicing(GroupKeyframe& keyframe, const Homes& homes, const std::vector<wire::UnitCounts>& made) const;
-  void add_sum(GroupKeyframe& keyframe, int nodes) const;
-  void add_exchange(GroupKeyframe& keyframe, const Homes& homes, const std::vector<wire::UnitCounts>& made,
-                    int contributors) const;
-  void add_still(GroupKeyframe& keyframe, const Homes& homes, const wire::FrameCounts& counts,
-                 std::size_t inbetweens) const;
-  void leave_out_free_messages(GroupKeyframe& keyframe) const;
-  static void even_out(GroupKeyframe& keyframe, std::size_t contributors);
+  void add_exchange(GroupKeyframe& keyframe, const Homes& homes, const KeyframeCounts& counts,
+                    const SurfaceTable& surfaces, const KeyframeGroup& group) const;
+  Machines machines_of(const KeyframeGroup& group) const;
+  std::vector<wire::UnitCounts> made_by(const KeyframeCounts& counts, const SurfaceTable& surfaces, int nodes) const;
   int nodes_on_a_computer(int nodes) const;
   double pixel_bytes() const { return static_cast<double>(wire::pixel_bytes(setting_.pixels())); }
   double line_bytes() const { return setting_.film.settings().width * pixel_bytes(); }

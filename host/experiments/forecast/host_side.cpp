@@ -24,7 +24,7 @@ HostSide::HostSide(Clockwork& clockwork, Computers& computers, simulated::Storag
       outward_(std::move(outward)),
       file_bytes_(FrameCosts(setting, nodes).file_bytes()),
       buffers_(memory.frames),
-      free_buffers_(memory.frames, kNothing),
+      free_buffers_(1, kNothing),
       groups_(plan.groups.size()),
       tasks_(plan.tasks.size()) {}
 
@@ -117,12 +117,14 @@ bool HostSide::compose_one() {
   return false;
 }
 
-// As sinks::SinkPool gives buffers to frames that are whole, and earlier to others.
+// As sinks::SinkPool gives buffers to frames that are whole, and earlier to others. It makes a new one where none is
+// free.
 bool HostSide::begin_frame(std::size_t task, std::size_t number) {
   Frame& frame = tasks_[task].frames[number];
   if (frame.has_picture) return true;
   const std::size_t left = frame.contributors_left == 0 ? 0 : std::max<std::size_t>(1, buffers_ / 2);
-  if (free_buffers_.size() <= left) return false;
+  if (free_buffers_.size() + buffers_ - made_ <= left) return false;
+  if (free_buffers_.empty()) ++made_, free_buffers_.push_back(kNothing);
   auto buffer = std::ranges::find(free_buffers_.rbegin(), free_buffers_.rend(), task);
   if (buffer == free_buffers_.rend()) buffer = free_buffers_.rbegin();
   if (*buffer != task && number > 0) frame.begun = host_costs_[task].background;

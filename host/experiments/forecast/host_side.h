@@ -91,7 +91,8 @@ class HostSide {
   const int self_;
   const Outward outward_;
   const double file_bytes_;
-  const std::size_t buffers_;
+  const std::size_t buffers_;              // at most
+  std::size_t made_ = 1;                   // so far
   std::vector<std::size_t> free_buffers_;  // the tasks whose background they show; the one given back last is last
   std::vector<HostCosts> host_costs_;      // by task
   std::vector<GroupState> groups_;

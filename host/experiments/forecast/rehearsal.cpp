@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <deque>
-#include <functional>
 #include <map>
+#include <memory>
 #include <utility>
 
 #include "hal/simulated/routes.h"
 #include "hal/simulated/storage_use.h"
 #include "host/experiments/forecast/clockwork.h"
 #include "host/experiments/forecast/computers.h"
+#include "host/experiments/forecast/exchanges.h"
 #include "host/experiments/forecast/frame_costs.h"
 #include "host/experiments/forecast/host_side.h"
 #include "node/wire/frame_writer.h"
@@ -19,6 +20,11 @@ namespace mars::forecast {
 namespace {
 
 constexpr double kOnTheSameComputer = sizeof(wire::Strip);  // of a strip whose pixels the host reads where they lie
+
+struct TaskKeyframe {
+  std::shared_ptr<const GroupKeyframe> drawn;
+  KeyframeGifts gifts;
+};
 
 class Rehearsal {
  public:
@@ -40,32 +46,28 @@ class Rehearsal {
     std::size_t task = 0;
     std::size_t frame = 0;  // of the task that it draws
     std::uint32_t strips_left = 0;
-    double memory = 0;                        // bytes that it used so far
-    const GroupKeyframe* keyframe = nullptr;  // of the task
-  };
-  struct GroupState {
-    collectives::Group nodes;
-    int come = 0;  // of its nodes, to where all wait
+    double memory = 0;                             // bytes that it used so far
+    std::shared_ptr<const TaskKeyframe> keyframe;  // of the task
   };
 
-  const GroupKeyframe& keyframe_of(std::size_t task, const collectives::Group& group);
+  std::shared_ptr<const TaskKeyframe> keyframe_of(std::size_t task, const collectives::Group& group);
+  std::shared_ptr<const GroupKeyframe> shared_keyframe(std::size_t number, const KeyframeGroup& group);
   const NodePart& part_of(const Node& node);
   double fresh_seconds(Node& node);
   void receive_task(std::size_t group, std::size_t task);
   void begin_task(int n);
-  void wait_for_all(int n, const std::function<double(int)>& wait, void (Rehearsal::*then)(int));
+  void exchange(int n, const Exchange& exchange, void (Rehearsal::*then)(int));
   void sum(int n);
-  void exchange(int n);
+  void map(int n);
+  void exchange_triangles(int n);
   void begin_strips(int n);
   void draw_strip(int n);
   void finish_strip(int n);
-  void wait_for_group(int n);
   void send_strip(int n);
   void end_frame(int n);
   void receive_credit(int n);
   void finish_drawing(int n);
   void exchange_bands(int n);
-  void wait_for_bands(int n);
   void write_file(int n);
   void begin_file(int n);
   void end_file(int n, std::size_t task, std::size_t frame);
@@ -94,10 +96,12 @@ class Rehearsal {
   simulated::StorageUse storage_;
   const bool nodes_write_;
   const std::vector<walls::Pace> paces_;
-  std::map<std::array<std::size_t, 3>, GroupKeyframe> keyframes_;  // by number, nodes and inbetweens
-  std::vector<std::vector<NodePart>> inbetweens_;                  // by task
+  Exchanges exchanges_;
+  // By number, nodes, place on a machine, and whether inbetweens follow. Those of exact counts are used once.
+  std::map<std::array<std::size_t, 4>, std::shared_ptr<const GroupKeyframe>> keyframes_;
+  std::vector<std::weak_ptr<const TaskKeyframe>> task_keyframes_;
+  std::vector<std::vector<NodePart>> inbetweens_;  // by task
   std::vector<Node> nodes_;
-  std::vector<GroupState> groups_;
   Rehearsed result_;
   HostSide host_;
 };
@@ -117,6 +121,8 @@ Rehearsal::Rehearsal(const FilmCounts& counts, const farm::Plan& plan, const Set
       storage_(setting.platform.machine.storage, setting.platform.machine.network),
       nodes_write_(setting.nodes_write()),
       paces_(setting.even.paces),
+      exchanges_(clockwork_, computers_, routes_, costs_.costs(), nodes),
+      task_keyframes_(counts.tasks.size()),
       nodes_(static_cast<std::size_t>(nodes)),
       result_{0,
               {},
@@ -132,7 +138,6 @@ Rehearsal::Rehearsal(const FilmCounts& counts, const farm::Plan& plan, const Set
           {[this](std::size_t group, std::size_t task) { receive_task(group, task); },
            [this](int node) { later(node, way_from_host(node, sizeof(wire::Credit)), &Rehearsal::receive_credit); }}) {
   for (std::size_t g = 0; g < plan.groups.size(); ++g) {
-    groups_.push_back({plan.groups[g]});
     for (int member = 0; member < plan.groups[g].count; ++member) {
       Node& node = nodes_[static_cast<std::size_t>(plan.groups[g].first + member)];
       node.group = g;
@@ -158,23 +163,41 @@ Rehearsed Rehearsal::run() {
   host_.begin();
   clockwork_.run();
   result_.seconds = host_.ended();
+  result_.bytes_to_nodes = exchanges_.bytes();
   result_.frames = std::move(host_.frames());
   return std::move(result_);
 }
 
-const GroupKeyframe& Rehearsal::keyframe_of(std::size_t task, const collectives::Group& group) {
-  const std::size_t number = counts_.tasks[task].keyframe;
-  const auto size = static_cast<std::size_t>(group.count);
-  const std::size_t inbetweens = std::min(size, counts_.tasks[task].inbetweens.size());
-  const auto [found, fresh] = keyframes_.try_emplace({number, size, inbetweens});
-  if (fresh)
-    found->second = costs_.keyframe(counts_.keyframes[number], group.count, plan_.contributors_of(group), inbetweens);
-  return found->second;
+// The same for all nodes of the group that takes the task.
+std::shared_ptr<const TaskKeyframe> Rehearsal::keyframe_of(std::size_t number, const collectives::Group& group) {
+  if (auto known = task_keyframes_[number].lock()) return known;
+  const farm::Task& task = plan_.tasks[number];
+  const auto count = static_cast<std::size_t>(group.count);
+  KeyframeGroup members{group, plan_.contributors_of(group), std::vector<std::uint8_t>(count), 0};
+  members.writer = static_cast<int>(task.interval % static_cast<std::uint32_t>(members.contributors));
+  for (std::size_t k = 0; k < std::min(count, task.frames.size() - 1); ++k)
+    members.draws[(task.first_inbetween + k) % count] = 1;
+  const std::size_t counted = counts_.tasks[number].keyframe;
+  auto keyframe = std::make_shared<TaskKeyframe>(shared_keyframe(counted, members));
+  keyframe->gifts = costs_.gifts(*keyframe->drawn, counts_.keyframes[counted], members);
+  task_keyframes_[number] = keyframe;
+  return keyframe;
+}
+
+std::shared_ptr<const GroupKeyframe> Rehearsal::shared_keyframe(std::size_t number, const KeyframeGroup& group) {
+  const auto make = [&] {
+    return std::make_shared<const GroupKeyframe>(costs_.keyframe(counts_.keyframes[number], counts_.surfaces, group));
+  };
+  if (counts_.is_exact) return make();
+  const auto place = static_cast<std::size_t>(group.nodes.first % computers_.nodes_on_each());
+  auto& known = keyframes_[{number, static_cast<std::size_t>(group.count()), place, group.has_inbetweens() ? 1u : 0u}];
+  if (known == nullptr) known = make();
+  return known;
 }
 
 const NodePart& Rehearsal::part_of(const Node& node) {
   if (node.frame > 0) return inbetweens_[node.task][node.frame - 1];
-  return node.keyframe->nodes[static_cast<std::size_t>(node.member)];
+  return node.keyframe->drawn->nodes[static_cast<std::size_t>(node.member)];
 }
 
 // Of a frame that the node begins: its first, or one that takes more memory than any before.
@@ -186,7 +209,7 @@ double Rehearsal::fresh_seconds(Node& node) {
 }
 
 void Rehearsal::receive_task(std::size_t group, std::size_t task) {
-  const collectives::Group& nodes = groups_[group].nodes;
+  const collectives::Group& nodes = plan_.groups[group];
   const auto bytes = static_cast<double>(farm::render_command(plan_.tasks[task], nodes, 1).size());
   const double each = costs_.costs().host_to_send(bytes);
   for (int member = 0; member < nodes.count; ++member) {
@@ -220,37 +243,31 @@ void Rehearsal::begin_task(int n) {
   node.task = node.tasks.front();
   node.tasks.pop_front();
   node.frame = 0;
-  node.keyframe = &keyframe_of(node.task, groups_[node.group].nodes);
+  node.keyframe = keyframe_of(node.task, plan_.groups[node.group]);
   work(n, drawing(n, part_of(node).dice + fresh_seconds(node)), &Rehearsal::sum);
 }
 
-// Once all nodes of the group have come, each goes on after its own wait.
-void Rehearsal::wait_for_all(int n, const std::function<double(int)>& wait, void (Rehearsal::*then)(int)) {
-  GroupState& group = groups_[nodes_[static_cast<std::size_t>(n)].group];
-  if (++group.come < group.nodes.count) return;
-  group.come = 0;
-  for (int node = group.nodes.first; node < group.nodes.first + group.nodes.count; ++node)
-    later(node, clockwork_.now() + wait(node), then);
+void Rehearsal::exchange(int n, const Exchange& exchange, void (Rehearsal::*then)(int)) {
+  if (exchange.empty()) return (this->*then)(n);
+  const Node& node = nodes_[static_cast<std::size_t>(n)];
+  exchanges_.begin(n, plan_.groups[node.group].first, exchange[static_cast<std::size_t>(node.member)],
+                   [this, n, then] { (this->*then)(n); });
 }
 
-void Rehearsal::sum(int n) {
-  const GroupKeyframe& keyframe = *nodes_[static_cast<std::size_t>(n)].keyframe;
-  if (keyframe.nodes.size() == 1) return exchange(n);
-  wait_for_all(
-      n, [&](int) { return keyframe.sum; }, &Rehearsal::exchange);
+void Rehearsal::sum(int n) { exchange(n, nodes_[static_cast<std::size_t>(n)].keyframe->drawn->sum, &Rehearsal::map); }
+
+void Rehearsal::map(int n) {
+  work(n, part_of(nodes_[static_cast<std::size_t>(n)]).map, &Rehearsal::exchange_triangles);
 }
 
-void Rehearsal::exchange(int n) {
-  const NodePart& part = part_of(nodes_[static_cast<std::size_t>(n)]);
-  const double end = computers_.work(n, clockwork_.now(), part.exchange);
-  later(n, std::max(end, clockwork_.now() + part.exchange_wait), &Rehearsal::begin_strips);
+void Rehearsal::exchange_triangles(int n) {
+  exchange(n, nodes_[static_cast<std::size_t>(n)].keyframe->drawn->triangles, &Rehearsal::begin_strips);
 }
 
 void Rehearsal::begin_strips(int n) {
   Node& node = nodes_[static_cast<std::size_t>(n)];
   const NodePart& part = part_of(node);
   node.strips_left = part.strips.count;
-  result_.bytes_to_nodes += node.frame == 0 ? part.bytes_to_nodes : 0;
   result_.bytes_to_host += nodes_write_ ? static_cast<double>(sizeof(wire::Strip)) : part.strips.bytes;
   result_.node_memory = std::max(result_.node_memory, part.memory);
   draw_strip(n);
@@ -276,15 +293,8 @@ void Rehearsal::draw_strip(int n) {
 // The last strip of a keyframe goes once the group's nodes have given each other what inbetweens need.
 void Rehearsal::finish_strip(int n) {
   const Node& node = nodes_[static_cast<std::size_t>(n)];
-  const bool several = node.keyframe->nodes.size() > 1;
-  if (node.strips_left > 1 || node.frame > 0 || !several || inbetweens_[node.task].empty()) return send_strip(n);
-  work(n, part_of(node).still, &Rehearsal::wait_for_group);
-}
-
-void Rehearsal::wait_for_group(int n) {
-  wait_for_all(
-      n, [this](int node) { return part_of(nodes_[static_cast<std::size_t>(node)]).still_wait; },
-      &Rehearsal::send_strip);
+  if (node.strips_left > 1 || node.frame > 0) return send_strip(n);
+  exchange(n, node.keyframe->gifts.still, &Rehearsal::send_strip);
 }
 
 void Rehearsal::send_strip(int n) {
@@ -303,43 +313,36 @@ void Rehearsal::send_strip(int n) {
 void Rehearsal::end_frame(int n) {
   Node& node = nodes_[static_cast<std::size_t>(n)];
   const farm::Task& task = plan_.tasks[node.task];
-  const auto count = static_cast<std::size_t>(groups_[node.group].nodes.count);
+  const auto count = static_cast<std::size_t>(plan_.groups[node.group].count);
   // The next inbetween k whose number in the film has this node's turn.
   std::size_t k = node.frame;
   while (k < task.frames.size() - 1 && (task.first_inbetween + k) % count != static_cast<std::size_t>(node.member)) ++k;
   if (k == task.frames.size() - 1) return begin_task(n);
   node.frame = k + 1;
   const NodePart& part = part_of(node);
-  work(n, drawing(n, part.dice + part.exchange + fresh_seconds(node)), &Rehearsal::begin_strips);
+  work(n, drawing(n, part.dice + part.map + fresh_seconds(node)), &Rehearsal::begin_strips);
 }
 
 // On its way from now on.
 void Rehearsal::send_to_host(StripSent message) {
-  const auto host = static_cast<int>(nodes_.size());
   const double now = clockwork_.now();
+  const int from = computers_.of(message.node), host = computers_.of(static_cast<int>(nodes_.size()));
   const bool takes_time = costs_.costs().takes_time(wire::kStrip);
-  const double arrival = takes_time ? routes_.arrival(computers_.of(message.node), computers_.of(host),
-                                                      static_cast<std::size_t>(message.bytes), now, now)
-                                    : now;
+  const double arrival =
+      takes_time ? routes_.arrival(from, host, static_cast<std::size_t>(message.bytes), now, now) : now;
   clockwork_.at(arrival, [this, message] { host_.arrive(message); });
 }
 
 // A keyframe's, after what inbetweens need else.
 void Rehearsal::exchange_bands(int n) {
   const Node& node = nodes_[static_cast<std::size_t>(n)];
-  if (node.frame > 0 || node.keyframe->nodes.size() == 1) return write_file(n);
-  work(n, part_of(node).bands, &Rehearsal::wait_for_bands);
-}
-
-void Rehearsal::wait_for_bands(int n) {
-  wait_for_all(
-      n, [this](int node) { return part_of(nodes_[static_cast<std::size_t>(node)]).bands_wait; },
-      &Rehearsal::write_file);
+  if (node.frame > 0) return write_file(n);
+  exchange(n, node.keyframe->gifts.bands, &Rehearsal::write_file);
 }
 
 // Nodes of a group take turns in writing keyframes.
 bool Rehearsal::writes(const Node& node) const {
-  const collectives::Group& group = groups_[node.group].nodes;
+  const collectives::Group& group = plan_.groups[node.group];
   const auto turn =
       static_cast<int>(plan_.tasks[node.task].interval % static_cast<std::uint32_t>(plan_.contributors_of(group)));
   return node.frame > 0 || node.member == turn;

@@ -1,5 +1,7 @@
 #include "host/shell/commands/plan_command.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -11,10 +13,14 @@
 #include <vector>
 
 #include "host/child/programs.h"
+#include "host/child/standard_streams.h"
 #include "hal/messages/settings.h"
 #include "host/cli/command.h"
+#include "host/content/document/file.h"
 #include "host/content/document/text.h"
 #include "host/experiments/forecast/explain.h"
+#include "host/content/document/whole_file.h"
+#include "host/experiments/forecast/counts_file.h"
 #include "host/experiments/forecast/forecast.h"
 #include "host/images/picture_format.h"
 #include "host/render/farm/node_memory.h"
@@ -29,10 +35,12 @@ namespace {
 
 constexpr std::string_view kHere = "here";
 constexpr double kCounting = 0.7;  // seconds, about
+constexpr int kCounters = 2;       // of all frames: each may take a gigabyte
 constexpr double kWorthIt = 1.05;  // times the shortest: more nodes than that takes are not worth it
 
 struct PlanWords {
   options::RenderOptions options;
+  std::string counted;  // the file of counts
   bool json = false;
   bool explain = false;
 };
@@ -99,6 +107,33 @@ std::uint64_t node_memory(const options::RenderOptions& options, const experimen
   return is_here ? messages::read_settings().memory.value_or(platform.memory) : platform.memory;
 }
 
+void show_counting(std::size_t frames, std::size_t of_all) {
+  if (isatty(STDERR_FILENO))
+    child::raw_error() << "\rcounting: " << 100 * frames / of_all << " %" << (frames == of_all ? "\n" : "");
+}
+
+// Of all frames, which the file has or gets.
+forecast::FilmCounts exact_counts(const film::CompiledFilm& film, const std::vector<farm::Task>& tasks,
+                                  const PlanWords& words, const NodesCode& code) {
+  const wire::PackedFilm view = film.view();
+  const std::string content = forecast::counted_content(film.block(), tasks, view, words.options.format);
+  if (document::file_exists(words.counted)) return forecast::load_counts(words.counted, content);
+  document::check_can_write(words.counted);
+  const int counters = std::min(kCounters, topology::Machine::here().processors());
+  forecast::FilmCounts counts =
+      forecast::count_exactly(view, tasks, code.make_counter, words.options.format, counters, show_counting);
+  forecast::save_counts(counts, content, words.counted);
+  return counts;
+}
+
+forecast::FilmCounts counts_of(const film::CompiledFilm& film, const std::vector<farm::Task>& tasks,
+                               const PlanWords& words, const NodesCode& code) {
+  if (!words.counted.empty()) return exact_counts(film, tasks, words, code);
+  const wire::PackedFilm view = film.view();
+  return forecast::count_film(view, tasks, *code.make_counter(view, forecast::Lines::some), {kCounting},
+                              words.options.format);
+}
+
 Planned plan(const PlanWords& words, const NodesCode& code) {
   const options::RenderOptions& options = words.options;
   const film::CompiledFilm film = job::load_film_of(options, warn);
@@ -108,8 +143,7 @@ Planned plan(const PlanWords& words, const NodesCode& code) {
   farm::check_shadow_memory(platform.memory, shadow::shadow_needs(view));
   const auto frames = options.frames.of_film(view.settings().frames);
   const std::vector<farm::Task> tasks = farm::make_tasks(view, frames, !options.no_coherence);
-  const forecast::FilmCounts counts =
-      forecast::count_film(view, tasks, *code.make_counter(view), {kCounting}, options.format);
+  const forecast::FilmCounts counts = counts_of(film, tasks, words, code);
   forecast::Setting setting{view, platform, options.mapping, options.format};
   // As simulations count files that go nowhere.
   setting.files = options.sink == options::SinkKind::files || options.write != options::WriteWhere::automatic;
@@ -244,6 +278,11 @@ void add_plan(cli::Command app, const NodesCode& code) {
   const auto words = std::make_shared<PlanWords>();
   const cli::Command command = app.add_command("plan", "Forecast a rendering's time, memory and bytes");
   options::add_render_options(command, words->options, options::Program::plan);
+  command
+      .add("--counted", words->counted,
+           "Count all frames of the film exactly, and keep the counts in FILE, or take them from there. Example: "
+           "--counted film.counts")
+      .type("FILE");
   command.add_flag("--json", words->json, "Print one JSON object, for programs. Example: --json");
   command.add_flag("--explain", words->explain,
                    "Say what the time consists of: what binds, what it would take without that, and what binds then. "

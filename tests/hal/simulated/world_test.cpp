@@ -168,6 +168,26 @@ TEST(World, WhoWaitsForAnybodyDoesNotRunAhead) {
   EXPECT_DOUBLE_EQ(heard, 1 + kSend + kLatency + kReceive);
 }
 
+// Node 1 is of the group of node 0, but has not come to know it: both send to node 2.
+TEST(World, AGroupWaitsForItsRanksThatHaveYetToJoin) {
+  std::vector<long> senders;
+  constexpr long kLong = 2'000'000;  // two seconds on the way
+  run_simulated(machine(), 4, nothing, [&] {
+    const long self = mynode();
+    std::vector<char> bytes(kLong);
+    if (self == 0) messages::keep_to(0, 3);
+    if (self < 2) {
+      messages::charge(kKind, self == 0 ? 2 : 1);
+      csend(1, bytes.data(), kLong, 2, 0);
+    }
+    for (int i = 0; self == 2 && i < 2; ++i) {
+      crecv(1, bytes.data(), kLong);
+      senders.push_back(infonode());
+    }
+  });
+  EXPECT_EQ(senders, (std::vector<long>{1, 0})) << "who sends first has the port first";
+}
+
 TEST(World, AGroupRunsAheadUntilAllItsRanksWait) {
   std::vector<long> order;
   run_simulated(machine(), 4, nothing, [&] {

@@ -87,6 +87,54 @@ TEST_P(Forecasts, CountWhatNodesDraw) {
   }
 }
 
+TEST(Counted, Kinds) {
+  const SimulatedFilm film("demo", "0-7", "fat-tree", Files::nodes);
+  const farm::FarmReport report = film.render(1, 1);
+  film.counted(1, 1);
+  const FilmCounts& counts = film.exact();
+  FrameTotals all;
+  for (const TaskCounts& task : counts.tasks) {
+    all = all + totals_of(counts.keyframes[task.keyframe], 1);
+    for (const FrameTotals& inbetween : task.inbetweens) all = all + inbetween;
+  }
+  for (std::size_t kind = 0; kind < wire::kNodeKinds; ++kind) {
+    double sum = 0;
+    for (const wire::Strip& strip : report.strips)
+      if (strip.last == 1) sum += static_cast<double>(strip.work.charged[kind]);
+    std::printf("%-16s charged %12.0f made %12.0f cost %g\n", wire::kWorkNames[kind].data(), sum, all.made.units[kind],
+                1e6 * sum * film.platform().machine.work[kind]);
+  }
+  std::printf("boxes %f samples %f shaded %f pixels %f lines %f moving width %f hl %f\n", all.drawn.edge_boxes,
+              all.drawn.samples, all.drawn.constant.shaded + all.drawn.moving.shaded, all.pixels(), all.lines,
+              all.drawn.moving_width, all.drawn.constant.highlights + all.drawn.moving.highlights);
+  double kept = 0;
+  for (auto& l : counts.keyframes[0].lines) kept += l.kept_width;
+  std::printf("kept %f\n", kept);
+}
+
+TEST(Counted, Table) {
+  for (const char* platform : {"fat-tree", "ethernet"})
+    for (const Files files : {Files::none, Files::host, Files::nodes})
+      for (const Case& one :
+           {Case{"demo", "0-7"}, Case{"s3", "0-11"}, Case{"robot-arm", "10-40"}, Case{"bodies", "5-12"}}) {
+        const SimulatedFilm film(one.film, one.frames, platform, files);
+        for (const int nodes : {1, 2, 4, 16, 64})
+          for (const std::uint32_t groups : {1u, 2u}) {
+            if (groups > static_cast<std::uint32_t>(nodes) || groups > film.tasks().size()) continue;
+            const Rehearsed counted = film.counted(nodes, groups);
+            const farm::FarmReport report = film.render(nodes, groups);
+            std::printf(
+                "%-9s files %d %-10s %2d nodes %u groups: %9.6f %9.6f %+6.2f %%, to nodes %+.3f %%, to host %+.3f %%, "
+                "memory %+.2f %%\n",
+                platform, static_cast<int>(files), one.film, nodes, groups, counted.seconds, report.total_seconds,
+                100 * (counted.seconds / report.total_seconds - 1),
+                100 * (counted.bytes_to_nodes / std::max(1.0, sum_of(report, &wire::WorkCounts::bytes_to_nodes)) - 1),
+                100 * (counted.bytes_to_host / sum_of(report, &wire::WorkCounts::bytes_to_host) - 1),
+                100 * (counted.node_memory / most_of(report, &wire::WorkCounts::memory) - 1));
+          }
+      }
+}
+
 // One light that casts.
 struct Lit {
   Case film;
@@ -197,8 +245,8 @@ TEST(Forecast, OfFewFramesCountedIsCloseToThatOfAll) {
   const wire::PackedFilm view = film.view();
   Setting setting{view, film.platform()};
   setting.files = false;
-  const FilmCounts few =
-      count_film(view, film.tasks(), *programs::make_node_counter(view), {10, 0.05}, images::PictureFormat::png);
+  const FilmCounts few = count_film(view, film.tasks(), *programs::make_node_counter(view, Lines::some), {10, 0.05},
+                                    images::PictureFormat::png);
   EXPECT_LT(few.counted, 10u);
   EXPECT_NEAR(forecast(few, film.tasks(), setting, 4, 1).run.seconds, film.forecast(4, 1).run.seconds,
               0.1 * film.forecast(4, 1).run.seconds);

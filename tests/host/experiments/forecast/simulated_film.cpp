@@ -40,7 +40,8 @@ SimulatedFilm::SimulatedFilm(const std::string& name, const std::string& frames,
       film_(small_film(name, files, light)),
       platform_(experiments::read_platform(platform, std::string(MARS_SOURCE_DIR) + "/cluster/platforms")),
       tasks_(farm::make_tasks(view(), film::FrameSet(frames).of_film(view().settings().frames), true)),
-      counts_(count_film(view(), tasks_, *programs::make_node_counter(view()), {10}, images::PictureFormat::png)) {}
+      counts_(count_film(view(), tasks_, *programs::make_node_counter(view(), Lines::some), {10},
+                         images::PictureFormat::png)) {}
 
 Setting SimulatedFilm::setting(const wire::PackedFilm& film) const {
   Setting setting{film, platform_};
@@ -63,8 +64,18 @@ walls::Explanation SimulatedFilm::explain(int nodes, std::uint32_t groups) const
   return forecast::explain(counts_, tasks_, setting(film), all);
 }
 
+Rehearsed SimulatedFilm::counted(int nodes, std::uint32_t groups) const {
+  const wire::PackedFilm film = view();
+  if (!exact_) exact_ = count_exactly(film, tasks_, programs::make_node_counter, images::PictureFormat::png, 2, {});
+  return rehearse(*exact_, plan(nodes, groups), setting(film), nodes);
+}
+
+farm::Plan SimulatedFilm::plan(int nodes, std::uint32_t groups) const {
+  return {tasks_, farm::make_groups(nodes, static_cast<int>(groups), tasks_.size())};
+}
+
 farm::FarmReport SimulatedFilm::render(int nodes, std::uint32_t groups) const {
-  const farm::Plan plan{tasks_, farm::make_groups(nodes, static_cast<int>(groups), tasks_.size())};
+  const farm::Plan plan = this->plan(nodes, groups);
   const wire::FilmSettings& settings = view().settings();
   const images::PictureBands bands(images::PictureFormat::png, settings.width, settings.height);
   farm::FarmReport report;

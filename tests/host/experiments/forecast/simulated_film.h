@@ -1,6 +1,7 @@
 // A film of examples/, counted and forecast, and rendered on simulated machines to compare.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -25,6 +26,7 @@ class SimulatedFilm {
   wire::PackedFilm view() const { return film_.view(); }
   const std::vector<farm::Task>& tasks() const { return tasks_; }
   const FilmCounts& counts() const { return counts_; }
+  const FilmCounts& exact() const { return *exact_; }
   const experiments::Platform& platform() const { return platform_; }
 
   // Of both forecasts and renderings from now on.
@@ -33,9 +35,12 @@ class SimulatedFilm {
   Forecast forecast(int nodes, std::uint32_t groups) const;
   // Without searching for contributors, all nodes of a group being that.
   walls::Explanation explain(int nodes, std::uint32_t groups) const;
+  // The same from all frames, counted exactly.
+  Rehearsed counted(int nodes, std::uint32_t groups) const;
   farm::FarmReport render(int nodes, std::uint32_t groups) const;
 
  private:
+  farm::Plan plan(int nodes, std::uint32_t groups) const;
   Setting setting(const wire::PackedFilm& film) const;
   farm::FarmReport render(const farm::Plan& plan, int nodes, simulated::World& world) const;
 
@@ -44,6 +49,7 @@ class SimulatedFilm {
   experiments::Platform platform_;
   std::vector<farm::Task> tasks_;
   FilmCounts counts_;
+  mutable std::optional<FilmCounts> exact_;  // once they were needed
 };
 
 }  // namespace mars::forecast

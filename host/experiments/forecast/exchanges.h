@@ -1,0 +1,71 @@
+// Plays exchanges of groups' nodes through (steps.h): messages wait for each other on the network, and take the
+// processors of both ends.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <vector>
+
+#include "hal/simulated/routes.h"
+#include "host/experiments/forecast/clockwork.h"
+#include "host/experiments/forecast/computers.h"
+#include "host/experiments/forecast/costs.h"
+#include "host/experiments/forecast/steps.h"
+
+namespace mars::forecast {
+
+class Exchanges {
+ public:
+  Exchanges(Clockwork& clockwork, Computers& computers, simulated::Routes& routes, const Costs& costs, int nodes)
+      : clockwork_(clockwork),
+        computers_(computers),
+        routes_(routes),
+        costs_(costs),
+        nodes_(static_cast<std::size_t>(nodes)) {}
+
+  // Node `n` of the group that begins at `first` takes these steps, then `then` happens. The steps outlive that.
+  void begin(int n, int first, const Steps& steps, Clockwork::Action then);
+
+  double bytes() const { return bytes_; }  // sent so far
+
+ private:
+  struct Message {
+    std::uint8_t label;
+    std::uint32_t hops;  // how often it goes on
+    double bytes;
+    double seconds;  // of the receiver
+  };
+  struct Node {
+    int first = 0;                 // of its group
+    const Steps* steps = nullptr;  // none: it takes none
+    std::size_t at = 0;
+    std::uint32_t taken = 0;  // messages of the step
+    bool waits = false;
+    Clockwork::Action then;
+    std::map<std::uint8_t, std::deque<Message>> arrived;  // by label
+  };
+
+  Node& of(int n) { return nodes_[static_cast<std::size_t>(n)]; }
+  const Step& step_of(const Node& node) const { return (*node.steps)[node.at]; }
+  void go_on(int n);
+  void next_step(int n);
+  void receive(int n);
+  void take(int n, const Message& message);
+  double receiving(const Message& message) const;  // seconds
+  void send(int n, int to, const Message& message, void (Exchanges::*then)(int));
+  void arrive(int n, const Message& message);
+  void work(int n, double seconds, void (Exchanges::*then)(int));
+  void count_taken(int n);
+
+  Clockwork& clockwork_;
+  Computers& computers_;
+  simulated::Routes& routes_;
+  const Costs& costs_;
+  std::vector<Node> nodes_;
+  double bytes_ = 0;
+};
+
+}  // namespace mars::forecast
