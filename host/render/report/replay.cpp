@@ -38,7 +38,7 @@ Replay::Replay(const farm::FarmReport& report) : report_(report) {
     frame.strips += strip.number + 1;
   }
   find_waiting();
-  tell_messages_from_waiting();
+  separate_messages();
   share_out_host();
   const double files = static_cast<double>(report.files.files);
   if (files > 0) making_ = report.files.making_seconds / files;
@@ -64,8 +64,12 @@ void Replay::find_waiting() {
   std::set<std::pair<std::uint32_t, std::size_t>> drawn;  // by interval and node
   for (const Frame& frame : frames_)
     if (!frame.is_keyframe) drawn.emplace(frame.interval, frame.parts.front().node);
-  for (Frame& frame : frames_)
-    for (Part& part : frame.parts) part.waits = frame.is_keyframe && drawn.contains({frame.interval, part.node});
+  for (Frame& frame : frames_) {
+    if (!frame.is_keyframe) continue;
+    for (Part& part : frame.parts) part.waits = drawn.contains({frame.interval, part.node});
+    std::ranges::sort(frame.parts, {}, &Part::node);
+    frame.parts[frame.interval % frame.parts.size()].writes = true;  // nodes take turns
+  }
 }
 
 void Replay::share_out_host() {
@@ -123,11 +127,12 @@ double Replay::last_of(const Run& run, const Frame& frame) {
 
 // All nodes of a group wait in its sum.
 bool Replay::waits(const Frame& frame, const Part& part, double Part::*step) {
-  return frame.parts.size() > 1 && (step == &Part::sum || part.waits);
+  if (frame.parts.size() == 1) return false;
+  return step == &Part::sum || part.waits || (step == &Part::bands && part.writes);
 }
 
 // What a node spent in a step after the last had come to it.
-void Replay::tell_messages_from_waiting() {
+void Replay::separate_messages() {
   Run run(Walls(), report_.nodes.size());
   for (Frame& frame : frames_) {
     const auto meet = [&](double Part::*step, Wall) {

@@ -2,11 +2,11 @@
 // do their frames in the order in which they did, and wait for each other where they did; the host takes frames one by
 // one; its sinks make files, as many at a time as there are threads; storage takes one file after another.
 //
-// Known are the times of each node's steps, and of the host, of sinks and of storage only sums. So each frame's part of
-// a sum is taken: of the host's by the bytes that it received, of others an equal one. What a step waited for others is
-// told apart from its messages where nodes of a group wait for each other: messages are what a node spent there after
-// the last had come. Waiting for credit or storage is left out, as it follows from what the host and storage take.
-// What the run took beyond all this is the host's: messages to it and from it.
+// The report knows the times of each node's steps, but only sums for the host, sinks and storage. So each frame gets a
+// part of a sum: of the host's by the bytes that the host received, of others an equal one. Where nodes of a group wait
+// for each other in a step, what a node spent there after the last had come is messages, the rest is waiting. Waiting
+// for credit or storage is left out, as it follows from what the host and storage take. What the run took beyond all
+// this is the host's: messages to it and from it.
 #pragma once
 
 #include <vector>
@@ -35,9 +35,10 @@ class Replay {
     double exchange = 0;  // of triangles
     double drawing = 0;   // work after them
     double compose = 0;
-    double still = 0;    // messages
-    double bands = 0;    // messages
-    bool waits = false;  // for lines and bands of others, as it draws inbetweens of the interval
+    double still = 0;     // messages
+    double bands = 0;     // messages
+    bool waits = false;   // for lines and bands of others, as it draws inbetweens of the interval
+    bool writes = false;  // the file of a keyframe: it waits for all bands
   };
   struct Frame {
     std::uint32_t interval = 0;
@@ -51,7 +52,7 @@ class Replay {
   static Part part_of(const wire::Strip& strip);
   void find_waiting();
   void share_out_host();
-  void tell_messages_from_waiting();
+  void separate_messages();
   template <typename Meet>
   static void draw(Run& run, const Frame& frame, const std::vector<walls::Pace>& paces, const Meet& meet);
   static double last_of(const Run& run, const Frame& frame);

@@ -1,6 +1,6 @@
-// Walls: what a rendering's time consists of, each named by what is without it. A wall's gain is what the rendering is
-// shorter where that wall takes no time; so whoever can tell how long a rendering takes without some walls, by a
-// rehearsal (host/experiments/forecast/) or from recorded times (host/render/report/), knows which of them binds.
+// Walls: the parts of a rendering's time. The gain of a wall is by how much the rendering is shorter if the wall takes
+// no time. Forecasts compute the time without some walls by a rehearsal (host/experiments/forecast/explain.h), reports
+// from recorded times (host/render/report/replay.h). Both then find here which wall binds, and which binds next.
 #pragma once
 
 #include <array>

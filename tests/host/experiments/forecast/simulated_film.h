@@ -33,11 +33,11 @@ class SimulatedFilm {
   void set_platform(experiments::Platform platform) { platform_ = std::move(platform); }
 
   Forecast forecast(int nodes, std::uint32_t groups) const;
-  // Without searching for contributors, all nodes of a group being that.
-  walls::Explanation explain(int nodes, std::uint32_t groups) const;
   // The same from all frames, counted exactly.
   Rehearsed counted(int nodes, std::uint32_t groups) const;
   farm::FarmReport render(int nodes, std::uint32_t groups) const;
+  // Of the forecast in which all nodes of a group contribute to keyframes, as in render().
+  walls::Explanation explain(int nodes, std::uint32_t groups) const;
 
  private:
   farm::Plan plan(int nodes, std::uint32_t groups) const;

@@ -67,7 +67,7 @@ TEST(Explained, IsReadAsItWasWritten) {
   const Explanation explanation = explain(toy, kThere), read = explanation_of(json_of(explanation));
   EXPECT_EQ(line_of(read), line_of(explanation));
   EXPECT_EQ(table_of(read), table_of(explanation));
-  EXPECT_EQ(line_of(read), "compute 3 s; without it 5 s; then storage, without both 2 s");
+  EXPECT_EQ(line_of(read), "imbalance 1 s; without it 5 s; then storage, without both 5 s");
   nlohmann::json wrong = json_of(explanation);
   wrong["walls"][0]["wall"] = "weather";
   EXPECT_THROW(explanation_of(wrong), Failure);
