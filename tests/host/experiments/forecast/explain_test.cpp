@@ -139,6 +139,11 @@ INSTANTIATE_TEST_SUITE_P(
                             platform.machine.network.send = platform.machine.network.receive = {{0, 2e-5}};
                             platform.machine.network.host_end = {{0, 1e-7}};
                           }},
+                    Bound{Wall::still, "stones", "0-11", 16, Files::nodes, "ethernet",
+                          [](Platform& platform) {
+                            scale_nodes(platform, 0.2);
+                            platform.machine.storage = {};
+                          }},
                     Bound{Wall::bands, "s3", "0-11", 4, Files::nodes, "ethernet",
                           [](Platform& platform) {
                             scale_nodes(platform, 0.3);
@@ -155,6 +160,8 @@ INSTANTIATE_TEST_SUITE_P(
                             cost(platform, Work::encoded_byte) *= 5;
                             cost(platform, Work::file_byte) *= 5;
                           }},
+                    Bound{Wall::encoder, "visit", "100-109", 8, Files::nodes, "fat-tree",
+                          [](Platform& platform) { cost(platform, Work::encoded_byte) *= 30; }},
                     Bound{Wall::storage, "visit", "100-109", 8, Files::nodes, "fat-tree",
                           [](Platform& platform) { platform.machine.storage.opening = 0.01; }},
                     Bound{Wall::storage, "visit", "100-109", 8, Files::host, "fat-tree",
@@ -163,7 +170,8 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& each) {
       std::string name(walls::name_of(each.param.wall));
       std::erase(name, ' ');
-      return name + (each.param.files == Files::host ? "_host" : "");
+      const Files files = each.param.files;
+      return name + (files == Files::host ? "_by_host" : files == Files::nodes ? "_by_nodes" : "");
     });
 
 }  // namespace
