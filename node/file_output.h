@@ -22,7 +22,8 @@ class FileOutput {
   wire::FrameWriter& writer() { return writer_; }
   // The strip of the current frame that the outbox has.
   void paste(wire::Strip& header);
-  // Once all of a keyframe's home lines are pasted; as BandExchange.
+  // Once all of a keyframe's home lines are pasted; the writer finishes its bands in between. As BandExchange.
+  void exchange_edges(const group::BandNeeds& needs) { exchange_.exchange_edges(needs, writer_); }
   void exchange_bands(const group::BandNeeds& needs) { exchange_.complete(needs, writer_); }
   // Bands of an inbetween that a team draws; as TeamBands.
   group::TeamBands& team_bands() { return team_bands_; }

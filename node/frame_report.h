@@ -13,7 +13,7 @@ namespace mars::node {
 inline constexpr std::array kPhaseTimes{
     &wire::PhaseTimes::dice,   &wire::PhaseTimes::sum,      &wire::PhaseTimes::map,    &wire::PhaseTimes::exchange,
     &wire::PhaseTimes::fill,   &wire::PhaseTimes::scanline, &wire::PhaseTimes::shadow, &wire::PhaseTimes::depth,
-    &wire::PhaseTimes::credit, &wire::PhaseTimes::compose,  &wire::PhaseTimes::storage};
+    &wire::PhaseTimes::credit, &wire::PhaseTimes::compose,  &wire::PhaseTimes::bands,  &wire::PhaseTimes::storage};
 
 class FrameReport {
  public:

@@ -439,9 +439,8 @@ void Renderer::paste_strip(const geometry::LineRange& lines) {
 void Renderer::finish_writing() {
   bool is_whole = true;
   if (report_.is_keyframe()) {
-    const PhaseScope compose = phase(wire::Phase::compose);
     const int writer = frame_writer();
-    file_->exchange_bands({group_, homes(), canvas_->contributes, writer});
+    exchange_bands({group_, homes(), canvas_->contributes, writer});
     is_whole = writer == static_cast<int>(mynode());
   } else if (sharing_.is_shared()) {
     is_whole = exchange_team_bands();
@@ -453,7 +452,7 @@ void Renderer::finish_writing() {
 // Bands go to the node that writes the file; whether it is the caller, which has all then. Nodes of which all know that
 // they have no lines send nothing.
 bool Renderer::exchange_team_bands() {
-  const PhaseScope compose = phase(wire::Phase::compose);
+  const PhaseScope compose = phase(wire::Phase::bands);
   const std::uint32_t frame = report_.strip().frame;
   const int self = static_cast<int>(mynode()), writer = frame_writer();
   if (writer != self) {
@@ -469,6 +468,19 @@ bool Renderer::exchange_team_bands() {
     file_->writer().add_picture(*bands);
   }
   return true;
+}
+
+void Renderer::exchange_bands(const group::BandNeeds& needs) {
+  {
+    const PhaseScope bands = phase(wire::Phase::bands);
+    file_->exchange_edges(needs);
+  }
+  {
+    const PhaseScope compose = phase(wire::Phase::compose);
+    file_->writer().finish_bands();
+  }
+  const PhaseScope bands = phase(wire::Phase::bands);
+  file_->exchange_bands(needs);
 }
 
 void Renderer::finish_triangles() {

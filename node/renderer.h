@@ -126,6 +126,7 @@ class Renderer {
   void paste_strip(const geometry::LineRange& lines);
   void finish_writing();
   bool exchange_team_bands();
+  void exchange_bands(const group::BandNeeds& needs);
   // Waits until what was sent to nodes is gone; after the last pass of a keyframe nodes give each other CZB.
   void finish_exchange(const group::Pass& pass);
   void finish_triangles();

@@ -39,6 +39,10 @@ struct Network {
   std::vector<EndCost> host_end{};         // of the host, whether it sends or receives; empty: as the nodes'
   // Bytes: longer messages between computers wait until their receiver has answered an announcement (routes.h).
   std::size_t eager = std::numeric_limits<std::size_t>::max();
+  // Messages of such a type take no time; none: all do.
+  std::function<bool(int type)> is_free{};
+
+  bool takes_time(int type) const { return !is_free || !is_free(type); }
 };
 
 // File storage that all computers share: one server opens files, one after another; others take their bytes, each one

@@ -27,7 +27,7 @@ messages::Ticket SimulatedBackend::start_send(int to, int type, const void* data
 std::optional<messages::Ticket> SimulatedBackend::start_take(void* buffer) {
   const World::Taken taken = world_.begin_take(rank_, buffer);
   if (taken.there <= seconds()) {
-    world_.end_take(rank_, taken.length);
+    world_.end_take(rank_, taken);
     return std::nullopt;
   }
   world_.set_alarm(rank_, taken.there);
@@ -42,7 +42,7 @@ bool SimulatedBackend::sent(messages::Ticket ticket) {
   World::Taken& message = coming_[static_cast<std::size_t>(ticket - kSent - 1)];
   if (message.there > seconds()) return false;
   message.there = World::kNever;
-  world_.end_take(rank_, message.length);
+  world_.end_take(rank_, message);
   return true;
 }
 

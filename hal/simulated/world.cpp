@@ -61,12 +61,14 @@ double World::end_seconds(int rank, const std::vector<EndCost>& costs, std::size
 
 void World::send(int from, int to, int type, const void* data, std::size_t length) {
   check_running();
-  work(from, end_seconds(from, machine_.network.send, length));
+  const bool takes_time = machine_.network.takes_time(type);
+  if (takes_time) work(from, end_seconds(from, machine_.network.send, length));
   let_earlier_run(from);
   const double now = clock(from);
   const int here = computer_of(from), there = computer_of(to);
-  const bool announced = routes_.announces(here, there, length);
-  const double arrival = from == to ? now : routes_.arrival(here, there, announced ? 0 : length, now, floor_at(now));
+  const bool announced = takes_time && routes_.announces(here, there, length);
+  const bool travels = takes_time && from != to;
+  const double arrival = travels ? routes_.arrival(here, there, announced ? 0 : length, now, floor_at(now)) : now;
   Rank& receiver = *ranks_[to];
   receiver.coming.push_back({arrival, messages_++, pool_.copy({from, type, length}, data), announced});
   std::ranges::push_heap(receiver.coming, Later());
@@ -94,7 +96,7 @@ void World::take(int rank, void* buffer) {
   const Taken taken = begin_take(rank, buffer);
   Rank& self = *ranks_[rank];
   self.clock = std::max(self.clock, taken.there);
-  end_take(rank, taken.length);
+  end_take(rank, taken);
 }
 
 // The receiver answers an announcement here, in a call, as where MPI's progress is in its calls alone; the sender's
@@ -107,9 +109,14 @@ World::Taken World::begin_take(int rank, void* buffer) {
   const auto [from, type, length] = message->envelope;
   if (length > 0) std::memcpy(buffer, message->bytes(), length);
   pool_.release(message);
-  if (!announced) return {length, self.clock};
+  if (!announced) return {type, length, self.clock};
   const double now = self.clock;
-  return {length, routes_.rest_arrival(computer_of(from), computer_of(rank), length, now, floor_at(now))};
+  return {type, length, routes_.rest_arrival(computer_of(from), computer_of(rank), length, now, floor_at(now))};
+}
+
+void World::end_take(int rank, const Taken& taken) {
+  const Network& network = machine_.network;
+  if (network.takes_time(taken.type)) work(rank, end_seconds(rank, network.receive, taken.length));
 }
 
 void World::set_alarm(int rank, double time) {

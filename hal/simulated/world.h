@@ -55,12 +55,13 @@ class World {
   // What peek returned. Waits for the rest of an announced message.
   void take(int rank, void* buffer);
   struct Taken {
+    int type;
     std::size_t length;
     double there;  // when all of it is
   };
   // The same without waiting. When all is there, end_take is due.
   Taken begin_take(int rank, void* buffer);
-  void end_take(int rank, std::size_t length) { work(rank, end_seconds(rank, machine_.network.receive, length)); }
+  void end_take(int rank, const Taken& taken);
   // Until a message comes that neither peek nor a wait has seen yet, an alarm, or `seconds` have passed.
   void wait(int rank, double seconds);
   // The rank will not wait beyond `time`.

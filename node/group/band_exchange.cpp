@@ -70,10 +70,12 @@ BandExchange::BandExchange(const raster::Neighbours& neighbours, const wire::Fra
       pending_(static_cast<std::size_t>(neighbours.group().count)),
       collectors_(static_cast<std::size_t>(neighbours.group().count)) {}
 
+void BandExchange::exchange_edges(const BandNeeds& needs, wire::FrameWriter& writer) {
+  exchange_edges(Plan(needs, neighbours_, collectors_, writer.lines_of_band()), writer);
+}
+
 void BandExchange::complete(const BandNeeds& needs, wire::FrameWriter& writer) {
   const Plan plan(needs, neighbours_, collectors_, writer.lines_of_band());
-  exchange_edges(plan, writer);
-  writer.finish_bands();
   send_picture(plan, writer);
   Background background(plan, writer);
   relay_.exchange(plan, background);

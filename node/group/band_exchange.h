@@ -29,7 +29,9 @@ class BandExchange {
  public:
   BandExchange(const raster::Neighbours& neighbours, const wire::FrameWriter& writer);
 
-  // Collective over the group, of which each node has pasted its home lines. A contributor returns when the interval's
+  // Of the group, of which each node has pasted its home lines, so that the writer can finish its bands.
+  void exchange_edges(const BandNeeds& needs, wire::FrameWriter& writer);
+  // Collective over the group, once each node's bands are finished. A contributor returns when the interval's
   // background is there, the writer when it has the keyframe.
   void complete(const BandNeeds& needs, wire::FrameWriter& writer);
 

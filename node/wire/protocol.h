@@ -218,6 +218,7 @@ struct PhaseTimes {
   double depth;     // until all of CZB is there
   double credit;    // waiting for the host: for its credit, or until the slot's earlier strip is gone
   double compose;   // of a node that writes files: bands to records, of the frame and for it
+  double bands;     // bands to other nodes, and waiting for theirs
   double storage;   // waiting until earlier files are written
 };
 
@@ -233,12 +234,13 @@ enum class Phase : std::int32_t {
   depth,
   credit,
   compose,
+  bands,
   storage,
   keyframe,
   inbetween
 };
-inline constexpr std::array kPhaseNames{"dice",  "sum",    "map",     "exchange", "fill",     "scanline", "shadow",
-                                        "depth", "credit", "compose", "storage",  "keyframe", "inbetween"};
+inline constexpr std::array kPhaseNames{"dice",  "sum",    "map",     "exchange", "fill",    "scanline", "shadow",
+                                        "depth", "credit", "compose", "bands",    "storage", "keyframe", "inbetween"};
 
 // Says that its sender lives. The host beats every few seconds from its start until its end. A node that has heard a
 // beat sends its own, one a second at most, while it works and while it waits; and ends when it hears none for long. A

@@ -63,7 +63,8 @@ class Recorder : public messages::Backend {
 
 // Takes frames at once, without threads.
 std::unique_ptr<sinks::SinkPool> make_sinks(sinks::Sink& sink, const sinks::SinkPool::Shape& shape) {
-  return std::make_unique<sinks::ServedSinks>(sink, shape, [](const images::FileWork&) { return 0.0; });
+  return std::make_unique<sinks::ServedSinks>(sink, shape,
+                                              [](const images::FileWork&) { return sinks::ServedSinks::Times(); });
 }
 
 }  // namespace

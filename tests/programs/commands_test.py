@@ -94,6 +94,20 @@ class Commands(ProgramTest):
         self.succeed("mars", "render", "teapot.mars", "-o", "b", *SMALL, "--frames", "0-3")
         self.assertEqual(self.verified_hash("a"), self.verified_hash("b"))
 
+    def test_info_of_a_report_says_what_bound_the_run(self):
+        self.succeed("mars", "render", TEAPOT, "--sink", "none", "--size", "32x18", "--frames", "0-3", "--backend",
+                     "simulated", "--platform", "fat-tree", "--nodes", 2, "--report", "run.json")
+        report = json.loads((self.folder / "run.json").read_text())
+        text = self.succeed("mars", "info", "run.json")
+        self.assertIn("nodes       2 nodes in 1 group, simulated\nframes      4\n", text)
+        self.assertIn(f"what binds  {report['walls']['binding']} ", text)
+        self.assertEqual(len(report["walls"]["walls"]), len(text.splitlines()) - 6)
+        del report["walls"]
+        self.write("old.json", report)
+        old = self.mars("info", "old.json")
+        self.assertEqual(old.returncode, 1)
+        self.assertClear(old.stderr, "a report without all that this version writes")
+
     def test_info_of_either_kind_of_file(self):
         self.succeed("mars", "compile", TEAPOT, "-o", "teapot.mars")
         of_film = self.succeed("mars", "info", TEAPOT)

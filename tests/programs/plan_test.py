@@ -113,6 +113,34 @@ class Plans(ProgramTest):
         beyond = self.succeed("mars", "plan", CUBES, "--nodes", 8, "--platform", self.tried())
         self.assertRegex(beyond, r"\(it is not known how far off: tried were forecasts for 1 to 4 nodes\)")
 
+    def test_it_says_what_binds(self):
+        words = ["plan", CUBES, "--nodes", 4, "--platform", "fat-tree"]
+        self.assertNotIn("walls", self.succeed("mars", *words))
+        text = self.succeed("mars", *words, "--explain")
+        self.assertRegex(text, r"\n +4   [a-z ]+ [\d.e-]+ s; without it [\d.e-]+ s; then [a-z ]+, without both ")
+        self.assertRegex(text, r"\nwalls of 4 nodes in \d group")
+        plan = json.loads(self.succeed("mars", *words, "--explain", "--json"))
+        for each in plan["by_nodes"]:
+            explained = each["explained"]
+            self.assertEqual(explained["seconds"], each["seconds"])
+            first = explained["walls"][0]
+            self.assertEqual(first["wall"], explained["binding"])
+            self.assertLess(first["without"], explained["seconds"])
+            self.assertLessEqual(explained["without_both"], first["without"])
+
+    def test_without_storage_a_wall_of_storage_is_gone(self):
+        platform = json.loads((SOURCES / "cluster/platforms/fat-tree.json").read_text())
+        platform["work"] = json.loads((SOURCES / "cluster/platforms/reference.json").read_text())["work"]
+        slow = self.write("slow.json", dict(platform, storage={"openings": 50}))
+        del platform["storage"]
+        fast = self.write("fast.json", platform)
+        words = ["plan", CUBES, "--nodes", 4, "--write", "nodes", "--groups", 1, "--json", "--platform"]
+        explained = json.loads(self.succeed("mars", *words, slow, "--explain"))["by_nodes"][-1]["explained"]
+        self.assertEqual(explained["binding"], "storage")
+        # One node contributes to keyframes, or all do: whichever is shorter there.
+        self.assertAlmostEqual(explained["walls"][0]["without"], json.loads(self.succeed("mars", *words, fast))["seconds"],
+                               delta=0.1 * explained["seconds"])
+
     def test_it_is_the_same_every_time(self):
         plans = {self.succeed("mars", "plan", CUBES, "--nodes", 6, "--platform", "ethernet", "--json")
                  for _ in range(2)}

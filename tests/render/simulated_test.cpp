@@ -33,7 +33,7 @@ FilmRun run_simulated(std::span<const std::byte> film, RunOptions options, const
       return std::make_unique<sinks::ServedSinks>(sink, shape, [&](const images::FileWork&) {
         const double end = world.reserve(world.nodes(), sink_seconds);
         world.set_alarm(world.nodes(), end);
-        return end;
+        return sinks::ServedSinks::Times{sink_seconds, end, end};
       });
     };
     run = render_as_host(film, options);

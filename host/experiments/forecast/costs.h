@@ -6,6 +6,7 @@
 
 #include "host/experiments/platform.h"
 #include "node/wire/frame_counts.h"
+#include "node/wire/protocol.h"
 
 namespace mars::forecast {
 
@@ -17,11 +18,16 @@ class Costs {
   double of(wire::Work kind, double units) const { return machine_.work[static_cast<std::size_t>(kind)] * units; }
   double of(const wire::UnitCounts& units) const;
 
+  // Whether messages of the type take time.
+  bool takes_time(long type) const { return machine_.network.takes_time(static_cast<int>(type)); }
+
   // Seconds that a message of `bytes` takes a node's processor, or the host's.
   double to_send(double bytes) const { return end(machine_.network.send, bytes); }
   double to_receive(double bytes) const { return end(machine_.network.receive, bytes); }
   double host_to_send(double bytes) const { return host_end(machine_.network.send, bytes); }
   double host_to_receive(double bytes) const { return host_end(machine_.network.receive, bytes); }
+  // And a node's, of a message to the host.
+  double to_send_host(double bytes) const { return takes_time(wire::kStrip) ? to_send(bytes) : 0; }
 
   // Seconds on the way between two nodes, where nothing else is.
   double on_the_way(double bytes, bool same_computer) const;
@@ -33,6 +39,7 @@ class Costs {
   double empty_on_the_way() const;
   double end(const std::vector<simulated::EndCost>& costs, double bytes) const;
   double host_end(const std::vector<simulated::EndCost>& costs, double bytes) const {
+    if (!takes_time(wire::kStrip)) return 0;
     return end(machine_.network.host_end.empty() ? costs : machine_.network.host_end, bytes);
   }
 

@@ -149,7 +149,7 @@ void pass_seen(Archive& archive, Of& seen) {
 template <typename Archive, typename Of>
 void pass_line(Archive& archive, Of& line) {
   for (auto* number : {&line.edge_boxes, &line.samples, &line.moving_edge_boxes, &line.moving_samples,
-                       &line.moving_width, &line.kept_width})
+                       &line.moving_width, &line.kept_width, &line.swept_width})
     archive.real(*number);
   pass_seen(archive, line.constant);
   pass_seen(archive, line.moving);

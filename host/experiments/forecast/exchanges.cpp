@@ -53,13 +53,14 @@ void Exchanges::answer(int n, const Message& message) {
   const int from = computers_.of(message.from), to = computers_.of(n);
   const auto length = static_cast<std::size_t>(message.bytes);
   const double now = clockwork_.now();
-  if (!routes_.announces(from, to, length)) return take(n, message);
+  const bool takes_time = costs_.takes_time(message_type(message.label));
+  if (!takes_time || !routes_.announces(from, to, length)) return take(n, message);
   clockwork_.at(routes_.rest_arrival(from, to, length, now, now), [this, n, message] { take(n, message); });
 }
 
 // It goes on before the next is taken.
 void Exchanges::take(int n, const Message& message) {
-  const double end = computers_.work(n, clockwork_.now(), costs_.to_receive(message.bytes) + message.seconds);
+  const double end = computers_.work(n, clockwork_.now(), receiving(message) + message.seconds);
   if (message.hops == 0) return clockwork_.at(end, [this, n] { count_taken(n); });
   clockwork_.at(end, [this, n, message] {
     const Node& node = of(n);
@@ -70,6 +71,10 @@ void Exchanges::take(int n, const Message& message) {
   });
 }
 
+double Exchanges::receiving(const Message& message) const {
+  return costs_.takes_time(message_type(message.label)) ? costs_.to_receive(message.bytes) : 0;
+}
+
 void Exchanges::count_taken(int n) {
   ++of(n).taken;
   receive(n);
@@ -77,12 +82,14 @@ void Exchanges::count_taken(int n) {
 
 void Exchanges::send(int n, int to, const Message& message, void (Exchanges::*then)(int)) {
   bytes_ += message.bytes;
-  const double sent = computers_.work(n, clockwork_.now(), costs_.to_send(message.bytes));
-  clockwork_.at(sent, [this, n, to, message, then] {
+  const bool takes_time = costs_.takes_time(message_type(message.label));
+  const double sending = takes_time ? costs_.to_send(message.bytes) : 0;
+  clockwork_.at(computers_.work(n, clockwork_.now(), sending), [this, n, to, message, then, takes_time] {
     const double now = clockwork_.now();
     const int here = computers_.of(n), there = computers_.of(to);
     const auto length = static_cast<std::size_t>(message.bytes);
-    const double arrival = routes_.arrival(here, there, routes_.announces(here, there, length) ? 0 : length, now, now);
+    const bool announced = takes_time && routes_.announces(here, there, length);
+    const double arrival = takes_time ? routes_.arrival(here, there, announced ? 0 : length, now, now) : now;
     clockwork_.at(arrival, [this, to, message] { arrive(to, message); });
     (this->*then)(n);
   });

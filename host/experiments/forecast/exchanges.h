@@ -57,6 +57,7 @@ class Exchanges {
   void receive(int n);
   void answer(int n, const Message& message);
   void take(int n, const Message& message);
+  double receiving(const Message& message) const;  // seconds
   void send(int n, int to, const Message& message, void (Exchanges::*then)(int));
   void arrive(int n, const Message& message);
   void work(int n, double seconds, void (Exchanges::*then)(int));

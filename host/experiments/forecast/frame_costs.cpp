@@ -74,6 +74,14 @@ class ParcelSums {
   std::vector<int> touched_;  // homes
 };
 
+// Each of the nodes does the mean of what all do.
+template <typename Nodes, typename Of>
+void even_out(const Nodes& nodes, const Of& seconds_of) {
+  double all = 0;
+  for (auto& node : nodes) all += seconds_of(node);
+  for (auto& node : nodes) seconds_of(node) = all / static_cast<double>(nodes.size());
+}
+
 }  // namespace
 
 // The lines of each node of a group, and what is on them.
@@ -144,6 +152,12 @@ GroupKeyframe FrameCosts::keyframe(const KeyframeCounts& counts, const SurfaceTa
     if (n >= static_cast<std::size_t>(group.contributors)) node.strips = {0, 0, 0, {}};
   }
   keyframe.homes = homes.ranges;
+  if (setting_.even.keyframes) {
+    const auto contribute = std::span(keyframe.nodes).first(static_cast<std::size_t>(group.contributors));
+    even_out(contribute, [](NodePart& node) -> double& { return node.dice; });
+    even_out(contribute, [](NodePart& node) -> double& { return node.strips.seconds; });
+    even_out(contribute, [](NodePart& node) -> double& { return node.compose; });
+  }
   return keyframe;
 }
 
@@ -162,6 +176,9 @@ KeyframeGifts FrameCosts::gifts(const GroupKeyframe& keyframe, const wire::Frame
     std::vector<NodeBands> bands;
     for (std::size_t node = 0; node < keyframe.homes.size(); ++node)
       bands.push_back(bands_of(keyframe.homes, node, counts, has_inbetweens));
+    if (setting_.even.keyframes)
+      even_out(std::span(bands).first(static_cast<std::size_t>(group.contributors)),
+               [](NodeBands& node) -> double& { return node.encoding; });
     gifts.bands = band_steps(machines_of(group), bands, group.writer);
   }
   return gifts;

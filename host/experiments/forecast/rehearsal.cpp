@@ -88,6 +88,8 @@ class Rehearsal {
   void send_to_host(StripSent message);
   bool writes(const Node& node) const;
 
+  // The node draws and composes: idle nodes may help.
+  double drawing(int n, double seconds);
   // `then` happens to the node when it has worked so long.
   void work(int n, double seconds, void (Rehearsal::*then)(int));
   void later(int n, double time, void (Rehearsal::*then)(int)) {
@@ -104,6 +106,7 @@ class Rehearsal {
   simulated::Routes routes_;
   simulated::StorageUse storage_;
   const bool nodes_write_;
+  const std::vector<walls::Pace> paces_;
   Exchanges exchanges_;
   // By number, nodes, place on a machine, and whether inbetweens follow. Those of exact counts are used once.
   std::map<std::array<std::size_t, 4>, std::shared_ptr<const GroupKeyframe>> keyframes_;
@@ -130,10 +133,15 @@ Rehearsal::Rehearsal(const FilmCounts& counts, const farm::Plan& plan, const Set
       routes_(setting.platform.machine.network, computers_.count(), computers_.of(nodes)),
       storage_(setting.platform.machine.storage, setting.platform.machine.network),
       nodes_write_(setting.nodes_write()),
+      paces_(setting.even.paces),
       exchanges_(clockwork_, computers_, routes_, costs_.costs(), nodes),
       task_keyframes_(counts.tasks.size()),
       nodes_(static_cast<std::size_t>(nodes)),
-      result_{0, {}, 0, 0, 0, costs_.shadow_bytes(), 0, host_memory(plan, setting, nodes)},
+      result_{0, {},
+              0, 0,
+              0, costs_.shadow_bytes(),
+              0, host_memory(plan, setting, nodes),
+              0, std::vector<walls::Busy>(nodes_.size())},
       host_(clockwork_, computers_, storage_, counts, plan, setting, result_.host_memory, nodes,
             {[this](std::size_t group, std::size_t task) { receive_task(group, task); },
              [this](int node) { later(node, way_from_host(node, sizeof(wire::Credit)), &Rehearsal::receive_credit); },
@@ -254,6 +262,14 @@ void Rehearsal::work(int n, double seconds, void (Rehearsal::*then)(int)) {
   later(n, computers_.work(n, clockwork_.now(), seconds), then);
 }
 
+double Rehearsal::drawing(int n, double seconds) {
+  const auto number = static_cast<std::size_t>(n);
+  const auto [busy, pace] = nodes_[number].frame == 0 ? std::pair(&walls::Busy::keyframes, &walls::Pace::keyframes)
+                                                      : std::pair(&walls::Busy::inbetweens, &walls::Pace::inbetweens);
+  result_.busy[number].*busy += seconds;
+  return paces_.empty() ? seconds : seconds * paces_[number].*pace;
+}
+
 void Rehearsal::begin_task(int n) {
   Node& node = nodes_[static_cast<std::size_t>(n)];
   if (node.tasks.empty()) {
@@ -264,7 +280,7 @@ void Rehearsal::begin_task(int n) {
   node.tasks.pop_front();
   node.frame = 0;
   node.keyframe = keyframe_of(node.task, plan_.groups[node.group]);
-  work(n, part_of(node).dice + fresh_seconds(node), &Rehearsal::sum);
+  work(n, drawing(n, part_of(node).dice + fresh_seconds(node)), &Rehearsal::sum);
 }
 
 void Rehearsal::exchange(int n, const Exchange& exchange, void (Rehearsal::*then)(int)) {
@@ -299,7 +315,7 @@ void Rehearsal::draw_strip(int n) {
   if (nodes_write_) {
     node.strips_left = 0;
     const NodePart& part = part_of(node);
-    return work(n, part.strips.seconds + part.compose, &Rehearsal::finish_strip);
+    return work(n, drawing(n, part.strips.seconds + part.compose), &Rehearsal::finish_strip);
   }
   if (node.slots == 0) {
     node.waits_for_slot = true;
@@ -307,7 +323,7 @@ void Rehearsal::draw_strip(int n) {
   }
   --node.slots;
   const StripCosts& strips = part_of(node).strips;
-  work(n, strips.seconds * next_part(node), &Rehearsal::finish_strip);
+  work(n, drawing(n, strips.seconds * next_part(node)), &Rehearsal::finish_strip);
 }
 
 // The last strip of a keyframe goes once the group's nodes have given each other what inbetweens need.
@@ -326,7 +342,7 @@ void Rehearsal::send_strip(int n) {
   const double part = next_part(node);
   const double bytes = same_computer ? kOnTheSameComputer : strips.bytes * part;
   const StripSent strip{n, node.task, node.frame, bytes, strips.pasting * part, --node.strips_left == 0};
-  const double sent = computers_.work(n, clockwork_.now(), costs_.costs().to_send(bytes));
+  const double sent = computers_.work(n, clockwork_.now(), costs_.costs().to_send_host(bytes));
   clockwork_.at(sent, [this, strip] { send_to_host(strip); });
   later(n, sent, strip.last ? &Rehearsal::end_frame : &Rehearsal::draw_strip);
 }
@@ -341,7 +357,7 @@ void Rehearsal::end_frame(int n) {
   if (k == task.frames.size() - 1) return begin_task(n);
   node.frame = k + 1;
   const NodePart& part = part_of(node);
-  work(n, part.dice + part.map + fresh_seconds(node), &Rehearsal::begin_strips);
+  work(n, drawing(n, part.dice + part.map + fresh_seconds(node)), &Rehearsal::begin_strips);
 }
 
 // Nodes answer announcements at once.
@@ -349,6 +365,7 @@ double Rehearsal::way_from_host(int n, double bytes) {
   const int host = computers_.of(static_cast<int>(nodes_.size())), computer = computers_.of(n);
   const auto length = static_cast<std::size_t>(bytes);
   const double now = clockwork_.now();
+  if (!costs_.costs().takes_time(wire::kStrip)) return now;
   if (!routes_.announces(host, computer, length)) return routes_.arrival(host, computer, length, now, now);
   return routes_.rest_arrival(host, computer, length, routes_.arrival(host, computer, 0, now, now), now);
 }
@@ -358,15 +375,18 @@ double Rehearsal::answer(const StripSent& strip) {
   const int host = computers_.of(static_cast<int>(nodes_.size())), computer = computers_.of(strip.node);
   const auto length = static_cast<std::size_t>(strip.bytes);
   const double now = clockwork_.now();
-  return routes_.announces(computer, host, length) ? routes_.rest_arrival(computer, host, length, now, now) : now;
+  const bool announced = costs_.costs().takes_time(wire::kStrip) && routes_.announces(computer, host, length);
+  return announced ? routes_.rest_arrival(computer, host, length, now, now) : now;
 }
 
 // On its way from now on.
 void Rehearsal::send_to_host(StripSent message) {
   const int host = computers_.of(static_cast<int>(nodes_.size())), computer = computers_.of(message.node);
   const auto length = static_cast<std::size_t>(message.bytes);
-  const double arrival = routes_.arrival(computer, host, routes_.announces(computer, host, length) ? 0 : length,
-                                         clockwork_.now(), clockwork_.now());
+  const double now = clockwork_.now();
+  const bool takes_time = costs_.costs().takes_time(wire::kStrip);
+  const bool announced = takes_time && routes_.announces(computer, host, length);
+  const double arrival = takes_time ? routes_.arrival(computer, host, announced ? 0 : length, now, now) : now;
   clockwork_.at(arrival, [this, message] { host_.arrive(message); });
 }
 
@@ -446,7 +466,7 @@ void Rehearsal::begin_file(int n) {
   clockwork_.at(node.file_there, [this, n, task = node.task, frame = node.frame] { end_file(n, task, frame); });
   const auto drawn = static_cast<double>(sizeof(wire::Strip));
   send_to_host({n, node.task, node.frame, drawn, 0, true});
-  work(n, costs_.costs().to_send(drawn), &Rehearsal::end_frame);
+  work(n, costs_.costs().to_send_host(drawn), &Rehearsal::end_frame);
 }
 
 void Rehearsal::end_file(int n, std::size_t task, std::size_t frame) {

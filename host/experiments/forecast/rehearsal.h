@@ -22,7 +22,8 @@ struct Rehearsed {
   double shadow_memory = 0;  // and for shadows
   double still_memory = 0;   // of still lines, that machines keep for a group, at most
   farm::HostMemory host_memory;
-  double host_busy = 0;  // seconds that the host's loop works
+  double host_busy = 0;           // seconds that the host's loop works
+  std::vector<walls::Busy> busy;  // by node
 };
 
 // A rendering that takes longer than `limit` is not played to its end: its seconds are infinite.

@@ -4,6 +4,9 @@
 #include <bit>
 #include <utility>
 
+#include "hal/messages/message_types.h"
+#include "node/wire/protocol.h"
+
 namespace mars::forecast {
 namespace {
 
@@ -96,6 +99,19 @@ void relay(Exchange& exchange, const Machines& machines, const std::vector<std::
 }
 
 }  // namespace
+
+long message_type(std::uint8_t label) {
+  switch (label) {
+    case kTriangles: return wire::kTriangles;
+    case kStill:
+    case kStillThere: return wire::kStillLines;
+    case kEdge: return wire::kEdge;
+    case kBackground:
+    case kBackgroundThere: return wire::kBackground;
+    case kPicture: return wire::kPicture;
+    default: return messages::kFirstInternalType;
+  }
+}
 
 Step work(double seconds) { return {Step::Kind::work, 0, -1, 0, 0, seconds}; }
 

@@ -30,6 +30,9 @@ struct Step {
 using Steps = std::vector<Step>;
 using Exchange = std::vector<Steps>;  // by node
 
+// Of messages with such a label, as nodes send them (wire/protocol.h; message_types.h of collectives).
+long message_type(std::uint8_t label);
+
 Step work(double seconds);
 Step send(std::uint8_t label, int to, double bytes, double seconds = 0);
 // `next`: to whom messages go on that have way to go.

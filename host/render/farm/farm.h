@@ -60,6 +60,7 @@ struct FarmListener {
 
 struct FarmReport {
   std::vector<wire::Hello> nodes;
+  std::vector<collectives::Group> groups;
   // Where each frame's were asked for: the last strip of each node, with all its counts, as they came.
   std::vector<wire::Strip> strips;
   std::vector<FinishedFrame> frames;
@@ -72,6 +73,8 @@ struct FarmReport {
   double sink_seconds = 0;           // of all threads that hand frames to the sink
   wire::HostUnits charged{};         // what the host did, by kind
   images::FileWork files;            // that the host wrote
+  std::uint32_t sinks = 0;           // threads that did
+  double storing_seconds = 0;        // in which at least one file was being written, on nodes too
   std::uint64_t node_files = 0;      // that nodes wrote
   std::vector<SlowTime> slow_times;  // since the first command; of runs that adapt
   bool cancelled = false;            // before all frames were composed

@@ -120,6 +120,7 @@ bool FilmPictures::take_written(const wire::Written& written) {
   if (group == groups_.end()) return false;
   run_.options.writing->written(written);
   run_.report.sink_seconds += written.seconds;
+  storing_.add(run_.engine.seconds() - written.seconds, run_.engine.seconds());
   ++run_.report.node_files;
   finish_written(group->note_written(written.frame));
   return true;

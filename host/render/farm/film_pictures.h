@@ -12,6 +12,7 @@
 #include "host/render/farm/engine.h"
 #include "host/render/farm/farm.h"
 #include "host/render/farm/group_work.h"
+#include "host/render/sinks/busy_time.h"
 #include "node/wire/work.h"
 
 namespace mars::farm {
@@ -38,6 +39,8 @@ class FilmPictures : public PictureTaker {
   // Notes which frames the sinks have now.
   void note_with_sinks();
   bool sinks_have_all() const { return with_sinks_.empty(); }
+  // In which nodes were writing at least one file.
+  double storing_seconds() const { return storing_.seconds(); }
 
  private:
   std::uint32_t number_of_group(int node) const { return group_numbers_[static_cast<std::size_t>(node)]; }
@@ -56,6 +59,7 @@ class FilmPictures : public PictureTaker {
   std::uint32_t followed_ = 0;                // the group whose picture is watched
   std::unordered_map<std::uint32_t, FinishedFrame> with_sinks_;
   std::size_t frames_left_;
+  sinks::BusyTime storing_;
 };
 
 }  // namespace mars::farm

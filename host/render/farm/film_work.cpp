@@ -13,7 +13,7 @@ namespace {
 // That a node took itself, without waiting for the host.
 double own_seconds(const wire::PhaseTimes& times) {
   return times.dice + times.sum + times.map + times.exchange + times.fill + times.scanline + times.shadow +
-         times.depth + times.compose;
+         times.depth + times.compose + times.bands;
 }
 
 // `slowness` 1: no longer.

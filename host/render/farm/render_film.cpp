@@ -72,7 +72,10 @@ bool render(const FilmRun& run, FilmPictures& pictures) {
   const ScopedSpan span(trace::HostSpan::finish);
   finish_sinks(run);
   pictures.note_with_sinks();
+  run.report.groups = run.plan.groups;
   run.report.files = run.sinks.made();
+  run.report.sinks = run.sinks.shape().threads;
+  run.report.storing_seconds = run.report.files.storing_seconds + pictures.storing_seconds();
   run.report.total_seconds = run.engine.seconds();
   return true;
 }

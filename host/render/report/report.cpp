@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "host/render/report/replay.h"
+#include "host/render/walls/walls_text.h"
 #include "topology/placement.h"
 
 namespace mars::report {
@@ -44,10 +46,10 @@ ordered_json dimensions_json(const std::vector<wire::Hello>& hellos) {
 }
 
 ordered_json seconds_json(const wire::PhaseTimes& times) {
-  return {{"dice", times.dice},         {"sum", times.sum},        {"map", times.map},
-          {"exchange", times.exchange}, {"fill", times.fill},      {"scanline", times.scanline},
-          {"shadow", times.shadow},     {"depth", times.depth},    {"credit", times.credit},
-          {"compose", times.compose},   {"storage", times.storage}};
+  return {{"dice", times.dice},         {"sum", times.sum},     {"map", times.map},
+          {"exchange", times.exchange}, {"fill", times.fill},   {"scanline", times.scanline},
+          {"shadow", times.shadow},     {"depth", times.depth}, {"credit", times.credit},
+          {"compose", times.compose},   {"bands", times.bands}, {"storage", times.storage}};
 }
 
 // What was done at all.
@@ -78,6 +80,9 @@ ordered_json host_json(const farm::FarmReport& report) {
           {"encoded_bytes", report.files.encoded_bytes},
           {"file_bytes", report.files.file_bytes},
           {"node_files", report.node_files},
+          {"sinks", report.sinks},
+          {"making_seconds", report.files.making_seconds},
+          {"storing_seconds", report.storing_seconds},
           {"charged", charged_json(report.charged, wire::kNodeKinds)}};
 }
 
@@ -155,6 +160,8 @@ std::string report_text(const ReportHead& head, const farm::FarmReport& report) 
                             {"nodes", nodes},
                             {"dimensions", dimensions_json(report.nodes)},
                             {"slow", slow_json(report)},
+                            {"groups", report.groups.size()},
+                            {"walls", walls::json_of(explain(report))},
                             {"frames", frames_json(report)}};
   return all.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }

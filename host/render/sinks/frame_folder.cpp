@@ -389,19 +389,39 @@ Manifest read_manifest(const fs::path& folder) {
   return std::move(*manifest);
 }
 
+namespace {
+
+double seconds_now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
 FileSink::FileSink(FrameFolder& folder, ContentOf content)
     : folder_(folder), content_(std::move(content)), encoder_(folder.bands()) {}
 
 void FileSink::take(compositor::Frame& frame) {
+  const double begun = seconds_now();
   const EncodedFrame encoded = encoder_.encode(frame);
   const std::string hash = encoded.pixel_hash();
   const std::string mark = folder_.mark_of(frame.number, hash, content_ ? content_(frame.number) : "");
   const images::PictureEnds ends = encoder_.ends_of(encoded, mark);
   const std::vector<std::span<const std::byte>> pieces = encoder_.pieces(encoded, ends);
+  const double made = seconds_now();
   folder_.put(frame.number, hash, pieces);
-  ++files_;
-  encoded_bytes_ += encoded.encoded_bytes;
-  for (const std::span<const std::byte> piece : pieces) file_bytes_ += piece.size();
+  const std::lock_guard lock(mutex_);
+  ++made_.files;
+  made_.encoded_bytes += encoded.encoded_bytes;
+  for (const std::span<const std::byte> piece : pieces) made_.file_bytes += piece.size();
+  made_.making_seconds += made - begun;
+  storing_.add(made, seconds_now());
+}
+
+images::FileWork FileSink::made() const {
+  const std::lock_guard lock(mutex_);
+  images::FileWork made = made_;
+  made.storing_seconds = storing_.seconds();
+  return made;
 }
 
 }  // namespace mars::sinks

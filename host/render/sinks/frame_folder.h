@@ -20,6 +20,7 @@
 #include "hal/failure/failure.h"
 #include "host/content/film/compiled_film.h"
 #include "host/content/document/whole_file.h"
+#include "host/render/sinks/busy_time.h"
 #include "host/render/sinks/claim.h"
 #include "host/render/sinks/folder_turn.h"
 #include "host/render/sinks/frame_encoder.h"
@@ -171,7 +172,7 @@ class FileSink : public Sink {
   explicit FileSink(FrameFolder& folder, ContentOf content = {});
   void take(compositor::Frame& frame) override;
   bool restores() const override { return true; }
-  images::FileWork made() const override { return {files_, encoded_bytes_, file_bytes_}; }
+  images::FileWork made() const override;
   void check() override { folder_.check(); }
   void give_up() override { folder_.give_up(); }
 
@@ -179,7 +180,9 @@ class FileSink : public Sink {
   FrameFolder& folder_;
   const ContentOf content_;
   FrameEncoder encoder_;
-  std::atomic<std::uint64_t> files_ = 0, encoded_bytes_ = 0, file_bytes_ = 0;  // as in FileWork
+  mutable std::mutex mutex_;  // guards what follows
+  images::FileWork made_;     // but for storing_seconds
+  BusyTime storing_;
 };
 
 }  // namespace mars::sinks

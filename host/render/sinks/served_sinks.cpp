@@ -9,8 +9,18 @@ namespace mars::sinks {
 void ServedSinks::submit(compositor::Frame* frame) {
   const images::FileWork before = sink().made();
   sink().take(*frame);
-  const double now = dclock(), ended = serve_(sink().made() - before);
-  served_.push_back({frame, {frame->number, 0, now, now, ended}});
+  const double now = dclock();
+  const Times times = serve_(sink().made() - before);
+  making_ += times.making;
+  storing_.add(times.made, times.there);
+  served_.push_back({frame, {frame->number, 0, now, now, times.there}});
+}
+
+images::FileWork ServedSinks::made() const {
+  images::FileWork made = SinkPool::made();
+  made.making_seconds = making_;
+  made.storing_seconds = storing_.seconds();
+  return made;
 }
 
 std::vector<SinkPool::Taken> ServedSinks::taken() {

@@ -58,7 +58,7 @@ class SinkPool {
   // The frames taken since the last call.
   virtual std::vector<Taken> taken();
   // Of all frames taken so far.
-  images::FileWork made() const { return sink_.made(); }
+  virtual images::FileWork made() const { return sink_.made(); }
   // Waits until every submitted frame was taken.
   virtual void finish();
 

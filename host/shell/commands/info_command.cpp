@@ -6,6 +6,7 @@
 
 #include "host/cli/command.h"
 #include "host/content/film/describe.h"
+#include "host/render/report/describe.h"
 #include "host/shell/job/film_of.h"
 #include "host/shell/options/render_options.h"
 
@@ -13,6 +14,7 @@ namespace mars::commands {
 namespace {
 
 std::string info_of(const std::string& path) {
+  if (const auto report = report::read_report(path)) return report::describe(*report, path);
   options::RenderOptions options;
   options.film = path;
   std::string warnings;
@@ -25,8 +27,9 @@ std::string info_of(const std::string& path) {
 
 void add_info(cli::Command app) {
   const auto film = std::make_shared<std::string>();
-  const cli::Command command = app.add_command("info", "Print what a film contains");
-  command.add("FILM", *film, "A .json or .mars file. Example: examples/demo.json").required();
+  const cli::Command command = app.add_command("info", "Print what a film contains, or what bound a run");
+  command.add("FILM", *film, "A .json or .mars file, or a report of mars render. Example: examples/demo.json")
+      .required();
   command.runs([film] { std::cout << info_of(*film); });
 }
 

@@ -20,10 +20,12 @@
 #include "host/content/document/text.h"
 #include "host/content/document/whole_file.h"
 #include "host/experiments/forecast/counts_file.h"
+#include "host/experiments/forecast/explain.h"
 #include "host/experiments/forecast/forecast.h"
 #include "host/images/picture_format.h"
 #include "host/render/farm/node_memory.h"
 #include "host/render/session/session.h"
+#include "host/render/walls/walls_text.h"
 #include "host/shell/commands/shown_progress.h"
 #include "host/shell/job/film_of.h"
 #include "host/shell/options/render_options.h"
@@ -42,6 +44,7 @@ struct PlanWords {
   options::RenderOptions options;
   std::string counted;  // the file of counts
   bool json = false;
+  bool explain = false;
 };
 
 struct Planned {
@@ -51,6 +54,7 @@ struct Planned {
   bool files;
   std::vector<forecast::Forecast> by_nodes;   // ascending; the last has the nodes that were asked for
   std::vector<forecast::Forecast> otherwise;  // with files written by others, where that was compared
+  std::vector<walls::Explanation> walls;      // of by_nodes, where they are to be explained
   double slots;                               // bytes of a node's strips
   double machine = 0;                         // bytes that all processes of the host's machine use
 
@@ -155,13 +159,17 @@ Planned plan(const PlanWords& words, const NodesCode& code) {
     return forecast::forecasts_up_to(counts, tasks, setting, nodes, options.groups,
                                      nodes >= kMany ? shown_progress("forecasting") : forecast::Progress());
   };
-  Planned planned{platform, counts.counted, frames.size(), setting.files, {}, {}, 0};
+  Planned planned{platform, counts.counted, frames.size(), setting.files, {}, {}, {}, 0};
   planned.by_nodes =
       forecasts(options.write == options::WriteWhere::nodes ? forecast::Writers::nodes : forecast::Writers::host);
   const bool several = nodes > platform.machine.nodes;  // computers
   if (setting.files && several && options.write == options::WriteWhere::automatic) {
     planned.otherwise = forecasts(forecast::Writers::nodes);
     planned.take_sooner();
+  }
+  for (std::size_t i = 0; words.explain && i < planned.by_nodes.size(); ++i) {
+    setting.writers = planned.by_nodes[i].writers;
+    planned.walls.push_back(forecast::explain(counts, tasks, setting, planned.by_nodes[i]));
   }
   // An interval says it, too.
   if (!platform.doubt.empty() && !planned.asked().spread) warn(experiments::doubt_text(platform));
@@ -239,6 +247,15 @@ std::string text_of(const Planned& planned) {
   return text;
 }
 
+// Of each number of nodes, and all of those of the nodes that were asked for.
+std::string walls_text(const Planned& planned) {
+  if (planned.walls.empty()) return "";
+  std::string text = "  nodes   what binds\n";
+  for (std::size_t i = 0; i < planned.walls.size(); ++i)
+    text += document::formatted("%7d   ", planned.by_nodes[i].nodes) + walls::line_of(planned.walls[i]) + "\n";
+  return text + "walls of " + in_groups(planned.asked()) + "\n" + walls::table_of(planned.walls.back());
+}
+
 nlohmann::ordered_json json_of(const Planned& planned, const forecast::Forecast& forecast) {
   nlohmann::ordered_json all = {{"nodes", forecast.nodes},
                                 {"groups", forecast.groups},
@@ -268,6 +285,7 @@ std::string json_text(const Planned& planned) {
   all["machine_memory"] = std::llround(planned.machine);
   all["best"] = json_of(planned, planned.best());
   for (const forecast::Forecast& each : planned.by_nodes) all["by_nodes"].push_back(json_of(planned, each));
+  for (std::size_t i = 0; i < planned.walls.size(); ++i) all["by_nodes"][i]["explained"] = json_of(planned.walls[i]);
   return all.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -283,9 +301,12 @@ void add_plan(cli::Command app, const NodesCode& code) {
            "--counted film.counts")
       .type("FILE");
   command.add_flag("--json", words->json, "Print one JSON object, for programs. Example: --json");
+  command.add_flag("--explain", words->explain,
+                   "Say what the time consists of: what binds, what it would take without that, and what binds then. "
+                   "Example: --explain");
   command.runs([words, code] {
     const Planned planned = plan(*words, code);
-    std::cout << (words->json ? json_text(planned) : text_of(planned));
+    std::cout << (words->json ? json_text(planned) : text_of(planned) + walls_text(planned));
   });
 }
 

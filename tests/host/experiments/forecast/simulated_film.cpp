@@ -48,6 +48,7 @@ Setting SimulatedFilm::setting(const wire::PackedFilm& film) const {
   Setting setting{film, platform_};
   setting.files = files_ != Files::none;
   setting.writers = files_ == Files::nodes ? Writers::nodes : Writers::host;
+  setting.sink_threads = static_cast<std::uint32_t>(platform_.host_processors());
   return setting;
 }
 
@@ -62,6 +63,14 @@ Forecast SimulatedFilm::forecast(int nodes, std::uint32_t groups, std::int32_t s
 
 FilmCounts SimulatedFilm::count_exactly() const {
   return forecast::count_exactly(view(), tasks_, programs::make_node_counter, images::PictureFormat::png, 2, {});
+}
+
+walls::Explanation SimulatedFilm::explain(int nodes, std::uint32_t groups) const {
+  const wire::PackedFilm film = view();
+  Forecast all;
+  all.nodes = nodes;
+  all.groups = groups;
+  return forecast::explain(counts_, tasks_, setting(film), all);
 }
 
 Rehearsed SimulatedFilm::counted(int nodes, std::uint32_t groups) const {

@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "hal/simulated/world.h"
 #include "host/content/film/compile.h"
+#include "host/experiments/forecast/explain.h"
 #include "host/experiments/forecast/forecast.h"
 #include "host/render/farm/farm.h"
 
@@ -28,6 +30,9 @@ class SimulatedFilm {
   FilmCounts count_exactly() const;
   const experiments::Platform& platform() const { return platform_; }
 
+  // Of both forecasts and renderings from now on.
+  void set_platform(experiments::Platform platform) { platform_ = std::move(platform); }
+
   // `sharers`, `most_frames`: as in Setting.
   Forecast forecast(int nodes, std::uint32_t groups, std::int32_t sharers = 0, std::uint32_t most_frames = 0) const;
   // The same from all frames, counted exactly.
@@ -36,6 +41,8 @@ class SimulatedFilm {
   farm::FarmReport render(int nodes, std::uint32_t groups) const;
   // As the forecast says.
   farm::FarmReport render(const Forecast& forecast) const;
+  // Of the forecast in which all nodes of a group contribute to keyframes, as in render().
+  walls::Explanation explain(int nodes, std::uint32_t groups) const;
 
  private:
   farm::Plan plan(int nodes, std::uint32_t groups) const;

@@ -1,0 +1,122 @@
+#include "host/experiments/forecast/explain.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <span>
+
+#include "hal/messages/message_types.h"
+#include "host/render/walls/even.h"
+#include "node/wire/protocol.h"
+
+namespace mars::forecast {
+namespace {
+
+using walls::Wall;
+using walls::Walls;
+using wire::Work;
+
+// Nodes that write files compose frames, too.
+constexpr std::array kComposing{Work::host_run, Work::host_byte, Work::host_restored};
+constexpr std::array kLoop{Work::host_strip, Work::host_frame};
+
+// Of messages; none: the wall has none.
+std::optional<Wall> wall_of(int type) {
+  if (type >= messages::kFirstInternalType) return Wall::sum;
+  switch (type) {
+    case wire::kTriangles: return Wall::exchange;
+    case wire::kStillLines: return Wall::still;
+    case wire::kEdge:
+    case wire::kBackground:
+    case wire::kPicture: return Wall::bands;
+    case wire::kWrite:
+    case wire::kRender:
+    case wire::kCredit:
+    case wire::kStrip:
+    case wire::kDrawn:
+    case wire::kWritten:
+    case wire::kStorage: return Wall::host;
+    default: return std::nullopt;
+  }
+}
+
+void clear(std::vector<double>& costs, std::span<const Work> kinds) {
+  for (const Work kind : kinds) costs[static_cast<std::size_t>(kind)] = 0;
+}
+
+class Rehearsals {
+ public:
+  Rehearsals(const FilmCounts& counts, const std::vector<farm::Task>& tasks, const Setting& setting,
+             const Forecast& forecast)
+      : counts_(counts),
+        plan_{tasks, farm::make_groups(forecast.nodes, static_cast<int>(forecast.groups), tasks.size()),
+              forecast.contributors},
+        setting_(setting),
+        nodes_(forecast.nodes) {}
+
+  double seconds(Walls removed) const {
+    const experiments::Platform platform = without(setting_.platform, removed, setting_.writers);
+    Even even{removed.has(Wall::imbalance), {}};
+    const Rehearsed run = rehearsed(platform, even);
+    if (!removed.has(Wall::frame)) return run.seconds;
+    even.paces = walls::even_out(run.busy, plan_.groups);
+    return rehearsed(platform, even).seconds;
+  }
+
+  // What others take no time in any case.
+  Walls there() const {
+    const bool several = std::ranges::any_of(plan_.groups, [](const auto& group) { return group.count > 1; });
+    const bool far = several && plan_.groups.front().count > setting_.platform.machine.nodes;
+    Walls there{Wall::compute, Wall::host};
+    if (nodes_ > 1) there.add(Wall::frame);
+    if (several) there.add(Wall::imbalance).add(Wall::sum);
+    if (far) there.add(Wall::exchange).add(Wall::still);
+    if (several && setting_.nodes_write()) there.add(Wall::bands);
+    if (setting_.files) there.add(Wall::encoder).add(Wall::storage);
+    return there;
+  }
+
+ private:
+  Rehearsed rehearsed(const experiments::Platform& platform, const Even& even) const {
+    Setting setting{setting_.film, platform};
+    setting.mapping = setting_.mapping;
+    setting.picture = setting_.picture;
+    setting.files = setting_.files;
+    setting.writers = setting_.writers;
+    setting.sink_threads = setting_.sink_threads;
+    setting.host_budget = setting_.host_budget;
+    setting.even = even;
+    return rehearse(counts_, plan_, setting, nodes_);
+  }
+
+  const FilmCounts& counts_;
+  const farm::Plan plan_;
+  const Setting& setting_;
+  const int nodes_;
+};
+
+}  // namespace
+
+experiments::Platform without(experiments::Platform platform, Walls walls, Writers writers) {
+  simulated::Machine& machine = platform.machine;
+  const auto kind = [&](std::size_t first) { return machine.work.begin() + static_cast<std::ptrdiff_t>(first); };
+  if (walls.has(Wall::compute)) std::fill(kind(0), kind(wire::kNodeKinds), 0);
+  if (walls.has(Wall::host)) clear(machine.work, kLoop);
+  if (walls.has(writers == Writers::nodes ? Wall::encoder : Wall::host)) clear(machine.work, kComposing);
+  if (walls.has(Wall::encoder)) std::fill(kind(static_cast<std::size_t>(Work::file)), machine.work.end(), 0);
+  if (walls.has(Wall::storage)) machine.storage = {};
+  machine.network.is_free = [walls](int type) {
+    const std::optional<Wall> wall = wall_of(type);
+    return wall && walls.has(*wall);
+  };
+  return platform;
+}
+
+walls::Explanation explain(const FilmCounts& counts, const std::vector<farm::Task>& tasks, const Setting& setting,
+                           const Forecast& forecast) {
+  const Rehearsals rehearsals(counts, tasks, setting, forecast);
+  return walls::explain([&](Walls removed) { return rehearsals.seconds(removed) * forecast.middle; },
+                        rehearsals.there());
+}
+
+}  // namespace mars::forecast

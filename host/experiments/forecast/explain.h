@@ -1,0 +1,19 @@
+// Explains a forecast by its walls (host/render/walls/walls.h): the same rendering, by as many groups and contributors,
+// is rehearsed again on platforms where a wall takes no time.
+#pragma once
+
+#include <vector>
+
+#include "host/experiments/forecast/forecast.h"
+#include "host/render/walls/walls.h"
+
+namespace mars::forecast {
+
+// `forecast`: of these counts, tasks and setting.
+walls::Explanation explain(const FilmCounts& counts, const std::vector<farm::Task>& tasks, const Setting& setting,
+                           const Forecast& forecast);
+
+// Where work and messages of these walls take no time. Unevenness is none of a platform's: it stays.
+experiments::Platform without(experiments::Platform platform, walls::Walls walls, Writers writers);
+
+}  // namespace mars::forecast

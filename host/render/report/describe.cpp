@@ -1,0 +1,44 @@
+#include "host/render/report/describe.h"
+
+#include <fstream>
+
+#include "hal/failure/failure.h"
+#include "host/content/document/text.h"
+#include "host/render/walls/walls_text.h"
+
+namespace mars::report {
+namespace {
+
+using nlohmann::json;
+
+std::string text_of(const json& report) {
+  const walls::Explanation walls = walls::explanation_of(report.at("walls"));
+  std::string text = "report of   " + report.at("film").get<std::string>() + "\n";
+  text += "nodes       " + document::counted(report.at("nodes").size(), "node") + " in " +
+          document::counted(report.at("groups").get<std::uint64_t>(), "group") + ", " +
+          report.at("backend").get<std::string>() + "\n";
+  text += "frames      " + std::to_string(report.at("frames").size()) + "\n";
+  text += document::formatted("seconds     %.4g\n", report.at("total_seconds").get<double>());
+  return text + "what binds  " + walls::line_of(walls) + "\n" + walls::table_of(walls);
+}
+
+}  // namespace
+
+std::optional<json> read_report(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  if (file.peek() != '{') return std::nullopt;  // a compiled film, or not there
+  json report = json::parse(file, nullptr, false);
+  if (!report.is_object() || !report.contains("total_seconds") || !report.contains("frames")) return std::nullopt;
+  return report;
+}
+
+std::string describe(const json& report, const std::filesystem::path& path) {
+  try {
+    return text_of(report);
+  } catch (const json::exception&) {
+    throw Failure("is a report without all that this version writes", path.string(),
+                  "render again with --report, or read the report with the version that wrote it");
+  }
+}
+
+}  // namespace mars::report
