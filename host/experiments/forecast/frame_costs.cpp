@@ -17,7 +17,9 @@ using wire::Work;
 constexpr double kTriangleBytes = 64, kUnsortedBoxBytes = 12, kBoxBytes = 8;
 constexpr double kFullStrip = 512 << 10;  // node/raster/strip_buffer.cpp
 constexpr double kShortSum = 64 << 10;    // hal/collectives/reduction.cpp
-constexpr double kSharedUnevenly = 1.15;  // of a shared inbetween, the largest part over the mean
+// Of a shared inbetween: the largest part over the mean, by lines, and by bands of a file that are no more than nodes;
+// the most memory of a node over that of its part; lines by which a patch's box is too tall, and its points.
+constexpr double kSharedUnevenly = 1.1, kBandsUnevenly = 1.6, kMemoryUnevenly = 1.3, kBoxMargin = 5, kBoxPoints = 16;
 
 // What each of `nodes` nodes makes: whole shares where these divide evenly, else equal parts of several.
 std::vector<wire::UnitCounts> made_by(const std::vector<wire::UnitCounts>& shares, int nodes) {
@@ -108,12 +110,11 @@ GroupKeyframe FrameCosts::keyframe(const wire::FrameCounts& counts, int nodes, i
   return keyframe;
 }
 
-// Nodes that share an inbetween divide its lines by bounds of what they have, and so less evenly than others; patches
-// between two nodes' lines are made by both. Bands that are encoded are not divided.
+// Bands that are encoded are not divided.
 NodePart FrameCosts::inbetween(const FrameTotals& whole, const FrameTotals& whole_again, int sharers) const {
   const bool is_shared = sharers > 1;
-  const FrameTotals totals = is_shared ? whole * (kSharedUnevenly / sharers) : whole;
-  const FrameTotals again = is_shared ? whole_again * (kSharedUnevenly / sharers) : whole_again;
+  const FrameTotals totals = is_shared ? shared(whole, sharers) : whole;
+  const FrameTotals again = is_shared ? shared(whole_again, sharers) : whole_again;
   const wire::UnitCounts made = totals.made + again.made;
   wire::UnitCounts units = drawn_units(totals + again);
   units[Work::line] = totals.lines + again.lines;
@@ -127,7 +128,34 @@ NodePart FrameCosts::inbetween(const FrameTotals& whole, const FrameTotals& whol
   part.compose = pasting(totals) + encoding(changed);
   if (is_shared) part.bytes_to_nodes = whole.changed / sharers * line_bytes() * setting_.platform.file_part;
   part.strips.pasting += costs_.of(Work::host_restored, totals.drawn.moving.block_pixels * pixel_bytes());
-  part.memory = part.made_memory = std::min(arena_bytes(), made_bytes(made));
+  part.memory = part.made_memory = std::min(arena_bytes(), made_bytes(made) * (is_shared ? kMemoryUnevenly : 1));
+  return part;
+}
+
+// A node's part of what `sharers` divide by boxes round what they have (node/group/team_lines.h), and so less evenly
+// than keyframes. Patches and triangles between two nodes' lines are made by both, and each meets all casters of
+// shadows.
+FrameTotals FrameCosts::shared(const FrameTotals& whole, int sharers) const {
+  const wire::UnitCounts& made = whole.made;
+  const double patches = made[Work::patch] + made[Work::meshlet], lines = std::max(1.0, whole.lines);
+  double most = kSharedUnevenly / sharers;
+  if (const double bands = std::ceil(whole.changed / band_lines_); setting_.nodes_write() && bands > 0) {
+    const double few = std::min(1.0, sharers / bands);
+    const double unevenly = kSharedUnevenly + (kBandsUnevenly - kSharedUnevenly) * few * few;
+    most = std::max(most, unevenly / std::min<double>(sharers, bands));
+  }
+  most = std::min(most, 1.0);
+  FrameTotals part = whole * most;
+  part.casters = whole.casters;
+  if (patches == 0 || made[Work::triangle] == 0) return part;
+  const double rows = made[Work::edge_box_made] / made[Work::triangle] / setting_.film.settings().samples;
+  const double height = rows * std::sqrt(made[Work::triangle_tested] / patches / 2) + kBoxMargin;
+  const auto part_with = [&](double tall) { return std::min(1.0, most + tall / lines); };
+  for (const Work kind : {Work::patch, Work::meshlet, Work::vertex, Work::mesh_vertex, Work::triangle_tested,
+                          Work::row_tested, Work::vertex_light})
+    part.made[kind] = made[kind] * part_with(height);
+  part.made[Work::triangle] = made[Work::triangle] * part_with(rows);
+  part.made[Work::vertex] += kBoxPoints * patches;
   return part;
 }
 

@@ -79,6 +79,7 @@ class FrameCosts {
   };
   StillLines still_lines(const geometry::LineRange& home, const wire::FrameCounts& counts,
                          const wire::StillPlan& plan) const;
+  FrameTotals shared(const FrameTotals& whole, int sharers) const;
   double dicing(const wire::UnitCounts& made) const;
   double setting_up(const wire::UnitCounts& made) const;
   wire::UnitCounts drawn_units(const FrameTotals& totals) const;
