@@ -160,8 +160,8 @@ struct Render {
   std::uint16_t cycle;            // 0: turns
   std::uint8_t listed;
   std::uint8_t goes_on;
-  std::int32_t teams;  // that the group's nodes form side by side, 1..group_count; 0: each node is one
-  std::uint32_t unused;
+  std::int32_t teams = 0;  // that the group's nodes form side by side, 1..group_count; 0: each node is one
+  std::uint32_t unused = 0;
 };
 
 // Teams in a cycle, at most.

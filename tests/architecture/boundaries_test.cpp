@@ -96,7 +96,7 @@ TEST(Boundaries, FewWriteToTerminalsAsTheyLike) {
   for (const Source& source : sources())
     if (std::regex_search(source.text, std::regex("\\braw_(output|error)\\(\\)"))) files.insert(source.path);
   EXPECT_EQ(files, (Files{"host/child/standard_streams.cpp", "host/child/standard_streams.h",
-                          "host/shell/batch/follow.cpp", "host/shell/commands/calibrate_command.cpp",
+                          "host/shell/batch/follow.cpp", "host/shell/commands/shown_progress.h",
                           "host/shell/launch/launch.cpp", "host/studio/link/host_job.cpp"}));
 }
 

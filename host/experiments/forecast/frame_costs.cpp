@@ -17,9 +17,11 @@ using wire::Work;
 constexpr double kFullStrip = 512 << 10;  // node/raster/strip_buffer.cpp
 constexpr std::uint32_t kLinesABeat = 4;  // node/renderer.cpp
 constexpr double kBandHead = 80;          // host/render/composer/band_record.h
-constexpr double kSharedUnevenly = 1.15;  // of a shared inbetween, the largest part over the mean
 constexpr double kPieceHead = 8;          // node/group/relay.cpp
 constexpr double kLinesHead = 8;          // node/group/still_exchange.cpp: of a line with groups, or of all in a piece
+// Of a shared inbetween: the largest part over the mean, by lines, and by bands of a file that are no more than nodes;
+// the most memory of a node over that of its part; lines by which a patch's box is too tall, and its points.
+constexpr double kSharedUnevenly = 1.1, kBandsUnevenly = 1.6, kMemoryUnevenly = 1.3, kBoxMargin = 5, kBoxPoints = 16;
 
 // Home of each line.
 std::vector<int> homes_of_lines(const std::vector<geometry::LineRange>& ranges, std::size_t height) {
@@ -184,12 +186,11 @@ KeyframeGifts FrameCosts::gifts(const GroupKeyframe& keyframe, const wire::Frame
   return gifts;
 }
 
-// Nodes that share an inbetween divide its lines by bounds of what they have, and so less evenly than others; patches
-// between two nodes' lines are made by both. Bands that are encoded are not divided.
+// Bands that are encoded are not divided.
 NodePart FrameCosts::inbetween(const FrameTotals& whole, const FrameTotals& whole_again, int sharers) const {
   const bool is_shared = sharers > 1;
-  const FrameTotals totals = is_shared ? whole * (kSharedUnevenly / sharers) : whole;
-  const FrameTotals again = is_shared ? whole_again * (kSharedUnevenly / sharers) : whole_again;
+  const FrameTotals totals = is_shared ? shared(whole, sharers) : whole;
+  const FrameTotals again = is_shared ? shared(whole_again, sharers) : whole_again;
   const wire::UnitCounts made = totals.made + again.made;
   wire::UnitCounts units = drawn_units(totals + again);
   units[Work::line] = totals.lines + again.lines;
@@ -204,8 +205,36 @@ NodePart FrameCosts::inbetween(const FrameTotals& whole, const FrameTotals& whol
   if (is_shared) part.team_bytes = whole.changed / sharers * line_bytes() * setting_.platform.file_part;
   if (totals.blocks.empty())
     part.strips.pasting += costs_.of(Work::host_restored, totals.drawn.moving.block_pixels * pixel_bytes());
-  part.memory = std::min(arena_bytes(), made_bytes(made));
-  part.made_memory = std::min(arena_bytes(), fresh_bytes(made));
+  const double unevenly = is_shared ? kMemoryUnevenly : 1;
+  part.memory = std::min(arena_bytes(), made_bytes(made) * unevenly);
+  part.made_memory = std::min(arena_bytes(), fresh_bytes(made) * unevenly);
+  return part;
+}
+
+// A node's part of what `sharers` divide by boxes round what they have (node/group/team_lines.h), and so less evenly
+// than keyframes. Patches and triangles between two nodes' lines are made by both, and each meets all casters of
+// shadows.
+FrameTotals FrameCosts::shared(const FrameTotals& whole, int sharers) const {
+  const wire::UnitCounts& made = whole.made;
+  const double patches = made[Work::patch] + made[Work::meshlet], lines = std::max(1.0, whole.lines);
+  double most = kSharedUnevenly / sharers;
+  if (const double bands = std::ceil(whole.changed / band_lines_); setting_.nodes_write() && bands > 0) {
+    const double few = std::min(1.0, sharers / bands);
+    const double unevenly = kSharedUnevenly + (kBandsUnevenly - kSharedUnevenly) * few * few;
+    most = std::max(most, unevenly / std::min<double>(sharers, bands));
+  }
+  most = std::min(most, 1.0);
+  FrameTotals part = whole * most;
+  part.casters = whole.casters;
+  if (patches == 0 || made[Work::triangle] == 0) return part;
+  const double rows = made[Work::edge_box_made] / made[Work::triangle] / setting_.film.settings().samples;
+  const double height = rows * std::sqrt(made[Work::triangle_tested] / patches / 2) + kBoxMargin;
+  const auto part_with = [&](double tall) { return std::min(1.0, most + tall / lines); };
+  for (const Work kind : {Work::patch, Work::meshlet, Work::vertex, Work::mesh_vertex, Work::triangle_tested,
+                          Work::row_tested, Work::vertex_light})
+    part.made[kind] = made[kind] * part_with(height);
+  part.made[Work::triangle] = made[Work::triangle] * part_with(rows);
+  part.made[Work::vertex] += kBoxPoints * patches;
   return part;
 }
 

@@ -95,6 +95,7 @@ class FrameCosts {
   struct Homes;
 
   std::vector<double> still_messages(const geometry::LineRange& home, const wire::FrameCounts& counts) const;
+  FrameTotals shared(const FrameTotals& whole, int sharers) const;
   double dicing(const wire::UnitCounts& made) const;
   double setting_up(const wire::UnitCounts& made) const;
   wire::UnitCounts drawn_units(const FrameTotals& totals) const;

@@ -130,7 +130,7 @@ TEST(ForecastsOfTeams, AreAsSimulated) {
 
 // A film of fewer inbetweens than nodes.
 TEST(ForecastsOfTeams, ChooseThemWhereTheyPay) {
-  const SimulatedFilm film("s3", "0-11", "fat-tree", Files::nodes);
+  const SimulatedFilm film("demo", "0-7", "fat-tree", Files::nodes);
   const Forecast chosen = film.forecast(32, 0), alone = film.forecast(32, 0, 1, kUncut);
   EXPECT_GT(chosen.sharers, 1);
   EXPECT_LT(chosen.run.seconds, alone.run.seconds * 0.9);

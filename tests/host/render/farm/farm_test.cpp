@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <map>
 #include <set>
 #include <string_view>
 #include <thread>
@@ -168,6 +169,32 @@ void node_without_orders() {
   ScriptedNode node;
   node.boot();
   node.draw_all();
+}
+
+// Each inbetween is whole when both nodes of its team have sent their last strips; slow nodes are looked for, too.
+TEST(Farm, GivesInbetweensToTeams) {
+  for (const bool adapts : {false, true}) {
+    ScriptedRun run;
+    run.nodes = 5;
+    run.work.frames = frames_to(40);
+    run.work.sharers = 2;
+    run.farm.each_frame = true;
+    run.farm.adapts = adapts;
+    const FarmReport report = run.render(EmptyFilm({40}), sound_node);
+    EXPECT_EQ(run.sink.pixels, pixels_of(run.work.frames));
+    std::map<std::uint32_t, std::vector<std::int32_t>> nodes;
+    for (const wire::Strip& strip : report.strips)
+      if (strip.kind == wire::FrameKind::inbetween) nodes[strip.frame].push_back(strip.node);
+    EXPECT_EQ(nodes.size(), 39u);
+    for (auto& [frame, of_frame] : nodes) {
+      std::ranges::sort(of_frame);
+      EXPECT_EQ(of_frame, frame % 2 == 1 ? (std::vector{0, 1}) : (std::vector{2, 3, 4})) << frame;
+    }
+    for (const FinishedFrame& frame : report.frames)
+      if (frame.kind == wire::FrameKind::inbetween) {
+        EXPECT_EQ(frame.nodes, frame.number % 2 == 1 ? 2 : 3);
+      }
+  }
 }
 
 TEST(Farm, NodesWriteWhereThatIsWanted) {

@@ -120,7 +120,7 @@ TEST(Plan, ATasksFirstPortionNamesAllFramesAndLaterOnesTheirOwn) {
 TEST(Plan, AWholeTaskIsTold) {
   const Task task{3, {10, 11, 12}, 100};
   const auto all = render_command(task, {4, 3}, {2});
-  EXPECT_EQ(all.size(), 40u) << "as long as ever: simulated times count it";
+  EXPECT_EQ(all.size(), 48u) << "as long as ever: simulated times count it";
   EXPECT_EQ(head_of(all).drawn, 3u);
   EXPECT_EQ(head_of(all).cycle, 0);
 }
