@@ -82,7 +82,8 @@ Forecast forecast(const FilmCounts& counts, const std::vector<farm::Task>& tasks
 std::vector<Forecast> forecasts_up_to(const FilmCounts& counts, const std::vector<farm::Task>& tasks,
                                       const Setting& setting, int most, std::uint32_t groups) {
   std::vector<Forecast> all;
-  for (int nodes = 1; nodes < most; nodes *= 2) all.push_back(forecast(counts, tasks, setting, nodes, 0));
+  for (int nodes = 1; nodes < most; nodes *= 2)
+    all.push_back(forecast(counts, tasks, setting, nodes, std::min(groups, static_cast<std::uint32_t>(nodes))));
   all.push_back(forecast(counts, tasks, setting, most, groups));
   return all;
 }

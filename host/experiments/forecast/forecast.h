@@ -39,7 +39,8 @@ struct Forecast {
 Forecast forecast(const FilmCounts& counts, const std::vector<farm::Task>& tasks, const Setting& setting, int nodes,
                   std::uint32_t groups);
 
-// By numbers of nodes: powers of two below `most`, and `most`; `groups` of it, where they are given.
+// By numbers of nodes: powers of two below `most`, and `most`; in `groups`, as far as there are nodes, where they are
+// given.
 std::vector<Forecast> forecasts_up_to(const FilmCounts& counts, const std::vector<farm::Task>& tasks,
                                       const Setting& setting, int most, std::uint32_t groups);
 

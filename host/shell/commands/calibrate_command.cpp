@@ -78,13 +78,6 @@ experiments::CalibratedMachine this_machine(const fs::path& file) {
           topology::memory_share(machine.memory(), topology::memory_limit(), processors)};
 }
 
-auto shown_progress(const char* doing) {
-  return [doing](int done, int all) {
-    if (isatty(STDERR_FILENO))
-      child::raw_error() << '\r' << doing << ": " << 100 * done / all << " %" << (done == all ? "\n" : "");
-  };
-}
-
 // Where what --platform here names is written, in a folder that is there.
 fs::path file_of_here() {
   const fs::path file = experiments::calibrated_platform();
@@ -180,6 +173,13 @@ bool is_calibrated() {
 }
 
 }  // namespace
+
+std::function<void(int done, int all)> shown_progress(const char* doing) {
+  return [doing](int done, int all) {
+    if (isatty(STDERR_FILENO))
+      child::raw_error() << '\r' << doing << ": " << 100 * done / all << " %" << (done == all ? "\n" : "");
+  };
+}
 
 bool calibrate_if_need_be(const NodesCode& code) {
   if (is_calibrated()) return true;
