@@ -10,6 +10,8 @@ namespace {
 constexpr double kAlike = 1.01;  // times as long, a film
 constexpr double kSoon = 0.75;   // times as long, a keyframe: much sooner, as messages may wait more than is forecast
 
+constexpr int kLargeGroup = 128;  // nodes: larger ones are tried only where there are too few tasks for others
+
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
 constexpr int kWorseInARow = 3;  // numbers of contributors, and fewer are not tried
@@ -72,7 +74,8 @@ Forecast forecast(const FilmCounts& counts, const std::vector<farm::Task>& tasks
     Forecast next = with_groups(counts, tasks, setting, nodes, some, limit);
     if (best.nodes == 0 || next.run.seconds <= best.run.seconds) best = std::move(next);
   };
-  for (const int some : numbers_of_groups(most)) try_groups(some);
+  for (const int some : numbers_of_groups(most))
+    if (some == most || nodes / some <= kLargeGroup) try_groups(some);
   const auto coarse = static_cast<int>(best.groups);
   if (coarse > 4)
     for (const int some : {coarse * 3 / 4, std::min(most, coarse * 3 / 2)}) try_groups(some);
