@@ -53,7 +53,8 @@ Counted count(const session::RenderJob& job, const wire::PackedFilm& film, const
               int nodes) {
   std::vector<farm::Task> tasks = farm::make_tasks(film, request.frames, request.coherence);
   const forecast::Budget budget{kMostCounting, kCountedPart / nodes};
-  forecast::FilmCounts counts = forecast::count_film(film, tasks, *make_node_counter(film, forecast::Lines::some), budget, job.format);
+  forecast::FilmCounts counts =
+      forecast::count_film(film, tasks, *make_node_counter(film, forecast::Lines::some), budget, job.format);
   return {std::move(tasks), std::move(counts)};
 }
 

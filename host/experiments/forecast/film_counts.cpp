@@ -160,7 +160,7 @@ class ExactCount {
  public:
   ExactCount(std::span<const farm::Task> tasks, std::uint32_t band_lines, const CountProgress& progress)
       : tasks_(tasks), band_lines_(band_lines), progress_(progress), counted_(tasks.size()) {
-    for (const farm::Task& task : tasks) frames_ += task.frames.size();
+    for (const farm::Task& task : tasks) frames_ += static_cast<int>(task.frames.size());
   }
 
   void run(Counter& counter) try {
@@ -201,7 +201,7 @@ class ExactCount {
   void note_frame() {
     const std::lock_guard lock(mutex_);
     ++counts_.counted;
-    if (progress_) progress_(counts_.counted, frames_);
+    if (progress_) progress_(static_cast<int>(counts_.counted), frames_);
   }
 
   void add(std::size_t number, Counted counted) {
@@ -217,7 +217,7 @@ class ExactCount {
   const std::span<const farm::Task> tasks_;
   const std::uint32_t band_lines_;
   const CountProgress& progress_;
-  std::size_t frames_ = 0;
+  int frames_ = 0;
   std::atomic<std::size_t> next_ = 0;
   std::mutex mutex_;
   std::vector<Counted> counted_;  // by task, and not added yet

@@ -70,7 +70,7 @@ FilmCounts count_film(const wire::PackedFilm& film, std::span<const farm::Task> 
                       const Budget& budget, images::PictureFormat format);
 
 // Of all frames exactly, by that many counters at a time, each of which may take a gigabyte.
-using CountProgress = std::function<void(std::size_t frames, std::size_t of_all)>;
+using CountProgress = std::function<void(int frames, int of_all)>;
 FilmCounts count_exactly(const wire::PackedFilm& film, std::span<const farm::Task> tasks, const MakeCounter& make,
                          images::PictureFormat format, int counters, const CountProgress& progress);
 

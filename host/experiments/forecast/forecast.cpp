@@ -15,6 +15,8 @@ constexpr double kAlike = 1.01;    // times as long, a film
 constexpr double kSoon = 0.75;     // times as long, a keyframe: much sooner, as messages may wait more than is forecast
 constexpr double kShorter = 0.98;  // times as long, a film whose intervals are cut, or its inbetweens shared
 
+constexpr int kLargeGroup = 128;  // nodes: larger ones are tried only where there are too few tasks for others
+
 // In a row that are worse, and fewer are not tried: numbers of contributors, of groups, of sharers.
 constexpr int kWorseContributors = 3, kWorseGroups = 2, kWorseSharers = 2;
 
@@ -176,8 +178,9 @@ class Search {
   // From the most on, which take the least time to try: half as many each time, and all of the last few.
   void try_groups() {
     const int most = std::min(nodes_, static_cast<int>(whole_.tasks.size()));
+    const int fewest = std::min(most, (nodes_ + kLargeGroup - 1) / kLargeGroup);
     int worse = 0;
-    for (int groups = most; groups >= 1 && worse < kWorseGroups; groups = groups <= 4 ? groups - 1 : groups / 2)
+    for (int groups = most; groups >= fewest && worse < kWorseGroups; groups = groups <= 4 ? groups - 1 : groups / 2)
       worse = take(with_groups(0, groups), 1) ? 0 : worse + 1;
     const auto coarse = static_cast<int>(best_->groups);
     if (coarse > 4)
@@ -221,7 +224,7 @@ std::vector<Forecast> forecasts_up_to(const FilmCounts& counts, const std::vecto
   numbers.push_back(most);
   std::vector<Forecast> all;
   for (const int nodes : numbers) {
-    all.push_back(forecast(counts, tasks, setting, nodes, nodes == most ? groups : 0));
+    all.push_back(forecast(counts, tasks, setting, nodes, std::min(groups, static_cast<std::uint32_t>(nodes))));
     if (progress) progress(static_cast<int>(all.size()), static_cast<int>(numbers.size()));
   }
   return all;

@@ -45,7 +45,8 @@ Forecast forecast(const FilmCounts& counts, const std::vector<farm::Task>& tasks
 // Of what is done, how much of all.
 using Progress = std::function<void(int done, int all)>;
 
-// By numbers of nodes: powers of two below `most`, and `most`; `groups` of it, where they are given.
+// By numbers of nodes: powers of two below `most`, and `most`; in `groups`, as far as there are nodes, where they are
+// given.
 std::vector<Forecast> forecasts_up_to(const FilmCounts& counts, const std::vector<farm::Task>& tasks,
                                       const Setting& setting, int most, std::uint32_t groups,
                                       const Progress& progress = {});

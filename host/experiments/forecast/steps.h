@@ -8,8 +8,6 @@
 #include <span>
 #include <vector>
 
-#include "node/geometry/line_range.h"
-
 namespace mars::forecast {
 
 // As nodes have them in memory and send them (node/geometry/triangle.h, node/raster/edge_box.h).

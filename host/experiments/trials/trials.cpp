@@ -58,7 +58,8 @@ class Trial {
     std::iota(first.begin(), first.end(), 0u);
     frames_ = frames;
     tasks_ = farm::make_tasks(film, first, true);
-    counts_ = forecast::count_film(film, tasks_, *task_.make_counter(film, forecast::Lines::some), budget, images::PictureFormat::png);
+    counts_ = forecast::count_film(film, tasks_, *task_.make_counter(film, forecast::Lines::some), budget,
+                                   images::PictureFormat::png);
   }
 
   forecast::Forecast forecast(int nodes, bool files) const {

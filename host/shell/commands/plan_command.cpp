@@ -1,7 +1,5 @@
 #include "host/shell/commands/plan_command.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -13,7 +11,6 @@
 #include <vector>
 
 #include "host/child/programs.h"
-#include "host/child/standard_streams.h"
 #include "hal/messages/settings.h"
 #include "host/cli/command.h"
 #include "host/content/document/file.h"
@@ -109,11 +106,6 @@ std::uint64_t node_memory(const options::RenderOptions& options, const experimen
   return is_here ? messages::read_settings().memory.value_or(platform.memory) : platform.memory;
 }
 
-void show_counting(std::size_t frames, std::size_t of_all) {
-  if (isatty(STDERR_FILENO))
-    child::raw_error() << "\rcounting: " << 100 * frames / of_all << " %" << (frames == of_all ? "\n" : "");
-}
-
 // Of all frames, which the file has or gets.
 forecast::FilmCounts exact_counts(const film::CompiledFilm& film, const std::vector<farm::Task>& tasks,
                                   const PlanWords& words, const NodesCode& code) {
@@ -122,8 +114,8 @@ forecast::FilmCounts exact_counts(const film::CompiledFilm& film, const std::vec
   if (document::file_exists(words.counted)) return forecast::load_counts(words.counted, content);
   document::check_can_write(words.counted);
   const int counters = std::min(kCounters, topology::Machine::here().processors());
-  forecast::FilmCounts counts =
-      forecast::count_exactly(view, tasks, code.make_counter, words.options.format, counters, show_counting);
+  forecast::FilmCounts counts = forecast::count_exactly(view, tasks, code.make_counter, words.options.format, counters,
+                                                        shown_progress("counting"));
   forecast::save_counts(counts, content, words.counted);
   return counts;
 }
