@@ -174,13 +174,6 @@ bool is_calibrated() {
 
 }  // namespace
 
-std::function<void(int done, int all)> shown_progress(const char* doing) {
-  return [doing](int done, int all) {
-    if (isatty(STDERR_FILENO))
-      child::raw_error() << '\r' << doing << ": " << 100 * done / all << " %" << (done == all ? "\n" : "");
-  };
-}
-
 bool calibrate_if_need_be(const NodesCode& code) {
   if (is_calibrated()) return true;
   const std::string trouble = calibrate_unasked(code);

@@ -15,9 +15,6 @@ struct NodesCode {
   forecast::MakeCounter make_counter;
 };
 
-// On a terminal, shows how much of something is done.
-std::function<void(int done, int all)> shown_progress(const char* doing);
-
 // Where this machine is not calibrated, does so, and says so: true where what --platform here names is there then. The
 // machine may be too busy for it.
 bool calibrate_if_need_be(const NodesCode& code);

@@ -162,7 +162,7 @@ class Counted : public testing::TestWithParam<std::tuple<const char*, Files>> {
   const char* platform() const { return std::get<0>(GetParam()); }
   Files files() const { return std::get<1>(GetParam()); }
   // Of seconds. If the host writes files, which buffers it gets follows from moments.
-  double within() const { return files() == Files::host ? 0.08 : 0.02; }
+  double within() const { return files() == Files::host ? 0.08 : 0.03; }
 
   void expect_as_simulated(const SimulatedFilm& film, int nodes, std::uint32_t groups) const {
     const Rehearsed counted = film.counted(nodes, groups);
