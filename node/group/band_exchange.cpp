@@ -76,9 +76,9 @@ void BandExchange::exchange_edges(const BandNeeds& needs, wire::FrameWriter& wri
 
 void BandExchange::complete(const BandNeeds& needs, wire::FrameWriter& writer) {
   const Plan plan(needs, neighbours_, collectors_, writer.lines_of_band());
-  send_picture(plan, writer);
   Background background(plan, writer);
   relay_.exchange(plan, background);
+  send_picture(plan, writer);
   collect_picture(plan, writer);
   pending_.wait();
 }

@@ -96,7 +96,7 @@ class Commands(ProgramTest):
 
     def test_info_of_a_report_says_what_bound_the_run(self):
         self.succeed("mars", "render", TEAPOT, "--sink", "none", "--size", "32x18", "--frames", "0-3", "--backend",
-                     "simulated", "--platform", "fat-tree", "--nodes", 2, "--report", "run.json")
+                     "simulated", "--platform", "fat-tree", "--nodes", 2, "--groups", 1, "--report", "run.json")
         report = json.loads((self.folder / "run.json").read_text())
         text = self.succeed("mars", "info", "run.json")
         self.assertIn("nodes       2 nodes in 1 group, simulated\nframes      4\n", text)

@@ -202,11 +202,13 @@ Exchange band_steps(const Machines& machines, std::span<const NodeBands> bands, 
     if (const std::uint32_t count = edges[static_cast<std::size_t>(node)]; count > 0)
       steps.push_back(receive(kEdge, count));
     if (own.encoding > 0) steps.push_back(work(own.encoding));
-    if (own.composes && node != writer) steps.push_back(send(kPicture, writer, own.picture));
   }
   std::vector<std::vector<double>> background;
   for (const NodeBands& own : bands) background.push_back(own.composes ? own.background : std::vector<double>());
   relay(exchange, machines, background, {kBackground, kBackgroundThere});
+  for (int node = 0; node < nodes; ++node)
+    if (const NodeBands& own = bands[static_cast<std::size_t>(node)]; own.composes && node != writer)
+      of(exchange, node).push_back(send(kPicture, writer, own.picture));
   const std::uint32_t others = composing - (bands[static_cast<std::size_t>(writer)].composes ? 1 : 0);
   if (others > 0) of(exchange, writer).push_back(receive(kPicture, others));
   return exchange;

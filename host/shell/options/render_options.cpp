@@ -216,18 +216,15 @@ std::vector<Entry> table() {
       option(
           compiles, "--samples", "1|2|4|8|16", &RenderOptions::samples,
           "Samples of a pixel; default: the film's. More make smoother edges and take longer. Example: --samples 16"),
-      option(
-          plans, "--mapping", "greedy|optimal|cost", &RenderOptions::mapping,
-          "How scanlines are divided among nodes: by edge boxes with the thesis's heuristic, exactly by edge boxes, or "
-          "exactly by edge boxes and the samples that they cover; default: cost. Example: --mapping greedy"),
+      option(plans, "--mapping", "greedy|optimal|cost", &RenderOptions::mapping,
+             "How scanlines are divided among nodes: by edge boxes as in the thesis, exactly by edge boxes, or by an "
+             "estimate of their cost; default: cost. Example: --mapping greedy"),
       option(submits, "--exchange", "auto|send|again", &RenderOptions::exchange,
-             "How triangles come to nodes on other machines that draw their lines: sent, or made there again, which "
-             "takes work instead of messages; same pictures; default: auto, as it takes less time. Example: --exchange "
-             "send"),
-      option(
-          compiles, "--intervals", "auto|keyframes", &RenderOptions::intervals,
-          "Where render intervals are cut: where it saves work, or at the animator's keyframes. With several samples a "
-          "pixel, a few pixels differ between the two by a few levels. Example: --intervals keyframes"),
+             "How triangles reach other machines: sent, or made again there; default: auto, whichever takes less time. "
+             "Example: --exchange send"),
+      option(compiles, "--intervals", "auto|keyframes", &RenderOptions::intervals,
+             "Where render intervals are cut: where it saves work, or at the animator's keyframes; a few pixels differ "
+             "between the two. Example: --intervals keyframes"),
       flag(plans, "--no-coherence", &RenderOptions::no_coherence,
            "Render every frame from scratch: same pictures, slower. Example: --no-coherence"),
       number(submits, "--block", {&RenderOptions::block, false, wire::kMaxSide},
@@ -236,12 +233,10 @@ std::vector<Entry> table() {
              "Groups of nodes; each renders intervals of its own. 1: all nodes work on the same interval, as in the "
              "thesis. Example: --groups 1"),
       number(plans, "--sharers", {&RenderOptions::sharers, true, many},
-             "Nodes that draw an inbetween together, each its lines: same pictures; worth it where there are fewer "
-             "inbetweens than nodes; default: as it is forecast to be soonest, or 1. Example: --sharers 4"),
+             "Nodes that draw an inbetween together, each its lines; default: as forecast, or 1. Example: --sharers 4"),
       number(plans, "--cut", {&RenderOptions::cut, true, many},
-             "Frames of an interval that a group of nodes is given in one go, at most: more groups may then work on "
-             "one interval, each draws a keyframe of it; same pictures; default: as it is forecast to be soonest, or "
-             "all. Example: --cut 12"),
+             "Most frames of an interval that a group gets at a time; default: as forecast, or all. "
+             "Example: --cut 12"),
       option(plans, "--format", "png|png16|exr", &RenderOptions::format,
              "Files of the frames: PNG of 8 or 16 bits, or EXR: half floats of light before exposure and curve; "
              "default: png. Example: --format exr"),
@@ -251,9 +246,8 @@ std::vector<Entry> table() {
           "--sink none"),
       option(
           plans, "--write", "auto|host|nodes", &RenderOptions::write,
-          "Who composes frames and writes their files: the host, as in the thesis, or the nodes that draw them, where "
-          "their machines see the folder; same files; default: auto, nodes of several machines where that is forecast "
-          "to be sooner. Example: --write nodes"),
+          "Who composes frames and writes their files: the host, or the nodes that draw them, where their machines see "
+          "the folder; default: auto, nodes of several machines if forecast to be sooner. Example: --write nodes"),
       option(submits, "--report", "FILE", &RenderOptions::report,
              "Write each node's times and work per frame as JSON. Example: --report report.json"),
       option(submits, "--trace", "FILE", &RenderOptions::trace,

@@ -1,7 +1,7 @@
-// How what inbetweens need of stationary parts comes to all machines of a group, on nodes that smpirun simulates, each a
-// machine: bench-simulated-ring.so LIST, of which each line is a node and the bytes that it has. Printed for each way:
-// what a node sends, mean and greatest, and milliseconds from when all begin until the last has all. Computing takes no
-// time. The ways:
+// How what inbetweens need of stationary parts comes to all machines of a group, on nodes that smpirun simulates, each
+// a machine: bench-simulated-ring.so LIST, of which each line is a node and the bytes that it has. Printed for each
+// way: what a node sends, mean and greatest, and milliseconds from when all begin until the last has all. Computing
+// takes no time. The ways:
 //   to each   each node sends all that it has to every other one
 //   ring      as node/group/relay.h: pieces go from node to node, once round
 #include <algorithm>

@@ -132,11 +132,10 @@ INSTANTIATE_TEST_SUITE_P(
                             platform.machine.network.byte *= 5;
                             platform.machine.network.host_byte = 1e-12;
                           }},
-                    // With 4 samples a pixel, each still line is a message.
-                    Bound{Wall::still, "stones", "0-11", 2, Files::none, "fat-tree",
+                    Bound{Wall::still, "stones", "0-11", 4, Files::none, "ethernet",
                           [](Platform& platform) {
                             scale_nodes(platform, 0.05);
-                            platform.machine.network.send = platform.machine.network.receive = {{0, 2e-5}};
+                            platform.machine.network.host_byte = 1e-12;
                             platform.machine.network.host_end = {{0, 1e-7}};
                           }},
                     Bound{Wall::still, "stones", "0-11", 16, Files::nodes, "ethernet",
