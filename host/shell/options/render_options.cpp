@@ -217,8 +217,8 @@ std::vector<Entry> table() {
           compiles, "--samples", "1|2|4|8|16", &RenderOptions::samples,
           "Samples of a pixel; default: the film's. More make smoother edges and take longer. Example: --samples 16"),
       option(plans, "--mapping", "greedy|optimal|cost", &RenderOptions::mapping,
-             "How scanlines are divided among nodes: by edge boxes as in the thesis, exactly by edge boxes, or by an "
-             "estimate of their cost; default: cost. Example: --mapping greedy"),
+             "How lines are divided among nodes: by edge boxes as in the thesis, exactly by edge boxes, or by "
+             "estimated cost; default: cost. Example: --mapping greedy"),
       option(submits, "--exchange", "auto|send|again", &RenderOptions::exchange,
              "How triangles reach other machines: sent, or made again there; default: auto, whichever takes less time. "
              "Example: --exchange send"),
@@ -235,7 +235,7 @@ std::vector<Entry> table() {
       number(plans, "--sharers", {&RenderOptions::sharers, true, many},
              "Nodes that draw an inbetween together, each its lines; default: as forecast, or 1. Example: --sharers 4"),
       number(plans, "--cut", {&RenderOptions::cut, true, many},
-             "Most frames of an interval that a group gets at a time; default: as forecast, or all. "
+             "Frames of an interval that a group gets at a time; default: as forecast, or all. "
              "Example: --cut 12"),
       option(plans, "--format", "png|png16|exr", &RenderOptions::format,
              "Files of the frames: PNG of 8 or 16 bits, or EXR: half floats of light before exposure and curve; "

@@ -177,7 +177,7 @@ class Counted : public testing::TestWithParam<std::tuple<const char*, Files>> {
 };
 
 TEST_P(Counted, IsAsSimulated) {
-  for (const Case& one : {Case{"s3", "0-11"}, Case{"bodies", "5-12"}, Case{"robot-arm", "10-25"}}) {
+  for (const Case& one : {Case{"s3", "0-11"}, Case{"robot-arm", "10-25"}}) {
     const SimulatedFilm film(one.film, one.frames, platform(), files());
     SCOPED_TRACE(one.film);
     for (const int nodes : {1, 4, 16, 64})
