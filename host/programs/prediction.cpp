@@ -25,6 +25,7 @@ constexpr double kSoon = 1.0;          // seconds, about: not worth a forecast
 forecast::Setting setting_of(const session::RenderJob& job, const wire::PackedFilm& film,
                              const experiments::Platform& platform) {
   forecast::Setting setting{film, platform, job.mapping, job.format};
+  setting.exchange = job.exchange;
   setting.files = !job.folder.empty() || job.counts_files;
   if (job.writers == session::Writers::nodes) setting.writers = forecast::Writers::nodes;
   setting.sharers = job.sharers;

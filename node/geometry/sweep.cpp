@@ -10,7 +10,7 @@
 namespace mars::geometry {
 namespace {
 
-constexpr double kFar = std::numeric_limits<double>::max();
+constexpr double kBeyond = std::numeric_limits<double>::max();
 constexpr std::size_t kMostHulls = std::size_t{1} << 14;
 constexpr std::size_t kMostShadows = std::size_t{1} << 20;
 
@@ -28,8 +28,8 @@ struct Hull {
 
 // Along the axes of some space.
 struct Box {
-  Point low{kFar, kFar, kFar};
-  Point high{-kFar, -kFar, -kFar};
+  Point low{kBeyond, kBeyond, kBeyond};
+  Point high{-kBeyond, -kBeyond, -kBeyond};
 
   void add(const Point& point) {
     for (std::size_t a = 0; a < 3; ++a) low[a] = std::min(low[a], point[a]), high[a] = std::max(high[a], point[a]);
@@ -98,7 +98,7 @@ class View {
 
  private:
   struct Bounds {
-    double low_x = kFar, high_x = -kFar, low_y = kFar, high_y = -kFar;
+    double low_x = kBeyond, high_x = -kBeyond, low_y = kBeyond, high_y = -kBeyond;
   };
 
   void add(const Point& place, double w, Bounds& bounds) const {

@@ -28,7 +28,8 @@ std::optional<Wall> wall_of(int type) {
     case wire::kStillLines: return Wall::still;
     case wire::kEdge:
     case wire::kBackground:
-    case wire::kPicture: return Wall::bands;
+    case wire::kPicture:
+    case wire::kBands: return Wall::bands;
     case wire::kWrite:
     case wire::kRender:
     case wire::kCredit:
@@ -48,9 +49,11 @@ class Rehearsals {
  public:
   Rehearsals(const FilmCounts& counts, const std::vector<farm::Task>& tasks, const Setting& setting,
              const Forecast& forecast)
-      : counts_(counts),
-        plan_{tasks, farm::make_groups(forecast.nodes, static_cast<int>(forecast.groups), tasks.size()),
-              forecast.contributors},
+      : tasks_(forecast.most_frames > 0 ? farm::cut_tasks(tasks, forecast.most_frames) : tasks),
+        cut_(tasks_.size() > tasks.size() ? std::optional(cut_counts(counts, tasks, tasks_)) : std::nullopt),
+        counts_(cut_ ? *cut_ : counts),
+        plan_{tasks_, farm::make_groups(forecast.nodes, static_cast<int>(forecast.groups), tasks_.size()),
+              forecast.contributors, forecast.sharers},
         setting_(setting),
         nodes_(forecast.nodes) {}
 
@@ -83,12 +86,15 @@ class Rehearsals {
     setting.picture = setting_.picture;
     setting.files = setting_.files;
     setting.writers = setting_.writers;
+    setting.exchange = setting_.exchange;
     setting.sink_threads = setting_.sink_threads;
     setting.host_budget = setting_.host_budget;
     setting.even = even;
     return rehearse(counts_, plan_, setting, nodes_);
   }
 
+  const std::vector<farm::Task> tasks_;
+  const std::optional<FilmCounts> cut_;
   const FilmCounts& counts_;
   const farm::Plan plan_;
   const Setting& setting_;

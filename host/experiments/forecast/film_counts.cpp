@@ -352,4 +352,19 @@ FilmCounts count_exactly(const wire::PackedFilm& film, std::span<const farm::Tas
   return count.take();
 }
 
+FilmCounts cut_counts(const FilmCounts& counts, std::span<const farm::Task> tasks, std::span<const farm::Task> pieces) {
+  FilmCounts cut = counts;
+  cut.tasks.clear();
+  std::size_t task = 0, first = 0;  // of the pieces' frames, the task and the place there
+  for (const farm::Task& piece : pieces) {
+    const TaskCounts& whole = counts.tasks[task];
+    const auto begin = whole.inbetweens.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto count = static_cast<std::ptrdiff_t>(piece.frames.size());
+    cut.tasks.push_back({whole.keyframe, {begin, begin + count - 1}});
+    first += piece.frames.size();
+    if (first == tasks[task].frames.size()) ++task, first = 0;
+  }
+  return cut;
+}
+
 }  // namespace mars::forecast

@@ -58,6 +58,10 @@ struct FilmCounts {
   void add_keyframe(wire::FrameCounts counts);
 };
 
+// Of the pieces that `tasks`, which were counted, are cut into (farm::cut_tasks). A piece's keyframe is taken to have
+// what its interval's first frame has.
+FilmCounts cut_counts(const FilmCounts& counts, std::span<const farm::Task> tasks, std::span<const farm::Task> pieces);
+
 // What counting may take, by the work that it does: so that the same frames are counted every time.
 struct Budget {
   double seconds;   // on a processor of today, about

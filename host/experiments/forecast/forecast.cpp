@@ -54,23 +54,11 @@ struct Cut {
   }
 };
 
-// A piece's keyframe is taken to have what its interval's first frame has.
 Cut cut_into_pieces(const Cut& whole, std::uint32_t most_frames) {
   Cut cut{farm::cut_tasks(whole.tasks, most_frames)};
   if (cut.tasks.size() == whole.tasks.size()) return whole;
-  const auto pieces = std::make_shared<FilmCounts>(*whole.counts);
-  pieces->tasks.clear();
-  std::size_t task = 0, first = 0;  // of the pieces' frames, the task and the place there
-  for (const farm::Task& piece : cut.tasks) {
-    const TaskCounts& counts = whole.counts->tasks[task];
-    const auto begin = counts.inbetweens.begin() + static_cast<std::ptrdiff_t>(first);
-    const auto count = static_cast<std::ptrdiff_t>(piece.frames.size());
-    pieces->tasks.push_back({counts.keyframe, {begin, begin + count - 1}});
-    first += piece.frames.size();
-    if (first == whole.tasks[task].frames.size()) ++task, first = 0;
-  }
-  cut.counts = pieces.get();
-  cut.own = pieces;
+  cut.own = std::make_shared<FilmCounts>(cut_counts(*whole.counts, whole.tasks, cut.tasks));
+  cut.counts = cut.own.get();
   return cut;
 }
 

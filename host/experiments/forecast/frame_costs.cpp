@@ -32,6 +32,19 @@ std::vector<int> homes_of_lines(const std::vector<geometry::LineRange>& ranges, 
   return homes;
 }
 
+// Homes of the lines that the surface's box may touch, each once. A meshlet's box has its corners about half as far
+// out again.
+std::vector<int> homes_near(const wire::MadeSurface& surface, const std::vector<int>& home_of) {
+  const auto margin = static_cast<std::uint32_t>(kBoxMargin / 2) + (surface.is_meshlet != 0 ? surface.lines / 2 : 0);
+  const auto height = static_cast<std::uint32_t>(home_of.size());
+  const std::uint32_t first = surface.first_line - std::min(surface.first_line, margin);
+  const std::uint32_t last = std::min(height, surface.first_line + surface.lines + margin);
+  std::vector<int> homes;
+  for (std::uint32_t line = first; surface.lines > 0 && line < last; ++line)
+    if (homes.empty() || homes.back() != home_of[line]) homes.push_back(home_of[line]);
+  return homes;
+}
+
 // As many parts in each piece as it has, but one at least; `head` bytes before them.
 std::vector<double> in_pieces(const std::vector<double>& parts, double head) {
   std::vector<double> pieces{head};
@@ -373,6 +386,18 @@ double FrameCosts::setting_up(const wire::UnitCounts& made) const {
   return costs_.of(Work::triangle, made[Work::triangle]) + costs_.of(Work::edge_box_made, made[Work::edge_box_made]);
 }
 
+// Of one of them, but for its triangles that are set up.
+double FrameCosts::dicing(const wire::MadeSurface& surface) const {
+  const auto samples = static_cast<double>(setting_.film.settings().samples);
+  const auto lights = static_cast<double>(setting_.film.light_tracks().size());
+  const bool is_meshlet = surface.is_meshlet != 0;
+  return costs_.of(is_meshlet ? Work::meshlet : Work::patch, 1) +
+         costs_.of(is_meshlet ? Work::mesh_vertex : Work::vertex, static_cast<double>(surface.vertices)) +
+         costs_.of(Work::triangle_tested, static_cast<double>(surface.triangles_tested)) +
+         costs_.of(Work::row_tested, static_cast<double>(surface.triangles_tested) * samples) +
+         costs_.of(Work::vertex_light, static_cast<double>(surface.colored) * lights);
+}
+
 wire::UnitCounts FrameCosts::drawn_units(const FrameTotals& totals) const {
   const auto lights = static_cast<double>(setting_.film.light_tracks().size());
   wire::SeenCounts seen = totals.drawn.constant;
@@ -523,9 +548,18 @@ void FrameCosts::add_exchange(GroupKeyframe& keyframe, const Homes& homes, const
   ParcelSums sums(nodes);
   std::vector<std::vector<Parcel>> parcels(keyframe.nodes.size());
   std::vector<double> travelling(nodes), boxes_in(nodes);
+  keyframe.again.resize(keyframe.nodes.size());
+  std::vector<double> setting_up_again(nodes);
+  double seen = 0, unseen = 0;  // seconds of dicing surfaces with edge boxes, and without
   for (std::size_t n = 0; n < nodes; ++n) {
-    for (const PlacedSurface& placed : by_node[n])
-      sums.add(surfaces[placed.surface], surfaces.lines(placed.surface), home_of);
+    for (const PlacedSurface& placed : by_node[n]) {
+      const wire::MadeSurface& surface = surfaces[placed.surface];
+      sums.add(surface, surfaces.lines(placed.surface), home_of);
+      (surface.lines > 0 ? seen : unseen) += dicing(surface);
+      for (const int home : homes_near(surface, home_of))
+        if (!machines.are_together(static_cast<int>(n), home))
+          keyframe.again[static_cast<std::size_t>(home)] += dicing(surface);
+    }
     parcels[n] = sums.take();
     std::erase_if(parcels[n], [&](const Parcel& to) { return machines.are_together(static_cast<int>(n), to.home); });
     for (const Parcel& parcel : parcels[n]) {
@@ -533,8 +567,14 @@ void FrameCosts::add_exchange(GroupKeyframe& keyframe, const Homes& homes, const
       travelling[n] += static_cast<double>(parcel.edge_boxes * (kUnsortedBoxBytes + kTriangleBytes));
       travelling[home] += parcel.bytes();
       boxes_in[home] += static_cast<double>(parcel.edge_boxes);
+      setting_up_again[home] += costs_.of(Work::triangle, static_cast<double>(parcel.triangles)) +
+                                costs_.of(Work::edge_box_made, static_cast<double>(parcel.edge_boxes)) +
+                                costs_.of(Work::edge_box_filled, static_cast<double>(parcel.edge_boxes));
     }
   }
+  // Those without are taken to lie as the others.
+  for (std::size_t n = 0; n < nodes && seen > 0; ++n)
+    keyframe.again[n] = keyframe.again[n] * (1 + unseen / seen) + setting_up_again[n];
   keyframe.triangles = triangle_steps(parcels, costs_.of(Work::edge_box_filled, 1));
   for (std::size_t n = 0; n < nodes; ++n) {
     NodePart& node = keyframe.nodes[n];

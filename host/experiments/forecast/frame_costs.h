@@ -40,6 +40,7 @@ struct GroupKeyframe {
   std::vector<geometry::LineRange> homes;  // of the nodes
   double passes = 1;                       // over their lines
   Exchange sum, triangles;
+  std::vector<double> again;  // seconds of each node, if it makes others' triangles instead of receiving them
 };
 
 // What its nodes give each other once it is drawn.
@@ -98,6 +99,7 @@ class FrameCosts {
   FrameTotals shared(const FrameTotals& whole, int sharers) const;
   double dicing(const wire::UnitCounts& made) const;
   double setting_up(const wire::UnitCounts& made) const;
+  double dicing(const wire::MadeSurface& surface) const;
   wire::UnitCounts drawn_units(const FrameTotals& totals) const;
   double keyframe_drawing(const FrameTotals& totals, const wire::FrameCounts& counts,
                           const geometry::LineRange& lines) const;

@@ -48,8 +48,19 @@ class Rehearsal {
     std::size_t task = 0;
     std::size_t frame = 0;  // of the task that it draws
     std::uint32_t strips_left = 0;
+    double exchange_began = 0;
     double memory = 0;                             // bytes that it used so far
     std::shared_ptr<const TaskKeyframe> keyframe;  // of the task
+  };
+  // How triangles come to the homes of their lines in a group (node/group/exchange_times.h).
+  struct GroupExchange {
+    std::size_t sent = 0;     // keyframes
+    std::size_t made = 0;     // keyframes
+    double sending = 0;       // seconds of all nodes, the last time but for the first
+    double making = 0;        // so too
+    bool again = false;       // in the current keyframe
+    int begun = 0, come = 0;  // of its nodes
+    double seconds = 0;
   };
   // An inbetween that a team draws, where nodes write files.
   struct TeamFrame {
@@ -69,7 +80,9 @@ class Rehearsal {
   void exchange(int n, const Exchange& exchange, void (Rehearsal::*then)(int));
   void sum(int n);
   void map(int n);
+  bool makes_again(const GroupKeyframe& keyframe, const GroupExchange& so_far) const;
   void exchange_triangles(int n);
+  void end_exchange(int n);
   void begin_strips(int n);
   void draw_strip(int n);
   void finish_strip(int n);
@@ -114,6 +127,8 @@ class Rehearsal {
   std::map<int, std::vector<std::vector<NodePart>>> inbetweens_;  // by nodes that share one, and by task
   std::vector<std::vector<TeamFrame>> team_frames_;               // by task
   std::vector<std::int32_t> teams_;                               // by group
+  const wire::Exchange exchange_;
+  std::vector<GroupExchange> group_exchanges_;  // by group
   std::vector<Node> nodes_;
   Rehearsed result_;
   HostSide host_;
@@ -136,6 +151,8 @@ Rehearsal::Rehearsal(const FilmCounts& counts, const farm::Plan& plan, const Set
       paces_(setting.even.paces),
       exchanges_(clockwork_, computers_, routes_, costs_.costs(), nodes),
       task_keyframes_(counts.tasks.size()),
+      exchange_(setting.exchange),
+      group_exchanges_(plan.groups.size()),
       nodes_(static_cast<std::size_t>(nodes)),
       result_{0, {},
               0, 0,
@@ -296,8 +313,36 @@ void Rehearsal::map(int n) {
   work(n, part_of(nodes_[static_cast<std::size_t>(n)]).map, &Rehearsal::exchange_triangles);
 }
 
+bool Rehearsal::makes_again(const GroupKeyframe& keyframe, const GroupExchange& so_far) const {
+  if (exchange_ != wire::Exchange::automatic) return exchange_ == wire::Exchange::again;
+  double guess = 0;
+  for (const NodePart& node : keyframe.nodes) guess += 2 * node.dice;
+  const double making = so_far.made > 1 ? so_far.making : guess;
+  return so_far.sent > 1 && 1.25 * making < so_far.sending;
+}
+
 void Rehearsal::exchange_triangles(int n) {
-  exchange(n, nodes_[static_cast<std::size_t>(n)].keyframe->drawn->triangles, &Rehearsal::begin_strips);
+  Node& node = nodes_[static_cast<std::size_t>(n)];
+  const GroupKeyframe& keyframe = *node.keyframe->drawn;
+  if (keyframe.triangles.empty()) return begin_strips(n);
+  GroupExchange& group = group_exchanges_[node.group];
+  if (group.begun++ == 0) group.again = makes_again(keyframe, group);
+  node.exchange_began = clockwork_.now();
+  if (!group.again) return exchange(n, keyframe.triangles, &Rehearsal::end_exchange);
+  work(n, drawing(n, keyframe.again[static_cast<std::size_t>(node.member)]), &Rehearsal::end_exchange);
+}
+
+void Rehearsal::end_exchange(int n) {
+  const Node& node = nodes_[static_cast<std::size_t>(n)];
+  GroupExchange& group = group_exchanges_[node.group];
+  group.seconds += clockwork_.now() - node.exchange_began;
+  if (++group.come == plan_.groups[node.group].count) {
+    (group.again ? group.making : group.sending) = group.seconds;
+    ++(group.again ? group.made : group.sent);
+    group.begun = group.come = 0;
+    group.seconds = 0;
+  }
+  begin_strips(n);
 }
 
 void Rehearsal::begin_strips(int n) {
@@ -413,13 +458,14 @@ void Rehearsal::exchange_team_bands(int n) {
     frame.writer_waits = true;
     return;
   }
-  const double bytes = part_of(node).team_bytes;
+  const double bytes = part_of(node).team_bytes, now = clockwork_.now();
   result_.bytes_to_nodes += bytes;
-  const double arrival = routes_.arrival(computers_.of(n), computers_.of(writer), static_cast<std::size_t>(bytes),
-                                         clockwork_.now(), clockwork_.now());
+  const bool takes_time = costs_.costs().takes_time(wire::kBands);
+  const auto length = static_cast<std::size_t>(bytes);
+  const double arrival = takes_time ? routes_.arrival(computers_.of(n), computers_.of(writer), length, now, now) : now;
   clockwork_.at(arrival,
                 [this, writer, task = node.task, number = node.frame] { receive_team_bands(writer, task, number); });
-  work(n, costs_.costs().to_send(bytes), &Rehearsal::send_drawn);
+  work(n, takes_time ? costs_.costs().to_send(bytes) : 0, &Rehearsal::send_drawn);
 }
 
 void Rehearsal::receive_team_bands(int writer, std::size_t task, std::size_t number) {
@@ -431,7 +477,8 @@ void Rehearsal::receive_team_bands(int writer, std::size_t task, std::size_t num
 
 void Rehearsal::collect_team_bands(int n) {
   const Node& node = nodes_[static_cast<std::size_t>(n)];
-  work(n, (node.of_team.count - 1) * costs_.costs().to_receive(part_of(node).team_bytes), &Rehearsal::write_file);
+  const double each = costs_.costs().takes_time(wire::kBands) ? costs_.costs().to_receive(part_of(node).team_bytes) : 0;
+  work(n, (node.of_team.count - 1) * each, &Rehearsal::write_file);
 }
 
 // Of a node that has drawn its part of an inbetween, which another writes.

@@ -18,6 +18,7 @@ enum class Writers { host, nodes };
 
 // Frames of a task, at most: no interval is cut.
 inline constexpr std::uint32_t kUncut = 0xffffffff;
+
 // Work that is divided more evenly than it can be, to find what unevenness costs (explain.h).
 struct Even {
   bool keyframes = false;            // nodes of a group do equal parts of a keyframe
@@ -31,6 +32,7 @@ struct Setting {
   images::PictureFormat picture = images::PictureFormat::png;
   bool files = true;  // else frames go nowhere
   Writers writers = Writers::host;
+  wire::Exchange exchange = wire::Exchange::send;
   std::int32_t sharers = 0;       // of an inbetween, as in farm::Plan; 0: as it is fastest
   std::uint32_t most_frames = 0;  // of a task, as in farm::make_tasks; 0: as it is fastest
   std::uint32_t sink_threads = 2;

@@ -139,6 +139,7 @@ Planned plan(const PlanWords& words, const NodesCode& code) {
   const std::vector<farm::Task> tasks = farm::make_tasks(view, frames, !options.no_coherence);
   const forecast::FilmCounts counts = counts_of(film, tasks, words, code);
   forecast::Setting setting{view, platform, options.mapping, options.format};
+  setting.exchange = options.exchange;
   // As simulations count files that go nowhere.
   setting.files = options.sink == options::SinkKind::files || options.write != options::WriteWhere::automatic;
   setting.sink_threads = session::sink_threads({platform.host_memory, platform.host_processors()});

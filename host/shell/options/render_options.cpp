@@ -219,7 +219,7 @@ std::vector<Entry> table() {
       option(plans, "--mapping", "greedy|optimal|cost", &RenderOptions::mapping,
              "How lines are divided among nodes: by edge boxes as in the thesis, exactly by edge boxes, or by "
              "estimated cost; default: cost. Example: --mapping greedy"),
-      option(submits, "--exchange", "auto|send|again", &RenderOptions::exchange,
+      option(plans, "--exchange", "auto|send|again", &RenderOptions::exchange,
              "How triangles reach other machines: sent, or made again there; default: auto, whichever takes less time. "
              "Example: --exchange send"),
       option(compiles, "--intervals", "auto|keyframes", &RenderOptions::intervals,

@@ -128,6 +128,26 @@ TEST(ForecastsOfTeams, AreAsSimulated) {
     }
 }
 
+// On a slow network it takes less time to make triangles again: in all keyframes, or in those behind the second.
+TEST(ForecastsOfExchanges, AreAsSimulated) {
+  SimulatedFilm film("visit", "100-107", "ethernet");
+  experiments::Platform slow = film.platform();
+  slow.machine.network.byte *= 10;
+  slow.machine.network.host_byte = slow.machine.network.byte / 1000;
+  film.set_platform(slow);
+  const std::uint32_t every_frame = 1;
+  std::vector<double> seconds;
+  for (const wire::Exchange exchange : {wire::Exchange::send, wire::Exchange::automatic, wire::Exchange::again}) {
+    film.set_exchange(exchange);
+    const Forecast forecast = film.forecast(4, 1, 1, every_frame);
+    expect_near(forecast.run.seconds, film.render(forecast).total_seconds, 0.1,
+                std::to_string(static_cast<int>(exchange)));
+    seconds.push_back(forecast.run.seconds);
+  }
+  EXPECT_LT(seconds[1], 0.95 * seconds[0]);
+  EXPECT_LT(seconds[2], 0.95 * seconds[0]);
+}
+
 // A film of fewer inbetweens than nodes.
 TEST(ForecastsOfTeams, ChooseThemWhereTheyPay) {
   const SimulatedFilm film("demo", "0-7", "fat-tree", Files::nodes);

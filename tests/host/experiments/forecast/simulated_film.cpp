@@ -47,6 +47,7 @@ SimulatedFilm::SimulatedFilm(const std::string& name, const std::string& frames,
 Setting SimulatedFilm::setting(const wire::PackedFilm& film) const {
   Setting setting{film, platform_};
   setting.files = files_ != Files::none;
+  setting.exchange = exchange_;
   setting.writers = files_ == Files::nodes ? Writers::nodes : Writers::host;
   setting.sink_threads = static_cast<std::uint32_t>(platform_.host_processors());
   return setting;
@@ -131,6 +132,7 @@ farm::FarmReport SimulatedFilm::render(const farm::Plan& plan, int nodes, simula
   const farm::Writing writing = programs::counted_writing();
   if (files_ == Files::nodes) options.writing = &writing;
   options.credits = memory.credits;
+  options.exchange = exchange_;
   options.each_frame = true;
   return farm::render_film(film_.block(), plan, options, sinks, {});
 }

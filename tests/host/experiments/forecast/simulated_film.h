@@ -32,6 +32,7 @@ class SimulatedFilm {
 
   // Of both forecasts and renderings from now on.
   void set_platform(experiments::Platform platform) { platform_ = std::move(platform); }
+  void set_exchange(wire::Exchange exchange) { exchange_ = exchange; }
 
   // `sharers`, `most_frames`: as in Setting.
   Forecast forecast(int nodes, std::uint32_t groups, std::int32_t sharers = 0, std::uint32_t most_frames = 0) const;
@@ -52,6 +53,7 @@ class SimulatedFilm {
   const Files files_;
   film::CompiledFilm film_;
   experiments::Platform platform_;
+  wire::Exchange exchange_ = wire::Exchange::send;
   std::vector<farm::Task> tasks_;
   FilmCounts counts_;
   mutable std::optional<FilmCounts> exact_;  // once they were needed
