@@ -10,7 +10,7 @@
 namespace mars::group {
 namespace {
 
-constexpr const char* kWhat = "still lines";
+constexpr const char* kLinesText = "still lines";
 
 // Before lines that are depths alone, and before each line with groups.
 using LineBytes = std::uint64_t;
@@ -58,12 +58,12 @@ class StillExchange::Lines : public Relayed {
 
   void take_depths(int owner, std::span<const std::byte> piece) {
     geometry::LineRange lines{};
-    wire::require_sense(piece.size() >= sizeof lines, owner, kWhat);
+    wire::require_sense(piece.size() >= sizeof lines, owner, kLinesText);
     std::memcpy(&lines, piece.data(), sizeof lines);
     const geometry::LineRange all = lines_of(owner);
     wire::require_sense(all.first <= lines.first && lines.first <= lines.last && lines.last <= all.last &&
                             piece.size() == sizeof lines + still_.depth_bytes(lines),
-                        owner, kWhat);
+                        owner, kLinesText);
     still_.unpack_depths(lines, piece.data() + sizeof lines);
   }
 
@@ -84,10 +84,10 @@ class StillExchange::Lines : public Relayed {
   void take_lines(int owner, std::span<const std::byte> piece) {
     while (!piece.empty()) {
       LineBytes bytes = 0;
-      wire::require_sense(piece.size() >= sizeof bytes, owner, kWhat);
+      wire::require_sense(piece.size() >= sizeof bytes, owner, kLinesText);
       std::memcpy(&bytes, piece.data(), sizeof bytes);
       piece = piece.subspan(sizeof bytes);
-      wire::require_sense(bytes <= piece.size() && still_.is_packed(piece.first(bytes)), owner, kWhat);
+      wire::require_sense(bytes <= piece.size() && still_.is_packed(piece.first(bytes)), owner, kLinesText);
       still_.unpack(piece.first(bytes));
       piece = piece.subspan(bytes);
     }
@@ -100,7 +100,7 @@ class StillExchange::Lines : public Relayed {
 
 StillExchange::StillExchange(const raster::Neighbours& neighbours, const raster::StillLines& still)
     : neighbours_(neighbours),
-      relay_(wire::kStillLines, most_bytes(still), kWhat),
+      relay_(wire::kStillLines, most_bytes(still), kLinesText),
       collectors_(static_cast<std::size_t>(neighbours.group().count)) {}
 
 void StillExchange::complete(const StillNeeds& needs, raster::StillLines& still) {
