@@ -13,16 +13,17 @@ struct ExchangeTimes {
   std::uint64_t making = 0;
 };
 
-// By the times of all nodes of a group, so that they choose alike.
-constexpr bool is_sooner_again(const ExchangeTimes& all) { return all.making + all.making / 4 < all.sending; }
+// By the times of all nodes of a group, so that they choose alike. Much sooner: in the time of sending nodes also wait
+// for each other, as they will in any case.
+constexpr bool is_sooner_again(const ExchangeTimes& all) { return 2 * all.making < all.sending; }
 
 // A node's.
 class ExchangeRecord {
  public:
-  // `dicing`: seconds of own triangles. Where it is not known, making others' is taken to need twice as much, for some
+  // `dicing`: seconds of own triangles. Where it is not known, making others' is taken to need four times as much, for
   // surfaces lie on lines of several homes.
   ExchangeTimes expected(double dicing) const {
-    return {sending_.last, making_.last > 0 ? making_.last : nanoseconds(2 * dicing)};
+    return {sending_.last, making_.last > 0 ? making_.last : nanoseconds(4 * dicing)};
   }
 
   void note(bool made_again, double seconds) { (made_again ? making_ : sending_).note(nanoseconds(seconds)); }

@@ -11,7 +11,7 @@ BEGIN, PICTURE, DRAWN = 5, 6, 8
 HEAD = struct.Struct("<4IQ")
 PICTURE_HEAD = struct.Struct("<10Id")
 DRAWN_HEAD = struct.Struct("<6I3d")
-PART = struct.Struct("<i3I12d3Q")
+PART = struct.Struct("<i3I13d3Q")
 NOTHING, STILL, MOVING, UNKNOWN = range(4)
 
 

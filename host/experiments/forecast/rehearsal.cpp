@@ -316,9 +316,9 @@ void Rehearsal::map(int n) {
 bool Rehearsal::makes_again(const GroupKeyframe& keyframe, const GroupExchange& so_far) const {
   if (exchange_ != wire::Exchange::automatic) return exchange_ == wire::Exchange::again;
   double guess = 0;
-  for (const NodePart& node : keyframe.nodes) guess += 2 * node.dice;
+  for (const NodePart& node : keyframe.nodes) guess += 4 * node.dice;
   const double making = so_far.made > 1 ? so_far.making : guess;
-  return so_far.sent > 1 && 1.25 * making < so_far.sending;
+  return so_far.sent > 1 && 2 * making < so_far.sending;
 }
 
 void Rehearsal::exchange_triangles(int n) {
