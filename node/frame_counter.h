@@ -101,7 +101,7 @@ class FrameCounter {
   std::vector<raster::LineLoad> moving_loads_;  // of the edge boxes, moving parts'
   std::vector<SurfaceMark> marked_;             // of a share
   std::vector<wire::SurfaceLine> surface_;      // by line: of the surface in hand
-  geometry::LineRange kept_{0, 0};              // of these lines the triangles are kept
+  geometry::LineRange kept_{0, 0};              // lines whose triangles are kept
   bool is_short_ = false;                       // of memory: not all are
   std::vector<geometry::Triangle> triangles_;   // of the sampled lines
   std::vector<SampledLine> sampled_;

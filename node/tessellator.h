@@ -33,7 +33,7 @@ struct Scatter {
   std::uint64_t from(std::uint64_t number) const;
 };
 
-// Surfaces that surely touch none of these lines of the picture are not made.
+// Surfaces that surely touch none of the lines are not made.
 struct OwnLines {
   const geometry::ShapeBoxes& boxes;
   geometry::LineRange lines;

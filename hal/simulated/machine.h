@@ -55,7 +55,7 @@ struct Storage {
   double writer_byte = 0;  // of a computer that writes
 };
 
-// So many computers of one speed.
+// A number of computers of one speed.
 struct SpeedKind {
   int computers = 1;
   double speed = 1;  // 2: work takes half as long

@@ -38,7 +38,7 @@ Platform read_platform(const std::string& name, const std::filesystem::path& fol
 // That its costs cannot be trusted, and why; "" where they can.
 std::string doubt_text(const Platform& platform);
 
-// That costs of some of these kinds are not identified, and which; "" where all are. Where they make up most of a time,
+// That costs of some of the kinds are not identified, and which; "" where all are. Where they make up most of a time,
 // it is as sure only for films in which they are as frequent, relative to other work, as in the films that were
 // measured.
 std::string unidentified_text(const Platform& platform, std::span<const wire::Work> kinds);

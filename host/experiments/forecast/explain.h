@@ -9,11 +9,11 @@
 
 namespace mars::forecast {
 
-// `forecast`: of these counts, tasks and setting.
+// `forecast`: of the same counts, tasks and setting.
 walls::Explanation explain(const FilmCounts& counts, const std::vector<farm::Task>& tasks, const Setting& setting,
                            const Forecast& forecast);
 
-// Where work and messages of these walls take no time. Unevenness is none of a platform's: it stays.
+// Where work and messages of the walls take no time. Unevenness is none of a platform's: it stays.
 experiments::Platform without(experiments::Platform platform, walls::Walls walls, Writers writers);
 
 }  // namespace mars::forecast

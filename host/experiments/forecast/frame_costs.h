@@ -95,6 +95,8 @@ class FrameCosts {
  private:
   struct Homes;
 
+  static constexpr double kBoxMargin = 5;  // lines by which a patch's box is too tall
+
   std::vector<double> still_messages(const geometry::LineRange& home, const wire::FrameCounts& counts) const;
   FrameTotals shared(const FrameTotals& whole, int sharers) const;
   double dicing(const wire::UnitCounts& made) const;
@@ -126,8 +128,8 @@ class FrameCosts {
   double arena_bytes() const;
   double passes(const wire::UnitCounts& made, double home_boxes, bool travels) const;
   void add_dicing(GroupKeyframe& keyframe, const Homes& homes, const std::vector<wire::UnitCounts>& made) const;
-  void add_exchange(GroupKeyframe& keyframe, const Homes& homes, const KeyframeCounts& counts,
-                    const SurfaceTable& surfaces, const KeyframeGroup& group) const;
+  void add_exchange(GroupKeyframe& keyframe, const std::vector<geometry::LineRange>& homes,
+                    const KeyframeCounts& counts, const SurfaceTable& surfaces, const KeyframeGroup& group) const;
   Machines machines_of(const KeyframeGroup& group) const;
   std::vector<wire::UnitCounts> made_by(const KeyframeCounts& counts, const SurfaceTable& surfaces, int nodes) const;
   int nodes_on_a_computer(int nodes) const;

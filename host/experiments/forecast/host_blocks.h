@@ -25,7 +25,7 @@ class HostBlocks {
   double restore(std::size_t buffer);
   // So do lines [first, last), by whoever encodes them.
   void forget_stale(std::size_t buffer, std::uint32_t first, std::uint32_t last);
-  // Whether pixels of moving parts are in blocks of these lines.
+  // Whether pixels of moving parts are in blocks of the lines.
   bool is_changed(std::size_t buffer, std::uint32_t first, std::uint32_t last) const;
 
  private:

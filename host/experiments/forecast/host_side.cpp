@@ -74,12 +74,10 @@ double HostSide::give(std::size_t group) {
   task.left = frames.size();
   for (std::size_t frame = 0; frame < frames.size(); ++frame)
     task.frames.push_back(
-        {frame == 0
-             ? division.contributors
-             : wire::team_of_inbetween(plan_.tasks[number].first_inbetween + frame - 1, nodes, division.teams).count,
-         false,
-         0,
-         {}});
+        {.contributors_left = frame == 0 ? division.contributors
+                                         : wire::team_of_inbetween(plan_.tasks[number].first_inbetween + frame - 1,
+                                                                   nodes, division.teams)
+                                               .count});
   groups_[group].tasks.push_back(number);
   outward_.task(group, number);
   return nodes.count *

@@ -66,7 +66,7 @@ class HostSide {
     std::size_t buffer = 0;  // then
     double begun = 0;        // seconds that this took
     bool is_pasted = false;
-    std::vector<StripSent> strips;  // that wait
+    std::vector<StripSent> strips{};  // that wait
   };
   struct GroupState {
     std::deque<std::size_t> tasks;

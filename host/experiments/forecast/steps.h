@@ -82,7 +82,7 @@ struct NodeBands {
   bool composes = false;             // whole bands
   double picture = 0;                // for the file
   double encoding = 0;               // seconds
-  std::vector<double> background{};  // bytes of these for inbetweens, piece by piece
+  std::vector<double> background{};  // bytes of bands for inbetweens, piece by piece
 };
 
 Exchange band_steps(const Machines& machines, std::span<const NodeBands> bands, int writer);

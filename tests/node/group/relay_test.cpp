@@ -1,6 +1,6 @@
 // What nodes have for machines with contributors goes round them once, on the threads backend: for any machines,
-// contributors and sizes of parts each of these machines gets all of every part of others, in order; and a node that
-// has everything sends it once.
+// contributors and sizes of parts each machine with contributors gets all of every part of others, in order; and a node
+// that has everything sends it once.
 #include "node/group/relay.h"
 
 #include <gtest/gtest.h>
