@@ -1,6 +1,7 @@
 #include "host/render/report/describe.h"
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "hal/failure/failure.h"
 #include "host/content/document/text.h"

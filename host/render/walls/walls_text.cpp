@@ -1,6 +1,7 @@
 #include "host/render/walls/walls_text.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "hal/failure/failure.h"
 #include "host/content/document/text.h"

@@ -1,7 +1,7 @@
 // An explanation in words, and in JSON for programs and reports.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "host/render/walls/walls.h"

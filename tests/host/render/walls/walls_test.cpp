@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "hal/failure/failure.h"
 #include "host/render/walls/walls_text.h"
