@@ -23,9 +23,10 @@
 namespace mars::bench {
 namespace {
 
-// Bytes of all nodes together for a frame's triangles and edge boxes, and of each at least where inbetweens are drawn,
-// each by one node: enough for one pass.
-constexpr std::uint64_t kMemory = std::uint64_t{1} << 30, kLeastMemory = std::uint64_t{64} << 20;
+// Bytes of all nodes together for a frame's triangles and edge boxes, and of each at least; more where inbetweens are
+// drawn, each by one node: enough for one pass.
+constexpr std::uint64_t kMemory = std::uint64_t{1} << 30;
+constexpr std::uint64_t kLeastOfKeyframes = std::uint64_t{4} << 20, kLeastMemory = std::uint64_t{64} << 20;
 
 struct Course {
   std::string film;
@@ -64,8 +65,8 @@ void count_messages(const Course& course, messages::Counts& counts) {
   messages::Machines machines(course.nodes_each);
   const farm::AskedMemory more = asked_memory(film.view());
   const std::uint64_t each = kMemory / static_cast<std::uint64_t>(course.nodes);
-  const std::uint64_t memory =
-      (course.whole ? each : std::max(each, kLeastMemory)) + more.still.value_or(0) + more.shadows.value_or(0);
+  const std::uint64_t memory = std::max(each, course.whole ? kLeastOfKeyframes : kLeastMemory) +
+                               more.still.value_or(0) + more.shadows.value_or(0);
   farm::FarmReport report;
   threads::run_threads(
       course.nodes, [&] { report = render(film, course); },
