@@ -53,7 +53,7 @@ void FilmFrames::begin_still(const wire::RenderCommand& command) {
   const auto frames = command.frames.size() > 1 ? command.frames : std::span<const std::uint32_t>();
   canvas_.sweep.begin(canvas_.scene, frames, boxes_,
                       [&](const geometry::PictureBounds& bounds) { marks.mark(bounds.lines, bounds.columns); });
-  canvas_.still.begin_interval(command.render.interval, canvas_.sweep.lines());
+  canvas_.still.begin_interval(command.frames.front(), canvas_.sweep.lines());
 }
 
 void FilmFrames::draw_inbetweens(const wire::RenderCommand& command) {

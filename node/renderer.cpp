@@ -67,6 +67,7 @@ void Renderer::draw(Canvas& canvas, const Frame& frame, const HasEnded& has_ende
     if (!pass.is_last()) send_trace();
   }
   report_.end();
+  if (report_.is_keyframe()) ++keyframes_;
   if (report_.is_keyframe() && triangles_travel())
     canvas_->exchange_record.note(makes_again(), report_.strip().times.exchange);
   memory_.end_frame();
@@ -407,10 +408,10 @@ void Renderer::finish_exchange(const group::Pass& pass) {
   if (file_) finish_writing();
 }
 
-// Nodes take turns.
+// Nodes take turns with keyframes.
 int Renderer::frame_writer() const {
   if (sharing_.is_shared()) return sharing_.writer;
-  return group_.first + static_cast<int>(report_.strip().interval % contributors_);
+  return group_.first + static_cast<int>(keyframes_ % contributors_);
 }
 
 void Renderer::begin_writing() {

@@ -156,7 +156,8 @@ class Renderer {
 
   std::optional<FileOutput> file_output_;  // none: all frames go to the host
 
-  bool is_first_ = true;  // of all frames
+  bool is_first_ = true;       // of all frames
+  std::size_t keyframes_ = 0;  // so far
 
   // Of the current frame.
   Canvas* canvas_ = nullptr;  // that it is of

@@ -27,14 +27,14 @@ double StorageUse::write(int computer, double begin, double bytes, double floor)
   return std::max({sent, to_servers(opened, bytes, floor), opened + bytes * port_byte_});
 }
 
-// When each has its part of a file.
+// When each has its part of a file: the first stripes are on the first servers.
 double StorageUse::to_servers(double opened, double bytes, double floor) {
   const auto seconds = [&](std::size_t place) {
     return storage_.byte * share(bytes, storage_.stripe, servers_.size(), place);
   };
   const std::size_t first = first_server(opened, seconds(0));
   double there = opened;
-  for (std::size_t place = 0; place < servers_.size(); ++place) {
+  for (std::size_t place = 0; place < servers_.size() && seconds(place) > 0; ++place) {
     Calendar& server = servers_[(first + place) % servers_.size()];
     there = std::max(there, server.book(opened, seconds(place), floor) + seconds(place));
   }

@@ -48,11 +48,12 @@ constexpr document::Range kRates{1, 1e15};  // bytes, or files, a second
 constexpr document::Range kParts{1e-4, 2};
 constexpr document::Range kRatios{1e-3, 1e3};
 constexpr document::Range kSlowdowns{1, 1e3};
-constexpr document::Range kDetours{0, 1e6};  // a second
+constexpr document::Range kDetours{0, 1e4};  // a second
 constexpr double kMostOfDetours = 0.9;       // of a processor's time
 constexpr std::uint32_t kMany = 1 << 20;
-constexpr std::uint32_t kManyServers = 1 << 16;
-constexpr std::uint32_t kLongest = 1u << 31;  // bytes of a message
+constexpr std::uint32_t kManyServers = 1 << 12;
+constexpr std::uint32_t kLeastStripe = 1 << 12;  // bytes
+constexpr std::uint32_t kLongest = 1u << 31;     // bytes of a message
 
 // Seconds a byte, or a file; 0 where the rate is not given: as fast as can be.
 double unit_seconds(const Fields& fields, string_view key) {
@@ -161,7 +162,7 @@ void read_storage(const Fields& platform, Platform& into) {
   into.machine.storage.opening = unit_seconds(fields, "openings");
   into.machine.storage.writer_byte = unit_seconds(fields, "writer_rate");
   into.machine.storage.servers = static_cast<int>(fields.count("servers", 1, 1, kManyServers));
-  into.machine.storage.stripe = fields.count("stripe", 0, 1, kLongest);
+  into.machine.storage.stripe = fields.count("stripe", 0, kLeastStripe, kLongest);
   into.file_part = fields.number("file_part", into.file_part, kParts);
 }
 

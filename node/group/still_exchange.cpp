@@ -48,7 +48,7 @@ class StillExchange::Lines : public Relayed {
     std::size_t bytes = 0;
     for (std::size_t line = 0; lines.last < left_.last; ++lines.last, bytes += line) {
       line = still_.depth_bytes({lines.last, lines.last + 1});
-      if (bytes > 0 && bytes + line > wire::kRelayPiece) break;
+      if (bytes > 0 && sizeof lines + bytes + line > wire::kRelayPiece) break;
     }
     left_.first = lines.last;
     std::memcpy(piece.data(), &lines, sizeof lines);

@@ -47,14 +47,14 @@ StillLines::StillLines(const Neighbours& neighbours, std::uint32_t width, std::u
   marks_.mark_all();
 }
 
-void StillLines::begin_interval(std::uint32_t number, const geometry::LineRange& lines) {
-  interval_ = number;
+void StillLines::begin_interval(std::uint32_t keyframe, const geometry::LineRange& lines) {
+  keyframe_ = keyframe;
   lines_ = lines;
   all_move_ = false;
 }
 
-void StillLines::begin_moving_interval(std::uint32_t number) {
-  begin_interval(number, {0, 0});
+void StillLines::begin_moving_interval(std::uint32_t keyframe) {
+  begin_interval(keyframe, {0, 0});
   all_move_ = true;
 }
 
@@ -86,7 +86,7 @@ bool StillLines::begin_line(std::uint32_t line, std::uint32_t groups) {
   if (!has_slot(line)) return false;
   if (!has_groups_) return true;
   const bool kept = has_room(line, groups);
-  head(line) = {kept ? 1u : 0u, interval_, line, groups};
+  head(line) = {kept ? 1u : 0u, keyframe_, line, groups};
   std::ranges::copy(marks_.on(line), tiles(line).begin());
   return kept;
 }
@@ -125,7 +125,7 @@ UnsummedStill StillLines::unsummed(std::uint32_t line) {
 bool StillLines::keeps(std::uint32_t line) const {
   if (!lines_.has(line) || !has_slot(line)) return false;
   const auto is_of = [&](const Head& head) {
-    return head.kept == 1 && head.interval == interval_ && head.line == line;
+    return head.kept == 1 && head.keyframe == keyframe_ && head.line == line;
   };
   return !has_groups_ || is_of(head(line));
 }
@@ -268,7 +268,7 @@ std::optional<StillLines::Packed> StillLines::read_packed(std::span<const std::b
 bool StillLines::is_packed(std::span<const std::byte> line) {
   if (!has_groups_ || line.size() < wire::still_head_bytes(width_)) return false;
   const Head head = head_of(line);
-  if (head.kept != 1 || head.interval != interval_ || !lines_.has(head.line)) return false;
+  if (head.kept != 1 || head.keyframe != keyframe_ || !lines_.has(head.line)) return false;
   const std::uint32_t beyond = wire::still_tiles(width_) % 64;
   if (beyond != 0 && read_tiles(line).back() >> beyond != 0) return false;
   const std::optional<Packed> packed = read_packed(line);

@@ -60,10 +60,11 @@ class StillLines {
   StillLines(const Neighbours& neighbours, std::uint32_t width, std::uint32_t height,
              const shape::SamplePattern& pattern, std::uint64_t bytes_a_node, std::uint32_t casting = 0);
 
-  // Lines that will be written in interval `number`; those of others are kept no longer.
-  void begin_interval(std::uint32_t number, const geometry::LineRange& lines);
+  // Lines that will be written in the interval of this keyframe; those of other keyframes are kept no longer. An
+  // interval that is cut has several keyframes.
+  void begin_interval(std::uint32_t keyframe, const geometry::LineRange& lines);
   // Of an interval in which nothing stands still, none are.
-  void begin_moving_interval(std::uint32_t number);
+  void begin_moving_interval(std::uint32_t keyframe);
   const geometry::LineRange& lines() const { return lines_; }
   // Whether moving parts may be on the line.
   bool has_memory_for(std::uint32_t line) const { return all_move_ || lines_.has(line); }
@@ -118,7 +119,7 @@ class StillLines {
   // The beginning of a line with groups. Its tiles follow.
   struct Head {
     std::uint32_t kept;  // 1: all of it is there
-    std::uint32_t interval;
+    std::uint32_t keyframe;
     std::uint32_t line;
     std::uint32_t groups;
   };
@@ -163,7 +164,7 @@ class StillLines {
   NeighboursMemory memory_;
   StillMarks marks_;
   std::vector<std::uint64_t> received_tiles_;  // of a line in hand
-  std::uint32_t interval_ = 0;
+  std::uint32_t keyframe_ = 0;
   geometry::LineRange lines_{0, 0};
   bool all_move_ = false;
 };

@@ -55,12 +55,13 @@ class Backends(ProgramTest):
         apart = ["unshare", "--user", "--map-root-user"]
         if self.run_program(*apart, "true").returncode != 0:
             self.skipTest("no user namespaces here")
-        done = self.run_program(*OWN_MPIRUN, "-n", 1, PROGRAMS / "mars-host", FILM, "-o", "out", *FEW, ":", "-n", 3,
-                                *apart, PROGRAMS / "mars-node")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(done.stdout.count("cannot share memory"), 1, done.stdout)
-        self.assertRegex(done.stdout, r'"warning","text":"the nodes on .* cannot share memory \(.*ermission denied')
-        self.assertEqual(self.verified_hash("out"), self.expected())
+        for ways in ([], ["--exchange", "again"], ["--groups", "1", "--sharers", "2", "--cut", "2"]):
+            done = self.run_program(*OWN_MPIRUN, "-n", 1, PROGRAMS / "mars-host", FILM, "-o", "out", "--overwrite", *FEW,
+                                    *ways, ":", "-n", 3, *apart, PROGRAMS / "mars-node")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(done.stdout.count("cannot share memory"), 1, done.stdout)
+            self.assertRegex(done.stdout, r'"warning","text":"the nodes on .* cannot share memory \(.*ermission denied')
+            self.assertEqual(self.verified_hash("out"), self.expected())
 
     @needs_mpi
     def test_combined_program(self):

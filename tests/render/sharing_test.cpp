@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "hal/failure/failure.h"
+#include "host/content/modeler/primitives.h"
 #include "tests/hal/machines_backend.h"
 #include "tests/render/film_run.h"
 #include "tests/render/films.h"
@@ -254,10 +255,11 @@ std::uint64_t lines_drawn_again(const SharedRun& run) {
 
 // Nodes that each have `still` bytes for what inbetweens need.
 void run_with(std::uint64_t still, const wire::FilmData& data, const Nodes& nodes, SharedRun& out,
-              std::uint64_t memory = 256 << 20) {
+              std::uint64_t memory = 256 << 20, std::uint32_t cut = 0) {
   messages::Machines machines(nodes.each);
   RunOptions options = options_of(nodes, memory);
   options.farm.asked_memory.still = still;
+  options.work.most_frames = cut;
   options.wrap = [&](messages::Backend& inner) {
     return std::make_unique<messages::MachinesBackend>(inner, out.counts, machines);
   };
@@ -281,6 +283,33 @@ TEST(Sharing, LinesThatAreNotKeptAreDrawnAgain) {
       EXPECT_EQ(lines == 0, still == 10 * kHeight * kLine);
       before = lines;
     }
+  }
+}
+
+// A box goes from where nothing stands still to where many balls do.
+wire::FilmData uneven() {
+  FilmMaker maker(kWidth, kHeight, kFrames);
+  const std::uint32_t ball = maker.add_shape(modeler::make_sphere()), box = maker.add_shape(modeler::make_box());
+  const std::uint32_t clay = maker.add_material(kClay);
+  for (int x = 0; x < 16; ++x)
+    for (int z = 0; z < 20; ++z) maker.add_segment(ball, clay, {placed({0.25 * x, 0, 0.25 * z - 2.5}, 0.3)});
+  std::vector<wire::Matrix> motion;
+  for (std::uint32_t f = 0; f < kFrames; ++f) motion.push_back(placed({0.5 * f - 3, -2, -0.7}, 0.5));
+  maker.add_segment(box, clay, motion);
+  maker.set_cameras({looking({0, -20, 0}, {0, 0, 0}, 20)});
+  return with_samples(maker.make(), 16);
+}
+
+// Each piece of an interval that is cut has a keyframe and lines of its own: a line that is kept in a piece and does
+// not fit in the next is drawn again there.
+TEST(Sharing, LinesAreOfTheirPieceOfAnInterval) {
+  const wire::FilmData data = uneven();
+  const FilmRun expected = from_scratch(data);
+  for (const std::uint64_t still : {100'000, 500'000}) {
+    SharedRun rendered;
+    run_with(still, data, {2, 1}, rendered, 256 << 20, 4);
+    expect_pictures(rendered, data, expected);
+    EXPECT_GT(lines_drawn_again(rendered), 0u);
   }
 }
 

@@ -10,10 +10,10 @@
 namespace mars::farm {
 namespace {
 
-// That a node took itself, without waiting for the host.
+// That a node took itself, without waiting for the host, or for others of a team that shares an inbetween.
 double own_seconds(const wire::PhaseTimes& times) {
   return times.dice + times.sum + times.map + times.exchange + times.fill + times.scanline + times.shadow +
-         times.depth + times.compose + times.bands;
+         times.depth + times.compose;
 }
 
 // `slowness` 1: no longer.

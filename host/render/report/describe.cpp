@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "hal/failure/failure.h"
+#include "hal/failure/plain_text.h"
 #include "host/content/document/text.h"
 #include "host/render/walls/walls_text.h"
 
@@ -14,13 +15,19 @@ using nlohmann::json;
 
 std::string text_of(const json& report) {
   const walls::Explanation walls = walls::explanation_of(report.at("walls"));
-  std::string text = "report of   " + report.at("film").get<std::string>() + "\n";
-  text += "nodes       " + document::counted(report.at("nodes").size(), "node") + " in " +
-          document::counted(report.at("groups").get<std::uint64_t>(), "group") + ", " +
-          report.at("backend").get<std::string>() + "\n";
-  text += "frames      " + std::to_string(report.at("frames").size()) + "\n";
+  const auto line = [&](const char* key) { return plain_line(report.at(key).get<std::string>()); };
+  const auto size = [&](const char* key) { return report.at(key).get_ref<const json::array_t&>().size(); };
+  std::string text = "report of   " + line("film") + "\n";
+  text += "nodes       " + document::counted(size("nodes"), "node") + " in " +
+          document::counted(report.at("groups").get<std::uint64_t>(), "group") + ", " + line("backend") + "\n";
+  text += "frames      " + std::to_string(size("frames")) + "\n";
   text += document::formatted("seconds     %.4g\n", report.at("total_seconds").get<double>());
   return text + "what binds  " + walls::line_of(walls) + "\n" + walls::table_of(walls);
+}
+
+Failure damaged(const std::filesystem::path& path) {
+  return {"is a report without all that this version writes", path.string(),
+          "render again with --report, or read the report with the version that wrote it"};
 }
 
 }  // namespace
@@ -37,8 +44,9 @@ std::string describe(const json& report, const std::filesystem::path& path) {
   try {
     return text_of(report);
   } catch (const json::exception&) {
-    throw Failure("is a report without all that this version writes", path.string(),
-                  "render again with --report, or read the report with the version that wrote it");
+    throw damaged(path);
+  } catch (const Failure&) {  // names of walls
+    throw damaged(path);
   }
 }
 

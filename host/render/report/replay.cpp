@@ -59,16 +59,22 @@ Replay::Part Replay::part_of(const wire::Strip& strip) {
   return part;
 }
 
-// Nodes that draw inbetweens of an interval wait in its keyframe for what these need.
+// Nodes that draw inbetweens of an interval wait in its keyframe for what these need. Of a team that shares an
+// inbetween, the node that writes it waits for the others: so it is longest with bands.
 void Replay::find_waiting() {
   std::set<std::pair<std::uint32_t, std::size_t>> drawn;  // by interval and node
+  std::unordered_map<std::size_t, std::size_t> turns;     // keyframes so far, by a group's first node
   for (const Frame& frame : frames_)
-    if (!frame.is_keyframe) drawn.emplace(frame.interval, frame.parts.front().node);
+    if (!frame.is_keyframe)
+      for (const Part& part : frame.parts) drawn.emplace(frame.interval, part.node);
   for (Frame& frame : frames_) {
-    if (!frame.is_keyframe) continue;
-    for (Part& part : frame.parts) part.waits = drawn.contains({frame.interval, part.node});
     std::ranges::sort(frame.parts, {}, &Part::node);
-    frame.parts[frame.interval % frame.parts.size()].writes = true;  // nodes take turns
+    if (!frame.is_keyframe) {
+      std::ranges::max_element(frame.parts, {}, &Part::bands)->writes = true;
+      continue;
+    }
+    for (Part& part : frame.parts) part.waits = drawn.contains({frame.interval, part.node});
+    frame.parts[turns[frame.parts.front().node]++ % frame.parts.size()].writes = true;
   }
 }
 
@@ -125,10 +131,10 @@ double Replay::last_of(const Run& run, const Frame& frame) {
   return last;
 }
 
-// All nodes of a group wait in its sum.
+// All nodes of a group wait in the sum of a keyframe.
 bool Replay::waits(const Frame& frame, const Part& part, double Part::*step) {
   if (frame.parts.size() == 1) return false;
-  return step == &Part::sum || part.waits || (step == &Part::bands && part.writes);
+  return (step == &Part::sum && frame.is_keyframe) || part.waits || (step == &Part::bands && part.writes);
 }
 
 // What a node spent in a step after the last had come to it.

@@ -38,7 +38,7 @@ class Replay {
     double still = 0;     // messages
     double bands = 0;     // messages
     bool waits = false;   // for lines and bands of others, as it draws inbetweens of the interval
-    bool writes = false;  // the file of a keyframe: it waits for all bands
+    bool writes = false;  // the frame's file: it waits for all bands
   };
   struct Frame {
     std::uint32_t interval = 0;

@@ -57,6 +57,20 @@ TEST(Replay, EvensWorkOut) {
   EXPECT_DOUBLE_EQ(replay.seconds({Wall::frame}), 9 + 2.5);
 }
 
+// Of a team, node 1 waits for node 0, which takes 6, before it writes what both have drawn.
+TEST(Replay, WaitingForATeamIsNoMessage) {
+  farm::FarmReport report = two_frames();
+  wire::PhaseTimes slow{}, writer{};
+  slow.scanline = 6;
+  writer.scanline = 1, writer.bands = 9;
+  report.node_files = 2;
+  report.strips.back() = strip(wire::FrameKind::inbetween, 1, 0, slow);
+  report.strips.push_back(strip(wire::FrameKind::inbetween, 1, 1, writer));
+  const Replay replay(report);
+  EXPECT_DOUBLE_EQ(replay.seconds({}), 15);
+  EXPECT_DOUBLE_EQ(replay.seconds({Wall::bands}), 15);
+}
+
 TEST(Replay, TheHostTakesFramesOneByOne) {
   farm::FarmReport report = two_frames();
   report.busy_seconds = 30;
