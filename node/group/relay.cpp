@@ -11,10 +11,20 @@
 
 namespace mars::group {
 
-// The heads of machines with contributors, as the caller meets them.
+// The heads of machines with contributors, in the order in which the caller passes pieces on.
 class Relay::Ring {
  public:
-  explicit Ring(const Collectors& nodes) : nodes_(nodes), next_(after(nodes.self())) {}
+  // `after`: to be used.
+  Ring(const Collectors& nodes, std::vector<int>& after) : nodes_(nodes), after_(after) {
+    const int count = nodes.last() - nodes.first();
+    after.assign(static_cast<std::size_t>(count), static_cast<int>(kNone));
+    for (int step = 2 * count, head = static_cast<int>(kNone); step-- > 0;) {
+      const int node = nodes.first() + step % count;
+      after[nodes.index(node)] = head;
+      if (nodes.collects(node)) head = node;
+    }
+    next_ = after_of(nodes.self());
+  }
 
   const Collectors& nodes() const { return nodes_; }
   bool is_head() const { return nodes_.collects(nodes_.self()); }
@@ -26,21 +36,15 @@ class Relay::Ring {
 
  private:
   int entry_of(int owner) const {
-    const int entry = after(nodes_.head_of(owner));
+    const int entry = after_of(nodes_.head_of(owner));
     return entry == nodes_.head_of(owner) ? static_cast<int>(kNone) : entry;
   }
-  // The first head after `node`, which may be the node itself; the node where there is none.
-  int after(int node) const {
-    const int count = nodes_.last() - nodes_.first();
-    for (int step = 1; step <= count; ++step) {
-      const int other = nodes_.first() + (node - nodes_.first() + step) % count;
-      if (nodes_.collects(other)) return other;
-    }
-    return node;
-  }
+  // The first head after `node`, which may be the node itself; kNone where there is none.
+  int after_of(int node) const { return after_[nodes_.index(node)]; }
 
   const Collectors& nodes_;
-  const int next_;
+  const std::vector<int>& after_;
+  int next_ = 0;
 };
 
 Relay::Relay(long type, std::size_t most, const char* what)
@@ -54,7 +58,7 @@ Relay::Relay(long type, std::size_t most, const char* what)
 }
 
 void Relay::exchange(const Collectors& collectors, Relayed& relayed) {
-  const Ring ring(collectors);
+  const Ring ring(collectors, heads_after_);
   const bool receives = ring.is_head() && expect_parts(ring, relayed);
   if (receives)
     for (std::size_t i = 0; i < kAwaiting; ++i) post(receiving_[(next_received_ + i) % kReceiving]);

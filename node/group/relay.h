@@ -79,6 +79,7 @@ class Relay {
   std::size_t next_sent_ = 0, next_received_ = 0;  // counted on and on
   std::size_t parts_left_ = 0;                     // of others
   std::vector<std::uint8_t> is_whole_;             // the part; by node of the group
+  std::vector<int> heads_after_;                   // in the ring; by node of the group
 };
 
 }  // namespace mars::group
