@@ -54,6 +54,8 @@ Digits checksum_over(const Header& header, std::string_view body) {
   throw Failure(what, path.string(), "remove it, so that the film is counted again, or name another file");
 }
 
+constexpr double kMostReal = 1e12;  // of any frame
+
 // Numbers of seven bits a byte, the low ones first; 128 in a byte says that more follow.
 class Writer {
  public:
@@ -103,10 +105,12 @@ class Reader {
     std::uint64_t twice = 0;
     whole(twice);
     number = static_cast<double>(twice >> 1);
-    if (twice != 1) return;
-    std::array<char, sizeof number> bits;
-    std::ranges::copy(take(bits.size()), bits.begin());
-    number = std::bit_cast<double>(bits);
+    if (twice == 1) {
+      std::array<char, sizeof number> bits;
+      std::ranges::copy(take(bits.size()), bits.begin());
+      number = std::bit_cast<double>(bits);
+    }
+    if (!(number >= 0 && number <= kMostReal)) refuse_numbers();
   }
   // Each takes a byte at least.
   template <typename Item, typename Pass>
@@ -235,17 +239,52 @@ SurfaceTable read_table(Reader& reader) {
   return table;
 }
 
-// Of what is drawn.
-void require_sense(const FilmCounts& counts, const Reader& reader) {
-  for (const TaskCounts& task : counts.tasks)
-    if (task.keyframe >= counts.keyframes.size()) reader.refuse_numbers();
-  for (const KeyframeCounts& keyframe : counts.keyframes)
-    for (const PlacedSurface& placed : keyframe.placed) {
-      if (placed.surface >= counts.surfaces.size()) reader.refuse_numbers();
-      const wire::MadeSurface& surface = counts.surfaces[placed.surface];
-      if (std::uint64_t{surface.first_line} + surface.lines > keyframe.lines.size()) reader.refuse_numbers();
-    }
-}
+// Whether counts are of these tasks of that film, so that whoever uses them finds all that they name.
+class Sense {
+ public:
+  Sense(const FilmCounts& counts, std::span<const farm::Task> tasks, const wire::FilmSettings& settings)
+      : counts_(counts), tasks_(tasks), height_(settings.height), columns_(blocks(settings.width)) {}
+
+  bool is_there() const {
+    return std::ranges::equal(counts_.tasks, tasks_,
+                              [&](const auto& counted, const auto& task) { return is_of(counted, task); }) &&
+           std::ranges::all_of(counts_.keyframes, [&](const auto& keyframe) { return is_keyframe(keyframe); });
+  }
+
+ private:
+  static std::uint32_t blocks(std::uint32_t pixels) { return (pixels - 1) / wire::kCountedBlock + 1; }
+
+  bool is_of(const TaskCounts& counted, const farm::Task& task) const {
+    return counted.keyframe < counts_.keyframes.size() && counted.inbetweens.size() + 1 == task.frames.size() &&
+           std::ranges::all_of(counted.inbetweens, [&](const auto& totals) { return are_blocks(totals.blocks); });
+  }
+  bool is_keyframe(const KeyframeCounts& keyframe) const {
+    return keyframe.lines.size() == height_ && are_blocks(keyframe.constant_blocks) &&
+           are_blocks(keyframe.moving_blocks) && are_lines(keyframe.first_still_line, keyframe.last_still_line) &&
+           std::ranges::all_of(keyframe.casters, [&](const auto& caster) { return is_caster(caster); }) &&
+           std::ranges::all_of(keyframe.placed, [&](const auto& placed) { return is_placed(placed); });
+  }
+  bool are_lines(std::uint32_t first, std::uint32_t last) const { return first <= last && last <= height_; }
+  bool are_blocks(std::span<const wire::BlockStretch> blocks) const {
+    return std::ranges::all_of(blocks, [&](const wire::BlockStretch& stretch) {
+      return stretch.row < Sense::blocks(height_) && stretch.first <= stretch.last && stretch.last <= columns_;
+    });
+  }
+  bool is_caster(const wire::CasterCounts& caster) const {
+    return are_lines(caster.first_line, caster.last_line) && are_lines(caster.first_put, caster.last_put) &&
+           caster.diced_by <= wire::DicedBy::shadows;
+  }
+  bool is_placed(const PlacedSurface& placed) const {
+    if (placed.surface >= counts_.surfaces.size()) return false;
+    const wire::MadeSurface& surface = counts_.surfaces[placed.surface];
+    return std::uint64_t{surface.first_line} + surface.lines <= height_;
+  }
+
+  const FilmCounts& counts_;
+  const std::span<const farm::Task> tasks_;
+  const std::uint32_t height_;
+  const std::uint32_t columns_;  // of blocks
+};
 
 std::string body_of(const FilmCounts& counts) {
   std::string body;
@@ -255,19 +294,6 @@ std::string body_of(const FilmCounts& counts) {
   writer.items(counts.tasks, [](auto& to, auto& task) { pass_task(to, task); });
   writer.whole(counts.counted);
   return body;
-}
-
-FilmCounts counts_of(std::string_view body, const std::filesystem::path& path) {
-  Reader reader(body, path);
-  FilmCounts counts;
-  counts.surfaces = read_table(reader);
-  reader.items(counts.keyframes, [](auto& from, auto& keyframe) { pass_keyframe(from, keyframe); });
-  reader.items(counts.tasks, [](auto& from, auto& task) { pass_task(from, task); });
-  reader.whole(counts.counted);
-  counts.is_exact = true;
-  if (!reader.is_at_end()) reader.refuse_numbers();
-  require_sense(counts, reader);
-  return counts;
 }
 
 template <typename Number>
@@ -301,18 +327,32 @@ void save_counts(const FilmCounts& counts, const std::string& content, const std
   });
 }
 
-FilmCounts load_counts(const std::filesystem::path& path, const std::string& content) {
+FilmCounts read_counts(std::string_view numbers, const std::filesystem::path& path, std::span<const farm::Task> tasks,
+                       const wire::PackedFilm& film) {
+  Reader reader(numbers, path);
+  FilmCounts counts;
+  counts.surfaces = read_table(reader);
+  reader.items(counts.keyframes, [](auto& from, auto& keyframe) { pass_keyframe(from, keyframe); });
+  reader.items(counts.tasks, [](auto& from, auto& task) { pass_task(from, task); });
+  reader.whole(counts.counted);
+  counts.is_exact = true;
+  if (!reader.is_at_end() || !Sense(counts, tasks, film.settings()).is_there()) reader.refuse_numbers();
+  return counts;
+}
+
+FilmCounts load_counts(const std::filesystem::path& path, const std::string& content, std::span<const farm::Task> tasks,
+                       const wire::PackedFilm& film) {
   const std::string bytes = document::read_file(path);
   Header header;
   if (bytes.size() < sizeof header || !bytes.starts_with(std::string_view(kMagic.data(), kMagic.size())))
-    refuse(path, "is no file of counts");
+    throw Failure("is no file of counts", path.string(), "name another file, or one that is not there yet");
   std::memcpy(&header, bytes.data(), sizeof header);
   if (header.version != kVersion || header.byte_order != kByteOrder)
     refuse(path, "has counts of another version of MARS");
   const std::string_view body = std::string_view(bytes).substr(sizeof header);
   if (header.bytes != body.size() || header.checksum != checksum_over(header, body)) refuse(path, "is damaged");
   if (header.content != digits(content)) refuse(path, "has counts of another film, of other frames or for other files");
-  return counts_of(body, path);
+  return read_counts(body, path, tasks, film);
 }
 
 }  // namespace mars::forecast

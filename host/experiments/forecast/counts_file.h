@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "host/experiments/forecast/film_counts.h"
 
@@ -18,6 +19,10 @@ std::string counted_content(std::span<const std::byte> block, std::span<const fa
 void save_counts(const FilmCounts& counts, const std::string& content, const std::filesystem::path& path);
 
 // Throws Failure where they are of another content, or the file is not as it was written.
-FilmCounts load_counts(const std::filesystem::path& path, const std::string& content);
+FilmCounts load_counts(const std::filesystem::path& path, const std::string& content, std::span<const farm::Task> tasks,
+                       const wire::PackedFilm& film);
+// What the file has behind its header; `path` for failures.
+FilmCounts read_counts(std::string_view numbers, const std::filesystem::path& path, std::span<const farm::Task> tasks,
+                       const wire::PackedFilm& film);
 
 }  // namespace mars::forecast

@@ -111,7 +111,7 @@ forecast::FilmCounts exact_counts(const film::CompiledFilm& film, const std::vec
                                   const PlanWords& words, const NodesCode& code) {
   const wire::PackedFilm view = film.view();
   const std::string content = forecast::counted_content(film.block(), tasks, view, words.options.format);
-  if (document::file_exists(words.counted)) return forecast::load_counts(words.counted, content);
+  if (document::file_exists(words.counted)) return forecast::load_counts(words.counted, content, tasks, view);
   document::check_can_write(words.counted);
   const int counters = std::min(kCounters, topology::Machine::here().processors());
   forecast::FilmCounts counts = forecast::count_exactly(view, tasks, code.make_counter, words.options.format, counters,

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
+#include <functional>
 
 #include "hal/failure/failure.h"
 #include "host/content/document/file.h"
@@ -23,7 +25,7 @@ class CountsFile : public testing::Test {
   void write(const std::string& bytes) const { std::ofstream(path_, std::ios::binary) << bytes; }
   std::string refusal(const std::string& content = kContent) const {
     try {
-      load_counts(path_, content);
+      load_counts(path_, content, film_.tasks(), film_.view());
     } catch (const Failure& failure) {
       return failure.what();
     }
@@ -36,7 +38,7 @@ class CountsFile : public testing::Test {
 };
 
 TEST_F(CountsFile, IsReadAsItWasWritten) {
-  const FilmCounts read = load_counts(path_, kContent);
+  const FilmCounts read = load_counts(path_, kContent, film_.tasks(), film_.view());
   const wire::PackedFilm film = film_.view();
   const Setting setting{film, film_.platform()};
   const farm::Plan plan{film_.tasks(), farm::make_groups(6, 1, film_.tasks().size())};
@@ -48,6 +50,33 @@ TEST_F(CountsFile, IsReadAsItWasWritten) {
   EXPECT_TRUE(read.is_exact);
   save_counts(read, kContent, path_.string() + "2");
   EXPECT_EQ(bytes(), document::read_file(path_.string() + "2"));
+}
+
+// Written by a program that means other frames, or no frames at all: the checksum is right.
+TEST_F(CountsFile, ThatMakesNoSenseIsRefused) {
+  EXPECT_EQ(refusal(), "");
+  const std::function<void(FilmCounts&)> changes[] = {
+      [](FilmCounts& counts) { counts.tasks.clear(); },
+      [](FilmCounts& counts) { counts.tasks.front().inbetweens.pop_back(); },
+      [](FilmCounts& counts) { counts.tasks.front().keyframe = counts.keyframes.size(); },
+      [](FilmCounts& counts) { counts.keyframes.front().lines.pop_back(); },
+      [](FilmCounts& counts) { counts.keyframes.front().last_still_line = 4'000'000'000; },
+      [](FilmCounts& counts) { counts.keyframes.front().lines.front().samples = 1e300; },
+      [](FilmCounts& counts) { counts.keyframes.front().lines.front().edge_boxes = -1; },
+      [](FilmCounts& counts) { counts.tasks.front().inbetweens.front().kept_points = std::nan(""); },
+      [](FilmCounts& counts) { counts.keyframes.front().placed.front().surface = 4'000'000'000; },
+      [](FilmCounts& counts) {
+        counts.keyframes.front().constant_blocks.push_back({65535, 0, 1, 0});
+      },
+      [](FilmCounts& counts) {
+        counts.tasks.front().inbetweens.front().blocks.push_back({0, 0, 65535, 0});
+      }};
+  for (const auto& change : changes) {
+    FilmCounts changed = counts_;
+    change(changed);
+    save_counts(changed, kContent, path_);
+    EXPECT_NE(refusal().find("has counts that make no sense"), std::string::npos) << &change - changes;
+  }
 }
 
 TEST_F(CountsFile, OfAnotherFilmIsRefused) {
