@@ -13,7 +13,7 @@ NODES, FRAMES = 4, 24
 APART = ["unshare", "--user", "--map-root-user"]
 WRITERS = ["--write", "nodes"]
 # Of each kind of message (planted/death.cpp): what makes nodes send it, and the latest one of which a node may die.
-KINDS = {"triangles": ([], 6), "still": ([], 2), "background": (WRITERS, 2), "bands": ([*WRITERS, "--sharers", "2"], 4)}
+KINDS = {"triangles": ([], 3), "still": ([], 2), "background": (WRITERS, 2), "bands": ([*WRITERS, "--sharers", "2"], 4)}
 STOPS = 0.1  # of all deaths: MARS waits 30 s for each
 
 
