@@ -20,10 +20,10 @@ constexpr bool is_sooner_again(const ExchangeTimes& all) { return 2 * all.making
 // A node's.
 class ExchangeRecord {
  public:
-  // `dicing`: seconds of own triangles. Where it is not known, making others' is taken to need four times as much, for
-  // surfaces lie on lines of several homes.
+  // `dicing`: seconds of own triangles. Until it is known, making others' is taken to need as much. In large groups it
+  // needs more, for surfaces lie on lines of several homes; two keyframes show that, and then triangles are sent.
   ExchangeTimes expected(double dicing) const {
-    return {sending_.last, making_.last > 0 ? making_.last : nanoseconds(4 * dicing)};
+    return {sending_.last, making_.last > 0 ? making_.last : nanoseconds(dicing)};
   }
 
   void note(bool made_again, double seconds) { (made_again ? making_ : sending_).note(nanoseconds(seconds)); }

@@ -5,6 +5,10 @@ end of MPI_Finalize: a node, the host, mpirun, or the one process of threads. Ev
 time all frames must be there, with the pixels of an undisturbed rendering, and no
 process may be left. The exit code is 1 otherwise.
 
+With --apart, each of 4 nodes lies on a machine of its own as far as MARS knows, and a
+node dies, or stands still for ever, when it is about to send a message to another: in the
+ring of machines, in the exchange of triangles, or within a team.
+
 The same seed makes the same plans, but what they hit depends on time."""
 import argparse
 import os
@@ -16,37 +20,16 @@ import subprocess
 import sys
 import tempfile
 import time
-from dataclasses import dataclass
 
+import apart
 import film
+from death import NAMED, SIGNALS, Death
 
 LIBRARY = "death.so"  # planted/death.cpp, beside this benchmark's `run`
 NODES, FRAMES = 3, 12
 MOST = 300  # seconds that a rendering may take: Open MPI may hang after a SIGSEGV, which MARS waits for 120 s
 LIFE = 1500  # milliseconds from a start in which a death may fall: later ones find it ended
-SIGNALS = (signal.SIGKILL, signal.SIGSEGV, signal.SIGBUS, signal.SIGABRT, signal.SIGTERM)
-NAMED = ("fork", "link", "init", "initialized", "finalize", "finalized")
 LATE = 0.5  # of all deaths, at a random moment; the others at one that has a name
-
-
-@dataclass
-class Death:
-    """One, as planted/death.cpp plans it."""
-    program: str  # a pattern, as a shell's
-    rank: int     # -1: any
-    moment: str   # a name, or milliseconds from its fork
-    signal: int
-
-    def __str__(self):
-        rank = f" {self.rank}" if self.rank >= 0 else ""
-        when = self.moment if self.moment in NAMED else f"{self.moment} ms"
-        return f"{signal.Signals(self.signal).name} of {self.program}{rank} at {when}"
-
-    def environment(self, library, plan):
-        """For mars: `plan` is a file that is gone, and `plan`.taken too, once it has happened."""
-        plan.write_text(f"{self.program} {self.rank} {self.moment} {int(self.signal)}\n")
-        others = os.environ.get("LD_PRELOAD")
-        return {"DEATH": str(plan), "LD_PRELOAD": f"{library}:{others}" if others else str(library)}
 
 
 def random_death(chance, nodes=NODES, life=LIFE):
@@ -73,10 +56,15 @@ def working_in(folder):
 
 
 class Deaths:
-    def __init__(self, wanted, folder):
-        self.mars, self.folder = wanted.build / "bin" / "mars", folder
-        self.library = wanted.build / "bench" / "deaths" / LIBRARY
-        self.film = film.write_film(folder / "film.json", FRAMES, size=(96, 54))
+    """Of a film's renderings in `folder`; `is_apart`: of nodes that take each other for other machines'."""
+
+    def __init__(self, build, folder, is_apart=False):
+        self.folder, self.is_apart = folder, is_apart
+        self.mars = (apart.copy_programs(build, folder / "bin") if is_apart else build / "bin") / "mars"
+        self.library = build / "bench" / "deaths" / LIBRARY
+        self.plan, self.taken = folder / "plan", folder / "plan.taken"
+        self.film = (apart.write_film(folder / "film.json") if is_apart else
+                     film.write_film(folder / "film.json", FRAMES, size=(96, 54)))
         self.command("render", self.film, "-o", "alone", "--backend", "threads", "--quiet")
         self.pixels = self.hash_of("alone")
 
@@ -87,28 +75,38 @@ class Deaths:
     def hash_of(self, name):
         return self.command("verify", name).stdout.split()[-1]
 
+    def files_of(self, name):
+        return {path.name: path.read_bytes() for path in (self.folder / name).glob("frame-*")}
+
+    def words_for(self, death):
+        if self.is_apart:
+            return ["--nodes", str(apart.NODES), "--backend", "mpi", *apart.words_for(death)]
+        return ["--nodes", str(NODES), "--backend", "threads" if death.program == "mars-threads" else "mpi"]
+
+    def start(self, death):
+        shutil.rmtree(self.folder / "out", ignore_errors=True)
+        return subprocess.Popen([self.mars, "render", self.film, "-o", "out", *self.words_for(death)],
+                                cwd=self.folder, env={**os.environ, **death.environment(self.library, self.plan)},
+                                stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+
     def render(self, death):
         """(what went wrong or "", whether anything died, how often the job was begun again, seconds)"""
-        plan, out = self.folder / "plan", self.folder / "out"
-        shutil.rmtree(out, ignore_errors=True)
-        backend = "threads" if death.program == "mars-threads" else "mpi"
-        environment = {**os.environ, **death.environment(self.library, plan)}
-        words = [self.mars, "render", self.film, "-o", out, "--nodes", str(NODES), "--backend", backend]
-        began = time.monotonic()
-        mars = subprocess.Popen(words, cwd=self.folder, env=environment, stdin=subprocess.DEVNULL,
-                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        lines, wrong = self.follow(mars), ""
-        if mars.returncode != 0:
-            wrong = f"mars ended with {mars.returncode}: " + " / ".join(lines[-6:])
-        elif (pixels := self.hash_of("out")) != self.pixels:
-            wrong = f"other pixels: {pixels}"
-        elif left := working_in(self.folder):
-            wrong = f"still running: {left}"
-        left = [file for file in (plan, pathlib.Path(f"{plan}.taken")) if file.exists()]
-        died = not left
+        began, mars = time.monotonic(), self.start(death)
+        lines = self.follow(mars)
+        wrong = self.wrong(mars.returncode, lines)
+        left = [file for file in (self.plan, self.taken) if file.exists()]
         for file in left:
             file.unlink()
-        return wrong, died, sum("starting again" in line for line in lines), time.monotonic() - began
+        return wrong, not left, sum("starting again" in line for line in lines), time.monotonic() - began
+
+    def wrong(self, code, lines):
+        if code != 0:
+            return f"mars ended with {code}: " + " / ".join(lines[-6:])
+        if (pixels := self.hash_of("out")) != self.pixels:
+            return f"other pixels: {pixels}"
+        if self.files_of("out") != self.files_of("alone"):
+            return "the same pixels in other files"
+        return f"still running: {left}" if (left := working_in(self.folder)) else ""
 
     def follow(self, mars):
         """Its lines; its processes are ended if it does not end."""
@@ -127,8 +125,11 @@ def arguments():
     parser.add_argument("--count", type=int, default=100, help="of renderings; default: 100")
     parser.add_argument("--seed", type=int, default=random.SystemRandom().randrange(10**6),
                         help="default: chosen, printed")
+    parser.add_argument("--apart", action="store_true", help="nodes that are apart, and deaths in their messages")
     wanted = parser.parse_args()
     wanted.build = wanted.build.resolve()
+    if wanted.apart and not apart.is_possible():
+        parser.error("--apart needs user namespaces (unshare --user)")
     return wanted
 
 
@@ -136,9 +137,9 @@ def main():
     wanted, folder = arguments(), pathlib.Path(tempfile.mkdtemp(prefix="mars-deaths-"))
     chance, wrongs, died, again = random.Random(wanted.seed), 0, 0, 0
     try:
-        deaths = Deaths(wanted, folder)
+        deaths = Deaths(wanted.build, folder, wanted.apart)
         for number in range(1, wanted.count + 1):
-            death = random_death(chance)
+            death = (apart.random_death if wanted.apart else random_death)(chance)
             wrong, happened, restarts, seconds = deaths.render(death)
             wrongs, died, again = wrongs + bool(wrong), died + happened, again + (restarts > 0)
             print(f"{number:4} {seconds:5.1f} s  {death}: {'begun again' if restarts else 'went on'}"

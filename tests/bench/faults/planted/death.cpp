@@ -1,9 +1,10 @@
 // Loaded (LD_PRELOAD) into mars and so into all that it starts: one process, once, dies at a moment of its life. The
 // file that DEATH names plans it in a line: the program (a shell's pattern), its rank (-1: any), the moment, the
-// signal, as in "mars-node 2 35.5 9". The moment is in milliseconds from its fork, or one of
+// signal, as in "mars-node 2 35.5 9" (SIGSTOP: it only hangs). The moment is in milliseconds from its fork, or one of
 //   fork        it is about to become the program
 //   link        its libraries are loaded
 //   init, initialized, finalize, finalized    before and after MPI_Init and MPI_Finalize
+//   still:3, background:3, ...                it is about to send its third message of the kind (kKinds)
 // Who is to die of a plan renames its file, FILE.taken, and who dies removes that.
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -23,11 +24,16 @@
 #include <ctime>
 #include <optional>
 
+#include <mpi.h>
+
+#include "node/wire/protocol.h"
+
 namespace {
 
 using Execute = int (*)(const char*, char* const[], char* const[]);
 using Init = int (*)(int*, char***, int, int*);
 using Finalize = int (*)();
+using Send = int (*)(const void*, int, MPI_Datatype, int, int, MPI_Comm, MPI_Request*);
 
 struct Plan {
   std::array<char, 32> program{};
@@ -77,14 +83,15 @@ Name taken(const char* file) {
 // False where another has.
 bool take_plan(const char* file) { return rename(file, taken(file).data()) == 0; }
 
-[[noreturn]] void die(const char* file, int how) {
+// One that is only stopped goes on when a signal says so.
+void die(const char* file, int how) {
   signal(how, SIG_DFL);
   sigset_t all;
   sigfillset(&all);
   sigprocmask(SIG_UNBLOCK, &all, nullptr);
   unlink(taken(file).data());
   kill(getpid(), how);
-  for (;;) pause();
+  while (how != SIGSTOP) pause();
 }
 
 // By a process beside it, which ends when it does.
@@ -112,10 +119,31 @@ void die_at(const char* moment) {
   if (concerns(*plan, self.data(), environ) && take_plan(file)) die(file, plan->signal);
 }
 
+// Messages between nodes; an MPI message's tag is their type.
+struct Kind {
+  const char* name;
+  int tag;
+};
+constexpr std::array kKinds{Kind{"triangles", mars::wire::kTriangles}, Kind{"still", mars::wire::kStillLines},
+                            Kind{"background", mars::wire::kBackground}, Kind{"picture", mars::wire::kPicture},
+                            Kind{"bands", mars::wire::kBands}};
+
+void die_at_message(int tag) {
+  static std::array<int, kKinds.size()> sent{};
+  for (std::size_t i = 0; i < kKinds.size(); ++i) {
+    if (kKinds[i].tag != tag) continue;
+    std::array<char, 32> moment{};
+    std::snprintf(moment.data(), moment.size(), "%s:%d", kKinds[i].name, ++sent[i]);
+    die_at(moment.data());
+  }
+}
+
 Execute next_execute = nullptr;
+Send next_send = nullptr;
 
 [[gnu::constructor]] void begin() {
   next_execute = reinterpret_cast<Execute>(dlsym(RTLD_NEXT, "execve"));
+  next_send = reinterpret_cast<Send>(dlsym(RTLD_NEXT, "MPI_Isend"));
   die_at("link");
 }
 
@@ -142,6 +170,11 @@ int MPI_Init_thread(int* count, char*** words, int required, int* provided) {
   const int result = reinterpret_cast<Init>(dlsym(RTLD_NEXT, "MPI_Init_thread"))(count, words, required, provided);
   die_at("initialized");
   return result;
+}
+
+int MPI_Isend(const void* data, int count, MPI_Datatype type, int to, int tag, MPI_Comm ranks, MPI_Request* request) {
+  die_at_message(tag);
+  return next_send(data, count, type, to, tag, ranks, request);
 }
 
 int MPI_Finalize() {
