@@ -1,6 +1,7 @@
 """A rendering whose job dies goes on by itself, to the same pixels, even if the film's file has changed or is gone."""
 
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -11,6 +12,7 @@ from harness import (ENVIRONMENT, MPICH, OWN_MPIRUN, PROGRAMS, SECONDS, ProgramT
                      spinning_teapot)
 
 FRAMES = 400
+SLOW = "times as long as others|as fast as the others again"  # what mars says of a node that shares its processor
 DEADLY = PROGRAMS.parent / "tests/programs/deadly"  # a mars-node that fails at a frame, if it was built
 
 
@@ -31,7 +33,8 @@ class Restarts(ProgramTest):
 
     def assertGoesOn(self, says):
         printed, complaints = self.process.communicate(timeout=SECONDS)
-        self.assertEqual((self.process.returncode, complaints), (0, ""), printed)
+        complaints = [line for line in complaints.splitlines() if not re.search(SLOW, line)]
+        self.assertEqual((self.process.returncode, complaints), (0, []), printed)
         self.assertRegex(printed, says)
         self.assertIn("starting again (1 of 5) with 3 nodes; ", printed)
         self.assertNotRegex(printed, "has changed|still")
