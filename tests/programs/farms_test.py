@@ -111,7 +111,7 @@ class Farms(ProgramTest):
             self.assertIsNone(task.poll())
         self.assertLess(int(match[1]), 100)
         task.send_signal(signal.SIGTERM)
-        self.end(task, -signal.SIGTERM)
+        self.end(task, 1)
         there = len(list(self.frames.glob("frame-*.png")))
         self.assertGreater(there, 2)
         out, _ = self.end(self.start([*words, "0-1"]))
