@@ -13,8 +13,7 @@ namespace mars::images {
 // `pixels`: of the band's lines.
 EncodedBand encode_band(const PictureBands& bands, std::size_t band, std::span<const std::uint32_t> pixels);
 
-// Of a file whose bands, all that the picture has, are `parts`. `note`: ASCII that the file carries beside the pixels;
-// "": none.
-PictureEnds ends_of(const PictureBands& bands, std::span<const BandPart> parts, const std::string& note);
+// Of a file whose bands, all that the picture has, are `parts`.
+PictureEnds ends_of(const PictureBands& bands, std::span<const BandPart> parts, const FileFacts& facts);
 
 }  // namespace mars::images

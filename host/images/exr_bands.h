@@ -9,7 +9,7 @@
 
 namespace mars::images {
 
-EncodedBand encode_exr_band(std::uint32_t width, const Lines& lines, std::span<const std::uint32_t> pixels);
-PictureEnds exr_ends(const PictureBands& bands, std::span<const BandPart> parts, const std::string& note);
+EncodedBand encode_exr_band(const PictureBands& bands, const Lines& lines, std::span<const std::uint32_t> pixels);
+PictureEnds exr_ends(const PictureBands& bands, std::span<const BandPart> parts, const FileFacts& facts);
 
 }  // namespace mars::images

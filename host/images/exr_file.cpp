@@ -3,8 +3,10 @@
 #include <OpenEXR/Iex.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfFramesPerSecond.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
@@ -12,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <functional>
 #include <string_view>
@@ -113,15 +116,46 @@ std::string_view text_in(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-Imf::Header header_of(std::uint32_t width, std::uint32_t height, const std::string& note) {
-  Imf::Header header(static_cast<int>(width), static_cast<int>(height));
+Imf::Compression method_of(Compression compression) {
+  switch (compression) {
+    case Compression::zip: break;
+    case Compression::zips: return Imf::ZIPS_COMPRESSION;
+    case Compression::piz: return Imf::PIZ_COMPRESSION;
+    case Compression::pxr24: return Imf::PXR24_COMPRESSION;
+    case Compression::rle: return Imf::RLE_COMPRESSION;
+    case Compression::none: return Imf::NO_COMPRESSION;
+  }
+  return Imf::ZIP_COMPRESSION;
+}
+
+// SMPTE's, which counts at most 30 frames a second; of NTSC's rates 24000/1001 and 30000/1001 without dropping numbers.
+std::optional<Imf::TimeCode> time_code(const FileFacts& facts) {
+  constexpr std::uint32_t kMostRate = 30, kHours = 24;
+  const auto rate = static_cast<std::uint32_t>(std::min(std::lround(facts.rate), long{kMostRate} + 1));
+  const bool counts = rate > 0 && rate <= kMostRate && std::abs(facts.rate / rate - 1) < 0.0011;
+  const std::uint32_t seconds = counts ? facts.frame / rate : 0;
+  if (!counts || seconds >= kHours * 3600) return std::nullopt;
+  const auto part = [](std::uint32_t number) { return static_cast<int>(number); };
+  return Imf::TimeCode(part(seconds / 3600), part(seconds / 60 % 60), part(seconds % 60), part(facts.frame % rate));
+}
+
+void add_time(const FileFacts& facts, Imf::Header& header) {
+  if (facts.rate <= 0) return;
+  Imf::addFramesPerSecond(header, Imf::guessExactFps(facts.rate));
+  header.insert("imageCounter", Imf::IntAttribute(static_cast<int>(facts.frame)));
+  if (const auto code = time_code(facts)) Imf::addTimeCode(header, *code);
+}
+
+Imf::Header header_of(const PictureBands& bands, std::uint32_t lines, const FileFacts& facts) {
+  Imf::Header header(static_cast<int>(bands.width()), static_cast<int>(lines));
   // Measured on a frame of 1920x1080 where a PNG takes 75 ms: 180 ms, at OpenEXR's own level 4 290 ms for a file that
   // is a tenth smaller; PIZ 150 ms for one more than twice as large.
-  header.compression() = Imf::ZIP_COMPRESSION;
+  header.compression() = method_of(bands.compression());
   header.zipCompressionLevel() = 2;
   Imf::addChromaticities(header, Imf::Chromaticities());  // its default is BT.709's, which are sRGB's
   for (const char* channel : kChannels) header.channels().insert(channel, Imf::Channel(Imf::HALF));
-  if (!note.empty()) header.insert(kNoteName, Imf::StringAttribute(note));
+  if (!facts.note.empty()) header.insert(kNoteName, Imf::StringAttribute(facts.note));
+  add_time(facts, header);
   return header;
 }
 
@@ -180,15 +214,16 @@ Bytes written(const Imf::Header& header, const std::function<void(Imf::OutputFil
 
 }  // namespace
 
-EncodedBand encode_exr_band(std::uint32_t width, const Lines& lines, std::span<const std::uint32_t> pixels) {
-  Imf::Header header = header_of(width, lines.end, "");
+EncodedBand encode_exr_band(const PictureBands& bands, const Lines& lines, std::span<const std::uint32_t> pixels) {
+  const std::uint32_t width = bands.width(), chunk = chunk_lines(bands.compression());
+  Imf::Header header = header_of(bands, lines.end, {});
   header.dataWindow().min.y = static_cast<int>(lines.first);
   const Bytes file = written(header, [&](Imf::OutputFile& out) {
     const std::size_t before = std::size_t{lines.first} * width * kPixelBytes;
     out.setFrameBuffer(channels_in(reinterpret_cast<const char*>(pixels.data()) - before, width));
     out.writePixels(static_cast<int>(lines.count()));
   });
-  const std::size_t chunks = (lines.count() + kExrChunkLines - 1) / kExrChunkLines;
+  const std::size_t chunks = (lines.count() + chunk - 1) / chunk;
   EncodedBand band;
   band.bytes.assign(file.begin() + static_cast<std::ptrdiff_t>(header_bytes(file) + chunks * sizeof(std::uint64_t)),
                     file.end());
@@ -196,8 +231,8 @@ EncodedBand encode_exr_band(std::uint32_t width, const Lines& lines, std::span<c
 }
 
 // The header is followed by the places of all chunks, each of which begins with its first line and its size.
-PictureEnds exr_ends(const PictureBands& bands, std::span<const BandPart> parts, const std::string& note) {
-  PictureEnds ends{written(header_of(bands.width(), bands.height(), note), [](Imf::OutputFile&) {}), {}};
+PictureEnds exr_ends(const PictureBands& bands, std::span<const BandPart> parts, const FileFacts& facts) {
+  PictureEnds ends{written(header_of(bands, bands.height(), facts), [](Imf::OutputFile&) {}), {}};
   std::uint64_t place = ends.before.size();
   std::byte* entry = ends.before.data() + header_bytes(ends.before);
   for (const BandPart& band : parts) {

@@ -11,16 +11,18 @@ namespace {
 // Few enough that a small change costs little, and enough that what each band has of its own (a code, a first line that
 // is not compared with the one above) is below a hundredth of it.
 constexpr std::uint32_t kPixelsOfBand = 1 << 15;
-constexpr std::uint32_t kPngStep = 8;  // a band has a multiple of it, in lines
+// A band has a multiple of them, in lines.
+constexpr std::uint32_t kPngStep = 8, kExrStep = 16;
 
 constexpr std::uint32_t round_up(std::uint32_t number, std::uint32_t step) { return (number + step - 1) / step * step; }
 
 }  // namespace
 
-PictureBands::PictureBands(PictureFormat format, std::uint32_t width, std::uint32_t height)
-    : format_(format), width_(width), height_(height) {
+PictureBands::PictureBands(PictureFormat format, std::uint32_t width, std::uint32_t height, Compression compression)
+    : format_(format), compression_(compression), width_(width), height_(height) {
   check(width > 0 && height > 0, "a picture has pixels");
-  const std::uint32_t step = format == PictureFormat::exr ? kExrChunkLines : kPngStep;
+  const bool exr = format == PictureFormat::exr;
+  const std::uint32_t step = exr ? std::max(kExrStep, chunk_lines(compression)) : kPngStep;
   lines_ = round_up((kPixelsOfBand + width - 1) / width, step);
 }
 

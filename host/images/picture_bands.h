@@ -6,13 +6,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "host/images/picture_format.h"
 
 namespace mars::images {
-
-inline constexpr std::uint32_t kExrChunkLines = 16;  // of ZIP compression
 
 struct Lines {
   std::uint32_t first, end;
@@ -22,9 +21,12 @@ struct Lines {
 
 class PictureBands {
  public:
-  PictureBands(PictureFormat format, std::uint32_t width, std::uint32_t height);
+  // `compression`: of EXR files.
+  PictureBands(PictureFormat format, std::uint32_t width, std::uint32_t height,
+               Compression compression = Compression::zip);
 
   PictureFormat format() const { return format_; }
+  Compression compression() const { return compression_; }
   std::uint32_t width() const { return width_; }
   std::uint32_t height() const { return height_; }
 
@@ -39,6 +41,7 @@ class PictureBands {
 
  private:
   PictureFormat format_;
+  Compression compression_;
   std::uint32_t width_, height_;
   std::uint32_t lines_;  // of every band but the last
 };
@@ -56,6 +59,13 @@ struct EncodedBand {
   std::uint64_t row_bytes = 0;
 
   BandPart part() const { return {bytes, adler32, row_bytes}; }
+};
+
+// What a file says beside its pixels.
+struct FileFacts {
+  std::string note{};       // ASCII; "": none
+  double rate = 0;          // EXR: frames a second; 0: not known
+  std::uint32_t frame = 0;  // EXR: of the film
 };
 
 struct PictureEnds {

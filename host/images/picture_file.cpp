@@ -21,15 +21,19 @@ constexpr std::size_t kLargestStart = 4096;  // bytes, in which notes end
 
 std::vector<std::byte> encode_picture(PictureFormat format, std::uint32_t width, std::uint32_t height,
                                       std::span<const std::uint32_t> pixels, const std::string& note) {
-  const PictureBands bands(format, width, height);
-  check(pixels.size() == bands.words_of({0, height}), "a picture has width * height pixels");
+  return encode_picture(PictureBands(format, width, height), pixels, {.note = note});
+}
+
+std::vector<std::byte> encode_picture(const PictureBands& bands, std::span<const std::uint32_t> pixels,
+                                      const FileFacts& facts) {
+  check(pixels.size() == bands.words_of({0, bands.height()}), "a picture has width * height pixels");
   std::vector<EncodedBand> encoded;
   std::vector<BandPart> parts;
   for (std::size_t band = 0; band < bands.count(); ++band) {
     encoded.push_back(encode_band(bands, band, bands.part_of(pixels, band)));
   }
   for (const EncodedBand& band : encoded) parts.push_back(band.part());
-  auto [file, after] = ends_of(bands, parts, note);
+  auto [file, after] = ends_of(bands, parts, facts);
   for (const EncodedBand& band : encoded) file.insert(file.end(), band.bytes.begin(), band.bytes.end());
   file.insert(file.end(), after.begin(), after.end());
   return std::move(file);

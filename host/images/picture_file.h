@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "host/images/image.h"
+#include "host/images/picture_bands.h"
 #include "host/images/picture_format.h"
 
 namespace mars::images {
@@ -17,6 +18,8 @@ namespace mars::images {
 // The bytes of such a file. `note`: ASCII that it carries beside the pixels, at its beginning; "": none.
 std::vector<std::byte> encode_picture(PictureFormat format, std::uint32_t width, std::uint32_t height,
                                       std::span<const std::uint32_t> pixels, const std::string& note = "");
+std::vector<std::byte> encode_picture(const PictureBands& bands, std::span<const std::uint32_t> pixels,
+                                      const FileFacts& facts);
 
 // The note of the file, of any format, whose pixels are not read; none where it has none, or is no regular file.
 std::optional<std::string> read_note(const std::filesystem::path& path);

@@ -10,6 +10,18 @@ constexpr std::array<FormatFacts, 3> kFacts{{{"png", ".png", wire::PixelFormat::
                                              {"png16", ".png", wire::PixelFormat::rgb16, "16-bit sRGB"},
                                              {"exr", ".exr", wire::PixelFormat::half, "half-float linear RGB"}}};
 
+struct CompressionFacts {
+  const char* name;
+  std::uint32_t lines;  // of a chunk
+};
+
+constexpr std::array<CompressionFacts, 6> kCompressions{
+    {{"zip", 16}, {"zips", 1}, {"piz", 32}, {"pxr24", 16}, {"rle", 1}, {"none", 1}}};
+
+const CompressionFacts& facts_of(Compression compression) {
+  return kCompressions.at(static_cast<std::size_t>(compression));
+}
+
 }  // namespace
 
 const FormatFacts& facts_of(PictureFormat format) { return kFacts.at(static_cast<std::size_t>(format)); }
@@ -18,6 +30,20 @@ std::optional<PictureFormat> picture_format_of(std::string_view name) {
   const auto found = std::ranges::find_if(kFacts, [&](const FormatFacts& facts) { return facts.name == name; });
   if (found == kFacts.end()) return std::nullopt;
   return static_cast<PictureFormat>(found - kFacts.begin());
+}
+
+bool is_picture_name(const std::filesystem::path& file) {
+  return std::ranges::any_of(kFacts, [&](const FormatFacts& facts) { return file.extension() == facts.ending; });
+}
+
+const char* name_of(Compression compression) { return facts_of(compression).name; }
+
+std::uint32_t chunk_lines(Compression compression) { return facts_of(compression).lines; }
+
+std::optional<Compression> compression_of(std::string_view name) {
+  const auto found = std::ranges::find_if(kCompressions, [&](const auto& facts) { return facts.name == name; });
+  if (found == kCompressions.end()) return std::nullopt;
+  return static_cast<Compression>(found - kCompressions.begin());
 }
 
 }  // namespace mars::images

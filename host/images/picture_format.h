@@ -1,6 +1,8 @@
 // File formats of frames, and the pixels that each holds.
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string_view>
 
@@ -9,6 +11,9 @@
 namespace mars::images {
 
 enum class PictureFormat { png, png16, exr };
+
+// Of EXR files. OpenEXR has others, which change half floats: a frame's pixels would not have their hash.
+enum class Compression { zip, zips, piz, pxr24, rle, none };
 
 struct FormatFacts {
   const char* name;    // as people write it
@@ -21,5 +26,13 @@ const FormatFacts& facts_of(PictureFormat format);
 
 // None where no format has this name.
 std::optional<PictureFormat> picture_format_of(std::string_view name);
+
+// Whether files of frames end as this one's name does.
+bool is_picture_name(const std::filesystem::path& file);
+
+const char* name_of(Compression compression);
+std::optional<Compression> compression_of(std::string_view name);
+// Lines that are compressed together.
+std::uint32_t chunk_lines(Compression compression);
 
 }  // namespace mars::images

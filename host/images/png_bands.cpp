@@ -66,12 +66,12 @@ EncodedBand encode_png_band(std::uint32_t width, wire::PixelFormat format, std::
   return band;
 }
 
-PictureEnds png_ends(const PictureBands& bands, std::span<const BandPart> parts, const std::string& note) {
+PictureEnds png_ends(const PictureBands& bands, std::span<const BandPart> parts, const FileFacts& facts) {
   PictureEnds ends;
   append(ends.before, kFileStart);
   append_chunk(ends.before, "IHDR", text_of(head_of(bands)));
   append_chunk(ends.before, "sRGB", std::string_view("\0", 1));  // perceptual intent
-  if (!note.empty()) append_chunk(ends.before, "tEXt", kPngNoteKeyword + std::string(1, '\0') + note);
+  if (!facts.note.empty()) append_chunk(ends.before, "tEXt", kPngNoteKeyword + std::string(1, '\0') + facts.note);
   append_chunk(ends.before, "IDAT", {kStreamHead, sizeof kStreamHead});
   Bytes last;
   append(last, {kEmptyLastBlock, sizeof kEmptyLastBlock});

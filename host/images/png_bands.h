@@ -14,6 +14,6 @@ namespace mars::images {
 inline constexpr const char* kPngNoteKeyword = "MARS";  // of the tEXt chunk
 
 EncodedBand encode_png_band(std::uint32_t width, wire::PixelFormat format, std::span<const std::uint32_t> pixels);
-PictureEnds png_ends(const PictureBands& bands, std::span<const BandPart> parts, const std::string& note);
+PictureEnds png_ends(const PictureBands& bands, std::span<const BandPart> parts, const FileFacts& facts);
 
 }  // namespace mars::images

@@ -30,7 +30,8 @@ namespace {
 // job.
 void charge_files(session::RenderJob& job, const experiments::Platform& platform, simulated::World& world) {
   const auto counted = std::make_shared<std::optional<sinks::CountedFiles>>();
-  job.make_sinks = [serve = serve_files(world, job.format), counted, counts = job.counts_files, format = job.format,
+  job.make_sinks = [serve = serve_files(world, job.form.format), counted, counts = job.counts_files,
+                    format = job.form.format,
                     part = platform.file_part](sinks::Sink& sink, const sinks::SinkPool::Shape& shape) {
     if (!counts) return std::make_unique<sinks::ServedSinks>(sink, shape, serve);
     counted->emplace(images::PictureBands(format, shape.width, shape.height), part);

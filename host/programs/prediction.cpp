@@ -24,7 +24,7 @@ constexpr double kSoon = 1.0;          // seconds, about: not worth a forecast
 
 forecast::Setting setting_of(const session::RenderJob& job, const wire::PackedFilm& film,
                              const experiments::Platform& platform) {
-  forecast::Setting setting{film, platform, job.mapping, job.format};
+  forecast::Setting setting{film, platform, job.mapping, job.form.format};
   setting.exchange = job.exchange;
   setting.files = !job.folder.empty() || job.counts_files;
   if (job.writers == session::Writers::nodes) setting.writers = forecast::Writers::nodes;
@@ -55,7 +55,7 @@ Counted count(const session::RenderJob& job, const wire::PackedFilm& film, const
   std::vector<farm::Task> tasks = farm::make_tasks(film, request.frames, request.coherence);
   const forecast::Budget budget{kMostCounting, kCountedPart / nodes};
   forecast::FilmCounts counts =
-      forecast::count_film(film, tasks, *make_node_counter(film, forecast::Lines::some), budget, job.format);
+      forecast::count_film(film, tasks, *make_node_counter(film, forecast::Lines::some), budget, job.form.format);
   return {std::move(tasks), std::move(counts)};
 }
 

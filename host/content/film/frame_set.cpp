@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <set>
 #include <string_view>
 
@@ -11,7 +12,7 @@ namespace mars::film {
 
 namespace {
 
-constexpr const char* kForm = "frames are written like 0-9,24,30-";
+constexpr const char* kForm = "frames are written like 0-9,24,30-, or 0-99x5 for every fifth";
 
 Failure wrong(std::string_view part, const std::string& reason) {
   return Failure("'" + std::string(part) + "' " + reason, "", kForm);
@@ -30,9 +31,43 @@ FrameSet::Stretch stretch(std::string_view part) {
   const std::size_t dash = part.find('-');
   if (dash == std::string_view::npos) return {number(part, part), number(part, part)};
   FrameSet::Stretch stretch{number(part.substr(0, dash), part), std::nullopt};
-  if (dash + 1 < part.size()) stretch.last = number(part.substr(dash + 1), part);
+  const std::string_view end = part.substr(dash + 1);
+  const std::size_t times = end.find('x');
+  if (const std::string_view last = end.substr(0, times); !last.empty()) stretch.last = number(last, part);
+  if (times != std::string_view::npos) stretch.step = number(end.substr(times + 1), part);
   if (stretch.last && *stretch.last < stretch.first) throw wrong(part, "ends before it begins");
+  if (stretch.step == 0) throw wrong(part, "has a step of 0");
   return stretch;
+}
+
+bool is_one_frame(const FrameSet::Stretch& stretch) { return stretch.last == stretch.first; }
+
+// How many of the stretches from `at` on are one frame each, equally far apart.
+std::size_t equal_steps(std::span<const FrameSet::Stretch> stretches, std::size_t at) {
+  std::size_t end = at;
+  while (end < stretches.size() && is_one_frame(stretches[end]) &&
+         (end < at + 2 ||
+          stretches[end].first - stretches[end - 1].first == stretches[at + 1].first - stretches[at].first))
+    ++end;
+  return end - at;
+}
+
+// A long list of every Nth frame has a short text.
+std::vector<FrameSet::Stretch> with_steps(std::span<const FrameSet::Stretch> stretches) {
+  constexpr std::size_t kFewest = 4;
+  std::vector<FrameSet::Stretch> all;
+  for (std::size_t at = 0; at < stretches.size();) {
+    const std::size_t count = equal_steps(stretches, at);
+    all.push_back(stretches[at]);
+    if (count < kFewest) {
+      ++at;
+      continue;
+    }
+    all.back().last = stretches[at + count - 1].first;
+    all.back().step = stretches[at + 1].first - stretches[at].first;
+    at += count;
+  }
+  return all;
 }
 
 }  // namespace
@@ -54,6 +89,16 @@ FrameSet::FrameSet(std::span<const std::uint32_t> frames) {
     else
       stretches_.push_back({frame, frame});
   }
+  stretches_ = with_steps(stretches_);
+}
+
+FrameSet FrameSet::every(std::uint32_t step) const {
+  FrameSet some = *this;
+  constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
+  for (Stretch& stretch : some.stretches_)
+    if (!is_one_frame(stretch))
+      stretch.step = static_cast<std::uint32_t>(std::min(kMost, std::uint64_t{stretch.step} * step));
+  return some;
 }
 
 std::string FrameSet::text() const {
@@ -64,6 +109,7 @@ std::string FrameSet::text() const {
     if (stretch.last == stretch.first) continue;
     text += '-';
     if (stretch.last) text += std::to_string(*stretch.last);
+    if (stretch.step != 1) text += 'x' + std::to_string(stretch.step);
   }
   return text;
 }
@@ -78,7 +124,7 @@ std::vector<std::uint32_t> FrameSet::of_film(std::uint32_t film_frames) const {
                         std::to_string(film_frames - 1),
                     "--frames " + text(), "frames count from 0");
     }
-    for (std::uint32_t frame = stretch.first; frame <= last; ++frame) wanted[frame] = true;
+    for (std::uint64_t frame = stretch.first; frame <= last; frame += stretch.step) wanted[frame] = true;
   }
   std::vector<std::uint32_t> frames;
   for (std::uint32_t frame = 0; frame < film_frames; ++frame) {
@@ -90,8 +136,9 @@ std::vector<std::uint32_t> FrameSet::of_film(std::uint32_t film_frames) const {
 std::vector<std::uint32_t> FrameSet::first_frames(std::uint32_t count) const {
   std::set<std::uint32_t> frames;
   for (const Stretch& stretch : stretches_) {
-    const std::uint32_t most = stretch.last ? std::min(count, *stretch.last - stretch.first + 1) : count;
-    for (std::uint32_t i = 0; i < most; ++i) frames.insert(stretch.first + i);
+    const std::uint32_t most =
+        stretch.last ? std::min(count, (*stretch.last - stretch.first) / stretch.step + 1) : count;
+    for (std::uint32_t i = 0; i < most; ++i) frames.insert(stretch.first + i * stretch.step);
   }
   std::vector<std::uint32_t> first(frames.begin(), frames.end());
   first.resize(std::min<std::size_t>(first.size(), count));

@@ -1,5 +1,5 @@
 // Which frames of a film a person wants, as written on a command line: "0-9,24,30-" is frames 0 to 9, frame
-// 24 and frame 30 up to the film's last.
+// 24 and frame 30 up to the film's last; "0-99x5" is every fifth of frames 0 to 99.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +15,7 @@ class FrameSet {
   struct Stretch {
     std::uint32_t first;
     std::optional<std::uint32_t> last;  // none: to the film's end
+    std::uint32_t step = 1;             // from frame to frame, at least 1
 
     bool operator==(const Stretch&) const = default;
   };
@@ -29,6 +30,8 @@ class FrameSet {
   // As it may be written on a command line; "" for no frame.
   std::string text() const;
   const std::vector<Stretch>& stretches() const { return stretches_; }
+  // Of each stretch the first and every `step`th after it.
+  FrameSet every(std::uint32_t step) const;
   // The frames of a film of `film_frames`, ascending, each once. Throws Failure where the film is too short.
   std::vector<std::uint32_t> of_film(std::uint32_t film_frames) const;
 

@@ -41,7 +41,7 @@ void copy_bytes(std::span<const std::byte> from, std::span<std::uint32_t> to) {
 NodeWriter::NodeWriter(const wire::PackedFilm& film, const sinks::WriterOrders& orders, std::int32_t node,
                        bool is_first)
     : orders_(orders),
-      bands_(orders.manifest.format, film.settings().width, film.settings().height),
+      bands_(sinks::bands_of(orders.manifest)),
       content_(film),
       composer_(bands_),
       background_(bands_),
@@ -236,9 +236,8 @@ FrameFile NodeWriter::file_of(std::span<const BandRecord> records) {
     hashes.emplace_back(record.head.hash, sizeof record.head.hash);
   }
   FrameFile file{frame_, sinks::hash_of_bands(hashes), files_.buffer()};
-  const std::string mark =
-      sinks::text_of(sinks::mark_in(orders_.manifest, frame_, file.pixel_hash, content_.checksum(frame_)));
-  const images::PictureEnds ends = images::ends_of(bands_, parts, mark);
+  const images::FileFacts facts = sinks::facts_in(orders_.manifest, frame_, file.pixel_hash, content_.checksum(frame_));
+  const images::PictureEnds ends = images::ends_of(bands_, parts, facts);
   append(file.bytes, ends.before);
   for (const images::BandPart& part : parts) append(file.bytes, part.bytes);
   append(file.bytes, ends.after);

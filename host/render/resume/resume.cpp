@@ -8,6 +8,7 @@
 #include "hal/failure/failure.h"
 #include "host/content/document/checksum.h"
 #include "host/content/document/shell_word.h"
+#include "host/content/document/text.h"
 #include "host/content/film/film_file.h"
 #include "host/render/resume/edit.h"
 #include "host/render/resume/sources.h"
@@ -60,11 +61,34 @@ bool are_of_one_folder(const std::optional<Manifest>& a, const std::optional<Man
 
 std::string format_name(images::PictureFormat format) { return images::facts_of(format).name; }
 
-void refuse_other_format(const Manifest& there, const Wish& wish) {
-  if (there.format == wish.format) return;
-  throw Failure(
-      "the frames in this folder are " + format_name(there.format) + ", not " + format_name(wish.format), wish.folder,
-      "add --format " + format_name(there.format) + ", give another folder with -o, or replace them with --overwrite");
+std::string words_text(const sinks::FrameForm& form) {
+  std::string text;
+  for (const std::string& word : sinks::words_of(form)) text += " " + document::shell_word(word);
+  return text;
+}
+
+// How a person sees the form of what is there, where that is not what is asked for.
+std::string difference(const sinks::FrameForm& there, const sinks::FrameForm& wish) {
+  if (there.format != wish.format) return "are " + format_name(there.format) + ", not " + format_name(wish.format);
+  if (there.compression != wish.compression)
+    return std::string("have the compression ") + images::name_of(there.compression) + ", not " +
+           images::name_of(wish.compression);
+  const auto name = [](const sinks::FrameForm& form) {
+    return document::in_quotes(images::frame_name(form.names, 0, 1));
+  };
+  return "have other names: their first is " + name(there) + ", not " + name(wish);
+}
+
+std::string remedy_of(const sinks::FrameForm& there, const sinks::FrameForm& wish) {
+  if (const std::string words = words_text(there); !words.empty()) return "add" + words;
+  return there.format != wish.format ? "add --format " + format_name(there.format) : "leave out" + words_text(wish);
+}
+
+void refuse_other_form(const Manifest& manifest, const Wish& wish) {
+  const sinks::FrameForm there = form_of(manifest);
+  if (there == wish.form) return;
+  throw Failure("the frames in this folder " + difference(there, wish.form), wish.folder,
+                remedy_of(there, wish.form) + ", give another folder with -o, or replace them with --overwrite");
 }
 
 void refuse_other_film(const Manifest& there, const Wish& wish) {
@@ -131,7 +155,7 @@ class Opening {
     auto [seen, repaired] = sinks::find_manifest(wish_.folder);
     seen_ = std::move(seen);
     is_sound_ = repaired.empty();
-    if (seen_ && !wish_.overwrite) refuse_other_format(*seen_, wish_);
+    if (seen_ && !wish_.overwrite) refuse_other_form(*seen_, wish_);
     kept_.reset();
     edit_.reset();
     refusal_.reset();
@@ -146,7 +170,7 @@ class Opening {
     if (has_no_frames(*seen_)) return;
     const auto before = load_kept_film(wish_.folder, *seen_);
     if (!before) refuse_unknown_film(*seen_, wish_);
-    refuse_other_format(*seen_, wish_);
+    refuse_other_form(*seen_, wish_);
     edit_ = edit_of(*before, *compiled_, wish_.folder);
     const bool same_file = !seen_->sources.empty() && seen_->sources.front().path == source_path(wish_.film);
     if (edit_->keeps_none && !same_file) refuse_other_film(*seen_, wish_);
@@ -176,13 +200,14 @@ class Opening {
                       document::checksum_of(film().block()),
                       settings.width,
                       settings.height,
-                      wish_.format,
+                      wish_.form.format,
                       settings.rate,
                       settings.frames,
                       wish_.frames.of_film(settings.frames),
                       {},
                       sources_,
                       wish_.options};
+    set_form(manifest, wish_.form);
     const bool is_kept_film = seen_ && seen_->checksum == manifest.checksum;
     if (is_kept_film && !wish_.overwrite && sinks::missing_frames(wish_.folder, *seen_, manifest.frames).empty())
       manifest.pixel_version = seen_->pixel_version;                          // nothing is rendered
@@ -263,7 +288,7 @@ class Opening {
 std::optional<std::uint32_t> count_if_complete(const Wish& wish) try {
   if (wish.overwrite || !sinks::read_frames_json(wish.folder)) return std::nullopt;
   const Manifest there = sinks::read_manifest(wish.folder);
-  if (there.format != wish.format || !is_asked_for(there, wish)) return std::nullopt;
+  if (form_of(there) != wish.form || !is_asked_for(there, wish)) return std::nullopt;
   const std::vector<std::uint32_t> asked = wish.frames.of_film(there.film_frames);
   if (!sinks::missing_frames(wish.folder, there, asked).empty()) return std::nullopt;
   return static_cast<std::uint32_t>(asked.size());
@@ -274,7 +299,7 @@ std::optional<std::uint32_t> count_if_complete(const Wish& wish) try {
 std::string command_for(const std::string& folder, const Manifest& there, const film::FrameSet& frames) {
   std::string line = "mars render " + document::shell_word(there.sources.empty() ? there.film : there.sources[0].path);
   for (const std::string& option : there.options) line += " " + document::shell_word(option);
-  if (there.format != images::PictureFormat::png) line += " --format " + format_name(there.format);
+  line += words_text(form_of(there));
   if (frames.of_film(there.film_frames).size() < there.film_frames) line += " --frames " + frames.text();
   return line + " -o " + document::shell_word(folder);
 }

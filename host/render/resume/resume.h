@@ -24,7 +24,7 @@ struct Wish {
   std::string folder;
   std::string film;                  // its file, as the person gave it
   std::vector<std::string> options;  // with which it is compiled, as on a command line
-  images::PictureFormat format = images::PictureFormat::png;
+  sinks::FrameForm form{};
   film::FrameSet frames;
   bool overwrite = false;  // render them all, whatever is there
   bool kept_film = false;  // the folder's film, even if `film` has changed or is gone; `film` if the folder has none

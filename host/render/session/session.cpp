@@ -91,7 +91,7 @@ farm::HostMemory memory_for(const HostMachine& host, const wire::FilmSettings& f
 sinks::SinkPool::Shape pool_shape(const HostMachine& host, const wire::PackedFilm& film, const RenderJob& job,
                                   std::uint32_t frames) {
   const std::uint32_t threads = std::min(sink_threads(host), frames);
-  const wire::PixelFormat format = images::facts_of(job.format).pixels;
+  const wire::PixelFormat format = images::facts_of(job.form.format).pixels;
   const std::uint64_t background = farm::background_pixel(film, film.intervals().front(), format);
   return {film.settings().width, film.settings().height, job.block, frames, threads, background, format};
 }
@@ -222,7 +222,7 @@ resume::Opened open_film(const RenderJob& job, const EventReporter& reporter) {
     return film;
   };
   if (!job.folder.empty())
-    return resume::open({job.folder, job.film, job.film_options, job.format, job.frames, job.overwrite, job.kept_film},
+    return resume::open({job.folder, job.film, job.film_options, job.form, job.frames, job.overwrite, job.kept_film},
                         compile, bounds);
   film::CompiledFilm film = compile();
   std::vector<std::uint32_t> frames = job.frames.of_film(film.view().settings().frames);
@@ -302,7 +302,7 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace, 
   const wire::FilmSettings& settings = view.settings();
   const auto [plan, prediction] = plan_of(view, opened.frames, job, reporter, heartbeats);
   const HostMachine host = host_machine(job.host);
-  const farm::HostMemory memory = memory_for(host, settings, images::facts_of(job.format).pixels, plan);
+  const farm::HostMemory memory = memory_for(host, settings, images::facts_of(job.form.format).pixels, plan);
 
   output.folder = std::move(opened.folder);
   if (output.folder) output.folder->show_status([&board = output.board] { return sinks::text_of(board.status()); });

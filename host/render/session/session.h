@@ -11,10 +11,10 @@
 
 #include "host/content/film/compile.h"
 #include "host/content/film/frame_set.h"
-#include "host/images/picture_format.h"
 #include "host/render/events/course.h"
 #include "host/render/farm/farm.h"
 #include "host/render/farm/plan.h"
+#include "host/render/sinks/manifest.h"
 #include "host/render/sinks/sink_pool.h"
 #include "node/wire/protocol.h"
 
@@ -47,10 +47,10 @@ struct RenderJob {
   std::function<film::CompiledFilm(const std::function<void(const std::string&)>& warn)> load_film;
   // With which it is compiled, as on a command line: a folder's frames are those of one film with the same options.
   std::vector<std::string> film_options;
-  std::string folder;      // for the frames; "": they go nowhere
-  bool overwrite = false;  // frames that the folder has already
-  bool kept_film = false;  // the folder's, as in resume::Wish
-  images::PictureFormat format = images::PictureFormat::png;
+  std::string folder;       // for the frames; "": they go nowhere
+  bool overwrite = false;   // frames that the folder has already
+  bool kept_film = false;   // the folder's, as in resume::Wish
+  sinks::FrameForm form{};  // of its files
   Writers writers = Writers::automatic;
   film::FrameSet frames;
   wire::Mapping mapping = wire::Mapping::cost;

@@ -54,10 +54,10 @@ std::shared_ptr<FrameEncoder::Kept> FrameEncoder::kept_for(
   return kept_.emplace_back(std::move(kept));
 }
 
-images::PictureEnds FrameEncoder::ends_of(const EncodedFrame& frame, const std::string& note) const {
+images::PictureEnds FrameEncoder::ends_of(const EncodedFrame& frame, const images::FileFacts& facts) const {
   std::vector<images::BandPart> parts;
   for (const auto& band : frame.bands) parts.push_back(band->encoded.part());
-  return images::ends_of(bands_, parts, note);
+  return images::ends_of(bands_, parts, facts);
 }
 
 std::vector<std::span<const std::byte>> FrameEncoder::pieces(const EncodedFrame& frame,

@@ -40,7 +40,7 @@ class FrameEncoder {
   EncodedFrame encode(compositor::Frame& frame);
   // The pieces of its file, in order, which live as long as `frame` and `ends`.
   std::vector<std::span<const std::byte>> pieces(const EncodedFrame& frame, const images::PictureEnds& ends) const;
-  images::PictureEnds ends_of(const EncodedFrame& frame, const std::string& note) const;
+  images::PictureEnds ends_of(const EncodedFrame& frame, const images::FileFacts& facts) const;
 
  private:
   // Of a background: each band once it was needed.

@@ -293,8 +293,9 @@ Manifest FrameFolder::known() const {
   return known;
 }
 
-std::string FrameFolder::mark_of(std::uint32_t frame, const std::string& pixel_hash, const std::string& content) const {
-  return text_of(mark_in(begun_, frame, pixel_hash, content));
+images::FileFacts FrameFolder::facts_of(std::uint32_t frame, const std::string& pixel_hash,
+                                        const std::string& content) const {
+  return facts_in(begun_, frame, pixel_hash, content);
 }
 
 void FrameFolder::show_status(std::function<std::string()> text) {
@@ -367,7 +368,7 @@ bool has_frames(const fs::path& folder) {
   std::error_code none;
   for (fs::directory_iterator entry(folder, none), end; !none && entry != end; entry.increment(none)) {
     const fs::path& path = entry->path();
-    if (path.filename().string().starts_with("frame-") && is_frame_file(path) && read_mark(path)) return true;
+    if (images::is_picture_name(path) && is_frame_file(path) && read_mark(path)) return true;
   }
   return false;
 }
@@ -404,8 +405,8 @@ void FileSink::take(compositor::Frame& frame) {
   const double begun = seconds_now();
   const EncodedFrame encoded = encoder_.encode(frame);
   const std::string hash = encoded.pixel_hash();
-  const std::string mark = folder_.mark_of(frame.number, hash, content_ ? content_(frame.number) : "");
-  const images::PictureEnds ends = encoder_.ends_of(encoded, mark);
+  const std::string content = content_ ? content_(frame.number) : "";
+  const images::PictureEnds ends = encoder_.ends_of(encoded, folder_.facts_of(frame.number, hash, content));
   const std::vector<std::span<const std::byte>> pieces = encoder_.pieces(encoded, ends);
   const double made = seconds_now();
   folder_.put(frame.number, hash, pieces);

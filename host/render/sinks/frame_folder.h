@@ -81,7 +81,7 @@ class FrameFolder {
   // The run's name, under which it has its claim.
   const std::string& run() const { return runs_.own_name(); }
   images::PictureFormat format() const { return rendered_.format; }
-  images::PictureBands bands() const { return {rendered_.format, rendered_.width, rendered_.height}; }
+  images::PictureBands bands() const { return bands_of(rendered_); }
   std::filesystem::path file_of(std::uint32_t frame) const;
   // Those asked for that are not there: this run is to write them.
   const std::vector<std::uint32_t>& frames() const { return rendered_.frames; }
@@ -89,8 +89,8 @@ class FrameFolder {
   // From now on `text` is what the run's .status says (status_file.h). Until the end a thread calls it.
   void show_status(std::function<std::string()> text);
 
-  // What the frame's file says of itself (frame_mark.h).
-  std::string mark_of(std::uint32_t frame, const std::string& pixel_hash, const std::string& content) const;
+  // What the frame's file says (frame_mark.h).
+  images::FileFacts facts_of(std::uint32_t frame, const std::string& pixel_hash, const std::string& content) const;
   // Writes a frame's file; from several threads at once. Throws Failure where it cannot, the claim is lost, or the
   // folder is gone.
   void put(std::uint32_t frame, const std::string& pixel_hash, const document::Pieces& file);

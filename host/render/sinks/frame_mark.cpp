@@ -30,7 +30,7 @@ FrameMark mark_of(const json& from) {
   mark.film_frames = number_in(record, "film_frames", 1, wire::kMostFrames);
   mark.frame = number_in(record, "frame", 0, mark.film_frames - 1);
   mark.rate = record.positive_number("rate");
-  mark.format = format_of(record);
+  mark.form = form_of(record);
   mark.pixel_version = number_in(record, "pixel_version", 1, kMostVersion);
   const json& hash = record.value("pixel_hash");
   if (!is_pixel_hash(hash)) refuse_value("pixel_hash", hash, "a hash of pixels");
@@ -45,9 +45,9 @@ std::string text_of(const FrameMark& mark) {
                {"frame", mark.frame},
                {"film_frames", mark.film_frames},
                {"rate", mark.rate},
-               {"format", images::facts_of(mark.format).name},
                {"pixel_version", mark.pixel_version},
                {"pixel_hash", mark.pixel_hash}};
+  add_form(mark.form, text);
   if (!mark.content.empty()) text["content"] = mark.content;
   return text.dump();
 }
@@ -72,8 +72,13 @@ bool is_frame_file(const std::filesystem::path& file) {
 
 FrameMark mark_in(const Manifest& manifest, std::uint32_t frame, const std::string& pixel_hash,
                   const std::string& content) {
-  return {manifest.checksum,      content,   frame, manifest.film_frames, manifest.rate, manifest.format,
+  return {manifest.checksum,      content,   frame, manifest.film_frames, manifest.rate, form_of(manifest),
           manifest.pixel_version, pixel_hash};
+}
+
+images::FileFacts facts_in(const Manifest& manifest, std::uint32_t frame, const std::string& pixel_hash,
+                           const std::string& content) {
+  return {text_of(mark_in(manifest, frame, pixel_hash, content)), manifest.rate, frame};
 }
 
 }  // namespace mars::sinks

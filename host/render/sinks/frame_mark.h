@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "host/images/picture_format.h"
+#include "host/images/picture_bands.h"
 #include "host/render/sinks/manifest.h"
 
 namespace mars::sinks {
@@ -19,7 +19,7 @@ struct FrameMark {
   std::uint32_t frame = 0;
   std::uint32_t film_frames = 0;  // of the whole film
   double rate = 0;                // frames a second
-  images::PictureFormat format = images::PictureFormat::png;
+  FrameForm form{};
   std::uint32_t pixel_version = wire::kPixelVersion;
   std::string pixel_hash;
 
@@ -39,5 +39,8 @@ bool is_frame_file(const std::filesystem::path& file);
 // Of a frame of the manifest's folder.
 FrameMark mark_in(const Manifest& manifest, std::uint32_t frame, const std::string& pixel_hash,
                   const std::string& content);
+// What its file says of it.
+images::FileFacts facts_in(const Manifest& manifest, std::uint32_t frame, const std::string& pixel_hash,
+                           const std::string& content);
 
 }  // namespace mars::sinks

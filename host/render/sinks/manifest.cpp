@@ -10,7 +10,6 @@
 #include "hal/failure/plain_text.h"
 #include "host/content/document/checksum.h"
 #include "host/content/document/text.h"
-#include "host/content/film/frame_set.h"
 #include "host/render/sinks/pixel_hash.h"
 #include "host/render/sinks/record.h"
 #include "node/wire/film_parts.h"
@@ -22,15 +21,18 @@ using nlohmann::json;
 namespace {
 
 constexpr std::size_t kLongestFilm = 3 * 4096;  // bytes: of a path, of which each may be written as three
-constexpr auto kKeys =
-    std::to_array<std::string_view>({"version", "sum", "film", "checksum", "width", "height", "format", "rate",
-                                     "film_frames", "frames", "pixel_version", "pixel_hashes", "sources", "options"});
+constexpr auto kKeys = std::to_array<std::string_view>(
+    {"version", "sum", "film", "checksum", "width", "height", "format", "rate", "film_frames", "frames",
+     "pixel_version", "pixel_hashes", "sources", "options", "names", "first_number", "compression"});
 
 // Unbroken stretches as [first, last] pairs, so that a long film's manifest stays short.
 json stretches_of(const std::vector<std::uint32_t>& frames) {
   json stretches = json::array();
-  const film::FrameSet set(frames);
-  for (const film::FrameSet::Stretch& stretch : set.stretches()) stretches.push_back({stretch.first, *stretch.last});
+  for (std::size_t first = 0, end; first < frames.size(); first = end) {
+    end = first + 1;
+    while (end < frames.size() && frames[end] == frames[end - 1] + 1) ++end;
+    stretches.push_back({frames[first], frames[end - 1]});
+  }
   return stretches;
 }
 
@@ -109,6 +111,12 @@ std::uint32_t version_of(const Record& record) {
   return version;
 }
 
+// An older MARS would render under other names.
+std::uint32_t version_for(const Manifest& manifest) {
+  constexpr std::uint32_t kOfPlainForms = 3;
+  return form_of(manifest) == FrameForm{manifest.format} ? kOfPlainForms : kManifestVersion;
+}
+
 // None has been seen of another program in a file of version 1.
 std::string unknown_keys(const json& from, std::uint32_t version) {
   json unknown = json::object();
@@ -127,16 +135,61 @@ std::string sum_of(json text) {
   return document::checksum_of(std::as_bytes(std::span(all)));
 }
 
-images::PictureFormat format_of(const Record& record) {
-  constexpr std::size_t kLongestName = 16;
-  if (!record.has("format")) return images::PictureFormat::png;
-  const auto format = images::picture_format_of(record.text("format", kLongestName));
-  if (!format) refuse_value("format", record.value("format"), "png, png16 or exr");
-  return *format;
+FrameForm form_of(const Manifest& manifest) { return {manifest.format, manifest.compression, manifest.names}; }
+
+void set_form(Manifest& manifest, const FrameForm& form) {
+  manifest.format = form.format;
+  manifest.compression = form.compression;
+  manifest.names = form.names;
+}
+
+images::PictureBands bands_of(const Manifest& manifest) {
+  return {manifest.format, manifest.width, manifest.height, manifest.compression};
+}
+
+std::vector<std::string> words_of(const FrameForm& form) {
+  std::vector<std::string> words;
+  const auto add = [&](const char* option, const std::string& value) { words.insert(words.end(), {option, value}); };
+  if (form.format != images::PictureFormat::png) add("--format", images::facts_of(form.format).name);
+  if (form.compression != images::Compression::zip) add("--compression", images::name_of(form.compression));
+  if (!form.names.pattern.empty()) add("--name", form.names.pattern);
+  if (form.names.first_number != 0) add("--first-number", std::to_string(form.names.first_number));
+  return words;
+}
+
+void add_form(const FrameForm& form, json& text) {
+  text["format"] = images::facts_of(form.format).name;
+  if (form.compression != images::Compression::zip) text["compression"] = images::name_of(form.compression);
+  if (!form.names.pattern.empty()) text["names"] = form.names.pattern;
+  if (form.names.first_number != 0) text["first_number"] = form.names.first_number;
+}
+
+FrameForm form_of(const Record& record) {
+  constexpr std::size_t kLongestName = 16, kLongestPattern = 1000;
+  FrameForm form;
+  if (record.has("format")) {
+    const auto format = images::picture_format_of(record.text("format", kLongestName));
+    if (!format) refuse_value("format", record.value("format"), "png, png16 or exr");
+    form.format = *format;
+  }
+  if (record.has("compression")) {
+    const auto compression = images::compression_of(record.text("compression", kLongestName));
+    if (!compression) refuse_value("compression", record.value("compression"), "a compression of EXR files");
+    form.compression = *compression;
+  }
+  if (record.has("names")) {
+    form.names.pattern = record.text("names", kLongestPattern);
+    if (images::frame_pattern(form.names.pattern) != form.names.pattern)
+      refuse_value("names", record.value("names"), "names with # for the number");
+  }
+  if (record.has("first_number"))
+    form.names.first_number =
+        static_cast<std::uint32_t>(record.whole_number("first_number", 0, images::kMostFirstNumber));
+  return form;
 }
 
 bool are_of_one_folder(const Manifest& a, const Manifest& b) {
-  return a.checksum == b.checksum && a.format == b.format && a.pixel_version == b.pixel_version;
+  return a.checksum == b.checksum && form_of(a) == form_of(b) && a.pixel_version == b.pixel_version;
 }
 
 void add_frames(Manifest& manifest, const Manifest& more) {
@@ -183,16 +236,16 @@ std::string film_text(const Manifest& manifest) {
 
 json to_json(const Manifest& manifest) {
   json text = manifest.more.empty() ? json::object() : json::parse(manifest.more);
-  text.update({{"version", kManifestVersion},
+  text.update({{"version", version_for(manifest)},
                {"film", manifest.film},
                {"checksum", manifest.checksum},
                {"width", manifest.width},
                {"height", manifest.height},
-               {"format", images::facts_of(manifest.format).name},
                {"rate", manifest.rate},
                {"film_frames", manifest.film_frames},
                {"frames", stretches_of(manifest.frames)},
                {"pixel_version", manifest.pixel_version}});
+  add_form(form_of(manifest), text);
   if (!manifest.pixel_hashes.empty()) text["pixel_hashes"] = hashes_json(manifest.pixel_hashes);
   if (!manifest.sources.empty()) text["sources"] = sources_json(manifest.sources);
   if (!manifest.options.empty()) text["options"] = manifest.options;
@@ -213,7 +266,7 @@ Manifest manifest_of(const json& from) {
   manifest.checksum = record.checksum("checksum");
   manifest.width = static_cast<std::uint32_t>(record.whole_number("width", 1, wire::kMaxSide));
   manifest.height = static_cast<std::uint32_t>(record.whole_number("height", 1, wire::kMaxSide));
-  manifest.format = format_of(record);
+  set_form(manifest, form_of(record));
   manifest.rate = record.positive_number("rate");
   manifest.film_frames = static_cast<std::uint32_t>(record.whole_number("film_frames", 1, wire::kMostFrames));
   manifest.frames = frames_of(record.list("frames"), manifest.film_frames);
@@ -225,19 +278,13 @@ Manifest manifest_of(const json& from) {
 }
 
 std::optional<std::uint32_t> frame_of_file(const Manifest& manifest, const std::string& name) {
-  constexpr std::string_view kHead = "frame-";
-  if (!name.starts_with(kHead)) return std::nullopt;
-  const std::string digits = name.substr(kHead.size(), name.find('.') - kHead.size());
-  const auto frame = document::number_in<std::uint32_t>(digits);
-  const bool is_one = frame && *frame < manifest.film_frames && frame_file_name(manifest, *frame) == name;
-  return is_one ? frame : std::nullopt;
+  const std::string_view ending = images::facts_of(manifest.format).ending;
+  if (!name.ends_with(ending)) return std::nullopt;
+  return images::frame_of_name(manifest.names, name.substr(0, name.size() - ending.size()), manifest.film_frames);
 }
 
 std::string frame_file_name(const Manifest& manifest, std::uint32_t frame) {
-  const std::size_t digits = std::max<std::size_t>(4, std::to_string(manifest.film_frames - 1).size());
-  const std::string number = std::to_string(frame);
-  return "frame-" + std::string(digits - std::min(digits, number.size()), '0') + number +
-         images::facts_of(manifest.format).ending;
+  return images::frame_name(manifest.names, frame, manifest.film_frames) + images::facts_of(manifest.format).ending;
 }
 
 }  // namespace mars::sinks

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "hal/failure/failure.h"
+#include "host/images/frame_form.h"
+#include "host/images/picture_bands.h"
 #include "host/images/picture_format.h"
 #include "node/wire/pixel_version.h"
 
@@ -17,8 +19,9 @@ namespace mars::sinks {
 class Record;
 
 // Of the file. 1, which files without the key have: they have no key but those known then. 2: with a sum over all other
-// keys, and a pixel version. 3: frames may have hashes of bands (pixel_hash.h).
-inline constexpr std::uint32_t kManifestVersion = 3;
+// keys, and a pixel version. 3: frames may have hashes of bands (pixel_hash.h). 4, written only where it is needed:
+// files may have other names, or another compression.
+inline constexpr std::uint32_t kManifestVersion = 4;
 
 // A file that was read to compile a film.
 struct Source {
@@ -43,12 +46,14 @@ struct Manifest {
   std::vector<Source> sources;
   std::vector<std::string> options;  // with which it was compiled, as on a command line: "--size", "640x360"
   std::uint32_t pixel_version = wire::kPixelVersion;  // of the program that rendered the frames
+  images::FrameNames names = {};
+  images::Compression compression = images::Compression::zip;
   std::string more = {};  // keys that this program does not know, as the text of an object; "": none
 
   bool operator==(const Manifest&) const = default;
 };
 
-// Whether both are of the same compiled film, in the same format and of the same pixel version: then their frames are
+// Whether both are of the same compiled film, in the same form and of the same pixel version: then their frames are
 // those of one folder.
 bool are_of_one_folder(const Manifest& a, const Manifest& b);
 
@@ -79,10 +84,18 @@ std::string sum_of(nlohmann::json manifest);
 // Throws LaterManifest; and Failure, without a place, where it is none, has keys of another kind, or another sum.
 Manifest manifest_of(const nlohmann::json& from);
 
-// Of the key "format": PNG where there is none, as of frames that were rendered before there were others.
-images::PictureFormat format_of(const Record& record);
+using images::FrameForm;
+FrameForm form_of(const Manifest& manifest);
+void set_form(Manifest& manifest, const FrameForm& form);
+images::PictureBands bands_of(const Manifest& manifest);
+// As options of mars render: "--format", "exr"; none for what is as by default.
+std::vector<std::string> words_of(const FrameForm& form);
 
-// Names sort as frames do: as many digits as the film's last frame needs, at least four.
+// As keys of a manifest and of what a frame's file says; those that are as by default are left out, but for the format.
+void add_form(const FrameForm& form, nlohmann::json& text);
+// The format is PNG where there is none, as of frames that were rendered before there were others.
+FrameForm form_of(const Record& record);
+
 std::string frame_file_name(const Manifest& manifest, std::uint32_t frame);
 // Whose file has this name; none where no frame's has.
 std::optional<std::uint32_t> frame_of_file(const Manifest& manifest, const std::string& name);

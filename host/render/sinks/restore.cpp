@@ -42,13 +42,14 @@ Files files_in(const fs::path& folder) {
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; entry != end; entry.increment(error)) {
     const std::string name = entry->path().filename().string();
-    if (!name.starts_with("frame-")) continue;
-    if (!is_frame_file(entry->path()))
-      files.empty.push_back(name);
-    else if (std::optional<FrameMark> mark = read_mark(entry->path()))
+    const bool named_so = name.starts_with("frame-");
+    if (!named_so && !images::is_picture_name(entry->path())) continue;
+    const bool is_file = is_frame_file(entry->path());
+    std::optional<FrameMark> mark = is_file ? read_mark(entry->path()) : std::nullopt;
+    if (mark)
       files.marked.push_back({name, std::move(*mark)});
-    else
-      files.unmarked.push_back(name);
+    else if (named_so)
+      (is_file ? files.unmarked : files.empty).push_back(name);
   }
   if (error && error != std::errc::no_such_file_or_directory)
     document::fail_file("list the folder", folder, error.value());
@@ -73,7 +74,7 @@ std::optional<Manifest> manifest_of(const std::vector<File>& files, const fs::pa
   if (files.empty()) return std::nullopt;
   const FrameMark& first = files.front().mark;
   if (!std::ranges::all_of(files, [&](const File& file) { return file.mark.film == first.film; })) return std::nullopt;
-  const images::Image image = images::read_picture(first.format, folder / files.front().name);
+  const images::Image image = images::read_picture(first.form.format, folder / files.front().name);
   Manifest manifest;
   manifest.checksum = first.film;
   manifest.width = image.width;
@@ -85,17 +86,17 @@ std::optional<Manifest> manifest_of(const std::vector<File>& files, const fs::pa
   return std::nullopt;
 }
 
-// Of the latest pixel version, in the format that most frames of it have.
+// Of the latest pixel version, in the form that most frames of it have.
 void take_form(const std::vector<File>& files, Manifest& manifest) {
-  using Form = std::pair<std::uint32_t, images::PictureFormat>;
+  using Form = std::pair<std::uint32_t, FrameForm>;
   std::map<Form, std::uint32_t> counts;
-  for (const File& file : files) ++counts[{file.mark.pixel_version, file.mark.format}];
+  for (const File& file : files) ++counts[{file.mark.pixel_version, file.mark.form}];
   if (counts.empty()) return;
   const std::uint32_t latest = counts.rbegin()->first.first;
   const auto count = [&](const auto& form) { return form.first.first == latest ? form.second : 0; };
   const Form form = std::ranges::max_element(counts, {}, count)->first;
   manifest.pixel_version = form.first;
-  manifest.format = form.second;
+  set_form(manifest, form.second);
 }
 
 class Restoring {
@@ -155,7 +156,7 @@ class Restoring {
 
   // Frames that stayed through an edit were rendered of another film, which shows the same there.
   bool is_of_it(const FrameMark& mark, std::uint32_t frame) {
-    if (mark.frame != frame || mark.format != manifest_.format || mark.pixel_version != manifest_.pixel_version)
+    if (mark.frame != frame || mark.form != form_of(manifest_) || mark.pixel_version != manifest_.pixel_version)
       return false;
     if (mark.film == manifest_.checksum) return true;
     if (mark.content.empty()) return false;

@@ -36,8 +36,7 @@ std::string trouble_with(const fs::path& file, const Manifest& manifest, const s
     }
     if (expected && expected->empty())
       return "its run ended before it recorded the pixels, or the film has changed since";
-    const images::PictureBands bands(manifest.format, image.width, image.height);
-    if (expected && pixel_hash_like(*expected, bands, image.pixels) != *expected)
+    if (expected && pixel_hash_like(*expected, bands_of(manifest), image.pixels) != *expected)
       return "other pixels than were rendered";
     pixels.add(std::as_bytes(std::span(image.pixels)));
     return "";

@@ -109,7 +109,7 @@ film::CompiledFilm film_of(const SubmitWords& words) {
   const resume::Wish wish{.folder = render.folder,
                           .film = render.film,
                           .options = options::film_arguments(render),
-                          .format = render.format,
+                          .form = options::form_of(render),
                           .frames = render.frames,
                           .overwrite = render.overwrite,
                           .kept_film = render.kept_film,

@@ -105,7 +105,7 @@ void repair(const sinks::Verdict& verdict, options::RenderOptions render) {
         "its frames were rendered by a MARS that draws other pixels, which this one would mix with its own", folder,
         "render all with: " + resume::command_for(folder, manifest, film::FrameSet(manifest.frames)) + " --overwrite");
   render.film = std::filesystem::path(folder) / sinks::kFilmName;
-  render.format = manifest.format;
+  options::set_form(form_of(manifest), render);
   sinks::remove_wrong_files(folder, verdict);
   if (!render.quiet) std::cout << count_text(verdict) << std::endl;
   launch::launch_render(render, child::own_file(), doctor::adviser(child::own_file()));

@@ -63,6 +63,11 @@ std::string progress_text(const events::Progress& progress) {
   return text + left_text(progress);
 }
 
+std::string progress_line(const events::Progress& progress) {
+  const std::uint64_t percent = progress.of() > 0 ? std::uint64_t{100} * progress.done() / progress.of() : 0;
+  return "Progress: " + std::to_string(percent) + "%, " + progress_text(progress);
+}
+
 std::string resumed_text(const events::Resumed& resumed) {
   const bool all = resumed.there == resumed.of;
   if (resumed.there == 0 && !resumed.changed.empty()) return resumed.changed;
@@ -101,7 +106,7 @@ void Display::print(const std::string& line) {
 void Display::show(const events::Progress& progress) {
   if (kind_ == Kind::silent || !due()) return;
   if (kind_ == Kind::lines) {
-    if (progress.done() > shown_) out_ << progress_text(progress) << std::endl;
+    if (progress.done() > shown_) out_ << progress_line(progress) << std::endl;
     shown_ = progress.done();
     return;
   }

@@ -15,6 +15,8 @@ std::string clock_text(double seconds);
 
 // "frame 12 of 72, interval 2 of 5, 8.3 frames/s, 0:07 left (keyframes 0:03, inbetweens 0:04)"
 std::string progress_text(const events::Progress& progress);
+// The same after "Progress: 16%, ", for render managers: this is what they look for in a program's output.
+std::string progress_line(const events::Progress& progress);
 
 // "12 of 72 frames are there already"
 std::string resumed_text(const events::Resumed& resumed);

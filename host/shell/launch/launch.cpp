@@ -151,8 +151,8 @@ std::string account_of(const Supervisor& supervisor, const std::string& folder, 
 std::optional<std::uint32_t> frames_there(const options::RenderOptions& options) {
   const bool measures = !options.report.empty() || !options.trace.empty();
   if (options.sink == options::SinkKind::none || measures) return std::nullopt;
-  return resume::count_if_complete({options.folder, options.film, options::film_arguments(options), options.format,
-                                    options.frames, options.overwrite, options.kept_film});
+  return resume::count_if_complete({options.folder, options.film, options::film_arguments(options),
+                                    options::form_of(options), options.frames, options.overwrite, options.kept_film});
 }
 
 }  // namespace

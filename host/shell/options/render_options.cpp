@@ -13,6 +13,7 @@
 #include "hal/failure/failure.h"
 #include "host/content/document/shell_word.h"
 #include "host/content/document/text.h"
+#include "host/images/frame_names.h"
 #include "host/cli/program.h"
 #include "node/wire/film.h"
 
@@ -41,6 +42,8 @@ template <>
 constexpr std::array kWords<WriteWhere>{"auto", "host", "nodes"};
 template <>
 constexpr std::array kWords<images::PictureFormat>{"png", "png16", "exr"};
+template <>
+constexpr std::array kWords<images::Compression>{"zip", "zips", "piz", "pxr24", "rle", "none"};
 template <>
 constexpr std::array kWords<wire::Mapping>{"greedy", "optimal", "cost"};
 template <>
@@ -184,7 +187,12 @@ std::vector<Entry> table() {
       film(compiles & ~serves, true),
       film(serves, false),
       option(submits, "-o,--output", "DIR", &RenderOptions::folder,
-             "Folder for the frames; created if it is missing. Example: -o build/demo"),
+             "Folder for the frames; created if it is missing. Its last part may name the files: -o out/shot_####.exr. "
+             "Example: -o build/demo"),
+      option(submits, "--name", "NAME", &RenderOptions::name,
+             "Names of the files: # or %04d stands for the number; default: frame-####. Example: --name shot_####"),
+      number(submits, "--first-number", {&RenderOptions::first_number, false, images::kMostFirstNumber, 0},
+             "Number of frame 0 in names of files; default: 0. Example: --first-number 1001"),
       flag(submits, "--overwrite", &RenderOptions::overwrite,
            "Render all requested frames, even if the folder has them, or frames of another film. Example: --overwrite"),
       flag(submits, "--kept-film", &RenderOptions::kept_film,
@@ -211,6 +219,8 @@ std::vector<Entry> table() {
              "Machines to use, one per line as for mpirun: n1 slots=4. Example: --hostfile hosts"),
       option(plans, "--frames", "SET", &RenderOptions::frames,
              "Frames to render, counted from 0; default: all. Example: --frames 0-9,24,30-"),
+      number(plans, "--every", {&RenderOptions::every, false, many},
+             "Only every Nth frame of each range. Example: --every 10"),
       option(compiles, "--size", "WxH", &RenderOptions::size,
              "Picture size in pixels; default: the film's. Example: --size 960x540"),
       option(
@@ -240,6 +250,8 @@ std::vector<Entry> table() {
       option(plans, "--format", "png|png16|exr", &RenderOptions::format,
              "Files of the frames: PNG of 8 or 16 bits, or EXR: half floats of light before exposure and curve; "
              "default: png. Example: --format exr"),
+      option(submits, "--compression", "zip|zips|piz|pxr24|rle|none", &RenderOptions::compression,
+             "How EXR files are compressed, all without loss; default: zip. Example: --compression piz"),
       option(
           sinks, "--sink", "files|none", &RenderOptions::sink,
           "Where frames go; none writes no files, to measure rendering; simulations with --write count them. Example: "
@@ -285,6 +297,41 @@ bool ends_in(const std::filesystem::path& name, std::span<const std::string_view
   return std::ranges::find(endings, ending) != endings.end();
 }
 
+// What --name, or the last part of -o, says: without its ending, which agrees with the format.
+void take_name(const std::string& text, RenderOptions& options) {
+  using images::PictureFormat;
+  const std::filesystem::path name = text;
+  const bool has_ending = images::is_picture_name(name);
+  const bool exr = name.extension() == images::facts_of(PictureFormat::exr).ending;
+  if (has_ending && exr && options.format == PictureFormat::png) options.format = PictureFormat::exr;
+  if (has_ending && exr != (options.format == PictureFormat::exr))
+    throw Failure(document::in_quotes(text) + " is no name of " + images::facts_of(options.format).name + " files", "",
+                  "leave out --format, or the ending of the name");
+  options.name = images::frame_pattern(has_ending ? name.stem().string() : text);
+}
+
+// Whether the last part of a folder's name means files: a folder's own name may have a single #.
+bool names_files(const std::filesystem::path& folder) {
+  const std::string last = folder.filename().string();
+  const bool plain =
+      !images::is_picture_name(folder) && last.find("##") == std::string::npos && last.find('%') == std::string::npos;
+  return !plain && images::has_number(last) && !std::filesystem::is_directory(folder);
+}
+
+// Of options that are short for others, makes the others.
+void resolve(RenderOptions& options) {
+  options.frames = options.frames.every(std::exchange(options.every, 1));
+  if (!options.name.empty()) take_name(options.name, options);
+  const std::filesystem::path folder = options.folder;
+  if (!names_files(folder)) return;
+  if (!options.name.empty())
+    throw Failure("the files have two names, " + document::in_quotes(options.folder) + " and " +
+                      document::in_quotes(options.name),
+                  "", "leave out --name, or name a folder alone with -o");
+  take_name(folder.filename().string(), options);
+  options.folder = folder.has_parent_path() ? folder.parent_path().string() : ".";
+}
+
 // Who names a video or a picture expects that file, and would find a folder of this name.
 void refuse_name_of_file(const RenderOptions& options) {
   constexpr auto kVideos =
@@ -316,6 +363,8 @@ void check_writing_nodes(const RenderOptions& options) {
 
 // Checks that concern several options.
 void check_together(const RenderOptions& options, Program program) {
+  if (options.compression != images::Compression::zip && options.format != images::PictureFormat::exr)
+    throw Failure("PNG files have one compression", "", "leave out --compression, or add --format exr");
   if (options.serve.empty() == options.film.empty() && program != Program::repair && program != Program::studio) {
     if (options.film.empty()) throw Failure("FILM is required", "", "");
     throw Failure("a studio brings its own film", "", "leave out " + options.film + ", or --serve");
@@ -362,9 +411,11 @@ void add_render_options(cli::Command app, RenderOptions& options, Program progra
   for (const Entry& entry : table()) {
     if (takes(program, entry)) entry.add(app, options);
   }
-  if (program == Program::compile || program == Program::plan) return;
-  refuse_former_names(app);
-  app.checks([&options, program] { check_together(options, program); });
+  app.checks([&options, program] {
+    resolve(options);
+    if (program != Program::compile && program != Program::plan) check_together(options, program);
+  });
+  if (program != Program::compile && program != Program::plan) refuse_former_names(app);
 }
 
 std::optional<int> read_render_options(Program program, const char* name, const char* purpose, RenderOptions& options,
@@ -378,6 +429,17 @@ std::vector<std::string> film_arguments(const RenderOptions& options) {
   Arguments arguments = arguments_for(Program::compile, options);
   arguments.erase(arguments.begin());  // FILM
   return arguments;
+}
+
+images::FrameForm form_of(const RenderOptions& options) {
+  return {options.format, options.compression, {options.name, options.first_number}};
+}
+
+void set_form(const images::FrameForm& form, RenderOptions& options) {
+  options.format = form.format;
+  options.compression = form.compression;
+  options.name = form.names.pattern;
+  options.first_number = form.names.first_number;
 }
 
 std::vector<std::string> arguments_for(Program program, const RenderOptions& options) {

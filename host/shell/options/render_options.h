@@ -10,6 +10,7 @@
 
 #include "host/cli/command.h"
 #include "host/content/film/frame_set.h"
+#include "host/images/frame_form.h"
 #include "host/images/picture_format.h"
 #include "host/images/picture_size.h"
 #include "node/wire/protocol.h"
@@ -25,14 +26,17 @@ enum class SinkKind { files, none };
 enum class WriteWhere { automatic, host, nodes };
 
 struct RenderOptions {
-  std::string film;         // FILM.json or FILM.mars; "": a studio's, which is served
-  std::string folder;       // for the frames; "" only without a sink
+  std::string film;    // FILM.json or FILM.mars; "": a studio's, which is served
+  std::string folder;  // for the frames; "" only without a sink
+  std::string name;    // of their files, with # for the number (images/frame_names.h); "": as by default
+  std::uint32_t first_number = 0;
   std::uint32_t nodes = 0;  // 0: as many as the machine has processors for
   Backend backend = Backend::automatic;
   std::string platform;  // name or file of the simulated machines
   bool force = false;    // also with very many nodes a core (check_nodes)
   std::string hostfile;  // Open MPI's, of the machines to use; "": this one, or the batch system's
   film::FrameSet frames;
+  std::uint32_t every = 1;  // Nth frame of each stretch of them; once the line is read, `frames` says it
   std::optional<images::PictureSize> size;  // none: the film's own
   std::optional<std::uint32_t> samples;     // of a pixel; none: the film's own
   wire::Mapping mapping = wire::Mapping::cost;
@@ -48,10 +52,11 @@ struct RenderOptions {
   SinkKind sink = SinkKind::files;
   WriteWhere write = WriteWhere::automatic;                   // who composes frames and writes their files
   images::PictureFormat format = images::PictureFormat::png;  // of the files
-  std::string report;                                         // file for the measurements; "": none
-  std::string trace;                                          // file for a picture of the run; "": none
-  std::string watch;                                          // socket of who watches; "": nobody does
-  std::uint32_t restarts = 5;                                 // in a row of a job that dies, if no new frame comes
+  images::Compression compression = images::Compression::zip;
+  std::string report;          // file for the measurements; "": none
+  std::string trace;           // file for a picture of the run; "": none
+  std::string watch;           // socket of who watches; "": nobody does
+  std::uint32_t restarts = 5;  // in a row of a job that dies, if no new frame comes
   bool quiet = false;
   std::string serve;  // a studio's socket, at which its pictures are drawn; "": a film is rendered to files
 
@@ -92,6 +97,10 @@ std::string word_of_file(const std::string& name);
 
 // The options that change the compiled film, as arguments.
 std::vector<std::string> film_arguments(const RenderOptions& options);
+
+// How the files of frames are made, from the options and back.
+images::FrameForm form_of(const RenderOptions& options);
+void set_form(const images::FrameForm& form, RenderOptions& options);
 
 // The arguments that make `program` read these options again, those it takes; defaults are left out.
 std::vector<std::string> arguments_for(Program program, const RenderOptions& options);

@@ -9,6 +9,7 @@
 #include "host/content/document/text.h"
 #include "host/images/picture_file.h"
 #include "host/render/sinks/claim.h"
+#include "host/render/sinks/restore.h"
 #include "host/render/sinks/runs_folder.h"
 
 namespace mars::studio {
@@ -16,18 +17,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of frame-0012.png; none: it is no such file.
-std::optional<std::uint32_t> frame_of(const fs::path& file) {
-  constexpr std::string_view kBefore = "frame-";
-  const std::string stem = file.stem().string();
-  if (file.extension() != ".png" || !stem.starts_with(kBefore)) return std::nullopt;
-  return document::number_in<std::uint32_t>(std::string_view(stem).substr(kBefore.size()));
-}
-
 std::map<std::uint32_t, fs::path> files_of(const fs::path& folder) {
   std::map<std::uint32_t, fs::path> files;
+  const std::optional<sinks::Manifest> manifest = sinks::read_frames_json(folder);
+  if (!manifest || manifest->format == images::PictureFormat::exr) return files;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-    if (const auto frame = frame_of(entry.path())) files.emplace(*frame, entry.path());
+    if (const auto frame = sinks::frame_of_file(*manifest, entry.path().filename().string()))
+      files.emplace(*frame, entry.path());
   return files;
 }
 

@@ -37,6 +37,36 @@ TEST(ExrFile, GivesBackWhatWasWritten) {
   }
 }
 
+TEST(ExrFile, EveryCompressionGivesBackEveryHalf) {
+  const std::vector<std::uint32_t> pixels = random_halves(97 * 83);
+  for (const char* name : {"zip", "zips", "piz", "pxr24", "rle", "none"}) {
+    const PictureBands bands(PictureFormat::exr, 97, 83, compression_of(name).value());
+    const Image image = decode_exr(encode_picture(bands, pixels, {}), name);
+    EXPECT_EQ(image.pixels, pixels) << name;
+    EXPECT_STREQ(name_of(bands.compression()), name);
+  }
+  EXPECT_EQ(compression_of("dwaa"), std::nullopt) << "it changes pixels";
+  EXPECT_EQ(PictureBands(PictureFormat::exr, 3000, 100, Compression::piz).lines_a_band(), 32u)
+      << "piz has chunks of 32";
+}
+
+TEST(ExrFile, SaysWhichFrameItIs) {
+  const std::vector<std::uint32_t> pixels = random_halves(2);
+  const PictureBands bands(PictureFormat::exr, 2, 1);
+  const auto text = [&](const FileFacts& facts) {
+    const std::vector<std::byte> bytes = encode_picture(bands, pixels, facts);
+    return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  };
+  EXPECT_FALSE(document::holds(text({}), "framesPerSecond"));
+  const std::string of_24 = text({.note = "a note", .rate = 24, .frame = 49});
+  EXPECT_TRUE(document::holds(of_24, std::string("framesPerSecond\0rational\0\10\0\0\0\30\0\0\0\1", 34)));
+  EXPECT_TRUE(document::holds(of_24, std::string("imageCounter\0int\0\4\0\0\0\61", 22)));
+  EXPECT_TRUE(document::holds(of_24, std::string("timeCode\0timecode\0\10\0\0\0\1\2\0\0", 26))) << "0:00:02:01";
+  EXPECT_FALSE(document::holds(text({.rate = 60, .frame = 49}), "timeCode")) << "it counts to 30";
+  EXPECT_TRUE(document::holds(text({.rate = 23.976, .frame = 49}), std::string("\300\135\0\0\351\3\0\0", 8)))
+      << "24000/1001";
+}
+
 TEST(ExrFile, NamesItsColours) {
   const std::vector<std::byte> bytes = encode_picture(PictureFormat::exr, 2, 1, random_halves(2));
   const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());

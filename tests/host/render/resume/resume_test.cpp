@@ -52,7 +52,7 @@ class Resume : public testing::Test {
 
   void write(const std::string& text) { document::write_whole_file(folder_ / "film.json", text); }
 
-  Wish wish() const { return {folder_ / "out", folder_ / "film.json", {}, images::PictureFormat::png, {}, false}; }
+  Wish wish() const { return {folder_ / "out", folder_ / "film.json", {}, {}, {}, false}; }
 
   Opened open(const Wish& wish) {
     return resume::open(wish, [&] {
@@ -231,13 +231,36 @@ TEST_F(Resume, ACompleteFolderNeedsNoRightToWrite) {
 TEST_F(Resume, OtherFormatsAreRefused) {
   render(wish());
   Wish exr = wish();
-  exr.format = images::PictureFormat::exr;
+  exr.form.format = images::PictureFormat::exr;
   EXPECT_EQ(count_if_complete(exr), std::nullopt);
   EXPECT_TRUE(document::holds(failure_of(exr), "are png, not exr")) << failure_of(exr);
   EXPECT_TRUE(document::holds(failure_of(exr), "--overwrite"));
   EXPECT_EQ(count_if_complete(wish()), 12u) << "nothing has changed";
   exr.overwrite = true;
   EXPECT_EQ(open(exr).frames.size(), 12u);
+}
+
+TEST_F(Resume, OtherNamesAreRefused) {
+  Wish named = wish();
+  named.form.names = {"shot_####", 1001};
+  render(named, 5);
+  EXPECT_TRUE(fs::exists(folder_ / "out/shot_1001.png"));
+  EXPECT_EQ(render(named).size(), 7u);
+  EXPECT_EQ(count_if_complete(named), 12u);
+  EXPECT_EQ(count_if_complete(wish()), std::nullopt);
+  EXPECT_TRUE(document::holds(failure_of(wish()), "their first is 'shot_1001', not 'frame-0000'"))
+      << failure_of(wish());
+  EXPECT_TRUE(document::holds(failure_of(wish()), "--name 'shot_####' --first-number 1001")) << failure_of(wish());
+  EXPECT_TRUE(
+      document::holds(command_for("out", manifest(), film::FrameSet()), "--name 'shot_####' --first-number 1001"));
+}
+
+TEST_F(Resume, OtherNamesThanTheUsualCanBeLeftOut) {
+  render(wish());
+  Wish named = wish();
+  named.form.names = {"shot_####", 1001};
+  EXPECT_TRUE(document::holds(failure_of(named), "leave out --name 'shot_####' --first-number 1001"))
+      << failure_of(named);
 }
 
 TEST_F(Resume, OfAnEditedFilmOnlyChangedFramesAreRenderedAgain) {

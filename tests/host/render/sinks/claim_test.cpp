@@ -70,11 +70,12 @@ TEST(Claim, OnlyOtherFramesOfTheSameFilmAreLetIn) {
 }
 
 TEST(Claim, LongListsAndOtherDaysAreToldShortAndWhole) {
-  std::vector<std::uint32_t> odd;
-  for (std::uint32_t frame = 1; frame < 400; frame += 2) odd.push_back(frame);
-  const ClaimOf claim(film("a.json", 'a', odd), 12345);
+  std::vector<std::uint32_t> many;
+  for (std::uint32_t frame = 1; frame < 400; ++frame)
+    if (frame % 3 != 0) many.push_back(frame);
+  const ClaimOf claim(film("a.json", 'a', many), 12345);
   const std::string refusal = claim.refuses(film("a.json", 'a', {1}));
-  EXPECT_TRUE(document::holds(refusal, "renders 200 frames from 1 to 399 of a.json into this folder since 19"))
+  EXPECT_TRUE(document::holds(refusal, "renders 266 frames from 1 to 398 of a.json into this folder since 19"))
       << refusal;
   EXPECT_TRUE(document::holds(ClaimOf(film("a.json", 'a', {3})).refuses(film("a.json", 'a', {3})),
                               "renders frame 3 of a.json"));

@@ -18,7 +18,7 @@ constexpr std::uint32_t kBlock = 16;
 
 std::vector<std::byte> file_of(FrameEncoder& encoder, compositor::Frame& frame) {
   const EncodedFrame encoded = encoder.encode(frame);
-  const images::PictureEnds ends = encoder.ends_of(encoded, "note");
+  const images::PictureEnds ends = encoder.ends_of(encoded, {.note = "note"});
   std::vector<std::byte> file;
   for (const auto piece : encoder.pieces(encoded, ends)) file.insert(file.end(), piece.begin(), piece.end());
   return file;

@@ -53,6 +53,11 @@ TEST(Display, ProgressHasTheBoundsOfAForecast) {
   EXPECT_EQ(progress_text(progress), "frame 0 of 22, 1:03 left (keyframes 0:03, inbetweens 1:00)");
 }
 
+TEST(Display, PlainLinesBeginWithThePercentage) {
+  EXPECT_EQ(progress_line(some_progress()), "Progress: 45%, " + progress_text(some_progress()));
+  EXPECT_TRUE(progress_line({}).starts_with("Progress: 0%, "));
+}
+
 TEST(Display, PlainLinesAreWholeAndNotTooMany) {
   std::ostringstream out;
   Display display(Display::Kind::lines, out);
@@ -60,7 +65,7 @@ TEST(Display, PlainLinesAreWholeAndNotTooMany) {
   for (int i = 0; i < 100; ++i) display.show(some_progress());
   display.settle();
   display.print("end");
-  EXPECT_EQ(out.str(), "begin\n" + progress_text(some_progress()) + "\nend\n");
+  EXPECT_EQ(out.str(), "begin\n" + progress_line(some_progress()) + "\nend\n");
 }
 
 TEST(Display, ASecondJobHasLinesOfItsOwn) {
@@ -70,7 +75,7 @@ TEST(Display, ASecondJobHasLinesOfItsOwn) {
   display.settle();
   std::this_thread::sleep_for(std::chrono::milliseconds(2100));
   display.show(some_progress());
-  EXPECT_EQ(out.str(), progress_text(some_progress()) + "\n" + progress_text(some_progress()) + "\n");
+  EXPECT_EQ(out.str(), progress_line(some_progress()) + "\n" + progress_line(some_progress()) + "\n");
 }
 
 TEST(Display, ATerminalsLineIsWrittenOver) {

@@ -53,6 +53,9 @@ RenderOptions unusual() {
   options.kept_film = true;
   options.sink = SinkKind::none;
   options.format = images::PictureFormat::exr;
+  options.compression = images::Compression::piz;
+  options.name = "shot_##";
+  options.first_number = 1001;
   options.report = "report.json";
   options.trace = "trace.json";
   options.quiet = true;
@@ -74,6 +77,47 @@ TEST(RenderOptions, GoRoundThroughACommandLine) {
   const Reading reading = read(Program::mars, arguments_for(Program::mars, unusual()));
   EXPECT_EQ(reading.code, std::nullopt) << reading.printed;
   EXPECT_EQ(reading.options, unusual());
+}
+
+TEST(RenderOptions, TheOutputMayNameTheFiles) {
+  const auto read_output = [](const Words& more) {
+    Words words{"film.json"};
+    words.insert(words.end(), more.begin(), more.end());
+    return read(Program::mars, words);
+  };
+  for (const auto& [words, folder, name, format] :
+       {std::tuple{Words{"-o", "a/shot_####.png"}, "a", "shot_####", images::PictureFormat::png},
+        {Words{"-o", "shot_%03d.exr"}, ".", "shot_###", images::PictureFormat::exr},
+        {Words{"-o", "a/b/##", "--format", "exr"}, "a/b", "##", images::PictureFormat::exr},
+        {Words{"-o", "/#.png", "--format", "png16"}, "/", "#", images::PictureFormat::png16},
+        {Words{"-o", "take#3"}, "take#3", "", images::PictureFormat::png},
+        {Words{"-o", "a", "--name", "shot_"}, "a", "shot_####", images::PictureFormat::png},
+        {Words{"-o", "a", "--name", "%d.exr"}, "a", "#", images::PictureFormat::exr}}) {
+    const Reading reading = read_output(words);
+    EXPECT_EQ(reading.code, std::nullopt) << reading.printed;
+    EXPECT_EQ(reading.options.folder, folder);
+    EXPECT_EQ(reading.options.name, name);
+    EXPECT_EQ(reading.options.format, format);
+  }
+  EXPECT_TRUE(document::holds(read_output({"-o", "a/#.png", "--format", "exr"}).printed, "is no name of exr files"));
+  EXPECT_TRUE(
+      document::holds(read_output({"-o", "a/#.exr", "--format", "png16"}).printed, "is no name of png16 files"));
+  EXPECT_TRUE(document::holds(read_output({"-o", "a/#.png", "--name", "b"}).printed, "two names"));
+  EXPECT_TRUE(document::holds(read_output({"-o", "a/##_##.png"}).printed, "more than one number"));
+  EXPECT_TRUE(document::holds(read_output({"-o", "a", "--compression", "piz"}).printed, "PNG files have one"));
+  EXPECT_TRUE(
+      document::holds(read_output({"-o", "a", "--format", "exr", "--compression", "dwaa"}).printed, "'dwaa' is not"));
+}
+
+TEST(RenderOptions, EveryStepsThroughTheFrames) {
+  for (const Program program : {Program::mars, Program::plan}) {
+    Words words{"film.json", "--frames", "0-9,12-", "--every", "3"};
+    if (program == Program::mars) words.insert(words.end(), {"-o", "out"});
+    const Reading reading = read(program, words);
+    EXPECT_EQ(reading.code, std::nullopt) << reading.printed;
+    EXPECT_EQ(reading.options.frames, film::FrameSet("0-9x3,12-x3"));
+  }
+  EXPECT_TRUE(document::holds(read(Program::mars, {"film.json", "-o", "out", "--every", "0"}).printed, "'0' is not"));
 }
 
 TEST(RenderOptions, EveryProgramGetsWhatConcernsIt) {
