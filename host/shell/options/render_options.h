@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/cli/command.h"
+#include "host/content/film/eye.h"
 #include "host/content/film/frame_set.h"
 #include "host/images/picture_format.h"
 #include "host/images/picture_size.h"
@@ -35,6 +36,7 @@ struct RenderOptions {
   film::FrameSet frames;
   std::optional<images::PictureSize> size;  // none: the film's own
   std::optional<std::uint32_t> samples;     // of a pixel; none: the film's own
+  film::Eye eye = film::Eye::middle;
   wire::Mapping mapping = wire::Mapping::cost;
   wire::Exchange exchange = wire::Exchange::automatic;
   Intervals intervals = Intervals::automatic;
