@@ -7,9 +7,9 @@ namespace mars::node {
 Canvas::Canvas(const wire::PackedFilm& film, const raster::Neighbours& neighbours, const Memory& memory,
                simd::InstructionSet set)
     : scene(film),
-      z_buffer(set, film.settings().width, scene.pattern()),
+      z_buffer(set, film.settings().width, scene.pattern(), scene.projection().nothing),
       still(neighbours, film.settings().width, film.settings().height, scene.pattern(), memory.still,
-            film.casting_count()),
+            film.casting_count(), scene.projection().nothing),
       sums(film.settings().height),
       triangle_exchange(static_cast<std::size_t>(neighbours.group().count), film.settings().height),
       still_exchange(neighbours, still),

@@ -255,7 +255,7 @@ void FrameCounter::see(bool keyframe, Seen& seen) {
     if (!kept_.has(line_of(i))) continue;
     SampledLine& line = sampled_[i];
     if (keyframe) {
-      line.constant_depth.assign(ids_.size(), 0.0f);
+      line.constant_depth.assign(ids_.size(), scene_.projection().nothing);
       seen.constant[i] = draw(shadow::Casting::still, line.stationary, line_of(i), line.constant_depth);
     }
     if (!line.moving.empty()) {

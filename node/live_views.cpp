@@ -15,11 +15,12 @@ std::vector<std::uint64_t> words_of(std::span<const std::byte> bytes) {
   return words;
 }
 
-// Whether pictures of one take the same memory as those of the other.
+// Whether pictures of one take the same memory as those of the other, with depths of the same kind.
 bool are_alike(const wire::PackedFilm& a, const wire::PackedFilm& b) {
   const wire::FilmSettings &one = a.settings(), &other = b.settings();
   return one.width == other.width && one.height == other.height && one.samples == other.samples &&
-         a.casting_count() == b.casting_count() && a.patch_instances() == b.patch_instances();
+         a.camera_at(0).projection == b.camera_at(0).projection && a.casting_count() == b.casting_count() &&
+         a.patch_instances() == b.patch_instances();
 }
 
 }  // namespace

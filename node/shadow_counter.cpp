@@ -112,9 +112,10 @@ bool ShadowCounter::is_lit(const geometry::Scene& scene, const geometry::EyeLigh
                           value_at(t, shape::kNormalZ, x, y)};
   if (light.kind == wire::LightKind::directional) return dot(normal, light.vector) > 0;
   const shape::Projection& p = scene.projection();
-  const float w = 1 / line.depths[sample * line.stride + column];
-  const std::array to{light.vector[0] - (x / shape::kSubpixels - p.center[0]) / p.scale * w,
-                      light.vector[1] - (p.center[1] - y / shape::kSubpixels) / p.scale * w, light.vector[2] + w};
+  const float depth = line.depths[sample * line.stride + column], w = p.parallel ? -depth : 1 / depth;
+  const float spread = p.parallel ? 1 : w;
+  const std::array to{light.vector[0] - (x / shape::kSubpixels - p.center[0]) / p.scale * spread,
+                      light.vector[1] - (p.center[1] - y / shape::kSubpixels) / p.scale * spread, light.vector[2] + w};
   if (dot(normal, to) <= 0) return false;
   return light.kind != wire::LightKind::spot || -dot(light.axis, to) > light.cos_outer * std::sqrt(dot(to, to));
 }
@@ -144,16 +145,16 @@ double ShadowCounter::add(const geometry::Scene& scene, Casting seen, const Seen
 // A quarter of a vector each: as wide as squares of nodes' points are.
 void ShadowCounter::add_stretch(Light& light, Casting seen, const SeenLine& line, std::uint32_t first,
                                 std::uint32_t active, double points) {
-  float inverse_w[kColumns] = {};
+  float depths[kColumns] = {};
   for (std::uint32_t left = active; left != 0; left &= left - 1) {
     const int k = std::countr_zero(left);
-    inverse_w[k] = line.depths[first + static_cast<std::uint32_t>(k)];
+    depths[k] = line.depths[first + static_cast<std::uint32_t>(k)];
   }
   for (std::uint32_t from = 0; from < kColumns; from += kSquare) {
     const std::uint32_t some = active & ((1u << kSquare) - 1) << from;
     const double part = active != 0 ? std::popcount(some) / static_cast<double>(std::popcount(active)) : 0;
     const auto on = [&](const shadow::LightView& view, std::uint32_t lanes) {
-      return stretch_on(view, light.views.frame, {line.number, first, lanes, inverse_w, points * part});
+      return stretch_on(view, light.views.frame, {line.number, first, lanes, depths, points * part});
     };
     for (std::size_t view = 0; view < light.counted.size(); ++view)
       light.seen[number(seen)][view].all.push_back(
@@ -186,8 +187,8 @@ ShadowCounter::Stretch ShadowCounter::stretch_on(const shadow::LightView& view, 
     places.x[k] = static_cast<float>(k) + 0.5f;
     places.y[k] = 0.5f;
   }
-  kernels_.put_points(view, frame, static_cast<float>(seen.first), static_cast<float>(seen.line), places,
-                      seen.inverse_w, seen.active, stretch.seen);
+  kernels_.put_points(view, frame, static_cast<float>(seen.first), static_cast<float>(seen.line), places, seen.depths,
+                      seen.active, stretch.seen);
   if (stretch.seen.active == 0) stretch.seen.box = shadow::kNowhere;
   stretch.points = seen.points * std::popcount(stretch.seen.active) / std::popcount(seen.active);
   return stretch;

@@ -66,7 +66,7 @@ class ShadowCounter {
   struct SeenStretch {
     std::uint32_t line, first;  // column
     std::uint32_t active;       // one bit a column
-    const float* inverse_w;
+    const float* depths;
     double points;
   };
   // Those that one view sees, by place of the line among those added, then by column.

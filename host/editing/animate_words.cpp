@@ -117,7 +117,8 @@ class AnimateCommand {
 
 constexpr const char* kThing = "An actor, camera, light/N (from 1) or material/NAME. Example: robot";
 constexpr const char* kParts =
-    "Only these joints, place or turn (camera: eye, at, up, fov), or all that match a pattern. Example: elbow place "
+    "Only these joints, place or turn (camera: eye, at, up, fov, height, shift), or all that match a pattern. Example: "
+    "elbow place "
     "'*-shin'";
 constexpr const char* kOneFrame = "The frame. Example: --frame 24";
 constexpr const char* kRange = "The frame, or a range of frames, both ends included. Example: --frame 24-48";

@@ -40,12 +40,15 @@ void Drawing::begin(const wire::Camera& camera, const Color& background, double 
   fade_ = (1 - kDimmest) / std::max(static_cast<float>(farthest) - nearest_, 1e-6f);
   background_ = pixel_of_color(background);
   std::fill(image_.pixels.begin(), image_.pixels.end(), background_);
-  std::fill(closest_.begin(), closest_.end(), 0.0f);
+  std::fill(closest_.begin(), closest_.end(), kUnseen);
 }
 
 void Drawing::look(const wire::Camera& camera) {
   camera_ = camera;
   near_ = static_cast<float>(camera.near);
+  parallel_ = camera.projection == wire::Projection::orthographic;
+  center_[0] = static_cast<float>((0.5 - camera.shift_x) * image_.width);
+  center_[1] = static_cast<float>((0.5 + camera.shift_y) * image_.height);
 }
 
 void Drawing::place(const Placing& to_world) {
@@ -120,9 +123,10 @@ void Drawing::draw(const Lines& lines, const Placing& to_world, const Color& col
   const std::uint32_t pixel = pixel_of_color(color);
   for (std::size_t i = 0; i + 1 < lines.ends.size(); i += 2) {
     const Spot &from = spots_[lines.ends[i]], &to = spots_[lines.ends[i + 1]];
-    if (from.closeness > 0 && to.closeness > 0)
+    const bool from_is_seen = from.closeness > kUnseen, to_is_seen = to.closeness > kUnseen;
+    if (from_is_seen && to_is_seen)
       draw_line(from, to, pixel);
-    else if (from.closeness > 0 || to.closeness > 0)
+    else if (from_is_seen || to_is_seen)
       join(&lines.points[3 * lines.ends[i]], &lines.points[3 * lines.ends[i + 1]], color);
   }
   for (std::size_t i = 0; i < lines.dots; ++i) draw_dot(spots_[i], pixel);
@@ -137,10 +141,10 @@ Drawing::Place Drawing::place_of(const float* point) const {
 }
 
 Drawing::Spot Drawing::project(const Place& place) const {
-  if (!(place.w >= near_)) return {0, 0, 0};
+  if (!(place.w >= near_)) return {0, 0, kUnseen};
+  if (parallel_) return {place.x + center_[0], place.y + center_[1], -place.w};
   const float closeness = 1 / place.w;
-  return {place.x * closeness + 0.5f * static_cast<float>(image_.width),
-          place.y * closeness + 0.5f * static_cast<float>(image_.height), closeness};
+  return {place.x * closeness + center_[0], place.y * closeness + center_[1], closeness};
 }
 
 // A line with one end before the near plane: the other end is put there.
@@ -193,12 +197,12 @@ void Drawing::draw_line(Spot from, Spot to, std::uint32_t color) {
 }
 
 void Drawing::draw_dot(const Spot& spot, std::uint32_t color) {
-  if (spot.closeness <= 0 || !(spot.x >= 0 && spot.x < static_cast<float>(image_.width)) ||
+  if (spot.closeness <= kUnseen || !(spot.x >= 0 && spot.x < static_cast<float>(image_.width)) ||
       !(spot.y >= 0 && spot.y < static_cast<float>(image_.height)))
     return;
   color = dimmed(color, spot.closeness);
-  color += (0xffffffu - color) >> 1 & 0x7f7f7fu;    // half way to white
-  const float closeness = spot.closeness * 1.001f;  // over its own lines
+  color += (0xffffffu - color) >> 1 & 0x7f7f7fu;                               // half way to white
+  const float closeness = spot.closeness + 0.001f * std::abs(spot.closeness);  // over its own lines
   const std::uint32_t before = (stroke_.dot - 1) / 2;
   const auto from = [&](float middle) {
     const auto at = static_cast<std::uint32_t>(middle);
@@ -217,7 +221,7 @@ void Drawing::plot(std::uint32_t x, std::uint32_t y, float closeness, std::uint3
 }
 
 std::uint32_t Drawing::dimmed(std::uint32_t color, float closeness) const {
-  const float bright = 1 - (1 / closeness - nearest_) * fade_;
+  const float bright = 1 - (distance_of(closeness) - nearest_) * fade_;
   const auto part = static_cast<std::uint32_t>(std::clamp(bright, kDimmest, 1.0f) * 256);
   const auto mixed = [&](std::uint32_t mask) {
     return ((color & mask) * part + (background_ & mask) * (256 - part)) >> 8 & mask;

@@ -33,12 +33,13 @@ class Drawing {
   const images::Image& image() const { return image_; }
 
  private:
-  // On the screen, pixels from the top left corner; `closeness` is 1 / distance along the camera's axis, 0 or less:
-  // nearer than its near plane.
+  // On the screen, pixels from the top left corner; `closeness` is 1 / distance along the camera's axis, or, if
+  // orthographic, -distance; kUnseen: nearer than its near plane.
   struct Spot {
     float x, y, closeness;
   };
-  // Before the division: x' = x / w + center.
+  static constexpr float kUnseen = -3.4e38f;
+  // Before the division: x' = x / w + center, or, if orthographic, x + center.
   struct Place {
     float x, y, w;
   };
@@ -52,15 +53,18 @@ class Drawing {
   void cover(const Place& a, const Place& b, const Place& c);
   void cover(Spot a, Spot b, Spot c);
   void plot(std::uint32_t x, std::uint32_t y, float closeness, std::uint32_t color);
+  float distance_of(float closeness) const { return parallel_ ? -closeness : 1 / closeness; }
   std::uint32_t dimmed(std::uint32_t color, float closeness) const;
 
   images::Image image_;
   Stroke stroke_;
-  std::vector<float> closest_;  // of each pixel; 0: nothing there
+  std::vector<float> closest_;  // of each pixel; kUnseen: nothing there
   std::vector<Spot> spots_;
   std::vector<Place> places_;
   Placing to_screen_{};  // of the lines being drawn: x, y before the division and w
   wire::Camera camera_{};
+  bool parallel_ = false;
+  float center_[2] = {};
   float near_ = 0;
   float nearest_ = 0, fade_ = 0;
   std::uint32_t background_ = 0;

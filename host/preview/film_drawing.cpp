@@ -109,8 +109,12 @@ void FilmDrawing::draw_axes(Drawing& drawing, const wire::Camera& camera, std::u
   const auto width = static_cast<float>(drawing.image().width), height = static_cast<float>(drawing.image().height);
   wire::Camera still = camera;
   for (auto& row : still.world_to_eye.m) row[3] = 0;
-  const double distance = 4 * camera.near, scale = camera.focal * height / 2 / distance;  // pixels a length there
+  still.shift_x = still.shift_y = 0;
+  const bool parallel = camera.projection == wire::Projection::orthographic;
+  const double anywhere = camera.focal * height / 2, near_distance = 4 * camera.near;
+  const double scale = parallel ? anywhere : anywhere / near_distance;  // pixels a length there
   const double size = 0.06 * height / scale, margin = 0.09 * height;
+  const double distance = parallel ? camera.near + 2 * size : near_distance;
   still.world_to_eye.m[0][3] = (margin - width / 2) / scale;
   still.world_to_eye.m[1][3] = (margin - height / 2) / scale;
   still.world_to_eye.m[2][3] = -distance;

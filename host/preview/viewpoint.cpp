@@ -50,12 +50,26 @@ Orbit orbit_near(const wire::Camera& camera, const Ball& subject) {
   orbit.turn = std::atan2(out.y, out.x) / modeler::kDegree;
   orbit.height = std::atan2(out.z, std::hypot(out.x, out.y)) / modeler::kDegree;
   // As large as the camera showed it.
-  orbit.distance = std::max(depth * kFocal / camera.focal, 1e-6);
+  const double shown_at = camera.projection == wire::Projection::orthographic ? 1 : depth;
+  orbit.distance = std::max(shown_at * kFocal / camera.focal, 1e-6);
   return orbit;
 }
 
-glm::dvec3 eye_of(const Orbit& orbit, double focal) {
-  return orbit.center + orbit.distance * focal / kFocal * outward(orbit);
+glm::dvec3 eye_of(const Orbit& orbit, const wire::Camera& camera) {
+  const double lens = camera.projection == wire::Projection::orthographic ? 1 : camera.focal / kFocal;
+  return orbit.center + orbit.distance * lens * outward(orbit);
+}
+
+double height_of(const Orbit& orbit) { return 2 * orbit.distance / kFocal; }
+
+wire::Camera parallel_camera_of(const Orbit& orbit) {
+  constexpr double kAway = 16;  // before all that is shown
+  Orbit away = orbit;
+  away.distance *= kAway;
+  wire::Camera camera = camera_of(away);
+  camera.projection = wire::Projection::orthographic;
+  camera.focal = 2 / height_of(orbit);
+  return camera;
 }
 
 wire::Camera camera_of(const Orbit& orbit) {
@@ -101,6 +115,8 @@ animator::Film turntable(modeler::Model model, const std::string& source) {
   film.camera.at = animator::constant(animator::Point{});
   film.camera.up = animator::constant(glm::dvec3(0, 0, 1));
   film.camera.fov = animator::constant(kFov);
+  film.camera.height = animator::constant(1.0);
+  film.camera.shift = animator::constant(glm::dvec2(0));
   film.camera.exposure = animator::constant(0.0);
   film.lights = animator::rig_lights(film);
   film.ambient = animator::rig_ambient(film.color);

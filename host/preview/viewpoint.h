@@ -33,9 +33,13 @@ Orbit orbit_near(const wire::Camera& camera, const Ball& subject);
 
 wire::Camera camera_of(const Orbit& orbit);
 
-// Where a camera of this focal length stands that looks at the orbit's center and shows it as large: orbit_near()'s
-// inverse.
-glm::dvec3 eye_of(const Orbit& orbit, double focal);
+// In parallel projection: what is as far away as the center it shows as large.
+wire::Camera parallel_camera_of(const Orbit& orbit);
+
+// Where a camera of this projection and focal length stands that looks at the orbit's center and, in perspective, shows
+// it as large: orbit_near()'s inverse. In parallel projection its picture must be height_of() high for that.
+glm::dvec3 eye_of(const Orbit& orbit, const wire::Camera& camera);
+double height_of(const Orbit& orbit);
 
 // Plain materials in place of those that a model leaves to its film.
 std::vector<animator::MaterialMotion> lent_materials(const modeler::Model& model);

@@ -33,9 +33,10 @@ PictureBounds picture_box(const float (*points)[3], int count, const shape::Proj
   for (int i = 0; i < count; ++i) {
     const double w = -double{points[i][2]};
     if (!(w >= projection.near)) return {{0, picture.height}, {0, picture.width}};
-    x.add(projection.center[0] + projection.scale * points[i][0] / w);
-    y.add(projection.center[1] - projection.scale * points[i][1] / w);
-    nearest = std::min(nearest, w);
+    const double spread = projection.parallel ? 1 : w;
+    x.add(projection.center[0] + projection.scale * points[i][0] / spread);
+    y.add(projection.center[1] - projection.scale * points[i][1] / spread);
+    nearest = std::min(nearest, spread);
     for (const float along : points[i]) reach = std::max(reach, std::abs(double{along}));
   }
   const double margin = kMargin + kRounding * projection.scale * reach / nearest;

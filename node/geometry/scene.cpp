@@ -9,7 +9,9 @@
 namespace mars::geometry {
 namespace {
 
-constexpr float kGuardPixels = 32768;  // screen places stay below 2^24 / 256, exact in a float
+// Screen places stay below 2^24 / 256, exact in a float, however the picture is shifted.
+constexpr float kGuardPixels = 32768;
+static_assert(kGuardPixels + wire::kMaxSide * (0.5 + wire::kMostShift) < (1 << 24) / 256);
 
 EyeLight to_eye(const wire::Light& light, const wire::Matrix& world_to_eye) {
   EyeLight out = light;
@@ -42,10 +44,22 @@ ShapeBoxes::Box box_of(const wire::PackedFilm& film, std::uint32_t shape) {
 }  // namespace
 
 shape::Projection projection_of(const wire::Camera& camera, std::int32_t width, std::int32_t height) {
+  const bool parallel = camera.projection == wire::Projection::orthographic;
   const auto scale = static_cast<float>(camera.focal * height / 2);
-  const float x = static_cast<float>(width) / 2, y = static_cast<float>(height) / 2;
-  const float corner = scale / std::sqrt(scale * scale + x * x + y * y);
-  return {scale, {x, y}, static_cast<float>(camera.near), static_cast<float>(camera.far), kGuardPixels, corner};
+  const auto center_x = static_cast<float>((0.5 - camera.shift_x) * width);
+  const auto center_y = static_cast<float>((0.5 + camera.shift_y) * height);
+  const float x =
+      std::max(center_x, static_cast<float>(width) - center_x);  // from the view axis to the farthest corner
+  const float y = std::max(center_y, static_cast<float>(height) - center_y);
+  return {.scale = scale,
+          .center = {center_x, center_y},
+          .near = static_cast<float>(camera.near),
+          .far = static_cast<float>(camera.far),
+          .guard = kGuardPixels,
+          .corner = scale / std::sqrt(scale * scale + x * x + y * y),
+          .radius = parallel ? std::sqrt(x * x + y * y) / scale : 0,
+          .nothing = parallel ? shape::kFarthestDepth : 0,
+          .parallel = parallel};
 }
 
 ShapeBoxes::ShapeBoxes(const wire::PackedFilm& film) {
@@ -53,7 +67,10 @@ ShapeBoxes::ShapeBoxes(const wire::PackedFilm& film) {
   for (std::uint32_t shape = 0; shape < film.shape_count(); ++shape) boxes_.push_back(box_of(film, shape));
 }
 
-Scene::Scene(const wire::PackedFilm& film) : film_(film), tolerances_(shape::tolerances_of(film.settings().samples)) {
+Scene::Scene(const wire::PackedFilm& film)
+    : film_(film),
+      tolerances_(shape::tolerances_of(film.settings().samples)),
+      projection_(projection_of(film.camera_at(0), width(), height())) {
   first_patch_.reserve(film.segments().size());
   std::uint32_t next = 0;
   for (const wire::Segment& segment : film.segments()) {

@@ -73,7 +73,7 @@ class Scene {
   std::vector<wire::MovedSegment> moved_;
   std::vector<std::uint32_t> moved_at_;  // by segment: its place in moved_ and one; 0: it is not there
   std::uint32_t frame_ = 0;
-  shape::Projection projection_{};
+  shape::Projection projection_;
   std::vector<std::size_t> light_order_;  // numbers of tracks
   std::uint32_t casting_count_;
   std::vector<EyeLight> lights_;

@@ -102,8 +102,9 @@ class View {
   };
 
   void add(const Point& place, double w, Bounds& bounds) const {
-    const double x = projection_.center[0] + projection_.scale * place[0] / w;
-    const double y = projection_.center[1] - projection_.scale * place[1] / w;
+    const double spread = projection_.parallel ? 1 : w;
+    const double x = projection_.center[0] + projection_.scale * place[0] / spread;
+    const double y = projection_.center[1] - projection_.scale * place[1] / spread;
     bounds.low_x = std::min(bounds.low_x, x), bounds.high_x = std::max(bounds.high_x, x);
     bounds.low_y = std::min(bounds.low_y, y), bounds.high_y = std::max(bounds.high_y, y);
   }
@@ -190,7 +191,9 @@ class Shadows {
     double w = 0;
     const Hull corners = corners_of(receiver.low, receiver.high);
     for (const Point& corner : corners.all()) w = std::max(w, -moved(camera_.world_to_eye, corner)[2]);
-    w = std::min(w, double{p.far}) / p.corner;
+    w = std::min(w, double{p.far});
+    if (p.parallel) return 1 / (16.0 * p.scale) + (w + p.radius) / (1 << 18) + p.far / (1 << 22);
+    w /= p.corner;
     return w * (1 / (64.0 * p.scale) + 1.0 / (1 << 18)) + w * w / p.near / (1 << 22);
   }
 

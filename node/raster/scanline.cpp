@@ -6,9 +6,9 @@
 
 namespace mars::raster {
 
-ZBuffer::ZBuffer(simd::InstructionSet set, std::uint32_t width, const shape::SamplePattern& pattern)
+ZBuffer::ZBuffer(simd::InstructionSet set, std::uint32_t width, const shape::SamplePattern& pattern, float nothing)
     : shading_kernels_(shading::shading_kernels(set)),
-      z_line_(set, width, pattern),
+      z_line_(set, width, pattern, nothing),
       groups_(set, several() ? width : 0, samples_a_pixel()),
       still_end_(several() ? width : 0),
       still_groups_(still_end_.size() * samples_a_pixel()) {}

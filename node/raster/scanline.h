@@ -28,7 +28,8 @@ struct DrawnCounts {
 
 class ZBuffer {
  public:
-  ZBuffer(simd::InstructionSet set, std::uint32_t width, const shape::SamplePattern& pattern);
+  // `nothing`: as in shape::Projection.
+  ZBuffer(simd::InstructionSet set, std::uint32_t width, const shape::SamplePattern& pattern, float nothing = 0);
 
   // Draws `lines`: what stands still (CFB), and against it what moves (MFB). Lines of `still` are written to it.
   void draw_keyframe(LineParts parts, const geometry::LineRange& lines, const shading::Shading& shading,

@@ -71,17 +71,20 @@ std::int64_t determinant(const Corners& t) {
 float sum_of_sizes(const float* a) { return std::abs(a[0]) + std::abs(a[1]) + std::abs(a[2]); }
 
 // Whether the surface's outside by the vertices' normals is turned to the eye, on average.
-bool normals_face_eye(const shape::Vertices& v, const shape::Corner3& corners) {
+bool normals_face_eye(const shape::Vertices& v, const shape::Corner3& corners, bool parallel) {
   float toward = 0;
   for (const std::uint32_t corner : {corners.a, corners.b, corners.c})
-    for (int axis = 0; axis < 3; ++axis) toward -= v.normal[axis][corner] * v.place[axis][corner];
+    if (parallel)
+      toward += v.normal[2][corner];
+    else
+      for (int axis = 0; axis < 3; ++axis) toward -= v.normal[axis][corner] * v.place[axis][corner];
   return toward > 0;
 }
 
 // Whether the eye is on the side of the triangle to which (b - a) x (c - a) points. Asked of the places before
 // snapping, which can turn a thin triangle over; where even these are in a line but for rounding (beside the
 // tip of a cone), the normals decide. Else such a triangle would be lit from behind.
-bool faces_eye(const shape::Vertices& v, const shape::Corner3& corners) {
+bool faces_eye(const shape::Vertices& v, const shape::Corner3& corners, bool parallel) {
   constexpr float kRounding = 1e-6f;
   float a[3], b[3], c[3];
   for (int axis = 0; axis < 3; ++axis) {
@@ -89,11 +92,15 @@ bool faces_eye(const shape::Vertices& v, const shape::Corner3& corners) {
     b[axis] = v.place[axis][corners.b] - a[axis];
     c[axis] = v.place[axis][corners.c] - a[axis];
   }
-  const float volume =
-      a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
-  const float away = sum_of_sizes(a);
-  const float doubt = kRounding * away * away * (sum_of_sizes(b) + sum_of_sizes(c));
-  return std::abs(volume) > doubt ? volume < 0 : normals_face_eye(v, corners);
+  const float away = sum_of_sizes(a), sides = sum_of_sizes(b) + sum_of_sizes(c);
+  const float across = b[0] * c[1] - b[1] * c[0];
+  if (parallel) {
+    const bool sure = std::abs(across) > kRounding * away * sides;
+    return sure ? across > 0 : normals_face_eye(v, corners, parallel);
+  }
+  const float volume = a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * across;
+  const float doubt = kRounding * away * away * sides;
+  return std::abs(volume) > doubt ? volume < 0 : normals_face_eye(v, corners, parallel);
 }
 
 // Of a piece of a clipped triangle. Its corners may be as far out as the guard band, where differences of products of
@@ -202,7 +209,7 @@ void SetUp::add_one(const shape::Vertices& v, const shape::Corner3& corners, con
 
 void SetUp::add_clipped(const shape::Vertices& v, const shape::Corner3& corners, const PatchIdentity& identity,
                         SetUps& out) const {
-  const bool faces = faces_eye(v, corners);
+  const bool faces = faces_eye(v, corners, projection_.parallel);
   const auto* varying = v.colors ? v.colors[faces ? 0 : 1].color : v.normal;
   geometry::ClipPolygon polygon;
   for (const std::uint32_t corner : {corners.a, corners.b, corners.c}) {
@@ -245,7 +252,7 @@ void SetUp::add_whole(const shape::Vertices& v, const shape::Corner3& corners, s
   if (area == 0) return;
   const bool sure = std::abs(area) > kThin * (std::abs(t.x[1] - t.x[0]) + std::abs(t.y[1] - t.y[0]) +
                                               std::abs(t.x[2] - t.x[0]) + std::abs(t.y[2] - t.y[0]));
-  const bool faces = known ? *known : sure ? area < 0 : faces_eye(v, corners);
+  const bool faces = known ? *known : sure ? area < 0 : faces_eye(v, corners, projection_.parallel);
   if (identity.one_sided && faces == identity.mirrored) return;
   const Outline outline(t, width_, height_, pattern_);
   if (!add_boxes(outline, identity.moving, out)) return;

@@ -32,10 +32,12 @@ const std::byte* unpack_columns(const std::byte* from, MarkedTiles tiles, std::u
 }  // namespace
 
 StillLines::StillLines(const Neighbours& neighbours, std::uint32_t width, std::uint32_t height,
-                       const shape::SamplePattern& pattern, std::uint64_t bytes_a_node, std::uint32_t casting)
+                       const shape::SamplePattern& pattern, std::uint64_t bytes_a_node, std::uint32_t casting,
+                       float nothing)
     : width_(width),
       samples_(static_cast<std::uint32_t>(pattern.count)),
       casting_(casting),
+      nothing_(nothing),
       has_groups_(samples_ > 1 || casting > 0),
       plan_(wire::plan_still_lines(width, height, samples_, bytes_a_node * neighbours.nodes().size(), casting)),
       memory_(neighbours,
@@ -295,17 +297,16 @@ void StillLines::unpack(std::span<const std::byte> line) {
   std::ranges::copy(received_tiles_, tiles(head.line).begin());
   unpack_counts(head.line, packed->counts);
   const std::byte* from = packed->depths.data();
-  const auto unpack_shown = [&](auto* row) {
-    visit_columns(tiles(head.line), width_, [&](std::uint32_t first, std::uint32_t last) {
-      std::fill(row + first, row + last, std::remove_pointer_t<decltype(row)>{});
-    });
+  const auto unpack_shown = [&]<typename Value>(Value* row, const Value& nothing) {
+    visit_columns(tiles(head.line), width_,
+                  [&](std::uint32_t first, std::uint32_t last) { std::fill(row + first, row + last, nothing); });
     visit_shown(head.line, [&](std::uint32_t first, std::uint32_t last) {
       std::memcpy(row + first, from, (last - first) * sizeof *row);
       from += (last - first) * sizeof *row;
     });
   };
-  for (std::size_t s = 0; s < samples_; ++s) unpack_shown(depths(head.line) + s * width_);
-  for (std::size_t l = 0; l < casting_; ++l) unpack_shown(pairs(head.line) + l * width_);
+  for (std::size_t s = 0; s < samples_; ++s) unpack_shown(depths(head.line) + s * width_, nothing_);
+  for (std::size_t l = 0; l < casting_; ++l) unpack_shown(pairs(head.line) + l * width_, wire::StillPairs{});
   forget_pairs(head.line);
   unpack_groups(head.line, packed->groups);
 }

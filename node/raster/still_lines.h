@@ -56,9 +56,11 @@ struct UnsummedStill {
 class StillLines {
  public:
   // Of the caller's group: each of its nodes on this machine adds `bytes_a_node`. `casting` lights cast. Pages are used
-  // as lines are written. Collective over a machine's nodes. Throws Failure where memory is short.
+  // as lines are written. `nothing`: as in shape::Projection. Collective over a machine's nodes. Throws Failure where
+  // memory is short.
   StillLines(const Neighbours& neighbours, std::uint32_t width, std::uint32_t height,
-             const shape::SamplePattern& pattern, std::uint64_t bytes_a_node, std::uint32_t casting = 0);
+             const shape::SamplePattern& pattern, std::uint64_t bytes_a_node, std::uint32_t casting = 0,
+             float nothing = 0);
 
   // Lines that will be written in the interval of this keyframe; those of other keyframes are kept no longer. An
   // interval that is cut has several keyframes.
@@ -159,6 +161,7 @@ class StillLines {
   std::uint32_t width_;
   std::uint32_t samples_;
   std::uint32_t casting_;
+  float nothing_;
   bool has_groups_;
   wire::StillPlan plan_;
   NeighboursMemory memory_;

@@ -34,12 +34,14 @@ shading::Extent moving_extent(LineParts parts, std::uint32_t line) {
   return extent;
 }
 
-ZLine::ZLine(simd::InstructionSet set, std::uint32_t width, const shape::SamplePattern& pattern)
+ZLine::ZLine(simd::InstructionSet set, std::uint32_t width, const shape::SamplePattern& pattern, float nothing)
     : kernels_(raster_kernels(set)),
       pattern_(pattern),
+      nothing_(nothing),
       stride_(stride_of(width)),
       depths_(static_cast<std::size_t>(pattern.count) * stride_ / simd::kVectorSlack),
       ids_(depths_.size()) {
+  std::fill_n(depth(0), depths_.size() * simd::kVectorSlack, nothing);
   std::fill_n(ids(0), ids_.size() * simd::kVectorSlack, shading::kNoTriangle);
 }
 
@@ -61,7 +63,7 @@ shading::Extent ZLine::draw(LineParts parts, BoxesOf kind, const geometry::Trian
 void ZLine::forget_depths(const shading::Extent& extent) {
   if (is_empty(extent)) return;
   for (std::uint32_t s = 0; s < samples_a_pixel(); ++s)
-    std::fill(depth(s) + extent.first, depth(s) + extent.last, 0.0f);
+    std::fill(depth(s) + extent.first, depth(s) + extent.last, nothing_);
 }
 
 void ZLine::forget_ids(const shading::Extent& extent) {

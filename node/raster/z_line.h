@@ -23,14 +23,15 @@ bool any_boxes(LineParts parts, BoxesOf kind, std::uint32_t line);
 // Columns that moving parts' boxes span.
 shading::Extent moving_extent(LineParts parts, std::uint32_t line);
 
-// Depths are 0 and ids kNoTriangle between lines.
+// Depths are `nothing` (shape::Projection) and ids kNoTriangle between lines.
 class ZLine {
  public:
-  ZLine(simd::InstructionSet set, std::uint32_t width, const shape::SamplePattern& pattern);
+  ZLine(simd::InstructionSet set, std::uint32_t width, const shape::SamplePattern& pattern, float nothing = 0);
 
   // Draws the line's edge boxes of one kind over what is there; says which columns they span.
   shading::Extent draw(LineParts parts, BoxesOf kind, const geometry::Triangle* triangles, std::uint32_t line);
 
+  float nothing() const { return nothing_; }
   std::uint32_t samples_a_pixel() const { return static_cast<std::uint32_t>(pattern_.count); }
   LineSamples samples() { return {depths_.front().samples, ids_.front().samples, stride_}; }
   float* depth(std::uint32_t sample) { return depths_.front().samples + sample * stride_; }
@@ -49,6 +50,7 @@ class ZLine {
 
   const RasterKernels& kernels_;
   shape::SamplePattern pattern_;
+  float nothing_;
   std::uint32_t stride_;        // samples of a row, with kVectorSlack to spare
   std::vector<Depths> depths_;  // row by row
   std::vector<Ids> ids_;        // of the same samples

@@ -26,13 +26,13 @@ Vector cross(const Vector& a, const Vector& b) {
 }
 
 // Of a triangle's plane; the vertices' where its corners are in a line but for rounding. Turned to the eye; any length.
-Vector normal_to_eye(const shape::Vertices& v, const shape::Corner3& corners, const Vector& middle) {
+Vector normal_to_eye(const shape::Vertices& v, const shape::Corner3& corners, const Vector& from_eye) {
   constexpr float kRounding = 1e-6f;
   const Vector a = at(v.place, corners.a), b = at(v.place, corners.b) - a, c = at(v.place, corners.c) - a;
   Vector normal = cross(b, c);
   if (dot(normal, normal) <= kRounding * kRounding * dot(b, b) * dot(c, c))
     normal = at(v.normal, corners.a) + at(v.normal, corners.b) + at(v.normal, corners.c);
-  return dot(normal, middle) > 0 ? -1.0f * normal : normal;
+  return dot(normal, from_eye) > 0 ? -1.0f * normal : normal;
 }
 
 }  // namespace
@@ -88,7 +88,8 @@ const shape::Surface& ColoredSurface::by_triangles(const shape::Surface& surface
   copy_corners(surface.vertices(), triangles.a + first, 0, count);
   copy_corners(surface.vertices(), triangles.b + first, kFlat, count);
   copy_corners(surface.vertices(), triangles.c + first, 2 * kFlat, count);
-  find_middles(surface.vertices(), triangles, first, count);
+  const bool parallel = coloring.shading.projection.parallel;
+  find_middles(surface.vertices(), triangles, first, count, parallel);
   shape::Vertices middles = own_;  // the values' 1 / w are those of the first corners
   for (std::size_t axis = 0; axis < 3; ++axis) {
     middles.place[axis] = middles_.get() + axis * kMiddles;
@@ -96,7 +97,7 @@ const shape::Surface& ColoredSurface::by_triangles(const shape::Surface& surface
   }
   sides_[0] = sides_[1] = outside_.view();
   shading_kernels_.shade_vertices(coloring.shading, coloring.material, 1, middles, count, sides_[0]);
-  spread_colors(count);
+  spread_colors(count, parallel);
   vertices_.colors = sides_;
   return *this;
 }
@@ -117,28 +118,28 @@ void ColoredSurface::copy_corners(const shape::Vertices& from, const std::uint32
 }
 
 void ColoredSurface::find_middles(const shape::Vertices& from, const shape::Triangles& triangles, std::uint32_t first,
-                                  std::uint32_t count) {
+                                  std::uint32_t count, bool parallel) {
   for (std::uint32_t k = 0; k < count; ++k) {
     const shape::Corner3 corners = triangles[first + k];
     const Vector middle =
         (1.0f / 3) * (at(from.place, corners.a) + at(from.place, corners.b) + at(from.place, corners.c));
-    const Vector normal = normal_to_eye(from, corners, middle);
+    const Vector normal = normal_to_eye(from, corners, parallel ? Vector{0, 0, -1} : middle);
     const float numbers[] = {middle.x, middle.y, middle.z, normal.x, normal.y, normal.z};
     for (std::size_t i = 0; i < 6; ++i) middles_[i * kMiddles + k] = numbers[i];
   }
 }
 
 // Second and third corners get the first one's.
-void ColoredSurface::spread_colors(std::uint32_t count) {
+void ColoredSurface::spread_colors(std::uint32_t count, bool parallel) {
   const shape::VertexColors& colors = sides_[0];
   for (std::uint32_t from = kFlat; from <= 2 * kFlat; from += kFlat)
     for (std::uint32_t k = 0; k < count; ++k) {
       const std::uint32_t corner = from + k;
-      const float depth = own_.values[corner][shape::kDepth];
+      const float depth = own_.values[corner][shape::kDepth], inverse_w = parallel ? 1 : depth;
       colors.values[corner][shape::kDepth] = depth;
       for (int c = 0; c < 3; ++c) {
         colors.color[c][corner] = colors.color[c][k];
-        colors.values[corner][1 + c] = depth * colors.color[c][k];
+        colors.values[corner][1 + c] = inverse_w * colors.color[c][k];
       }
     }
 }

@@ -43,8 +43,8 @@ class ColoredSurface : public shape::Surface {
 
   void copy_corners(const shape::Vertices& from, const std::uint32_t* corners, std::uint32_t at, std::uint32_t count);
   void find_middles(const shape::Vertices& from, const shape::Triangles& triangles, std::uint32_t first,
-                    std::uint32_t count);
-  void spread_colors(std::uint32_t count);
+                    std::uint32_t count, bool parallel);
+  void spread_colors(std::uint32_t count, bool parallel);
 
   const ShadingKernels& shading_kernels_;
   const shape::Vertices own_;

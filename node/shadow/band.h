@@ -12,7 +12,7 @@ namespace mars::shadow {
 
 // One line's samples. Nothing is seen on it where `depth` is nullptr.
 struct LayerLine {
-  const float* depth = nullptr;  // 1 / w by column, row by row of the pattern, `stride` apart; 0: nothing
+  const float* depth = nullptr;  // by column, row by row of the pattern, `stride` apart
   std::size_t stride = 0;
   // Of casting light l and column x at l * width + x.
   wire::StillPairs* pairs = nullptr;  // what matters, and what still casters block of it

@@ -76,10 +76,10 @@ inline constexpr std::int32_t kMostSmall = 32767;
 struct ShadowKernels {
   // Vertices from eye space to the grid; the box of those on it. Places have kVectorSlack to spare.
   GridBox (*project)(const LightView& view, const float* const* place, std::uint32_t count, const GridVertices& out);
-  // Points from their places in the square at (left, top) and their 1 / w; inactive where that is 0 or `active` has no
-  // bit.
+  // Points from their places in the square at (left, top) and their depths; inactive where that is PointFrame::nothing
+  // or `active` has no bit.
   void (*put_points)(const LightView& view, const PointFrame& frame, float left, float top, const LanePlaces& places,
-                     const float* inverse_w, std::uint32_t active, PointVector& out);
+                     const float* depths, std::uint32_t active, PointVector& out);
   // Sets up the triangles of a batch, the next of `out`, whose bounds are empty where none meets `where`; bits of those
   // that are not small, which are left to the caller.
   std::uint32_t (*set_up)(const LightView& view, const GridVertices& vertices, const shape::Triangles& triangles,

@@ -13,7 +13,8 @@
 // w comes from a triangle's plane, which is off by some 2^-23 of the greatest depth there is, 1 / near. Let e be the
 // sum of the four lengths. A surface through the true point is then nearer to the light than the point by at most e (1
 // + s), s the surface's slope towards the view: what is not nearer by more does not block it. This includes the point's
-// own triangle and those that meet it.
+// own triangle and those that meet it. In parallel projection a pixel is as large everywhere, and a depth is off by
+// some 2^-23 of the farthest there is.
 #pragma once
 
 #include <cstdint>
@@ -30,14 +31,16 @@ struct LightView {
   std::uint32_t is_face;  // of six: only points within 45 degrees of its axis are its own
 };
 
-// What points need of a picture: e of a point at distance w along the view axis is (w by_square + by_w) w + grid, and
-// of lights with a place depth * by_depth more.
+// What points need of a picture: e of a point at distance w along the view axis is (w by_square + by_w) w + everywhere,
+// and of lights with a place depth * by_depth more.
 struct PointFrame {
   float scale;  // as in shape::Projection
   float center[2];
+  float nothing;
+  bool parallel;
   float by_w;
   float by_square;
-  float grid;
+  float everywhere;
   float by_depth;
 };
 

@@ -128,11 +128,18 @@ LightView near_view(const Vector& axis, const Vector& place, double nearest, boo
   return view;
 }
 
-// The step is a pixel at the nearest distance that is drawn, but so that the farthest fits the grid.
+// Of places that are drawn, from the eye.
+double farthest_place(const shape::Projection& p) {
+  return p.parallel ? std::hypot(double{p.far}, double{p.radius}) : double{p.far} / p.corner;
+}
+
+// The step is a pixel at the nearest distance that is drawn, of parallel projection a part of a pixel, but so that the
+// farthest fits the grid.
 void see_from_afar(const geometry::EyeLight& light, const shape::Projection& projection, LightViews& out) {
   constexpr double kMostSteps = 1 << 28;
-  const double farthest = double{projection.far} / projection.corner;
-  const double step = std::max(double{projection.near} / projection.scale, farthest / kMostSteps);
+  constexpr double kParallelStep = 1.0 / 256;  // of a pixel, as places are snapped
+  const double finest = projection.parallel ? kParallelStep : double{projection.near};
+  const double step = std::max(finest / projection.scale, farthest_place(projection) / kMostSteps);
   const Vector axis = unit(vector_of(light.vector));
   out.faces = 1;
   out.middle = {far_view(axis, 0, 0, step)};
@@ -141,7 +148,7 @@ void see_from_afar(const geometry::EyeLight& light, const shape::Projection& pro
     out.views.push_back(far_view(axis, light.size * x, light.size * y, step));
   }
   out.spread = static_cast<float>(light.size / step);
-  out.frame.grid = static_cast<float>(2 * step);
+  out.frame.everywhere += static_cast<float>(2 * step);
   out.frame.by_depth = 0;
 }
 
@@ -165,8 +172,25 @@ void see_from_place(const geometry::EyeLight& light, const shape::Projection& pr
     for (const Vector& axis : axes) out.views.push_back(near_view(axis, place, nearest, !one));
   }
   out.spread = static_cast<float>(2 * std::numbers::sqrt2 * light.size / kTangentStep);
-  out.frame.grid = 0;
   out.frame.by_depth = static_cast<float>(2 * kTangentStep + kFloatError);
+}
+
+// But for what the light adds.
+PointFrame point_frame(const shape::Projection& p) {
+  PointFrame frame{};
+  frame.scale = p.scale;
+  std::copy_n(p.center, 2, frame.center);
+  frame.nothing = p.nothing;
+  frame.parallel = p.parallel;
+  const double pixel = 1.0 / (128.0 * p.scale);
+  if (p.parallel) {
+    frame.by_w = static_cast<float>(kFloatError);
+    frame.everywhere = static_cast<float>(pixel + kFloatError * p.radius + kDepthError * p.far);
+  } else {
+    frame.by_w = static_cast<float>(pixel + kFloatError);
+    frame.by_square = static_cast<float>(kDepthError / p.near);
+  }
+  return frame;
 }
 
 }  // namespace
@@ -175,10 +199,7 @@ LightViews light_views(const geometry::EyeLight& light, const shape::Projection&
   LightViews out{};
   out.size = light.size;
   out.points = light.size > 0 ? kLightPoints : 1;
-  out.frame.scale = projection.scale;
-  std::copy_n(projection.center, 2, out.frame.center);
-  out.frame.by_w = static_cast<float>(1.0 / (128.0 * projection.scale) + kFloatError);
-  out.frame.by_square = static_cast<float>(kDepthError / projection.near);
+  out.frame = point_frame(projection);
   if (light.kind == wire::LightKind::directional)
     see_from_afar(light, projection, out);
   else

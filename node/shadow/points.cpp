@@ -33,17 +33,20 @@ TileLines lines_of(const Layer& layer, std::uint32_t top) {
   return lines;
 }
 
-std::uint32_t far_ones(const float* inverse_w, std::uint32_t active) {
+std::uint32_t far_ones(const PointFrame& frame, const float* depths, std::uint32_t active) {
   constexpr float kMostApart = 1.1f;
-  float least = std::numeric_limits<float>::max(), greatest = 0;
+  constexpr float kMostPixelsApart = 64;  // in parallel projection
+  float least = std::numeric_limits<float>::max(), greatest = frame.nothing;
   for (std::uint32_t left = active; left != 0; left &= left - 1) {
-    const float here = inverse_w[std::countr_zero(left)];
+    const float here = depths[std::countr_zero(left)];
     least = std::min(least, here), greatest = std::max(greatest, here);
   }
-  if (greatest <= kMostApart * least) return 0;
+  const bool are_near =
+      frame.parallel ? greatest - least <= kMostPixelsApart / frame.scale : greatest <= kMostApart * least;
+  if (are_near) return 0;
   std::uint32_t far = 0;
   for (std::uint32_t left = active; left != 0; left &= left - 1)
-    if (inverse_w[std::countr_zero(left)] < (least + greatest) / 2) far |= left & -left;
+    if (depths[std::countr_zero(left)] < (least + greatest) / 2) far |= left & -left;
   return far;
 }
 

@@ -117,7 +117,7 @@ TileLines lines_of(const Layer& layer, std::uint32_t top);
 
 // Points far behind the others, which make a vector of their own: a box round both is in nobody's way by itself, but
 // most casters are in its.
-std::uint32_t far_ones(const float* inverse_w, std::uint32_t active);
+std::uint32_t far_ones(const PointFrame& frame, const float* depths, std::uint32_t active);
 
 // Where a square lies in its lines: its first pairs, its first column, and how many there are.
 struct TilePlace {
@@ -129,13 +129,13 @@ struct TilePlace {
 // Of four points next to each other, the first of which is `lane`.
 template <typename Counts>
 std::uint32_t gather_row(const Lane lane, const LayerLine& line, const TilePlace& place, const Counts& counts,
-                         float* inverse_w) {
+                         float* depths) {
   const wire::StillPairs* const pairs = line.pairs + place.pairs + lane.column;
   const std::uint16_t* const moved = line.moved == nullptr ? nullptr : line.moved + place.pairs + lane.column;
   const float* const depth = line.depth + lane.sample * line.stride + place.left + lane.column;
   std::uint32_t active = 0;
   for (std::uint32_t k = 0; k < 4; ++k) {
-    inverse_w[k] = depth[k];
+    depths[k] = depth[k];
     active |= static_cast<std::uint32_t>(counts(pairs[k], lane, moved == nullptr ? std::uint16_t{0} : moved[k])) << k;
   }
   return active;
@@ -144,19 +144,19 @@ std::uint32_t gather_row(const Lane lane, const LayerLine& line, const TilePlace
 // The depths of those points of a vector that count; which they are.
 template <typename Counts>
 std::uint32_t gather(const PointSource& source, const VectorLanes& lanes, const TileLines& lines,
-                     const TilePlace& place, const Counts& counts, float* inverse_w) {
+                     const TilePlace& place, const Counts& counts, float* depths) {
   std::uint32_t active = 0;
   const auto take = [&](std::uint32_t k, const LayerLine& line) {
     const Lane lane = lanes.lane[k];
     const std::size_t at = place.pairs + lane.column;
     const std::uint16_t moved = line.moved == nullptr ? std::uint16_t{0} : line.moved[at];
     active |= static_cast<std::uint32_t>(counts(line.pairs[at], lane, moved)) << k;
-    inverse_w[k] = line.depth[lane.sample * line.stride + place.left + lane.column];
+    depths[k] = line.depth[lane.sample * line.stride + place.left + lane.column];
   };
   if (source.vectors.are_rows() && place.columns == kTile) {
     for (std::uint32_t k = 0; k < kPointLanes; k += 4)
       if (const LayerLine* line = lines[lanes.lane[k].line])
-        active |= gather_row(lanes.lane[k], *line, place, counts, inverse_w + k) << k;
+        active |= gather_row(lanes.lane[k], *line, place, counts, depths + k) << k;
     return active;
   }
   for (std::uint32_t k = 0; k < kPointLanes; ++k)
@@ -168,7 +168,7 @@ std::uint32_t gather(const PointSource& source, const VectorLanes& lanes, const 
 template <typename Counts, typename Visit>
 void for_each_vector(const PointSource& source, const Layer& layer, std::uint32_t tile, const Counts& counts,
                      std::span<const LightView> views, const Visit& visit) {
-  alignas(64) float inverse_w[kPointLanes] = {};
+  alignas(64) float depths[kPointLanes] = {};
   const std::uint32_t left = tile % layer.tiles_across() * kTile, top = tile / layer.tiles_across() * kTile;
   const std::size_t first = std::size_t{source.light} * layer.width + left;
   const std::uint32_t columns = std::min(kTile, layer.width - left);
@@ -176,13 +176,13 @@ void for_each_vector(const PointSource& source, const Layer& layer, std::uint32_
   PointVector points;
   for (std::uint32_t v = 0; v < source.vectors.vectors(); ++v) {
     const VectorLanes& lanes = source.vectors.lanes(source.light_point, v);
-    const std::uint32_t active = gather(source, lanes, lines, {first, left, columns}, counts, inverse_w);
-    const std::uint32_t far = far_ones(inverse_w, active);
+    const std::uint32_t active = gather(source, lanes, lines, {first, left, columns}, counts, depths);
+    const std::uint32_t far = far_ones(source.frame, depths, active);
     for (const std::uint32_t some : {active & ~far, far}) {
       if (some == 0) continue;
       for (std::size_t f = 0; f < views.size(); ++f) {
         source.kernels.put_points(views[f], source.frame, static_cast<float>(left), static_cast<float>(top),
-                                  lanes.place, inverse_w, some, points);
+                                  lanes.place, depths, some, points);
         if (points.active != 0) visit(points, v, f);
       }
     }

@@ -28,7 +28,7 @@ ShadowPainter::ShadowPainter(simd::InstructionSet set, const geometry::Scene& sc
       width_(static_cast<std::uint32_t>(scene.width())),
       samples_(static_cast<std::uint32_t>(scene.pattern().count)),
       casting_(scene.casting_count()),
-      z_line_(set, width_, scene.pattern()),
+      z_line_(set, width_, scene.pattern(), scene.projection().nothing),
       groups_(set, width_, samples_),
       caster_(set, scene, plan),
       bytes_of_line_(band_bytes_of_line(shadow_needs(scene.film()))),
@@ -188,7 +188,7 @@ shading::Extent ShadowPainter::see_moving(const Picture& picture, std::uint32_t 
   copy_depths(depths, extent);
   for (std::uint32_t s = 0; s < samples_; ++s)
     for (std::uint32_t x = extent.first; x < extent.last; ++x)
-      if (z_line_.ids(s)[x] == shading::kNoTriangle) depths[s * width_ + x] = 0;
+      if (z_line_.ids(s)[x] == shading::kNoTriangle) depths[s * width_ + x] = z_line_.nothing();
   layer.pairs = arena_.take<wire::StillPairs>(std::size_t{width_} * casting_).data();
   std::fill_n(layer.pairs, std::size_t{width_} * casting_, wire::StillPairs{0, 0});
   find_lit(picture, line.moving, layer.pairs);
@@ -227,9 +227,9 @@ ShadowPainter::LineGroups ShadowPainter::shade(const Picture& picture, std::uint
 void ShadowPainter::copy_depths(float* to, const shading::Extent& extent) {
   for (std::uint32_t s = 0; s < samples_; ++s) {
     float* const row = to + std::size_t{s} * width_;
-    std::fill_n(row, extent.first, 0.0f);
+    std::fill_n(row, extent.first, z_line_.nothing());
     std::copy_n(z_line_.depth(s) + extent.first, extent.last - extent.first, row + extent.first);
-    std::fill(row + extent.last, row + width_, 0.0f);
+    std::fill(row + extent.last, row + width_, z_line_.nothing());
   }
 }
 

@@ -61,6 +61,7 @@ float distance(const float (*p)[3], int count) {
 // the nearest point, nor than its distance from the eye allows within the picture's corners, where lengths
 // that point away from the middle show longest.
 float magnification(const float (*p)[3], int count, const Projection& projection) {
+  if (projection.parallel) return projection.scale;
   float nearest = -p[0][2];
   for (int i = 1; i < count; ++i) nearest = std::min(nearest, -p[i][2]);
   const float depth = std::max({nearest, projection.near, projection.corner * distance(p, count)});
@@ -173,7 +174,8 @@ Tolerances tolerances_of(std::uint32_t samples) {
 
 // Second differences of the control points, times six, bound the second derivative. Seen from the eye, what of it
 // lies along a ray does not show; across, at depth w, a length shows at most scale |p| / w^2 times, along the ray
-// through p. Both bounds hold for all rays to the curve if they do for those to its control points.
+// through p. Both bounds hold for all rays to the curve if they do for those to its control points. Parallel rays are
+// one.
 int edge_rate(const Curve& curve, const Projection& projection, float tolerance) {
   const auto& p = curve.point;
   float bend = 0, across = 0, nearest = -p[0][2];
@@ -182,9 +184,12 @@ int edge_rate(const Curve& curve, const Projection& projection, float tolerance)
     float second[3];
     for (int axis = 0; axis < 3; ++axis) second[axis] = p[k][axis] - 2 * p[k + 1][axis] + p[k + 2][axis];
     bend = std::max(bend, square_length(second[0], second[1], second[2]));
-    for (const auto& ray : p) across = std::max(across, square_cross(second, ray));
+    if (projection.parallel)
+      across = std::max(across, second[0] * second[0] + second[1] * second[1]);
+    else
+      for (const auto& ray : p) across = std::max(across, square_cross(second, ray));
   }
-  const float depth = std::max(nearest, projection.near);
+  const float depth = projection.parallel ? 1 : std::max(nearest, projection.near);
   return steps(6 * std::min(std::sqrt(bend) * magnification(p, 4, projection),
                             std::sqrt(across) * projection.scale / (depth * depth)),
                tolerance);
@@ -224,12 +229,13 @@ bool unseen(const float (*points)[3], int count, const Projection& projection, f
   for (int i = 0; i < count; ++i) {
     const float* p = points[i];
     const float w = -p[2], x = projection.scale * p[0], y = -projection.scale * p[1];
+    const float spread = projection.parallel ? 1 : w;
     all[0] &= w < projection.near;
     all[1] &= w > projection.far;
-    all[2] &= x < -left * w;
-    all[3] &= x > right * w;
-    all[4] &= y < -above * w;
-    all[5] &= y > below * w;
+    all[2] &= x < -left * spread;
+    all[3] &= x > right * spread;
+    all[4] &= y < -above * spread;
+    all[5] &= y > below * spread;
   }
   return std::any_of(all, all + 6, [](bool outside) { return outside; });
 }

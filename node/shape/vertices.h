@@ -14,7 +14,7 @@ inline constexpr std::int32_t kSubpixels = 256;
 inline constexpr std::int32_t kSampleOffset = kSubpixels / 2;
 
 // The values that a sample takes from a triangle: 1 / w, w the distance along the view axis (greater is nearer), and
-// the eye space normal / w, turned to the eye.
+// the eye space normal / w, turned to the eye. In parallel projection: -w, and the normal.
 enum Value { kDepth, kNormalX, kNormalY, kNormalZ, kValues };
 
 // Bernstein polynomials at i / rate, i = 0..rate: four cubic ones, and three quadratic ones for slopes.
@@ -62,15 +62,20 @@ struct EyeMap {
   float normal[3][3];
 };
 
-// screen x = center[0] + scale * x / w, y = center[1] - scale * y / w, w = -z, in pixels.
+// screen x = center[0] + scale * x / w, y = center[1] - scale * y / w, w = -z, in pixels. In parallel projection
+// nothing is divided by w.
 struct Projection {
   float scale;
   float center[2];
   float near;
   float far;
-  float guard;   // pixels from the centre
-  float corner;  // cosine of the angle between the view axis and the picture's corner
+  float guard;        // pixels from the centre
+  float corner;       // cosine of the angle between the view axis and the picture's farthest corner; not of parallel
+  float radius = 0;   // of parallel projection: from the view axis to that corner, a length of eye space
+  float nothing = 0;  // the depth of samples that show nothing, below all others
+  bool parallel = false;
 };
+inline constexpr float kFarthestDepth = -3.40282347e+38f;  // Projection::nothing of parallel projection
 
 // What vertices have instead of a normal where triangles carry colours, as seen from one side: red, green and blue, and
 // 1 / w, colour / w.

@@ -109,7 +109,9 @@ namespace {
 
 bool sound(const Camera& camera) {
   return sound(camera.world_to_eye) && camera.focal > 0 && camera.focal <= 1e6 && camera.near >= 1e-9 &&
-         camera.far > camera.near && camera.far <= kLargest && camera.exposure > 0 && camera.exposure <= 1e6;
+         camera.far > camera.near && camera.far <= kLargest && camera.exposure > 0 && camera.exposure <= 1e6 &&
+         std::abs(camera.shift_x) <= kMostShift && std::abs(camera.shift_y) <= kMostShift &&
+         camera.projection <= kLastProjection;
 }
 
 bool sound(const Light& light) {
@@ -253,6 +255,7 @@ void PackedFilm::check_all(const std::string& where) const {
   require(all_sound(lights_), where, "a light is out of range");
   require(names_.empty() ? segments_.empty() : names_.back() == '\0', where, "its names do not end");
   require(sound(settings_->camera, changes_, cameras_.size()), where, "the camera's track is broken");
+  require(has_one_projection(), where, "the camera changes its projection");
   for (const Track& track : light_tracks_)
     require(sound(track, changes_, lights_.size()), where, "a light's track is broken");
   check_meshlets(where);
@@ -341,6 +344,11 @@ std::uint32_t PackedFilm::casting_count() const {
 
 const Material& PackedFilm::material_at(const Segment& segment, std::uint32_t frame) const {
   return materials_[value_at(segment.material, frame)];
+}
+
+bool PackedFilm::has_one_projection() const {
+  return std::ranges::all_of(changes_.subspan(settings_->camera.first, settings_->camera.count),
+                             [&](const Change& c) { return cameras_[c.value].projection == camera_at(0).projection; });
 }
 
 const Camera& PackedFilm::camera_at(std::uint32_t frame) const { return cameras_[value_at(settings_->camera, frame)]; }

@@ -119,6 +119,7 @@ class PackedFilm {
   void check_segments(const std::string& where) const;
   void check_intervals(const std::string& where) const;
   bool exposed_evenly(const Interval& interval) const;
+  bool has_one_projection() const;
 
   std::span<const Patch> base_patches_;  // of a scene
   std::span<const Shape> base_shapes_;

@@ -10,7 +10,7 @@
 namespace mars::wire {
 
 // Bumped whenever the layout or the meaning of a field changes; other versions are refused.
-inline constexpr std::uint32_t kFilmVersion = 4;
+inline constexpr std::uint32_t kFilmVersion = 5;
 inline constexpr std::uint32_t kMaxSide = 16384;         // pixels
 inline constexpr std::uint32_t kMostFrames = 1'000'000;  // of a film
 inline constexpr std::uint32_t kMostSamples = 16;        // of a pixel
@@ -167,14 +167,25 @@ enum class ColorSpace : std::uint32_t { coded, linear };
 // From exposed light to what is shown of it, both linear.
 enum class Curve : std::uint32_t { none, filmic };
 
-// The eye looks along -z of its own frame, x to the right, y up. `focal` = 1 / tan(half the vertical field of
-// view). Nothing nearer than near or farther than far is drawn.
+// Rays meet in the eye, or all run along the view axis. As wide as Camera's other members.
+enum class Projection : std::uint64_t { perspective, orthographic };
+inline constexpr Projection kLastProjection = Projection::orthographic;
+
+inline constexpr double kMostShift = 1;  // of a picture's width or height
+
+// The eye looks along -z of its own frame, x to the right, y up. The picture shows 2 / `focal` of the height at
+// distance 1, or, if orthographic, at every distance. Nothing nearer than near or farther than far is drawn.
 struct Camera {
   Matrix world_to_eye;
   double focal;
   double near;
   double far;
   double exposure = 1;  // light is multiplied by it; the same throughout a render interval
+  // How far the picture is moved over the image plane from where the view axis meets it, in widths to the right and in
+  // heights up; kMostShift at most.
+  double shift_x = 0;
+  double shift_y = 0;
+  Projection projection = Projection::perspective;  // the same throughout a film
 
   bool operator==(const Camera&) const = default;
 };

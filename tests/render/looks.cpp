@@ -1,5 +1,6 @@
 #include "tests/render/looks.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace mars::test {
@@ -69,6 +70,22 @@ wire::FilmData casting(wire::FilmData film, std::initializer_list<float> sizes) 
     wire::Light& light = film.lights.at(k++);
     light.casts = size >= 0 ? 1 : 0;
     light.size = size >= 0 ? size : 0;
+  }
+  return film;
+}
+
+wire::FilmData orthographic(wire::FilmData film) {
+  for (wire::Camera& camera : film.cameras) {
+    camera.projection = wire::Projection::orthographic;
+    camera.focal /= std::max(-camera.world_to_eye.m[2][3], 3.0);
+  }
+  return film;
+}
+
+wire::FilmData shifted(wire::FilmData film, double right, double up) {
+  for (wire::Camera& camera : film.cameras) {
+    camera.shift_x = right;
+    camera.shift_y = up;
   }
   return film;
 }

@@ -21,4 +21,10 @@ wire::FilmData richly_lit(wire::FilmData film);
 // Its first lights cast shadows and are as large as said here; negative: does not cast.
 wire::FilmData casting(wire::FilmData film, std::initializer_list<float> sizes);
 
+// In parallel projection: what is as far away as the world's origin is as large as before.
+wire::FilmData orthographic(wire::FilmData film);
+
+// By widths and heights of the picture.
+wire::FilmData shifted(wire::FilmData film, double right, double up);
+
 }  // namespace mars::test

@@ -1,6 +1,9 @@
 #include "tests/render/reference.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
+#include <cstdlib>
 #include <span>
 #include <tuple>
 
@@ -9,6 +12,7 @@
 #include "node/geometry/scene.h"
 #include "node/shape/dice.h"
 #include "node/simd/instruction_set.h"
+#include "tests/render/film_run.h"
 
 namespace mars::test {
 namespace {
@@ -83,6 +87,13 @@ void draw(Reference& reference, std::size_t number, std::int32_t width, std::int
       }
 }
 
+int difference(std::uint32_t a, std::uint32_t b) {
+  int most = 0;
+  for (int shift = 0; shift < 24; shift += 8)
+    most = std::max(most, std::abs(static_cast<int>(a >> shift & 255) - static_cast<int>(b >> shift & 255)));
+  return most;
+}
+
 }  // namespace
 
 Reference draw_reference(const wire::PackedFilm& film, std::uint32_t frame) {
@@ -94,8 +105,8 @@ Reference draw_reference(const wire::PackedFilm& film, std::uint32_t frame) {
   reference.width = film.settings().width;
   reference.pattern = shape::sample_pattern(film.settings().samples);
   for (std::size_t s = 0; s < film.segments().size(); ++s) add_segment(scene, s, surfaces, reference);
-  reference.still.resize(reference.first_sample(0, film.settings().height));
-  reference.movers.resize(reference.still.size());
+  reference.still.resize(reference.first_sample(0, film.settings().height), {{}, scene.projection().nothing});
+  reference.movers.resize(reference.still.size(), reference.still.front());
   for (std::size_t i = reference.triangles.size(); i-- > 0;) draw(reference, i, scene.width(), scene.height());
   for (std::size_t k = 0; k < reference.movers.size(); ++k)
     if (!(reference.movers[k].depth > reference.still[k].depth)) reference.movers[k] = {};
@@ -153,6 +164,19 @@ std::vector<std::uint32_t> reference_pixels(const Reference& reference, const Re
       pixels.push_back(static_cast<std::uint32_t>(color::pixel_of(encoding, rounded)));
     }
   return pixels;
+}
+
+void expect_as_reference(const wire::FilmData& film, std::uint32_t frame, int nodes) {
+  const FilmBlock block(film);
+  RunOptions options;
+  options.nodes = nodes;
+  const Pixels pixels = run_film(block.bytes(), options).frames.at(frame);
+  const Reference reference = draw_reference(block.view(), frame);
+  const Pixels expected = reference_pixels(reference, {block.view(), frame});
+  ASSERT_EQ(pixels.size(), expected.size());
+  int most = 0;
+  for (std::size_t k = 0; k < pixels.size(); ++k) most = std::max(most, difference(pixels[k], expected[k]));
+  EXPECT_LE(most, 1) << "frame " << frame << ", " << film.settings.samples << " samples";
 }
 
 }  // namespace mars::test

@@ -17,7 +17,7 @@ namespace mars::test {
 
 struct ReferenceSample {
   std::optional<std::size_t> triangle;  // index into triangles
-  float depth = 0;
+  float depth = 0;                      // Projection::nothing where there is none
 };
 
 // The samples of a pixel that show the same triangle, which is shaded once, at the one nearest to its centre.
@@ -52,5 +52,8 @@ Color resolve_reference(const Reference& reference, const ReferenceShading& shad
 
 // Rows from the top, as frames have them.
 std::vector<std::uint32_t> reference_pixels(const Reference& reference, const ReferenceShading& shading);
+
+// Draws the frame by nodes and by this twin. No pixel is off by more than one level of 255.
+void expect_as_reference(const wire::FilmData& film, std::uint32_t frame, int nodes);
 
 }  // namespace mars::test

@@ -161,10 +161,16 @@ ReferenceShading::ReferenceShading(const wire::PackedFilm& film, std::uint32_t f
 
 ReferenceShading::Point ReferenceShading::point_at(const Triangle& t, std::int32_t x, std::int32_t y) const {
   const shape::Projection& p = scene_.projection();
-  const Vec toward{(x / 256.0 - p.center[0]) / p.scale, (p.center[1] - y / 256.0) / p.scale, -1};
+  const double right = (x / 256.0 - p.center[0]) / p.scale, up = (p.center[1] - y / 256.0) / p.scale;
+  const double depth = value_at(t, shape::kDepth, x, y);
   const Vec normal{value_at(t, shape::kNormalX, x, y), value_at(t, shape::kNormalY, x, y),
                    value_at(t, shape::kNormalZ, x, y)};
-  return {1 / value_at(t, shape::kDepth, x, y) * toward, unit(normal), unit(-1 * toward)};
+  const Vec place = p.parallel ? Vec{right, up, depth} : 1 / depth * Vec{right, up, -1};
+  return {place, unit(normal), toward_eye(place)};
+}
+
+Vec ReferenceShading::toward_eye(const Vec& place) const {
+  return scene_.projection().parallel ? Vec{0, 0, 1} : unit(-1 * place);
 }
 
 Color ReferenceShading::ambient_of(const Material& material, const Point& point) const {
@@ -195,7 +201,7 @@ Color ReferenceShading::light_of(const Material& material, const Point& point) c
 Color ReferenceShading::light_of_corner(const raster::PlainTriangle& triangle, std::size_t corner) const {
   const geometry::ClipVertex& vertex = triangle.whole[corner];
   const Vec place = vec(vertex.place);
-  const Point point{place, (triangle.faces ? 1 : -1) * unit(vec(vertex.varying)), unit(-1 * place)};
+  const Point point{place, (triangle.faces ? 1 : -1) * unit(vec(vertex.varying)), toward_eye(place)};
   return light_of(scene_.film().materials()[triangle.record.material], point);
 }
 
@@ -206,7 +212,7 @@ Color ReferenceShading::gouraud_light(const raster::PlainTriangle& triangle, std
   double weights = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec share = shares_of(triangle.whole, triangle.eye[k], k);
-    const double here = weight[k] / -triangle.eye[k].place[2];
+    const double here = weight[k] / (scene_.projection().parallel ? 1 : -triangle.eye[k].place[2]);
     for (std::size_t corner = 0; corner < 3; ++corner) sum = sum + here * share[corner] * whole[corner];
     weights += here;
   }
@@ -216,7 +222,8 @@ Color ReferenceShading::gouraud_light(const raster::PlainTriangle& triangle, std
 Color ReferenceShading::flat_light(const raster::PlainTriangle& triangle) const {
   const Vec a = vec(triangle.whole[0].place), b = vec(triangle.whole[1].place), c = vec(triangle.whole[2].place);
   const Vec middle = (1.0 / 3) * (a + b + c), normal = unit(cross(b - a, c - a));
-  const Point point{middle, dot(normal, middle) < 0 ? normal : -1 * normal, unit(-1 * middle)};
+  const Vec eye = toward_eye(middle);
+  const Point point{middle, dot(normal, eye) > 0 ? normal : -1 * normal, eye};
   return light_of(scene_.film().materials()[triangle.record.material], point);
 }
 

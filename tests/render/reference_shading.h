@@ -30,6 +30,7 @@ class ReferenceShading {
     std::array<double, 3> normal;
     std::array<double, 3> eye;  // to it
   };
+  std::array<double, 3> toward_eye(const std::array<double, 3>& place) const;
   Point point_at(const geometry::Triangle& t, std::int32_t x, std::int32_t y) const;
   // Light that the point sends to the eye, without fog.
   Color light_of(const wire::Material& material, const Point& point) const;

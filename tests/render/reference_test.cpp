@@ -17,27 +17,6 @@ namespace {
 
 constexpr std::uint32_t kBackground = 0xff00ff;
 
-int difference(std::uint32_t a, std::uint32_t b) {
-  int most = 0;
-  for (int shift = 0; shift < 24; shift += 8)
-    most = std::max(most, std::abs(static_cast<int>(a >> shift & 255) - static_cast<int>(b >> shift & 255)));
-  return most;
-}
-
-// No pixel is off by more than one level of 255.
-void expect_as_reference(const wire::FilmData& film, std::uint32_t frame, int nodes) {
-  const FilmBlock block(film);
-  RunOptions options;
-  options.nodes = nodes;
-  const Pixels pixels = run_film(block.bytes(), options).frames.at(frame);
-  const Reference reference = draw_reference(block.view(), frame);
-  const Pixels expected = reference_pixels(reference, {block.view(), frame});
-  ASSERT_EQ(pixels.size(), expected.size());
-  int most = 0;
-  for (std::size_t k = 0; k < pixels.size(); ++k) most = std::max(most, difference(pixels[k], expected[k]));
-  EXPECT_LE(most, 1) << "frame " << frame << ", " << film.settings.samples << " samples";
-}
-
 TEST(Reference, Crowd) {
   const auto film = crowd(320, 180, 5, 5);
   for (const std::uint32_t frame : {0u, 4u}) expect_as_reference(film, frame, 3);

@@ -111,7 +111,7 @@ ShadowRays::ShadowRays(std::span<const CastingSurface> surfaces) {
 Sight ShadowRays::trace(const shadow::LightView& view, const shadow::PointFrame& frame, const Vec3& place,
                         double w) const {
   const Looking looking(view);
-  Ray ray{view, looking.at(place), (w * double{frame.by_square} + double{frame.by_w}) * w + double{frame.grid}};
+  Ray ray{view, looking.at(place), (w * double{frame.by_square} + double{frame.by_w}) * w + double{frame.everywhere}};
   if (ray.has_place()) {
     if (ray.at[2] < double{view.nearest} * 0.999) return Sight::open;
     ray.e += ray.at[2] * double{frame.by_depth};

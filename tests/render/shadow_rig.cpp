@@ -86,18 +86,19 @@ void ShadowRig::add_pairs(const std::vector<ReferenceSample>& from, const Sample
         const std::uint32_t s = number / each;
         const ReferenceSample& sample = from[reference_.first_sample(column, row) + s];
         if (!sample.triangle) continue;
-        const double w = 1.0 / double{sample.depth};
+        const double w = p.parallel ? -double{sample.depth} : 1.0 / double{sample.depth};
+        const double spread = p.parallel ? 1 : w;
         const double x = column + pattern.x[s] / 256.0, y = row + pattern.y[s] / 256.0;
-        out.push_back(
-            {light,
-             column,
-             row,
-             number,
-             *sample.triangle,
-             w,
-             {(x - double{p.center[0]}) / double{p.scale} * w, (double{p.center[1]} - y) / double{p.scale} * w, -w},
-             has_size ? shadow::point_of_pair(column, row, number) : 0,
-             (blocked >> number & 1) != 0});
+        out.push_back({light,
+                       column,
+                       row,
+                       number,
+                       *sample.triangle,
+                       w,
+                       {(x - double{p.center[0]}) / double{p.scale} * spread,
+                        (double{p.center[1]} - y) / double{p.scale} * spread, -w},
+                       has_size ? shadow::point_of_pair(column, row, number) : 0,
+                       (blocked >> number & 1) != 0});
       }
     }
 }

@@ -28,7 +28,7 @@ bool same_bits(const T& a, const T& b) {
 
 // They have no padding, as same_bits() needs it: padding_test.cpp looks at each byte; here, what a compiler without its
 // means can see.
-static_assert(sizeof(wire::Camera) == sizeof(wire::Matrix) + 4 * sizeof(double));
+static_assert(sizeof(wire::Camera) == sizeof(wire::Matrix) + 7 * sizeof(double));
 template <typename T>
 constexpr bool kOfFourBytes = alignof(T) == 4 && sizeof(T) % 4 == 0;
 static_assert(kOfFourBytes<wire::Light> && kOfFourBytes<wire::Material> && kOfFourBytes<wire::FilmSettings> &&

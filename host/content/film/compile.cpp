@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -31,6 +32,24 @@ std::uint32_t checked_samples(std::uint32_t samples, const std::string& source) 
   return samples;
 }
 
+// Each eye looks the same way as the camera, from its own side; its picture is shifted so that both show what is at the
+// convergence's distance in the same place. So verticals stay vertical, as eyes that turn inwards would not keep them.
+void see_by(Eye eye, const animator::Film& film, wire::FilmData& data) {
+  const animator::CameraMotion& motion = film.camera;
+  if (motion.projection == wire::Projection::orthographic)
+    throw Failure("has no stereo pair: parallel rays show the same from both sides", film.source + ": camera",
+                  "make the projection perspective, or leave --eye out");
+  const double aside = (eye == Eye::left ? -0.5 : 0.5) * motion.interaxial;
+  const double aspect = double(data.settings.width) / data.settings.height;
+  for (wire::Camera& camera : data.cameras) {
+    camera.world_to_eye.m[0][3] -= aside;
+    camera.shift_x -= aside * camera.focal / (2 * motion.convergence * aspect);
+    if (std::abs(camera.shift_x) > wire::kMostShift)
+      throw Failure("has eyes that are farther apart than their convergence allows", film.source + ": camera",
+                    "make interaxial smaller or convergence larger");
+  }
+}
+
 class Compiler {
  public:
   Compiler(const animator::Film& film, const CompileOptions& options) : film_(film), options_(options) {}
@@ -38,6 +57,7 @@ class Compiler {
   CompiledFilm compile() {
     writer_.write_settings();
     change_settings();
+    if (options_.eye != Eye::middle) see_by(options_.eye, film_, data_);
     writer_.write_segments(write_shapes(film_, data_));
     CompiledFilm compiled;
     const std::size_t matrices = write_motion(film_, data_, compiled.lines);
@@ -70,7 +90,8 @@ class Compiler {
       for (const auto& key : channel) frames.push_back(key.frame);
     };
     const auto add_all = [&](const auto&... channels) { (add(channels), ...); };
-    add_all(film_.camera.eye, film_.camera.at, film_.camera.up, film_.camera.fov, film_.camera.exposure);
+    const animator::CameraMotion& camera = film_.camera;
+    add_all(camera.eye, camera.at, camera.up, camera.fov, camera.height, camera.shift, camera.exposure);
     for (const animator::LightMotion& light : film_.lights)
       add_all(light.vector, light.color, light.intensity, light.reach, light.at, light.cone, light.size);
     for (const animator::MaterialMotion& material : film_.materials) {
@@ -139,6 +160,8 @@ CompiledFilm load_film(const std::filesystem::path& path, const CompileOptions& 
   if (!is_compiled_film(path)) return compile(animator::read_film(path), options);
   if (options.cutting)
     throw Failure("is compiled, its intervals are cut", path.string(), "choose --intervals with the film file itself");
+  if (options.eye != Eye::middle)
+    throw Failure("is compiled, as its camera sees it", path.string(), "choose --eye with the film file itself");
   CompiledFilm film = load_compiled_film(path);
   change_pixels(film, options);
   return film;

@@ -9,6 +9,7 @@
 
 #include "host/content/animator/pose/film.h"
 #include "host/content/film/compiled_film.h"
+#include "host/content/film/eye.h"
 
 namespace mars::film {
 
@@ -17,6 +18,7 @@ struct CompileOptions {
   std::optional<animator::Cutting> cutting{};
   std::optional<std::array<std::uint32_t, 2>> size{};  // pixels, each 1..wire::kMaxSide
   std::optional<std::uint32_t> samples{};              // of a pixel: 1, 2, 4, 8 or 16
+  Eye eye = Eye::middle;
 };
 
 CompiledFilm compile(const animator::Film& film, const CompileOptions& options = {});

@@ -24,6 +24,15 @@ constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
 // Between keys a number may swing beyond what keys may give.
 double within(const document::Range& range, double number) { return std::clamp(number, range.lowest, range.highest); }
 
+// Of wire::Camera.
+double focal_at(const animator::CameraMotion& motion, std::uint32_t frame) {
+  if (motion.projection == wire::Projection::orthographic)
+    return 2 / within(keys::range_of("camera", "height"), animator::value_at(motion.height, frame));
+  const double half =
+      within(keys::range_of("camera", "fov"), animator::value_at(motion.fov, frame)) * (std::numbers::pi / 360);
+  return std::cos(half) / std::sin(half);
+}
+
 }  // namespace
 
 ShapeNumbers write_shapes(const animator::Film& film, wire::FilmData& data) {
@@ -55,9 +64,11 @@ wire::Camera camera_at(const animator::Film& film, std::uint32_t frame, animator
   wire::Camera camera;
   for (int row = 0; row < 3; ++row)
     camera.world_to_eye.m[row] = {axes[row].x, axes[row].y, axes[row].z, -glm::dot(axes[row], eye)};
-  const double half =
-      within(keys::range_of("camera", "fov"), animator::value_at(motion.fov, frame)) * (std::numbers::pi / 360);
-  camera.focal = std::cos(half) / std::sin(half);
+  camera.projection = motion.projection;
+  camera.focal = focal_at(motion, frame);
+  const glm::dvec2 shift = animator::value_at(motion.shift, frame);
+  camera.shift_x = within({-wire::kMostShift, wire::kMostShift}, shift.x);
+  camera.shift_y = within({-wire::kMostShift, wire::kMostShift}, shift.y);
   camera.near = motion.near;
   camera.far = motion.far;
   camera.exposure = std::exp2(within(keys::range_of("camera", "exposure"), animator::value_at(motion.exposure, frame)));
@@ -66,7 +77,8 @@ wire::Camera camera_at(const animator::Film& film, std::uint32_t frame, animator
 
 std::uint32_t camera_frames(const animator::CameraMotion& motion, std::uint32_t frames) {
   if (animator::follows(motion.eye) || animator::follows(motion.at)) return frames;
-  return frames_to_see(frames, motion.eye, motion.at, motion.up, motion.fov, motion.exposure);
+  return frames_to_see(frames, motion.eye, motion.at, motion.up, motion.fov, motion.height, motion.shift,
+                       motion.exposure);
 }
 
 FilmWriter::FilmWriter(const animator::Film& film, WrittenFrames frames, wire::FilmData& data)

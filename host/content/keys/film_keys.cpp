@@ -8,7 +8,9 @@ namespace {
 
 // In the order of the enumerations that they are read to.
 constexpr std::string_view kColors[] = {"coded", "linear"}, kCurves[] = {"none", "filmic"},
-                           kCuttings[] = {"auto", "keyframes"}, kAxes[] = {"world", "joint"};
+                           kCuttings[] = {"auto", "keyframes"}, kAxes[] = {"world", "joint"},
+                           kProjections[] = {"perspective", "orthographic"};
+static_assert(std::size(kProjections) == static_cast<std::size_t>(wire::kLastProjection) + 1);
 
 // Kinds of a film, and so of its camera, in the order of wire::ColorSpace.
 constexpr Kind kColorSpaces[] = {{"coded", "Coded"}, {"linear", "Linear"}};
@@ -26,7 +28,7 @@ static_assert(std::size(kLightKinds) == static_cast<std::size_t>(wire::kLastLigh
 constexpr Measure kLightSizes[] = {{{0, 90}, "degrees"}, {{0, kFarthest}}, {{0, kFarthest}}};
 static_assert(std::size(kLightSizes) == std::size(kLightKinds));
 
-constexpr std::string_view kSides[] = {"width", "height"}, kAngles[] = {"inner", "outer"};
+constexpr std::string_view kSides[] = {"width", "height"}, kAngles[] = {"inner", "outer"}, kShifts[] = {"right", "up"};
 
 constexpr Type kFilmTypes[] = {
     {"frame", R"({"type": "integer", "minimum": 0, "maximum": 1000000})", "24"},
@@ -54,6 +56,9 @@ constexpr Type kFilmTypes[] = {
     {"angle", R"({"type": "number", "minimum": 0.01, "maximum": 180})", "40"},
     {"cone", R"({"anyOf": ["#angle", {"type": "array", "minItems": 2, "maxItems": 2, "items": "#angle"}]})", "[30, 40]",
      "", kAngles},
+    {"shift",
+     R"({"type": "array", "minItems": 2, "maxItems": 2, "items": {"type": "number", "minimum": -1, "maximum": 1}})",
+     "[0, 0.25]", "", kShifts},
     {"place_or_point", R"({"anyOf": ["#vector", "#point"]})", "[0, -9, 2]"},
     {"attach_or_null", R"({"anyOf": [{"type": "null"}, "#attach"]})", R"({"actor": "tom", "joint": "right-hand"})"},
     {"matrix",
@@ -192,13 +197,32 @@ Object camera() {
             .json = "[0, 0, 1]",
             .keyed = true,
             .rare = true},
+           {.name = "projection",
+            .type = "choice",
+            .meaning = "`\"perspective\"`: what is farther is smaller; `\"orthographic\"`: rays are parallel",
+            .see = "cameras.md",
+            .json = R"("perspective")",
+            .choices = kProjections},
            {.name = "fov",
-            .meaning = "vertical field of view",
+            .meaning = "vertical field of view of a perspective camera",
             .number = 40,
             .range = {0.01, 179},
             .unit = "degrees",
             .keyed = true,
             .label = "View angle"},
+           {.name = "height",
+            .meaning = "height that the picture of an orthographic camera shows",
+            .number = 10,
+            .range = {1e-5, kFarthest},
+            .keyed = true,
+            .label = "View height"},
+           {.name = "shift",
+            .type = "shift",
+            .meaning = "lens shift, -1 to 1: `[right, up]`, in widths and heights of the picture",
+            .see = "cameras.md",
+            .json = "[0, 0]",
+            .keyed = true,
+            .rare = true},
            {.name = "exposure",
             .meaning = "each stop doubles the light; in linear films only",
             .number = 0,
@@ -216,6 +240,17 @@ Object camera() {
             .meaning = "distance of the far plane: nothing farther is drawn",
             .number = 10000,
             .range = {1e-6, 1e10},
+            .rare = true},
+           {.name = "interaxial",
+            .meaning = "distance between the two eyes of a stereo pair",
+            .see = "cameras.md#stereo-pairs",
+            .number = 0.065,
+            .range = {0, kFarthest},
+            .rare = true},
+           {.name = "convergence",
+            .meaning = "distance at which both eyes of a stereo pair see things in the same place of their pictures",
+            .number = 5,
+            .range = {1e-5, kFarthest},
             .rare = true},
            {.name = "keys",
             .type = "[camera_key]",

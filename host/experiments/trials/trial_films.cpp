@@ -94,6 +94,8 @@ class Maker {
       camera["fov"] = chance_.number(30, 60);
     else
       camera["keys"] = keys("fov", [this] { return chance_.number(30, 60); });
+    if (chance_.happens(0.2)) camera.update({{"projection", "orthographic"}, {"height", chance_.number(2, 8)}});
+    if (chance_.happens(0.2)) camera["shift"] = {chance_.number(-0.5, 0.5), chance_.number(-0.5, 0.5)};
     return camera;
   }
 

@@ -37,6 +37,8 @@ constexpr std::array kWords<Backend>{"auto", "mpi", "threads", "simulated"};
 template <>
 constexpr std::array kWords<Intervals>{"auto", "keyframes"};
 template <>
+constexpr std::array kWords<film::Eye>{"middle", "left", "right"};
+template <>
 constexpr std::array kWords<SinkKind>{"files", "none"};
 template <>
 constexpr std::array kWords<WriteWhere>{"auto", "host", "nodes"};
@@ -226,6 +228,10 @@ std::vector<Entry> table() {
       option(
           compiles, "--samples", "1|2|4|8|16", &RenderOptions::samples,
           "Samples of a pixel; default: the film's. More make smoother edges and take longer. Example: --samples 16"),
+      option(
+          compiles, "--eye", "middle|left|right", &RenderOptions::eye,
+          "Eye of a stereo pair that sees the film, by its camera's interaxial and convergence; default: middle, the "
+          "camera itself. Example: --eye left"),
       option(plans, "--mapping", "greedy|optimal|cost", &RenderOptions::mapping,
              "How lines are divided among nodes: by edge boxes as in the thesis, exactly by edge boxes, or by "
              "estimated cost; default: cost. Example: --mapping greedy"),

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/cli/command.h"
+#include "host/content/film/eye.h"
 #include "host/content/film/frame_set.h"
 #include "host/images/frame_form.h"
 #include "host/images/picture_format.h"
@@ -39,6 +40,7 @@ struct RenderOptions {
   std::uint32_t every = 1;  // Nth frame of each stretch of them; once the line is read, `frames` says it
   std::optional<images::PictureSize> size;  // none: the film's own
   std::optional<std::uint32_t> samples;     // of a pixel; none: the film's own
+  film::Eye eye = film::Eye::middle;
   wire::Mapping mapping = wire::Mapping::cost;
   wire::Exchange exchange = wire::Exchange::automatic;
   Intervals intervals = Intervals::automatic;

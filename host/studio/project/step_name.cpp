@@ -44,7 +44,9 @@ std::string name_of_pose(const Command& words) {
     return std::ranges::any_of(parts, [&](const std::string& part) { return is_one_of(part, names); });
   };
   if (thing == "camera")
-    return any_of({"eye", "at", "up"}) ? "move the camera" : any_of({"fov"}) ? "zoom the camera" : "change the camera";
+    return any_of({"eye", "at", "up"}) ? "move the camera"
+           : any_of({"fov", "height"}) ? "zoom the camera"
+                                       : "change the camera";
   if (thing.starts_with("light/"))
     return (any_of({"place", "at", "direction"}) ? "move light " : "change light ") + thing.substr(6);
   if (thing.starts_with("material/")) return "change material " + thing.substr(9);

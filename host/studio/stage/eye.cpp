@@ -7,7 +7,6 @@
 namespace mars::studio {
 namespace {
 
-constexpr double kLongLens = 16;          // times as far away, and as narrow
 constexpr double kDegreesAPixel = 0.4;    // of turning
 constexpr double kGrowthAPixel = 0.0015;  // of the distance
 
@@ -32,11 +31,7 @@ void show_whole(preview::Orbit& orbit, const preview::Ball& subject, double aspe
 
 wire::Camera camera_from(const Eye& eye, double exposure) {
   const bool parallel = eye.from == From::front || eye.from == From::side || eye.from == From::top;
-  const double lens = parallel ? kLongLens : 1;
-  preview::Orbit orbit = eye.orbit;
-  orbit.distance *= lens;
-  wire::Camera camera = preview::camera_of(orbit);
-  camera.focal *= lens;
+  wire::Camera camera = parallel ? preview::parallel_camera_of(eye.orbit) : preview::camera_of(eye.orbit);
   camera.exposure = exposure;
   return camera;
 }

@@ -1,5 +1,5 @@
-// Where a view looks from: the film's own camera, or an orbit of the preview (host/preview/viewpoint.h). The renderer
-// knows perspective alone; front, side and top look through a lens so long that lines run as good as parallel.
+// Where a view looks from: the film's own camera, or an orbit of the preview (host/preview/viewpoint.h). Front, side
+// and top are parallel projections.
 #pragma once
 
 #include <glm/vec2.hpp>

@@ -103,7 +103,7 @@ double Hand::turned_by(const glm::dvec2& before, const glm::dvec2& now) const {
   const TurnAxis axis = posed_.axis(grip_->axis);
   const auto center = mouse_.screen().pixel_of(axis.center);
   if (!center) return 0;
-  const glm::dvec3 to_eye = glm::normalize(mouse_.screen().eye() - axis.center);
+  const glm::dvec3 to_eye = mouse_.screen().towards_eye(axis.center);
   const double facing = glm::dot(axis.axis, to_eye);
   if (std::abs(facing) < kEdgeOn) {
     const glm::dvec2 way = mouse_.screen().motion_of(axis.center, glm::cross(axis.axis, to_eye));

@@ -13,7 +13,7 @@ namespace mars::studio {
 namespace {
 
 constexpr double kLeastAngle = 1, kMostAngle = 160;  // degrees
-constexpr double kLeastReach = 1e-3;
+constexpr double kLeastReach = 1e-3, kLeastHeight = 1e-3;
 
 }  // namespace
 
@@ -70,6 +70,11 @@ std::optional<Json> MarkHand::moved() const {
 
 // What is pulled is the edge of a circle: as far from the axis at what it aims at, or from the place.
 std::optional<Json> MarkHand::sized() const {
+  if (state_.height > 0) {
+    const auto by = mouse_.along(*state_.aim + state_.height / 2 * state_.up, state_.up);
+    if (!by) return std::nullopt;
+    return step("height=" + shown_number(std::max(state_.height + 2 * glm::dot(*by, state_.up), kLeastHeight)));
+  }
   if (state_.angle == 0) {
     const glm::dvec3& way = mouse_.screen().right();
     const auto by = mouse_.along(state_.place + state_.reach * way, way);

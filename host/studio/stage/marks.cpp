@@ -19,6 +19,7 @@ constexpr double kMostShownAngle = 170;  // degrees, of a cone or field of view 
 constexpr const char* kAxes[] = {"x", "y", "z"};
 
 double half_width(const MarkState& state) {
+  if (state.height > 0) return state.height / 2;
   const double distance = state.aim ? glm::length(*state.aim - state.place) : 0;
   return distance * std::tan(std::min(state.angle, kMostShownAngle) / 2 * modeler::kDegree);
 }
@@ -37,7 +38,11 @@ MarkState camera_state(const Project& project, const Moments& moments) {
   state.aim = animator::at_at(project.film(), project.frame());
   state.side = seen.right();
   state.up = seen.up();
-  state.angle = 2 * std::atan(1 / camera.focal) / modeler::kDegree;
+  state.shift = {camera.shift_x, camera.shift_y};
+  if (camera.projection == wire::Projection::orthographic)
+    state.height = 2 / camera.focal;
+  else
+    state.angle = 2 * std::atan(1 / camera.focal) / modeler::kDegree;
   return state;
 }
 
@@ -135,10 +140,11 @@ class Maker {
     for (const int x : {-1, 1})
       for (const int y : {-1, 1}) add_line({corner(x, y, 0.2), corner(x, y, 1)});
     const glm::dvec3 up = half_width(state_) * state_.up, right = half_width(state_) * aspect * state_.side;
-    const glm::dvec3 aim = eye + glm::length(*state_.aim - eye) * ahead;
-    add_line({aim - right - up, aim + right - up, aim + right + up, aim - right + up, aim - right - up});
-    for (const glm::dvec3& far : {aim - right - up, aim + right - up, aim + right + up, aim - right + up})
-      add_line({eye, far});
+    const glm::dvec3 way = glm::length(*state_.aim - eye) * ahead;
+    const glm::dvec3 middle = eye + way + 2 * state_.shift.x * right + 2 * state_.shift.y * up;
+    const glm::dvec3 corners[] = {middle - right - up, middle + right - up, middle + right + up, middle - right + up};
+    add_line({corners[0], corners[1], corners[2], corners[3], corners[0]});
+    for (const glm::dvec3& far : corners) add_line({state_.height > 0 ? far - way : eye, far});
   }
 
   void add_sun() {
@@ -168,8 +174,11 @@ class Maker {
   void add_pulls(Tool tool) {
     if (state_.aim) add_point(name_ + ":at", *state_.aim, Grip{.what = Grip::What::plane, .mark = mark_, .aim = true});
     const Grip size{.what = Grip::What::size, .mark = mark_};
-    if (state_.angle > 0)
-      add_point(name_ + (mark_.light ? ":cone" : ":fov"), *state_.aim + half_width(state_) * state_.up, size);
+    if (state_.angle > 0 || state_.height > 0)
+      add_point(name_ + (mark_.light         ? ":cone"
+                         : state_.height > 0 ? ":height"
+                                             : ":fov"),
+                *state_.aim + half_width(state_) * state_.up, size);
     if (state_.reach > 0 && !state_.aim)
       add_point(name_ + ":reach", state_.place + state_.reach * screen_.right(), size);
     if (tool == Tool::none) return;

@@ -17,10 +17,12 @@ struct MarkState {
   std::optional<glm::dvec3> aim{};  // a camera's or spot's
   glm::dvec3 side{1, 0, 0};         // unit vectors: across its axis, to which its size is pulled
   glm::dvec3 up{0, 0, 1};
-  double angle = 0;  // field of view or outer cone, degrees; 0: it has none
-  double inner = 0;  // cone
-  double reach = 0;  // 0: it has none
-  bool far = false;  // a direction: its symbol stands on this side of `center`
+  double angle = 0;        // field of view or outer cone, degrees; 0: it has none
+  double height = 0;       // of what an orthographic camera shows; 0: it is none
+  glm::dvec2 shift{0, 0};  // a camera's
+  double inner = 0;        // cone
+  double reach = 0;        // 0: it has none
+  bool far = false;        // a direction: its symbol stands on this side of `center`
   glm::dvec3 center{0, 0, 0};
 };
 

@@ -7,7 +7,12 @@
 namespace mars::studio {
 
 Screen::Screen(const wire::Camera& camera, std::uint32_t width, std::uint32_t height)
-    : eye_(0), middle_(width / 2.0, height / 2.0), scale_(camera.focal * height / 2), near_(camera.near) {
+    : eye_(0),
+      size_(width, height),
+      middle_((0.5 - camera.shift_x) * width, (0.5 + camera.shift_y) * height),
+      scale_(camera.focal * height / 2),
+      near_(camera.near),
+      parallel_(camera.projection == wire::Projection::orthographic) {
   for (std::size_t row = 0; row < 3; ++row) {
     const auto& m = camera.world_to_eye.m[row];
     axes_[row] = {m[0], m[1], m[2]};
@@ -21,7 +26,7 @@ glm::dvec3 Screen::to_eye(const glm::dvec3& place) const {
 }
 
 glm::dvec2 Screen::projected(const glm::dvec3& in_eye) const {
-  return middle_ + scale_ / in_eye.z * glm::dvec2(in_eye.x, -in_eye.y);
+  return middle_ + scale_ / (parallel_ ? 1 : in_eye.z) * glm::dvec2(in_eye.x, -in_eye.y);
 }
 
 std::optional<glm::dvec2> Screen::pixel_of(const glm::dvec3& place) const {
@@ -32,13 +37,15 @@ std::optional<glm::dvec2> Screen::pixel_of(const glm::dvec3& place) const {
 
 glm::dvec2 Screen::motion_of(const glm::dvec3& place, const glm::dvec3& by) const {
   const glm::dvec3 at = to_eye(place), step = to_eye(eye_ + by);
+  if (parallel_) return scale_ * glm::dvec2(step.x, -step.y);
   const double x = (step.x - at.x * step.z / at.z) / at.z, y = (step.y - at.y * step.z / at.z) / at.z;
   return scale_ * glm::dvec2(x, -y);
 }
 
 Ray Screen::ray_through(const glm::dvec2& pixel) const {
   const glm::dvec2 across = (pixel - middle_) / scale_;
-  return {eye_, across.x * axes_[0] - across.y * axes_[1] - axes_[2]};
+  const glm::dvec3 in_plane = across.x * axes_[0] - across.y * axes_[1];
+  return parallel_ ? Ray{eye_ + in_plane, ahead()} : Ray{eye_, in_plane + ahead()};
 }
 
 std::vector<Polyline> Screen::polylines(const std::vector<glm::dvec3>& places) const {
@@ -74,13 +81,19 @@ Polyline Screen::outline(std::span<const glm::dvec3> places) const {
   const auto beside = [&](int axis) {
     const auto all = [&](const auto& is) { return std::all_of(pixels.begin(), pixels.end(), is); };
     return all([&](const glm::dvec2& pixel) { return pixel[axis] < 0; }) ||
-           all([&](const glm::dvec2& pixel) { return pixel[axis] > 2 * middle_[axis]; });
+           all([&](const glm::dvec2& pixel) { return pixel[axis] > size_[axis]; });
   };
   if (beside(0) || beside(1)) return {};
   return convex_hull(std::move(pixels));
 }
 
-double Screen::scale_at(const glm::dvec3& place) const { return scale_ / std::max(to_eye(place).z, near_); }
+double Screen::scale_at(const glm::dvec3& place) const {
+  return parallel_ ? scale_ : scale_ / std::max(to_eye(place).z, near_);
+}
+
+glm::dvec3 Screen::towards_eye(const glm::dvec3& place) const {
+  return parallel_ ? axes_[2] : glm::normalize(eye_ - place);
+}
 
 std::optional<double> nearest_along(const Ray& ray, const glm::dvec3& from, const glm::dvec3& way) {
   const glm::dvec3 between = from - ray.from;

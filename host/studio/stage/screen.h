@@ -35,6 +35,8 @@ class Screen {
   Polyline outline(std::span<const glm::dvec3> places) const;
   // Pixels of a length across the axis, as far away as the place; as far as the near plane where it is nearer.
   double scale_at(const glm::dvec3& place) const;
+  // A unit vector.
+  glm::dvec3 towards_eye(const glm::dvec3& place) const;
   // How far ahead of the eye it is.
   double depth_of(const glm::dvec3& place) const { return to_eye(place).z; }
 
@@ -51,9 +53,11 @@ class Screen {
 
   glm::dvec3 axes_[3];
   glm::dvec3 eye_;
-  glm::dvec2 middle_;
+  glm::dvec2 size_;
+  glm::dvec2 middle_;  // where the view axis is
   double scale_;
   double near_;
+  bool parallel_;
 };
 
 // Where along the line, in lengths of `way`, it comes nearest to the ray; none where they are as good as parallel.

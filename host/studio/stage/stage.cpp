@@ -151,9 +151,12 @@ class StageOfPages : public Stage {
   void put_camera(PageNumber page, const Json& message) {
     const PageView& view = seen_view_in(page, message);
     if (view.eye.from != From::free) refuse("is no free view", "view", "turn it first");
-    const glm::dvec3 eye = preview::eye_of(view.eye.orbit, moments_.now().cameras.front().focal);
-    project_.commit(
-        set_step(project_, "camera", {"eye=" + shown_numbers(eye), "at=" + shown_numbers(view.eye.orbit.center)}));
+    const wire::Camera& camera = moments_.now().cameras.front();
+    const glm::dvec3 eye = preview::eye_of(view.eye.orbit, camera);
+    std::vector<std::string> settings{"eye=" + shown_numbers(eye), "at=" + shown_numbers(view.eye.orbit.center)};
+    if (camera.projection == wire::Projection::orthographic)
+      settings.push_back("height=" + shown_number(preview::height_of(view.eye.orbit)));
+    project_.commit(set_step(project_, "camera", settings));
   }
 
   // Of what the message names; of none: 0.

@@ -38,7 +38,8 @@ constexpr std::uint32_t kCapacity = kBlock + simd::kVectorSlack;
 
 struct Block {
   alignas(64) float values[kCapacity][shape::kValues];
-  alignas(64) float eye[3][kCapacity];  // from the sample's place towards the eye: the place is -eye * w
+  // The sample's place is -from * w, w being 1 / its value of depth; so this is where the eye is, if at one place.
+  alignas(64) float from[3][kCapacity];
   alignas(64) float facing[kCapacity];  // of one light: N.L
   alignas(64) float square[kCapacity];  // and (R.V)^2 or (N.H)^2; 0 where it is not to be seen
   alignas(64) float bright[kCapacity];  // and how much of it arrives, where that differs
@@ -46,6 +47,9 @@ struct Block {
   Stretch stretches[kBlock];
   std::uint32_t stretch_count = 0;
   std::uint32_t count = 0;
+  const bool parallel;  // the eye is towards +z from everywhere
+
+  explicit Block(const Shading& shading) : parallel(shading.projection.parallel) {}
 
   void clear() { count = stretch_count = 0; }
   void begin_stretch(std::uint32_t at, std::uint32_t material) { stretches[stretch_count++] = {at, material}; }
@@ -58,7 +62,16 @@ struct Block {
   void fill_last_vector() {
     for (std::uint32_t k = count; k % kLanes != 0; ++k) {
       std::memcpy(values[k], values[count - 1], sizeof values[k]);
-      for (auto& along : eye) along[k] = along[count - 1];
+      for (auto& along : from) along[k] = along[count - 1];
+    }
+  }
+  // Samples whose values are as triangles have them in parallel projection get w = 1, and from = -place.
+  void place_parallel() {
+    for (std::uint32_t k = 0; k < count; k += kLanes) {
+      Floats depth, normal[3];
+      hn::LoadInterleaved4(kFloats, values[k], depth, normal[0], normal[1], normal[2]);
+      hn::Store(hn::Neg(depth), kFloats, from[2] + k);
+      hn::StoreInterleaved4(constant(1.0f), normal[0], normal[1], normal[2], kFloats, values[k]);
     }
   }
   // Of the latest stretch, or `none`.

@@ -14,9 +14,12 @@ class FogDepth {
     const float rise = 1.0f / (fog.end - fog.start);
     per_distance_ = constant(rise < kSharpest ? rise : kSharpest);
   }
-  Floats share(Floats inverse_w) const {
-    const Floats w = hn::Div(constant(1.0f), inverse_w);
-    return between_0_and_1(hn::Mul(hn::Sub(w, start_), per_distance_));
+  // At the sample's distance along the view axis.
+  Floats share(const Block& block, std::uint32_t k) const {
+    Floats inverse_w, rest[3];
+    hn::LoadInterleaved4(kFloats, block.values[k], inverse_w, rest[0], rest[1], rest[2]);
+    const Floats distance = hn::Div(hn::Load(kFloats, block.from[2] + k), inverse_w);
+    return between_0_and_1(hn::Mul(hn::Sub(distance, start_), per_distance_));
   }
 
  private:
@@ -27,9 +30,7 @@ class FogDepth {
 inline void add_fog(const wire::Fog& fog, float unit, Block& block) {
   const FogDepth depth(fog);
   for (std::uint32_t k = 0; k < block.count; k += kLanes) {
-    Floats inverse_w, rest[3];
-    hn::LoadInterleaved4(kFloats, block.values[k], inverse_w, rest[0], rest[1], rest[2]);
-    const Floats share = depth.share(inverse_w);
+    const Floats share = depth.share(block, k);
     for (std::size_t c = 0; c < 3; ++c) {
       const Floats color = hn::Load(kFloats, block.color[c] + k);
       const Floats more = hn::Sub(constant(unit * fog.color[c]), color);

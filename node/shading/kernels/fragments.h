@@ -25,16 +25,17 @@ inline void evaluate(const geometry::Triangle& t, Places place, float* values) {
   std::memcpy(values, &here, sizeof here);
 }
 
-// Fills the directions to the eye from places on the screen, 1/256 pixel.
-inline void face_places(const shape::Projection& p, const std::int32_t (*place)[kCapacity], Block& block) {
+// Fills Block::from by places on the screen, 1/256 pixel; where the eye is at one place, its z is 1.
+inline void set_places(const shape::Projection& p, const std::int32_t (*place)[kCapacity], Block& block) {
   const Floats per_pixel = constant(1.0f / p.scale), pixel = constant(1.0f / shape::kSubpixels);
   for (std::uint32_t k = 0; k < block.count; k += kLanes) {
     const Floats x = hn::Mul(hn::ConvertTo(kFloats, hn::Load(kInts, place[0] + k)), pixel);
     const Floats y = hn::Mul(hn::ConvertTo(kFloats, hn::Load(kInts, place[1] + k)), pixel);
-    hn::Store(hn::Mul(hn::Sub(constant(p.center[0]), x), per_pixel), kFloats, block.eye[0] + k);
-    hn::Store(hn::Mul(hn::Sub(y, constant(p.center[1])), per_pixel), kFloats, block.eye[1] + k);
-    hn::Store(constant(1.0f), kFloats, block.eye[2] + k);
+    hn::Store(hn::Mul(hn::Sub(constant(p.center[0]), x), per_pixel), kFloats, block.from[0] + k);
+    hn::Store(hn::Mul(hn::Sub(y, constant(p.center[1])), per_pixel), kFloats, block.from[1] + k);
+    hn::Store(constant(1.0f), kFloats, block.from[2] + k);
   }
+  if (block.parallel) block.place_parallel();
 }
 
 // Puts up to `count` fragments of line `line` into the block, as many as fit and share its model.
@@ -56,7 +57,7 @@ inline void add_fragments(const Shading& shading, const Fragment* fragments, std
     place[1][k] = y;
   }
   block.count = k;
-  face_places(shading.projection, place, block);
+  set_places(shading.projection, place, block);
 }
 
 inline ShadedCounts counts_of(const Shading& shading, const Block& block) {

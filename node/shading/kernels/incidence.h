@@ -1,5 +1,6 @@
 // Where a vector of samples lies between the eye and one light. Directions are not normalised before they are used:
 // with n the normal / w, e that to the eye and t that to the light, a product of two is divided by both their lengths.
+// In parallel projection w is 1 (Block::place_parallel).
 #pragma once
 
 #include "node/shading/kernels/block.h"
@@ -9,6 +10,7 @@ namespace mars::shading::MARS_SET {
 // A vector of a block's samples.
 struct Surfaces {
   Floats n[3], e[3], inverse_w;
+  Floats from[3];  // Block::from
   Floats nn, ee, ne;
   Floats inverse_n;   // 1 / |n|; 0 where there is no normal
   Floats inverse_ee;  // 1 / |e|^2; NaN where there is no normal
@@ -16,7 +18,10 @@ struct Surfaces {
   // One root and one division do for n and e.
   Surfaces(const Block& block, std::uint32_t k) {
     hn::LoadInterleaved4(kFloats, block.values[k], inverse_w, n[0], n[1], n[2]);
-    for (int axis = 0; axis < 3; ++axis) e[axis] = hn::Load(kFloats, block.eye[axis] + k);
+    for (int axis = 0; axis < 3; ++axis) {
+      from[axis] = hn::Load(kFloats, block.from[axis] + k);
+      e[axis] = !block.parallel ? from[axis] : axis == 2 ? constant(1.0f) : zero();
+    }
     nn = dot(n, n), ee = dot(e, e), ne = dot(n, e);
     const Floats length = hn::Sqrt(nn);
     const Floats inverse = hn::Div(constant(1.0f), hn::Mul(length, ee));

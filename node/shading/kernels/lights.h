@@ -32,8 +32,8 @@ class Light {
     r.inverse_nt = s.inverse_n;
     r.length = constant(1.0f);
     if (has_place_) {
-      // The sample's place is -e * w; the length of t does not matter.
-      for (int axis = 0; axis < 3; ++axis) r.t[axis] = hn::Add(hn::Mul(vector_[axis], s.inverse_w), s.e[axis]);
+      // The sample's place is -from * w; the length of t does not matter.
+      for (int axis = 0; axis < 3; ++axis) r.t[axis] = hn::Add(hn::Mul(vector_[axis], s.inverse_w), s.from[axis]);
       const Floats square = dot(r.t, r.t);
       r.length = hn::Sqrt(square);
       r.inverse_nt = hn::IfThenElseZero(hn::Gt(square, zero()), hn::Div(s.inverse_n, r.length));

@@ -33,8 +33,8 @@ class Line {
         per_pixel_(1.0f / shading.projection.scale) {
     const Floats up = constant((static_cast<float>(line) + 0.5f - shading.projection.center[1]) * per_pixel_);
     for (std::uint32_t k = 0; k < kBlock && extent.first + k < extent.last; k += kLanes) {
-      hn::Store(up, kFloats, block.eye[1] + k);
-      hn::Store(constant(1.0f), kFloats, block.eye[2] + k);
+      hn::Store(up, kFloats, block.from[1] + k);
+      hn::Store(constant(1.0f), kFloats, block.from[2] + k);
     }
   }
 
@@ -60,7 +60,7 @@ class Line {
     const Floats center = constant(center_), per_pixel = constant(per_pixel_);
     for (std::uint32_t k = 0; k < count; k += kLanes) {
       const Floats columns = hn::Iota(kFloats, static_cast<float>(column + k));
-      hn::StoreU(hn::Mul(hn::Sub(center, columns), per_pixel), kFloats, block.eye[0] + block.count + k);
+      hn::StoreU(hn::Mul(hn::Sub(center, columns), per_pixel), kFloats, block.from[0] + block.count + k);
     }
     block.count += count;
     return count;
@@ -77,6 +77,7 @@ class Line {
 
 // Puts vertices from `first` on into the block, up to `last`, as many as fit. Some lie behind the eye or at it: 1 / w
 // is replaced by what takes the place to a distance of about 1, and there is a direction to the eye even from the eye.
+// These are right in parallel projection too.
 void add_vertices(const shape::Vertices& v, std::uint32_t first, std::uint32_t last, float side, Block& block) {
   constexpr float kLeast = 1e-9f;
   block.count = last - first < kBlock ? last - first : kBlock;
@@ -91,7 +92,7 @@ void add_vertices(const shape::Vertices& v, std::uint32_t first, std::uint32_t l
     const Floats nearer = hn::Div(constant(1.0f), hn::Max(size, constant(kLeast)));
     for (int axis = 0; axis < 3; ++axis) {
       const Floats there = constant(axis == 2 ? 1.0f : 0.0f);
-      hn::Store(hn::IfThenElse(apart, hn::Neg(hn::Mul(place[axis], nearer)), there), kFloats, block.eye[axis] + k);
+      hn::Store(hn::IfThenElse(apart, hn::Neg(hn::Mul(place[axis], nearer)), there), kFloats, block.from[axis] + k);
     }
     hn::StoreInterleaved4(nearer, normal[0], normal[1], normal[2], kFloats, block.values[k]);
   }
@@ -102,11 +103,12 @@ void add_vertices(const shape::Vertices& v, std::uint32_t first, std::uint32_t l
 Shaded shade(const Shading& shading, const std::uint32_t* ids, std::uint32_t line, Extent extent, wire::Run* runs,
              void* pixels) {
   Shaded done{0, 0};
-  Block block;
+  Block block(shading);
   const Line samples(shading, ids, line, extent, block);
   const std::size_t pixel_bytes = wire::pixel_bytes(shading.encoding.format);
   const auto flush = [&] {
     if (block.count == 0) return;
+    if (block.parallel) block.place_parallel();
     shade_to_pixels(shading, block, static_cast<std::byte*>(pixels) + done.pixels * pixel_bytes);
     done.pixels += block.count;
     done.counts += counts_of(shading, block);
@@ -132,7 +134,7 @@ Shaded shade(const Shading& shading, const std::uint32_t* ids, std::uint32_t lin
 ShadedCounts shade_fragments(const Shading& shading, const Fragment* fragments, std::uint32_t count, std::uint32_t line,
                              float* const* light) {
   ShadedCounts counts;
-  Block block;
+  Block block(shading);
   for (std::uint32_t done = 0; done < count; done += block.count) {
     block.clear();
     add_fragments(shading, fragments + done, count - done, line, block);
@@ -147,7 +149,7 @@ ShadedCounts shade_fragments(const Shading& shading, const Fragment* fragments, 
 
 void shade_vertices(const Shading& shading, std::uint32_t material, float side, const shape::Vertices& vertices,
                     std::uint32_t count, const shape::VertexColors& out) {
-  Block block;
+  Block block(shading);
   for (std::uint32_t done = 0; done < count; done += block.count) {
     block.clear();
     block.begin_stretch(0, material);
@@ -156,12 +158,13 @@ void shade_vertices(const Shading& shading, std::uint32_t material, float side, 
     for (std::uint32_t k = 0; k < block.count; k += kLanes) {
       Floats values[shape::kValues], color[3];
       hn::LoadInterleaved4(kFloats, vertices.values[done + k], values[0], values[1], values[2], values[3]);
+      const Floats inverse_w = block.parallel ? constant(1.0f) : values[0];
       for (int c = 0; c < 3; ++c) {
         color[c] = hn::Load(kFloats, block.color[c] + k);
         hn::StoreU(color[c], kFloats, out.color[c] + done + k);
       }
-      hn::StoreInterleaved4(values[0], hn::Mul(color[0], values[0]), hn::Mul(color[1], values[0]),
-                            hn::Mul(color[2], values[0]), kFloats, out.values[done + k]);
+      hn::StoreInterleaved4(values[0], hn::Mul(color[0], inverse_w), hn::Mul(color[1], inverse_w),
+                            hn::Mul(color[2], inverse_w), kFloats, out.values[done + k]);
     }
   }
 }

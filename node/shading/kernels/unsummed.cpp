@@ -15,7 +15,8 @@ struct Planes {
   alignas(64) float normal[3][kCapacity];
 };
 
-// Of the plane 1 = k w + b x + c y, by 1 / w = k + (b x + c y) / w on the screen.
+// Of the plane 1 = k w + b x + c y, by 1 / w = k + (b x + c y) / w on the screen; in parallel projection of the plane
+// -w = k + b x + c y.
 void add_planes(const Shading& shading, const Fragment* fragments, std::uint32_t count, Planes& out) {
   const shape::Projection& p = shading.projection;
   const float per_tangent = p.scale * shape::kSubpixels;
@@ -26,7 +27,7 @@ void add_planes(const Shading& shading, const Fragment* fragments, std::uint32_t
     const float dx = p.center[0] * shape::kSubpixels - static_cast<float>(t.first_x);
     out.normal[0][k] = -(per_x * per_tangent);
     out.normal[1][k] = per_y * per_tangent;
-    out.normal[2][k] = (t.at_first[shape::kDepth] + dy * per_y) + dx * per_x;
+    out.normal[2][k] = p.parallel ? 1.0f : (t.at_first[shape::kDepth] + dy * per_y) + dx * per_x;
   }
 }
 
@@ -64,11 +65,7 @@ void copy_out(const Block& block, std::uint32_t at, float* const* to) {
 
 void share_fog(const wire::Fog& fog, const Block& block, float* out) {
   const FogDepth depth(fog);
-  for (std::uint32_t k = 0; k < block.count; k += kLanes) {
-    Floats inverse_w, rest[3];
-    hn::LoadInterleaved4(kFloats, block.values[k], inverse_w, rest[0], rest[1], rest[2]);
-    hn::StoreU(depth.share(inverse_w), kFloats, out + k);
-  }
+  for (std::uint32_t k = 0; k < block.count; k += kLanes) hn::StoreU(depth.share(block, k), kFloats, out + k);
 }
 
 }  // namespace
@@ -76,7 +73,7 @@ void share_fog(const wire::Fog& fog, const Block& block, float* out) {
 ShadedCounts shade_unsummed(const Shading& shading, const Fragment* fragments, std::uint32_t count, std::uint32_t line,
                             const UnsummedLight& out) {
   ShadedCounts counts;
-  Block block;
+  Block block(shading);
   Planes planes;
   const geometry::EyeLight* const casting = shading.lights + (shading.light_count - shading.casting_count);
   for (std::uint32_t done = 0; done < count; done += block.count) {

@@ -18,7 +18,7 @@ inline constexpr float kFar = 3.4028234e38f;
 
 GridBox project(const LightView& view, const float* const* place, std::uint32_t count, const GridVertices& out);
 void put_points(const LightView& view, const PointFrame& frame, float left, float top, const LanePlaces& places,
-                const float* inverse_w, std::uint32_t active, PointVector& out);
+                const float* depths, std::uint32_t active, PointVector& out);
 std::uint32_t set_up(const LightView& view, const GridVertices& vertices, const shape::Triangles& triangles,
                      const shape::Batch& batch, const GridBox& where, SmallBatches& out);
 std::uint32_t find(const BoxArrays& boxes, std::uint32_t first, std::uint32_t count, const GridBox& box, float spread,

@@ -151,7 +151,7 @@ GridBox project(const LightView& view, const float* const* place, std::uint32_t 
 }
 
 void put_points(const LightView& view, const PointFrame& frame, float left, float top, const LanePlaces& places,
-                const float* inverse_w, std::uint32_t active, PointVector& out) {
+                const float* depths, std::uint32_t active, PointVector& out) {
   Bounds bounds;
   out.active = out.blocked = out.noted = 0;
   out.has_place = view.has_place;
@@ -159,19 +159,21 @@ void put_points(const LightView& view, const PointFrame& frame, float left, floa
   for (std::uint32_t k = 0; k < kPointLanes; k += kLanes) {
     const Floats x = hn::Add(constant(left), hn::Load(kFloats, places.x + k));
     const Floats y = hn::Add(constant(top), hn::Load(kFloats, places.y + k));
-    const Floats inverse = hn::LoadU(kFloats, inverse_w + k), w = hn::Div(constant(1.0f), inverse);
-    const Floats px = hn::Mul(hn::Mul(hn::Sub(x, constant(frame.center[0])), per_pixel), w);
-    const Floats py = hn::Mul(hn::Mul(hn::Sub(constant(frame.center[1]), y), per_pixel), w);
+    const Floats depth = hn::LoadU(kFloats, depths + k);
+    const Floats w = frame.parallel ? hn::Neg(depth) : hn::Div(constant(1.0f), depth);
+    const Floats spread = frame.parallel ? constant(1.0f) : w;
+    const Floats px = hn::Mul(hn::Mul(hn::Sub(x, constant(frame.center[0])), per_pixel), spread);
+    const Floats py = hn::Mul(hn::Mul(hn::Sub(constant(frame.center[1]), y), per_pixel), spread);
     const Seen seen(view, px, py, hn::Neg(w));
-    auto here = hn::And(seen.on_grid, hn::Gt(inverse, constant(0.0f)));
+    auto here = hn::And(seen.on_grid, hn::Gt(depth, constant(frame.nothing)));
     if (view.is_face) {
       here = hn::And(here, hn::Le(hn::Abs(seen.across_u), seen.depth));
       here = hn::And(here, hn::Le(hn::Abs(seen.across_v), seen.depth));
     }
     const std::uint8_t asked[8] = {static_cast<std::uint8_t>(active >> k), static_cast<std::uint8_t>(active >> k >> 8)};
     here = hn::And(here, hn::LoadMaskBits(kFloats, asked));
-    Floats error =
-        hn::Add(hn::Mul(hn::Add(hn::Mul(w, constant(frame.by_square)), constant(frame.by_w)), w), constant(frame.grid));
+    Floats error = hn::Add(hn::Mul(hn::Add(hn::Mul(w, constant(frame.by_square)), constant(frame.by_w)), w),
+                           constant(frame.everywhere));
     if (view.has_place) error = hn::Mul(hn::Add(error, hn::Mul(seen.depth, constant(frame.by_depth))), seen.z);
     const Ints grid_x = on_grid(seen.x, here), grid_y = on_grid(seen.y, here);
     hn::Store(grid_x, kInts, out.x + k);

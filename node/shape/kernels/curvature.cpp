@@ -48,10 +48,13 @@ Fineness estimate_curvature(const CurvatureWeights& weights, const float (*point
     const Floats uu = bend(CurvatureWeights::kUU), uv = bend(CurvatureWeights::kUV), vv = bend(CurvatureWeights::kVV);
     const Floats length_u = hn::Sqrt(dot(u, u)), length_v = hn::Sqrt(dot(v, v));
 
-    const Floats toward = hn::Mul(dot(n, p), unit);
-    const Floats cosine2 = ratio(hn::Mul(toward, toward), dot(p, p));
+    // From a place to the eye, but for its sign.
+    const Vector ray = projection.parallel ? Vector{hn::Zero(kFloats), hn::Zero(kFloats), constant(1)} : p;
+    const Floats toward = hn::Mul(dot(n, ray), unit);
+    const Floats cosine2 = ratio(hn::Mul(toward, toward), dot(ray, ray));
     const Floats sine = hn::Sqrt(hn::Max(hn::Sub(constant(1), cosine2), hn::Zero(kFloats)));
-    const Floats pixels = hn::Div(constant(projection.scale), hn::Max(hn::Neg(p.z), constant(projection.near)));
+    const Floats depth = projection.parallel ? constant(1) : hn::Max(hn::Neg(p.z), constant(projection.near));
+    const Floats pixels = hn::Div(constant(projection.scale), depth);
     const Floats shown = hn::Mul(hn::Mul(sine, pixels), constant(1 / (8 * tolerances.outline)));
     const auto fineness = [&](Floats own, Floats length, Floats other_length) {
       const Floats outline = hn::Sqrt(hn::Mul(hn::Add(own, uv), shown));

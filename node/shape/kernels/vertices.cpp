@@ -86,8 +86,8 @@ bool project(const Projection& p, const Vertices& v, int count) {
                subpixels = constant(kSubpixels);
   bool any = false;
   for (int k = 0; k < count; k += kLanes) {
-    const Floats w = hn::Neg(hn::LoadU(kFloats, v.place[2] + k));
-    const Floats inverse = hn::Div(constant(1.0f), w);
+    const Floats z = hn::LoadU(kFloats, v.place[2] + k), w = hn::Neg(z);
+    const Floats inverse = p.parallel ? constant(1.0f) : hn::Div(constant(1.0f), w);
     const Floats dx = hn::Mul(constant(p.scale), hn::Mul(hn::LoadU(kFloats, v.place[0] + k), inverse));
     const Floats dy = hn::Mul(constant(-p.scale), hn::Mul(hn::LoadU(kFloats, v.place[1] + k), inverse));
     // A NaN is not inside.
@@ -99,7 +99,7 @@ bool project(const Projection& p, const Vertices& v, int count) {
     const Floats y = hn::Add(hn::Mul(hn::Add(constant(p.center[1]), dy), subpixels), half);
     hn::StoreU(hn::ConvertTo(kInts, hn::Floor(hn::IfThenElseZero(inside, x))), kInts, v.x + k);
     hn::StoreU(hn::ConvertTo(kInts, hn::Floor(hn::IfThenElseZero(inside, y))), kInts, v.y + k);
-    hn::StoreInterleaved4(inverse, hn::Mul(hn::LoadU(kFloats, v.normal[0] + k), inverse),
+    hn::StoreInterleaved4(p.parallel ? z : inverse, hn::Mul(hn::LoadU(kFloats, v.normal[0] + k), inverse),
                           hn::Mul(hn::LoadU(kFloats, v.normal[1] + k), inverse),
                           hn::Mul(hn::LoadU(kFloats, v.normal[2] + k), inverse), kFloats, v.values[k]);
     const auto outside = hn::AndNot(inside, hn::FirstN(kFloats, static_cast<std::size_t>(count - k)));

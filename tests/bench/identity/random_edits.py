@@ -118,7 +118,8 @@ class Edits:
 
     def pose_camera(self):
         part = self.choose.choice([f"eye={self.number(-3, 3)},{self.number(-6, -3)},{self.number(-1, 3)}",
-                                   f"at={self.numbers(-0.5, 0.5)}", f"fov={self.number(25, 70)}"])
+                                   f"at={self.numbers(-0.5, 0.5)}", f"fov={self.number(25, 70)}",
+                                   f"height={self.number(1, 8)}", f"shift={self.number(-0.5, 0.5)},{self.number(-0.5, 0.5)}"])
         return ["animate", "FILM", "pose", "camera", part, "--frame", self.frame()]
 
     def pose_light(self):

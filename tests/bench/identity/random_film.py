@@ -89,7 +89,18 @@ class RandomFilm:
             camera["keys"] = self.keys({"fov": lambda: self.number(20, 90)})
             if any("fov" in key for key in camera["keys"]):
                 del camera["fov"]
+        self.project(camera)
         return camera
+
+    def project(self, camera):
+        if self.chance(0.25):
+            camera["projection"] = "orthographic"
+            camera["height"] = self.number(1, 8)
+            if "keys" in camera and self.chance(0.5):
+                del camera["height"]
+                camera["keys"][0]["height"] = self.number(1, 8)
+        if self.chance(0.25):
+            camera["shift"] = [self.number(-0.6, 0.6), self.number(-0.6, 0.6)]
 
     def light(self):
         kind = self.random.choice(["far", "far", "point", "spot"])

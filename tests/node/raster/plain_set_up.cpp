@@ -21,13 +21,13 @@ struct PlainVertex {
 
 PlainVertex project(const Projection& p, const geometry::ClipVertex& eye) {
   PlainVertex out{eye};
-  const float w = -eye.place[2], inverse = 1.0f / w;
+  const float w = -eye.place[2], inverse = p.parallel ? 1.0f : 1.0f / w;
   const float dx = p.scale * (eye.place[0] * inverse), dy = -p.scale * (eye.place[1] * inverse);
   out.outside = !(w >= p.near && w <= p.far && std::abs(dx) <= p.guard && std::abs(dy) <= p.guard);
   if (out.outside) return out;
   out.x = static_cast<std::int32_t>(std::floor((p.center[0] + dx) * 256.0f + 0.5f));
   out.y = static_cast<std::int32_t>(std::floor((p.center[1] + dy) * 256.0f + 0.5f));
-  out.values[shape::kDepth] = inverse;
+  out.values[shape::kDepth] = p.parallel ? -w : inverse;
   for (int axis = 0; axis < 3; ++axis) out.values[shape::kNormalX + axis] = eye.varying[axis] * inverse;
   return out;
 }
@@ -45,7 +45,7 @@ PlainVertex vertex(const shape::Surface& surface, const Projection& projection, 
 float sum_of_sizes(const float* a) { return std::abs(a[0]) + std::abs(a[1]) + std::abs(a[2]); }
 
 // Whether the eye is on the outer side of the triangle in space, or by its normals where it is all but a line.
-bool faces_eye(const PlainVertex (&t)[3]) {
+bool faces_eye(const Projection& p, const PlainVertex (&t)[3]) {
   const float* a = t[0].eye.place;
   float b[3], c[3];
   for (int axis = 0; axis < 3; ++axis) {
@@ -54,11 +54,15 @@ bool faces_eye(const PlainVertex (&t)[3]) {
   }
   const float volume =
       a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
-  const float away = sum_of_sizes(a);
-  if (std::abs(volume) > 1e-6f * away * away * (sum_of_sizes(b) + sum_of_sizes(c))) return volume < 0;
+  const float away = sum_of_sizes(a), sides = sum_of_sizes(b) + sum_of_sizes(c);
+  const float toward_eye = p.parallel ? b[0] * c[1] - b[1] * c[0] : -volume;
+  if (std::abs(toward_eye) > 1e-6f * away * (p.parallel ? 1.0f : away) * sides) return toward_eye > 0;
   float toward = 0;
   for (const PlainVertex& corner : t)
-    for (int axis = 0; axis < 3; ++axis) toward -= corner.eye.varying[axis] * corner.eye.place[axis];
+    for (int axis = 0; axis < 3; ++axis) {
+      const float from_eye = !p.parallel ? corner.eye.place[axis] : axis == 2 ? -1.0f : 0.0f;
+      toward -= corner.eye.varying[axis] * from_eye;
+    }
   return toward > 0;
 }
 
@@ -94,12 +98,12 @@ void set_depth_exactly(const PlainVertex (&t)[3], PlainTriangle& out) {
   out.record.per_y[shape::kDepth] = static_cast<float>((d2 * x1 - d1 * x2) / whole);
 }
 
-void add(const PlainVertex (&t)[3], const PlainVertex (&whole)[3], std::optional<bool> known,
+void add(const Projection& p, const PlainVertex (&t)[3], const PlainVertex (&whole)[3], std::optional<bool> known,
          const PatchIdentity& identity, std::uint32_t index, std::vector<PlainTriangle>& out) {
   PlainTriangle made{};
   made.corners = {{t[0].x, t[1].x, t[2].x}, {t[0].y, t[1].y, t[2].y}};
   if (area(made.corners) == 0) return;
-  made.faces = known ? *known : larger_than_snapping(made.corners) ? area(made.corners) < 0 : faces_eye(t);
+  made.faces = known ? *known : larger_than_snapping(made.corners) ? area(made.corners) < 0 : faces_eye(p, t);
   if (identity.one_sided && made.faces == identity.mirrored) return;
   set_planes(t, made);
   made.record.first_x = t[0].x;
@@ -129,7 +133,7 @@ void add_clipped(const PlainVertex (&t)[3], const Projection& projection, const 
     const PlainVertex piece[3] = {corner(0), corner(k), corner(k + 1)};
     if (piece[0].outside || piece[1].outside || piece[2].outside) continue;
     const std::size_t before = out.size();
-    add(piece, t, faces_eye(t), identity, index, out);
+    add(projection, piece, t, faces_eye(projection, t), identity, index, out);
     if (casting && out.size() > before) set_depth_exactly(piece, out.back());
   }
 }
@@ -146,7 +150,7 @@ std::vector<PlainTriangle> plain_set_up(const shape::Surface& surface, const Pro
     if (t[0].outside || t[1].outside || t[2].outside)
       add_clipped(t, projection, identity, k, casting, out);
     else
-      add(t, t, std::nullopt, identity, k, out);
+      add(projection, t, t, std::nullopt, identity, k, out);
   }
   return out;
 }

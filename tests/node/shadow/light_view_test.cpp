@@ -152,7 +152,7 @@ TEST(LightViews, StepsFitTheFarthestPlaces) {
   const LightViews views = light_views(light, wide);
   const double farthest = double{wide.far} / double{wide.corner};
   EXPECT_LE(farthest * double{views.middle.front().per_step}, 1 << 29);
-  EXPECT_GE(double{views.frame.grid}, 2 / double{views.middle.front().per_step} * 0.999);
+  EXPECT_GE(double{views.frame.everywhere}, 2 / double{views.middle.front().per_step} * 0.999);
 }
 
 }  // namespace

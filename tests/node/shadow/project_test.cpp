@@ -168,7 +168,7 @@ TEST(PutPoints, IsPlainCodesEverywhere) {
       if (!(asked >> k & 1) || !(at.inverse_w[k] > 0) || !seen.on_grid || !own) continue;
       plain.active |= 1u << k;
       plain.x[k] = on_grid(seen.x), plain.y[k] = on_grid(seen.y), plain.z[k] = seen.z;
-      plain.error[k] = (w * frame.by_square + frame.by_w) * w + frame.grid;
+      plain.error[k] = (w * frame.by_square + frame.by_w) * w + frame.everywhere;
       if (view.has_place) plain.error[k] = (plain.error[k] + seen.depth * frame.by_depth) * seen.z;
       bounds.add(plain.x[k], plain.y[k], plain.z[k]);
     }

@@ -104,9 +104,8 @@ double chord_error(const Curve& curve, int rate, const Projection& view) {
 }
 
 // Wherever on the picture.
-TEST(Bezier, EdgeRatesKeepTheirTolerance) {
+void expect_edges_within_tolerance(const Projection& view) {
   Random random(12);
-  const Projection view = projection(640, 480, 3);
   const double slack = 1.01, tolerance = 0.1;
   double worst = 0;
   for (int trial = 0; trial < 2000; ++trial) {
@@ -121,6 +120,11 @@ TEST(Bezier, EdgeRatesKeepTheirTolerance) {
   }
   EXPECT_LE(worst, tolerance * slack);
   EXPECT_GT(worst, tolerance / 3) << "rates are much finer than they need be";
+}
+
+TEST(Bezier, EdgeRatesKeepTheirTolerance) {
+  expect_edges_within_tolerance(projection(640, 480, 3));
+  expect_edges_within_tolerance(parallel_projection(640, 480, 5));
 }
 
 // Second differences of d pixels, times six, bound the second derivative. Before the eye a bend across the view shows
@@ -308,9 +312,8 @@ TEST(Bezier, ToEyeMapsControlPoints) {
     }
 }
 
-TEST(Bezier, UnseenPatchesHaveNoPlaceInThePicture) {
+void expect_unseen_have_no_place(const Projection& view) {
   Random random(17);
-  const Projection view = projection(640, 480, 2, 0.5, 50);
   int unseen = 0;
   for (int trial = 0; trial < 20000; ++trial) {
     const Vec3 middle{random.real(-30, 30), random.real(-30, 30), random.real(-60, 10)};
@@ -324,6 +327,11 @@ TEST(Bezier, UnseenPatchesHaveNoPlaceInThePicture) {
   EXPECT_LT(unseen, 19000);
 }
 
+TEST(Bezier, UnseenPatchesHaveNoPlaceInThePicture) {
+  expect_unseen_have_no_place(projection(640, 480, 2, 0.5, 50));
+  expect_unseen_have_no_place(parallel_projection(640, 480, 30, 0.5, 50));
+}
+
 // Each of the six ways out is noticed.
 TEST(Bezier, PatchesBesideThePictureAreUnseen) {
   Random random(18);
@@ -332,6 +340,12 @@ TEST(Bezier, PatchesBesideThePictureAreUnseen) {
                              Vec3{0, 7, -10}, Vec3{0, -7, -10}})
     EXPECT_TRUE(shape::unseen(random_patch(random, middle, 0.3), view, 640, 480));
   EXPECT_FALSE(shape::unseen(random_patch(random, {0, 0, -10}, 0.3), view, 640, 480));
+  // Four high, and shifted: from -2.13 to 3.2 and from -2.8 to 1.2.
+  const Projection parallel = parallel_projection(640, 480, 4, 0.5, 50);
+  for (const Vec3& middle :
+       {Vec3{0, 0, 0.5}, Vec3{0, 0, -51}, Vec3{-2.6, 0, -40}, Vec3{3.7, 0, -1}, Vec3{0, 1.7, -40}, Vec3{0, -3.3, -1}})
+    EXPECT_TRUE(shape::unseen(random_patch(random, middle, 0.3), parallel, 640, 480));
+  EXPECT_FALSE(shape::unseen(random_patch(random, {2.8, -2.4, -40}, 0.3), parallel, 640, 480));
 }
 
 }  // namespace

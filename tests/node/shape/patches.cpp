@@ -31,6 +31,11 @@ Projection projection(std::int32_t width, std::int32_t height, double focal, dou
   return geometry::projection_of({{}, focal, near, far}, width, height);
 }
 
+Projection parallel_projection(std::int32_t width, std::int32_t height, double shown, double near, double far) {
+  return geometry::projection_of({{}, 2 / shown, near, far, 1, 0.1, -0.2, wire::Projection::orthographic}, width,
+                                 height);
+}
+
 EyePatch random_patch(Random& random, const Vec3& middle, double size) {
   return make_patch([&](int, int) {
     Vec3 place = middle;
@@ -83,8 +88,8 @@ Vec3 point_at(const EyePatch& patch, double u, double v) {
 }
 
 std::array<double, 2> on_screen(const Projection& p, const Vec3& place) {
-  const double w = -place[2];
-  return {p.center[0] + p.scale * place[0] / w, p.center[1] - p.scale * place[1] / w};
+  const double spread = p.parallel ? 1 : -place[2];
+  return {p.center[0] + p.scale * place[0] / spread, p.center[1] - p.scale * place[1] / spread};
 }
 
 std::array<std::array<float, 3>, 4> side_points(const EyePatch& patch, Side side) {

@@ -38,6 +38,9 @@ inline Dicing adaptive(std::uint32_t samples = 1) { return {0, tolerances_of(sam
 
 // The eye's view on a picture: `focal` = 1 / tan(half the vertical field of view).
 Projection projection(std::int32_t width, std::int32_t height, double focal, double near = 0.1, double far = 1000);
+// A picture that shows `shown` of the height everywhere, a little beside the view axis.
+Projection parallel_projection(std::int32_t width, std::int32_t height, double shown, double near = 0.1,
+                               double far = 1000);
 
 // Control points place(i, j), i along u.
 template <typename Place>

@@ -45,7 +45,7 @@ double size_of(const Film& film, const Chosen& chosen) {
 
 bool reducible(const Chosen& chosen, const std::string& part) {
   if (chosen.thing.actor) return part != "attach";
-  return chosen.thing.name == "camera" && (part == "eye" || part == "at" || part == "fov");
+  return chosen.thing.name == "camera" && (part == "eye" || part == "at" || part == "fov" || part == "height");
 }
 
 class Reducer {

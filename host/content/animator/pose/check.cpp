@@ -140,7 +140,9 @@ std::uint32_t last_of(const Channels&... channels) {
   return std::max({(channels.empty() ? 0u : channels.back().frame)...});
 }
 
-std::uint32_t last_key(const CameraMotion& c) { return last_of(c.eye, c.at, c.up, c.fov, c.exposure); }
+std::uint32_t last_key(const CameraMotion& c) {
+  return last_of(c.eye, c.at, c.up, c.fov, c.height, c.shift, c.exposure);
+}
 
 std::uint32_t last_key(const LightMotion& l) {
   return last_of(l.vector, l.color, l.intensity, l.reach, l.at, l.cone, l.size);

@@ -32,13 +32,18 @@ struct Point {
 };
 
 struct CameraMotion {
+  wire::Projection projection = wire::Projection::perspective;
   Channel<Point> eye;  // camera_points.h says where they are
   Channel<Point> at;
   Channel<glm::dvec3> up;
-  Channel<double> fov;       // vertical, degrees
-  Channel<double> exposure;  // stops; of linear films
-  double near = 0.1;         // nothing nearer or farther is drawn
+  Channel<double> fov;        // vertical, degrees; of perspective cameras
+  Channel<double> height;     // of what the picture shows; of orthographic cameras
+  Channel<glm::dvec2> shift;  // widths and heights of the picture (wire::Camera)
+  Channel<double> exposure;   // stops; of linear films
+  double near = 0.1;          // nothing nearer or farther is drawn
   double far = 10000;
+  double interaxial = 0.065;  // between the eyes of a stereo pair
+  double convergence = 5;     // how far ahead both see the same in the same place of their pictures
 };
 
 struct LightMotion {

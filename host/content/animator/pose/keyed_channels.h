@@ -21,12 +21,11 @@ struct KeyedChannel {
   std::variant<Channel<Values> Motion::*...> channel;
 };
 
-using CameraChannel = KeyedChannel<CameraMotion, double, glm::dvec3, Point>;
-inline constexpr CameraChannel kCameraChannels[] = {{"eye", &CameraMotion::eye},
-                                                    {"at", &CameraMotion::at},
-                                                    {"up", &CameraMotion::up},
-                                                    {"fov", &CameraMotion::fov},
-                                                    {"exposure", &CameraMotion::exposure}};
+using CameraChannel = KeyedChannel<CameraMotion, double, glm::dvec2, glm::dvec3, Point>;
+inline constexpr CameraChannel kCameraChannels[] = {
+    {"eye", &CameraMotion::eye},          {"at", &CameraMotion::at},         {"up", &CameraMotion::up},
+    {"fov", &CameraMotion::fov},          {"height", &CameraMotion::height}, {"shift", &CameraMotion::shift},
+    {"exposure", &CameraMotion::exposure}};
 
 using LightChannel = KeyedChannel<LightMotion, double, glm::dvec2, glm::dvec3>;
 inline constexpr LightChannel kLightChannels[] = {

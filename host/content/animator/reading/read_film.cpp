@@ -36,6 +36,14 @@ std::uint32_t read_dice(const document::Element& element) {
                  "write \"adaptive\" or a number of quads a side");
 }
 
+glm::dvec2 shift_of(const document::Element& element) {
+  document::require_size(element, 2);
+  constexpr document::Range kShifts{-wire::kMostShift, wire::kMostShift};
+  auto number = element.begin();
+  const double x = document::read_number(*number, kShifts);
+  return {x, document::read_number(*++number, kShifts)};
+}
+
 CameraMotion read_camera(const document::Element& element, wire::ColorSpace color, const Carriers& carriers) {
   const auto point_of = [&](const document::Element& point) { return read_point(point, carriers); };
   const document::Fields fields(element, keys::object("camera"));
@@ -47,19 +55,26 @@ CameraMotion read_camera(const document::Element& element, wire::ColorSpace colo
                 add_key(camera.at, key, "at", frame, ease, point_of);
                 add_key(camera.up, key, "up", frame, ease, place_of);
                 add_key(camera.fov, key, "fov", frame, ease, number_of(key, "fov"));
+                add_key(camera.height, key, "height", frame, ease, number_of(key, "height"));
+                add_key(camera.shift, key, "shift", frame, ease, shift_of);
                 add_key(camera.exposure, key, "exposure", frame, ease, number_of(key, "exposure"));
               });
   if (camera.eye.empty()) fields.required("eye");
   settle(camera.eye, fields, "eye", point_of);
   settle(camera.at, fields, "at", point_of);
   settle(camera.up, fields, "up", place_of);
+  camera.projection = static_cast<wire::Projection>(fields.choice("projection"));
   settle(camera.fov, fields, "fov", number_of(fields, "fov"));
+  settle(camera.height, fields, "height", number_of(fields, "height"));
+  settle(camera.shift, fields, "shift", shift_of);
   if (const bool given = !camera.exposure.empty() || fields.find("exposure"); given && color == wire::ColorSpace::coded)
     element.refuse("has an exposure, but the film's colours are coded, as they are shown",
                    "leave exposure out, or \"color\": \"coded\"");
   settle(camera.exposure, fields, "exposure", number_of(fields, "exposure"));
   camera.near = fields.number("near");
   camera.far = fields.number("far");
+  camera.interaxial = fields.number("interaxial");
+  camera.convergence = fields.number("convergence");
   if (camera.far <= camera.near)
     element.refuse("has far " + document::shown(camera.far) + ", not beyond near " + document::shown(camera.near),
                    "make far larger");

@@ -88,6 +88,68 @@ TEST(Compile, CameraLooksAtItsPlace) {
   EXPECT_GT(at({4, 3, 0}).x, 1) << "x to the right";
 }
 
+TEST(Compile, CameraHasItsProjectionAndShift) {
+  const CompiledFilm film = compiled(R"({"frames": 9, "models": {}, "actors": [], "camera": {
+      "eye": [3, -4, 12], "projection": "orthographic", "shift": [0.25, -0.5],
+      "keys": [{"frame": 0, "height": 4}, {"frame": 8, "height": 8}]}})");
+  const auto camera = [&](std::uint32_t frame) { return film.view().camera_at(frame); };
+  EXPECT_EQ(camera(0).projection, wire::Projection::orthographic);
+  EXPECT_EQ(camera(0).focal, 0.5) << "2 / focal is what it shows";
+  EXPECT_NEAR(camera(4).focal, 2.0 / 6, 1e-15);
+  EXPECT_EQ(camera(4).shift_x, 0.25);
+  EXPECT_EQ(camera(8).shift_y, -0.5);
+  const CompiledFilm shifting = compiled(R"({"frames": 3, "models": {}, "actors": [], "camera": {"eye": [3, -4, 12],
+      "keys": [{"frame": 0, "shift": [0, 0]}, {"frame": 2, "shift": [0.5, 1]}]}})");
+  EXPECT_EQ(shifting.view().camera_at(1).shift_x, 0.25);
+  EXPECT_EQ(shifting.view().camera_at(1).shift_y, 0.5);
+  EXPECT_EQ(shifting.view().camera_at(1).projection, wire::Projection::perspective);
+}
+
+// Where a camera that looks along y from the origin shows a place, in widths of the picture from its left edge.
+double shown_at(const wire::Camera& camera, double aspect, double x, double y) {
+  const double across = x + camera.world_to_eye.m[0][3];
+  return 0.5 - camera.shift_x + camera.focal * across / y / (2 * aspect);
+}
+
+TEST(Compile, EyesOfAStereoPairAgreeAtTheirConvergence) {
+  const std::string film = R"({"frames": 1, "size": [320, 160], "models": {}, "actors": [], "camera": {
+      "eye": [0, 0, 0], "at": [0, 1, 0], "shift": [0.1, 0.2], "interaxial": 0.5, "convergence": 4}})";
+  const auto seen_by = [&](Eye eye) { return compile(film_of(film), {.eye = eye}).view().camera_at(0); };
+  const wire::Camera left = seen_by(Eye::left), right = seen_by(Eye::right), middle = seen_by(Eye::middle);
+  EXPECT_EQ(left.world_to_eye.m[0][3], 0.25) << "what is ahead is to the right of the left eye";
+  EXPECT_EQ(right.world_to_eye.m[0][3], -0.25);
+  EXPECT_EQ(left.shift_y, 0.2);
+  for (const double x : {-1.0, 0.0, 1.5}) {
+    EXPECT_NEAR(shown_at(left, 2, x, 4), shown_at(middle, 2, x, 4), 1e-12);
+    EXPECT_NEAR(shown_at(right, 2, x, 4), shown_at(middle, 2, x, 4), 1e-12);
+    EXPECT_GT(shown_at(left, 2, x, 3), shown_at(right, 2, x, 3)) << "crossed before the screen";
+    EXPECT_LT(shown_at(left, 2, x, 5), shown_at(right, 2, x, 5));
+  }
+}
+
+TEST(Compile, RefusesEyesThatSeeNothing) {
+  const auto reported = [](const std::string& keys) {
+    return document::failure_of([&] {
+      compile(film_of(R"({"frames": 1, "models": {}, "actors": [], "camera": {"eye": [3, -4, 12], )" + keys + "}}"),
+              {.eye = Eye::left});
+    });
+  };
+  EXPECT_TRUE(document::holds(reported(R"("projection": "orthographic")"), "has no stereo pair"));
+  EXPECT_TRUE(document::holds(reported(R"("interaxial": 9, "convergence": 1)"), "farther apart"));
+}
+
+TEST(Compile, RefusesProjectionsAndShiftsThatThereAreNot) {
+  const auto reported = [](const std::string& keys) {
+    return document::failure_of([&] {
+      compiled(R"({"frames": 9, "models": {}, "actors": [], "camera": {"eye": [3, -4, 12], )" + keys + "}}");
+    });
+  };
+  EXPECT_TRUE(document::holds(reported(R"("projection": "orthografic")"), "did you mean 'orthographic'?"));
+  EXPECT_TRUE(document::holds(reported(R"("shift": [0, 1.5])"), "camera.shift[1]"));
+  EXPECT_TRUE(document::holds(reported(R"("shift": 0.5)"), "camera.shift"));
+  EXPECT_TRUE(document::holds(reported(R"("projection": "orthographic", "height": 0)"), "camera.height"));
+}
+
 TEST(Compile, RefusesACameraThatCannotLook) {
   const auto reported = [](const std::string& camera) {
     return document::failure_of(

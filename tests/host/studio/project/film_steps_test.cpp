@@ -135,7 +135,7 @@ TEST_F(FilmSteps, CameraLightsAndSettingsHaveTheKeysOfTheTable) {
                                  "keyed", "animated"}));
   EXPECT_EQ(light["cone"], Json::parse("[32, 40]"));
   const Json camera = project->describe()["camera"];
-  for (const char* name : {"eye", "at", "up", "fov", "exposure", "near", "far"})
+  for (const char* name : {"eye", "at", "up", "projection", "fov", "height", "shift", "exposure", "near", "far"})
     EXPECT_TRUE(camera.contains(name)) << name;
   EXPECT_EQ(camera["near"], 0.25);
   EXPECT_EQ(camera["far"], 10000);

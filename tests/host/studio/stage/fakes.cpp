@@ -63,6 +63,7 @@ void FakeProject::move_camera(const Json& effect) {
   set_point(film_.camera.eye, "eye");
   set_point(film_.camera.at, "at");
   if (effect.contains("fov")) animator::set_key(film_.camera.fov, effect["fov"].get<double>(), frame_, 0.0);
+  if (effect.contains("height")) animator::set_key(film_.camera.height, effect["height"].get<double>(), frame_, 0.0);
   if (rig_lights_) film_.lights = animator::rig_lights(film_);
 }
 

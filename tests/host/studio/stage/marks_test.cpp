@@ -23,9 +23,10 @@ std::string xy(const glm::dvec2& pixel) {
   return "\"x\": " + std::to_string(pixel.x) + ", \"y\": " + std::to_string(pixel.y);
 }
 
-animator::Film lit() {
+animator::Film lit(const std::string& lens = R"("fov": 40)") {
   return film::film_of(R"({"frames": 9, "size": [640, 320],
-    "camera": {"eye": [2, -4, 2], "at": [2, 0, 2], "fov": 40},
+    "camera": {"eye": [2, -4, 2], "at": [2, 0, 2], )" +
+                       lens + R"(},
     "lights": [{"direction": [0, 0, 1]}, {"place": [-2, 0, 3], "reach": 1.5},
                {"place": [4, 0, 4], "at": [4, 0, 1], "cone": [20, 40]}],
     "models": {"box": {"joints": [{"name": "body", "segment": {"shape": "box"}}]}},
@@ -33,7 +34,7 @@ animator::Film lit() {
 }
 
 struct Scene : OnStage {
-  explicit Scene(bool rig = false) : OnStage(lit()) {
+  explicit Scene(bool rig = false, const animator::Film& film = lit()) : OnStage(film) {
     project.rig_lights_ = rig;
     show();
   }
@@ -187,6 +188,24 @@ TEST(Marks, TheCameraIsZoomedByItsUpperEdge) {
   const Json step = scene.drop();
   EXPECT_NEAR(step["fov"].get<double>(), 60, 1e-4);
   EXPECT_FALSE(step.contains("eye"));
+}
+
+// What it shows is a box, moved by its lens shift, whose height is pulled at its upper edge.
+TEST(Marks, AnOrthographicCameraShowsABox) {
+  Scene scene(false, lit(R"("projection": "orthographic", "height": 3, "shift": [0.25, 0])"));
+  for (const double x : {-1.5, 4.5})
+    for (const double z : {0.5, 3.5})
+      for (const double y : {-4.0, 0.0})
+        EXPECT_TRUE(scene.passes("camera", {2 + x, y, z})) << x << ' ' << y << ' ' << z;
+  scene.select("camera");
+  scene.pull({2, 0, 3.5}, {2, 0, 4});
+  const Json step = scene.drop();
+  EXPECT_NEAR(step["height"].get<double>(), 4, 1e-4);
+  scene.take(R"({"do": "put_camera", "view": 0})");
+  const Json effect = effect_of(scene.project.commits.back());
+  const preview::Orbit orbit{{1, 0, 2}, -70, 15, 14};
+  EXPECT_NEAR(effect["height"].get<double>(), preview::height_of(orbit), 1e-5) << "shows what the view shows";
+  EXPECT_LT(glm::length(vector_of(effect["at"]) - glm::dvec3(1, 0, 2)), 1e-6);
 }
 
 TEST(Marks, LightsArePulled) {

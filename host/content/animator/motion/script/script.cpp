@@ -178,7 +178,7 @@ class Player {
   // camera cut eye X Y Z at X Y Z fov N: from this frame on; camera move the same, seconds S or until TIME.
   std::uint32_t move_camera(ScriptLine& line, std::uint32_t at) {
     constexpr std::string_view verbs[] = {"cut", "move", "follow", "look", "pose"},
-                               parts[] = {"eye", "at", "fov", "seconds", "until"};
+                               parts[] = {"eye", "at", "fov", "height", "seconds", "until"};
     const std::string verb = line.take("cut, move, pose, follow or look");
     if (verb == "follow" || verb == "look") return go_along(line, verb, at);
     if (verb != "cut" && verb != "move")
@@ -192,8 +192,10 @@ class Player {
         seconds = seconds_until(line, at);
       else if (part == "seconds" && verb == "move")
         seconds = line.take_time(times_, 1);
-      else if (part == "eye" || part == "at" || part == "fov")
-        settings.push_back(part + "=" + list_of(take_words(line, part == "fov" ? 1 : 3), ','));
+      else if (part == "fov" || part == "height")
+        settings.push_back(part + "=" + list_of(take_words(line, 1), ','));
+      else if (part == "eye" || part == "at")
+        settings.push_back(part + "=" + list_of(take_words(line, 3), ','));
       else
         line.refuse("has '" + part + "', which the camera does not know",
                     document::did_you_mean(part, parts, "write eye, at or fov"));
