@@ -43,11 +43,11 @@ def x11():
 
 
 class Display:
-    def __init__(self, folder, width=800, height=600):
+    def __init__(self, folder, *options, width=800, height=600):
         reading, writing = os.pipe()
         self.server = subprocess.Popen(
             ["Xvfb", "-displayfd", str(writing), "-screen", "0", f"{width}x{height}x24", "-fbdir", str(folder), "-ac",
-             "-noreset", "-nolisten", "tcp"], pass_fds=[writing], stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+             "-noreset", "-nolisten", "tcp", *options], pass_fds=[writing], stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
         os.close(writing)
         with open(reading) as numbers:
             self.number = int(numbers.readline())

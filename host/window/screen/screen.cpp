@@ -25,6 +25,7 @@ void Screen::paste(const pictures::Picture& picture) {
   const images::PictureSize size{picture.head.width, picture.head.height};
   if (size != picture_) begin_picture(size);
   canvas_.paste(picture.rects, picture.pixels);
+  has_picture_ = true;
 }
 
 void Screen::set_title(const std::string& title) { title_ = title; }
@@ -38,8 +39,9 @@ std::vector<Event> Screen::events() {
   return events;
 }
 
+// A window without a picture is not worth its bytes.
 void Screen::update() {
-  if (!window_.is_open()) return;
+  if (!window_.is_open() || !has_picture_) return;
   const std::vector<Area> areas = canvas_.take_changed();
   if (!areas.empty()) window_.show(canvas_, areas);
   update_title();

@@ -35,6 +35,7 @@ class Screen {
   Window window_;
   Canvas canvas_;
   images::PictureSize picture_{1, 1};
+  bool has_picture_ = false;
   std::string title_, shown_title_;
   Clock::time_point titled_;
 };

@@ -33,8 +33,9 @@ void expect_display() {
                 "start MARS from a desktop, or over ssh -X; or ");
 }
 
-// Pixels go straight to an X server: textures would send it the whole window each time.
+// SDL may draw where nobody sees it; a person's SDL_VIDEODRIVER goes before ours.
 void choose_ways() {
+  SDL_SetHint(SDL_HINT_VIDEODRIVER, "x11,wayland");
   SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
   SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
   SDL_SetHint(SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, "0");
@@ -112,6 +113,7 @@ Window::Window() {
   expect_display();
   choose_ways();
   if (SDL_Init(SDL_INIT_VIDEO) != 0) fail("no window can be opened");
+  // Pixels go straight to an X server: textures would send it the whole window each time.
   if (std::string_view(SDL_GetCurrentVideoDriver()) != "wayland") SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
 }
 
