@@ -255,8 +255,7 @@ std::vector<Entry> table() {
       option(all & ~bit(Program::simulated), "--watch", "SOCKET", &RenderOptions::watch,
              "Send the frames that nodes draw to the program that listens at this Unix socket, now or later. "
              "Example: --watch /tmp/watcher"),
-      flag(person, "--window", &RenderOptions::window,
-           "Show frames in a window. Example: --window"),
+      flag(person, "--window", &RenderOptions::window, "Show frames in a window. Example: --window"),
       number(persons | starts, "--restarts", {&RenderOptions::restarts, false, 1000, 0},
              "How often in a row a job that dies is started again if no new frame comes; 0: never; default: 5. "
              "Example: --restarts 0"),
