@@ -31,8 +31,14 @@ struct Pipe {
   Descriptor reading, writing;
 };
 
+// The ends of a stream in both directions.
+struct SocketPair {
+  Descriptor ours, theirs;
+};
+
 // Throw Failure where there are no more descriptors.
 Pipe make_pipe();
+SocketPair make_socket_pair();
 Descriptor null_device();
 Descriptor file_in_memory(std::string_view content = "");  // read from its beginning
 

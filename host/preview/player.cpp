@@ -3,41 +3,28 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <sstream>
 
 #include "host/content/document/text.h"
-#include "host/content/document/text_lines.h"
-#include "host/preview/terminal_picture.h"
 
 namespace mars::preview {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr images::PictureSize kLargest{1280, 720};  // pixels, of terminals that have many
-constexpr std::string_view kTroubleColor = "\x1b[1;31m";
-constexpr std::string_view kNoteColor = "\x1b[1m";
-constexpr std::uint32_t kNoteLines = 2;
 constexpr std::string_view kOwnKeys = " space pause  , . step  home end  [ ] speed  l loop  h help  q quit";
-
-images::Image upper_part(const images::Image& image, std::uint32_t height) {
-  const auto end = image.pixels.begin() + static_cast<std::ptrdiff_t>(std::size_t{height} * image.width);
-  return {image.width, height, {image.pixels.begin(), end}};
-}
 
 class Player {
  public:
-  Player(Pictures& pictures, Terminal& terminal)
-      : pictures_(pictures), terminal_(terminal), picture_(make_terminal_picture(terminal.graphics())) {}
+  Player(Pictures& pictures, Screen& screen) : pictures_(pictures), screen_(screen) {}
 
   int play() {
     go_on_from(0);
     while (true) {
       renew();
       show();
-      const TerminalEvents events = terminal_.wait(until_next());
-      if (events.ended_by != 0) return events.ended_by;
-      if (events.redraw) empty();
+      const ScreenEvents events = screen_.wait(until_next());
+      if (events.ended_by != 0 || events.closed) return events.ended_by;
+      if (events.redraw) shown_ = false;
       for (const KeyPress& key : events.keys)
         if (!handle_key(key)) return 0;
     }
@@ -76,69 +63,25 @@ class Player {
 
   void show() {
     const std::uint32_t now = frame();
-    std::vector<std::string> notes = this->notes(now);
-    if (shown_ && !missing_ && now == shown_frame_ && notes == notes_ && status(now) == status_) return;
-    for (std::size_t above = notes.size(); above < notes_.size(); ++above) write_line(above + 1, "");
-    show_picture(now, notes.size());
-    if (notes != notes_)
-      for (std::size_t i = 0; i < notes.size(); ++i) write_line(notes.size() - i, notes[i]);
-    notes_ = std::move(notes);
-    write_line(0, status_ = status(now));
+    const Words words = this->words(now);
+    if (!screen_.is_ready() || (shown_ && !missing_ && now == shown_frame_ && words == words_)) return;
+    const SharedImage image = pictures_.picture(now, fitted(pictures_.extent(), screen_.space()));
+    missing_ = !pictures_.complete();
+    words_ = this->words(now);
+    screen_.show(image, words_);
     shown_ = true;
     shown_frame_ = now;
   }
 
-  // Its size leaves a line for the status; what would be behind `notes` lines more is left out.
-  void show_picture(std::uint32_t now, std::size_t notes) {
-    const images::PictureSize space = picture_->space(terminal_, 1);
-    const images::PictureSize most{std::min(space.width, kLargest.width), std::min(space.height, kLargest.height)};
-    SharedImage image = pictures_.picture(now, fitted(pictures_.extent(), most));
-    missing_ = !pictures_.complete();
-    if (!image) return;
-    if (images::PictureSize{image->width, image->height} != extent_) {
-      terminal_.write("\x1b[2J");
-      empty();
-      extent_ = {image->width, image->height};
-    }
-    const std::uint32_t height = picture_->space(terminal_, 1 + static_cast<std::uint32_t>(notes)).height;
-    if (image->height > height) image = std::make_shared<const images::Image>(upper_part(*image, height));
-    terminal_.write(picture_->shown(*image));
+  Words words(std::uint32_t now) const {
+    return {help_ ? pictures_.keys() + std::string(kOwnKeys) : "", pictures_.note(now), pictures_.trouble(),
+            status(now)};
   }
 
   std::string status(std::uint32_t now) const {
-    const std::string numbers =
-        document::formatted(" %u/%u  %g frames/s%s%s  ", now, pictures_.frames() - 1, pictures_.rate() * speed_,
-                            paused_ ? "  paused" : "", loop_ ? "" : "  once");
-    return document::cut_to(numbers + pictures_.state() + (missing_ ? "  rendering ..." : "") +
-                                (help_ ? "" : "  h help  q quit"),
-                            terminal_.cells().width);
-  }
-
-  // What stands between the picture and the status.
-  std::vector<std::string> notes(std::uint32_t now) const {
-    const images::PictureSize cells = terminal_.cells();
-    std::vector<std::string> notes;
-    if (help_) {
-      std::istringstream keys(pictures_.keys() + std::string(kOwnKeys));
-      for (std::string line; std::getline(keys, line);) notes.push_back(document::cut_to(line, cells.width));
-    }
-    for (const std::string& line : document::wrapped(pictures_.note(now), cells.width - 1, kNoteLines))
-      notes.push_back(std::string(kNoteColor) + " " + line);
-    for (const std::string& line : document::wrapped(pictures_.trouble(), cells.width, std::max(cells.height / 3, 1u)))
-      notes.push_back(std::string(kTroubleColor) + line);
-    return notes;
-  }
-
-  // `above`: lines above the lowest one.
-  void write_line(std::size_t above, const std::string& text) {
-    const std::uint32_t lines = terminal_.cells().height;
-    if (above < lines) terminal_.write("\x1b[" + std::to_string(lines - above) + ";1H\x1b[0m" + text + "\x1b[0m\x1b[K");
-  }
-
-  void empty() {
-    picture_->forget();
-    shown_ = false;
-    notes_.clear();
+    return document::formatted(" %u/%u  %g frames/s%s%s  ", now, pictures_.frames() - 1, pictures_.rate() * speed_,
+                               paused_ ? "  paused" : "", loop_ ? "" : "  once") +
+           pictures_.state() + (missing_ ? "  rendering ..." : "") + (help_ ? "" : "  h help  q quit");
   }
 
   // False: the person has seen enough.
@@ -191,8 +134,7 @@ class Player {
   }
 
   Pictures& pictures_;
-  Terminal& terminal_;
-  std::unique_ptr<TerminalPicture> picture_;
+  Screen& screen_;
   double at_ = 0;  // frame at which it went on at start_
   Clock::time_point start_;
   double speed_ = 1;
@@ -200,13 +142,11 @@ class Player {
   bool shown_ = false;    // what is due stands on the screen
   bool missing_ = false;  // it was not ready
   std::uint32_t shown_frame_ = 0;
-  std::vector<std::string> notes_;  // as they stand on the screen
-  std::string status_;
-  images::PictureSize extent_{0, 0};
+  Words words_;  // that stand beside it
 };
 
 }  // namespace
 
-int play(Pictures& pictures, Terminal& terminal) { return Player(pictures, terminal).play(); }
+int play(Pictures& pictures, Screen& screen) { return Player(pictures, screen).play(); }
 
 }  // namespace mars::preview

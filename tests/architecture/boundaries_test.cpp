@@ -77,6 +77,10 @@ TEST(Boundaries, AssimpInItsHostFolder) {
   expect_within(files_including(std::regex("^assimp/")), "host/content/importer/");
 }
 
+TEST(Boundaries, SdlInOneHostFile) {
+  EXPECT_EQ(files_including(std::regex("(^|/)SDL[_a-z]*\\.h$")), Files{"host/window/screen/window.cpp"});
+}
+
 TEST(Boundaries, GetenvInOneSettingsFile) {
   Files files;
   for (const Source& source : sources())
@@ -190,7 +194,8 @@ TEST(Boundaries, HostsToolsStandOnOneAnother) {
   const std::string keys = "host/content/keys/", document = "host/content/document/", modeler = "host/content/modeler/",
                     animator = "host/content/animator/";
   const std::string film = "host/content/film/", preview = "host/preview/", images = "host/images/",
-                    child = "host/child/", cli = "host/cli/";
+                    child = "host/child/", cli = "host/cli/", window = "host/window/",
+                    pictures = "host/render/pictures/", compositor = "host/render/compositor/";
   below(child, {child});
   below(cli, {keys, document, cli});
   below(keys, {keys});
@@ -200,7 +205,9 @@ TEST(Boundaries, HostsToolsStandOnOneAnother) {
   below(animator, {child, keys, document, modeler, animator});
   below(film, {keys, document, modeler, animator, film});
   below(images, {keys, document, images});
-  below(preview, {child, keys, document, modeler, animator, film, images, preview, "host/render/sinks/"});
+  below(window, {child, document, images, compositor, pictures, window});
+  below(preview, {child, keys, document, modeler, animator, film, images, preview, "host/render/sinks/", compositor,
+                  pictures, "host/window/window_process.h"});
   below("host/editing/", {keys, document, modeler, animator, film, cli, "host/editing/"});
   below("host/studio/project/",
         {keys, document, modeler, animator, film, preview, "host/editing/", "host/studio/project/"});

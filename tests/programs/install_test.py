@@ -102,7 +102,7 @@ class Installed(Installation):
     def test_each_file_is_in_one_package(self):
         whole = sorted(path.relative_to(self.prefix) for path in self.prefix.rglob("*") if not path.is_dir())
         parts = []
-        for part in ["mars", "mars-nx", "mars-nx-dev"]:
+        for part in ["mars", "mars-nx", "mars-nx-dev", "mars-window"]:
             self.succeed("cmake", "--install", BUILD, "--component", part, "--prefix", self.folder / part)
             parts += [path.relative_to(self.folder / part) for path in (self.folder / part).rglob("*")
                       if not path.is_dir()]

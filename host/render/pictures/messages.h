@@ -5,11 +5,14 @@
 //   studio -> host             film, then scene, draw, close, in any number
 //   host -> studio             begin (after each film), picture or dropped for every scene and draw, refused (its last)
 //   rendering host -> watcher  begin (first after each connection), then picture and drawn, in any order
+//   player -> window           begin, then picture and caption, in any order
+//   window -> player           space (first), then key and space, in any order
 //
 // A serving host draws what is requested in turn. What is newer replaces what is older of the same view and has not
 // begun; a scene that is requested also ends what is being drawn of its view. What is replaced or ended is answered by
 // `dropped`. A rendering host never waits for its watcher, who sends nothing: a picture is of what is newest when the
-// watcher takes it, and has every block that changed since the picture that the watcher took before.
+// watcher takes it, and has every block that changed since the picture that the watcher took before. A player is the
+// host of a window that it starts; its pictures are views, of the size that the window has space for.
 #pragma once
 
 #include <array>
@@ -30,6 +33,9 @@ enum class Kind : std::uint32_t {
   dropped,   // no body
   drawn,     // body: DrawnHead, then Part ...
   refused,   // body: text, why the host ends
+  caption,   // body: text, the title of a window
+  key,       // body: Key
+  space,     // body: Space
 };
 
 struct Head {
@@ -117,6 +123,20 @@ struct Part {
   std::uint64_t triangles;
   std::uint64_t edge_boxes;  // drawn on its lines
   std::uint64_t pixels;
+};
+
+// A key that is pressed in a window: a character of ASCII, or one that has none.
+enum class SpecialKey : std::uint32_t { none, up, down, left, right, home, end, back_tab, escape };
+
+struct Key {
+  SpecialKey special;
+  std::uint32_t character;  // 0 unless `special` is none
+};
+
+// A window's, for a picture.
+struct Space {
+  std::uint32_t width;  // pixels
+  std::uint32_t height;
 };
 
 }  // namespace mars::pictures

@@ -11,7 +11,7 @@ constexpr std::uint32_t kOpaque = 0xff000000;
 // Bytes of a body.
 constexpr std::uint64_t kMostInput = std::uint64_t{1} << 40;   // a film or a scene
 constexpr std::uint64_t kMostOutput = std::uint64_t{2} << 30;  // a picture is at most half of it
-constexpr std::uint64_t kMostWords = 1 << 16;                  // why a host ends
+constexpr std::uint64_t kMostWords = 1 << 16;                  // why a host ends, or a window's title
 
 struct Sizes {
   std::uint64_t least, most;
@@ -25,18 +25,23 @@ Sizes sizes_of(Kind kind) {
     case Kind::begin: return {sizeof(Begin), kMostOutput};
     case Kind::picture: return {sizeof(PictureHead), kMostOutput};
     case Kind::drawn: return {sizeof(DrawnHead), kMostOutput};
-    case Kind::refused: return {0, kMostWords};
+    case Kind::refused:
+    case Kind::caption: return {0, kMostWords};
+    case Kind::key: return {sizeof(Key), sizeof(Key)};
+    case Kind::space: return {sizeof(Space), sizeof(Space)};
     default: return {0, 0};
   }
 }
 
-// Takes structs from the front of a host's message.
+// Takes structs from the front of a message.
 class Reader {
  public:
-  Reader(const Message& message, Kind kind) : rest_(message.body) { expect(message.head.kind == kind, "no such kind"); }
+  Reader(const Message& message, Kind kind, Sender sender = Sender::host) : sender_(sender), rest_(message.body) {
+    expect(message.head.kind == kind, "no such kind");
+  }
 
   void expect(bool holds, const char* otherwise) const {
-    if (!holds) throw Malformed(Sender::host, otherwise);
+    if (!holds) throw Malformed(sender_, otherwise);
   }
   template <typename T>
   T take() {
@@ -62,8 +67,22 @@ class Reader {
     rest_ = rest_.subspan(bytes);
   }
 
+  Sender sender_;
   std::span<const std::byte> rest_;
 };
+
+bool is_of(Sender sender, Kind kind) {
+  switch (sender) {
+    case Sender::studio: return kind >= Kind::film && kind <= Kind::close;
+    case Sender::host: return kind >= Kind::begin && kind <= Kind::caption;
+    case Sender::window: break;
+  }
+  return kind == Kind::key || kind == Kind::space;
+}
+
+const char* name_of(Sender sender) {
+  return sender == Sender::studio ? "studio" : sender == Sender::host ? "host" : "window";
+}
 
 bool is_side(std::uint32_t pixels) { return pixels >= 1 && pixels <= wire::kMaxSide; }
 
@@ -83,14 +102,11 @@ bool is_picture_of(const Begin& begin, const PictureHead& head) {
 }  // namespace
 
 Malformed::Malformed(Sender sender, const std::string& what)
-    : Failure((sender == Sender::studio ? "the studio sends " : "the host sends ") + what, "",
-              "run studio and host of the same version") {}
+    : Failure("the " + std::string(name_of(sender)) + " sends " + what, "", "run programs of the same version") {}
 
 void check_head(const Head& head, Sender sender) {
   const auto refuse = [sender](const char* what) { throw Malformed(sender, what); };
-  const bool is_studios = head.kind >= Kind::film && head.kind <= Kind::close;
-  const bool is_hosts = head.kind >= Kind::begin && head.kind <= Kind::refused;
-  if (sender == Sender::studio ? !is_studios : !is_hosts) refuse("a message of no known kind");
+  if (!is_of(sender, head.kind)) refuse("a message of no known kind");
   const Sizes sizes = sizes_of(head.kind);
   if (head.bytes < sizes.least || head.bytes > sizes.most) refuse("a message of an impossible size");
   if (head.view >= wire::kMostViews) refuse("a view whose number is too large");
@@ -134,6 +150,26 @@ DrawnMessage read_drawn(const Message& message) {
   read.parts = reader.take<Part>(read.head.parts);
   reader.expect_end();
   return read;
+}
+
+std::string read_caption(const Message& message) {
+  const Reader of_caption(message, Kind::caption);
+  return {reinterpret_cast<const char*>(message.body.data()), message.body.size()};
+}
+
+Key read_key(const Message& message) {
+  Reader reader(message, Kind::key, Sender::window);
+  const Key key = reader.take<Key>();
+  reader.expect(key.special <= SpecialKey::escape && key.character < 128, "no key");
+  reader.expect((key.special == SpecialKey::none) == (key.character > 0), "no key");
+  return key;
+}
+
+Space read_space(const Message& message) {
+  Reader reader(message, Kind::space, Sender::window);
+  const Space space = reader.take<Space>();
+  reader.expect(is_side(space.width) && is_side(space.height), "an impossible size");
+  return space;
 }
 
 Body body_of_begin(Begin begin, std::span<const wire::Hello> hellos) {

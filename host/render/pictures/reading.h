@@ -16,7 +16,7 @@
 namespace mars::pictures {
 
 // Who sends a message: only some kinds are theirs.
-enum class Sender { studio, host };
+enum class Sender { studio, host, window };
 
 class Malformed : public Failure {
  public:
@@ -55,6 +55,9 @@ BeginMessage read_begin(const Message& message);
 // `begin`: the last that this host sent; none: it has not sent one.
 Picture read_picture(const Message& message, const std::optional<Begin>& begin);
 DrawnMessage read_drawn(const Message& message);
+std::string read_caption(const Message& message);
+Key read_key(const Message& message);
+Space read_space(const Message& message);
 
 // A body that is to be sent; nullptr: an empty one.
 using Body = std::shared_ptr<const std::vector<std::byte>>;

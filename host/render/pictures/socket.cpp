@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstring>
 #include <utility>
 
 namespace mars::pictures {
@@ -16,11 +17,19 @@ constexpr std::size_t kMostOut = std::size_t{64} << 20;    // bytes; with more a
 constexpr int kSocketBuffer = 4 << 20;                     // bytes, as far as the system gives them
 constexpr std::chrono::milliseconds kLook{100};            // between two calls of drain's `give_up`
 
-void check_name(const std::string& path) {
-  const std::size_t most = sizeof sockaddr_un::sun_path - 1;
+sockaddr_un address_of(const std::string& path) {
+  sockaddr_un address{};
+  const std::size_t most = sizeof address.sun_path - 1;
   if (path.size() > most)
     throw Failure("the name of a socket has at most " + std::to_string(most) + " characters", path,
                   "name a socket in a folder with a shorter name");
+  address.sun_family = AF_UNIX;
+  path.copy(address.sun_path, most);
+  return address;
+}
+
+Sender sender_of(Peer peer) {
+  return peer == Peer::host ? Sender::host : peer == Peer::window ? Sender::window : Sender::studio;
 }
 
 }  // namespace
@@ -31,10 +40,7 @@ std::span<const std::byte> Socket::Outgoing::left(std::size_t sent) const {
 }
 
 child::Descriptor connect_to(const std::string& path) {
-  check_name(path);
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  path.copy(address.sun_path, sizeof address.sun_path - 1);
+  const sockaddr_un address = address_of(path);
   child::Descriptor descriptor(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (!descriptor.open()) return {};
   if (connect(descriptor.number(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) return descriptor;
@@ -44,9 +50,19 @@ child::Descriptor connect_to(const std::string& path) {
   return {};
 }
 
-// A watcher that is slow gets few pictures that are old.
+child::Descriptor listen_at(const std::string& path) {
+  const sockaddr_un address = address_of(path);
+  child::Descriptor descriptor(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  if (!descriptor.open() ||
+      bind(descriptor.number(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
+      listen(descriptor.number(), 1) != 0)
+    throw Failure(std::string("no socket can be made: ") + std::strerror(errno), path, "");
+  return descriptor;
+}
+
+// A watcher or window that is slow gets few pictures that are old.
 Socket::Socket(child::Descriptor descriptor, Peer peer) : descriptor_(std::move(descriptor)), peer_(peer) {
-  if (peer_ != Peer::watcher)
+  if (peer_ != Peer::watcher && peer_ != Peer::window)
     setsockopt(descriptor_.number(), SOL_SOCKET, SO_SNDBUF, &kSocketBuffer, sizeof kSocketBuffer);
 }
 
@@ -65,7 +81,7 @@ bool Socket::read_head() {
   if (head_read_ == sizeof in_.head) return true;
   head_read_ += read_some(reinterpret_cast<std::byte*>(&in_.head) + head_read_, sizeof in_.head - head_read_);
   if (head_read_ < sizeof in_.head) return false;
-  check_head(in_.head, peer_ == Peer::host ? Sender::host : Sender::studio);
+  check_head(in_.head, sender_of(peer_));
   return true;
 }
 

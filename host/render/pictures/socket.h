@@ -17,8 +17,10 @@ namespace mars::pictures {
 
 // Connects at once; if it is not open, errno says why. Throws Failure if no socket can have the name.
 child::Descriptor connect_to(const std::string& path);
+// Where nothing has the path yet. Throws Failure if no socket can be there.
+child::Descriptor listen_at(const std::string& path);
 
-enum class Peer { studio, host, watcher };  // a watcher sends nothing
+enum class Peer { studio, host, watcher, window };  // a watcher sends nothing
 
 class Socket {
  public:

@@ -8,6 +8,7 @@
 
 #include "hal/failure/failure.h"
 #include "hal/messages/settings.h"
+#include "host/child/programs.h"
 #include "host/cli/command.h"
 #include "host/images/picture_size.h"
 #include "host/preview/film_pictures.h"
@@ -15,6 +16,8 @@
 #include "host/preview/load.h"
 #include "host/preview/player.h"
 #include "host/preview/reloading_pictures.h"
+#include "host/preview/terminal_screen.h"
+#include "host/preview/window_screen.h"
 #include "host/preview/write_pictures.h"
 
 namespace mars::commands {
@@ -25,6 +28,7 @@ struct PreviewWords {
   preview::WriteOptions write;
   preview::Look look;
   preview::Graphics graphics = preview::Graphics::automatic;
+  bool window = false;
 };
 
 void add_output(cli::Command command, const std::shared_ptr<PreviewWords>& words) {
@@ -60,23 +64,42 @@ void add_output(cli::Command command, const std::shared_ptr<PreviewWords>& words
       .type("N");
 }
 
-void add_graphics(cli::Command command, const std::shared_ptr<PreviewWords>& words) {
+void add_screen(cli::Command command, const std::shared_ptr<PreviewWords>& words) {
   command.add_choice(
       "--graphics", {"auto", "kitty", "sixel", "blocks", "blocks256"},
       [words](std::size_t number) { words->graphics = static_cast<preview::Graphics>(number); },
       "How the terminal shows pictures: its own graphics, or two pixels a character in 24-bit or 256 colours; default: "
       "what the terminal says it can show. Example: --graphics blocks");
+  command.add_flag("--window", words->window, "Play in a window instead of the terminal. Example: --window");
+  command.checks([words] {
+    if (words->window && !words->write.file.empty())
+      throw Failure("-o writes a file and opens no window", "", "leave out --window, or -o");
+  });
 }
 
-// Plays until a person or a signal ends it; the signal then ends the program too, the terminal being given back.
-void play_in_terminal(const PreviewWords& words, const std::function<int(preview::Terminal&)>& play_in) {
+// `smooth`: lines without steps are worth their work there.
+using PlayOn = std::function<int(preview::Screen& screen, bool smooth)>;
+
+// Until a person or a signal ends it; the signal then ends the program too, the terminal being given back.
+void play_in_terminal(const PreviewWords& words, const PlayOn& play_on) {
   int ended_by = 0;
   {
     const messages::TerminalKind kind = messages::terminal_kind();
     preview::Terminal terminal(words.graphics, kind.name, kind.colors24);
-    ended_by = play_in(terminal);
+    preview::TerminalScreen screen(terminal);
+    const bool few_pixels = terminal.graphics() >= preview::Graphics::blocks;  // they cost little, and need it most
+    ended_by = play_on(screen, few_pixels);
   }
   if (ended_by != 0 && ended_by != SIGINT) raise(ended_by);
+}
+
+void play_in_window(const PreviewWords& words, images::PictureSize extent, const PlayOn& play_on) {
+  preview::WindowScreen screen(child::own_file(), std::filesystem::path(words.source).filename().string(), extent);
+  play_on(screen, true);
+}
+
+void play(const PreviewWords& words, images::PictureSize extent, const PlayOn& play_on) {
+  words.window ? play_in_window(words, extent, play_on) : play_in_terminal(words, play_on);
 }
 
 void write_preview(PreviewWords& words, const preview::Previewed& film, const MakeSurface& make_surface) {
@@ -95,11 +118,10 @@ void preview(PreviewWords& words, const MakeSurface& make_surface) {
     return write_preview(words, *film, make_surface);
   }
   std::optional<preview::ReloadingPictures> pictures;
-  play_in_terminal(words, [&](preview::Terminal& terminal) {
-    words.look.smooth =
-        terminal.graphics() >= preview::Graphics::blocks;  // few pixels: they cost little, and need it most
+  play(words, {film->wireframe.width, film->wireframe.height}, [&](preview::Screen& screen, bool smooth) {
+    words.look.smooth = smooth;
     pictures.emplace(words.source, std::move(film), reads.stamps(), make_surface, words.look);
-    return preview::play(*pictures, terminal);
+    return preview::play(*pictures, screen);
   });
   if (pictures->stop()) std::quick_exit(0);  // the film is needed no more: its end is not waited for
 }
@@ -107,7 +129,7 @@ void preview(PreviewWords& words, const MakeSurface& make_surface) {
 void play_folder(const PreviewWords& words) {
   preview::FolderPictures pictures(words.source);
   if (!words.write.file.empty()) return preview::write_pictures(pictures, words.write);
-  play_in_terminal(words, [&](preview::Terminal& terminal) { return preview::play(pictures, terminal); });
+  play(words, pictures.extent(), [&](preview::Screen& screen, bool) { return preview::play(pictures, screen); });
 }
 
 }  // namespace
@@ -130,7 +152,7 @@ void add_preview(cli::Command app, const MakeSurface& make_surface) {
       "--view", {"camera", "front", "side", "top"},
       [words](std::size_t number) { words->look.from = static_cast<preview::From>(number); },
       "From where the film is seen at first; default: the film's camera. Example: --view side");
-  add_graphics(command, words);
+  add_screen(command, words);
   add_output(command, words);
   command.footer("Keys turn joints and set keys of a film: h lists them. docs/previewing.md\n");
   command.runs([words, make_surface] { preview(*words, make_surface); });
@@ -140,7 +162,7 @@ void add_play(cli::Command app) {
   const auto words = std::make_shared<PreviewWords>();
   const cli::Command command = app.add_command("play", "Play rendered frames in the terminal");
   command.add("DIR", words->source, "The folder given to mars render with -o. Example: build/demo").required();
-  add_graphics(command, words);
+  add_screen(command, words);
   add_output(command, words);
   command.runs([words] { play_folder(*words); });
 }

@@ -225,6 +225,15 @@ Finding check_video(const Facts& facts) {
           "install it (Debian: ffmpeg)"};
 }
 
+Finding check_window(const Facts& facts) {
+  if (!facts.window)
+    return {State::note, "window", "mars-window was not found: mars render --window shows nothing",
+            "install the package mars-window, or build MARS with SDL 2 (Debian: libsdl2-dev)"};
+  if (facts.display.empty())
+    return {State::good, "window", "mars-window is there, but no display (DISPLAY is not set)", ""};
+  return {State::good, "window", "mars-window is there, and the display " + facts.display, ""};
+}
+
 void check_slurm(const Facts& facts, std::vector<Finding>& findings) {
   const SlurmJob& job = *facts.slurm;
   const std::string found = "job " + job.id + ", " + document::counted(job.machines, "machine") +
@@ -265,6 +274,7 @@ std::vector<Finding> check_machine(const Facts& facts) {
                         "for other machines install ssh (Debian: openssh-client)"});
   }
   findings.push_back(check_video(facts));
+  findings.push_back(check_window(facts));
   return findings;
 }
 

@@ -48,6 +48,8 @@ struct Facts {
   std::string temporary;                         // the folder for temporary files
   std::optional<Space> temporary_space;          // none: we may not write there
   bool ffmpeg = false;
+  bool window = false;  // mars-window is there
+  std::string display;  // that the environment names; "": none
   std::optional<SlurmJob> slurm;
   std::uint32_t nodes = 1;  // of a rendering on this machine
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <iostream>
+#include <memory>
 #include <thread>
 
 #include "hal/messages/settings.h"
@@ -22,6 +23,7 @@
 #include "host/shell/launch/film_check.h"
 #include "host/shell/launch/hostfile.h"
 #include "host/shell/launch/job.h"
+#include "host/shell/launch/rendering_window.h"
 #include "host/shell/launch/supervisor.h"
 
 namespace mars::launch {
@@ -155,6 +157,24 @@ std::optional<std::uint32_t> frames_there(const options::RenderOptions& options)
                                     options::form_of(options), options.frames, options.overwrite, options.kept_film});
 }
 
+// What sends frames to a window runs where the first process of a job runs.
+void expect_host_here(const options::RenderOptions& options, const Starting& starting) {
+  const std::vector<Slots> machines = machines_of(options, starting);
+  if (machines.empty() || is_here(machines.front().host)) return;
+  throw Failure("the host would run on " + machines.front().host + ", and a window is on this machine alone", "",
+                "name this machine first, or leave out --window");
+}
+
+// From now on hosts send frames to the window; none where nobody asked for it.
+std::unique_ptr<RenderingWindow> open_window(options::RenderOptions& options, const Starting& starting,
+                                             const std::filesystem::path& self) {
+  if (!options.window) return nullptr;
+  expect_host_here(options, starting);
+  auto window = std::make_unique<RenderingWindow>(self, options.film);
+  options.watch = window->socket();
+  return window;
+}
+
 }  // namespace
 
 void launch_render(options::RenderOptions options, const std::filesystem::path& self, const Adviser& adviser) {
@@ -168,8 +188,10 @@ void launch_render(options::RenderOptions options, const std::filesystem::path& 
   }
   if (!options.kept_film) check_film_file(options.film);  // else it may be gone
   const Starting starting = prepare(options, self);
+  const std::unique_ptr<RenderingWindow> window = open_window(options, starting, self);
   Supervisor supervisor(options, world_of(options, starting, display, adviser));
   supervisor.render();
+  if (window) window->leave();
   if (!supervisor.last().ended_for.empty())
     std::cerr << "mars: warning: all frames are there, but " << supervisor.last().ended_for << '\n';
   if (supervisor.restarts() > 0 && !(options.report + options.trace).empty())

@@ -271,8 +271,9 @@ std::vector<Entry> table() {
       option(submits, "--trace", "FILE", &RenderOptions::trace,
              "Write a timeline of all ranks, for ui.perfetto.dev or chrome://tracing. Example: --trace trace.json"),
       option(all & ~bit(Program::simulated), "--watch", "SOCKET", &RenderOptions::watch,
-             "Send the frames that nodes draw to the program that listens at this Unix socket; you can start and end "
-             "it at any time. Example: --watch /tmp/watcher"),
+             "Send the frames that nodes draw to the program that listens at this Unix socket, now or later. "
+             "Example: --watch /tmp/watcher"),
+      flag(person, "--window", &RenderOptions::window, "Show frames in a window. Example: --window"),
       number(persons | starts, "--restarts", {&RenderOptions::restarts, false, 1000, 0},
              "How often in a row a job that dies is started again if no new frame comes; 0: never; default: 5. "
              "Example: --restarts 0"),
@@ -357,13 +358,15 @@ void refuse_name_of_file(const RenderOptions& options) {
                 video ? remedy + ", then make the video: " + play : remedy);
 }
 
+bool is_watched(const RenderOptions& options) { return options.window || !options.watch.empty(); }
+
 void check_writing_nodes(const RenderOptions& options) {
   constexpr const char* kRemedy = "leave out --write nodes";
   const bool simulated = options.backend == Backend::simulated, files = options.sink == SinkKind::files;
   if (simulated && files)
     throw Failure("simulated nodes write no files", "", "use --sink none, which counts what files take");
   if (!simulated && !files) throw Failure("with --sink none there are no files to write", "", kRemedy);
-  if (!options.watch.empty())
+  if (is_watched(options))
     throw Failure("frames that nodes write cannot be watched: the host has no pixels", "", "use --write host");
 }
 
@@ -391,9 +394,12 @@ void check_together(const RenderOptions& options, Program program) {
     throw Failure("simulated nodes are on the machines of --platform", "",
                   "leave out --hostfile, or --backend simulated");
   }
-  if (!options.watch.empty() && options.backend == Backend::simulated) {
-    throw Failure("the time of simulated nodes is not that of who watches", "", "leave out --watch");
+  if (is_watched(options) && options.backend == Backend::simulated) {
+    throw Failure("the time of simulated nodes is not that of who watches", "",
+                  options.window ? "leave out --window" : "leave out --watch");
   }
+  if (options.window && !options.watch.empty())
+    throw Failure("one program can watch a rendering", "", "leave out --window, or --watch");
   if (options.write == WriteWhere::nodes && program != Program::plan) check_writing_nodes(options);
   if (!options.platform.empty() && options.backend != Backend::simulated) {
     throw Failure("a platform is for simulated nodes", "", "add --backend simulated, or leave out --platform");

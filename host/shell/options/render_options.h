@@ -58,6 +58,7 @@ struct RenderOptions {
   std::string report;          // file for the measurements; "": none
   std::string trace;           // file for a picture of the run; "": none
   std::string watch;           // socket of who watches; "": nobody does
+  bool window = false;         // mars starts a program that watches
   std::uint32_t restarts = 5;  // in a row of a job that dies, if no new frame comes
   bool quiet = false;
   std::string serve;  // a studio's socket, at which its pictures are drawn; "": a film is rendered to files

@@ -1,19 +1,14 @@
 #include "host/studio/link/host_connection.h"
 
-#include <sys/un.h>
 #include <unistd.h>
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/local/stream_protocol.hpp>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
 #include <optional>
-#include <system_error>
 #include <utility>
 
 #include "hal/failure/failure.h"
-#include "host/child/environment.h"
+#include "host/child/private_folder.h"
 #include "host/render/pictures/socket.h"
 
 namespace mars::studio {
@@ -26,52 +21,14 @@ using pictures::Kind;
 
 constexpr int kMessagesATurn = 16;
 
-// Its names must fit a socket's address.
-std::filesystem::path sockets_folder() {
-  const child::Environment environment = child::own_environment();
-  const std::string usual = child::temporary_folder(environment);
-  const std::string own = environment.value("XDG_RUNTIME_DIR").value_or("");
-  constexpr std::size_t kOurs = sizeof "/mars-studio-XXXXXX/host";
-  std::error_code ignored;
-  for (const std::string& folder : {own, usual})
-    if (!folder.empty() && folder.size() + kOurs < sizeof sockaddr_un::sun_path &&
-        std::filesystem::is_directory(folder, ignored))
-      return folder;
-  return "/tmp";
-}
-
 }  // namespace
-
-// A folder that only this user may enter, gone at its end.
-class PrivateFolder {
- public:
-  PrivateFolder() : path_(sockets_folder() / "mars-studio-XXXXXX") {
-    std::string name = path_.string();
-    if (mkdtemp(name.data()) == nullptr)
-      throw Failure(std::string("no folder can be made: ") + std::strerror(errno), path_.string(),
-                    "set TMPDIR to a folder that can be written");
-    path_ = name;
-  }
-  ~PrivateFolder() { remove(); }
-  PrivateFolder(const PrivateFolder&) = delete;
-  PrivateFolder& operator=(const PrivateFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-  void remove() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-
- private:
-  std::filesystem::path path_;
-};
 
 class HostConnection::Wire : public std::enable_shared_from_this<Wire> {
  public:
   Wire(asio::io_context& context, Listener listener)
       : listener_(std::move(listener)), acceptor_(context, Local::endpoint(path())), ready_(context) {}
 
-  std::string path() const { return (folder_.path() / "host").string(); }
+  std::string path() const { return folder_.socket().string(); }
 
   void accept() {
     acceptor_.async_accept(ready_, [self = shared_from_this()](Error error) {
@@ -188,7 +145,7 @@ class HostConnection::Wire : public std::enable_shared_from_this<Wire> {
     if (listener) listener(std::forward<decltype(parts)>(parts)...);
   }
 
-  PrivateFolder folder_;
+  child::PrivateFolder folder_{"mars-studio", "host"};
   const Listener listener_;
   Local::acceptor acceptor_;
   Local::socket ready_;                     // says when socket_ has something, or takes more

@@ -69,6 +69,24 @@ Message rendering() {
   return stream;
 }
 
+// Of a player, for its window.
+Message player() {
+  Message stream;
+  append(stream, {Kind::begin}, begin(0));
+  append(stream, {Kind::picture}, picture(0));
+  append(stream, {Kind::caption}, Message(8));
+  return stream;
+}
+
+Message window() {
+  Message stream;
+  append(stream, {Kind::space}, pictures::joined(pictures::Space{kWidth, kHeight}));
+  append(stream, {Kind::key}, pictures::joined(pictures::Key{pictures::SpecialKey::none, 'q'}));
+  return stream;
+}
+
+Peer sender_of(std::size_t stream) { return stream == 0 ? Peer::studio : stream == 4 ? Peer::window : Peer::host; }
+
 // As the studio does it.
 class Screen {
  public:
@@ -77,6 +95,9 @@ class Screen {
       case Kind::begin: begin_ = pictures::read_begin(message).begin; break;
       case Kind::picture: paint(pictures::read_picture(message, begin_)); break;
       case Kind::drawn: pictures::read_drawn(message); break;
+      case Kind::caption: pictures::read_caption(message); break;
+      case Kind::key: pictures::read_key(message); break;
+      case Kind::space: pictures::read_space(message); break;
       default: break;
     }
   }
@@ -111,12 +132,12 @@ void take_stream(const Message& stream, Peer peer) {
 const Form kForm = Form::bytes;
 
 void take(std::string_view input) {
-  static const std::array<Message, 3> sound{requests(), views(), rendering()};
+  static const std::array<Message, 5> sound{requests(), views(), rendering(), player(), window()};
   Script script(input);
   const std::size_t which = script.below(sound.size());
   Message stream = sound[which];
   while (!script.at_end()) edit(stream, script, kLongest);
-  if (!stream.empty()) take_stream(stream, which == 0 ? Peer::studio : Peer::host);
+  if (!stream.empty()) take_stream(stream, sender_of(which));
 }
 
 }  // namespace mars::fuzz

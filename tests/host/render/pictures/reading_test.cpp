@@ -64,6 +64,29 @@ TEST(Reading, OtherMessagesAreAsTheyWereSent) {
   EXPECT_EQ(drawn.parts.at(2).node, 2);
 }
 
+TEST(Reading, MessagesOfWindowsAreAsTheyWereSent) {
+  const Key key = read_key(message_of({Kind::key}, body_of(Key{SpecialKey::none, 'q'})));
+  EXPECT_EQ(key.character, std::uint32_t{'q'});
+  EXPECT_EQ(read_key(message_of({Kind::key}, body_of(Key{SpecialKey::home, 0}))).special, SpecialKey::home);
+  EXPECT_EQ(read_space(message_of({Kind::space}, body_of(Space{640, 360}))).height, 360u);
+  EXPECT_EQ(read_caption(message_of({Kind::caption}, body_of(std::string("a title")))), "a title");
+}
+
+TEST(Reading, DamagedMessagesOfWindowsAreRefused) {
+  const auto refused = [](const Key& key) {
+    return !refusal_of([&] { read_key(message_of({Kind::key}, body_of(key))); }).empty();
+  };
+  EXPECT_TRUE(refused({SpecialKey::none, 0}));
+  EXPECT_TRUE(refused({SpecialKey::none, 128}));
+  EXPECT_TRUE(refused({SpecialKey::up, 'q'}));
+  EXPECT_TRUE(refused({static_cast<SpecialKey>(9), 0}));
+  for (const Space& space : {Space{0, 1}, Space{1, wire::kMaxSide + 1}})
+    EXPECT_NE(refusal_of([&] { read_space(message_of({Kind::space}, body_of(space))); }), "");
+  EXPECT_NE(refusal_of([] { check_head({.kind = Kind::key, .bytes = sizeof(Key)}, Sender::host); }), "");
+  EXPECT_NE(refusal_of([] { check_head({.kind = Kind::begin, .bytes = sizeof(Begin)}, Sender::window); }), "");
+  EXPECT_NE(refusal_of([] { check_head({.kind = Kind::space, .bytes = 3}, Sender::window); }), "");
+}
+
 TEST(Reading, DamagedPicturesAreRefused) {
   const auto refusal = [](const std::function<void(Picture&)>& damage, const std::optional<Begin>& begin = kRendering) {
     Picture picture = sound_picture();

@@ -35,7 +35,8 @@ Facts sound() {
   facts.shared = Space{16 * kGiB, 16 * kGiB};
   facts.temporary = "/tmp";
   facts.temporary_space = Space{100 * kGiB, 50 * kGiB};
-  facts.ffmpeg = true;
+  facts.ffmpeg = facts.window = true;
+  facts.display = ":0";
   facts.nodes = 8;
   return facts;
 }
@@ -214,6 +215,12 @@ TEST(Checks, OtherMachines) {
 
 TEST(Checks, Video) {
   expect(State::note, "ffmpeg", "was not found", "Debian: ffmpeg", [](Facts& f) { f.ffmpeg = false; });
+}
+
+TEST(Checks, Windows) {
+  expect(State::note, "window", "was not found", "libsdl2-dev", [](Facts& f) { f.window = false; });
+  expect(State::good, "window", "no display", "", [](Facts& f) { f.display.clear(); });
+  expect(State::good, "window", "display :0", "", [](Facts&) {});
 }
 
 TEST(Checks, AStart) {

@@ -58,6 +58,7 @@ RenderOptions unusual() {
   options.first_number = 1001;
   options.report = "report.json";
   options.trace = "trace.json";
+  options.window = true;
   options.quiet = true;
   return options;
 }
@@ -127,7 +128,7 @@ TEST(RenderOptions, EveryProgramGetsWhatConcernsIt) {
     if (!starts_nodes) expected.nodes = 0;
     if (!starts_nodes) expected.force = false;
     if (program != Program::mars) expected.backend = Backend::automatic;
-    if (program != Program::mars) expected.quiet = false;
+    if (program != Program::mars) expected.quiet = expected.window = false;
     const Reading reading = read(program, arguments_for(program, unusual()));
     EXPECT_EQ(reading.code, std::nullopt) << reading.printed;
     EXPECT_EQ(reading.options, expected) << static_cast<unsigned>(program);

@@ -1,0 +1,14 @@
+// What the window's program does from its start to its end: shows what comes over its connection.
+#pragma once
+
+#include <string>
+
+#include "host/window/window_process.h"
+
+namespace mars::window {
+
+// Until a person closes the window, or what it shows has ended. Says on kControl that there is a display; throws
+// Failure if there is none.
+void show(Shows shows, const std::string& title);
+
+}  // namespace mars::window

@@ -1,0 +1,196 @@
+"""Windows: `mars render --window` and `mars preview --window`, on a display without a screen. A window shows the frames'
+own pixels, sends the display only what changed, and whatever becomes of it, the rendering goes on."""
+
+import re
+import signal
+import socket
+import struct
+import subprocess
+import unittest
+
+from display import Display, Relay, wait_for_picture
+from harness import ENDLESS, ENVIRONMENT, EXAMPLES, PROGRAMS, ProgramTest, living, family, main, needs, spinning_teapot, \
+    wait_until
+from png_reader import png_rows
+from watcher import BEGIN, HEAD, PICTURE, PICTURE_HEAD
+
+SMALL = [EXAMPLES / "robot-arm.json", "--size", "96x54", "--frames", "0-9", "--backend", "threads"]
+NO_DISPLAY = {name: value for name, value in ENVIRONMENT.items() if name not in ["DISPLAY", "WAYLAND_DISPLAY"]}
+
+
+def on(display):
+    return {**NO_DISPLAY, "DISPLAY": display.name, "SDL_VIDEODRIVER": "x11"}
+
+
+class Host:
+    """Sends pictures to a window of its own, as the host of a rendering does."""
+
+    def __init__(self, display):
+        self.control, theirs = socket.socketpair()
+        listener = socket.socket(socket.AF_UNIX)
+        listener.bind("")
+        listener.listen(1)
+        self.process = subprocess.Popen(
+            ["bash", "-c", 'exec "$0" rendering film 3<&"$1"', PROGRAMS / "mars-window", str(listener.fileno())],
+            env=on(display), stdin=theirs, pass_fds=[listener.fileno()])
+        theirs.close()
+        assert self.control.recv(1) == b"r"
+        self.stream = socket.socket(socket.AF_UNIX)
+        self.stream.connect(listener.getsockname())
+        listener.close()
+
+    def end(self):
+        self.control.close()
+        self.stream.close()
+        assert self.process.wait(10) == 0
+
+    def send(self, kind, body):
+        self.stream.sendall(HEAD.pack(kind, 0, 0, 0, len(body)) + body)
+
+    def begin(self, width, height):
+        self.width, self.height = width, height
+        self.send(BEGIN, struct.pack("<6I", width, height, 16, 1, 10, 0))
+
+    def show(self, color, *rects):
+        """Rectangles x, y, width, height of that color; none: the whole picture."""
+        rects = rects or [(0, 0, self.width, self.height)]
+        head = PICTURE_HEAD.pack(self.width, self.height, len(rects), self.height, 0, 0, 0, 1, 0, 0, 0.0)
+        pixels = b"".join(bytes([*color, 1]) * (width * height) for _, _, width, height in rects)
+        self.send(PICTURE, head + b"".join(struct.pack("<4H", *rect) for rect in rects) +
+                  struct.pack("<iI", 0, 0) * self.height + pixels)
+
+
+@needs("Xvfb")
+@unittest.skipUnless((PROGRAMS / "mars-window").exists(), "built without SDL")
+class Windows(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.display = Display(self.folder)
+        self.addCleanup(self.display.end)
+
+    def start(self, *words, **more):
+        process = subprocess.Popen([PROGRAMS / "mars", *map(str, words)], env=on(self.display), cwd=self.folder,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **more)
+        self.addCleanup(lambda: (process.kill(), process.communicate()))
+        return process
+
+    def host(self, display, width, height):
+        host = Host(display)
+        self.addCleanup(host.end)
+        host.begin(width, height)
+        return host
+
+    def picture(self, name):
+        return png_rows(self.folder / name)
+
+    def title(self):
+        return "".join(self.display.windows().values())
+
+    def window_opens(self):
+        wait_until(self.display.windows, 10, "no window opens")
+
+    def test_stays_with_the_last_frame(self):
+        self.succeed("mars", "render", *SMALL, "-o", "out", "--window", env=on(self.display))
+        title = r"robot-arm.json  -  frame (\d)  -  10 of 10  -  ended"
+        wait_until(lambda: re.fullmatch(title, self.title()), 5, self.title)
+        number = re.fullmatch(title, self.title())[1]
+        wait_for_picture(self.display, self.picture(f"out/frame-000{number}.png"))
+        self.display.press("q")
+        wait_until(lambda: not self.display.windows(), 5, "q does not close the window")
+
+    def test_a_window_that_ends_does_not_end_the_rendering(self):
+        self.write("film.json", spinning_teapot(40, [480, 270]))
+        process = self.start("render", "film.json", "-o", "out", "--backend", "threads", "--window")
+        self.window_opens()
+        self.display.press("Escape")
+        wait_until(lambda: not self.display.windows(), 5, "Esc does not close the window")
+        self.assertIsNone(process.poll())
+        self.assertEqual((process.communicate()[1], process.returncode), ("", 0))
+
+    def test_a_display_that_ends_does_not_end_the_rendering(self):
+        """Nor one that stands still, of which a program may wait for an answer forever."""
+        self.write("film.json", spinning_teapot(30, [320, 180]))
+        for ending in [signal.SIGKILL, signal.SIGSTOP]:
+            with self.subTest(ending.name):
+                process = self.start("render", "film.json", "-o", "out", "--overwrite", "--backend", "threads", "--window")
+                self.window_opens()
+                self.display.server.send_signal(ending)
+                self.assertEqual((process.communicate(timeout=20)[1], process.returncode), ("", 0))
+                self.display.end()
+                self.display = Display(self.folder)
+                self.addCleanup(self.display.end)
+
+    def test_a_signal_ends_rendering_and_window(self):
+        self.write("film.json", spinning_teapot(ENDLESS, [96, 54]))
+        process = self.start("render", "film.json", "--sink", "none", "--backend", "threads", "--window")
+        self.window_opens()
+        everyone = family(process.pid)
+        process.send_signal(signal.SIGTERM)
+        process.wait(10)
+        wait_until(lambda: not living(everyone), 5, lambda: f"left: {living(everyone)}")
+
+    def test_without_a_display_nothing_begins(self):
+        for words in [["render", *SMALL, "-o", "out", "--window"], ["preview", SMALL[0], "--window"]]:
+            for environment, says in [(NO_DISPLAY, "neither DISPLAY nor WAYLAND_DISPLAY"),
+                                      ({**NO_DISPLAY, "DISPLAY": ":99999"}, "no window can be opened")]:
+                self.fail_clearly(1, *words, says=says, env=environment)
+        self.assertFalse((self.folder / "out").exists())
+
+    def test_only_what_changed_goes_to_the_display(self):
+        display = Display(self.folder, "-extension", "MIT-SHM")  # as one at the other end of a network
+        self.addCleanup(display.end)
+        relay = Relay(display)
+        self.addCleanup(relay.end)
+        host = self.host(relay, 320, 180)
+        host.show((200, 30, 40))
+        wait_for_picture(display, [bytes([200, 30, 40]) * 320] * 180)
+        before = relay.settled()
+        self.assertGreater(before, 4 * 320 * 180)
+        host.show((20, 230, 40), (32, 16, 16, 16), (160, 96, 16, 16))
+        wait_for_picture(display, [bytes([20, 230, 40]) * 16] * 16)
+        bytes_sent = relay.settled() - before
+        self.assertGreaterEqual(bytes_sent, 2 * 4 * 16 * 16)
+        self.assertLess(bytes_sent, 2 * 4 * 16 * 16 + 1024)
+
+    def test_keys_change_how_it_is_shown(self):
+        """A picture larger than the screen is reduced to it; 1 shows its pixels, f outlines what came."""
+        host = self.host(self.display, 1280, 800)
+        host.show((200, 30, 40))
+        wait_until(lambda: bytes([200, 30, 40]) * 300 in self.display.rows()[200], 10, "nothing is shown")
+        host.show((10, 20, 250), (608, 384, 64, 32))
+        wait_for_picture(self.display, [bytes([10, 20, 250]) * 28] * 14)
+        self.display.press("1")
+        wait_for_picture(self.display, [bytes([10, 20, 250]) * 64] * 32)
+        self.display.press("f")
+        host.show((10, 120, 250), (608, 384, 64, 32))
+        yellow = bytes([0xff, 0xd7, 0])
+        wait_for_picture(self.display, [yellow * 64, *[yellow + bytes([10, 120, 250]) * 62 + yellow] * 30, yellow * 64])
+
+    def test_previews_with_the_players_keys(self):
+        process = self.start("preview", SMALL[0], "--as", "stick", "--window")
+        self.window_opens()
+        self.display.press(",")
+        wait_until(lambda: "paused" in self.title(), 5, self.title)
+        self.display.press("Home")
+        wait_until(lambda: ":   0/" in self.title(), 5, self.title)
+        self.display.press("2")
+        wait_until(lambda: "vertices" in self.title(), 5, self.title)
+        self.display.press("q")
+        self.assertEqual((process.wait(10), process.stderr.read()), (0, ""))
+
+    def test_preview_shows_what_is_drawn(self):
+        for name in ["stick", "surface"]:
+            self.succeed("mars", "preview", SMALL[0], "--frames", "0", "--as", name, "-o", f"{name}.png")
+        process = self.start("preview", SMALL[0], "--as", "stick", "--window")
+        self.window_opens()
+        self.display.press(",")
+        self.display.press("Home")
+        wait_for_picture(self.display, self.picture("stick.png"))
+        self.display.press("4")
+        wait_for_picture(self.display, self.picture("surface.png"))
+        process.terminate()
+        wait_until(lambda: not self.display.windows(), 5, "the window stays without its player")
+
+
+if __name__ == "__main__":
+    main()
