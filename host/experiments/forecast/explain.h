@@ -9,9 +9,9 @@
 
 namespace mars::forecast {
 
-// `forecast`: of the same counts, tasks and setting.
+// `forecast`: of the same counts, tasks and setting. `threads`: rehearsals at a time.
 walls::Explanation explain(const FilmCounts& counts, const std::vector<farm::Task>& tasks, const Setting& setting,
-                           const Forecast& forecast);
+                           const Forecast& forecast, int threads);
 
 // Where work and messages of the walls take no time. Unevenness is none of a platform's: it stays.
 experiments::Platform without(experiments::Platform platform, walls::Walls walls, Writers writers);

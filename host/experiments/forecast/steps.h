@@ -83,6 +83,7 @@ struct NodeBands {
   double picture = 0;                // for the file
   double encoding = 0;               // seconds
   std::vector<double> background{};  // bytes of bands for inbetweens, piece by piece
+  double lines = 0;                  // that it encodes
 };
 
 Exchange band_steps(const Machines& machines, std::span<const NodeBands> bands, int writer);

@@ -147,9 +147,10 @@ Planned plan(const PlanWords& words, const NodesCode& code) {
   setting.sharers = static_cast<std::int32_t>(options.sharers);
   setting.most_frames = options.cut;
   const int nodes = options.nodes == 0 ? topology::Machine::here().processors() : static_cast<int>(options.nodes);
+  const int threads = topology::Machine::here().processors();
   const auto forecasts = [&](forecast::Writers writers) {
     setting.writers = writers;
-    return forecast::forecasts_up_to(counts, tasks, setting, nodes, options.groups,
+    return forecast::forecasts_up_to(counts, tasks, setting, nodes, options.groups, threads,
                                      nodes >= kMany ? shown_progress("forecasting") : forecast::Progress());
   };
   Planned planned{platform, counts.counted, frames.size(), setting.files, {}, {}, {}, 0};
@@ -162,7 +163,7 @@ Planned plan(const PlanWords& words, const NodesCode& code) {
   }
   for (std::size_t i = 0; words.explain && i < planned.by_nodes.size(); ++i) {
     setting.writers = planned.by_nodes[i].writers;
-    planned.walls.push_back(forecast::explain(counts, tasks, setting, planned.by_nodes[i]));
+    planned.walls.push_back(forecast::explain(counts, tasks, setting, planned.by_nodes[i], threads));
   }
   // An interval says it, too.
   if (!platform.doubt.empty() && !planned.asked().spread) warn(experiments::doubt_text(platform));
