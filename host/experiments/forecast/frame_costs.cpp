@@ -26,6 +26,12 @@ void even_out(const Nodes& nodes, const Of& seconds_of) {
   for (auto& node : nodes) seconds_of(node) = all / static_cast<double>(nodes.size());
 }
 
+// Of messages that take no time, one does for all.
+std::vector<double> as_one(const std::vector<double>& messages) {
+  if (messages.empty()) return {};
+  return {std::accumulate(messages.begin(), messages.end(), 0.0)};
+}
+
 }  // namespace
 
 FrameCosts::FrameCosts(const Setting& setting, int nodes)
@@ -86,10 +92,20 @@ std::vector<double> FrameCosts::making_again(const KeyframeLoad& load) const {
 // pixels where inbetweens may draw, and those of the keyframe to the node that writes it.
 KeyframeGifts FrameCosts::gifts(const KeyframeLoad& load, const KeyframeGroup& group) const {
   KeyframeGifts gifts;
-  if (!load.still.empty()) gifts.still = still_steps(machines_of(group), load.still);
+  const bool still_is_free = !costs_.takes_time(wire::kStillLines),
+             bands_are_free = !costs_.takes_time(wire::kBackground);
+  if (!load.still.empty()) {
+    std::vector<std::vector<double>> messages = load.still;
+    for (std::vector<double>& node : messages)
+      if (still_is_free) node = as_one(node);
+    gifts.still = still_steps(machines_of(group), messages);
+  }
   if (setting_.nodes_write()) {
     std::vector<NodeBands> bands = load.bands;
-    for (NodeBands& node : bands) node.encoding = encoding(node.lines);
+    for (NodeBands& node : bands) {
+      node.encoding = encoding(node.lines);
+      if (bands_are_free) node.background = as_one(node.background);
+    }
     if (setting_.even.keyframes)
       even_out(std::span(bands).first(static_cast<std::size_t>(group.contributors)),
                [](NodeBands& node) -> double& { return node.encoding; });
