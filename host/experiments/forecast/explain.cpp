@@ -7,6 +7,7 @@
 #include <span>
 
 #include "hal/messages/message_types.h"
+#include "host/experiments/forecast/frame_costs.h"
 #include "host/experiments/forecast/side_by_side.h"
 #include "host/render/walls/even.h"
 #include "node/wire/protocol.h"
@@ -140,6 +141,10 @@ class Rehearsals {
 };
 
 }  // namespace
+
+std::string unidentified_text(const FilmCounts& counts, const Setting& setting) {
+  return experiments::unidentified_text(setting.platform, FrameCosts(setting, 1).kinds_of_work(counts));
+}
 
 experiments::Platform without(experiments::Platform platform, Walls walls, Writers writers) {
   simulated::Machine& machine = platform.machine;

@@ -308,6 +308,27 @@ double FrameCosts::pasting(const FrameTotals& totals) const {
   return costs_.of(Work::host_run, totals.runs()) + costs_.of(Work::host_byte, totals.pixels() * pixel_bytes());
 }
 
+std::vector<Work> FrameCosts::kinds_of_work(const FilmCounts& counts) const {
+  FrameTotals all;
+  for (const wire::FrameCounts& keyframe : counts.keyframes) all = all + totals_of(keyframe, band_lines_);
+  for (const TaskCounts& task : counts.tasks)
+    for (const FrameTotals& inbetween : task.inbetweens) all = all + inbetween;
+  wire::UnitCounts units = drawn_units(all) + all.made + all.casters;
+  for (const Work kind :
+       {Work::first_frame, Work::fresh_byte, Work::frame, Work::segment, Work::line_mapped, Work::line})
+    units[kind] = 1;
+  units[Work::edge_box_filled] = units[Work::edge_box_made];
+  units[Work::still_byte] = all.drawn.moving_width;
+  std::vector<Work> kinds;
+  for (std::size_t kind = 0; kind < wire::kNodeKinds; ++kind)
+    if (units.units[kind] > 0) kinds.push_back(static_cast<Work>(kind));
+  kinds.insert(kinds.end(), {Work::host_strip, Work::host_run, Work::host_byte});
+  if (!setting_.nodes_write()) kinds.insert(kinds.end(), {Work::host_restored, Work::host_frame});
+  if (setting_.files)
+    kinds.insert(kinds.end(), {Work::file, experiments::encoded_byte(setting_.picture), Work::file_byte});
+  return kinds;
+}
+
 double FrameCosts::encoding(double lines) const {
   return costs_.of(experiments::encoded_byte(setting_.picture), lines * line_bytes());
 }

@@ -91,6 +91,8 @@ class FrameCosts {
   // And that writes a whole file, which is encoded; its bytes.
   double writing() const;
   double file_bytes() const { return setting_.platform.file_part * height() * line_bytes(); }
+  // Kinds of work that the film's frames have.
+  std::vector<wire::Work> kinds_of_work(const FilmCounts& counts) const;
   HostCosts host_costs(const TaskCounts& task, const wire::FrameCounts& keyframe) const;
   const Costs& costs() const { return costs_; }
 
