@@ -32,6 +32,11 @@ std::vector<double> as_one(const std::vector<double>& messages) {
   return {std::accumulate(messages.begin(), messages.end(), 0.0)};
 }
 
+std::vector<std::vector<double>> as_ones(std::vector<std::vector<double>> by_node) {
+  for (std::vector<double>& messages : by_node) messages = as_one(messages);
+  return by_node;
+}
+
 }  // namespace
 
 FrameCosts::FrameCosts(const Setting& setting, int nodes)
@@ -92,24 +97,24 @@ std::vector<double> FrameCosts::making_again(const KeyframeLoad& load) const {
 // pixels where inbetweens may draw, and those of the keyframe to the node that writes it.
 KeyframeGifts FrameCosts::gifts(const KeyframeLoad& load, const KeyframeGroup& group) const {
   KeyframeGifts gifts;
-  const bool still_is_free = !costs_.takes_time(wire::kStillLines),
-             bands_are_free = !costs_.takes_time(wire::kBackground);
+  const auto relayed = [&](wire::MessageType type) {
+    return costs_.takes_time(type) ? Relayed::in_time : Relayed::at_once;
+  };
   if (!load.still.empty()) {
-    std::vector<std::vector<double>> messages = load.still;
-    for (std::vector<double>& node : messages)
-      if (still_is_free) node = as_one(node);
-    gifts.still = still_steps(machines_of(group), messages);
+    const bool at_once = relayed(wire::kStillLines) == Relayed::at_once;
+    gifts.still =
+        still_steps(machines_of(group), at_once ? as_ones(load.still) : load.still, relayed(wire::kStillLines));
   }
   if (setting_.nodes_write()) {
     std::vector<NodeBands> bands = load.bands;
     for (NodeBands& node : bands) {
       node.encoding = encoding(node.lines);
-      if (bands_are_free) node.background = as_one(node.background);
+      if (relayed(wire::kBackground) == Relayed::at_once) node.background = as_one(node.background);
     }
     if (setting_.even.keyframes)
       even_out(std::span(bands).first(static_cast<std::size_t>(group.contributors)),
                [](NodeBands& node) -> double& { return node.encoding; });
-    gifts.bands = band_steps(machines_of(group), bands, group.writer);
+    gifts.bands = band_steps(machines_of(group), bands, group.writer, relayed(wire::kBackground));
   }
   return gifts;
 }
