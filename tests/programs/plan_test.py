@@ -135,8 +135,9 @@ class Plans(ProgramTest):
         doubted = self.write("doubted.json", dict(platform, not_identified=["pixel", "caster", "encoded_exr_byte"]))
         printed = self.succeed("mars", *words, doubted, "--explain")
         self.assertIn("what pixel cost is not identified", printed.splitlines()[1], "no caster: the film has none")
-        self.assertIn("what pixel cost is not identified", json.loads(self.succeed("mars", *words, doubted, "--json"))["not_identified"])
-        self.assertIn("what pixel and encoded_exr_byte cost", self.succeed("mars", *words, doubted, "--format", "exr"))
+        plan = json.loads(self.succeed("mars", *words, doubted, "--json"))
+        self.assertIn("what pixel cost is not identified", plan["not_identified"])
+        self.assertIn("what pixel, encoded_exr_byte cost", self.succeed("mars", *words, doubted, "--format", "exr"))
         self.assertNotIn("not identified", self.succeed("mars", *words, sure, "--explain"))
         self.assertNotIn("not_identified", self.succeed("mars", *words, sure, "--json"))
 
