@@ -33,7 +33,8 @@ def arguments():
     parser = argparse.ArgumentParser(prog="mars bench large", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", type=pathlib.Path, required=True, help=argparse.SUPPRESS)
-    parser.add_argument("--nodes", default="16,64,256,1024,4096", help="with --walls: to the most (default: %(default)s)")
+    parser.add_argument("--nodes", default="16,64,256,1024,4096",
+                        help="with --walls: from 1 to the most (default: %(default)s)")
     parser.add_argument("--platforms", default="fat-tree,dragonfly,ethernet", help="default: %(default)s")
     parser.add_argument("--groups", help="numbers to try (default: some for each number of nodes)")
     parser.add_argument("--writers", default="host,nodes", help="who writes the frames (default: %(default)s)")

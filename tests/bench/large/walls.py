@@ -58,7 +58,8 @@ def cell(entry):
 def table(by_platform):
     """Rows of one film, of those numbers of nodes that are shown."""
     names = list(by_platform)
-    lines = ["| nodes | " + " | ".join(PLATFORMS.get(name, name) for name in names) + " |", "|" + "---|" * (len(names) + 1)]
+    head = " | ".join(["| nodes", *(PLATFORMS.get(name, name) for name in names)])
+    lines = [head + " |", "|" + "---|" * (len(names) + 1)]
     entries = {name: {entry["nodes"]: entry for entry in by_platform[name]["by_nodes"]} for name in names}
     most = max(next(iter(entries.values())))
     for nodes in [n for n in SHOWN if n < most] + [most]:
