@@ -28,7 +28,7 @@ struct TaskKeyframe {
 
 class Rehearsal {
  public:
-  Rehearsal(const FilmCounts& counts, const farm::Plan& plan, const Setting& setting, int nodes);
+  Rehearsal(const FilmCounts& counts, const farm::Plan& plan, const Setting& setting, int nodes, KeyframeLoads& loads);
 
   Rehearsed run(double limit);
 
@@ -113,6 +113,7 @@ class Rehearsal {
 
   const FilmCounts& counts_;
   const farm::Plan& plan_;
+  KeyframeLoads& loads_;
   const FrameCosts costs_;
   Clockwork clockwork_;
   simulated::Computers computers_;
@@ -121,8 +122,9 @@ class Rehearsal {
   const bool nodes_write_;
   const std::vector<walls::Pace> paces_;
   Exchanges exchanges_;
-  // By number, nodes, place on a machine, and whether inbetweens follow. Those of exact counts are used once.
-  std::map<std::array<std::size_t, 4>, std::shared_ptr<const GroupKeyframe>> keyframes_;
+  // By number, nodes, place on a machine, whether inbetweens follow, and contributors. Those of exact counts are used
+  // once.
+  std::map<KeyframeLoads::Key, std::shared_ptr<const GroupKeyframe>> keyframes_;
   std::vector<std::weak_ptr<const TaskKeyframe>> task_keyframes_;
   std::map<int, std::vector<std::vector<NodePart>>> inbetweens_;  // by nodes that share one, and by task
   std::vector<std::vector<TeamFrame>> team_frames_;               // by task
@@ -140,9 +142,11 @@ farm::HostMemory host_memory(const farm::Plan& plan, const Setting& setting, int
                                  setting.sink_threads);
 }
 
-Rehearsal::Rehearsal(const FilmCounts& counts, const farm::Plan& plan, const Setting& setting, int nodes)
+Rehearsal::Rehearsal(const FilmCounts& counts, const farm::Plan& plan, const Setting& setting, int nodes,
+                     KeyframeLoads& loads)
     : counts_(counts),
       plan_(plan),
+      loads_(loads),
       costs_(setting, nodes),
       computers_(setting.platform.machine, nodes),
       routes_(setting.platform.machine.network, computers_.count(), computers_.of(nodes)),
@@ -226,18 +230,22 @@ std::shared_ptr<const TaskKeyframe> Rehearsal::keyframe_of(std::size_t number, c
   }
   const std::size_t counted = counts_.tasks[number].keyframe;
   auto keyframe = std::make_shared<TaskKeyframe>(shared_keyframe(counted, members));
-  keyframe->gifts = costs_.gifts(*keyframe->drawn, counts_.keyframes[counted], members);
+  keyframe->gifts = costs_.gifts(*keyframe->drawn->load, members);
   task_keyframes_[number] = keyframe;
   return keyframe;
 }
 
 std::shared_ptr<const GroupKeyframe> Rehearsal::shared_keyframe(std::size_t number, const KeyframeGroup& group) {
+  const auto place = static_cast<std::size_t>(group.nodes.first % computers_.nodes_on_each());
+  const KeyframeLoads::Key key{number, static_cast<std::size_t>(group.count()), place, group.has_inbetweens() ? 1u : 0u,
+                               static_cast<std::size_t>(group.contributors)};
+  const KeyframeCounts& counts = counts_.keyframes[number];
   const auto make = [&] {
-    return std::make_shared<const GroupKeyframe>(costs_.keyframe(counts_.keyframes[number], counts_.surfaces, group));
+    auto load = loads_.of(key, [&] { return costs_.load(counts, counts_.surfaces, group); });
+    return std::make_shared<const GroupKeyframe>(costs_.keyframe(std::move(load), counts, group));
   };
   if (counts_.is_exact) return make();
-  const auto place = static_cast<std::size_t>(group.nodes.first % computers_.nodes_on_each());
-  auto& known = keyframes_[{number, static_cast<std::size_t>(group.count()), place, group.has_inbetweens() ? 1u : 0u}];
+  auto& known = keyframes_[key];
   if (known == nullptr) known = make();
   return known;
 }
@@ -531,8 +539,14 @@ void Rehearsal::receive_credit(int n) {
 
 }  // namespace
 
+Rehearsed rehearse(const FilmCounts& counts, const farm::Plan& plan, const Setting& setting, int nodes,
+                   KeyframeLoads& loads, double limit) {
+  return Rehearsal(counts, plan, setting, nodes, loads).run(limit);
+}
+
 Rehearsed rehearse(const FilmCounts& counts, const farm::Plan& plan, const Setting& setting, int nodes, double limit) {
-  return Rehearsal(counts, plan, setting, nodes).run(limit);
+  KeyframeLoads loads;
+  return rehearse(counts, plan, setting, nodes, loads, limit);
 }
 
 }  // namespace mars::forecast
