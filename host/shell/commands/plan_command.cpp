@@ -221,7 +221,7 @@ std::string text_of(const Planned& planned) {
   const forecast::Forecast &asked = planned.asked(), &best = planned.best();
   const forecast::Rehearsed& run = asked.run;
   std::string text = "platform    " + planned.platform.name + "\n";
-  if (!planned.unidentified.empty()) text += "            " + planned.unidentified + "\n";
+  if (!planned.unidentified.empty()) text += "costs       " + planned.unidentified + "\n";
   text += "nodes       " + in_groups(asked) + division_text(asked) + "\n";
   text += document::formatted("seconds     %.4g", asked.seconds()) + " (" + interval_text(planned) + ")\n";
   if (!planned.platform.doubt.empty() && asked.spread)
