@@ -131,7 +131,7 @@ TEST_P(Explained, AsByAblation) {
 INSTANTIATE_TEST_SUITE_P(
     Walls, Explained,
     testing::Values(Bound{Wall::compute, "demo", "0-7", 2, Files::none, "fat-tree", [](Platform&) {}},
-                    // Lines cost what the mapping does not foresee.
+                    // Lines cost what the mapping does not expect.
                     Bound{Wall::imbalance, "s1", "0-0", 32, Files::none, "fat-tree",
                           [](Platform& platform) {
                             scale_nodes(platform, 0);
