@@ -97,8 +97,7 @@ class Renderer {
   std::span<const std::uint64_t> foreseen_still_bytes();
   // Returns the number of passes.
   std::uint32_t map_to_homes(const group::MadeCounts& made);
-  // Whether it takes the group less time to make triangles of other machines again than to send them; the same on all
-  // its nodes.
+  // Whether the group's nodes make triangles of other machines again, instead of sending them; the same on all.
   bool makes_again() const;
   // Sets parts_; returns the lines to be drawn.
   geometry::LineRange exchange_triangles(const raster::Polygons& own, const group::Pass& pass);

@@ -316,8 +316,8 @@ std::string unidentified_text(const Platform& platform, std::span<const Work> ki
     if (std::ranges::count(platform.unidentified, kind) > 0)
       names.push_back(wire::kWorkNames[static_cast<std::size_t>(kind)]);
   if (names.empty()) return "";
-  return "platform " + platform.name + ": what " + document::joined(names) +
-         " cost is not identified: the times that were measured cannot tell it from the costs of other work";
+  return "what " + document::joined(names) +
+         " cost is not identified: measured times cannot tell it from the costs of other work";
 }
 
 double file_seconds(const simulated::Machine& machine, images::PictureFormat format, const images::FileWork& work) {

@@ -105,7 +105,7 @@ static_assert(offsetof(Hello, host) == sizeof(WireStamp), "where every version h
 enum class Mapping : std::uint32_t { greedy, optimal, cost };
 
 // How triangles come to the homes of their lines on other machines: they are sent; or the homes make them again, which
-// is work instead of messages; or as it took less time in earlier keyframes.
+// is work instead of messages; or that where it took less than half the time in earlier keyframes.
 enum class Exchange : std::uint32_t { automatic, send, again };
 
 // Bytes of the film block in one kFilmBlock message; the last has the rest. Few, for nodes pass on what they have while

@@ -128,6 +128,19 @@ class Plans(ProgramTest):
             self.assertLess(first["without"], explained["seconds"])
             self.assertLessEqual(explained["without_both"], first["without"])
 
+    def test_it_names_the_costs_of_the_film_that_are_not_identified(self):
+        words = ["plan", CUBES, "--nodes", 2, "--frames", "0-9", "--platform"]
+        platform = json.loads((SOURCES / "cluster/platforms/reference.json").read_text())
+        sure = self.write("sure.json", dict(platform, not_identified=[]))
+        doubted = self.write("doubted.json", dict(platform, not_identified=["pixel", "caster", "encoded_exr_byte"]))
+        printed = self.succeed("mars", *words, doubted, "--explain")
+        self.assertIn("what pixel cost is not identified", printed.splitlines()[1], "no caster: the film has none")
+        plan = json.loads(self.succeed("mars", *words, doubted, "--json"))
+        self.assertIn("what pixel cost is not identified", plan["not_identified"])
+        self.assertIn("what pixel, encoded_exr_byte cost", self.succeed("mars", *words, doubted, "--format", "exr"))
+        self.assertNotIn("not identified", self.succeed("mars", *words, sure, "--explain"))
+        self.assertNotIn("not_identified", self.succeed("mars", *words, sure, "--json"))
+
     def test_without_storage_a_wall_of_storage_is_gone(self):
         platform = json.loads((SOURCES / "cluster/platforms/fat-tree.json").read_text())
         platform["work"] = json.loads((SOURCES / "cluster/platforms/reference.json").read_text())["work"]

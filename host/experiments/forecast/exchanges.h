@@ -3,10 +3,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <functional>
-#include <map>
 #include <vector>
 
 #include "hal/simulated/computers.h"
@@ -38,7 +37,28 @@ class Exchanges {
     std::uint8_t label;
     std::uint32_t hops;  // how often it goes on
     double bytes;
-    double seconds;  // of the receiver
+    double seconds;    // of the receiver
+    double there = 0;  // when it arrives
+  };
+  // A node sends one after the other.
+  struct Outgoing {
+    int to;
+    Message message;
+    bool passed_on;  // else a step of the node's own
+  };
+  // On their way to a node or there, in the order in which they arrive.
+  class Coming {
+   public:
+    void add(const Message& message);
+    // The first with the label; none: null.
+    const Message* first(std::uint8_t label) const;
+    Message take_first(std::uint8_t label);
+
+   private:
+    std::size_t place_of(std::uint8_t label) const;
+
+    std::vector<Message> messages_;
+    std::size_t begin_ = 0;  // those before were taken
   };
   struct Node {
     int first = 0;                 // of its group
@@ -47,7 +67,8 @@ class Exchanges {
     std::uint32_t taken = 0;  // messages of the step
     bool waits = false;
     Clockwork::Action then;
-    std::map<std::uint8_t, std::deque<Message>> arrived;  // by label
+    Coming coming;
+    Outgoing outgoing{};
   };
 
   Node& of(int n) { return nodes_[static_cast<std::size_t>(n)]; }
@@ -55,11 +76,14 @@ class Exchanges {
   void go_on(int n);
   void next_step(int n);
   void receive(int n);
+  void wake(int n);
   void answer(int n, const Message& message);
   void take(int n, const Message& message);
+  void pass_on(int n, const Message& message, double begin);
   double receiving(const Message& message) const;  // seconds
-  void send(int n, int to, const Message& message, void (Exchanges::*then)(int));
-  void arrive(int n, const Message& message);
+  void send(int n, const Outgoing& outgoing, double begin);
+  void end_send(int n);
+  void add_coming(int n, const Message& message);
   void work(int n, double seconds, void (Exchanges::*then)(int));
   void count_taken(int n);
 

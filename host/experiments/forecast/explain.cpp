@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <optional>
 #include <span>
 
 #include "hal/messages/message_types.h"
+#include "host/experiments/forecast/frame_costs.h"
+#include "host/experiments/forecast/side_by_side.h"
 #include "host/render/walls/even.h"
 #include "node/wire/protocol.h"
 
@@ -48,22 +51,22 @@ void clear(std::vector<double>& costs, std::span<const Work> kinds) {
 class Rehearsals {
  public:
   Rehearsals(const FilmCounts& counts, const std::vector<farm::Task>& tasks, const Setting& setting,
-             const Forecast& forecast)
+             const Forecast& forecast, int threads)
       : tasks_(forecast.most_frames > 0 ? farm::cut_tasks(tasks, forecast.most_frames) : tasks),
         cut_(tasks_.size() > tasks.size() ? std::optional(cut_counts(counts, tasks, tasks_)) : std::nullopt),
         counts_(cut_ ? *cut_ : counts),
         plan_{tasks_, farm::make_groups(forecast.nodes, static_cast<int>(forecast.groups), tasks_.size()),
               forecast.contributors, forecast.sharers},
         setting_(setting),
-        nodes_(forecast.nodes) {}
+        nodes_(forecast.nodes),
+        threads_(threads) {}
 
-  double seconds(Walls removed) const {
-    const experiments::Platform platform = without(setting_.platform, removed, setting_.writers);
-    Even even{removed.has(Wall::imbalance), {}};
-    const Rehearsed run = rehearsed(platform, even);
-    if (!removed.has(Wall::frame)) return run.seconds;
-    even.paces = walls::even_out(run.busy, plan_.groups);
-    return rehearsed(platform, even).seconds;
+  // Times without walls, each by its place.
+  std::vector<double> seconds(const std::vector<Walls>& all) {
+    rehearse_uneven(all);
+    std::vector<double> found(all.size());
+    side_by_side(all.size(), threads_, [&](std::size_t i) { found[i] = seconds(all[i]); });
+    return found;
   }
 
   // What others take no time in any case.
@@ -80,7 +83,40 @@ class Rehearsals {
   }
 
  private:
-  Rehearsed rehearsed(const experiments::Platform& platform, const Even& even) const {
+  // What a rehearsal is kept for.
+  struct Uneven {
+    double seconds;
+    std::vector<walls::Busy> busy;
+  };
+
+  // Nodes that have no frame left help others of the rehearsal in which nobody helps.
+  double seconds(Walls removed) {
+    const Uneven& uneven = uneven_.at(removed.without({Wall::frame}).number());
+    if (!removed.has(Wall::frame)) return uneven.seconds;
+    const std::vector<walls::Pace> paces = walls::even_out(uneven.busy, plan_.groups);
+    const bool helps =
+        std::ranges::any_of(paces, [](const walls::Pace& pace) { return pace.keyframes != 1 || pace.inbetweens != 1; });
+    return helps ? rehearsed(removed, paces).seconds : uneven.seconds;
+  }
+
+  void rehearse_uneven(const std::vector<Walls>& all) {
+    std::map<unsigned long, Walls> missing;
+    for (const Walls each : all) {
+      const Walls removed = each.without({Wall::frame});
+      if (!uneven_.contains(removed.number())) missing.emplace(removed.number(), removed);
+    }
+    std::vector<Walls> fresh;
+    for (const auto& [number, removed] : missing) fresh.push_back(removed);
+    std::vector<Uneven> found(fresh.size());
+    side_by_side(fresh.size(), threads_, [&](std::size_t i) {
+      Rehearsed run = rehearsed(fresh[i], {});
+      found[i] = {run.seconds, std::move(run.busy)};
+    });
+    for (std::size_t i = 0; i < fresh.size(); ++i) uneven_.emplace(fresh[i].number(), std::move(found[i]));
+  }
+
+  Rehearsed rehearsed(Walls removed, std::vector<walls::Pace> paces) {
+    const experiments::Platform platform = without(setting_.platform, removed, setting_.writers);
     Setting setting{setting_.film, platform};
     setting.mapping = setting_.mapping;
     setting.picture = setting_.picture;
@@ -89,8 +125,8 @@ class Rehearsals {
     setting.exchange = setting_.exchange;
     setting.sink_threads = setting_.sink_threads;
     setting.host_budget = setting_.host_budget;
-    setting.even = even;
-    return rehearse(counts_, plan_, setting, nodes_);
+    setting.even = {removed.has(Wall::imbalance), std::move(paces)};
+    return rehearse(counts_, plan_, setting, nodes_, loads_);
   }
 
   const std::vector<farm::Task> tasks_;
@@ -99,9 +135,16 @@ class Rehearsals {
   const farm::Plan plan_;
   const Setting& setting_;
   const int nodes_;
+  const int threads_;
+  KeyframeLoads loads_;
+  std::map<unsigned long, Uneven> uneven_;  // by the walls that are removed, of which `one frame` is none
 };
 
 }  // namespace
+
+std::string unidentified_text(const FilmCounts& counts, const Setting& setting) {
+  return experiments::unidentified_text(setting.platform, FrameCosts(setting, 1).kinds_of_work(counts));
+}
 
 experiments::Platform without(experiments::Platform platform, Walls walls, Writers writers) {
   simulated::Machine& machine = platform.machine;
@@ -119,10 +162,14 @@ experiments::Platform without(experiments::Platform platform, Walls walls, Write
 }
 
 walls::Explanation explain(const FilmCounts& counts, const std::vector<farm::Task>& tasks, const Setting& setting,
-                           const Forecast& forecast) {
-  const Rehearsals rehearsals(counts, tasks, setting, forecast);
-  return walls::explain([&](Walls removed) { return rehearsals.seconds(removed) * forecast.middle; },
-                        rehearsals.there());
+                           const Forecast& forecast, int threads) {
+  Rehearsals rehearsals(counts, tasks, setting, forecast, threads);
+  const auto seconds = [&](const std::vector<Walls>& all) {
+    std::vector<double> found = rehearsals.seconds(all);
+    for (double& each : found) each *= forecast.middle;
+    return found;
+  };
+  return walls::explain(walls::AllSecondsWithout(seconds), rehearsals.there());
 }
 
 }  // namespace mars::forecast

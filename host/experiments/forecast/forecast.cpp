@@ -5,8 +5,11 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <set>
 #include <utility>
+
+#include "host/experiments/forecast/side_by_side.h"
 
 namespace mars::forecast {
 namespace {
@@ -97,13 +100,18 @@ class Search {
   }
 
   Forecast rehearsed(const Cut& cut, const farm::Plan& plan, double limit) const {
+    KeyframeLoads loads;
+    return rehearsed(cut, plan, limit, loads);
+  }
+
+  Forecast rehearsed(const Cut& cut, const farm::Plan& plan, double limit, KeyframeLoads& loads) const {
     return Forecast{nodes_,
                     static_cast<std::uint32_t>(plan.groups.size()),
                     setting_.writers,
                     plan.contributors,
                     plan.sharers,
                     0,
-                    rehearse(*cut.counts, plan, setting_, nodes_, limit),
+                    rehearse(*cut.counts, plan, setting_, nodes_, loads, limit),
                     experiments::spread_for(setting_.platform.spread, nodes_, setting_.files),
                     experiments::middle_for(setting_.platform.spread, nodes_, setting_.files)};
   }
@@ -122,9 +130,11 @@ class Search {
 
   Forecast with_sharers(const Cut& cut, farm::Plan plan, Forecast best) const {
     int worse = 0;
+    KeyframeLoads loads;
     for (const std::int32_t sharers : numbers_of_sharers(cut, plan.groups.front().count)) {
       plan.sharers = sharers;
-      Forecast next = rehearsed(cut, plan, std::min(best.run.seconds, best_ ? best_->run.seconds : best.run.seconds));
+      const double limit = std::min(best.run.seconds, best_ ? best_->run.seconds : best.run.seconds);
+      Forecast next = rehearsed(cut, plan, limit, loads);
       if (next.run.seconds < kShorter * best.run.seconds)
         best = std::move(next), worse = 0;
       else if (++worse == kWorseSharers)
@@ -205,16 +215,21 @@ Forecast forecast(const FilmCounts& counts, const std::vector<farm::Task>& tasks
 }
 
 std::vector<Forecast> forecasts_up_to(const FilmCounts& counts, const std::vector<farm::Task>& tasks,
-                                      const Setting& setting, int most, std::uint32_t groups,
+                                      const Setting& setting, int most, std::uint32_t groups, int threads,
                                       const Progress& progress) {
   std::vector<int> numbers;
   for (int nodes = 1; nodes < most; nodes *= 2) numbers.push_back(nodes);
   numbers.push_back(most);
-  std::vector<Forecast> all;
-  for (const int nodes : numbers) {
-    all.push_back(forecast(counts, tasks, setting, nodes, std::min(groups, static_cast<std::uint32_t>(nodes))));
-    if (progress) progress(static_cast<int>(all.size()), static_cast<int>(numbers.size()));
-  }
+  std::vector<Forecast> all(numbers.size());
+  std::mutex mutex;
+  int done = 0;
+  // Those of many nodes take longest: they begin first.
+  side_by_side(numbers.size(), threads, [&](std::size_t turn) {
+    const std::size_t i = numbers.size() - 1 - turn;
+    all[i] = forecast(counts, tasks, setting, numbers[i], std::min(groups, static_cast<std::uint32_t>(numbers[i])));
+    const std::scoped_lock lock(mutex);
+    if (progress) progress(++done, static_cast<int>(numbers.size()));
+  });
   return all;
 }
 

@@ -46,9 +46,9 @@ Forecast forecast(const FilmCounts& counts, const std::vector<farm::Task>& tasks
 using Progress = std::function<void(int done, int all)>;
 
 // By numbers of nodes: powers of two below `most`, and `most`; in `groups`, as far as there are nodes, where they are
-// given.
+// given. `threads`: numbers at a time.
 std::vector<Forecast> forecasts_up_to(const FilmCounts& counts, const std::vector<farm::Task>& tasks,
-                                      const Setting& setting, int most, std::uint32_t groups,
+                                      const Setting& setting, int most, std::uint32_t groups, int threads,
                                       const Progress& progress = {});
 
 }  // namespace mars::forecast

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "host/images/picture_bands.h"
+#include "node/group/group_sums.h"
 #include "node/wire/still_plan.h"
 
 namespace mars::forecast {
@@ -14,8 +15,6 @@ namespace {
 
 using wire::Work;
 
-constexpr double kFullStrip = 512 << 10;  // node/raster/strip_buffer.cpp
-constexpr std::uint32_t kLinesABeat = 4;  // node/renderer.cpp
 // Of a shared inbetween: the largest part over the mean, by lines, and by bands of a file that are no more than nodes;
 // the most memory of a node over that of its part; points of a patch's box.
 constexpr double kSharedUnevenly = 1.1, kBandsUnevenly = 1.6, kMemoryUnevenly = 1.3, kBoxPoints = 16;
@@ -28,23 +27,18 @@ void even_out(const Nodes& nodes, const Of& seconds_of) {
   for (auto& node : nodes) seconds_of(node) = all / static_cast<double>(nodes.size());
 }
 
+// Of messages that take no time, one does for all.
+std::vector<double> as_one(const std::vector<double>& messages) {
+  if (messages.empty()) return {};
+  return {std::accumulate(messages.begin(), messages.end(), 0.0)};
+}
+
+std::vector<std::vector<double>> as_ones(std::vector<std::vector<double>> by_node) {
+  for (std::vector<double>& messages : by_node) messages = as_one(messages);
+  return by_node;
+}
+
 }  // namespace
-
-// The lines of each node of a group, and what is on them.
-struct FrameCosts::Homes {
-  Homes(const wire::FrameCounts& counts, int nodes, int contributors, wire::Mapping mapping,
-        const std::vector<std::uint64_t>& weights, std::uint32_t band_lines)
-      : ranges(static_cast<std::size_t>(nodes), geometry::LineRange{0, 0}) {
-    group::map_lines(mapping, weights, std::span(ranges).first(static_cast<std::size_t>(contributors)));
-    const auto height = static_cast<std::uint32_t>(counts.lines.size());
-    std::fill(ranges.begin() + contributors, ranges.end(), geometry::LineRange{height, height});
-    for (const geometry::LineRange& range : ranges)
-      totals.push_back(totals_on(counts, range.first, range.last, band_lines));
-  }
-
-  std::vector<geometry::LineRange> ranges;
-  std::vector<FrameTotals> totals;
-};
 
 FrameCosts::FrameCosts(const Setting& setting, int nodes)
     : setting_(setting),
@@ -53,80 +47,77 @@ FrameCosts::FrameCosts(const Setting& setting, int nodes)
                                       shadow::shadow_needs(setting.film),
                                       std::min(nodes, setting.platform.machine.nodes))),
       band_lines_(images::PictureBands(setting.picture, setting.film.settings().width, setting.film.settings().height)
-                      .lines_a_band()) {}
+                      .lines_a_band()),
+      lights_(setting.film.light_tracks().size()) {}
 
-// Of each of `nodes`, whole patches and meshlets.
-std::vector<wire::UnitCounts> FrameCosts::made_by(const KeyframeCounts& counts, const SurfaceTable& surfaces,
-                                                  int nodes) const {
-  std::vector<wire::UnitCounts> made(static_cast<std::size_t>(nodes));
-  const auto samples = static_cast<double>(setting_.film.settings().samples);
-  const auto lights = static_cast<double>(setting_.film.light_tracks().size());
-  for (const PlacedSurface& placed : counts.placed) {
-    const wire::MadeSurface& surface = surfaces[placed.surface];
-    wire::UnitCounts& units = made[placed.number % made.size()];
-    units[surface.is_meshlet != 0 ? Work::meshlet : Work::patch] += 1;
-    units[surface.is_meshlet != 0 ? Work::mesh_vertex : Work::vertex] += surface.vertices;
-    units[Work::triangle_tested] += surface.triangles_tested;
-    units[Work::row_tested] += surface.triangles_tested * samples;
-    units[Work::triangle] += surface.triangles;
-    units[Work::edge_box_made] += surface.edge_boxes;
-    units[Work::vertex_light] += surface.colored * lights;
-  }
-  return made;
-}
-
-GroupKeyframe FrameCosts::keyframe(const KeyframeCounts& counts, const SurfaceTable& surfaces,
+GroupKeyframe FrameCosts::keyframe(std::shared_ptr<const KeyframeLoad> load, const KeyframeCounts& counts,
                                    const KeyframeGroup& group) const {
   GroupKeyframe keyframe;
-  keyframe.nodes.resize(static_cast<std::size_t>(group.count()));
-  auto made = made_by(counts, surfaces, group.contributors);
-  made.resize(keyframe.nodes.size());
-  const Homes homes(counts, group.count(), group.contributors, setting_.mapping,
-                    line_weights(counts, group.has_inbetweens()), band_lines_);
-  add_dicing(keyframe, homes, made);
-  if (group.count() > 1) keyframe.sum = sum_steps(group.count(), 8 * (height() + 2));
-  if (group.contributors > nodes_on_a_computer(group.count()))
-    add_exchange(keyframe, homes.ranges, counts, surfaces, group);
-  for (std::size_t n = 0; n < made.size(); ++n) {
-    NodePart& node = keyframe.nodes[n];
-    node.memory = std::min(node.memory, arena_bytes());
-    node.strips = strips(homes.totals[n],
-                         keyframe_drawing(homes.totals[n], counts, homes.ranges[n]) +
-                             casting(homes.totals[n], counts, homes.ranges[n], group.contributors),
-                         strip_sizes(counts, homes.ranges[n]));
-    node.compose = pasting(homes.totals[n]);
-    if (group.has_inbetweens()) node.strips.pasting += saving(homes.totals[n], counts.constant_blocks.empty());
-    if (n >= static_cast<std::size_t>(group.contributors)) node.strips = {0, 0, 0, {}};
-  }
-  keyframe.homes = homes.ranges;
+  if (group.count() > 1)
+    keyframe.sum =
+        sum_steps(group.count(), 8.0 * static_cast<double>(group::summed_words(setting_.film.settings().height)));
+  if (!load->parcels.empty()) keyframe.triangles = triangle_steps(load->parcels, costs_.of(Work::edge_box_filled, 1));
+  if (!load->parcels.empty()) keyframe.again = making_again(*load);
+  for (const NodeLoad& node : load->nodes) keyframe.nodes.push_back(part_of(node, *load));
+  for (std::size_t n = 0; n < static_cast<std::size_t>(group.contributors) && group.has_inbetweens(); ++n)
+    keyframe.nodes[n].strips.pasting += saving(load->nodes[n].seen, counts.constant_blocks.empty());
   if (setting_.even.keyframes) {
     const auto contribute = std::span(keyframe.nodes).first(static_cast<std::size_t>(group.contributors));
     even_out(contribute, [](NodePart& node) -> double& { return node.dice; });
     even_out(contribute, [](NodePart& node) -> double& { return node.strips.seconds; });
     even_out(contribute, [](NodePart& node) -> double& { return node.compose; });
   }
+  keyframe.load = std::move(load);
   return keyframe;
+}
+
+NodePart FrameCosts::part_of(const NodeLoad& load, const KeyframeLoad& all) const {
+  NodePart part;
+  const double once = setting_up(load.made);
+  part.dice = dicing(load.made) + once + costs_.of(Work::edge_box_filled, load.made[Work::edge_box_made]);
+  if (all.passes > 1) part.dice += all.passes * dicing(load.made) + once;
+  part.map = costs_.of(Work::line_mapped, height());
+  part.memory = load.memory;
+  part.made_memory = load.made_memory;
+  part.compose = pasting(load.seen);
+  if (load.strips.empty())
+    part.strips = {0, 0, 0, {}};
+  else
+    part.strips = strips(load.seen, costs_.of(load.drawn) + costs_.of(load.casters), load.strips);
+  return part;
+}
+
+// Seconds of each node. Surfaces without edge boxes are taken to lie as the others.
+std::vector<double> FrameCosts::making_again(const KeyframeLoad& load) const {
+  const double seen = costs_.of(load.with_boxes), unseen = costs_.of(load.without_boxes);
+  std::vector<double> seconds;
+  for (const NodeLoad& node : load.nodes)
+    seconds.push_back(seen > 0 ? costs_.of(node.again) * (1 + unseen / seen) + costs_.of(node.set_up_again) : 0);
+  return seconds;
 }
 
 // CZB, and with several samples shaded groups, of what inbetweens may change. Of bands those of what stands still, with
 // pixels where inbetweens may draw, and those of the keyframe to the node that writes it.
-KeyframeGifts FrameCosts::gifts(const GroupKeyframe& keyframe, const wire::FrameCounts& counts,
-                                const KeyframeGroup& group) const {
+KeyframeGifts FrameCosts::gifts(const KeyframeLoad& load, const KeyframeGroup& group) const {
   KeyframeGifts gifts;
-  const bool has_inbetweens = group.has_inbetweens();
-  if (group.count() > 1 && has_inbetweens) {
-    std::vector<std::vector<double>> messages;
-    for (const geometry::LineRange& home : keyframe.homes) messages.push_back(still_messages(home, counts));
-    gifts.still = still_steps(machines_of(group), messages);
+  const auto relayed = [&](wire::MessageType type) {
+    return costs_.takes_time(type) ? Relayed::in_time : Relayed::at_once;
+  };
+  if (!load.still.empty()) {
+    const bool at_once = relayed(wire::kStillLines) == Relayed::at_once;
+    gifts.still =
+        still_steps(machines_of(group), at_once ? as_ones(load.still) : load.still, relayed(wire::kStillLines));
   }
   if (setting_.nodes_write()) {
-    std::vector<NodeBands> bands;
-    for (std::size_t node = 0; node < keyframe.homes.size(); ++node)
-      bands.push_back(bands_of(keyframe.homes, node, counts, has_inbetweens));
+    std::vector<NodeBands> bands = load.bands;
+    for (NodeBands& node : bands) {
+      node.encoding = encoding(node.lines);
+      if (relayed(wire::kBackground) == Relayed::at_once) node.background = as_one(node.background);
+    }
     if (setting_.even.keyframes)
       even_out(std::span(bands).first(static_cast<std::size_t>(group.contributors)),
                [](NodeBands& node) -> double& { return node.encoding; });
-    gifts.bands = band_steps(machines_of(group), bands, group.writer);
+    gifts.bands = band_steps(machines_of(group), bands, group.writer, relayed(wire::kBackground));
   }
   return gifts;
 }
@@ -259,22 +250,6 @@ bool FrameCosts::has_groups() const {
   return setting_.film.settings().samples > 1 || setting_.film.casting_count() > 0;
 }
 
-// As nodes weigh lines (node/group/group_sums.h), which know what is kept but for its groups.
-std::vector<std::uint64_t> FrameCosts::line_weights(const wire::FrameCounts& counts, bool has_inbetweens) const {
-  const std::uint32_t samples = setting_.film.settings().samples, casting = setting_.film.casting_count();
-  const double column =
-      has_groups() ? static_cast<double>(wire::still_column_bytes(samples, casting) + wire::still_group_bytes(casting))
-                   : sizeof(float);
-  std::vector<std::uint64_t> weights{0};
-  for (const wire::LineCounts& line : counts.lines) {
-    const raster::LineLoad load(static_cast<std::uint64_t>(line.edge_boxes), static_cast<std::uint64_t>(line.samples));
-    const double still = has_inbetweens ? line.swept_width * column : 0;
-    const std::uint64_t cost = group::line_cost(load, static_cast<std::uint64_t>(still));
-    weights.push_back(weights.back() + (setting_.mapping == wire::Mapping::cost ? cost : load.boxes()));
-  }
-  return weights;
-}
-
 // Of a line that is kept.
 double FrameCosts::kept_bytes(const wire::LineCounts& line) const {
   const std::uint32_t samples = setting_.film.settings().samples, casting = setting_.film.casting_count();
@@ -307,18 +282,6 @@ double FrameCosts::setting_up(const wire::UnitCounts& made) const {
   return costs_.of(Work::triangle, made[Work::triangle]) + costs_.of(Work::edge_box_made, made[Work::edge_box_made]);
 }
 
-// Of one of them, but for its triangles that are set up.
-double FrameCosts::dicing(const wire::MadeSurface& surface) const {
-  const auto samples = static_cast<double>(setting_.film.settings().samples);
-  const auto lights = static_cast<double>(setting_.film.light_tracks().size());
-  const bool is_meshlet = surface.is_meshlet != 0;
-  return costs_.of(is_meshlet ? Work::meshlet : Work::patch, 1) +
-         costs_.of(is_meshlet ? Work::mesh_vertex : Work::vertex, static_cast<double>(surface.vertices)) +
-         costs_.of(Work::triangle_tested, static_cast<double>(surface.triangles_tested)) +
-         costs_.of(Work::row_tested, static_cast<double>(surface.triangles_tested) * samples) +
-         costs_.of(Work::vertex_light, static_cast<double>(surface.colored) * lights);
-}
-
 wire::UnitCounts FrameCosts::drawn_units(const FrameTotals& totals) const {
   const auto lights = static_cast<double>(setting_.film.light_tracks().size());
   wire::SeenCounts seen = totals.drawn.constant;
@@ -335,46 +298,6 @@ wire::UnitCounts FrameCosts::drawn_units(const FrameTotals& totals) const {
   return units;
 }
 
-double FrameCosts::keyframe_drawing(const FrameTotals& totals, const wire::FrameCounts& counts,
-                                    const geometry::LineRange& lines) const {
-  wire::UnitCounts units = drawn_units(totals);
-  for (std::uint32_t i = lines.first; i < lines.last; ++i) {
-    const wire::LineCounts& line = counts.lines[i];
-    const bool needed = counts.first_still_line <= i && i < counts.last_still_line;
-    units[Work::line] += needed || line.edge_boxes > 0 ? 1 : 0;
-    if (needed) units[Work::still_byte] += kept_bytes(line);
-  }
-  return costs_.of(units);
-}
-
-// `nodes` share the dicing for the camera. Other casters are diced again for each band of lines.
-double FrameCosts::casting(const FrameTotals& totals, const wire::FrameCounts& counts, const geometry::LineRange& lines,
-                           int nodes) const {
-  if (setting_.film.casting_count() == 0 || lines.count() == 0) return 0;
-  const double band = lines_of_band(totals, lines.count());
-  double seconds = 0;
-  for (double first = lines.first; first < lines.last; first += band)
-    seconds += costs_.of(casters_on(counts, static_cast<std::uint32_t>(first),
-                                    static_cast<std::uint32_t>(std::min<double>(lines.last, first + band)), nodes));
-  return seconds;
-}
-
-// As many as there is memory for: groups with their light, depths and pairs (node/shadow/shadow_painter.cpp), and
-// points.
-double FrameCosts::lines_of_band(const FrameTotals& totals, double lines) const {
-  const wire::FilmSettings& film = setting_.film.settings();
-  const double casting = setting_.film.casting_count(), samples = static_cast<double>(film.width) * film.samples;
-  const double light = (4 + 3 * casting) * sizeof(float), group = 16 + light;
-  const double record = static_cast<double>(wire::still_group_bytes(setting_.film.casting_count()));
-  const double column = sizeof(std::uint32_t) + casting * 2 * (sizeof(wire::StillPairs) + sizeof(std::uint16_t));
-  const shadow::ShadowNeeds needs = shadow::shadow_needs(setting_.film);
-  const shadow::ShadowPlan plan = shadow::plan_shadows(needs, memory_.shadows);
-  const double shaded = totals.drawn.constant.shaded + totals.drawn.moving.shaded;
-  const double each = shaded / lines * (group + record) + samples * sizeof(float) + film.width * column / 2;
-  const double seen = std::floor(static_cast<double>(plan.band - shadow::band_bytes_of_line(needs)) / each);
-  return std::max(1.0, std::min<double>(seen, shadow::lines_of_points(needs, plan.points)));
-}
-
 // `sizes`: bytes of pixels and runs in each strip.
 StripCosts FrameCosts::strips(const FrameTotals& totals, double seconds, std::vector<double> sizes) const {
   StripCosts strips{seconds, 0, pasting(totals), std::move(sizes)};
@@ -389,27 +312,29 @@ double FrameCosts::strip_bytes(const wire::LineCounts& line) const {
          (line.constant.runs + line.moving.runs) * sizeof(wire::Run);
 }
 
-// Full ones, and the rest.
-std::vector<double> FrameCosts::strip_sizes(double bytes) const {
-  std::vector<double> sizes;
-  for (; bytes > kFullStrip; bytes -= kFullStrip) sizes.push_back(kFullStrip);
-  sizes.push_back(bytes);
-  return sizes;
-}
-
-// A strip ends after some lines.
-std::vector<double> FrameCosts::strip_sizes(const wire::FrameCounts& counts, const geometry::LineRange& lines) const {
-  std::vector<double> sizes{0};
-  const double full = kFullStrip - sizeof(wire::Strip);
-  for (std::uint32_t line = lines.first; line < lines.last; ++line) {
-    if (sizes.back() >= full && (line - lines.first) % kLinesABeat == 0) sizes.push_back(0);
-    sizes.back() += strip_bytes(counts.lines[line]);
-  }
-  return sizes;
-}
-
 double FrameCosts::pasting(const FrameTotals& totals) const {
   return costs_.of(Work::host_run, totals.runs()) + costs_.of(Work::host_byte, totals.pixels() * pixel_bytes());
+}
+
+std::vector<Work> FrameCosts::kinds_of_work(const FilmCounts& counts) const {
+  FrameTotals all;
+  for (const wire::FrameCounts& keyframe : counts.keyframes) all = all + totals_of(keyframe, band_lines_);
+  for (const TaskCounts& task : counts.tasks)
+    for (const FrameTotals& inbetween : task.inbetweens) all = all + inbetween;
+  wire::UnitCounts units = drawn_units(all) + all.made + all.casters;
+  for (const Work kind :
+       {Work::first_frame, Work::fresh_byte, Work::frame, Work::segment, Work::line_mapped, Work::line})
+    units[kind] = 1;
+  units[Work::edge_box_filled] = units[Work::edge_box_made];
+  units[Work::still_byte] = all.drawn.moving_width;
+  std::vector<Work> kinds;
+  for (std::size_t kind = 0; kind < wire::kNodeKinds; ++kind)
+    if (units.units[kind] > 0) kinds.push_back(static_cast<Work>(kind));
+  kinds.insert(kinds.end(), {Work::host_strip, Work::host_run, Work::host_byte});
+  if (!setting_.nodes_write()) kinds.insert(kinds.end(), {Work::host_restored, Work::host_frame});
+  if (setting_.files)
+    kinds.insert(kinds.end(), {Work::file, experiments::encoded_byte(setting_.picture), Work::file_byte});
+  return kinds;
 }
 
 double FrameCosts::encoding(double lines) const {
@@ -428,34 +353,6 @@ double FrameCosts::made_bytes(const wire::UnitCounts& made) const {
 double FrameCosts::fresh_bytes(const wire::UnitCounts& made) const {
   return static_cast<double>(kTriangleBytes) * made[Work::triangle] +
          static_cast<double>(kUnsortedBoxBytes) * made[Work::edge_box_made];
-}
-
-// As node/group/passes.h bounds them.
-double FrameCosts::passes(const wire::UnitCounts& made, double home_boxes, bool travels) const {
-  const double a_box = kTriangleBytes + kUnsortedBoxBytes;
-  const double bound =
-      made_bytes(made) + (travels ? made[Work::edge_box_made] * a_box + home_boxes * (a_box + kBoxBytes) : 0);
-  double passes = 1;
-  while (bound / passes > arena_bytes() && passes < height()) passes *= 2;
-  return passes;
-}
-
-void FrameCosts::add_dicing(GroupKeyframe& keyframe, const Homes& homes,
-                            const std::vector<wire::UnitCounts>& made) const {
-  const auto nodes = static_cast<int>(made.size());
-  const bool travels = nodes > nodes_on_a_computer(nodes);
-  double& most = keyframe.passes;
-  for (std::size_t n = 0; n < made.size(); ++n)
-    most = std::max(most, passes(made[n], homes.totals[n].drawn.edge_boxes, travels));
-  for (std::size_t n = 0; n < made.size(); ++n) {
-    const double once = setting_up(made[n]);
-    const double filled = costs_.of(Work::edge_box_filled, made[n][Work::edge_box_made]);
-    keyframe.nodes[n].dice = dicing(made[n]) + once + filled;
-    if (most > 1) keyframe.nodes[n].dice += most * dicing(made[n]) + once;
-    keyframe.nodes[n].map = costs_.of(Work::line_mapped, height());
-    keyframe.nodes[n].memory = made_bytes(made[n]);
-    keyframe.nodes[n].made_memory = std::min(arena_bytes(), fresh_bytes(made[n]));
-  }
 }
 
 // Of a group of `nodes` nodes.

@@ -4,14 +4,15 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "hal/collectives/group.h"
 #include "host/experiments/forecast/costs.h"
 #include "host/experiments/forecast/film_counts.h"
+#include "host/experiments/forecast/frame_loads.h"
 #include "host/experiments/forecast/setting.h"
 #include "host/experiments/forecast/steps.h"
-#include "node/group/mapping.h"
 
 namespace mars::forecast {
 
@@ -37,10 +38,9 @@ struct NodePart {
 
 struct GroupKeyframe {
   std::vector<NodePart> nodes;
-  std::vector<geometry::LineRange> homes;  // of the nodes
-  double passes = 1;                       // over their lines
   Exchange sum, triangles;
   std::vector<double> again;  // seconds of each node, if it makes others' triangles instead of receiving them
+  std::shared_ptr<const KeyframeLoad> load;
 };
 
 // What its nodes give each other once it is drawn.
@@ -73,8 +73,10 @@ class FrameCosts {
   FrameCosts(const Setting& setting, int nodes);
 
   // It is the same whoever of the group draws inbetweens and writes the file.
-  GroupKeyframe keyframe(const KeyframeCounts& counts, const SurfaceTable& surfaces, const KeyframeGroup& group) const;
-  KeyframeGifts gifts(const GroupKeyframe& keyframe, const wire::FrameCounts& counts, const KeyframeGroup& group) const;
+  KeyframeLoad load(const KeyframeCounts& counts, const SurfaceTable& surfaces, const KeyframeGroup& group) const;
+  GroupKeyframe keyframe(std::shared_ptr<const KeyframeLoad> load, const KeyframeCounts& counts,
+                         const KeyframeGroup& group) const;
+  KeyframeGifts gifts(const KeyframeLoad& load, const KeyframeGroup& group) const;
   // What inbetweens after such a keyframe draw again on a node of a group of `nodes`: stationary parts on lines that
   // are not kept.
   FrameTotals drawn_again(const wire::FrameCounts& keyframe, int nodes) const;
@@ -89,28 +91,29 @@ class FrameCosts {
   // And that writes a whole file, which is encoded; its bytes.
   double writing() const;
   double file_bytes() const { return setting_.platform.file_part * height() * line_bytes(); }
+  // Kinds of work that the film's frames have.
+  std::vector<wire::Work> kinds_of_work(const FilmCounts& counts) const;
   HostCosts host_costs(const TaskCounts& task, const wire::FrameCounts& keyframe) const;
   const Costs& costs() const { return costs_; }
 
  private:
-  struct Homes;
-
   static constexpr double kBoxMargin = 5;  // lines by which a patch's box is too tall
 
   std::vector<double> still_messages(const geometry::LineRange& home, const wire::FrameCounts& counts) const;
   FrameTotals shared(const FrameTotals& whole, int sharers) const;
   double dicing(const wire::UnitCounts& made) const;
   double setting_up(const wire::UnitCounts& made) const;
-  double dicing(const wire::MadeSurface& surface) const;
   wire::UnitCounts drawn_units(const FrameTotals& totals) const;
-  double keyframe_drawing(const FrameTotals& totals, const wire::FrameCounts& counts,
-                          const geometry::LineRange& lines) const;
+  NodePart part_of(const NodeLoad& load, const KeyframeLoad& all) const;
+  std::vector<double> making_again(const KeyframeLoad& load) const;
+  wire::UnitCounts drawn_in_keyframe(const FrameTotals& seen, const wire::FrameCounts& counts,
+                                     const geometry::LineRange& lines) const;
   StripCosts strips(const FrameTotals& totals, double seconds, std::vector<double> sizes) const;
   double strip_bytes(const wire::LineCounts& line) const;
   std::vector<double> strip_sizes(double bytes) const;
   std::vector<double> strip_sizes(const wire::FrameCounts& counts, const geometry::LineRange& lines) const;
-  double casting(const FrameTotals& totals, const wire::FrameCounts& counts, const geometry::LineRange& lines,
-                 int nodes) const;
+  wire::UnitCounts casters(const FrameTotals& seen, const wire::FrameCounts& counts, const geometry::LineRange& lines,
+                           int nodes) const;
   double lines_of_band(const FrameTotals& totals, double lines) const;
   double pasting(const FrameTotals& totals) const;
   double background(const wire::FrameCounts& keyframe) const;
@@ -127,11 +130,12 @@ class FrameCosts {
   double fresh_bytes(const wire::UnitCounts& made) const;
   double arena_bytes() const;
   double passes(const wire::UnitCounts& made, double home_boxes, bool travels) const;
-  void add_dicing(GroupKeyframe& keyframe, const Homes& homes, const std::vector<wire::UnitCounts>& made) const;
-  void add_exchange(GroupKeyframe& keyframe, const std::vector<geometry::LineRange>& homes,
-                    const KeyframeCounts& counts, const SurfaceTable& surfaces, const KeyframeGroup& group) const;
+  void map_lines(KeyframeLoad& load, const KeyframeCounts& counts, const KeyframeGroup& group) const;
+  void add_made(KeyframeLoad& load, const KeyframeCounts& counts, const SurfaceTable& surfaces, int contributors) const;
+  void add_diced(wire::UnitCounts& units, const wire::MadeSurface& surface) const;
+  void add_exchange(KeyframeLoad& load, const KeyframeCounts& counts, const SurfaceTable& surfaces,
+                    const KeyframeGroup& group) const;
   Machines machines_of(const KeyframeGroup& group) const;
-  std::vector<wire::UnitCounts> made_by(const KeyframeCounts& counts, const SurfaceTable& surfaces, int nodes) const;
   int nodes_on_a_computer(int nodes) const;
   double pixel_bytes() const { return static_cast<double>(wire::pixel_bytes(setting_.pixels())); }
   double line_bytes() const { return setting_.film.settings().width * pixel_bytes(); }
@@ -141,6 +145,7 @@ class FrameCosts {
   const Costs costs_;
   const farm::NodeMemory memory_;  // of a node
   const std::uint32_t band_lines_;
+  const std::size_t lights_;
 };
 
 }  // namespace mars::forecast

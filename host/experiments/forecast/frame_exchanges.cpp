@@ -97,49 +97,43 @@ double FrameCosts::packed_bytes(const wire::LineCounts& line) const {
 }
 
 // To homes on other computers.
-void FrameCosts::add_exchange(GroupKeyframe& keyframe, const std::vector<geometry::LineRange>& homes,
-                              const KeyframeCounts& counts, const SurfaceTable& surfaces,
+void FrameCosts::add_exchange(KeyframeLoad& load, const KeyframeCounts& counts, const SurfaceTable& surfaces,
                               const KeyframeGroup& group) const {
   const auto nodes = static_cast<std::size_t>(group.contributors);
   const Machines machines = machines_of(group);
-  const std::vector<int> home_of = homes_of_lines(homes, counts.lines.size());
+  const std::vector<int> home_of = homes_of_lines(load.homes, counts.lines.size());
   std::vector<std::vector<PlacedSurface>> by_node(nodes);
   for (const PlacedSurface& placed : counts.placed) by_node[placed.number % nodes].push_back(placed);
   ParcelSums sums(nodes);
-  std::vector<std::vector<Parcel>> parcels(keyframe.nodes.size());
+  load.parcels.resize(load.nodes.size());
   std::vector<double> travelling(nodes), boxes_in(nodes);
-  keyframe.again.resize(keyframe.nodes.size());
-  std::vector<double> setting_up_again(nodes);
-  double seen = 0, unseen = 0;  // seconds of dicing surfaces with edge boxes, and without
   for (std::size_t n = 0; n < nodes; ++n) {
     for (const PlacedSurface& placed : by_node[n]) {
       const wire::MadeSurface& surface = surfaces[placed.surface];
       sums.add(surface, surfaces.lines(placed.surface), home_of);
-      (surface.lines > 0 ? seen : unseen) += dicing(surface);
+      add_diced(surface.lines > 0 ? load.with_boxes : load.without_boxes, surface);
       for (const int home : homes_near(surface, home_of, kBoxMargin))
         if (!machines.are_together(static_cast<int>(n), home))
-          keyframe.again[static_cast<std::size_t>(home)] += dicing(surface);
+          add_diced(load.nodes[static_cast<std::size_t>(home)].again, surface);
     }
-    parcels[n] = sums.take();
-    std::erase_if(parcels[n], [&](const Parcel& to) { return machines.are_together(static_cast<int>(n), to.home); });
-    for (const Parcel& parcel : parcels[n]) {
+    std::vector<Parcel>& parcels = load.parcels[n];
+    parcels = sums.take();
+    std::erase_if(parcels, [&](const Parcel& to) { return machines.are_together(static_cast<int>(n), to.home); });
+    for (const Parcel& parcel : parcels) {
       const auto home = static_cast<std::size_t>(parcel.home);
-      travelling[n] += static_cast<double>(parcel.edge_boxes * (kUnsortedBoxBytes + kTriangleBytes));
+      const auto triangles = static_cast<double>(parcel.triangles), boxes = static_cast<double>(parcel.edge_boxes);
+      travelling[n] += boxes * static_cast<double>(kUnsortedBoxBytes + kTriangleBytes);
       travelling[home] += parcel.bytes();
-      boxes_in[home] += static_cast<double>(parcel.edge_boxes);
-      setting_up_again[home] += costs_.of(Work::triangle, static_cast<double>(parcel.triangles)) +
-                                costs_.of(Work::edge_box_made, static_cast<double>(parcel.edge_boxes)) +
-                                costs_.of(Work::edge_box_filled, static_cast<double>(parcel.edge_boxes));
+      boxes_in[home] += boxes;
+      load.nodes[home].set_up_again[Work::triangle] += triangles;
+      load.nodes[home].set_up_again[Work::edge_box_made] += boxes;
+      load.nodes[home].set_up_again[Work::edge_box_filled] += boxes;
     }
   }
-  // Those without are taken to lie as the others.
-  for (std::size_t n = 0; n < nodes && seen > 0; ++n)
-    keyframe.again[n] = keyframe.again[n] * (1 + unseen / seen) + setting_up_again[n];
-  keyframe.triangles = triangle_steps(parcels, costs_.of(Work::edge_box_filled, 1));
   for (std::size_t n = 0; n < nodes; ++n) {
-    NodePart& node = keyframe.nodes[n];
-    const double in_pass = (node.memory + travelling[n] + boxes_in[n] * kBoxBytes) / keyframe.passes;
-    node.memory = std::max(keyframe.passes > 1 ? std::min(arena_bytes(), node.memory) : 0, in_pass);
+    NodeLoad& node = load.nodes[n];
+    const double in_pass = (node.memory + travelling[n] + boxes_in[n] * kBoxBytes) / load.passes;
+    node.memory = std::max(load.passes > 1 ? std::min(arena_bytes(), node.memory) : 0, in_pass);
   }
 }
 
@@ -177,7 +171,6 @@ NodeBands FrameCosts::bands_of(const std::vector<geometry::LineRange>& homes, st
     const auto composer = std::ranges::find_if(homes, [&](const auto& other) { return other.has(first); });
     bands.composer = static_cast<int>(composer - homes.begin());
   }
-  double encoded = 0;
   std::vector<double> backgrounds;
   for (std::uint32_t first = (home.first + band_lines_ - 1) / band_lines_ * band_lines_; first < home.last;
        first += band_lines_) {
@@ -186,14 +179,13 @@ NodeBands FrameCosts::bands_of(const std::vector<geometry::LineRange>& homes, st
     const double record = kBandHead + std::floor(setting_.platform.file_part * pixels);
     bands.composes = true;
     bands.picture += record;
-    encoded += last - first;
+    bands.lines += last - first;
     if (!has_inbetweens) continue;
     const bool may_change = first < counts.last_still_line && counts.first_still_line < last;
     backgrounds.push_back(record + (may_change ? pixels : 0));
-    encoded += is_touched(first) ? last - first : 0;
+    bands.lines += is_touched(first) ? last - first : 0;
   }
   bands.background = in_pieces(backgrounds, kPieceHead);
-  bands.encoding = encoding(encoded);
   return bands;
 }
 

@@ -19,6 +19,7 @@
 namespace mars::forecast {
 namespace {
 
+constexpr int kNone = -1;
 constexpr double kOnTheSameComputer = sizeof(wire::Strip);  // of a strip whose pixels the host reads where they lie
 
 struct TaskKeyframe {
@@ -28,7 +29,7 @@ struct TaskKeyframe {
 
 class Rehearsal {
  public:
-  Rehearsal(const FilmCounts& counts, const farm::Plan& plan, const Setting& setting, int nodes);
+  Rehearsal(const FilmCounts& counts, const farm::Plan& plan, const Setting& setting, int nodes, KeyframeLoads& loads);
 
   Rehearsed run(double limit);
 
@@ -68,6 +69,7 @@ class Rehearsal {
     bool writer_waits = false;  // for them
   };
 
+  int writer_of(std::size_t task, const KeyframeGroup& group);
   std::shared_ptr<const TaskKeyframe> keyframe_of(std::size_t task, const collectives::Group& group);
   std::shared_ptr<const GroupKeyframe> shared_keyframe(std::size_t number, const KeyframeGroup& group);
   const NodePart& part_of(const Node& node);
@@ -113,6 +115,7 @@ class Rehearsal {
 
   const FilmCounts& counts_;
   const farm::Plan& plan_;
+  KeyframeLoads& loads_;
   const FrameCosts costs_;
   Clockwork clockwork_;
   simulated::Computers computers_;
@@ -121,9 +124,12 @@ class Rehearsal {
   const bool nodes_write_;
   const std::vector<walls::Pace> paces_;
   Exchanges exchanges_;
-  // By number, nodes, place on a machine, and whether inbetweens follow. Those of exact counts are used once.
-  std::map<std::array<std::size_t, 4>, std::shared_ptr<const GroupKeyframe>> keyframes_;
+  // By number, nodes, place on a machine, whether inbetweens follow, and contributors. Those of exact counts are used
+  // once.
+  std::map<KeyframeLoads::Key, std::shared_ptr<const GroupKeyframe>> keyframes_;
   std::vector<std::weak_ptr<const TaskKeyframe>> task_keyframes_;
+  std::vector<int> writers_;                                      // of keyframes, members of groups; by task
+  std::map<int, std::size_t> keyframes_so_far_;                   // by a group's first node
   std::map<int, std::vector<std::vector<NodePart>>> inbetweens_;  // by nodes that share one, and by task
   std::vector<std::vector<TeamFrame>> team_frames_;               // by task
   std::vector<std::int32_t> teams_;                               // by group
@@ -140,9 +146,11 @@ farm::HostMemory host_memory(const farm::Plan& plan, const Setting& setting, int
                                  setting.sink_threads);
 }
 
-Rehearsal::Rehearsal(const FilmCounts& counts, const farm::Plan& plan, const Setting& setting, int nodes)
+Rehearsal::Rehearsal(const FilmCounts& counts, const farm::Plan& plan, const Setting& setting, int nodes,
+                     KeyframeLoads& loads)
     : counts_(counts),
       plan_(plan),
+      loads_(loads),
       costs_(setting, nodes),
       computers_(setting.platform.machine, nodes),
       routes_(setting.platform.machine.network, computers_.count(), computers_.of(nodes)),
@@ -151,6 +159,7 @@ Rehearsal::Rehearsal(const FilmCounts& counts, const farm::Plan& plan, const Set
       paces_(setting.even.paces),
       exchanges_(clockwork_, computers_, routes_, costs_.costs(), nodes),
       task_keyframes_(counts.tasks.size()),
+      writers_(counts.tasks.size(), kNone),
       exchange_(setting.exchange),
       group_exchanges_(plan.groups.size()),
       nodes_(static_cast<std::size_t>(nodes)),
@@ -211,13 +220,20 @@ Rehearsed Rehearsal::run(double limit) {
   return std::move(result_);
 }
 
+// Of a task's keyframe, a node of the group that takes it: they take turns.
+int Rehearsal::writer_of(std::size_t task, const KeyframeGroup& group) {
+  int& writer = writers_[task];
+  if (writer == kNone) writer = static_cast<int>(keyframes_so_far_[group.nodes.first]++) % group.contributors;
+  return writer;
+}
+
 // The same for all nodes of the group that takes the task.
 std::shared_ptr<const TaskKeyframe> Rehearsal::keyframe_of(std::size_t number, const collectives::Group& group) {
   if (auto known = task_keyframes_[number].lock()) return known;
   const farm::Task& task = plan_.tasks[number];
   const auto count = static_cast<std::size_t>(group.count);
   KeyframeGroup members{group, plan_.contributors_of(group), std::vector<std::uint8_t>(count), 0};
-  members.writer = static_cast<int>(task.interval % static_cast<std::uint32_t>(members.contributors));
+  members.writer = writer_of(number, members);
   const std::int32_t teams = wire::team_count(group, plan_.teams_of(group));
   for (std::size_t k = 0; k < std::min(static_cast<std::size_t>(teams), task.frames.size() - 1); ++k) {
     const auto number = static_cast<std::int32_t>((task.first_inbetween + k) % static_cast<std::uint64_t>(teams));
@@ -226,18 +242,22 @@ std::shared_ptr<const TaskKeyframe> Rehearsal::keyframe_of(std::size_t number, c
   }
   const std::size_t counted = counts_.tasks[number].keyframe;
   auto keyframe = std::make_shared<TaskKeyframe>(shared_keyframe(counted, members));
-  keyframe->gifts = costs_.gifts(*keyframe->drawn, counts_.keyframes[counted], members);
+  keyframe->gifts = costs_.gifts(*keyframe->drawn->load, members);
   task_keyframes_[number] = keyframe;
   return keyframe;
 }
 
 std::shared_ptr<const GroupKeyframe> Rehearsal::shared_keyframe(std::size_t number, const KeyframeGroup& group) {
+  const auto place = static_cast<std::size_t>(group.nodes.first % computers_.nodes_on_each());
+  const KeyframeLoads::Key key{number, static_cast<std::size_t>(group.count()), place, group.has_inbetweens() ? 1u : 0u,
+                               static_cast<std::size_t>(group.contributors)};
+  const KeyframeCounts& counts = counts_.keyframes[number];
   const auto make = [&] {
-    return std::make_shared<const GroupKeyframe>(costs_.keyframe(counts_.keyframes[number], counts_.surfaces, group));
+    auto load = loads_.of(key, [&] { return costs_.load(counts, counts_.surfaces, group); });
+    return std::make_shared<const GroupKeyframe>(costs_.keyframe(std::move(load), counts, group));
   };
   if (counts_.is_exact) return make();
-  const auto place = static_cast<std::size_t>(group.nodes.first % computers_.nodes_on_each());
-  auto& known = keyframes_[{number, static_cast<std::size_t>(group.count()), place, group.has_inbetweens() ? 1u : 0u}];
+  auto& known = keyframes_[key];
   if (known == nullptr) known = make();
   return known;
 }
@@ -316,7 +336,7 @@ void Rehearsal::map(int n) {
 bool Rehearsal::makes_again(const GroupKeyframe& keyframe, const GroupExchange& so_far) const {
   if (exchange_ != wire::Exchange::automatic) return exchange_ == wire::Exchange::again;
   double guess = 0;
-  for (const NodePart& node : keyframe.nodes) guess += 4 * node.dice;
+  for (const NodePart& node : keyframe.nodes) guess += node.dice;
   const double making = so_far.made > 1 ? so_far.making : guess;
   return so_far.sent > 1 && 2 * making < so_far.sending;
 }
@@ -489,13 +509,7 @@ void Rehearsal::send_drawn(int n) {
   work(n, costs_.costs().to_send(drawn), &Rehearsal::end_frame);
 }
 
-// Nodes of a group take turns in writing keyframes.
-bool Rehearsal::writes(const Node& node) const {
-  const collectives::Group& group = plan_.groups[node.group];
-  const auto turn =
-      static_cast<int>(plan_.tasks[node.task].interval % static_cast<std::uint32_t>(plan_.contributors_of(group)));
-  return node.frame > 0 || node.member == turn;
-}
+bool Rehearsal::writes(const Node& node) const { return node.frame > 0 || node.member == writers_[node.task]; }
 
 void Rehearsal::write_file(int n) {
   Node& node = nodes_[static_cast<std::size_t>(n)];
@@ -531,8 +545,14 @@ void Rehearsal::receive_credit(int n) {
 
 }  // namespace
 
+Rehearsed rehearse(const FilmCounts& counts, const farm::Plan& plan, const Setting& setting, int nodes,
+                   KeyframeLoads& loads, double limit) {
+  return Rehearsal(counts, plan, setting, nodes, loads).run(limit);
+}
+
 Rehearsed rehearse(const FilmCounts& counts, const farm::Plan& plan, const Setting& setting, int nodes, double limit) {
-  return Rehearsal(counts, plan, setting, nodes).run(limit);
+  KeyframeLoads loads;
+  return rehearse(counts, plan, setting, nodes, loads, limit);
 }
 
 }  // namespace mars::forecast

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/experiments/forecast/film_counts.h"
+#include "host/experiments/forecast/frame_loads.h"
 #include "host/experiments/forecast/setting.h"
 #include "host/render/events/course.h"
 #include "host/render/farm/plan.h"
@@ -26,7 +27,10 @@ struct Rehearsed {
   std::vector<walls::Busy> busy;  // by node
 };
 
-// A rendering that takes longer than `limit` is not played to its end: its seconds are infinite.
+// A rendering that takes longer than `limit` is not played to its end: its seconds are infinite. `loads`: of these
+// counts, numbers of nodes and settings, whatever work and messages cost.
+Rehearsed rehearse(const FilmCounts& counts, const farm::Plan& plan, const Setting& setting, int nodes,
+                   KeyframeLoads& loads, double limit = std::numeric_limits<double>::infinity());
 Rehearsed rehearse(const FilmCounts& counts, const farm::Plan& plan, const Setting& setting, int nodes,
                    double limit = std::numeric_limits<double>::infinity());
 

@@ -71,10 +71,33 @@ std::vector<std::vector<double>> with_few_pieces(std::vector<std::vector<double>
   return pieces;
 }
 
+// More machines that wait for each other do so at one of them.
+constexpr int kLargeRing = 256;
+
+// What a ring is where messages take no time: every node that has pieces, or receives them, waits for all of these.
+void meet(Exchange& exchange, const Machines& machines, const std::vector<std::vector<double>>& pieces,
+          const RelayLabels& labels) {
+  const auto comes = [&](int node) {
+    return machines.collects(node) || !pieces[static_cast<std::size_t>(node)].empty();
+  };
+  int first = 0;
+  std::uint32_t others = 0;
+  while (!machines.collects(first)) ++first;
+  for (int node = 0; node < machines.nodes(); ++node) others += node != first && comes(node) ? 1 : 0;
+  for (int node = 0; node < machines.nodes(); ++node) {
+    Steps& steps = of(exchange, node);
+    if (node != first && comes(node)) steps.push_back(send(labels.pieces, first, 0));
+    collect(steps, machines, node, receive(labels.pieces, node == first ? others : 1), labels.there);
+    for (int head = 0; node == first && head < machines.nodes(); ++head)
+      if (head != first && machines.collects(head)) steps.push_back(send(labels.pieces, head, 0));
+  }
+}
+
 // `all_pieces` of each node go to the next machine that draws inbetweens, whose head passes them on, until they have
 // been to all others. A node says its own head when what it has is there.
 void relay(Exchange& exchange, const Machines& machines, const std::vector<std::vector<double>>& all_pieces,
-           const RelayLabels& labels) {
+           const RelayLabels& labels, Relayed relayed) {
+  if (relayed == Relayed::at_once && machines.heads() > kLargeRing) return meet(exchange, machines, all_pieces, labels);
   const std::vector<std::vector<double>> pieces = with_few_pieces(all_pieces);
   std::uint32_t all = 0;
   for (const std::vector<double>& own : pieces) all += static_cast<std::uint32_t>(own.size());
@@ -180,13 +203,13 @@ Exchange triangle_steps(const std::vector<std::vector<Parcel>>& parcels, double 
   return exchange;
 }
 
-Exchange still_steps(const Machines& machines, const std::vector<std::vector<double>>& messages) {
+Exchange still_steps(const Machines& machines, const std::vector<std::vector<double>>& messages, Relayed relayed) {
   Exchange exchange(messages.size());
-  relay(exchange, machines, messages, {kStill, kStillThere});
+  relay(exchange, machines, messages, {kStill, kStillThere}, relayed);
   return exchange;
 }
 
-Exchange band_steps(const Machines& machines, std::span<const NodeBands> bands, int writer) {
+Exchange band_steps(const Machines& machines, std::span<const NodeBands> bands, int writer, Relayed relayed) {
   const int nodes = machines.nodes();
   Exchange exchange(bands.size());
   std::uint32_t composing = 0;
@@ -205,7 +228,7 @@ Exchange band_steps(const Machines& machines, std::span<const NodeBands> bands, 
   }
   std::vector<std::vector<double>> background;
   for (const NodeBands& own : bands) background.push_back(own.composes ? own.background : std::vector<double>());
-  relay(exchange, machines, background, {kBackground, kBackgroundThere});
+  relay(exchange, machines, background, {kBackground, kBackgroundThere}, relayed);
   for (int node = 0; node < nodes; ++node)
     if (const NodeBands& own = bands[static_cast<std::size_t>(node)]; own.composes && node != writer)
       of(exchange, node).push_back(send(kPicture, writer, own.picture));

@@ -72,8 +72,12 @@ struct Parcel {
 // `parcels`: of each node, for homes on other machines; `box_seconds`: of a home, for an edge box.
 Exchange triangle_steps(const std::vector<std::vector<Parcel>>& parcels, double box_seconds);
 
+// Whether what goes round machines takes time. Else it need not go all the way: nodes only wait for each other.
+enum class Relayed { in_time, at_once };
+
 // Lines that nodes keep for inbetweens, which go round machines (node/group/relay.cpp): of each node the messages.
-Exchange still_steps(const Machines& machines, const std::vector<std::vector<double>>& messages);
+Exchange still_steps(const Machines& machines, const std::vector<std::vector<double>>& messages,
+                     Relayed relayed = Relayed::in_time);
 
 // Bands of a keyframe that its group writes (node/group/band_exchange.cpp), of a node.
 struct NodeBands {
@@ -83,8 +87,10 @@ struct NodeBands {
   double picture = 0;                // for the file
   double encoding = 0;               // seconds
   std::vector<double> background{};  // bytes of bands for inbetweens, piece by piece
+  double lines = 0;                  // that it encodes
 };
 
-Exchange band_steps(const Machines& machines, std::span<const NodeBands> bands, int writer);
+Exchange band_steps(const Machines& machines, std::span<const NodeBands> bands, int writer,
+                    Relayed relayed = Relayed::in_time);
 
 }  // namespace mars::forecast

@@ -16,49 +16,75 @@ const Walls kUneven{Wall::imbalance, Wall::frame};
 
 class Explainer {
  public:
-  Explainer(const SecondsWithout& seconds, Walls there) : ask_(seconds), there_(there) {}
+  Explainer(const AllSecondsWithout& seconds, Walls there) : ask_(seconds), there_(there) {}
 
   Explanation explain();
 
  private:
   double seconds(Walls without) {
-    const auto [found, fresh] = known_.try_emplace(without.number());
-    if (fresh) found->second = ask_(without);
-    return found->second;
+    if (!known_.contains(without.number())) ask({without});
+    return known_.at(without.number());
   }
+  void ask(const std::vector<Walls>& all);
+  static Walls beside(Wall wall, Walls gone);
+  static std::vector<Walls> asked_alone(Wall wall);
   double gain(Wall wall, Walls gone);
   double alone(Wall wall);
   std::optional<Wall> binding(Walls gone);
 
-  const SecondsWithout& ask_;
+  const AllSecondsWithout& ask_;
   const Walls there_;
   std::map<unsigned long, double> known_;
 };
 
+// All at once: they may be found side by side.
+void Explainer::ask(const std::vector<Walls>& all) {
+  std::map<unsigned long, Walls> fresh;
+  for (const Walls each : all)
+    if (!known_.contains(each.number())) fresh.emplace(each.number(), each);
+  std::vector<Walls> asked;
+  for (const auto& [number, each] : fresh) asked.push_back(each);
+  const std::vector<double> seconds = ask_(asked);
+  for (std::size_t i = 0; i < asked.size(); ++i) known_.emplace(asked[i].number(), seconds[i]);
+}
+
 // Of work: beyond what walls gain that are part of it.
+Walls Explainer::beside(Wall wall, Walls gone) { return wall == Wall::compute ? gone.with(kUneven) : gone; }
+
 double Explainer::gain(Wall wall, Walls gone) {
-  const Walls beside = wall == Wall::compute ? gone.with(kUneven) : gone;
-  return seconds(beside) - seconds(beside.with({wall}));
+  return seconds(beside(wall, gone)) - seconds(beside(wall, gone).with({wall}));
 }
 
 // What is uneven is work: beside evenly divided work.
-double Explainer::alone(Wall wall) {
-  if (!kUneven.has(wall)) return seconds(Walls::all().without({wall}));
+std::vector<Walls> Explainer::asked_alone(Wall wall) {
+  if (!kUneven.has(wall)) return {Walls::all().without({wall})};
   const Walls even = Walls::all().without({Wall::compute});
-  return seconds(even.without({wall})) - seconds(even);
+  return {even.without({wall}), even};
+}
+
+double Explainer::alone(Wall wall) {
+  const std::vector<Walls> asked = asked_alone(wall);
+  return asked.size() == 1 ? seconds(asked[0]) : seconds(asked[0]) - seconds(asked[1]);
 }
 
 std::optional<Wall> Explainer::binding(Walls gone) {
   const std::vector<Wall> left = there_.without(gone).list();
   if (left.empty()) return std::nullopt;
+  std::vector<Walls> asked{gone};
+  for (const Wall wall : left) {
+    asked.push_back(beside(wall, gone));
+    asked.push_back(beside(wall, gone).with({wall}));
+    for (const Walls alone : asked_alone(wall)) asked.push_back(alone);
+  }
+  ask(asked);
   const Wall first = *std::ranges::max_element(left, {}, [&](Wall wall) { return gain(wall, gone); });
   if (gain(first, gone) > kNoGain * seconds(gone)) return first;
   return *std::ranges::max_element(left, {}, [&](Wall wall) { return alone(wall); });
 }
 
 Explanation Explainer::explain() {
-  Explanation found{seconds({}), {}, {}, 0};
   const std::optional<Wall> first = binding({});
+  Explanation found{seconds({}), {}, {}, 0};
   if (!first) return found;
   for (const Wall wall : there_.list()) {
     const FoundWall one{wall, alone(wall), seconds({wall})};
@@ -82,6 +108,15 @@ std::vector<Wall> Walls::list() const {
   return walls;
 }
 
-Explanation explain(const SecondsWithout& seconds, Walls there) { return Explainer(seconds, there).explain(); }
+Explanation explain(const AllSecondsWithout& seconds, Walls there) { return Explainer(seconds, there).explain(); }
+
+Explanation explain(const SecondsWithout& seconds, Walls there) {
+  const auto one_by_one = [&](const std::vector<Walls>& all) {
+    std::vector<double> found;
+    for (const Walls walls : all) found.push_back(seconds(walls));
+    return found;
+  };
+  return explain(AllSecondsWithout(one_by_one), there);
+}
 
 }  // namespace mars::walls

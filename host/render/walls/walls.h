@@ -70,6 +70,8 @@ class Walls {
 
 // Seconds of a rendering in which these walls take no time.
 using SecondsWithout = std::function<double(Walls)>;
+// The same of several, each by its place.
+using AllSecondsWithout = std::function<std::vector<double>(const std::vector<Walls>&)>;
 
 struct FoundWall {
   Wall wall;
@@ -87,6 +89,7 @@ struct Explanation {
 };
 
 // `there`: the others take no time at all.
+Explanation explain(const AllSecondsWithout& seconds, Walls there);
 Explanation explain(const SecondsWithout& seconds, Walls there);
 
 }  // namespace mars::walls

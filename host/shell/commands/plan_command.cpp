@@ -46,7 +46,8 @@ struct PlanWords {
 
 struct Planned {
   experiments::Platform platform;
-  std::size_t counted;  // frames
+  std::string unidentified;  // costs of the film's work; "": none
+  std::size_t counted;       // frames
   std::size_t frames;
   bool files;
   std::vector<forecast::Forecast> by_nodes;   // ascending; the last has the nodes that were asked for
@@ -147,12 +148,15 @@ Planned plan(const PlanWords& words, const NodesCode& code) {
   setting.sharers = static_cast<std::int32_t>(options.sharers);
   setting.most_frames = options.cut;
   const int nodes = options.nodes == 0 ? topology::Machine::here().processors() : static_cast<int>(options.nodes);
+  const int threads = topology::Machine::here().processors();
   const auto forecasts = [&](forecast::Writers writers) {
     setting.writers = writers;
-    return forecast::forecasts_up_to(counts, tasks, setting, nodes, options.groups,
+    return forecast::forecasts_up_to(counts, tasks, setting, nodes, options.groups, threads,
                                      nodes >= kMany ? shown_progress("forecasting") : forecast::Progress());
   };
-  Planned planned{platform, counts.counted, frames.size(), setting.files, {}, {}, {}, 0};
+  Planned planned{
+      platform, forecast::unidentified_text(counts, setting), counts.counted, frames.size(), setting.files, {}, {}, {},
+      0};
   planned.by_nodes =
       forecasts(options.write == options::WriteWhere::nodes ? forecast::Writers::nodes : forecast::Writers::host);
   const bool several = nodes > platform.machine.nodes;  // computers
@@ -162,7 +166,7 @@ Planned plan(const PlanWords& words, const NodesCode& code) {
   }
   for (std::size_t i = 0; words.explain && i < planned.by_nodes.size(); ++i) {
     setting.writers = planned.by_nodes[i].writers;
-    planned.walls.push_back(forecast::explain(counts, tasks, setting, planned.by_nodes[i]));
+    planned.walls.push_back(forecast::explain(counts, tasks, setting, planned.by_nodes[i], threads));
   }
   // An interval says it, too.
   if (!platform.doubt.empty() && !planned.asked().spread) warn(experiments::doubt_text(platform));
@@ -217,6 +221,7 @@ std::string text_of(const Planned& planned) {
   const forecast::Forecast &asked = planned.asked(), &best = planned.best();
   const forecast::Rehearsed& run = asked.run;
   std::string text = "platform    " + planned.platform.name + "\n";
+  if (!planned.unidentified.empty()) text += "costs       " + planned.unidentified + "\n";
   text += "nodes       " + in_groups(asked) + division_text(asked) + "\n";
   text += document::formatted("seconds     %.4g", asked.seconds()) + " (" + interval_text(planned) + ")\n";
   if (!planned.platform.doubt.empty() && asked.spread)
@@ -272,6 +277,7 @@ std::string json_text(const Planned& planned) {
   nlohmann::ordered_json all = json_of(planned, planned.asked());
   all["platform"] = planned.platform.name;
   if (!planned.platform.doubt.empty()) all["doubt"] = planned.platform.doubt;
+  if (!planned.unidentified.empty()) all["not_identified"] = planned.unidentified;
   all["counted"] = planned.counted;
   all["frames"] = planned.frames;
   all["slots"] = std::llround(planned.slots);

@@ -235,9 +235,11 @@ std::vector<Entry> table() {
       option(plans, "--mapping", "greedy|optimal|cost", &RenderOptions::mapping,
              "How lines are divided among nodes: by edge boxes as in the thesis, exactly by edge boxes, or by "
              "estimated cost; default: cost. Example: --mapping greedy"),
-      option(plans, "--exchange", "auto|send|again", &RenderOptions::exchange,
-             "How triangles reach other machines: sent, or made again there; default: auto, whichever takes less time. "
-             "Example: --exchange send"),
+      option(
+          plans, "--exchange", "auto|send|again", &RenderOptions::exchange,
+          "How triangles reach other machines: sent, or made again there; default: auto, made again where that takes "
+          "less than half the time. "
+          "Example: --exchange send"),
       option(compiles, "--intervals", "auto|keyframes", &RenderOptions::intervals,
              "Where render intervals are cut: where it saves work, or at the animator's keyframes; a few pixels differ "
              "between the two. Example: --intervals keyframes"),

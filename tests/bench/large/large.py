@@ -6,6 +6,10 @@ Each run is appended to a file of JSON lines, and none that is there is made
 again. The table and the picture are of all runs in the file: for each platform
 and number of nodes the groups that took the least time.
 
+With --walls no run is simulated: three films are counted exactly, and forecast
+for 1 to 4096 nodes, with what binds. The table and the picture of that are
+walls.md and walls.svg.
+
 Half the film on 1024 nodes takes 10 GB of memory. --nodes 16,64 --size half
 --platforms fat-tree takes minutes.
 """
@@ -20,6 +24,7 @@ import time
 
 import film
 import platforms
+import walls
 from curve import best_runs, draw, table
 from figures import figures_of
 
@@ -28,13 +33,16 @@ def arguments():
     parser = argparse.ArgumentParser(prog="mars bench large", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", type=pathlib.Path, required=True, help=argparse.SUPPRESS)
-    parser.add_argument("--nodes", default="16,64,256,1024,4096", help="default: %(default)s")
+    parser.add_argument("--nodes", default="16,64,256,1024,4096",
+                        help="with --walls: from 1 to the most (default: %(default)s)")
     parser.add_argument("--platforms", default="fat-tree,dragonfly,ethernet", help="default: %(default)s")
     parser.add_argument("--groups", help="numbers to try (default: some for each number of nodes)")
     parser.add_argument("--writers", default="host,nodes", help="who writes the frames (default: %(default)s)")
     parser.add_argument("--size", choices=film.SIZES, default="whole",
                         help="of the film; half has a quarter of polygons and pixels (default: %(default)s)")
     parser.add_argument("--frames", help="only these, as for mars render")
+    parser.add_argument("--walls", action="store_true", help="what binds three films on 1 to 4096 nodes")
+    parser.add_argument("--films", default=",".join(walls.FILMS), help="with --walls (default: %(default)s)")
     parser.add_argument("-o", "--output", type=pathlib.Path, default=pathlib.Path("large"),
                         help="folder for runs.jsonl, curve.svg and table.md (default: %(default)s)")
     return parser.parse_args()
@@ -70,6 +78,11 @@ def main():
     options = arguments()
     size = film.SIZES[options.size]
     options.output.mkdir(parents=True, exist_ok=True)
+    if options.walls:
+        walls.run(options.build / "bin" / "mars", options.output, options.films.split(","),
+                  options.platforms.split(","), max(map(int, options.nodes.split(","))),
+                  lambda path: film.write_film(path, size))
+        return
     runs_file = options.output / "runs.jsonl"
     film_file = options.output / f"{options.size}.json"
     film.write_film(film_file, size)

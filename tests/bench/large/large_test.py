@@ -11,6 +11,7 @@ HERE = pathlib.Path(__file__).parent
 sys.path.insert(0, str(HERE))
 import curve  # noqa: E402
 import film  # noqa: E402
+import walls  # noqa: E402
 
 BUILD = pathlib.Path(sys.argv.pop(1))
 
@@ -54,6 +55,30 @@ class Curve(unittest.TestCase):
     def test_efficiency_is_against_the_fewest_nodes(self):
         efficiency = [part for _, part in curve.with_efficiency([made(4, 16), made(2, 64)])]
         self.assertEqual(efficiency, [1, 0.5])
+
+
+def explained(nodes, seconds, **walls_of):
+    return {"nodes": nodes, "seconds": seconds, "explained": {"seconds": seconds, "walls": [], **walls_of}}
+
+
+class Walls(unittest.TestCase):
+    def test_a_cell_says_what_binds_and_what_binds_then(self):
+        storage = {"wall": "storage", "alone": 1, "without": 0.5}
+        self.assertEqual(walls.cell(explained(4, 2, binding="storage", next="host", walls=[storage])),
+                         "2: storage (0.5; then host)")
+        self.assertEqual(walls.cell(explained(4, 2)), "2")
+
+    def test_three_films_have_a_row_for_each_number_of_nodes(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for _ in range(2):
+                bench(folder, "--walls", "--films", "large", "--nodes", "4")
+            files = sorted(path.name for path in pathlib.Path(folder).iterdir())
+            self.assertEqual(files, ["large.counts", "large.json", "walls-large-fat-tree-4.json", "walls.md",
+                                     "walls.svg"])
+            rows = (pathlib.Path(folder) / "walls.md").read_text().splitlines()[4:]
+            self.assertEqual([row.split(" | ")[0] for row in rows], ["| 1", "| 4"])
+            for row in rows:
+                self.assertRegex(row, r"^\| \d | [\d.]+: compute \(.*\) \|$")
 
 
 class Bench(unittest.TestCase):

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 #include <vector>
 
 namespace mars::forecast {
@@ -77,6 +78,22 @@ TEST(Exchanges, EachMachineReceivesLinesOnceAndPassesThemOn) {
   const Played played(still_steps(machines(6, 1, {0, 1, 2, 3, 4, 5}), of_one));
   EXPECT_EQ(played.bytes, 5 * 20000);
   EXPECT_LT(std::ranges::max(played.ended), 2 * 20000 * kByte + 5 * (kLatency + 1000 * kByte));
+}
+
+// A ring without time is a meeting: all wait for the last, with few messages.
+TEST(Exchanges, LinesThatTakeNoTimeKeepNodesTogether) {
+  constexpr int kNodes = 300;
+  std::vector<int> all(kNodes);
+  std::iota(all.begin(), all.end(), 0);
+  const std::vector<std::vector<double>> lines(kNodes, {1500, 1500});
+  for (const Relayed relayed : {Relayed::at_once, Relayed::in_time}) {
+    Exchange exchange = still_steps(machines(kNodes, 1, all), lines, relayed);
+    exchange[7].insert(exchange[7].begin(), work(5));
+    const Played played(exchange);
+    EXPECT_TRUE(played.all_ended());
+    EXPECT_GE(std::ranges::min(played.ended), 5);
+  }
+  EXPECT_TRUE(Played(still_steps(machines(kNodes, 1, {0, 1}), lines, Relayed::at_once)).all_ended());
 }
 
 TEST(Exchanges, BandsGoToTheWriterAndToWhoDrawsInbetweens) {

@@ -43,11 +43,14 @@ struct Case {
 // By GoogleTest, in messages and names.
 void PrintTo(const Case& one, std::ostream* out) { *out << one.film; }
 
-class Forecasts : public testing::TestWithParam<Case> {};
+class Forecasts : public testing::TestWithParam<Case> {
+ protected:
+  static void expect_counted(const SimulatedFilm& film, const farm::FarmReport& report);
+};
 
 TEST_P(Forecasts, AreAsSimulated) {
   const SimulatedFilm film(GetParam().film, GetParam().frames, "fat-tree");
-  for (const int nodes : {1, 2, 4, 16}) {
+  for (const int nodes : {1, 2, 16}) {
     const Forecast choice = film.forecast(nodes, 1);
     const Rehearsed& forecast = choice.run;
     const farm::FarmReport report = film.render(choice);
@@ -58,19 +61,18 @@ TEST_P(Forecasts, AreAsSimulated) {
                 "to nodes" + where);
     expect_near(forecast.node_memory, most_of(report, &wire::WorkCounts::memory), kWithin, "memory" + where);
     EXPECT_EQ(forecast.frames.size(), report.frames.size());
+    if (nodes == 1) expect_counted(film, report);
   }
 }
 
 TEST(ForecastsOfFiles, AreAsSimulated) {
   for (const Files files : {Files::host, Files::nodes})
-    for (const Case& one : {Case{"s3", "0-11"}, Case{"visit", "100-109"}, Case{"stones", "0-9"}}) {
+    for (const auto& [one, nodes] :
+         {std::pair{Case{"s3", "0-11"}, 1}, {Case{"visit", "100-104"}, 4}, {Case{"stones", "0-7"}, 4}}) {
       const SimulatedFilm film(one.film, one.frames, "fat-tree", files);
-      for (const int nodes : {1, 4}) {
-        const Forecast forecast = film.forecast(nodes, 1);
-        expect_near(forecast.run.seconds, film.render(forecast).total_seconds, kWithin,
-                    std::string(one.film) + (files == Files::host ? ", host writes, " : ", nodes write, ") +
-                        std::to_string(nodes) + " nodes");
-      }
+      const Forecast forecast = film.forecast(nodes, 1);
+      expect_near(forecast.run.seconds, film.render(forecast).total_seconds, kWithin,
+                  std::string(one.film) + (files == Files::host ? ", host writes" : ", nodes write"));
     }
 }
 
@@ -108,23 +110,23 @@ TEST(ForecastsOfClusters, AreAsSimulated) {
     const SimulatedFilm even = film(cluster.even), changed = film(cluster.patch);
     const Forecast forecast = changed.forecast(4, 1);
     const auto simulated = [&](const SimulatedFilm& film) { return film.render(forecast).total_seconds; };
-    expect_near(forecast.run.seconds, simulated(changed), kWithin, cluster.how);
-    EXPECT_GT(simulated(changed), cluster.least * simulated(even)) << cluster.how;
+    const double slow = simulated(changed);
+    expect_near(forecast.run.seconds, slow, kWithin, cluster.how);
+    EXPECT_GT(slow, cluster.least * simulated(even)) << cluster.how;
     EXPECT_GT(forecast.run.seconds, cluster.least * even.forecast(4, 1).run.seconds) << cluster.how;
   }
 }
 
 TEST(ForecastsOfTeams, AreAsSimulated) {
   for (const Files files : {Files::none, Files::nodes})
-    for (const Case& one : {Case{"s3", "0-11"}, Case{"visit", "100-109"}, Case{"demo", "0-7"}}) {
+    for (const auto& [one, nodes, groups, sharers, most] : {std::tuple{Case{"s3", "0-11"}, 4, 1u, 2, kUncut},
+                                                            {Case{"visit", "100-105"}, 8, 2u, 2, 3u},
+                                                            {Case{"demo", "0-5"}, 8, 1u, 8, kUncut}}) {
       const SimulatedFilm film(one.film, one.frames, "fat-tree", files);
-      for (const auto& [nodes, groups, sharers, most] :
-           {std::tuple{4, 1u, 2, kUncut}, {8, 1u, 8, kUncut}, {8, 2u, 2, 5u}}) {
-        const Forecast forecast = film.forecast(nodes, groups, sharers, most);
-        expect_near(forecast.run.seconds, film.render(forecast).total_seconds, 0.2,
-                    std::string(one.film) + (files == Files::nodes ? ", nodes write, " : ", ") +
-                        std::to_string(sharers) + " of " + std::to_string(nodes) + " share");
-      }
+      const Forecast forecast = film.forecast(nodes, groups, sharers, most);
+      expect_near(forecast.run.seconds, film.render(forecast).total_seconds, 0.2,
+                  std::string(one.film) + (files == Files::nodes ? ", nodes write, " : ", ") + std::to_string(sharers) +
+                      " of " + std::to_string(nodes) + " share");
     }
 }
 
@@ -158,9 +160,7 @@ TEST(ForecastsOfTeams, ChooseThemWhereTheyPay) {
 }
 
 // What is made is counted; what is seen is estimated from some lines.
-TEST_P(Forecasts, CountWhatNodesDraw) {
-  const SimulatedFilm film(GetParam().film, GetParam().frames, "fat-tree");
-  const farm::FarmReport report = film.render(1, 1);
+void Forecasts::expect_counted(const SimulatedFilm& film, const farm::FarmReport& report) {
   for (const wire::Strip& strip : report.strips) {
     if (strip.last == 0) continue;
     const auto is_here = [&](const wire::FrameCounts& counts) { return counts.frame == strip.frame; };
@@ -196,14 +196,11 @@ class Counted : public testing::TestWithParam<std::tuple<const char*, Files>> {
 };
 
 TEST_P(Counted, IsAsSimulated) {
-  for (const Case& one : {Case{"s3", "0-11"}, Case{"robot-arm", "10-25"}}) {
-    const SimulatedFilm film(one.film, one.frames, platform(), files());
-    SCOPED_TRACE(one.film);
-    for (const int nodes : {1, 4, 16, 64})
-      for (const std::uint32_t groups : {1u, 2u})
-        if (groups <= std::min<std::size_t>(static_cast<std::size_t>(nodes), film.tasks().size()))
-          expect_as_simulated(film, nodes, groups);
-  }
+  const bool is_far = platform() == std::string_view("ethernet");
+  const Case one = is_far ? Case{"s3", "0-11"} : Case{"robot-arm", "10-25"};
+  const SimulatedFilm film(one.film, one.frames, platform(), files());
+  for (const auto& [nodes, groups] : {std::pair{1, 1u}, {4, 2u}, {16, 1u}, {64, is_far ? 1u : 2u}})
+    if (groups <= film.tasks().size()) expect_as_simulated(film, nodes, groups);
 }
 
 std::string name_of(const testing::TestParamInfo<Counted::ParamType>& each) {
@@ -245,6 +242,7 @@ class ForecastsOfShadows : public testing::TestWithParam<Lit> {
     const Lit& lit = GetParam();
     return SimulatedFilm(lit.film.film, lit.film.frames, "fat-tree", Files::none, lit.light);
   }
+  static void expect_counted(const SimulatedFilm& film, const farm::FarmReport& report);
 };
 
 TEST_P(ForecastsOfShadows, AreAsSimulated) {
@@ -253,6 +251,7 @@ TEST_P(ForecastsOfShadows, AreAsSimulated) {
     const Forecast forecast = film.forecast(nodes, 1);
     const farm::FarmReport report = film.render(forecast);
     const std::string where = "on " + std::to_string(nodes) + " nodes";
+    if (nodes == 1) expect_counted(film, report);
     expect_near(forecast.run.seconds, report.total_seconds, 0.2, where);
     expect_near(forecast.run.bytes_to_nodes, sum_of(report, &wire::WorkCounts::bytes_to_nodes), 0.2,
                 "bytes to nodes, " + where);
@@ -260,10 +259,8 @@ TEST_P(ForecastsOfShadows, AreAsSimulated) {
 }
 
 // What casts is found by boxes round what is seen on some lines, and of a light with size by some of its points.
-TEST_P(ForecastsOfShadows, CountWhatNodesDo) {
+void ForecastsOfShadows::expect_counted(const SimulatedFilm& film, const farm::FarmReport& report) {
   using wire::Work;
-  const SimulatedFilm film = this->film();
-  const farm::FarmReport report = film.render(1, 1);
   const auto charged = [&](Work kind) {
     double sum = 0;
     for (const wire::Strip& strip : report.strips)
@@ -320,10 +317,10 @@ void expect_best_groups(const SimulatedFilm& film, int nodes) {
 
 TEST(Groups, AreChosenAsBySearch) {
   for (const char* platform : {"fat-tree", "ethernet"}) {
-    expect_best_groups(SimulatedFilm("robot-arm", "10-45", platform), 4);
+    expect_best_groups(SimulatedFilm("robot-arm", "10-33", platform), 4);
     expect_best_groups(SimulatedFilm("cubes", "40-60", platform), 2);
   }
-  expect_best_groups(SimulatedFilm("bodies", "6-27", "ethernet"), 4);
+  expect_best_groups(SimulatedFilm("bodies", "6-17", "ethernet"), 4);
 }
 
 TEST(Groups, AreTheSameEveryTime) {

@@ -71,7 +71,7 @@ walls::Explanation SimulatedFilm::explain(int nodes, std::uint32_t groups) const
   Forecast all;
   all.nodes = nodes;
   all.groups = groups;
-  return forecast::explain(counts_, tasks_, setting(film), all);
+  return forecast::explain(counts_, tasks_, setting(film), all, 1);
 }
 
 Rehearsed SimulatedFilm::counted(int nodes, std::uint32_t groups) const {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <vector>
 
 #include "hal/failure/failure.h"
 #include "host/render/walls/walls_text.h"
@@ -62,6 +64,23 @@ TEST(Explained, WhereNothingTakesTimeNothingBinds) {
   const Explanation explanation = explain([](Walls) { return 0.0; }, {});
   EXPECT_EQ(explanation.binding(), nullptr);
   EXPECT_EQ(line_of(explanation), "none");
+}
+
+TEST(Explained, TimesAreAskedForTogetherAndOnce) {
+  std::vector<std::size_t> asked;
+  std::set<unsigned long> known;
+  const AllSecondsWithout all = [&](const std::vector<Walls>& several) {
+    asked.push_back(several.size());
+    std::vector<double> seconds;
+    for (const Walls walls : several) {
+      EXPECT_TRUE(known.insert(walls.number()).second) << walls.number();
+      seconds.push_back(toy(walls));
+    }
+    return seconds;
+  };
+  EXPECT_EQ(table_of(explain(all, kThere)), table_of(explain(toy, kThere)));
+  EXPECT_LE(asked.size(), 3u);
+  EXPECT_GE(asked.front(), 8u);
 }
 
 TEST(Explained, IsReadAsItWasWritten) {
