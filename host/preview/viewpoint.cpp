@@ -63,12 +63,13 @@ glm::dvec3 eye_of(const Orbit& orbit, const wire::Camera& camera) {
 double height_of(const Orbit& orbit) { return 2 * orbit.distance / kFocal; }
 
 wire::Camera parallel_camera_of(const Orbit& orbit) {
-  constexpr double kAway = 16;  // before all that is shown
+  constexpr double kAway = 16, kBehind = 1000;  // distances, before all that is shown and behind it
   Orbit away = orbit;
   away.distance *= kAway;
   wire::Camera camera = camera_of(away);
   camera.projection = wire::Projection::orthographic;
   camera.focal = 2 / height_of(orbit);
+  camera.far = std::min(orbit.distance * (kAway + kBehind), kFarPlane);
   return camera;
 }
 

@@ -48,8 +48,8 @@ shape::Projection projection_of(const wire::Camera& camera, std::int32_t width, 
   const auto scale = static_cast<float>(camera.focal * height / 2);
   const auto center_x = static_cast<float>((0.5 - camera.shift_x) * width);
   const auto center_y = static_cast<float>((0.5 + camera.shift_y) * height);
-  const float x =
-      std::max(center_x, static_cast<float>(width) - center_x);  // from the view axis to the farthest corner
+  // From the view axis to the farthest corner.
+  const float x = std::max(center_x, static_cast<float>(width) - center_x);
   const float y = std::max(center_y, static_cast<float>(height) - center_y);
   return {.scale = scale,
           .center = {center_x, center_y},

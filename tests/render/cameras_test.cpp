@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "host/content/modeler/primitives.h"
+#include "node/frame_counter.h"
 #include "tests/node/simd/instruction_sets.h"
 #include "tests/render/film_run.h"
 #include "tests/render/films.h"
@@ -75,6 +76,24 @@ TEST(Cameras, DrawTheSameBitsHoweverTheWorkIsDivided) {
     for (const wire::FilmData& look :
          {orthographic(film), shifted(orthographic(film), 0.3, -0.1), shifted(film, 0.2, 0.3)})
       expect_same_bits(look, "cameras-" + std::to_string(number++));
+}
+
+// Forecasts count by the nodes' own code.
+TEST(Cameras, AreCountedAsTheyAreDrawn) {
+  for (const wire::FilmData& film : looks_of(casting(crowd(96, 61, 1, 1), {0.0f, 0.0f}))) {
+    const FilmBlock block(film);
+    const Pixels pixels = run_film(block.bytes()).frames.at(0);
+    const auto drawn = std::ranges::count_if(pixels, [](std::uint32_t pixel) { return pixel != 0xff00ff; });
+    node::FrameCounter counter(block.view(), simd::best_instruction_set(""), true);
+    const std::uint32_t frames[] = {0};
+    double counted = 0, points = 0;
+    for (const wire::LineCounts& line : counter.count_keyframe(0, frames).lines) {
+      counted += line.constant.pixels;
+      points += line.constant.points;
+    }
+    EXPECT_EQ(counted, static_cast<double>(drawn));
+    EXPECT_GT(points, counted / 2) << "of two lights that cast";
+  }
 }
 
 wire::FilmData ball_at(double distance, std::uint32_t size) {

@@ -31,7 +31,7 @@ const Frames kAll{0, 1, 2, 3}, kNone{};
   [[maybe_unused]] const auto& [d1, d2, d3, d4, d5, d6] = film.meshlets[0];
   [[maybe_unused]] const auto& [e1, e2, e3, e4] = film.segments[0];
   [[maybe_unused]] const auto& [f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13] = film.materials[0];
-  [[maybe_unused]] const auto& [g1, g2, g3, g4, g5] = film.cameras[0];
+  [[maybe_unused]] const auto& [g1, g2, g3, g4, g5, g6, g7, g8] = film.cameras[0];
   [[maybe_unused]] const auto& [h1, h2, h3, h4, h5, h6, h7, h8, h9] = film.lights[0];
   [[maybe_unused]] const auto& [i1, i2, i3, i4] = film.intervals[0];
   [[maybe_unused]] const auto& [k1, k2] = film.settings.ambient;
@@ -191,6 +191,13 @@ std::vector<Edit> edits_of_values() {
       {"near", [](FilmData& f) { f.cameras[1].near = 11; }, {2, 3}},
       {"far", [](FilmData& f) { f.cameras[0].far = 11; }, {0, 1}},
       {"exposure", [](FilmData& f) { f.cameras[1].exposure = 2; }, {2, 3}},
+      {"shift_x", [](FilmData& f) { f.cameras[0].shift_x = 0.1; }, {0, 1}},
+      {"shift_y", [](FilmData& f) { f.cameras[1].shift_y = 0.1; }, {2, 3}},
+      {"projection",
+       [](FilmData& f) {
+         for (wire::Camera& camera : f.cameras) camera.projection = wire::Projection::orthographic;
+       },
+       kAll},
       {"light.kind", [](FilmData& f) { f.lights[kSpot].kind = wire::LightKind::point; }, kAll},
       {"light.vector",
        [](FilmData& f) {

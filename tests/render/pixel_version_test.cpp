@@ -50,6 +50,8 @@ std::vector<Case> cases() {
     all.push_back({"balls" + of, with_samples(balls(), samples)});
   }
   all.push_back({"ties", ties(48, 36)});
+  all.push_back({"orthographic", orthographic(casting(richly_lit(with_samples(crowd(64, 36, 3, 3), 4)), {0.0f}))});
+  all.push_back({"shifted", shifted(richly_lit(crowd(96, 54, 3, 3)), 0.3, -0.2)});
   all.push_back({"models-rgb16", richly_lit(crowd(96, 54, 2, 2)), wire::PixelFormat::rgb16});
   all.push_back({"models-half", richly_lit(crowd(96, 54, 2, 2)), wire::PixelFormat::half});
   return all;

@@ -11,7 +11,7 @@ constexpr const char* kSteps = R"(
 {"commands": [["film", "add", "other", "--model", "pip", "--turn", "1", "2", "3"], ["film", "remove", "other"]]}
 {"commands": [["film", "rename", "pip", "bob"], ["film", "rename", "bob", "pip"]]}
 {"commands": [["film", "light", "add", "place=1,2,3", "at=0,0,0", "cone=20,30", "color=1,1,0", "intensity=2", "reach=9"], ["film", "light", "remove", "3"]]}
-{"commands": [["film", "camera", "near=0.5", "far=500", "fov=35", "up=0,1,0"]]}
+{"commands": [["film", "camera", "near=0.5", "far=500", "fov=35", "up=0,1,0", "projection=orthographic", "height=4", "shift=0.2,-0.1"]]}
 {"commands": [["film", "light", "add", "direction=1,2,3"], ["film", "light", "remove", "1"]]}
 {"commands": [["film", "material", "add", "gold", "color=1,0.8,0", "reflection=metallic-roughness", "roughness=0.3", "metallic=1", "--actor", "pip"], ["film", "material", "set", "gold", "ambient=0.2", "sides=2", "interpolation=phong", "casts=false", "receives=true"], ["film", "material", "remove", "gold"]]}
 )";

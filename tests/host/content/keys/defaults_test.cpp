@@ -80,8 +80,11 @@ std::string meaning_of(const Json& json) {
     std::ofstream(folder / "arm.json") << json["models"]["arm"];
     const document::Document document(json.dump(), (folder / "film.json").string());
     const animator::Film film = animator::read_film(document.root(), folder);
-    const film::CompiledFilm compiled = film::compile(film);
-    meaning.assign(reinterpret_cast<const char*>(compiled.block().data()), compiled.block().size());
+    const bool is_pair = film.camera.projection == wire::Projection::perspective;
+    for (const film::Eye eye : {film::Eye::middle, is_pair ? film::Eye::left : film::Eye::middle}) {
+      const film::CompiledFilm compiled = film::compile(film, {.eye = eye});
+      meaning.append(reinterpret_cast<const char*>(compiled.block().data()), compiled.block().size());
+    }
     for (const modeler::Model& model : film.models) meaning += modeler::describe_model(model);
   });
   return failure.empty() ? meaning : failure;
@@ -107,11 +110,13 @@ Json other_value(const Key& key) {
   return example == default_value(key) ? Json() : example;
 }
 
-// As the key can stand there: a number with a reflection that uses it, an option with its shape.
+// As the key can stand there: a number with a reflection that uses it, an option with its shape, the height of a camera
+// that has one.
 void make_room(std::string_view name, const Key& key, Json& object) {
   for (const MaterialNumber& number : kMaterialNumbers)
     for (unsigned i = 0; number.key.name == key.name && i < std::size(kReflections); ++i)
       if (uses(static_cast<wire::Reflection>(i), number)) object["reflection"] = kReflections[i];
+  if (name == "camera" && key.name == "height") object["projection"] = "orthographic";
   for (const modeler::LibraryShape& shape : modeler::shape_library())
     if (name == "segment" && shape.option != nullptr && shape.option->name == key.name) object["shape"] = shape.name;
 }
