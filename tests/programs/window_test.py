@@ -2,6 +2,7 @@
 own pixels, sends the display only what changed, and whatever becomes of it, the rendering goes on."""
 
 import re
+import shutil
 import signal
 import socket
 import struct
@@ -147,6 +148,12 @@ class Windows(ProgramTest):
                                       ({**NO_DISPLAY, "DISPLAY": ":99999"}, "no window can be opened")]:
                 self.fail_clearly(1, *words, says=says, env=environment)
         self.assertFalse((self.folder / "out").exists())
+
+    def test_a_mars_without_windows_says_so(self):
+        shutil.copy(PROGRAMS / "mars", self.folder)
+        done = self.run_program(self.folder / "mars", "preview", SMALL[0], "--window", env=on(self.display))
+        self.assertClear(done.stderr, "mars-window is not there")
+        self.assertEqual(done.returncode, 1)
 
     def test_only_what_changed_goes_to_the_display(self):
         display = Display(self.folder, "-extension", "MIT-SHM")  # as one at the other end of a network
