@@ -1,6 +1,4 @@
 // mars-window: shows what a rendering or a preview sends in a window. mars starts it.
-#include <sys/socket.h>
-
 #include <exception>
 #include <iostream>
 #include <string>
@@ -15,20 +13,15 @@
 namespace mars::programs {
 namespace {
 
-// To the program that waits for the display: why there is none.
-void report(const std::string& problem, const std::string& remedy) {
-  const std::string lines = problem + '\n' + remedy;
-  send(window::kControl, lines.data(), lines.size(), MSG_NOSIGNAL);
-}
-
 int show(std::string_view shows, const std::string& title) {
+  window::Starter starter;
   try {
-    window::show(shows == window::kRendering ? window::Shows::rendering : window::Shows::player, title);
+    window::show(starter, shows == window::kRendering ? window::Shows::rendering : window::Shows::player, title);
     return 0;
   } catch (const Failure& failure) {
-    report(failure.problem, failure.remedy);
+    starter.explain(failure.problem, failure.remedy);
   } catch (const std::exception& failure) {
-    report(reason_of(failure), "");
+    starter.explain(reason_of(failure), "");
   }
   return cli::kFailed;
 }

@@ -2,6 +2,7 @@
 own pixels, sends the display only what changed, and whatever becomes of it, the rendering goes on."""
 
 import re
+import shutil
 import signal
 import socket
 import struct
@@ -9,7 +10,7 @@ import subprocess
 import unittest
 
 from display import Display, Relay, wait_for_picture
-from harness import ENDLESS, ENVIRONMENT, EXAMPLES, PROGRAMS, ProgramTest, living, family, main, needs, spinning_teapot, \
+from harness import ENVIRONMENT, EXAMPLES, PROGRAMS, ProgramTest, living, family, main, needs, spinning_teapot, \
     wait_until
 from png_reader import png_rows
 from watcher import BEGIN, HEAD, PICTURE, PICTURE_HEAD
@@ -109,25 +110,37 @@ class Windows(ProgramTest):
 
     def test_a_display_that_ends_does_not_end_the_rendering(self):
         """Nor one that stands still, of which a program may wait for an answer forever."""
-        self.write("film.json", spinning_teapot(30, [320, 180]))
+        self.write("film.json", spinning_teapot(30, [240, 135]))
         for ending in [signal.SIGKILL, signal.SIGSTOP]:
             with self.subTest(ending.name):
                 process = self.start("render", "film.json", "-o", "out", "--overwrite", "--backend", "threads", "--window")
                 self.window_opens()
                 self.display.server.send_signal(ending)
+                self.assertIsNone(process.poll(), "the rendering ended before the display")
                 self.assertEqual((process.communicate(timeout=20)[1], process.returncode), ("", 0))
                 self.display.end()
                 self.display = Display(self.folder)
                 self.addCleanup(self.display.end)
 
-    def test_a_signal_ends_rendering_and_window(self):
-        self.write("film.json", spinning_teapot(ENDLESS, [96, 54]))
-        process = self.start("render", "film.json", "--sink", "none", "--backend", "threads", "--window")
-        self.window_opens()
+    def assertEnded(self, process, ending):
         everyone = family(process.pid)
-        process.send_signal(signal.SIGTERM)
+        self.assertTrue(everyone)
+        process.send_signal(ending)
         process.wait(10)
         wait_until(lambda: not living(everyone), 5, lambda: f"left: {living(everyone)}")
+
+    def test_a_signal_ends_rendering_and_window(self):
+        self.write("film.json", spinning_teapot(3000, [480, 270]))
+        process = self.start("render", "film.json", "--sink", "none", "--backend", "threads", "--window")
+        self.window_opens()
+        self.assertEnded(process, signal.SIGTERM)
+
+    def test_a_display_that_does_not_answer_keeps_nothing(self):
+        self.display.server.send_signal(signal.SIGSTOP)
+        for words in [["render", *SMALL, "--sink", "none"], ["preview", SMALL[0]]]:
+            process = self.start(*words, "--window")
+            wait_until(lambda: family(process.pid), 5, "no window is started")
+            self.assertEnded(process, signal.SIGKILL)
 
     def test_without_a_display_nothing_begins(self):
         for words in [["render", *SMALL, "-o", "out", "--window"], ["preview", SMALL[0], "--window"]]:
@@ -135,6 +148,12 @@ class Windows(ProgramTest):
                                       ({**NO_DISPLAY, "DISPLAY": ":99999"}, "no window can be opened")]:
                 self.fail_clearly(1, *words, says=says, env=environment)
         self.assertFalse((self.folder / "out").exists())
+
+    def test_a_mars_without_windows_says_so(self):
+        shutil.copy(PROGRAMS / "mars", self.folder)
+        done = self.run_program(self.folder / "mars", "preview", SMALL[0], "--window", env=on(self.display))
+        self.assertClear(done.stderr, "mars-window is not there")
+        self.assertEqual(done.returncode, 1)
 
     def test_only_what_changed_goes_to_the_display(self):
         display = Display(self.folder, "-extension", "MIT-SHM")  # as one at the other end of a network

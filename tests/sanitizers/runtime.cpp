@@ -25,7 +25,9 @@ const char* __lsan_default_suppressions() {
       // Open MPI and its components keep what MPI_Init made.
       "leak:libmpi.so\nleak:libopen-pal.so\nleak:libopen-rte.so\nleak:libpmix.so\nleak:mca_\n"
       // What they ask others for: no frames are seen behind these, as Debian's libraries have no frame pointers.
-      "leak:hwloc_bitmap_alloc\nleak:__vasprintf_internal\n";
+      "leak:hwloc_bitmap_alloc\nleak:__vasprintf_internal\n"
+      // SDL looks for a desktop's messages.
+      "leak:libdbus-1.so\n";
 }
 
 // Libraries stay: what an unloaded component of Open MPI leaves would be a leak of nobody's, which no suppression

@@ -2,9 +2,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <sys/socket.h>
 
-#include <array>
 #include <chrono>
 
 #include "host/window/screen/player_show.h"
@@ -15,30 +13,9 @@ namespace {
 
 constexpr std::chrono::milliseconds kTurn{10};  // between two looks for what a person did
 
-// What started us, learns that there is a display, and may leave us to ourselves before it ends.
-class Starter {
- public:
-  Starter() : control_(kControl) { send(kControl, &kReady, 1, MSG_NOSIGNAL); }
-
-  bool has_left() const { return left_; }
-  int descriptor() const { return left_ ? -1 : control_.number(); }
-  // False: it has ended, and we have to.
-  bool look() {
-    if (left_) return true;
-    char word = 0;
-    const ssize_t count = recv(control_.number(), &word, 1, MSG_DONTWAIT);
-    left_ = count == 1 && word == kLeft;
-    return left_ || count < 0;
-  }
-
- private:
-  child::Descriptor control_;
-  bool left_ = false;
-};
-
-void wait(int one, int other) {
-  std::array<pollfd, 2> sources{{{one, POLLIN, 0}, {other, POLLIN, 0}}};
-  poll(sources.data(), sources.size(), static_cast<int>(kTurn.count()));
+void wait_for(int connection) {
+  pollfd source{connection, POLLIN, 0};
+  poll(&source, 1, static_cast<int>(kTurn.count()));
 }
 
 // Programs that SDL may start do not inherit it.
@@ -48,30 +25,31 @@ child::Descriptor connection() {
   return child::Descriptor(kConnection);
 }
 
-void show_rendering(const std::string& film) {
+void show_rendering(Starter& starter, const std::string& film) {
   RenderingShow show(film, connection());
-  Starter starter;  // only now there is a display
-  while (show.handle_events() && starter.look()) {
-    const bool has_host = show.receive();
-    if (starter.has_left() && !has_host) show.finish();
+  starter.tell_ready();
+  while (show.handle_events()) {
+    const bool has_left = starter.has_left();  // before what it has left is received
+    if (!show.receive() && has_left) show.finish();
     show.update();
-    wait(starter.descriptor(), show.descriptor());
+    wait_for(show.descriptor());
   }
 }
 
-void show_player(const std::string& film) {
+void show_player(Starter& starter, const std::string& film) {
   PlayerShow show(film, connection());
-  for (Starter starter; show.handle_events() && starter.look();) {
+  starter.tell_ready();
+  while (show.handle_events()) {
     show.receive();
     show.update();
-    wait(starter.descriptor(), show.descriptor());
+    wait_for(show.descriptor());
   }
 }
 
 }  // namespace
 
-void show(Shows shows, const std::string& title) {
-  shows == Shows::rendering ? show_rendering(title) : show_player(title);
+void show(Starter& starter, Shows shows, const std::string& title) {
+  shows == Shows::rendering ? show_rendering(starter, title) : show_player(starter, title);
 }
 
 }  // namespace mars::window

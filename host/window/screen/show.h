@@ -3,12 +3,13 @@
 
 #include <string>
 
+#include "host/window/screen/starter.h"
 #include "host/window/window_process.h"
 
 namespace mars::window {
 
-// Until a person closes the window, or what it shows has ended. Says on kControl that there is a display; throws
-// Failure if there is none.
-void show(Shows shows, const std::string& title);
+// Until a person closes the window, or the player has ended. Tells the starter that there is a display; throws Failure
+// if there is none.
+void show(Starter& starter, Shows shows, const std::string& title);
 
 }  // namespace mars::window

@@ -67,30 +67,31 @@ char character_of(const SDL_Keysym& key) {
 }
 
 void add_key(std::vector<Event>& events, const SDL_Keysym& key) {
-  if (const auto special = special_key(key)) return events.push_back(Key{*special, 0});
-  if (const char character = character_of(key); character != '\0')
-    events.push_back(Key{SpecialKey::none, static_cast<std::uint32_t>(character)});
+  if (const auto special = special_key(key))
+    events.emplace_back(Key{*special, 0});
+  else if (const char character = character_of(key); character != '\0')
+    events.emplace_back(Key{SpecialKey::none, static_cast<std::uint32_t>(character)});
 }
 
 // As the keyboard's layout has it.
 void add_text(std::vector<Event>& events, std::string_view text) {
   if (text.size() == 1 && std::isprint(static_cast<unsigned char>(text.front())) != 0)
-    events.push_back(Key{SpecialKey::none, static_cast<unsigned char>(text.front())});
+    events.emplace_back(Key{SpecialKey::none, static_cast<unsigned char>(text.front())});
 }
 
 void add_event(std::vector<Event>& events, const SDL_Event& event) {
   switch (event.type) {
-    case SDL_QUIT: return events.push_back(Closed{});
+    case SDL_QUIT: events.emplace_back(Closed{}); return;
     case SDL_KEYDOWN: return add_key(events, event.key.keysym);
     case SDL_TEXTINPUT: return add_text(events, event.text.text);
     case SDL_MOUSEMOTION:
       if ((event.motion.state & SDL_BUTTON_LMASK) != 0)
-        events.push_back(Dragged{{event.motion.xrel, event.motion.yrel}});
+        events.emplace_back(Dragged{{event.motion.xrel, event.motion.yrel}});
       return;
     case SDL_WINDOWEVENT:
-      if (event.window.event == SDL_WINDOWEVENT_CLOSE) events.push_back(Closed{});
+      if (event.window.event == SDL_WINDOWEVENT_CLOSE) events.emplace_back(Closed{});
       if (event.window.event == SDL_WINDOWEVENT_EXPOSED || event.window.event == SDL_WINDOWEVENT_SIZE_CHANGED)
-        events.push_back(Exposed{});
+        events.emplace_back(Exposed{});
       return;
     default: return;
   }
