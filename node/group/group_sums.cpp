@@ -13,7 +13,7 @@ namespace mars::group {
 using raster::LineLoad;
 
 GroupSums::GroupSums(std::size_t lines)
-    : sums_(summed_words(lines)), work_(sums_.size()), ebc_(lines + 1), costs_(lines + 1) {}
+    : sums_(wire::summed_words(lines)), work_(sums_.size()), ebc_(lines + 1), costs_(lines + 1) {}
 
 void GroupSums::add_up(const collectives::Group& group, const OwnLoad& own) {
   const std::size_t lines = own.lines.size();

@@ -25,10 +25,6 @@ struct OwnLoad {
   ExchangeTimes exchange{};
 };
 
-// Of 8 bytes, that a picture of so many lines has in the sums: each line's load; edge boxes; large nodes;
-// ExchangeTimes.
-constexpr std::size_t summed_words(std::size_t lines) { return lines + 4; }
-
 class GroupSums {
  public:
   // `lines`: of a picture.
@@ -54,7 +50,7 @@ class GroupSums {
  private:
   void check_bounds(std::uint64_t edge_boxes) const;
 
-  std::vector<std::uint64_t> sums_;  // summed_words
+  std::vector<std::uint64_t> sums_;  // wire::summed_words
   std::vector<std::uint64_t> work_;
   std::vector<std::uint64_t> ebc_;
   std::vector<std::uint64_t> costs_;

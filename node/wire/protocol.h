@@ -108,6 +108,10 @@ enum class Mapping : std::uint32_t { greedy, optimal, cost };
 // is work instead of messages; or that where it took less than half the time in earlier keyframes.
 enum class Exchange : std::uint32_t { automatic, send, again };
 
+// What a keyframe's sums have of a picture, in words of 8 bytes: each line's load; edge boxes; nodes with large frames;
+// two times of the exchange.
+constexpr std::size_t summed_words(std::size_t lines) { return lines + 4; }
+
 // Bytes of the film block in one kFilmBlock message; the last has the rest. Few, for nodes pass on what they have while
 // more comes.
 inline constexpr std::uint64_t kFilmPiece = std::uint64_t{1} << 20;

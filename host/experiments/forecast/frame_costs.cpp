@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "host/images/picture_bands.h"
-#include "node/group/group_sums.h"
+#include "node/wire/protocol.h"
 #include "node/wire/still_plan.h"
 
 namespace mars::forecast {
@@ -55,7 +55,7 @@ GroupKeyframe FrameCosts::keyframe(std::shared_ptr<const KeyframeLoad> load, con
   GroupKeyframe keyframe;
   if (group.count() > 1)
     keyframe.sum =
-        sum_steps(group.count(), 8.0 * static_cast<double>(group::summed_words(setting_.film.settings().height)));
+        sum_steps(group.count(), 8.0 * static_cast<double>(wire::summed_words(setting_.film.settings().height)));
   if (!load->parcels.empty()) keyframe.triangles = triangle_steps(load->parcels, costs_.of(Work::edge_box_filled, 1));
   if (!load->parcels.empty()) keyframe.again = making_again(*load);
   for (const NodeLoad& node : load->nodes) keyframe.nodes.push_back(part_of(node, *load));
