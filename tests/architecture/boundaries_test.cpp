@@ -190,7 +190,7 @@ TEST(Boundaries, HostsToolsStandOnOneAnother) {
   const std::string keys = "host/content/keys/", document = "host/content/document/", modeler = "host/content/modeler/",
                     animator = "host/content/animator/";
   const std::string film = "host/content/film/", preview = "host/preview/", images = "host/images/",
-                    child = "host/child/", cli = "host/cli/";
+                    child = "host/child/", cli = "host/cli/", videos = "host/videos/";
   below(child, {child});
   below(cli, {keys, document, cli});
   below(keys, {keys});
@@ -200,7 +200,8 @@ TEST(Boundaries, HostsToolsStandOnOneAnother) {
   below(animator, {child, keys, document, modeler, animator});
   below(film, {keys, document, modeler, animator, film});
   below(images, {keys, document, images});
-  below(preview, {child, keys, document, modeler, animator, film, images, preview, "host/render/sinks/"});
+  below(videos, {child, keys, document, modeler, animator, film, images, videos, "host/render/sinks/"});
+  below(preview, {child, keys, document, modeler, animator, film, images, videos, preview, "host/render/sinks/"});
   below("host/editing/", {keys, document, modeler, animator, film, cli, "host/editing/"});
   below("host/studio/project/",
         {keys, document, modeler, animator, film, preview, "host/editing/", "host/studio/project/"});
