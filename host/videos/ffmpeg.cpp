@@ -77,7 +77,7 @@ Ffmpeg::Ffmpeg(const std::string& program, const std::vector<std::string>& words
       .streams = {{0, its_input.number()}, {1, printed_.number()}, {2, errors_.number()}, {3, its_more.number()}},
       .signal_at_our_end = SIGKILL,
       .default_signals = {SIGXFSZ}};
-  child::Command command{{}, {program}};
+  child::Command command{{{"SVT_LOG", "1"}}, {program}};  // of SVT-AV1 only what is wrong
   command.words.insert(command.words.end(), words.begin(), words.end());
   process_.emplace(command, setup);
 }

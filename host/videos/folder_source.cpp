@@ -13,6 +13,7 @@
 #include "host/images/picture_file.h"
 #include "host/render/sinks/frame_folder.h"
 #include "host/render/sinks/frame_mark.h"
+#include "host/videos/video_form.h"
 #include "node/color/encoding.h"
 
 namespace mars::videos {
@@ -111,9 +112,11 @@ Source source_of(const FolderReader& reader, std::vector<std::uint32_t> frames) 
                 manifest.rate,
                 std::move(frames),
                 manifest.film_frames,
+                0,
                 manifest.film,
                 manifest.checksum};
   source.any_thread = true;
+  if (!source.frames.empty()) source.begins = source.frames.front() / exact_rate(manifest.rate);
   const bool known =
       std::ranges::none_of(source.frames, [&](std::uint32_t frame) { return sinks::hash_of(manifest, frame).empty(); });
   source.picture = [&reader, numbers = source.frames](std::size_t place) {

@@ -19,6 +19,7 @@ struct Source {
   double rate = 24;                               // pictures a second
   std::vector<std::uint32_t> frames{};            // of the film, which it shows in this order
   std::uint32_t film_frames = 0;                  // of the whole film
+  double begins = 0;                              // seconds of the film before the first of them
   std::string film{};                             // its file's name; "": it has none
   std::string checksum{};                         // of the compiled film; "": not known
   std::function<Picture(std::size_t)> picture{};  // by its place in `frames`

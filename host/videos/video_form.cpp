@@ -110,6 +110,13 @@ Form form_of(const std::filesystem::path& file, const FormWish& wish) {
   return {kind, &codec, codec.quality ? wish.quality.value_or(codec.quality->usual) : wish.quality};
 }
 
+std::span<const std::string_view> encoders_for(const Form& form, images::PictureSize size) {
+  constexpr std::uint32_t kLeastOfSvt = 64;
+  const std::span<const std::string_view> all = form.codec->encoders;
+  const bool small = std::min(size.width, size.height) < kLeastOfSvt;
+  return small && all.front() == "libsvtav1" ? all.subspan(1) : all;
+}
+
 Words encoding_words(const Form& form, std::string_view encoder) {
   Words words{"-c:v", std::string(encoder)};
   const std::string_view codec = form.codec->name;

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "host/images/picture_size.h"
+
 namespace mars::videos {
 
 struct Kind {
@@ -58,6 +60,9 @@ std::string endings_text();  // ".mp4, .mov, ..."
 
 // Throws Failure where the kind of `file` has no such codec, or the codec no such quality.
 Form form_of(const std::filesystem::path& file, const FormWish& wish);
+
+// Those of ffmpeg's encoders that take pictures of this size: SVT-AV1 takes no small ones.
+std::span<const std::string_view> encoders_for(const Form& form, images::PictureSize size);
 
 // By which ffmpeg encodes pictures of full-range RGB with `encoder`, one of the codec's.
 std::vector<std::string> encoding_words(const Form& form, std::string_view encoder);

@@ -27,7 +27,7 @@ class Writing {
         listener_(listener),
         form_(form_of(order.file, order.form)),
         program_(find_ffmpeg(order.file)),
-        encoding_(encoding_words(form_, choose_encoder(order.file, form_.codec->encoders))) {}
+        encoding_(encoding_words(form_, choose_encoder(order.file, encoders_for(form_, source.size)))) {}
 
   void write() {
     note(padding_text(form_, source_.size, order_.file));
@@ -107,7 +107,7 @@ class Writing {
     if (!is_gif()) add(words, {"-map", "0:v:0"});
     if (has_audio()) {
       add(words, {"-map", "1:a:0"});
-      add(words, audio_words(*order_.audio, form_, source_.frames.front() / rate, seconds));
+      add(words, audio_words(*order_.audio, form_, source_.begins, seconds));
     }
     add(words, {"-map_metadata", "-1", "-fflags", "+bitexact", "-metadata", "comment=" + text_of(mark())});
     add(words, container_words(form_));

@@ -268,7 +268,7 @@ std::vector<Entry> table() {
              "How lines are divided among nodes: by edge boxes, exactly by edge boxes, or by cost; default: cost. "
              "Example: --mapping greedy"),
       option(plans, "--exchange", "auto|send|again", &RenderOptions::exchange,
-             "How triangles reach other machines: sent, or made again there; default: auto, whichever takes less time. "
+             "How triangles reach other machines: sent, or made again there; default: auto, the sooner one. "
              "Example: --exchange send"),
       option(compiles, "--intervals", "auto|keyframes", &RenderOptions::intervals,
              "Where render intervals are cut: where it saves work, or at the animator's keyframes. "
@@ -281,13 +281,13 @@ std::vector<Entry> table() {
              "Groups of nodes; each renders intervals of its own. 1: all nodes work on the same interval, as in the "
              "thesis. Example: --groups 1"),
       number(plans, "--sharers", {&RenderOptions::sharers, true, many},
-             "Nodes that draw an inbetween together, each its lines; default: as forecast, or 1. Example: --sharers 4"),
+             "Nodes that draw an inbetween together; default: as forecast, or 1. Example: --sharers 4"),
       number(plans, "--cut", {&RenderOptions::cut, true, many},
              "Frames of an interval that a group gets at a time; default: as forecast, or all. "
              "Example: --cut 12"),
       option(plans, "--format", "png|png16|exr", &RenderOptions::format,
-             "Files of the frames: PNG of 8 or 16 bits, or EXR: half floats of light before exposure and curve; "
-             "default: png. Example: --format exr"),
+             "Files of the frames: PNG of 8 or 16 bits, or EXR: light before exposure and curve; default: png. "
+             "Example: --format exr"),
       option(
           sinks, "--sink", "files|none", &RenderOptions::sink,
           "Where frames go; none writes no files, to measure rendering; simulations with --write count them. Example: "
