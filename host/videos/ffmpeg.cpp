@@ -55,7 +55,7 @@ std::string find_ffmpeg(const std::filesystem::path& file, const std::string& na
 
 std::string choose_encoder(const std::filesystem::path& file, std::span<const std::string_view> encoders) {
   const std::string program = find_ffmpeg(file);
-  const std::string list = run_ffmpeg(program, {"-v", "error", "-encoders"}, file, {});
+  static const std::string list = run_ffmpeg(program, {"-v", "error", "-encoders"}, file, {});
   for (const std::string_view encoder : encoders)
     if (list.find(" " + std::string(encoder) + " ") != std::string::npos) return std::string(encoder);
   throw Failure("the ffmpeg that is installed has no encoder " + document::joined(encoders, " or "), file.string(),

@@ -69,9 +69,9 @@ std::span<const Kind> kinds() {
 
 std::span<const Codec> codecs() {
   static const std::array kAll{
-      Codec{"h264", {"libx264"}, Quality{1, 18, 51}, true, true, ".mp4", "mp4"},
+      Codec{"h264", {"libx264"}, Quality{1, 16, 51}, true, true, ".mp4", "mp4"},
       Codec{"h265", {"libx265"}, Quality{1, 20, 51}, true, true, ".mp4", "mp4"},
-      Codec{"vp9", {"libvpx-vp9"}, Quality{1, 24, 63}, false, true, ".mp4", "mp4"},
+      Codec{"vp9", {"libvpx-vp9"}, Quality{1, 20, 63}, false, true, ".mp4", "mp4"},
       Codec{"av1", {"libsvtav1", "libaom-av1"}, Quality{1, 26, 63}, true, true, ".mp4", "mp4"},
       Codec{"ffv1", {"ffv1"}, {}, false, true, ".nut", "nut"},
       Codec{"prores", {"prores_ks"}, {}, true, true, ".mov", "mov"},

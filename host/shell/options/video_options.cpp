@@ -34,7 +34,7 @@ void add_video_form(cli::Command command, videos::FormWish& form) {
   command
       .add_read(
           "--quality", [&form](const std::string& word) { read_quality(word, form); },
-          "Quality of videos, from 1, the best; default: 18 of h264. Example: --quality 23")
+          "Quality of videos, from 1, the best; default: 16 of h264. Example: --quality 23")
       .type("N");
 }
 

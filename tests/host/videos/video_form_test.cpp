@@ -16,7 +16,7 @@ TEST(VideoForm, EndingsSayWhichKind) {
 
 TEST(VideoForm, EachKindHasItsCodecs) {
   EXPECT_EQ(form_of("a.mp4", {}).codec->name, "h264");
-  EXPECT_EQ(form_of("a.mp4", {}).quality, 18u);
+  EXPECT_EQ(form_of("a.mp4", {}).quality, 16u);
   EXPECT_EQ(form_of("a.webm", {}).codec->name, "vp9");
   EXPECT_EQ(form_of("a.webm", {"av1", 40}).quality, 40u);
   EXPECT_FALSE(form_of("a.apng", {}).quality);
