@@ -36,6 +36,8 @@ bool is_own(const std::string& name) {
 
 }  // namespace
 
+fs::path pieces_folder(const fs::path& file) { return fs::path(file).concat(".pieces"); }
+
 Pieces::Pieces(const Source& source, const Form& form, const Order& order, std::vector<std::string> encoding)
     : source_(source),
       form_(form),

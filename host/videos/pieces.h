@@ -9,9 +9,12 @@
 
 #include "host/content/document/folder_lock.h"
 #include "host/videos/encoder.h"
-#include "host/videos/write_video.h"
+#include "host/videos/order.h"
 
 namespace mars::videos {
+
+// The folder of a video's pieces.
+std::filesystem::path pieces_folder(const std::filesystem::path& file);
 
 class Pieces {
  public:

@@ -127,7 +127,8 @@ Words encoding_words(const Form& form, std::string_view encoder) {
     add(words, {"-pix_fmt", "bgr0", "-level", "3", "-g", "1", "-slicecrc", "1"});
   } else if (codec == "prores") {
     add_video_colors(words, "yuv422p10le");
-    add(words, {"-profile:v", "hq", "-vendor", "apl0"});
+    add(words, {"-profile:v", "hq", "-vendor", "apl0", "-bsf:v",
+                "prores_metadata=color_primaries=bt709:color_trc=bt709:colorspace=bt709"});
   } else {
     add_video_colors(words, "yuv420p");
     add_speed(words, encoder);

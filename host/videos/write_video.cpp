@@ -135,8 +135,6 @@ class Writing {
 
 }  // namespace
 
-fs::path pieces_folder(const fs::path& file) { return fs::path(file).concat(".pieces"); }
-
 void check_order(const Order& order) {
   const Form form = form_of(order.file, order.form);
   choose_encoder(order.file, form.codec->encoders);

@@ -221,8 +221,7 @@ Finding check_temporary(const Facts& facts) {
 
 Finding check_video(const Facts& facts) {
   if (facts.ffmpeg) return {State::good, "ffmpeg", "is there, to make videos", ""};
-  return {State::note, "ffmpeg", "was not found: frames can be rendered, but no videos",
-          "install it (Debian: ffmpeg)"};
+  return {State::note, "ffmpeg", "was not found: frames can be rendered, but no videos", "install it (Debian: ffmpeg)"};
 }
 
 void check_slurm(const Facts& facts, std::vector<Finding>& findings) {
