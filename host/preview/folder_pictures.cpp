@@ -1,27 +1,15 @@
 #include "host/preview/folder_pictures.h"
 
-#include "hal/failure/failure.h"
-#include "host/content/document/shell_word.h"
-#include "host/images/picture_file.h"
 #include "host/preview/pose_keys.h"
-#include "host/render/sinks/frame_mark.h"
 
 namespace mars::preview {
 
-FolderPictures::FolderPictures(std::filesystem::path folder)
-    : folder_(std::move(folder)), manifest_(sinks::read_manifest(folder_)) {
-  if (manifest_.format == images::PictureFormat::exr)
-    throw Failure("its frames are EXR files: light, not yet exposed or encoded to be seen", folder_.string(),
-                  "render the film with --format png into another folder, or preview the film itself");
-}
+FolderPictures::FolderPictures(const std::filesystem::path& folder, const videos::Exposing& exposing)
+    : reader_(folder, exposing) {}
 
 SharedImage FolderPictures::picture(std::uint32_t place, images::PictureSize extent) {
-  const std::filesystem::path file = folder_ / sinks::frame_file_name(manifest_, manifest_.frames.at(place));
-  if (!sinks::is_frame_file(file))
-    throw Failure("frame " + std::to_string(manifest_.frames.at(place)) + " is missing", folder_.string(),
-                  "mars verify --repair " + document::shell_word(folder_.string()) + " renders it again");
   return std::make_shared<const images::Image>(
-      scaled(images::read_picture(images::PictureFormat::png, file), fitted(this->extent(), extent)));
+      scaled(reader_.read(manifest().frames.at(place)), fitted(this->extent(), extent)));
 }
 
 bool FolderPictures::handle_key(const KeyPress& key, std::uint32_t) {

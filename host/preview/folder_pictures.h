@@ -5,28 +5,30 @@
 #include <vector>
 
 #include "host/preview/pictures.h"
-#include "host/render/sinks/frame_folder.h"
+#include "host/videos/folder_source.h"
 
 namespace mars::preview {
 
 class FolderPictures : public Pictures {
  public:
-  // Throws Failure where the folder has no manifest, or has EXR files.
-  explicit FolderPictures(std::filesystem::path folder);
+  // As FolderReader.
+  explicit FolderPictures(const std::filesystem::path& folder, const videos::Exposing& exposing = {});
 
-  std::uint32_t frames() const override { return static_cast<std::uint32_t>(manifest_.frames.size()); }
-  double rate() const override { return manifest_.rate; }
-  images::PictureSize extent() const override { return {manifest_.width, manifest_.height}; }
+  const videos::FolderReader& reader() const { return reader_; }
+  std::uint32_t frames() const override { return static_cast<std::uint32_t>(manifest().frames.size()); }
+  double rate() const override { return manifest().rate; }
+  images::PictureSize extent() const override { return {manifest().width, manifest().height}; }
   // By its place among the folder's frames, from 0. Throws Failure where its file is missing or torn.
   SharedImage picture(std::uint32_t place, images::PictureSize extent) override;
   // Refuses keys for posing.
   bool handle_key(const KeyPress& key, std::uint32_t frame) override;
   std::string note(std::uint32_t) const override { return note_; }
-  std::string state() const override { return folder_.string(); }
+  std::string state() const override { return reader_.folder().string(); }
 
  private:
-  std::filesystem::path folder_;
-  sinks::Manifest manifest_;
+  const sinks::Manifest& manifest() const { return reader_.manifest(); }
+
+  videos::FolderReader reader_;
   std::string note_;
 };
 

@@ -6,7 +6,6 @@
 #include "host/images/picture_file.h"
 #include "host/content/document/whole_file.h"
 #include "host/preview/sheet.h"
-#include "host/preview/video.h"
 
 namespace mars::preview {
 namespace {
@@ -28,20 +27,22 @@ SharedImage ready(Pictures& pictures, std::uint32_t frame, images::PictureSize e
 }
 
 void write_video(Pictures& pictures, const WriteOptions& options, const std::vector<std::uint32_t>& frames,
-                 images::PictureSize extent) {
-  SharedImage image = ready(pictures, frames.front(), extent);
-  Video video(options.file, {image->width, image->height}, pictures.rate() / options.every);
-  for (const std::uint32_t frame : frames)
-    video.add(*(frame == frames.front() ? image : ready(pictures, frame, extent)));
-  video.finish();
+                 images::PictureSize extent, const videos::Listener& listener) {
+  const SharedImage first = ready(pictures, frames.front(), extent);
+  videos::Source source{{first->width, first->height},
+                        pictures.rate() / options.every,
+                        frames,
+                        pictures.frames(),
+                        frames.front() / pictures.rate()};
+  source.picture = [&](std::size_t place) { return place == 0 ? first : ready(pictures, frames[place], extent); };
+  videos::write_video(source, {options.file, options.form, options.audio}, listener);
 }
 
 }  // namespace
 
 void check_kind(const std::filesystem::path& file) {
-  const std::string ending = file.extension().string();
-  if (ending != ".png" && ending != ".gif" && ending != ".mp4")
-    throw Failure("'" + file.string() + "' ends in none of .png, .gif and .mp4", "",
+  if (file.extension() != ".png" && !videos::is_video_name(file))
+    throw Failure("'" + file.string() + "' ends in none of .png, " + videos::endings_text(), "",
                   "name a picture or contact sheet like sheet.png, or a video like film.mp4");
 }
 
@@ -62,14 +63,34 @@ images::PictureSize extent_to_write(const WriteOptions& options, images::Picture
   return large && options.file.extension() == ".gif" ? fitted(film, kLargestGif) : film;
 }
 
-void write_pictures(Pictures& pictures, const WriteOptions& options) {
+void write_pictures(Pictures& pictures, const WriteOptions& options, const videos::Listener& listener) {
   const std::vector<std::uint32_t> frames = frames_to_write(options, pictures.frames());
   const images::PictureSize extent = extent_to_write(options, pictures.extent(), frames.size());
-  document::check_can_write(options.file);  // better now than after the last frame
-  if (!is_picture(options)) return write_video(pictures, options, frames, extent);
+  // Better now than after the last frame.
+  if (is_picture(options))
+    document::check_can_write(options.file);
+  else
+    videos::check_order({options.file, options.form, options.audio});
+  if (!is_picture(options)) return write_video(pictures, options, frames, extent, listener);
   std::vector<SheetPicture> shown;
   for (const std::uint32_t frame : frames) shown.push_back({frame, ready(pictures, frame, extent)});
   write_png(options.file, shown.size() == 1 ? *shown.front().image : contact_sheet(shown, options.columns));
+}
+
+void write_folder_video(const FolderPictures& pictures, const WriteOptions& options, const videos::Listener& listener) {
+  std::vector<std::uint32_t> frames;
+  for (const std::uint32_t place : frames_to_write(options, pictures.frames()))
+    frames.push_back(pictures.reader().manifest().frames[place]);
+  const images::PictureSize extent = extent_to_write(options, pictures.extent(), frames.size());
+  videos::Source source = videos::source_of(pictures.reader(), std::move(frames));
+  source.rate /= options.every;
+  if (extent != source.size) {
+    source.size = fitted(source.size, extent);
+    source.picture = [whole = source.picture, size = source.size](std::size_t place) {
+      return std::make_shared<const images::Image>(scaled(*whole(place), size));
+    };
+  }
+  videos::write_video(source, {options.file, options.form, options.audio}, listener);
 }
 
 }  // namespace mars::preview

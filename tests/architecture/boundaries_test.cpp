@@ -195,7 +195,7 @@ TEST(Boundaries, HostsToolsStandOnOneAnother) {
                     animator = "host/content/animator/";
   const std::string film = "host/content/film/", preview = "host/preview/", images = "host/images/",
                     child = "host/child/", cli = "host/cli/", window = "host/window/",
-                    pictures = "host/render/pictures/", compositor = "host/render/compositor/";
+                    pictures = "host/render/pictures/", compositor = "host/render/compositor/", videos = "host/videos/";
   below(child, {child});
   below(cli, {keys, document, cli});
   below(keys, {keys});
@@ -206,8 +206,9 @@ TEST(Boundaries, HostsToolsStandOnOneAnother) {
   below(film, {keys, document, modeler, animator, film});
   below(images, {keys, document, images});
   below(window, {child, document, images, compositor, pictures, window});
-  below(preview, {child, keys, document, modeler, animator, film, images, preview, "host/render/sinks/", compositor,
-                  pictures, "host/window/window_process.h"});
+  below(videos, {child, keys, document, modeler, animator, film, images, videos, "host/render/sinks/"});
+  below(preview, {child, keys, document, modeler, animator, film, images, videos, preview, "host/render/sinks/",
+                  compositor, pictures, "host/window/window_process.h"});
   below("host/editing/", {keys, document, modeler, animator, film, cli, "host/editing/"});
   below("host/studio/project/",
         {keys, document, modeler, animator, film, preview, "host/editing/", "host/studio/project/"});

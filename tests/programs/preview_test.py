@@ -282,7 +282,7 @@ class Refused(ProgramTest):
 
     def test_bad_wishes(self):
         for words, says in [(("--as", "wire"), "wire"), (("--view", "back"), "back"), (("--size", "0x5"), "0x5"),
-                            (("-o", "film.avi"), "ends in none of .png, .gif and .mp4"), (("--every", "0"), "0"),
+                            (("-o", "film.avi"), "ends in none of .png, .mp4, .m4v, .mov"), (("--every", "0"), "0"),
                             (("--graphics", "x"), "x"), (("--frames", "a"), "a"), (("--columns", "-1"), "-1")]:
             self.fail_clearly(2, "preview", ARM, *words, says=says)
 

@@ -13,6 +13,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/document/file_failure.h"
+#include "host/content/document/filled_file.h"
 
 namespace mars::document {
 
@@ -112,6 +113,8 @@ class Part {
   Part(const Part&) = delete;
   Part& operator=(const Part&) = delete;
 
+  const std::filesystem::path& path() const { return path_; }
+
   void write(std::string_view text) { file_.write_all(std::as_bytes(std::span(text.data(), text.size()))); }
 
   void rename_to_target() {
@@ -192,6 +195,13 @@ void write_whole_file(const std::filesystem::path& path, std::string_view text) 
 void write_whole_file(const std::filesystem::path& path, const std::function<void(const Write&)>& produce) {
   Part part = part_of(path);
   produce([&part](std::string_view piece) { part.write(piece); });
+  part.rename_to_target();
+}
+
+void fill_whole_file(const std::filesystem::path& path,
+                     const std::function<void(const std::filesystem::path& part)>& fill) {
+  Part part = part_of(path);
+  fill(part.path());
   part.rename_to_target();
 }
 

@@ -1,8 +1,10 @@
 #include "host/shell/commands/preview_command.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <iostream>
 #include <memory>
 #include <optional>
 
@@ -10,6 +12,7 @@
 #include "hal/messages/settings.h"
 #include "host/child/programs.h"
 #include "host/cli/command.h"
+#include "host/content/document/text.h"
 #include "host/images/picture_size.h"
 #include "host/preview/film_pictures.h"
 #include "host/preview/folder_pictures.h"
@@ -19,9 +22,13 @@
 #include "host/preview/terminal_screen.h"
 #include "host/preview/window_screen.h"
 #include "host/preview/write_pictures.h"
+#include "host/shell/launch/film_audio.h"
+#include "host/shell/options/video_options.h"
 
 namespace mars::commands {
 namespace {
+
+constexpr double kMostStops = 64;
 
 struct PreviewWords {
   std::string source;
@@ -29,7 +36,14 @@ struct PreviewWords {
   preview::Look look;
   preview::Graphics graphics = preview::Graphics::automatic;
   bool window = false;
+  videos::Exposing exposing;
+  std::string audio;
+  double delay = 0;  // seconds
 };
+
+void print_line(const std::string& line) { std::cout << line << std::endl; }
+
+const videos::Listener kListener{{}, print_line, {print_line}};
 
 void add_output(cli::Command command, const std::shared_ptr<PreviewWords>& words) {
   preview::WriteOptions& write = words->write;
@@ -42,9 +56,10 @@ void add_output(cli::Command command, const std::shared_ptr<PreviewWords>& words
     write.extent = images::PictureSize{size.width, size.height};
   };
   command
-      .add_read("-o,--output", read_file,
-                "Write this file instead of playing: .gif or .mp4 (by the program ffmpeg), or .png, one frame or a "
-                "contact sheet. Example: -o sheet.png")
+      .add_read(
+          "-o,--output", read_file,
+          "Write this file instead of playing: a video (.mp4, .mov, .mkv, .webm, .gif, .apng), or .png, one frame "
+          "or a contact sheet. Example: -o sheet.png")
       .type("FILE");
   command
       .add_read("--size", read_size,
@@ -62,6 +77,34 @@ void add_output(cli::Command command, const std::shared_ptr<PreviewWords>& words
   command.add("--columns", write.columns, "Pictures in a row of a sheet. Example: --columns 4")
       .range(1u, wire::kMaxSide)
       .type("N");
+}
+
+void add_video(cli::Command command, const std::shared_ptr<PreviewWords>& words) {
+  options::add_video_form(command, words->write.form);
+  command.add("--audio", words->audio, "Sound of a video; default: the film's. Example: --audio music.wav")
+      .type("FILE");
+  command
+      .add("--audio-delay", words->delay,
+           "When this sound begins, in seconds after the film's first frame. Example: --audio-delay 1.5")
+      .range(-1e6, 1e6)
+      .type("SECONDS")
+      .needs(command.option("--audio"));
+}
+
+void add_exposing(cli::Command command, const std::shared_ptr<PreviewWords>& words) {
+  const auto read_stops = [words](const std::string& word) {
+    words->exposing.stops = document::number_in<double>(word);
+    if (!words->exposing.stops || std::abs(*words->exposing.stops) > kMostStops)
+      throw Failure("'" + word + "' is not a number from -64 to 64", "", "");
+  };
+  command
+      .add_read("--exposure", read_stops,
+                "Stops by which EXR frames are exposed; default: the film's. Example: --exposure -1")
+      .type("STOPS");
+  command.add_choice(
+      "--curve", {"none", "filmic"},
+      [words](std::size_t number) { words->exposing.curve = static_cast<wire::Curve>(number); },
+      "How light of EXR frames is shown; default: the film's. Example: --curve none");
 }
 
 void add_screen(cli::Command command, const std::shared_ptr<PreviewWords>& words) {
@@ -107,7 +150,7 @@ void write_preview(PreviewWords& words, const preview::Previewed& film, const Ma
   words.look.frames = preview::frames_to_write(words.write, film.wireframe.frames);
   words.look.smooth = words.look.wait = true;
   preview::FilmPictures pictures(film.wireframe, *surface, words.look);
-  preview::write_pictures(pictures, words.write);
+  preview::write_pictures(pictures, words.write, kListener);
 }
 
 void preview(PreviewWords& words, const MakeSurface& make_surface) {
@@ -126,9 +169,19 @@ void preview(PreviewWords& words, const MakeSurface& make_surface) {
   if (pictures->stop()) std::quick_exit(0);  // the film is needed no more: its end is not waited for
 }
 
-void play_folder(const PreviewWords& words) {
-  preview::FolderPictures pictures(words.source);
-  if (!words.write.file.empty()) return preview::write_pictures(pictures, words.write);
+void write_folder(PreviewWords& words, preview::FolderPictures& pictures) {
+  if (!videos::is_video_name(words.write.file)) return preview::write_pictures(pictures, words.write, kListener);
+  if (!words.audio.empty())
+    words.write.audio = {words.audio, words.delay};
+  else
+    words.write.audio = launch::audio_of_folder(pictures.reader().manifest());
+  videos::check_order({words.write.file, words.write.form, words.write.audio});
+  preview::write_folder_video(pictures, words.write, kListener);
+}
+
+void play_folder(PreviewWords& words) {
+  preview::FolderPictures pictures(words.source, words.exposing);
+  if (!words.write.file.empty()) return write_folder(words, pictures);
   play(words, pictures.extent(), [&](preview::Screen& screen, bool) { return preview::play(pictures, screen); });
 }
 
@@ -154,16 +207,19 @@ void add_preview(cli::Command app, const MakeSurface& make_surface) {
       "From where the film is seen at first; default: the film's camera. Example: --view side");
   add_screen(command, words);
   add_output(command, words);
+  options::add_video_form(command, words->write.form);
   command.footer("Keys turn joints and set keys of a film: h lists them. docs/previewing.md\n");
   command.runs([words, make_surface] { preview(*words, make_surface); });
 }
 
 void add_play(cli::Command app) {
   const auto words = std::make_shared<PreviewWords>();
-  const cli::Command command = app.add_command("play", "Play rendered frames in the terminal");
+  const cli::Command command = app.add_command("play", "Play rendered frames in the terminal, or make a video of them");
   command.add("DIR", words->source, "The folder given to mars render with -o. Example: build/demo").required();
   add_screen(command, words);
   add_output(command, words);
+  add_video(command, words);
+  add_exposing(command, words);
   command.runs([words] { play_folder(*words); });
 }
 

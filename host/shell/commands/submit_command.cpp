@@ -185,6 +185,11 @@ void submit(const SubmitWords& words) {
 void check_words(const SubmitWords& words) {
   if (words.parts > 1 && (!words.render.report.empty() || !words.render.trace.empty()))
     throw cli::UsageError("--array", "its jobs cannot share one file: leave out --report and --trace");
+  if (words.parts > 1 && !words.render.videos.empty())
+    throw cli::UsageError("--array",
+                          "each of its jobs has some of the frames only: give -o DIR alone, and then mars play "
+                          "DIR -o " +
+                              words.render.videos.front());
   const auto makes_array = [](const std::string& word) { return word.starts_with("--ar") || word.starts_with("-a"); };
   if (words.parts == 1 && std::ranges::any_of(sbatch_words(words), makes_array))
     throw cli::UsageError("--sbatch",

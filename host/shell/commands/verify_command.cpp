@@ -20,6 +20,7 @@
 #include "host/shell/launch/launch.h"
 #include "host/cli/program.h"
 #include "host/shell/options/render_options.h"
+#include "host/videos/verify_video.h"
 
 namespace mars::commands {
 namespace {
@@ -94,6 +95,27 @@ int print_verdict(const sinks::Verdict& verdict, const std::string& folder) {
   return 0;
 }
 
+// "48 frames of demo.json (0-47), 960x540, 24 frames/s, h264, aac"
+std::string video_text(const videos::VideoVerdict& verdict) {
+  const videos::Probed::Video& video = *verdict.found.video;
+  std::string text = document::counted(verdict.decoded, "frame");
+  if (verdict.mark) text += " of " + verdict.mark->film + " (" + film::FrameSet(verdict.mark->frames).text() + ")";
+  text += ", " + std::to_string(video.width) + "x" + std::to_string(video.height) + ", " + document::shown(video.rate) +
+          " frames/s, " + video.codec;
+  return verdict.found.audio.empty() ? text : text + ", " + verdict.found.audio;
+}
+
+// Returns the exit code.
+int print_verdict(const videos::VideoVerdict& verdict) {
+  for (const std::string& trouble : verdict.troubles) std::cout << trouble << '\n';
+  std::cout << video_text(verdict) << (verdict.troubles.empty() ? ", all there and whole" : "") << '\n';
+  if (!verdict.mark) std::cout << "it says nothing of a film, so nothing was compared\n";
+  if (verdict.troubles.empty()) std::cout << "decoded pictures " << verdict.hash << '\n';
+  return verdict.troubles.empty() ? 0 : cli::kFailed;
+}
+
+bool is_video(const std::string& name) { return videos::is_video_name(name) && !std::filesystem::is_directory(name); }
+
 // Renders frames that are missing or wrong from the film that the folder keeps.
 void repair(const sinks::Verdict& verdict, options::RenderOptions render) {
   render.frames = frames_of(verdict);
@@ -111,12 +133,22 @@ void repair(const sinks::Verdict& verdict, options::RenderOptions render) {
   launch::launch_render(render, child::own_file(), doctor::adviser(child::own_file()));
 }
 
+void verify_video(const VerifyWords& words, int& code) {
+  const std::string& file = words.render.folder;
+  if (words.missing || words.repair)
+    throw Failure("is a video, of which no single frame can be rendered again", file,
+                  "render it again by the command that made it, with --overwrite");
+  code = print_verdict(videos::verify_video(file));
+}
+
 }  // namespace
 
 void add_verify(cli::Command app, int& code) {
   const auto words = std::make_shared<VerifyWords>();
-  const cli::Command command = app.add_command("verify", "Check every frame of a folder; print one hash of all pixels");
-  command.add("DIR", words->render.folder, "The folder given to mars render with -o. Example: build/demo").required();
+  const cli::Command command =
+      app.add_command("verify", "Check every frame of a folder or video; print one hash of all pixels");
+  command.add("DIR", words->render.folder, "The folder or video given to mars render with -o. Example: build/demo")
+      .required();
   const cli::Option missing = command.add_flag(
       "--missing", words->missing,
       "Print only the missing or wrong frames, in the form of --frames; nothing if there are none. Example: --missing");
@@ -129,6 +161,7 @@ void add_verify(cli::Command app, int& code) {
   options::add_render_options(command, words->render, options::Program::repair);
   for (std::size_t i = own; i < command.options().size(); ++i) command.options()[i].needs(repairs);
   command.runs([words, &code] {
+    if (is_video(words->render.folder)) return verify_video(*words, code);
     const std::string repaired = words->repair ? sinks::repair_manifest(words->render.folder) : "";
     print_line(repaired);
     if (!repaired.empty()) print_line(text_of_unlisted(words->render.folder));

@@ -220,9 +220,8 @@ Finding check_temporary(const Facts& facts) {
 }
 
 Finding check_video(const Facts& facts) {
-  if (facts.ffmpeg) return {State::good, "ffmpeg", "is there, to make a video of the frames", ""};
-  return {State::note, "ffmpeg", "was not found: frames can be rendered, but no video made of them",
-          "install it (Debian: ffmpeg)"};
+  if (facts.ffmpeg) return {State::good, "ffmpeg", "is there, to make videos", ""};
+  return {State::note, "ffmpeg", "was not found: frames can be rendered, but no videos", "install it (Debian: ffmpeg)"};
 }
 
 Finding check_window(const Facts& facts) {

@@ -114,6 +114,16 @@ void Display::show(const events::Progress& progress) {
   line_open_ = true;
 }
 
+void Display::show(const std::string& line) {
+  if (kind_ == Kind::silent || !due()) return;
+  if (kind_ == Kind::lines) {
+    out_ << plain_text(line) << std::endl;
+    return;
+  }
+  out_ << kClearLine << fitting(plain_text(line)) << std::flush;
+  line_open_ = true;
+}
+
 void Display::settle() {
   if (line_open_) out_ << std::endl;
   line_open_ = false;

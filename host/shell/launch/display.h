@@ -34,6 +34,7 @@ class Display {
   void print(const std::string& line);
   // How far it is: shown when due.
   void show(const events::Progress& progress);
+  void show(const std::string& line);
   // After a job: leaves the terminal's progress line as it is and goes below it.
   void settle();
 

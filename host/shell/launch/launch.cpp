@@ -21,6 +21,7 @@
 #include "host/shell/launch/command.h"
 #include "host/shell/launch/display.h"
 #include "host/shell/launch/film_check.h"
+#include "host/shell/launch/film_videos.h"
 #include "host/shell/launch/hostfile.h"
 #include "host/shell/launch/job.h"
 #include "host/shell/launch/rendering_window.h"
@@ -182,10 +183,13 @@ void launch_render(options::RenderOptions options, const std::filesystem::path& 
   Display display(kind_of_output(options.quiet), child::raw_output());
   for (const std::string& line : messages::unknown_settings()) display.print(line);
   messages::read_settings();  // wrong settings fail before anything is started
+  FilmVideos videos(options, display);
   if (const auto there = frames_there(options)) {
     clear_ended_runs(options.folder);
-    return display.print(resumed_text({*there, *there, ""}));
+    display.print(resumed_text({*there, *there, ""}));
+    return videos.make();
   }
+  if (videos.are_there()) return;
   if (!options.kept_film) check_film_file(options.film);  // else it may be gone
   const Starting starting = prepare(options, self);
   const std::unique_ptr<RenderingWindow> window = open_window(options, starting, self);
@@ -197,6 +201,7 @@ void launch_render(options::RenderOptions options, const std::filesystem::path& 
   if (supervisor.restarts() > 0 && !(options.report + options.trace).empty())
     std::cerr << "mars: warning: the report and the trace are of the last job alone\n";
   if (supervisor.rendered()) display.print(account_of(supervisor, options.folder, seconds_since(started)));
+  videos.make();
 }
 
 Trial try_start(options::RenderOptions options, const std::filesystem::path& self) {

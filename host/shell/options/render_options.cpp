@@ -15,6 +15,7 @@
 #include "host/content/document/text.h"
 #include "host/images/frame_names.h"
 #include "host/cli/program.h"
+#include "host/shell/options/video_options.h"
 #include "node/wire/film.h"
 
 namespace mars::options {
@@ -152,6 +153,49 @@ Entry flag(unsigned programs, const char* names, bool RenderOptions::*member, co
           }};
 }
 
+// Videos are made of the frames by mars render itself; what it starts knows of none.
+void read_output(const std::string& word, bool makes_videos, RenderOptions& options) {
+  const bool video = videos::is_video_name(word) && !std::filesystem::is_directory(word);
+  if (video && !makes_videos) throw Failure("mars render makes videos; here frames need a folder", "", "");
+  if (video && std::ranges::find(options.videos, word) != options.videos.end())
+    throw Failure("'" + word + "' is given twice", "", "");
+  if (video) return options.videos.push_back(word);
+  if (!options.folder.empty()) throw Failure("frames go into one folder; give -o DIR once", "", "");
+  options.folder = word;
+}
+
+void read_outputs(RenderOptions& options, bool makes_videos) {
+  for (const std::string& word : std::exchange(options.outputs, {})) read_output(word, makes_videos, options);
+  if (options.folder.empty() && !options.videos.empty()) options.folder = frames_folder_of(options.videos.front());
+}
+
+Entry output(unsigned programs, const char* type, const char* help) {
+  return {programs,
+          [=](cli::Command app, RenderOptions& options) {
+            app.add("-o,--output", options.outputs, help).repeated().type(type);
+          },
+          [=](const RenderOptions& options) {
+            const bool makes_videos = (programs & static_cast<unsigned>(Program::mars)) != 0;
+            Arguments arguments;
+            if (!options.folder.empty() && !(makes_videos && has_own_folder(options)))
+              arguments.insert(arguments.end(), {"-o", text_of(options.folder)});
+            if (makes_videos)
+              for (const std::string& video : options.videos) arguments.insert(arguments.end(), {"-o", text_of(video)});
+            return arguments;
+          }};
+}
+
+Entry video_form(unsigned programs) {
+  return {programs, [](cli::Command app, RenderOptions& options) { add_video_form(app, options.video_form); },
+          [](const RenderOptions& options) {
+            const auto& [codec, quality] = options.video_form;
+            Arguments arguments;
+            if (!codec.empty()) arguments.insert(arguments.end(), {"--codec", codec});
+            if (quality) arguments.insert(arguments.end(), {"--quality", std::to_string(*quality)});
+            return arguments;
+          }};
+}
+
 // Who serves a studio needs none.
 Entry film(unsigned programs, bool required) {
   return {programs,
@@ -188,15 +232,17 @@ std::vector<Entry> table() {
   return {
       film(compiles & ~serves, true),
       film(serves, false),
-      option(submits, "-o,--output", "DIR", &RenderOptions::folder,
-             "Folder for the frames; created if it is missing. Its last part may name the files: -o out/shot_####.exr. "
-             "Example: -o build/demo"),
+      output(persons, "FILE",
+             "Folder for the frames, or a video of them: .mp4, .mov, .mkv, .webm, .gif or .apng. You can give several. "
+             "Example: -o build/demo -o demo.mp4"),
+      output(submits & ~persons, "DIR", "Folder for the frames; created if it is missing. Example: -o build/demo"),
+      video_form(persons),
       option(submits, "--name", "NAME", &RenderOptions::name,
              "Names of the files: # or %04d stands for the number; default: frame-####. Example: --name shot_####"),
       number(submits, "--first-number", {&RenderOptions::first_number, false, images::kMostFirstNumber, 0},
              "Number of frame 0 in names of files; default: 0. Example: --first-number 1001"),
       flag(submits, "--overwrite", &RenderOptions::overwrite,
-           "Render all requested frames, even if the folder has them, or frames of another film. Example: --overwrite"),
+           "Render all requested frames, whatever the folder has. Example: --overwrite"),
       flag(submits, "--kept-film", &RenderOptions::kept_film,
            "Render the compiled film in DIR, film.mars, even if FILM has changed or is gone; FILM if DIR has none. "
            "Example: --kept-film"),
@@ -205,9 +251,10 @@ std::vector<Entry> table() {
              "for the host. Example: --nodes 4"),
       flag(forces, "--force", &RenderOptions::force,
            "Start the nodes even if they are more than 64 a core. Example: --nodes 1000 --force"),
-      option(starts, "--backend", "auto|mpi|threads|simulated", &RenderOptions::backend,
-             "MPI processes, or threads of one process; auto uses MPI where it is installed; simulated: nodes of "
-             "--platform, whose times are counted, not measured. Example: --backend threads"),
+      option(
+          starts, "--backend", "auto|mpi|threads|simulated", &RenderOptions::backend,
+          "MPI processes, or threads of one process; auto: MPI where it is installed; simulated: nodes of --platform, "
+          "whose times are counted. Example: --backend threads"),
       option(draws, "--backend", "auto|mpi|threads", &RenderOptions::backend,
              "MPI processes, or threads of one process; auto uses threads, and MPI with --hostfile. Example: --backend "
              "mpi"),
@@ -233,16 +280,15 @@ std::vector<Entry> table() {
           "Eye of a stereo pair that sees the film, by its camera's interaxial and convergence; default: middle, the "
           "camera itself. Example: --eye left"),
       option(plans, "--mapping", "greedy|optimal|cost", &RenderOptions::mapping,
-             "How lines are divided among nodes: by edge boxes as in the thesis, exactly by edge boxes, or by "
-             "estimated cost; default: cost. Example: --mapping greedy"),
+             "How lines are divided among nodes: by edge boxes, exactly by edge boxes, or by cost; default: cost. "
+             "Example: --mapping greedy"),
       option(
           plans, "--exchange", "auto|send|again", &RenderOptions::exchange,
           "How triangles reach other machines: sent, or made again there; default: auto, made again where that takes "
-          "less than half the time. "
-          "Example: --exchange send"),
+          "less than half the time. Example: --exchange send"),
       option(compiles, "--intervals", "auto|keyframes", &RenderOptions::intervals,
-             "Where render intervals are cut: where it saves work, or at the animator's keyframes; a few pixels differ "
-             "between the two. Example: --intervals keyframes"),
+             "Where render intervals are cut: where it saves work, or at the animator's keyframes. "
+             "Example: --intervals keyframes"),
       flag(plans, "--no-coherence", &RenderOptions::no_coherence,
            "Render every frame from scratch: same pictures, slower. Example: --no-coherence"),
       number(submits, "--block", {&RenderOptions::block, false, wire::kMaxSide},
@@ -251,13 +297,13 @@ std::vector<Entry> table() {
              "Groups of nodes; each renders intervals of its own. 1: all nodes work on the same interval, as in the "
              "thesis. Example: --groups 1"),
       number(plans, "--sharers", {&RenderOptions::sharers, true, many},
-             "Nodes that draw an inbetween together, each its lines; default: as forecast, or 1. Example: --sharers 4"),
+             "Nodes that draw an inbetween together; default: as forecast, or 1. Example: --sharers 4"),
       number(plans, "--cut", {&RenderOptions::cut, true, many},
              "Frames of an interval that a group gets at a time; default: as forecast, or all. "
              "Example: --cut 12"),
       option(plans, "--format", "png|png16|exr", &RenderOptions::format,
-             "Files of the frames: PNG of 8 or 16 bits, or EXR: half floats of light before exposure and curve; "
-             "default: png. Example: --format exr"),
+             "Files of the frames: PNG of 8 or 16 bits, or EXR: light before exposure and curve; default: png. "
+             "Example: --format exr"),
       option(submits, "--compression", "zip|zips|piz|pxr24|rle|none", &RenderOptions::compression,
              "How EXR files are compressed, all without loss; default: zip. Example: --compression piz"),
       option(
@@ -266,14 +312,14 @@ std::vector<Entry> table() {
           "--sink none"),
       option(
           plans, "--write", "auto|host|nodes", &RenderOptions::write,
-          "Who composes frames and writes their files: the host, or the nodes that draw them, where their machines see "
-          "the folder; default: auto, nodes of several machines if forecast to be sooner. Example: --write nodes"),
+          "Who composes frames and writes their files: the host, or the nodes that draw them; default: auto, nodes of "
+          "several machines if forecast to be sooner. Example: --write nodes"),
       option(submits, "--report", "FILE", &RenderOptions::report,
              "Write each node's times and work per frame as JSON. Example: --report report.json"),
       option(submits, "--trace", "FILE", &RenderOptions::trace,
              "Write a timeline of all ranks, for ui.perfetto.dev or chrome://tracing. Example: --trace trace.json"),
       option(all & ~bit(Program::simulated), "--watch", "SOCKET", &RenderOptions::watch,
-             "Send the frames that nodes draw to the program that listens at this Unix socket, now or later. "
+             "Send the frames that nodes draw to the program that listens at this Unix socket. "
              "Example: --watch /tmp/watcher"),
       flag(person, "--window", &RenderOptions::window, "Show frames in a window. Example: --window"),
       number(persons | starts, "--restarts", {&RenderOptions::restarts, false, 1000, 0},
@@ -343,21 +389,17 @@ void resolve(RenderOptions& options) {
 
 // Who names a video or a picture expects that file, and would find a folder of this name.
 void refuse_name_of_file(const RenderOptions& options) {
-  constexpr auto kVideos =
-      std::to_array<std::string_view>({".mp4", ".m4v", ".mkv", ".mov", ".webm", ".avi", ".mpg", ".gif"});
+  constexpr auto kVideos = std::to_array<std::string_view>({".avi", ".mpg", ".mpeg", ".wmv", ".flv", ".ogv"});
   constexpr auto kPictures = std::to_array<std::string_view>(
       {".png", ".exr", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp", ".ppm", ".tga", ".webp"});
   const std::filesystem::path name = options.folder;
   const bool video = ends_in(name, kVideos);
   if ((!video && !ends_in(name, kPictures)) || std::filesystem::is_directory(name)) return;
   const std::string folder = std::filesystem::path(name).replace_extension().string();
-  const bool gif = ends_in(name, std::to_array<std::string_view>({".gif"}));
-  const std::string play =
-      "mars play " + document::shell_word(folder) + " -o " + document::shell_word(folder + (gif ? ".gif" : ".mp4"));
   const std::string remedy =
       "give -o " + document::shell_word(folder) + (name.extension() == ".exr" ? " --format exr" : "");
   throw Failure(document::in_quotes(options.folder) + " would be a folder: frames are files of their own", "",
-                video ? remedy + ", then make the video: " + play : remedy);
+                video ? "videos are " + videos::endings_text() : remedy);
 }
 
 bool is_watched(const RenderOptions& options) { return options.window || !options.watch.empty(); }
@@ -370,6 +412,15 @@ void check_writing_nodes(const RenderOptions& options) {
   if (!simulated && !files) throw Failure("with --sink none there are no files to write", "", kRemedy);
   if (is_watched(options))
     throw Failure("frames that nodes write cannot be watched: the host has no pixels", "", "use --write host");
+}
+
+void check_videos(const RenderOptions& options) {
+  if (options.sink == SinkKind::none || options.backend == Backend::simulated)
+    throw Failure("a video needs frames, of which " +
+                      std::string(options.sink == SinkKind::none ? "--sink none" : "--backend simulated") +
+                      " writes none",
+                  "", "leave it out, or -o " + options.videos.front());
+  for (const std::string& video : options.videos) videos::form_of(video, options.video_form);
 }
 
 // Checks that concern several options.
@@ -387,6 +438,7 @@ void check_together(const RenderOptions& options, Program program) {
                   measures ? "add -o DIR, or --sink none to measure only" : "add -o DIR");
   }
   refuse_name_of_file(options);
+  if (!options.videos.empty()) check_videos(options);
   if (options.backend == Backend::simulated && program == Program::studio)
     throw Failure("simulated nodes draw nothing that can be seen", "", "leave out --backend simulated");
   if (!options.hostfile.empty() && options.backend == Backend::threads) {
@@ -419,17 +471,25 @@ void check_nodes(const RenderOptions& options, std::uint32_t cores) {
                 "--nodes", "use up to " + std::to_string(most) + ", or add --force");
 }
 
+std::string frames_folder_of(const std::string& video) { return video + ".frames"; }
+
+bool has_own_folder(const RenderOptions& options) {
+  return !options.videos.empty() && options.folder == frames_folder_of(options.videos.front());
+}
+
 std::string word_of_file(const std::string& name) { return name.starts_with('-') || name == ":" ? "./" + name : name; }
 
 void add_render_options(cli::Command app, RenderOptions& options, Program program) {
   for (const Entry& entry : table()) {
     if (takes(program, entry)) entry.add(app, options);
   }
-  app.checks([&options, program] {
+  const bool draws = program != Program::compile && program != Program::plan;
+  app.checks([&options, program, draws] {
+    if (draws) read_outputs(options, program == Program::mars || program == Program::submit);
     resolve(options);
-    if (program != Program::compile && program != Program::plan) check_together(options, program);
+    if (draws) check_together(options, program);
   });
-  if (program != Program::compile && program != Program::plan) refuse_former_names(app);
+  if (draws) refuse_former_names(app);
 }
 
 std::optional<int> read_render_options(Program program, const char* name, const char* purpose, RenderOptions& options,

@@ -14,6 +14,7 @@
 #include "host/images/frame_form.h"
 #include "host/images/picture_format.h"
 #include "host/images/picture_size.h"
+#include "host/videos/video_form.h"
 #include "node/wire/protocol.h"
 
 namespace mars::options {
@@ -28,9 +29,12 @@ enum class WriteWhere { automatic, host, nodes };
 
 struct RenderOptions {
   std::string film;    // FILM.json or FILM.mars; "": a studio's, which is served
-  std::string folder;  // for the frames; "" only without a sink
-  std::string name;    // of their files, with # for the number (images/frame_names.h); "": as by default
+  std::string folder;  // for the frames; "" only without a sink; of videos alone one of their own
+  std::string name;    // of the frames' files, with # for the number (images/frame_names.h); "": as by default
   std::uint32_t first_number = 0;
+  std::vector<std::string> outputs;  // as they were typed: the folder and the videos, until all words are read
+  std::vector<std::string> videos;   // files that are made of the frames
+  videos::FormWish video_form;
   std::uint32_t nodes = 0;  // 0: as many as the machine has processors for
   Backend backend = Backend::automatic;
   std::string platform;  // name or file of the simulated machines
@@ -97,6 +101,10 @@ void check_nodes(const RenderOptions& options, std::uint32_t cores);
 // A file's name as a word of a command line: one that begins with a dash would be taken for an option, and mpirun takes
 // a colon for the end of a program's arguments.
 std::string word_of_file(const std::string& name);
+
+// The folder of the frames of a video that is rendered without another: FILE.frames.
+std::string frames_folder_of(const std::string& video);
+bool has_own_folder(const RenderOptions& options);
 
 // The options that change the compiled film, as arguments.
 std::vector<std::string> film_arguments(const RenderOptions& options);

@@ -42,6 +42,8 @@ std::vector<std::string> render_words(const RenderingSettings& settings, const J
   for (const char* name : kTexts)
     if (const std::string text = text_in(options, name, ""); !text.empty())
       words.push_back("--" + std::string(name) + "=" + text);
+  if (const std::string video = text_in(options, "video", ""); !video.empty())
+    words.insert(words.end(), {"-o", document::path_below(settings.folder, video).string()});
   if (const std::string nodes = text_in(options, "nodes", ""); !nodes.empty()) words.push_back("--nodes=" + nodes);
   if (const std::string file = text_in(options, "hostfile", ""); !file.empty())
     words.push_back("--hostfile=" + document::path_below(settings.folder, file).string());

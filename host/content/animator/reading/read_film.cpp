@@ -326,6 +326,8 @@ void check_version(const document::Element& film) {
 void read_settings(const document::Fields& fields, Film& film) {
   film.frames = document::read_count(fields.required("frames"), fields.key("frames"));
   film.rate = fields.number("rate");
+  if (const auto audio = fields.find("audio")) document::read_text(*audio);  // videos have it, no frame
+  fields.number("audio_delay");
   read_colors(fields, film);
   read_size(fields.value("size"), film);
   film.samples = read_samples(fields.value("samples"));

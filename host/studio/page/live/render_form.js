@@ -7,7 +7,7 @@ import {nodeColor} from "./colors.js";
 
 const kBackends = [[null, "Chosen by MARS"], ["mpi", "MPI"], ["threads", "Threads"]];
 const kWords = {none: "No rendering", starting: "Starting", running: "Rendering", done: "Done", failed: "Failed", stopped: "Stopped"};
-const kFields = [["folder", "Folder", "out"], ["frames", "Frames", "all"], ["nodes", "Nodes", "as fit"], ["hostfile", "Hostfile", "this machine"]];
+const kFields = [["folder", "Folder", "out"], ["frames", "Frames", "all"], ["video", "Video", "none"], ["nodes", "Nodes", "as fit"], ["hostfile", "Hostfile", "this machine"]];
 
 export class RenderForm {
   #options = {folder: "out"};
@@ -18,11 +18,14 @@ export class RenderForm {
     this.stop = element("button", {disabled: true, onclick: () => connection.send({do: "stop"})}, icon("stop"), "Stop");
     this.watch = element("button", {title: "Show a rendering that another command started into this folder",
                                     onclick: () => connection.send({do: "watch", folder: this.#options.folder})}, icon("folder"), "Watch");
+    this.video = element("button", {title: "Render the frames that are missing, and make a video of the folder's frames",
+                                    onclick: () => this.#start(this.#options.video ?? `${this.#options.folder ?? "out"}.mp4`)}, icon("play"), "Make video");
     this.bar = element("progress", {max: 1, value: 0, "aria-label": "Frames done"});
     this.words = element("p", {class: "progress-words"});
     this.text = element("p", {class: "hint", "aria-live": "polite"});
     this.nodes = element("ul", {class: "nodes", "aria-label": "Nodes"});
-    place.append(part("Job", ...this.#fields(), element("div", {class: "actions three"}, this.start, this.stop, this.watch)),
+    place.append(part("Job", ...this.#fields(), element("div", {class: "actions three"}, this.start, this.stop, this.watch),
+                      element("div", {class: "actions"}, this.video)),
                  part("Progress", this.words, this.bar, this.text), part("Nodes", this.nodes));
     this.show({state: "none"});
   }
@@ -39,15 +42,16 @@ export class RenderForm {
     return [...texts, line("Backend", backend.root)];
   }
 
-  #start() {
+  #start(video) {
     const {nodes, ...rest} = this.#options;
+    if (video) rest.video = video;
     this.connection.send({do: "render", options: nodes === undefined ? rest : {...rest, nodes: Number(nodes)}});
   }
 
   show({state, text = "", done = 0, of = 0, fps = 0, nodes = []}) {
     const runs = state === "starting" || state === "running";
     const there = state === "done" ? of : done;  // also those that were there before
-    this.start.disabled = runs;
+    this.start.disabled = this.video.disabled = runs;
     this.stop.disabled = !runs;
     this.words.replaceChildren(element("strong", {class: state}, kWords[state] ?? state),
                                of ? ` ${there} of ${of} frames` : "", runs && fps ? `, ${fps.toFixed(1)} a second` : "");

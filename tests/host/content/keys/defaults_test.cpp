@@ -97,7 +97,8 @@ Json default_value(const Key& key) {
 
 bool has_default(const Object& object, const Key& key) {
   const bool of_keys = object.name.ends_with("_key");  // where only `ease` has one
-  return (key.number || !key.json.empty()) && (!of_keys || key.name == "ease");
+  const bool of_videos = key.name == "audio_delay";    // which no frame shows
+  return (key.number || !key.json.empty()) && (!of_keys || key.name == "ease") && !of_videos;
 }
 
 // Another value than the default; null where none is known.

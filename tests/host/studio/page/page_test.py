@@ -867,6 +867,8 @@ class Films(Page):
         self.find('[data-key="render.nodes"]').send_keys("3")
         self.find(".primary").click()
         self.assertEqual(self.studio.wait_for("render")["options"], {"folder": "out", "nodes": 3})
+        self.js("[...document.querySelectorAll('button')].find((each) => each.textContent === 'Make video').click()")
+        self.assertEqual(self.studio.wait_for("render")["options"], {"folder": "out", "nodes": 3, "video": "out.mp4"})
         self.studio.tell({"is": "rendering", "state": "running", "text": "", "done": 4, "of": 12, "fps": 2.5, "folder": "out",
                           "nodes": [{"name": "node 0", "machine": "here", "slow": False}, {"name": "node 1", "machine": "there", "slow": True}]})
         self.until(lambda: "4 of 12 frames, 2.5 a second" in self.find(".progress-words").text)

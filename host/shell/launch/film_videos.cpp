@@ -1,0 +1,115 @@
+#include "host/shell/launch/film_videos.h"
+
+#include <chrono>
+#include <filesystem>
+#include <system_error>
+
+#include "hal/failure/failure.h"
+#include "host/content/document/checksum.h"
+#include "host/content/document/file.h"
+#include "host/content/document/text.h"
+#include "host/render/sinks/frame_folder.h"
+#include "host/shell/job/film_of.h"
+#include "host/shell/launch/film_audio.h"
+#include "host/videos/folder_source.h"
+#include "host/videos/mark.h"
+#include "host/videos/probe.h"
+
+namespace mars::launch {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+void add(document::Checksum& sum, const std::string& text) {
+  sum.add(std::as_bytes(std::span(text.c_str(), text.size() + 1)));
+}
+
+std::string bytes_text(std::uintmax_t bytes) {
+  constexpr double kMegabyte = 1e6;
+  return bytes < kMegabyte ? document::formatted("%.0f kB", static_cast<double>(bytes) / 1e3)
+                           : document::formatted("%.1f MB", static_cast<double>(bytes) / kMegabyte);
+}
+
+}  // namespace
+
+FilmVideos::FilmVideos(const options::RenderOptions& options, Display& display) : options_(options), display_(display) {
+  if (options.videos.empty()) return;
+  if (document::file_exists(options.film)) audio_ = audio_of_film(options.film);
+  for (const std::string& file : options.videos) videos::check_order(order_of(file));
+}
+
+videos::Order FilmVideos::order_of(const std::string& file) const { return {file, options_.video_form, audio_}; }
+
+// Of all that decides its content, but for the version of ffmpeg.
+std::string FilmVideos::recipe_of(const std::string& file, const std::string& film, std::uint32_t film_frames) const {
+  const videos::Form form = videos::form_of(file, options_.video_form);
+  document::Checksum sum;
+  for (const std::string_view encoder : form.codec->encoders)
+    for (const std::string& word : videos::encoding_words(form, encoder)) add(sum, word);
+  add(sum, std::string(form.kind->muxer));
+  add(sum, film);
+  add(sum, std::to_string(wire::kPixelVersion));
+  add(sum, film::FrameSet(options_.frames.of_film(film_frames)).text());
+  if (audio_ && form.kind->has_audio) {
+    add(sum, document::shown(audio_->delay));
+    document::read_pieces(audio_->file, [&](std::string_view piece) { sum.add(std::as_bytes(std::span(piece))); });
+  }
+  return sum.digits();
+}
+
+bool FilmVideos::is_there(const std::string& file, const std::string& film, std::uint32_t film_frames) const {
+  if (options_.overwrite || !document::file_exists(file)) return false;
+  const auto mark = videos::mark_of(videos::comment_of(file));
+  return mark && mark->recipe == recipe_of(file, film, film_frames);
+}
+
+bool FilmVideos::are_there() const {
+  if (!options::has_own_folder(options_) || options_.overwrite || fs::exists(options_.folder)) return false;
+  for (const std::string& file : options_.videos)
+    if (!document::file_exists(file) || !videos::mark_of(videos::comment_of(file))) return false;
+  const film::CompiledFilm film = job::load_film_of(options_, [](const std::string&) {});
+  const std::string checksum = document::checksum_of(film.block());
+  for (const std::string& file : options_.videos)
+    if (!is_there(file, checksum, film.view().settings().frames)) return false;
+  for (const std::string& file : options_.videos) display_.print(file + " is there already");
+  return true;
+}
+
+void FilmVideos::make() {
+  for (const std::string& file : options_.videos) make(file);
+  if (options::has_own_folder(options_)) remove_frames();
+}
+
+void FilmVideos::make(const std::string& file) {
+  const auto started = Clock::now();
+  const videos::FolderReader reader(options_.folder);
+  const sinks::Manifest& manifest = reader.manifest();
+  if (is_there(file, manifest.checksum, manifest.film_frames)) return display_.print(file + " is there already");
+  videos::Order order = order_of(file);
+  order.recipe = recipe_of(file, manifest.checksum, manifest.film_frames);
+  const auto note = [this](const std::string& line) { display_.print(line); };
+  const auto show = [&](std::size_t done, std::size_t of) {
+    display_.show(file + ": frame " + std::to_string(done) + " of " + std::to_string(of));
+  };
+  const videos::Source source = videos::source_of(reader, options_.frames.of_film(manifest.film_frames));
+  videos::write_video(source, order, {show, note, {note}});
+  const std::chrono::duration<double> seconds = Clock::now() - started;
+  display_.print(document::counted(source.frames.size(), "frame") + " in " + file + ", " +
+                 bytes_text(fs::file_size(file)) + ", " + document::formatted("%.1f", seconds.count()) + " seconds");
+}
+
+// Not where somebody else has put something there, as a job of Slurm its output, or renders there.
+void FilmVideos::remove_frames() {
+  std::error_code none;
+  std::vector<fs::path> files;
+  for (fs::directory_iterator entry(options_.folder, none), end; !none && entry != end; entry.increment(none))
+    files.push_back(entry->path());
+  for (const fs::path& file : files)
+    if (!sinks::is_own_name(file.filename().string()) || file.filename() == sinks::kRunsName)
+      return display_.print("the frames stay in " + options_.folder);
+  for (const fs::path& file : files) fs::remove(file, none);
+  fs::remove(options_.folder, none);
+}
+
+}  // namespace mars::launch

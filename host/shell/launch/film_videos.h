@@ -1,0 +1,41 @@
+// The videos of a rendering, which are made of its frames once these are there: whoever drew them, in whatever order,
+// with however many starts, and whoever wrote them. No rendering waits for ffmpeg.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/shell/launch/display.h"
+#include "host/shell/options/render_options.h"
+#include "host/videos/write_video.h"
+
+namespace mars::launch {
+
+class FilmVideos {
+ public:
+  // Throws Failure, before anything is started, where one of them cannot be made (videos::check_order). Both must
+  // outlive it.
+  FilmVideos(const options::RenderOptions& options, Display& display);
+
+  // Whether all are there, of this film, whose frames are nowhere else. May compile the film.
+  bool are_there() const;
+  // Of the folder's frames; those that are there already are left alone. Throws Failure where a frame is missing or a
+  // video cannot be made; then the same command goes on.
+  void make();
+
+ private:
+  videos::Order order_of(const std::string& file) const;
+  std::string recipe_of(const std::string& file, const std::string& film, std::uint32_t film_frames) const;
+  bool is_there(const std::string& file, const std::string& film, std::uint32_t film_frames) const;
+  void make(const std::string& file);
+  void remove_frames();
+
+  const options::RenderOptions& options_;
+  Display& display_;
+  std::optional<videos::Audio> audio_;
+};
+
+}  // namespace mars::launch

@@ -1,0 +1,130 @@
+#include "host/videos/folder_source.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "hal/failure/failure.h"
+#include "host/content/document/checksum.h"
+#include "host/content/document/shell_word.h"
+#include "host/content/film/film_file.h"
+#include "host/images/picture_file.h"
+#include "host/render/sinks/frame_folder.h"
+#include "host/render/sinks/frame_mark.h"
+#include "host/videos/video_form.h"
+#include "node/color/encoding.h"
+
+namespace mars::videos {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Of a half float that is not negative; no number counts as none.
+float light_of(std::uint32_t half) {
+  constexpr int kBias = 15, kBits = 10;
+  const auto exponent = static_cast<int>(half >> kBits & 0x1f);
+  const auto mantissa = static_cast<float>(half & 0x3ff) / 1024;
+  if ((half & 0x8000) != 0) return 0;
+  if (exponent == 0x1f) return mantissa > 0 ? 0 : color::kMostHalf;
+  return exponent == 0 ? std::ldexp(mantissa, 1 - kBias) : std::ldexp(1 + mantissa, exponent - kBias);
+}
+
+const std::array<float, 1 << 16>& lights() {
+  static const auto all = std::make_unique<std::array<float, 1 << 16>>([] {
+    std::array<float, 1 << 16> table{};
+    for (std::uint32_t half = 0; half < table.size(); ++half) table[half] = light_of(half);
+    return table;
+  }());
+  return *all;
+}
+
+std::optional<film::CompiledFilm> film_in(const fs::path& folder, const sinks::Manifest& manifest) try {
+  film::CompiledFilm film = film::load_compiled_film(folder / sinks::kFilmName);
+  if (document::checksum_of(film.block()) != manifest.checksum) return std::nullopt;
+  return film;
+} catch (const Failure&) {
+  return std::nullopt;
+}
+
+}  // namespace
+
+FolderReader::FolderReader(fs::path folder, const Exposing& exposing)
+    : folder_(std::move(folder)), manifest_(sinks::read_manifest(folder_)), exposing_(exposing) {
+  if (manifest_.format != images::PictureFormat::exr) return;
+  film_ = film_in(folder_, manifest_);
+  if (!film_ && !(exposing_.stops && exposing_.curve))
+    throw Failure("its frames are light, and film.mars, which says how to expose it, is not there or not theirs",
+                  folder_.string(), "say it: --exposure 0 --curve filmic");
+}
+
+images::Image FolderReader::read(std::uint32_t frame) const {
+  const fs::path file = folder_ / sinks::frame_file_name(manifest_, frame);
+  if (!sinks::is_frame_file(file))
+    throw Failure("frame " + std::to_string(frame) + " is missing", folder_.string(),
+                  "mars verify --repair " + document::shell_word(folder_.string()) + " renders it again");
+  if (manifest_.format != images::PictureFormat::exr) return images::read_picture(images::PictureFormat::png, file);
+  return expose(images::read_picture(images::PictureFormat::exr, file), frame);
+}
+
+wire::FilmSettings FolderReader::settings_at(std::uint32_t frame, wire::Camera& camera) const {
+  wire::FilmSettings settings{};
+  settings.color_space = wire::ColorSpace::linear;
+  if (film_) {
+    const wire::PackedFilm view = film_->view();
+    settings = view.settings();
+    camera = view.camera_at(frame);
+  }
+  if (exposing_.stops || exposing_.curve) settings.color_space = wire::ColorSpace::linear;
+  if (exposing_.stops) camera.exposure = std::exp2(*exposing_.stops);
+  if (exposing_.curve) settings.curve = *exposing_.curve;
+  return settings;
+}
+
+images::Image FolderReader::expose(const images::Image& light, std::uint32_t frame) const {
+  wire::Camera camera{};
+  const wire::FilmSettings settings = settings_at(frame, camera);
+  const color::Encoding encoding = color::encoding_of(settings, camera, wire::PixelFormat::rgb8);
+  const auto& table = lights();
+  images::Image shown{light.width, light.height, {}};
+  shown.pixels.reserve(light.pixels.size() / 2);
+  for (std::size_t i = 0; i + 1 < light.pixels.size(); i += 2) {
+    const std::uint32_t low = light.pixels[i], high = light.pixels[i + 1];
+    const float rgb[] = {table[low & 0xffff], table[low >> 16], table[high & 0xffff]};
+    shown.pixels.push_back(static_cast<std::uint32_t>(color::pixel_of(encoding, rgb)));
+  }
+  return shown;
+}
+
+std::string FolderReader::content(std::uint32_t frame) const {
+  std::string content = sinks::hash_of(manifest_, frame);
+  if (manifest_.format != images::PictureFormat::exr) return content;
+  wire::Camera camera{};
+  const wire::FilmSettings settings = settings_at(frame, camera);
+  return content + " " + std::to_string(static_cast<int>(settings.color_space)) + " " +
+         std::to_string(static_cast<int>(settings.curve)) + " " + std::to_string(camera.exposure);
+}
+
+Source source_of(const FolderReader& reader, std::vector<std::uint32_t> frames) {
+  const sinks::Manifest& manifest = reader.manifest();
+  Source source{{manifest.width, manifest.height},
+                manifest.rate,
+                std::move(frames),
+                manifest.film_frames,
+                0,
+                manifest.film,
+                manifest.checksum};
+  source.any_thread = true;
+  if (!source.frames.empty()) source.begins = source.frames.front() / exact_rate(manifest.rate);
+  const bool known =
+      std::ranges::none_of(source.frames, [&](std::uint32_t frame) { return sinks::hash_of(manifest, frame).empty(); });
+  source.picture = [&reader, numbers = source.frames](std::size_t place) {
+    return std::make_shared<const images::Image>(reader.read(numbers[place]));
+  };
+  if (known)
+    source.content = [&reader, numbers = source.frames](std::size_t place) { return reader.content(numbers[place]); };
+  return source;
+}
+
+}  // namespace mars::videos

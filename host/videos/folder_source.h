@@ -1,0 +1,51 @@
+// Frames of a folder (host/render/sinks/frame_folder.h) as they are shown. Light, of EXR files, is exposed and encoded
+// as the film says that the folder keeps, or as a person does.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "host/content/film/compiled_film.h"
+#include "host/render/sinks/manifest.h"
+#include "host/videos/source.h"
+#include "node/wire/film_parts.h"
+
+namespace mars::videos {
+
+struct Exposing {
+  std::optional<double> stops{};       // of exposure, at all frames; none: the film's
+  std::optional<wire::Curve> curve{};  // none: the film's
+
+  bool operator==(const Exposing&) const = default;
+};
+
+class FolderReader {
+ public:
+  // Throws Failure where the folder has no manifest; and, where its frames are light, no film.mars of theirs, and
+  // `exposing` does not say all.
+  explicit FolderReader(std::filesystem::path folder, const Exposing& exposing = {});
+
+  const sinks::Manifest& manifest() const { return manifest_; }
+  const std::filesystem::path& folder() const { return folder_; }
+  // From any thread. Throws Failure where its file is missing or torn.
+  images::Image read(std::uint32_t frame) const;
+  // What decides how a frame is shown.
+  std::string content(std::uint32_t frame) const;
+
+ private:
+  wire::FilmSettings settings_at(std::uint32_t frame, wire::Camera& camera) const;
+  images::Image expose(const images::Image& light, std::uint32_t frame) const;
+
+  std::filesystem::path folder_;
+  sinks::Manifest manifest_;
+  Exposing exposing_;
+  std::optional<film::CompiledFilm> film_;  // of EXR files
+};
+
+// These frames of the folder, whose reader must outlive the source.
+Source source_of(const FolderReader& reader, std::vector<std::uint32_t> frames);
+
+}  // namespace mars::videos

@@ -1,0 +1,19 @@
+// Pictures into a video, which appears whole or not at all. Where it is known what decides each picture, they are
+// encoded in pieces, kept in a folder beside the file, FILE.pieces, until the video is there: whoever makes it again,
+// also of frames of which some have changed, encodes only the pieces that are not there yet. Pieces are then joined
+// without being encoded again.
+#pragma once
+
+#include "host/videos/order.h"
+#include "host/videos/source.h"
+
+namespace mars::videos {
+
+// What can be known before there is a picture: throws Failure where the form makes no sense, ffmpeg is missing or lacks
+// the encoder, the file cannot be written, or the audio has no sound.
+void check_order(const Order& order);
+
+// Throws Failure as check_order(), and where ffmpeg fails; then the file is as it was.
+void write_video(const Source& source, const Order& order, const Listener& listener);
+
+}  // namespace mars::videos

@@ -1,0 +1,250 @@
+"""Videos that `mars render` and `mars play` write: their frames, colours, size, rate and sound, how they go on, and what
+is left when ffmpeg fails."""
+
+import json
+import os
+import pathlib
+import re
+import signal
+import struct
+import subprocess
+import time
+import wave
+
+import harness
+from harness import ENVIRONMENT, PROGRAMS, SECONDS, ProgramTest, main, needs
+from png_reader import png_rows
+
+needs_ffmpeg = needs("ffmpeg", "ffprobe")
+SMALL = ["--backend", "threads", "-q"]
+
+
+def a_film(frames=6, size=(64, 36), **more):
+    """A red, a green and a blue box that stand on a grey ground while a fourth moves: flat, as coded colours are."""
+    box = {"joints": [{"name": "a", "segment": {"shape": "box", "sbb": [[-1, -1, -1], [1, 1, 1]]}}]}
+    colours = {"red": [1, 0, 0], "green": [0, 0.8, 0], "blue": [0, 0, 1], "white": [1, 1, 1]}
+    look = {"ambient": 1, "diffuse": 0, "specular": 0}
+    actors = [{"name": name, "model": "box", "material": name, "place": [3 * i - 4.5, 0, 0]}
+              for i, name in enumerate(colours)]
+    actors[-1]["keys"] = [{"frame": 0, "place": [4.5, 0, 0]}, {"frame": max(frames - 1, 1), "place": [4.5, 0, 3]}]
+    del actors[-1]["place"]
+    return {"frames": frames, "size": list(size), "samples": 1, "color": "coded", "background": [0.4, 0.4, 0.4],
+            "ambient": [1, 1, 1], "lights": [], "camera": {"eye": [0, -12, 0], "at": [0, 0, 0]},
+            "materials": {name: {"color": colour, **look} for name, colour in colours.items()},
+            "models": {"box": box}, "actors": actors, **more}
+
+
+class VideoTest(ProgramTest):
+    def probe(self, file):
+        printed = self.run_program("ffprobe", "-v", "error", "-count_frames", "-show_streams", "-show_format", "-of", "json", file)
+        found = json.loads(printed.stdout)
+        self.streams = {stream["codec_type"]: stream for stream in found["streams"]}
+        return self.streams["video"]
+
+    def decoded(self, file):
+        """Each picture as rows of RGB."""
+        stream = self.probe(file)
+        width, height = stream["width"], stream["height"]
+        raw = subprocess.run(["ffmpeg", "-v", "error", "-i", file, "-map", "0:v", "-vf", "scale=in_color_matrix=bt709:flags=accurate_rnd+full_chroma_int",
+                              "-f", "rawvideo", "-pix_fmt", "rgb24", "-"], cwd=self.folder, capture_output=True, check=True).stdout
+        size = 3 * width * height
+        return [[raw[at + 3 * width * y:at + 3 * width * (y + 1)] for y in range(height)] for at in range(0, len(raw), size)]
+
+    def render(self, film, *words):
+        return self.succeed("mars", "render", film, *words, "--backend", "threads")
+
+    def frames(self, folder):
+        return [png_rows(file) for file in sorted((self.folder / folder).glob("frame-*.png"))]
+
+    def left(self):
+        return sorted(path.name for path in self.folder.iterdir())
+
+
+@needs_ffmpeg
+class Rendered(VideoTest):
+    def test_a_video_alone(self):
+        """Its frames have a folder of their own until it is there; it plays in browsers and phones."""
+        film = self.write("film.json", a_film(6))
+        printed = self.render(film, "-o", "film.mp4")
+        self.assertIn("6 frames in film.mp4", printed)
+        self.assertEqual(self.left(), ["film.json", "film.mp4"])
+        stream = self.probe("film.mp4")
+        expected = {"codec_name": "h264", "profile": "High", "pix_fmt": "yuv420p", "width": 64, "height": 36,
+                    "r_frame_rate": "24/1", "nb_read_frames": "6", "color_range": "tv", "color_space": "bt709",
+                    "color_transfer": "bt709", "color_primaries": "bt709"}
+        self.assertEqual({key: stream.get(key) for key in expected}, expected)
+        data = (self.folder / "film.mp4").read_bytes()
+        self.assertLess(data.index(b"moov"), data.index(b"mdat"), "it plays while it is loaded")
+        before = (self.folder / "film.mp4").stat()
+        self.assertIn("film.mp4 is there already", self.render(film, "-o", "film.mp4"))
+        self.assertEqual((self.folder / "film.mp4").stat().st_ino, before.st_ino)
+        self.render(film, "-o", "film.mp4", "--frames", "1-3")
+        self.assertEqual(self.probe("film.mp4")["nb_read_frames"], "3")
+
+    def test_pictures_are_the_frames(self):
+        """In their order, with the right colours: flat ones within 2 levels; lossless ones exactly."""
+        film = self.write("film.json", a_film(8, (160, 90), rate=29.97))
+        self.render(film, "-o", "out", "-o", "film.mp4", "-o", "film.webm", "-o", "film.apng", "-o", "film.gif", "--write", "nodes",
+                    "--nodes", "3", "--groups", "2")
+        frames = self.frames("out")
+        self.assertEqual(len(frames), 8)
+        self.assertEqual(self.decoded("film.apng"), frames)
+        for name in ["film.mp4", "film.webm"]:
+            shown = self.decoded(name)
+            self.assertEqual(len(shown), 8, name)
+            self.assertEqual(self.probe(name)["r_frame_rate"], "30000/1001", name)
+            for number, (picture, frame) in enumerate(zip(shown, frames)):
+                error = sum((a - b) ** 2 for row, other in zip(picture, frame) for a, b in zip(row, other)) / (3 * 160 * 90)
+                self.assertLess(error, 65025 / 10 ** 3, f"{name}, frame {number}: less than 30 dB")
+                for x in [6, 32, 63, 96]:  # the ground and three boxes, away from edges
+                    here, there = picture[45][3 * x:3 * x + 3], frame[45][3 * x:3 * x + 3]
+                    self.assertLessEqual(max(abs(a - b) for a, b in zip(here, there)), 2, (name, number, x, *here, *there))
+        self.assertEqual(self.probe("film.gif")["nb_read_frames"], "8")
+        self.assertEqual(self.left(), ["film.apng", "film.gif", "film.json", "film.mp4", "film.webm", "out"])
+
+    def test_odd_sizes(self):
+        """Codecs that need even sides have the last column and row twice; nothing is scaled."""
+        film = self.write("film.json", a_film(3, (63, 35)))
+        printed = self.render(film, "-o", "out", "-o", "film.mp4", "-o", "film.webm")
+        self.assertIn("film.mp4 has 64x36 pixels, because h264 needs even sides: the last column and row are repeated", printed)
+        self.assertNotIn("film.webm has", printed)
+        self.assertEqual([(s["width"], s["height"]) for s in map(self.probe, ["film.mp4", "film.webm"])], [(64, 36), (63, 35)])
+        self.render(film, "-o", "film.mkv", "--codec", "ffv1")
+        self.assertEqual(self.decoded("film.mkv"), self.frames("out"))
+
+    def test_codecs(self):
+        film = self.write("film.json", a_film(3))
+        for name, codec, found in [("a.mp4", "h265", "hevc"), ("a.webm", "av1", "av1"), ("a.mov", "prores", "prores"), ("b.mkv", "vp9", "vp9")]:
+            self.render(film, "-o", "out", "-o", name, "--codec", codec)
+            stream = self.probe(name)
+            self.assertEqual((stream["codec_name"], stream["nb_read_frames"], stream.get("color_space")), (found, "3", "bt709"))
+        self.render(film, "-o", "out", "-o", "good.mp4", "--quality", "1")
+        self.render(film, "-o", "out", "-o", "bad.mp4", "--quality", "51")
+        self.assertLess((self.folder / "bad.mp4").stat().st_size, (self.folder / "good.mp4").stat().st_size)
+
+    def test_sound(self):
+        with wave.open(str(self.folder / "tone.wav"), "wb") as tone:
+            tone.setparams((1, 2, 8000, 0, "NONE", ""))
+            tone.writeframes(b"".join(struct.pack("<h", 8000 * (i // 10 % 2)) for i in range(16000)))
+        film = self.write("film.json", a_film(24, audio="tone.wav", audio_delay=0.5))
+        self.render(film, "-o", "out", "-o", "film.mp4", "-o", "film.webm")
+        for name, codec in [("film.mp4", "aac"), ("film.webm", "opus")]:
+            self.probe(name)
+            self.assertEqual(self.streams["audio"]["codec_name"], codec)
+            raw = subprocess.run(["ffmpeg", "-v", "error", "-i", name, "-f", "s16le", "-ac", "1", "-ar", "8000", "-"],
+                                 cwd=self.folder, capture_output=True, check=True).stdout
+            heard = [value for (value,) in struct.iter_unpack("<h", raw)]
+            first = next(i for i, value in enumerate(heard) if abs(value) > 1000)
+            self.assertAlmostEqual(first / 8000, 0.5, delta=0.05, msg=name)
+            self.assertAlmostEqual(len(heard) / 8000, 1, delta=0.1, msg=f"{name} ends with the film")
+        self.assertIn("h264, aac, all there and whole", self.succeed("mars", "verify", "film.mp4"))
+        self.write("film.json", a_film(24, audio="none.wav"))
+        self.fail_clearly(1, "render", film, "-o", "b.mp4", *SMALL, says="none.wav: is not there")
+
+    def test_played_frames(self):
+        film = self.write("film.json", dict(a_film(4), color="linear"))
+        self.render(film, "-o", "out")
+        self.render(film, "-o", "light", "--format", "exr")
+        for folder in ["out", "light"]:
+            self.succeed("mars", "play", folder, "-o", f"{folder}.apng")
+        self.assertEqual(self.decoded("out.apng"), self.frames("out"))
+        near = zip(self.decoded("light.apng"), self.frames("out"))
+        self.assertLessEqual(max(abs(a - b) for one, other in near for row, same in zip(one, other) for a, b in zip(row, same)), 1,
+                             "exposed as the film says")
+        self.succeed("mars", "play", "light", "-o", "dark.apng", "--exposure", "-3", "--curve", "none")
+        self.assertLess(sum(map(sum, self.decoded("dark.apng")[0])), sum(map(sum, self.decoded("out.apng")[0])) / 2)
+        (self.folder / "light/film.mars").unlink()
+        self.fail_clearly(1, "play", "light", "-o", "b.mp4", says="--exposure 0 --curve filmic")
+
+    def test_verify(self):
+        film = self.write("film.json", a_film(6))
+        self.render(film, "-o", "film.mp4")
+        self.assertIn("6 frames of film.json (0-5), 64x36, 24 frames/s, h264, all there and whole",
+                      self.succeed("mars", "verify", "film.mp4"))
+        subprocess.run(["ffmpeg", "-v", "error", "-i", "film.mp4", "-c", "copy", "-frames:v", "4", "cut.mp4"], cwd=self.folder, check=True)
+        done = self.mars("verify", "cut.mp4")
+        self.assertEqual((done.returncode, done.stdout.splitlines()[0]), (1, "has 4 of 6 frames"))
+        data = (self.folder / "film.mp4").read_bytes()
+        (self.folder / "torn.mp4").write_bytes(data[:data.index(b"mdat") + 100])
+        done = self.mars("verify", "torn.mp4")
+        self.assertEqual(done.returncode, 1, done.stdout)
+        (self.folder / "no.mp4").write_text("no video")
+        self.fail_clearly(1, "verify", "no.mp4", says="no.mp4")
+
+
+class GoingOn(VideoTest):
+    def with_ffmpeg(self, script):
+        """An environment whose ffmpeg is a script, which finds the real one as $FFMPEG."""
+        folder = self.folder / "bin"
+        folder.mkdir(exist_ok=True)
+        (folder / "ffmpeg").write_text(f"#!/bin/sh\nFFMPEG=/usr/bin/ffmpeg\n{script}\n")
+        (folder / "ffmpeg").chmod(0o755)
+        return {**ENVIRONMENT, "PATH": f"{folder}:{os.environ['PATH']}"}
+
+    @needs_ffmpeg
+    def test_pieces_that_are_there_stay(self):
+        """ffmpeg is killed in the second of three pieces: the first stays, as do all frames."""
+        film = self.write("film.json", harness.spinning_teapot(500, [16, 10]))
+        killed = self.with_ffmpeg('case "$*" in *rawvideo*) if mkdir once 2>/dev/null; then exec $FFMPEG "$@"; fi; '
+                                  'head -c 3000 >/dev/null; kill -9 $$;; *) exec $FFMPEG "$@";; esac')
+        self.fail_clearly(1, "render", film, "-o", "film.mp4", *SMALL, says="ffmpeg was killed by signal 9", env=killed)
+        self.assertEqual([name for name in self.left() if "film" in name], ["film.json", "film.mp4.frames", "film.mp4.pieces"])
+        pieces = list((self.folder / "film.mp4.pieces").iterdir())
+        self.assertEqual(len(pieces), 1, pieces)
+        printed = self.render(film, "-o", "film.mp4")
+        self.assertIn("500 of 500 frames are there already", printed)
+        self.assertIn("240 frames of film.mp4 are encoded already", printed)
+        stream = self.probe("film.mp4")
+        self.assertEqual((stream["nb_read_frames"], stream["avg_frame_rate"]), ("500", "24/1"))
+        self.assertEqual([name for name in self.left() if "film" in name], ["film.json", "film.mp4"])
+
+    @needs_ffmpeg
+    def test_a_killed_rendering_goes_on(self):
+        film = self.write("film.json", harness.spinning_teapot(3000, [160, 90]))
+        process = subprocess.Popen([PROGRAMS / "mars", "render", film, "-o", "film.mp4", *SMALL], cwd=self.folder)
+        frames = self.folder / "film.mp4.frames"
+        harness.wait_until(lambda: len(list(frames.glob("frame-*.png"))) > 5, SECONDS, "no frames")
+        process.send_signal(signal.SIGTERM)
+        process.wait(SECONDS)
+        self.assertFalse((self.folder / "film.mp4").exists())
+        printed = self.render(film, "-o", "film.mp4", "--frames", "0-9")
+        self.assertRegex(printed, r"\d+ of 10 frames are there already")
+        self.assertEqual(self.probe("film.mp4")["nb_read_frames"], "10")
+
+    def test_ffmpeg_is_missing(self):
+        film = self.write("film.json", a_film(3))
+        done = self.mars("render", film, "-o", "film.mp4", *SMALL, env={**ENVIRONMENT, "PATH": str(self.folder)})
+        self.assertEqual(done.returncode, 1)
+        self.assertClear(done.stderr, "needs the program ffmpeg, which is not installed (install it (Debian: apt install ffmpeg)")
+        self.assertEqual(self.left(), ["film.json"], "nothing was rendered")
+
+    @needs_ffmpeg
+    def test_failures(self):
+        """The file that was there stays, and nothing half-written beside it."""
+        film = self.write("film.json", a_film(3))
+        (self.folder / "film.mp4").write_text("kept")
+        for script, says in [('case "$*" in *rawvideo*) echo "no such encoder" >&2; exit 3;; *) exec $FFMPEG "$@";; esac', "no such encoder"),
+                             ('case "$*" in *rawvideo*) echo "x: No space left on device" >&2; exit 1;; *) exec $FFMPEG "$@";; esac', "free some space"),
+                             ('case "$*" in *rawvideo*) exit 0;; *) exec $FFMPEG "$@";; esac', "film.mp4"),
+                             ('case "$*" in *concat*) kill -9 $$;; *) exec $FFMPEG "$@";; esac', "signal 9"),
+                             ("echo none", "no encoder libx264")]:
+            with self.subTest(says):
+                done = self.mars("render", film, "-o", "film.mp4", *SMALL, env=self.with_ffmpeg(script))
+                self.assertEqual(done.returncode, 1, done.stdout)
+                self.assertClear(done.stderr, says)
+                self.assertEqual((self.folder / "film.mp4").read_text(), "kept")
+                self.assertEqual([str(part) for part in self.folder.rglob("*.part")], [])
+        self.fail_clearly(1, "render", film, "-o", "none/film.mp4", *SMALL, says="none/film.mp4")
+
+    def test_wishes_that_make_no_sense(self):
+        film = self.write("film.json", a_film(3))
+        for words, says in [(["-o", "a.mp4", "--codec", "ffv1"], "its codecs: h264, h265, av1, vp9"),
+                            (["-o", "a.mp4", "--codec", "x"], "no codec"), (["-o", "a.mp4", "--quality", "99"], "from 1 to 63"),
+                            (["-o", "a.mp4", "--quality", "60"], "from 1, the best, to 51"), (["-o", "a.mp4", "--sink", "none"], "needs frames"),
+                            (["-o", "a.mp4", "-o", "a.mp4"], "twice"), (["-o", "a", "-o", "b"], "one folder"), (["-o", "a.avi"], "videos are .mp4")]:
+            self.fail_clearly(2, "render", film, *words, says=says)
+        self.assertEqual(self.left(), ["film.json"])
+
+
+if __name__ == "__main__":
+    main()
