@@ -19,8 +19,8 @@ struct WriteOptions {
   std::uint32_t every = 1;                    // of the frames only each Nth
   std::uint32_t columns = 0;                  // of a sheet; 0: about as many as rows
   std::optional<images::PictureSize> extent;  // of each picture; none: the film's, smaller on a sheet and in a GIF
-  videos::FormWish form;                      // of a video
-  std::optional<videos::Audio> audio;         // of a video
+  videos::FormWish form{};                    // of a video
+  std::optional<videos::Audio> audio{};       // of a video
 };
 
 inline constexpr std::uint32_t kSheetFrames = 12;
