@@ -10,7 +10,7 @@ namespace mars::preview {
 
 FolderPictures::FolderPictures(std::filesystem::path folder)
     : folder_(std::move(folder)), manifest_(sinks::read_manifest(folder_)) {
-  if (manifest_.format == images::PictureFormat::exr)
+  if (images::is_exr(manifest_.format))
     throw Failure("its frames are EXR files: light, not yet exposed or encoded to be seen", folder_.string(),
                   "render the film with --format png into another folder, or preview the film itself");
 }
@@ -20,8 +20,7 @@ SharedImage FolderPictures::picture(std::uint32_t place, images::PictureSize ext
   if (!sinks::is_frame_file(file))
     throw Failure("frame " + std::to_string(manifest_.frames.at(place)) + " is missing", folder_.string(),
                   "mars verify --repair " + document::shell_word(folder_.string()) + " renders it again");
-  return std::make_shared<const images::Image>(
-      scaled(images::read_picture(images::PictureFormat::png, file), fitted(this->extent(), extent)));
+  return std::make_shared<const images::Image>(scaled(images::read_opaque(file), fitted(this->extent(), extent)));
 }
 
 bool FolderPictures::handle_key(const KeyPress& key, std::uint32_t) {
