@@ -425,7 +425,7 @@ void Renderer::begin_writing() {
   file_->writer().begin_keyframe({strip.frame,
                                   strip.interval,
                                   {home.first, home.last},
-                                  color::pixel_of(encoding, settings.background.data()),
+                                  color::background_pixel(encoding, settings.background.data()),
                                   {touched.first, touched.last},
                                   std::ranges::count(canvas_->contributes, 1) > 0});
 }

@@ -76,6 +76,8 @@ Option Option::needs(Option other) const { return Option(*option_->needs(other.o
 
 Option Option::hidden() const { return Option(*option_->group("")); }
 
+Option Option::under(const std::string& heading) const { return Option(*option_->group(heading)); }
+
 std::size_t Option::times_given() const { return option_->count(); }
 
 std::string Option::name() const { return option_->get_name(false, true); }

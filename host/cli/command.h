@@ -48,7 +48,8 @@ class Option {
   Option check(const std::function<std::string(const std::string& word)>& problem_of) const;
   Option excludes(Option other) const;
   Option needs(Option other) const;
-  Option hidden() const;  // not in the help
+  Option hidden() const;                           // not in the help
+  Option under(const std::string& heading) const;  // of the help
 
   // How often it was, by what was read.
   std::size_t times_given() const;

@@ -55,9 +55,12 @@ std::filesystem::path calibrated_platform();
 // What encoding a byte of a picture's pixels is.
 constexpr wire::Work encoded_byte(images::PictureFormat format) {
   switch (format) {
-    case images::PictureFormat::png: break;
-    case images::PictureFormat::png16: return wire::Work::encoded_png16_byte;
-    case images::PictureFormat::exr: return wire::Work::encoded_exr_byte;
+    case images::PictureFormat::png:
+    case images::PictureFormat::png_alpha: break;
+    case images::PictureFormat::png16:
+    case images::PictureFormat::png16_alpha: return wire::Work::encoded_png16_byte;
+    case images::PictureFormat::exr:
+    case images::PictureFormat::exr_alpha: return wire::Work::encoded_exr_byte;
   }
   return wire::Work::encoded_byte;
 }

@@ -47,6 +47,26 @@ struct Rgb16 {
   }
 };
 
+// With alpha. Pixels have room for a token's kind beside their bytes.
+struct Rgba8 {
+  using Pixel = std::uint64_t;
+  static constexpr std::uint32_t kBytes = 4, kWords = 1;
+  static constexpr Pixel kEachByte = 0x01010101;
+  static constexpr std::uint32_t kDistanceSymbol = 3, kDistanceExtra = 0, kDistanceExtraBits = 0;  // 4 bytes
+  static Pixel in_file_order(Pixel pixel) { return pixel & 0xffffffff; }
+};
+
+struct Rgba16 {
+  __extension__ using Pixel = unsigned __int128;
+  static constexpr std::uint32_t kBytes = 8, kWords = 2;
+  static constexpr Pixel kEachByte = 0x0101010101010101;
+  static constexpr std::uint32_t kDistanceSymbol = 5, kDistanceExtra = 1, kDistanceExtraBits = 1;  // 8 bytes
+  static Pixel in_file_order(Pixel pixel) {
+    constexpr Pixel kLow = 0x00ff00ff00ff00ff;
+    return (pixel & kLow) << 8 | ((pixel >> 8) & kLow);
+  }
+};
+
 // What a band is made of, in the order of the file: a pixel's bytes; one byte; the last pixel again, or the last byte,
 // as often as `count` pixels have bytes, but for the byte that is there already. Kind and value share a word.
 template <typename Rgb>
@@ -186,14 +206,14 @@ class Band {
   }
 
   static Pixel pixel_at(const std::uint32_t* row, std::size_t x) {
-    Pixel pixel;
-    std::memcpy(&pixel, row + x * Rgb::kWords, sizeof pixel);
+    Pixel pixel = 0;
+    std::memcpy(&pixel, row + x * Rgb::kWords, Rgb::kWords * sizeof *row);
     return pixel;
   }
 
   // Byte by byte.
   static Pixel difference(Pixel a, Pixel b) {
-    constexpr Pixel kHighest = static_cast<Pixel>(0x8080808080808080);
+    constexpr auto kHighest = static_cast<Pixel>(0x8080808080808080);
     return ((a | kHighest) - (b & ~kHighest)) ^ ((a ^ ~b) & kHighest);
   }
 
@@ -370,6 +390,23 @@ class Band {
     return all;
   }
 
+  // As many at a time as a flush takes.
+  static void write_literals(Pixel pixel, const std::array<Bits, kLiterals>& literals, BitWriter& out) {
+    constexpr std::uint32_t kThree = Rgb::kBytes / 3 * 3;
+    for (std::uint32_t k = 0; k < kThree; k += 3) {
+      const Bits &a = literals[(pixel >> 8 * k) & 0xff], &b = literals[(pixel >> 8 * (k + 1)) & 0xff],
+                 &c = literals[(pixel >> 8 * (k + 2)) & 0xff];
+      out.put(a.bits | std::uint64_t{b.bits} << a.count | std::uint64_t{c.bits} << (a.count + b.count),
+              a.count + b.count + c.count);
+      out.flush();
+    }
+    for (std::uint32_t k = kThree; k < Rgb::kBytes; ++k) {
+      const Bits& rest = literals[(pixel >> 8 * k) & 0xff];
+      out.put(rest.bits, rest.count);
+      if (k + 1 == Rgb::kBytes) out.flush();
+    }
+  }
+
   void write_tokens(const HuffmanCode& code, BitWriter& out) const {
     const auto bytes_again = repeats(code, kBytesAgain, {0, 1});
     const auto pixels_again = repeats(code, kPixelsAgain, {1 | Rgb::kDistanceExtra << 1, 1 + Rgb::kDistanceExtraBits});
@@ -379,15 +416,7 @@ class Band {
     for (const Pixel token : std::span(tokens_.get(), count_)) {
       const Pixel value = token & ~T::kKind;
       switch (token & T::kKind) {
-        case T::kPixel:
-          for (std::uint32_t k = 0; k < Rgb::kBytes; k += 3) {
-            const Bits &a = literals[(value >> 8 * k) & 0xff], &b = literals[(value >> 8 * (k + 1)) & 0xff],
-                       &c = literals[(value >> 8 * (k + 2)) & 0xff];
-            out.put(a.bits | std::uint64_t{b.bits} << a.count | std::uint64_t{c.bits} << (a.count + b.count),
-                    a.count + b.count + c.count);
-            out.flush();
-          }
-          continue;
+        case T::kPixel: write_literals(value, literals, out); continue;
         case T::kByte: put(literals[value]); break;
         case T::kPixelAgain: put(pixels_again[value]); break;
         default: put(bytes_again[value]);
@@ -410,8 +439,12 @@ class Band {
 
 DeflatedRows deflate_rows(std::span<const std::uint32_t> pixels, std::size_t width, wire::PixelFormat format) {
   check(width > 0 && pixels.size() % (width * wire::pixel_words(format)) == 0, "rows are whole");
-  if (format == wire::PixelFormat::rgb8) return Band<Rgb8>(pixels, width).deflate();
-  return Band<Rgb16>(pixels, width).deflate();
+  switch (format) {
+    case wire::PixelFormat::rgb8: return Band<Rgb8>(pixels, width).deflate();
+    case wire::PixelFormat::rgba8: return Band<Rgba8>(pixels, width).deflate();
+    case wire::PixelFormat::rgba16: return Band<Rgba16>(pixels, width).deflate();
+    default: return Band<Rgb16>(pixels, width).deflate();
+  }
 }
 
 }  // namespace mars::images

@@ -9,13 +9,13 @@ namespace mars::images {
 EncodedBand encode_band(const PictureBands& bands, std::size_t band, std::span<const std::uint32_t> pixels) {
   const Lines lines = bands.lines_of(band);
   check(pixels.size() == bands.words_of(lines), "a band has the pixels of its lines");
-  if (bands.format() == PictureFormat::exr) return encode_exr_band(bands, lines, pixels);
+  if (is_exr(bands.format())) return encode_exr_band(bands, lines, pixels);
   return encode_png_band(bands.width(), facts_of(bands.format()).pixels, pixels);
 }
 
 PictureEnds ends_of(const PictureBands& bands, std::span<const BandPart> parts, const FileFacts& facts) {
   check(parts.size() == bands.count(), "a file has all bands of its picture");
-  if (bands.format() == PictureFormat::exr) return exr_ends(bands, parts, facts);
+  if (is_exr(bands.format())) return exr_ends(bands, parts, facts);
   return png_ends(bands, parts, facts);
 }
 

@@ -31,7 +31,7 @@ using Bytes = std::vector<std::byte>;
 
 constexpr std::size_t kPixelBytes = 8, kChannelBytes = 2;
 constexpr std::size_t kExrChunkHead = 8;  // bytes: first line, size
-constexpr std::array kChannels{"R", "G", "B"};
+constexpr std::array kChannels{"R", "G", "B", "A"};
 constexpr std::string_view kMagic = "\x76\x2f\x31\x01";
 constexpr const char* kNoteName = "mars";
 
@@ -72,12 +72,16 @@ class BytesIn : public Imf::IStream {
   std::size_t at_ = 0;
 };
 
+std::span<const char* const> channels(bool alpha) { return std::span(kChannels).first(alpha ? 4 : 3); }
+
 // Where the channels of a picture's pixels are.
-Imf::FrameBuffer channels_in(const char* pixels, std::size_t width) {
+Imf::FrameBuffer channels_in(const char* pixels, std::size_t width, bool alpha) {
   char* base = const_cast<char*>(pixels);
   Imf::FrameBuffer buffer;
-  for (std::size_t c = 0; c < kChannels.size(); ++c)
-    buffer.insert(kChannels[c], Imf::Slice(Imf::HALF, base + c * kChannelBytes, kPixelBytes, width * kPixelBytes));
+  constexpr double kOpaque = 1;  // where the file has none
+  for (std::size_t c = 0; c < channels(alpha).size(); ++c)
+    buffer.insert(kChannels[c],
+                  Imf::Slice(Imf::HALF, base + c * kChannelBytes, kPixelBytes, width * kPixelBytes, 1, 1, kOpaque));
   return buffer;
 }
 
@@ -153,7 +157,8 @@ Imf::Header header_of(const PictureBands& bands, std::uint32_t lines, const File
   header.compression() = method_of(bands.compression());
   header.zipCompressionLevel() = 2;
   Imf::addChromaticities(header, Imf::Chromaticities());  // its default is BT.709's, which are sRGB's
-  for (const char* channel : kChannels) header.channels().insert(channel, Imf::Channel(Imf::HALF));
+  for (const char* channel : channels(has_alpha(bands.format())))
+    header.channels().insert(channel, Imf::Channel(Imf::HALF));
   if (!facts.note.empty()) header.insert(kNoteName, Imf::StringAttribute(facts.note));
   add_time(facts, header);
   return header;
@@ -169,13 +174,13 @@ void limit_sizes() {
 }
 
 bool has_channels(const Imf::Header& header) {
-  return std::ranges::all_of(kChannels, [&](const char* name) {
+  return std::ranges::all_of(channels(false), [&](const char* name) {
     const Imf::Channel* channel = header.channels().findChannel(name);
     return channel != nullptr && channel->type == Imf::HALF && channel->xSampling == 1 && channel->ySampling == 1;
   });
 }
 
-Image read(std::span<const std::byte> bytes) {
+Image read(std::span<const std::byte> bytes, bool alpha) {
   limit_sizes();
   // OpenEXR makes room for a text before it reads it.
   if (!for_each_attribute(text_in(bytes), [](const Attribute&) {}))
@@ -187,7 +192,7 @@ Image read(std::span<const std::byte> bytes) {
   if (!has_channels(file.header())) throw Iex::InputExc("it has no half floats R, G and B");
   Image image{static_cast<std::uint32_t>(window.max.x) + 1, static_cast<std::uint32_t>(window.max.y) + 1, {}};
   image.pixels.resize(std::size_t{2} * image.width * image.height);
-  file.setFrameBuffer(channels_in(reinterpret_cast<const char*>(image.pixels.data()), image.width));
+  file.setFrameBuffer(channels_in(reinterpret_cast<const char*>(image.pixels.data()), image.width, alpha));
   file.readPixels(window.min.y, window.max.y);
   return image;
 }
@@ -220,7 +225,8 @@ EncodedBand encode_exr_band(const PictureBands& bands, const Lines& lines, std::
   header.dataWindow().min.y = static_cast<int>(lines.first);
   const Bytes file = written(header, [&](Imf::OutputFile& out) {
     const std::size_t before = std::size_t{lines.first} * width * kPixelBytes;
-    out.setFrameBuffer(channels_in(reinterpret_cast<const char*>(pixels.data()) - before, width));
+    out.setFrameBuffer(
+        channels_in(reinterpret_cast<const char*>(pixels.data()) - before, width, has_alpha(bands.format())));
     out.writePixels(static_cast<int>(lines.count()));
   });
   const std::size_t chunks = (lines.count() + chunk - 1) / chunk;
@@ -257,9 +263,9 @@ std::optional<std::string> note_in_exr(std::span<const std::byte> start) {
   return note;
 }
 
-Image decode_exr(std::span<const std::byte> bytes, const std::string& name) {
+Image decode_exr(std::span<const std::byte> bytes, const std::string& name, bool alpha) {
   try {
-    return read(bytes);
+    return read(bytes, alpha);
   } catch (const std::exception& failure) {
     constexpr std::size_t kLongest = 200;  // it may repeat what stands in the file
     throw Failure("not a whole EXR picture: " + document::printable(failure.what(), kLongest), name, "render it again");

@@ -52,8 +52,22 @@ Image read_picture(PictureFormat format, const std::filesystem::path& path) {
   switch (format) {
     case PictureFormat::png16: return decode_png16(bytes, path.string());
     case PictureFormat::exr: return decode_exr(bytes, path.string());
+    case PictureFormat::png_alpha: return decode_png_with_alpha(bytes, path.string());
+    case PictureFormat::png16_alpha: return decode_png16_with_alpha(bytes, path.string());
+    case PictureFormat::exr_alpha: return decode_exr(bytes, path.string(), true);
     default: return decode_png(bytes, path.string());
   }
+}
+
+Image read_opaque(const std::filesystem::path& path) {
+  Image image = read_picture(PictureFormat::png_alpha, path);
+  for (std::uint32_t& pixel : image.pixels) {
+    const std::uint32_t alpha = pixel >> 24;
+    std::uint32_t shown = 0;
+    for (int shift = 0; shift < 24; shift += 8) shown |= ((pixel >> shift & 0xff) * alpha + 127) / 255 << shift;
+    pixel = shown;
+  }
+  return image;
 }
 
 }  // namespace mars::images

@@ -27,4 +27,7 @@ std::optional<std::string> read_note(const std::filesystem::path& path);
 // Throws Failure naming the file where it is missing, torn or no such picture. Either format of PNG reads both.
 Image read_picture(PictureFormat format, const std::filesystem::path& path);
 
+// Of a PNG file of frames, 8 bits a channel and no alpha: over black, where it has some.
+Image read_opaque(const std::filesystem::path& path);
+
 }  // namespace mars::images

@@ -6,9 +6,13 @@
 namespace mars::images {
 namespace {
 
-constexpr std::array<FormatFacts, 3> kFacts{{{"png", ".png", wire::PixelFormat::rgb8, "8-bit sRGB"},
-                                             {"png16", ".png", wire::PixelFormat::rgb16, "16-bit sRGB"},
-                                             {"exr", ".exr", wire::PixelFormat::half, "half-float linear RGB"}}};
+constexpr std::array<FormatFacts, 6> kFacts{
+    {{"png", ".png", wire::PixelFormat::rgb8, "8-bit sRGB"},
+     {"png16", ".png", wire::PixelFormat::rgb16, "16-bit sRGB"},
+     {"exr", ".exr", wire::PixelFormat::half, "half-float linear RGB"},
+     {"png-alpha", ".png", wire::PixelFormat::rgba8, "8-bit sRGB and alpha"},
+     {"png16-alpha", ".png", wire::PixelFormat::rgba16, "16-bit sRGB and alpha"},
+     {"exr-alpha", ".exr", wire::PixelFormat::half_alpha, "half-float linear RGB, premultiplied, and alpha"}}};
 
 struct CompressionFacts {
   const char* name;
@@ -25,6 +29,18 @@ const CompressionFacts& facts_of(Compression compression) {
 }  // namespace
 
 const FormatFacts& facts_of(PictureFormat format) { return kFacts.at(static_cast<std::size_t>(format)); }
+
+PictureFormat without_alpha(PictureFormat format) {
+  return static_cast<PictureFormat>(static_cast<std::size_t>(format) % kColorFormats);
+}
+
+PictureFormat with_alpha(PictureFormat format) {
+  return static_cast<PictureFormat>(static_cast<std::size_t>(without_alpha(format)) + kColorFormats);
+}
+
+bool has_alpha(PictureFormat format) { return wire::has_alpha(facts_of(format).pixels); }
+
+bool is_exr(PictureFormat format) { return without_alpha(format) == PictureFormat::exr; }
 
 std::optional<PictureFormat> picture_format_of(std::string_view name) {
   const auto found = std::ranges::find_if(kFacts, [&](const FormatFacts& facts) { return facts.name == name; });

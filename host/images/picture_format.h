@@ -1,6 +1,7 @@
 // File formats of frames, and the pixels that each holds.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -10,7 +11,9 @@
 
 namespace mars::images {
 
-enum class PictureFormat { png, png16, exr };
+// In this order, with alpha and without.
+enum class PictureFormat { png, png16, exr, png_alpha, png16_alpha, exr_alpha };
+inline constexpr std::size_t kColorFormats = 3;
 
 // Of EXR files. OpenEXR has others, which change half floats: a frame's pixels would not have their hash.
 enum class Compression { zip, zips, piz, pxr24, rle, none };
@@ -23,6 +26,11 @@ struct FormatFacts {
 };
 
 const FormatFacts& facts_of(PictureFormat format);
+
+PictureFormat without_alpha(PictureFormat format);
+PictureFormat with_alpha(PictureFormat format);
+bool has_alpha(PictureFormat format);
+bool is_exr(PictureFormat format);
 
 // None where no format has this name.
 std::optional<PictureFormat> picture_format_of(std::string_view name);

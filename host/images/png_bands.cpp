@@ -44,8 +44,11 @@ Bytes head_of(const PictureBands& bands) {
   Bytes head;
   append_number(head, bands.width());
   append_number(head, bands.height());
-  const bool deep = facts_of(bands.format()).pixels == wire::PixelFormat::rgb16;
-  for (const int field : {deep ? 16 : 8, 2, 0, 0, 0})  // bits, RGB, deflate, filters by row, not interlaced
+  const wire::PixelFormat pixels = facts_of(bands.format()).pixels;
+  constexpr int kRgb = 2, kRgba = 6;
+  const int bits = wire::colors_of(pixels) == wire::PixelFormat::rgb16 ? 16 : 8;
+  const int type = wire::has_alpha(pixels) ? kRgba : kRgb;
+  for (const int field : {bits, type, 0, 0, 0})  // deflate, filters by row, not interlaced
     head.push_back(static_cast<std::byte>(field));
   return head;
 }

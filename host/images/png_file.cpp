@@ -74,7 +74,7 @@ class Reader {
     if (depth == 16) png_set_swap(png_);  // the lower byte first
     png_set_gray_to_rgb(png_);
     if (alpha == Alpha::left_out) png_set_strip_alpha(png_);
-    png_set_filler(png_, alpha == Alpha::kept ? 255 : 0, PNG_FILLER_AFTER);
+    png_set_filler(png_, alpha == Alpha::kept ? 0xffff : 0, PNG_FILLER_AFTER);
     passes_ = png_set_interlace_handling(png_);
     png_read_update_info(png_, info_);
     return true;
@@ -142,6 +142,10 @@ Image decode_png16(std::span<const std::byte> bytes, const std::string& name) {
 
 Image decode_png_with_alpha(std::span<const std::byte> bytes, const std::string& name) {
   return decode(bytes, 8, Alpha::kept, name);
+}
+
+Image decode_png16_with_alpha(std::span<const std::byte> bytes, const std::string& name) {
+  return decode(bytes, 16, Alpha::kept, name);
 }
 
 }  // namespace mars::images

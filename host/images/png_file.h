@@ -21,5 +21,7 @@ Image decode_png(std::span<const std::byte> bytes, const std::string& name);
 Image decode_png16(std::span<const std::byte> bytes, const std::string& name);
 // To 8 bits a channel, with alpha in the highest byte: 255 where the file has none.
 Image decode_png_with_alpha(std::span<const std::byte> bytes, const std::string& name);
+// To 16 bits a channel, with alpha in the highest 16: 65535 where the file has none.
+Image decode_png16_with_alpha(std::span<const std::byte> bytes, const std::string& name);
 
 }  // namespace mars::images

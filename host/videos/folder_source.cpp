@@ -52,7 +52,7 @@ std::optional<film::CompiledFilm> film_in(const fs::path& folder, const sinks::M
 
 FolderReader::FolderReader(fs::path folder, const Exposing& exposing)
     : folder_(std::move(folder)), manifest_(sinks::read_manifest(folder_)), exposing_(exposing) {
-  if (manifest_.format != images::PictureFormat::exr) return;
+  if (!images::is_exr(manifest_.format)) return;
   film_ = film_in(folder_, manifest_);
   if (!film_ && !(exposing_.stops && exposing_.curve))
     throw Failure("its frames are light, and film.mars, which says how to expose it, is not there or not theirs",
@@ -64,8 +64,8 @@ images::Image FolderReader::read(std::uint32_t frame) const {
   if (!sinks::is_frame_file(file))
     throw Failure("frame " + std::to_string(frame) + " is missing", folder_.string(),
                   "mars verify --repair " + document::shell_word(folder_.string()) + " renders it again");
-  if (manifest_.format != images::PictureFormat::exr) return images::read_picture(images::PictureFormat::png, file);
-  return expose(images::read_picture(images::PictureFormat::exr, file), frame);
+  if (!images::is_exr(manifest_.format)) return images::read_opaque(file);
+  return expose(images::read_picture(manifest_.format, file), frame);
 }
 
 wire::FilmSettings FolderReader::settings_at(std::uint32_t frame, wire::Camera& camera) const {
@@ -99,7 +99,7 @@ images::Image FolderReader::expose(const images::Image& light, std::uint32_t fra
 
 std::string FolderReader::content(std::uint32_t frame) const {
   std::string content = sinks::hash_of(manifest_, frame);
-  if (manifest_.format != images::PictureFormat::exr) return content;
+  if (!images::is_exr(manifest_.format)) return content;
   wire::Camera camera{};
   const wire::FilmSettings settings = settings_at(frame, camera);
   return content + " " + std::to_string(static_cast<int>(settings.color_space)) + " " +

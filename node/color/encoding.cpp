@@ -58,8 +58,13 @@ std::uint64_t packed(std::uint64_t red, std::uint64_t green, std::uint64_t blue,
 }  // namespace
 
 Encoding encoding_of(const wire::FilmSettings& settings, const wire::Camera& camera, wire::PixelFormat format) {
-  return {settings.color_space, settings.curve, static_cast<float>(camera.exposure), format,
-          srgb_levels8(),       srgb_levels16()};
+  return {settings.color_space,    settings.curve,          static_cast<float>(camera.exposure),
+          wire::colors_of(format), wire::has_alpha(format), srgb_levels8(),
+          srgb_levels16()};
+}
+
+std::uint64_t background_pixel(const Encoding& encoding, const float* light) {
+  return encoding.alpha ? 0 : pixel_of(encoding, light);
 }
 
 std::uint64_t pixel_of(const Encoding& encoding, const float* light) {

@@ -15,7 +15,8 @@ struct Encoding {
   wire::ColorSpace space = wire::ColorSpace::coded;
   wire::Curve curve = wire::Curve::none;
   float exposure = 1;
-  wire::PixelFormat format = wire::PixelFormat::rgb8;
+  wire::PixelFormat format = wire::PixelFormat::rgb8;  // of colours; alpha is added to them (raster/coverage.h)
+  bool alpha = false;
   // Of linear films: sRGB's levels (srgb_tables.h).
   const std::int32_t* srgb8 = nullptr;
   const std::int32_t* srgb16 = nullptr;
@@ -37,6 +38,9 @@ inline constexpr float kMostExposed = 1e6f;
 inline constexpr float kMostHalf = 65504.0f;
 
 Encoding encoding_of(const wire::FilmSettings& settings, const wire::Camera& camera, wire::PixelFormat format);
+
+// The pixel of what surfaces leave open.
+std::uint64_t background_pixel(const Encoding& encoding, const float* light);
 
 // The pixel of `light` (red, green, blue; not negative) in its lowest pixel_bytes.
 std::uint64_t pixel_of(const Encoding& encoding, const float* light);

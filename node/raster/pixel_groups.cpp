@@ -5,6 +5,7 @@
 #include <numeric>
 #include <span>
 
+#include "node/raster/coverage.h"
 #include "node/simd/vector_slack.h"
 
 namespace mars::raster {
@@ -129,8 +130,13 @@ void PixelGroups::add_uncovered(const StillGroups& still, std::uint32_t pixel) {
 }
 
 void PixelGroups::put(const shading::Shading& shading, std::uint32_t line, StripBuffer::Layer& out) {
-  kernels_.add_background(masks_.data(), counts_.pixels, samples_, shading.background, light());
+  const bool alpha = shading.encoding.alpha;
+  if (alpha)
+    divide_by_coverage(shading.encoding, masks_.data(), counts_.pixels, samples_, light());
+  else
+    kernels_.add_background(masks_.data(), counts_.pixels, samples_, shading.background, light());
   color_kernels_.encode(shading.encoding, light().channel, counts_.pixels, out.next_pixel());
+  if (alpha) put_alpha(shading.encoding, masks_.data(), counts_.pixels, samples_, out.next_pixel());
   wire::Run* run = out.next_run();
   const shading::Fragment* fragments = fragments_.data();
   std::uint32_t runs = 0;

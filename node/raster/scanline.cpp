@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "hal/failure/failure.h"
+#include "node/raster/coverage.h"
 
 namespace mars::raster {
 
@@ -105,6 +106,7 @@ void ZBuffer::put_samples(const shading::Shading& shading, std::uint32_t line, c
   if (is_empty(extent)) return;
   const auto shaded = shading_kernels_.shade(shading, z_line_.ids(0), line, extent, out.next_run(), out.next_pixel());
   counts_.shaded += shaded.counts;
+  if (shading.encoding.alpha) put_opaque(shading.encoding, shaded.pixels, out.next_pixel());
   out.added(shaded);
   z_line_.forget_ids(extent);
 }

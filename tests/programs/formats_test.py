@@ -125,6 +125,40 @@ class Formats(ProgramTest):
                 hashes.add(self.verified_hash(out))
             self.assertEqual(len(hashes), 1, shape)
 
+    def test_alpha_is_the_same_for_all_nodes_and_over_the_background_the_film(self):
+        for shape in PIXELS:
+            out = [self.render(f"{shape}{nodes}", shape, "--alpha", "--backend", "threads", "--nodes", nodes, *more)
+                   for nodes, more in ((1, ["--no-coherence"]), (3, ["--sharers", 3, "--groups", 1]))]
+            self.assertEqual(len({self.verified_hash(each) for each in out}), 1)
+            self.assertEqual(json.loads((out[0] / "frames.json").read_text())["format"], shape + "-alpha")
+        refused = self.mars("render", self.film, "-o", "png1", "--backend", "threads")
+        self.assertIn("add --alpha", refused.stderr)
+        (self.folder / "png1" / "frame-0002.png").unlink()
+        self.succeed("mars", "verify", "png1", "--repair", "--backend", "threads", "--nodes", 1)
+        self.succeed("mars", "play", "png1", "-o", "sheet.png", "--frames", "0-3")
+
+    def test_files_have_the_names_that_are_asked_for(self):
+        quick = ["--backend", "threads", "--nodes", 1, "--quiet"]
+        self.succeed("mars", "render", self.film, "-o", "out/shot_####.exr", "--first-number", 1001, "--every", 2, *quick)
+        names = lambda: sorted(path.name for path in (self.folder / "out").iterdir())
+        self.assertEqual(names(), ["film.mars", "frames.json", "shot_1001.exr", "shot_1003.exr"])
+        manifest = json.loads((self.folder / "out/frames.json").read_text())
+        self.assertEqual((manifest["version"], manifest["names"], manifest["first_number"], manifest["frames"]),
+                         (4, "shot_####", 1001, [[0, 0], [2, 2]]))
+        refused = self.mars("render", self.film, "-o", "out", "--format", "exr", *quick)
+        self.assertIn("their first is 'shot_1001', not 'frame-0000'", refused.stderr)
+        self.succeed("mars", "render", self.film, "-o", "out", "--name", "shot_%04d.exr", "--first-number", 1001, *quick)
+        self.assertEqual(len(names()), 6)
+        expected = self.verified_hash(self.folder / "out")
+        (self.folder / "out/frames.json").write_text("{")
+        (self.folder / "out/shot_1002.exr").unlink()
+        self.mars("verify", "out", "--repair", *quick)
+        self.succeed("mars", "render", self.film, "-o", "out/shot_%04d.exr", "--first-number", 1001, "--kept-film", *quick)
+        self.assertEqual(self.verified_hash(self.folder / "out"), expected)
+        self.assertEqual(self.verified_hash(self.render("plain", "exr", *quick[:-1])), expected)
+        self.succeed("mars", "render", self.film, "-o", "png/f#.png", *quick)
+        self.succeed("mars", "play", "png", "-o", "sheet.png", "--frames", "0-3")
+
     def test_missing_frames_are_rendered_again(self):
         out = self.render("out", "exr", "--backend", "threads")
         expected = self.verified_hash(out)

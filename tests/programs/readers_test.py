@@ -28,9 +28,10 @@ class Readers(ProgramTest):
         """Of which EXR files have the numbers that PNG files have, without a curve."""
         return self.write("film.json", {**spinning_teapot(2, [WIDTH, HEIGHT]), "color": "coded"})
 
-    def frame(self, shape):
-        self.succeed("mars", "render", self.film, "-o", shape, "--format", shape, "--backend", "threads", "--quiet")
-        return next((self.folder / shape).glob(FRAME + ".*"))
+    def frame(self, shape, *more):
+        folder = "-".join([shape, *more]).replace("--", "")
+        self.succeed("mars", "render", self.film, "-o", folder, "--format", shape, "--backend", "threads", "--quiet", *more)
+        return next((self.folder / folder).glob(FRAME + ".*"))
 
     @needs_pillow
     def test_pillow_reads_the_same_pixels_and_the_mark(self):
@@ -50,6 +51,26 @@ class Readers(ProgramTest):
             self.assertIn(f"{WIDTH} x {HEIGHT} image, {bits}-bit RGB, non-interlaced", printed)
             self.assertIn("No errors detected", printed)
             self.assertGreater(printed.count("chunk IDAT"), 2)
+        for shape, bits in ("png", 32), ("png16", 64):
+            printed = self.succeed("pngcheck", "-v", self.frame(shape, "--alpha"))
+            self.assertIn(f"{WIDTH} x {HEIGHT} image, {bits}-bit RGB+alpha, non-interlaced", printed)
+            self.assertIn("No errors detected", printed)
+
+    @needs_pillow
+    def test_pillow_reads_straight_alpha(self):
+        alpha, plain = self.frame("png", "--alpha"), self.frame("png")
+        script = PIXELS.replace(".convert('RGB')", "")
+        rgba = subprocess.run([LIBRARIES_PYTHON, "-c", script, alpha], capture_output=True, check=True).stdout
+        rgb = b"".join(png_rows(plain))
+        self.assertEqual(len(rgba), 4 * WIDTH * HEIGHT)
+        shares = set(rgba[3::4])
+        self.assertEqual(shares, {0, 64, 128, 191, 255})
+        for at in range(WIDTH * HEIGHT):
+            red, green, blue, share = rgba[4 * at:4 * at + 4]
+            if share == 0:
+                self.assertEqual((red, green, blue), (0, 0, 0))
+            if share == 255:
+                self.assertEqual(bytes((red, green, blue)), rgb[3 * at:3 * at + 3])
 
     @needs("identify")
     def test_imagemagick_reads_all_pixels_without_a_warning(self):
@@ -75,6 +96,13 @@ class Readers(ProgramTest):
         printed = self.succeed("exrheader", self.frame("exr"))
         for line in (f"dataWindow (type box2i): (0 0) - ({WIDTH - 1} {HEIGHT - 1})", "compression (type compression): zip",
                      "R, 16-bit floating-point, sampling 1 1", "chromaticities (type chromaticities)", "mars (type string)"):
+            self.assertIn(line, printed)
+        for line in ("framesPerSecond (type rational): 24/1", "imageCounter (type int): 1", "time 00:00:00:01"):
+            self.assertIn(line, printed)
+        self.assertNotIn("capDate", printed)
+        self.assertNotIn("A, 16-bit", printed)
+        printed = self.succeed("exrheader", self.frame("exr", "--alpha", "--compression", "piz"))
+        for line in ("A, 16-bit floating-point, sampling 1 1", "compression (type compression): piz"):
             self.assertIn(line, printed)
 
     @needs("exrmaketiled")

@@ -41,16 +41,18 @@ class Writers(ProgramTest):
 
     def test_files_are_the_same_for_every_division(self):
         chance = random.Random(29)
+        forms = iter([["--alpha"], ["--format", "exr", "--alpha"], ["--format", "exr", "--compression", "piz"],
+                      ["--format", "png16", "--alpha"]])
         for name, film, words in films():
             path = self.write_film(name, film)
-            for ending in ("png", chance.choice(["png16", "exr"])):
-                wanted = f"{name}-{ending}"
-                alone = ["--backend", "threads", "--nodes", 1, *words, "--format", ending]
+            for form in (["--format", "png"], next(forms)):
+                wanted = f"{name}-{''.join(form)}"
+                alone = ["--backend", "threads", "--nodes", 1, *words, *form]
                 self.assertEqual(self.render(path, wanted, *alone).returncode, 0)
                 for nodes in (chance.choice([1, 2]), chance.choice([3, 4, 5])):
                     how = ["--backend", "threads", "--nodes", nodes, "--groups", chance.randint(1, nodes),
                            "--sharers", chance.randint(1, nodes), *chance.choice([[], ["--cut", 4]]), *words,
-                           "--format", ending, *chance.choice([[], ["--no-coherence"]])]
+                           *form, *chance.choice([[], ["--no-coherence"]])]
                     done = self.render(path, "nodes", *NODES, *how, "--overwrite", "--report", "report.json")
                     self.assertEqual((done.returncode, done.stderr), (0, ""), (name, how))
                     self.assertEqual(self.files("nodes"), self.files(wanted), (name, how))

@@ -56,6 +56,9 @@ std::vector<Case> cases() {
           {"linear-rgb16", richly_lit(crowd(97, 61, 4, 4)), wire::PixelFormat::rgb16},
           {"linear-half", richly_lit(crowd(97, 61, 4, 2)), wire::PixelFormat::half},
           {"linear-rgb16-4", richly_lit(with_samples(crowd(97, 61, 4, 2), 4)), wire::PixelFormat::rgb16},
+          {"rgba8", crowd(97, 61, 4, 2), wire::PixelFormat::rgba8},
+          {"linear-rgba16-4", richly_lit(with_samples(crowd(64, 40, 4, 2), 4)), wire::PixelFormat::rgba16},
+          {"linear-half-alpha-4", richly_lit(with_samples(crowd(64, 40, 4, 4), 4)), wire::PixelFormat::half_alpha},
           {"linear-half-4", richly_lit(with_samples(crowd(97, 61, 4, 4), 4)), wire::PixelFormat::half}};
 }
 

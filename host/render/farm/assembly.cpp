@@ -19,7 +19,7 @@ compositor::Frame* begun(compositor::Frame* frame, const compositor::Compositor&
 std::uint64_t background_pixel(const wire::PackedFilm& film, const wire::Interval& interval, wire::PixelFormat format) {
   const wire::FilmSettings& settings = film.settings();
   const auto encoding = color::encoding_of(settings, film.camera_at(interval.first_frame), format);
-  return color::pixel_of(encoding, settings.background.data());
+  return color::background_pixel(encoding, settings.background.data());
 }
 
 void paste_strip(const StripMessage& strip, compositor::Frame& picture, compositor::Compositor& compositor,

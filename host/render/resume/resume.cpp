@@ -81,7 +81,9 @@ std::string difference(const sinks::FrameForm& there, const sinks::FrameForm& wi
 
 std::string remedy_of(const sinks::FrameForm& there, const sinks::FrameForm& wish) {
   if (const std::string words = words_text(there); !words.empty()) return "add" + words;
-  return there.format != wish.format ? "add --format " + format_name(there.format) : "leave out" + words_text(wish);
+  return images::without_alpha(there.format) != images::without_alpha(wish.format)
+             ? "add --format " + format_name(there.format)
+             : "leave out" + words_text(wish);
 }
 
 void refuse_other_form(const Manifest& manifest, const Wish& wish) {

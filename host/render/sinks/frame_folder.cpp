@@ -368,7 +368,9 @@ bool has_frames(const fs::path& folder) {
   std::error_code none;
   for (fs::directory_iterator entry(folder, none), end; !none && entry != end; entry.increment(none)) {
     const fs::path& path = entry->path();
-    if (images::is_picture_name(path) && is_frame_file(path) && read_mark(path)) return true;
+    if (!images::is_picture_name(path) || !is_frame_file(path)) continue;
+    const std::optional<FrameMark> mark = read_mark(path);
+    if (mark && is_named_as_frame(path.filename().string(), mark)) return true;
   }
   return false;
 }

@@ -63,6 +63,12 @@ std::optional<FrameMark> read_mark(const std::filesystem::path& file) {
   return note ? mark_of(*note) : std::nullopt;
 }
 
+bool is_named_as_frame(const std::string& file_name, const std::optional<FrameMark>& mark) {
+  if (file_name.starts_with("frame-")) return true;
+  return mark && file_name == images::frame_name(mark->form.names, mark->frame, mark->film_frames) +
+                                  images::facts_of(mark->form.format).ending;
+}
+
 bool is_frame_file(const std::filesystem::path& file) {
   struct stat status {};
   if (stat(file.c_str(), &status) == 0) return S_ISREG(status.st_mode) && status.st_size > 0;

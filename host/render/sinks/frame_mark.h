@@ -32,6 +32,10 @@ std::optional<FrameMark> mark_of(const std::string& text);
 // Of a file; none where it has none, as those of the first pixel version, or is none.
 std::optional<FrameMark> read_mark(const std::filesystem::path& file);
 
+// Whether the file has a frame's name: the usual one of some frame, or the one that its mark says. Others may be copies
+// that somebody made.
+bool is_named_as_frame(const std::string& file_name, const std::optional<FrameMark>& mark);
+
 // Whether a frame may be there: a regular file, links followed, with something in it. Opens nothing.
 // Throws Failure where that cannot be seen.
 bool is_frame_file(const std::filesystem::path& file);

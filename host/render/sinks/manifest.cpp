@@ -114,7 +114,7 @@ std::uint32_t version_of(const Record& record) {
 // An older MARS would render under other names.
 std::uint32_t version_for(const Manifest& manifest) {
   constexpr std::uint32_t kOfPlainForms = 3;
-  return form_of(manifest) == FrameForm{manifest.format} ? kOfPlainForms : kManifestVersion;
+  return form_of(manifest) == FrameForm{images::without_alpha(manifest.format)} ? kOfPlainForms : kManifestVersion;
 }
 
 // None has been seen of another program in a file of version 1.
@@ -150,7 +150,9 @@ images::PictureBands bands_of(const Manifest& manifest) {
 std::vector<std::string> words_of(const FrameForm& form) {
   std::vector<std::string> words;
   const auto add = [&](const char* option, const std::string& value) { words.insert(words.end(), {option, value}); };
-  if (form.format != images::PictureFormat::png) add("--format", images::facts_of(form.format).name);
+  const images::PictureFormat format = images::without_alpha(form.format);
+  if (format != images::PictureFormat::png) add("--format", images::facts_of(format).name);
+  if (images::has_alpha(form.format)) words.push_back("--alpha");
   if (form.compression != images::Compression::zip) add("--compression", images::name_of(form.compression));
   if (!form.names.pattern.empty()) add("--name", form.names.pattern);
   if (form.names.first_number != 0) add("--first-number", std::to_string(form.names.first_number));
@@ -169,7 +171,7 @@ FrameForm form_of(const Record& record) {
   FrameForm form;
   if (record.has("format")) {
     const auto format = images::picture_format_of(record.text("format", kLongestName));
-    if (!format) refuse_value("format", record.value("format"), "png, png16 or exr");
+    if (!format) refuse_value("format", record.value("format"), "png, png16 or exr, or one with -alpha");
     form.format = *format;
   }
   if (record.has("compression")) {

@@ -42,13 +42,13 @@ Files files_in(const fs::path& folder) {
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; entry != end; entry.increment(error)) {
     const std::string name = entry->path().filename().string();
-    const bool named_so = name.starts_with("frame-");
-    if (!named_so && !images::is_picture_name(entry->path())) continue;
+    if (!is_named_as_frame(name, {}) && !images::is_picture_name(entry->path())) continue;
     const bool is_file = is_frame_file(entry->path());
     std::optional<FrameMark> mark = is_file ? read_mark(entry->path()) : std::nullopt;
+    if (!is_named_as_frame(name, mark)) continue;
     if (mark)
       files.marked.push_back({name, std::move(*mark)});
-    else if (named_so)
+    else
       (is_file ? files.unmarked : files.empty).push_back(name);
   }
   if (error && error != std::errc::no_such_file_or_directory)

@@ -1,4 +1,4 @@
-// Frames' pixels as they are shown: red, green and blue of 8 bits each.
+// Frames' pixels as they are shown: red, green and blue of 8 bits each; those with alpha over the film's background.
 #pragma once
 
 #include <cstdint>
@@ -21,9 +21,12 @@ class Display {
   void show(std::span<const std::uint32_t> words, std::uint32_t* pixels) const;
 
  private:
+  std::uint32_t shown_light(std::uint64_t pixel) const;
+
   const wire::PackedFilm& film_;
   const wire::PixelFormat format_;
-  color::Encoding encoding_;  // of light, where frames have that
+  color::Encoding encoding_;      // of light, where frames have that
+  std::uint32_t background_ = 0;  // where they have alpha
 };
 
 }  // namespace mars::watch

@@ -304,6 +304,8 @@ std::vector<Entry> table() {
       option(plans, "--format", "png|png16|exr", &RenderOptions::format,
              "Files of the frames: PNG of 8 or 16 bits, or EXR: light before exposure and curve; default: png. "
              "Example: --format exr"),
+      flag(plans, "--alpha", &RenderOptions::alpha,
+           "Leave the background out: files have alpha, straight in PNG, premultiplied in EXR. Example: --alpha"),
       option(submits, "--compression", "zip|zips|piz|pxr24|rle|none", &RenderOptions::compression,
              "How EXR files are compressed, all without loss; default: zip. Example: --compression piz"),
       option(
@@ -333,6 +335,30 @@ std::vector<Entry> table() {
 }
 
 bool takes(Program program, const Entry& entry) { return (entry.programs & static_cast<unsigned>(program)) != 0; }
+
+// Headings of the help, and which options stand below them; others stand below "Options".
+struct Heading {
+  const char* text;
+  std::vector<std::string_view> names;
+};
+
+const std::vector<Heading>& headings() {
+  static const std::vector<Heading> kHeadings{
+      {"Pictures and files",
+       {"--name", "--first-number", "--frames", "--every", "--size", "--samples", "--format", "--alpha",
+        "--compression", "--eye", "--codec", "--quality", "--sink"}},
+      {"Machines", {"--nodes", "--force", "--backend", "--platform", "--hostfile", "--restarts", "--write"}},
+      {"Division of work (the same pictures)",
+       {"--mapping", "--exchange", "--intervals", "--no-coherence", "--block", "--groups", "--sharers", "--cut"}},
+      {"Measurements", {"--report", "--trace", "--watch", "--window"}}};
+  return kHeadings;
+}
+
+void put_under_headings(cli::Command app) {
+  for (const cli::Option& option : app.options())
+    for (const Heading& heading : headings())
+      if (std::ranges::find(heading.names, option.name()) != heading.names.end()) option.under(heading.text);
+}
 
 // Names that options had before, by their names now.
 constexpr std::array<std::pair<const char*, const char*>, 1> kFormerNames{{{"--cubes", "--groups"}}};
@@ -483,6 +509,7 @@ void add_render_options(cli::Command app, RenderOptions& options, Program progra
   for (const Entry& entry : table()) {
     if (takes(program, entry)) entry.add(app, options);
   }
+  if (program == Program::mars) put_under_headings(app);
   const bool draws = program != Program::compile && program != Program::plan;
   app.checks([&options, program, draws] {
     if (draws) read_outputs(options, program == Program::mars || program == Program::submit);
@@ -506,11 +533,13 @@ std::vector<std::string> film_arguments(const RenderOptions& options) {
 }
 
 images::FrameForm form_of(const RenderOptions& options) {
-  return {options.format, options.compression, {options.name, options.first_number}};
+  const images::PictureFormat format = options.alpha ? images::with_alpha(options.format) : options.format;
+  return {format, options.compression, {options.name, options.first_number}};
 }
 
 void set_form(const images::FrameForm& form, RenderOptions& options) {
-  options.format = form.format;
+  options.format = images::without_alpha(form.format);
+  options.alpha = images::has_alpha(form.format);
   options.compression = form.compression;
   options.name = form.names.pattern;
   options.first_number = form.names.first_number;

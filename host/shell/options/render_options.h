@@ -59,6 +59,7 @@ struct RenderOptions {
   WriteWhere write = WriteWhere::automatic;                   // who composes frames and writes their files
   images::PictureFormat format = images::PictureFormat::png;  // of the files
   images::Compression compression = images::Compression::zip;
+  bool alpha = false;          // in them, in place of the background
   std::string report;          // file for the measurements; "": none
   std::string trace;           // file for a picture of the run; "": none
   std::string watch;           // socket of who watches; "": nobody does

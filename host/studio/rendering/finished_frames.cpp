@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 std::map<std::uint32_t, fs::path> files_of(const fs::path& folder) {
   std::map<std::uint32_t, fs::path> files;
   const std::optional<sinks::Manifest> manifest = sinks::read_frames_json(folder);
-  if (!manifest || manifest->format == images::PictureFormat::exr) return files;
+  if (!manifest || images::is_exr(manifest->format)) return files;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder))
     if (const auto frame = sinks::frame_of_file(*manifest, entry.path().filename().string()))
       files.emplace(*frame, entry.path());
@@ -63,7 +63,7 @@ images::Image read_frame(const fs::path& folder, std::uint32_t frame) {
   const auto files = files_of(folder);
   const auto found = files.find(frame);
   if (found == files.end()) throw Failure("frame " + std::to_string(frame) + " is not there yet", folder.string(), "");
-  return images::read_picture(images::PictureFormat::png, found->second);
+  return images::read_opaque(found->second);
 }
 
 }  // namespace mars::studio

@@ -11,7 +11,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // Those of `mars render` that a page may set; the command checks their values.
-constexpr std::array kTexts{"frames", "backend", "size", "samples", "mapping", "groups", "format", "intervals"};
+constexpr std::array kTexts{"frames",  "every",   "name",   "backend", "size",
+                            "samples", "mapping", "groups", "format",  "intervals"};
 
 std::string text_in(const Json& options, const char* name, const std::string& otherwise) {
   const auto found = options.find(name);
@@ -47,6 +48,7 @@ std::vector<std::string> render_words(const RenderingSettings& settings, const J
   if (const std::string nodes = text_in(options, "nodes", ""); !nodes.empty()) words.push_back("--nodes=" + nodes);
   if (const std::string file = text_in(options, "hostfile", ""); !file.empty())
     words.push_back("--hostfile=" + document::path_below(settings.folder, file).string());
+  if (const auto alpha = options.find("alpha"); alpha != options.end() && *alpha == true) words.push_back("--alpha");
   return words;
 }
 

@@ -121,7 +121,7 @@ inline void encode_planes(const Encoding& encoding, const float* const* light, s
   switch (encoding.format) {
     case PixelFormat::rgb8: return encode8(encoding, light, count, pixels);
     case PixelFormat::rgb16: return encode16(encoding, light, count, pixels);
-    case PixelFormat::half: return encode_halves(light, count, pixels);
+    default: return encode_halves(light, count, pixels);
   }
 }
 

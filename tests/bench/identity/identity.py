@@ -73,6 +73,13 @@ def random_way(choose, mpi, film):
     return way, environment
 
 
+def form(path):
+    """Options of the film's files: the same in all ways."""
+    forms = [[], [], ["--alpha"], ["--format", "png16", "--alpha"], ["--format", "exr", "--alpha"],
+             ["--format", "exr", "--compression", "piz"], ["--name", "shot_####", "--first-number", "1001"]]
+    return random.Random(f"form of {path.stem}").choice(forms)
+
+
 class Refused(RuntimeError):
     """A command that ended with exit code 1."""
 
@@ -114,7 +121,7 @@ class Films:
 
     def words(self, path, way, frames="frames"):
         options = [word for name, value in way.items() for word in ([name] if value is None else [name, value])]
-        return ["render", str(path), "-o", str(self.folder / frames), "--quiet", "--force", *options]
+        return ["render", str(path), "-o", str(self.folder / frames), "--quiet", "--force", *form(path), *options]
 
     def hash(self, path, way, environment, frames="frames"):
         """Of the pixels in the folder `frames`, into which the film is rendered; what is in it stays, except in "frames"."""

@@ -8,6 +8,7 @@
 #include "host/content/document/shell_line.h"
 #include "host/content/document/shell_word.h"
 #include "host/content/film/frame_set.h"
+#include "host/images/frame_names.h"
 #include "host/images/picture_format.h"
 #include "host/images/picture_size.h"
 #include "host/shell/launch/command.h"
@@ -27,6 +28,12 @@ void read_frames(const std::string& text) {
   film::FrameSet(set.text());
 }
 
+void read_names(const std::string& text) {
+  const images::FrameNames names{images::frame_pattern(text), 7};
+  check(images::frame_pattern(names.pattern) == names.pattern, "a pattern is one");
+  check(images::frame_of_name(names, images::frame_name(names, 300, 500), 500) == 300, "a name says its frame");
+}
+
 void read_shell_words(const std::string& text) {
   const std::vector<std::string> words = document::shell_words(text);
   if (!std::ranges::all_of(text, [](char c) { return c >= ' ' && c <= '~'; })) return;
@@ -38,6 +45,7 @@ void read_shell_words(const std::string& text) {
 const std::map<std::string, Reader, std::less<>>& readers() {
   static const std::map<std::string, Reader, std::less<>> table{
       {"frames", read_frames},
+      {"names", read_names},
       {"size", [](const std::string& text) { images::read_picture_size(text); }},
       {"range", [](const std::string& text) { animator::read_frame_range(text); }},
       {"frame", [](const std::string& text) { animator::read_frame(text); }},

@@ -14,7 +14,8 @@
 namespace mars::images {
 namespace {
 
-constexpr PictureFormat kFormats[] = {PictureFormat::png, PictureFormat::png16, PictureFormat::exr};
+constexpr PictureFormat kFormats[] = {PictureFormat::png,       PictureFormat::png16,       PictureFormat::exr,
+                                      PictureFormat::png_alpha, PictureFormat::png16_alpha, PictureFormat::exr_alpha};
 
 using Words = std::vector<std::uint32_t>;
 
@@ -22,6 +23,9 @@ Image decoded(PictureFormat format, std::span<const std::byte> file) {
   switch (format) {
     case PictureFormat::png16: return decode_png16(file, "x");
     case PictureFormat::exr: return decode_exr(file, "x");
+    case PictureFormat::png_alpha: return decode_png_with_alpha(file, "x");
+    case PictureFormat::png16_alpha: return decode_png16_with_alpha(file, "x");
+    case PictureFormat::exr_alpha: return decode_exr(file, "x", true);
     default: return decode_png(file, "x");
   }
 }
@@ -36,7 +40,11 @@ Words picture(std::mt19937& random, const PictureBands& bands) {
     for (std::size_t k = 0; k < count * words; ++k, ++at) {
       const std::uint32_t noise = random();
       const std::uint32_t value = way == 0 ? grey : way == 1 && at >= line ? pixels[at - line] : way == 2 ? noise : 0;
-      pixels[at] = words == 1 ? value & 0xffffff : at % 2 == 0 ? value & 0x7bff7bff : value & 0x7bff;
+      const bool alpha = has_alpha(bands.format());
+      if (words == 1)
+        pixels[at] = alpha ? value : value & 0xffffff;
+      else
+        pixels[at] = alpha || at % 2 == 0 ? value & 0x7bff7bff : value & 0x7bff;
     }
   }
   return pixels;

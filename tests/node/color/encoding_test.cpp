@@ -179,6 +179,16 @@ void expect_plain_pixels(Random& random, const Encoding& how) {
     EXPECT_EQ(encode(set, how, light, count), plain) << simd::name_of(set);
 }
 
+TEST(Encoding, AlphaLeavesColoursAlone) {
+  wire::FilmSettings settings{};
+  const Encoding rgba = encoding_of(settings, {}, PixelFormat::rgba16),
+                 rgb = encoding_of(settings, {}, PixelFormat::rgb16);
+  const float light[] = {0.1f, 0.2f, 0.3f};
+  EXPECT_EQ(pixel_of(rgba, light), pixel_of(rgb, light));
+  EXPECT_EQ(background_pixel(rgba, light), 0u);
+  EXPECT_EQ(background_pixel(rgb, light), pixel_of(rgb, light));
+}
+
 TEST(Encoding, KernelsMakePlainPixels) {
   Random random(70);
   for (int trial = 0; trial < 40; ++trial)

@@ -6,8 +6,9 @@ import {icon} from "../icons.js";
 import {nodeColor} from "./colors.js";
 
 const kBackends = [[null, "Chosen by MARS"], ["mpi", "MPI"], ["threads", "Threads"]];
+const kBackgrounds = [[null, "As in the film"], ["alpha", "Left out (alpha)"]];
 const kWords = {none: "No rendering", starting: "Starting", running: "Rendering", done: "Done", failed: "Failed", stopped: "Stopped"};
-const kFields = [["folder", "Folder", "out"], ["frames", "Frames", "all"], ["video", "Video", "none"], ["nodes", "Nodes", "as fit"], ["hostfile", "Hostfile", "this machine"]];
+const kFields = [["folder", "Folder", "out"], ["frames", "Frames", "all"], ["every", "Every Nth", "1"], ["video", "Video", "none"], ["nodes", "Nodes", "as fit"], ["hostfile", "Hostfile", "this machine"]];
 
 export class RenderForm {
   #options = {folder: "out"};
@@ -39,7 +40,8 @@ export class RenderForm {
       return line(text, field.root);
     });
     const backend = choice({name: "Backend", key: "render.backend", options: kBackends, commit: (value) => { this.#options.backend = value ?? undefined; }});
-    return [...texts, line("Backend", backend.root)];
+    const background = choice({name: "Background", key: "render.alpha", options: kBackgrounds, commit: (value) => { this.#options.alpha = value ? true : undefined; }});
+    return [...texts, line("Background", background.root), line("Backend", backend.root)];
   }
 
   #start(video) {

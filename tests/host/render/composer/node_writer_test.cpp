@@ -209,7 +209,7 @@ class Group {
     EXPECT_EQ(hash, sinks::pixel_hash_like(hash, bands_, pixels));
     const std::string file = document::read_file(folder_.file_of(frame));
     const std::string note = images::read_note(folder_.file_of(frame)).value();
-    const auto twin = images::encode_picture(bands_.format(), bands_.width(), bands_.height(), pixels, note);
+    const auto twin = images::encode_picture(bands_, pixels, {note, manifest_.rate, frame});
     EXPECT_TRUE(std::ranges::equal(std::as_bytes(std::span(file)), twin)) << "frame " << frame;
   }
 

@@ -240,6 +240,16 @@ TEST_F(Resume, OtherFormatsAreRefused) {
   EXPECT_EQ(open(exr).frames.size(), 12u);
 }
 
+TEST_F(Resume, AlphaIsAnotherFormat) {
+  render(wish());
+  Wish alpha = wish();
+  alpha.form.format = images::PictureFormat::png_alpha;
+  EXPECT_TRUE(document::holds(failure_of(alpha), "are png, not png-alpha (leave out --alpha")) << failure_of(alpha);
+  alpha.overwrite = true;
+  EXPECT_EQ(render(alpha).size(), 12u);
+  EXPECT_TRUE(document::holds(failure_of(wish()), "are png-alpha, not png (add --alpha")) << failure_of(wish());
+}
+
 TEST_F(Resume, OtherNamesAreRefused) {
   Wish named = wish();
   named.form.names = {"shot_####", 1001};

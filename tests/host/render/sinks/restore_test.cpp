@@ -102,7 +102,8 @@ TEST(Restore, WhatAKilledRunLeftIsAddedToAManifestThatIsLost) {
 
 // film.mars is lost too: the frames alone say it.
 TEST(Restore, RepairGivesTheSameHashInEveryFormat) {
-  for (const PictureFormat format : {PictureFormat::png, PictureFormat::png16, PictureFormat::exr}) {
+  for (const PictureFormat format : {PictureFormat::png, PictureFormat::png16, PictureFormat::exr,
+                                     PictureFormat::png_alpha, PictureFormat::png16_alpha, PictureFormat::exr_alpha}) {
     const TemporaryFolder folder;
     fill(folder.path(), in_format(format), 0x2030);
     const std::string hash = verify_folder(folder.path()).hash;
@@ -126,6 +127,9 @@ TEST(Restore, RepairFindsFramesOfEveryName) {
     const TemporaryFolder folder;
     fill(folder.path(), manifest, 0x2030);
     document::write_whole_file(folder / "texture.png", std::string_view("of somebody else"));
+    const TemporaryFolder another;
+    fill(another.path(), in_format(PictureFormat::png), 7);
+    fs::copy_file(another / "frame-0005.png", folder / "best.png");
     const std::string hash = verify_folder(folder.path()).hash;
     EXPECT_NE(hash, "");
     for (int how = 0; how < 4; ++how) {

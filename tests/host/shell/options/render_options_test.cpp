@@ -54,6 +54,7 @@ RenderOptions unusual() {
   options.sink = SinkKind::none;
   options.format = images::PictureFormat::exr;
   options.compression = images::Compression::piz;
+  options.alpha = true;
   options.name = "shot_##";
   options.first_number = 1001;
   options.report = "report.json";
