@@ -165,7 +165,8 @@ struct Fog {
 enum class ColorSpace : std::uint32_t { coded, linear };
 
 // From exposed light to what is shown of it, both linear.
-enum class Curve : std::uint32_t { none, filmic };
+enum class Curve : std::uint32_t { none, filmic, agx };
+inline constexpr Curve kLastCurve = Curve::agx;
 
 // The eye looks along -z of its own frame, x to the right, y up. `focal` = 1 / tan(half the vertical field of
 // view). Nothing nearer than near or farther than far is drawn.
