@@ -20,6 +20,30 @@ void apply_filmic_curve(Color& color) {
   for (float& c : color) c = (c * scale - shown) * kept + shown;
 }
 
+Color mixed(const float (&rows)[3][3], const Color& color) {
+  Color out{};
+  for (std::size_t c = 0; c < 3; ++c) out[c] = (rows[c][0] * color[0] + rows[c][1] * color[1]) + rows[c][2] * color[2];
+  return out;
+}
+
+float between(const float* entry, float part) { return entry[0] + (entry[1] - entry[0]) * part; }
+
+void apply_agx(const AgxTables& tables, Color& color) {
+  color = mixed(kAgxInset, color);
+  for (float& c : color) {
+    const float light = std::min(std::max(c, kAgxDarkest), kAgxBrightest);
+    const std::uint32_t beyond = std::bit_cast<std::uint32_t>(light) - std::bit_cast<std::uint32_t>(kAgxDarkest);
+    constexpr std::uint32_t kEntry = 1u << kAgxEntryBits;
+    c = between(&tables.curve[beyond / kEntry], static_cast<float>(beyond % kEntry) * (1.0f / kEntry));
+  }
+  color = mixed(kAgxOutset, color);
+  for (float& c : color) {
+    const float step = std::min(std::max(c, 0.0f), 1.0f) * float{kAgxSteps};
+    const auto entry = static_cast<std::uint32_t>(step);
+    c = between(&tables.power[entry], step - static_cast<float>(entry));
+  }
+}
+
 std::uint32_t nearest(float value) { return static_cast<std::uint32_t>(value + 0.5f); }
 
 // Light that the film is to show, 0..1.
@@ -28,6 +52,7 @@ Color shown(const Encoding& encoding, const float* light) {
   if (encoding.space == wire::ColorSpace::linear) {
     for (float& c : color) c = std::min(c * encoding.exposure, kMostExposed);
     if (encoding.curve == wire::Curve::filmic) apply_filmic_curve(color);
+    if (encoding.curve == wire::Curve::agx) apply_agx(encoding.agx, color);
   }
   for (float& c : color) c = std::min(std::max(c, 0.0f), 1.0f);
   return color;
@@ -58,9 +83,14 @@ std::uint64_t packed(std::uint64_t red, std::uint64_t green, std::uint64_t blue,
 }  // namespace
 
 Encoding encoding_of(const wire::FilmSettings& settings, const wire::Camera& camera, wire::PixelFormat format) {
-  return {settings.color_space,    settings.curve,          static_cast<float>(camera.exposure),
-          wire::colors_of(format), wire::has_alpha(format), srgb_levels8(),
-          srgb_levels16()};
+  return {settings.color_space,
+          settings.curve,
+          static_cast<float>(camera.exposure),
+          wire::colors_of(format),
+          wire::has_alpha(format),
+          srgb_levels8(),
+          srgb_levels16(),
+          agx_tables()};
 }
 
 std::uint64_t background_pixel(const Encoding& encoding, const float* light) {

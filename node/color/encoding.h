@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "node/color/agx_tables.h"
 #include "node/color/srgb_tables.h"
 #include "node/wire/film_parts.h"
 #include "node/wire/pixel_format.h"
@@ -20,6 +21,7 @@ struct Encoding {
   // Of linear films: sRGB's levels (srgb_tables.h).
   const std::int32_t* srgb8 = nullptr;
   const std::int32_t* srgb16 = nullptr;
+  AgxTables agx{};
 };
 
 // The filmic curve: light is shown as it is up to the shoulder; where the brightest of red, green and blue, m, exceeds

@@ -82,7 +82,7 @@ bool sound(const FilmSettings& s) {
   return s.width >= 1 && s.width <= kMaxSide && s.height >= 1 && s.height <= kMaxSide && s.frames >= 1 &&
          s.frames <= kMostFrames && s.dice <= 256 && is_light(s.background) && s.rate > 0 && s.rate <= 1e6f &&
          std::has_single_bit(s.samples) && s.samples <= kMostSamples && s.color_space <= ColorSpace::linear &&
-         s.curve <= Curve::filmic && is_light(s.ambient.sky) && is_light(s.ambient.ground) && is_light(s.fog.color) &&
+         s.curve <= kLastCurve && is_light(s.ambient.sky) && is_light(s.ambient.ground) && is_light(s.fog.color) &&
          all_finite(std::array{s.fog.start, s.fog.end});
 }
 

@@ -165,7 +165,8 @@ struct Fog {
 enum class ColorSpace : std::uint32_t { coded, linear };
 
 // From exposed light to what is shown of it, both linear.
-enum class Curve : std::uint32_t { none, filmic };
+enum class Curve : std::uint32_t { none, filmic, agx };
+inline constexpr Curve kLastCurve = Curve::agx;
 
 // Rays meet in the eye, or all run along the view axis. As wide as Camera's other members.
 enum class Projection : std::uint64_t { perspective, orthographic };

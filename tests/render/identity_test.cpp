@@ -29,6 +29,11 @@ struct Case {
   wire::PixelFormat format = wire::PixelFormat::rgb8;
 };
 
+wire::FilmData agx(wire::FilmData film) {
+  film.settings.curve = wire::Curve::agx;
+  return film;
+}
+
 std::vector<Case> cases() {
   return {{"crowd", crowd(320, 180, 7, 7)},
           {"short-intervals", crowd(193, 127, 9, 2)},
@@ -57,7 +62,7 @@ std::vector<Case> cases() {
           {"linear-half", richly_lit(crowd(97, 61, 4, 2)), wire::PixelFormat::half},
           {"linear-rgb16-4", richly_lit(with_samples(crowd(97, 61, 4, 2), 4)), wire::PixelFormat::rgb16},
           {"rgba8", crowd(97, 61, 4, 2), wire::PixelFormat::rgba8},
-          {"linear-rgba16-4", richly_lit(with_samples(crowd(64, 40, 4, 2), 4)), wire::PixelFormat::rgba16},
+          {"linear-rgba16-4", agx(richly_lit(with_samples(crowd(64, 40, 4, 2), 4))), wire::PixelFormat::rgba16},
           {"linear-half-alpha-4", richly_lit(with_samples(crowd(64, 40, 4, 4), 4)), wire::PixelFormat::half_alpha},
           {"linear-half-4", richly_lit(with_samples(crowd(97, 61, 4, 4), 4)), wire::PixelFormat::half}};
 }

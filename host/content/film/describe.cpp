@@ -31,8 +31,12 @@ std::string polygons_of(const wire::PackedFilm& film) {
 
 std::string colors_of(const wire::FilmSettings& settings) {
   if (settings.color_space == wire::ColorSpace::coded) return "colours     coded\n";
-  return settings.curve == wire::Curve::filmic ? "colours     linear, filmic curve\n"
-                                               : "colours     linear, no curve\n";
+  switch (settings.curve) {
+    case wire::Curve::filmic: return "colours     linear, filmic curve\n";
+    case wire::Curve::agx: return "colours     linear, AgX\n";
+    case wire::Curve::none: break;
+  }
+  return "colours     linear, no curve\n";
 }
 
 std::string table_of(const wire::PackedFilm& film) {

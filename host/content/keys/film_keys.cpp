@@ -7,7 +7,7 @@ namespace mars::keys {
 namespace {
 
 // In the order of the enumerations that they are read to.
-constexpr std::string_view kColors[] = {"coded", "linear"}, kCurves[] = {"none", "filmic"},
+constexpr std::string_view kColors[] = {"coded", "linear"}, kCurves[] = {"none", "filmic", "agx"},
                            kCuttings[] = {"auto", "keyframes"}, kAxes[] = {"world", "joint"},
                            kProjections[] = {"perspective", "orthographic"};
 static_assert(std::size(kProjections) == static_cast<std::size_t>(wire::kLastProjection) + 1);

@@ -33,6 +33,42 @@ inline void apply_filmic_curve(Floats* color) {
   }
 }
 
+inline void mix(const float (&rows)[3][3], Floats* color) {
+  Floats out[3];
+  for (int c = 0; c < 3; ++c)
+    out[c] = hn::Add(hn::Add(hn::Mul(constant(rows[c][0]), color[0]), hn::Mul(constant(rows[c][1]), color[1])),
+                     hn::Mul(constant(rows[c][2]), color[2]));
+  for (int c = 0; c < 3; ++c) color[c] = out[c];
+}
+
+// Between the entries from `place` on.
+inline Floats between(const float* table, Ints place, Floats part) {
+  const Floats entry = hn::GatherIndex(kFloats, table, place);
+  return hn::Add(entry, hn::Mul(hn::Sub(hn::GatherIndex(kFloats, table + 1, place), entry), part));
+}
+
+inline Floats agx_curve(const AgxTables& tables, Floats light) {
+  const Floats cut = hn::Min(hn::Max(light, constant(kAgxDarkest)), constant(kAgxBrightest));
+  const Ints beyond = hn::Sub(hn::BitCast(kInts, cut), hn::BitCast(kInts, constant(kAgxDarkest)));
+  const Ints part = hn::And(beyond, whole((1u << kAgxEntryBits) - 1));
+  return between(tables.curve, hn::ShiftRight<kAgxEntryBits>(beyond),
+                 hn::Mul(hn::ConvertTo(kFloats, part), constant(1.0f / (1 << kAgxEntryBits))));
+}
+
+inline Floats agx_power(const AgxTables& tables, Floats value) {
+  const Floats cut = hn::Min(hn::Max(value, hn::Zero(kFloats)), constant(1.0f));
+  const Floats step = hn::Mul(cut, constant(float{kAgxSteps}));
+  const Ints place = hn::ConvertTo(kInts, step);
+  return between(tables.power, place, hn::Sub(step, hn::ConvertTo(kFloats, place)));
+}
+
+inline void apply_agx(const AgxTables& tables, Floats* color) {
+  mix(kAgxInset, color);
+  for (int c = 0; c < 3; ++c) color[c] = agx_curve(tables, color[c]);
+  mix(kAgxOutset, color);
+  for (int c = 0; c < 3; ++c) color[c] = agx_power(tables, color[c]);
+}
+
 // Black beyond `count`: what lies there was never written, and shall choose no branch of the curve and no place in a
 // table.
 inline void load(const float* const* light, std::uint32_t at, std::uint32_t count, Floats* color) {
@@ -49,6 +85,7 @@ void show(const Encoding& encoding, Floats* color) {
     for (int c = 0; c < 3; ++c)
       color[c] = hn::Min(hn::Mul(color[c], constant(encoding.exposure)), constant(kMostExposed));
     if (encoding.curve == wire::Curve::filmic) apply_filmic_curve(color);
+    if (encoding.curve == wire::Curve::agx) apply_agx(encoding.agx, color);
   }
   for (int c = 0; c < 3; ++c) color[c] = hn::Min(hn::Max(color[c], hn::Zero(kFloats)), constant(1.0f));
 }

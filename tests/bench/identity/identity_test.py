@@ -35,7 +35,7 @@ class Identity(unittest.TestCase):
     def test_films_hold_what_a_film_can_hold(self):
         text = "".join(json.dumps(RandomFilm(seed).json) for seed in range(FILMS))
         for word in ["attach", "ambient", "fog", "cone", "exposure", "spline", "bspline", "mesh", "metallic", "gouraud", "flat",
-                     "coded", '"samples": 16', '"samples": 1,', "dice", "reach", "x_axis", '"at": {', '"curve": "none"',
+                     "coded", '"samples": 16', '"samples": 1,', "dice", "reach", "x_axis", '"at": {', '"curve": "none"', '"curve": "agx"',
                      '"intervals": "keyframes"', '"up"', '"out": [', '"shadow": true}', '"shadow": true, "size": ', '"casts": false',
                      '"receives": false']:
             self.assertIn(word, text)

@@ -220,7 +220,7 @@ class RandomFilm:
 
     def add_settings(self):
         if self.json["color"] == "linear" and self.chance(0.2):
-            self.json["curve"] = "none"
+            self.json["curve"] = "none" if self.chance(0.5) else "agx"
         if self.chance(0.2):
             self.json["intervals"] = "keyframes"
         if self.chance(0.2):

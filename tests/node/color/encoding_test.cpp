@@ -179,6 +179,60 @@ void expect_plain_pixels(Random& random, const Encoding& how) {
     EXPECT_EQ(encode(set, how, light, count), plain) << simd::name_of(set);
 }
 
+// As https://iolite-engine.com/blog_posts/minimal_agx_implementation has it, in doubles.
+std::array<double, 3> agx_twin(const std::array<double, 3>& light) {
+  const auto mixed = [](const double(&columns)[9], const std::array<double, 3>& v) {
+    std::array<double, 3> out{};
+    for (std::size_t row = 0; row < 3; ++row)
+      out[row] = columns[row] * v[0] + columns[3 + row] * v[1] + columns[6 + row] * v[2];
+    return out;
+  };
+  static constexpr double kIn[] = {0.842479062253094,  0.0423282422610123, 0.0423756549057051,
+                                   0.0784335999999992, 0.878468636469772,  0.0784336,
+                                   0.0792237451477643, 0.0791661274605434, 0.879142973793104};
+  static constexpr double kOut[] = {1.19687900512017,    -0.0528968517574562, -0.0529716355144438,
+                                    -0.0980208811401368, 1.15190312990417,    -0.0980434501171241,
+                                    -0.0990297440797205, -0.0989611768448433, 1.15107367264116};
+  std::array<double, 3> value = mixed(kIn, light);
+  for (double& v : value) {
+    const double x =
+        (std::clamp(std::log2(std::max(v, 1e-10)), -12.47393, 4.026069) + 12.47393) / (4.026069 + 12.47393);
+    v = 15.5 * std::pow(x, 6) - 40.14 * std::pow(x, 5) + 31.96 * std::pow(x, 4) - 6.868 * std::pow(x, 3) +
+        0.4298 * x * x + 0.1191 * x - 0.00232;
+  }
+  value = mixed(kOut, value);
+  for (double& v : value) v = 65535 * srgb(std::pow(std::clamp(v, 0.0, 1.0), 2.2));
+  return value;
+}
+
+TEST(Encoding, AgxIsItsPublicForm) {
+  Random random(71);
+  const Encoding agx = encoding(ColorSpace::linear, Curve::agx, 1, PixelFormat::rgb16);
+  for (int trial = 0; trial < 20'000; ++trial) {
+    float light[3];
+    for (float& c : light) c = static_cast<float>(std::exp2(random.real(-16, 6)));
+    const auto shown = channels(pixel_of(agx, light)), twin = agx_twin({light[0], light[1], light[2]});
+    for (std::size_t c = 0; c < 3; ++c)
+      ASSERT_NEAR(shown[c], twin[c], 8) << light[0] << " " << light[1] << " " << light[2];
+  }
+}
+
+TEST(Encoding, AgxRisesToWhite) {
+  double before = -1;
+  const Encoding agx = encoding(ColorSpace::linear, Curve::agx, 1, PixelFormat::rgb16);
+  for (float light = 0; light < 20; light += 0.01f) {
+    const float grey[] = {light, light, light};
+    const double shown = channels(pixel_of(agx, grey))[0];
+    ASSERT_GE(shown, before) << light;
+    before = shown;
+  }
+  EXPECT_GT(before, 64000) << "white";
+  const float red[] = {50, 0, 0};
+  EXPECT_GT(channels(pixel_of(agx, red))[1], 20000) << "bright red goes towards white";
+  const float most[] = {3e38f, 3e38f, 3e38f};
+  EXPECT_EQ(channels(pixel_of(agx, most))[0], before);
+}
+
 TEST(Encoding, AlphaLeavesColoursAlone) {
   wire::FilmSettings settings{};
   const Encoding rgba = encoding_of(settings, {}, PixelFormat::rgba16),
@@ -197,6 +251,7 @@ TEST(Encoding, KernelsMakePlainPixels) {
       expect_plain_pixels(random, encoding(ColorSpace::coded, Curve::none, exposure, format));
       expect_plain_pixels(random, encoding(ColorSpace::linear, Curve::none, exposure, format));
       expect_plain_pixels(random, encoding(ColorSpace::linear, Curve::filmic, exposure, format));
+      expect_plain_pixels(random, encoding(ColorSpace::linear, Curve::agx, exposure, format));
     }
 }
 
