@@ -102,7 +102,7 @@ void add_exposing(cli::Command command, const std::shared_ptr<PreviewWords>& wor
                 "Stops by which EXR frames are exposed; default: the film's. Example: --exposure -1")
       .type("STOPS");
   command.add_choice(
-      "--curve", {"none", "filmic"},
+      "--curve", {"none", "filmic", "agx"},
       [words](std::size_t number) { words->exposing.curve = static_cast<wire::Curve>(number); },
       "How light of EXR frames is shown; default: the film's. Example: --curve none");
 }
