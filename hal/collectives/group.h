@@ -1,6 +1,8 @@
 // Nodes [first, first + count), which work on one interval together.
 #pragma once
 
+#include <cstdint>
+
 namespace mars::collectives {
 
 struct Group {
@@ -12,8 +14,8 @@ struct Group {
 
 // Number `number` of `groups` groups of about equal size that `nodes` nodes form side by side.
 constexpr Group group_of(int nodes, int groups, int number) {
-  const int first = nodes * number / groups;
-  return {first, nodes * (number + 1) / groups - first};
+  const auto begin = [=](std::int64_t group) { return static_cast<int>(nodes * group / groups); };
+  return {begin(number), begin(std::int64_t{number} + 1) - begin(number)};
 }
 
 }  // namespace mars::collectives

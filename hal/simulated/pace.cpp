@@ -6,6 +6,8 @@
 namespace mars::simulated {
 namespace {
 
+constexpr double kMany = 1e6;  // detours
+
 // What is drawn.
 enum Draw : std::uint64_t { kStraggles, kSlowness, kMoment, kLength };
 
@@ -51,9 +53,11 @@ double Pace::end(Processor processor, double begin, double seconds) const {
   return machine_.noise.detours > 0 ? after_detours(processor, begin, begin + seconds) : begin + seconds;
 }
 
-// In each stretch of 1 / detours seconds there is one. It counts where work goes on at its moment.
+// In each stretch of 1 / detours seconds there is one. It counts where work goes on at its moment. Of very many, the
+// mean counts.
 double Pace::after_detours(Processor processor, double begin, double end) const {
   const Noise& noise = machine_.noise;
+  if ((end - begin) * noise.detours > kMany) return begin + (end - begin) / (1 - noise.detours * noise.detour);
   for (auto stretch = static_cast<std::uint64_t>(begin * noise.detours);
        static_cast<double>(stretch) < end * noise.detours; ++stretch) {
     const auto draw = [&](Draw what) {

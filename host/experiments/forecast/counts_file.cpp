@@ -261,18 +261,15 @@ class Sense {
   bool is_keyframe(const KeyframeCounts& keyframe) const {
     return keyframe.lines.size() == height_ && are_blocks(keyframe.constant_blocks) &&
            are_blocks(keyframe.moving_blocks) && are_lines(keyframe.first_still_line, keyframe.last_still_line) &&
-           std::ranges::all_of(keyframe.casters, [&](const auto& caster) { return is_caster(caster); }) &&
+           std::ranges::all_of(keyframe.casters,
+                               [](const auto& caster) { return caster.diced_by <= wire::DicedBy::shadows; }) &&
            std::ranges::all_of(keyframe.placed, [&](const auto& placed) { return is_placed(placed); });
   }
   bool are_lines(std::uint32_t first, std::uint32_t last) const { return first <= last && last <= height_; }
   bool are_blocks(std::span<const wire::BlockStretch> blocks) const {
     return std::ranges::all_of(blocks, [&](const wire::BlockStretch& stretch) {
-      return stretch.row < Sense::blocks(height_) && stretch.first <= stretch.last && stretch.last <= columns_;
+      return stretch.row < Sense::blocks(height_) && stretch.first < stretch.last && stretch.last <= columns_;
     });
-  }
-  bool is_caster(const wire::CasterCounts& caster) const {
-    return are_lines(caster.first_line, caster.last_line) && are_lines(caster.first_put, caster.last_put) &&
-           caster.diced_by <= wire::DicedBy::shadows;
   }
   bool is_placed(const PlacedSurface& placed) const {
     if (placed.surface >= counts_.surfaces.size()) return false;

@@ -30,6 +30,7 @@ constexpr double kUseless = 2;    // times as long as the best, a film: such a r
 bool is_better(const Rehearsed& one, const Rehearsed& other) {
   if (kAlike * one.seconds < other.seconds) return true;
   if (kAlike * other.seconds < one.seconds) return false;
+  if (one.frames.empty() || other.frames.empty()) return false;  // neither was played to the first frame
   const double key = one.frames.front().seconds, other_key = other.frames.front().seconds;
   return key < kSoon * other_key || (one.seconds < other.seconds && kSoon * key < other_key);
 }

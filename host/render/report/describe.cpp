@@ -17,9 +17,13 @@ std::string text_of(const json& report) {
   const walls::Explanation walls = walls::explanation_of(report.at("walls"));
   const auto line = [&](const char* key) { return plain_line(report.at(key).get<std::string>()); };
   const auto size = [&](const char* key) { return report.at(key).get_ref<const json::array_t&>().size(); };
+  const auto count = [&](const char* key) {
+    if (!report.at(key).is_number_unsigned()) throw Failure("is no number", key, "");
+    return report.at(key).get<std::uint64_t>();
+  };
   std::string text = "report of   " + line("film") + "\n";
   text += "nodes       " + document::counted(size("nodes"), "node") + " in " +
-          document::counted(report.at("groups").get<std::uint64_t>(), "group") + ", " + line("backend") + "\n";
+          document::counted(count("groups"), "group") + ", " + line("backend") + "\n";
   text += "frames      " + std::to_string(size("frames")) + "\n";
   text += document::formatted("seconds     %.4g\n", report.at("total_seconds").get<double>());
   return text + "what binds  " + walls::line_of(walls) + "\n" + walls::table_of(walls);
@@ -33,6 +37,7 @@ Failure damaged(const std::filesystem::path& path) {
 }  // namespace
 
 std::optional<json> read_report(const std::filesystem::path& path) {
+  if (!std::filesystem::is_regular_file(path)) return std::nullopt;
   std::ifstream file(path);
   if (file.peek() != '{') return std::nullopt;  // a compiled film, or not there
   json report = json::parse(file, nullptr, false);

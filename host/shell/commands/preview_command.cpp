@@ -41,9 +41,9 @@ struct PreviewWords {
   double delay = 0;  // seconds
 };
 
-void print_line(const std::string& line) { std::cout << line << std::endl; }
+void print_news(const std::string& line) { std::cout << line << std::endl; }
 
-const videos::Listener kListener{{}, print_line, {print_line}};
+const videos::Listener kListener{{}, print_news, {print_news}};
 
 void add_output(cli::Command command, const std::shared_ptr<PreviewWords>& words) {
   preview::WriteOptions& write = words->write;

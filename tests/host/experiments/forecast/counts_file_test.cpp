@@ -52,6 +52,16 @@ TEST_F(CountsFile, IsReadAsItWasWritten) {
   EXPECT_EQ(bytes(), document::read_file(path_.string() + "2"));
 }
 
+TEST(CountsOfShadows, AreReadAsTheyWereWritten) {
+  const SimulatedFilm film("s3s", "0-2", "ethernet");
+  const std::string path = testing::TempDir() + "shadows.counts";
+  const FilmCounts counts = film.count_exactly();
+  EXPECT_FALSE(counts.keyframes.front().casters.empty());
+  save_counts(counts, kContent, path);
+  EXPECT_EQ(load_counts(path, kContent, film.tasks(), film.view()).keyframes.front().casters.size(),
+            counts.keyframes.front().casters.size());
+}
+
 // Written by a program that means other frames, or no frames at all: the checksum is right.
 TEST_F(CountsFile, ThatMakesNoSenseIsRefused) {
   EXPECT_EQ(refusal(), "");
