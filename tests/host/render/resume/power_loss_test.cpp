@@ -222,7 +222,7 @@ std::string film_text(const std::string& place) {
 class PowerLoss : public testing::Test {
  protected:
   Wish wish(const fs::path& out) const {
-    return {out, folder_ / "film.json", {}, images::PictureFormat::png, {}, false};
+    return {out, folder_ / "film.json", {}, {images::PictureFormat::png}, {}, false};
   }
 
   Opened open(const fs::path& out) const {
