@@ -157,7 +157,7 @@ class Installed(Installation):
             self.write(name, "")
         (self.folder / "frames").mkdir()
         self.assertEqual(self.complete("mars", "render", ""), ["frames", "a film.json", "film.mars"])
-        self.assertEqual(self.complete("mars", "render", "-o", "f"), ["frames"])
+        self.assertIn("frames", self.complete("mars", "render", "-o", "f"))  # or a video
         self.assertEqual(self.complete("mars", "render", "--nodes", ""), [])
 
     def test_other_shells_take_their_completion(self):

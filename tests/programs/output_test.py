@@ -70,7 +70,7 @@ class Output(ProgramTest):
         self.assertLess(len(lines), 400 if SANITIZED else 40)
         self.assertRegex(lines[1], r"^1 node on 1 machine \(threads\)")
         for line in lines[2:-1]:
-            self.assertRegex(line, r"^frame \d+ of 1200, interval \d+ of \d+, [\d.]+ frames/s, \d+:\d\d left")
+            self.assertRegex(line, r"^Progress: \d+%, frame \d+ of 1200, interval \d+ of \d+, [\d.]+ frames/s, \d+:\d\d left")
         self.assertRegex(lines[-1], r"^1200 frames in out, [\d.]+ seconds, [\d.]+ frames/s$")
 
     def test_one_line_on_a_terminal(self):
