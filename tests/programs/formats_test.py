@@ -4,7 +4,7 @@ import json
 import struct
 import zlib
 
-from harness import intact, ProgramTest, main, spinning_teapot
+from harness import ProgramTest, intact, main, spinning_teapot
 from png_reader import png_rows
 
 WIDTH, HEIGHT = 64, 36
