@@ -1,6 +1,6 @@
 // The program ffmpeg, which MARS starts to encode, join and check videos. It runs until its work is done; where it does
-// nothing any more, because somebody has stopped it or storage does not answer, that is said, and after a while it is
-// killed: nothing waits for it for ever.
+// nothing any more, because somebody has stopped it or storage does not answer, a warning says so, and after a while it
+// is killed: nothing waits for it for ever.
 #pragma once
 
 #include <chrono>
@@ -29,8 +29,8 @@ std::string file_word(const std::filesystem::path& file);
 
 // Time counts as it is observed: of a process that is stopped itself meanwhile, a look at most.
 struct Bounds {
-  std::function<void(const std::string& line)> warn{};           // none: nobody listens
-  std::chrono::milliseconds silence = std::chrono::seconds(10);  // of an ffmpeg that does nothing, until that is said
+  std::function<void(const std::string& line)> warn{};           // none: no warnings
+  std::chrono::milliseconds silence = std::chrono::seconds(10);  // of an ffmpeg that does nothing, until warn()
   std::chrono::milliseconds longest = std::chrono::minutes(10);  // until it is killed
 };
 

@@ -18,7 +18,7 @@ std::filesystem::path pieces_folder(const std::filesystem::path& file);
 
 class Pieces {
  public:
-  // Makes the folder where it is missing, and waits until nobody else makes pieces there. `encoding`: the words by
+  // Makes the folder where it is missing, and waits until no other process makes pieces there. `encoding`: the words by
   // which ffmpeg encodes. Throws Failure where it cannot.
   Pieces(const Source& source, const Form& form, const Order& order, std::vector<std::string> encoding);
 

@@ -26,7 +26,7 @@ const Codec& codec_named(std::string_view name) {
 
 void add(Words& words, std::initializer_list<std::string> more) { words.insert(words.end(), more); }
 
-// From sRGB's full range to BT.709's, of which video has 219 levels; what is not told is taken for other colours by
+// From sRGB's full range to BT.709's, of which video has 219 levels; what is not named is taken for other colours by
 // some players.
 void add_video_colors(Words& words, const char* pixels) {
   add(words, {"-vf",

@@ -239,7 +239,7 @@ SurfaceTable read_table(Reader& reader) {
   return table;
 }
 
-// Whether counts are of these tasks of that film, so that whoever uses them finds all that they name.
+// Whether counts are of the tasks of that film, so that whoever uses them finds all that they name.
 class Sense {
  public:
   Sense(const FilmCounts& counts, std::span<const farm::Task> tasks, const wire::FilmSettings& settings)

@@ -89,7 +89,7 @@ class Rehearsals {
     std::vector<walls::Busy> busy;
   };
 
-  // Nodes that have no frame left help others of the rehearsal in which nobody helps.
+  // Nodes that have no frame left help others of the rehearsal in which none helps.
   double seconds(Walls removed) {
     const Uneven& uneven = uneven_.at(removed.without({Wall::frame}).number());
     if (!removed.has(Wall::frame)) return uneven.seconds;

@@ -27,7 +27,7 @@ struct Rehearsed {
   std::vector<walls::Busy> busy;  // by node
 };
 
-// A rendering that takes longer than `limit` is not played to its end: its seconds are infinite. `loads`: of these
+// A rendering that takes longer than `limit` is not played to its end: its seconds are infinite. `loads`: of the
 // counts, numbers of nodes and settings, whatever work and messages cost.
 Rehearsed rehearse(const FilmCounts& counts, const farm::Plan& plan, const Setting& setting, int nodes,
                    KeyframeLoads& loads, double limit = std::numeric_limits<double>::infinity());

@@ -74,7 +74,7 @@ std::vector<std::vector<double>> with_few_pieces(std::vector<std::vector<double>
 // More machines that wait for each other do so at one of them.
 constexpr int kLargeRing = 256;
 
-// What a ring is where messages take no time: every node that has pieces, or receives them, waits for all of these.
+// What a ring is where messages take no time: every node that has pieces, or receives them, waits for all such nodes.
 void meet(Exchange& exchange, const Machines& machines, const std::vector<std::vector<double>>& pieces,
           const RelayLabels& labels) {
   const auto comes = [&](int node) {

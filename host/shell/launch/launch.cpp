@@ -166,7 +166,7 @@ void expect_host_here(const options::RenderOptions& options, const Starting& sta
                 "name this machine first, or leave out --window");
 }
 
-// From now on hosts send frames to the window; none where nobody asked for it.
+// From now on hosts send frames to the window; none without --window.
 std::unique_ptr<RenderingWindow> open_window(options::RenderOptions& options, const Starting& starting,
                                              const std::filesystem::path& self) {
   if (!options.window) return nullptr;

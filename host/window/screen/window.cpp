@@ -33,7 +33,7 @@ void expect_display() {
                 "start MARS from a desktop, or over ssh -X; or ");
 }
 
-// SDL may draw where nobody sees it; a person's SDL_VIDEODRIVER goes before ours.
+// SDL may draw where it is not seen; a person's SDL_VIDEODRIVER goes before ours.
 void choose_ways() {
   SDL_SetHint(SDL_HINT_VIDEODRIVER, "x11,wayland");
   SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
