@@ -141,6 +141,15 @@ class Plans(ProgramTest):
         self.assertNotIn("not identified", self.succeed("mars", *words, sure, "--explain"))
         self.assertNotIn("not_identified", self.succeed("mars", *words, sure, "--json"))
 
+    def test_messages_may_take_far_longer_than_work(self):
+        platform = json.loads((SOURCES / "cluster/platforms/ethernet.json").read_text())
+        platform.pop("spread", None)
+        platform["network"]["latency"] = 0.1
+        slow = self.write("slow.json", platform)
+        printed = self.succeed("mars", "plan", EXAMPLES / "visit.json", "--size", "160x120", "--frames", "0-9",
+                               "--platform", slow, "--nodes", 6, "--cut", 2)
+        self.assertIn("6 nodes in", printed)
+
     def test_without_storage_a_wall_of_storage_is_gone(self):
         platform = json.loads((SOURCES / "cluster/platforms/fat-tree.json").read_text())
         platform["work"] = json.loads((SOURCES / "cluster/platforms/reference.json").read_text())["work"]

@@ -27,7 +27,7 @@ child::Descriptor connection() {
 
 void show_rendering(Starter& starter, const std::string& film) {
   RenderingShow show(film, connection());
-  starter.tell_ready();
+  starter.send_ready();
   while (show.handle_events()) {
     const bool has_left = starter.has_left();  // before what it has left is received
     if (!show.receive() && has_left) show.finish();
@@ -38,7 +38,7 @@ void show_rendering(Starter& starter, const std::string& film) {
 
 void show_player(Starter& starter, const std::string& film) {
   PlayerShow show(film, connection());
-  starter.tell_ready();
+  starter.send_ready();
   while (show.handle_events()) {
     show.receive();
     show.update();

@@ -16,7 +16,7 @@ Starter::~Starter() {
   thread_.join();
 }
 
-void Starter::tell_ready() { send(control_.number(), &kReady, 1, MSG_NOSIGNAL); }
+void Starter::send_ready() { send(control_.number(), &kReady, 1, MSG_NOSIGNAL); }
 
 void Starter::explain(const std::string& problem, const std::string& remedy) {
   const std::string lines = problem + '\n' + remedy;

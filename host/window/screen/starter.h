@@ -20,7 +20,7 @@ class Starter {
   Starter& operator=(const Starter&) = delete;
 
   // There is a display.
-  void tell_ready();
+  void send_ready();
   // There is none.
   void explain(const std::string& problem, const std::string& remedy);
 

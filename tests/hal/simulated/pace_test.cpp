@@ -52,6 +52,11 @@ TEST(Pace, StragglersAreThePartThatIsGiven) {
   EXPECT_NE(drawn, straggling(2));
 }
 
+// Each by itself would take for ever.
+TEST(Pace, VeryManyDetoursTakeTheirMean) {
+  EXPECT_DOUBLE_EQ(Pace(noisy(1, Lengths::exponential), 1).end({0, 0}, 0, 1e9), 1e9 / 0.9);
+}
+
 // Work of 10 s ends once it has got them: a tenth of the time is the system's.
 TEST(Pace, DetoursLengthenWorkByTheirPart) {
   for (const Lengths lengths : {Lengths::fixed, Lengths::exponential}) {

@@ -132,5 +132,11 @@ TEST(Plan, InbetweensGoRoundTheGroup) {
   EXPECT_EQ(counts, (Frames{100, 100, 100}));
 }
 
+TEST(Groups, OfAMillionNodesHaveAllOfThem) {
+  constexpr int kNodes = 1 << 20;
+  const std::vector<collectives::Group> groups = make_groups(kNodes, kNodes, kNodes);
+  EXPECT_EQ(groups.back(), (collectives::Group{kNodes - 1, 1}));
+}
+
 }  // namespace
 }  // namespace mars::farm
