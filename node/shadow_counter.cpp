@@ -114,8 +114,9 @@ bool ShadowCounter::is_lit(const geometry::Scene& scene, const geometry::EyeLigh
   const shape::Projection& p = scene.projection();
   const float depth = line.depths[sample * line.stride + column], w = p.parallel ? -depth : 1 / depth;
   const float spread = p.parallel ? 1 : w;
-  const std::array to{light.vector[0] - (x / shape::kSubpixels - p.center[0]) / p.scale * spread,
-                      light.vector[1] - (p.center[1] - y / shape::kSubpixels) / p.scale * spread, light.vector[2] + w};
+  const auto left = static_cast<float>(p.origin[0]), top = static_cast<float>(p.origin[1]);
+  const std::array to{light.vector[0] - (x / shape::kSubpixels + left - p.center[0]) / (p.scale * p.squeeze) * spread,
+                      light.vector[1] - (p.center[1] - top - y / shape::kSubpixels) / p.scale * spread, light.vector[2] + w};
   if (dot(normal, to) <= 0) return false;
   return light.kind != wire::LightKind::spot || -dot(light.axis, to) > light.cos_outer * std::sqrt(dot(to, to));
 }
@@ -170,10 +171,13 @@ std::uint32_t ShadowCounter::using_point(const Light& light, std::size_t view, s
   constexpr std::uint32_t kAll = 0xffffffff;
   if (!light.has_size()) return kAll;
   const std::uint32_t point = light.counted_points[view / light.views.faces];
+  const auto [left, top] = light.views.frame.origin;
+  const std::uint32_t column = first + static_cast<std::uint32_t>(static_cast<std::int32_t>(left));
+  const std::uint32_t of_whole = line + static_cast<std::uint32_t>(static_cast<std::int32_t>(top));
   std::uint32_t columns = 0;
   for (std::uint32_t k = 0; k < kColumns; ++k)
     for (std::uint32_t pair = 0; pair < shadow::kPairs; ++pair)
-      columns |= static_cast<std::uint32_t>(shadow::point_of_pair(first + k, line, pair) == point) << k;
+      columns |= static_cast<std::uint32_t>(shadow::point_of_pair(column + k, of_whole, pair) == point) << k;
   return columns;
 }
 

@@ -1,6 +1,7 @@
 // OpenEXR files: red, green, blue and where it is asked for alpha, which multiplies them, as half floats, of sRGB's
 // primaries and white, and a note in the string attribute `mars`. exr_file.cpp is the only place that knows OpenEXR;
-// exr_bands.h writes such files.
+// exr_bands.h writes such files. The file's data window is what it has of the film's picture, its display window all of
+// that.
 #pragma once
 
 #include <cstddef>

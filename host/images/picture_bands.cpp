@@ -18,8 +18,9 @@ constexpr std::uint32_t round_up(std::uint32_t number, std::uint32_t step) { ret
 
 }  // namespace
 
-PictureBands::PictureBands(PictureFormat format, std::uint32_t width, std::uint32_t height, Compression compression)
-    : format_(format), compression_(compression), width_(width), height_(height) {
+PictureBands::PictureBands(PictureFormat format, std::uint32_t width, std::uint32_t height, Compression compression,
+                           const PicturePlace& place)
+    : format_(format), compression_(compression), width_(width), height_(height), place_(place) {
   check(width > 0 && height > 0, "a picture has pixels");
   const bool exr = is_exr(format);
   const std::uint32_t step = exr ? std::max(kExrStep, chunk_lines(compression)) : kPngStep;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "host/images/picture_format.h"
+#include "host/images/picture_place.h"
 
 namespace mars::images {
 
@@ -23,12 +24,13 @@ class PictureBands {
  public:
   // `compression`: of EXR files.
   PictureBands(PictureFormat format, std::uint32_t width, std::uint32_t height,
-               Compression compression = Compression::zip);
+               Compression compression = Compression::zip, const PicturePlace& place = {});
 
   PictureFormat format() const { return format_; }
   Compression compression() const { return compression_; }
   std::uint32_t width() const { return width_; }
   std::uint32_t height() const { return height_; }
+  const PicturePlace& place() const { return place_; }
 
   std::size_t count() const { return (height_ + lines_ - 1) / lines_; }
   std::uint32_t lines_a_band() const { return lines_; }
@@ -43,6 +45,7 @@ class PictureBands {
   PictureFormat format_;
   Compression compression_;
   std::uint32_t width_, height_;
+  PicturePlace place_;
   std::uint32_t lines_;  // of every band but the last
 };
 

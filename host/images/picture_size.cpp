@@ -1,6 +1,7 @@
 #include "host/images/picture_size.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
 #include "hal/failure/failure.h"
@@ -8,6 +9,11 @@
 #include "node/wire/film_parts.h"
 
 namespace mars::images {
+
+PictureSize with_square_pixels(PictureSize size, double pixel_aspect) {
+  const long width = std::lround(size.width * pixel_aspect);
+  return {static_cast<std::uint32_t>(std::clamp<long>(width, 1, wire::kMaxSide)), size.height};
+}
 
 PictureSize read_picture_size(const std::string& text) {
   const std::size_t cross = std::min(text.find('x'), text.size());

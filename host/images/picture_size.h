@@ -13,6 +13,9 @@ struct PictureSize {
   bool operator==(const PictureSize&) const = default;
 };
 
+// A picture of square pixels that is shown as one of these pixels, each `pixel_aspect` times as wide as high; as high.
+PictureSize with_square_pixels(PictureSize size, double pixel_aspect);
+
 // From "960x540". Throws Failure where that is no size.
 PictureSize read_picture_size(const std::string& text);
 

@@ -53,6 +53,16 @@ Bytes head_of(const PictureBands& bands) {
   return head;
 }
 
+// Pixels per unit, which is none of length: the shape of a pixel.
+Bytes shape_of(float pixel_aspect) {
+  const Ratio ratio = ratio_of(pixel_aspect);
+  Bytes shape;
+  append_number(shape, ratio.height);  // along x
+  append_number(shape, ratio.width);
+  shape.push_back(std::byte{0});
+  return shape;
+}
+
 std::uint32_t adler32_of(std::span<const BandPart> parts) {
   std::uint32_t sum = 1;
   for (const BandPart& band : parts)
@@ -74,6 +84,8 @@ PictureEnds png_ends(const PictureBands& bands, std::span<const BandPart> parts,
   append(ends.before, kFileStart);
   append_chunk(ends.before, "IHDR", text_of(head_of(bands)));
   append_chunk(ends.before, "sRGB", std::string_view("\0", 1));  // perceptual intent
+  if (const float aspect = bands.place().pixel_aspect; aspect != 1)
+    append_chunk(ends.before, "pHYs", text_of(shape_of(aspect)));
   if (!facts.note.empty()) append_chunk(ends.before, "tEXt", kPngNoteKeyword + std::string(1, '\0') + facts.note);
   append_chunk(ends.before, "IDAT", {kStreamHead, sizeof kStreamHead});
   Bytes last;

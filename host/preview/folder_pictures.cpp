@@ -7,6 +7,10 @@ namespace mars::preview {
 FolderPictures::FolderPictures(const std::filesystem::path& folder, const videos::Exposing& exposing)
     : reader_(folder, exposing) {}
 
+images::PictureSize FolderPictures::extent() const {
+  return images::with_square_pixels({manifest().width, manifest().height}, double{manifest().place.pixel_aspect});
+}
+
 SharedImage FolderPictures::picture(std::uint32_t place, images::PictureSize extent) {
   return std::make_shared<const images::Image>(
       scaled(reader_.read(manifest().frames.at(place)), fitted(this->extent(), extent)));

@@ -17,7 +17,8 @@ class FolderPictures : public Pictures {
   const videos::FolderReader& reader() const { return reader_; }
   std::uint32_t frames() const override { return static_cast<std::uint32_t>(manifest().frames.size()); }
   double rate() const override { return manifest().rate; }
-  images::PictureSize extent() const override { return {manifest().width, manifest().height}; }
+  // Of square pixels, as they are shown.
+  images::PictureSize extent() const override;
   // By its place among the folder's frames, from 0. Throws Failure where its file is missing or torn.
   SharedImage picture(std::uint32_t place, images::PictureSize extent) override;
   // Refuses keys for posing.

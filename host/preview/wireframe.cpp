@@ -9,6 +9,7 @@
 #include "host/content/animator/pose/figure.h"
 #include "host/content/animator/pose/joint_frames.h"
 #include "host/content/film/light_writer.h"
+#include "host/images/picture_size.h"
 #include "host/preview/shape_lines.h"
 
 namespace mars::preview {
@@ -73,8 +74,10 @@ class Maker {
     const wire::FilmSettings& settings = film_.settings();
     wireframe_.frames = settings.frames;
     wireframe_.rate = settings.rate;
-    wireframe_.width = settings.width;
-    wireframe_.height = settings.height;
+    const images::PictureSize size =
+        images::with_square_pixels({settings.width, settings.height}, double{settings.pixel_aspect});
+    wireframe_.width = size.width;
+    wireframe_.height = size.height;
     wireframe_.background = film::shown_of(settings.background, settings.color_space);
     wireframe_.camera = settings.camera;
     wireframe_.cameras.assign(film_.cameras().begin(), film_.cameras().end());

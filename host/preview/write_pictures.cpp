@@ -30,6 +30,7 @@ void write_video(Pictures& pictures, const WriteOptions& options, const std::vec
                  images::PictureSize extent, const videos::Listener& listener) {
   const SharedImage first = ready(pictures, frames.front(), extent);
   videos::Source source{{first->width, first->height},
+                        {1, 1},
                         pictures.rate() / options.every,
                         frames,
                         pictures.frames(),
@@ -81,8 +82,8 @@ void write_folder_video(const FolderPictures& pictures, const WriteOptions& opti
   std::vector<std::uint32_t> frames;
   for (const std::uint32_t place : frames_to_write(options, pictures.frames()))
     frames.push_back(pictures.reader().manifest().frames[place]);
-  const images::PictureSize extent = extent_to_write(options, pictures.extent(), frames.size());
   videos::Source source = videos::source_of(pictures.reader(), std::move(frames));
+  const images::PictureSize extent = extent_to_write(options, source.size, source.frames.size());
   source.rate /= options.every;
   if (extent != source.size) {
     source.size = fitted(source.size, extent);

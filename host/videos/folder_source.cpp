@@ -109,6 +109,7 @@ std::string FolderReader::content(std::uint32_t frame) const {
 Source source_of(const FolderReader& reader, std::vector<std::uint32_t> frames) {
   const sinks::Manifest& manifest = reader.manifest();
   Source source{{manifest.width, manifest.height},
+                images::ratio_of(manifest.place.pixel_aspect),
                 manifest.rate,
                 std::move(frames),
                 manifest.film_frames,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host/images/image.h"
+#include "host/images/picture_place.h"
 #include "host/images/picture_size.h"
 
 namespace mars::videos {
@@ -16,6 +17,7 @@ using Picture = std::shared_ptr<const images::Image>;  // of 8 bits a channel, a
 
 struct Source {
   images::PictureSize size{};
+  images::Ratio pixel{1, 1};                      // its shape, width to height
   double rate = 24;                               // pictures a second
   std::vector<std::uint32_t> frames{};            // of the film, which it shows in this order
   std::uint32_t film_frames = 0;                  // of the whole film

@@ -44,6 +44,26 @@ void add_speed(Words& words, std::string_view encoder) {
   if (encoder == "libaom-av1") add(words, {"-b:v", "0", "-cpu-used", "6", "-row-mt", "1"});
 }
 
+Words words_of_codec(const Form& form, std::string_view encoder) {
+  Words words{"-c:v", std::string(encoder)};
+  const std::string_view codec = form.codec->name;
+  if (codec == "gif") return words;
+  if (codec == "apng") {
+    add(words, {"-pix_fmt", "rgb24", "-pred", "mixed"});
+  } else if (codec == "ffv1") {
+    add(words, {"-pix_fmt", "bgr0", "-level", "3", "-g", "1", "-slicecrc", "1"});
+  } else if (codec == "prores") {
+    add_video_colors(words, "yuv422p10le");
+    add(words, {"-profile:v", "hq", "-vendor", "apl0", "-bsf:v",
+                "prores_metadata=color_primaries=bt709:color_trc=bt709:colorspace=bt709"});
+  } else {
+    add_video_colors(words, "yuv420p");
+    add_speed(words, encoder);
+    add(words, {"-crf", std::to_string(*form.quality)});
+  }
+  return words;
+}
+
 // 30 of 29.97, which is 30000/1001; 0: it is no such rate.
 std::uint64_t thousands_of_tv(double rate) {
   constexpr double kNear = 0.002;  // also of 23.976
@@ -117,23 +137,20 @@ std::span<const std::string_view> encoders_for(const Form& form, images::Picture
   return small && all.front() == "libsvtav1" ? all.subspan(1) : all;
 }
 
-Words encoding_words(const Form& form, std::string_view encoder) {
-  Words words{"-c:v", std::string(encoder)};
-  const std::string_view codec = form.codec->name;
-  if (codec == "gif") return words;
-  if (codec == "apng") {
-    add(words, {"-pix_fmt", "rgb24", "-pred", "mixed"});
-  } else if (codec == "ffv1") {
-    add(words, {"-pix_fmt", "bgr0", "-level", "3", "-g", "1", "-slicecrc", "1"});
-  } else if (codec == "prores") {
-    add_video_colors(words, "yuv422p10le");
-    add(words, {"-profile:v", "hq", "-vendor", "apl0", "-bsf:v",
-                "prores_metadata=color_primaries=bt709:color_trc=bt709:colorspace=bt709"});
-  } else {
-    add_video_colors(words, "yuv420p");
-    add_speed(words, encoder);
-    add(words, {"-crf", std::to_string(*form.quality)});
-  }
+std::string shape_filter(images::Ratio pixel) {
+  if (pixel.width == pixel.height) return "";
+  return "setsar=sar=" + std::to_string(pixel.width) + "/" + std::to_string(pixel.height) + ":max=1048576";
+}
+
+Words encoding_words(const Form& form, std::string_view encoder, images::Ratio pixel) {
+  Words words = words_of_codec(form, encoder);
+  const std::string shape = shape_filter(pixel);
+  if (shape.empty() || form.codec->name == "gif") return words;
+  const auto filters = std::ranges::find(words, "-vf");
+  if (filters == words.end())
+    add(words, {"-vf", shape});
+  else
+    *std::next(filters) += "," + shape;
   return words;
 }
 

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "host/images/picture_place.h"
 #include "host/images/picture_size.h"
 
 namespace mars::videos {
@@ -64,8 +65,10 @@ Form form_of(const std::filesystem::path& file, const FormWish& wish);
 // Those of ffmpeg's encoders that take pictures of this size: SVT-AV1 takes no small ones.
 std::span<const std::string_view> encoders_for(const Form& form, images::PictureSize size);
 
-// By which ffmpeg encodes pictures of full-range RGB with `encoder`, one of the codec's.
-std::vector<std::string> encoding_words(const Form& form, std::string_view encoder);
+// By which ffmpeg encodes pictures of full-range RGB with `encoder`, one of the codec's. `pixel`: the shape of a pixel.
+std::vector<std::string> encoding_words(const Form& form, std::string_view encoder, images::Ratio pixel = {1, 1});
+// The filter that says which shape pixels have; "": they are square.
+std::string shape_filter(images::Ratio pixel);
 // Of a GIF also two filters: the palette of all pictures is found first.
 inline constexpr const char* kFindPalette = "palettegen=stats_mode=full";
 inline constexpr const char* kUsePalette = "paletteuse=dither=bayer:bayer_scale=4:diff_mode=rectangle";

@@ -27,7 +27,7 @@ class Writing {
         listener_(listener),
         form_(form_of(order.file, order.form)),
         program_(find_ffmpeg(order.file)),
-        encoding_(encoding_words(form_, choose_encoder(order.file, encoders_for(form_, source.size)))) {}
+        encoding_(encoding_words(form_, choose_encoder(order.file, encoders_for(form_, source.size)), source.pixel)) {}
 
   void write() {
     note(padding_text(form_, source_.size, order_.file));
@@ -64,13 +64,18 @@ class Writing {
     add_audio_input(words);
     if (is_gif())
       add(words,
-          {"-filter_complex", (drops_pictures() ? "fps=50" : "null") + std::string("[v];[v][1:v]") + kUsePalette});
+          {"-filter_complex", (drops_pictures() ? "fps=50" : "null") + std::string("[v];[v][1:v]") + kUsePalette + shape()});
     add(words, encoding_);
     add_rest(words, part);
     Ffmpeg ffmpeg(program_, words, order_.file, listener_.bounds, palette);
     feed_all(ffmpeg, is_gif() ? count : 0, is_gif() ? 2 * count : count);
     ffmpeg.finish();
     if (!is_gif()) require_pictures(part, order_.file, count);
+  }
+
+  std::string shape() const {
+    const std::string filter = shape_filter(source_.pixel);
+    return filter.empty() ? "" : "," + filter;
   }
 
   // Of all pictures, which are read twice: to keep them between would take the memory of them all.

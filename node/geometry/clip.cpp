@@ -48,10 +48,11 @@ void clip_by(const Plane4& plane, ClipPolygon& polygon) {
 
 void clip(const shape::Projection& p, ClipPolygon& polygon) {
   const double at_distance = p.parallel ? 0 : -p.guard, everywhere = p.parallel ? p.guard : 0;
+  const double across = double{p.scale} * p.squeeze;
   const Plane4 planes[] = {{0, 0, -1, -p.near},
                            {0, 0, 1, p.far},
-                           {p.scale, 0, at_distance, everywhere},
-                           {-p.scale, 0, at_distance, everywhere},
+                           {across, 0, at_distance, everywhere},
+                           {-across, 0, at_distance, everywhere},
                            {0, p.scale, at_distance, everywhere},
                            {0, -p.scale, at_distance, everywhere}};
   for (const Plane4& plane : planes) {

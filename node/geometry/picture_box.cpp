@@ -34,12 +34,12 @@ PictureBounds picture_box(const float (*points)[3], int count, const shape::Proj
     const double w = -double{points[i][2]};
     if (!(w >= projection.near)) return {{0, picture.height}, {0, picture.width}};
     const double spread = projection.parallel ? 1 : w;
-    x.add(projection.center[0] + projection.scale * points[i][0] / spread);
-    y.add(projection.center[1] - projection.scale * points[i][1] / spread);
+    x.add(projection.center[0] - projection.origin[0] + projection.scale * projection.squeeze * points[i][0] / spread);
+    y.add(projection.center[1] - projection.origin[1] - projection.scale * points[i][1] / spread);
     nearest = std::min(nearest, spread);
     for (const float along : points[i]) reach = std::max(reach, std::abs(double{along}));
   }
-  const double margin = kMargin + kRounding * projection.scale * reach / nearest;
+  const double margin = kMargin + kRounding * projection.scale * std::max(1.0f, projection.squeeze) * reach / nearest;
   const auto [top, bottom] = pixels(y, margin, picture.height);
   const auto [left, right] = pixels(x, margin, picture.width);
   if (top >= bottom || left >= right) return {};

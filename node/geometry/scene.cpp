@@ -12,6 +12,8 @@ namespace {
 // Screen places stay below 2^24 / 256, exact in a float, however the picture is shifted.
 constexpr float kGuardPixels = 32768;
 static_assert(kGuardPixels + wire::kMaxSide * (0.5 + wire::kMostShift) < (1 << 24) / 256);
+// All that is drawn lies within the guard band.
+static_assert(wire::kMaxSide * (0.5 + wire::kMostShift) + wire::kMostMargin <= kGuardPixels);
 
 EyeLight to_eye(const wire::Light& light, const wire::Matrix& world_to_eye) {
   EyeLight out = light;
@@ -43,13 +45,15 @@ ShapeBoxes::Box box_of(const wire::PackedFilm& film, std::uint32_t shape) {
 
 }  // namespace
 
-shape::Projection projection_of(const wire::Camera& camera, std::int32_t width, std::int32_t height) {
+shape::Projection projection_of(const wire::Camera& camera, const wire::FilmSettings& settings) {
+  const auto width = static_cast<std::int32_t>(settings.whole_width());
+  const auto height = static_cast<std::int32_t>(settings.whole_height());
   const bool parallel = camera.projection == wire::Projection::orthographic;
   const auto scale = static_cast<float>(camera.focal * height / 2);
   const auto center_x = static_cast<float>((0.5 - camera.shift_x) * width);
   const auto center_y = static_cast<float>((0.5 + camera.shift_y) * height);
-  // From the view axis to the farthest corner.
-  const float x = std::max(center_x, static_cast<float>(width) - center_x);
+  // From the view axis to the whole picture's farthest corner, in heights of pixels.
+  const float x = std::max(center_x, static_cast<float>(width) - center_x) * settings.pixel_aspect;
   const float y = std::max(center_y, static_cast<float>(height) - center_y);
   return {.scale = scale,
           .center = {center_x, center_y},
@@ -59,7 +63,9 @@ shape::Projection projection_of(const wire::Camera& camera, std::int32_t width, 
           .corner = scale / std::sqrt(scale * scale + x * x + y * y),
           .radius = parallel ? std::sqrt(x * x + y * y) / scale : 0,
           .nothing = parallel ? shape::kFarthestDepth : 0,
-          .parallel = parallel};
+          .parallel = parallel,
+          .squeeze = 1 / settings.pixel_aspect,
+          .origin = {settings.window.left, settings.window.top}};
 }
 
 ShapeBoxes::ShapeBoxes(const wire::PackedFilm& film) {
@@ -70,7 +76,7 @@ ShapeBoxes::ShapeBoxes(const wire::PackedFilm& film) {
 Scene::Scene(const wire::PackedFilm& film)
     : film_(film),
       tolerances_(shape::tolerances_of(film.settings().samples)),
-      projection_(projection_of(film.camera_at(0), width(), height())) {
+      projection_(projection_of(film.camera_at(0), film.settings())) {
   first_patch_.reserve(film.segments().size());
   std::uint32_t next = 0;
   for (const wire::Segment& segment : film.segments()) {
@@ -96,7 +102,7 @@ void Scene::set_interval(std::uint32_t number) {
 void Scene::set_frame(std::uint32_t frame) {
   frame_ = frame;
   const wire::Camera& camera = film_.camera_at(frame);
-  projection_ = projection_of(camera, width(), height());
+  projection_ = projection_of(camera, film_.settings());
   for (std::size_t i = 0; i < lights_.size(); ++i)
     lights_[i] =
         to_eye(film_.lights()[film_.value_at(film_.light_tracks()[light_order_[i]], frame)], camera.world_to_eye);

@@ -79,7 +79,7 @@ class Scene {
   std::vector<EyeLight> lights_;
 };
 
-// How `camera` shows the world on a picture of width x height.
-shape::Projection projection_of(const wire::Camera& camera, std::int32_t width, std::int32_t height);
+// How `camera` shows the world on a film's pictures.
+shape::Projection projection_of(const wire::Camera& camera, const wire::FilmSettings& settings);
 
 }  // namespace mars::geometry

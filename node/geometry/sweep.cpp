@@ -72,7 +72,7 @@ Hull corners_of(const Place& low, const Place& high) {
 class View {
  public:
   View(const wire::Camera& camera, const Scene& scene)
-      : projection_(projection_of(camera, scene.width(), scene.height())),
+      : projection_(projection_of(camera, scene.film().settings())),
         width_(scene.width()),
         height_(scene.height()) {}
 
@@ -103,8 +103,8 @@ class View {
 
   void add(const Point& place, double w, Bounds& bounds) const {
     const double spread = projection_.parallel ? 1 : w;
-    const double x = projection_.center[0] + projection_.scale * place[0] / spread;
-    const double y = projection_.center[1] - projection_.scale * place[1] / spread;
+    const double x = projection_.center[0] - projection_.origin[0] + projection_.scale * projection_.squeeze * place[0] / spread;
+    const double y = projection_.center[1] - projection_.origin[1] - projection_.scale * place[1] / spread;
     bounds.low_x = std::min(bounds.low_x, x), bounds.high_x = std::max(bounds.high_x, x);
     bounds.low_y = std::min(bounds.low_y, y), bounds.high_y = std::max(bounds.high_y, y);
   }
@@ -192,9 +192,10 @@ class Shadows {
     const Hull corners = corners_of(receiver.low, receiver.high);
     for (const Point& corner : corners.all()) w = std::max(w, -moved(camera_.world_to_eye, corner)[2]);
     w = std::min(w, double{p.far});
-    if (p.parallel) return 1 / (16.0 * p.scale) + (w + p.radius) / (1 << 18) + p.far / (1 << 22);
+    const double coarsest = p.scale * std::min(1.0, double{p.squeeze});
+    if (p.parallel) return 1 / (16.0 * coarsest) + (w + p.radius) / (1 << 18) + p.far / (1 << 22);
     w /= p.corner;
-    return w * (1 / (64.0 * p.scale) + 1.0 / (1 << 18)) + w * w / p.near / (1 << 22);
+    return w * (1 / (64.0 * coarsest) + 1.0 / (1 << 18)) + w * w / p.near / (1 << 22);
   }
 
   static constexpr double kMostWay = 1e18;

@@ -215,8 +215,12 @@ void CasterStream::visit_hulls(const geometry::Scene& scene, Casting casting,
 const shape::Surface& CasterStream::dice(const wire::Patch& patch) {
   const shape::EyePatch eye_patch = shape::to_eye(matrix_, patch);
   shape::Dicing dicing = scene_->dicing();
-  const auto width = static_cast<float>(scene_->width()), height = static_cast<float>(scene_->height());
-  if (shape::unseen(eye_patch, scene_->projection(), width, height)) dicing.most_inside = kUnseenRate;
+  // Of the whole picture, whichever part is drawn: shadows do not depend on it.
+  const wire::FilmSettings& settings = scene_->film().settings();
+  shape::Projection whole = scene_->projection();
+  std::fill_n(whole.origin, 2, 0);
+  const auto width = static_cast<float>(settings.whole_width()), height = static_cast<float>(settings.whole_height());
+  if (shape::unseen(eye_patch, whole, width, height)) dicing.most_inside = kUnseenRate;
   dicer_.dice(eye_patch, scene_->projection(), dicing);
   return dicer_;
 }

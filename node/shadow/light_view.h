@@ -31,11 +31,13 @@ struct LightView {
   std::uint32_t is_face;  // of six: only points within 45 degrees of its axis are its own
 };
 
-// What points need of a picture: e of a point at distance w along the view axis is (w by_square + by_w) w + everywhere,
+// What points need of a picture, where they are counted from `origin`: e of a point at distance w along the view axis is (w by_square + by_w) w + everywhere,
 // and of lights with a place depth * by_depth more.
 struct PointFrame {
   float scale;  // as in shape::Projection
+  float squeeze;
   float center[2];
+  float origin[2];
   float nothing;
   bool parallel;
   float by_w;

@@ -139,7 +139,8 @@ void see_from_afar(const geometry::EyeLight& light, const shape::Projection& pro
   constexpr double kMostSteps = 1 << 28;
   constexpr double kParallelStep = 1.0 / 256;  // of a pixel, as places are snapped
   const double finest = projection.parallel ? kParallelStep : double{projection.near};
-  const double step = std::max(finest / projection.scale, farthest_place(projection) / kMostSteps);
+  const double scale = projection.scale * std::max(1.0, double{projection.squeeze});
+  const double step = std::max(finest / scale, farthest_place(projection) / kMostSteps);
   const Vector axis = unit(vector_of(light.vector));
   out.faces = 1;
   out.middle = {far_view(axis, 0, 0, step)};
@@ -179,10 +180,12 @@ void see_from_place(const geometry::EyeLight& light, const shape::Projection& pr
 PointFrame point_frame(const shape::Projection& p) {
   PointFrame frame{};
   frame.scale = p.scale;
+  frame.squeeze = p.squeeze;
   std::copy_n(p.center, 2, frame.center);
+  for (std::size_t k = 0; k < 2; ++k) frame.origin[k] = static_cast<float>(p.origin[k]);
   frame.nothing = p.nothing;
   frame.parallel = p.parallel;
-  const double pixel = 1.0 / (128.0 * p.scale);
+  const double pixel = 1.0 / (128.0 * p.scale * std::min(1.0, double{p.squeeze}));
   if (p.parallel) {
     frame.by_w = static_cast<float>(kFloatError);
     frame.everywhere = static_cast<float>(pixel + kFloatError * p.radius + kDepthError * p.far);

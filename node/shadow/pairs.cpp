@@ -51,7 +51,8 @@ std::uint32_t point_of_pair(std::uint32_t column, std::uint32_t line, std::uint3
 static_assert(kTile * kTile * kPairs / kLightPoints == kPointLanes,
               "a square has one vector for each point of a light");
 
-PairVectors::PairVectors(const shape::SamplePattern& pattern, bool has_size) : are_rows_(!has_size) {
+PairVectors::PairVectors(const shape::SamplePattern& pattern, bool has_size, std::int32_t left, std::int32_t top)
+    : are_rows_(!has_size) {
   const auto samples = static_cast<std::uint32_t>(pattern.count);
   vectors_ = has_size ? 1 : kTile * kTile * samples / kPointLanes;
   if (has_size) {
@@ -60,7 +61,7 @@ PairVectors::PairVectors(const shape::SamplePattern& pattern, bool has_size) : a
     for (std::uint32_t line = 0; line < kTile; ++line)
       for (std::uint32_t column = 0; column < kTile; ++column)
         for (std::uint32_t pair = 0; pair < kPairs; ++pair) {
-          const std::uint32_t point = point_of_pair(column, line, pair);
+          const std::uint32_t point = point_of_pair(column + static_cast<std::uint32_t>(left), line + static_cast<std::uint32_t>(top), pair);
           check(count[point] < kPointLanes, "each point of a light is used equally often");
           lanes_[point].lane[count[point]++] = lane_of(column, line, pair / (kPairs / samples), pair);
         }

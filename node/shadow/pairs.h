@@ -20,7 +20,8 @@ constexpr std::uint32_t pairs_a_sample(std::uint32_t samples, bool has_size) { r
 // The pairs of some samples, one bit each.
 std::uint32_t pairs_of(std::uint32_t sample_bits, std::uint32_t pairs_a_sample);
 
-// The point that a pair of the pixel at (column, line) uses, of a light with size.
+// The point that a pair of the pixel at (column, line) of the whole picture uses, of a light with size. Columns and
+// lines below 0 are as they are modulo 2^32.
 std::uint32_t point_of_pair(std::uint32_t column, std::uint32_t line, std::uint32_t pair);
 
 // Where the points of a vector lie in a square of kTile x kTile pixels.
@@ -48,7 +49,8 @@ struct VectorLanes {
 // The vectors of a square, which has points of all its pixels' pairs with one point of a light.
 class PairVectors {
  public:
-  PairVectors(const shape::SamplePattern& pattern, bool has_size);
+  // `left`, `top`: of the part of the picture that is drawn (shape::Projection::origin).
+  PairVectors(const shape::SamplePattern& pattern, bool has_size, std::int32_t left = 0, std::int32_t top = 0);
 
   std::uint32_t vectors() const { return vectors_; }
   // Whether each four lanes are of neighbouring pixels of a line.

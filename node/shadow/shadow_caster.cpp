@@ -27,7 +27,7 @@ ShadowCaster::ShadowCaster(simd::InstructionSet set, const geometry::Scene& scen
       pattern_(scene.pattern()),
       samples_(static_cast<std::uint32_t>(pattern_.count)),
       hard_(pattern_, false),
-      soft_(pattern_, true),
+      soft_(pattern_, true, scene.projection().origin[0], scene.projection().origin[1]),
       diced_(scene.film().patch_instances(), plan.diced),
       casters_(set, plan.chunk),
       points_bytes_(plan.points),

@@ -57,15 +57,18 @@ float distance(const float (*p)[3], int count) {
   return std::sqrt(square_length(middle[0], middle[1], middle[2])) - std::sqrt(radius);
 }
 
+// Pixels a unit length shows at distance 1 in the direction in which they are the denser.
+float finest(const Projection& projection) { return projection.scale * std::max(projection.squeeze, 1.0f); }
+
 // Pixels a unit length shows at most anywhere in the hull of `count` points: what is seen lies no nearer than
 // the nearest point, nor than its distance from the eye allows within the picture's corners, where lengths
 // that point away from the middle show longest.
 float magnification(const float (*p)[3], int count, const Projection& projection) {
-  if (projection.parallel) return projection.scale;
+  if (projection.parallel) return finest(projection);
   float nearest = -p[0][2];
   for (int i = 1; i < count; ++i) nearest = std::min(nearest, -p[i][2]);
   const float depth = std::max({nearest, projection.near, projection.corner * distance(p, count)});
-  return projection.scale / (projection.corner * depth);
+  return finest(projection) / (projection.corner * depth);
 }
 
 int whole_steps(float rate) {
@@ -191,7 +194,7 @@ int edge_rate(const Curve& curve, const Projection& projection, float tolerance)
   }
   const float depth = projection.parallel ? 1 : std::max(nearest, projection.near);
   return steps(6 * std::min(std::sqrt(bend) * magnification(p, 4, projection),
-                            std::sqrt(across) * projection.scale / (depth * depth)),
+                            std::sqrt(across) * finest(projection) / (depth * depth)),
                tolerance);
 }
 
@@ -224,11 +227,14 @@ bool unseen(const EyePatch& patch, const Projection& projection, float width, fl
 bool unseen(const float (*points)[3], int count, const Projection& projection, float width, float height) {
   // Half-spaces of places that cannot be drawn: nearer, farther, left, right, above, below, with a pixel's margin.
   bool all[6] = {true, true, true, true, true, true};
-  const float left = projection.center[0] + 1, right = width + 1 - projection.center[0];
-  const float above = projection.center[1] + 1, below = height + 1 - projection.center[1];
+  const auto [first_x, first_y] = projection.origin;
+  const float left = projection.center[0] + 1 - static_cast<float>(first_x);
+  const float right = width + 1 - projection.center[0] + static_cast<float>(first_x);
+  const float above = projection.center[1] + 1 - static_cast<float>(first_y);
+  const float below = height + 1 - projection.center[1] + static_cast<float>(first_y);
   for (int i = 0; i < count; ++i) {
     const float* p = points[i];
-    const float w = -p[2], x = projection.scale * p[0], y = -projection.scale * p[1];
+    const float w = -p[2], x = projection.scale * projection.squeeze * p[0], y = -projection.scale * p[1];
     const float spread = projection.parallel ? 1 : w;
     all[0] &= w < projection.near;
     all[1] &= w > projection.far;

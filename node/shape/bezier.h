@@ -76,7 +76,8 @@ int edge_rate(const Curve& curve, const Projection& projection, float tolerance)
 // two of its normals shading breaks.
 Rates rates(const ShapeKernels& kernels, const EyePatch& patch, const Projection& projection, const Dicing& dicing);
 
-// Whether the patch surely leaves no mark on a picture of width x height: its hull lies outside.
+// Whether the patch surely leaves no mark on the width x height pixels from the projection's origin on: its hull lies
+// outside.
 bool unseen(const EyePatch& patch, const Projection& projection, float width, float height);
 // The same of anything within the hull of `count` points.
 bool unseen(const float (*points)[3], int count, const Projection& projection, float width, float height);

@@ -62,8 +62,9 @@ struct EyeMap {
   float normal[3][3];
 };
 
-// screen x = center[0] + scale * x / w, y = center[1] - scale * y / w, w = -z, in pixels. In parallel projection
-// nothing is divided by w.
+// In pixels of the whole picture x = center[0] + scale * squeeze * x / w, y = center[1] - scale * y / w, w = -z; in
+// parallel projection nothing is divided by w. The pixels that are drawn are counted from `origin`, which is subtracted
+// from snapped places, in whole numbers: what a pixel shows does not depend on which part of the picture is drawn.
 struct Projection {
   float scale;
   float center[2];
@@ -74,6 +75,8 @@ struct Projection {
   float radius = 0;   // of parallel projection: from the view axis to that corner, a length of eye space
   float nothing = 0;  // the depth of samples that show nothing, below all others
   bool parallel = false;
+  float squeeze = 1;                // height of a pixel by its width
+  std::int32_t origin[2] = {0, 0};  // of the part that is drawn, in pixels of the whole picture
 };
 inline constexpr float kFarthestDepth = -3.40282347e+38f;  // Projection::nothing of parallel projection
 

@@ -78,12 +78,25 @@ bool is_light(const std::array<float, 3>& color) {
 
 bool is_share(float number) { return number >= 0 && number <= 1; }
 
+// Whether `size` pixels from `first` on lie within `whole` ones and kMostMargin on either side.
+bool is_beside(std::int32_t first, std::uint32_t size, std::uint32_t whole) {
+  constexpr std::int64_t kMargin = kMostMargin;
+  return first >= -kMargin && std::int64_t{first} + size <= std::int64_t{whole} + kMargin;
+}
+
+bool sound(const PictureWindow& window, std::uint32_t width, std::uint32_t height) {
+  if (window.is_whole()) return window == PictureWindow();
+  return window.whole_width <= kMaxSide && window.whole_height >= 1 && window.whole_height <= kMaxSide &&
+         is_beside(window.left, width, window.whole_width) && is_beside(window.top, height, window.whole_height);
+}
+
 bool sound(const FilmSettings& s) {
   return s.width >= 1 && s.width <= kMaxSide && s.height >= 1 && s.height <= kMaxSide && s.frames >= 1 &&
          s.frames <= kMostFrames && s.dice <= 256 && is_light(s.background) && s.rate > 0 && s.rate <= 1e6f &&
          std::has_single_bit(s.samples) && s.samples <= kMostSamples && s.color_space <= ColorSpace::linear &&
          s.curve <= kLastCurve && is_light(s.ambient.sky) && is_light(s.ambient.ground) && is_light(s.fog.color) &&
-         all_finite(std::array{s.fog.start, s.fog.end});
+         all_finite(std::array{s.fog.start, s.fog.end}) && sound(s.window, s.width, s.height) &&
+         s.pixel_aspect >= 1 / kMostPixelAspect && s.pixel_aspect <= kMostPixelAspect;
 }
 
 bool sound(const Material& m) {

@@ -10,8 +10,9 @@
 namespace mars::wire {
 
 // Bumped whenever the layout or the meaning of a field changes; other versions are refused.
-inline constexpr std::uint32_t kFilmVersion = 5;
+inline constexpr std::uint32_t kFilmVersion = 6;
 inline constexpr std::uint32_t kMaxSide = 16384;         // pixels
+inline constexpr std::uint32_t kMostMargin = 8192;       // pixels that are drawn beyond a side of the whole picture
 inline constexpr std::uint32_t kMostFrames = 1'000'000;  // of a film
 inline constexpr std::uint32_t kMostSamples = 16;        // of a pixel
 
@@ -174,7 +175,7 @@ inline constexpr Projection kLastProjection = Projection::orthographic;
 
 inline constexpr double kMostShift = 1;  // of a picture's width or height
 
-// The eye looks along -z of its own frame, x to the right, y up. The picture shows 2 / `focal` of the height at
+// The eye looks along -z of its own frame, x to the right, y up. The whole picture shows 2 / `focal` of the height at
 // distance 1, or, if orthographic, at every distance. Nothing nearer than near or farther than far is drawn.
 struct Camera {
   Matrix world_to_eye;
@@ -201,8 +202,22 @@ struct Interval {
   std::uint32_t moving_count;
 };
 
+// Where the picture that is drawn lies in the one that the camera sees, which may be larger, or smaller: its left top
+// pixel, and the size of the whole; a width of 0: it is the whole.
+struct PictureWindow {
+  std::int32_t left = 0;  // -kMostMargin..kMaxSide - 1
+  std::int32_t top = 0;
+  std::uint32_t whole_width = 0;  // pixels, 1..kMaxSide
+  std::uint32_t whole_height = 0;
+
+  bool is_whole() const { return whole_width == 0; }
+  bool operator==(const PictureWindow&) const = default;
+};
+
+inline constexpr float kMostPixelAspect = 16;  // and its inverse the least
+
 struct FilmSettings {
-  std::uint32_t width;  // pixels, 1..kMaxSide
+  std::uint32_t width;  // pixels that are drawn, 1..kMaxSide
   std::uint32_t height;
   std::uint32_t frames;  // 1..kMostFrames
   std::uint32_t dice;    // 0: adaptive; N: every patch N x N quads
@@ -214,6 +229,12 @@ struct FilmSettings {
   Curve curve = Curve::none;  // of linear films
   AmbientLight ambient{};
   Fog fog{};
+  PictureWindow window{};
+  float pixel_aspect = 1;  // width of a pixel by its height
+
+  // The size of the picture that the camera sees.
+  std::uint32_t whole_width() const { return window.is_whole() ? width : window.whole_width; }
+  std::uint32_t whole_height() const { return window.is_whole() ? height : window.whole_height; }
 };
 
 }  // namespace mars::wire

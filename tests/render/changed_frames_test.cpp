@@ -26,7 +26,8 @@ const Frames kAll{0, 1, 2, 3}, kNone{};
 // A further member of a struct below fails to compile here: compare it in changed_frames(), and change it below.
 [[maybe_unused]] void name_members(const FilmData& film) {
   [[maybe_unused]] const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15, a16, a17] = film;
-  [[maybe_unused]] const auto& [b1, b2, b3, b4, b5, b6, b7, b8, b9, b10, b11, b12] = film.settings;
+  [[maybe_unused]] const auto& [b1, b2, b3, b4, b5, b6, b7, b8, b9, b10, b11, b12, b13, b14] = film.settings;
+  [[maybe_unused]] const auto& [q1, q2, q3, q4] = film.settings.window;
   [[maybe_unused]] const auto& [c1, c2, c3, c4] = film.shapes[0];
   [[maybe_unused]] const auto& [d1, d2, d3, d4, d5, d6] = film.meshlets[0];
   [[maybe_unused]] const auto& [e1, e2, e3, e4] = film.segments[0];
@@ -141,6 +142,12 @@ std::vector<Edit> edits_of_settings() {
       {"fog.color", [](FilmData& f) { f.settings.fog.color[2] = 0.9f; }, kAll},
       {"fog.start", [](FilmData& f) { f.settings.fog.start = 2; }, kAll},
       {"fog.end", [](FilmData& f) { f.settings.fog.end = 20; }, kAll},
+      {"window",
+       [](FilmData& f) {
+         f.settings.window = {2, 1, f.settings.width, f.settings.height};
+       },
+       kAll},
+      {"pixel_aspect", [](FilmData& f) { f.settings.pixel_aspect = 2; }, kAll},
   };
 }
 

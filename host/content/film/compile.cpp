@@ -40,7 +40,7 @@ void see_by(Eye eye, const animator::Film& film, wire::FilmData& data) {
     throw Failure("has no stereo pair: parallel rays show the same from both sides", film.source + ": camera",
                   "make the projection perspective, or leave --eye out");
   const double aside = (eye == Eye::left ? -0.5 : 0.5) * motion.interaxial;
-  const double aspect = double(data.settings.width) / data.settings.height;
+  const double aspect = double(data.settings.width) * data.settings.pixel_aspect / data.settings.height;
   for (wire::Camera& camera : data.cameras) {
     camera.world_to_eye.m[0][3] -= aside;
     camera.shift_x -= aside * camera.focal / (2 * motion.convergence * aspect);
@@ -58,6 +58,7 @@ class Compiler {
     writer_.write_settings();
     change_settings();
     if (options_.eye != Eye::middle) see_by(options_.eye, film_, data_);
+    set_window(options_.crop, options_.margin, film_.source, data_.settings);
     writer_.write_segments(write_shapes(film_, data_));
     CompiledFilm compiled;
     const std::size_t matrices = write_motion(film_, data_, compiled.lines);
@@ -126,15 +127,28 @@ class Compiler {
   FilmWriter writer_{film_, {0, film_.frames}, data_};
 };
 
-// The same block with another size and other samples: what a frame shows does not depend on them.
+void make_whole(wire::FilmSettings& settings) {
+  settings.width = settings.whole_width();
+  settings.height = settings.whole_height();
+  settings.window = {};
+}
+
+// The same block with another size, another part of the picture and other samples: what a frame shows does not depend on them.
 void change_pixels(CompiledFilm& film, const CompileOptions& options) {
   const wire::PackedFilm view = film.view();
   wire::FilmSettings settings = view.settings();
+  if (!settings.window.is_whole()) {
+    if (options.size)
+      throw Failure("is a part of a picture, compiled as " + size_text(settings), film.source,
+                    "choose --size with the film file itself");
+    if (options.crop || options.margin > 0) make_whole(settings);
+  }
   if (options.size) {
     const auto size = checked_size(*options.size, film.source);
     settings.width = size[0];
     settings.height = size[1];
   }
+  if (options.crop || options.margin > 0) set_window(options.crop, options.margin, film.source, settings);
   if (options.samples) settings.samples = checked_samples(*options.samples, film.source);
   const auto offset = reinterpret_cast<const std::byte*>(&view.settings()) - film.block().data();
   std::memcpy(reinterpret_cast<std::byte*>(film.lines.data()) + offset, &settings, sizeof settings);

@@ -9,6 +9,7 @@
 
 #include "host/content/animator/pose/film.h"
 #include "host/content/film/compiled_film.h"
+#include "host/content/film/crop.h"
 #include "host/content/film/eye.h"
 
 namespace mars::film {
@@ -19,6 +20,8 @@ struct CompileOptions {
   std::optional<std::array<std::uint32_t, 2>> size{};  // pixels, each 1..wire::kMaxSide
   std::optional<std::uint32_t> samples{};              // of a pixel: 1, 2, 4, 8 or 16
   Eye eye = Eye::middle;
+  std::optional<Crop> crop{};  // of the picture, all that is drawn; none: all of it
+  std::uint32_t margin = 0;    // pixels that are drawn around that
 };
 
 CompiledFilm compile(const animator::Film& film, const CompileOptions& options = {});

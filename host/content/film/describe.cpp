@@ -57,7 +57,9 @@ std::string describe(const CompiledFilm& film) {
   const wire::PackedFilm view = film.view();
   const wire::FilmSettings& settings = view.settings();
   std::string text = film.source + "\n";
-  text += document::formatted("size        %u x %u\n", settings.width, settings.height);
+  text += "size        " + size_text(settings) + "\n";
+  if (settings.pixel_aspect != 1)
+    text += document::formatted("pixels      %g times as wide as high\n", double{settings.pixel_aspect});
   text += document::formatted("samples     %u a pixel\n", settings.samples);
   text += colors_of(settings);
   text += document::formatted("frames      %u at %g a second, %.2f seconds\n", settings.frames, settings.rate,

@@ -88,6 +88,7 @@ void FilmWriter::write_settings() {
   wire::FilmSettings& settings = data_.settings;
   settings.width = film_.width;
   settings.height = film_.height;
+  settings.pixel_aspect = float(film_.pixel_aspect);
   settings.frames = frames_.count;
   settings.dice = film_.dice;
   settings.rate = float(film_.rate);

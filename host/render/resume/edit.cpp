@@ -6,6 +6,7 @@
 #include "hal/failure/failure.h"
 #include "host/content/document/text.h"
 #include "host/content/film/changed_frames.h"
+#include "host/content/film/crop.h"
 #include "host/content/film/frame_set.h"
 
 namespace mars::resume {
@@ -14,8 +15,10 @@ namespace {
 using Numbers = std::vector<std::uint32_t>;
 
 std::string picture_text(const wire::FilmSettings& settings) {
-  return std::to_string(settings.width) + "x" + std::to_string(settings.height) + " with " +
-         document::counted(settings.samples, "sample") + " a pixel";
+  std::string text = film::size_text(settings) + " with " + document::counted(settings.samples, "sample") + " a pixel";
+  if (settings.pixel_aspect != 1)
+    text += document::formatted(" that is %g times as wide as high", double{settings.pixel_aspect});
+  return text;
 }
 
 // Of a long list only where it begins and ends: "frames 3-5,7", "412 frames from 3 to 900".
@@ -45,7 +48,8 @@ Numbers intervals_of(const Numbers& frames, const wire::PackedFilm& film) {
 Edit edit_of(const film::CompiledFilm& before, const film::CompiledFilm& now, const std::string& folder) {
   const wire::PackedFilm was = before.view(), is = now.view();
   const wire::FilmSettings &a = was.settings(), &b = is.settings();
-  if (a.width != b.width || a.height != b.height || a.samples != b.samples)
+  if (a.width != b.width || a.height != b.height || a.samples != b.samples || a.window != b.window ||
+      a.pixel_aspect != b.pixel_aspect)
     throw Failure("the frames in this folder are " + picture_text(a) + ", not " + picture_text(b), folder,
                   "give another folder with -o, or replace them with --overwrite");
   Edit edit{film::changed_frames(was, is)};

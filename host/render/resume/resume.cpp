@@ -210,6 +210,7 @@ class Opening {
                       sources_,
                       wish_.options};
     set_form(manifest, wish_.form);
+    manifest.place = images::place_of(settings);
     const bool is_kept_film = seen_ && seen_->checksum == manifest.checksum;
     if (is_kept_film && !wish_.overwrite && sinks::missing_frames(wish_.folder, *seen_, manifest.frames).empty())
       manifest.pixel_version = seen_->pixel_version;                          // nothing is rendered

@@ -23,7 +23,8 @@ namespace {
 constexpr std::size_t kLongestFilm = 3 * 4096;  // bytes: of a path, of which each may be written as three
 constexpr auto kKeys = std::to_array<std::string_view>(
     {"version", "sum", "film", "checksum", "width", "height", "format", "rate", "film_frames", "frames",
-     "pixel_version", "pixel_hashes", "sources", "options", "names", "first_number", "compression"});
+     "pixel_version", "pixel_hashes", "sources", "options", "names", "first_number", "compression", "window",
+     "pixel_aspect"});
 
 // Unbroken stretches as [first, last] pairs, so that a long film's manifest stays short.
 json stretches_of(const std::vector<std::uint32_t>& frames) {
@@ -113,8 +114,34 @@ std::uint32_t version_of(const Record& record) {
 
 // An older MARS would render under other names.
 std::uint32_t version_for(const Manifest& manifest) {
-  constexpr std::uint32_t kOfPlainForms = 3;
-  return form_of(manifest) == FrameForm{images::without_alpha(manifest.format)} ? kOfPlainForms : kManifestVersion;
+  constexpr std::uint32_t kOfPlainForms = 3, kOfWholePictures = 4;
+  if (manifest.place != images::PicturePlace()) return kManifestVersion;
+  return form_of(manifest) == FrameForm{images::without_alpha(manifest.format)} ? kOfPlainForms : kOfWholePictures;
+}
+
+void add_place(const images::PicturePlace& place, json& text) {
+  const wire::PictureWindow& window = place.window;
+  if (!window.is_whole()) text["window"] = {window.left, window.top, window.whole_width, window.whole_height};
+  if (place.pixel_aspect != 1) text["pixel_aspect"] = place.pixel_aspect;
+}
+
+wire::PictureWindow window_of(const json& list) {
+  constexpr std::int64_t kLeast[] = {-std::int64_t{wire::kMostMargin}, -std::int64_t{wire::kMostMargin}, 1, 1};
+  const auto is_sound = [&](std::size_t i) {
+    return list[i].is_number_integer() && list[i].get<std::int64_t>() >= kLeast[i] &&
+           list[i].get<std::int64_t>() <= wire::kMaxSide;
+  };
+  if (list.size() != 4 || !is_sound(0) || !is_sound(1) || !is_sound(2) || !is_sound(3))
+    refuse_value("window", list, "left, top, width and height of the whole picture");
+  return {list[0].get<std::int32_t>(), list[1].get<std::int32_t>(), list[2].get<std::uint32_t>(),
+          list[3].get<std::uint32_t>()};
+}
+
+images::PicturePlace place_of(const Record& record) {
+  images::PicturePlace place;
+  if (record.has("window")) place.window = window_of(record.list("window"));
+  if (record.has("pixel_aspect")) place.pixel_aspect = static_cast<float>(record.positive_number("pixel_aspect"));
+  return place;
 }
 
 // None has been seen of another program in a file of version 1.
@@ -144,7 +171,7 @@ void set_form(Manifest& manifest, const FrameForm& form) {
 }
 
 images::PictureBands bands_of(const Manifest& manifest) {
-  return {manifest.format, manifest.width, manifest.height, manifest.compression};
+  return {manifest.format, manifest.width, manifest.height, manifest.compression, manifest.place};
 }
 
 std::vector<std::string> words_of(const FrameForm& form) {
@@ -248,6 +275,7 @@ json to_json(const Manifest& manifest) {
                {"frames", stretches_of(manifest.frames)},
                {"pixel_version", manifest.pixel_version}});
   add_form(form_of(manifest), text);
+  add_place(manifest.place, text);
   if (!manifest.pixel_hashes.empty()) text["pixel_hashes"] = hashes_json(manifest.pixel_hashes);
   if (!manifest.sources.empty()) text["sources"] = sources_json(manifest.sources);
   if (!manifest.options.empty()) text["options"] = manifest.options;
@@ -269,6 +297,7 @@ Manifest manifest_of(const json& from) {
   manifest.width = static_cast<std::uint32_t>(record.whole_number("width", 1, wire::kMaxSide));
   manifest.height = static_cast<std::uint32_t>(record.whole_number("height", 1, wire::kMaxSide));
   set_form(manifest, form_of(record));
+  manifest.place = place_of(record);
   manifest.rate = record.positive_number("rate");
   manifest.film_frames = static_cast<std::uint32_t>(record.whole_number("film_frames", 1, wire::kMostFrames));
   manifest.frames = frames_of(record.list("frames"), manifest.film_frames);

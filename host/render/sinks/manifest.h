@@ -12,6 +12,7 @@
 #include "host/images/frame_form.h"
 #include "host/images/picture_bands.h"
 #include "host/images/picture_format.h"
+#include "host/images/picture_place.h"
 #include "node/wire/pixel_version.h"
 
 namespace mars::sinks {
@@ -20,8 +21,9 @@ class Record;
 
 // Of the file. 1, which files without the key have: they have no key but those known then. 2: with a sum over all other
 // keys, and a pixel version. 3: frames may have hashes of bands (pixel_hash.h). 4, written only where it is needed:
-// files may have other names, or another compression.
-inline constexpr std::uint32_t kManifestVersion = 4;
+// files may have other names, or another compression. 5, where that is needed: files may have a part of the picture, or pixels that
+// are not square.
+inline constexpr std::uint32_t kManifestVersion = 5;
 
 // A file that was read to compile a film.
 struct Source {
@@ -48,6 +50,7 @@ struct Manifest {
   std::uint32_t pixel_version = wire::kPixelVersion;  // of the program that rendered the frames
   images::FrameNames names = {};
   images::Compression compression = images::Compression::zip;
+  images::PicturePlace place = {};  // of width x height
   std::string more = {};  // keys that this program does not know, as the text of an object; "": none
 
   bool operator==(const Manifest&) const = default;

@@ -64,6 +64,7 @@ Manifest manifest_of(const film::CompiledFilm& film) {
   manifest.checksum = document::checksum_of(film.block());
   manifest.width = settings.width;
   manifest.height = settings.height;
+  manifest.place = images::place_of(settings);
   manifest.rate = settings.rate;
   manifest.film_frames = settings.frames;
   return manifest;

@@ -40,6 +40,8 @@ film::CompiledFilm load_film_of(const options::RenderOptions& options, const War
   if (options.size) compiling.size = {options.size->width, options.size->height};
   compiling.samples = options.samples;
   compiling.eye = options.eye;
+  compiling.crop = options.crop;
+  compiling.margin = options.margin;
   if (options.film == options::kTrialFilm)
     return film::compile(animator::read_film(document::Document(kTrial, options::kTrialFilm).root(), {}), compiling);
   return load_with_warnings(options.film, compiling, warn);

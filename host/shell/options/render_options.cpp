@@ -69,6 +69,8 @@ void read(const std::string& text, std::optional<images::PictureSize>& value) {
   value = images::read_picture_size(text);
 }
 
+void read(const std::string& text, std::optional<film::Crop>& value) { value = film::read_crop(text); }
+
 // Samples of a pixel.
 void read(const std::string& text, std::optional<std::uint32_t>& value) {
   value = document::number_in<std::uint32_t>(text).value_or(0);
@@ -110,6 +112,8 @@ std::string text_of(const film::FrameSet& frames) { return frames.text(); }
 std::string text_of(const std::optional<images::PictureSize>& size) {
   return std::to_string(size->width) + "x" + std::to_string(size->height);
 }
+
+std::string text_of(const std::optional<film::Crop>& crop) { return film::text_of(*crop); }
 
 std::string text_of(const std::optional<std::uint32_t>& number) { return std::to_string(*number); }
 
@@ -279,6 +283,11 @@ std::vector<Entry> table() {
           compiles, "--eye", "middle|left|right", &RenderOptions::eye,
           "Eye of a stereo pair that sees the film, by its camera's interaxial and convergence; default: middle, the "
           "camera itself. Example: --eye left"),
+      option(compiles, "--crop", "X,Y,WxH", &RenderOptions::crop,
+             "Draw this part of the picture alone, its pixels unchanged; X,Y: its left top one. Example: --crop "
+             "480,270,960x540"),
+      number(compiles, "--margin", {&RenderOptions::margin, false, wire::kMostMargin, 0},
+             "Pixels drawn around the picture or its crop (overscan); default: 0. Example: --margin 32"),
       option(plans, "--mapping", "greedy|optimal|cost", &RenderOptions::mapping,
              "How lines are divided among nodes: by edge boxes, exactly by edge boxes, or by cost; default: cost. "
              "Example: --mapping greedy"),
@@ -346,7 +355,7 @@ const std::vector<Heading>& headings() {
   static const std::vector<Heading> kHeadings{
       {"Pictures and files",
        {"--name", "--first-number", "--frames", "--every", "--size", "--samples", "--format", "--alpha",
-        "--compression", "--eye", "--codec", "--quality", "--sink"}},
+        "--compression", "--eye", "--crop", "--margin", "--codec", "--quality", "--sink"}},
       {"Machines", {"--nodes", "--force", "--backend", "--platform", "--hostfile", "--restarts", "--write"}},
       {"Division of work (the same pictures)",
        {"--mapping", "--exchange", "--intervals", "--no-coherence", "--block", "--groups", "--sharers", "--cut"}},

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/cli/command.h"
+#include "host/content/film/crop.h"
 #include "host/content/film/eye.h"
 #include "host/content/film/frame_set.h"
 #include "host/images/frame_form.h"
@@ -45,6 +46,8 @@ struct RenderOptions {
   std::optional<images::PictureSize> size;  // none: the film's own
   std::optional<std::uint32_t> samples;     // of a pixel; none: the film's own
   film::Eye eye = film::Eye::middle;
+  std::optional<film::Crop> crop;  // all that is drawn of the picture; none: all of it
+  std::uint32_t margin = 0;        // pixels that are drawn around that
   wire::Mapping mapping = wire::Mapping::cost;
   wire::Exchange exchange = wire::Exchange::automatic;
   Intervals intervals = Intervals::automatic;

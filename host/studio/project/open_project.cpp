@@ -12,6 +12,7 @@
 #include "host/content/film/film_file.h"
 #include "host/content/modeler/edit.h"
 #include "host/editing/edit_film.h"
+#include "host/images/picture_size.h"
 #include "host/preview/watched_files.h"
 #include "host/studio/project/describe.h"
 #include "host/studio/project/film_work.h"
@@ -179,13 +180,15 @@ class FileProject : public Project {
   }
 
   Json describe() const override {
+    const images::PictureSize shown =
+        images::with_square_pixels({film().width, film().height}, film().pixel_aspect);
     Json json{{"is", "project"},
               {"kind", is_model_ ? "model" : "film"},
               {"file", path_.filename().string()},
               {"frames", film().frames},
               {"rate", film().rate},
               {"frame", frame_},
-              {"size", {film().width, film().height}}};
+              {"size", {shown.width, shown.height}}};
     work_->describe(json, frame_);
     json["undo"] = problem_ ? Json(kBreaking) : name_of(history_.to_undo());
     json["redo"] = problem_ ? Json() : name_of(history_.to_redo());

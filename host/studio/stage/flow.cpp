@@ -160,7 +160,7 @@ bool Flow::looks_the_same(PageView& view, const Shown& now) {
 // Whether it shows what `mars render` would.
 bool Flow::is_own(const PageView& view) const {
   const wire::FilmSettings& settings = moments_.now().settings;
-  return view.eye.from == From::camera && view.width == settings.width && view.height == settings.height;
+  return view.eye.from == From::camera && view.width == settings.width && view.height == settings.height && settings.pixel_aspect == 1;
 }
 
 bool Flow::is_exact(const PageView& view) {
@@ -179,6 +179,7 @@ std::vector<std::byte> Flow::packed(const Shot& scene, const std::vector<std::ui
   film.cameras = {scene.camera};
   film.settings.width = scene.width;
   film.settings.height = scene.height;
+  film.settings.pixel_aspect = 1;  // views show square pixels, as many across as make them as wide
   film.moving = moving;
   film.intervals = {{0, 1, 0, static_cast<std::uint32_t>(moving.size())}};
   return wire::pack_scene(film);

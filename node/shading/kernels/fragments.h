@@ -25,13 +25,15 @@ inline void evaluate(const geometry::Triangle& t, Places place, float* values) {
   std::memcpy(values, &here, sizeof here);
 }
 
-// Fills Block::from by places on the screen, 1/256 pixel; where the eye is at one place, its z is 1.
+// Fills Block::from by places on the picture that is drawn, 1/256 pixel; where the eye is at one place, its z is 1.
 inline void set_places(const shape::Projection& p, const std::int32_t (*place)[kCapacity], Block& block) {
-  const Floats per_pixel = constant(1.0f / p.scale), pixel = constant(1.0f / shape::kSubpixels);
+  const Floats per_pixel = constant(1.0f / p.scale), across_pixel = constant(1.0f / (p.scale * p.squeeze));
+  const Ints left = hn::Set(kInts, p.origin[0] * shape::kSubpixels), top = hn::Set(kInts, p.origin[1] * shape::kSubpixels);
+  const Floats pixel = constant(1.0f / shape::kSubpixels);
   for (std::uint32_t k = 0; k < block.count; k += kLanes) {
-    const Floats x = hn::Mul(hn::ConvertTo(kFloats, hn::Load(kInts, place[0] + k)), pixel);
-    const Floats y = hn::Mul(hn::ConvertTo(kFloats, hn::Load(kInts, place[1] + k)), pixel);
-    hn::Store(hn::Mul(hn::Sub(constant(p.center[0]), x), per_pixel), kFloats, block.from[0] + k);
+    const Floats x = hn::Mul(hn::ConvertTo(kFloats, hn::Add(hn::Load(kInts, place[0] + k), left)), pixel);
+    const Floats y = hn::Mul(hn::ConvertTo(kFloats, hn::Add(hn::Load(kInts, place[1] + k), top)), pixel);
+    hn::Store(hn::Mul(hn::Sub(constant(p.center[0]), x), across_pixel), kFloats, block.from[0] + k);
     hn::Store(hn::Mul(hn::Sub(y, constant(p.center[1])), per_pixel), kFloats, block.from[1] + k);
     hn::Store(constant(1.0f), kFloats, block.from[2] + k);
   }

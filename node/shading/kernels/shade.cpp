@@ -29,9 +29,11 @@ class Line {
         materials_(shading.materials),
         ids_(ids),
         y_(static_cast<std::int32_t>(line) * shape::kSubpixels + shape::kSampleOffset),
+        left_(shading.projection.origin[0]),
         center_(shading.projection.center[0] - 0.5f),
-        per_pixel_(1.0f / shading.projection.scale) {
-    const Floats up = constant((static_cast<float>(line) + 0.5f - shading.projection.center[1]) * per_pixel_);
+        per_pixel_(1.0f / (shading.projection.scale * shading.projection.squeeze)) {
+    const auto of_whole = static_cast<float>(static_cast<std::int32_t>(line) + shading.projection.origin[1]);
+    const Floats up = constant((of_whole + 0.5f - shading.projection.center[1]) * (1.0f / shading.projection.scale));
     for (std::uint32_t k = 0; k < kBlock && extent.first + k < extent.last; k += kLanes) {
       hn::Store(up, kFloats, block.from[1] + k);
       hn::Store(constant(1.0f), kFloats, block.from[2] + k);
@@ -59,7 +61,7 @@ class Line {
     count = static_cast<std::uint32_t>(id - (ids_ + column));
     const Floats center = constant(center_), per_pixel = constant(per_pixel_);
     for (std::uint32_t k = 0; k < count; k += kLanes) {
-      const Floats columns = hn::Iota(kFloats, static_cast<float>(column + k));
+      const Floats columns = hn::Iota(kFloats, static_cast<float>(left_ + static_cast<std::int32_t>(column + k)));
       hn::StoreU(hn::Mul(hn::Sub(center, columns), per_pixel), kFloats, block.from[0] + block.count + k);
     }
     block.count += count;
@@ -71,6 +73,7 @@ class Line {
   const wire::Material* materials_;
   const std::uint32_t* ids_;
   std::int32_t y_;
+  std::int32_t left_;
   float center_;
   float per_pixel_;
 };

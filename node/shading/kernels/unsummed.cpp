@@ -19,14 +19,14 @@ struct Planes {
 // -w = k + b x + c y.
 void add_planes(const Shading& shading, const Fragment* fragments, std::uint32_t count, Planes& out) {
   const shape::Projection& p = shading.projection;
-  const float per_tangent = p.scale * shape::kSubpixels;
+  const float across = p.scale * p.squeeze * shape::kSubpixels, up = p.scale * shape::kSubpixels;
   for (std::uint32_t k = 0; k < count; ++k) {
     const geometry::Triangle& t = shading.triangles[fragments[k].triangle];
     const float per_x = t.per_x[shape::kDepth], per_y = t.per_y[shape::kDepth];
-    const float dy = p.center[1] * shape::kSubpixels - static_cast<float>(t.first_y);
-    const float dx = p.center[0] * shape::kSubpixels - static_cast<float>(t.first_x);
-    out.normal[0][k] = -(per_x * per_tangent);
-    out.normal[1][k] = per_y * per_tangent;
+    const float dy = p.center[1] * shape::kSubpixels - static_cast<float>(t.first_y + p.origin[1] * shape::kSubpixels);
+    const float dx = p.center[0] * shape::kSubpixels - static_cast<float>(t.first_x + p.origin[0] * shape::kSubpixels);
+    out.normal[0][k] = -(per_x * across);
+    out.normal[1][k] = per_y * up;
     out.normal[2][k] = p.parallel ? 1.0f : (t.at_first[shape::kDepth] + dy * per_y) + dx * per_x;
   }
 }

@@ -155,14 +155,14 @@ void put_points(const LightView& view, const PointFrame& frame, float left, floa
   Bounds bounds;
   out.active = out.blocked = out.noted = 0;
   out.has_place = view.has_place;
-  const Floats per_pixel = constant(1.0f / frame.scale);
+  const Floats per_pixel = constant(1.0f / frame.scale), across_pixel = constant(1.0f / (frame.scale * frame.squeeze));
   for (std::uint32_t k = 0; k < kPointLanes; k += kLanes) {
-    const Floats x = hn::Add(constant(left), hn::Load(kFloats, places.x + k));
-    const Floats y = hn::Add(constant(top), hn::Load(kFloats, places.y + k));
+    const Floats x = hn::Add(constant(left + frame.origin[0]), hn::Load(kFloats, places.x + k));
+    const Floats y = hn::Add(constant(top + frame.origin[1]), hn::Load(kFloats, places.y + k));
     const Floats depth = hn::LoadU(kFloats, depths + k);
     const Floats w = frame.parallel ? hn::Neg(depth) : hn::Div(constant(1.0f), depth);
     const Floats spread = frame.parallel ? constant(1.0f) : w;
-    const Floats px = hn::Mul(hn::Mul(hn::Sub(x, constant(frame.center[0])), per_pixel), spread);
+    const Floats px = hn::Mul(hn::Mul(hn::Sub(x, constant(frame.center[0])), across_pixel), spread);
     const Floats py = hn::Mul(hn::Mul(hn::Sub(constant(frame.center[1]), y), per_pixel), spread);
     const Seen seen(view, px, py, hn::Neg(w));
     auto here = hn::And(seen.on_grid, hn::Gt(depth, constant(frame.nothing)));

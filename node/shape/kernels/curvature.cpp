@@ -38,6 +38,7 @@ Floats ratio(Floats a, Floats b) { return hn::IfThenElseZero(hn::Gt(b, hn::Zero(
 
 Fineness estimate_curvature(const CurvatureWeights& weights, const float (*points)[3], const Projection& projection,
                             const Tolerances& tolerances) {
+  const float finest = projection.squeeze > 1 ? projection.scale * projection.squeeze : projection.scale;
   Floats most_u = hn::Zero(kFloats), most_v = hn::Zero(kFloats);
   for (int place = 0; place < 16; place += kLanes) {
     const auto at = [&](CurvatureWeights::Kind kind) { return blend(weights.weight[kind], place, points); };
@@ -54,7 +55,7 @@ Fineness estimate_curvature(const CurvatureWeights& weights, const float (*point
     const Floats cosine2 = ratio(hn::Mul(toward, toward), dot(ray, ray));
     const Floats sine = hn::Sqrt(hn::Max(hn::Sub(constant(1), cosine2), hn::Zero(kFloats)));
     const Floats depth = projection.parallel ? constant(1) : hn::Max(hn::Neg(p.z), constant(projection.near));
-    const Floats pixels = hn::Div(constant(projection.scale), depth);
+    const Floats pixels = hn::Div(constant(finest), depth);
     const Floats shown = hn::Mul(hn::Mul(sine, pixels), constant(1 / (8 * tolerances.outline)));
     const auto fineness = [&](Floats own, Floats length, Floats other_length) {
       const Floats outline = hn::Sqrt(hn::Mul(hn::Add(own, uv), shown));

@@ -84,11 +84,12 @@ void move(const EyeMap& map, const float (*places)[3], const float (*normals)[3]
 bool project(const Projection& p, const Vertices& v, int count) {
   const Floats guard = constant(p.guard), no_guard = constant(-p.guard), half = constant(0.5f),
                subpixels = constant(kSubpixels);
+  const Ints left = hn::Set(kInts, p.origin[0] * kSubpixels), top = hn::Set(kInts, p.origin[1] * kSubpixels);
   bool any = false;
   for (int k = 0; k < count; k += kLanes) {
     const Floats z = hn::LoadU(kFloats, v.place[2] + k), w = hn::Neg(z);
     const Floats inverse = p.parallel ? constant(1.0f) : hn::Div(constant(1.0f), w);
-    const Floats dx = hn::Mul(constant(p.scale), hn::Mul(hn::LoadU(kFloats, v.place[0] + k), inverse));
+    const Floats dx = hn::Mul(constant(p.scale * p.squeeze), hn::Mul(hn::LoadU(kFloats, v.place[0] + k), inverse));
     const Floats dy = hn::Mul(constant(-p.scale), hn::Mul(hn::LoadU(kFloats, v.place[1] + k), inverse));
     // A NaN is not inside.
     const auto deep = hn::And(hn::Ge(w, constant(p.near)), hn::Le(w, constant(p.far)));
@@ -97,8 +98,9 @@ bool project(const Projection& p, const Vertices& v, int count) {
     const auto inside = hn::And(deep, hn::And(wide, high));
     const Floats x = hn::Add(hn::Mul(hn::Add(constant(p.center[0]), dx), subpixels), half);
     const Floats y = hn::Add(hn::Mul(hn::Add(constant(p.center[1]), dy), subpixels), half);
-    hn::StoreU(hn::ConvertTo(kInts, hn::Floor(hn::IfThenElseZero(inside, x))), kInts, v.x + k);
-    hn::StoreU(hn::ConvertTo(kInts, hn::Floor(hn::IfThenElseZero(inside, y))), kInts, v.y + k);
+    const auto snapped = [&](Floats place) { return hn::ConvertTo(kInts, hn::Floor(hn::IfThenElseZero(inside, place))); };
+    hn::StoreU(hn::Sub(snapped(x), left), kInts, v.x + k);
+    hn::StoreU(hn::Sub(snapped(y), top), kInts, v.y + k);
     hn::StoreInterleaved4(p.parallel ? z : inverse, hn::Mul(hn::LoadU(kFloats, v.normal[0] + k), inverse),
                           hn::Mul(hn::LoadU(kFloats, v.normal[1] + k), inverse),
                           hn::Mul(hn::LoadU(kFloats, v.normal[2] + k), inverse), kFloats, v.values[k]);

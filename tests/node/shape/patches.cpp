@@ -27,13 +27,24 @@ Vec3 cross(const Vec3& a, const Vec3& b) {
 
 double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
 
+namespace {
+
+wire::FilmSettings settings_of(std::int32_t width, std::int32_t height) {
+  wire::FilmSettings settings{};
+  settings.width = static_cast<std::uint32_t>(width);
+  settings.height = static_cast<std::uint32_t>(height);
+  return settings;
+}
+
+}  // namespace
+
 Projection projection(std::int32_t width, std::int32_t height, double focal, double near, double far) {
-  return geometry::projection_of({{}, focal, near, far}, width, height);
+  return geometry::projection_of({{}, focal, near, far}, settings_of(width, height));
 }
 
 Projection parallel_projection(std::int32_t width, std::int32_t height, double shown, double near, double far) {
-  return geometry::projection_of({{}, 2 / shown, near, far, 1, 0.1, -0.2, wire::Projection::orthographic}, width,
-                                 height);
+  return geometry::projection_of({{}, 2 / shown, near, far, 1, 0.1, -0.2, wire::Projection::orthographic},
+                                 settings_of(width, height));
 }
 
 EyePatch random_patch(Random& random, const Vec3& middle, double size) {

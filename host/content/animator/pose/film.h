@@ -107,6 +107,7 @@ struct Film {
   double rate = 24;
   std::uint32_t width = 960;
   std::uint32_t height = 540;
+  double pixel_aspect = 1;    // width of a pixel by its height
   std::uint32_t samples = 4;  // a pixel
   wire::ColorSpace color = wire::ColorSpace::linear;
   wire::Curve curve = wire::Curve::filmic;  // of linear films

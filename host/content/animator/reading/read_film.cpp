@@ -330,6 +330,7 @@ void read_settings(const document::Fields& fields, Film& film) {
   fields.number("audio_delay");
   read_colors(fields, film);
   read_size(fields.value("size"), film);
+  film.pixel_aspect = fields.number("pixel_aspect");
   film.samples = read_samples(fields.value("samples"));
   film.dice = read_dice(fields.value("dice"));
   film.cutting = static_cast<Cutting>(fields.choice("intervals"));
