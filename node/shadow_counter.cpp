@@ -116,7 +116,8 @@ bool ShadowCounter::is_lit(const geometry::Scene& scene, const geometry::EyeLigh
   const float spread = p.parallel ? 1 : w;
   const auto left = static_cast<float>(p.origin[0]), top = static_cast<float>(p.origin[1]);
   const std::array to{light.vector[0] - (x / shape::kSubpixels + left - p.center[0]) / (p.scale * p.squeeze) * spread,
-                      light.vector[1] - (p.center[1] - top - y / shape::kSubpixels) / p.scale * spread, light.vector[2] + w};
+                      light.vector[1] - (p.center[1] - top - y / shape::kSubpixels) / p.scale * spread,
+                      light.vector[2] + w};
   if (dot(normal, to) <= 0) return false;
   return light.kind != wire::LightKind::spot || -dot(light.axis, to) > light.cos_outer * std::sqrt(dot(to, to));
 }

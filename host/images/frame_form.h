@@ -1,8 +1,9 @@
-// How the files of frames are made: their format, their compression and their names.
+// How the files of frames are made: their format, their compression, their names and what shows their light.
 #pragma once
 
 #include <compare>
 
+#include "host/images/display_view.h"
 #include "host/images/frame_names.h"
 #include "host/images/picture_format.h"
 
@@ -12,6 +13,7 @@ struct FrameForm {
   PictureFormat format = PictureFormat::png;
   Compression compression = Compression::zip;
   FrameNames names{};
+  ViewName view{};  // by which PNG files show light; empty: by the film's curve
 
   auto operator<=>(const FrameForm&) const = default;
 };

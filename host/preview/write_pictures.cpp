@@ -29,12 +29,9 @@ SharedImage ready(Pictures& pictures, std::uint32_t frame, images::PictureSize e
 void write_video(Pictures& pictures, const WriteOptions& options, const std::vector<std::uint32_t>& frames,
                  images::PictureSize extent, const videos::Listener& listener) {
   const SharedImage first = ready(pictures, frames.front(), extent);
-  videos::Source source{{first->width, first->height},
-                        {1, 1},
-                        pictures.rate() / options.every,
-                        frames,
-                        pictures.frames(),
-                        frames.front() / pictures.rate()};
+  videos::Source source{
+      {first->width, first->height},   {1, 1}, pictures.rate() / options.every, frames, pictures.frames(),
+      frames.front() / pictures.rate()};
   source.picture = [&](std::size_t place) { return place == 0 ? first : ready(pictures, frames[place], extent); };
   videos::write_video(source, {options.file, options.form, options.audio}, listener);
 }

@@ -1,15 +1,14 @@
 #include "host/videos/folder_source.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "hal/failure/failure.h"
 #include "host/content/document/checksum.h"
 #include "host/content/document/shell_word.h"
 #include "host/content/film/film_file.h"
+#include "host/images/half_light.h"
 #include "host/images/picture_file.h"
 #include "host/render/sinks/frame_folder.h"
 #include "host/render/sinks/frame_mark.h"
@@ -20,25 +19,6 @@ namespace mars::videos {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Of a half float that is not negative; no number counts as none.
-float light_of(std::uint32_t half) {
-  constexpr int kBias = 15, kBits = 10;
-  const auto exponent = static_cast<int>(half >> kBits & 0x1f);
-  const auto mantissa = static_cast<float>(half & 0x3ff) / 1024;
-  if ((half & 0x8000) != 0) return 0;
-  if (exponent == 0x1f) return mantissa > 0 ? 0 : color::kMostHalf;
-  return exponent == 0 ? std::ldexp(mantissa, 1 - kBias) : std::ldexp(1 + mantissa, exponent - kBias);
-}
-
-const std::array<float, 1 << 16>& lights() {
-  static const auto all = std::make_unique<std::array<float, 1 << 16>>([] {
-    std::array<float, 1 << 16> table{};
-    for (std::uint32_t half = 0; half < table.size(); ++half) table[half] = light_of(half);
-    return table;
-  }());
-  return *all;
-}
 
 std::optional<film::CompiledFilm> film_in(const fs::path& folder, const sinks::Manifest& manifest) try {
   film::CompiledFilm film = film::load_compiled_film(folder / sinks::kFilmName);
@@ -54,7 +34,7 @@ FolderReader::FolderReader(fs::path folder, const Exposing& exposing)
     : folder_(std::move(folder)), manifest_(sinks::read_manifest(folder_)), exposing_(exposing) {
   if (!images::is_exr(manifest_.format)) return;
   film_ = film_in(folder_, manifest_);
-  if (!film_ && !(exposing_.stops && exposing_.curve))
+  if (!film_ && !(exposing_.stops && (exposing_.curve || exposing_.view)))
     throw Failure("its frames are light, and film.mars, which says how to expose it, is not there or not theirs",
                   folder_.string(), "say it: --exposure 0 --curve filmic");
 }
@@ -85,13 +65,17 @@ wire::FilmSettings FolderReader::settings_at(std::uint32_t frame, wire::Camera& 
 images::Image FolderReader::expose(const images::Image& light, std::uint32_t frame) const {
   wire::Camera camera{};
   const wire::FilmSettings settings = settings_at(frame, camera);
+  if (exposing_.view)
+    return {light.width, light.height,
+            images::shown_pixels(*exposing_.view, light.pixels, static_cast<float>(camera.exposure),
+                                 wire::PixelFormat::rgb8)};
   const color::Encoding encoding = color::encoding_of(settings, camera, wire::PixelFormat::rgb8);
-  const auto& table = lights();
   images::Image shown{light.width, light.height, {}};
   shown.pixels.reserve(light.pixels.size() / 2);
   for (std::size_t i = 0; i + 1 < light.pixels.size(); i += 2) {
     const std::uint32_t low = light.pixels[i], high = light.pixels[i + 1];
-    const float rgb[] = {table[low & 0xffff], table[low >> 16], table[high & 0xffff]};
+    const float rgb[] = {images::light_of_half(low & 0xffff), images::light_of_half(low >> 16),
+                         images::light_of_half(high & 0xffff)};
     shown.pixels.push_back(static_cast<std::uint32_t>(color::pixel_of(encoding, rgb)));
   }
   return shown;
@@ -103,7 +87,8 @@ std::string FolderReader::content(std::uint32_t frame) const {
   wire::Camera camera{};
   const wire::FilmSettings settings = settings_at(frame, camera);
   return content + " " + std::to_string(static_cast<int>(settings.color_space)) + " " +
-         std::to_string(static_cast<int>(settings.curve)) + " " + std::to_string(camera.exposure);
+         std::to_string(static_cast<int>(settings.curve)) + " " + std::to_string(camera.exposure) +
+         (exposing_.view ? " " + exposing_.view->name().checksum : "");
 }
 
 Source source_of(const FolderReader& reader, std::vector<std::uint32_t> frames) {

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "host/content/film/compiled_film.h"
+#include "host/images/display_view.h"
 #include "host/render/sinks/manifest.h"
 #include "host/videos/source.h"
 #include "node/wire/film_parts.h"
@@ -16,8 +17,9 @@
 namespace mars::videos {
 
 struct Exposing {
-  std::optional<double> stops{};       // of exposure, at all frames; none: the film's
-  std::optional<wire::Curve> curve{};  // none: the film's
+  std::optional<double> stops{};                      // of exposure, at all frames; none: the film's
+  std::optional<wire::Curve> curve{};                 // none: the film's
+  std::shared_ptr<const images::DisplayView> view{};  // in place of the curve; none: the curve
 
   bool operator==(const Exposing&) const = default;
 };

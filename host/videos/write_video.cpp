@@ -63,8 +63,8 @@ class Writing {
     if (is_gif()) add(words, {"-f", "png_pipe", "-i", "pipe:3"});
     add_audio_input(words);
     if (is_gif())
-      add(words,
-          {"-filter_complex", (drops_pictures() ? "fps=50" : "null") + std::string("[v];[v][1:v]") + kUsePalette + shape()});
+      add(words, {"-filter_complex",
+                  (drops_pictures() ? "fps=50" : "null") + std::string("[v];[v][1:v]") + kUsePalette + shape()});
     add(words, encoding_);
     add_rest(words, part);
     Ffmpeg ffmpeg(program_, words, order_.file, listener_.bounds, palette);

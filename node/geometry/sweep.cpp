@@ -72,9 +72,7 @@ Hull corners_of(const Place& low, const Place& high) {
 class View {
  public:
   View(const wire::Camera& camera, const Scene& scene)
-      : projection_(projection_of(camera, scene.film().settings())),
-        width_(scene.width()),
-        height_(scene.height()) {}
+      : projection_(projection_of(camera, scene.film().settings())), width_(scene.width()), height_(scene.height()) {}
 
   const shape::Projection& projection() const { return projection_; }
 
@@ -103,7 +101,8 @@ class View {
 
   void add(const Point& place, double w, Bounds& bounds) const {
     const double spread = projection_.parallel ? 1 : w;
-    const double x = projection_.center[0] - projection_.origin[0] + projection_.scale * projection_.squeeze * place[0] / spread;
+    const double x =
+        projection_.center[0] - projection_.origin[0] + projection_.scale * projection_.squeeze * place[0] / spread;
     const double y = projection_.center[1] - projection_.origin[1] - projection_.scale * place[1] / spread;
     bounds.low_x = std::min(bounds.low_x, x), bounds.high_x = std::max(bounds.high_x, x);
     bounds.low_y = std::min(bounds.low_y, y), bounds.high_y = std::max(bounds.high_y, y);

@@ -31,8 +31,8 @@ struct LightView {
   std::uint32_t is_face;  // of six: only points within 45 degrees of its axis are its own
 };
 
-// What points need of a picture, where they are counted from `origin`: e of a point at distance w along the view axis is (w by_square + by_w) w + everywhere,
-// and of lights with a place depth * by_depth more.
+// What points need of a picture, where they are counted from `origin`: e of a point at distance w along the view axis
+// is (w by_square + by_w) w + everywhere, and of lights with a place depth * by_depth more.
 struct PointFrame {
   float scale;  // as in shape::Projection
   float squeeze;

@@ -61,7 +61,8 @@ PairVectors::PairVectors(const shape::SamplePattern& pattern, bool has_size, std
     for (std::uint32_t line = 0; line < kTile; ++line)
       for (std::uint32_t column = 0; column < kTile; ++column)
         for (std::uint32_t pair = 0; pair < kPairs; ++pair) {
-          const std::uint32_t point = point_of_pair(column + static_cast<std::uint32_t>(left), line + static_cast<std::uint32_t>(top), pair);
+          const std::uint32_t point =
+              point_of_pair(column + static_cast<std::uint32_t>(left), line + static_cast<std::uint32_t>(top), pair);
           check(count[point] < kPointLanes, "each point of a light is used equally often");
           lanes_[point].lane[count[point]++] = lane_of(column, line, pair / (kPairs / samples), pair);
         }

@@ -69,6 +69,10 @@ TEST(Boundaries, OpenExrInOneHostFile) {
   EXPECT_EQ(files_including(std::regex("(^OpenEXR/|(^|/)Imf)")), Files{"host/images/exr_file.cpp"});
 }
 
+TEST(Boundaries, OpenColorIoInOneHostFile) {
+  EXPECT_EQ(files_including(std::regex("OpenColorIO")), Files{"host/images/ocio_view.cpp"});
+}
+
 TEST(Boundaries, CliInItsHostFolder) {
   EXPECT_EQ(files_including(std::regex("^CLI/")), (Files{"host/cli/command.cpp", "host/cli/program.cpp"}));
 }

@@ -102,8 +102,7 @@ TEST_P(Cropped, HasThePixelsOfTheWholePicture) {
     const FilmRun run = drawn(some, format, part.nodes, part.simd);
     ASSERT_EQ(run.frames.size(), whole.frames.size());
     for (const auto& [frame, pixels] : run.frames) {
-      const Compared compared =
-          compare(pixels, some.settings, whole.frames.at(frame), film.settings, words);
+      const Compared compared = compare(pixels, some.settings, whole.frames.at(frame), film.settings, words);
       EXPECT_EQ(compared.different, 0u) << film::size_text(some.settings) << ", frame " << frame;
       EXPECT_GE(compared.count, 9u);
     }
@@ -127,7 +126,8 @@ TEST(Margin, ShowsWhatIsBesideThePicture) {
   wire::FilmSettings shown = larger.settings;
   shown.window = {-20, -20, kWidth, kHeight};
   const Pixels margin = drawn(more, wire::PixelFormat::rgb8, 2).frames.at(0);
-  const Compared compared = compare(margin, more.settings, drawn(larger, wire::PixelFormat::rgb8, 2).frames.at(0), shown, 1);
+  const Compared compared =
+      compare(margin, more.settings, drawn(larger, wire::PixelFormat::rgb8, 2).frames.at(0), shown, 1);
   EXPECT_EQ(compared.count, std::size_t{kWidth + 40} * (kHeight + 40));
   EXPECT_LT(compared.different, compared.count / 20);
 }
@@ -151,7 +151,8 @@ TEST(PixelAspect, SqueezesThePicture) {
   wire::FilmData narrow = wide;
   wide.settings.pixel_aspect = 2;
   for (double& number : narrow.cameras[0].world_to_eye.m[0]) number /= 2;
-  EXPECT_EQ(drawn(wide, wire::PixelFormat::rgb8, 2).frames.at(0), drawn(narrow, wire::PixelFormat::rgb8, 1).frames.at(0));
+  EXPECT_EQ(drawn(wide, wire::PixelFormat::rgb8, 2).frames.at(0),
+            drawn(narrow, wire::PixelFormat::rgb8, 1).frames.at(0));
 }
 
 // A pixel twice as wide shows the mean of two square ones, also where surfaces shine and shadows fall.

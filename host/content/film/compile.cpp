@@ -133,7 +133,8 @@ void make_whole(wire::FilmSettings& settings) {
   settings.window = {};
 }
 
-// The same block with another size, another part of the picture and other samples: what a frame shows does not depend on them.
+// The same block with another size, another part of the picture and other samples: what a frame shows does not depend
+// on them.
 void change_pixels(CompiledFilm& film, const CompileOptions& options) {
   const wire::PackedFilm view = film.view();
   wire::FilmSettings settings = view.settings();

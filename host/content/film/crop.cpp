@@ -36,7 +36,8 @@ Crop read_crop(const std::string& text) {
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const std::size_t end = i == 3 ? rest.size() : std::min(rest.find(i == 2 ? 'x' : ','), rest.size());
     const auto number = document::number_in<std::uint32_t>(rest.substr(0, end));
-    if (!number) throw Failure("'" + text + "' is no part of a picture", "", "write left,top,size like 480,270,960x540");
+    if (!number)
+      throw Failure("'" + text + "' is no part of a picture", "", "write left,top,size like 480,270,960x540");
     numbers[i] = *number;
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }

@@ -23,9 +23,9 @@ struct Crop {
 Crop read_crop(const std::string& text);
 std::string text_of(const Crop& crop);
 
-// Of settings of a whole picture: only the crop of it is drawn, none: all of it, and `margin` pixels around that. Throws
-// Failure naming `source` where the crop leaves the picture, or the margin is wider than the picture's longer side or
-// makes a side longer than wire::kMaxSide.
+// Of settings of a whole picture: only the crop of it is drawn, none: all of it, and `margin` pixels around that.
+// Throws Failure naming `source` where the crop leaves the picture, or the margin is wider than the picture's longer
+// side or makes a side longer than wire::kMaxSide.
 void set_window(const std::optional<Crop>& crop, std::uint32_t margin, const std::string& source,
                 wire::FilmSettings& settings);
 

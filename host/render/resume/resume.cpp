@@ -73,6 +73,13 @@ std::string difference(const sinks::FrameForm& there, const sinks::FrameForm& wi
   if (there.compression != wish.compression)
     return std::string("have the compression ") + images::name_of(there.compression) + ", not " +
            images::name_of(wish.compression);
+  if (there.view != wish.view) {
+    const auto shown = [](const images::ViewName& view) {
+      return view.empty() ? std::string("the film's curve") : images::text_of(view);
+    };
+    const bool changed = images::text_of(there.view) == images::text_of(wish.view);
+    return "are shown by " + shown(there.view) + (changed ? " as it was before" : ", not by " + shown(wish.view));
+  }
   const auto name = [](const sinks::FrameForm& form) {
     return document::in_quotes(images::frame_name(form.names, 0, 1));
   };

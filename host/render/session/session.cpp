@@ -47,12 +47,20 @@ namespace {
 constexpr int kMostSinks = 64;
 constexpr std::chrono::seconds kLongestEnd{10};  // of a run that fails, for what it has written
 
+sinks::FrameEncoder::Encode encoding_of(const RenderJob& job, const wire::PackedFilm& film) {
+  if (!job.view) return sinks::encode_band;
+  const sinks::LightShown shown{job.view, [film](std::uint32_t frame) { return film.camera_at(frame).exposure; }};
+  return [shown](const images::PictureBands& bands, compositor::Frame& frame, std::size_t band) {
+    return sinks::encode_light(shown, bands, frame, band);
+  };
+}
+
 // To nowhere where there is no folder.
-std::unique_ptr<sinks::Sink> make_sink(sinks::FrameFolder* folder, const wire::PackedFilm& film) {
+std::unique_ptr<sinks::Sink> make_sink(const RenderJob& job, sinks::FrameFolder* folder, const wire::PackedFilm& film) {
   if (folder == nullptr) return std::make_unique<sinks::NullSink>();
   const auto content = std::make_shared<film::FrameContent>(film);
-  return std::make_unique<sinks::FileSink>(*folder,
-                                           [content](std::uint32_t frame) { return content->checksum(frame); });
+  return std::make_unique<sinks::FileSink>(
+      *folder, [content](std::uint32_t frame) { return content->checksum(frame); }, encoding_of(job, film));
 }
 
 // What writes frames, and ends in this order: the threads, then the folder, then what it shows.
@@ -87,11 +95,25 @@ farm::HostMemory memory_for(const HostMachine& host, const wire::FilmSettings& f
                                  static_cast<std::uint32_t>(plan.groups.size()), sink_threads(host));
 }
 
+// What nodes draw: what files hold, or the light that a view shows in them.
+wire::PixelFormat drawn_pixels(const RenderJob& job) {
+  using wire::PixelFormat;
+  const PixelFormat pixels = images::facts_of(job.form.format).pixels;
+  if (!job.view) return pixels;
+  return wire::has_alpha(pixels) ? PixelFormat::half_alpha : PixelFormat::half;
+}
+
+void refuse_colors_without_light(const RenderJob& job, const wire::FilmSettings& settings) {
+  if (job.view && settings.color_space == wire::ColorSpace::coded)
+    throw Failure("has coded colours, which no view shows", job.film,
+                  "make its \"color\" \"linear\", or leave out --ocio");
+}
+
 // New buffers show the first interval's background.
 sinks::SinkPool::Shape pool_shape(const HostMachine& host, const wire::PackedFilm& film, const RenderJob& job,
                                   std::uint32_t frames) {
   const std::uint32_t threads = std::min(sink_threads(host), frames);
-  const wire::PixelFormat format = images::facts_of(job.form.format).pixels;
+  const wire::PixelFormat format = drawn_pixels(job);
   const std::uint64_t background = farm::background_pixel(film, film.intervals().front(), format);
   return {film.settings().width, film.settings().height, job.block, frames, threads, background, format};
 }
@@ -145,7 +167,7 @@ farm::Writing make_writing(const sinks::WriterOrders& orders, sinks::FrameFolder
 // None: the host writes. Of a run that is watched it needs the pixels.
 std::optional<farm::Writing> writing_of(const RenderJob& job, const Prediction& prediction, sinks::FrameFolder* folder,
                                         farm::Heartbeats& heartbeats) {
-  if (folder == nullptr || job.writers == Writers::host || !job.watch.empty()) return job.writing;
+  if (folder == nullptr || job.writers == Writers::host || !job.watch.empty() || job.view) return job.writing;
   const sinks::WriterOrders orders = folder->writer_orders();
   const bool is_short = orders.part_of(0).native().size() < PATH_MAX;
   farm::Writing writing = make_writing(orders, *folder, heartbeats);
@@ -300,13 +322,14 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace, 
   const film::CompiledFilm& film = output.film;
   const wire::PackedFilm view = film.view();
   const wire::FilmSettings& settings = view.settings();
+  refuse_colors_without_light(job, settings);
   const auto [plan, prediction] = plan_of(view, opened.frames, job, reporter, heartbeats);
   const HostMachine host = host_machine(job.host);
-  const farm::HostMemory memory = memory_for(host, settings, images::facts_of(job.form.format).pixels, plan);
+  const farm::HostMemory memory = memory_for(host, settings, drawn_pixels(job), plan);
 
   output.folder = std::move(opened.folder);
   if (output.folder) output.folder->show_status([&board = output.board] { return sinks::text_of(board.status()); });
-  output.sink = make_sink(output.folder.get(), view);
+  output.sink = make_sink(job, output.folder.get(), view);
   output.pool = make_sinks(job, *output.sink, pool_shape(host, view, job, memory.frames));
   const auto watch = begin_watch(job, reporter);
   const std::optional<farm::Writing> writing = writing_of(job, prediction, output.folder.get(), heartbeats);

@@ -47,10 +47,11 @@ struct RenderJob {
   std::function<film::CompiledFilm(const std::function<void(const std::string&)>& warn)> load_film;
   // With which it is compiled, as on a command line: a folder's frames are those of one film with the same options.
   std::vector<std::string> film_options;
-  std::string folder;       // for the frames; "": they go nowhere
-  bool overwrite = false;   // frames that the folder has already
-  bool kept_film = false;   // the folder's, as in resume::Wish
-  sinks::FrameForm form{};  // of its files
+  std::string folder;                                 // for the frames; "": they go nowhere
+  bool overwrite = false;                             // frames that the folder has already
+  bool kept_film = false;                             // the folder's, as in resume::Wish
+  sinks::FrameForm form{};                            // of its files
+  std::shared_ptr<const images::DisplayView> view{};  // form.view's; none: the film's curve shows light
   Writers writers = Writers::automatic;
   film::FrameSet frames;
   wire::Mapping mapping = wire::Mapping::cost;

@@ -12,6 +12,18 @@ HashedBand encode_band(const images::PictureBands& bands, compositor::Frame& fra
   return {images::encode_band(bands, band, pixels), hash_of_band(pixels)};
 }
 
+HashedBand encode_light(const LightShown& shown, const images::PictureBands& bands, compositor::Frame& frame,
+                        std::size_t band) {
+  const images::Lines lines = bands.lines_of(band);
+  frame.restore({lines.first, lines.end});
+  const std::size_t line = bands.width() * wire::pixel_words(wire::PixelFormat::half);
+  const auto light = std::span<const std::uint32_t>(frame.pixels).subspan(lines.first * line, lines.count() * line);
+  const auto exposure = static_cast<float>(shown.exposure(frame.number));
+  const std::vector<std::uint32_t> pixels =
+      images::shown_pixels(*shown.view, light, exposure, images::facts_of(bands.format()).pixels);
+  return {images::encode_band(bands, band, pixels), hash_of_band(pixels)};
+}
+
 std::string EncodedFrame::pixel_hash() const {
   std::vector<std::string> hashes;
   for (const auto& band : bands) hashes.push_back(band->hash);

@@ -3,12 +3,15 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "host/images/display_view.h"
 #include "host/images/picture_bands.h"
 #include "host/render/compositor/frame.h"
 
@@ -29,12 +32,22 @@ struct EncodedFrame {
 // Restores, hashes and encodes a band.
 HashedBand encode_band(const images::PictureBands& bands, compositor::Frame& frame, std::size_t band);
 
+// What shows frames of light, of PixelFormat::half or half_alpha, in files of PNG.
+struct LightShown {
+  std::shared_ptr<const images::DisplayView> view;
+  std::function<double(std::uint32_t frame)> exposure;  // the same for all frames of an interval
+};
+// As encode_band, of light.
+HashedBand encode_light(const LightShown& shown, const images::PictureBands& bands, compositor::Frame& frame,
+                        std::size_t band);
+
 class FrameEncoder {
  public:
   // `encode`: as encode_band; simulations have another, which only counts.
-  using Encode = HashedBand (*)(const images::PictureBands& bands, compositor::Frame& frame, std::size_t band);
+  using Encode =
+      std::function<HashedBand(const images::PictureBands& bands, compositor::Frame& frame, std::size_t band)>;
   explicit FrameEncoder(const images::PictureBands& bands, Encode encode = encode_band)
-      : bands_(bands), encode_(encode) {}
+      : bands_(bands), encode_(std::move(encode)) {}
 
   // From several threads at once, each with a frame of its own, which is finished.
   EncodedFrame encode(compositor::Frame& frame);

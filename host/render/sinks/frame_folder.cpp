@@ -400,8 +400,8 @@ double seconds_now() {
 
 }  // namespace
 
-FileSink::FileSink(FrameFolder& folder, ContentOf content)
-    : folder_(folder), content_(std::move(content)), encoder_(folder.bands()) {}
+FileSink::FileSink(FrameFolder& folder, ContentOf content, FrameEncoder::Encode encode)
+    : folder_(folder), content_(std::move(content)), encoder_(folder.bands(), std::move(encode)) {}
 
 void FileSink::take(compositor::Frame& frame) {
   const double begun = seconds_now();

@@ -22,9 +22,9 @@ namespace {
 
 constexpr std::size_t kLongestFilm = 3 * 4096;  // bytes: of a path, of which each may be written as three
 constexpr auto kKeys = std::to_array<std::string_view>(
-    {"version", "sum", "film", "checksum", "width", "height", "format", "rate", "film_frames", "frames",
-     "pixel_version", "pixel_hashes", "sources", "options", "names", "first_number", "compression", "window",
-     "pixel_aspect"});
+    {"version", "sum",          "film",        "checksum",      "width",        "height",  "format",
+     "rate",    "film_frames",  "frames",      "pixel_version", "pixel_hashes", "sources", "options",
+     "names",   "first_number", "compression", "window",        "pixel_aspect", "ocio"});
 
 // Unbroken stretches as [first, last] pairs, so that a long film's manifest stays short.
 json stretches_of(const std::vector<std::uint32_t>& frames) {
@@ -115,7 +115,7 @@ std::uint32_t version_of(const Record& record) {
 // An older MARS would render under other names.
 std::uint32_t version_for(const Manifest& manifest) {
   constexpr std::uint32_t kOfPlainForms = 3, kOfWholePictures = 4;
-  if (manifest.place != images::PicturePlace()) return kManifestVersion;
+  if (manifest.place != images::PicturePlace() || !manifest.view.empty()) return kManifestVersion;
   return form_of(manifest) == FrameForm{images::without_alpha(manifest.format)} ? kOfPlainForms : kOfWholePictures;
 }
 
@@ -162,12 +162,15 @@ std::string sum_of(json text) {
   return document::checksum_of(std::as_bytes(std::span(all)));
 }
 
-FrameForm form_of(const Manifest& manifest) { return {manifest.format, manifest.compression, manifest.names}; }
+FrameForm form_of(const Manifest& manifest) {
+  return {manifest.format, manifest.compression, manifest.names, manifest.view};
+}
 
 void set_form(Manifest& manifest, const FrameForm& form) {
   manifest.format = form.format;
   manifest.compression = form.compression;
   manifest.names = form.names;
+  manifest.view = form.view;
 }
 
 images::PictureBands bands_of(const Manifest& manifest) {
@@ -183,6 +186,13 @@ std::vector<std::string> words_of(const FrameForm& form) {
   if (form.compression != images::Compression::zip) add("--compression", images::name_of(form.compression));
   if (!form.names.pattern.empty()) add("--name", form.names.pattern);
   if (form.names.first_number != 0) add("--first-number", std::to_string(form.names.first_number));
+  const auto add_text = [&](const char* option, const std::string& value) {
+    if (!value.empty()) add(option, value);
+  };
+  add_text("--ocio", form.view.config);
+  add_text("--display", form.view.display);
+  add_text("--view", form.view.view);
+  add_text("--ocio-input", form.view.input);
   return words;
 }
 
@@ -191,7 +201,21 @@ void add_form(const FrameForm& form, json& text) {
   if (form.compression != images::Compression::zip) text["compression"] = images::name_of(form.compression);
   if (!form.names.pattern.empty()) text["names"] = form.names.pattern;
   if (form.names.first_number != 0) text["first_number"] = form.names.first_number;
+  const images::ViewName& view = form.view;
+  if (!view.empty()) text["ocio"] = {view.config, view.display, view.view, view.input, view.checksum};
 }
+
+namespace {
+
+images::ViewName view_of(const json& list) {
+  const auto is_text = [](const json& word) { return word.is_string() && !word.get_ref<const std::string&>().empty(); };
+  if (list.size() != 5 || !std::ranges::all_of(list, is_text) || !is_checksum(list[4]))
+    refuse_value("ocio", list, "config, display, view, input and checksum");
+  const auto text = [&](std::size_t i) { return list[i].get<std::string>(); };
+  return {text(0), text(1), text(2), text(3), text(4)};
+}
+
+}  // namespace
 
 FrameForm form_of(const Record& record) {
   constexpr std::size_t kLongestName = 16, kLongestPattern = 1000;
@@ -214,6 +238,7 @@ FrameForm form_of(const Record& record) {
   if (record.has("first_number"))
     form.names.first_number =
         static_cast<std::uint32_t>(record.whole_number("first_number", 0, images::kMostFirstNumber));
+  if (record.has("ocio")) form.view = view_of(record.list("ocio"));
   return form;
 }
 

@@ -21,8 +21,8 @@ class Record;
 
 // Of the file. 1, which files without the key have: they have no key but those known then. 2: with a sum over all other
 // keys, and a pixel version. 3: frames may have hashes of bands (pixel_hash.h). 4, written only where it is needed:
-// files may have other names, or another compression. 5, where that is needed: files may have a part of the picture, or pixels that
-// are not square.
+// files may have other names, or another compression. 5, where that is needed: files may have a part of the picture, or
+// pixels that are not square.
 inline constexpr std::uint32_t kManifestVersion = 5;
 
 // A file that was read to compile a film.
@@ -51,6 +51,7 @@ struct Manifest {
   images::FrameNames names = {};
   images::Compression compression = images::Compression::zip;
   images::PicturePlace place = {};  // of width x height
+  images::ViewName view = {};
   std::string more = {};  // keys that this program does not know, as the text of an object; "": none
 
   bool operator==(const Manifest&) const = default;

@@ -37,6 +37,7 @@ struct PreviewWords {
   preview::Graphics graphics = preview::Graphics::automatic;
   bool window = false;
   videos::Exposing exposing;
+  images::ViewWish view;
   std::string audio;
   double delay = 0;  // seconds
 };
@@ -107,6 +108,27 @@ void add_exposing(cli::Command command, const std::shared_ptr<PreviewWords>& wor
       "How light of EXR frames is shown; default: the film's. Example: --curve none");
 }
 
+void add_view(cli::Command command, const std::shared_ptr<PreviewWords>& words) {
+  command
+      .add("--ocio", words->view.config,
+           "Show light of EXR frames by a view of this OpenColorIO config, not by a curve. Example: --ocio config.ocio")
+      .type("CONFIG");
+  command.add("--display", words->view.display, "Display of --ocio; default: the config's. Example: --display sRGB")
+      .type("NAME");
+  command.add("--view", words->view.view, "View of --ocio; default: the display's. Example: --view Film").type("NAME");
+  command
+      .add("--ocio-input", words->view.input,
+           "Colour space of linear light with sRGB's primaries in --ocio; default: scene_linear. Example: --ocio-input "
+           "lin_srgb")
+      .type("SPACE");
+  command.checks([words] {
+    if (words->view.config.empty() && words->view != images::ViewWish())
+      throw Failure("a view is one of an OpenColorIO config", "", "add --ocio CONFIG");
+    if (!words->view.config.empty() && words->exposing.curve)
+      throw Failure("a view of OpenColorIO has a curve of its own", "", "leave out --curve, or --ocio");
+  });
+}
+
 void add_screen(cli::Command command, const std::shared_ptr<PreviewWords>& words) {
   command.add_choice(
       "--graphics", {"auto", "kitty", "sixel", "blocks", "blocks256"},
@@ -118,6 +140,12 @@ void add_screen(cli::Command command, const std::shared_ptr<PreviewWords>& words
     if (words->window && !words->write.file.empty())
       throw Failure("-o writes a file and opens no window", "", "leave out --window, or -o");
   });
+}
+
+videos::Exposing exposing_of(const PreviewWords& words) {
+  videos::Exposing exposing = words.exposing;
+  if (!words.view.config.empty()) exposing.view = images::open_view(words.view);
+  return exposing;
 }
 
 // `smooth`: lines without steps are worth their work there.
@@ -180,7 +208,7 @@ void write_folder(PreviewWords& words, preview::FolderPictures& pictures) {
 }
 
 void play_folder(PreviewWords& words) {
-  preview::FolderPictures pictures(words.source, words.exposing);
+  preview::FolderPictures pictures(words.source, exposing_of(words));
   if (!words.write.file.empty()) return write_folder(words, pictures);
   play(words, pictures.extent(), [&](preview::Screen& screen, bool) { return preview::play(pictures, screen); });
 }
@@ -220,6 +248,7 @@ void add_play(cli::Command app) {
   add_output(command, words);
   add_video(command, words);
   add_exposing(command, words);
+  add_view(command, words);
   command.runs([words] { play_folder(*words); });
 }
 

@@ -37,6 +37,7 @@ session::RenderJob job_of(const options::RenderOptions& options, const std::stri
   job.overwrite = options.overwrite;
   job.kept_film = options.kept_film;
   job.folder = options.sink == options::SinkKind::files ? options.folder : "";
+  job.view = options::view_of(options);
   job.form = options::form_of(options);
   job.writers = writers_of(options.write);
   job.frames = options.frames;

@@ -136,6 +136,18 @@ Entry option(unsigned programs, const char* names, const char* type, Value Rende
           }};
 }
 
+// A word of the view.
+Entry word_of_view(unsigned programs, const char* name, const char* type, std::string images::ViewWish::*member,
+                   const char* help) {
+  return {programs,
+          [=](cli::Command app, RenderOptions& options) { app.add(name, options.view.*member, help).type(type); },
+          [=](const RenderOptions& options) -> Arguments {
+            const std::string& word = options.view.*member;
+            if (word.empty()) return {};
+            return {name, text_of(word)};
+          }};
+}
+
 Entry number(unsigned programs, const char* names, const Count& count, const char* help) {
   return {programs,
           [=](cli::Command app, RenderOptions& options) {
@@ -317,6 +329,16 @@ std::vector<Entry> table() {
            "Leave the background out: files have alpha, straight in PNG, premultiplied in EXR. Example: --alpha"),
       option(submits, "--compression", "zip|zips|piz|pxr24|rle|none", &RenderOptions::compression,
              "How EXR files are compressed, all without loss; default: zip. Example: --compression piz"),
+      word_of_view(submits, "--ocio", "CONFIG", &images::ViewWish::config,
+                   "Show light in PNG files by a view of this OpenColorIO config, not by the film's curve. Example: "
+                   "--ocio config.ocio"),
+      word_of_view(submits, "--display", "NAME", &images::ViewWish::display,
+                   "Display of --ocio; default: the config's. Example: --display sRGB"),
+      word_of_view(submits, "--view", "NAME", &images::ViewWish::view,
+                   "View of --ocio; default: the display's. Example: --view Film"),
+      word_of_view(submits, "--ocio-input", "SPACE", &images::ViewWish::input,
+                   "Colour space of linear light with sRGB's primaries in --ocio; default: scene_linear. Example: "
+                   "--ocio-input lin_srgb"),
       option(
           sinks, "--sink", "files|none", &RenderOptions::sink,
           "Where frames go; none writes no files, to measure rendering; simulations with --write count them. Example: "
@@ -355,7 +377,8 @@ const std::vector<Heading>& headings() {
   static const std::vector<Heading> kHeadings{
       {"Pictures and files",
        {"--name", "--first-number", "--frames", "--every", "--size", "--samples", "--format", "--alpha",
-        "--compression", "--eye", "--crop", "--margin", "--codec", "--quality", "--sink"}},
+        "--compression", "--eye", "--crop", "--margin", "--ocio", "--display", "--view", "--ocio-input", "--codec",
+        "--quality", "--sink"}},
       {"Machines", {"--nodes", "--force", "--backend", "--platform", "--hostfile", "--restarts", "--write"}},
       {"Division of work (the same pictures)",
        {"--mapping", "--exchange", "--intervals", "--no-coherence", "--block", "--groups", "--sharers", "--cut"}},
@@ -458,10 +481,27 @@ void check_videos(const RenderOptions& options) {
   for (const std::string& video : options.videos) videos::form_of(video, options.video_form);
 }
 
+void check_view(const RenderOptions& options) {
+  const images::ViewWish& view = options.view;
+  if (view.config.empty() && view != images::ViewWish())
+    throw Failure("a view is one of an OpenColorIO config", "", "add --ocio CONFIG");
+  if (view.config.empty()) return;
+  if (options.format == images::PictureFormat::exr)
+    throw Failure("EXR files hold light, which no view changes", "", "leave out --ocio, or --format exr");
+  if (options.write == WriteWhere::nodes)
+    throw Failure("nodes that write files have no OpenColorIO config", "", "use --write host, or leave out --ocio");
+  if (is_watched(options))
+    throw Failure("a rendering that is watched has no view of OpenColorIO", "",
+                  "leave out --window, --watch, or --ocio");
+  if (options.backend == Backend::simulated)
+    throw Failure("simulated nodes draw nothing that a view could show", "", "leave out --ocio");
+}
+
 // Checks that concern several options.
 void check_together(const RenderOptions& options, Program program) {
   if (options.compression != images::Compression::zip && options.format != images::PictureFormat::exr)
     throw Failure("PNG files have one compression", "", "leave out --compression, or add --format exr");
+  check_view(options);
   if (options.serve.empty() == options.film.empty() && program != Program::repair && program != Program::studio) {
     if (options.film.empty()) throw Failure("FILM is required", "", "");
     throw Failure("a studio brings its own film", "", "leave out " + options.film + ", or --serve");
@@ -541,9 +581,14 @@ std::vector<std::string> film_arguments(const RenderOptions& options) {
   return arguments;
 }
 
+std::shared_ptr<const images::DisplayView> view_of(const RenderOptions& options) {
+  return options.view.config.empty() ? nullptr : images::open_view(options.view);
+}
+
 images::FrameForm form_of(const RenderOptions& options) {
   const images::PictureFormat format = options.alpha ? images::with_alpha(options.format) : options.format;
-  return {format, options.compression, {options.name, options.first_number}};
+  const auto view = view_of(options);
+  return {format, options.compression, {options.name, options.first_number}, view ? view->name() : images::ViewName()};
 }
 
 void set_form(const images::FrameForm& form, RenderOptions& options) {
@@ -552,6 +597,7 @@ void set_form(const images::FrameForm& form, RenderOptions& options) {
   options.compression = form.compression;
   options.name = form.names.pattern;
   options.first_number = form.names.first_number;
+  options.view = {form.view.config, form.view.display, form.view.view, form.view.input};
 }
 
 std::vector<std::string> arguments_for(Program program, const RenderOptions& options) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "host/content/film/crop.h"
 #include "host/content/film/eye.h"
 #include "host/content/film/frame_set.h"
+#include "host/images/display_view.h"
 #include "host/images/frame_form.h"
 #include "host/images/picture_format.h"
 #include "host/images/picture_size.h"
@@ -63,6 +65,7 @@ struct RenderOptions {
   images::PictureFormat format = images::PictureFormat::png;  // of the files
   images::Compression compression = images::Compression::zip;
   bool alpha = false;          // in them, in place of the background
+  images::ViewWish view;       // that shows light in PNG files; none: the film's curve does
   std::string report;          // file for the measurements; "": none
   std::string trace;           // file for a picture of the run; "": none
   std::string watch;           // socket of who watches; "": nobody does
@@ -113,7 +116,10 @@ bool has_own_folder(const RenderOptions& options);
 // The options that change the compiled film, as arguments.
 std::vector<std::string> film_arguments(const RenderOptions& options);
 
-// How the files of frames are made, from the options and back.
+// The view that shows light; nullptr: the film's curve does. Throws Failure as images::open_view does.
+std::shared_ptr<const images::DisplayView> view_of(const RenderOptions& options);
+
+// How the files of frames are made, from the options and back. Throws Failure as view_of() does.
 images::FrameForm form_of(const RenderOptions& options);
 void set_form(const images::FrameForm& form, RenderOptions& options);
 

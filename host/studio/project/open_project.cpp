@@ -180,8 +180,7 @@ class FileProject : public Project {
   }
 
   Json describe() const override {
-    const images::PictureSize shown =
-        images::with_square_pixels({film().width, film().height}, film().pixel_aspect);
+    const images::PictureSize shown = images::with_square_pixels({film().width, film().height}, film().pixel_aspect);
     Json json{{"is", "project"},
               {"kind", is_model_ ? "model" : "film"},
               {"file", path_.filename().string()},

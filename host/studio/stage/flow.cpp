@@ -160,7 +160,8 @@ bool Flow::looks_the_same(PageView& view, const Shown& now) {
 // Whether it shows what `mars render` would.
 bool Flow::is_own(const PageView& view) const {
   const wire::FilmSettings& settings = moments_.now().settings;
-  return view.eye.from == From::camera && view.width == settings.width && view.height == settings.height && settings.pixel_aspect == 1;
+  return view.eye.from == From::camera && view.width == settings.width && view.height == settings.height &&
+         settings.pixel_aspect == 1;
 }
 
 bool Flow::is_exact(const PageView& view) {

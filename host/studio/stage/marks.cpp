@@ -242,7 +242,8 @@ std::vector<Handle> marks_of(const Project& project, const Moments& moments, con
   std::vector<Handle> handles;
   for (const Mark& mark : marks) {
     const MarkState state = state_of(project, moments, mark);
-    auto made = Maker(mark, state, selection.mark == mark, screen).make(film.width * film.pixel_aspect / film.height, tool);
+    auto made =
+        Maker(mark, state, selection.mark == mark, screen).make(film.width * film.pixel_aspect / film.height, tool);
     std::ranges::move(made, std::back_inserter(handles));
   }
   return handles;

@@ -28,7 +28,8 @@ inline void evaluate(const geometry::Triangle& t, Places place, float* values) {
 // Fills Block::from by places on the picture that is drawn, 1/256 pixel; where the eye is at one place, its z is 1.
 inline void set_places(const shape::Projection& p, const std::int32_t (*place)[kCapacity], Block& block) {
   const Floats per_pixel = constant(1.0f / p.scale), across_pixel = constant(1.0f / (p.scale * p.squeeze));
-  const Ints left = hn::Set(kInts, p.origin[0] * shape::kSubpixels), top = hn::Set(kInts, p.origin[1] * shape::kSubpixels);
+  const Ints left = hn::Set(kInts, p.origin[0] * shape::kSubpixels),
+             top = hn::Set(kInts, p.origin[1] * shape::kSubpixels);
   const Floats pixel = constant(1.0f / shape::kSubpixels);
   for (std::uint32_t k = 0; k < block.count; k += kLanes) {
     const Floats x = hn::Mul(hn::ConvertTo(kFloats, hn::Add(hn::Load(kInts, place[0] + k), left)), pixel);

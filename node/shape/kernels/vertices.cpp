@@ -98,7 +98,9 @@ bool project(const Projection& p, const Vertices& v, int count) {
     const auto inside = hn::And(deep, hn::And(wide, high));
     const Floats x = hn::Add(hn::Mul(hn::Add(constant(p.center[0]), dx), subpixels), half);
     const Floats y = hn::Add(hn::Mul(hn::Add(constant(p.center[1]), dy), subpixels), half);
-    const auto snapped = [&](Floats place) { return hn::ConvertTo(kInts, hn::Floor(hn::IfThenElseZero(inside, place))); };
+    const auto snapped = [&](Floats place) {
+      return hn::ConvertTo(kInts, hn::Floor(hn::IfThenElseZero(inside, place)));
+    };
     hn::StoreU(hn::Sub(snapped(x), left), kInts, v.x + k);
     hn::StoreU(hn::Sub(snapped(y), top), kInts, v.y + k);
     hn::StoreInterleaved4(p.parallel ? z : inverse, hn::Mul(hn::LoadU(kFloats, v.normal[0] + k), inverse),

@@ -92,10 +92,22 @@ TEST(FilmBlock, RefusesNumbersOutOfRange) {
       {"width too large", [](FilmData& f) { f.settings.width = kMaxSide + 1; }},
       {"height 0", [](FilmData& f) { f.settings.height = 0; }},
       {"height too large", [](FilmData& f) { f.settings.height = 0xffffffff; }},
-      {"left of the margin", [](FilmData& f) { f.settings.window = {-8193, 0, 64, 36}; }},
-      {"below the margin", [](FilmData& f) { f.settings.window = {0, 8229, 64, 36}; }},
-      {"whole width too large", [](FilmData& f) { f.settings.window = {0, 0, kMaxSide + 1, 36}; }},
-      {"whole height 0", [](FilmData& f) { f.settings.window = {0, 0, 64, 0}; }},
+      {"left of the margin",
+       [](FilmData& f) {
+         f.settings.window = {-8193, 0, 64, 36};
+       }},
+      {"below the margin",
+       [](FilmData& f) {
+         f.settings.window = {0, 8229, 64, 36};
+       }},
+      {"whole width too large",
+       [](FilmData& f) {
+         f.settings.window = {0, 0, kMaxSide + 1, 36};
+       }},
+      {"whole height 0",
+       [](FilmData& f) {
+         f.settings.window = {0, 0, 64, 0};
+       }},
       {"a place in no picture", [](FilmData& f) { f.settings.window.left = 1; }},
       {"pixel aspect 0", [](FilmData& f) { f.settings.pixel_aspect = 0; }},
       {"pixel aspect 17", [](FilmData& f) { f.settings.pixel_aspect = 17; }},
