@@ -1,15 +1,14 @@
 #include "host/videos/folder_source.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "hal/failure/failure.h"
 #include "host/content/document/checksum.h"
 #include "host/content/document/shell_word.h"
 #include "host/content/film/film_file.h"
+#include "host/images/half_light.h"
 #include "host/images/picture_file.h"
 #include "host/render/sinks/frame_folder.h"
 #include "host/render/sinks/frame_mark.h"
@@ -20,25 +19,6 @@ namespace mars::videos {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Of a half float that is not negative; no number counts as none.
-float light_of(std::uint32_t half) {
-  constexpr int kBias = 15, kBits = 10;
-  const auto exponent = static_cast<int>(half >> kBits & 0x1f);
-  const auto mantissa = static_cast<float>(half & 0x3ff) / 1024;
-  if ((half & 0x8000) != 0) return 0;
-  if (exponent == 0x1f) return mantissa > 0 ? 0 : color::kMostHalf;
-  return exponent == 0 ? std::ldexp(mantissa, 1 - kBias) : std::ldexp(1 + mantissa, exponent - kBias);
-}
-
-const std::array<float, 1 << 16>& lights() {
-  static const auto all = std::make_unique<std::array<float, 1 << 16>>([] {
-    std::array<float, 1 << 16> table{};
-    for (std::uint32_t half = 0; half < table.size(); ++half) table[half] = light_of(half);
-    return table;
-  }());
-  return *all;
-}
 
 std::optional<film::CompiledFilm> film_in(const fs::path& folder, const sinks::Manifest& manifest) try {
   film::CompiledFilm film = film::load_compiled_film(folder / sinks::kFilmName);
@@ -86,7 +66,7 @@ images::Image FolderReader::expose(const images::Image& light, std::uint32_t fra
   wire::Camera camera{};
   const wire::FilmSettings settings = settings_at(frame, camera);
   const color::Encoding encoding = color::encoding_of(settings, camera, wire::PixelFormat::rgb8);
-  const auto& table = lights();
+  const auto& table = images::lights_of_halfs();
   images::Image shown{light.width, light.height, {}};
   shown.pixels.reserve(light.pixels.size() / 2);
   for (std::size_t i = 0; i + 1 < light.pixels.size(); i += 2) {

@@ -279,6 +279,9 @@ std::vector<Entry> table() {
           compiles, "--eye", "middle|left|right", &RenderOptions::eye,
           "Eye of a stereo pair that sees the film, by its camera's interaxial and convergence; default: middle, the "
           "camera itself. Example: --eye left"),
+      flag(compiles, "--faces", &RenderOptions::faces,
+           "Of a panorama, the six faces that it is joined of: frame n of face f of N frames is frame f N + n. "
+           "Example: --faces"),
       option(plans, "--mapping", "greedy|optimal|cost", &RenderOptions::mapping,
              "How lines are divided among nodes: by edge boxes, exactly by edge boxes, or by cost; default: cost. "
              "Example: --mapping greedy"),
@@ -346,7 +349,7 @@ const std::vector<Heading>& headings() {
   static const std::vector<Heading> kHeadings{
       {"Pictures and files",
        {"--name", "--first-number", "--frames", "--every", "--size", "--samples", "--format", "--alpha",
-        "--compression", "--eye", "--codec", "--quality", "--sink"}},
+        "--compression", "--eye", "--faces", "--codec", "--quality", "--sink"}},
       {"Machines", {"--nodes", "--force", "--backend", "--platform", "--hostfile", "--restarts", "--write"}},
       {"Division of work (the same pictures)",
        {"--mapping", "--exchange", "--intervals", "--no-coherence", "--block", "--groups", "--sharers", "--cut"}},

@@ -45,6 +45,7 @@ struct RenderOptions {
   std::optional<images::PictureSize> size;  // none: the film's own
   std::optional<std::uint32_t> samples;     // of a pixel; none: the film's own
   film::Eye eye = film::Eye::middle;
+  bool faces = false;  // of a panorama, the film of faces that it is joined of
   wire::Mapping mapping = wire::Mapping::cost;
   wire::Exchange exchange = wire::Exchange::automatic;
   Intervals intervals = Intervals::automatic;
