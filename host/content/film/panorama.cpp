@@ -47,7 +47,7 @@ wire::Camera face_camera(const wire::Camera& camera, const FaceAxes& axes, std::
   };
   wire::Camera face = camera;
   face.world_to_eye.m = {along(axes.right, 1), along(axes.up, 1), along(axes.ahead, -1)};
-  face.focal = double{face_pixels(width)} / face_side(width);
+  face.focal = static_cast<double>(face_pixels(width)) / face_side(width);
   face.projection = wire::Projection::perspective;
   return face;
 }

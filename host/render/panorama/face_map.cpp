@@ -8,9 +8,24 @@
 namespace mars::panorama {
 namespace {
 
-float dot(const std::array<int, 3>& axis, const Direction& d) {
-  return static_cast<float>(axis[0]) * d[0] + static_cast<float>(axis[1]) * d[1] + static_cast<float>(axis[2]) * d[2];
+struct Axes {
+  Direction right, up, ahead;
+};
+
+constexpr Direction direction_of(const std::array<int, 3>& axis) {
+  return {static_cast<float>(axis[0]), static_cast<float>(axis[1]), static_cast<float>(axis[2])};
 }
+
+constexpr std::array<Axes, film::kFaces> kAxes = [] {
+  std::array<Axes, film::kFaces> all{};
+  for (std::size_t face = 0; face < all.size(); ++face) {
+    const film::FaceAxes& axes = film::kFaceAxes[face];
+    all[face] = {direction_of(axes.right), direction_of(axes.up), direction_of(axes.ahead)};
+  }
+  return all;
+}();
+
+float dot(const Direction& a, const Direction& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 // The largest part of the direction decides; of equal ones that ahead, then that aside.
 std::size_t face_of(const Direction& d) {
@@ -49,7 +64,7 @@ double cosine(std::uint64_t part, std::uint64_t whole) { return sine(4 * part + 
 
 FacePlace place_of(const Direction& direction, float pixels) {
   const std::size_t face = face_of(direction);
-  const film::FaceAxes& axes = film::kFaceAxes[face];
+  const Axes& axes = kAxes[face];
   const float distance = dot(axes.ahead, direction), half = 0.5f * pixels;
   const float middle = half + (static_cast<float>(film::kFaceBorder) - 0.5f);
   return {face, middle + half * (dot(axes.right, direction) / distance),

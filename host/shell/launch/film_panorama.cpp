@@ -1,5 +1,6 @@
 #include "host/shell/launch/film_panorama.h"
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <iostream>

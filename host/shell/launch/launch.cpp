@@ -199,7 +199,8 @@ void render_panorama(const options::RenderOptions& options, const std::filesyste
   if (options.sink == options::SinkKind::none) return render(faces_of(options), self, adviser, display);
   FilmPanorama panorama(options, display);
   if (panorama.is_there()) return;
-  render(panorama.faces(), self, adviser, display);
+  const options::RenderOptions faces = panorama.faces();
+  if (!frames_there(faces)) render(faces, self, adviser, display);
   panorama.join();
 }
 
@@ -217,7 +218,10 @@ void launch_render(options::RenderOptions options, const std::filesystem::path& 
   }
   if (videos.are_there()) return;
   if (!options.kept_film) check_film_file(options.film);  // else it may be gone
-  (is_panorama(options) ? render_panorama : render)(options, self, adviser, display);
+  if (is_panorama(options))
+    render_panorama(options, self, adviser, display);
+  else
+    render(options, self, adviser, display);
   videos.make();
 }
 
