@@ -70,8 +70,7 @@ class FaceTracks {
     for (std::size_t face = 0; face < kFaces; ++face) {
       for (const wire::Change& change : changes_of(settings.camera)) {
         add(face, change.frame, static_cast<std::uint32_t>(faces_.cameras.size()));
-        faces_.cameras.push_back(
-            face_camera(panorama_.cameras()[change.value], kFaceAxes[face], settings.width));
+        faces_.cameras.push_back(face_camera(panorama_.cameras()[change.value], kFaceAxes[face], settings.width));
       }
     }
     return {first, static_cast<std::uint32_t>(faces_.changes.size()) - first};

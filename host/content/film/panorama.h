@@ -1,7 +1,7 @@
 // Panoramas: films whose camera shows all directions, in equirectangular pictures (docs/cameras.md). Nodes draw the six
 // faces of a cube around the eye, square pictures in perspective, as a film of six times the frames: frame n of face f
-// is frame f N + n of the film of faces, so that each face has the intervals of the panorama. host/render/panorama joins
-// the faces.
+// is frame f N + n of the film of faces, so that each face has the intervals of the panorama. host/render/panorama
+// joins the faces.
 #pragma once
 
 #include <array>

@@ -78,8 +78,7 @@ DirectionGrid::DirectionGrid(std::uint32_t columns) {
   };
   for (std::uint64_t column = 0; column < columns; ++column)
     longitudes_.push_back(turn(2 * column + 1 + whole / 2));  // from behind
-  for (std::uint64_t row = 0; row < columns / 2; ++row)
-    latitudes_.push_back(turn(whole / 4 + whole - (2 * row + 1)));
+  for (std::uint64_t row = 0; row < columns / 2; ++row) latitudes_.push_back(turn(whole / 4 + whole - (2 * row + 1)));
 }
 
 }  // namespace mars::panorama

@@ -44,8 +44,7 @@ Light Joiner::light_at(std::span<const Face> faces, std::uint32_t x, std::uint32
   Light sum{};
   for (std::uint32_t down = 0; down < kAcross; ++down) {
     for (std::uint32_t across = 0; across < kAcross; ++across) {
-      const Direction direction =
-          directions_.at(std::size_t{kAcross} * x + across, std::size_t{kAcross} * y + down);
+      const Direction direction = directions_.at(std::size_t{kAcross} * x + across, std::size_t{kAcross} * y + down);
       const FacePlace place = place_of(direction, face_pixels_);
       const Light light = faces[place.face].at(place.column, place.row);
       for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += light[c];

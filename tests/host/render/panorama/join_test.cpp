@@ -30,7 +30,8 @@ Vector unit(const Vector& v) {
 
 // Of a point of the picture, in pixels from its left and upper edge.
 Vector direction_at(double x, double y, double width) {
-  const double longitude = (x / width - 0.5) * 2 * std::numbers::pi, latitude = (0.5 - 2 * y / width) * std::numbers::pi;
+  const double longitude = (x / width - 0.5) * 2 * std::numbers::pi,
+               latitude = (0.5 - 2 * y / width) * std::numbers::pi;
   return {std::sin(longitude) * std::cos(latitude), std::sin(latitude), std::cos(longitude) * std::cos(latitude)};
 }
 
@@ -60,9 +61,7 @@ std::vector<images::Image> painted(std::uint32_t width, const Paint& paint) {
   return pictures;
 }
 
-std::vector<Face> faces_of(const std::vector<images::Image>& pictures) {
-  return {pictures.begin(), pictures.end()};
-}
+std::vector<Face> faces_of(const std::vector<images::Image>& pictures) { return {pictures.begin(), pictures.end()}; }
 
 double light_in(const images::Image& picture, std::size_t column, std::size_t row, std::size_t channel) {
   const std::size_t pixel = row * picture.width + column;
@@ -72,8 +71,8 @@ double light_in(const images::Image& picture, std::size_t column, std::size_t ro
 
 // The face before which the direction goes farthest ahead.
 Vector looked_up(const std::vector<images::Image>& pictures, const Vector& direction, double pixels) {
-  const auto axes = std::ranges::max_element(
-      film::kFaceAxes, {}, [&](const film::FaceAxes& each) { return dot(each.ahead, direction); });
+  const auto axes = std::ranges::max_element(film::kFaceAxes, {},
+                                             [&](const film::FaceAxes& each) { return dot(each.ahead, direction); });
   const images::Image& picture = pictures[static_cast<std::size_t>(axes - film::kFaceAxes.begin())];
   const double ahead = dot(axes->ahead, direction), middle = (picture.width - 1) / 2.0;
   const double column = middle + pixels / 2 * dot(axes->right, direction) / ahead;
@@ -151,10 +150,12 @@ TEST(Panorama, FacesAreLargeEnough) {
     EXPECT_GE(film::face_pixels(width), width / std::numbers::pi);
     EXPECT_LE(film::face_pixels(width), width / std::numbers::pi + 2);
   }
-  const auto pixels = static_cast<float>(film::face_pixels(16384)), last = static_cast<float>(film::face_side(16384) - 1);
+  const auto pixels = static_cast<float>(film::face_pixels(16384)),
+             last = static_cast<float>(film::face_side(16384) - 1);
   for (const float x : {-1.0f, -0.3f, 1.0f}) {
     for (const float y : {-1.0f, 0.7f, 1.0f}) {
-      for (const Direction& direction : {Direction{x, y, 1}, {x, y, -1}, {1, x, y}, {-1, x, y}, {x, 1, y}, {x, -1, y}}) {
+      for (const Direction& direction :
+           {Direction{x, y, 1}, {x, y, -1}, {1, x, y}, {-1, x, y}, {x, 1, y}, {x, -1, y}}) {
         const FacePlace place = place_of(direction, pixels);
         for (const float at : {place.column, place.row}) {
           EXPECT_GE(at, 0.0f);
