@@ -53,10 +53,13 @@ std::string kept_film(const options::RenderOptions& options) {
   return (fs::path(options.folder) / sinks::kFilmName).string();
 }
 
-// Without a slash at its end.
+// Beside the folder of frames; within it where that has no name.
 std::string faces_folder(const options::RenderOptions& options) {
-  const fs::path folder = fs::path(options.folder).lexically_normal();
-  return (folder.has_filename() ? folder : folder.parent_path()).string() + ".faces";
+  constexpr const char* kEnding = ".faces";
+  fs::path folder = fs::path(options.folder).lexically_normal();
+  if (!folder.has_filename()) folder = folder.parent_path();
+  if (folder.empty() || folder.filename() == "." || folder.filename() == "..") return (folder / kEnding).string();
+  return folder.string() + kEnding;
 }
 
 resume::Opened open(const options::RenderOptions& options) {
@@ -70,7 +73,8 @@ resume::Opened open(const options::RenderOptions& options) {
 bool is_panorama(const options::RenderOptions& options) try {
   if (options.faces) return false;
   const std::string kept = kept_film(options);
-  return is_panorama_file(options.kept_film && fs::exists(kept) ? kept : options.film);
+  const bool is_kept = options.kept_film && !options.folder.empty() && fs::exists(kept);
+  return is_panorama_file(is_kept ? kept : options.film);
 } catch (const Failure&) {
   return false;
 }
