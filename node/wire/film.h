@@ -84,6 +84,7 @@ class PackedFilm {
   std::uint32_t casting_count() const;
   std::span<const Change> changes() const { return changes_; }
   std::span<const Interval> intervals() const { return intervals_; }
+  std::span<const char> names() const { return names_; }
 
   // By number, as segments have it: of a scene the base's come first.
   std::size_t shape_count() const { return base_shapes_.size() + shapes_.size(); }

@@ -169,9 +169,11 @@ enum class ColorSpace : std::uint32_t { coded, linear };
 enum class Curve : std::uint32_t { none, filmic, agx };
 inline constexpr Curve kLastCurve = Curve::agx;
 
-// Rays meet in the eye, or all run along the view axis. As wide as Camera's other members.
-enum class Projection : std::uint64_t { perspective, orthographic };
-inline constexpr Projection kLastProjection = Projection::orthographic;
+// Rays meet in the eye, or all run along the view axis. A panorama shows all directions from the eye: nodes draw its
+// six faces, a film of their own in perspective (host/content/film/panorama.h), and of the panorama itself, for a
+// studio's view, what is in front. As wide as Camera's other members.
+enum class Projection : std::uint64_t { perspective, orthographic, panorama };
+inline constexpr Projection kLastProjection = Projection::panorama;
 
 inline constexpr double kMostShift = 1;  // of a picture's width or height
 

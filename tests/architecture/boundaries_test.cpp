@@ -177,8 +177,8 @@ TEST(Boundaries, HostAndNodeShareTheWire) {
 // What makes frames of a film runs one way, and knows nothing of a person's command line.
 TEST(Boundaries, RenderingRunsOneWay) {
   std::vector<std::string> before = {"host/child/", "host/images/", "host/content/"};
-  for (const char* part : {"compositor/", "pictures/", "sinks/", "resume/", "events/", "trace/", "watch/", "walls/",
-                           "farm/", "report/", "session/", "serve/"}) {
+  for (const char* part : {"compositor/", "pictures/", "sinks/", "resume/", "panorama/", "events/", "trace/", "watch/",
+                           "walls/", "farm/", "report/", "session/", "serve/"}) {
     before.push_back(std::string("host/render/") + part);
     expect_includes(before.back(), [&](const std::string& include) {
       return !begins(include, "host/") ||

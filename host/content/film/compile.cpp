@@ -39,6 +39,9 @@ void see_by(Eye eye, const animator::Film& film, wire::FilmData& data) {
   if (motion.projection == wire::Projection::orthographic)
     throw Failure("has no stereo pair: parallel rays show the same from both sides", film.source + ": camera",
                   "make the projection perspective, or leave --eye out");
+  if (motion.projection == wire::Projection::panorama)
+    throw Failure("has no stereo pair: two eyes side by side see no depth to their sides", film.source + ": camera",
+                  "make the projection perspective, or leave --eye out");
   const double aside = (eye == Eye::left ? -0.5 : 0.5) * motion.interaxial;
   const double aspect = double(data.settings.width) * data.settings.pixel_aspect / data.settings.height;
   for (wire::Camera& camera : data.cameras) {

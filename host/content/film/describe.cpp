@@ -2,6 +2,7 @@
 
 #include "host/content/document/checksum.h"
 #include "host/content/document/text.h"
+#include "host/content/film/panorama.h"
 
 namespace mars::film {
 namespace {
@@ -39,6 +40,11 @@ std::string colors_of(const wire::FilmSettings& settings) {
   return "colours     linear, no curve\n";
 }
 
+std::string panorama_text(const wire::FilmSettings& settings) {
+  const std::uint32_t side = face_side(settings.width);
+  return document::formatted("camera      panorama, of six faces of %u x %u\n", side, side);
+}
+
 std::string table_of(const wire::PackedFilm& film) {
   std::string table = "  first frame   frames   moving segments\n";
   std::size_t row = 0;
@@ -61,6 +67,7 @@ std::string describe(const CompiledFilm& film) {
   if (settings.pixel_aspect != 1)
     text += document::formatted("pixels      %g times as wide as high\n", double{settings.pixel_aspect});
   text += document::formatted("samples     %u a pixel\n", settings.samples);
+  if (is_panorama(view)) text += panorama_text(settings);
   text += colors_of(settings);
   text += document::formatted("frames      %u at %g a second, %.2f seconds\n", settings.frames, settings.rate,
                               settings.frames / settings.rate);

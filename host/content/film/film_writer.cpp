@@ -26,6 +26,7 @@ double within(const document::Range& range, double number) { return std::clamp(n
 
 // Of wire::Camera.
 double focal_at(const animator::CameraMotion& motion, std::uint32_t frame) {
+  if (motion.projection == wire::Projection::panorama) return 1;
   if (motion.projection == wire::Projection::orthographic)
     return 2 / within(keys::range_of("camera", "height"), animator::value_at(motion.height, frame));
   const double half =
@@ -66,7 +67,8 @@ wire::Camera camera_at(const animator::Film& film, std::uint32_t frame, animator
     camera.world_to_eye.m[row] = {axes[row].x, axes[row].y, axes[row].z, -glm::dot(axes[row], eye)};
   camera.projection = motion.projection;
   camera.focal = focal_at(motion, frame);
-  const glm::dvec2 shift = animator::value_at(motion.shift, frame);
+  const bool panorama = motion.projection == wire::Projection::panorama;
+  const glm::dvec2 shift = panorama ? glm::dvec2(0) : animator::value_at(motion.shift, frame);
   camera.shift_x = within({-wire::kMostShift, wire::kMostShift}, shift.x);
   camera.shift_y = within({-wire::kMostShift, wire::kMostShift}, shift.y);
   camera.near = motion.near;

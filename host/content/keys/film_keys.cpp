@@ -9,7 +9,7 @@ namespace {
 // In the order of the enumerations that they are read to.
 constexpr std::string_view kColors[] = {"coded", "linear"}, kCurves[] = {"none", "filmic", "agx"},
                            kCuttings[] = {"auto", "keyframes"}, kAxes[] = {"world", "joint"},
-                           kProjections[] = {"perspective", "orthographic"};
+                           kProjections[] = {"perspective", "orthographic", "panorama"};
 static_assert(std::size(kProjections) == static_cast<std::size_t>(wire::kLastProjection) + 1);
 
 // Kinds of a film, and so of its camera, in the order of wire::ColorSpace.
@@ -219,7 +219,8 @@ Object camera() {
             .rare = true},
            {.name = "projection",
             .type = "choice",
-            .meaning = "`\"perspective\"`: what is farther is smaller; `\"orthographic\"`: rays are parallel",
+            .meaning = "`\"perspective\"`: what is farther is smaller; `\"orthographic\"`: rays are parallel; "
+                       "`\"panorama\"`: all directions",
             .see = "cameras.md",
             .json = R"("perspective")",
             .choices = kProjections},

@@ -375,6 +375,17 @@ bool has_frames(const fs::path& folder) {
   return false;
 }
 
+bool remove_folder(const fs::path& folder) {
+  std::error_code none;
+  std::vector<fs::path> files;
+  for (fs::directory_iterator entry(folder, none), end; !none && entry != end; entry.increment(none))
+    files.push_back(entry->path());
+  for (const fs::path& file : files)
+    if (!is_own_name(file.filename().string()) || file.filename() == kRunsName) return false;
+  for (const fs::path& file : files) fs::remove(file, none);
+  return fs::remove(folder, none);
+}
+
 Manifest read_manifest(const fs::path& folder) {
   // The runs first: what one has rendered is in frames.json before it is gone from there.
   std::vector<Manifest> unfinished;

@@ -129,9 +129,9 @@ forecast::FilmCounts counts_of(const film::CompiledFilm& film, const std::vector
                               words.options.format);
 }
 
-Planned plan(const PlanWords& words, const NodesCode& code) {
-  const options::RenderOptions& options = words.options;
-  const film::CompiledFilm film = job::load_film_of(options, warn);
+Planned plan(PlanWords words, const NodesCode& code) {
+  options::RenderOptions& options = words.options;
+  const film::CompiledFilm film = job::load_drawn_film_of(options, warn);
   const wire::PackedFilm view = film.view();
   experiments::Platform platform = platform_of(options, code);
   platform.memory = node_memory(options, platform);

@@ -1,8 +1,10 @@
 #include "host/shell/job/film_of.h"
 
+#include "hal/failure/failure.h"
 #include "host/content/animator/pose/check.h"
 #include "host/content/animator/reading/read_film.h"
 #include "host/content/film/film_file.h"
+#include "host/content/film/panorama.h"
 
 namespace mars::job {
 namespace {
@@ -32,9 +34,7 @@ film::CompiledFilm load_with_warnings(const std::string& path, const film::Compi
   return film::compile(film, compiling);
 }
 
-}  // namespace
-
-film::CompiledFilm load_film_of(const options::RenderOptions& options, const Warn& warn) {
+film::CompiledFilm load_as_written(const options::RenderOptions& options, const Warn& warn) {
   film::CompileOptions compiling;
   if (options.intervals == options::Intervals::keyframes) compiling.cutting = animator::Cutting::keyframes;
   if (options.size) compiling.size = {options.size->width, options.size->height};
@@ -45,6 +45,37 @@ film::CompiledFilm load_film_of(const options::RenderOptions& options, const War
   if (options.film == options::kTrialFilm)
     return film::compile(animator::read_film(document::Document(kTrial, options::kTrialFilm).root(), {}), compiling);
   return load_with_warnings(options.film, compiling, warn);
+}
+
+}  // namespace
+
+film::CompiledFilm load_film_of(const options::RenderOptions& options, const Warn& warn) {
+  film::CompiledFilm film = load_as_written(options, warn);
+  const bool panorama = film::is_panorama(film.view());
+  if (panorama) film::check_panorama(film);
+  if (!options.faces) return film;
+  if (!panorama) throw Failure("is no panorama, so it has no faces", options.film, "leave out --faces");
+  return film::faces_of(film);
+}
+
+film::CompiledFilm load_drawn_film_of(options::RenderOptions& options, const Warn& warn) {
+  film::CompiledFilm film = load_film_of(options, warn);
+  if (!film::is_panorama(film.view())) return film;
+  options = faces_of(options, film.view().settings().frames);
+  return film::faces_of(film);
+}
+
+options::RenderOptions faces_of(options::RenderOptions options, std::uint32_t film_frames) {
+  const std::vector<std::uint32_t> frames = options.frames.of_film(film_frames);
+  options.faces = true;
+  options.format = images::PictureFormat::exr;  // light, as nodes draw it
+  options.compression = images::Compression::zip;
+  options.name.clear();
+  options.first_number = 0;
+  options.videos.clear();
+  options.frames = film::FrameSet();
+  if (frames.size() < film_frames) options.frames = film::FrameSet(film::face_frames(frames, film_frames));
+  return options;
 }
 
 }  // namespace mars::job

@@ -1,5 +1,7 @@
 #include "host/shell/job/render_job.h"
 
+#include "hal/failure/failure.h"
+#include "host/content/film/panorama.h"
 #include "host/shell/job/film_of.h"
 
 namespace mars::job {
@@ -18,6 +20,15 @@ std::string replay_of(options::RenderOptions options, const std::string& backend
   return command;
 }
 
+// Nodes draw no panorama, but its faces.
+film::CompiledFilm load_to_draw(const options::RenderOptions& options, const Warn& warn) {
+  film::CompiledFilm film = load_film_of(options, warn);
+  if (film::is_panorama(film.view()))
+    throw Failure("is a panorama, which mars render joins of its faces", options.film,
+                  "use mars render, or add --faces to draw the faces alone");
+  return film;
+}
+
 session::Writers writers_of(options::WriteWhere write) {
   switch (write) {
     case options::WriteWhere::automatic: break;
@@ -32,7 +43,7 @@ session::Writers writers_of(options::WriteWhere write) {
 session::RenderJob job_of(const options::RenderOptions& options, const std::string& backend) {
   session::RenderJob job;
   job.film = options.film;
-  job.load_film = [options](const auto& warn) { return load_film_of(options, warn); };
+  job.load_film = [options](const auto& warn) { return load_to_draw(options, warn); };
   job.film_options = options::film_arguments(options);
   job.overwrite = options.overwrite;
   job.kept_film = options.kept_film;

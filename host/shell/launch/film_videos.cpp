@@ -99,17 +99,8 @@ void FilmVideos::make(const std::string& file) {
                  bytes_text(fs::file_size(file)) + ", " + document::formatted("%.1f", seconds.count()) + " seconds");
 }
 
-// Not where somebody else has put something there, as a job of Slurm its output, or renders there.
 void FilmVideos::remove_frames() {
-  std::error_code none;
-  std::vector<fs::path> files;
-  for (fs::directory_iterator entry(options_.folder, none), end; !none && entry != end; entry.increment(none))
-    files.push_back(entry->path());
-  for (const fs::path& file : files)
-    if (!sinks::is_own_name(file.filename().string()) || file.filename() == sinks::kRunsName)
-      return display_.print("the frames stay in " + options_.folder);
-  for (const fs::path& file : files) fs::remove(file, none);
-  fs::remove(options_.folder, none);
+  if (!sinks::remove_folder(options_.folder)) display_.print("the frames stay in " + options_.folder);
 }
 
 }  // namespace mars::launch

@@ -21,6 +21,7 @@
 #include "host/shell/launch/command.h"
 #include "host/shell/launch/display.h"
 #include "host/shell/launch/film_check.h"
+#include "host/shell/launch/film_panorama.h"
 #include "host/shell/launch/film_videos.h"
 #include "host/shell/launch/hostfile.h"
 #include "host/shell/launch/job.h"
@@ -176,10 +177,36 @@ std::unique_ptr<RenderingWindow> open_window(options::RenderOptions& options, co
   return window;
 }
 
+// What nodes draw of the film: frames of the folder, or faces.
+void render(options::RenderOptions options, const std::filesystem::path& self, const Adviser& adviser,
+            Display& display) {
+  const auto started = std::chrono::steady_clock::now();
+  const Starting starting = prepare(options, self);
+  const std::unique_ptr<RenderingWindow> window = open_window(options, starting, self);
+  Supervisor supervisor(options, world_of(options, starting, display, adviser));
+  supervisor.render();
+  if (window) window->leave();
+  if (!supervisor.last().ended_for.empty())
+    std::cerr << "mars: warning: all frames are there, but " << supervisor.last().ended_for << '\n';
+  if (supervisor.restarts() > 0 && !(options.report + options.trace).empty())
+    std::cerr << "mars: warning: the report and the trace are of the last job alone\n";
+  if (supervisor.rendered()) display.print(account_of(supervisor, options.folder, seconds_since(started)));
+}
+
+// Where no frames are written, faces are drawn and not joined.
+void render_panorama(const options::RenderOptions& options, const std::filesystem::path& self, const Adviser& adviser,
+                     Display& display) {
+  if (options.sink == options::SinkKind::none) return render(faces_of(options), self, adviser, display);
+  FilmPanorama panorama(options, display);
+  if (panorama.is_there()) return;
+  const options::RenderOptions faces = panorama.faces();
+  if (!frames_there(faces)) render(faces, self, adviser, display);
+  panorama.join();
+}
+
 }  // namespace
 
 void launch_render(options::RenderOptions options, const std::filesystem::path& self, const Adviser& adviser) {
-  const auto started = std::chrono::steady_clock::now();
   Display display(kind_of_output(options.quiet), child::raw_output());
   for (const std::string& line : messages::unknown_settings()) display.print(line);
   messages::read_settings();  // wrong settings fail before anything is started
@@ -191,16 +218,10 @@ void launch_render(options::RenderOptions options, const std::filesystem::path& 
   }
   if (videos.are_there()) return;
   if (!options.kept_film) check_film_file(options.film);  // else it may be gone
-  const Starting starting = prepare(options, self);
-  const std::unique_ptr<RenderingWindow> window = open_window(options, starting, self);
-  Supervisor supervisor(options, world_of(options, starting, display, adviser));
-  supervisor.render();
-  if (window) window->leave();
-  if (!supervisor.last().ended_for.empty())
-    std::cerr << "mars: warning: all frames are there, but " << supervisor.last().ended_for << '\n';
-  if (supervisor.restarts() > 0 && !(options.report + options.trace).empty())
-    std::cerr << "mars: warning: the report and the trace are of the last job alone\n";
-  if (supervisor.rendered()) display.print(account_of(supervisor, options.folder, seconds_since(started)));
+  if (is_panorama(options))
+    render_panorama(options, self, adviser, display);
+  else
+    render(options, self, adviser, display);
   videos.make();
 }
 

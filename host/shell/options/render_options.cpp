@@ -300,6 +300,9 @@ std::vector<Entry> table() {
              "480,270,960x540"),
       number(compiles, "--margin", {&RenderOptions::margin, false, wire::kMostMargin, 0},
              "Pixels drawn around the picture or its crop (overscan); default: 0. Example: --margin 32"),
+      flag(compiles, "--faces", &RenderOptions::faces,
+           "Of a panorama, the six faces that it is joined of: frame n of face f of N frames is frame f N + n. "
+           "Example: --faces"),
       option(plans, "--mapping", "greedy|optimal|cost", &RenderOptions::mapping,
              "How lines are divided among nodes: by edge boxes, exactly by edge boxes, or by cost; default: cost. "
              "Example: --mapping greedy"),
@@ -377,7 +380,7 @@ const std::vector<Heading>& headings() {
   static const std::vector<Heading> kHeadings{
       {"Pictures and files",
        {"--name", "--first-number", "--frames", "--every", "--size", "--samples", "--format", "--alpha",
-        "--compression", "--eye", "--crop", "--margin", "--ocio", "--display", "--view", "--ocio-input", "--codec",
+        "--compression", "--eye", "--faces", "--crop", "--margin", "--ocio", "--display", "--view", "--ocio-input", "--codec",
         "--quality", "--sink"}},
       {"Machines", {"--nodes", "--force", "--backend", "--platform", "--hostfile", "--restarts", "--write"}},
       {"Division of work (the same pictures)",

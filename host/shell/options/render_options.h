@@ -50,6 +50,7 @@ struct RenderOptions {
   film::Eye eye = film::Eye::middle;
   std::optional<film::Crop> crop;  // all that is drawn of the picture; none: all of it
   std::uint32_t margin = 0;        // pixels that are drawn around that
+  bool faces = false;              // of a panorama, the film of faces that it is joined of
   wire::Mapping mapping = wire::Mapping::cost;
   wire::Exchange exchange = wire::Exchange::automatic;
   Intervals intervals = Intervals::automatic;

@@ -41,7 +41,7 @@ MarkState camera_state(const Project& project, const Moments& moments) {
   state.shift = {camera.shift_x, camera.shift_y};
   if (camera.projection == wire::Projection::orthographic)
     state.height = 2 / camera.focal;
-  else
+  else if (camera.projection == wire::Projection::perspective)
     state.angle = 2 * std::atan(1 / camera.focal) / modeler::kDegree;
   return state;
 }

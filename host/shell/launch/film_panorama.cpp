@@ -1,0 +1,136 @@
+#include "host/shell/launch/film_panorama.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <system_error>
+
+#include "hal/failure/failure.h"
+#include "host/content/document/fields.h"
+#include "host/content/document/file.h"
+#include "host/content/document/text.h"
+#include "host/content/film/film_file.h"
+#include "host/content/film/panorama.h"
+#include "host/render/panorama/join_frames.h"
+#include "host/render/session/session.h"
+#include "host/render/sinks/restore.h"
+#include "host/shell/job/film_of.h"
+
+namespace mars::launch {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kPanorama = "panorama";
+
+void warn(const std::string& line) { std::cerr << "mars: warning: " << line << '\n'; }
+
+// Large films are read in pieces, and seldom have the word.
+bool has_word(const std::string& file, std::string_view word) {
+  std::string text;
+  bool found = false;
+  document::read_pieces(file, [&](std::string_view piece) {
+    text.append(piece);
+    found = found || text.find(word) != std::string::npos;
+    text.erase(0, text.size() - std::min(text.size(), word.size()));
+  });
+  return found;
+}
+
+bool is_panorama_file(const std::string& file) {
+  if (film::is_compiled_film(file)) return film::is_panorama(film::load_compiled_film(file).view());
+  if (!has_word(file, kPanorama)) return false;
+  const document::Document document = document::read_document(file);
+  const document::Fields film(document.root(), keys::object("film"));
+  const auto camera = film.find("camera");
+  if (!camera) return false;
+  return document::Fields(*camera, keys::object("camera")).choice("projection") ==
+         static_cast<std::size_t>(wire::Projection::panorama);
+}
+
+std::string kept_film(const options::RenderOptions& options) {
+  return (fs::path(options.folder) / sinks::kFilmName).string();
+}
+
+// Beside the folder of frames; within it where that has no name.
+std::string faces_folder(const options::RenderOptions& options) {
+  constexpr const char* kEnding = ".faces";
+  fs::path folder = fs::path(options.folder).lexically_normal();
+  if (!folder.has_filename()) folder = folder.parent_path();
+  if (folder.empty() || folder.filename() == "." || folder.filename() == "..") return (folder / kEnding).string();
+  return folder.string() + kEnding;
+}
+
+resume::Opened open(const options::RenderOptions& options) {
+  return resume::open({options.folder, options.film, options::film_arguments(options), options::form_of(options),
+                       options.frames, options.overwrite, options.kept_film},
+                      [&] { return job::load_film_of(options, warn); }, {.warn = warn});
+}
+
+}  // namespace
+
+bool is_panorama(const options::RenderOptions& options) try {
+  if (options.faces) return false;
+  const std::string kept = kept_film(options);
+  const bool is_kept = options.kept_film && !options.folder.empty() && fs::exists(kept);
+  return is_panorama_file(is_kept ? kept : options.film);
+} catch (const Failure&) {
+  return false;
+}
+
+options::RenderOptions faces_of(options::RenderOptions options) {
+  job::load_drawn_film_of(options, [](const std::string&) {});
+  return options;
+}
+
+FilmPanorama::FilmPanorama(const options::RenderOptions& options, Display& display)
+    : options_(options), display_(display), opened_(open(options)) {
+  const auto left = static_cast<std::uint32_t>(opened_.frames.size());
+  if (left < opened_.asked || !opened_.changed.empty())
+    display_.print(resumed_text({opened_.asked - left, opened_.asked, opened_.changed}));
+}
+
+// Of the film as the folder keeps it, which the other options have made.
+options::RenderOptions FilmPanorama::faces() const {
+  options::RenderOptions faces = options_;
+  faces.frames = film::FrameSet(opened_.frames);
+  faces = job::faces_of(faces, opened_.film.view().settings().frames);
+  faces.film = kept_film(options_);
+  faces.folder = faces_folder(options_);
+  faces.size = {};
+  faces.samples = {};
+  faces.eye = film::Eye::middle;
+  faces.intervals = options::Intervals::automatic;
+  faces.kept_film = false;
+  return faces;
+}
+
+void FilmPanorama::join() {
+  const auto started = std::chrono::steady_clock::now();
+  const session::HostMachine machine = session::host_machine({});
+  const wire::PackedFilm film = opened_.film.view();
+  const std::size_t count = opened_.frames.size();
+  panorama::join_frames({film, faces_folder(options_), *opened_.folder, opened_.frames,
+                         static_cast<std::uint32_t>(machine.processors), machine.memory},
+                        [&](std::size_t done) {
+                          display_.show("joined frame " + std::to_string(done) + " of " + std::to_string(count));
+                        });
+  opened_.folder->finish();
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - started;
+  display_.print(document::counted(count, "frame") + " joined in " + options_.folder + ", " +
+                 document::formatted("%.1f", seconds.count()) + " seconds");
+  remove_faces();
+}
+
+// Of these frames alone: other runs may draw those of others.
+void FilmPanorama::remove_faces() const {
+  const fs::path folder = faces_folder(options_);
+  const sinks::Manifest manifest = sinks::read_manifest(folder);
+  std::error_code none;
+  for (const std::uint32_t face : film::face_frames(opened_.frames, opened_.film.view().settings().frames))
+    fs::remove(folder / sinks::frame_file_name(manifest, face), none);
+  if (!sinks::has_frames(folder)) sinks::remove_folder(folder);
+}
+
+}  // namespace mars::launch

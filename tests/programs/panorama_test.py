@@ -1,0 +1,145 @@
+"""Panoramas: faces that nodes draw and mars joins. The files are the same byte for byte however the faces are drawn, and
+a rendering goes on where it stopped."""
+
+import json
+import signal
+import subprocess
+
+from harness import PROGRAMS, SECONDS, ENVIRONMENT, ProgramTest, main, needs, wait_until
+from png_reader import png_rows
+
+THREADS = ["--backend", "threads", "-q"]
+
+
+def a_film(frames=4, size=(64, 32), **more):
+    """A box that flies once round the camera, over a still floor."""
+    box = {"joints": [{"name": "a", "segment": {"shape": "box", "sbb": [[-1, -1, -1], [1, 1, 1]]}}]}
+    floor = {"joints": [{"name": "a", "segment": {"shape": "box", "sbb": [[-9, -9, -3], [9, 9, -2]]}}]}
+    ways = [[0, 4, 0], [4, 0, 0], [0, -4, 0], [-4, 0, 0]]
+    return {"frames": frames, "size": list(size), "samples": 2, "background": [0.1, 0.2, 0.4],
+            "camera": {"projection": "panorama", "eye": [0, 0, 0], "at": [0, 1, 0]},
+            "models": {"box": box, "floor": floor}, "materials": {"red": {"color": [0.9, 0.1, 0.1]}},
+            "actors": [{"name": "floor", "model": "floor"},
+                       {"name": "box", "model": "box", "material": "red",
+                        "keys": [{"frame": i, "place": way} for i, way in enumerate(ways)]}], **more}
+
+
+class Panoramas(ProgramTest):
+    def render(self, film, folder, *words):
+        return self.succeed("mars", "render", film, "-o", folder, "--backend", "threads", *words)
+
+    def files(self, folder):
+        return {path.name: path.read_bytes() for path in (self.folder / folder).glob("frame-*")}
+
+    def left(self):
+        return sorted(path.name for path in self.folder.iterdir())
+
+    def test_files_are_the_same_for_every_division(self):
+        film = self.write("film.json", a_film())
+        for form in [[], ["--format", "exr", "--alpha"], ["--format", "png16"]]:
+            self.render(film, "alone", *form, "--nodes", 1, "--no-coherence")
+            self.assertEqual(len(self.files("alone")), 4)
+            for how in [["--nodes", 3], ["--nodes", 3, "--groups", 1, "--write", "nodes"]]:
+                self.render(film, "out", *form, *how)
+                self.assertEqual(self.files("out"), self.files("alone"), (form, how))
+                self.assertIn("4 frames, all there and whole", self.succeed("mars", "verify", "out"))
+                self.assertEqual(self.left(), ["alone", "film.json", "out"], "no faces are left")
+                self.run_program("rm", "-r", "out")
+            self.run_program("rm", "-r", "alone")
+
+    def test_the_box_goes_round(self):
+        """It is ahead, then to the right, behind and to the left."""
+        film = self.write("film.json", a_film(background=[0, 0, 0]))
+        self.render(film, "out")
+        for number, middle in enumerate([32, 48, 0, 16]):
+            row = png_rows(self.folder / "out" / f"frame-{number:04}.png")[16]
+            red = [x for x in range(64) if row[3 * x] > 40 and row[3 * x + 2] < row[3 * x] / 2]
+            # The box is 2 * atan(1 / 3) wide.
+            expected = {(middle + x) % 64 for x in range(-3, 3)}
+            self.assertEqual(set(red), expected, number)
+
+    def test_it_goes_on(self):
+        film = self.write("film.json", a_film())
+        self.assertIn("4 frames joined in out", self.render(film, "out"))
+        whole = self.files("out")
+        before = {path.name: path.stat().st_ino for path in (self.folder / "out").glob("frame-*")}
+        self.assertIn("4 of 4 frames are there already", self.render(film, "out"))
+        for number in [1, 3]:
+            (self.folder / "out" / f"frame-000{number}.png").unlink()
+        printed = self.render(film, "out")
+        self.assertIn("2 of 4 frames are there already", printed)
+        self.assertIn("2 frames joined in out", printed)
+        self.assertEqual(self.files("out"), whole)
+        for number in [0, 2]:
+            self.assertEqual((self.folder / "out" / f"frame-000{number}.png").stat().st_ino, before[f"frame-000{number}.png"])
+        (self.folder / "out" / "frame-0002.png").write_bytes(b"torn")
+        self.succeed("mars", "verify", "out", "--repair", "--backend", "threads")
+        self.assertEqual(self.files("out"), whole)
+        # Of an edited film only frames that show something else are joined again.
+        edited = a_film()
+        edited["actors"][1]["keys"][3]["place"] = [-5, 0, 0]
+        self.write("film.json", edited)
+        self.assertIn("1 frame joined in out", self.render(film, "out"))
+        self.assertEqual({name for name, content in self.files("out").items() if content != whole[name]}, {"frame-0003.png"})
+
+    def test_a_stopped_run_goes_on_with_its_faces(self):
+        film = self.write("film.json", a_film(40))
+        self.render(film, "whole", "--frames", "0-39")
+        words = ["render", film, "-o", "out", *THREADS]
+        process = subprocess.Popen([str(PROGRAMS / "mars"), *map(str, words)], cwd=self.folder, env=ENVIRONMENT,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.addCleanup(self.end, process)
+        faces = self.folder / "out.faces"
+        wait_until(lambda: process.poll() is not None or len(list(faces.glob("*.exr"))) > 20, SECONDS, "no face")
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=SECONDS)
+        if process.returncode == 0:
+            self.skipTest("it was done too soon")
+        drawn = {path.name: path.stat().st_ino for path in faces.glob("*.exr")}
+        self.assertEqual(self.files("out"), {})
+        self.assertGreater(len(drawn), 20)
+        self.assertIn("frames are there already", self.render(film, "out"))
+        self.assertEqual(self.files("out"), self.files("whole"))
+        self.assertFalse(faces.exists())
+
+    def test_some_frames_with_names_and_faces_themselves(self):
+        film = self.write("film.json", a_film())
+        self.render(film, "dir/shot_####.exr", "--every", 2)
+        self.assertEqual(sorted(path.name for path in (self.folder / "dir").iterdir()),
+                         ["film.mars", "frames.json", "shot_0000.exr", "shot_0002.exr"])
+        self.render(film, "faces", "--faces")
+        self.assertEqual(len(self.files("faces")), 24)
+        self.succeed("mars", "compile", film, "-o", "film.mars")
+        self.render("film.mars", "compiled")
+        self.render(film, "out")
+        pictures = lambda folder: [png_rows(path) for path in sorted((self.folder / folder).glob("*.png"))]
+        self.assertEqual(pictures("compiled"), pictures("out"))
+        self.assertIn("panorama, of six faces of 24 x 24", self.succeed("mars", "info", film))
+        self.succeed("mars", "render", film, "--sink", "none", *THREADS)
+        plan = json.loads(self.succeed("mars", "plan", film, "--platform", "fat-tree", "--nodes", 2, "--frames", "1-2", "--json"))
+        self.assertEqual(plan["frames"], 12)
+        self.succeed("mars", "render", film, "--backend", "simulated", "--sink", "none", "--nodes", 2, "-q")
+
+    def test_what_cannot_be(self):
+        wide = self.write("wide.json", a_film(size=(64, 36)))
+        self.fail_clearly(1, "render", wide, "-o", "out", *THREADS, says="twice as wide as high, not 64x36")
+        self.render(wide, "out", "--size", "64x32")
+        film = self.write("film.json", a_film())
+        self.fail_clearly(1, "render", film, "-o", "b", "--eye", "left", *THREADS, says="has no stereo pair")
+        plain = a_film()
+        del plain["camera"]["projection"]
+        plain = self.write("plain.json", plain)
+        self.fail_clearly(1, "render", plain, "-o", "b", "--faces", *THREADS, says="is no panorama, so it has no faces")
+        self.assertIn("mars render joins", self.run_program("mars-threads", film, "-o", "b", "--nodes", 1).stderr)
+
+    @needs("ffmpeg", "ffprobe")
+    def test_a_video_alone(self):
+        film = self.write("film.json", a_film())
+        self.render(film, "film.mp4")
+        self.assertEqual(self.left(), ["film.json", "film.mp4"])
+        self.assertIn("4 frames of film.json (0-3), 64x32", self.succeed("mars", "verify", "film.mp4"))
+        self.assertIn("film.mp4 is there already", self.render(film, "film.mp4"))
+
+
+if __name__ == "__main__":
+    main()
