@@ -1,4 +1,4 @@
-# Spack's recipe for MARS. Untested: only its Python syntax was checked. In a clone of MARS:
+# Spack's recipe for MARS, for Spack 0.23 or newer (docs/installing.md says what was tried). In a clone of MARS:
 #   spack repo create ~/mars-spack mars-site && mkdir -p ~/mars-spack/packages/mars
 #   cp cluster/spack/package.py ~/mars-spack/packages/mars/ && spack repo add ~/mars-spack
 #   spack dev-build mars@main ^openmpi schedulers=slurm
@@ -19,6 +19,10 @@ class Mars(CMakePackage):
     version("main")
 
     variant("mpi", default=True, description="Nodes as MPI processes; without it, as threads")
+    variant("videos", default=True, description="Videos, by the program ffmpeg")
+    variant("studio", default=True, description="mars studio, a page in a browser")
+    variant("import", default=True, description="mars import of OBJ, STL and glTF files, by Assimp")
+    variant("window", default=False, description="Windows on a display, by SDL")
 
     depends_on("c", type="build")
     depends_on("cxx", type="build")
@@ -29,18 +33,24 @@ class Mars(CMakePackage):
     depends_on("hwloc@2:")
     depends_on("libpng")
     depends_on("openexr@3.1.3:")
-    depends_on("assimp")
-    depends_on("boost@1.74:")
-    depends_on("openssl")
     depends_on("zlib-api")
-    depends_on("libjpeg-turbo")
+    depends_on("highway")
     depends_on("xxhash")
     depends_on("glm")
     depends_on("cli11@2:")
     depends_on("nlohmann-json@3.11:")
+    depends_on("libjpeg-turbo")
+    depends_on("assimp", when="+import")
+    depends_on("boost@1.74:", when="+studio")
+    depends_on("openssl", when="+studio")
+    depends_on("ffmpeg@5:+libx264+libvpx+libopus", when="+videos", type="run")
+    depends_on("sdl2@2.26:", when="+window")
     conflicts("%gcc@:10", msg="MARS is C++20")
 
     generator("ninja")
 
     def cmake_args(self):
-        return [self.define_from_variant("MARS_MPI", "mpi"), self.define("BUILD_TESTING", False)]
+        parts = ["mpi", "studio", "import", "window"]
+        return [self.define_from_variant("MARS_" + part.upper(), part) for part in parts] + [
+            self.define("BUILD_TESTING", False)
+        ]

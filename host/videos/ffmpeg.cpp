@@ -34,10 +34,12 @@ std::string work_of(pid_t process) {
   return work;
 }
 
+constexpr std::array kNoRoom{ENOSPC, EDQUOT};
+constexpr std::array kCannotWrite{ENOSPC, EDQUOT, EROFS, EACCES, EIO, EFBIG};
+
 // ffmpeg says why a file cannot be written in the system's words.
-void fail_as_file(const std::string& reason, const std::filesystem::path& file) {
-  constexpr std::array kErrors{ENOSPC, EDQUOT, EROFS, EACCES, EIO, EFBIG};
-  for (const int error : kErrors)
+void fail_as_file(const std::string& reason, const std::filesystem::path& file, std::span<const int> errors) {
+  for (const int error : errors)
     if (reason.find(std::strerror(error)) != std::string::npos) document::fail_file("write", file, error);
 }
 
@@ -133,6 +135,7 @@ void Ffmpeg::finish() {
                       ")",
                   file_.string(), "see whether memory ran out; the same command goes on");
   if (!ending->well()) fail();
+  fail_as_file(complaints(), file_, kNoRoom);  // ffmpeg may say this and yet end well
 }
 
 // It has ended, or closed its input.
@@ -142,7 +145,7 @@ void Ffmpeg::fail() {
     finish();
   }
   const std::string reason = child::content_of(errors_);
-  fail_as_file(reason, file_);
+  fail_as_file(reason, file_, kCannotWrite);
   throw Failure("ffmpeg ended without a video" + (reason.empty() ? "" : ": " + first_line(reason)), file_.string(),
                 "see whether it can write such files: ffmpeg -formats, ffmpeg -encoders");
 }

@@ -53,6 +53,11 @@ Pieces::Pieces(const Source& source, const Form& form, const Order& order, std::
   remove_all_but_these();
 }
 
+Pieces::~Pieces() {
+  std::error_code none;
+  fs::remove(folder_, none);  // not where it has something
+}
+
 std::string Pieces::name_of(Span span) const {
   document::Checksum sum;
   for (const std::string& word : input_words(form_, source_)) add(sum, word);
@@ -110,8 +115,6 @@ void Pieces::remove_all_but_these() const {
 void Pieces::remove() {
   pieces_.clear();
   remove_all_but_these();
-  std::error_code none;
-  fs::remove(folder_, none);  // not where it has something else
 }
 
 }  // namespace mars::videos

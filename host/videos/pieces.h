@@ -21,13 +21,16 @@ class Pieces {
   // Makes the folder where it is missing, and waits until no other process makes pieces there. `encoding`: the words by
   // which ffmpeg encodes. Throws Failure where it cannot.
   Pieces(const Source& source, const Form& form, const Order& order, std::vector<std::string> encoding);
+  Pieces(const Pieces&) = delete;
+  Pieces& operator=(const Pieces&) = delete;
+  ~Pieces();  // removes the folder where it has nothing
 
   std::size_t count() const { return pieces_.size(); }
   // Encodes those that are not there. Throws Failure where one cannot be written.
   void encode(const std::string& program, const Listener& listener);
   // A list of them all, as ffmpeg's concat takes it.
   std::filesystem::path list() const;
-  // The video is there: pieces, and the folder where it has nothing else, are removed.
+  // Of them all: the video is there.
   void remove();
 
  private:

@@ -54,13 +54,20 @@ Probed probed(const std::filesystem::path& file, bool counts) {
   return found;
 }
 
+// None where it is no video.
+std::uint64_t pictures_in(const std::filesystem::path& part) try {
+  const Probed found = probed(part, true);
+  return found.video ? found.video->packets : 0;
+} catch (const Failure&) {
+  return 0;
+}
+
 }  // namespace
 
 Probed probe(const std::filesystem::path& file) { return probed(file, true); }
 
 void require_pictures(const std::filesystem::path& part, const std::filesystem::path& file, std::uint64_t count) {
-  const Probed found = probe(part);
-  const std::uint64_t pictures = found.video ? found.video->packets : 0;
+  const std::uint64_t pictures = pictures_in(part);
   if (pictures != count)
     throw Failure("ffmpeg wrote " + std::to_string(pictures) + " of " + document::counted(count, "picture"),
                   file.string(), "see whether the disk is full");

@@ -80,6 +80,13 @@ class Endings(ProgramTest):
                     self.succeed("mars", "verify", "out")
                     shutil.rmtree(self.folder / "out")
 
+    def test_a_reader_that_leaves(self):
+        """As any program does whose output goes to `head`, mars ends by SIGPIPE; all else ends with it."""
+        self.start(self.backends()[-1])
+        self.process.stdout.close()
+        self.assertEqual(self.process.wait(SOON), -signal.SIGPIPE)
+        wait_until(lambda: not living(self.family), SOON, "its processes live on")
+
     @needs_mpi
     def test_frozen_node(self):
         """Who stops a job whose node hangs is not kept waiting."""

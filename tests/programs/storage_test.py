@@ -143,8 +143,37 @@ class Storage(ProgramTest):
         self.inside("head -c 5000000 /dev/zero > ballast || true")
         process = self.start()
         self.hears(process, "No space left on device; waiting")
+        time.sleep(2.5)
+        self.assertEqual(len(self.words().splitlines()), 1, self.words())
         self.inside("rm ballast")
         self.assertGoesOnToItsEnd(process)
+
+    @needs_mounts
+    @needs("ffmpeg", "ffprobe")
+    def test_a_video_on_a_full_disk(self):
+        """One message, and nothing under the video's name; what is encoded stays, and the same command goes on. ffmpeg ends
+        well where there is no room for a file's end."""
+        self.succeed("mars", "render", self.film, "-o", "out", "--size", "64x36", "--backend", "threads")
+        self.mount("-t", "tmpfs", "-o", "size=8k", "none")
+        play = lambda name: self.run_program(*self.before, PROGRAMS / "mars", "play", self.folder / "out", "-o", self.disk / name)
+        for name, room in [("film.apng", 12), ("film.webm", 8), ("film.mp4", 8)]:
+            with self.subTest(name, room=room):
+                self.inside(f"mount -o remount,size={room}k .")
+                failed = play(name)
+                self.assertEqual(failed.returncode, 1, failed.stdout)
+                self.assertClear(failed.stderr, f"{name}: cannot write: No space left on device (free some space")
+                self.assertEqual(self.inside("find . -type f"), "")
+        pieces = 0
+        while pieces == 0:
+            room += 4
+            self.inside(f"mount -o remount,size={room}k .")
+            self.assertEqual(play(name).returncode, 1, "the piece is there, but no video")
+            pieces = len(self.inside("find . -name 'piece-*'").split())
+        self.assertEqual(self.inside("ls -A").split(), [f"{name}.pieces"])
+        self.inside("mount -o remount,size=1M .")
+        self.assertIn(f"{FRAMES} frames of {self.disk / name} are encoded already", play(name).stdout)
+        self.assertEqual(self.inside("ls -A").split(), [name])
+        self.assertIn(f"{FRAMES} frames", self.run_program(*self.before, PROGRAMS / "mars", "verify", self.disk / name).stdout)
 
     @needs_mounts
     def test_signals_while_it_waits(self):

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -137,10 +140,19 @@ Failure unlisted_frames(const Wish& wish) {
       wish.folder, "give another folder with -o, or replace them with --overwrite");
 }
 
+// A folder that is entered twice may fail in the same way twice.
+std::function<void(const std::string&)> warning_once(const std::function<void(const std::string&)>& warn) {
+  return [warn, last = std::make_shared<std::string>()](const std::string& line) {
+    if (std::exchange(*last, line) != line) warn(line);
+  };
+}
+
 class Opening {
  public:
   Opening(const Wish& wish, const std::function<film::CompiledFilm()>& compile, const sinks::Patience::Bounds& bounds)
-      : wish_(wish), compile_(compile), bounds_(bounds) {}
+      : wish_(wish), compile_(compile), bounds_(bounds) {
+    if (bounds.warn) bounds_.warn = warning_once(bounds.warn);
+  }
 
   Opened open() {
     for (;;) {
@@ -284,7 +296,7 @@ class Opening {
 
   const Wish& wish_;
   const std::function<film::CompiledFilm()>& compile_;
-  const sinks::Patience::Bounds& bounds_;
+  sinks::Patience::Bounds bounds_;
   std::optional<Manifest> seen_;
   bool is_sound_ = true;  // frames.json; no: seen_ stands in for it
   std::optional<film::CompiledFilm> kept_, compiled_;
