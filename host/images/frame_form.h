@@ -12,6 +12,7 @@ struct FrameForm {
   PictureFormat format = PictureFormat::png;
   Compression compression = Compression::zip;
   FrameNames names{};
+  wire::LayerSet layers = 0;  // of EXR files
 
   auto operator<=>(const FrameForm&) const = default;
 };

@@ -10,7 +10,7 @@
 namespace mars::wire {
 
 // Bumped whenever the layout or the meaning of a field changes; other versions are refused.
-inline constexpr std::uint32_t kFilmVersion = 5;
+inline constexpr std::uint32_t kFilmVersion = 6;
 inline constexpr std::uint32_t kMaxSide = 16384;         // pixels
 inline constexpr std::uint32_t kMostFrames = 1'000'000;  // of a film
 inline constexpr std::uint32_t kMostSamples = 16;        // of a pixel
@@ -75,6 +75,7 @@ struct Segment {
   std::uint32_t name;  // offset into names
   Track motion;
   Track material;
+  std::uint32_t material_name = 0;  // offset into names: of what it is made of
 };
 
 // What is interpolated over a triangle: its normal, shaded at each sample; or the colours of its vertices; or nothing,

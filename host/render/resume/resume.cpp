@@ -73,6 +73,10 @@ std::string difference(const sinks::FrameForm& there, const sinks::FrameForm& wi
   if (there.compression != wish.compression)
     return std::string("have the compression ") + images::name_of(there.compression) + ", not " +
            images::name_of(wish.compression);
+  const auto layers = [](wire::LayerSet kinds) {
+    return kinds == 0 ? "no layers" : "the layers " + images::text_of(kinds);
+  };
+  if (there.layers != wish.layers) return "have " + layers(there.layers) + ", not " + layers(wish.layers);
   const auto name = [](const sinks::FrameForm& form) {
     return document::in_quotes(images::frame_name(form.names, 0, 1));
   };

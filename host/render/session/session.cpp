@@ -51,8 +51,8 @@ constexpr std::chrono::seconds kLongestEnd{10};  // of a run that fails, for wha
 std::unique_ptr<sinks::Sink> make_sink(sinks::FrameFolder* folder, const wire::PackedFilm& film) {
   if (folder == nullptr) return std::make_unique<sinks::NullSink>();
   const auto content = std::make_shared<film::FrameContent>(film);
-  return std::make_unique<sinks::FileSink>(*folder,
-                                           [content](std::uint32_t frame) { return content->checksum(frame); });
+  return std::make_unique<sinks::FileSink>(
+      *folder, [content](std::uint32_t frame) { return content->checksum(frame); }, &film);
 }
 
 // What writes frames, and ends in this order: the threads, then the folder, then what it shows.
@@ -81,6 +81,10 @@ sinks::Patience::Bounds bounds_of(const EventReporter& reporter) {
   return {.warn = [&reporter](const std::string& line) { reporter.report(events::Warning{line}); }};
 }
 
+wire::PixelFormat pixels_of(const RenderJob& job, const wire::FilmSettings& film) {
+  return images::pixels_of(job.form.format, job.form.layers, film.samples);
+}
+
 farm::HostMemory memory_for(const HostMachine& host, const wire::FilmSettings& film, wire::PixelFormat format,
                             const farm::Plan& plan) {
   return farm::share_host_memory(host.memory, film, format, static_cast<std::uint32_t>(numnodes()),
@@ -91,7 +95,7 @@ farm::HostMemory memory_for(const HostMachine& host, const wire::FilmSettings& f
 sinks::SinkPool::Shape pool_shape(const HostMachine& host, const wire::PackedFilm& film, const RenderJob& job,
                                   std::uint32_t frames) {
   const std::uint32_t threads = std::min(sink_threads(host), frames);
-  const wire::PixelFormat format = images::facts_of(job.form.format).pixels;
+  const wire::PixelFormat format = pixels_of(job, film.settings());
   const std::uint64_t background = farm::background_pixel(film, film.intervals().front(), format);
   return {film.settings().width, film.settings().height, job.block, frames, threads, background, format};
 }
@@ -302,7 +306,7 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace, 
   const wire::FilmSettings& settings = view.settings();
   const auto [plan, prediction] = plan_of(view, opened.frames, job, reporter, heartbeats);
   const HostMachine host = host_machine(job.host);
-  const farm::HostMemory memory = memory_for(host, settings, images::facts_of(job.form.format).pixels, plan);
+  const farm::HostMemory memory = memory_for(host, settings, pixels_of(job, settings), plan);
 
   output.folder = std::move(opened.folder);
   if (output.folder) output.folder->show_status([&board = output.board] { return sinks::text_of(board.status()); });

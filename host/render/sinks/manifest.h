@@ -48,6 +48,7 @@ struct Manifest {
   std::uint32_t pixel_version = wire::kPixelVersion;  // of the program that rendered the frames
   images::FrameNames names = {};
   images::Compression compression = images::Compression::zip;
+  wire::LayerSet layers = 0;  // of EXR files
   std::string more = {};  // keys that this program does not know, as the text of an object; "": none
 
   bool operator==(const Manifest&) const = default;

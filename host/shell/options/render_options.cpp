@@ -76,6 +76,8 @@ void read(const std::string& text, std::optional<std::uint32_t>& value) {
     throw Failure("'" + text + "' is not 1, 2, 4, 8 or 16", "", "");
 }
 
+void read(const std::string& text, ChosenLayers& value) { value.kinds = images::layers_in(text); }
+
 struct Count {
   std::uint32_t RenderOptions::*member;
   bool may_be_auto;  // the word "auto" is 0
@@ -104,6 +106,8 @@ requires std::is_enum_v<Enumeration> std::string text_of(Enumeration value) {
 }
 
 std::string text_of(const std::string& name) { return word_of_file(name); }
+
+std::string text_of(const ChosenLayers& layers) { return images::text_of(layers.kinds); }
 
 std::string text_of(const film::FrameSet& frames) { return frames.text(); }
 
@@ -306,6 +310,9 @@ std::vector<Entry> table() {
              "Example: --format exr"),
       flag(plans, "--alpha", &RenderOptions::alpha,
            "Leave the background out: files have alpha, straight in PNG, premultiplied in EXR. Example: --alpha"),
+      option(plans, "--layers", "LAYERS", &RenderOptions::layers,
+             "What EXR files show beside colours: depth, normal, unshadowed, motion, ids (Cryptomatte); or all. "
+             "Example: --layers depth,ids"),
       option(submits, "--compression", "zip|zips|piz|pxr24|rle|none", &RenderOptions::compression,
              "How EXR files are compressed, all without loss; default: zip. Example: --compression piz"),
       option(
@@ -346,7 +353,7 @@ const std::vector<Heading>& headings() {
   static const std::vector<Heading> kHeadings{
       {"Pictures and files",
        {"--name", "--first-number", "--frames", "--every", "--size", "--samples", "--format", "--alpha",
-        "--compression", "--eye", "--codec", "--quality", "--sink"}},
+        "--layers", "--compression", "--eye", "--codec", "--quality", "--sink"}},
       {"Machines", {"--nodes", "--force", "--backend", "--platform", "--hostfile", "--restarts", "--write"}},
       {"Division of work (the same pictures)",
        {"--mapping", "--exchange", "--intervals", "--no-coherence", "--block", "--groups", "--sharers", "--cut"}},
@@ -449,10 +456,22 @@ void check_videos(const RenderOptions& options) {
   for (const std::string& video : options.videos) videos::form_of(video, options.video_form);
 }
 
+// PXR24 rounds floats to 24 bits.
+void check_layers(const RenderOptions& options) {
+  constexpr wire::LayerSet kFloats =
+      wire::set_of(wire::Layer::depth) | wire::set_of(wire::Layer::motion) | wire::set_of(wire::Layer::surfaces);
+  if (options.layers.kinds == 0) return;
+  if (options.format != images::PictureFormat::exr)
+    throw Failure("PNG files have no layers", "", "leave out --layers, or add --format exr");
+  if (options.compression == images::Compression::pxr24 && (options.layers.kinds & kFloats) != 0)
+    throw Failure("the compression pxr24 changes depth, motion and ids", "", "choose another, as --compression zip");
+}
+
 // Checks that concern several options.
 void check_together(const RenderOptions& options, Program program) {
   if (options.compression != images::Compression::zip && options.format != images::PictureFormat::exr)
     throw Failure("PNG files have one compression", "", "leave out --compression, or add --format exr");
+  check_layers(options);
   if (options.serve.empty() == options.film.empty() && program != Program::repair && program != Program::studio) {
     if (options.film.empty()) throw Failure("FILM is required", "", "");
     throw Failure("a studio brings its own film", "", "leave out " + options.film + ", or --serve");
@@ -534,13 +553,14 @@ std::vector<std::string> film_arguments(const RenderOptions& options) {
 
 images::FrameForm form_of(const RenderOptions& options) {
   const images::PictureFormat format = options.alpha ? images::with_alpha(options.format) : options.format;
-  return {format, options.compression, {options.name, options.first_number}};
+  return {format, options.compression, {options.name, options.first_number}, options.layers.kinds};
 }
 
 void set_form(const images::FrameForm& form, RenderOptions& options) {
   options.format = images::without_alpha(form.format);
   options.alpha = images::has_alpha(form.format);
   options.compression = form.compression;
+  options.layers.kinds = form.layers;
   options.name = form.names.pattern;
   options.first_number = form.names.first_number;
 }
