@@ -9,6 +9,7 @@
 #include "hal/nx/nx_messages.h"
 #include "node/charges.h"
 #include "node/color/encoding.h"
+#include "node/geometry/surface_view.h"
 #include "node/group/mapping.h"
 #include "node/shading/shading_of.h"
 
