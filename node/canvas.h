@@ -30,7 +30,7 @@ struct Canvas {
 
   // The film's block, or a scene's, and `neighbours` outlive it. Collective over a machine's nodes.
   Canvas(const wire::PackedFilm& film, const raster::Neighbours& neighbours, const Memory& memory,
-         simd::InstructionSet set);
+         simd::InstructionSet set, bool has_layers = false);
 
   geometry::Scene scene;
   raster::ZBuffer z_buffer;

@@ -10,7 +10,8 @@ namespace mars::node {
 FilmFrames::FilmFrames(const wire::PackedFilm& film, const wire::Load& load, simd::InstructionSet set,
                        Renderer& renderer)
     : renderer_(renderer),
-      canvas_(film, renderer.neighbours(), {load.still_memory, load.shadow_memory}, set),
+      canvas_(film, renderer.neighbours(), {load.still_memory, load.shadow_memory}, set,
+              wire::layers_of(load.pixel_format) != 0),
       boxes_(film) {}
 
 void FilmFrames::render(const wire::RenderCommand& command) {

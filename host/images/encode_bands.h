@@ -5,12 +5,26 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "host/images/picture_bands.h"
 
 namespace mars::images {
 
-// `pixels`: of the band's lines.
+// A band's pixels as a file has them: those that were drawn, or made of these.
+class FilePixels {
+ public:
+  // `drawn` outlives it.
+  FilePixels(const PictureBands& bands, std::span<const std::uint32_t> drawn);
+
+  std::span<const std::uint32_t> words() const { return made_.empty() ? drawn_ : made_; }
+
+ private:
+  std::span<const std::uint32_t> drawn_;
+  std::vector<std::uint32_t> made_;
+};
+
+// `pixels`: of the band's lines, as a file has them (layers.h).
 EncodedBand encode_band(const PictureBands& bands, std::size_t band, std::span<const std::uint32_t> pixels);
 
 // Of a file whose bands, all that the picture has, are `parts`.

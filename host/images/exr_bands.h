@@ -9,6 +9,7 @@
 
 namespace mars::images {
 
+// `pixels`: as files have them.
 EncodedBand encode_exr_band(const PictureBands& bands, const Lines& lines, std::span<const std::uint32_t> pixels);
 PictureEnds exr_ends(const PictureBands& bands, std::span<const BandPart> parts, const FileFacts& facts);
 

@@ -29,9 +29,7 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-constexpr std::size_t kPixelBytes = 8, kChannelBytes = 2;
 constexpr std::size_t kExrChunkHead = 8;  // bytes: first line, size
-constexpr std::array kChannels{"R", "G", "B", "A"};
 constexpr std::string_view kMagic = "\x76\x2f\x31\x01";
 constexpr const char* kNoteName = "mars";
 
@@ -72,17 +70,18 @@ class BytesIn : public Imf::IStream {
   std::size_t at_ = 0;
 };
 
-std::span<const char* const> channels(bool alpha) { return std::span(kChannels).first(alpha ? 4 : 3); }
+Imf::PixelType type_of(const LayerChannel& channel) { return channel.is_half ? Imf::HALF : Imf::FLOAT; }
 
-// Where the channels of a picture's pixels are, the first of which is at `corner`.
-Imf::FrameBuffer channels_in(const char* pixels, const Imath::V2i& corner, std::size_t width, bool alpha) {
+// Where the channels of a file's pixels are, the first of which is at `corner`.
+Imf::FrameBuffer channels_in(const char* pixels, const Imath::V2i& corner, std::size_t width,
+                             wire::PixelFormat format) {
+  const std::size_t bytes = file_words(format) * sizeof(std::uint32_t);
   const std::ptrdiff_t before = corner.y * static_cast<std::ptrdiff_t>(width) + corner.x;
-  char* base = const_cast<char*>(pixels) - before * static_cast<std::ptrdiff_t>(kPixelBytes);
+  char* base = const_cast<char*>(pixels) - before * static_cast<std::ptrdiff_t>(bytes);
   Imf::FrameBuffer buffer;
-  constexpr double kOpaque = 1;  // where the file has none
-  for (std::size_t c = 0; c < channels(alpha).size(); ++c)
-    buffer.insert(kChannels[c],
-                  Imf::Slice(Imf::HALF, base + c * kChannelBytes, kPixelBytes, width * kPixelBytes, 1, 1, kOpaque));
+  constexpr double kOpaque = 1;  // where the file has no alpha
+  for (const LayerChannel& channel : channels_of(format))
+    buffer.insert(channel.name, Imf::Slice(type_of(channel), base + channel.at, bytes, width * bytes, 1, 1, kOpaque));
   return buffer;
 }
 
@@ -155,6 +154,19 @@ Imath::Box2i box_of(std::int32_t left, std::int32_t top, std::uint32_t width, st
   return {{left, top}, {left + static_cast<int>(width) - 1, top + static_cast<int>(height) - 1}};
 }
 
+// What Cryptomatte files say of their layers, under a part of each layer's own identity.
+void add_mattes(const SurfaceNames& names, Imf::Header& header) {
+  constexpr std::size_t kDigits = 7;
+  for (const Matte matte : kMattes) {
+    const std::string name(name_of(matte));
+    const std::string key = "cryptomatte/" + document::formatted("%08x", murmur_hash3(name)).substr(0, kDigits) + "/";
+    header.insert(key + "name", Imf::StringAttribute(name));
+    header.insert(key + "hash", Imf::StringAttribute("MurmurHash3_32"));
+    header.insert(key + "conversion", Imf::StringAttribute("uint32_to_float32"));
+    header.insert(key + "manifest", Imf::StringAttribute(names.manifest(matte)));
+  }
+}
+
 // Of these lines of the picture, whose pixels count from the corner of the film's whole picture.
 Imf::Header header_of(const PictureBands& bands, const Lines& lines, const FileFacts& facts) {
   const wire::PictureWindow& window = bands.place().window;
@@ -168,8 +180,8 @@ Imf::Header header_of(const PictureBands& bands, const Lines& lines, const FileF
   header.compression() = method_of(bands.compression());
   header.zipCompressionLevel() = 2;
   Imf::addChromaticities(header, Imf::Chromaticities());  // its default is BT.709's, which are sRGB's
-  for (const char* channel : channels(has_alpha(bands.format())))
-    header.channels().insert(channel, Imf::Channel(Imf::HALF));
+  for (const LayerChannel& channel : channels_of(bands.pixels()))
+    header.channels().insert(channel.name, Imf::Channel(type_of(channel)));
   if (!facts.note.empty()) header.insert(kNoteName, Imf::StringAttribute(facts.note));
   add_time(facts, header);
   return header;
@@ -184,14 +196,19 @@ void limit_sizes() {
   check(kLimited, "sizes of pictures are limited");
 }
 
-bool has_channels(const Imf::Header& header) {
-  return std::ranges::all_of(channels(false), [&](const char* name) {
-    const Imf::Channel* channel = header.channels().findChannel(name);
-    return channel != nullptr && channel->type == Imf::HALF && channel->xSampling == 1 && channel->ySampling == 1;
-  });
+// Names of those that the file lacks.
+std::vector<std::string> missing_channels(const Imf::Header& header, wire::PixelFormat format) {
+  std::vector<std::string> missing;
+  for (const LayerChannel& wanted : channels_of(format)) {
+    const Imf::Channel* channel = header.channels().findChannel(wanted.name);
+    const bool is_there = channel != nullptr && channel->type == type_of(wanted) && channel->xSampling == 1 &&
+                          channel->ySampling == 1;
+    if (!is_there && wanted.name != "A") missing.push_back(wanted.name);
+  }
+  return missing;
 }
 
-Image read(std::span<const std::byte> bytes, bool alpha) {
+Image read(std::span<const std::byte> bytes, wire::PixelFormat format) {
   limit_sizes();
   // OpenEXR makes room for a text before it reads it.
   if (!for_each_attribute(text_in(bytes), [](const Attribute&) {}))
@@ -199,10 +216,11 @@ Image read(std::span<const std::byte> bytes, bool alpha) {
   BytesIn in(bytes);
   Imf::InputFile file(in);
   const Imath::Box2i window = file.header().dataWindow();
-  if (!has_channels(file.header())) throw Iex::InputExc("it has no half floats R, G and B");
+  const std::vector<std::string> missing = missing_channels(file.header(), format);
+  if (!missing.empty()) throw Iex::InputExc("it lacks " + document::joined(missing));
   Image image{static_cast<std::uint32_t>(window.size().x) + 1, static_cast<std::uint32_t>(window.size().y) + 1, {}};
-  image.pixels.resize(std::size_t{2} * image.width * image.height);
-  file.setFrameBuffer(channels_in(reinterpret_cast<const char*>(image.pixels.data()), window.min, image.width, alpha));
+  image.pixels.resize(file_words(format) * image.width * image.height);
+  file.setFrameBuffer(channels_in(reinterpret_cast<const char*>(image.pixels.data()), window.min, image.width, format));
   file.readPixels(window.min.y, window.max.y);
   return image;
 }
@@ -234,7 +252,7 @@ EncodedBand encode_exr_band(const PictureBands& bands, const Lines& lines, std::
   const Imf::Header header = header_of(bands, lines, {});
   const Bytes file = written(header, [&](Imf::OutputFile& out) {
     const auto* const first = reinterpret_cast<const char*>(pixels.data());
-    out.setFrameBuffer(channels_in(first, header.dataWindow().min, bands.width(), has_alpha(bands.format())));
+    out.setFrameBuffer(channels_in(first, header.dataWindow().min, bands.width(), bands.pixels()));
     out.writePixels(static_cast<int>(lines.count()));
   });
   const std::size_t chunks = (lines.count() + chunk - 1) / chunk;
@@ -246,7 +264,10 @@ EncodedBand encode_exr_band(const PictureBands& bands, const Lines& lines, std::
 
 // The header is followed by the places of all chunks, each of which begins with its first line and its size.
 PictureEnds exr_ends(const PictureBands& bands, std::span<const BandPart> parts, const FileFacts& facts) {
-  PictureEnds ends{written(header_of(bands, {0, bands.height()}, facts), [](Imf::OutputFile&) {}), {}};
+  Imf::Header header = header_of(bands, {0, bands.height()}, facts);
+  if (bands.names() != nullptr && wire::has_layer(bands.pixels(), wire::Layer::surfaces))
+    add_mattes(*bands.names(), header);
+  PictureEnds ends{written(header, [](Imf::OutputFile&) {}), {}};
   std::uint64_t place = ends.before.size();
   std::byte* entry = ends.before.data() + header_bytes(ends.before);
   for (const BandPart& band : parts) {
@@ -271,9 +292,9 @@ std::optional<std::string> note_in_exr(std::span<const std::byte> start) {
   return note;
 }
 
-Image decode_exr(std::span<const std::byte> bytes, const std::string& name, bool alpha) {
+Image decode_exr(std::span<const std::byte> bytes, const std::string& name, wire::PixelFormat format) {
   try {
-    return read(bytes, alpha);
+    return read(bytes, format);
   } catch (const std::exception& failure) {
     constexpr std::size_t kLongest = 200;  // it may repeat what stands in the file
     throw Failure("not a whole EXR picture: " + document::printable(failure.what(), kLongest), name, "render it again");

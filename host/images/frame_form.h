@@ -14,6 +14,7 @@ struct FrameForm {
   Compression compression = Compression::zip;
   FrameNames names{};
   ViewName view{};  // by which PNG files show light; empty: by the film's curve
+  wire::LayerSet layers = 0;  // of EXR files
 
   auto operator<=>(const FrameForm&) const = default;
 };

@@ -19,12 +19,24 @@ constexpr std::uint32_t round_up(std::uint32_t number, std::uint32_t step) { ret
 }  // namespace
 
 PictureBands::PictureBands(PictureFormat format, std::uint32_t width, std::uint32_t height, Compression compression,
-                           const PicturePlace& place)
-    : format_(format), compression_(compression), width_(width), height_(height), place_(place) {
+                           const PicturePlace& place, wire::LayerSet layers, std::uint32_t samples)
+    : format_(format),
+      compression_(compression),
+      layers_(layers),
+      samples_(samples),
+      width_(width),
+      height_(height),
+      place_(place) {
   check(width > 0 && height > 0, "a picture has pixels");
   const bool exr = is_exr(format);
   const std::uint32_t step = exr ? std::max(kExrStep, chunk_lines(compression)) : kPngStep;
   lines_ = round_up((kPixelsOfBand + width - 1) / width, step);
+}
+
+void PictureBands::set_film(const wire::PackedFilm& film) {
+  if (layers_ == 0) return;
+  samples_ = film.settings().samples;
+  if ((layers_ & wire::set_of(wire::Layer::surfaces)) != 0) names_ = std::make_shared<SurfaceNames>(film);
 }
 
 Lines PictureBands::lines_of(std::size_t band) const {
@@ -33,12 +45,14 @@ Lines PictureBands::lines_of(std::size_t band) const {
 }
 
 std::size_t PictureBands::words_of(const Lines& lines) const {
-  return std::size_t{lines.count()} * width_ * wire::pixel_words(facts_of(format_).pixels);
+  return std::size_t{lines.count()} * width_ * wire::pixel_words(pixels());
 }
+
 
 std::span<const std::uint32_t> PictureBands::part_of(std::span<const std::uint32_t> pixels, std::size_t band) const {
   const Lines lines = lines_of(band);
-  return pixels.subspan(words_of({0, lines.first}), words_of(lines));
+  const std::size_t words = pixels.size() / height_;  // of a line
+  return pixels.subspan(lines.first * words, lines.count() * words);
 }
 
 }  // namespace mars::images

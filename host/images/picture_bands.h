@@ -5,10 +5,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "host/images/layers.h"
 #include "host/images/picture_format.h"
 #include "host/images/picture_place.h"
 
@@ -22,11 +24,18 @@ struct Lines {
 
 class PictureBands {
  public:
-  // `compression`: of EXR files.
+  // `compression` and `layers`: of EXR files; `samples`: of a pixel of pictures that are drawn with layers.
   PictureBands(PictureFormat format, std::uint32_t width, std::uint32_t height,
-               Compression compression = Compression::zip, const PicturePlace& place = {});
+               Compression compression = Compression::zip, const PicturePlace& place = {}, wire::LayerSet layers = 0,
+               std::uint32_t samples = 0);
+
+  // Of pictures with layers: the film that they show. Files are read without.
+  void set_film(const wire::PackedFilm& film);
+  const SurfaceNames* names() const { return names_.get(); }
 
   PictureFormat format() const { return format_; }
+  // Of pictures as they are drawn.
+  wire::PixelFormat pixels() const { return pixels_of(format_, layers_, samples_); }
   Compression compression() const { return compression_; }
   std::uint32_t width() const { return width_; }
   std::uint32_t height() const { return height_; }
@@ -36,14 +45,17 @@ class PictureBands {
   std::uint32_t lines_a_band() const { return lines_; }
   Lines lines_of(std::size_t band) const;
   std::uint32_t band_of(std::uint32_t line) const { return line / lines_; }
-  // Of one of its lines, or of all lines of a picture, in words of pixels.
+  // Of one of its lines, or of all lines of a picture, in words of pixels as they are drawn.
   std::size_t words_of(const Lines& lines) const;
-  // Of all words of a picture those of a band.
+  // Of all words of a picture those of a band: as they are drawn, or as a file has them.
   std::span<const std::uint32_t> part_of(std::span<const std::uint32_t> pixels, std::size_t band) const;
 
  private:
   PictureFormat format_;
   Compression compression_;
+  wire::LayerSet layers_;
+  std::uint32_t samples_ = 0;  // of the film's pixels; 0: not known
+  std::shared_ptr<const SurfaceNames> names_;
   std::uint32_t width_, height_;
   PicturePlace place_;
   std::uint32_t lines_;  // of every band but the last

@@ -26,7 +26,8 @@ std::vector<std::byte> encode_picture(PictureFormat format, std::uint32_t width,
 
 std::vector<std::byte> encode_picture(const PictureBands& bands, std::span<const std::uint32_t> pixels,
                                       const FileFacts& facts) {
-  check(pixels.size() == bands.words_of({0, bands.height()}), "a picture has width * height pixels");
+  check(pixels.size() == std::size_t{bands.width()} * bands.height() * file_words(bands.pixels()),
+        "a picture has width * height pixels");
   std::vector<EncodedBand> encoded;
   std::vector<BandPart> parts;
   for (std::size_t band = 0; band < bands.count(); ++band) {
@@ -46,15 +47,15 @@ std::optional<std::string> read_note(const std::filesystem::path& path) {
   return note ? note : note_in_exr(bytes);
 }
 
-Image read_picture(PictureFormat format, const std::filesystem::path& path) {
+Image read_picture(PictureFormat format, const std::filesystem::path& path, wire::LayerSet layers) {
   const std::string file = document::read_file(path, kLargestFile);
   const auto bytes = std::as_bytes(std::span(file));
   switch (format) {
     case PictureFormat::png16: return decode_png16(bytes, path.string());
-    case PictureFormat::exr: return decode_exr(bytes, path.string());
     case PictureFormat::png_alpha: return decode_png_with_alpha(bytes, path.string());
     case PictureFormat::png16_alpha: return decode_png16_with_alpha(bytes, path.string());
-    case PictureFormat::exr_alpha: return decode_exr(bytes, path.string(), true);
+    case PictureFormat::exr:
+    case PictureFormat::exr_alpha: return decode_exr(bytes, path.string(), pixels_of(format, layers));
     default: return decode_png(bytes, path.string());
   }
 }

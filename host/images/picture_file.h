@@ -1,4 +1,4 @@
-// Files of frames, in any of their formats. Pixels have one word or two, as the format's have.
+// Files of frames, in any of their formats. Pixels have the words that files have of them (layers.h).
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ std::vector<std::byte> encode_picture(const PictureBands& bands, std::span<const
 std::optional<std::string> read_note(const std::filesystem::path& path);
 
 // Throws Failure naming the file where it is missing, torn or no such picture. Either format of PNG reads both.
-Image read_picture(PictureFormat format, const std::filesystem::path& path);
+Image read_picture(PictureFormat format, const std::filesystem::path& path, wire::LayerSet layers = 0);
 
 // Of a PNG file of frames, 8 bits a channel and no alpha: over black, where it has some.
 Image read_opaque(const std::filesystem::path& path);

@@ -34,7 +34,9 @@ void charge_files(session::RenderJob& job, const experiments::Platform& platform
                     format = job.form.format,
                     part = platform.file_part](sinks::Sink& sink, const sinks::SinkPool::Shape& shape) {
     if (!counts) return std::make_unique<sinks::ServedSinks>(sink, shape, serve);
-    counted->emplace(images::PictureBands(format, shape.width, shape.height), part);
+    counted->emplace(images::PictureBands(format, shape.width, shape.height, images::Compression::zip, {},
+                                          wire::layers_of(shape.format), wire::layered_samples_of(shape.format)),
+                     part);
     return std::make_unique<sinks::ServedSinks>(**counted, shape, serve);
   };
 }
@@ -53,7 +55,8 @@ void run(const options::RenderOptions& options, const experiments::Platform& pla
     session::run_session(job);
   };
   const auto make_writer = [&](const wire::PackedFilm& film, std::span<const std::byte>) {
-    const images::PictureBands bands(options.format, film.settings().width, film.settings().height);
+    const images::PictureBands bands(options.format, film.settings().width, film.settings().height,
+                                     images::Compression::zip, {}, options.layers.kinds, film.settings().samples);
     return std::make_unique<CountedWriter>(bands, platform, *the_world, static_cast<int>(mynode()));
   };
   const auto node = [&] {

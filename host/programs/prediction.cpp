@@ -24,7 +24,7 @@ constexpr double kSoon = 1.0;          // seconds, about: not worth a forecast
 
 forecast::Setting setting_of(const session::RenderJob& job, const wire::PackedFilm& film,
                              const experiments::Platform& platform) {
-  forecast::Setting setting{film, platform, job.mapping, job.form.format};
+  forecast::Setting setting{film, platform, job.mapping, job.form.format, job.form.layers};
   setting.exchange = job.exchange;
   setting.files = !job.folder.empty() || job.counts_files;
   if (job.writers == session::Writers::nodes) setting.writers = forecast::Writers::nodes;

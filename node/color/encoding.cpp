@@ -68,8 +68,7 @@ std::uint32_t level16(const Encoding& encoding, float y) {
   return static_cast<std::uint32_t>(encoding.srgb16[nearest(std::sqrt(y) * float{kSteps16})]);
 }
 
-// To the nearest half float, ties to even.
-std::uint32_t half_of(float value) {
+std::uint32_t half_of_positive(float value) {
   const float cut = std::min(value, kMostHalf);
   if (cut < 0x1p-14f) return std::bit_cast<std::uint32_t>(cut + 0.5f) - std::bit_cast<std::uint32_t>(0.5f);
   const std::uint32_t bits = std::bit_cast<std::uint32_t>(cut) - (112u << 23);
@@ -93,13 +92,17 @@ Encoding encoding_of(const wire::FilmSettings& settings, const wire::Camera& cam
           agx_tables()};
 }
 
+std::uint32_t half_of(float value) {
+  return half_of_positive(std::abs(value)) | (std::signbit(value) ? 0x8000u : 0u);
+}
+
 std::uint64_t background_pixel(const Encoding& encoding, const float* light) {
   return encoding.alpha ? 0 : pixel_of(encoding, light);
 }
 
 std::uint64_t pixel_of(const Encoding& encoding, const float* light) {
   if (encoding.format == wire::PixelFormat::half)
-    return packed(half_of(light[0]), half_of(light[1]), half_of(light[2]), 16);
+    return packed(half_of_positive(light[0]), half_of_positive(light[1]), half_of_positive(light[2]), 16);
   const Color y = shown(encoding, light);
   if (encoding.format == wire::PixelFormat::rgb16)
     return packed(level16(encoding, y[0]), level16(encoding, y[1]), level16(encoding, y[2]), 16);

@@ -41,6 +41,9 @@ inline constexpr float kMostHalf = 65504.0f;
 
 Encoding encoding_of(const wire::FilmSettings& settings, const wire::Camera& camera, wire::PixelFormat format);
 
+// The nearest half float, ties to even; of a number beyond kMostHalf that or its negative.
+std::uint32_t half_of(float value);
+
 // The pixel of what surfaces leave open.
 std::uint64_t background_pixel(const Encoding& encoding, const float* light);
 

@@ -119,6 +119,10 @@ std::array<float, 3> Scene::up() const {
   return {static_cast<float>(to_eye[0][2]), static_cast<float>(to_eye[1][2]), static_cast<float>(to_eye[2][2])};
 }
 
+std::uint32_t Scene::segment_of(std::uint32_t patch) const {
+  return static_cast<std::uint32_t>(std::ranges::upper_bound(first_patch_, patch) - first_patch_.begin()) - 1;
+}
+
 shape::EyeMatrix Scene::matrix(std::size_t segment) const {
   const std::uint32_t moved = moved_at_[segment];
   const wire::Matrix& matrix =

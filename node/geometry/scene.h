@@ -61,6 +61,8 @@ class Scene {
   bool moves(std::size_t segment) const { return moves_[segment] != 0; }
   // Number of the segment's first patch or meshlet among all of the film.
   std::uint32_t first_patch(std::size_t segment) const { return first_patch_[segment]; }
+  // Whose a patch or meshlet of that number is.
+  std::uint32_t segment_of(std::uint32_t patch) const;
   shape::EyeMatrix matrix(std::size_t segment) const;
   std::uint32_t material(std::size_t segment) const;
 

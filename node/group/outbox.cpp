@@ -9,7 +9,8 @@
 namespace mars::group {
 
 Outbox::Outbox(wire::PixelFormat format, int slots, const collectives::Group& group, bool watched)
-    : memory_(static_cast<std::size_t>(slots) * wire::kSlotBytes),
+    : slot_bytes_(wire::slot_bytes(format)),
+      memory_(static_cast<std::size_t>(slots) * slot_bytes_),
       strip_(format, watched),
       slots_(static_cast<std::size_t>(slots)),
       group_(group) {
@@ -83,7 +84,7 @@ void Outbox::receive_credit() {
 }
 
 std::span<std::byte> Outbox::memory_of(std::size_t slot) const {
-  return memory_.bytes().subspan(slot * wire::kSlotBytes, wire::kSlotBytes);
+  return memory_.bytes().subspan(slot * slot_bytes_, slot_bytes_);
 }
 
 void Outbox::discard_sent() {

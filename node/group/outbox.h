@@ -54,6 +54,7 @@ class Outbox {
   std::span<std::byte> memory_of(std::size_t slot) const;
   static void wait(Slot& slot);
 
+  const std::size_t slot_bytes_;
   messages::OfferedMemory memory_;
   raster::StripBuffer strip_;  // in the making
   std::vector<Slot> slots_;

@@ -47,17 +47,25 @@ class ZBuffer {
   void draw_line(LineParts parts, const shading::Shading& shading, std::uint32_t line, StillLines& still,
                  StripBuffer& out);
   shading::Extent draw_still_again(LineParts parts, const shading::Shading& shading, std::uint32_t line);
-  // Over what stands still. Says which columns the boxes span, as does draw.
+  // Over what stands still, which goes out again on the columns `again`, with its motion. Says which columns the boxes
+  // span, as does draw.
   shading::Extent draw_moving(LineParts parts, const shading::Shading& shading, std::uint32_t line,
-                              const StillGroups& still, StripBuffer& out);
+                              const StillGroups& still, const shading::Extent& again, StripBuffer& out);
 
   // Keeps a line's depths and has its groups kept, if they are needed and fit; says where the groups are to go.
-  StillGroups keep(std::uint32_t line, StillLines& still);
-  StillGroups own_still() { return {still_end_.data(), still_groups_.data()}; }
+  StillGroups keep(std::uint32_t line, StillLines& still, const shading::Shading& shading);
+  StillGroups own_still(const shading::Shading& shading);
+  // Of groups that are shaded: those that are kept, and those that this line needs. The latter.
+  StillGroups copy_still(std::uint32_t line, StillLines& still, const StillGroups& kept,
+                         const shading::Shading& shading, bool needed);
   void take_depths(std::uint32_t line, const shading::Extent& extent, StillLines& still);
   void shade_groups(const shading::Shading& shading, std::uint32_t line, const shading::Extent& extent);
   void put_samples(const shading::Shading& shading, std::uint32_t line, const shading::Extent& extent,
-                   StripBuffer::Layer& out);
+                   StripBuffer::Layer& out, bool with_motion);
+  void put_layers(const shading::Shading& shading, const shading::Shaded& shaded, StripBuffer::Layer& out,
+                  bool with_motion);
+  void keep_ids(const shading::Extent& extent);
+  void show_kept_ids(const shading::Extent& extent);
 
   const shading::ShadingKernels& shading_kernels_;
   ZLine z_line_;
@@ -65,6 +73,11 @@ class ZBuffer {
   // The line's still groups, where inbetweens do not need them or they are not kept.
   std::vector<std::uint32_t> still_end_;
   std::vector<StillGroup> still_groups_;
+  // Of pictures with layers.
+  std::vector<SurfacePoint> still_surfaces_;
+  std::vector<std::uint32_t> again_;      // columns
+  std::vector<std::uint32_t> still_ids_;  // with one sample a pixel
+  LayerPixels layers_;                    // with one sample a pixel
   DrawnCounts counts_;
 };
 

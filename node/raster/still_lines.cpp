@@ -33,15 +33,18 @@ const std::byte* unpack_columns(const std::byte* from, MarkedTiles tiles, std::u
 
 StillLines::StillLines(const Neighbours& neighbours, std::uint32_t width, std::uint32_t height,
                        const shape::SamplePattern& pattern, std::uint64_t bytes_a_node, std::uint32_t casting,
-                       float nothing)
+                       float nothing, bool has_layers)
     : width_(width),
       samples_(static_cast<std::uint32_t>(pattern.count)),
       casting_(casting),
       nothing_(nothing),
       has_groups_(samples_ > 1 || casting > 0),
-      plan_(wire::plan_still_lines(width, height, samples_, bytes_a_node * neighbours.nodes().size(), casting)),
+      has_layers_(has_layers),
+      plan_(wire::plan_still_lines(width, height, samples_, bytes_a_node * neighbours.nodes().size(), casting,
+                                   has_layers)),
       memory_(neighbours,
-              wire::plan_still_lines(width, height, samples_, bytes_a_node * neighbours.most(), casting).bytes(),
+              wire::plan_still_lines(width, height, samples_, bytes_a_node * neighbours.most(), casting, has_layers)
+                  .bytes(),
               plan_.bytes(), NeighboursMemory::Contents::same),
       marks_(width, height),
       received_tiles_(wire::still_tile_words(width)) {
@@ -84,6 +87,13 @@ std::byte* StillLines::groups_of(std::uint32_t line) const {
   return reinterpret_cast<std::byte*>(pairs(line) + std::size_t{width_} * casting_);
 }
 
+// None without layers.
+SurfacePoint* StillLines::surfaces_of(std::uint32_t line) const {
+  if (!has_layers_) return nullptr;
+  const std::size_t groups = std::size_t{width_} * plan_.groups_per_column;
+  return reinterpret_cast<SurfacePoint*>(groups_of(line) + groups * group_bytes());
+}
+
 bool StillLines::begin_line(std::uint32_t line, std::uint32_t groups) {
   if (!has_slot(line)) return false;
   if (!has_groups_) return true;
@@ -117,11 +127,11 @@ void StillLines::take_depths(std::uint32_t line, std::uint32_t sample, const geo
 }
 
 StillGroups StillLines::groups(std::uint32_t line) {
-  return {ends(line), reinterpret_cast<StillGroup*>(groups_of(line))};
+  return {ends(line), reinterpret_cast<StillGroup*>(groups_of(line)), surfaces_of(line)};
 }
 
 UnsummedStill StillLines::unsummed(std::uint32_t line) {
-  return {ends(line), pairs(line), groups_of(line), group_bytes()};
+  return {ends(line), pairs(line), groups_of(line), group_bytes(), surfaces_of(line)};
 }
 
 bool StillLines::keeps(std::uint32_t line) const {
@@ -156,20 +166,21 @@ std::uint64_t StillLines::foreseen_bytes(std::uint32_t line) const {
 
 std::size_t StillLines::kept_bytes(std::size_t columns, std::size_t groups) const {
   if (!has_groups_) return columns * sizeof(float);
-  return columns * wire::still_column_bytes(samples_, casting_) + groups * group_bytes();
+  return columns * wire::still_column_bytes(samples_, casting_) +
+         groups * (group_bytes() + wire::surface_bytes(has_layers_));
 }
 
 std::size_t StillLines::packed_bytes(std::uint32_t line) const {
   if (!keeps(line)) return 0;
   return wire::still_head_bytes(width_) + count_columns(tiles(line), width_) +
          count_shown(line) * wire::still_packed_bytes(samples_, casting_) +
-         head(line).groups * wire::still_packed_group_bytes(casting_);
+         head(line).groups * packed_group_bytes();
 }
 
 std::size_t StillLines::most_packed() const {
   if (!has_groups_) return width_ * sizeof(float);
   return wire::still_head_bytes(width_) + width_ * (1 + wire::still_packed_bytes(samples_, casting_)) +
-         std::size_t{width_} * samples_ * wire::still_packed_group_bytes(casting_);
+         std::size_t{width_} * samples_ * packed_group_bytes();
 }
 
 // Calls visit(first, last) for marked columns with groups.
@@ -208,7 +219,8 @@ void StillLines::pack(std::uint32_t line, std::byte* to) const {
   };
   for (std::size_t s = 0; s < samples_; ++s) pack_shown(depths(line) + s * width_);
   for (std::size_t l = 0; l < casting_; ++l) pack_shown(pairs(line) + l * width_);
-  pack_groups(line, to);
+  to = pack_groups(line, to);
+  if (has_layers_) std::memcpy(to, surfaces_of(line), head(line).groups * sizeof(SurfacePoint));
 }
 
 std::byte* StillLines::pack_counts(std::uint32_t line, std::byte* to) const {
@@ -250,7 +262,7 @@ std::optional<StillLines::Packed> StillLines::read_packed(std::span<const std::b
   const std::size_t columns = count_columns(read_tiles(line), width_);
   std::span<const std::byte> rest = line.subspan(wire::still_head_bytes(width_));
   if (rest.size() < columns) return std::nullopt;
-  Packed packed{.counts = rest.first(columns), .depths = {}, .pairs = {}, .groups = {}};
+  Packed packed{.counts = rest.first(columns), .depths = {}, .pairs = {}, .groups = {}, .surfaces = {}};
   std::size_t shown = 0, groups = 0;
   for (const std::byte count : packed.counts) {
     if (std::to_integer<std::uint32_t>(count) > samples_) return std::nullopt;
@@ -259,11 +271,13 @@ std::optional<StillLines::Packed> StillLines::read_packed(std::span<const std::b
   }
   rest = rest.subspan(columns);
   const std::size_t depths = shown * samples_ * sizeof(float), pairs = shown * casting_ * sizeof(wire::StillPairs);
-  const std::size_t group = wire::still_packed_group_bytes(casting_);
-  if (groups != head_of(line).groups || rest.size() != depths + pairs + groups * group) return std::nullopt;
+  const std::size_t of_groups = groups * wire::still_packed_group_bytes(casting_);
+  if (groups != head_of(line).groups || rest.size() != depths + pairs + groups * packed_group_bytes())
+    return std::nullopt;
   packed.depths = rest.first(depths);
   packed.pairs = rest.subspan(depths, pairs);
-  packed.groups = rest.subspan(depths + pairs);
+  packed.groups = rest.subspan(depths + pairs, of_groups);
+  packed.surfaces = rest.subspan(depths + pairs + of_groups);
   return packed;
 }
 
@@ -309,6 +323,7 @@ void StillLines::unpack(std::span<const std::byte> line) {
   for (std::size_t l = 0; l < casting_; ++l) unpack_shown(pairs(head.line) + l * width_, wire::StillPairs{});
   forget_pairs(head.line);
   unpack_groups(head.line, packed->groups);
+  if (has_layers_) std::memcpy(surfaces_of(head.line), packed->surfaces.data(), packed->surfaces.size());
 }
 
 // Other columns have none.

@@ -28,16 +28,20 @@
 namespace mars::raster {
 
 using wire::StillGroup;
+using wire::SurfacePoint;
 
 // The still groups of a line of pixels: those of column x are groups[x == 0 ? 0 : end[x - 1], end[x]), by their
 // shaded samples.
 struct StillGroups {
   std::uint32_t* end;
   StillGroup* groups;
+  // Of pictures with layers: the groups' points, and what their light is if nothing blocks any (none: the same).
+  SurfacePoint* surfaces = nullptr;
+  const StillGroup* unshadowed = nullptr;
 
+  std::uint32_t begin(std::uint32_t column) const { return column == 0 ? 0 : end[column - 1]; }
   std::span<const StillGroup> of(std::uint32_t column) const {
-    const std::uint32_t begin = column == 0 ? 0 : end[column - 1];
-    return {groups + begin, end[column] - begin};
+    return {groups + begin(column), end[column] - begin(column)};
   }
 };
 
@@ -47,6 +51,7 @@ struct UnsummedStill {
   wire::StillPairs* pairs;
   std::byte* groups;
   std::size_t group_bytes;
+  SurfacePoint* surfaces = nullptr;  // of pictures with layers
 
   wire::UnsummedGroup& group(std::uint32_t k) const {
     return *reinterpret_cast<wire::UnsummedGroup*>(groups + k * group_bytes);
@@ -60,7 +65,7 @@ class StillLines {
   // memory is short.
   StillLines(const Neighbours& neighbours, std::uint32_t width, std::uint32_t height,
              const shape::SamplePattern& pattern, std::uint64_t bytes_a_node, std::uint32_t casting = 0,
-             float nothing = 0);
+             float nothing = 0, bool has_layers = false);
 
   // Lines that will be written in the interval of this keyframe; those of other keyframes are kept no longer. An
   // interval that is cut has several keyframes.
@@ -135,6 +140,7 @@ class StillLines {
   std::uint32_t* ends(std::uint32_t line) const;
   wire::StillPairs* pairs(std::uint32_t line) const;
   std::byte* groups_of(std::uint32_t line) const;
+  SurfacePoint* surfaces_of(std::uint32_t line) const;
 
   // Parts of a line as it travels: its head and tiles, and of marked columns in this order ...
   struct Packed {
@@ -142,6 +148,7 @@ class StillLines {
     std::span<const std::byte> depths;  // sample by sample, of columns with groups
     std::span<const std::byte> pairs;   // light by light, of the same columns
     std::span<const std::byte> groups;
+    std::span<const std::byte> surfaces;
   };
 
   static Head head_of(std::span<const std::byte> line);
@@ -157,12 +164,16 @@ class StillLines {
   void unpack_groups(std::uint32_t line, std::span<const std::byte> from);
   void forget_pairs(std::uint32_t line);
   std::size_t group_bytes() const { return wire::still_group_bytes(casting_); }
+  std::size_t packed_group_bytes() const {
+    return wire::still_packed_group_bytes(casting_) + wire::surface_bytes(has_layers_);
+  }
 
   std::uint32_t width_;
   std::uint32_t samples_;
   std::uint32_t casting_;
   float nothing_;
   bool has_groups_;
+  bool has_layers_;
   wire::StillPlan plan_;
   NeighboursMemory memory_;
   StillMarks marks_;

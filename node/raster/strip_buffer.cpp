@@ -13,20 +13,25 @@ constexpr std::uint32_t kLines = 8;  // drawn at most between one look at the sp
 // A strip of this size goes to the host: few enough to stay in a core's cache on their way, and the host puts
 // them in place while the node draws on.
 constexpr std::size_t kFullBytes = std::size_t{512} << 10;
-constexpr std::size_t kMaxPixelBytes = 8;
-constexpr std::size_t kLayerBytes = wire::kMaxStripBytes + simd::kVectorSlack * kMaxPixelBytes;  // of one's pixels
+constexpr std::size_t kMaxColorBytes = 8;
 constexpr std::size_t kRuns = wire::kMaxStripBytes / sizeof(wire::Run);
 
-// Of both layers. Between two runs of a line is a pixel that neither has: most is taken by runs of one pixel each.
+// Of one layer's pixels, and what kernels write behind the last.
+constexpr std::size_t layer_bytes(std::size_t strip_bytes) { return strip_bytes + simd::kVectorSlack * kMaxColorBytes; }
+
+// Of both layers. Between two runs of a line is a pixel that neither has: small pixels take most as runs of one pixel
+// each, large ones as one run.
 constexpr std::size_t most_bytes_of_line(std::size_t width, std::size_t pixel_bytes) {
-  return 2 * (pixel_bytes + sizeof(wire::Run)) * ((width + 2) / 2);
+  return 2 * std::max((pixel_bytes + sizeof(wire::Run)) * ((width + 2) / 2), pixel_bytes * width + sizeof(wire::Run));
 }
 
-static_assert(sizeof(wire::Strip) + 2 * kLayerBytes <= wire::kSlotBytes, "a slot takes a strip in the making");
-static_assert(sizeof(wire::Strip) + most_bytes_of_line(wire::kMaxSide, kMaxPixelBytes) +
-                      wire::kMaxSide * sizeof(std::uint32_t) <=
-                  wire::kMaxStripBytes,
-              "any line fits an empty strip");
+constexpr bool any_line_fits(wire::PixelFormat format) {
+  const std::size_t strip = wire::max_strip_bytes(format), counts = wire::kMaxSide * sizeof(std::uint32_t);
+  return sizeof(wire::Strip) + 2 * layer_bytes(strip) <= wire::slot_bytes(format) &&
+         sizeof(wire::Strip) + most_bytes_of_line(wire::kMaxSide, wire::pixel_bytes(format)) + counts <= strip;
+}
+static_assert(any_line_fits(wire::PixelFormat::rgb8) && any_line_fits(wire::PixelFormat::half));
+static_assert(any_line_fits(wire::with_layers(wire::PixelFormat::half, wire::kAllLayers, wire::kMostSamples)));
 
 // `items` to `at`, which they may overlap; returns what comes behind them.
 template <typename T>
@@ -45,17 +50,18 @@ void StripBuffer::Layer::added(const shading::Shaded& shaded) {
 
 StripBuffer::StripBuffer(wire::PixelFormat format, bool watched)
     : pixel_bytes_(wire::pixel_bytes(format)),
-      most_bytes_(wire::kMaxStripBytes - (watched ? wire::kMaxSide * sizeof(std::uint32_t) : 0)),
+      strip_bytes_(wire::max_strip_bytes(format)),
+      most_bytes_(strip_bytes_ - (watched ? wire::kMaxSide * sizeof(std::uint32_t) : 0)),
       runs_(2 * kRuns * sizeof(wire::Run)) {}
 
 void StripBuffer::begin(std::span<std::byte> slot, std::size_t width, bool constant) {
-  check(slot.size() == wire::kSlotBytes, "a strip is made in a slot");
+  check(slot.size() >= sizeof(wire::Strip) + 2 * layer_bytes(strip_bytes_), "a strip is made in a slot");
   line_bytes_ = most_bytes_of_line(width, pixel_bytes_);
   slot_ = slot.data();
   std::byte* pixels = slot_ + sizeof(wire::Strip);
   auto* runs = reinterpret_cast<wire::Run*>(runs_.bytes().data());
   constant_ = {pixels, pixel_bytes_, runs};
-  moving_ = constant ? Layer(pixels + kLayerBytes, pixel_bytes_, runs + kRuns) : Layer(pixels, pixel_bytes_, runs);
+  moving_ = constant ? Layer(pixels + layer_bytes(strip_bytes_), pixel_bytes_, runs + kRuns) : Layer(pixels, pixel_bytes_, runs);
 }
 
 std::size_t StripBuffer::bytes() const {
@@ -76,7 +82,7 @@ std::span<const std::byte> StripBuffer::finish(wire::Strip& header, std::span<co
   end = put(moving_.pixels(), put(constant_.pixels(), end));
   end = put(edge_boxes, put(moving_.runs(), put(constant_.runs(), end)));
   const auto size = static_cast<std::size_t>(end - slot_);
-  check(size <= wire::kMaxStripBytes, "a strip has at most kMaxStripBytes bytes");
+  check(size <= strip_bytes_, "a strip has at most max_strip_bytes");
   header.work.pixels += header.pixels;
   header.work.bytes_to_host += size;
   std::memcpy(slot_, &header, sizeof header);

@@ -1,6 +1,6 @@
 // A strip in the making: header, pixels, runs, as protocol.h lays them out, in a slot. Stationary and moving parts
 // come line by line in turn; the strip has all pixels of the first before those of the second. It has at most
-// kMaxStripBytes.
+// max_strip_bytes.
 #pragma once
 
 #include <cstddef>
@@ -43,7 +43,7 @@ class StripBuffer {
   // memory.
   explicit StripBuffer(wire::PixelFormat format, bool watched = false);
 
-  // Begins an empty one of a picture of `width` in `slot`, which has kSlotBytes and is aligned to 64. `constant`:
+  // Begins an empty one of a picture of `width` in `slot`, which has slot_bytes and is aligned to 64. `constant`:
   // whether stationary parts will come.
   void begin(std::span<std::byte> slot, std::size_t width, bool constant);
   // How many more lines surely fit, whatever they show, a few at most; 0: the strip is full.
@@ -61,6 +61,7 @@ class StripBuffer {
   std::size_t bytes() const;
 
   std::size_t pixel_bytes_;
+  std::size_t strip_bytes_;     // at most
   std::size_t line_bytes_ = 0;  // that a line takes at most
   std::size_t most_bytes_;      // of all but counts
   std::byte* slot_ = nullptr;

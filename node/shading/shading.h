@@ -11,6 +11,10 @@
 #include "node/wire/film_parts.h"
 #include "node/wire/run.h"
 
+namespace mars::geometry {
+class SurfaceView;
+}
+
 namespace mars::shading {
 
 // All that shading needs of a frame, in eye space.
@@ -27,6 +31,9 @@ struct Shading {
   wire::AmbientLight ambient;
   float up[3];  // the world's z axis, in eye space
   wire::Fog fog;
+  // Of pictures with layers.
+  wire::PixelFormat pixels;
+  const geometry::SurfaceView* surfaces = nullptr;  // none: no layers
 };
 
 // A sample to be shaded, of a line that is known.

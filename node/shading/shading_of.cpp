@@ -18,6 +18,7 @@ Shading shading_of(const geometry::Scene& scene, wire::PixelFormat format) {
   shading.ambient = settings.ambient;
   std::ranges::copy(scene.up(), shading.up);
   shading.fog = settings.fog;
+  shading.pixels = format;
   return shading;
 }
 

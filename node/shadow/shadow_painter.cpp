@@ -8,6 +8,7 @@
 #include <span>
 
 #include "hal/failure/failure.h"
+#include "node/geometry/surface_view.h"
 #include "node/shading/finish_light.h"
 #include "node/simd/vector_slack.h"
 
@@ -20,9 +21,19 @@ bool receives(const wire::Material& material) {
   return material.receives == 1 && material.interpolation == wire::Interpolation::phong;
 }
 
+// Whether still parts show motion that they have in this frame alone.
+bool shows_still_motion(const Picture& picture) {
+  return picture.is_keyframe && picture.shading.surfaces != nullptr && picture.shading.surfaces->still_has_moved();
+}
+
+bool has_unshadowed(const Picture& picture) {
+  return picture.shading.surfaces != nullptr && wire::has_layer(picture.shading.pixels, wire::Layer::unshadowed);
+}
+
 }  // namespace
 
-ShadowPainter::ShadowPainter(simd::InstructionSet set, const geometry::Scene& scene, const ShadowPlan& plan)
+ShadowPainter::ShadowPainter(simd::InstructionSet set, const geometry::Scene& scene, const ShadowPlan& plan,
+                             bool has_layers)
     : raster_kernels_(raster::raster_kernels(set)),
       shading_kernels_(shading::shading_kernels(set)),
       width_(static_cast<std::uint32_t>(scene.width())),
@@ -31,7 +42,7 @@ ShadowPainter::ShadowPainter(simd::InstructionSet set, const geometry::Scene& sc
       z_line_(set, width_, scene.pattern(), scene.projection().nothing),
       groups_(set, width_, samples_),
       caster_(set, scene, plan),
-      bytes_of_line_(band_bytes_of_line(shadow_needs(scene.film()))),
+      bytes_of_line_(band_bytes_of_line(shadow_needs(scene.film(), has_layers))),
       most_squares_(squares_of_points(shadow_needs(scene.film()), plan.points)),
       memory_(plan.band),
       arena_(memory_.bytes()),
@@ -115,11 +126,12 @@ shading::Extent ShadowPainter::see_still(const Picture& picture, std::uint32_t n
   std::fill_n(layer.pairs, std::size_t{width_} * casting_, wire::StillPairs{0, 0});
   find_lit(picture, line.still, layer.pairs);
   line.again.end = no_ends_.data();
-  if (picture.scene.any_moves()) {
+  const bool again = shows_still_motion(picture);
+  if (picture.scene.any_moves() || again) {
     layer.moved = new_moved();
-    if (!picture.is_keyframe || !picture.still.has_room(number, count)) {
-      line.again = new_record(count);
-      fill_record(line.still, line.again, [](std::uint32_t) { return true; });
+    if (!picture.is_keyframe || again || !picture.still.has_room(number, count)) {
+      line.again = new_record(picture, count);
+      fill_record(picture, number, line.still, line.again, [](std::uint32_t) { return true; });
     }
   }
   line.still.from = line.still_from = &layer;
@@ -127,9 +139,11 @@ shading::Extent ShadowPainter::see_still(const Picture& picture, std::uint32_t n
   return extent;
 }
 
-raster::UnsummedStill ShadowPainter::new_record(std::uint32_t groups) {
+raster::UnsummedStill ShadowPainter::new_record(const Picture& picture, std::uint32_t groups) {
   const std::size_t bytes = wire::still_group_bytes(casting_);
-  return {arena_.take<std::uint32_t>(width_).data(), nullptr, arena_.take<std::byte>(groups * bytes).data(), bytes};
+  const bool has_layers = picture.shading.surfaces != nullptr;
+  return {arena_.take<std::uint32_t>(width_).data(), nullptr, arena_.take<std::byte>(groups * bytes).data(), bytes,
+          has_layers ? arena_.take<wire::SurfacePoint>(groups).data() : nullptr};
 }
 
 // What inbetweens need of the band, but for pairs, which casters are still to block.
@@ -145,8 +159,11 @@ void ShadowPainter::keep_groups(const Picture& picture) {
     for (std::uint32_t k = 0; k < line.still.count(); ++k) count += has(line.still.groups.fragments[k].column) ? 1 : 0;
     line.is_kept = still.begin_line(number, count);
     if (!line.is_kept || !raster::any(marked)) continue;
-    if (line.again.end == no_ends_.data()) line.again = still.unsummed(number);
-    fill_record(line.still, still.unsummed(number), has);
+    const raster::UnsummedStill kept = still.unsummed(number);
+    if (line.again.end == no_ends_.data()) line.again = kept;
+    fill_record(picture, number, line.still, kept, has);
+    if (shows_still_motion(picture))
+      for (std::uint32_t k = 0; k < count; ++k) std::ranges::fill(kept.surfaces[k].motion, 0.0f);
     std::uint32_t columns = 0;
     for (std::uint32_t s = 0; s < samples_; ++s)
       columns = still.keep_depths(number, s, drawn_.line(number).depth + std::size_t{s} * width_);
@@ -249,7 +266,8 @@ void ShadowPainter::find_lit(const Picture& picture, const LineGroups& groups, w
 
 // As raster::PixelGroups::copy_to does, of the columns that `has` says.
 template <typename Has>
-void ShadowPainter::fill_record(const LineGroups& groups, const raster::UnsummedStill& to, const Has& has) const {
+void ShadowPainter::fill_record(const Picture& picture, std::uint32_t number, const LineGroups& groups,
+                                const raster::UnsummedStill& to, const Has& has) const {
   const shading::Fragment* const fragments = groups.groups.fragments;
   std::fill_n(to.end, width_, 0u);
   for (std::uint32_t k = 0; k < groups.count(); ++k) to.end[fragments[k].column] += has(fragments[k].column) ? 1 : 0;
@@ -257,7 +275,9 @@ void ShadowPainter::fill_record(const LineGroups& groups, const raster::Unsummed
   const bool foggy = groups.light.fog != nullptr;
   for (std::uint32_t k = 0; k < groups.count(); ++k) {
     if (!has(fragments[k].column)) continue;
-    wire::UnsummedGroup& group = to.group(to.end[fragments[k].column]++);
+    const std::uint32_t at = to.end[fragments[k].column]++;
+    wire::UnsummedGroup& group = to.group(at);
+    if (to.surfaces != nullptr) to.surfaces[at] = raster::point_of(picture.shading, fragments[k], number);
     group.samples = groups.groups.masks[k];
     group.fog = foggy ? groups.light.fog[k] : 0;
     for (std::size_t c = 0; c < 3; ++c) group.base[c] = groups.light.base[c][k];
@@ -327,14 +347,15 @@ void ShadowPainter::put_line(const Picture& picture, std::uint32_t number, raste
     sum_up(picture, line.still, false);
     groups_.resolve(picture.shading, number, out.constant());
   }
-  find_changed(line);
+  find_changed(picture, line);
   if (line.moving.count() == 0 && changed_.empty()) return;
   const std::uint32_t all = (1u << samples_) - 1;
   for (const std::uint32_t column : changed_) sum_up_again(picture, line, column);
   for (std::uint32_t k = 0; k < line.moving.counts.pixels; ++k)
     if (line.moving.groups.masks[k] != all) sum_up_again(picture, line, line.moving.groups.fragments[k].column);
   sum_up(picture, line.moving, true);
-  groups_.resolve_over({line.again.end, still_groups_.data()}, picture.shading, number, out.moving(), changed_);
+  groups_.resolve_over({line.again.end, still_groups_.data(), line.again.surfaces, unshadowed_groups_.data()},
+                       picture.shading, number, out.moving(), changed_);
 }
 
 float ShadowPainter::open_share(const LayerLine& from, std::uint32_t light, std::uint32_t column, std::uint32_t samples,
@@ -350,6 +371,7 @@ float ShadowPainter::open_share(const LayerLine& from, std::uint32_t light, std:
 // To the groups that are resolved next.
 void ShadowPainter::sum_up(const Picture& picture, const LineGroups& groups, bool with_moved) {
   groups_.restore(groups.counts, groups.groups);
+  if (has_unshadowed(picture)) sum_up_unshadowed(picture, groups);
   if (groups.count() == 0) return;
   for (std::uint32_t light = 0; light < casting_; ++light)
     for (std::uint32_t k = 0; k < groups.count(); ++k)
@@ -358,9 +380,21 @@ void ShadowPainter::sum_up(const Picture& picture, const LineGroups& groups, boo
   shading_kernels_.sum_up(picture.shading, groups.light, share_rows_.data(), groups.count(), groups_.light().channel);
 }
 
-// Still pixels that moving casters take light from.
-void ShadowPainter::find_changed(const Line& line) {
+void ShadowPainter::sum_up_unshadowed(const Picture& picture, const LineGroups& groups) {
+  const raster::Light light = groups_.unshadowed();
+  for (auto& shares : shares_) std::fill_n(shares.begin(), groups.count(), 1.0f);
+  if (groups.count() > 0)
+    shading_kernels_.sum_up(picture.shading, groups.light, share_rows_.data(), groups.count(), light.channel);
+}
+
+// Still pixels that moving casters take light from, or that show motion in this frame.
+void ShadowPainter::find_changed(const Picture& picture, const Line& line) {
   changed_.clear();
+  if (shows_still_motion(picture) && line.still_from != nullptr) {
+    for (std::uint32_t column = 0; column < width_; ++column)
+      if (line.again.end[column] > (column == 0 ? 0 : line.again.end[column - 1])) changed_.push_back(column);
+    return;
+  }
   if (line.still_from == nullptr || !line.still_from->is_changed) return;
   for (std::uint32_t column = 0; column < width_; ++column) {
     std::uint32_t moved = 0;
@@ -370,17 +404,24 @@ void ShadowPainter::find_changed(const Line& line) {
   }
 }
 
-// As the kernels do (shading::ShadingKernels::sum_up), for one pixel's still groups.
 void ShadowPainter::sum_up_again(const Picture& picture, const Line& line, std::uint32_t column) {
   if (line.still_from == nullptr) return;
+  put_still_light(picture, line, column, true);
+  if (!has_unshadowed(picture)) return;
+  unshadowed_groups_.resize(still_groups_.size());
+  put_still_light(picture, line, column, false);
+}
+
+// As the kernels do (shading::ShadingKernels::sum_up), for one pixel's still groups.
+void ShadowPainter::put_still_light(const Picture& picture, const Line& line, std::uint32_t column, bool shadowed) {
   const raster::UnsummedStill& from = line.again;
   for (std::uint32_t k = column == 0 ? 0 : from.end[column - 1]; k < from.end[column]; ++k) {
     const wire::UnsummedGroup& group = from.group(k);
-    wire::StillGroup& out = still_groups_[k];
+    wire::StillGroup& out = shadowed ? still_groups_[k] : unshadowed_groups_[k];
     out.samples = group.samples;
     std::copy_n(group.base, 3, out.light);
     for (std::uint32_t light = 0; light < casting_; ++light) {
-      const float share = open_share(*line.still_from, light, column, group.samples, true);
+      const float share = shadowed ? open_share(*line.still_from, light, column, group.samples, true) : 1;
       for (std::size_t c = 0; c < 3; ++c) out.light[c] += group.terms()[3 * light + c] * share;
     }
     shading::finish_light(picture.shading, group.fog, out.light);

@@ -43,7 +43,8 @@ struct Picture {
 class ShadowPainter {
  public:
   // `plan`: of the scene's film.
-  ShadowPainter(simd::InstructionSet set, const geometry::Scene& scene, const ShadowPlan& plan);
+  ShadowPainter(simd::InstructionSet set, const geometry::Scene& scene, const ShadowPlan& plan,
+                bool has_layers = false);
 
   // An interval begins, also on nodes that draw nothing of its keyframe.
   void forget_still() { caster_.forget_still(); }
@@ -86,19 +87,22 @@ class ShadowPainter {
   void cast_by_rows(const geometry::Scene& scene);
   LineGroups shade(const Picture& picture, std::uint32_t number, const shading::Extent& extent);
   void copy_depths(float* to, const shading::Extent& extent);
-  raster::UnsummedStill new_record(std::uint32_t groups);
+  raster::UnsummedStill new_record(const Picture& picture, std::uint32_t groups);
   void keep_groups(const Picture& picture);
   void keep_pairs(raster::StillLines& still);
   void count_kept_tiles(const raster::StillLines& still);
   void find_lit(const Picture& picture, const LineGroups& groups, wire::StillPairs* pairs) const;
   template <typename Has>
-  void fill_record(const LineGroups& groups, const raster::UnsummedStill& to, const Has& has) const;
+  void fill_record(const Picture& picture, std::uint32_t number, const LineGroups& groups,
+                   const raster::UnsummedStill& to, const Has& has) const;
   std::uint16_t* new_moved();
 
   void sum_up(const Picture& picture, const LineGroups& groups, bool with_moved);
   float open_share(const LayerLine& from, std::uint32_t light, std::uint32_t column, std::uint32_t samples,
                    bool with_moved) const;
-  void find_changed(const Line& line);
+  void sum_up_unshadowed(const Picture& picture, const LineGroups& groups);
+  void find_changed(const Picture& picture, const Line& line);
+  void put_still_light(const Picture& picture, const Line& line, std::uint32_t column, bool shadowed);
   void sum_up_again(const Picture& picture, const Line& line, std::uint32_t column);
 
   const raster::RasterKernels& raster_kernels_;
@@ -125,6 +129,7 @@ class ShadowPainter {
   std::vector<const float*> share_rows_;
   std::vector<std::uint32_t> changed_;  // columns
   std::vector<wire::StillGroup> still_groups_;
+  std::vector<wire::StillGroup> unshadowed_groups_;  // of pictures with that layer
   std::vector<std::uint32_t> no_ends_;    // of a line without groups
   std::vector<std::uint64_t> row_tiles_;  // of a row of tiles
   raster::DrawnCounts counts_;

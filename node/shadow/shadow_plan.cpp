@@ -55,8 +55,8 @@ ShadowPlan most(const ShadowNeeds& needs) {
 
 }  // namespace
 
-ShadowNeeds shadow_needs(const wire::PackedFilm& film) {
-  return {film.settings().width, film.settings().samples, film.casting_count(), film.patch_instances()};
+ShadowNeeds shadow_needs(const wire::PackedFilm& film, bool has_layers) {
+  return {film.settings().width, film.settings().samples, film.casting_count(), film.patch_instances(), has_layers};
 }
 
 // Each kind gets the same part of what is of use beyond what it needs.
@@ -83,8 +83,9 @@ std::size_t band_bytes_of_line(const ShadowNeeds& needs) {
   const std::size_t group = sizeof(shading::Fragment) + 2 * sizeof(std::uint32_t) + light;
   const std::size_t arrays = 2 * (12 + 3 * casting) * kGrain;
   const std::size_t column = sizeof(std::uint32_t) + casting * 2 * (sizeof(wire::StillPairs) + sizeof(std::uint16_t));
-  return samples * (2 * group + wire::still_group_bytes(needs.casting) + 2 * sizeof(float)) + needs.width * column +
-         arrays;
+  const std::size_t record = wire::still_group_bytes(needs.casting) + wire::surface_bytes(needs.has_layers);
+  return samples * (2 * group + record + 2 * sizeof(float)) + needs.width * column + arrays +
+         (needs.has_layers ? kGrain : 0);
 }
 
 std::size_t squares_of_points(const ShadowNeeds& needs, std::size_t bytes) {

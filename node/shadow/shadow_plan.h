@@ -15,8 +15,9 @@ struct ShadowNeeds {
   std::uint32_t samples = 0;  // of a pixel
   std::uint32_t casting = 0;  // lights; 0: there are no shadows
   std::uint64_t patches = 0;  // and meshlets, of all segments
+  bool has_layers = false;    // its pictures
 };
-ShadowNeeds shadow_needs(const wire::PackedFilm& film);
+ShadowNeeds shadow_needs(const wire::PackedFilm& film, bool has_layers = false);
 
 // Bytes of each kind.
 struct ShadowPlan {

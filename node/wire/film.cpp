@@ -283,7 +283,8 @@ void PackedFilm::check_segments(const std::string& where) const {
   }
   for (const Segment& segment : segments_) {
     require(segment.shape < shape_count(), where, "a segment has no such shape");
-    require(segment.name < names_.size(), where, "a segment has no such name");
+    require(segment.name < names_.size() && segment.material_name < names_.size(), where,
+            "a segment has no such name");
     require(sound(segment.motion, changes_, matrices_.size()), where, "a segment's motion is broken");
     require(sound(segment.material, changes_, materials_.size()), where, "a segment's material is broken");
   }
@@ -338,6 +339,10 @@ std::span<const std::uint32_t> PackedFilm::moving(const Interval& interval) cons
 }
 
 std::string_view PackedFilm::name(const Segment& segment) const { return names_.data() + segment.name; }
+
+std::string_view PackedFilm::material_name(const Segment& segment) const {
+  return names_.data() + segment.material_name;
+}
 
 std::uint32_t PackedFilm::value_at(const Track& track, std::uint32_t frame) const {
   const auto steps = changes_.subspan(track.first, track.count);

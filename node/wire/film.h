@@ -38,7 +38,7 @@ struct FilmData {
   std::vector<Change> changes;
   std::vector<Interval> intervals;  // in order, covering every frame once
   std::vector<std::uint32_t> moving;
-  std::vector<char> names;  // zero-ended strings: "actor/joint"
+  std::vector<char> names;  // zero-ended strings: "actor/joint", materials
 };
 
 // The block, little-endian, every section aligned to 64 bytes. check()s that changes can be counted.
@@ -102,6 +102,7 @@ class PackedFilm {
 
   std::span<const std::uint32_t> moving(const Interval& interval) const;
   std::string_view name(const Segment& segment) const;
+  std::string_view material_name(const Segment& segment) const;
 
   // The index of the value a track has at `frame`.
   std::uint32_t value_at(const Track& track, std::uint32_t frame) const;

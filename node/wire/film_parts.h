@@ -76,6 +76,7 @@ struct Segment {
   std::uint32_t name;  // offset into names
   Track motion;
   Track material;
+  std::uint32_t material_name = 0;  // offset into names: of what it is made of
 };
 
 // What is interpolated over a triangle: its normal, shaded at each sample; or the colours of its vertices; or nothing,

@@ -140,7 +140,7 @@ struct Load {
 
 // The node has the film and its slots.
 struct Loaded {
-  messages::MemoryName slots;   // `credits` of kSlotBytes each
+  messages::MemoryName slots;   // `credits` of slot_bytes each
   std::array<char, 256> apart;  // why it does not read the triangles of nodes with which it shares memory; "": it does
   std::uint32_t unseen = 0;     // 1: its machine does not see the folder into which it is to write
 };
@@ -337,12 +337,14 @@ struct Written {
 };
 
 // Bytes of a strip, header and all, at most: few enough to stay in a core's cache on their way, and the host puts them
-// in place while the node draws on.
+// in place while the node draws on. A line of a wide picture with layers may take five times as many.
 inline constexpr std::size_t kMaxStripBytes = std::size_t{768} << 10;
+constexpr std::size_t max_strip_bytes(PixelFormat format) { return layers_of(format) == 0 ? kMaxStripBytes : 5 * kMaxStripBytes; }
 
 // Of a slot, which has a strip from its beginning on. More than a strip, for while it is made the two kinds of pixels
 // lie apart.
-inline constexpr std::size_t kSlotBytes = 2 * kMaxStripBytes + 4096;
+constexpr std::size_t slot_bytes(PixelFormat format) { return 2 * max_strip_bytes(format) + 4096; }
+inline constexpr std::size_t kSlotBytes = slot_bytes(PixelFormat::rgb8);
 
 // A part of one node's part of one frame: the pixels of its stationary parts (CFB, keyframes only) and then those of
 // its moving parts (MFB). Followed by all pixels in Load's format, then by constant_runs + moving_runs Run that say

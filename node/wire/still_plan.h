@@ -28,6 +28,16 @@ constexpr std::size_t still_group_bytes(std::uint32_t casting) {
   return casting == 0 ? sizeof(StillGroup) : sizeof(UnsummedGroup) + std::size_t{3} * casting * sizeof(float);
 }
 
+// What the layers of a picture (pixel_format.h) show of a group: of its shaded sample.
+struct SurfacePoint {
+  float depth;      // distance along the view axis
+  float normal[3];  // a unit vector of the world, turned to the eye; 0: none
+  float motion[2];  // pixels; of what stands still 0, but in an interval's first frame
+  std::uint32_t segment;
+};
+// In pictures with layers, beside each group.
+constexpr std::size_t surface_bytes(bool has_layers) { return has_layers ? sizeof(SurfacePoint) : 0; }
+
 // Of a pixel, for each casting light: which of its pairs (shadow/pairs.h) matter, and which are blocked.
 struct StillPairs {
   std::uint16_t lit;
@@ -46,7 +56,7 @@ constexpr std::size_t still_column_bytes(std::uint32_t samples, std::uint32_t ca
 }
 
 // With several samples a pixel, and where lights cast shadows, each line has a head and its tiles, depths, the number
-// of groups up to each column, pairs of each casting light, and the groups.
+// of groups up to each column, pairs of each casting light, the groups, and of pictures with layers their points.
 inline constexpr std::size_t kStillHeadBytes = 16;
 constexpr std::size_t whole_cache_lines(std::size_t bytes) { return (bytes + 63) / 64 * 64; }
 constexpr std::size_t still_head_bytes(std::uint32_t width) {
@@ -78,6 +88,6 @@ struct StillPlan {
 // memory for fewer groups, then fewer lines are kept. Else all lines are kept, whatever they take. `casting`: lights
 // that cast.
 StillPlan plan_still_lines(std::uint32_t width, std::uint32_t height, std::uint32_t samples, std::uint64_t bytes,
-                           std::uint32_t casting = 0);
+                           std::uint32_t casting = 0, bool has_layers = false);
 
 }  // namespace mars::wire

@@ -117,7 +117,8 @@ void FilmWriter::write_segments(const ShapeNumbers& shapes) {
       data_.segments.push_back({shapes[actor.model][joint.segment->shape],
                                 add_name(actor.name + "/" + joint.name),
                                 {},
-                                materials_.track_of(actor, joint.segment->material)});
+                                materials_.track_of(actor, joint.segment->material),
+                                material_name(materials_.name_of(actor, joint.segment->material))});
       const std::uint32_t shape = data_.segments.back().shape;
       if (shape < data_.shapes.size()) instances += data_.shapes[shape].size();
     }
@@ -125,6 +126,12 @@ void FilmWriter::write_segments(const ShapeNumbers& shapes) {
     if (instances > kMost || joints > kMost)
       fail(film_, "have more than 4294967295 patches and pieces of meshes", "actors", "use fewer actors");
   }
+}
+
+// Each once.
+std::uint32_t FilmWriter::material_name(const std::string& name) {
+  const auto known = material_names_.find(name);
+  return known != material_names_.end() ? known->second : material_names_.emplace(name, add_name(name)).first->second;
 }
 
 std::uint32_t FilmWriter::add_name(const std::string& name) {

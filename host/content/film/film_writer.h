@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "host/content/animator/pose/film.h"
@@ -41,11 +42,13 @@ class FilmWriter {
  private:
   void write_camera();
   std::uint32_t add_name(const std::string& name);
+  std::uint32_t material_name(const std::string& name);
 
   const animator::Film& film_;
   const WrittenFrames frames_;
   wire::FilmData& data_;
   MaterialWriter materials_;
+  std::unordered_map<std::string, std::uint32_t> material_names_;  // where they are
 };
 
 }  // namespace mars::film

@@ -23,6 +23,12 @@ wire::Track MaterialWriter::track_of(const animator::Actor& actor, const std::st
   return shared(worn->of_model ? worn->of_model->material : modeler::default_material());
 }
 
+std::string MaterialWriter::name_of(const animator::Actor& actor, const std::string& name) const {
+  const auto worn = worn_.of(actor, name);
+  if (worn && worn->of_film) return worn->of_film->name;
+  return worn && worn->of_model ? worn->of_model->name : "default";
+}
+
 // Segments of one material share a track.
 template <typename Material>
 wire::Track MaterialWriter::shared(const Material& material) {

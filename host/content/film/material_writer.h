@@ -18,6 +18,8 @@ class MaterialWriter {
   // no such material.
   wire::Track track_of(const animator::Actor& actor, const std::string& name);
 
+  // And that material's name.
+  std::string name_of(const animator::Actor& actor, const std::string& name) const;
   // Whether a segment is made of the film's material.
   bool uses(const animator::MaterialMotion& material) const { return tracks_.contains(&material); }
 

@@ -120,6 +120,7 @@ class Rehearsals {
     Setting setting{setting_.film, platform};
     setting.mapping = setting_.mapping;
     setting.picture = setting_.picture;
+    setting.layers = setting_.layers;
     setting.files = setting_.files;
     setting.writers = setting_.writers;
     setting.exchange = setting_.exchange;

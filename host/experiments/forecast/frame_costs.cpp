@@ -44,7 +44,7 @@ FrameCosts::FrameCosts(const Setting& setting, int nodes)
     : setting_(setting),
       costs_(setting.platform),
       memory_(farm::share_node_memory(setting.platform.memory, {}, setting.film.settings(),
-                                      shadow::shadow_needs(setting.film),
+                                      shadow::shadow_needs(setting.film, setting.has_layers()),
                                       std::min(nodes, setting.platform.machine.nodes))),
       band_lines_(images::PictureBands(setting.picture, setting.film.settings().width, setting.film.settings().height)
                       .lines_a_band()),
@@ -255,14 +255,15 @@ double FrameCosts::kept_bytes(const wire::LineCounts& line) const {
   const std::uint32_t samples = setting_.film.settings().samples, casting = setting_.film.casting_count();
   if (!has_groups()) return line.kept_width * sizeof(float);
   return line.kept_width * static_cast<double>(wire::still_column_bytes(samples, casting)) +
-         line.constant.kept_groups * static_cast<double>(wire::still_group_bytes(casting));
+         line.constant.kept_groups *
+             static_cast<double>(wire::still_group_bytes(casting) + wire::surface_bytes(setting_.has_layers()));
 }
 
 wire::StillPlan FrameCosts::still_plan(int nodes) const {
   const wire::FilmSettings& film = setting_.film.settings();
   return wire::plan_still_lines(film.width, film.height, film.samples,
                                 memory_.still * static_cast<std::uint64_t>(nodes_on_a_computer(nodes)),
-                                setting_.film.casting_count());
+                                setting_.film.casting_count(), setting_.has_layers());
 }
 
 // Of one frame; where nodes share a computer, two frames' take turns (node/group/frame_memory.h).

@@ -93,7 +93,8 @@ double FrameCosts::packed_bytes(const wire::LineCounts& line) const {
   const double shown = line.kept_width * std::min(1.0, line.constant.pixels / film.width);
   return kLinesHead + static_cast<double>(wire::still_head_bytes(film.width)) + line.kept_width +
          shown * static_cast<double>(wire::still_packed_bytes(film.samples, casting)) +
-         line.constant.kept_groups * static_cast<double>(wire::still_packed_group_bytes(casting));
+         line.constant.kept_groups *
+             static_cast<double>(wire::still_packed_group_bytes(casting) + wire::surface_bytes(setting_.has_layers()));
 }
 
 // To homes on other computers.

@@ -50,9 +50,9 @@ void FrameCosts::map_lines(KeyframeLoad& load, const KeyframeCounts& counts, con
 // As nodes weigh lines (node/group/group_sums.h), which know what is kept but for its groups.
 std::vector<std::uint64_t> FrameCosts::line_weights(const wire::FrameCounts& counts, bool has_inbetweens) const {
   const std::uint32_t samples = setting_.film.settings().samples, casting = setting_.film.casting_count();
+  const std::size_t group = wire::still_group_bytes(casting) + wire::surface_bytes(setting_.has_layers());
   const double column =
-      has_groups() ? static_cast<double>(wire::still_column_bytes(samples, casting) + wire::still_group_bytes(casting))
-                   : sizeof(float);
+      has_groups() ? static_cast<double>(wire::still_column_bytes(samples, casting) + group) : sizeof(float);
   std::vector<std::uint64_t> weights{0};
   for (const wire::LineCounts& line : counts.lines) {
     const raster::LineLoad load(static_cast<std::uint64_t>(line.edge_boxes), static_cast<std::uint64_t>(line.samples));
@@ -134,9 +134,10 @@ double FrameCosts::lines_of_band(const FrameTotals& totals, double lines) const 
   const wire::FilmSettings& film = setting_.film.settings();
   const double casting = setting_.film.casting_count(), samples = static_cast<double>(film.width) * film.samples;
   const double light = (4 + 3 * casting) * sizeof(float), group = 16 + light;
-  const double record = static_cast<double>(wire::still_group_bytes(setting_.film.casting_count()));
+  const double record = static_cast<double>(wire::still_group_bytes(setting_.film.casting_count()) +
+                                            wire::surface_bytes(setting_.has_layers()));
   const double column = sizeof(std::uint32_t) + casting * 2 * (sizeof(wire::StillPairs) + sizeof(std::uint16_t));
-  const shadow::ShadowNeeds needs = shadow::shadow_needs(setting_.film);
+  const shadow::ShadowNeeds needs = shadow::shadow_needs(setting_.film, setting_.has_layers());
   const shadow::ShadowPlan plan = shadow::plan_shadows(needs, memory_.shadows);
   const double shaded = totals.drawn.constant.shaded + totals.drawn.moving.shaded;
   const double each = shaded / lines * (group + record) + samples * sizeof(float) + film.width * column / 2;

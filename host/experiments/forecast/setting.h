@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host/experiments/platform.h"
+#include "host/images/layers.h"
 #include "host/images/picture_format.h"
 #include "host/render/farm/host_memory.h"
 #include "host/render/farm/node_memory.h"
@@ -30,6 +31,7 @@ struct Setting {
   const experiments::Platform& platform;
   wire::Mapping mapping = wire::Mapping::cost;
   images::PictureFormat picture = images::PictureFormat::png;
+  wire::LayerSet layers = 0;
   bool files = true;  // else frames go nowhere
   Writers writers = Writers::host;
   wire::Exchange exchange = wire::Exchange::send;
@@ -40,7 +42,8 @@ struct Setting {
 
   Even even{};
 
-  wire::PixelFormat pixels() const { return images::facts_of(picture).pixels; }
+  wire::PixelFormat pixels() const { return images::pixels_of(picture, layers, film.settings().samples); }
+  bool has_layers() const { return layers != 0; }
   bool nodes_write() const { return files && writers == Writers::nodes; }
 };
 

@@ -38,7 +38,7 @@ void BandComposer::begin_band() {
   const images::Lines all = bands_.lines_of(band_);
   part_ = {next_, std::min(all.end, lines_.end)};
   is_touched_ = false;
-  if (!still_of_) compositor::fill_pixels(still_, background_, pixel_words_);
+  if (!still_of_) compositor::fill_pixels(still_, background_, bands_.pixels());
 }
 
 void BandComposer::paste(std::uint32_t end, std::span<const wire::Run> runs, std::size_t constant,

@@ -25,9 +25,10 @@ std::size_t most_record_bytes(const images::PictureBands& bands) {
 
 void append_record(std::vector<std::byte>& to, const images::PictureBands& bands, std::uint32_t band,
                    std::uint32_t interval, std::span<const std::uint32_t> pixels) {
-  const images::EncodedBand encoded = images::encode_band(bands, band, pixels);
+  const images::FilePixels file(bands, pixels);
+  const images::EncodedBand encoded = images::encode_band(bands, band, file.words());
   BandHead head{band, interval, encoded.adler32, 0, encoded.row_bytes, encoded.bytes.size(), 0, {}};
-  const std::string hash = sinks::hash_of_band(pixels);
+  const std::string hash = sinks::hash_of_band(file.words());
   std::copy_n(hash.begin(), std::min(hash.size(), sizeof head.hash), head.hash);
   const std::size_t at = to.size();
   to.resize(at + sizeof head + round_up(encoded.bytes.size()));

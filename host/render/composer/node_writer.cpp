@@ -28,6 +28,12 @@ void require(bool holds, const char* what) {
 
 images::Lines lines_of(const wire::LineSpan& span) { return {span.first, span.end}; }
 
+images::PictureBands bands_for(const wire::PackedFilm& film, const sinks::WriterOrders& orders) {
+  images::PictureBands bands = sinks::bands_of(orders.manifest);
+  bands.set_film(film);
+  return bands;
+}
+
 void append(std::vector<std::byte>& to, std::span<const std::byte> bytes) {
   to.insert(to.end(), bytes.begin(), bytes.end());
 }
@@ -41,7 +47,7 @@ void copy_bytes(std::span<const std::byte> from, std::span<std::uint32_t> to) {
 NodeWriter::NodeWriter(const wire::PackedFilm& film, const sinks::WriterOrders& orders, std::int32_t node,
                        bool is_first)
     : orders_(orders),
-      bands_(sinks::bands_of(orders.manifest)),
+      bands_(bands_for(film, orders)),
       content_(film),
       composer_(bands_),
       background_(bands_),

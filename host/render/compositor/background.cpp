@@ -8,7 +8,7 @@
 namespace mars::compositor {
 
 Background::Background(std::uint32_t width, std::uint32_t height, std::uint32_t block, wire::PixelFormat format)
-    : width(width), height(height), pixel_words(wire::pixel_words(format)), constant(width, height, block) {}
+    : width(width), height(height), format(format), pixel_words(wire::pixel_words(format)), constant(width, height, block) {}
 
 std::uint64_t Background::write(std::uint32_t* picture, std::uint32_t row, std::uint32_t first,
                                 std::uint32_t last) const {
@@ -19,7 +19,7 @@ std::uint64_t Background::write(std::uint32_t* picture, std::uint32_t row, std::
       if (drawn)
         std::copy_n(&saved[at], count, picture + at);
       else
-        fill_pixels({picture + at, count}, plain, pixel_words);
+        fill_pixels({picture + at, count}, plain, format);
     });
   });
   return words * sizeof(std::uint32_t);

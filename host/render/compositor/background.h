@@ -20,6 +20,7 @@ struct Background {
 
   const std::uint32_t width;
   const std::uint32_t height;
+  const wire::PixelFormat format;
   const std::size_t pixel_words;
   std::uint64_t plain = 0;  // the pixel where nothing is drawn
   BlockFlags constant;      // blocks that have CFB

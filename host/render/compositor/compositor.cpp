@@ -93,7 +93,7 @@ void Compositor::extend_background(std::uint32_t row, std::span<const wire::Run>
       if (known) return;
       for_lines({width_, height_, pixel_words_}, background_->constant.block(), row, from, to,
                 [&](std::size_t at, std::size_t count) {
-                  fill_pixels({&background_->saved[at], count}, background_->plain, pixel_words_);
+                  fill_pixels({&background_->saved[at], count}, background_->plain, format_);
                   counts_.restored += count * sizeof(std::uint32_t);
                 });
     });
@@ -185,7 +185,7 @@ void Compositor::read_line(const Frame& frame, std::uint32_t line, std::span<std
                                       if (drawn)
                                         std::copy_n(&background_->saved[at + left], count, &words[left]);
                                       else
-                                        fill_pixels(words.subspan(left, count), background_->plain, pixel_words_);
+                                        fill_pixels(words.subspan(left, count), background_->plain, format_);
                                     });
   });
 }

@@ -16,7 +16,7 @@ std::vector<std::uint32_t> plain_picture(std::size_t pixels, std::uint64_t plain
   words.reserve(count);
   messages::prefer_large_pages(std::as_writable_bytes(std::span(words.data(), count)));
   words.assign(count, static_cast<std::uint32_t>(plain));
-  if (wire::pixel_words(format) == 2) fill_pixels(words, plain, 2);
+  if (wire::pixel_words(format) > 1) fill_pixels(words, plain, format);
   return words;
 }
 

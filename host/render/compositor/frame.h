@@ -1,6 +1,6 @@
 // A picture the size of the film on its way from the compositor to the sinks. Its pixels stay where they
 // are from one use to the next, so that the compositor needs to mend only the blocks it had overwritten.
-// Pixels are rows from the top, each of one or two words: as strips have them (node/wire/pixel_format.h).
+// Pixels are rows from the top, each of some words: as strips have them (node/wire/pixel_format.h).
 #pragma once
 
 #include <cstdint>

@@ -27,9 +27,8 @@ void copy_run(const std::uint32_t* from, std::size_t count, std::uint32_t* to) {
 }
 
 // Copies the runs' pixels, each of `pixel_words` words, which begin at `source`; returns where they end.
-template <std::size_t pixel_words>
-const std::uint32_t* copy_runs(std::span<const wire::Run> runs, const std::uint32_t* source, std::size_t width,
-                               std::uint32_t* picture) {
+[[gnu::always_inline]] inline const std::uint32_t* copy_pixels(std::size_t pixel_words, std::span<const wire::Run> runs, const std::uint32_t* source,
+                                 std::size_t width, std::uint32_t* picture) {
   for (const wire::Run& run : runs) {
     const std::size_t count = run.count * pixel_words;
     copy_run(source, count, picture + (run.line * width + run.first) * pixel_words);
@@ -42,7 +41,12 @@ const std::uint32_t* copy_runs(std::span<const wire::Run> runs, const std::uint3
 
 const std::uint32_t* copy_runs(std::span<const wire::Run> runs, const std::uint32_t* source, const Extent& extent,
                                std::uint32_t* picture) {
-  return (extent.pixel_words == 1 ? copy_runs<1> : copy_runs<2>)(runs, source, extent.width, picture);
+  // Of the usual sizes the compiler knows the factor.
+  switch (extent.pixel_words) {
+    case 1: return copy_pixels(1, runs, source, extent.width, picture);
+    case 2: return copy_pixels(2, runs, source, extent.width, picture);
+    default: return copy_pixels(extent.pixel_words, runs, source, extent.width, picture);
+  }
 }
 
 }  // namespace mars::compositor

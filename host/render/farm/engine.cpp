@@ -41,7 +41,7 @@ void WorkGiver::rest() { flick(); }
 
 Engine::Engine(const EngineOptions& options)
     : options_(options),
-      slots_(static_cast<int>(numnodes()), options.credits),
+      slots_(static_cast<int>(numnodes()), options.credits, options.format),
       inbox_(options.width, options.height, options.format, slots_, options.cancellation, options.watched),
       assignments_(static_cast<std::size_t>(numnodes())) {
   if (options_.heartbeats != nullptr)

@@ -102,6 +102,7 @@ class Engine {
   std::uint64_t node_memory() const;
   // Of a machine, at most.
   int nodes_together() const;
+  bool has_layers() const { return wire::layers_of(options_.format) != 0; }
   void set_doing(const std::string& doing);
 
   double seconds() const;                                // since run() was called

@@ -13,7 +13,7 @@ constexpr std::uint32_t kLeastFrames = 2;  // one is composed while the other is
 }  // namespace
 
 std::uint64_t HostMemory::strip_bytes() const {
-  return std::uint64_t{nodes} * static_cast<std::uint64_t>(credits) * wire::kMaxStripBytes;
+  return std::uint64_t{nodes} * static_cast<std::uint64_t>(credits) * wire::max_strip_bytes(format);
 }
 
 std::uint64_t HostMemory::most_bytes() const {
@@ -24,6 +24,7 @@ HostMemory share_host_memory(std::uint64_t budget, const wire::FilmSettings& fil
                              std::uint32_t nodes, std::uint32_t groups, std::uint32_t sink_threads) {
   HostMemory memory;
   memory.budget = budget;
+  memory.format = format;
   memory.frame_bytes = std::uint64_t{film.width} * film.height * wire::pixel_bytes(format);
   memory.frames = kLeastFrames;
   memory.backgrounds = groups + memory.frames;

@@ -11,6 +11,7 @@
 namespace mars::farm {
 
 struct HostMemory {
+  wire::PixelFormat format = wire::PixelFormat::rgb8;
   std::uint64_t budget = 0;       // bytes, as it was given
   std::uint64_t frame_bytes = 0;  // of one picture
   std::uint32_t frames = 0;       // buffers of the sinks, at least 2

@@ -205,7 +205,7 @@ StripMessage NodeInbox::checked(std::optional<StripMessage> strip, int node) con
 // In which slot it was made shows when it has come; until then it takes the host's memory.
 void NodeInbox::begin_message(int node, StripStore& store) {
   const auto size = static_cast<std::size_t>(infocount());
-  require(size >= sizeof(wire::Strip) && size <= wire::kMaxStripBytes, node, "a strip of an impossible size");
+  require(size >= sizeof(wire::Strip) && size <= wire::max_strip_bytes(format_), node, "a strip of an impossible size");
   require(receipts_.count(node) < slots_.owned(node), node, "a strip in a slot that it does not have");
   receipts_.begin(node, store.take(size));
 }

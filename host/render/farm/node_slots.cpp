@@ -4,12 +4,14 @@
 
 namespace mars::farm {
 
-NodeSlots::NodeSlots(int nodes, std::int32_t credits)
-    : credits_(static_cast<std::uint32_t>(credits)), nodes_(static_cast<std::size_t>(nodes)) {}
+NodeSlots::NodeSlots(int nodes, std::int32_t credits, wire::PixelFormat format)
+    : credits_(static_cast<std::uint32_t>(credits)),
+      slot_bytes_(wire::slot_bytes(format)),
+      nodes_(static_cast<std::size_t>(nodes)) {}
 
 void NodeSlots::attach(int node, const messages::MemoryName& name) {
   nodes_.at(static_cast<std::size_t>(node)).memory =
-      messages::AttachedMemory::attach(node, name, credits_ * wire::kSlotBytes);
+      messages::AttachedMemory::attach(node, name, credits_ * slot_bytes_);
 }
 
 void NodeSlots::give_all() {
@@ -33,7 +35,7 @@ bool NodeSlots::take(const NodeSlot& slot) {
 }
 
 std::span<const std::byte> NodeSlots::bytes(const NodeSlot& slot) const {
-  return of(slot.node).memory->bytes().subspan(slot.slot * wire::kSlotBytes, wire::kSlotBytes);
+  return of(slot.node).memory->bytes().subspan(slot.slot * slot_bytes_, slot_bytes_);
 }
 
 }  // namespace mars::farm

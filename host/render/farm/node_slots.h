@@ -23,8 +23,8 @@ struct NodeSlot {
 
 class NodeSlots {
  public:
-  // `credits` slots of each node. All are the host's.
-  NodeSlots(int nodes, std::int32_t credits);
+  // `credits` slots of each node, for strips of this format. All are the host's.
+  NodeSlots(int nodes, std::int32_t credits, wire::PixelFormat format = wire::PixelFormat::rgb8);
 
   // The node's slots have this name. Where the host cannot see them, its strips come by message.
   void attach(int node, const messages::MemoryName& name);
@@ -52,6 +52,7 @@ class NodeSlots {
   const Node& of(int node) const { return nodes_.at(static_cast<std::size_t>(node)); }
 
   std::uint32_t credits_;
+  std::size_t slot_bytes_;
   std::vector<Node> nodes_;
 };
 

@@ -20,7 +20,7 @@ EngineOptions engine_options(const FarmOptions& farm, const sinks::SinkPool::Sha
 
 NodeMemory node_memory(const FilmRun& run) {
   const std::uint64_t bytes = run.options.memory == 0 ? run.engine.node_memory() : run.options.memory;
-  const shadow::ShadowNeeds shadows = shadow::shadow_needs(run.film);
+  const shadow::ShadowNeeds shadows = shadow::shadow_needs(run.film, run.engine.has_layers());
   if (!run.options.asked_memory.shadows) check_shadow_memory(bytes, shadows);
   return share_node_memory(bytes, run.options.asked_memory, run.film.settings(), shadows, run.engine.nodes_together());
 }

@@ -83,6 +83,10 @@ std::string difference(const sinks::FrameForm& there, const sinks::FrameForm& wi
     const bool changed = images::text_of(there.view) == images::text_of(wish.view);
     return "are shown by " + shown(there.view) + (changed ? " as it was before" : ", not by " + shown(wish.view));
   }
+  const auto layers = [](wire::LayerSet kinds) {
+    return kinds == 0 ? "no layers" : "the layers " + images::text_of(kinds);
+  };
+  if (there.layers != wish.layers) return "have " + layers(there.layers) + ", not " + layers(wish.layers);
   const auto name = [](const sinks::FrameForm& form) {
     return document::in_quotes(images::frame_name(form.names, 0, 1));
   };

@@ -60,7 +60,7 @@ std::unique_ptr<sinks::Sink> make_sink(const RenderJob& job, sinks::FrameFolder*
   if (folder == nullptr) return std::make_unique<sinks::NullSink>();
   const auto content = std::make_shared<film::FrameContent>(film);
   return std::make_unique<sinks::FileSink>(
-      *folder, [content](std::uint32_t frame) { return content->checksum(frame); }, encoding_of(job, film));
+      *folder, [content](std::uint32_t frame) { return content->checksum(frame); }, encoding_of(job, film), &film);
 }
 
 // What writes frames, and ends in this order: the threads, then the folder, then what it shows.
@@ -96,9 +96,9 @@ farm::HostMemory memory_for(const HostMachine& host, const wire::FilmSettings& f
 }
 
 // What nodes draw: what files hold, or the light that a view shows in them.
-wire::PixelFormat drawn_pixels(const RenderJob& job) {
+wire::PixelFormat drawn_pixels(const RenderJob& job, const wire::FilmSettings& film) {
   using wire::PixelFormat;
-  const PixelFormat pixels = images::facts_of(job.form.format).pixels;
+  const PixelFormat pixels = images::pixels_of(job.form.format, job.form.layers, film.samples);
   if (!job.view) return pixels;
   return wire::has_alpha(pixels) ? PixelFormat::half_alpha : PixelFormat::half;
 }
@@ -113,7 +113,7 @@ void refuse_colors_without_light(const RenderJob& job, const wire::FilmSettings&
 sinks::SinkPool::Shape pool_shape(const HostMachine& host, const wire::PackedFilm& film, const RenderJob& job,
                                   std::uint32_t frames) {
   const std::uint32_t threads = std::min(sink_threads(host), frames);
-  const wire::PixelFormat format = drawn_pixels(job);
+  const wire::PixelFormat format = drawn_pixels(job, film.settings());
   const std::uint64_t background = farm::background_pixel(film, film.intervals().front(), format);
   return {film.settings().width, film.settings().height, job.block, frames, threads, background, format};
 }
@@ -325,7 +325,7 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace, 
   refuse_colors_without_light(job, settings);
   const auto [plan, prediction] = plan_of(view, opened.frames, job, reporter, heartbeats);
   const HostMachine host = host_machine(job.host);
-  const farm::HostMemory memory = memory_for(host, settings, drawn_pixels(job), plan);
+  const farm::HostMemory memory = memory_for(host, settings, drawn_pixels(job, settings), plan);
 
   output.folder = std::move(opened.folder);
   if (output.folder) output.folder->show_status([&board = output.board] { return sinks::text_of(board.status()); });

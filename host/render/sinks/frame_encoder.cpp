@@ -8,8 +8,8 @@ namespace mars::sinks {
 HashedBand encode_band(const images::PictureBands& bands, compositor::Frame& frame, std::size_t band) {
   const images::Lines lines = bands.lines_of(band);
   frame.restore({lines.first, lines.end});
-  const std::span<const std::uint32_t> pixels = bands.part_of(frame.pixels, band);
-  return {images::encode_band(bands, band, pixels), hash_of_band(pixels)};
+  const images::FilePixels pixels(bands, bands.part_of(frame.pixels, band));
+  return {images::encode_band(bands, band, pixels.words()), hash_of_band(pixels.words())};
 }
 
 HashedBand encode_light(const LightShown& shown, const images::PictureBands& bands, compositor::Frame& frame,

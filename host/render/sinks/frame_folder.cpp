@@ -405,14 +405,20 @@ Manifest read_manifest(const fs::path& folder) {
 
 namespace {
 
+images::PictureBands bands_for(const FrameFolder& folder, const wire::PackedFilm* film) {
+  images::PictureBands bands = folder.bands();
+  if (film != nullptr) bands.set_film(*film);
+  return bands;
+}
+
 double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 }  // namespace
 
-FileSink::FileSink(FrameFolder& folder, ContentOf content, FrameEncoder::Encode encode)
-    : folder_(folder), content_(std::move(content)), encoder_(folder.bands(), std::move(encode)) {}
+FileSink::FileSink(FrameFolder& folder, ContentOf content, FrameEncoder::Encode encode, const wire::PackedFilm* film)
+    : folder_(folder), content_(std::move(content)), encoder_(bands_for(folder, film), std::move(encode)) {}
 
 void FileSink::take(compositor::Frame& frame) {
   const double begun = seconds_now();

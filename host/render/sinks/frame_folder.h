@@ -173,7 +173,9 @@ class FileSink : public Sink {
   using ContentOf = std::function<std::string(std::uint32_t frame)>;
 
   // `folder` must outlive the sink. `content`: none where it is not known.
-  explicit FileSink(FrameFolder& folder, ContentOf content = {}, FrameEncoder::Encode encode = encode_band);
+  // `film`: of frames with layers.
+  explicit FileSink(FrameFolder& folder, ContentOf content = {}, FrameEncoder::Encode encode = encode_band,
+                    const wire::PackedFilm* film = nullptr);
   void take(compositor::Frame& frame) override;
   bool restores() const override { return true; }
   images::FileWork made() const override;

@@ -24,7 +24,7 @@ constexpr std::size_t kLongestFilm = 3 * 4096;  // bytes: of a path, of which ea
 constexpr auto kKeys = std::to_array<std::string_view>(
     {"version", "sum",          "film",        "checksum",      "width",        "height",  "format",
      "rate",    "film_frames",  "frames",      "pixel_version", "pixel_hashes", "sources", "options",
-     "names",   "first_number", "compression", "window",        "pixel_aspect", "ocio"});
+     "names",   "first_number", "compression", "window",        "pixel_aspect", "ocio",    "layers"});
 
 // Unbroken stretches as [first, last] pairs, so that a long film's manifest stays short.
 json stretches_of(const std::vector<std::uint32_t>& frames) {
@@ -163,7 +163,7 @@ std::string sum_of(json text) {
 }
 
 FrameForm form_of(const Manifest& manifest) {
-  return {manifest.format, manifest.compression, manifest.names, manifest.view};
+  return {manifest.format, manifest.compression, manifest.names, manifest.view, manifest.layers};
 }
 
 void set_form(Manifest& manifest, const FrameForm& form) {
@@ -171,10 +171,12 @@ void set_form(Manifest& manifest, const FrameForm& form) {
   manifest.compression = form.compression;
   manifest.names = form.names;
   manifest.view = form.view;
+  manifest.layers = form.layers;
 }
 
 images::PictureBands bands_of(const Manifest& manifest) {
-  return {manifest.format, manifest.width, manifest.height, manifest.compression, manifest.place};
+  return {manifest.format, manifest.width,  manifest.height, manifest.compression,
+          manifest.place,  manifest.layers};
 }
 
 std::vector<std::string> words_of(const FrameForm& form) {
@@ -184,6 +186,7 @@ std::vector<std::string> words_of(const FrameForm& form) {
   if (format != images::PictureFormat::png) add("--format", images::facts_of(format).name);
   if (images::has_alpha(form.format)) words.push_back("--alpha");
   if (form.compression != images::Compression::zip) add("--compression", images::name_of(form.compression));
+  if (form.layers != 0) add("--layers", images::text_of(form.layers));
   if (!form.names.pattern.empty()) add("--name", form.names.pattern);
   if (form.names.first_number != 0) add("--first-number", std::to_string(form.names.first_number));
   const auto add_text = [&](const char* option, const std::string& value) {
@@ -199,6 +202,7 @@ std::vector<std::string> words_of(const FrameForm& form) {
 void add_form(const FrameForm& form, json& text) {
   text["format"] = images::facts_of(form.format).name;
   if (form.compression != images::Compression::zip) text["compression"] = images::name_of(form.compression);
+  if (form.layers != 0) text["layers"] = images::text_of(form.layers);
   if (!form.names.pattern.empty()) text["names"] = form.names.pattern;
   if (form.names.first_number != 0) text["first_number"] = form.names.first_number;
   const images::ViewName& view = form.view;
@@ -217,6 +221,13 @@ images::ViewName view_of(const json& list) {
 
 }  // namespace
 
+wire::LayerSet layers_in(const Record& record) try {
+  constexpr std::size_t kLongest = 200;
+  return images::layers_in(record.text("layers", kLongest));
+} catch (const Failure&) {
+  refuse_value("layers", record.value("layers"), "layers of EXR files");
+}
+
 FrameForm form_of(const Record& record) {
   constexpr std::size_t kLongestName = 16, kLongestPattern = 1000;
   FrameForm form;
@@ -230,6 +241,7 @@ FrameForm form_of(const Record& record) {
     if (!compression) refuse_value("compression", record.value("compression"), "a compression of EXR files");
     form.compression = *compression;
   }
+  if (record.has("layers")) form.layers = layers_in(record);
   if (record.has("names")) {
     form.names.pattern = record.text("names", kLongestPattern);
     if (images::frame_pattern(form.names.pattern) != form.names.pattern)

@@ -30,7 +30,7 @@ std::string trouble_with(const fs::path& file, const Manifest& manifest, const s
   std::error_code none;
   if (fs::status(file, none).type() == fs::file_type::not_found) return "missing";
   try {
-    const images::Image image = images::read_picture(manifest.format, file);
+    const images::Image image = images::read_picture(manifest.format, file, manifest.layers);
     if (image.width != manifest.width || image.height != manifest.height) {
       return size_text(image.width, image.height) + " pixels instead of " + size_text(manifest.width, manifest.height);
     }

@@ -95,7 +95,7 @@ double machine_bytes(const Planned& planned, const film::CompiledFilm& film) {
   const int nodes = std::min(asked.nodes, planned.platform.machine.nodes);
   const double groups = std::ceil(static_cast<double>(asked.groups) * nodes / asked.nodes);
   const double line = kOfSample * settings.width * settings.samples;
-  const double slots = planned.slots + static_cast<double>(wire::kSlotBytes);  // and that of the next strip
+  const double slots = planned.slots + static_cast<double>(wire::slot_bytes(asked.run.host_memory.format));  // and that of the next strip
   const double node = asked.run.node_memory * (nodes > 1 ? 2 : 1) + asked.run.shadow_memory + slots + line + kProgram;
   return nodes * node + groups * asked.run.still_memory + static_cast<double>(film.block().size()) +
          static_cast<double>(asked.run.host_memory.most_bytes()) + kProgram;
@@ -139,7 +139,7 @@ Planned plan(PlanWords words, const NodesCode& code) {
   const auto frames = options.frames.of_film(view.settings().frames);
   const std::vector<farm::Task> tasks = farm::make_tasks(view, frames, !options.no_coherence);
   const forecast::FilmCounts counts = counts_of(film, tasks, words, code);
-  forecast::Setting setting{view, platform, options.mapping, options.format};
+  forecast::Setting setting{view, platform, options.mapping, options.format, options.layers.kinds};
   setting.exchange = options.exchange;
   // As simulations count files that go nowhere.
   setting.files = options.sink == options::SinkKind::files || options.write != options::WriteWhere::automatic;
@@ -170,7 +170,8 @@ Planned plan(PlanWords words, const NodesCode& code) {
   }
   // An interval says it, too.
   if (!platform.doubt.empty() && !planned.asked().spread) warn(experiments::doubt_text(platform));
-  planned.slots = planned.asked().run.host_memory.credits * static_cast<double>(wire::kSlotBytes);
+  const farm::HostMemory& host = planned.asked().run.host_memory;
+  planned.slots = host.credits * static_cast<double>(wire::slot_bytes(host.format));
   planned.machine = machine_bytes(planned, film);
   return planned;
 }

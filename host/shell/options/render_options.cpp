@@ -78,6 +78,8 @@ void read(const std::string& text, std::optional<std::uint32_t>& value) {
     throw Failure("'" + text + "' is not 1, 2, 4, 8 or 16", "", "");
 }
 
+void read(const std::string& text, ChosenLayers& value) { value.kinds = images::layers_in(text); }
+
 struct Count {
   std::uint32_t RenderOptions::*member;
   bool may_be_auto;  // the word "auto" is 0
@@ -106,6 +108,8 @@ requires std::is_enum_v<Enumeration> std::string text_of(Enumeration value) {
 }
 
 std::string text_of(const std::string& name) { return word_of_file(name); }
+
+std::string text_of(const ChosenLayers& layers) { return images::text_of(layers.kinds); }
 
 std::string text_of(const film::FrameSet& frames) { return frames.text(); }
 
@@ -330,6 +334,9 @@ std::vector<Entry> table() {
              "Example: --format exr"),
       flag(plans, "--alpha", &RenderOptions::alpha,
            "Leave the background out: files have alpha, straight in PNG, premultiplied in EXR. Example: --alpha"),
+      option(plans, "--layers", "LAYERS", &RenderOptions::layers,
+             "What EXR files show beside colours: depth, normal, unshadowed, motion, ids (Cryptomatte); or all. "
+             "Example: --layers depth,ids"),
       option(submits, "--compression", "zip|zips|piz|pxr24|rle|none", &RenderOptions::compression,
              "How EXR files are compressed, all without loss; default: zip. Example: --compression piz"),
       word_of_view(submits, "--ocio", "CONFIG", &images::ViewWish::config,
@@ -380,8 +387,8 @@ const std::vector<Heading>& headings() {
   static const std::vector<Heading> kHeadings{
       {"Pictures and files",
        {"--name", "--first-number", "--frames", "--every", "--size", "--samples", "--format", "--alpha",
-        "--compression", "--eye", "--faces", "--crop", "--margin", "--ocio", "--display", "--view", "--ocio-input", "--codec",
-        "--quality", "--sink"}},
+        "--layers", "--compression", "--eye", "--faces", "--crop", "--margin", "--ocio", "--display", "--view",
+        "--ocio-input", "--codec", "--quality", "--sink"}},
       {"Machines", {"--nodes", "--force", "--backend", "--platform", "--hostfile", "--restarts", "--write"}},
       {"Division of work (the same pictures)",
        {"--mapping", "--exchange", "--intervals", "--no-coherence", "--block", "--groups", "--sharers", "--cut"}},
@@ -500,11 +507,23 @@ void check_view(const RenderOptions& options) {
     throw Failure("simulated nodes draw nothing that a view could show", "", "leave out --ocio");
 }
 
+// PXR24 rounds floats to 24 bits.
+void check_layers(const RenderOptions& options) {
+  constexpr wire::LayerSet kFloats =
+      wire::set_of(wire::Layer::depth) | wire::set_of(wire::Layer::motion) | wire::set_of(wire::Layer::surfaces);
+  if (options.layers.kinds == 0) return;
+  if (options.format != images::PictureFormat::exr)
+    throw Failure("PNG files have no layers", "", "leave out --layers, or add --format exr");
+  if (options.compression == images::Compression::pxr24 && (options.layers.kinds & kFloats) != 0)
+    throw Failure("the compression pxr24 changes depth, motion and ids", "", "choose another, as --compression zip");
+}
+
 // Checks that concern several options.
 void check_together(const RenderOptions& options, Program program) {
   if (options.compression != images::Compression::zip && options.format != images::PictureFormat::exr)
     throw Failure("PNG files have one compression", "", "leave out --compression, or add --format exr");
   check_view(options);
+  check_layers(options);
   if (options.serve.empty() == options.film.empty() && program != Program::repair && program != Program::studio) {
     if (options.film.empty()) throw Failure("FILM is required", "", "");
     throw Failure("a studio brings its own film", "", "leave out " + options.film + ", or --serve");
@@ -591,13 +610,18 @@ std::shared_ptr<const images::DisplayView> view_of(const RenderOptions& options)
 images::FrameForm form_of(const RenderOptions& options) {
   const images::PictureFormat format = options.alpha ? images::with_alpha(options.format) : options.format;
   const auto view = view_of(options);
-  return {format, options.compression, {options.name, options.first_number}, view ? view->name() : images::ViewName()};
+  return {format,
+          options.compression,
+          {options.name, options.first_number},
+          view ? view->name() : images::ViewName(),
+          options.layers.kinds};
 }
 
 void set_form(const images::FrameForm& form, RenderOptions& options) {
   options.format = images::without_alpha(form.format);
   options.alpha = images::has_alpha(form.format);
   options.compression = form.compression;
+  options.layers.kinds = form.layers;
   options.name = form.names.pattern;
   options.first_number = form.names.first_number;
   options.view = {form.view.config, form.view.display, form.view.view, form.view.input};

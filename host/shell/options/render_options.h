@@ -30,6 +30,12 @@ enum class Intervals { automatic, keyframes };
 enum class SinkKind { files, none };
 enum class WriteWhere { automatic, host, nodes };
 
+struct ChosenLayers {
+  wire::LayerSet kinds = 0;
+
+  bool operator==(const ChosenLayers&) const = default;
+};
+
 struct RenderOptions {
   std::string film;    // FILM.json or FILM.mars; "": a studio's, which is served
   std::string folder;  // for the frames; "" only without a sink; of videos alone one of their own
@@ -67,6 +73,7 @@ struct RenderOptions {
   images::Compression compression = images::Compression::zip;
   bool alpha = false;          // in them, in place of the background
   images::ViewWish view;       // that shows light in PNG files; none: the film's curve does
+  ChosenLayers layers{};       // of EXR files
   std::string report;          // file for the measurements; "": none
   std::string trace;           // file for a picture of the run; "": none
   std::string watch;           // socket of who watches; "": nobody does

@@ -1,0 +1,129 @@
+#include "node/geometry/surface_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mars::geometry {
+namespace {
+
+// From b's result to a's.
+wire::Matrix product(const wire::Matrix& a, const wire::Matrix& b) {
+  wire::Matrix out;
+  for (std::size_t r = 0; r < 3; ++r)
+    for (std::size_t c = 0; c < 4; ++c)
+      out.m[r][c] = a.m[r][0] * b.m[0][c] + a.m[r][1] * b.m[1][c] + a.m[r][2] * b.m[2][c] + (c == 3 ? a.m[r][3] : 0);
+  return out;
+}
+
+// False where the map has no inverse.
+bool invert(const wire::Matrix& of, wire::Matrix& inverse) {
+  const auto& m = of.m;
+  const auto cofactor = [&](std::size_t r, std::size_t c) {
+    const std::size_t r1 = (r + 1) % 3, r2 = (r + 2) % 3, c1 = (c + 1) % 3, c2 = (c + 2) % 3;
+    return m[r1][c1] * m[r2][c2] - m[r1][c2] * m[r2][c1];
+  };
+  const double determinant = m[0][0] * cofactor(0, 0) + m[0][1] * cofactor(0, 1) + m[0][2] * cofactor(0, 2);
+  if (!std::isnormal(determinant)) return false;
+  for (std::size_t r = 0; r < 3; ++r) {
+    for (std::size_t c = 0; c < 3; ++c) inverse.m[r][c] = cofactor(c, r) / determinant;
+    inverse.m[r][3] = -(inverse.m[r][0] * m[0][3] + inverse.m[r][1] * m[1][3] + inverse.m[r][2] * m[2][3]);
+  }
+  return true;
+}
+
+void normalize(float* vector) {
+  const float length = std::sqrt((vector[0] * vector[0] + vector[1] * vector[1]) + vector[2] * vector[2]);
+  for (int axis = 0; axis < 3; ++axis) vector[axis] = length > 0 ? vector[axis] / length : 0;
+}
+
+}  // namespace
+
+SurfaceView::SurfaceView(const Scene& scene, std::uint32_t frame, bool motion)
+    : scene_(scene), before_(scene.projection()) {
+  const auto& to_eye = scene.camera().world_to_eye.m;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t row = 0; row < 3; ++row) to_world_[axis][row] = static_cast<float>(to_eye[row][axis]);
+  if (motion && frame > 0) find_ways(frame);
+}
+
+void SurfaceView::find_ways(std::uint32_t frame) {
+  const wire::PackedFilm& film = scene_.film();
+  const wire::Camera& now = film.camera_at(frame);
+  const wire::Camera& then = film.camera_at(frame - 1);
+  before_ = projection_of(then, film.settings());
+  wire::Matrix to_world;
+  if (!invert(now.world_to_eye, to_world)) return;
+  ways_.resize(film.segments().size());
+  for (std::size_t number = 0; number < ways_.size(); ++number) {
+    const wire::Segment& segment = film.segments()[number];
+    const bool stays = film.value_at(segment.motion, frame) == film.value_at(segment.motion, frame - 1);
+    wire::Matrix from_world;
+    if ((stays && now == then) || !invert(film.matrix_at(segment, frame), from_world)) continue;
+    const wire::Matrix way = product(then.world_to_eye, product(film.matrix_at(segment, frame - 1),
+                                                                product(from_world, to_world)));
+    ways_[number].moves = true;
+    for (std::size_t r = 0; r < 3; ++r)
+      for (std::size_t c = 0; c < 4; ++c) ways_[number].m[r][c] = static_cast<float>(way.m[r][c]);
+    still_has_moved_ |= !scene_.moves(number);
+  }
+}
+
+wire::SurfacePoint SurfaceView::at(const Triangle& triangle, std::int32_t x, std::int32_t y) const {
+  const Place place = place_of(triangle, x, y);
+  wire::SurfacePoint point{-place.eye[2], {}, {}, scene_.segment_of(triangle.patch)};
+  put_normal(triangle, place, point.normal);
+  put_motion(place, point.segment, point.motion);
+  return point;
+}
+
+// As kernels shade it (shading/kernels/fragments.h).
+SurfaceView::Place SurfaceView::place_of(const Triangle& t, std::int32_t x, std::int32_t y) const {
+  const shape::Projection& p = scene_.projection();
+  constexpr float kPixel = 1.0f / shape::kSubpixels;
+  Place place{{}, {}, {}};
+  place.pixel[0] = static_cast<float>(x + p.origin[0] * shape::kSubpixels) * kPixel;
+  place.pixel[1] = static_cast<float>(y + p.origin[1] * shape::kSubpixels) * kPixel;
+  const auto dx = static_cast<float>(x - t.first_x), dy = static_cast<float>(y - t.first_y);
+  for (int k = 0; k < shape::kValues; ++k) place.values[k] = (t.at_first[k] + dy * t.per_y[k]) + dx * t.per_x[k];
+  const float w = p.parallel ? -place.values[shape::kDepth] : 1 / place.values[shape::kDepth];
+  const float at_plane = p.parallel ? 1 : w;
+  place.eye[0] = (place.pixel[0] - p.center[0]) / (p.scale * p.squeeze) * at_plane;
+  place.eye[1] = (p.center[1] - place.pixel[1]) / p.scale * at_plane;
+  place.eye[2] = -w;
+  return place;
+}
+
+// Where triangles carry colours, of the triangle's plane (shading/kernels/unsummed.cpp), else of the surface.
+void SurfaceView::put_normal(const Triangle& t, const Place& place, float* normal) const {
+  const shape::Projection& p = scene_.projection();
+  float in_eye[3] = {place.values[shape::kNormalX], place.values[shape::kNormalY], place.values[shape::kNormalZ]};
+  if (scene_.film().materials()[t.material].interpolation != wire::Interpolation::phong) {
+    const float across = p.scale * p.squeeze * shape::kSubpixels, up = p.scale * shape::kSubpixels;
+    const float per_x = t.per_x[shape::kDepth], per_y = t.per_y[shape::kDepth];
+    const float dy = p.center[1] * shape::kSubpixels - static_cast<float>(t.first_y + p.origin[1] * shape::kSubpixels);
+    const float dx = p.center[0] * shape::kSubpixels - static_cast<float>(t.first_x + p.origin[0] * shape::kSubpixels);
+    in_eye[0] = -(per_x * across);
+    in_eye[1] = per_y * up;
+    in_eye[2] = p.parallel ? 1.0f : (t.at_first[shape::kDepth] + dy * per_y) + dx * per_x;
+  }
+  normalize(in_eye);
+  for (int axis = 0; axis < 3; ++axis)
+    normal[axis] = (to_world_[axis][0] * in_eye[0] + to_world_[axis][1] * in_eye[1]) + to_world_[axis][2] * in_eye[2];
+}
+
+// 0 where the point was not before the eye.
+void SurfaceView::put_motion(const Place& place, std::uint32_t segment, float* motion) const {
+  if (ways_.empty() || !ways_[segment].moves) return;
+  const auto& m = ways_[segment].m;
+  float eye[3];
+  for (int axis = 0; axis < 3; ++axis)
+    eye[axis] =
+        ((m[axis][0] * place.eye[0] + m[axis][1] * place.eye[1]) + m[axis][2] * place.eye[2]) + m[axis][3];
+  const float w = -eye[2];
+  if (!before_.parallel && !(w > 0)) return;
+  const float scale = before_.parallel ? before_.scale : before_.scale / w;
+  motion[0] = (before_.center[0] + scale * before_.squeeze * eye[0]) - place.pixel[0];
+  motion[1] = place.pixel[1] - (before_.center[1] - scale * eye[1]);
+}
+
+}  // namespace mars::geometry

@@ -1,0 +1,49 @@
+// What the layers of pictures (node/wire/pixel_format.h) show of surfaces: depth, normal, motion, segment. Plain
+// arithmetic, for whatever instruction set.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "node/geometry/scene.h"
+#include "node/geometry/triangle.h"
+#include "node/wire/still_plan.h"
+
+namespace mars::geometry {
+
+class SurfaceView {
+ public:
+  // Of the frame that the scene is at, which outlives it. `motion`: whether points have theirs.
+  SurfaceView(const Scene& scene, std::uint32_t frame, bool motion);
+
+  // What a sample of the triangle shows; x, y in 1/256 pixel.
+  wire::SurfacePoint at(const Triangle& triangle, std::int32_t x, std::int32_t y) const;
+  // Whether segments that stand still in the interval were elsewhere in the frame before, or were seen so.
+  bool still_has_moved() const { return still_has_moved_; }
+
+ private:
+  // From eye space to that of the frame before.
+  struct Way {
+    bool moves = false;
+    float m[3][4]{};
+  };
+
+  struct Place {
+    float eye[3];
+    float pixel[2];  // of the whole picture
+    float values[shape::kValues];
+  };
+
+  void find_ways(std::uint32_t frame);
+  Place place_of(const Triangle& triangle, std::int32_t x, std::int32_t y) const;
+  void put_normal(const Triangle& triangle, const Place& place, float* normal) const;
+  void put_motion(const Place& place, std::uint32_t segment, float* motion) const;
+
+  const Scene& scene_;
+  float to_world_[3][3];
+  shape::Projection before_;
+  std::vector<Way> ways_;  // by segment; none: nothing has moved
+  bool still_has_moved_ = false;
+};
+
+}  // namespace mars::geometry
