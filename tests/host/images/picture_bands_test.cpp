@@ -25,7 +25,7 @@ Image decoded(PictureFormat format, std::span<const std::byte> file) {
     case PictureFormat::exr: return decode_exr(file, "x");
     case PictureFormat::png_alpha: return decode_png_with_alpha(file, "x");
     case PictureFormat::png16_alpha: return decode_png16_with_alpha(file, "x");
-    case PictureFormat::exr_alpha: return decode_exr(file, "x", true);
+    case PictureFormat::exr_alpha: return decode_exr(file, "x", wire::PixelFormat::half_alpha);
     default: return decode_png(file, "x");
   }
 }
