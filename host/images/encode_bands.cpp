@@ -6,6 +6,10 @@
 
 namespace mars::images {
 
+std::size_t file_words_of(const PictureBands& bands, const Lines& lines) {
+  return std::size_t{lines.count()} * bands.width() * file_words(bands.pixels());
+}
+
 FilePixels::FilePixels(const PictureBands& bands, std::span<const std::uint32_t> drawn) : drawn_(drawn) {
   if (wire::has_layer(bands.pixels(), wire::Layer::surfaces))
     made_ = to_file(bands.pixels(), bands.names(), drawn);
@@ -13,8 +17,7 @@ FilePixels::FilePixels(const PictureBands& bands, std::span<const std::uint32_t>
 
 EncodedBand encode_band(const PictureBands& bands, std::size_t band, std::span<const std::uint32_t> pixels) {
   const Lines lines = bands.lines_of(band);
-  check(pixels.size() == bands.lines_of(band).count() * bands.width() * file_words(bands.pixels()),
-        "a band has the pixels of its lines");
+  check(pixels.size() == file_words_of(bands, lines), "a band has the pixels of its lines");
   if (is_exr(bands.format())) return encode_exr_band(bands, lines, pixels);
   return encode_png_band(bands.width(), facts_of(bands.format()).pixels, pixels);
 }

@@ -71,7 +71,7 @@ class MatteRanks {
   void put(std::span<const std::uint32_t> surfaces, std::span<std::uint32_t> ranks) {
     count_ = 0;
     for (const std::uint32_t word : surfaces)
-      if (word != 0) add(names_.id(matte_, wire::segment_of(word)), wire::samples_of(word));
+      if (word != 0) add(id_of(word), wire::samples_of(word));
     std::sort(seen_.begin(), seen_.begin() + static_cast<std::ptrdiff_t>(count_), [](const Seen& a, const Seen& b) {
       return a.samples != b.samples ? a.samples > b.samples : a.id < b.id;
     });
@@ -83,6 +83,11 @@ class MatteRanks {
   }
 
  private:
+  std::uint32_t id_of(std::uint32_t word) const {
+    if (wire::segment_of(word) >= names_.segments())
+      throw Failure("a strip shows a segment that its film does not have", "", "run host and nodes of the same version");
+    return names_.id(matte_, wire::segment_of(word));
+  }
   void add(std::uint32_t id, std::uint32_t samples) {
     const auto end = seen_.begin() + static_cast<std::ptrdiff_t>(count_);
     const auto there = std::find_if(seen_.begin(), end, [&](const Seen& seen) { return seen.id == id; });

@@ -1,5 +1,6 @@
 #include "host/images/picture_file.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "hal/failure/failure.h"
@@ -13,8 +14,11 @@
 namespace mars::images {
 namespace {
 
-// Of the largest picture, not compressed, with 4 channels of 16 bits; the rest is for what else a file holds.
-constexpr std::uintmax_t kLargestFile = std::uintmax_t{8} * wire::kMaxSide * wire::kMaxSide + (1 << 24);
+// Of the largest picture, not compressed, with 4 channels of 16 bits or layers; the rest is for what else a file holds.
+std::uintmax_t largest_file(wire::PixelFormat pixels) {
+  const std::uintmax_t bytes = std::max(std::size_t{2}, file_words(pixels)) * sizeof(std::uint32_t);
+  return bytes * wire::kMaxSide * wire::kMaxSide + (1 << 24);
+}
 constexpr std::size_t kLargestStart = 4096;  // bytes, in which notes end
 
 }  // namespace
@@ -26,8 +30,7 @@ std::vector<std::byte> encode_picture(PictureFormat format, std::uint32_t width,
 
 std::vector<std::byte> encode_picture(const PictureBands& bands, std::span<const std::uint32_t> pixels,
                                       const FileFacts& facts) {
-  check(pixels.size() == std::size_t{bands.width()} * bands.height() * file_words(bands.pixels()),
-        "a picture has width * height pixels");
+  check(pixels.size() == file_words_of(bands, {0, bands.height()}), "a picture has width * height pixels");
   std::vector<EncodedBand> encoded;
   std::vector<BandPart> parts;
   for (std::size_t band = 0; band < bands.count(); ++band) {
@@ -48,7 +51,7 @@ std::optional<std::string> read_note(const std::filesystem::path& path) {
 }
 
 Image read_picture(PictureFormat format, const std::filesystem::path& path, wire::LayerSet layers) {
-  const std::string file = document::read_file(path, kLargestFile);
+  const std::string file = document::read_file(path, largest_file(pixels_of(format, layers)));
   const auto bytes = std::as_bytes(std::span(file));
   switch (format) {
     case PictureFormat::png16: return decode_png16(bytes, path.string());

@@ -19,7 +19,8 @@ std::size_t round_up(std::size_t bytes) { return (bytes + kAlign - 1) / kAlign *
 std::size_t most_record_bytes(const images::PictureBands& bands) {
   constexpr std::size_t kBesides = 4096;
   const images::Lines lines = bands.lines_of(0);
-  const std::size_t pixels = bands.words_of(lines) * sizeof(std::uint32_t);
+  const std::size_t words = std::max(bands.words_of(lines), images::file_words_of(bands, lines));
+  const std::size_t pixels = words * sizeof(std::uint32_t);
   return sizeof(BandHead) + round_up(2 * pixels + lines.count() * std::size_t{16} + kBesides);
 }
 

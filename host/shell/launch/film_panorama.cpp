@@ -62,7 +62,21 @@ std::string faces_folder(const options::RenderOptions& options) {
   return folder.string() + kEnding;
 }
 
+// Pictures are joined of light alone, and whole.
+void refuse_parts(const options::RenderOptions& options) {
+  const auto refuse = [&](const std::string& problem, const std::string& remedy) {
+    throw Failure(problem, options.film, remedy);
+  };
+  if (options.layers.kinds != 0) refuse("a panorama has no layers", "leave out --layers, or render its --faces");
+  if (options.crop || options.margin != 0)
+    refuse("a panorama is joined whole", "leave out --crop and --margin, or render its --faces");
+  if (!options.view.config.empty())
+    refuse("a panorama is not shown by a view of OpenColorIO",
+           "leave out --ocio; or render with --format exr, and then mars play --ocio");
+}
+
 resume::Opened open(const options::RenderOptions& options) {
+  refuse_parts(options);
   return resume::open({options.folder, options.film, options::film_arguments(options), options::form_of(options),
                        options.frames, options.overwrite, options.kept_film},
                       [&] { return job::load_film_of(options, warn); }, {.warn = warn});

@@ -11,8 +11,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // Those of `mars render` that a page may set; the command checks their values.
-constexpr std::array kTexts{"frames",  "every",   "name",   "backend", "size",
-                            "samples", "mapping", "groups", "format",  "intervals"};
+constexpr std::array kTexts{"frames",  "every",  "name",   "backend",   "size",   "samples",
+                            "mapping", "groups", "format", "intervals", "layers", "crop"};
 
 std::string text_in(const Json& options, const char* name, const std::string& otherwise) {
   const auto found = options.find(name);

@@ -7,8 +7,10 @@ import {nodeColor} from "./colors.js";
 
 const kBackends = [[null, "Chosen by MARS"], ["mpi", "MPI"], ["threads", "Threads"]];
 const kBackgrounds = [[null, "As in the film"], ["alpha", "Left out (alpha)"]];
+// What files hold: words of the options format and layers.
+const kFiles = [[null, "PNG"], ["png16", "PNG of 16 bits"], ["exr", "EXR"], ["exr all", "EXR with all layers"]];
 const kWords = {none: "No rendering", starting: "Starting", running: "Rendering", done: "Done", failed: "Failed", stopped: "Stopped"};
-const kFields = [["folder", "Folder", "out"], ["frames", "Frames", "all"], ["every", "Every Nth", "1"], ["video", "Video", "none"], ["nodes", "Nodes", "as fit"], ["hostfile", "Hostfile", "this machine"]];
+const kFields = [["folder", "Folder", "out"], ["frames", "Frames", "all"], ["every", "Every Nth", "1"], ["video", "Video", "none"], ["crop", "Part", "whole picture"], ["nodes", "Nodes", "as fit"], ["hostfile", "Hostfile", "this machine"]];
 
 export class RenderForm {
   #options = {folder: "out"};
@@ -41,7 +43,8 @@ export class RenderForm {
     });
     const backend = choice({name: "Backend", key: "render.backend", options: kBackends, commit: (value) => { this.#options.backend = value ?? undefined; }});
     const background = choice({name: "Background", key: "render.alpha", options: kBackgrounds, commit: (value) => { this.#options.alpha = value ? true : undefined; }});
-    return [...texts, line("Background", background.root), line("Backend", backend.root)];
+    const files = choice({name: "Files", key: "render.files", options: kFiles, commit: (value) => { [this.#options.format, this.#options.layers] = value?.split(" ") ?? []; }});
+    return [...texts, line("Files", files.root), line("Background", background.root), line("Backend", backend.root)];
   }
 
   #start(video) {
