@@ -11,8 +11,7 @@ std::size_t file_words_of(const PictureBands& bands, const Lines& lines) {
 }
 
 FilePixels::FilePixels(const PictureBands& bands, std::span<const std::uint32_t> drawn) : drawn_(drawn) {
-  if (wire::has_layer(bands.pixels(), wire::Layer::surfaces))
-    made_ = to_file(bands.pixels(), bands.names(), drawn);
+  if (wire::has_layer(bands.pixels(), wire::Layer::surfaces)) made_ = to_file(bands.pixels(), bands.names(), drawn);
 }
 
 EncodedBand encode_band(const PictureBands& bands, std::size_t band, std::span<const std::uint32_t> pixels) {

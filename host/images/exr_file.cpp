@@ -201,8 +201,8 @@ std::vector<std::string> missing_channels(const Imf::Header& header, wire::Pixel
   std::vector<std::string> missing;
   for (const LayerChannel& wanted : channels_of(format)) {
     const Imf::Channel* channel = header.channels().findChannel(wanted.name);
-    const bool is_there = channel != nullptr && channel->type == type_of(wanted) && channel->xSampling == 1 &&
-                          channel->ySampling == 1;
+    const bool is_there =
+        channel != nullptr && channel->type == type_of(wanted) && channel->xSampling == 1 && channel->ySampling == 1;
     if (!is_there && wanted.name != "A") missing.push_back(wanted.name);
   }
   return missing;

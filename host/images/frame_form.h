@@ -13,7 +13,7 @@ struct FrameForm {
   PictureFormat format = PictureFormat::png;
   Compression compression = Compression::zip;
   FrameNames names{};
-  ViewName view{};  // by which PNG files show light; empty: by the film's curve
+  ViewName view{};            // by which PNG files show light; empty: by the film's curve
   wire::LayerSet layers = 0;  // of EXR files
 
   auto operator<=>(const FrameForm&) const = default;

@@ -16,8 +16,8 @@ using wire::Layer;
 constexpr std::array<std::string_view, wire::kLayers> kNames{"depth", "normal", "unshadowed", "motion", "ids"};
 constexpr std::size_t kHalf = 2, kWord = sizeof(std::uint32_t);  // bytes
 
-// A file has six pairs of an identity and its share of each matte, as programs expect, two in a layer. What else a pixel
-// shows, in films of 8 and 16 samples, has the least shares and is left out.
+// A file has six pairs of an identity and its share of each matte, as programs expect, two in a layer. What else a
+// pixel shows, in films of 8 and 16 samples, has the least shares and is left out.
 constexpr std::size_t kRanksOfLayer = 2, kMatteLayers = 3;
 constexpr std::size_t kMatteWords = 2 * kRanksOfLayer * kMatteLayers;
 
@@ -85,7 +85,8 @@ class MatteRanks {
  private:
   std::uint32_t id_of(std::uint32_t word) const {
     if (wire::segment_of(word) >= names_.segments())
-      throw Failure("a strip shows a segment that its film does not have", "", "run host and nodes of the same version");
+      throw Failure("a strip shows a segment that its film does not have", "",
+                    "run host and nodes of the same version");
     return names_.id(matte_, wire::segment_of(word));
   }
   void add(std::uint32_t id, std::uint32_t samples) {
@@ -117,7 +118,8 @@ wire::LayerSet layers_in(std::string_view text) {
       throw Failure("there is no layer " + document::in_quotes(name), "",
                     "name some of these, with commas: " + document::joined(kNames) + "; or all");
     const wire::LayerSet kind = wire::set_of(static_cast<Layer>(found - kNames.begin()));
-    if ((kinds & kind) != 0) throw Failure("the layer " + document::in_quotes(name) + " comes twice", "", "name it once");
+    if ((kinds & kind) != 0)
+      throw Failure("the layer " + document::in_quotes(name) + " comes twice", "", "name it once");
     kinds |= kind;
     if (name.size() + 1 == text.size()) throw Failure("a comma with no layer behind it", "", "name a layer there");
     text.remove_prefix(std::min(text.size(), name.size() + 1));

@@ -48,7 +48,6 @@ std::size_t PictureBands::words_of(const Lines& lines) const {
   return std::size_t{lines.count()} * width_ * wire::pixel_words(pixels());
 }
 
-
 std::span<const std::uint32_t> PictureBands::part_of(std::span<const std::uint32_t> pixels, std::size_t band) const {
   const Lines lines = lines_of(band);
   const std::size_t words = pixels.size() / height_;  // of a line

@@ -18,8 +18,8 @@ inline constexpr std::array kMattes{Matte::actor, Matte::joint, Matte::material}
 // The layer's name in files: "CryptoActor".
 std::string_view name_of(Matte matte);
 
-// A name's 32 bits: MurmurHash3_x86_32 of its UTF-8 text, changed where the float would be no number or have few digits,
-// as Cryptomatte's uint32_to_float32 says.
+// A name's 32 bits: MurmurHash3_x86_32 of its UTF-8 text, changed where the float would be no number or have few
+// digits, as Cryptomatte's uint32_to_float32 says.
 std::uint32_t matte_id(std::string_view name);
 // The hash alone.
 std::uint32_t murmur_hash3(std::string_view text);
@@ -29,9 +29,7 @@ class SurfaceNames {
   explicit SurfaceNames(const wire::PackedFilm& film);
 
   std::size_t segments() const { return ids_.size(); }
-  std::uint32_t id(Matte matte, std::uint32_t segment) const {
-    return ids_[segment][static_cast<std::size_t>(matte)];
-  }
+  std::uint32_t id(Matte matte, std::uint32_t segment) const { return ids_[segment][static_cast<std::size_t>(matte)]; }
   // The names of a matte as a Cryptomatte manifest, JSON: from each name to its 8 hexadecimal digits.
   std::string manifest(Matte matte) const;
 

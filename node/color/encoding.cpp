@@ -92,9 +92,7 @@ Encoding encoding_of(const wire::FilmSettings& settings, const wire::Camera& cam
           agx_tables()};
 }
 
-std::uint32_t half_of(float value) {
-  return half_of_positive(std::abs(value)) | (std::signbit(value) ? 0x8000u : 0u);
-}
+std::uint32_t half_of(float value) { return half_of_positive(std::abs(value)) | (std::signbit(value) ? 0x8000u : 0u); }
 
 std::uint64_t background_pixel(const Encoding& encoding, const float* light) {
   return encoding.alpha ? 0 : pixel_of(encoding, light);

@@ -59,8 +59,8 @@ void SurfaceView::find_ways(std::uint32_t frame) {
     const bool stays = film.value_at(segment.motion, frame) == film.value_at(segment.motion, frame - 1);
     wire::Matrix from_world;
     if ((stays && now == then) || !invert(film.matrix_at(segment, frame), from_world)) continue;
-    const wire::Matrix way = product(then.world_to_eye, product(film.matrix_at(segment, frame - 1),
-                                                                product(from_world, to_world)));
+    const wire::Matrix way =
+        product(then.world_to_eye, product(film.matrix_at(segment, frame - 1), product(from_world, to_world)));
     ways_[number].moves = true;
     for (std::size_t r = 0; r < 3; ++r)
       for (std::size_t c = 0; c < 4; ++c) ways_[number].m[r][c] = static_cast<float>(way.m[r][c]);
@@ -117,8 +117,7 @@ void SurfaceView::put_motion(const Place& place, std::uint32_t segment, float* m
   const auto& m = ways_[segment].m;
   float eye[3];
   for (int axis = 0; axis < 3; ++axis)
-    eye[axis] =
-        ((m[axis][0] * place.eye[0] + m[axis][1] * place.eye[1]) + m[axis][2] * place.eye[2]) + m[axis][3];
+    eye[axis] = ((m[axis][0] * place.eye[0] + m[axis][1] * place.eye[1]) + m[axis][2] * place.eye[2]) + m[axis][3];
   const float w = -eye[2];
   if (!before_.parallel && !(w > 0)) return;
   const float scale = before_.parallel ? before_.scale : before_.scale / w;

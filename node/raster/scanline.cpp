@@ -50,7 +50,8 @@ StillGroups ZBuffer::copy_still(std::uint32_t line, StillLines& still, const Sti
   const bool is_kept = kept.end != own.end;
   if (is_kept) groups_.copy_to(kept, shading, line, still.columns(line));
   if (is_kept && has_moved)
-    for (std::uint32_t k = 0; k < kept.end[still_end_.size() - 1]; ++k) std::ranges::fill(kept.surfaces[k].motion, 0.0f);
+    for (std::uint32_t k = 0; k < kept.end[still_end_.size() - 1]; ++k)
+      std::ranges::fill(kept.surfaces[k].motion, 0.0f);
   if (is_kept && !has_moved) return kept;
   if (needed) groups_.copy_to(own, shading, line);
   return own;
@@ -146,9 +147,8 @@ void ZBuffer::put_layers(const shading::Shading& shading, const shading::Shaded&
   for (const wire::Run& run : std::span(out.next_run(), shaded.runs))
     for (std::uint32_t column = run.first; column < std::uint32_t{run.first} + run.count; ++column) {
       const auto at = [](std::uint32_t k) { return static_cast<std::int32_t>(k) * shape::kSubpixels; };
-      SurfacePoint point =
-          shading.surfaces->at(shading.triangles[z_line_.ids(0)[column]], at(column) + shape::kSampleOffset,
-                               at(run.line) + shape::kSampleOffset);
+      SurfacePoint point = shading.surfaces->at(shading.triangles[z_line_.ids(0)[column]],
+                                                at(column) + shape::kSampleOffset, at(run.line) + shape::kSampleOffset);
       if (!with_motion) std::ranges::fill(point.motion, 0.0f);
       layers_.add(pixel++, 1, point);
     }

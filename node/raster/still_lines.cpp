@@ -173,8 +173,7 @@ std::size_t StillLines::kept_bytes(std::size_t columns, std::size_t groups) cons
 std::size_t StillLines::packed_bytes(std::uint32_t line) const {
   if (!keeps(line)) return 0;
   return wire::still_head_bytes(width_) + count_columns(tiles(line), width_) +
-         count_shown(line) * wire::still_packed_bytes(samples_, casting_) +
-         head(line).groups * packed_group_bytes();
+         count_shown(line) * wire::still_packed_bytes(samples_, casting_) + head(line).groups * packed_group_bytes();
 }
 
 std::size_t StillLines::most_packed() const {

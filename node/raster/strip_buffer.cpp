@@ -61,7 +61,8 @@ void StripBuffer::begin(std::span<std::byte> slot, std::size_t width, bool const
   std::byte* pixels = slot_ + sizeof(wire::Strip);
   auto* runs = reinterpret_cast<wire::Run*>(runs_.bytes().data());
   constant_ = {pixels, pixel_bytes_, runs};
-  moving_ = constant ? Layer(pixels + layer_bytes(strip_bytes_), pixel_bytes_, runs + kRuns) : Layer(pixels, pixel_bytes_, runs);
+  moving_ = constant ? Layer(pixels + layer_bytes(strip_bytes_), pixel_bytes_, runs + kRuns)
+                     : Layer(pixels, pixel_bytes_, runs);
 }
 
 std::size_t StripBuffer::bytes() const {

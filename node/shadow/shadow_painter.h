@@ -130,8 +130,8 @@ class ShadowPainter {
   std::vector<std::uint32_t> changed_;  // columns
   std::vector<wire::StillGroup> still_groups_;
   std::vector<wire::StillGroup> unshadowed_groups_;  // of pictures with that layer
-  std::vector<std::uint32_t> no_ends_;    // of a line without groups
-  std::vector<std::uint64_t> row_tiles_;  // of a row of tiles
+  std::vector<std::uint32_t> no_ends_;               // of a line without groups
+  std::vector<std::uint64_t> row_tiles_;             // of a row of tiles
   raster::DrawnCounts counts_;
 };
 

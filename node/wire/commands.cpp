@@ -67,7 +67,8 @@ LoadCommand read_load(std::span<const std::byte> message, int nodes, const std::
   require(load.groups >= 1 && load.groups <= nodes, kName, "the number of groups");
   require(load.traced <= 1, kName, "whether to trace");
   require(load.watched <= 1, kName, "whether it is watched");
-  require(is_pixel_format(load.pixel_format, std::max(1u, layered_samples_of(load.pixel_format))), kName, "the format of pixels");
+  require(is_pixel_format(load.pixel_format, std::max(1u, layered_samples_of(load.pixel_format))), kName,
+          "the format of pixels");
   require(load.live == 0 || (load.live == 1 && load.groups == 1 && load.traced == 0), kName, "whether views are live");
   for (std::int32_t node = 0; node < nodes; ++node) {
     const std::int32_t machine = machines[static_cast<std::size_t>(node)];

@@ -339,7 +339,9 @@ struct Written {
 // Bytes of a strip, header and all, at most: few enough to stay in a core's cache on their way, and the host puts them
 // in place while the node draws on. A line of a wide picture with layers may take five times as many.
 inline constexpr std::size_t kMaxStripBytes = std::size_t{768} << 10;
-constexpr std::size_t max_strip_bytes(PixelFormat format) { return layers_of(format) == 0 ? kMaxStripBytes : 5 * kMaxStripBytes; }
+constexpr std::size_t max_strip_bytes(PixelFormat format) {
+  return layers_of(format) == 0 ? kMaxStripBytes : 5 * kMaxStripBytes;
+}
 
 // Of a slot, which has a strip from its beginning on. More than a strip, for while it is made the two kinds of pixels
 // lie apart.

@@ -8,7 +8,11 @@
 namespace mars::compositor {
 
 Background::Background(std::uint32_t width, std::uint32_t height, std::uint32_t block, wire::PixelFormat format)
-    : width(width), height(height), format(format), pixel_words(wire::pixel_words(format)), constant(width, height, block) {}
+    : width(width),
+      height(height),
+      format(format),
+      pixel_words(wire::pixel_words(format)),
+      constant(width, height, block) {}
 
 std::uint64_t Background::write(std::uint32_t* picture, std::uint32_t row, std::uint32_t first,
                                 std::uint32_t last) const {

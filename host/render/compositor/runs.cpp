@@ -27,8 +27,9 @@ void copy_run(const std::uint32_t* from, std::size_t count, std::uint32_t* to) {
 }
 
 // Copies the runs' pixels, each of `pixel_words` words, which begin at `source`; returns where they end.
-[[gnu::always_inline]] inline const std::uint32_t* copy_pixels(std::size_t pixel_words, std::span<const wire::Run> runs, const std::uint32_t* source,
-                                 std::size_t width, std::uint32_t* picture) {
+[[gnu::always_inline]] inline const std::uint32_t* copy_pixels(std::size_t pixel_words, std::span<const wire::Run> runs,
+                                                               const std::uint32_t* source, std::size_t width,
+                                                               std::uint32_t* picture) {
   for (const wire::Run& run : runs) {
     const std::size_t count = run.count * pixel_words;
     copy_run(source, count, picture + (run.line * width + run.first) * pixel_words);

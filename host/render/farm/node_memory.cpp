@@ -32,8 +32,8 @@ NodeMemory share_node_memory(std::uint64_t bytes, const AskedMemory& asked, cons
     memory.still = std::min(asked.still.value_or(std::min(bytes / kPart, rest / 2)), rest);
   memory.frames = rest - memory.still;
   if (shadows.casting > 0) memory.frames = std::min(memory.frames, frames_with_shadows(nodes));
-  memory.still_plan = wire::plan_still_lines(film.width, film.height, film.samples, memory.still, shadows.casting,
-                                             shadows.has_layers);
+  memory.still_plan =
+      wire::plan_still_lines(film.width, film.height, film.samples, memory.still, shadows.casting, shadows.has_layers);
   return memory;
 }
 

@@ -28,7 +28,8 @@ std::optional<Parts> parts_of(const wire::Strip& header, wire::PixelFormat forma
   if (!inbetween && header.kind != wire::FrameKind::keyframe) return std::nullopt;
   const std::uint64_t runs = std::uint64_t{header.constant_runs} + header.moving_runs;
   const auto counts = counted_bytes(header, watched);
-  if (!counts || header.pixels > wire::max_strip_bytes(format) || runs > wire::max_strip_bytes(format)) return std::nullopt;
+  if (!counts || header.pixels > wire::max_strip_bytes(format) || runs > wire::max_strip_bytes(format))
+    return std::nullopt;
   Parts parts{sizeof header, 0, 0};
   parts.runs = parts.pixels + static_cast<std::size_t>(header.pixels) * wire::pixel_bytes(format);
   parts.end = parts.runs + static_cast<std::size_t>(runs) * sizeof(wire::Run) + *counts;

@@ -175,8 +175,7 @@ void set_form(Manifest& manifest, const FrameForm& form) {
 }
 
 images::PictureBands bands_of(const Manifest& manifest) {
-  return {manifest.format, manifest.width,  manifest.height, manifest.compression,
-          manifest.place,  manifest.layers};
+  return {manifest.format, manifest.width, manifest.height, manifest.compression, manifest.place, manifest.layers};
 }
 
 std::vector<std::string> words_of(const FrameForm& form) {

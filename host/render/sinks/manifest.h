@@ -53,7 +53,7 @@ struct Manifest {
   images::PicturePlace place = {};  // of width x height
   images::ViewName view = {};
   wire::LayerSet layers = 0;  // of EXR files
-  std::string more = {};  // keys that this program does not know, as the text of an object; "": none
+  std::string more = {};      // keys that this program does not know, as the text of an object; "": none
 
   bool operator==(const Manifest&) const = default;
 };

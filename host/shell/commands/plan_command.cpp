@@ -95,7 +95,9 @@ double machine_bytes(const Planned& planned, const film::CompiledFilm& film) {
   const int nodes = std::min(asked.nodes, planned.platform.machine.nodes);
   const double groups = std::ceil(static_cast<double>(asked.groups) * nodes / asked.nodes);
   const double line = kOfSample * settings.width * settings.samples;
-  const double slots = planned.slots + static_cast<double>(wire::slot_bytes(asked.run.host_memory.format));  // and that of the next strip
+  const double slots =
+      planned.slots +
+      static_cast<double>(wire::slot_bytes(asked.run.host_memory.format));  // and that of the next strip
   const double node = asked.run.node_memory * (nodes > 1 ? 2 : 1) + asked.run.shadow_memory + slots + line + kProgram;
   return nodes * node + groups * asked.run.still_memory + static_cast<double>(film.block().size()) +
          static_cast<double>(asked.run.host_memory.most_bytes()) + kProgram;

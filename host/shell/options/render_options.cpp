@@ -386,9 +386,9 @@ struct Heading {
 const std::vector<Heading>& headings() {
   static const std::vector<Heading> kHeadings{
       {"Pictures and files",
-       {"--name", "--first-number", "--frames", "--every", "--size", "--samples", "--format", "--alpha",
-        "--layers", "--compression", "--eye", "--faces", "--crop", "--margin", "--ocio", "--display", "--view",
-        "--ocio-input", "--codec", "--quality", "--sink"}},
+       {"--name",  "--first-number", "--frames",      "--every",      "--size",  "--samples", "--format",
+        "--alpha", "--layers",       "--compression", "--eye",        "--faces", "--crop",    "--margin",
+        "--ocio",  "--display",      "--view",        "--ocio-input", "--codec", "--quality", "--sink"}},
       {"Machines", {"--nodes", "--force", "--backend", "--platform", "--hostfile", "--restarts", "--write"}},
       {"Division of work (the same pictures)",
        {"--mapping", "--exchange", "--intervals", "--no-coherence", "--block", "--groups", "--sharers", "--cut"}},
