@@ -17,7 +17,7 @@ std::uint32_t level_of(float shown, std::uint32_t most) {
 }  // namespace
 
 std::string text_of(const ViewName& name) {
-  return "the view " + name.view + " of the display " + name.display + " in " + name.config;
+  return "the view " + name.view + " of " + name.input + " on the display " + name.display + " in " + name.config;
 }
 
 std::vector<std::uint32_t> shown_pixels(const DisplayView& view, std::span<const std::uint32_t> light, float exposure,

@@ -37,7 +37,7 @@ struct ViewName {
   auto operator<=>(const ViewName&) const = default;
 };
 
-// "the view Film of the display sRGB in /show/config.ocio".
+// "the view Film of scene_linear on the display sRGB in /show/config.ocio".
 std::string text_of(const ViewName& name);
 
 class DisplayView {

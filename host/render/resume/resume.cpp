@@ -70,6 +70,13 @@ std::string words_text(const sinks::FrameForm& form) {
   return text;
 }
 
+// The same view by name that computes something else.
+bool has_changed_config(const sinks::FrameForm& there, const sinks::FrameForm& wish) {
+  images::ViewName before = wish.view;
+  before.checksum = there.view.checksum;
+  return there.view != wish.view && there.view == before;
+}
+
 // How a person sees the form of what is there, where that is not what is asked for.
 std::string difference(const sinks::FrameForm& there, const sinks::FrameForm& wish) {
   if (there.format != wish.format) return "are " + format_name(there.format) + ", not " + format_name(wish.format);
@@ -80,8 +87,8 @@ std::string difference(const sinks::FrameForm& there, const sinks::FrameForm& wi
     const auto shown = [](const images::ViewName& view) {
       return view.empty() ? std::string("the film's curve") : images::text_of(view);
     };
-    const bool changed = images::text_of(there.view) == images::text_of(wish.view);
-    return "are shown by " + shown(there.view) + (changed ? " as it was before" : ", not by " + shown(wish.view));
+    return "are shown by " + shown(there.view) +
+           (has_changed_config(there, wish) ? " as it was before" : ", not by " + shown(wish.view));
   }
   const auto layers = [](wire::LayerSet kinds) {
     return kinds == 0 ? "no layers" : "the layers " + images::text_of(kinds);
@@ -94,17 +101,18 @@ std::string difference(const sinks::FrameForm& there, const sinks::FrameForm& wi
 }
 
 std::string remedy_of(const sinks::FrameForm& there, const sinks::FrameForm& wish) {
-  if (const std::string words = words_text(there); !words.empty()) return "add" + words;
+  if (has_changed_config(there, wish)) return "";
+  if (const std::string words = words_text(there); !words.empty()) return "add" + words + ", ";
   return images::without_alpha(there.format) != images::without_alpha(wish.format)
-             ? "add --format " + format_name(there.format)
-             : "leave out" + words_text(wish);
+             ? "add --format " + format_name(there.format) + ", "
+             : "leave out" + words_text(wish) + ", ";
 }
 
 void refuse_other_form(const Manifest& manifest, const Wish& wish) {
   const sinks::FrameForm there = form_of(manifest);
   if (there == wish.form) return;
   throw Failure("the frames in this folder " + difference(there, wish.form), wish.folder,
-                remedy_of(there, wish.form) + ", give another folder with -o, or replace them with --overwrite");
+                remedy_of(there, wish.form) + "give another folder with -o, or replace them with --overwrite");
 }
 
 void refuse_other_film(const Manifest& there, const Wish& wish) {

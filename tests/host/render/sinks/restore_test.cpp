@@ -247,6 +247,11 @@ TEST(Restore, KeysOfLaterProgramsAreKept) {
   const auto text = nlohmann::json::parse(document::read_file(folder / kManifestName));
   EXPECT_EQ(text.at("layers"), nlohmann::json::parse(R"(["beauty",3])"));
   EXPECT_EQ(text.at("version"), 3) << "older programs can go on there";
+  Manifest part = manifest_of(text);
+  part.place = {{-8, 4, 64, 36}, 1.5f};
+  part.view = {"/show/config.ocio", "screen", "Film", "scene_linear", std::string(32, 'a')};
+  EXPECT_EQ(to_json(part).at("version"), 5);
+  EXPECT_EQ(manifest_of(to_json(part)), part);
   EXPECT_EQ(text.at("pixel_version"), wire::kPixelVersion);
 }
 
@@ -260,7 +265,7 @@ TEST(Restore, ALaterVersionIsRefusedAndNotMended) {
                                      document::failure_of([&] { repair_manifest(folder.path()); }),
                                      document::failure_of([&] { FrameFolder(folder.path(), of_frames({3})); })})
     EXPECT_TRUE(
-        document::holds(failure, "it has version 5 and this MARS knows manifests up to version 4 (use the MARS"))
+        document::holds(failure, "it has version 6 and this MARS knows manifests up to version 5 (use the MARS"))
         << failure;
   EXPECT_EQ(document::read_file(folder / kManifestName), text.dump());
 }

@@ -55,6 +55,8 @@ RenderOptions unusual() {
   options.format = images::PictureFormat::exr;
   options.compression = images::Compression::piz;
   options.alpha = true;
+  options.crop = film::Crop{1, 2, 30, 40};
+  options.margin = 5;
   options.name = "shot_##";
   options.first_number = 1001;
   options.report = "report.json";
