@@ -75,6 +75,8 @@ class Rendered(VideoTest):
         self.assertEqual({key: stream.get(key) for key in expected}, expected)
         data = (self.folder / "film.mp4").read_bytes()
         self.assertLess(data.index(b"moov"), data.index(b"mdat"), "it plays while it is loaded")
+        self.assertIn("6 frames of film.json (0-5), 64x36, 24 frames/s, h264, all there and whole",
+                      self.succeed("mars", "verify", "film.mp4"))
         before = (self.folder / "film.mp4").stat()
         self.assertIn("film.mp4 is there already", self.render(film, "-o", "film.mp4"))
         self.assertEqual((self.folder / "film.mp4").stat().st_ino, before.st_ino)
@@ -118,9 +120,8 @@ class Rendered(VideoTest):
             self.render(film, "-o", "out", "-o", name, "--codec", codec)
             stream = self.probe(name)
             self.assertEqual((stream["codec_name"], stream["nb_read_frames"], stream.get("color_space")), (found, "3", "bt709"))
-        self.render(film, "-o", "out", "-o", "good.mp4", "--quality", "1")
-        self.render(film, "-o", "out", "-o", "bad.mp4", "--quality", "51")
-        self.assertLess((self.folder / "bad.mp4").stat().st_size, (self.folder / "good.mp4").stat().st_size)
+        self.render(film, "-o", "out", "-o", "bad.mkv", "--codec", "vp9", "--quality", "63")
+        self.assertLess((self.folder / "bad.mkv").stat().st_size, (self.folder / "b.mkv").stat().st_size)
 
     def test_sound(self):
         with wave.open(str(self.folder / "tone.wav"), "wb") as tone:
@@ -159,8 +160,6 @@ class Rendered(VideoTest):
     def test_verify(self):
         film = self.write("film.json", a_film(6))
         self.render(film, "-o", "film.mp4")
-        self.assertIn("6 frames of film.json (0-5), 64x36, 24 frames/s, h264, all there and whole",
-                      self.succeed("mars", "verify", "film.mp4"))
         subprocess.run(["ffmpeg", "-v", "error", "-i", "film.mp4", "-c", "copy", "-frames:v", "4", "cut.mp4"], cwd=self.folder, check=True)
         done = self.mars("verify", "cut.mp4")
         self.assertEqual((done.returncode, done.stdout.splitlines()[0]), (1, "has 4 of 6 frames"))
