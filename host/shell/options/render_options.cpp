@@ -14,6 +14,7 @@
 #include "host/content/document/shell_word.h"
 #include "host/content/document/text.h"
 #include "host/images/frame_names.h"
+#include "host/images/layers.h"
 #include "host/cli/program.h"
 #include "host/shell/options/video_options.h"
 #include "node/wire/film.h"

@@ -117,7 +117,7 @@ TEST_P(PixelGroupsTest, ResolveToTheirSharesAndTheBackground) {
 TEST_P(PixelGroupsTest, AreCopiedColumnByColumnInTheOrderOfTheirLowestSamples) {
   Still still;
   std::fill(still.end.begin(), still.end.end(), 99u);
-  shade({all(kNothing), {kNothing, kGreen, kRed, kGreen}, all(kNothing), all(kBlue)}).copy_to(still.groups());
+  shade({all(kNothing), {kNothing, kGreen, kRed, kGreen}, all(kNothing), all(kBlue)}).copy_to(still.groups(), shading, kLine);
   for (std::uint32_t column = 0; column < kWidth; ++column)
     EXPECT_EQ(still.groups().of(column).size(), column == 1 ? 2u : column == 3 ? 1u : 0u) << column;
   const auto is = [](const StillGroup& group, Shown color, std::uint32_t samples) {
@@ -132,7 +132,7 @@ TEST_P(PixelGroupsTest, AreCopiedColumnByColumnInTheOrderOfTheirLowestSamples) {
 TEST_P(PixelGroupsTest, OfAnEmptyLineAreNone) {
   Still still;
   std::fill(still.end.begin(), still.end.end(), 99u);
-  shade({}).copy_to(still.groups());
+  shade({}).copy_to(still.groups(), shading, kLine);
   EXPECT_EQ(still.end, std::vector<std::uint32_t>(kWidth, 0));
   groups.resolve(shading, kLine, out.layer);
   EXPECT_EQ(out.layer.pixel_count(), 0u);
@@ -149,7 +149,7 @@ TEST_P(PixelGroupsTest, ResolveOverWhatStandsStill) {
          {kGreen, kGreen, kNothing, kNothing},
          all(kNothing),
          all(kGreen)})
-      .copy_to(still.groups());
+      .copy_to(still.groups(), shading, kLine);
   shade({all(kBlue),
          {kBlue, kBlue, kNothing, kNothing},
          {kNothing, kBlue, kNothing, kNothing},
@@ -183,7 +183,7 @@ TEST_P(PixelGroupsTest, ResolveOverInColumnsThatHaveNoGroups) {
         Columns{6}, Columns{0, 2, 4, 6}, Columns{0, 1, 2, 3, 4, 5, 6}, Columns{5, 6}}) {
     Still still;
     Out pixels;
-    shade(still_pixels).copy_to(still.groups());
+    shade(still_pixels).copy_to(still.groups(), shading, kLine);
     shade(moving_pixels).resolve_over(still.groups(), shading, kLine, pixels.layer, columns);
     Columns expected = columns;
     expected.insert(expected.end(), {2, 3});
@@ -200,7 +200,7 @@ TEST_P(PixelGroupsTest, ResolveOverInColumnsThatHaveNoGroups) {
 
 TEST_P(PixelGroupsTest, ResolveOverInColumnsAlone) {
   Still still;
-  shade({all(kRed), all(kNothing), all(kGreen)}).copy_to(still.groups());
+  shade({all(kRed), all(kNothing), all(kGreen)}).copy_to(still.groups(), shading, kLine);
   const std::uint32_t columns[] = {0, 2};
   shade({}).resolve_over(still.groups(), shading, kLine, out.layer, columns);
   ASSERT_EQ(out.layer.pixel_count(), 2u);
