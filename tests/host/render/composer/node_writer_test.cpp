@@ -154,7 +154,7 @@ class Group {
     drawing.constant = layer(0, bands_.height());
     drawing.moving = frame == 0 ? layer(0, bands_.height() / 3) : layer(touched_.first, touched_.end);
     drawing.still.resize(bands_.words_of({0, bands_.height()}));
-    compositor::fill_pixels(drawing.still, kBackground, words_);
+    compositor::fill_pixels(drawing.still, kBackground, bands_.pixels());
     put(drawing.constant, drawing.still);
     drawing.whole = drawing.still;
     put(drawing.moving, drawing.whole);

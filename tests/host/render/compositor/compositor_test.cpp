@@ -112,7 +112,7 @@ class Twins {
     const std::uint64_t plain = random() % 4 == 0 ? kOther : kPlain;
     compositor_.begin_interval(plain);
     background_.resize(std::size_t{size_.width} * size_.height * words_of(size_));
-    fill_pixels(background_, plain, words_of(size_));
+    fill_pixels(background_, plain, size_.format);
     before_.reset();
     left_ = random() % 3 == 0 ? 1 : 2 + random() % 4;
     alone_ = left_ == 1;
@@ -222,7 +222,8 @@ TEST(Compositor, AsTheTwinThatDrawsFromScratch) {
   unsigned seed = 0;
   for (const std::uint32_t block : {1u, 2u, 3u, 5u, 8u, 16u, 31u, 64u, 16384u})
     for (const auto& [width, height] : {std::pair{1u, 1u}, {7u, 3u}, {64u, 64u}, {65u, 17u}, {131u, 97u}})
-      for (const wire::PixelFormat format : {wire::PixelFormat::rgb8, wire::PixelFormat::half})
+      for (const wire::PixelFormat format : {wire::PixelFormat::rgb8, wire::PixelFormat::half,
+                                             wire::with_layers(wire::PixelFormat::half, wire::kAllLayers, 2)})
         for (int round = 0; round < 3; ++round) expect_twins({width, height, block, format}, ++seed);
 }
 
@@ -308,7 +309,7 @@ TEST(Compositor, EachIntervalHasItsPlainBackground) {
     compositor.finish_frame(frame, 0);
     compositor.restore(frame);
     Pixels expected(400);
-    fill_pixels(expected, plain, 2);
+    fill_pixels(expected, plain, wire::PixelFormat::rgb16);
     expected[2 * 62] = 7;
     expected[2 * 62 + 1] = 8;
     EXPECT_EQ(frame.pixels, expected);
