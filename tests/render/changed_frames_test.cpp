@@ -30,7 +30,7 @@ const Frames kAll{0, 1, 2, 3}, kNone{};
   [[maybe_unused]] const auto& [q1, q2, q3, q4] = film.settings.window;
   [[maybe_unused]] const auto& [c1, c2, c3, c4] = film.shapes[0];
   [[maybe_unused]] const auto& [d1, d2, d3, d4, d5, d6] = film.meshlets[0];
-  [[maybe_unused]] const auto& [e1, e2, e3, e4] = film.segments[0];
+  [[maybe_unused]] const auto& [e1, e2, e3, e4, e5] = film.segments[0];
   [[maybe_unused]] const auto& [f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13] = film.materials[0];
   [[maybe_unused]] const auto& [g1, g2, g3, g4, g5, g6, g7, g8] = film.cameras[0];
   [[maybe_unused]] const auto& [h1, h2, h3, h4, h5, h6, h7, h8, h9] = film.lights[0];

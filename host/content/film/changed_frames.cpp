@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <map>
+#include <numeric>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -144,10 +145,31 @@ class Comparison {
   std::map<std::pair<std::uint32_t, std::uint32_t>, bool> same_shapes_;
 };
 
+bool have_same_names(const PackedFilm& before, const PackedFilm& now) {
+  return std::ranges::equal(before.segments(), now.segments(), [&](const wire::Segment& a, const wire::Segment& b) {
+    return before.name(a) == now.name(b) && before.material_name(a) == now.material_name(b);
+  });
+}
+
+std::vector<std::uint32_t> with_followers(const std::vector<std::uint32_t>& frames, std::uint32_t end) {
+  std::vector<std::uint32_t> all;
+  for (const std::uint32_t frame : frames)
+    for (const std::uint32_t each : {frame, frame + 1})
+      if (each < end && (all.empty() || all.back() < each)) all.push_back(each);
+  return all;
+}
+
 }  // namespace
 
-std::vector<std::uint32_t> changed_frames(const PackedFilm& before, const PackedFilm& now) {
-  return Comparison(before, now).changed();
+std::vector<std::uint32_t> changed_frames(const PackedFilm& before, const PackedFilm& now, wire::LayerSet layers) {
+  const std::uint32_t frames = now.settings().frames;
+  if ((layers & wire::set_of(wire::Layer::surfaces)) != 0 && !have_same_names(before, now)) {
+    std::vector<std::uint32_t> all(frames);
+    std::iota(all.begin(), all.end(), 0u);
+    return all;
+  }
+  const std::vector<std::uint32_t> changed = Comparison(before, now).changed();
+  return (layers & wire::set_of(wire::Layer::motion)) != 0 ? with_followers(changed, frames) : changed;
 }
 
 }  // namespace mars::film

@@ -64,7 +64,22 @@ std::string FrameContent::checksum(std::uint32_t frame) const {
     add(sum, film_.material_at(segment, frame));
   }
   add(sum, film_.moving(interval_of(film_, frame)));
+  add_layers(frame, sum);
   return sum.digits();
+}
+
+// Motion is seen from the frame before, and identities are those of names.
+void FrameContent::add_layers(std::uint32_t frame, Checksum& sum) const {
+  const auto add_text = [&](std::string_view text) { add(sum, std::span(text.data(), text.size())); };
+  const bool ids = (layers_ & wire::set_of(wire::Layer::surfaces)) != 0;
+  const bool motion = frame > 0 && (layers_ & wire::set_of(wire::Layer::motion)) != 0;
+  if (motion) add(sum, film_.camera_at(frame - 1));
+  for (const wire::Segment& segment : film_.segments()) {
+    if (motion) add(sum, film_.matrix_at(segment, frame - 1));
+    if (!ids) continue;
+    add_text(film_.name(segment));
+    add_text(film_.material_name(segment));
+  }
 }
 
 }  // namespace mars::film

@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "host/content/document/checksum.h"
 #include "node/wire/film.h"
+#include "node/wire/pixel_format.h"
 
 namespace mars::film {
 
@@ -17,14 +19,17 @@ wire::FilmSettings shown_settings(wire::FilmSettings settings);
 
 class FrameContent {
  public:
-  // `film` must outlive it.
-  explicit FrameContent(const wire::PackedFilm& film) : film_(film) {}
+  // `film` must outlive it. `layers`: of the frames' files.
+  explicit FrameContent(const wire::PackedFilm& film, wire::LayerSet layers = 0) : film_(film), layers_(layers) {}
 
   // 32 hexadecimal digits; from several threads at once. The first call reads all shapes.
   std::string checksum(std::uint32_t frame) const;
 
  private:
+  void add_layers(std::uint32_t frame, document::Checksum& sum) const;
+
   const wire::PackedFilm film_;
+  const wire::LayerSet layers_;
   mutable std::once_flag read_;
   mutable std::vector<std::string> shapes_;  // their checksums
 };

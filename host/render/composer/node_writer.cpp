@@ -48,7 +48,7 @@ NodeWriter::NodeWriter(const wire::PackedFilm& film, const sinks::WriterOrders& 
                        bool is_first)
     : orders_(orders),
       bands_(bands_for(film, orders)),
-      content_(film),
+      content_(film, orders.manifest.layers),
       composer_(bands_),
       background_(bands_),
       drawn_(bands_.count()),

@@ -45,14 +45,15 @@ Numbers intervals_of(const Numbers& frames, const wire::PackedFilm& film) {
 
 }  // namespace
 
-Edit edit_of(const film::CompiledFilm& before, const film::CompiledFilm& now, const std::string& folder) {
+Edit edit_of(const film::CompiledFilm& before, const film::CompiledFilm& now, const std::string& folder,
+             wire::LayerSet layers) {
   const wire::PackedFilm was = before.view(), is = now.view();
   const wire::FilmSettings &a = was.settings(), &b = is.settings();
   if (a.width != b.width || a.height != b.height || a.samples != b.samples || a.window != b.window ||
       a.pixel_aspect != b.pixel_aspect)
     throw Failure("the frames in this folder are " + picture_text(a) + ", not " + picture_text(b), folder,
                   "give another folder with -o, or replace them with --overwrite");
-  Edit edit{film::changed_frames(was, is)};
+  Edit edit{film::changed_frames(was, is, layers)};
   const std::uint32_t both = std::min(a.frames, b.frames);
   edit.keeps_none = std::ranges::lower_bound(edit.frames, both) - edit.frames.begin() == both;
   return edit;

@@ -17,7 +17,8 @@ struct Edit {
 };
 
 // Throws Failure where they have another size or other samples of a pixel.
-Edit edit_of(const film::CompiledFilm& before, const film::CompiledFilm& now, const std::string& folder);
+Edit edit_of(const film::CompiledFilm& before, const film::CompiledFilm& now, const std::string& folder,
+             wire::LayerSet layers = 0);
 
 // The hashes of frames that stay, added to those of `all`, which is the manifest of the film as it is now.
 void add_kept_frames(const sinks::Manifest& there, const Edit& edit, sinks::Manifest& all);

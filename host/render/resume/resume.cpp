@@ -204,7 +204,7 @@ class Opening {
     const auto before = load_kept_film(wish_.folder, *seen_);
     if (!before) refuse_unknown_film(*seen_, wish_);
     refuse_other_form(*seen_, wish_);
-    edit_ = edit_of(*before, *compiled_, wish_.folder);
+    edit_ = edit_of(*before, *compiled_, wish_.folder, wish_.form.layers);
     const bool same_file = !seen_->sources.empty() && seen_->sources.front().path == source_path(wish_.film);
     if (edit_->keeps_none && !same_file) refuse_other_film(*seen_, wish_);
   } catch (const Failure& failure) {

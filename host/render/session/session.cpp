@@ -58,7 +58,7 @@ sinks::FrameEncoder::Encode encoding_of(const RenderJob& job, const wire::Packed
 // To nowhere where there is no folder.
 std::unique_ptr<sinks::Sink> make_sink(const RenderJob& job, sinks::FrameFolder* folder, const wire::PackedFilm& film) {
   if (folder == nullptr) return std::make_unique<sinks::NullSink>();
-  const auto content = std::make_shared<film::FrameContent>(film);
+  const auto content = std::make_shared<film::FrameContent>(film, job.form.layers);
   return std::make_unique<sinks::FileSink>(
       *folder, [content](std::uint32_t frame) { return content->checksum(frame); }, encoding_of(job, film), &film);
 }

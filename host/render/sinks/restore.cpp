@@ -163,7 +163,7 @@ class Restoring {
     if (mark.content.empty()) return false;
     if (!content_ && film_ && document::checksum_of(film_->block()) != manifest_.checksum) film_.reset();
     if (!film_) return false;
-    if (!content_) content_.emplace(film_->view());
+    if (!content_) content_.emplace(film_->view(), manifest_.layers);
     return content_->checksum(frame) == mark.content;
   }
 
