@@ -50,6 +50,9 @@ std::string FilmVideos::recipe_of(const std::string& file, const std::string& fi
   add(sum, std::string(form.kind->muxer));
   add(sum, film);
   add(sum, std::to_string(wire::kPixelVersion));
+  const images::FrameForm frames = options::form_of(options_);
+  add(sum, std::to_string(static_cast<int>(frames.format)));
+  add(sum, frames.view.checksum);
   add(sum, film::FrameSet(options_.frames.of_film(film_frames)).text());
   if (audio_ && form.kind->has_audio) {
     add(sum, document::shown(audio_->delay));
@@ -65,7 +68,7 @@ bool FilmVideos::is_there(const std::string& file, const std::string& film, std:
 }
 
 bool FilmVideos::are_there() const {
-  if (!options::has_own_folder(options_) || options_.overwrite || fs::exists(options_.folder)) return false;
+  if (!options_.own_folder || options_.overwrite || fs::exists(options_.folder)) return false;
   for (const std::string& file : options_.videos)
     if (!document::file_exists(file) || !videos::mark_of(videos::comment_of(file))) return false;
   const film::CompiledFilm film = job::load_film_of(options_, [](const std::string&) {});
@@ -78,7 +81,7 @@ bool FilmVideos::are_there() const {
 
 void FilmVideos::make() {
   for (const std::string& file : options_.videos) make(file);
-  if (options::has_own_folder(options_)) remove_frames();
+  if (options_.own_folder) remove_frames();
 }
 
 void FilmVideos::make(const std::string& file) {
