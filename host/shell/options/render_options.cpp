@@ -14,6 +14,7 @@
 #include "host/content/document/shell_word.h"
 #include "host/content/document/text.h"
 #include "host/images/frame_names.h"
+#include "host/images/layers.h"
 #include "host/cli/program.h"
 #include "host/shell/options/video_options.h"
 #include "node/wire/film.h"
@@ -149,8 +150,7 @@ Arguments word_for(const char* name, const std::string& word) {
 
 // The name of frames' files.
 Entry frames_name(unsigned programs, const char* name, const char* help) {
-  return {programs,
-          [=](cli::Command app, RenderOptions& options) { app.add(name, options.name, help).type("NAME"); },
+  return {programs, [=](cli::Command app, RenderOptions& options) { app.add(name, options.name, help).type("NAME"); },
           [=](const RenderOptions& options) { return word_for(name, options.name); }};
 }
 
@@ -410,9 +410,9 @@ struct Heading {
 const std::vector<Heading>& headings() {
   static const std::vector<Heading> kHeadings{
       {"Pictures and files",
-       {"--name", "--first-number", "--frames", "--every", "--size", "--samples", "--format", "--alpha",
-        "--layers", "--compression", "--eye", "--faces", "--crop", "--margin", "--ocio", "--display", "--view",
-        "--ocio-input", "--codec", "--quality", "--sink"}},
+       {"--name",  "--first-number", "--frames",      "--every",      "--size",  "--samples", "--format",
+        "--alpha", "--layers",       "--compression", "--eye",        "--faces", "--crop",    "--margin",
+        "--ocio",  "--display",      "--view",        "--ocio-input", "--codec", "--quality", "--sink"}},
       {"Machines", {"--nodes", "--force", "--backend", "--platform", "--hostfile", "--restarts", "--write"}},
       {"Division of work (the same pictures)",
        {"--mapping", "--exchange", "--intervals", "--no-coherence", "--block", "--groups", "--sharers", "--cut"}},
@@ -585,6 +585,8 @@ void check_nodes(const RenderOptions& options, std::uint32_t cores) {
 }
 
 std::string word_of_file(const std::string& name) { return name.starts_with('-') || name == ":" ? "./" + name : name; }
+
+bool measures(const RenderOptions& options) { return !options.report.empty() || !options.trace.empty(); }
 
 void add_render_options(cli::Command app, RenderOptions& options, Program program) {
   for (const Entry& entry : table()) {
