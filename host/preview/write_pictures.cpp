@@ -68,7 +68,7 @@ void write_pictures(Pictures& pictures, const WriteOptions& options, const video
   if (is_picture(options))
     document::check_can_write(options.file);
   else
-    videos::check_order({options.file, options.form, options.audio});
+    videos::check_order({options.file, options.form, options.audio}, extent);
   if (!is_picture(options)) return write_video(pictures, options, frames, extent, listener);
   std::vector<SheetPicture> shown;
   for (const std::uint32_t frame : frames) shown.push_back({frame, ready(pictures, frame, extent)});

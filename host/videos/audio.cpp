@@ -7,6 +7,12 @@
 #include "host/videos/probe.h"
 
 namespace mars::videos {
+namespace {
+
+// It refuses others, as 5.1 with speakers at the sides.
+constexpr const char* kLayoutsOfOpus = ",aformat=channel_layouts=7.1|6.1|5.1|5.0|quad|3.0|stereo|mono";
+
+}  // namespace
 
 void check_audio(const Audio& audio) {
   if (!has_audio(audio.file))
@@ -19,6 +25,7 @@ std::vector<std::string> audio_words(const Audio& audio, const Form& form, doubl
   if (delay > 0) filter = "adelay=delays=" + document::formatted("%.0f", std::round(1000 * delay)) + ":all=1,";
   if (delay < 0) filter = "atrim=start=" + document::formatted("%.6f", -delay) + ",asetpts=PTS-STARTPTS,";
   filter += "atrim=end=" + document::formatted("%.6f", seconds);
+  if (form.kind->audio_codec == "libopus") filter += kLayoutsOfOpus;
   return {"-af", filter, "-c:a", std::string(form.kind->audio_codec), "-b:a", "192k"};
 }
 

@@ -10,7 +10,6 @@
 #include <cstring>
 #include <fstream>
 
-#include "hal/failure/failure.h"
 #include "host/child/environment.h"
 #include "host/child/programs.h"
 #include "host/content/document/file_failure.h"
@@ -95,19 +94,22 @@ void Ffmpeg::feed(std::span<const std::byte> bytes) {
     if (done < 0 && (errno == EINTR || errno == EAGAIN)) continue;
     if (done < 0) fail();
     bytes = bytes.subspan(static_cast<std::size_t>(done));
-    idle_ = std::chrono::milliseconds(0);
+    note_work();
   }
+}
+
+void Ffmpeg::note_work() {
+  if (said_ && bounds_.warn) bounds_.warn("ffmpeg works again");
+  said_ = false;
+  idle_ = std::chrono::milliseconds(0);
 }
 
 // After kLook in which nothing came of it.
 void Ffmpeg::look() {
   std::string work = work_of(process_->id());
   if (work != work_) {
-    if (said_ && bounds_.warn) bounds_.warn("ffmpeg works again");
-    said_ = false;
     work_ = std::move(work);
-    idle_ = std::chrono::milliseconds(0);
-    return;
+    return note_work();
   }
   idle_ += kLook;
   const auto seconds = std::chrono::ceil<std::chrono::seconds>(idle_).count();
@@ -146,8 +148,8 @@ void Ffmpeg::fail() {
   }
   const std::string reason = child::content_of(errors_);
   fail_as_file(reason, file_, kCannotWrite);
-  throw Failure("ffmpeg ended without a video" + (reason.empty() ? "" : ": " + first_line(reason)), file_.string(),
-                "see whether it can write such files: ffmpeg -formats, ffmpeg -encoders");
+  throw FfmpegRefusal("ffmpeg ended without a video" + (reason.empty() ? "" : ": " + first_line(reason)),
+                      file_.string(), "see whether it can write such files: ffmpeg -formats, ffmpeg -encoders");
 }
 
 std::string run_ffmpeg(const std::string& program, const std::vector<std::string>& words,

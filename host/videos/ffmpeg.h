@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hal/failure/failure.h"
 #include "host/child/descriptor.h"
 #include "host/child/process.h"
 
@@ -23,6 +24,12 @@ std::string find_ffmpeg(const std::filesystem::path& file, const std::string& na
 
 // The first of `encoders` that it has. Throws Failure where it has none.
 std::string choose_encoder(const std::filesystem::path& file, std::span<const std::string_view> encoders);
+
+// It ended by itself, and not well.
+class FfmpegRefusal : public Failure {
+ public:
+  using Failure::Failure;
+};
 
 // How ffmpeg is given a file: no name is taken for an option, a pattern or an address.
 std::string file_word(const std::filesystem::path& file);
@@ -54,6 +61,7 @@ class Ffmpeg {
 
  private:
   void look();
+  void note_work();
   void close_input() { input_.close(); }
   [[noreturn]] void fail();
 

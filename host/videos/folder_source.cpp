@@ -1,6 +1,7 @@
 #include "host/videos/folder_source.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -28,6 +29,10 @@ std::optional<film::CompiledFilm> film_in(const fs::path& folder, const sinks::M
   return std::nullopt;
 }
 
+std::string remedy_in(const fs::path& folder) {
+  return "mars verify --repair " + document::shell_word(folder.string()) + " renders it again";
+}
+
 }  // namespace
 
 FolderReader::FolderReader(fs::path folder, const Exposing& exposing)
@@ -42,10 +47,14 @@ FolderReader::FolderReader(fs::path folder, const Exposing& exposing)
 images::Image FolderReader::read(std::uint32_t frame) const {
   const fs::path file = folder_ / sinks::frame_file_name(manifest_, frame);
   if (!sinks::is_frame_file(file))
-    throw Failure("frame " + std::to_string(frame) + " is missing", folder_.string(),
-                  "mars verify --repair " + document::shell_word(folder_.string()) + " renders it again");
-  if (!images::is_exr(manifest_.format)) return images::read_opaque(file);
-  return expose(images::read_picture(manifest_.format, file), frame);
+    throw Failure("frame " + std::to_string(frame) + " is missing", folder_.string(), remedy_in(folder_));
+  const bool light = images::is_exr(manifest_.format);
+  images::Image picture = light ? images::read_picture(manifest_.format, file) : images::read_opaque(file);
+  if (picture.width != manifest_.width || picture.height != manifest_.height)
+    throw Failure("has " + std::to_string(picture.width) + "x" + std::to_string(picture.height) +
+                      " pixels instead of " + std::to_string(manifest_.width) + "x" + std::to_string(manifest_.height),
+                  file.string(), remedy_in(folder_));
+  return light ? expose(picture, frame) : picture;
 }
 
 wire::FilmSettings FolderReader::settings_at(std::uint32_t frame, wire::Camera& camera) const {
@@ -87,7 +96,8 @@ std::string FolderReader::content(std::uint32_t frame) const {
   wire::Camera camera{};
   const wire::FilmSettings settings = settings_at(frame, camera);
   return content + " " + std::to_string(static_cast<int>(settings.color_space)) + " " +
-         std::to_string(static_cast<int>(settings.curve)) + " " + std::to_string(camera.exposure) +
+         std::to_string(static_cast<int>(settings.curve)) + " " +
+         std::to_string(std::bit_cast<std::uint64_t>(camera.exposure)) +
          (exposing_.view ? " " + exposing_.view->name().checksum : "");
 }
 

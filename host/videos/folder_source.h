@@ -32,7 +32,7 @@ class FolderReader {
 
   const sinks::Manifest& manifest() const { return manifest_; }
   const std::filesystem::path& folder() const { return folder_; }
-  // From any thread. Throws Failure where its file is missing or torn.
+  // From any thread. Throws Failure where its file is missing, torn or of another size.
   images::Image read(std::uint32_t frame) const;
   // What decides how a frame is shown.
   std::string content(std::uint32_t frame) const;

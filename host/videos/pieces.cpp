@@ -34,18 +34,25 @@ bool is_own(const std::string& name) {
   return name.starts_with(kPrefix) || name.starts_with("." + std::string(kPrefix)) || name == kListName;
 }
 
+// Names that are no addresses: # and ? mean nothing there.
+std::string list_word(const fs::path& file) {
+  std::string word = "'";
+  for (const char c : file_word(file)) word += c == '\'' ? "'\\''" : std::string(1, c);
+  return word + "'";
+}
+
 }  // namespace
 
 fs::path pieces_folder(const fs::path& file) { return fs::path(file).concat(".pieces"); }
 
-Pieces::Pieces(const Source& source, const Form& form, const Order& order, std::vector<std::string> encoding)
+Pieces::Pieces(const Source& source, const Form& form, const Order& order, std::vector<std::string> encoding,
+               const Listener& listener)
     : source_(source),
       form_(form),
       encoding_(std::move(encoding)),
       file_(order.file),
       folder_(pieces_folder(order.file)) {
-  make_folder(folder_);
-  lock_.emplace(folder_ / kListName);
+  enter(listener);
   for (std::size_t first = 0; first < source.frames.size(); first += order.piece_frames) {
     const Span span{first, std::min(first + order.piece_frames, source.frames.size())};
     pieces_.push_back({span, name_of(span)});
@@ -58,10 +65,23 @@ Pieces::~Pieces() {
   fs::remove(folder_, none);  // not where it has something
 }
 
+// Whom it waits for removes the folder at its end: then there is another of its name, or none.
+void Pieces::enter(const Listener& listener) {
+  const auto note = [&] {
+    if (!waited_ && listener.note) listener.note(file_.string() + ": another process makes it; waiting for that");
+    waited_ = true;
+  };
+  do {
+    make_folder(folder_);
+    lock_.emplace(folder_ / kListName, note);
+  } while (!lock_->is_of(folder_));
+}
+
 std::string Pieces::name_of(Span span) const {
   document::Checksum sum;
   for (const std::string& word : input_words(form_, source_)) add(sum, word);
   for (const std::string& word : encoding_) add(sum, word);
+  add(sum, std::to_string(source_.size.width) + "x" + std::to_string(source_.size.height));  // of what is padded
   for (std::size_t place = span.first; place < span.end; ++place) add(sum, source_.content(place));
   return std::string(kPrefix) + sum.digits() + std::string(form_.codec->piece_ending);
 }
@@ -96,7 +116,7 @@ fs::path Pieces::list() const {
   const double rate = exact_rate(source_.rate);
   std::string text;
   for (const auto& [span, name] : pieces_)
-    text += "file '" + name + "'\nduration " +
+    text += "file " + list_word(folder_ / name) + "\nduration " +
             document::formatted("%.6f", static_cast<double>(span.end - span.first) / rate) + "\n";
   document::write_whole_file(folder_ / kListName, text);
   return folder_ / kListName;

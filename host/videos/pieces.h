@@ -18,14 +18,16 @@ std::filesystem::path pieces_folder(const std::filesystem::path& file);
 
 class Pieces {
  public:
-  // Makes the folder where it is missing, and waits until no other process makes pieces there. `encoding`: the words by
-  // which ffmpeg encodes. Throws Failure where it cannot.
-  Pieces(const Source& source, const Form& form, const Order& order, std::vector<std::string> encoding);
+  // Makes the folder where it is missing, and waits until no other process makes pieces there, which `listener` learns.
+  // `encoding`: the words by which ffmpeg encodes. Throws Failure where it cannot.
+  Pieces(const Source& source, const Form& form, const Order& order, std::vector<std::string> encoding,
+         const Listener& listener);
   Pieces(const Pieces&) = delete;
   Pieces& operator=(const Pieces&) = delete;
   ~Pieces();  // removes the folder where it has nothing
 
-  std::size_t count() const { return pieces_.size(); }
+  // For another process, which may have made the video.
+  bool waited() const { return waited_; }
   // Encodes those that are not there. Throws Failure where one cannot be written.
   void encode(const std::string& program, const Listener& listener);
   // A list of them all, as ffmpeg's concat takes it.
@@ -39,6 +41,7 @@ class Pieces {
     std::string name;
   };
 
+  void enter(const Listener& listener);
   std::string name_of(Span span) const;
   void encode(const Piece& piece, const std::string& program, const Listener& listener, std::size_t& done);
   void remove_all_but_these() const;
@@ -49,6 +52,7 @@ class Pieces {
   const std::filesystem::path file_;  // the video, for failures
   const std::filesystem::path folder_;
   std::optional<document::FolderLock> lock_;
+  bool waited_ = false;
   std::vector<Piece> pieces_;
 };
 

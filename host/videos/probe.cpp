@@ -4,6 +4,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/document/file.h"
+#include "host/content/document/file_failure.h"
 #include "host/content/document/text.h"
 #include "host/videos/ffmpeg.h"
 
@@ -11,6 +12,12 @@ namespace mars::videos {
 namespace {
 
 using nlohmann::json;
+
+// It is not there, or ffmpeg cannot read it.
+class NoMedia : public Failure {
+ public:
+  using Failure::Failure;
+};
 
 // "30000/1001"
 double ratio_of(const std::string& text) {
@@ -20,6 +27,10 @@ double ratio_of(const std::string& text) {
   return below > 0 ? above / below : 0;
 }
 
+[[noreturn]] void refuse(const std::filesystem::path& file) {
+  throw NoMedia("is no file of video or sound that ffmpeg can read", file.string(), "see what it is: ffprobe FILE");
+}
+
 json read(const std::filesystem::path& file, bool counts) {
   const std::string program = find_ffmpeg(file, "ffprobe");
   std::vector<std::string> words{"-v", "error", "-of", "json", "-show_format", "-show_streams"};
@@ -27,8 +38,12 @@ json read(const std::filesystem::path& file, bool counts) {
   words.push_back(file_word(file));
   try {
     return json::parse(run_ffmpeg(program, words, file, {}));
-  } catch (const std::exception&) {
-    throw Failure("is no file of video or sound that ffmpeg can read", file.string(), "see what it is: ffprobe FILE");
+  } catch (const FfmpegRefusal&) {
+    refuse(file);
+  } catch (const document::FileFailure&) {
+    refuse(file);
+  } catch (const json::exception&) {
+    refuse(file);
   }
 }
 
@@ -40,7 +55,7 @@ Probed::Video video_of(const json& stream) {
 }
 
 Probed probed(const std::filesystem::path& file, bool counts) {
-  if (!document::file_exists(file)) throw Failure("is not there", file.string(), "check the name");
+  if (!document::file_exists(file)) throw NoMedia("is not there", file.string(), "check the name");
   const json all = read(file, counts);
   Probed found;
   for (const json& stream : all.value("streams", json::array())) {
@@ -58,7 +73,7 @@ Probed probed(const std::filesystem::path& file, bool counts) {
 std::uint64_t pictures_in(const std::filesystem::path& part) try {
   const Probed found = probed(part, true);
   return found.video ? found.video->packets : 0;
-} catch (const Failure&) {
+} catch (const NoMedia&) {
   return 0;
 }
 
@@ -73,9 +88,13 @@ void require_pictures(const std::filesystem::path& part, const std::filesystem::
                   file.string(), "see whether the disk is full");
 }
 
+void require_some_picture(const std::filesystem::path& part, const std::filesystem::path& file) {
+  if (pictures_in(part) == 0) throw Failure("ffmpeg wrote no picture", file.string(), "see whether the disk is full");
+}
+
 std::string comment_of(const std::filesystem::path& file) try {
   return probed(file, false).comment;
-} catch (const Failure&) {
+} catch (const NoMedia&) {
   return "";
 }
 

@@ -20,11 +20,15 @@ struct Probed {
   std::string comment;  // "": none
 };
 
-// Reads all of the file, but decodes nothing. Throws Failure where it is missing, or no file that ffmpeg knows.
+// Reads all of the file, but decodes nothing. Throws Failure where it is missing, or no file that ffmpeg knows, or
+// where ffprobe is killed or does not answer.
 Probed probe(const std::filesystem::path& file);
 
 // Throws Failure, which names `file`, unless `part` of it has as many pictures.
 void require_pictures(const std::filesystem::path& part, const std::filesystem::path& file, std::uint64_t count);
+
+// The same for at least one.
+void require_some_picture(const std::filesystem::path& part, const std::filesystem::path& file);
 
 // As probe(), but these do not read all: whether it has audio, and its comment, also "" where it is no such file.
 std::string comment_of(const std::filesystem::path& file);

@@ -1,6 +1,7 @@
 #include "host/videos/write_video.h"
 
 #include "hal/failure/failure.h"
+#include "host/content/document/file.h"
 #include "host/content/document/filled_file.h"
 #include "host/content/document/text.h"
 #include "host/content/document/whole_file.h"
@@ -44,33 +45,35 @@ class Writing {
   }
 
   bool is_gif() const { return form_.codec->name == "gif"; }
-  bool drops_pictures() const { return is_gif() && source_.rate > kFastestGif; }
+  bool drops_pictures() const { return is_gif() && source_.rate > kFastestGif && source_.frames.size() > 1; }
   bool has_audio() const { return order_.audio && form_.kind->has_audio; }
 
-  void feed_all(Ffmpeg& ffmpeg, std::size_t before, std::size_t of) const {
-    std::size_t done = before;
-    feed(ffmpeg, form_, source_, {0, source_.frames.size()}, [&] {
-      ++done;
-      if (listener_.encoded) listener_.encoded(done, of);
+  // A GIF's pictures are fed twice.
+  void feed_all(Ffmpeg& ffmpeg, bool again = false) const {
+    const std::size_t count = source_.frames.size();
+    std::size_t fed = again ? count : 0;
+    feed(ffmpeg, form_, source_, {0, count}, [&] {
+      ++fed;
+      if (listener_.encoded) listener_.encoded(is_gif() ? fed / 2 : fed, count);
     });
   }
 
   // As one piece, with all that the file has.
   void encode(const fs::path& part) const {
-    const std::size_t count = source_.frames.size();
     const std::string palette = is_gif() ? find_palette() : "";
     Words words = input_words(form_, source_);
     if (is_gif()) add(words, {"-f", "png_pipe", "-i", "pipe:3"});
     add_audio_input(words);
     if (is_gif())
-      add(words, {"-filter_complex",
-                  (drops_pictures() ? "fps=50" : "null") + std::string("[v];[v][1:v]") + kUsePalette + shape()});
+      add(words, {"-filter_complex", (drops_pictures() ? "fps=50:round=up" : "null") + std::string("[v];[v][1:v]") +
+                                         kUsePalette + shape()});
     add(words, encoding_);
     add_rest(words, part);
     Ffmpeg ffmpeg(program_, words, order_.file, listener_.bounds, palette);
-    feed_all(ffmpeg, is_gif() ? count : 0, is_gif() ? 2 * count : count);
+    feed_all(ffmpeg, is_gif());
     ffmpeg.finish();
-    if (!is_gif()) require_pictures(part, order_.file, count);
+    drops_pictures() ? require_some_picture(part, order_.file)
+                     : require_pictures(part, order_.file, source_.frames.size());
   }
 
   std::string shape() const {
@@ -83,13 +86,14 @@ class Writing {
     Words words = input_words(form_, source_);
     add(words, {"-vf", kFindPalette, "-f", "image2pipe", "-c:v", "png", "-"});
     Ffmpeg ffmpeg(program_, words, order_.file, listener_.bounds);
-    feed_all(ffmpeg, 0, 2 * source_.frames.size());
+    feed_all(ffmpeg);
     ffmpeg.finish();
     return ffmpeg.printed();
   }
 
   void join() const {
-    Pieces pieces(source_, form_, order_, encoding_);
+    Pieces pieces(source_, form_, order_, encoding_, listener_);
+    if (pieces.waited() && is_there()) return pieces.remove();
     pieces.encode(program_, listener_);
     document::fill_whole_file(order_.file, [&](const fs::path& part) {
       Words words{"-v", "error", "-y", "-nostdin", "-f", "concat", "-safe", "0", "-i", file_word(pieces.list())};
@@ -100,6 +104,13 @@ class Writing {
       require_pictures(part, order_.file, source_.frames.size());
     });
     pieces.remove();
+  }
+
+  // Another process has made it, of the same frames.
+  bool is_there() const {
+    if (order_.recipe.empty() || !document::file_exists(order_.file)) return false;
+    const auto there = mark_of(comment_of(order_.file));
+    return there && there->recipe == order_.recipe;
   }
 
   void add_audio_input(Words& words) const {
@@ -140,10 +151,11 @@ class Writing {
 
 }  // namespace
 
-void check_order(const Order& order) {
+void check_order(const Order& order, const std::optional<images::PictureSize>& size) {
   const Form form = form_of(order.file, order.form);
-  choose_encoder(order.file, form.codec->encoders);
+  choose_encoder(order.file, size ? encoders_for(form, *size) : form.codec->encoders);
   find_ffmpeg(order.file, "ffprobe");
+  if (order.audio) document::refuse_same_file(order.audio->file, order.file);
   document::check_can_write(order.file);
   if (order.audio && form.kind->has_audio) check_audio(*order.audio);
 }

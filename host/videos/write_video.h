@@ -4,14 +4,18 @@
 // without being encoded again.
 #pragma once
 
+#include <optional>
+
+#include "host/images/picture_size.h"
 #include "host/videos/order.h"
 #include "host/videos/source.h"
 
 namespace mars::videos {
 
-// What can be known before there is a picture: throws Failure where the form makes no sense, ffmpeg is missing or lacks
-// the encoder, the file cannot be written, or the audio has no sound.
-void check_order(const Order& order);
+// What can be known before there is a picture, of `size` where that is known: throws Failure where the form makes no
+// sense, ffmpeg is missing or lacks the encoder, the file cannot be written, or is the audio's, or the audio has no
+// sound.
+void check_order(const Order& order, const std::optional<images::PictureSize>& size = std::nullopt);
 
 // Throws Failure as check_order(), and where ffmpeg fails; then the file is as it was.
 void write_video(const Source& source, const Order& order, const Listener& listener);

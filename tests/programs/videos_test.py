@@ -82,6 +82,41 @@ class Rendered(VideoTest):
         self.assertEqual((self.folder / "film.mp4").stat().st_ino, before.st_ino)
         self.render(film, "-o", "film.mp4", "--frames", "1-3")
         self.assertEqual(self.probe("film.mp4")["nb_read_frames"], "3")
+        self.render(film, "-o", "film.mp4", "--frames", "1-3", "--alpha")
+        self.assertNotIn("already", self.render(film, "-o", "film.mp4", "--frames", "1-3"))
+        self.assertNotIn("already", self.render(film, "-o", "film.mp4", "--frames", "1-3", "--report", "report.json"))
+        self.assertTrue((self.folder / "report.json").exists(), "what is to be measured is rendered")
+
+    def test_names(self):
+        """Of videos and frames: nothing in them is a pattern, an address or an option."""
+        film = self.write("film.json", a_film(3))
+        (self.folder / "a#b?c'd").mkdir()
+        for name, *words in [["b%d.mp4"], ["b##.mp4", "--name", "-x_####"], ["a#b?c'd/e%20.mp4"], ["n.mp4", "--name", "shot_##"]]:
+            self.render(film, "-o", name, *words)
+            self.assertEqual(self.probe(name)["nb_read_frames"], "3")
+        self.assertEqual(self.left(), ["a#b?c'd", "b##.mp4", "b%d.mp4", "film.json", "n.mp4"])
+
+    def test_every_other_frame(self):
+        """The video takes as long as the film."""
+        film = self.write("film.json", a_film(6))
+        self.render(film, "-o", "film.mp4", "--every", "2")
+        stream = self.probe("film.mp4")
+        self.assertEqual((stream["nb_read_frames"], stream["r_frame_rate"]), ("3", "12/1"))
+        self.succeed("mars", "verify", "film.mp4")
+
+    def test_short_gifs(self):
+        """Of fast films: at least one picture."""
+        for rate, frames in [(120, "0"), (1000, "0-5"), (1000, "0"), (50, "0")]:
+            film = self.write("film.json", a_film(6, rate=rate))
+            self.render(film, "-o", "film.gif", "--frames", frames)
+            self.assertEqual(self.probe("film.gif")["nb_read_frames"], "1", (rate, frames))
+
+    def test_frames_of_another_size(self):
+        film, small = self.write("film.json", a_film(3)), self.write("small.json", a_film(3, (32, 18)))
+        self.render(film, "-o", "out")
+        self.render(small, "-o", "small")
+        (self.folder / "small/frame-0001.png").replace(self.folder / "out/frame-0001.png")
+        self.fail_clearly(1, "play", "out", "-o", "film.mp4", says="out/frame-0001.png: has 32x18 pixels instead of 64x36")
 
     def test_pictures_are_the_frames(self):
         """In their order, with the right colours: flat ones within 2 levels; lossless ones exactly."""
@@ -139,6 +174,15 @@ class Rendered(VideoTest):
             self.assertAlmostEqual(first / 8000, 0.5, delta=0.05, msg=name)
             self.assertAlmostEqual(len(heard) / 8000, 1, delta=0.1, msg=f"{name} ends with the film")
         self.assertIn("h264, aac, all there and whole", self.succeed("mars", "verify", "film.mp4"))
+        subprocess.run(["ffmpeg", "-v", "error", "-f", "lavfi", "-i", "anullsrc=channel_layout=5.1(side)", "-t", "1", "side.flac"],
+                       cwd=self.folder, check=True)
+        self.succeed("mars", "play", "out", "-o", "side.webm", "--audio", "side.flac")
+        self.probe("side.webm")
+        self.assertEqual(self.streams["audio"]["channels"], 6)
+        before = (self.folder / "film.mp4").read_bytes()
+        self.write("film.json", a_film(24, audio="film.mp4"))
+        self.fail_clearly(1, "render", film, "-o", "film.mp4", *SMALL, says="is the file that is read")
+        self.assertEqual((self.folder / "film.mp4").read_bytes(), before)
         self.write("film.json", a_film(24, audio="none.wav"))
         self.fail_clearly(1, "render", film, "-o", "b.mp4", *SMALL, says="none.wav: is not there")
 
@@ -196,6 +240,20 @@ class GoingOn(VideoTest):
         stream = self.probe("film.mp4")
         self.assertEqual((stream["nb_read_frames"], stream["avg_frame_rate"]), ("500", "24/1"))
         self.assertEqual([name for name in self.left() if "film" in name], ["film.json", "film.mp4"])
+
+    @needs_ffmpeg
+    def test_two_of_the_same_name(self):
+        """The second waits, says so, and goes on where the first has left nothing."""
+        film = self.write("film.json", a_film(3))
+        self.render(film, "-o", "out")
+        slow = self.with_ffmpeg('case "$*" in *rawvideo*) sleep 1; exec $FFMPEG "$@";; *) exec $FFMPEG "$@";; esac')
+        play = [PROGRAMS / "mars", "play", "out", "-o", "film.mp4"]
+        first = subprocess.Popen(play, cwd=self.folder, env=slow)
+        harness.wait_until(lambda: (self.folder / "film.mp4.pieces").exists(), SECONDS, "no pieces")
+        second = subprocess.run(play, cwd=self.folder, env=ENVIRONMENT, capture_output=True, text=True, timeout=SECONDS)
+        self.assertEqual((first.wait(SECONDS), second.returncode), (0, 0), second.stderr)
+        self.assertIn("film.mp4: another process makes it", second.stdout + second.stderr)
+        self.assertEqual(self.probe("film.mp4")["nb_read_frames"], "3")
 
     @needs_ffmpeg
     def test_a_killed_rendering_goes_on(self):

@@ -23,19 +23,25 @@ def on(display):
     return {**NO_DISPLAY, "DISPLAY": display.name, "SDL_VIDEODRIVER": "x11"}
 
 
+def start_window(display):
+    """mars-window as mars starts it: its control, the socket to which hosts connect, and its process."""
+    control, theirs = socket.socketpair()
+    listener = socket.socket(socket.AF_UNIX)
+    listener.bind("")
+    listener.listen(1)
+    process = subprocess.Popen(
+        ["bash", "-c", 'exec "$0" rendering film 3<&"$1"', PROGRAMS / "mars-window", str(listener.fileno())],
+        env=on(display), stdin=theirs, pass_fds=[listener.fileno()])
+    theirs.close()
+    assert control.recv(1) == b"r"
+    return control, listener, process
+
+
 class Host:
     """Sends pictures to a window of its own, as the host of a rendering does."""
 
     def __init__(self, display):
-        self.control, theirs = socket.socketpair()
-        listener = socket.socket(socket.AF_UNIX)
-        listener.bind("")
-        listener.listen(1)
-        self.process = subprocess.Popen(
-            ["bash", "-c", 'exec "$0" rendering film 3<&"$1"', PROGRAMS / "mars-window", str(listener.fileno())],
-            env=on(display), stdin=theirs, pass_fds=[listener.fileno()])
-        theirs.close()
-        assert self.control.recv(1) == b"r"
+        self.control, listener, self.process = start_window(display)
         self.stream = socket.socket(socket.AF_UNIX)
         self.stream.connect(listener.getsockname())
         listener.close()
@@ -134,6 +140,14 @@ class Windows(ProgramTest):
         process = self.start("render", "film.json", "--sink", "none", "--backend", "threads", "--window")
         self.window_opens()
         self.assertEnded(process, signal.SIGTERM)
+
+    def test_a_window_to_which_no_host_came_ends(self):
+        """As where nothing is left to render: nothing of it could be seen, or closed."""
+        control, listener, process = start_window(self.display)
+        self.addCleanup(listener.close)
+        control.send(b"l")
+        control.close()
+        self.assertEqual(process.wait(10), 0)
 
     def test_a_display_that_does_not_answer_keeps_nothing(self):
         self.display.server.send_signal(signal.SIGSTOP)

@@ -3,16 +3,20 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 
 namespace mars::document {
 
 class FolderLock {
  public:
-  // Of the folder that the file is in. Waits.
-  explicit FolderLock(const std::filesystem::path& file);
+  // Of the folder that the file is in. Waits; `waits` is called before that.
+  explicit FolderLock(const std::filesystem::path& file, const std::function<void()>& waits = {});
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
+
+  // Whether it is the folder of this name now, which others may have removed meanwhile.
+  bool is_of(const std::filesystem::path& folder) const;
 
  private:
   int folder_;

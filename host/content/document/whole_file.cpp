@@ -1,6 +1,7 @@
 #include "host/content/document/whole_file.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -43,6 +44,9 @@ class Descriptor {
       bytes = bytes.subspan(static_cast<std::size_t>(done));
     }
   }
+
+  // Until it is closed, where the file system can lock.
+  void lock() { flock(number_, LOCK_EX | LOCK_NB); }
 
   // What a machine that loses its power then finds under the file's name is whole. Some file systems have no such call.
   void sync() {
@@ -115,6 +119,8 @@ class Part {
 
   const std::filesystem::path& path() const { return path_; }
 
+  void lock() { file_.lock(); }
+
   void write(std::string_view text) { file_.write_all(std::as_bytes(std::span(text.data(), text.size()))); }
 
   void rename_to_target() {
@@ -161,9 +167,10 @@ std::filesystem::path file_meant_by(const std::filesystem::path& path) {
   return std::filesystem::canonical(path);
 }
 
+constexpr std::size_t kLongestName = 200;  // bytes, of the 255 that a name may have
+
 // A name beside `path` that no other process uses, and nobody can foresee.
 std::filesystem::path part_beside(const std::filesystem::path& path) {
-  constexpr std::size_t kLongestName = 200;  // bytes, of the 255 that a name may have
   std::string name = ".";
   name += path.filename().string().substr(0, kLongestName);
   return path.parent_path() / (name + "." + unique_word()).append(kPartSuffix);
@@ -173,6 +180,34 @@ Part part_of(const std::filesystem::path& path) {
   std::filesystem::path meant = file_meant_by(path);
   std::filesystem::path part = part_beside(meant);
   return Part(path, std::move(meant), std::move(part));
+}
+
+constexpr std::size_t kWordDigits = 16;
+
+// ".NAME.<16 digits>.part" of `path`.
+bool is_part_of(const std::filesystem::path& path, const std::string& name) {
+  const std::string begin = "." + path.filename().string().substr(0, kLongestName) + ".";
+  if (name.size() != begin.size() + kWordDigits + kPartSuffix.size()) return false;
+  const std::string word = name.substr(begin.size(), kWordDigits);
+  return name.starts_with(begin) && name.ends_with(kPartSuffix) &&
+         word.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
+// Where it cannot be known whether somebody fills it, it stays.
+void remove_if_left(const std::filesystem::path& part) {
+  const int file = open(part.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0) return;
+  if (flock(file, LOCK_EX | LOCK_NB) == 0) unlink(part.c_str());
+  close(file);
+}
+
+void remove_left_parts(const std::filesystem::path& path) {
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  std::error_code none;
+  std::vector<std::filesystem::path> parts;
+  for (std::filesystem::directory_iterator entry(folder, none), end; !none && entry != end; entry.increment(none))
+    if (is_part_of(path, entry->path().filename().string())) parts.push_back(entry->path());
+  for (const std::filesystem::path& part : parts) remove_if_left(part);
 }
 
 void write_and_rename(const std::filesystem::path& path, const std::filesystem::path& part,
@@ -200,7 +235,9 @@ void write_whole_file(const std::filesystem::path& path, const std::function<voi
 
 void fill_whole_file(const std::filesystem::path& path,
                      const std::function<void(const std::filesystem::path& part)>& fill) {
+  remove_left_parts(file_meant_by(path));
   Part part = part_of(path);
+  part.lock();
   fill(part.path());
   part.rename_to_target();
 }

@@ -203,13 +203,18 @@ void refuse_outputs(const RenderJob& job) {
   namespace fs = std::filesystem;
   const auto place_of = [](const std::string& file) { return fs::weakly_canonical(fs::absolute(file)); };
   std::error_code none;
+  sinks::Manifest names;
+  sinks::set_form(names, job.form);
+  names.film_frames = wire::kMostFrames;  // the film's are not known yet
   if (!job.report.empty() && !job.trace.empty() && place_of(job.report) == place_of(job.trace))
     throw Failure("is named for the report and for the trace", job.report, "give each a file of its own");
   for (const fs::path output : {job.report, job.trace}) {
     document::refuse_same_file(job.film, output);
     const fs::path folder = output.has_parent_path() ? output.parent_path() : ".";
-    const bool own = fs::equivalent(folder, job.folder, none) && sinks::is_own_name(output.filename().string());
-    if (own || fs::equivalent(folder, fs::path(job.folder) / sinks::kRunsName, none))
+    const std::string name = output.filename().string();
+    const bool own = sinks::is_own_name(name) || sinks::frame_of_file(names, name);
+    if ((own && fs::equivalent(folder, job.folder, none)) ||
+        fs::equivalent(folder, fs::path(job.folder) / sinks::kRunsName, none))
       throw Failure("is the name of a file that the folder of frames keeps", output.string(), "name it otherwise");
   }
 }

@@ -380,8 +380,12 @@ bool remove_folder(const fs::path& folder) {
   std::vector<fs::path> files;
   for (fs::directory_iterator entry(folder, none), end; !none && entry != end; entry.increment(none))
     files.push_back(entry->path());
-  for (const fs::path& file : files)
-    if (!is_own_name(file.filename().string()) || file.filename() == kRunsName) return false;
+  const std::optional<Manifest> manifest = read_frames_json(folder);
+  for (const fs::path& file : files) {
+    const std::string name = file.filename().string();
+    const bool own = is_own_name(name) || (manifest && frame_of_file(*manifest, name));
+    if (!own || name == kRunsName) return false;
+  }
   for (const fs::path& file : files) fs::remove(file, none);
   return fs::remove(folder, none);
 }

@@ -1,7 +1,8 @@
 #include "host/render/watch/display.h"
 
 #include <algorithm>
-#include <bit>
+
+#include "host/images/half_light.h"
 
 namespace mars::watch {
 namespace {
@@ -14,12 +15,7 @@ std::uint32_t nearest_level8(std::uint64_t level16) {
   return static_cast<std::uint32_t>((level16 * 255 + 32767) / 65535);
 }
 
-// Of a half float that is not negative and finite.
-float light_of(std::uint64_t half) {
-  const auto bits = static_cast<std::uint32_t>(half & 0x7fff);
-  if (bits < 0x400) return static_cast<float>(bits) * 0x1p-24f;
-  return std::bit_cast<float>((bits << 13) + (112u << 23));
-}
+float light_of(std::uint64_t half) { return images::light_of_half(static_cast<std::uint32_t>(half & 0xffff)); }
 
 std::uint32_t shown16(std::uint64_t p) {
   return nearest_level8(p & 0xffff) | nearest_level8(p >> 16 & 0xffff) << 8 | nearest_level8(p >> 32 & 0xffff) << 16;

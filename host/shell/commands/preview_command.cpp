@@ -203,7 +203,8 @@ void write_folder(PreviewWords& words, preview::FolderPictures& pictures) {
     words.write.audio = {words.audio, words.delay};
   else
     words.write.audio = launch::audio_of_folder(pictures.reader().manifest());
-  videos::check_order({words.write.file, words.write.form, words.write.audio});
+  videos::check_order({words.write.file, words.write.form, words.write.audio},
+                      words.write.extent.value_or(pictures.extent()));
   preview::write_folder_video(pictures, words.write, kListener);
 }
 

@@ -99,7 +99,8 @@ int print_verdict(const sinks::Verdict& verdict, const std::string& folder) {
 std::string video_text(const videos::VideoVerdict& verdict) {
   const videos::Probed::Video& video = *verdict.found.video;
   std::string text = document::counted(verdict.decoded, "frame");
-  if (verdict.mark) text += " of " + verdict.mark->film + " (" + film::FrameSet(verdict.mark->frames).text() + ")";
+  if (verdict.mark && !verdict.mark->film.empty()) text += " of " + verdict.mark->film;
+  if (verdict.mark) text += " (" + film::FrameSet(verdict.mark->frames).text() + ")";
   text += ", " + std::to_string(video.width) + "x" + std::to_string(video.height) + ", " + document::shown(video.rate) +
           " frames/s, " + video.codec;
   return verdict.found.audio.empty() ? text : text + ", " + verdict.found.audio;

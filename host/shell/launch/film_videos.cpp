@@ -1,5 +1,6 @@
 #include "host/shell/launch/film_videos.h"
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <system_error>
@@ -8,6 +9,7 @@
 #include "host/content/document/checksum.h"
 #include "host/content/document/file.h"
 #include "host/content/document/text.h"
+#include "host/content/document/whole_file.h"
 #include "host/render/sinks/frame_folder.h"
 #include "host/shell/job/film_of.h"
 #include "host/shell/launch/film_audio.h"
@@ -31,12 +33,23 @@ std::string bytes_text(std::uintmax_t bytes) {
                            : document::formatted("%.1f MB", static_cast<double>(bytes) / kMegabyte);
 }
 
+// How far apart they are, where that is the same for all; else 1.
+std::uint32_t step_of(const std::vector<std::uint32_t>& frames) {
+  if (frames.size() < 2) return 1;
+  const std::uint32_t step = frames[1] - frames[0];
+  const auto is_other = [step](std::uint32_t one, std::uint32_t next) { return next - one != step; };
+  return std::ranges::adjacent_find(frames, is_other) == frames.end() ? step : 1;
+}
+
 }  // namespace
 
 FilmVideos::FilmVideos(const options::RenderOptions& options, Display& display) : options_(options), display_(display) {
   if (options.videos.empty()) return;
   if (document::file_exists(options.film)) audio_ = audio_of_film(options.film);
-  for (const std::string& file : options.videos) videos::check_order(order_of(file));
+  for (const std::string& file : options.videos) {
+    document::refuse_same_file(options.film, file);
+    videos::check_order(order_of(file), options.size);
+  }
 }
 
 videos::Order FilmVideos::order_of(const std::string& file) const { return {file, options_.video_form, audio_}; }
@@ -50,6 +63,9 @@ std::string FilmVideos::recipe_of(const std::string& file, const std::string& fi
   add(sum, std::string(form.kind->muxer));
   add(sum, film);
   add(sum, std::to_string(wire::kPixelVersion));
+  const images::FrameForm frames = options::form_of(options_);
+  add(sum, std::to_string(static_cast<int>(frames.format)));
+  add(sum, frames.view.checksum);
   add(sum, film::FrameSet(options_.frames.of_film(film_frames)).text());
   if (audio_ && form.kind->has_audio) {
     add(sum, document::shown(audio_->delay));
@@ -65,7 +81,8 @@ bool FilmVideos::is_there(const std::string& file, const std::string& film, std:
 }
 
 bool FilmVideos::are_there() const {
-  if (!options::has_own_folder(options_) || options_.overwrite || fs::exists(options_.folder)) return false;
+  if (!options_.own_folder || options_.overwrite || options::measures(options_) || fs::exists(options_.folder))
+    return false;
   for (const std::string& file : options_.videos)
     if (!document::file_exists(file) || !videos::mark_of(videos::comment_of(file))) return false;
   const film::CompiledFilm film = job::load_film_of(options_, [](const std::string&) {});
@@ -78,7 +95,7 @@ bool FilmVideos::are_there() const {
 
 void FilmVideos::make() {
   for (const std::string& file : options_.videos) make(file);
-  if (options::has_own_folder(options_)) remove_frames();
+  if (options_.own_folder) remove_frames();
 }
 
 void FilmVideos::make(const std::string& file) {
@@ -92,7 +109,8 @@ void FilmVideos::make(const std::string& file) {
   const auto show = [&](std::size_t done, std::size_t of) {
     display_.show(file + ": frame " + std::to_string(done) + " of " + std::to_string(of));
   };
-  const videos::Source source = videos::source_of(reader, options_.frames.of_film(manifest.film_frames));
+  videos::Source source = videos::source_of(reader, options_.frames.of_film(manifest.film_frames));
+  source.rate /= step_of(source.frames);
   videos::write_video(source, order, {show, note, {note}});
   const std::chrono::duration<double> seconds = Clock::now() - started;
   display_.print(document::counted(source.frames.size(), "frame") + " in " + file + ", " +
@@ -100,7 +118,8 @@ void FilmVideos::make(const std::string& file) {
 }
 
 void FilmVideos::remove_frames() {
-  if (!sinks::remove_folder(options_.folder)) display_.print("the frames stay in " + options_.folder);
+  if (!sinks::remove_folder(options_.folder) && fs::exists(options_.folder))
+    display_.print("the frames stay in " + options_.folder);
 }
 
 }  // namespace mars::launch

@@ -16,8 +16,8 @@ namespace mars::launch {
 
 class FilmVideos {
  public:
-  // Throws Failure, before anything is started, where one of them cannot be made (videos::check_order). Both must
-  // outlive it.
+  // Throws Failure, before anything is started, where one of them cannot be made (videos::check_order), or is the film.
+  // Both must outlive it.
   FilmVideos(const options::RenderOptions& options, Display& display);
 
   // Whether all are there, of this film, whose frames are nowhere else. May compile the film.

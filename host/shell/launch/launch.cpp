@@ -153,8 +153,7 @@ std::string account_of(const Supervisor& supervisor, const std::string& folder, 
 
 // The number of frames, where nothing is left to render; of a measurement the host says so.
 std::optional<std::uint32_t> frames_there(const options::RenderOptions& options) {
-  const bool measures = !options.report.empty() || !options.trace.empty();
-  if (options.sink == options::SinkKind::none || measures) return std::nullopt;
+  if (options.sink == options::SinkKind::none || options::measures(options)) return std::nullopt;
   return resume::count_if_complete({options.folder, options.film, options::film_arguments(options),
                                     options::form_of(options), options.frames, options.overwrite, options.kept_film});
 }

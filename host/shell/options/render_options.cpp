@@ -141,16 +141,25 @@ Entry option(unsigned programs, const char* names, const char* type, Value Rende
           }};
 }
 
+// Of a word that names no file: one that begins with a dash would be taken for an option.
+Arguments word_for(const char* name, const std::string& word) {
+  if (word.empty()) return {};
+  if (word.starts_with('-') || word == ":") return {std::string(name) + "=" + word};
+  return {name, word};
+}
+
+// The name of frames' files.
+Entry frames_name(unsigned programs, const char* name, const char* help) {
+  return {programs, [=](cli::Command app, RenderOptions& options) { app.add(name, options.name, help).type("NAME"); },
+          [=](const RenderOptions& options) { return word_for(name, options.name); }};
+}
+
 // A word of the view.
 Entry word_of_view(unsigned programs, const char* name, const char* type, std::string images::ViewWish::*member,
                    const char* help) {
   return {programs,
           [=](cli::Command app, RenderOptions& options) { app.add(name, options.view.*member, help).type(type); },
-          [=](const RenderOptions& options) -> Arguments {
-            const std::string& word = options.view.*member;
-            if (word.empty()) return {};
-            return {name, text_of(word)};
-          }};
+          [=](const RenderOptions& options) { return word_for(name, options.view.*member); }};
 }
 
 Entry number(unsigned programs, const char* names, const Count& count, const char* help) {
@@ -187,8 +196,21 @@ void read_output(const std::string& word, bool makes_videos, RenderOptions& opti
 
 void read_outputs(RenderOptions& options, bool makes_videos) {
   for (const std::string& word : std::exchange(options.outputs, {})) read_output(word, makes_videos, options);
-  if (options.folder.empty() && !options.videos.empty()) options.folder = frames_folder_of(options.videos.front());
+  if (!options.folder.empty() || options.videos.empty()) return;
+  options.folder = options.videos.front() + ".frames";
+  options.own_folder = true;
 }
+
+// Whether the last part of a folder's name means files: a folder's own name may have a single #.
+bool names_files(const std::filesystem::path& folder) {
+  const std::string last = folder.filename().string();
+  const bool plain =
+      !images::is_picture_name(folder) && last.find("##") == std::string::npos && last.find('%') == std::string::npos;
+  return !plain && images::has_number(last) && !std::filesystem::is_directory(folder);
+}
+
+// For the program started next, which must take no own folder, as of a##.mp4, for names of files.
+std::string word_of_folder(const std::string& folder) { return text_of(names_files(folder) ? folder + "/" : folder); }
 
 Entry output(unsigned programs, const char* type, const char* help) {
   return {programs,
@@ -198,8 +220,8 @@ Entry output(unsigned programs, const char* type, const char* help) {
           [=](const RenderOptions& options) {
             const bool makes_videos = (programs & static_cast<unsigned>(Program::mars)) != 0;
             Arguments arguments;
-            if (!options.folder.empty() && !(makes_videos && has_own_folder(options)))
-              arguments.insert(arguments.end(), {"-o", text_of(options.folder)});
+            if (!options.folder.empty() && !(makes_videos && options.own_folder))
+              arguments.insert(arguments.end(), {"-o", word_of_folder(options.folder)});
             if (makes_videos)
               for (const std::string& video : options.videos) arguments.insert(arguments.end(), {"-o", text_of(video)});
             return arguments;
@@ -258,8 +280,9 @@ std::vector<Entry> table() {
              "Example: -o build/demo -o demo.mp4"),
       output(submits & ~persons, "DIR", "Folder for the frames; created if it is missing. Example: -o build/demo"),
       video_form(persons),
-      option(submits, "--name", "NAME", &RenderOptions::name,
-             "Names of the files: # or %04d stands for the number; default: frame-####. Example: --name shot_####"),
+      frames_name(submits, "--name",
+                  "Names of the files: # or %04d stands for the number; default: frame-####. Example: --name "
+                  "shot_####"),
       number(submits, "--first-number", {&RenderOptions::first_number, false, images::kMostFirstNumber, 0},
              "Number of frame 0 in names of files; default: 0. Example: --first-number 1001"),
       flag(submits, "--overwrite", &RenderOptions::overwrite,
@@ -434,20 +457,12 @@ void take_name(const std::string& text, RenderOptions& options) {
   options.name = images::frame_pattern(has_ending ? name.stem().string() : text);
 }
 
-// Whether the last part of a folder's name means files: a folder's own name may have a single #.
-bool names_files(const std::filesystem::path& folder) {
-  const std::string last = folder.filename().string();
-  const bool plain =
-      !images::is_picture_name(folder) && last.find("##") == std::string::npos && last.find('%') == std::string::npos;
-  return !plain && images::has_number(last) && !std::filesystem::is_directory(folder);
-}
-
 // Of options that are short for others, makes the others.
 void resolve(RenderOptions& options) {
   options.frames = options.frames.every(std::exchange(options.every, 1));
   if (!options.name.empty()) take_name(options.name, options);
   const std::filesystem::path folder = options.folder;
-  if (!names_files(folder)) return;
+  if (options.own_folder || !names_files(folder)) return;
   if (!options.name.empty())
     throw Failure("the files have two names, " + document::in_quotes(options.folder) + " and " +
                       document::in_quotes(options.name),
@@ -569,13 +584,9 @@ void check_nodes(const RenderOptions& options, std::uint32_t cores) {
                 "--nodes", "use up to " + std::to_string(most) + ", or add --force");
 }
 
-std::string frames_folder_of(const std::string& video) { return video + ".frames"; }
-
-bool has_own_folder(const RenderOptions& options) {
-  return !options.videos.empty() && options.folder == frames_folder_of(options.videos.front());
-}
-
 std::string word_of_file(const std::string& name) { return name.starts_with('-') || name == ":" ? "./" + name : name; }
+
+bool measures(const RenderOptions& options) { return !options.report.empty() || !options.trace.empty(); }
 
 void add_render_options(cli::Command app, RenderOptions& options, Program program) {
   for (const Entry& entry : table()) {

@@ -37,9 +37,10 @@ struct ChosenLayers {
 };
 
 struct RenderOptions {
-  std::string film;    // FILM.json or FILM.mars; "": a studio's, which is served
-  std::string folder;  // for the frames; "" only without a sink; of videos alone one of their own
-  std::string name;    // of the frames' files, with # for the number (images/frame_names.h); "": as by default
+  std::string film;         // FILM.json or FILM.mars; "": a studio's, which is served
+  std::string folder;       // for the frames; "" only without a sink
+  bool own_folder = false;  // no person named it: of videos alone, and gone when they are there
+  std::string name;         // of the frames' files, with # for the number (images/frame_names.h); "": as by default
   std::uint32_t first_number = 0;
   std::vector<std::string> outputs;  // as they were typed: the folder and the videos, until all words are read
   std::vector<std::string> videos;   // files that are made of the frames
@@ -117,9 +118,8 @@ void check_nodes(const RenderOptions& options, std::uint32_t cores);
 // a colon for the end of a program's arguments.
 std::string word_of_file(const std::string& name);
 
-// The folder of the frames of a video that is rendered without another: FILE.frames.
-std::string frames_folder_of(const std::string& video);
-bool has_own_folder(const RenderOptions& options);
+// Whether a rendering is to be measured: then it renders.
+bool measures(const RenderOptions& options);
 
 // The options that change the compiled film, as arguments.
 std::vector<std::string> film_arguments(const RenderOptions& options);

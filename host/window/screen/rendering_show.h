@@ -24,6 +24,8 @@ class RenderingShow {
   void update() { screen_.update(); }
   // The rendering has ended well: no host will come any more.
   void finish();
+  // Whether a person sees it: since the first host came.
+  bool is_open() const { return screen_.is_open(); }
   // What says that there is something to receive; -1: nothing does.
   int descriptor() const;
 

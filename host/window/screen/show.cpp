@@ -30,7 +30,10 @@ void show_rendering(Starter& starter, const std::string& film) {
   starter.send_ready();
   while (show.handle_events()) {
     const bool has_left = starter.has_left();  // before what it has left is received
-    if (!show.receive() && has_left) show.finish();
+    if (!show.receive() && has_left) {
+      if (!show.is_open()) return;  // no host ever came
+      show.finish();
+    }
     show.update();
     wait_for(show.descriptor());
   }

@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 
 #include "host/content/document/file.h"
+#include "host/content/document/filled_file.h"
 #include "tests/host/content/document/failure_of.h"
 #include "tests/host/render/sinks/temporary_folder.h"
 
@@ -104,6 +105,21 @@ TEST(WholeFile, OfTwoThatWriteOneFileEachWritesAPartOfItsOwn) {
   });
   EXPECT_EQ(text_of(folder / "file"), "outer");
   EXPECT_EQ(folder.entries(), 1u);
+}
+
+TEST(FilledFile, PartsThatNoProcessFillsAreRemoved) {
+  const sinks::TemporaryFolder folder;
+  const std::string left = folder / ".film.mp4.0123456789abcdef.part";
+  for (const std::string file : {left, folder / ".film.mp4.mine.part", folder / ".a.mp4.0123456789abcdef.part"})
+    write_whole_file(file, "x");
+  fill_whole_file(folder / "film.mp4", [&](const std::filesystem::path&) {
+    EXPECT_FALSE(file_exists(left));
+    EXPECT_EQ(folder.entries(), 3u);
+    fill_whole_file(folder / "film.mp4", [&](const std::filesystem::path&) {
+      EXPECT_EQ(folder.entries(), 4u) << "a part that is filled stays";
+    });
+  });
+  EXPECT_EQ(folder.entries(), 3u);
 }
 
 TEST(WholeFile, NamesMayBeAsLongAsTheSystemLetsThemBe) {

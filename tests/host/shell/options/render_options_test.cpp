@@ -271,10 +271,34 @@ TEST(RenderOptions, OutputsAreAFolderAndVideos) {
 TEST(RenderOptions, AVideoAloneHasAFolderOfItsOwn) {
   const Reading reading = read(Program::submit, {"film.json", "-o", "a/b.mp4"});
   EXPECT_EQ(reading.options.folder, "a/b.mp4.frames");
-  EXPECT_TRUE(has_own_folder(reading.options));
+  EXPECT_TRUE(reading.options.own_folder);
   EXPECT_EQ(arguments_for(Program::submit, reading.options), (Words{"film.json", "-o", "a/b.mp4"}));
   EXPECT_EQ(arguments_for(Program::threads, reading.options), (Words{"film.json", "-o", "a/b.mp4.frames"}));
   EXPECT_EQ(read(Program::host, {"film.json", "-o", "b.mp4"}).code, cli::kUsage);
+}
+
+TEST(RenderOptions, AFolderThatAPersonNamesIsNotTheVideosOwn) {
+  const Reading reading = read(Program::mars, {"film.json", "-o", "b.mp4.frames", "-o", "b.mp4"});
+  EXPECT_FALSE(reading.options.own_folder);
+}
+
+TEST(RenderOptions, ANumberInAVideosNameIsNoFrames) {
+  for (const std::string video : {"a/b%d.mp4", "b##.mp4"}) {
+    const Reading reading = read(Program::mars, {"film.json", "-o", video});
+    EXPECT_EQ(reading.options.folder, video + ".frames");
+    EXPECT_EQ(reading.options.name, "");
+    const Words words = arguments_for(Program::threads, reading.options);
+    EXPECT_EQ(words, (Words{"film.json", "-o", video + ".frames/"}));
+    EXPECT_EQ(read(Program::threads, words).options.folder, video + ".frames/") << "no names of files either";
+  }
+}
+
+TEST(RenderOptions, NamesOfFramesMayBeginWithADash) {
+  const Reading reading = read(Program::mars, {"film.json", "-o", "a/-x_####.png"});
+  EXPECT_EQ(reading.options.name, "-x_####");
+  const Words words = arguments_for(Program::threads, reading.options);
+  EXPECT_EQ(words, (Words{"film.json", "-o", "a", "--name=-x_####"}));
+  EXPECT_EQ(read(Program::threads, words).options.name, "-x_####");
 }
 
 TEST(RenderOptions, FoldersHaveNoNamesOfOtherVideosAndPictures) {

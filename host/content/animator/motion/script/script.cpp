@@ -175,7 +175,7 @@ class Player {
     return (end - at) / rate_;
   }
 
-  // camera cut eye X Y Z at X Y Z fov N: from this frame on; camera move the same, seconds S or until TIME.
+  // camera cut eye X Y Z at X Y Z fov N height N: from this frame on; camera move the same, seconds S or until TIME.
   std::uint32_t move_camera(ScriptLine& line, std::uint32_t at) {
     constexpr std::string_view verbs[] = {"cut", "move", "follow", "look", "pose"},
                                parts[] = {"eye", "at", "fov", "height", "seconds", "until"};
@@ -198,9 +198,10 @@ class Player {
         settings.push_back(part + "=" + list_of(take_words(line, 3), ','));
       else
         line.refuse("has '" + part + "', which the camera does not know",
-                    document::did_you_mean(part, parts, "write eye, at or fov"));
+                    document::did_you_mean(part, parts, "write eye, at, fov or height"));
     }
-    if (settings.empty()) line.refuse("does not say where the camera goes", "add eye X Y Z, at X Y Z or fov N");
+    if (settings.empty())
+      line.refuse("does not say where the camera goes", "add eye X Y Z, at X Y Z, fov N or height N");
     if (begun_.insert(kCamera).second) clear_camera_after(at);
     const double last = verb == "cut" ? at : at + std::max(1.0, std::round(seconds * rate_));
     if (last >= wire::kMostFrames)
