@@ -1,8 +1,8 @@
 // Which frames of an edited film show something else than before. A frame's pixels are decided by the film's settings
 // but its length and rate; by the camera and all lights at this frame; by each segment's shape, matrix and material at
 // this frame; and by which segments move in its interval (docs/exactness.md). These are compared bit by bit. What only
-// says where they lie in the film, names of segments, and where intervals begin and end decide nothing; but names decide
-// the layer of identities, and the frame before that of motion.
+// says where they lie in the film, names of segments, and where intervals begin and end decide nothing; but names
+// decide the layer of identities, and the frame before that of motion.
 #pragma once
 
 #include <cstdint>

@@ -117,7 +117,8 @@ TEST_P(PixelGroupsTest, ResolveToTheirSharesAndTheBackground) {
 TEST_P(PixelGroupsTest, AreCopiedColumnByColumnInTheOrderOfTheirLowestSamples) {
   Still still;
   std::fill(still.end.begin(), still.end.end(), 99u);
-  shade({all(kNothing), {kNothing, kGreen, kRed, kGreen}, all(kNothing), all(kBlue)}).copy_to(still.groups(), shading, kLine);
+  shade({all(kNothing), {kNothing, kGreen, kRed, kGreen}, all(kNothing), all(kBlue)})
+      .copy_to(still.groups(), shading, kLine);
   for (std::uint32_t column = 0; column < kWidth; ++column)
     EXPECT_EQ(still.groups().of(column).size(), column == 1 ? 2u : column == 3 ? 1u : 0u) << column;
   const auto is = [](const StillGroup& group, Shown color, std::uint32_t samples) {
