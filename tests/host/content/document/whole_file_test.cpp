@@ -109,8 +109,9 @@ TEST(WholeFile, OfTwoThatWriteOneFileEachWritesAPartOfItsOwn) {
 
 TEST(FilledFile, PartsThatNoProcessFillsAreRemoved) {
   const sinks::TemporaryFolder folder;
-  const std::string left = folder / ".film.mp4.0123456789abcdef.part";
-  for (const std::string file : {left, folder / ".film.mp4.mine.part", folder / ".a.mp4.0123456789abcdef.part"})
+  const std::filesystem::path left = folder / ".film.mp4.0123456789abcdef.part";
+  for (const std::filesystem::path& file :
+       {left, folder / ".film.mp4.mine.part", folder / ".a.mp4.0123456789abcdef.part"})
     write_whole_file(file, "x");
   fill_whole_file(folder / "film.mp4", [&](const std::filesystem::path&) {
     EXPECT_FALSE(file_exists(left));
