@@ -110,9 +110,8 @@ TEST(WholeFile, OfTwoThatWriteOneFileEachWritesAPartOfItsOwn) {
 TEST(FilledFile, PartsThatNoProcessFillsAreRemoved) {
   const sinks::TemporaryFolder folder;
   const std::filesystem::path left = folder / ".film.mp4.0123456789abcdef.part";
-  for (const std::filesystem::path& file :
-       {left, folder / ".film.mp4.mine.part", folder / ".a.mp4.0123456789abcdef.part"})
-    write_whole_file(file, "x");
+  for (const char* file : {".film.mp4.0123456789abcdef.part", ".film.mp4.mine.part", ".a.mp4.0123456789abcdef.part"})
+    write_whole_file(folder / file, "x");
   fill_whole_file(folder / "film.mp4", [&](const std::filesystem::path&) {
     EXPECT_FALSE(file_exists(left));
     EXPECT_EQ(folder.entries(), 3u);
