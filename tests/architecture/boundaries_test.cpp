@@ -215,7 +215,7 @@ TEST(Boundaries, HostsToolsStandOnOneAnother) {
                   compositor, pictures, "host/window/window_process.h"});
   below("host/editing/", {keys, document, modeler, animator, film, cli, "host/editing/"});
   below("host/studio/project/",
-        {keys, document, modeler, animator, film, preview, "host/editing/", "host/studio/project/"});
+        {keys, document, modeler, animator, film, preview, images, "host/editing/", "host/studio/project/"});
   for (const Source& source : sources())
     for (const std::string& include : source.includes) {
       EXPECT_TRUE(!begins(include, "host/programs/") || begins(source.path, "host/programs/")) << source.path;

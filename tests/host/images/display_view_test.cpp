@@ -126,7 +126,9 @@ TEST_F(DisplayViews, RefuseWhatIsNotThere) {
   EXPECT_NE(problem(wish("Film", "log")).find("no colour space or role"), std::string::npos);
   EXPECT_NE(problem({(folder_ / "none.ocio").string()}).find("is no file"), std::string::npos);
   EXPECT_NE(problem({(folder_ / "table.cube").string()}).find("is no sound OpenColorIO config"), std::string::npos);
-  std::filesystem::remove(folder_ / "table.cube");
+  std::string config = kConfig;
+  config.replace(config.find("table.cube"), 10, "gone1.cube");  // OpenColorIO keeps files that it has read
+  std::ofstream(folder_ / "config.ocio") << config;
   EXPECT_NE(problem(wish("Table")).find("cannot show light"), std::string::npos);
 }
 

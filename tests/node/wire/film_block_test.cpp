@@ -122,7 +122,7 @@ TEST(FilmBlock, RefusesNumbersOutOfRange) {
       {"near 0", [](FilmData& f) { f.cameras[0].near = 0; }},
       {"shift to the right", [](FilmData& f) { f.cameras[0].shift_x = 1.01; }},
       {"shift down", [](FilmData& f) { f.cameras[0].shift_y = -1.01; }},
-      {"no projection", [](FilmData& f) { f.cameras[0].projection = static_cast<Projection>(2); }},
+      {"no projection", [](FilmData& f) { f.cameras[0].projection = static_cast<Projection>(3); }},
       {"far before near", [](FilmData& f) { f.cameras[0].far = 0.05; }},
       {"a material that casts twice", [](FilmData& f) { f.materials[1].casts = 2; }},
       {"a material that receives twice", [](FilmData& f) { f.materials[1].receives = 2; }},

@@ -239,13 +239,13 @@ TEST(Restore, FramesThatSayNothingAreLeftAlone) {
 TEST(Restore, KeysOfLaterProgramsAreKept) {
   const TemporaryFolder folder;
   Manifest manifest = small_manifest();
-  manifest.more = R"({"layers":["beauty",3]})";
+  manifest.more = R"({"lenses":["beauty",3]})";
   fill(folder.path(), manifest, 7);
   manifest.more.clear();
   manifest.frames = {3};
   fill(folder.path(), manifest, 7);
   const auto text = nlohmann::json::parse(document::read_file(folder / kManifestName));
-  EXPECT_EQ(text.at("layers"), nlohmann::json::parse(R"(["beauty",3])"));
+  EXPECT_EQ(text.at("lenses"), nlohmann::json::parse(R"(["beauty",3])"));
   EXPECT_EQ(text.at("version"), 3) << "older programs can go on there";
   Manifest part = manifest_of(text);
   part.place = {{-8, 4, 64, 36}, 1.5f};

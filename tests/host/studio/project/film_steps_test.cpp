@@ -140,8 +140,8 @@ TEST_F(FilmSteps, CameraLightsAndSettingsHaveTheKeysOfTheTable) {
   EXPECT_EQ(camera["near"], 0.25);
   EXPECT_EQ(camera["far"], 10000);
   const Json settings = project->describe()["settings"];
-  EXPECT_EQ(names(settings), (Names{"frames", "rate", "audio_delay", "size", "samples", "color", "curve", "background",
-                                    "intervals", "dice"}));
+  EXPECT_EQ(names(settings), (Names{"frames", "rate", "audio_delay", "size", "pixel_aspect", "samples", "color",
+                                    "curve", "background", "intervals", "dice"}));
   EXPECT_EQ(settings["samples"], 8);
   EXPECT_EQ(settings["dice"], "adaptive");
   project->commit(pose("light/1", "reach=5", 8));

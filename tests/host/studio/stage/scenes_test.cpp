@@ -98,7 +98,7 @@ TEST(Scenes, DrawnTheyAreTheFilmsFrame) {
   copy(data.changes, scene.changes());
   copy(data.intervals, scene.intervals());
   data.moving = moving_of(on.link.asked[0]);
-  for (std::size_t i = 0; i < data.segments.size(); ++i) data.segments[i].name = 0;
+  for (std::size_t i = 0; i < data.segments.size(); ++i) data.segments[i].name = data.segments[i].material_name = 0;
   data.names = {'x', '\0'};
   const test::FilmRun drawn = test::run_film(wire::pack(data));
   test::RunOptions options;
