@@ -112,7 +112,7 @@ class Commands(ProgramTest):
         self.succeed("mars", "compile", TEAPOT, "-o", "teapot.mars")
         of_film = self.succeed("mars", "info", TEAPOT)
         of_compiled = self.succeed("mars", "info", "teapot.mars")
-        self.assertRegex(of_film, r"size +480 x 270\n")
+        self.assertRegex(of_film, r"size +480x270\n")
         self.assertRegex(of_film, r"frames +24 at 24 a second")
         self.assertEqual(of_film.splitlines()[1:], of_compiled.splitlines()[1:])
 

@@ -324,8 +324,7 @@ std::vector<Entry> table() {
           "Eye of a stereo pair that sees the film, by its camera's interaxial and convergence; default: middle, the "
           "camera itself. Example: --eye left"),
       option(compiles, "--crop", "X,Y,WxH", &RenderOptions::crop,
-             "Draw this part of the picture alone, its pixels unchanged; X,Y: its left top one. Example: --crop "
-             "480,270,960x540"),
+             "Draw this part alone; X,Y: its left top pixel. Example: --crop 480,270,960x540"),
       number(compiles, "--margin", {&RenderOptions::margin, false, wire::kMostMargin, 0},
              "Pixels drawn around the picture or its crop (overscan); default: 0. Example: --margin 32"),
       flag(compiles, "--faces", &RenderOptions::faces,
