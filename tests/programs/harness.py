@@ -31,7 +31,8 @@ ENDLESS = 10000 if SANITIZED else 100000  # frames: more than a program renders 
 # For a person's own mpirun line: the tests may run as root, with more ranks than cores.
 OWN_MPIRUN = ["mpirun.mpich"] if MPICH else ["mpirun", "--oversubscribe", "--bind-to", "none"]
 ENVIRONMENT = dict(
-    os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+    os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+    HWLOC_COMPONENTS="-gl")  # which ends with the X server of any test beside it
 
 needs_mpi = unittest.skipUnless(HAVE_MPI, "built without MPI")
 

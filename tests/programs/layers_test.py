@@ -178,7 +178,7 @@ class Layers(ProgramTest):
                 self.render(made, "plain vectors", "--layers", "all", "--nodes", 2, env={**ENVIRONMENT, "MARS_SIMD": "sse4"})
                 self.assertEqual(files("plain vectors"), files("one"))
                 # Still lines for which there is no memory are drawn again; shadows need 10 MiB.
-                little = {**ENVIRONMENT, "MARS_MEMORY": "20" if shadow else "1"}
+                little = {**ENVIRONMENT, "MARS_MEMORY": "22" if shadow else "1"}
                 self.render(made, "little memory", "--layers", "all", "--nodes", 2, env=little)
                 self.assertEqual(files("little memory"), files("one"))
                 bare = self.render(made, "bare", "--nodes", 2)

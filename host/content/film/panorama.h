@@ -30,7 +30,7 @@ inline constexpr std::array<FaceAxes, kFaces> kFaceAxes{{{{1, 0, 0}, {0, 1, 0}, 
 
 // Pixels of a face beyond its 90 degrees, on each side: neighbours of those at its edge.
 inline constexpr std::uint32_t kFaceBorder = 1;
-// Pixels of 90 degrees of a face of a panorama of this width: so many that the middle of a face, where it has the
+// Pixels of 90 degrees of a face of a panorama of this width: at least such that the middle of a face, where it has the
 // fewest for an angle, has as many as the panorama has along its horizon. Even.
 std::uint32_t face_pixels(std::uint32_t width);
 inline std::uint32_t face_side(std::uint32_t width) { return face_pixels(width) + 2 * kFaceBorder; }

@@ -29,7 +29,7 @@ class Work {
         content_(joining.panorama),
         sink_(joining.folder, [this](std::uint32_t frame) { return content_.checksum(frame); }) {}
 
-  // Joins the next frame that nobody joins yet, until there is none; on several threads at once.
+  // Joins the next frame that is not being joined yet, until there is none; on several threads at once.
   void run() {
     compositor::Frame frame(joiner_.width(), joiner_.height(), kBlock, 0, pixels());
     for (std::size_t next = next_++; next < joining_.frames.size(); next = next_++) {

@@ -323,8 +323,8 @@ std::vector<Entry> table() {
           compiles, "--eye", "middle|left|right", &RenderOptions::eye,
           "Eye of a stereo pair that sees the film, by its camera's interaxial and convergence; default: middle, the "
           "camera itself. Example: --eye left"),
-      option(compiles, "--crop", "X,Y,WxH", &RenderOptions::crop,
-             "Draw this part alone; X,Y: its left top pixel. Example: --crop 480,270,960x540"),
+      option(compiles, "--crop", "PART", &RenderOptions::crop,
+             "Draw this part alone: X,Y,WxH, X,Y its left top pixel. Example: --crop 480,270,960x540"),
       number(compiles, "--margin", {&RenderOptions::margin, false, wire::kMostMargin, 0},
              "Pixels drawn around the picture or its crop (overscan); default: 0. Example: --margin 32"),
       flag(compiles, "--faces", &RenderOptions::faces,
