@@ -142,7 +142,7 @@ class Parts(ProgramTest):
         self.fail_clearly(2, *again, *view, "--format", "exr", says="EXR files hold light")
         self.fail_clearly(2, *again, *view, "--write", "nodes", says="have no OpenColorIO config")
         self.fail_clearly(2, *again, "--view", "Film", says="add --ocio CONFIG")
-        self.film("coded.json", color="coded")
+        self.write("coded.json", json.dumps({**spinning_teapot(2, [64, 36]), "color": "coded"}))
         self.fail_clearly(1, "render", "coded.json", "-o", "none", *SMALL, *view, says="coded colours")
 
 
