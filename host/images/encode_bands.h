@@ -14,7 +14,7 @@ namespace mars::images {
 // Of lines of such pictures, as a file has them.
 std::size_t file_words_of(const PictureBands& bands, const Lines& lines);
 
-// A band's pixels as a file has them: those that were drawn, or made of these.
+// A band's pixels as a file has them: those that were drawn, or made of them.
 class FilePixels {
  public:
   // `drawn` outlives it.

@@ -167,7 +167,7 @@ void add_mattes(const SurfaceNames& names, Imf::Header& header) {
   }
 }
 
-// Of these lines of the picture, whose pixels count from the corner of the film's whole picture.
+// Of some lines of the picture, whose pixels count from the corner of the film's whole picture.
 Imf::Header header_of(const PictureBands& bands, const Lines& lines, const FileFacts& facts) {
   const wire::PictureWindow& window = bands.place().window;
   const Imath::Box2i display = window.is_whole() ? box_of(0, 0, bands.width(), bands.height())

@@ -116,7 +116,7 @@ wire::LayerSet layers_in(std::string_view text) {
     const auto found = std::ranges::find(kNames, name);
     if (found == kNames.end())
       throw Failure("there is no layer " + document::in_quotes(name), "",
-                    "name some of these, with commas: " + document::joined(kNames) + "; or all");
+                    "name some, with commas: " + document::joined(kNames) + "; or all");
     const wire::LayerSet kind = wire::set_of(static_cast<Layer>(found - kNames.begin()));
     if ((kinds & kind) != 0)
       throw Failure("the layer " + document::in_quotes(name) + " comes twice", "", "name it once");

@@ -13,7 +13,8 @@ struct PictureSize {
   bool operator==(const PictureSize&) const = default;
 };
 
-// A picture of square pixels that is shown as one of these pixels, each `pixel_aspect` times as wide as high; as high.
+// A picture of square pixels that is shown as one of `size`, whose pixels are each `pixel_aspect` times as wide as
+// high; as high as that.
 PictureSize with_square_pixels(PictureSize size, double pixel_aspect);
 
 // From "960x540". Throws Failure where that is no size.

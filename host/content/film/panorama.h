@@ -41,7 +41,7 @@ bool is_panorama(const wire::PackedFilm& film);
 void check_panorama(const CompiledFilm& panorama);
 // Its film of faces. Throws Failure as check_panorama().
 CompiledFilm faces_of(const CompiledFilm& panorama);
-// Of these frames of a panorama of `film_frames`, ascending, those of its film of faces, ascending.
+// The faces of `frames`, ascending, of a panorama of `film_frames`: their numbers in its film of faces, ascending.
 std::vector<std::uint32_t> face_frames(const std::vector<std::uint32_t>& frames, std::uint32_t film_frames);
 
 }  // namespace mars::film

@@ -137,7 +137,7 @@ void FilmPanorama::join() {
   remove_faces();
 }
 
-// Of these frames alone: other runs may draw those of others.
+// Of its own frames alone: other runs may draw those of others.
 void FilmPanorama::remove_faces() const {
   const fs::path folder = faces_folder(options_);
   const sinks::Manifest manifest = sinks::read_manifest(folder);

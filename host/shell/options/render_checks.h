@@ -1,0 +1,13 @@
+// What options of a rendering do not go together. Throws Failure, which names a remedy.
+#pragma once
+
+#include "host/shell/options/render_wish.h"
+
+namespace mars::options {
+
+// Of all programs: what files of frames cannot hold.
+void check_pictures(const RenderOptions& options);
+// Of programs that draw.
+void check_together(const RenderOptions& options, Program program);
+
+}  // namespace mars::options
