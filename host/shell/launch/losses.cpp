@@ -197,6 +197,16 @@ std::optional<Loss> lost_connection(const std::string& line) {
   return std::nullopt;
 }
 
+// "An MPI communication peer process has unexpectedly disconnected. ... Peer host: n2": of a process that died, or
+// behind a link that was down, while others had not all begun. Which end of the connection failed it does not say.
+std::optional<Loss> lost_peer(const std::string& line) {
+  TextReader words(line);
+  if (!words.find("peer process has unexpectedly disconnected")) return std::nullopt;
+  const auto machine = words.find("Peer host: ") ? words.word() : std::nullopt;
+  return Loss{Failure("a connection between processes broke", machine ? "machine " + *machine : "",
+                      "look whether a process was ended there, and whether the network is sound")};
+}
+
 // What Open MPI cannot start has an exit code of its own, from 129 on too.
 bool never_started(const std::string& words) {
   for (const char* way : {"find", "launch", "start"})
@@ -210,7 +220,8 @@ std::optional<Loss> loss_in_words(const Remains& remains, const std::string& wor
   if (auto loss = lost_machine(words, remains.booted)) return loss;
   if (auto loss = lost_task(words)) return loss;
   if (auto loss = lost_daemon(words, remains.ending)) return loss;
-  return lost_connection(words);
+  if (auto loss = lost_connection(words)) return loss;
+  return lost_peer(words);
 }
 
 // libevent, in which mpirun waits, warns of what is closed while it ends.

@@ -77,6 +77,13 @@ TEST(Diagnosis, OfAMachineWhoseDaemonEndsFirst) {
   EXPECT_TRUE(document::holds(message(remains), "machine n1 or n4: does not answer any more"));
 }
 
+TEST(Diagnosis, OfABrokenConnection) {
+  const Remains remains = failed_with({"An MPI communication peer process has unexpectedly disconnected.  This",
+                                       "usually indicates a failure in the peer process", "  Local host: n1",
+                                       "  Local PID:  134", "  Peer host:  n2"});
+  EXPECT_TRUE(document::holds(message(remains), "machine n2: a connection between processes broke"));
+}
+
 // MPI may say very much in between, and in very long words.
 TEST(Diagnosis, OfAnyAmountOfWords) {
   const std::string long_word(100000, 'y');

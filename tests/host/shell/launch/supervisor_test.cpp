@@ -199,6 +199,7 @@ TEST_F(SupervisorOf, AJobThatDiesWhileItStartsIsStartedAgain) {
       {{255, 0}, kNoDaemon},
       {{1, 0}, "Message: connect() to 10.77.0.11:1048 failed Error: Operation now in progress (115)"},
       {{1, 0}, "A process or daemon was unable to complete a TCP connection to another process:"},
+      {{1, 0}, "An MPI communication peer process has unexpectedly disconnected. This usually indicates a failure"},
       {{1, 0}, "srun: error: n3: task 1: Killed"},
       {{1, 0}, "srun: error: n[2-3]: tasks 1-2: Exited with exit code 143"},
   };
