@@ -1,7 +1,6 @@
 #include "node/tessellator.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 
 #include "node/geometry/picture_box.h"
@@ -128,40 +127,37 @@ void Tessellator::add_segment(const geometry::Scene& scene, std::size_t segment,
   const auto from = [&](std::uint64_t place) { return scatter.from(first + place) - first; };
   std::uint64_t i = from(0);
   if (i >= shape.size()) return;
-  const Touches touches = Tessellator::touches(scene, segment, output.all_own);
+  place_.find(scene, segment);
+  const Touches touches = Tessellator::touches(scene, output.all_own);
   if (touches == Touches::nothing) return;
   output.own = touches == Touches::perhaps ? output.all_own : nullptr;
-  const shape::EyeMatrix matrix = scene.matrix(segment);
   const std::uint32_t material = scene.material(segment);
-  raster::PatchIdentity identity{0, material, shape::mirrors(matrix), film.materials()[material].sides == 1,
+  raster::PatchIdentity identity{0, material, place_.mirrors(), film.materials()[material].sides == 1,
                                  scene.moves(segment)};
   for (const auto patches = film.patches_of(number); i < shape.patch_count; i = from(i + 1)) {
     look_now_and_then();
     identity.patch = first + static_cast<std::uint32_t>(i);
-    add_patch(scene, matrix, patches[i], identity, output);
+    add_patch(scene, patches[i], identity, output);
   }
-  if (i >= shape.size()) return;
-  const shape::EyeMap map = geometry::eye_map(matrix);
   for (const auto meshlets = film.meshlets_of(number); i < shape.size(); i = from(i + 1)) {
     look_now_and_then();
     identity.patch = first + static_cast<std::uint32_t>(i);
-    add_meshlet(scene, matrix, map, meshlets[i - shape.patch_count], identity, output);
+    add_meshlet(scene, meshlets[i - shape.patch_count], identity, output);
   }
 }
 
-Tessellator::Touches Tessellator::touches(const geometry::Scene& scene, std::size_t segment, const OwnLines* own) {
+Tessellator::Touches Tessellator::touches(const geometry::Scene& scene, const OwnLines* own) const {
   if (own == nullptr) return Touches::only;
-  const geometry::ShapeBoxes::Box& box = own->boxes.of(scene.film().segments()[segment].shape);
-  const geometry::PictureBounds bounds = geometry::picture_box(
-      scene.matrix(segment), std::to_array(box.low), std::to_array(box.high), scene.projection(), size_of(scene));
+  const geometry::PictureBounds bounds =
+      geometry::picture_box(place_.corners(own->boxes), scene.projection(), size_of(scene));
   if (!meet(bounds, own->lines)) return Touches::nothing;
   const bool inside = own->lines.first <= bounds.lines.first && bounds.lines.last <= own->lines.last;
   return inside ? Touches::only : Touches::perhaps;
 }
 
-void Tessellator::add_patch(const geometry::Scene& scene, const shape::EyeMatrix& matrix, const wire::Patch& patch,
+void Tessellator::add_patch(const geometry::Scene& scene, const wire::Patch& patch,
                             const raster::PatchIdentity& identity, Output& output) {
-  const shape::EyePatch eye_patch = shape::to_eye(matrix, patch);
+  const shape::EyePatch eye_patch = shape::to_eye(place_.matrix(), patch);
   const auto width = static_cast<float>(scene.width()), height = static_cast<float>(scene.height());
   if (shape::unseen(eye_patch, scene.projection(), width, height)) return;
   if (output.own != nullptr &&
@@ -171,15 +167,15 @@ void Tessellator::add_patch(const geometry::Scene& scene, const shape::EyeMatrix
   output.add_patch(dicer_, identity);
 }
 
-void Tessellator::add_meshlet(const geometry::Scene& scene, const shape::EyeMatrix& matrix, const shape::EyeMap& map,
-                              const wire::Meshlet& meshlet, const raster::PatchIdentity& identity, Output& output) {
+void Tessellator::add_meshlet(const geometry::Scene& scene, const wire::Meshlet& meshlet,
+                              const raster::PatchIdentity& identity, Output& output) {
   const auto width = static_cast<float>(scene.width()), height = static_cast<float>(scene.height());
-  if (geometry::unseen(matrix, meshlet, scene.projection(), width, height)) return;
+  const geometry::BoxCorners corners = place_.corners(scene.film(), meshlet);
+  if (shape::unseen(corners.point, geometry::BoxCorners::kCount, scene.projection(), width, height)) return;
   if (output.own != nullptr &&
-      !meet(geometry::picture_box(matrix, meshlet.low, meshlet.high, scene.projection(), size_of(scene)),
-            output.own->lines))
+      !meet(geometry::picture_box(corners, scene.projection(), size_of(scene)), output.own->lines))
     return;
-  placer_.place(map, scene.film(), meshlet, scene.projection());
+  placer_.place(place_, scene.film(), meshlet, scene.projection());
   output.add_meshlet(placer_, identity);
 }
 

@@ -9,6 +9,7 @@
 
 #include "node/geometry/meshlets.h"
 #include "node/geometry/scene.h"
+#include "node/geometry/segment_place.h"
 #include "node/group/passes.h"
 #include "node/heartbeat.h"
 #include "node/raster/arena.h"
@@ -100,11 +101,12 @@ class Tessellator {
 
   void add(const geometry::Scene& scene, bool moving, const Scatter& scatter, Output& output);
   void add_segment(const geometry::Scene& scene, std::size_t segment, const Scatter& scatter, Output& output);
-  static Touches touches(const geometry::Scene& scene, std::size_t segment, const OwnLines* own);
-  void add_patch(const geometry::Scene& scene, const shape::EyeMatrix& matrix, const wire::Patch& patch,
-                 const raster::PatchIdentity& identity, Output& output);
-  void add_meshlet(const geometry::Scene& scene, const shape::EyeMatrix& matrix, const shape::EyeMap& map,
-                   const wire::Meshlet& meshlet, const raster::PatchIdentity& identity, Output& output);
+  // Of the segment that place_ is of.
+  Touches touches(const geometry::Scene& scene, const OwnLines* own) const;
+  void add_patch(const geometry::Scene& scene, const wire::Patch& patch, const raster::PatchIdentity& identity,
+                 Output& output);
+  void add_meshlet(const geometry::Scene& scene, const wire::Meshlet& meshlet, const raster::PatchIdentity& identity,
+                   Output& output);
 
   void look_now_and_then() {
     if (heartbeat_ != nullptr) heartbeat_->look_now_and_then();
@@ -112,6 +114,7 @@ class Tessellator {
 
   simd::InstructionSet instruction_set_;
   Heartbeat* heartbeat_;
+  geometry::SegmentPlace place_;  // of the current segment
   shape::Dicer dicer_;
   geometry::MeshletPlacer placer_;
   shading::ColoredSurface colored_;

@@ -1,9 +1,8 @@
 #include "node/geometry/meshlets.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
+#include <cstring>
 
 namespace mars::geometry {
 namespace {
@@ -16,44 +15,34 @@ const float (*vectors(const std::array<float, 3>* first))[3] { return reinterpre
 
 }  // namespace
 
-// The cofactors are scaled so that the largest is 1: squares of what they turn stay far inside a float, however small
-// or large the mesh is shown.
-shape::EyeMap eye_map(const shape::EyeMatrix& matrix) {
-  shape::EyeMap map;
-  double cofactor[3][3], largest = 0;
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c) {
-      const float *one = matrix.m[(r + 1) % 3], *other = matrix.m[(r + 2) % 3];
-      const int next = (c + 1) % 3, last = (c + 2) % 3;
-      cofactor[r][c] = static_cast<double>(one[next]) * other[last] - static_cast<double>(one[last]) * other[next];
-      largest = std::max(largest, std::abs(cofactor[r][c]));
-    }
-  for (int r = 0; r < 3; ++r) {
-    std::copy_n(matrix.m[r], 4, map.place[r]);
-    for (int c = 0; c < 3; ++c) map.normal[r][c] = largest > 0 ? static_cast<float>(cofactor[r][c] / largest) : 0.0f;
-  }
-  return map;
-}
-
-bool unseen(const shape::EyeMatrix& matrix, const wire::Meshlet& meshlet, const shape::Projection& projection,
-            float width, float height) {
-  float corners[8][3];
-  for (int k = 0; k < 8; ++k) {
-    const auto along = [&](std::size_t axis) { return (k >> axis & 1 ? meshlet.high : meshlet.low)[axis]; };
-    shape::to_eye(matrix, {along(0), along(1), along(2)}, corners[k]);
-  }
-  return shape::unseen(corners, 8, projection, width, height);
-}
-
 MeshletPlacer::MeshletPlacer(simd::InstructionSet set)
     : shape::Surface(set, static_cast<int>(wire::kMeshletVertices), static_cast<int>(wire::kMeshletTriangles),
                      kMostBatches) {}
+
+void MeshletPlacer::place(const SegmentPlace& segment, const wire::PackedFilm& film, const wire::Meshlet& meshlet,
+                          const shape::Projection& projection) {
+  if (!segment.has_skin()) return place(segment.map(), film, meshlet, projection);
+  float bones[wire::kMeshletBones][3][4];
+  int count = 0;
+  for (const std::uint32_t bone : film.bones_of(meshlet))
+    std::memcpy(bones[count++], segment.bones()[bone].m, sizeof bones[0]);
+  const shape::EyeSkin skin{bones, film.mesh_weights().data() + meshlet.first_weight, count, segment.scale()};
+  vertex_count_ = static_cast<int>(meshlet.vertex_count);
+  kernels_.move_skin(skin, vectors(film.mesh_places().data() + meshlet.first_vertex),
+                     vectors(film.mesh_normals().data() + meshlet.first_vertex), vertex_count_, vertices_);
+  finish(film, meshlet, projection);
+}
 
 void MeshletPlacer::place(const shape::EyeMap& map, const wire::PackedFilm& film, const wire::Meshlet& meshlet,
                           const shape::Projection& projection) {
   vertex_count_ = static_cast<int>(meshlet.vertex_count);
   kernels_.move(map, vectors(film.mesh_places().data() + meshlet.first_vertex),
                 vectors(film.mesh_normals().data() + meshlet.first_vertex), vertex_count_, vertices_);
+  finish(film, meshlet, projection);
+}
+
+void MeshletPlacer::finish(const wire::PackedFilm& film, const wire::Meshlet& meshlet,
+                           const shape::Projection& projection) {
   project(projection);
   clear_triangles();
   for (const wire::MeshTriangle& t : film.mesh_triangles().subspan(meshlet.first_triangle, meshlet.triangle_count))

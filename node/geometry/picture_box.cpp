@@ -46,15 +46,4 @@ PictureBounds picture_box(const float (*points)[3], int count, const shape::Proj
   return {{top, bottom}, {left, right}};
 }
 
-PictureBounds picture_box(const shape::EyeMatrix& matrix, const std::array<float, 3>& low,
-                          const std::array<float, 3>& high, const shape::Projection& projection,
-                          const PictureSize& picture) {
-  float corners[8][3];
-  for (std::size_t k = 0; k < 8; ++k) {
-    const auto along = [&](std::size_t axis) { return (k >> axis & 1 ? high : low)[axis]; };
-    shape::to_eye(matrix, {along(0), along(1), along(2)}, corners[k]);
-  }
-  return picture_box(corners, 8, projection, picture);
-}
-
 }  // namespace mars::geometry

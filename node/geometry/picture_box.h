@@ -3,8 +3,8 @@
 #pragma once
 
 #include "node/geometry/line_range.h"
+#include "node/geometry/segment_place.h"
 #include "node/shape/bezier.h"
-#include "node/wire/film.h"
 
 namespace mars::geometry {
 
@@ -16,9 +16,9 @@ struct PictureSize {
 // Empty where nothing of it is on the picture; all of the picture where a point is nearer than the near plane.
 PictureBounds picture_box(const float (*points)[3], int count, const shape::Projection& projection,
                           const PictureSize& picture);
-// The same of a box of the space that `matrix` takes to eye space: its corners.
-PictureBounds picture_box(const shape::EyeMatrix& matrix, const std::array<float, 3>& low,
-                          const std::array<float, 3>& high, const shape::Projection& projection,
-                          const PictureSize& picture);
+inline PictureBounds picture_box(const BoxCorners& corners, const shape::Projection& projection,
+                                 const PictureSize& picture) {
+  return picture_box(corners.point, BoxCorners::kCount, projection, picture);
+}
 
 }  // namespace mars::geometry

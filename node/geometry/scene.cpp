@@ -28,19 +28,33 @@ EyeLight to_eye(const wire::Light& light, const wire::Matrix& world_to_eye) {
   return out;
 }
 
+constexpr float kUnreached = std::numeric_limits<float>::max();
+constexpr ShapeBoxes::Box kEmptyBox{{kUnreached, kUnreached, kUnreached}, {-kUnreached, -kUnreached, -kUnreached}};
+
+void take_in(const std::array<float, 3>& low, const std::array<float, 3>& high, ShapeBoxes::Box& box) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.low[axis] = std::min(box.low[axis], low[axis]);
+    box.high[axis] = std::max(box.high[axis], high[axis]);
+  }
+}
+
 ShapeBoxes::Box box_of(const wire::PackedFilm& film, std::uint32_t shape) {
-  constexpr float kFar = std::numeric_limits<float>::max();
-  ShapeBoxes::Box box{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
-  const auto take_in = [&](const std::array<float, 3>& low, const std::array<float, 3>& high) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      box.low[axis] = std::min(box.low[axis], low[axis]);
-      box.high[axis] = std::max(box.high[axis], high[axis]);
-    }
-  };
+  ShapeBoxes::Box box = kEmptyBox;
   for (const wire::Patch& patch : film.patches_of(shape))
-    for (const auto& point : patch.points) take_in(point, point);
-  for (const wire::Meshlet& meshlet : film.meshlets_of(shape)) take_in(meshlet.low, meshlet.high);
+    for (const auto& point : patch.points) take_in(point, point, box);
+  for (const wire::Meshlet& meshlet : film.meshlets_of(shape)) take_in(meshlet.low, meshlet.high, box);
   return box;
+}
+
+// `boxes` are of the meshlet's segment's bones.
+void take_in_vertices(const wire::PackedFilm& film, const wire::Meshlet& meshlet, std::span<ShapeBoxes::Box> boxes) {
+  const auto places = film.mesh_places().subspan(meshlet.first_vertex, meshlet.vertex_count);
+  auto weights = film.mesh_weights().subspan(meshlet.first_weight);
+  for (const std::uint32_t bone : film.bones_of(meshlet)) {
+    for (std::size_t vertex = 0; vertex < places.size(); ++vertex)
+      if (weights[vertex] > 0) take_in(places[vertex], places[vertex], boxes[bone]);
+    weights = weights.subspan(places.size());
+  }
 }
 
 }  // namespace
@@ -70,7 +84,15 @@ shape::Projection projection_of(const wire::Camera& camera, const wire::FilmSett
 
 ShapeBoxes::ShapeBoxes(const wire::PackedFilm& film) {
   boxes_.reserve(film.shape_count());
-  for (std::uint32_t shape = 0; shape < film.shape_count(); ++shape) boxes_.push_back(box_of(film, shape));
+  first_bone_.push_back(0);
+  for (std::uint32_t shape = 0; shape < film.shape_count(); ++shape) {
+    boxes_.push_back(box_of(film, shape));
+    const std::size_t first = bones_.size();
+    bones_.resize(first + film.shape(shape).bone_count, kEmptyBox);
+    first_bone_.push_back(bones_.size());
+    for (const wire::Meshlet& meshlet : film.meshlets_of(shape))
+      take_in_vertices(film, meshlet, std::span(bones_).subspan(first));
+  }
 }
 
 Scene::Scene(const wire::PackedFilm& film)
@@ -82,9 +104,10 @@ Scene::Scene(const wire::PackedFilm& film)
   for (const wire::Segment& segment : film.segments()) {
     first_patch_.push_back(next);
     next += static_cast<std::uint32_t>(film.shape(segment.shape).size());
+    most_bones_ = std::max<std::size_t>(most_bones_, segment.bone_count);
   }
   moves_.resize(film.segments().size());
-  moved_at_.resize(film.segments().size());
+  moved_at_.resize(film.segments().size() + film.bones().size());
   lights_.resize(film.light_tracks().size());
   light_order_.resize(lights_.size());
   std::iota(light_order_.begin(), light_order_.end(), std::size_t{0});
@@ -127,6 +150,13 @@ shape::EyeMatrix Scene::matrix(std::size_t segment) const {
   const std::uint32_t moved = moved_at_[segment];
   const wire::Matrix& matrix =
       moved > 0 ? moved_[moved - 1].matrix : film_.matrix_at(film_.segments()[segment], frame_);
+  return shape::eye_matrix(film_.camera_at(frame_).world_to_eye, matrix);
+}
+
+shape::EyeMatrix Scene::bone_matrix(std::size_t segment, std::uint32_t bone) const {
+  const std::size_t number = film_.segments()[segment].first_bone + bone;
+  const std::uint32_t moved = moved_at_[film_.segments().size() + number];
+  const wire::Matrix& matrix = moved > 0 ? moved_[moved - 1].matrix : film_.matrix_at(film_.bones()[number], frame_);
   return shape::eye_matrix(film_.camera_at(frame_).world_to_eye, matrix);
 }
 

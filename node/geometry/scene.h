@@ -23,13 +23,21 @@ class ShapeBoxes {
   struct Box {
     float low[3];
     float high[3];
+
+    bool is_empty() const { return low[0] > high[0]; }
   };
 
   explicit ShapeBoxes(const wire::PackedFilm& film);
   const Box& of(std::uint32_t shape) const { return boxes_[shape]; }
+  // Of a shape with a skin, for each bone round the vertices that follow it.
+  std::span<const Box> of_bones(std::uint32_t shape) const {
+    return std::span(bones_).subspan(first_bone_[shape], first_bone_[shape + 1] - first_bone_[shape]);
+  }
 
  private:
   std::vector<Box> boxes_;
+  std::vector<Box> bones_;
+  std::vector<std::size_t> first_bone_;  // of each shape, and the end
 };
 
 class Scene {
@@ -38,7 +46,7 @@ class Scene {
 
   void set_interval(std::uint32_t number);
   void set_frame(std::uint32_t frame);
-  // Until the next call these segments are as said here, whatever the frame.
+  // Until the next call these segments and bones are as they are here, whatever the frame.
   void move(std::span<const wire::MovedSegment> moved);
 
   const wire::PackedFilm& film() const { return film_; }
@@ -63,7 +71,10 @@ class Scene {
   std::uint32_t first_patch(std::size_t segment) const { return first_patch_[segment]; }
   // Whose a patch or meshlet of that number is.
   std::uint32_t segment_of(std::uint32_t patch) const;
-  shape::EyeMatrix matrix(std::size_t segment) const;
+  shape::EyeMatrix matrix(std::size_t segment) const;  // segment_place.h knows skins
+  // Of one of a skin's bones; a segment has most_bones() at most.
+  shape::EyeMatrix bone_matrix(std::size_t segment, std::uint32_t bone) const;
+  std::size_t most_bones() const { return most_bones_; }
   std::uint32_t material(std::size_t segment) const;
 
  private:
@@ -73,9 +84,10 @@ class Scene {
   std::vector<std::uint8_t> moves_;
   std::span<const std::uint32_t> movers_;
   std::vector<wire::MovedSegment> moved_;
-  std::vector<std::uint32_t> moved_at_;  // by segment: its place in moved_ and one; 0: it is not there
+  std::vector<std::uint32_t> moved_at_;  // by segment, then by bone: its place in moved_ and one; 0: it is not there
   std::uint32_t frame_ = 0;
   shape::Projection projection_;
+  std::size_t most_bones_ = 0;
   std::vector<std::size_t> light_order_;  // numbers of tracks
   std::uint32_t casting_count_;
   std::vector<EyeLight> lights_;

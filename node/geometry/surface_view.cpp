@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace mars::geometry {
 namespace {
@@ -36,10 +37,66 @@ void normalize(float* vector) {
   for (int axis = 0; axis < 3; ++axis) vector[axis] = length > 0 ? vector[axis] / length : 0;
 }
 
+// Whether the track has the same value at the frame and the one before.
+bool stays(const wire::PackedFilm& film, const wire::Track& track, std::uint32_t frame) {
+  return film.value_at(track, frame) == film.value_at(track, frame - 1);
+}
+
+bool stays(const wire::PackedFilm& film, const wire::Segment& segment, std::uint32_t frame) {
+  if (segment.bone_count == 0) return stays(film, segment.motion, frame);
+  return std::ranges::all_of(film.bones_of(segment), [&](const wire::Track& bone) { return stays(film, bone, frame); });
+}
+
+using Float3 = std::array<float, 3>;
+
+// Where a meshlet's vertices are at a frame, seen by its camera: as the kernel moves them.
+void put_skinned(const wire::PackedFilm& film, const wire::Segment& segment, const wire::Meshlet& meshlet,
+                 std::uint32_t frame, std::vector<Float3>& out) {
+  shape::EyeMatrix bones[wire::kMeshletBones];
+  std::size_t count = 0;
+  for (const std::uint32_t bone : film.bones_of(meshlet))
+    bones[count++] =
+        shape::eye_matrix(film.camera_at(frame).world_to_eye, film.matrix_at(film.bones_of(segment)[bone], frame));
+  const float* const weights = film.mesh_weights().data() + meshlet.first_weight;
+  out.resize(meshlet.vertex_count);
+  for (std::size_t vertex = 0; vertex < out.size(); ++vertex) {
+    shape::EyeMatrix sum{};
+    for (std::size_t bone = 0; bone < count; ++bone)
+      for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 4; ++c) sum.m[r][c] += weights[bone * out.size() + vertex] * bones[bone].m[r][c];
+    float place[3];
+    shape::to_eye(sum, film.mesh_places()[meshlet.first_vertex + vertex], place);
+    std::copy_n(place, 3, out[vertex].begin());
+  }
+}
+
+Float3 difference(const Float3& a, const Float3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+float dot(const Float3& a, const Float3& b) { return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]; }
+
+// a + u (b - a) + v (c - a)
+Float3 between(const Float3& a, const Float3& b, const Float3& c, float u, float v) {
+  const Float3 along = difference(b, a), across = difference(c, a);
+  Float3 place;
+  for (std::size_t axis = 0; axis < 3; ++axis) place[axis] = a[axis] + (u * along[axis] + v * across[axis]);
+  return place;
+}
+
+// Parts of a triangle's sides, from its first corner, that lead to a point of it near `place`.
+std::array<float, 2> parts_near(const Float3& place, const Float3& a, const Float3& b, const Float3& c) {
+  const Float3 along = difference(b, a), across = difference(c, a), way = difference(place, a);
+  const float aa = dot(along, along), ab = dot(along, across), bb = dot(across, across);
+  const float determinant = aa * bb - ab * ab;
+  if (!(determinant > 0)) return {0, 0};
+  const float u = std::max(0.0f, (bb * dot(along, way) - ab * dot(across, way)) / determinant);
+  const float v = std::max(0.0f, (aa * dot(across, way) - ab * dot(along, way)) / determinant);
+  const float sum = std::max(1.0f, u + v);
+  return {u / sum, v / sum};
+}
+
 }  // namespace
 
 SurfaceView::SurfaceView(const Scene& scene, std::uint32_t frame, bool motion)
-    : scene_(scene), before_(scene.projection()) {
+    : scene_(scene), frame_(frame), before_(scene.projection()) {
   const auto& to_eye = scene.camera().world_to_eye.m;
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (std::size_t row = 0; row < 3; ++row) to_world_[axis][row] = static_cast<float>(to_eye[row][axis]);
@@ -56,9 +113,14 @@ void SurfaceView::find_ways(std::uint32_t frame) {
   ways_.resize(film.segments().size());
   for (std::size_t number = 0; number < ways_.size(); ++number) {
     const wire::Segment& segment = film.segments()[number];
-    const bool stays = film.value_at(segment.motion, frame) == film.value_at(segment.motion, frame - 1);
     wire::Matrix from_world;
-    if ((stays && now == then) || !invert(film.matrix_at(segment, frame), from_world)) continue;
+    if (stays(film, segment, frame) && now == then) continue;
+    if (segment.bone_count > 0) {
+      ways_[number].moves = ways_[number].has_skin = true;
+      still_has_moved_ |= !scene_.moves(number);
+      continue;
+    }
+    if (!invert(film.matrix_at(segment, frame), from_world)) continue;
     const wire::Matrix way =
         product(then.world_to_eye, product(film.matrix_at(segment, frame - 1), product(from_world, to_world)));
     ways_[number].moves = true;
@@ -72,7 +134,7 @@ wire::SurfacePoint SurfaceView::at(const Triangle& triangle, std::int32_t x, std
   const Place place = place_of(triangle, x, y);
   wire::SurfacePoint point{-place.eye[2], {}, {}, scene_.segment_of(triangle.patch)};
   put_normal(triangle, place, point.normal);
-  put_motion(place, point.segment, point.motion);
+  put_motion(triangle, place, point.segment, point.motion);
   return point;
 }
 
@@ -111,12 +173,46 @@ void SurfaceView::put_normal(const Triangle& t, const Place& place, float* norma
     normal[axis] = (to_world_[axis][0] * in_eye[0] + to_world_[axis][1] * in_eye[1]) + to_world_[axis][2] * in_eye[2];
 }
 
+const wire::Meshlet& SurfaceView::meshlet_of(std::uint32_t patch, std::uint32_t segment) const {
+  const wire::PackedFilm& film = scene_.film();
+  return film.meshlets_of(film.segments()[segment].shape)[patch - scene_.first_patch(segment)];
+}
+
+void SurfaceView::find_bent(std::uint32_t patch, std::uint32_t segment) const {
+  if (bent_.patch == patch) return;
+  const wire::PackedFilm& film = scene_.film();
+  const wire::Segment& of = film.segments()[segment];
+  put_skinned(film, of, meshlet_of(patch, segment), frame_, bent_.now);
+  put_skinned(film, of, meshlet_of(patch, segment), frame_ - 1, bent_.before);
+  bent_.patch = patch;
+}
+
+// Where the point was: on the meshlet's triangle that is nearest to it now.
+void SurfaceView::put_before(const Triangle& triangle, const Place& place, std::uint32_t segment, float* eye) const {
+  find_bent(triangle.patch, segment);
+  const wire::Meshlet& meshlet = meshlet_of(triangle.patch, segment);
+  const Float3 point{place.eye[0], place.eye[1], place.eye[2]};
+  float least = std::numeric_limits<float>::max();
+  Float3 before{};
+  for (const wire::MeshTriangle& t :
+       scene_.film().mesh_triangles().subspan(meshlet.first_triangle, meshlet.triangle_count)) {
+    const auto [u, v] = parts_near(point, bent_.now[t[0]], bent_.now[t[1]], bent_.now[t[2]]);
+    const Float3 away = difference(between(bent_.now[t[0]], bent_.now[t[1]], bent_.now[t[2]], u, v), point);
+    if (const float square = dot(away, away); square < least) {
+      least = square;
+      before = between(bent_.before[t[0]], bent_.before[t[1]], bent_.before[t[2]], u, v);
+    }
+  }
+  std::ranges::copy(before, eye);
+}
+
 // 0 where the point was not before the eye.
-void SurfaceView::put_motion(const Place& place, std::uint32_t segment, float* motion) const {
+void SurfaceView::put_motion(const Triangle& triangle, const Place& place, std::uint32_t segment, float* motion) const {
   if (ways_.empty() || !ways_[segment].moves) return;
   const auto& m = ways_[segment].m;
   float eye[3];
-  for (int axis = 0; axis < 3; ++axis)
+  if (ways_[segment].has_skin) put_before(triangle, place, segment, eye);
+  for (int axis = 0; axis < 3 && !ways_[segment].has_skin; ++axis)
     eye[axis] = ((m[axis][0] * place.eye[0] + m[axis][1] * place.eye[1]) + m[axis][2] * place.eye[2]) + m[axis][3];
   const float w = -eye[2];
   if (!before_.parallel && !(w > 0)) return;

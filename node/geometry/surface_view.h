@@ -2,7 +2,9 @@
 // arithmetic, for whatever instruction set.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "node/geometry/scene.h"
@@ -22,10 +24,17 @@ class SurfaceView {
   bool still_has_moved() const { return still_has_moved_; }
 
  private:
-  // From eye space to that of the frame before.
+  // From eye space to that of the frame before; a skin has none for all of its points.
   struct Way {
     bool moves = false;
+    bool has_skin = false;
     float m[3][4]{};
+  };
+
+  // The vertices of a meshlet with a skin in eye space, now and at the frame before.
+  struct Bent {
+    std::optional<std::uint32_t> patch;  // its number; none: there is none yet
+    std::vector<std::array<float, 3>> now, before;
   };
 
   struct Place {
@@ -37,13 +46,18 @@ class SurfaceView {
   void find_ways(std::uint32_t frame);
   Place place_of(const Triangle& triangle, std::int32_t x, std::int32_t y) const;
   void put_normal(const Triangle& triangle, const Place& place, float* normal) const;
-  void put_motion(const Place& place, std::uint32_t segment, float* motion) const;
+  void put_motion(const Triangle& triangle, const Place& place, std::uint32_t segment, float* motion) const;
+  void find_bent(std::uint32_t patch, std::uint32_t segment) const;
+  void put_before(const Triangle& triangle, const Place& place, std::uint32_t segment, float* eye) const;
+  const wire::Meshlet& meshlet_of(std::uint32_t patch, std::uint32_t segment) const;
 
   const Scene& scene_;
+  std::uint32_t frame_;
   float to_world_[3][3];
   shape::Projection before_;
   std::vector<Way> ways_;  // by segment; none: nothing has moved
   bool still_has_moved_ = false;
+  mutable Bent bent_;  // of the point that was asked for last
 };
 
 }  // namespace mars::geometry

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -66,6 +67,45 @@ Hull corners_of(const Place& low, const Place& high) {
     corners.add({along(0), along(1), along(2)});
   }
   return corners;
+}
+
+// Round boxes that a skin's bones move, in the world. Vertices go by sums of matrices whose weights add up to 1, so
+// they stay between these boxes; single precision rounds those sums.
+class SkinBox {
+ public:
+  void add(const wire::Matrix& bone, const Hull& corners) {
+    for (const Point& corner : corners.all()) {
+      box_.add(moved(bone, corner));
+      for (std::size_t r = 0; r < 3; ++r) {
+        double reach = 0;
+        for (std::size_t a = 0; a < 3; ++a) reach += std::abs(bone.m[r][a] * corner[a]);
+        reach_ = std::max(reach_, reach);
+      }
+    }
+  }
+  Hull corners() const {
+    const Box wide = box_.wider(reach_ * kRounding);
+    return corners_of(wide.low, wide.high);
+  }
+
+ private:
+  static constexpr double kRounding = 1.0 / (1 << 19);  // as of places in segment_place.cpp
+
+  Box box_;
+  double reach_ = 0;
+};
+
+// Where a segment's whole shape is in the world.
+Hull whole_of(const wire::PackedFilm& film, const wire::Segment& segment, std::uint32_t frame,
+              const ShapeBoxes& boxes) {
+  const ShapeBoxes::Box& all = boxes.of(segment.shape);
+  if (segment.bone_count == 0) return moved(film.matrix_at(segment, frame), corners_of(all.low, all.high));
+  SkinBox skin;
+  const auto of_bones = boxes.of_bones(segment.shape);
+  for (std::size_t bone = 0; bone < of_bones.size(); ++bone)
+    if (const ShapeBoxes::Box& box = of_bones[bone]; !box.is_empty())
+      skin.add(film.matrix_at(film.bones_of(segment)[bone], frame), corners_of(box.low, box.high));
+  return skin.corners();
 }
 
 // What of the picture a hull in eye space may be on.
@@ -135,9 +175,7 @@ class Shadows {
     Box all;
     for (std::size_t s = 0; s < film.segments().size(); ++s) {
       if (scene.moves(s)) continue;
-      const wire::Segment& segment = film.segments()[s];
-      const ShapeBoxes::Box& shape = boxes.of(segment.shape);
-      const Hull corners = moved(film.matrix_at(segment, frame), corners_of(shape.low, shape.high));
+      const Hull corners = whole_of(film, film.segments()[s], frame, boxes);
       receivers_.emplace_back().add(corners);
       all.add(corners);
     }
@@ -205,50 +243,59 @@ class Shadows {
   std::vector<Box> receivers_;  // in the world
 };
 
-// Hulls round the pieces of shapes: of each patch and meshlet, or of a whole shape.
+// Hulls in the world round the pieces of segments: round each patch and meshlet, or round a whole shape.
 class Pieces {
  public:
   Pieces(const wire::PackedFilm& film, const ShapeBoxes& boxes, bool are_fine)
       : film_(film), boxes_(boxes), are_fine_(are_fine) {}
 
   template <typename Visit>
-  void visit(std::uint32_t shape, const Visit& visit) const {
-    if (!are_fine_) return visit(corners_of(boxes_.of(shape).low, boxes_.of(shape).high));
-    for (const wire::Patch& patch : film_.patches_of(shape)) {
+  void visit(const wire::Segment& segment, std::uint32_t frame, const Visit& visit) {
+    if (!are_fine_) return visit(whole_of(film_, segment, frame, boxes_));
+    if (segment.bone_count > 0) return visit_skin(segment, frame, visit);
+    const wire::Matrix& matrix = film_.matrix_at(segment, frame);
+    for (const wire::Patch& patch : film_.patches_of(segment.shape)) {
       Hull hull;
       for (const auto& point : patch.points) hull.add({point[0], point[1], point[2]});
-      visit(hull);
+      visit(moved(matrix, hull));
     }
-    for (const wire::Meshlet& meshlet : film_.meshlets_of(shape)) visit(corners_of(meshlet.low, meshlet.high));
+    for (const wire::Meshlet& meshlet : film_.meshlets_of(segment.shape))
+      visit(moved(matrix, corners_of(meshlet.low, meshlet.high)));
   }
 
  private:
+  template <typename Visit>
+  void visit_skin(const wire::Segment& segment, std::uint32_t frame, const Visit& visit) {
+    bones_.clear();
+    for (const wire::Track& bone : film_.bones_of(segment)) bones_.push_back(&film_.matrix_at(bone, frame));
+    for (const wire::Meshlet& meshlet : film_.meshlets_of(segment.shape)) {
+      SkinBox box;
+      for (const std::uint32_t bone : film_.bones_of(meshlet))
+        box.add(*bones_[bone], corners_of(meshlet.low, meshlet.high));
+      visit(box.corners());
+    }
+  }
+
   const wire::PackedFilm& film_;
   const ShapeBoxes& boxes_;
   bool are_fine_;
+  std::vector<const wire::Matrix*> bones_;  // of a segment
 };
 
-// Where a moving part is at a frame.
-struct Place {
-  const wire::Matrix& matrix;
-  const wire::Material& material;
-  const wire::Camera& camera;
-
-  bool operator==(const Place& other) const {
-    return &matrix == &other.matrix && &material == &other.material && &camera == &other.camera;
-  }
-};
-
-// Visits each place that is another than at the frame before.
+// Visits each of the frames at which the segment, its material or the camera is another than at the one before.
 template <typename Visit>
-void visit_places(const wire::PackedFilm& film, std::uint32_t number, std::span<const std::uint32_t> frames,
+void visit_places(const wire::PackedFilm& film, const wire::Segment& segment, std::span<const std::uint32_t> frames,
                   const Visit& visit) {
-  const wire::Segment& segment = film.segments()[number];
-  const auto at = [&](std::uint32_t frame) {
-    return Place{film.matrix_at(segment, frame), film.material_at(segment, frame), film.camera_at(frame)};
+  const auto differ = [&](std::uint32_t one, std::uint32_t other) {
+    const auto changes = [&](const wire::Track& track) {
+      return film.value_at(track, one) != film.value_at(track, other);
+    };
+    const bool moves =
+        segment.bone_count == 0 ? changes(segment.motion) : std::ranges::any_of(film.bones_of(segment), changes);
+    return moves || changes(segment.material) || changes(film.settings().camera);
   };
   for (std::size_t k = 0; k < frames.size(); ++k)
-    if (const Place place = at(frames[k]); k == 0 || !(place == at(frames[k - 1]))) visit(place);
+    if (k == 0 || differ(frames[k], frames[k - 1])) visit(frames[k]);
 }
 
 SweptHull swept(const Hull& hull) {
@@ -297,19 +344,22 @@ void Sweep::begin(const Scene& scene, std::span<const std::uint32_t> frames, con
   std::uint64_t pieces = 0;
   for (const std::uint32_t segment : movers) pieces += film.shape(film.segments()[segment].shape).size();
   const bool any_still = movers.size() < film.segments().size();
-  const Pieces hulls(film, boxes, any_still && pieces * frames.size() <= kMostHulls);
+  Pieces hulls(film, boxes, any_still && pieces * frames.size() <= kMostHulls);
   std::optional<Shadows> shadows;
   if (any_still && scene.casting_count() > 0) shadows.emplace(scene, frames.front(), boxes, movers.size());
-  for (const std::uint32_t segment : movers) {
+  for (const std::uint32_t number : movers) {
+    const wire::Segment& segment = film.segments()[number];
     Way way(casters_, movers.size() * frames.size() / kMostHulls + 1);
-    visit_places(film, segment, frames, [&](const Place& place) {
-      const View view(place.camera, scene);
-      hulls.visit(film.segments()[segment].shape, [&](const Hull& hull) {
-        const Hull in_world = moved(place.matrix, hull), in_eye_space = moved(place.camera.world_to_eye, in_world);
+    visit_places(film, segment, frames, [&](std::uint32_t frame) {
+      const wire::Camera& camera = film.camera_at(frame);
+      const bool casts = film.material_at(segment, frame).casts == 1;
+      const View view(camera, scene);
+      hulls.visit(segment, frame, [&](const Hull& in_world) {
+        const Hull in_eye_space = moved(camera.world_to_eye, in_world);
         const PictureBounds bounds = view.bound(in_eye_space);
         take_in(bounds.lines);
         if (any_still) cover(bounds);
-        if (shadows && place.material.casts == 1) way.add(in_world, in_eye_space);
+        if (shadows && casts) way.add(in_world, in_eye_space);
       });
     });
     way.finish();

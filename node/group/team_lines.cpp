@@ -45,21 +45,19 @@ void TeamLines::add_segment(const geometry::Scene& scene, std::uint32_t segment,
                             std::size_t nodes) {
   const wire::PackedFilm& film = scene.film();
   const std::uint32_t number = film.segments()[segment].shape;
-  const shape::EyeMatrix matrix = scene.matrix(segment);
-  const geometry::ShapeBoxes::Box& box = boxes.of(number);
-  const geometry::PictureBounds all = geometry::picture_box(matrix, std::to_array(box.low), std::to_array(box.high),
-                                                            scene.projection(), size_of(scene));
+  place_.find(scene, segment);
+  const geometry::PictureBounds all = geometry::picture_box(place_.corners(boxes), scene.projection(), size_of(scene));
   points_ += 8;
   if (all.lines.count() == 0) return;
   if (all.lines.count() * 4 * nodes <= static_cast<std::size_t>(scene.height()))
     return add(all, film.shape(number).size(), scene);
   for (const wire::Patch& patch : film.patches_of(number)) {
-    const shape::EyePatch piece = shape::to_eye(matrix, patch);
+    const shape::EyePatch piece = shape::to_eye(place_.matrix(), patch);
     add(geometry::picture_box(piece.point, 16, scene.projection(), size_of(scene)), 1, scene);
     points_ += 16;
   }
   for (const wire::Meshlet& meshlet : film.meshlets_of(number)) {
-    add(geometry::picture_box(matrix, meshlet.low, meshlet.high, scene.projection(), size_of(scene)), 1, scene);
+    add(geometry::picture_box(place_.corners(film, meshlet), scene.projection(), size_of(scene)), 1, scene);
     points_ += 8;
   }
 }

@@ -10,6 +10,7 @@
 
 #include "node/geometry/line_range.h"
 #include "node/geometry/scene.h"
+#include "node/geometry/segment_place.h"
 
 namespace mars::group {
 
@@ -43,6 +44,7 @@ class TeamLines {
   std::vector<std::uint64_t> steps_;   // of the weight, from each line to the next; modulo 2^64
   std::vector<std::uint64_t> totals_;  // of bands' weights, running
   std::vector<geometry::LineRange> ranges_;
+  geometry::SegmentPlace place_;  // of the segment that is added
   std::uint64_t points_ = 0;
 };
 

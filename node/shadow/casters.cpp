@@ -21,14 +21,9 @@ Hull hull_of(const shape::EyePatch& patch) {
   return hull;
 }
 
-Hull hull_of(const shape::EyeMatrix& matrix, const wire::Meshlet& meshlet) {
+Hull hull_of(const geometry::BoxCorners& corners) {
   Hull hull{};
-  for (int corner = 0; corner < 8; ++corner) {
-    const auto along = [&](std::size_t axis) { return (corner >> axis & 1 ? meshlet.high : meshlet.low)[axis]; };
-    float place[3];
-    shape::to_eye(matrix, {along(0), along(1), along(2)}, place);
-    add_point(place, hull);
-  }
+  for (const auto& point : corners.point) add_point(point, hull);
   return hull;
 }
 
@@ -171,8 +166,7 @@ std::span<const ChunkCaster> CasterStream::next(const Matters& matters) {
     if (!casts(*scene_, segment_, casting_)) continue;
     const std::uint32_t number = film.segments()[segment_].shape;
     const wire::Shape& shape = film.shape(number);
-    matrix_ = scene_->matrix(segment_);
-    map_ = geometry::eye_map(matrix_);
+    place_.find(*scene_, segment_);
     for (; item_ < shape.size(); ++item_) {
       if (!store_.has_room() || chunk_.size() == store_.most()) return chunk_;
       add_item(shape, number, matters);
@@ -187,7 +181,8 @@ void CasterStream::add_item(const wire::Shape& shape, std::uint32_t number, cons
   const auto meshlet = [&]() -> const wire::Meshlet& {
     return scene_->film().meshlets_of(number)[item_ - shape.patch_count];
   };
-  const Hull hull = is_patch ? hull_of(shape::to_eye(matrix_, patch())) : hull_of(matrix_, meshlet());
+  const Hull hull =
+      is_patch ? hull_of(shape::to_eye(place_.matrix(), patch())) : hull_of(place_.corners(scene_->film(), meshlet()));
   if (!matters(hull)) return;
   const auto number_of_all = scene_->first_patch(segment_) + static_cast<std::uint32_t>(item_);
   const Caster* const known = diced_->find(number_of_all);
@@ -201,19 +196,19 @@ const Caster& CasterStream::add(std::uint32_t patch, const shape::Surface& surfa
 }
 
 void CasterStream::visit_hulls(const geometry::Scene& scene, Casting casting,
-                               const std::function<void(const Hull&)>& visit) const {
+                               const std::function<void(const Hull&)>& visit) {
   const wire::PackedFilm& film = scene.film();
   for (std::size_t s = 0; s < film.segments().size(); ++s) {
     if (!casts(scene, s, casting)) continue;
     const std::uint32_t number = film.segments()[s].shape;
-    const shape::EyeMatrix matrix = scene.matrix(s);
-    for (const wire::Patch& patch : film.patches_of(number)) visit(hull_of(shape::to_eye(matrix, patch)));
-    for (const wire::Meshlet& meshlet : film.meshlets_of(number)) visit(hull_of(matrix, meshlet));
+    place_.find(scene, s);
+    for (const wire::Patch& patch : film.patches_of(number)) visit(hull_of(shape::to_eye(place_.matrix(), patch)));
+    for (const wire::Meshlet& meshlet : film.meshlets_of(number)) visit(hull_of(place_.corners(film, meshlet)));
   }
 }
 
 const shape::Surface& CasterStream::dice(const wire::Patch& patch) {
-  const shape::EyePatch eye_patch = shape::to_eye(matrix_, patch);
+  const shape::EyePatch eye_patch = shape::to_eye(place_.matrix(), patch);
   shape::Dicing dicing = scene_->dicing();
   // Of the whole picture, whichever part is drawn: shadows do not depend on it.
   const wire::FilmSettings& settings = scene_->film().settings();
@@ -226,7 +221,7 @@ const shape::Surface& CasterStream::dice(const wire::Patch& patch) {
 }
 
 const shape::Surface& CasterStream::place(const wire::Meshlet& meshlet) {
-  placer_.place(map_, scene_->film(), meshlet, scene_->projection());
+  placer_.place(place_, scene_->film(), meshlet, scene_->projection());
   return placer_;
 }
 

@@ -11,6 +11,7 @@
 #include "hal/messages/private_memory.h"
 #include "node/geometry/meshlets.h"
 #include "node/geometry/scene.h"
+#include "node/geometry/segment_place.h"
 #include "node/raster/arena.h"
 #include "node/shadow/band.h"
 #include "node/shape/dice.h"
@@ -112,7 +113,7 @@ class CasterStream {
   // The next chunk, of those that matter; empty at the end.
   std::span<const ChunkCaster> next(const Matters& matters);
   // Calls visit(hull) for each of that kind.
-  void visit_hulls(const geometry::Scene& scene, Casting casting, const std::function<void(const Hull&)>& visit) const;
+  void visit_hulls(const geometry::Scene& scene, Casting casting, const std::function<void(const Hull&)>& visit);
 
  private:
   void add_item(const wire::Shape& shape, std::uint32_t number, const Matters& matters);
@@ -127,10 +128,9 @@ class CasterStream {
   const geometry::Scene* scene_ = nullptr;
   DicedSurfaces* diced_ = nullptr;
   Casting casting_ = Casting::still;
-  std::size_t segment_ = 0;  // the next
-  std::uint64_t item_ = 0;   // of its patches and meshlets
-  shape::EyeMatrix matrix_{};
-  shape::EyeMap map_{};
+  std::size_t segment_ = 0;       // the next
+  std::uint64_t item_ = 0;        // of its patches and meshlets
+  geometry::SegmentPlace place_;  // of that segment
 };
 
 }  // namespace mars::shadow

@@ -22,6 +22,10 @@ struct ShapeKernels {
   // Vertices 0..count - 1 of a mesh, their normals of unit length or 0. Of both lists kVectorSlack more are read.
   void (*move)(const EyeMap& map, const float (*places)[3], const float (*normals)[3], int count, const Vertices& out);
 
+  // The same with a skin. Of each bone's weights kVectorSlack more are read.
+  void (*move_skin)(const EyeSkin& skin, const float (*places)[3], const float (*normals)[3], int count,
+                    const Vertices& out);
+
   // Whether any of the vertices is outside.
   bool (*project)(const Projection& projection, const Vertices& vertices, int count);
 };

@@ -62,6 +62,15 @@ struct EyeMap {
   float normal[3][3];
 };
 
+// The same of a mesh with a skin: each vertex goes by the sum of its bones' matrices, each times its weight, in the
+// order of the bones, and its normal by the cofactors of that sum.
+struct EyeSkin {
+  const float (*bones)[3][4];  // to eye space
+  const float* weights;        // bone by bone, of each vertex
+  int bone_count;
+  float scale;  // what bones are multiplied by for cofactors, so that squares of these stay far inside a float
+};
+
 // In pixels of the whole picture x = center[0] + scale * squeeze * x / w, y = center[1] - scale * y / w, w = -z; in
 // parallel projection nothing is divided by w. The pixels that are drawn are counted from `origin`, which is subtracted
 // from snapped places, in whole numbers: what a pixel shows does not depend on which part of the picture is drawn.

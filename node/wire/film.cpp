@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
+#include <functional>
 #include <iterator>
 #include <limits>
 
@@ -20,8 +22,9 @@ constexpr double kLargest = 1e12;  // of any number in a film: squares and produ
 
 // clang-format off
 enum Section : std::size_t {
-  kSettings, kPatches, kMeshPlaces, kMeshNormals, kMeshTriangles, kMeshlets, kShapes, kSegments, kMaterials, kMatrices,
-  kCameras, kLights, kLightTracks, kChanges, kIntervals, kMoving, kNames, kSections
+  kSettings, kPatches, kMeshPlaces, kMeshNormals, kMeshTriangles, kMeshBones, kMeshWeights, kMeshlets, kShapes,
+  kSegments, kBones, kMaterials, kMatrices, kCameras, kLights, kLightTracks, kChanges, kIntervals, kMoving, kNames,
+  kSections
 };
 // clang-format on
 
@@ -75,6 +78,8 @@ bool all_finite(const Range& numbers) {
 bool is_light(const std::array<float, 3>& color) {
   return std::ranges::all_of(color, [](float channel) { return channel >= 0 && channel <= kMostLight; });
 }
+
+constexpr double kWeightRounding = 1e-6;  // of a vertex's weights, from 1
 
 bool is_share(float number) { return number >= 0 && number <= 1; }
 
@@ -181,9 +186,12 @@ void pack_around(const FilmData& film, std::size_t matrices,
     visit(kMeshPlaces, film.mesh_places);
     visit(kMeshNormals, film.mesh_normals);
     visit(kMeshTriangles, film.mesh_triangles);
+    visit(kMeshBones, film.mesh_bones);
+    visit(kMeshWeights, film.mesh_weights);
     visit(kMeshlets, film.meshlets);
     visit(kShapes, film.shapes);
     visit(kSegments, film.segments);
+    visit(kBones, film.bones);
     visit(kMaterials, film.materials);
     visit(kCameras, film.cameras);
     visit(kLights, film.lights);
@@ -224,12 +232,15 @@ PackedFilm::PackedFilm(std::span<const std::byte> block, const PackedFilm& base,
     : base_patches_(base.patches_), base_shapes_(base.shapes_) {
   read(block, where);
   require(settings_->frames == 1, where, "a scene is one moment");
-  require(mesh_places_.empty() && mesh_normals_.empty() && mesh_triangles_.empty() && meshlets_.empty(), where,
-          "a scene has no meshes");
+  require(mesh_places_.empty() && mesh_normals_.empty() && mesh_triangles_.empty() && mesh_bones_.empty() &&
+              mesh_weights_.empty() && meshlets_.empty(),
+          where, "a scene has no meshes");
   check_all(where);
   mesh_places_ = base.mesh_places_;
   mesh_normals_ = base.mesh_normals_;
   mesh_triangles_ = base.mesh_triangles_;
+  mesh_bones_ = base.mesh_bones_;
+  mesh_weights_ = base.mesh_weights_;
   meshlets_ = base.meshlets_;
 }
 
@@ -245,9 +256,12 @@ void PackedFilm::read(std::span<const std::byte> block, const std::string& where
   read(kMeshPlaces, mesh_places_);
   read(kMeshNormals, mesh_normals_);
   read(kMeshTriangles, mesh_triangles_);
+  read(kMeshBones, mesh_bones_);
+  read(kMeshWeights, mesh_weights_);
   read(kMeshlets, meshlets_);
   read(kShapes, shapes_);
   read(kSegments, segments_);
+  read(kBones, bones_);
   read(kMaterials, materials_);
   read(kMatrices, matrices_);
   read(kCameras, cameras_);
@@ -280,14 +294,30 @@ void PackedFilm::check_segments(const std::string& where) const {
   for (const Shape& shape : shapes_) {
     require(within(shape.first_patch, shape.patch_count, patches_.size()), where, "a shape has no such patches");
     require(within(shape.first_meshlet, shape.meshlet_count, meshlets_.size()), where, "a shape has no such meshlets");
+    check_bones(shape, where);
   }
   for (const Segment& segment : segments_) {
     require(segment.shape < shape_count(), where, "a segment has no such shape");
     require(segment.name < names_.size() && segment.material_name < names_.size(), where, "a segment has no such name");
     require(sound(segment.motion, changes_, matrices_.size()), where, "a segment's motion is broken");
     require(sound(segment.material, changes_, materials_.size()), where, "a segment's material is broken");
+    const std::uint32_t bones = shape(segment.shape).bone_count;
+    require((bones > 0) == (segment.bone_count > 0) && bones <= segment.bone_count &&
+                within(segment.first_bone, segment.bone_count, bones_.size()),
+            where, "a segment has no such bones");
   }
+  for (const Track& bone : bones_) require(sound(bone, changes_, matrices_.size()), where, "a bone's motion is broken");
   require(patch_instances() <= std::numeric_limits<std::uint32_t>::max(), where, "it has too many patches");
+}
+
+void PackedFilm::check_bones(const Shape& shape, const std::string& where) const {
+  require(shape.bone_count == 0 || (shape.patch_count == 0 && shape.meshlet_count > 0), where,
+          "a shape has a skin without meshlets, or beside patches");
+  for (const Meshlet& meshlet : meshlets_.subspan(shape.first_meshlet, shape.meshlet_count)) {
+    require((meshlet.bone_count > 0) == (shape.bone_count > 0), where, "a shape has meshlets with and without a skin");
+    if (meshlet.bone_count > 0)
+      require(bones_of(meshlet).back() < shape.bone_count, where, "a meshlet has no such bones");
+  }
 }
 
 void PackedFilm::check_intervals(const std::string& where) const {
@@ -330,6 +360,27 @@ void PackedFilm::check_meshlets(const std::string& where) const {
     for (const MeshTriangle& triangle : mesh_triangles_.subspan(m.first_triangle, m.triangle_count))
       for (const std::uint8_t corner : triangle)
         require(corner < m.vertex_count, where, "a triangle has no such vertex");
+    check_skin(m, where);
+  }
+}
+
+void PackedFilm::check_skin(const Meshlet& m, const std::string& where) const {
+  require(m.bone_count <= kMeshletBones && within(m.first_bone, m.bone_count, mesh_bones_.size()), where,
+          "a meshlet has no such bones");
+  const std::uint64_t weights = std::uint64_t{m.bone_count} * m.vertex_count;
+  require(within(m.first_weight, weights, mesh_weights_.size()), where, "a meshlet has no such weights");
+  if (m.bone_count == 0) return;
+  const auto bones = bones_of(m);
+  require(std::ranges::adjacent_find(bones, std::greater_equal<>()) == bones.end(), where,
+          "a meshlet's bones do not ascend");
+  const auto all = mesh_weights_.subspan(m.first_weight, weights);
+  require(std::ranges::all_of(all, is_share), where, "a weight is not within 0 and 1");
+  for (std::uint32_t vertex = 0; vertex < m.vertex_count; ++vertex) {
+    double sum = 0;
+    std::uint32_t count = 0;
+    for (std::size_t at = vertex; at < weights; at += m.vertex_count) sum += all[at], count += all[at] > 0;
+    require(count <= kMostVertexBones && std::abs(sum - 1) <= kWeightRounding, where,
+            "a vertex's weights do not add up to 1, or are too many");
   }
 }
 
@@ -350,8 +401,8 @@ std::uint32_t PackedFilm::value_at(const Track& track, std::uint32_t frame) cons
   return std::prev(later)->value;
 }
 
-const Matrix& PackedFilm::matrix_at(const Segment& segment, std::uint32_t frame) const {
-  return matrices_[value_at(segment.motion, frame)];
+const Matrix& PackedFilm::matrix_at(const Track& motion, std::uint32_t frame) const {
+  return matrices_[value_at(motion, frame)];
 }
 
 std::uint32_t PackedFilm::casting_count() const {

@@ -27,9 +27,12 @@ struct FilmData {
   std::vector<std::array<float, 3>> mesh_places;   // of vertices, in the unit cube
   std::vector<std::array<float, 3>> mesh_normals;  // to the outside, one a vertex; of any length, 0: none
   std::vector<MeshTriangle> mesh_triangles;
+  std::vector<std::uint32_t> mesh_bones;  // of meshlets with skins
+  std::vector<float> mesh_weights;
   std::vector<Meshlet> meshlets;
   std::vector<Shape> shapes;
   std::vector<Segment> segments;
+  std::vector<Track> bones;  // of segments with skins: indices into matrices
   std::vector<Material> materials;
   std::vector<Matrix> matrices;
   std::vector<Camera> cameras;
@@ -47,7 +50,7 @@ std::vector<std::byte> pack(const FilmData& film);
 // The same for a block whose matrices already stand where they belong, `matrices` of them, kMatricesOffset bytes
 // behind its beginning; those of `film` do not count. `resize` gives the block its size without changing what
 // is in it, and returns where it begins.
-inline constexpr std::size_t kMatricesOffset = 320;
+inline constexpr std::size_t kMatricesOffset = 384;
 void pack_around(const FilmData& film, std::size_t matrices,
                  const std::function<std::byte*(std::size_t bytes)>& resize);
 
@@ -67,13 +70,16 @@ class PackedFilm {
   const FilmSettings& settings() const { return *settings_; }
   // Of the block itself; of a scene, shape() and what follows it know the base's too.
   std::span<const Patch> patches() const { return patches_; }
-  // Of places and normals, kMeshSlack more than there are may be read, whatever they are.
+  // Of places, normals and weights, kMeshSlack more than there are may be read, whatever they are.
   std::span<const std::array<float, 3>> mesh_places() const { return mesh_places_; }
   std::span<const std::array<float, 3>> mesh_normals() const { return mesh_normals_; }
   std::span<const MeshTriangle> mesh_triangles() const { return mesh_triangles_; }
+  std::span<const std::uint32_t> mesh_bones() const { return mesh_bones_; }
+  std::span<const float> mesh_weights() const { return mesh_weights_; }
   std::span<const Meshlet> meshlets() const { return meshlets_; }
   std::span<const Shape> shapes() const { return shapes_; }
   std::span<const Segment> segments() const { return segments_; }
+  std::span<const Track> bones() const { return bones_; }
   std::span<const Material> materials() const { return materials_; }
   std::span<const Matrix> matrices() const { return matrices_; }
   std::span<const Camera> cameras() const { return cameras_; }
@@ -100,13 +106,23 @@ class PackedFilm {
     return meshlets_.subspan(of.first_meshlet, of.meshlet_count);
   }
 
+  std::span<const std::uint32_t> bones_of(const Meshlet& meshlet) const {
+    return mesh_bones_.subspan(meshlet.first_bone, meshlet.bone_count);
+  }
+  std::span<const Track> bones_of(const Segment& segment) const {
+    return bones_.subspan(segment.first_bone, segment.bone_count);
+  }
+
   std::span<const std::uint32_t> moving(const Interval& interval) const;
   std::string_view name(const Segment& segment) const;
   std::string_view material_name(const Segment& segment) const;
 
   // The index of the value a track has at `frame`.
   std::uint32_t value_at(const Track& track, std::uint32_t frame) const;
-  const Matrix& matrix_at(const Segment& segment, std::uint32_t frame) const;
+  const Matrix& matrix_at(const Track& motion, std::uint32_t frame) const;
+  const Matrix& matrix_at(const Segment& segment, std::uint32_t frame) const {
+    return matrix_at(segment.motion, frame);
+  }
   const Material& material_at(const Segment& segment, std::uint32_t frame) const;
   const Camera& camera_at(std::uint32_t frame) const;
 
@@ -118,6 +134,8 @@ class PackedFilm {
   bool is_base(std::uint32_t shape_number) const { return shape_number < base_shapes_.size(); }
   void check_all(const std::string& where) const;
   void check_meshlets(const std::string& where) const;
+  void check_bones(const Shape& shape, const std::string& where) const;
+  void check_skin(const Meshlet& meshlet, const std::string& where) const;
   void check_segments(const std::string& where) const;
   void check_intervals(const std::string& where) const;
   bool exposed_evenly(const Interval& interval) const;
@@ -130,9 +148,12 @@ class PackedFilm {
   std::span<const std::array<float, 3>> mesh_places_;
   std::span<const std::array<float, 3>> mesh_normals_;
   std::span<const MeshTriangle> mesh_triangles_;
+  std::span<const std::uint32_t> mesh_bones_;
+  std::span<const float> mesh_weights_;
   std::span<const Meshlet> meshlets_;
   std::span<const Shape> shapes_;
   std::span<const Segment> segments_;
+  std::span<const Track> bones_;
   std::span<const Material> materials_;
   std::span<const Matrix> matrices_;
   std::span<const Camera> cameras_;

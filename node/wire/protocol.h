@@ -287,10 +287,11 @@ struct Draw {
   std::uint32_t patches;
 };
 
-// A segment of the interval's moving ones, where it is now and what it is made of.
+// A segment of the interval's moving ones, where it is now and what it is made of. Or where a bone of one is: bones are
+// numbered behind all segments.
 struct MovedSegment {
   std::uint32_t segment;
-  std::uint32_t material;  // of the scene's
+  std::uint32_t material;  // of the scene's; of a bone any
   Matrix matrix;
 };
 

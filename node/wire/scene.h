@@ -23,19 +23,20 @@ class MovingParts {
   MovingParts() = default;
   explicit MovingParts(const PackedFilm& scene);
 
+  // As MovedSegment numbers segments and bones.
   bool has_segment(std::size_t segment) const { return segment < segments_.size() && segments_[segment] == 1; }
   bool has_patch(std::size_t patch) const { return patch < patches_.size() && patches_[patch] == 1; }
   // Of the scene's, which a segment may be made of.
   std::size_t materials() const { return materials_; }
   // Whether nothing stands still, and whether nothing moves.
-  bool are_all() const { return moving_ == segments_.size(); }
+  bool are_all() const { return moving_ == all_; }
   bool are_none() const { return moving_ == 0; }
 
  private:
-  std::vector<std::uint8_t> segments_;
-  std::vector<std::uint8_t> patches_;  // of the block
+  std::vector<std::uint8_t> segments_;  // and bones
+  std::vector<std::uint8_t> patches_;   // of the block
   std::size_t materials_ = 0;
-  std::size_t moving_ = 0;
+  std::size_t moving_ = 0, all_ = 0;  // segments
 };
 
 }  // namespace mars::wire

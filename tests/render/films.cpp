@@ -108,6 +108,40 @@ modeler::Mesh mesh_ball(std::uint32_t rows, double crease) {
   return mesh;
 }
 
+modeler::Mesh tube(std::uint32_t rows, std::uint32_t bones) {
+  constexpr std::uint32_t kAround = 12;
+  modeler::Mesh mesh;
+  mesh.crease = 60;
+  for (std::uint32_t row = 0; row <= rows; ++row) {
+    const double z = double(row) / rows;
+    std::vector<modeler::BoneWeight> follows;
+    for (std::uint32_t bone = 0; bone < bones; ++bone) {
+      const double away = std::abs(z * bones - (bone + 0.5));
+      if (away < 2) follows.push_back({bone, (2 - away) * (2 - away)});
+    }
+    for (std::uint32_t k = 0; k < kAround; ++k) {
+      const double angle = 2 * std::numbers::pi * k / kAround;
+      mesh.vertices.push_back({float(0.5 + 0.45 * std::cos(angle)), float(0.5 + 0.45 * std::sin(angle)), float(z)});
+      mesh.bones.push_back(*modeler::bones_of_vertex(follows));
+    }
+  }
+  const auto face = [&](const std::vector<std::uint32_t>& corners) {
+    mesh.corners.insert(mesh.corners.end(), corners.begin(), corners.end());
+    mesh.ends.push_back(static_cast<std::uint32_t>(mesh.corners.size()));
+  };
+  std::vector<std::uint32_t> bottom, top;
+  for (std::uint32_t k = 0; k < kAround; ++k) {
+    bottom.insert(bottom.begin(), k);
+    top.push_back(rows * kAround + k);
+    const std::uint32_t next = (k + 1) % kAround;
+    for (std::uint32_t row = 0; row < rows * kAround; row += kAround)
+      face({row + k, row + next, row + kAround + next, row + kAround + k});
+  }
+  face(bottom);
+  face(top);
+  return mesh;
+}
+
 FilmMaker::FilmMaker(std::uint32_t width, std::uint32_t height, std::uint32_t frames) {
   film.settings = {width, height, frames, 0, kMagenta, 24, {}};
   film.names = {'b', 'o', 'd', 'y', '\0'};
@@ -125,12 +159,17 @@ std::uint32_t FilmMaker::add_shape(const modeler::Meshlets& mesh) {
   for (wire::Meshlet meshlet : mesh.meshlets) {
     meshlet.first_vertex += static_cast<std::uint32_t>(film.mesh_places.size());
     meshlet.first_triangle += static_cast<std::uint32_t>(film.mesh_triangles.size());
+    meshlet.first_bone += static_cast<std::uint32_t>(film.mesh_bones.size());
+    meshlet.first_weight += static_cast<std::uint32_t>(film.mesh_weights.size());
     film.meshlets.push_back(meshlet);
   }
   append(film.mesh_places, mesh.places);
   append(film.mesh_normals, mesh.normals);
   append(film.mesh_triangles, mesh.triangles);
-  film.shapes.push_back({0, 0, first, static_cast<std::uint32_t>(mesh.meshlets.size())});
+  append(film.mesh_bones, mesh.bones);
+  append(film.mesh_weights, mesh.weights);
+  film.shapes.push_back({0, 0, first, static_cast<std::uint32_t>(mesh.meshlets.size()),
+                         mesh.bones.empty() ? 0 : *std::ranges::max_element(mesh.bones) + 1});
   return static_cast<std::uint32_t>(film.shapes.size() - 1);
 }
 
@@ -145,6 +184,19 @@ wire::Track FilmMaker::still(std::uint32_t value) {
 }
 
 void FilmMaker::add_segment(std::uint32_t shape, std::uint32_t material, const std::vector<wire::Matrix>& motion) {
+  const wire::Track track = track_of(motion);
+  film.segments.push_back({shape, 0, track, still(material)});
+}
+
+void FilmMaker::add_skin(std::uint32_t shape, std::uint32_t material,
+                         const std::vector<std::vector<wire::Matrix>>& bones) {
+  add_segment(shape, material, {bones[0][0]});
+  film.segments.back().first_bone = static_cast<std::uint32_t>(film.bones.size());
+  film.segments.back().bone_count = static_cast<std::uint32_t>(bones.size());
+  for (const auto& motion : bones) film.bones.push_back(track_of(motion));
+}
+
+wire::Track FilmMaker::track_of(const std::vector<wire::Matrix>& motion) {
   wire::Track track{static_cast<std::uint32_t>(film.changes.size()), 0};
   for (std::uint32_t f = 0; f < motion.size(); ++f) {
     if (f > 0 && motion[f] == motion[f - 1]) continue;
@@ -152,7 +204,7 @@ void FilmMaker::add_segment(std::uint32_t shape, std::uint32_t material, const s
     film.matrices.push_back(motion[f]);
     ++track.count;
   }
-  film.segments.push_back({shape, 0, track, still(material)});
+  return track;
 }
 
 void FilmMaker::add_light(const wire::Light& light) {
@@ -168,9 +220,13 @@ void FilmMaker::set_cameras(const std::vector<wire::Camera>& cameras) {
 }
 
 bool FilmMaker::moves(std::uint32_t segment, std::uint32_t first, std::uint32_t end) const {
-  const wire::Track& track = film.segments[segment].motion;
-  return std::any_of(film.changes.begin() + track.first, film.changes.begin() + track.first + track.count,
-                     [&](const wire::Change& c) { return c.frame > first && c.frame < end; });
+  const auto changes = [&](const wire::Track& track) {
+    return std::any_of(film.changes.begin() + track.first, film.changes.begin() + track.first + track.count,
+                       [&](const wire::Change& c) { return c.frame > first && c.frame < end; });
+  };
+  const wire::Segment& of = film.segments[segment];
+  const auto bones = film.bones.begin() + of.first_bone;
+  return of.bone_count == 0 ? changes(of.motion) : std::any_of(bones, bones + of.bone_count, changes);
 }
 
 wire::FilmData FilmMaker::make(std::uint32_t length) {
@@ -238,6 +294,60 @@ wire::FilmData overhead(std::uint32_t width, std::uint32_t height, std::uint32_t
   maker.add_light({wire::LightKind::directional, {-0.28f, 0, 0.96f}, {0.8f, 0.8f, 0.8f}});
   maker.add_light({wire::LightKind::point, {0, -1, 20}, {0.7f, 0.7f, 0.9f}});
   maker.set_cameras({looking({0, -14, 6}, {0, 0, 0}, 30)});
+  return maker.make(interval);
+}
+
+namespace {
+
+// Of `bones` bones of a tube of a length at a place, each turned against the one below by an angle about y.
+std::vector<wire::Matrix> bent(const Vec3& place, double length, std::uint32_t bones, double angle) {
+  std::vector<wire::Matrix> matrices;
+  const double part = length / bones, width = length / 4;
+  double x = place[0], z = place[2];
+  for (std::uint32_t bone = 0; bone < bones; ++bone) {
+    const double turn = bone * angle, c = std::cos(turn), s = std::sin(turn);
+    // The unit cube's part of the bone begins at (x, z), upright in its own axes.
+    const double dx = -0.5 * width, dz = -part * bone;
+    matrices.push_back({{{{c * width, 0, s * length, x + c * dx + s * dz},
+                          {0, width, 0, place[1] - 0.5 * width},
+                          {-s * width, 0, c * length, z - s * dx + c * dz}}}});
+    x += s * part, z += c * part;
+  }
+  return matrices;
+}
+
+// The bones' motions, by an angle at each frame.
+std::vector<std::vector<wire::Matrix>> bends(const Vec3& place, double length, std::uint32_t bones,
+                                             const std::vector<double>& angles) {
+  std::vector<std::vector<wire::Matrix>> motions(bones);
+  for (const double angle : angles) {
+    const std::vector<wire::Matrix> now = bent(place, length, bones, angle);
+    for (std::uint32_t bone = 0; bone < bones; ++bone) motions[bone].push_back(now[bone]);
+  }
+  return motions;
+}
+
+}  // namespace
+
+wire::FilmData bending(std::uint32_t width, std::uint32_t height, std::uint32_t frames, std::uint32_t interval) {
+  FilmMaker maker(width, height, frames);
+  const std::uint32_t clay = maker.add_material(kClay),
+                      blue = maker.add_material({{0.3f, 0.4f, 0.9f}, 0.1f, 0.6f, 0.9f, 200, 1});
+  const std::uint32_t box = maker.add_shape(modeler::make_box()), ball = maker.add_shape(modeler::make_sphere());
+  maker.add_segment(box, clay, {placed({-8, -8, -16}, 16)});
+  maker.add_segment(ball, blue, {placed({-0.6, -0.6, 0}, 1.2)});
+  std::vector<double> angles;
+  for (std::uint32_t f = 0; f < frames; ++f) angles.push_back(0.1 + 0.11 * f);
+  const std::uint32_t shapes[] = {maker.add_shape(modeler::cut_meshlets(tube(24, 6))),
+                                  maker.add_shape(modeler::cut_meshlets(tube(60, 24)))};
+  maker.add_skin(shapes[0], clay, bends({-2.5, -1.5, 0}, 4, 6, angles));
+  maker.add_skin(shapes[0], blue, bends({1.2, 1.5, 0}, 3, 6, {-0.2}));
+  for (double& angle : angles) angle = 0.02 - 0.2 * angle;
+  maker.add_skin(shapes[1], blue, bends({2, -2, 0}, 4.5, 24, angles));
+  maker.add_light({wire::LightKind::directional, {-0.28f, 0, 0.96f}, {0.8f, 0.8f, 0.8f}});
+  maker.add_light({wire::LightKind::point, {0, -4, 6}, {0.5f, 0.5f, 0.6f}});
+  maker.film.lights[0].casts = 1;
+  maker.set_cameras({looking({0, -12, 5}, {0, 0, 1.2}, 32)});
   return maker.make(interval);
 }
 

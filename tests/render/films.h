@@ -30,6 +30,8 @@ class FilmMaker {
   std::uint32_t add_material(const wire::Material& material);
   // One matrix (stands still) or one a frame (only changes are stored).
   void add_segment(std::uint32_t shape, std::uint32_t material, const std::vector<wire::Matrix>& motion);
+  // Of a shape with a skin: the motion of each bone.
+  void add_skin(std::uint32_t shape, std::uint32_t material, const std::vector<std::vector<wire::Matrix>>& bones);
   void add_light(const wire::Light& light);
   // One camera, or one a frame.
   void set_cameras(const std::vector<wire::Camera>& cameras);
@@ -41,6 +43,7 @@ class FilmMaker {
 
  private:
   wire::Track still(std::uint32_t value);
+  wire::Track track_of(const std::vector<wire::Matrix>& motion);
   bool moves(std::uint32_t segment, std::uint32_t first, std::uint32_t end) const;
 
   bool camera_moves_ = false;
@@ -60,6 +63,12 @@ wire::FilmData ties(std::uint32_t width, std::uint32_t height);
 wire::FilmData overhead(std::uint32_t width, std::uint32_t height, std::uint32_t frames, std::uint32_t interval);
 // A floor in whose corner a small ball rolls.
 wire::FilmData corner(std::uint32_t width, std::uint32_t height, std::uint32_t frames);
+// A tube along z in the unit cube, `rows` rows of quads between two caps, as a skin of `bones` bones one above the
+// other: vertices follow the two, three or four nearest.
+modeler::Mesh tube(std::uint32_t rows, std::uint32_t bones);
+// Tubes with skins that bend before and behind bodies that stand still; one of them holds still, bent. A light casts
+// shadows.
+wire::FilmData bending(std::uint32_t width, std::uint32_t height, std::uint32_t frames, std::uint32_t interval);
 // No patch at all.
 wire::FilmData nothing(std::uint32_t width, std::uint32_t height, std::uint32_t frames);
 

@@ -44,9 +44,10 @@ struct Surfaces {
 void add_segment(const geometry::Scene& scene, std::size_t segment, Surfaces& surfaces, Reference& reference) {
   const wire::PackedFilm& film = scene.film();
   const wire::Shape& shape = film.shapes()[film.segments()[segment].shape];
-  const shape::EyeMatrix matrix = scene.matrix(segment);
+  geometry::SegmentPlace place;
+  place.find(scene, segment);
   const std::uint32_t material = scene.material(segment);
-  raster::PatchIdentity identity{scene.first_patch(segment), material, shape::mirrors(matrix),
+  raster::PatchIdentity identity{scene.first_patch(segment), material, place.mirrors(),
                                  film.materials()[material].sides == 1, scene.moves(segment)};
   const auto add = [&](const shape::Surface& surface) {
     const auto made = raster::plain_set_up(surface, scene.projection(), identity, scene.casting_count() > 0);
@@ -55,11 +56,11 @@ void add_segment(const geometry::Scene& scene, std::size_t segment, Surfaces& su
     ++identity.patch;
   };
   for (const wire::Patch& patch : film.patches().subspan(shape.first_patch, shape.patch_count)) {
-    surfaces.dicer.dice(shape::to_eye(matrix, patch), scene.projection(), scene.dicing());
+    surfaces.dicer.dice(shape::to_eye(place.matrix(), patch), scene.projection(), scene.dicing());
     add(surfaces.dicer);
   }
   for (const wire::Meshlet& meshlet : film.meshlets().subspan(shape.first_meshlet, shape.meshlet_count)) {
-    surfaces.placer.place(geometry::eye_map(matrix), film, meshlet, scene.projection());
+    surfaces.placer.place(place, film, meshlet, scene.projection());
     add(surfaces.placer);
   }
 }

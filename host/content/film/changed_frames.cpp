@@ -35,8 +35,13 @@ constexpr bool kOfFourBytes = alignof(T) == 4 && sizeof(T) % 4 == 0;
 static_assert(kOfFourBytes<wire::Light> && kOfFourBytes<wire::Material> && kOfFourBytes<wire::FilmSettings> &&
               kOfFourBytes<wire::AmbientLight> && kOfFourBytes<wire::Fog>);
 
+std::span<const float> weights_of(const PackedFilm& film, const wire::Meshlet& meshlet) {
+  return film.mesh_weights().subspan(meshlet.first_weight, std::size_t{meshlet.bone_count} * meshlet.vertex_count);
+}
+
 bool same_meshlet(const PackedFilm& a, const wire::Meshlet& in_a, const PackedFilm& b, const wire::Meshlet& in_b) {
-  return same_bits(in_a.low, in_b.low) && same_bits(in_a.high, in_b.high) &&
+  return same_bits(a.bones_of(in_a), b.bones_of(in_b)) && same_bits(weights_of(a, in_a), weights_of(b, in_b)) &&
+         same_bits(in_a.low, in_b.low) && same_bits(in_a.high, in_b.high) &&
          same_bits(a.mesh_places().subspan(in_a.first_vertex, in_a.vertex_count),
                    b.mesh_places().subspan(in_b.first_vertex, in_b.vertex_count)) &&
          same_bits(a.mesh_normals().subspan(in_a.first_vertex, in_a.vertex_count),
@@ -83,7 +88,7 @@ class Comparison {
         before_.light_tracks().size() != now_.light_tracks().size())
       return false;
     for (std::size_t i = 0; i < a.size(); ++i)
-      if (!have_same_shape(a[i].shape, b[i].shape)) return false;
+      if (!have_same_shape(a[i].shape, b[i].shape) || a[i].bone_count != b[i].bone_count) return false;
     return true;
   }
 
@@ -99,7 +104,9 @@ class Comparison {
       compare(before_.light_tracks()[i], before_.lights(), now_.light_tracks()[i], now_.lights());
     for (std::size_t i = 0; i < now_.segments().size(); ++i) {
       const wire::Segment &a = before_.segments()[i], &b = now_.segments()[i];
-      compare(a.motion, before_.matrices(), b.motion, now_.matrices());
+      if (a.bone_count == 0) compare(a.motion, before_.matrices(), b.motion, now_.matrices());
+      for (std::size_t bone = 0; bone < a.bone_count; ++bone)
+        compare(before_.bones_of(a)[bone], before_.matrices(), now_.bones_of(b)[bone], now_.matrices());
       compare(a.material, before_.materials(), b.material, now_.materials());
     }
     compare_movers();

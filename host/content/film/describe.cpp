@@ -27,6 +27,7 @@ std::string polygons_of(const wire::PackedFilm& film) {
     text += line("triangles", triangles, film.mesh_triangles().size()) +
             document::formatted("pieces      %zu, of up to %u triangles\n", film.meshlets().size(),
                                 wire::kMeshletTriangles);
+  if (!film.bones().empty()) text += document::formatted("bones       %zu\n", film.bones().size());
   return text;
 }
 

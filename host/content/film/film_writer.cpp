@@ -119,6 +119,7 @@ void FilmWriter::write_segments(const ShapeNumbers& shapes) {
                                 {},
                                 materials_.track_of(actor, joint.segment->material),
                                 material_name(materials_.name_of(actor, joint.segment->material))});
+      if (!joint.segment->bones.empty()) add_bones(data_.segments.back(), *joint.segment);
       const std::uint32_t shape = data_.segments.back().shape;
       if (shape < data_.shapes.size()) instances += data_.shapes[shape].size();
     }
@@ -126,6 +127,12 @@ void FilmWriter::write_segments(const ShapeNumbers& shapes) {
     if (instances > kMost || joints > kMost)
       fail(film_, "have more than 4294967295 patches and pieces of meshes", "actors", "use fewer actors");
   }
+}
+
+void FilmWriter::add_bones(wire::Segment& segment, const modeler::Segment& of_model) {
+  segment.first_bone = static_cast<std::uint32_t>(data_.bones.size());
+  segment.bone_count = static_cast<std::uint32_t>(of_model.bones.size());
+  data_.bones.resize(data_.bones.size() + of_model.bones.size());
 }
 
 // Each once.

@@ -41,6 +41,7 @@ class FilmWriter {
 
  private:
   void write_camera();
+  void add_bones(wire::Segment& segment, const modeler::Segment& of_model);
   std::uint32_t add_name(const std::string& name);
   std::uint32_t material_name(const std::string& name);
 

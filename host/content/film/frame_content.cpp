@@ -32,6 +32,9 @@ std::string checksum_of_shape(const wire::PackedFilm& film, const wire::Shape& s
     add(sum, film.mesh_places().subspan(meshlet.first_vertex, meshlet.vertex_count));
     add(sum, film.mesh_normals().subspan(meshlet.first_vertex, meshlet.vertex_count));
     add(sum, film.mesh_triangles().subspan(meshlet.first_triangle, meshlet.triangle_count));
+    if (meshlet.bone_count == 0) continue;
+    add(sum, film.bones_of(meshlet));
+    add(sum, film.mesh_weights().subspan(meshlet.first_weight, std::size_t{meshlet.bone_count} * meshlet.vertex_count));
   }
   return sum.digits();
 }
@@ -60,12 +63,17 @@ std::string FrameContent::checksum(std::uint32_t frame) const {
   for (const wire::Segment& segment : film_.segments()) {
     const std::string& shape = shapes_[segment.shape];
     add(sum, std::span(shape.data(), shape.size()));
-    add(sum, film_.matrix_at(segment, frame));
+    add_place(segment, frame, sum);
     add(sum, film_.material_at(segment, frame));
   }
   add(sum, film_.moving(interval_of(film_, frame)));
   add_layers(frame, sum);
   return sum.digits();
+}
+
+void FrameContent::add_place(const wire::Segment& segment, std::uint32_t frame, Checksum& sum) const {
+  if (segment.bone_count == 0) return add(sum, film_.matrix_at(segment, frame));
+  for (const wire::Track& bone : film_.bones_of(segment)) add(sum, film_.matrix_at(bone, frame));
 }
 
 // Motion is seen from the frame before, and identities are those of names.
@@ -75,7 +83,7 @@ void FrameContent::add_layers(std::uint32_t frame, Checksum& sum) const {
   const bool motion = frame > 0 && (layers_ & wire::set_of(wire::Layer::motion)) != 0;
   if (motion) add(sum, film_.camera_at(frame - 1));
   for (const wire::Segment& segment : film_.segments()) {
-    if (motion) add(sum, film_.matrix_at(segment, frame - 1));
+    if (motion) add_place(segment, frame - 1, sum);
     if (!ids) continue;
     add_text(film_.name(segment));
     add_text(film_.material_name(segment));

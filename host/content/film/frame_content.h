@@ -26,6 +26,7 @@ class FrameContent {
   std::string checksum(std::uint32_t frame) const;
 
  private:
+  void add_place(const wire::Segment& segment, std::uint32_t frame, document::Checksum& sum) const;
   void add_layers(std::uint32_t frame, document::Checksum& sum) const;
 
   const wire::PackedFilm film_;

@@ -109,9 +109,15 @@ class Cutter {
   template <typename Visit>
   void visit_changes(Visit visit) const {
     const wire::Change* changes = film_.changes.data();
-    for (std::uint32_t segment = 0; segment < film_.segments.size(); ++segment)
-      for (const wire::Track& track : {film_.segments[segment].motion, film_.segments[segment].material})
-        for (std::uint32_t i = 1; i < track.count; ++i) visit(segment, changes[track.first + i].frame);
+    for (std::uint32_t number = 0; number < film_.segments.size(); ++number) {
+      const auto visit_track = [&](const wire::Track& track) {
+        for (std::uint32_t i = 1; i < track.count; ++i) visit(number, changes[track.first + i].frame);
+      };
+      const wire::Segment& segment = film_.segments[number];
+      if (segment.bone_count == 0) visit_track(segment.motion);
+      for (std::uint32_t i = 0; i < segment.bone_count; ++i) visit_track(film_.bones[segment.first_bone + i]);
+      visit_track(segment.material);
+    }
   }
 
   struct ByFrame {

@@ -35,16 +35,26 @@ wire::FilmData moment_of(const animator::Film& film, const ShapeNumbers& shapes,
   FilmWriter writer(film, {frame, 1}, data);
   writer.write_settings();
   writer.write_segments(shapes);
-  for (std::size_t actor = 0; actor < film.actors.size(); ++actor)
-    for (const auto& matrix : animator::state_at(film, actor, frame).segments) {
-      if (!matrix) continue;
-      const auto number = static_cast<std::uint32_t>(data.matrices.size());
-      wire::Segment& segment = data.segments[number];
-      check_near(*matrix, film, &data.names[segment.name], frame);
-      segment.motion = {static_cast<std::uint32_t>(data.changes.size()), 1};
-      data.changes.push_back({0, number});
-      data.matrices.push_back(*matrix);
+  std::vector<wire::Matrix> of_bones;  // behind all segments'
+  const auto stand = [&](std::size_t number) {
+    data.changes.push_back({0, static_cast<std::uint32_t>(number)});
+    return wire::Track{static_cast<std::uint32_t>(data.changes.size() - 1), 1};
+  };
+  for (std::size_t actor = 0; actor < film.actors.size(); ++actor) {
+    const animator::ActorState state = animator::state_at(film, actor, frame);
+    for (std::size_t joint = 0; joint < state.segments.size(); ++joint) {
+      if (!state.segments[joint]) continue;
+      check_near(*state.segments[joint], film, actor, joint, frame);
+      data.segments[data.matrices.size()].motion = stand(data.matrices.size());
+      data.matrices.push_back(*state.segments[joint]);
+      for (const wire::Matrix& bone : state.bones[joint]) {
+        check_near(bone, film, actor, joint, frame);
+        data.bones[of_bones.size()] = stand(data.segments.size() + of_bones.size());
+        of_bones.push_back(bone);
+      }
     }
+  }
+  data.matrices.insert(data.matrices.end(), of_bones.begin(), of_bones.end());
   data.intervals.push_back({0, 1, 0, 0});
   return data;
 }
@@ -58,6 +68,8 @@ CompiledFilm compiled_moment(const animator::Film& film, std::uint32_t frame) {
   data.mesh_places = std::move(shapes.parts.mesh_places);
   data.mesh_normals = std::move(shapes.parts.mesh_normals);
   data.mesh_triangles = std::move(shapes.parts.mesh_triangles);
+  data.mesh_bones = std::move(shapes.parts.mesh_bones);
+  data.mesh_weights = std::move(shapes.parts.mesh_weights);
   return compiled(data, film);
 }
 

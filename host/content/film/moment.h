@@ -22,7 +22,7 @@ struct FilmShapes {
 FilmShapes shapes_of(const animator::Film& film);
 
 // One frame and one interval, in which nothing moves; without shapes, which have these numbers. Each segment has a
-// matrix of its own, by its own number.
+// matrix of its own, by its own number, and so has each bone, behind all segments.
 wire::FilmData moment_of(const animator::Film& film, const ShapeNumbers& shapes, std::uint32_t frame);
 
 // One frame of the film as a film of its own, shapes and all, in which nothing moves.

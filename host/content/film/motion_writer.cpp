@@ -59,11 +59,11 @@ std::size_t count_of(const Runs& runs) {
 
 // What one actor may need at most, and where it is written.
 struct Share {
-  std::size_t first_segment = 0, segments = 0;
-  std::vector<std::size_t> most;  // matrices of each segment
+  std::vector<wire::Track*> tracks;  // of its segments, each followed by those of its bones
+  std::vector<std::size_t> most;     // matrices of each of them
   std::size_t first_matrix = 0, first_change = 0;
   std::size_t matrices = 0;            // written
-  std::vector<std::uint32_t> changes;  // written, of each segment
+  std::vector<std::uint32_t> changes;  // written, of each track
 };
 
 std::vector<std::size_t> most_of_matrices(const animator::Actor& actor, const modeler::Model& model,
@@ -134,7 +134,12 @@ std::vector<std::size_t> most_of_motion(const animator::Film& film, std::size_t 
     const std::size_t before = runs[i].size();
     add_runs(actor.motion.pose[i], frames, runs[i]);
     if (runs[i].size() > before) runs[i] = merged(std::move(runs[i]));
-    if (joint.segment) most.push_back(count_of(runs[i]));
+  }
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const modeler::Joint& joint = model.joints[i];
+    if (!joint.segment) continue;
+    most.push_back(count_of(runs[i]));
+    for (const modeler::Bone& bone : joint.segment->bones) most.push_back(count_of(runs[bone.joint]));
   }
   return most;
 }
@@ -177,20 +182,25 @@ class MotionWriter {
   }
 
   void plan() {
-    std::size_t segment = 0;
+    wire::Segment* segment = data_.segments.data();
     for (std::size_t number = 0; number < film_.actors.size(); ++number) {
       const animator::Actor& actor = film_.actors[number];
       Share share;
-      share.first_segment = segment;
+      for (const modeler::Joint& joint : film_.models[actor.model].joints)
+        if (joint.segment) add_tracks(*segment++, share);
       share.first_matrix = share.first_change = most_matrices_;
       share.most = actor.matrices.empty() ? most_of_motion(film_, number)
                                           : most_of_matrices(actor, film_.models[actor.model], film_.frames);
-      share.segments = share.most.size();
-      segment += share.segments;
+      check(share.most.size() == share.tracks.size(), "each of an actor's tracks was planned");
       for (const std::size_t most : share.most) most_matrices_ += most;
       shares_.push_back(std::move(share));
     }
     refuse_too_many();
+  }
+
+  void add_tracks(wire::Segment& segment, Share& share) {
+    share.tracks.push_back(&segment.motion);
+    for (std::uint32_t i = 0; i < segment.bone_count; ++i) share.tracks.push_back(&data_.bones[segment.first_bone + i]);
   }
 
   void refuse_too_many() const {
@@ -229,12 +239,15 @@ class MotionWriter {
     if (failure) std::rethrow_exception(failure);
   }
 
-  // One segment being written: its joint, and its matrices so far.
+  // One track of an actor being written: the joint whose segment it moves, and its matrices so far.
   struct Writing {
     std::size_t joint;
-    std::size_t segment;
+    const modeler::Bone* bone;  // of that segment's skin; nullptr: it is the segment's own
+    std::size_t number;         // in the actor's share
     wire::Change* changes;
-    std::uint32_t count;
+    std::uint32_t count = 0;
+
+    std::size_t moved_by() const { return bone != nullptr ? bone->joint : joint; }
   };
 
   void write_actor(std::size_t number) {
@@ -243,13 +256,16 @@ class MotionWriter {
     std::vector<Writing> writings;
     const auto& joints = film_.models[actor.model].joints;
     wire::Change* changes = data_.changes.data() + share.first_change;
+    const auto add = [&](std::size_t joint, const modeler::Bone* bone) {
+      writings.push_back({joint, bone, writings.size(), changes});
+      changes += share.most[writings.size() - 1];
+    };
     for (std::size_t joint = 0; joint < joints.size(); ++joint) {
       if (!joints[joint].segment) continue;
-      const std::size_t segment = writings.size();
-      writings.push_back({joint, share.first_segment + segment, changes, 0});
-      changes += share.most[segment];
+      add(joint, nullptr);
+      for (const modeler::Bone& bone : joints[joint].segment->bones) add(joint, &bone);
     }
-    actor.matrices.empty() ? play(number, share, writings) : copy(actor, share, writings);
+    actor.matrices.empty() ? play(number, share, writings) : copy(number, share, writings);
     for (const Writing& writing : writings) share.changes.push_back(writing.count);
   }
 
@@ -263,26 +279,29 @@ class MotionWriter {
     for (std::uint32_t frame = 0; frame < frames; ++frame) {
       if (!(carried ? figure.move_to(frame, carriers.root_of(number, frame)) : figure.move_to(frame))) continue;
       for (Writing& writing : writings) {
-        if (!figure.moved(writing.joint)) continue;
+        if (!figure.moved(writing.moved_by())) continue;
         const modeler::Joint& joint = model.joints[writing.joint];
-        add(share, writing, frame,
-            modeler::t_matrix(modeler::segment_frame(figure.frame_of(writing.joint), joint), joint.segment->sbb));
+        const modeler::Axes& stands = figure.frame_of(writing.moved_by());
+        add(number, share, writing, frame,
+            writing.bone != nullptr ? modeler::bone_matrix(stands, *writing.bone, joint)
+                                    : modeler::t_matrix(modeler::segment_frame(stands, joint), joint.segment->sbb));
       }
     }
   }
 
-  void copy(const animator::Actor& actor, Share& share, std::vector<Writing>& writings) {
+  void copy(std::size_t number, Share& share, std::vector<Writing>& writings) {
+    const animator::Actor& actor = film_.actors[number];
     const auto& joints = film_.models[actor.model].joints;
     for (Writing& writing : writings)
       for (const animator::Key<modeler::Axes>& key : actor.matrices[writing.joint])
         if (key.frame < film_.frames)
-          add(share, writing, key.frame, modeler::t_matrix(key.value, joints[writing.joint].segment->sbb));
+          add(number, share, writing, key.frame, modeler::t_matrix(key.value, joints[writing.joint].segment->sbb));
   }
 
-  void add(Share& share, Writing& writing, std::uint32_t frame, const wire::Matrix& matrix) {
+  void add(std::size_t actor, Share& share, Writing& writing, std::uint32_t frame, const wire::Matrix& matrix) {
     if (writing.count > 0 && matrix == matrices_[writing.changes[writing.count - 1].value]) return;
-    check_near(matrix, film_, &data_.names[data_.segments[writing.segment].name], frame);
-    check(writing.count < share.most[writing.segment - share.first_segment], "a segment moves as often as was planned");
+    check_near(matrix, film_, actor, writing.joint, frame);
+    check(writing.count < share.most[writing.number], "a segment moves as often as was planned");
     const std::size_t place = share.first_matrix + share.matrices++;
     matrices_[place] = matrix;
     writing.changes[writing.count++] = {frame, static_cast<std::uint32_t>(place)};
@@ -297,13 +316,13 @@ class MotionWriter {
         std::memmove(static_cast<void*>(matrices_ + matrix_to), matrices_ + share.first_matrix,
                      share.matrices * sizeof(wire::Matrix));
       std::size_t from = share.first_change;
-      for (std::size_t i = 0; i < share.segments; ++i) {
+      for (std::size_t i = 0; i < share.tracks.size(); ++i) {
         const std::uint32_t count = share.changes[i];
         for (std::uint32_t k = 0; k < count && (down > 0 || from != change_to); ++k) {
           const wire::Change& change = data_.changes[from + k];
           data_.changes[change_to + k] = {change.frame, static_cast<std::uint32_t>(change.value - down)};
         }
-        data_.segments[share.first_segment + i].motion = {static_cast<std::uint32_t>(change_to), count};
+        *share.tracks[i] = {static_cast<std::uint32_t>(change_to), count};
         change_to += count;
         from += share.most[i];
       }
@@ -322,12 +341,14 @@ class MotionWriter {
 
 }  // namespace
 
-void check_near(const wire::Matrix& matrix, const animator::Film& film, const char* segment, std::uint32_t frame) {
+void check_near(const wire::Matrix& matrix, const animator::Film& film, std::size_t actor, std::size_t joint,
+                std::uint32_t frame) {
   for (const auto& row : matrix.m)
     for (const double number : row)
       if (!(std::abs(number) <= kFarthestMatrix))
         throw Failure("stands farther than 1e12 from the origin",
-                      (film.source.empty() ? "" : film.source + ": ") + segment + ", frame " + std::to_string(frame),
+                      (film.source.empty() ? "" : film.source + ": ") + film.actors[actor].name + "/" +
+                          film.model_of(actor).joints[joint].name + ", frame " + std::to_string(frame),
                       "use smaller places and boxes");
 }
 

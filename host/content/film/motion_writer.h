@@ -12,12 +12,13 @@
 
 namespace mars::film {
 
-// Gives the segments of `data`, which are those of all actors in order, their motion; `lines` becomes the memory of
-// the block's header and the matrices. Returns the number of matrices. Throws, before any is made, where there
-// are more than memory holds; and where a segment stands too far out.
+// Gives the segments of `data`, which are those of all actors in order, and their bones their motion; `lines` becomes
+// the memory of the block's header and the matrices. Returns the number of matrices. Throws, before any is made, where
+// there are more than memory holds; and where a segment stands too far out.
 std::size_t write_motion(const animator::Film& film, wire::FilmData& data, CompiledFilm::Lines& lines);
 
-// Throws where the segment of this name stands farther out than a compiled film may say.
-void check_near(const wire::Matrix& matrix, const animator::Film& film, const char* segment, std::uint32_t frame);
+// Throws where the segment of the actor's joint stands farther out than a compiled film may say.
+void check_near(const wire::Matrix& matrix, const animator::Film& film, std::size_t actor, std::size_t joint,
+                std::uint32_t frame);
 
 }  // namespace mars::film

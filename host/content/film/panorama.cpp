@@ -26,9 +26,12 @@ wire::FilmData data_of(const wire::PackedFilm& film) {
   data.mesh_places = copy_of(film.mesh_places());
   data.mesh_normals = copy_of(film.mesh_normals());
   data.mesh_triangles = copy_of(film.mesh_triangles());
+  data.mesh_bones = copy_of(film.mesh_bones());
+  data.mesh_weights = copy_of(film.mesh_weights());
   data.meshlets = copy_of(film.meshlets());
   data.shapes = copy_of(film.shapes());
   data.segments = copy_of(film.segments());
+  data.bones = copy_of(film.bones());
   data.materials = copy_of(film.materials());
   data.lights = copy_of(film.lights());
   data.light_tracks = copy_of(film.light_tracks());
@@ -163,6 +166,7 @@ CompiledFilm faces_of(const CompiledFilm& panorama) {
     segment.motion = tracks.track(segment.motion);
     segment.material = tracks.track(segment.material);
   }
+  for (wire::Track& bone : data.bones) bone = tracks.track(bone);
   write_intervals(view, data);
   return packed(data, view.matrices(), panorama);
 }

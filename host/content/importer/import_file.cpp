@@ -85,6 +85,15 @@ std::string set_material(const ImportOptions& options) {
          " --material " + material_name(0);
 }
 
+WrittenSkin skin_of(const MeshFile& file) {
+  WrittenSkin skin;
+  for (const MeshBone& bone : file.bones) {
+    skin.joints.push_back(file.joints[bone.joint].name);
+    if (!file.are_bound_at_rest) skin.binds.push_back(bone.bind);
+  }
+  return skin;
+}
+
 Imported import_mesh(const ImportOptions& options, FileKind kind, const Stance& stance) {
   const MeshOptions mesh{stance.upright, options.size, options.crease, options.joint, set_material(options)};
   const MeshFile file = read_mesh_file(options.from, kind, mesh);
@@ -93,7 +102,9 @@ Imported import_mesh(const ImportOptions& options, FileKind kind, const Stance& 
   for (const MeshJoint& joint : file.joints) {
     joints.push_back({joint.name, joint.parent, joint.frame, joint.fixed, {}});
     if (joint.part)
-      joints.back().segment = WrittenSegment{shape_text(joint.part->mesh), joint.part->bounds, joint.part->material};
+      joints.back().segment =
+          WrittenSegment{shape_text(joint.part->mesh), joint.part->bounds, joint.part->material, {}};
+    if (joint.has_skin) joints.back().segment->skin = skin_of(file);
   }
   const std::string count = joints.size() == 1 ? "one joint" : std::to_string(joints.size()) + " joints, the first";
   return {{"model of " + count + " '" + options.joint + "'", box_of(file.extent, file.factor, kind, stance),

@@ -47,6 +47,12 @@ struct MeshPart {
   modeler::Box bounds;  // in the joint's axes
 };
 
+// A bone of a skin: what leads from the axes of the skin's joint to those of this one, in the model's units.
+struct MeshBone {
+  std::size_t joint;  // of the file's
+  modeler::Affine bind;
+};
+
 // A joint with one part at the most.
 struct MeshJoint {
   std::string name;
@@ -54,10 +60,13 @@ struct MeshJoint {
   JointFrame frame;    // its origin in the parent's frame, in the model's units
   bool fixed = false;  // it shows a further material of its parent, and cannot turn
   std::optional<MeshPart> part;
+  bool has_skin = false;  // the part's vertices follow the file's bones
 };
 
 struct MeshFile {
   std::vector<MeshJoint> joints;  // the first has no parent, all others do
+  std::vector<MeshBone> bones;    // of the skins, ascending by joint
+  bool are_bound_at_rest = true;  // the bones leave the mesh where it is while the model rests
   std::vector<ImportedMaterial> materials;
   glm::dvec3 extent;                              // of all faces; 0 where they are flat
   double factor = 1;                              // from the file's units to the model's

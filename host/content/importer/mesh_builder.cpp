@@ -34,7 +34,7 @@ void add_drawable(modeler::Mesh& mesh, std::vector<std::uint32_t> face) {
 
 }  // namespace
 
-std::size_t MeshBuilder::Hash::operator()(const std::array<double, 6>& key) const {
+std::size_t MeshBuilder::Hash::operator()(const Key& key) const {
   std::size_t sum = 0;
   for (const double number : key) sum = sum * 0x9e3779b97f4a7c15u + std::hash<double>()(number);
   return sum ^ sum >> 29;
@@ -49,7 +49,7 @@ std::size_t MeshBuilder::part_of(const Material& material) {
 }
 
 MeshBuilder::Vertex MeshBuilder::checked(const glm::dvec3& place, const glm::dvec3& normal) const {
-  Vertex vertex{place, style_.takes_normals ? normal : glm::dvec3(0)};
+  Vertex vertex{place, style_.takes_normals ? normal : glm::dvec3(0), place, 0};
   for (int axis = 0; axis < 3; ++axis) {
     if (!std::isfinite(place[axis]))
       throw Failure("has a vertex that is not at numbers, or at too large ones", file_,
@@ -60,12 +60,33 @@ MeshBuilder::Vertex MeshBuilder::checked(const glm::dvec3& place, const glm::dve
   return vertex;
 }
 
-std::uint32_t MeshBuilder::vertex(std::size_t number, const glm::dvec3& place, const glm::dvec3& normal) {
+std::uint32_t MeshBuilder::number_of(const modeler::VertexBones& bones) {
+  const auto [known, is_new] = follows_numbers_.try_emplace(bones, static_cast<std::uint32_t>(follows_.size()));
+  if (is_new) follows_.push_back(bones);
+  return known->second;
+}
+
+void MeshBuilder::renumber_bones(std::span<const std::uint32_t> numbers) {
+  for (modeler::VertexBones& bones : follows_) {
+    std::vector<modeler::BoneWeight> renumbered;
+    for (std::size_t i = 0; i < modeler::kMostBonesOfVertex; ++i)
+      if (bones.weight[i] > 0) renumbered.push_back({numbers[bones.bone[i]], bones.weight[i]});
+    bones = *modeler::bones_of_vertex(std::move(renumbered));
+  }
+  follows_numbers_.clear();
+}
+
+std::uint32_t MeshBuilder::vertex(std::size_t number, const glm::dvec3& place, const glm::dvec3& normal,
+                                  const Follows* follows) {
   Part& part = parts_[number];
-  const Vertex vertex = checked(place, normal);
+  Vertex vertex = checked(place, normal);
+  if (follows != nullptr) {
+    vertex.follows = number_of(follows->bones);
+    vertex.at_rest = follows->at_rest;
+  }
   const glm::dvec3 &p = vertex.place, &n = vertex.normal;
-  const auto [at, is_new] =
-      part.numbers.try_emplace({p.x, p.y, p.z, n.x, n.y, n.z}, static_cast<std::uint32_t>(part.vertices.size()));
+  const auto [at, is_new] = part.numbers.try_emplace({p.x, p.y, p.z, n.x, n.y, n.z, double(vertex.follows)},
+                                                     static_cast<std::uint32_t>(part.vertices.size()));
   if (is_new) part.vertices.push_back(vertex);
   return at->second;
 }
@@ -85,9 +106,13 @@ void MeshBuilder::add_face(std::size_t number, std::vector<std::uint32_t>& face)
 }
 
 void MeshBuilder::widen(modeler::Box& box, const glm::dvec3& origin, const glm::dmat3& axes) const {
+  widen(box, [&](const Vertex& vertex) { return origin + axes * vertex.at_rest; });
+}
+
+void MeshBuilder::widen(modeler::Box& box, const auto& place_of) const {
   for (const Part& part : parts_)
     for (const std::uint32_t corner : part.corners) {
-      const glm::dvec3 place = origin + axes * part.vertices[corner].place;
+      const glm::dvec3 place = place_of(part.vertices[corner]);
       box.min = glm::min(box.min, place);
       box.max = glm::max(box.max, place);
     }
@@ -103,6 +128,7 @@ modeler::Mesh MeshBuilder::mesh_of(const Part& part, const modeler::Box& bounds,
     mesh.vertices.push_back({float(unit.x), float(unit.y), float(unit.z)});
     // Normals shrink where places grow.
     if (style_.takes_normals) mesh.normals.push_back(unit_normal(vertex.normal, extent));
+    if (has_skin()) mesh.bones.push_back(follows_[vertex.follows]);
   }
   for (std::size_t face = 0, first = 0; face < part.ends.size(); first = part.ends[face++])
     add_drawable(mesh,
@@ -113,7 +139,7 @@ modeler::Mesh MeshBuilder::mesh_of(const Part& part, const modeler::Box& bounds,
 std::vector<MeshPart> MeshBuilder::finish(double factor) {
   std::erase_if(parts_, [](const Part& part) { return part.ends.empty(); });
   modeler::Box box = kEmptyBox;
-  widen(box, glm::dvec3(0), glm::dmat3(1));
+  widen(box, [](const Vertex& vertex) { return vertex.place; });
   const modeler::Box bounds = modeler::thickened({box.min * factor, box.max * factor});
   std::vector<MeshPart> finished;
   for (Part& part : parts_) {

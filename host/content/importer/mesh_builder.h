@@ -1,5 +1,5 @@
-// Puts the faces of one joint together: vertices that agree in place and normal become one, faces of one material one
-// part.
+// Puts the faces of one joint together: vertices that agree in place, normal and bones become one, faces of one
+// material one part.
 #pragma once
 
 #include <array>
@@ -8,7 +8,9 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
+#include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -38,14 +40,26 @@ class MeshBuilder {
   // The number of the part of this material.
   std::size_t part_of(const Material& material);
 
-  // The number, within its part, of a vertex given in the joint's axes and the file's units.
-  std::uint32_t vertex(std::size_t part_number, const glm::dvec3& place, const glm::dvec3& normal);
+  // Which bones a vertex of a skin follows, and where these put it while the model rests.
+  struct Follows {
+    modeler::VertexBones bones;
+    glm::dvec3 at_rest;
+  };
+
+  // The number, within its part, of a vertex given in the joint's axes and the file's units. Either all of the joint's
+  // vertices follow bones or none does.
+  std::uint32_t vertex(std::size_t part_number, const glm::dvec3& place, const glm::dvec3& normal,
+                       const Follows* follows = nullptr);
 
   // Changes `face`: a corner twice in a row is one.
   void add_face(std::size_t part_number, std::vector<std::uint32_t>& face);
 
-  // Makes `box` reach round what lies on faces, seen from where the joint's origin is at `origin` and its axes are
-  // `axes`.
+  // Gives bones their numbers in another order.
+  void renumber_bones(std::span<const std::uint32_t> numbers);
+  bool has_skin() const { return !follows_.empty(); }
+
+  // Makes `box` reach round what lies on faces while the model rests, seen from where the joint's origin is at `origin`
+  // and its axes are `axes`.
   void widen(modeler::Box& box, const glm::dvec3& origin, const glm::dmat3& axes) const;
 
   // All parts with faces, `factor` times as large.
@@ -55,25 +69,31 @@ class MeshBuilder {
 
  private:
   struct Vertex {
-    glm::dvec3 place, normal;
+    glm::dvec3 place, normal, at_rest;
+    std::uint32_t follows;  // a number in follows_
   };
+  using Key = std::array<double, 7>;
   struct Hash {
-    std::size_t operator()(const std::array<double, 6>& key) const;
+    std::size_t operator()(const Key& key) const;
   };
   struct Part {
     Material material;
     std::vector<Vertex> vertices;
-    std::unordered_map<std::array<double, 6>, std::uint32_t, Hash> numbers;
+    std::unordered_map<Key, std::uint32_t, Hash> numbers;
     std::vector<std::uint32_t> corners;
     std::vector<std::uint32_t> ends;
   };
 
   Vertex checked(const glm::dvec3& place, const glm::dvec3& normal) const;
+  std::uint32_t number_of(const modeler::VertexBones& bones);
+  void widen(modeler::Box& box, const auto& place_of) const;
   modeler::Mesh mesh_of(const Part& part, const modeler::Box& bounds, double factor) const;
 
   std::string file_;
   MeshStyle style_;
   std::vector<Part> parts_;
+  std::vector<modeler::VertexBones> follows_;  // each once
+  std::map<modeler::VertexBones, std::uint32_t> follows_numbers_;
   std::size_t faces_left_out_ = 0;
 };
 

@@ -22,6 +22,10 @@ class ModelBuilder {
 
   MeshBuilder& mesh(std::size_t joint) { return joints_[joint].mesh; }
 
+  // The number of a bone whose joint moves the skin of the first joint; `to_rest` leads from the axes of that joint to
+  // where the bone puts the mesh while the model rests, in the file's units. Alike ones are one bone.
+  std::uint32_t bone(std::size_t joint, const modeler::Affine& to_rest);
+
   // Joints and their size; as not read, what was given here and left out. Refuses a file without faces.
   MeshFile finish();
 
@@ -36,12 +40,19 @@ class ModelBuilder {
   std::string unused_name(const std::string& wanted);
   void check_places(const modeler::Box& box) const;
   void finish_joint(Draft& draft, double factor, MeshFile& file);
+  void sort_bones();
+  void finish_bones(double factor, const std::vector<std::size_t>& numbers, MeshFile& file) const;
 
   std::string file_;
   ModelSize size_;
   bool has_normals_;
   MeshStyle style_;
   std::vector<Draft> joints_;
+  struct DraftBone {
+    std::size_t joint;
+    modeler::Affine to_rest;
+  };
+  std::vector<DraftBone> bones_;
   std::map<std::string, int> names_;  // and with which number another of the name would go on
 };
 

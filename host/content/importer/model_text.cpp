@@ -37,6 +37,20 @@ void append_places(std::string& text, const std::vector<modeler::Mesh::Place>& p
   append_rows(text, places.size(), [&](std::size_t i) { append_row(text, places[i].data(), 3); });
 }
 
+void append_bones(std::string& text, const std::vector<modeler::VertexBones>& bones) {
+  text += ",\n      \"bones\": ";
+  append_rows(text, bones.size(), [&](std::size_t vertex) {
+    text += '[';
+    for (std::size_t i = 0; i < modeler::kMostBonesOfVertex && bones[vertex].weight[i] > 0; ++i) {
+      if (i > 0) text += ", ";
+      append(text, bones[vertex].bone[i]);
+      text += ", ";
+      append(text, bones[vertex].weight[i]);
+    }
+    text += ']';
+  });
+}
+
 std::string json_text(const std::string& name) { return nlohmann::json(name).dump(); }
 
 std::string numbered(const std::string& name, std::size_t number) {
@@ -94,7 +108,27 @@ class ModelText {
     joints_ += ", \"segment\": {\"shape\": " + shape_name(segment.shape) + ", \"sbb\": [" + row_text(segment.sbb.min) +
                ", " + row_text(segment.sbb.max) + "]";
     if (segment.material) joints_ += ", \"material\": " + json_text(material_name(*segment.material));
+    if (segment.skin) add_skin(*segment.skin);
     joints_ += "}";
+  }
+
+  void add_skin(const WrittenSkin& skin) {
+    joints_ += ",\n      \"skin\": {\"joints\": [";
+    for (std::size_t i = 0; i < skin.joints.size(); ++i) joints_ += (i == 0 ? "" : ", ") + json_text(skin.joints[i]);
+    joints_ += "]";
+    if (!skin.binds.empty()) joints_ += ", \"bind\": ";
+    if (!skin.binds.empty())
+      append_rows(joints_, skin.binds.size(), [&](std::size_t i) { append_bind(skin.binds[i]); });
+    joints_ += "}";
+  }
+
+  void append_bind(const modeler::Affine& bind) {
+    double numbers[12];
+    for (int row = 0; row < 3; ++row) {
+      for (int column = 0; column < 3; ++column) numbers[4 * row + column] = bind.turn[column][row];
+      numbers[4 * row + 3] = bind.place[row];
+    }
+    append_row(joints_, numbers, 12);
   }
 
   std::string shape_name(const std::string& shape) {
@@ -137,6 +171,7 @@ std::string shape_text(const modeler::Mesh& mesh) {
     text += ",\n      \"normals\": ";
     append_places(text, mesh.normals);
   }
+  if (!mesh.bones.empty()) append_bones(text, mesh.bones);
   return text + "}}";
 }
 

@@ -10,10 +10,16 @@
 
 namespace mars::importer {
 
+struct WrittenSkin {
+  std::vector<std::string> joints;     // their names
+  std::vector<modeler::Affine> binds;  // of each; none: the mesh is where it is at rest
+};
+
 struct WrittenSegment {
   std::string shape;  // JSON; segments of the same text share a shape, such as a wheel that a file has four times
   modeler::Box sbb;
   std::optional<std::size_t> material;  // of the model's materials
+  std::optional<WrittenSkin> skin{};
 };
 
 struct WrittenJoint {

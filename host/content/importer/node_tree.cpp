@@ -46,6 +46,7 @@ class TreeReader {
     const GltfNode& gltf = skins_->nodes[number];
     tree_.nodes[index].name = gltf.name;
     tree_.nodes[index].skin = gltf.skin;
+    tree_.nodes[index].number = number;
     const glm::dmat4 matrix = tree_.by_number[number] = tree_.nodes[index].matrix;
     visit_children(node, index, matrix, gltf.children);
   }

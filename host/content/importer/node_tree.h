@@ -18,6 +18,7 @@ struct PlacedNode {
   glm::dmat4 matrix;   // from the node's axes to the file's
   std::string name;    // "": it has none
   std::optional<std::size_t> skin;
+  std::size_t number = modeler::kNone;  // of the file's node; kNone: there is no such node
 };
 
 struct NodeTree {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
+#include <cmath>
 #include <exception>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -185,12 +186,11 @@ class SceneReader {
     builder_.add_joint(options_.joint, modeler::kNone, {});
     for (const PlacedNode& node : tree_.nodes) {
       const glm::dmat4 matrix = upright_ * node.matrix;
-      for (unsigned i = 0; i < node.node->mNumMeshes; ++i)
-        add(*scene_.mMeshes[node.node->mMeshes[i]], 0, std::span(&matrix, 1));
+      for (unsigned i = 0; i < node.node->mNumMeshes; ++i) add(*scene_.mMeshes[node.node->mMeshes[i]], 0, matrix);
     }
   }
 
-  // Nodes with meshes below them become joints, but for what a skin places: that stands on the first joint.
+  // Nodes with meshes below them become joints, and bones. What a skin places stands on the first joint.
   void add_joints() {
     const std::vector<bool> shown = shown_nodes();
     const bool one_root = !tree_.nodes.empty() && tree_.nodes[0].parent == modeler::kNone && shown[0] &&
@@ -203,9 +203,13 @@ class SceneReader {
         const std::size_t parent = node.parent == modeler::kNone ? 0 : joints[node.parent];
         joints[i] = add_joint(node, one_root && i == 0 ? modeler::kNone : parent);
       }
-      if (node.skin) add_skinned(node);
     }
     nodes_as_joints_ = std::ranges::count(shown, true);
+    std::vector<std::size_t> by_number(tree_.by_number.size(), 0);  // joints of the file's nodes
+    for (std::size_t i = 0; i < tree_.nodes.size(); ++i)
+      if (tree_.nodes[i].number != modeler::kNone) by_number[tree_.nodes[i].number] = joints[i];
+    for (const PlacedNode& node : tree_.nodes)
+      if (node.skin) add_skinned(node, by_number);
   }
 
   bool has_skins() const {
@@ -220,12 +224,24 @@ class SceneReader {
     });
   }
 
-  // Those with a mesh of their own, or below them, that no skin places.
+  // Of the file's nodes, those that are bones of a mesh.
+  std::vector<bool> bones() const {
+    std::vector<bool> bones(tree_.by_number.size());
+    for (const PlacedNode& node : tree_.nodes) {
+      if (!node.skin || !has_faces(node)) continue;
+      for (const std::size_t number : file_.skins->skins[*node.skin]) bones[number] = true;
+    }
+    return bones;
+  }
+
+  // Those with a mesh of their own, or below them, that no skin places; and bones, with all above them.
   std::vector<bool> shown_nodes() const {
+    const std::vector<bool> is_bone = bones();
     std::vector<bool> shown(tree_.nodes.size());
     for (std::size_t i = shown.size(); i-- > 0;) {
       const PlacedNode& node = tree_.nodes[i];
       if (!node.skin && has_faces(node)) shown[i] = true;
+      if (node.number != modeler::kNone && is_bone[node.number]) shown[i] = true;
       if (shown[i] && node.parent != modeler::kNone) shown[node.parent] = true;
     }
     return shown;
@@ -242,29 +258,55 @@ class SceneReader {
     uneven_joints_ += !scales_evenly(tree_.above(node));
     if (node.skin) return joint;  // its mesh stands elsewhere
     const glm::dmat4 within(within_frame(frame, glm::dmat3(matrix)) * glm::dmat3(upright_));
-    for (unsigned i = 0; i < node.node->mNumMeshes; ++i)
-      add(*scene_.mMeshes[node.node->mMeshes[i]], joint, std::span(&within, 1));
+    for (unsigned i = 0; i < node.node->mNumMeshes; ++i) add(*scene_.mMeshes[node.node->mMeshes[i]], joint, within);
     return joint;
   }
 
-  void add_skinned(const PlacedNode& node) {
+  // The mesh stands where its heaviest bone puts it in the file. If the file's pose is the one in which the skin was
+  // bound, so do all its bones.
+  void add_skinned(const PlacedNode& node, const std::vector<std::size_t>& by_number) {
+    const std::vector<std::size_t>& numbers = file_.skins->skins[*node.skin];
     std::vector<glm::dmat4> joints;
-    for (const std::size_t number : file_.skins->skins[*node.skin])
-      joints.push_back(upright_ * tree_.by_number[number]);
+    for (const std::size_t number : numbers) joints.push_back(upright_ * tree_.by_number[number]);
     for (unsigned i = 0; i < node.node->mNumMeshes; ++i) {
       const aiMesh& mesh = *scene_.mMeshes[node.node->mMeshes[i]];
-      add(mesh, 0, skinned(mesh, joints));
+      MeshSkin skin = importer::skin_of(mesh, joints);
+      glm::dmat4 to_model = skin.to_file[skin.heaviest];
+      if (!(std::abs(glm::determinant(glm::dmat3(to_model))) > 0)) to_model = upright_;
+      const glm::dmat4 back = glm::inverse(to_model);
+      std::vector<std::uint32_t> bones;  // of the model, by the mesh's
+      for (std::size_t bone = 0; bone < skin.to_file.size(); ++bone) {
+        skin.to_file[bone] = skin.to_file[bone] * back;
+        const glm::dmat4& matrix = skin.to_file[bone];
+        bones.push_back(builder_.bone(bone < numbers.size() ? by_number[numbers[bone]] : 0,
+                                      {glm::dmat3(matrix), glm::dvec3(matrix[3])}));
+      }
+      weights_left_out_ += skin.weights_left_out;
+      add(mesh, 0, to_model, &skin, bones);
     }
     ++skinned_meshes_;
   }
 
-  // `matrices`, from the mesh's axes to the joint's: one for all vertices, or one a vertex.
-  void add(const aiMesh& mesh, std::size_t joint, std::span<const glm::dmat4> matrices) {
-    std::vector<glm::dmat3> across;  // normals go by the inverse's transpose
-    for (const glm::dmat4& matrix : matrices) {
-      const glm::dmat3 linear(matrix);
-      across.push_back(glm::determinant(linear) == 0 ? linear : glm::transpose(glm::inverse(linear)));
+  // A vertex of a skin that stands at `place`.
+  static MeshBuilder::Follows follows(const MeshSkin& skin, std::span<const std::uint32_t> bones, unsigned vertex,
+                                      const glm::dvec3& place) {
+    MeshBuilder::Follows follows{skin.vertices[vertex], glm::dvec3(0)};
+    for (std::size_t i = 0; i < modeler::kMostBonesOfVertex; ++i) {
+      const std::uint32_t bone = follows.bones.bone[i];
+      if (follows.bones.weight[i] == 0) continue;
+      follows.at_rest += double(follows.bones.weight[i]) * glm::dvec3(skin.to_file[bone] * glm::dvec4(place, 1));
+      follows.bones.bone[i] = bones[bone];
     }
+    return follows;
+  }
+
+  // `matrix`, from the mesh's axes to the joint's; of a skin, whose bones have the numbers `bones`, to where it stands.
+  void add(const aiMesh& mesh, std::size_t joint, const glm::dmat4& matrix, const MeshSkin* skin = nullptr,
+           std::span<const std::uint32_t> bones = {}) {
+    const glm::dmat3 linear(matrix);
+    // Normals go by the inverse's transpose.
+    const glm::dmat3 across = glm::determinant(linear) == 0 ? linear : glm::transpose(glm::inverse(linear));
+    const bool mirrored = glm::determinant(across) < 0;
     MeshBuilder& builder = builder_.mesh(joint);
     const std::size_t part = builder.part_of(materials_.number_of(mesh));
     std::vector<std::uint32_t> face;
@@ -272,18 +314,20 @@ class SceneReader {
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
       const std::span corners(mesh.mFaces[f].mIndices, mesh.mFaces[f].mNumIndices);
       if (corners.size() < 3) continue;  // a point, a line
-      const auto matrix_at = [&](unsigned corner) { return matrices.size() == 1 ? 0 : corner; };
-      const bool mirrored = glm::determinant(across[matrix_at(corners[0])]) < 0;
       places.clear();
       for (const unsigned corner : corners)
-        places.emplace_back(matrices[matrix_at(corner)] * glm::dvec4(dvec3_of(mesh.mVertices[corner]), 1));
+        places.emplace_back(matrix * glm::dvec4(dvec3_of(mesh.mVertices[corner]), 1));
       const glm::dvec3 flat = mesh.HasNormals() ? glm::dvec3(0) : flat_normal(places) * (mirrored ? -1.0 : 1.0);
       face.clear();
       for (std::size_t i = 0; i < corners.size(); ++i) {
         const unsigned corner = corners[i];
-        const glm::dvec3 normal =
-            mesh.HasNormals() ? across[matrix_at(corner)] * dvec3_of(mesh.mNormals[corner]) : flat;
-        face.push_back(builder.vertex(part, places[i], normal));
+        const glm::dvec3 normal = mesh.HasNormals() ? across * dvec3_of(mesh.mNormals[corner]) : flat;
+        if (skin == nullptr) {
+          face.push_back(builder.vertex(part, places[i], normal));
+          continue;
+        }
+        const MeshBuilder::Follows followed = follows(*skin, bones, corner, places[i]);
+        face.push_back(builder.vertex(part, places[i], normal, &followed));
       }
       if (mirrored) std::ranges::reverse(face);
       builder.add_face(part, face);
@@ -295,7 +339,8 @@ class SceneReader {
       if (count > 0) file.made.push_back(what + document::counted(count, one, several));
     };
     add("joints of ", nodes_as_joints_ > 1 ? nodes_as_joints_ : 0, "node", "nodes");
-    add("the pose of the file's bones for ", skinned_meshes_, "skinned mesh", "skinned meshes");
+    add("a skin, which ", file.bones.size(), "joint moves, of ", "joints move, of ");
+    if (!file.bones.empty()) file.made.back() += document::counted(skinned_meshes_, "mesh", "meshes");
     add("metallic-roughness of ",
         static_cast<std::size_t>(std::ranges::count_if(
             file.materials, [](const ImportedMaterial& material) { return material.surface.has_value(); })),
@@ -308,6 +353,9 @@ class SceneReader {
     if (uneven_joints_ > 0)
       list.push_back("an uneven scale above " + document::counted(uneven_joints_, "joint", "joints") +
                      ": turned, they keep their shape at rest");
+    if (weights_left_out_ > 0)
+      list.push_back(document::counted(weights_left_out_, "weight", "weights") +
+                     " of vertices that follow more than 4 bones: the 4 heaviest count");
     append(list, unread_parts(scene_, materials_.textures(), options_.set_material));
     append(list, materials_.textures().not_read());
     append(list, file_.promised.not_read);
@@ -327,7 +375,7 @@ class SceneReader {
   NodeTree tree_;
   MaterialReader materials_;
   ModelBuilder builder_;
-  std::size_t nodes_as_joints_ = 0, skinned_meshes_ = 0, uneven_joints_ = 0;
+  std::size_t nodes_as_joints_ = 0, skinned_meshes_ = 0, weights_left_out_ = 0, uneven_joints_ = 0;
 };
 
 }  // namespace

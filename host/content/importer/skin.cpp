@@ -6,22 +6,27 @@
 
 namespace mars::importer {
 
-std::vector<glm::dmat4> skinned(const aiMesh& mesh, const std::vector<glm::dmat4>& joints) {
-  std::vector<glm::dmat4> sums(mesh.mNumVertices, glm::dmat4(0));
-  std::vector<double> weights(mesh.mNumVertices, 0);
-  const std::size_t bones = std::min<std::size_t>(mesh.mNumBones, joints.size());
-  for (std::size_t i = 0; i < bones; ++i) {
-    const aiBone& bone = *mesh.mBones[i];
-    const glm::dmat4 matrix = joints[i] * dmat4_of(bone.mOffsetMatrix);
-    for (unsigned w = 0; w < bone.mNumWeights; ++w) {
-      const aiVertexWeight& held = bone.mWeights[w];
-      sums[held.mVertexId] += double(held.mWeight) * matrix;
-      weights[held.mVertexId] += held.mWeight;
+MeshSkin skin_of(const aiMesh& mesh, const std::vector<glm::dmat4>& joints) {
+  MeshSkin skin;
+  std::vector<std::vector<modeler::BoneWeight>> followed(mesh.mNumVertices);
+  std::vector<double> weights(std::max<std::size_t>(1, std::min<std::size_t>(mesh.mNumBones, joints.size())), 0);
+  for (std::uint32_t bone = 0; bone < mesh.mNumBones && bone < joints.size(); ++bone) {
+    skin.to_file.push_back(joints[bone] * dmat4_of(mesh.mBones[bone]->mOffsetMatrix));
+    for (unsigned w = 0; w < mesh.mBones[bone]->mNumWeights; ++w) {
+      const aiVertexWeight& held = mesh.mBones[bone]->mWeights[w];
+      if (!(held.mWeight > 0)) continue;
+      followed[held.mVertexId].push_back({bone, held.mWeight});
+      weights[bone] += held.mWeight;
     }
   }
-  const glm::dmat4 first = bones > 0 ? joints[0] * dmat4_of(mesh.mBones[0]->mOffsetMatrix) : glm::dmat4(1);
-  for (std::size_t v = 0; v < sums.size(); ++v) sums[v] = weights[v] > 0 ? sums[v] / weights[v] : first;
-  return sums;
+  if (skin.to_file.empty()) skin.to_file.emplace_back(1);
+  for (std::vector<modeler::BoneWeight>& bones : followed) {
+    if (bones.size() > modeler::kMostBonesOfVertex) skin.weights_left_out += bones.size() - modeler::kMostBonesOfVertex;
+    const auto bones_of_vertex = modeler::bones_of_vertex(std::move(bones));
+    skin.vertices.push_back(bones_of_vertex.value_or(modeler::VertexBones{{0}, {1}}));
+  }
+  skin.heaviest = static_cast<std::size_t>(std::ranges::max_element(weights) - weights.begin());
+  return skin;
 }
 
 }  // namespace mars::importer

@@ -12,13 +12,12 @@ namespace mars::importer {
 namespace {
 
 struct Counts {
-  std::set<std::string> bones, textures;
+  std::set<std::string> textures;
   std::size_t colored_vertices = 0, mapped_vertices = 0, targets = 0, points = 0, lines = 0, glosses = 0, glows = 0,
               transparencies = 0;
 };
 
 void add_mesh(const aiMesh& mesh, Counts& counts) {
-  for (unsigned i = 0; i < mesh.mNumBones; ++i) counts.bones.insert(mesh.mBones[i]->mName.C_Str());
   if (mesh.HasVertexColors(0)) counts.colored_vertices += mesh.mNumVertices;
   if (mesh.HasTextureCoords(0)) counts.mapped_vertices += mesh.mNumVertices;
   counts.targets += mesh.mNumAnimMeshes;
@@ -87,7 +86,6 @@ std::vector<std::string> unread_parts(const aiScene& scene, const TextureMeans& 
     if (count > 0) parts.push_back(document::counted(count, one, several) + remedy);
   };
   const std::string one_color = " (one colour instead: " + set_material + " --color 0.8 0.6 0.4)";
-  add(counts.bones.size(), "bone", "bones", " (mars model MODEL add makes joints)");
   add(scene.mNumAnimations, "animation", "animations", " (mars animate sets keys)");
   add(counts.targets, "morph target", "morph targets");
   add(counts.textures.size(), "texture", "textures", one_color);

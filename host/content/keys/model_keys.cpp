@@ -37,6 +37,13 @@ constexpr Type kModelTypes[] = {
      R"({"type": "array", "minItems": 3, "items": {"type": "array", "minItems": 3, "maxItems": 3,
          "items": {"type": "number", "minimum": -1e6, "maximum": 1e6}}})",
      ""},
+    {"vertex_bones",
+     R"({"type": "array", "minItems": 3, "items": {"type": "array", "minItems": 2, "maxItems": 8,
+         "items": {"type": "number", "minimum": 0}}})",
+     ""},
+    {"binds",
+     R"({"type": "array", "minItems": 1, "items": {"type": "array", "minItems": 12, "maxItems": 12, "items": "#coordinate"}})",
+     ""},
     {"factors",
      R"({"anyOf": [{"type": "number", "minimum": 0.001, "maximum": 1000}, {"type": "array", "minItems": 3, "maxItems": 3,
          "items": {"type": "number", "minimum": 0.001, "maximum": 1000}}]})",
@@ -171,7 +178,13 @@ Object segment() {
                    .type = "text",
                    .meaning = "a material of the model or of the film",
                    .without = "grey",
-                   .example = R"("oak")"}}};
+                   .example = R"("oak")"},
+                  {.name = "skin",
+                   .type = "skin",
+                   .meaning = "joints that the vertices of a mesh with `bones` follow",
+                   .see = "#skins",
+                   .without = "none: the segment is rigid",
+                   .typed = false}}};
   for (Key key : shape_options().keys) {
     key.typed = false;  // but in `--with`
     segment.keys.push_back(key);
@@ -262,23 +275,46 @@ Object direction() {
 }
 
 Object mesh() {
-  return {"mesh",
-          "",
-          {{.name = "vertices", .type = "vertices", .meaning = "positions `[x, y, z]` within 0 to 1", .required = true},
-           {.name = "faces",
-            .type = "faces",
-            .meaning = "lists of 3 to 4096 vertex numbers, counted from 0, counter-clockwise as seen from outside",
-            .required = true},
-           {.name = "crease",
-            .meaning = "an edge is sharp if its two faces meet at more than this angle. With 0 every face is flat; "
-                       "with 180 all edges are smooth",
-            .number = 30,
-            .range = {0, 180},
-            .unit = "degrees"},
-           {.name = "normals",
-            .type = "normals",
-            .meaning = "instead of `crease`: one outward vector `[x, y, z]` for each vertex, of any length",
-            .without = "from faces and crease"}}};
+  return {
+      "mesh",
+      "",
+      {{.name = "vertices", .type = "vertices", .meaning = "positions `[x, y, z]` within 0 to 1", .required = true},
+       {.name = "faces",
+        .type = "faces",
+        .meaning = "lists of 3 to 4096 vertex numbers, counted from 0, counter-clockwise as seen from outside",
+        .required = true},
+       {.name = "crease",
+        .meaning = "an edge is sharp if its two faces meet at more than this angle. With 0 every face is flat; "
+                   "with 180 all edges are smooth",
+        .number = 30,
+        .range = {0, 180},
+        .unit = "degrees"},
+       {.name = "normals",
+        .type = "normals",
+        .meaning = "instead of `crease`: one outward vector `[x, y, z]` for each vertex, of any length",
+        .without = "from faces and crease"},
+       {.name = "bones",
+        .type = "vertex_bones",
+        .meaning = "of a skin: for each vertex 1 to 4 pairs `[bone, weight, ...]`. A bone is a number in the list of "
+                   "the skin's joints, counted from 0; weights count relative to their sum",
+        .see = "model-format.md#skins",
+        .without = "none: the mesh is rigid"}}};
+}
+
+Object skin() {
+  return {
+      "skin",
+      "The joints that the vertices of a mesh follow.",
+      {{.name = "joints",
+        .type = "[text]",
+        .meaning = "names of joints in the model's order, parents before children",
+        .range = {1, 65536},
+        .required = true},
+       {.name = "bind",
+        .type = "binds",
+        .meaning = "for each of the joints 12 numbers, a matrix of 3 rows: it leads from the frame of the segment's "
+                   "joint, as the mesh was made, to the frame of this joint",
+        .without = "the mesh was made for the model at rest"}}};
 }
 
 Object proportions() {
@@ -356,7 +392,7 @@ std::vector<Object> make_model_objects() {
                   .meaning = "How a surface looks. A number that its reflection does not use is an error.",
                   .keys = material_keys(),
                   .example = kMaterialExample};
-  return {model(),   joint(),   limits(),    segment(), limbs(),       side(),
+  return {model(),   joint(),   limits(),    segment(), skin(),        limbs(), side(),
           surface(), bspline(), direction(), mesh(),    proportions(), material};
 }
 

@@ -65,6 +65,7 @@ Row row_of(const Model& model, const Joint& joint, std::size_t depth, const std:
   const Shape& shape = model.shapes[joint.segment->shape];
   row[4] = shape.name;
   row[5] = shape.mesh ? std::to_string(shape.mesh->ends.size()) + " faces" : std::to_string(shape.patches.size());
+  if (!joint.segment->bones.empty()) row[5] += ", " + document::counted(joint.segment->bones.size(), "bone", "bones");
   row[6] = size_text(joint.segment->sbb.max - joint.segment->sbb.min);
   if (!joint.segment->material.empty()) row[7] = joint.segment->material;
   return row;

@@ -135,11 +135,26 @@ void refuse_known(document::Json& model, const std::string& name) {
     throw Failure("is in the model already", joint_of(name), "choose another name, or change it: mars model MODEL set");
 }
 
+// The names of a skin's joints; nullptr where it has none.
+document::Json* bones_of(document::Json& joint) {
+  if (!joint.contains("segment") || !joint["segment"].contains("skin")) return nullptr;
+  return &joint["segment"]["skin"]["joints"];
+}
+
+void refuse_bone(document::Json& model, const std::string& name) {
+  for (document::Json& joint : joints_of(model))
+    if (const document::Json* const bones = bones_of(joint); bones && std::ranges::count(*bones, document::Json(name)))
+      throw Failure("is a bone of the skin of '" + joint["name"].get<std::string>() + "'", joint_of(name),
+                    "remove that joint too, or let it be");
+}
+
 void rename_joint(document::Json& model, const std::string& from, const std::string& to) {
   refuse_known(model, to);
   for (document::Json& joint : joints_of(model)) {
     if (joint["name"] == from) joint["name"] = to;
     if (joint.value("parent", "") == from) joint["parent"] = to;
+    if (document::Json* const bones = bones_of(joint))
+      std::ranges::replace(*bones, document::Json(from), document::Json(to));
   }
   rename_limb(model, from, to);
 }
@@ -223,6 +238,7 @@ void remove_joint(document::Json& model, const std::string& name, bool branch) {
   for (const document::Json& joint : joints)
     if (!std::ranges::count(going, joint["name"].get<std::string>())) left.push_back(joint);
   model["joints"] = std::move(left);
+  for (const std::string& each : going) refuse_bone(model, each);
 }
 
 void add_material(document::Json& model, const std::string& name, const document::Json& values) {

@@ -42,6 +42,17 @@ std::vector<glm::dvec3> surface_points(const Shape& shape) {
   return points;
 }
 
+// Where a skin's vertices are.
+std::vector<glm::dvec3> skin_at_rest(const Model& model, const Joint& joint, const std::vector<Axes>& frames) {
+  std::vector<wire::Matrix> bones;
+  for (const Bone& bone : joint.segment->bones) bones.push_back(bone_matrix(frames[bone.joint], bone, joint));
+  const Mesh& mesh = *model.shapes[joint.segment->shape].mesh;
+  std::vector<glm::dvec3> places;
+  for (std::size_t vertex = 0; vertex < mesh.vertices.size(); ++vertex)
+    places.push_back(skinned_place(mesh, vertex, bones));
+  return places;
+}
+
 void grow(std::optional<Box>& box, const Box& by) {
   box = box ? Box{glm::min(box->min, by.min), glm::max(box->max, by.max)} : by;
 }
@@ -74,6 +85,39 @@ Axes segment_frame(const Axes& joint_frame, const Joint& joint) {
   return {joint_frame.turn * segment_axes(joint), joint_frame.place};
 }
 
+Affine product(const Affine& outer, const Affine& inner) {
+  return {outer.turn * inner.turn, outer.turn * inner.place + outer.place};
+}
+
+Affine inverse(const Affine& map) {
+  const glm::dmat3 back = glm::inverse(map.turn);
+  return {back, -(back * map.place)};
+}
+
+Affine bind_at_rest(const Axes& bone, const Axes& joint) {
+  return product(inverse({bone.turn, bone.place}), {joint.turn, joint.place});
+}
+
+wire::Matrix bone_matrix(const Axes& frame, const Bone& bone, const Joint& joint) {
+  const Affine map = product(product({frame.turn, frame.place}, bone.bind), {segment_axes(joint), glm::dvec3(0)});
+  return t_matrix({map.turn, map.place}, joint.segment->sbb);
+}
+
+glm::dvec3 skinned_place(const Mesh& mesh, std::size_t vertex, std::span<const wire::Matrix> bones) {
+  const Mesh::Place& from = mesh.vertices[vertex];
+  const VertexBones& some = mesh.bones[vertex];
+  glm::dvec3 place(0);
+  for (std::size_t i = 0; i < kMostBonesOfVertex; ++i) {
+    if (some.weight[i] == 0) continue;
+    const auto& rows = bones[some.bone[i]].m;
+    for (int r = 0; r < 3; ++r) {
+      const auto& row = rows[static_cast<std::size_t>(r)];
+      place[r] += some.weight[i] * (row[0] * from[0] + row[1] * from[1] + row[2] * from[2] + row[3]);
+    }
+  }
+  return place;
+}
+
 wire::Matrix t_matrix(const Axes& frame, const Box& sbb) {
   const glm::dvec3 extent = sbb.max - sbb.min;
   const glm::dvec3 origin = frame.turn * sbb.min + frame.place;
@@ -103,6 +147,10 @@ std::vector<std::optional<Box>> segment_rest_bounds(const Model& model) {
     const Joint& joint = model.joints[number];
     if (!joint.segment) continue;
     const Axes frame = segment_frame(frames[number], joint);
+    if (!joint.segment->bones.empty()) {
+      for (const glm::dvec3& at : skin_at_rest(model, joint, frames)) grow(bounds[number], {at, at});
+      continue;
+    }
     const Box& sbb = joint.segment->sbb;
     for (const glm::dvec3& point : points[joint.segment->shape]) {
       const glm::dvec3 at = frame.turn * (sbb.min + point * (sbb.max - sbb.min)) + frame.place;

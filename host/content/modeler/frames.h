@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "host/content/modeler/model.h"
@@ -34,6 +35,19 @@ glm::dmat3 segment_axes(const Joint& joint);
 
 // The base segment's box-scaled coordinates to the world: F [X Y Z].
 Axes segment_frame(const Axes& joint_frame, const Joint& joint);
+
+// What `inner` leads to, by `outer`; and the way back, of a map that has one.
+Affine product(const Affine& outer, const Affine& inner);
+Affine inverse(const Affine& map);
+
+// A skin's bind that leaves the segment, which `joint` moves, where it is while both stand in these frames.
+Affine bind_at_rest(const Axes& bone, const Axes& joint);
+
+// The T-matrix of a bone whose joint stands at `frame`.
+wire::Matrix bone_matrix(const Axes& frame, const Bone& bone, const Joint& joint);
+
+// Where a vertex of a mesh with a skin is whose bones have these T-matrices.
+glm::dvec3 skinned_place(const Mesh& mesh, std::size_t vertex, std::span<const wire::Matrix> bones);
 
 // The T-matrix, from the unit cube: `frame` after scaling into `sbb`.
 wire::Matrix t_matrix(const Axes& frame, const Box& sbb);

@@ -10,11 +10,13 @@
 
 #include <array>
 #include <cstddef>
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace mars::modeler {
 
@@ -39,10 +41,26 @@ struct Box {
 // `box` where it is flat one unit thick, with what is flat on its lower side.
 Box thickened(Box box);
 
+// An affine map, x' = turn x + place; `turn` may scale and shear.
+struct Affine {
+  glm::dmat3 turn{1};
+  glm::dvec3 place{0, 0, 0};
+
+  bool operator==(const Affine&) const = default;
+};
+
+// A bone of a skin: vertices that follow it alone go by the joint's frame times `bind`, from the frame of the segment's
+// joint at rest.
+struct Bone {
+  std::size_t joint;  // index into the model's joints
+  Affine bind;
+};
+
 struct Segment {
   std::size_t shape;  // index into the model's shapes
   Box sbb;
-  std::string material;  // of the model, else of the film; "": the default one
+  std::string material;       // of the model, else of the film; "": the default one
+  std::vector<Bone> bones{};  // of a skin, ascending by joint: the mesh's vertices have their numbers; else none
 };
 
 struct Joint {

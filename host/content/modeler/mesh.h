@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -13,6 +14,27 @@ namespace mars::modeler {
 inline constexpr std::size_t kMostCorners = 4096;  // of a face
 inline constexpr double kDefaultCrease = 30;
 
+inline constexpr std::size_t kMostBones = 65536;      // of a skin
+inline constexpr std::size_t kMostBonesOfVertex = 4;  // as nodes take them
+
+// Which bones a vertex of a skin follows, and how much each: numbers in the skin's list, ascending. Weights above 0,
+// whose sum is 1, come first.
+struct VertexBones {
+  std::array<std::uint32_t, kMostBonesOfVertex> bone{};
+  std::array<float, kMostBonesOfVertex> weight{};
+
+  auto operator<=>(const VertexBones&) const = default;
+};
+
+struct BoneWeight {
+  std::uint32_t bone;
+  double weight;
+};
+
+// Of bones in any order, some of them perhaps several times: the heaviest, with weights that add up to 1. None where no
+// weight is above 0.
+std::optional<VertexBones> bones_of_vertex(std::vector<BoneWeight> bones);
+
 struct Mesh {
   using Place = std::array<float, 3>;
   using Triangle = std::array<std::uint32_t, 3>;
@@ -22,6 +44,7 @@ struct Mesh {
   std::vector<std::uint32_t> corners;  // numbers of vertices, face after face, counter-clockwise seen from outside
   std::vector<std::uint32_t> ends;     // of each face in corners
   double crease = kDefaultCrease;      // degrees; where faces meet at more, the edge stays sharp
+  std::vector<VertexBones> bones;      // of a skin one a vertex, else none
 
   bool operator==(const Mesh&) const = default;
 

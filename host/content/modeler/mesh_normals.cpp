@@ -54,6 +54,7 @@ class Smoother {
           out.of_corners[corner] = static_cast<std::uint32_t>(sums.size());
           sums.emplace_back(0);
           out.places.push_back(mesh_.vertices[mesh_.corners[corner]]);
+          if (!mesh_.bones.empty()) out.bones.push_back(mesh_.bones[mesh_.corners[corner]]);
         }
         out.of_corners[corner] = out.of_corners[group];
         sums[out.of_corners[corner]] += angle(face, corner) * face_normals_[face];
@@ -66,16 +67,20 @@ class Smoother {
   }
 
  private:
-  // Vertices at the same place get the same number.
+  // Vertices at the same place, that follow the same bones, get the same number.
   void number_places() {
     const auto& vertices = mesh_.vertices;
+    const auto compare = [&](std::uint32_t a, std::uint32_t b) {
+      const auto places = vertices[a] <=> vertices[b];
+      return places != 0 || mesh_.bones.empty() ? places : mesh_.bones[a] <=> mesh_.bones[b];
+    };
     std::vector<std::uint32_t> order(vertices.size());
     std::iota(order.begin(), order.end(), 0u);
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return vertices[a] < vertices[b]; });
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return compare(a, b) < 0; });
     places_.resize(vertices.size());
     std::uint32_t number = 0;
     for (std::size_t i = 0; i < order.size(); ++i) {
-      if (i > 0 && vertices[order[i]] != vertices[order[i - 1]]) ++number;
+      if (i > 0 && compare(order[i], order[i - 1]) != 0) ++number;
       places_[order[i]] = number;
     }
   }
@@ -149,7 +154,7 @@ class Smoother {
 }  // namespace
 
 ShadedVertices shaded_vertices(const Mesh& mesh) {
-  if (!mesh.normals.empty()) return {mesh.vertices, mesh.normals, mesh.corners};
+  if (!mesh.normals.empty()) return {mesh.vertices, mesh.normals, mesh.corners, mesh.bones};
   return Smoother(mesh).vertices();
 }
 

@@ -12,11 +12,12 @@
 
 namespace mars::modeler {
 
-// Vertices that differ in place or normal, and the one of each of the mesh's corners.
+// Vertices that differ in place, normal or bones, and the one of each of the mesh's corners.
 struct ShadedVertices {
   std::vector<std::array<float, 3>> places;
   std::vector<std::array<float, 3>> normals;
   std::vector<std::uint32_t> of_corners;
+  std::vector<VertexBones> bones;  // of a skin one a vertex, else none
 };
 
 ShadedVertices shaded_vertices(const Mesh& mesh);

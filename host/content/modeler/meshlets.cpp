@@ -56,15 +56,22 @@ class Cutter {
     const auto fresh = static_cast<std::uint32_t>(std::count_if(
         triangle.begin(), triangle.end(), [&](std::uint32_t vertex) { return seen_[vertex].meshlet != number_; }));
     if (number_ == 0 || now().triangle_count == wire::kMeshletTriangles ||
-        now().vertex_count + fresh > wire::kMeshletVertices)
+        now().vertex_count + fresh > wire::kMeshletVertices ||
+        (has_skin() && bones_with(triangle).size() > wire::kMeshletBones)) {
+      end();
       begin();
+    }
+    if (has_skin()) bones_ = bones_with(triangle);
     wire::MeshTriangle corners;
     for (std::size_t k = 0; k < 3; ++k) corners[k] = local(triangle[k]);
     out_.triangles.push_back(corners);
     ++now().triangle_count;
   }
 
-  Meshlets take() { return std::move(out_); }
+  Meshlets take() {
+    end();
+    return std::move(out_);
+  }
 
  private:
   struct Seen {
@@ -73,6 +80,40 @@ class Cutter {
   };
 
   wire::Meshlet& now() { return out_.meshlets.back(); }
+  bool has_skin() const { return !shaded_.bones.empty(); }
+
+  // Bones of the meshlet's vertices with those of the triangle, ascending.
+  std::vector<std::uint32_t> bones_with(const Corners& triangle) const {
+    std::vector<std::uint32_t> bones = bones_;
+    for (const std::uint32_t vertex : triangle) {
+      const VertexBones& some = shaded_.bones[vertex];
+      for (std::size_t i = 0; i < kMostBonesOfVertex; ++i)
+        if (some.weight[i] > 0) bones.push_back(some.bone[i]);
+    }
+    std::ranges::sort(bones);
+    const auto again = std::ranges::unique(bones);
+    bones.erase(again.begin(), again.end());
+    return bones;
+  }
+
+  // Writes the weights of the meshlet, bone by bone.
+  void end() {
+    if (!has_skin() || number_ == 0) return;
+    now().first_bone = static_cast<std::uint32_t>(out_.bones.size());
+    now().bone_count = static_cast<std::uint32_t>(bones_.size());
+    now().first_weight = static_cast<std::uint32_t>(out_.weights.size());
+    out_.bones.insert(out_.bones.end(), bones_.begin(), bones_.end());
+    for (const std::uint32_t bone : bones_)
+      for (const std::uint32_t vertex : vertices_) out_.weights.push_back(weight_of(shaded_.bones[vertex], bone));
+    bones_.clear();
+    vertices_.clear();
+  }
+
+  static float weight_of(const VertexBones& some, std::uint32_t bone) {
+    for (std::size_t i = 0; i < kMostBonesOfVertex; ++i)
+      if (some.weight[i] > 0 && some.bone[i] == bone) return some.weight[i];
+    return 0;
+  }
 
   void begin() {
     out_.meshlets.push_back({static_cast<std::uint32_t>(out_.places.size()),
@@ -91,6 +132,7 @@ class Cutter {
     const auto& place = shaded_.places[vertex];
     out_.places.push_back(place);
     out_.normals.push_back(shaded_.normals[vertex]);
+    if (has_skin()) vertices_.push_back(vertex);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       now().low[axis] = std::min(now().low[axis], place[axis]);
       now().high[axis] = std::max(now().high[axis], place[axis]);
@@ -100,6 +142,7 @@ class Cutter {
 
   const ShadedVertices& shaded_;
   std::vector<Seen> seen_;
+  std::vector<std::uint32_t> bones_, vertices_;  // of a skin, in the meshlet that grows
   Meshlets out_;
   std::uint32_t number_ = 0;
 };

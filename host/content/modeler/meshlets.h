@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "host/content/modeler/mesh.h"
@@ -13,6 +14,8 @@ struct Meshlets {
   std::vector<std::array<float, 3>> places;
   std::vector<std::array<float, 3>> normals;
   std::vector<wire::MeshTriangle> triangles;
+  std::vector<std::uint32_t> bones;  // of a skin, as meshlets have them
+  std::vector<float> weights;
   std::vector<wire::Meshlet> meshlets;
 };
 

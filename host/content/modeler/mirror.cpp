@@ -160,7 +160,11 @@ class Mirror {
     for (const char* axis : {"x", "z"})
       if (joint.contains("limits") && joint["limits"].contains(axis))
         turn_round(joint["limits"][axis][0], joint["limits"][axis][1]);
-    if (joint.contains("segment")) mirror_segment(joint["segment"]);
+    if (joint.contains("segment")) {
+      if (joint["segment"].contains("skin"))
+        throw Failure("has a skin, which has no other side", "joint '" + from + "'", "mirror joints without skins");
+      mirror_segment(joint["segment"]);
+    }
     Json* const there = joint_named(to);
     (there ? done_.changed : done_.added).push_back(to);
     if (there)

@@ -26,8 +26,27 @@ std::vector<bool> chosen(const Scaling& scaling, const std::vector<Joint>& joint
                 document::did_you_mean(scaling.pattern, names, "name a joint, or several: *-leg"));
 }
 
+// Of what a joint moves, along its own axes.
+Affine scaling_of(const Joint& joint, const glm::dvec3& factors) {
+  glm::dmat3 scaled = segment_axes(joint);
+  for (int axis = 0; axis < 3; ++axis) scaled[axis] *= factors[axis];
+  return {scaled * glm::inverse(segment_axes(joint)), glm::dvec3(0)};
+}
+
+// What follows a bone is scaled as the bone's joint is.
+void scale_skins(Model& model, const std::vector<glm::dvec3>& factors) {
+  for (std::size_t number = 0; number < factors.size(); ++number) {
+    const Joint& joint = model.joints[number];
+    if (!joint.segment) continue;
+    const Affine back = inverse(scaling_of(joint, factors[number]));
+    for (Bone& bone : model.joints[number].segment->bones)
+      bone.bind = product(product(scaling_of(model.joints[bone.joint], factors[bone.joint]), bone.bind), back);
+  }
+}
+
 // factors[i]: of joint i. Joints that hang on nothing are carried by `whole`.
 void scale_joints(Model& model, const std::vector<glm::dvec3>& factors, const glm::dvec3& whole) {
+  scale_skins(model, factors);
   for (std::size_t number = 0; number < factors.size(); ++number) {
     Joint& joint = model.joints[number];
     if (joint.segment) {

@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "hal/failure/failure.h"
+#include "host/content/document/text.h"
+#include "host/content/modeler/frames.h"
 #include "host/content/modeler/material.h"
 #include "host/content/modeler/proportions.h"
 #include "host/content/modeler/read_bspline.h"
@@ -73,6 +75,7 @@ class ModelReader {
     if (const auto materials = fields.find("materials")) read_materials(*materials);
     if (const auto shapes = fields.find("shapes")) read_shapes(*shapes);
     read_joints(fields.required("joints"));
+    read_skins();
     if (const auto limbs = fields.find("limbs")) model_.limbs = read_limbs(*limbs, model_.joints);
     return std::move(model_);
   }
@@ -241,8 +244,82 @@ class ModelReader {
     joint.place = fields.vector("place");
     read_axes(fields, joint);
     if (const auto limits = fields.find("limits")) joint.limits = read_limits(*limits);
-    if (const auto segment = fields.find("segment")) joint.segment = read_segment(*segment);
+    if (const auto segment = fields.find("segment")) {
+      joint.segment = read_segment(*segment);
+      skins_.emplace_back(joint.name, *segment);
+    }
     return joint;
+  }
+
+  // Of the segments read, now that all joints are known.
+  void read_skins() {
+    for (std::size_t joint = 0; joint < model_.joints.size(); ++joint) numbers_[model_.joints[joint].name] = joint;
+    const std::vector<Axes> frames = rest_frames(model_);
+    for (const auto& [name, element] : skins_) {
+      const std::size_t joint = numbers_.at(name);
+      const document::Fields fields(element, keys::object("segment"));
+      const auto& mesh = model_.shapes[model_.joints[joint].segment->shape].mesh;
+      const bool follows = mesh && !mesh->bones.empty();
+      const auto skin = fields.find("skin");
+      if (skin && !follows)
+        skin->refuse("belongs to a mesh with bones, which the shape is not", "give its mesh `bones`, or take it out");
+      if (!skin && follows)
+        fields.find("shape")->refuse("is a mesh with bones, but the segment has no skin",
+                                     "name the bones: \"skin\": {\"joints\": [\"hip\", \"knee\"]}");
+      if (skin) read_skin(*skin, joint, frames);
+    }
+  }
+
+  void read_skin(const document::Element& element, std::size_t number, const std::vector<Axes>& frames) {
+    const document::Fields fields(element, keys::object("skin"));
+    Segment& segment = *model_.joints[number].segment;
+    for (const document::Element item : fields.required("joints")) {
+      const std::size_t joint = find_joint(item);
+      segment.bones.push_back({joint, bind_at_rest(frames[joint], frames[number])});
+    }
+    if (const auto binds = fields.find("bind")) {
+      document::require_size(*binds, segment.bones.size());
+      std::size_t bone = 0;
+      for (const document::Element bind : *binds) segment.bones[bone++].bind = read_bind(bind);
+    }
+    check_bones(element, segment);
+  }
+
+  // The mesh's vertices have numbers in the list, which follows the order of the joints.
+  void check_bones(const document::Element& element, const Segment& segment) const {
+    std::uint32_t last = 0;
+    for (const VertexBones& vertex : model_.shapes[segment.shape].mesh->bones)
+      for (std::size_t i = 0; i < kMostBonesOfVertex; ++i)
+        if (vertex.weight[i] > 0) last = std::max(last, vertex.bone[i]);
+    if (last >= segment.bones.size())
+      element.refuse("has " + document::counted(segment.bones.size(), "joint", "joints") +
+                         ", but a vertex follows bone " + std::to_string(last),
+                     "name a joint for each of the mesh's bones");
+    const auto not_later = [](const Bone& a, const Bone& b) { return a.joint > b.joint; };
+    const auto wrong = std::ranges::adjacent_find(segment.bones, not_later);
+    if (wrong != segment.bones.end())
+      element.refuse("names '" + model_.joints[std::next(wrong)->joint].name + "' after '" +
+                         model_.joints[wrong->joint].name + "'",
+                     "name joints in the order of the model's, parents before children");
+  }
+
+  static Affine read_bind(const document::Element& element) {
+    document::require_size(element, 12);
+    Affine bind;
+    int at = 0;
+    for (const document::Element item : element) {
+      const int row = at / 4, column = at % 4;
+      (column < 3 ? bind.turn[column][row] : bind.place[row]) = document::read_number(item);
+      ++at;
+    }
+    return bind;
+  }
+
+  std::size_t find_joint(const document::Element& element) const {
+    const std::string name = document::read_text(element);
+    if (const auto found = numbers_.find(name); found != numbers_.end()) return found->second;
+    element.refuse("is " + document::in_quotes(name) + ", which is no joint of this model",
+                   document::did_you_mean(name, names_of(model_.joints), "name a joint of this model"));
   }
 
   void read_joints(const document::Element& list) {
@@ -308,6 +385,7 @@ class ModelReader {
   std::vector<std::filesystem::path> sources_;
   std::map<std::pair<std::string_view, OptionValues>, std::size_t> library_;  // numbers of shapes made
   std::unordered_map<std::string, std::size_t> numbers_;                      // of joints, as in the file
+  std::vector<std::pair<std::string, document::Element>> skins_;  // of joints by name: segments, which may have one
 };
 
 }  // namespace

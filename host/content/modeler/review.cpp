@@ -33,8 +33,11 @@ class Review {
  public:
   explicit Review(const Model& model)
       : model_(model), bounds_(segment_rest_bounds(model)), children_(model.joints.size()) {
-    for (const Joint& joint : model.joints)
+    for (const Joint& joint : model.joints) {
       if (joint.parent != kNone) ++children_[joint.parent];
+      if (!joint.segment) continue;
+      for (const Bone& bone : joint.segment->bones) bones_.insert(bone.joint);
+    }
     if (const auto all = rest_bounds(model)) size_ = glm::length(all->max - all->min);
   }
 
@@ -54,7 +57,7 @@ class Review {
  private:
   void doubt_emptiness(std::size_t number) {
     const Joint& joint = model_.joints[number];
-    if (!joint.segment && children_[number] == 0)
+    if (!joint.segment && children_[number] == 0 && !bones_.contains(number))
       doubts_.push_back(of(joint) + "has no segment and carries no joint: nothing of it is seen; give it a shape");
   }
 
@@ -159,6 +162,7 @@ class Review {
   static std::string short_text(double number) { return document::formatted("%.3g", number); }
 
   const Model& model_;
+  std::set<std::size_t> bones_;             // joints that skins follow
   std::vector<std::optional<Box>> bounds_;  // of each joint's segment at rest
   std::vector<std::size_t> children_;       // how many
   double size_ = 0;

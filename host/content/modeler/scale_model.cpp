@@ -1,12 +1,17 @@
 #include "host/content/modeler/scale_model.h"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <string>
 
 #include "host/content/modeler/edit.h"
+#include "host/content/modeler/frames.h"
 
 namespace mars::modeler {
 namespace {
+
+constexpr double kSameBind = 1e-9;
 
 document::Json written(const glm::dvec3& factors) {
   return factors.x == factors.y && factors.y == factors.z ? plain_number(factors.x) : plain_vector(factors);
@@ -34,6 +39,43 @@ void add_to(document::Json& json, const Proportions& more) {
   if (!more.ground) json["ground"] = false;
 }
 
+// Where it differs from what leaves the mesh where it is at rest.
+void write_binds(const Model& model, const Joint& joint, document::Json& skin) {
+  const std::vector<Axes> frames = rest_frames(model);
+  const Axes& own = frames[static_cast<std::size_t>(&joint - model.joints.data())];
+  skin.erase("bind");
+  document::Json binds = document::Json::array();
+  bool differ = false;
+  for (const Bone& bone : joint.segment->bones) {
+    const Affine usual = bind_at_rest(frames[bone.joint], own);
+    document::Json rows = document::Json::array();
+    for (int r = 0; r < 3; ++r) {
+      for (int c = 0; c < 3; ++c) {
+        rows.push_back(plain_number(bone.bind.turn[c][r]));
+        differ = differ || std::abs(bone.bind.turn[c][r] - usual.turn[c][r]) > kSameBind;
+      }
+      rows.push_back(plain_number(bone.bind.place[r]));
+      const double size = glm::length(joint.segment->sbb.max - joint.segment->sbb.min);
+      differ = differ || std::abs(bone.bind.place[r] - usual.place[r]) > kSameBind * size;
+    }
+    binds.push_back(rows);
+  }
+  if (differ) skin["bind"] = binds;
+}
+
+void write_segment(const Model& model, const Joint& joint, document::Json& segment) {
+  segment["sbb"] = {plain_vector(joint.segment->sbb.min), plain_vector(joint.segment->sbb.max)};
+  if (joint.segment->bones.empty()) return;
+  document::Json names = document::Json::array();
+  for (const Bone& bone : joint.segment->bones) names.push_back(model.joints[bone.joint].name);
+  segment["skin"]["joints"] = names;
+  write_binds(model, joint, segment["skin"]);
+}
+
+bool same_segments(const Segment& a, const Segment& b) {
+  return a.sbb == b.sbb && std::ranges::equal(a.bones, b.bones, {}, &Bone::bind, &Bone::bind);
+}
+
 }  // namespace
 
 void scale_model(document::Json& json, const Model& model, const Proportions& proportions) {
@@ -46,8 +88,7 @@ void scale_model(document::Json& json, const Model& model, const Proportions& pr
     const Joint &from = model.joints[number], &to = scaled.joints[number];
     if (to.place != from.place) joint["place"] = plain_vector(to.place);
     put_in_order(joint);
-    if (to.segment && !(to.segment->sbb == from.segment->sbb))
-      joint["segment"]["sbb"] = {plain_vector(to.segment->sbb.min), plain_vector(to.segment->sbb.max)};
+    if (to.segment && !same_segments(*to.segment, *from.segment)) write_segment(scaled, to, joint["segment"]);
   }
 }
 

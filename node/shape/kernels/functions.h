@@ -10,6 +10,8 @@ Fineness estimate_curvature(const CurvatureWeights& weights, const float (*point
                             const Tolerances& tolerances);
 bool evaluate(const Row& row, const Basis& basis, int first, int last, const Vertices& out, int at);
 void move(const EyeMap& map, const float (*places)[3], const float (*normals)[3], int count, const Vertices& out);
+void move_skin(const EyeSkin& skin, const float (*places)[3], const float (*normals)[3], int count,
+               const Vertices& out);
 bool project(const Projection& projection, const Vertices& vertices, int count);
 
 }  // namespace mars::shape::MARS_SET

@@ -16,6 +16,19 @@ Floats sum_of_squares(Floats x, Floats y, Floats z) {
 
 Floats cross_term(Floats a, Floats b, Floats c, Floats d) { return hn::Sub(hn::Mul(a, b), hn::Mul(c, d)); }
 
+// The sum of numbers times coordinates.
+Floats product(const Floats (&numbers)[3], const Floats (&coordinates)[3]) {
+  const Floats xy = hn::Add(hn::Mul(numbers[0], coordinates[0]), hn::Mul(numbers[1], coordinates[1]));
+  return hn::Add(xy, hn::Mul(numbers[2], coordinates[2]));
+}
+
+void store_unit(const Floats (&vector)[3], int at, float* const (&out)[3]) {
+  const Floats square = sum_of_squares(vector[0], vector[1], vector[2]);
+  const auto missing = hn::Not(hn::Gt(square, hn::Zero(kFloats)));
+  const Floats scale = hn::IfThenZeroElse(missing, hn::Div(constant(1.0f), hn::Sqrt(square)));
+  for (int axis = 0; axis < 3; ++axis) hn::StoreU(hn::Mul(vector[axis], scale), kFloats, out[axis] + at);
+}
+
 // One component of a sum of `Count` points, each times its weight.
 template <int Count>
 struct Blend {
@@ -68,16 +81,63 @@ void move(const EyeMap& map, const float (*places)[3], const float (*normals)[3]
     for (int r = 0; r < 3; ++r) {
       const float* m = map.place[r];
       const float* c = map.normal[r];
-      const Floats xy = hn::Add(hn::Mul(constant(m[0]), p[0]), hn::Mul(constant(m[1]), p[1]));
-      const Floats place = hn::Add(hn::Add(xy, hn::Mul(constant(m[2]), p[2])), constant(m[3]));
-      hn::StoreU(place, kFloats, out.place[r] + k);
-      turned[r] =
-          hn::Add(hn::Add(hn::Mul(constant(c[0]), n[0]), hn::Mul(constant(c[1]), n[1])), hn::Mul(constant(c[2]), n[2]));
+      const Floats row[3] = {constant(m[0]), constant(m[1]), constant(m[2])};
+      const Floats across[3] = {constant(c[0]), constant(c[1]), constant(c[2])};
+      hn::StoreU(hn::Add(product(row, p), constant(m[3])), kFloats, out.place[r] + k);
+      turned[r] = product(across, n);
     }
-    const Floats square = sum_of_squares(turned[0], turned[1], turned[2]);
-    const auto missing = hn::Not(hn::Gt(square, hn::Zero(kFloats)));
-    const Floats scale = hn::IfThenZeroElse(missing, hn::Div(constant(1.0f), hn::Sqrt(square)));
-    for (int r = 0; r < 3; ++r) hn::StoreU(hn::Mul(turned[r], scale), kFloats, out.normal[r] + k);
+    store_unit(turned, k, out.normal);
+  }
+}
+
+namespace {
+
+// The sum of bones' matrices times their weights. It begins with 0 and so is never -0: a bone without weight changes
+// none of its bits, and vertices that meshlets with different bones share stay the same.
+struct Blended {
+  Floats m[3][4];
+
+  Blended(const EyeSkin& skin, int count, int at) {
+    for (auto& row : m)
+      for (Floats& number : row) number = hn::Zero(kFloats);
+    for (int bone = 0; bone < skin.bone_count; ++bone) {
+      const Floats weight = hn::LoadU(kFloats, skin.weights + bone * count + at);
+      if (hn::AllTrue(kFloats, hn::Eq(weight, hn::Zero(kFloats)))) continue;
+      for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 4; ++c) m[r][c] = hn::Add(m[r][c], hn::Mul(weight, constant(skin.bones[bone][r][c])));
+    }
+  }
+
+  // Row r of the cofactors of its linear part times `scale`.
+  void cofactors(int r, Floats scale, Floats (&row)[3]) const {
+    const Floats(&one)[4] = m[(r + 1) % 3];
+    const Floats(&other)[4] = m[(r + 2) % 3];
+    for (int c = 0; c < 3; ++c) {
+      const int next = (c + 1) % 3, last = (c + 2) % 3;
+      row[c] = cross_term(hn::Mul(scale, one[next]), hn::Mul(scale, other[last]), hn::Mul(scale, one[last]),
+                          hn::Mul(scale, other[next]));
+    }
+  }
+};
+
+}  // namespace
+
+void move_skin(const EyeSkin& skin, const float (*places)[3], const float (*normals)[3], int count,
+               const Vertices& out) {
+  const Floats scale = constant(skin.scale);
+  for (int k = 0; k < count; k += kLanes) {
+    const Blended blended(skin, count, k);
+    Floats p[3], n[3], turned[3];
+    hn::LoadInterleaved3(kFloats, places[k], p[0], p[1], p[2]);
+    hn::LoadInterleaved3(kFloats, normals[k], n[0], n[1], n[2]);
+    for (int r = 0; r < 3; ++r) {
+      const Floats row[3] = {blended.m[r][0], blended.m[r][1], blended.m[r][2]};
+      hn::StoreU(hn::Add(product(row, p), blended.m[r][3]), kFloats, out.place[r] + k);
+      Floats across[3];
+      blended.cofactors(r, scale, across);
+      turned[r] = product(across, n);
+    }
+    store_unit(turned, k, out.normal);
   }
 }
 

@@ -13,14 +13,18 @@ namespace {
 
 constexpr std::size_t kLongest = 1 << 16;
 
-void read_shapes(const wire::PackedFilm& film, const shape::Projection& projection, std::uint32_t last) {
+void read_shapes(const geometry::Scene& scene, const geometry::ShapeBoxes& boxes, std::uint32_t last) {
   static geometry::MeshletPlacer placer(simd::best_instruction_set(""));
+  const wire::PackedFilm& film = scene.film();
+  geometry::SegmentPlace place;
   for (const wire::Segment& segment : film.segments()) {
+    place.find(scene, static_cast<std::size_t>(&segment - film.segments().data()));
+    place.corners(boxes);
     film.name(segment);
     film.material_at(segment, last);
     const wire::Shape& shape = film.shapes()[segment.shape];
     for (const wire::Meshlet& meshlet : film.meshlets().subspan(shape.first_meshlet, shape.meshlet_count))
-      placer.place(geometry::eye_map(shape::EyeMatrix{}), film, meshlet, projection);
+      placer.place(place, film, meshlet, scene.projection());
   }
 }
 
@@ -35,7 +39,7 @@ void read_all(const wire::PackedFilm& film) {
     scene.set_frame(frame);
     geometry::Sweep().begin(scene, {&frame, 1}, boxes, [](const geometry::PictureBounds&) {});
   }
-  read_shapes(film, scene.projection(), last);
+  read_shapes(scene, boxes, last);
 }
 
 }  // namespace

@@ -181,7 +181,8 @@ TEST(Meshlets, OnlyTheUnseenAreDropped) {
     std::size_t boxes = 0;
     for (const raster::PlainTriangle& t : raster::plain_set_up(placer, kView, identity))
       boxes += raster::plain_edge_boxes(t.corners, 320, 180, shape::sample_pattern(1)).size();
-    const bool unseen = geometry::unseen(matrix, film.meshlets()[0], kView, 320, 180);
+    const BoxCorners corners = corners_of(matrix, film.meshlets()[0].low, film.meshlets()[0].high);
+    const bool unseen = shape::unseen(corners.point, BoxCorners::kCount, kView, 320, 180);
     EXPECT_TRUE(!unseen || boxes == 0) << "trial " << trial;
     dropped += unseen;
     seen += boxes > 0;

@@ -315,7 +315,7 @@ TEST(Scenes, AreRefusedWhereTheyAreNone) {
   };
   EXPECT_FALSE(refused([](FilmData&) {}));
   EXPECT_TRUE(refused([](FilmData& scene) { scene.settings.frames = 2, scene.intervals[0].frame_count = 2; }));
-  EXPECT_TRUE(refused([](FilmData& scene) { scene.segments[0].shape = 4; })) << "two of the film, two of its own";
+  EXPECT_TRUE(refused([](FilmData& scene) { scene.segments[0].shape = 5; })) << "three of the film, two of its own";
   EXPECT_TRUE(refused([](FilmData& scene) { scene.shapes[1].patch_count = 3; }));
   EXPECT_TRUE(refused([](FilmData& scene) { scene.shapes[1].meshlet_count = 1; })) << "the film's";
   EXPECT_TRUE(refused([](FilmData& scene) { scene.moving = {3}; }));
@@ -339,7 +339,7 @@ TEST(Scenes, KnowWhatMoves) {
   EXPECT_TRUE(moving.has_patch(0) && moving.has_patch(1));
   EXPECT_FALSE(moving.has_patch(2) || moving.has_patch(3) || moving.has_patch(4));
   EXPECT_EQ(scene.patches_of(1).data(), film.patches().data() + 2);
-  EXPECT_EQ(scene.patches_of(3).data(), scene.patches().data() + 2);
+  EXPECT_EQ(scene.patches_of(4).data(), scene.patches().data() + 2);
   EXPECT_EQ(scene.meshlets_of(1).data(), film.meshlets().data());
 }
 

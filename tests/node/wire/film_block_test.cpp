@@ -35,9 +35,12 @@ TEST(FilmBlock, IsReadAsItWasPacked) {
     expect_same(film.mesh_places, view.mesh_places());
     expect_same(film.mesh_normals, view.mesh_normals());
     expect_same(film.mesh_triangles, view.mesh_triangles());
+    expect_same(film.mesh_bones, view.mesh_bones());
+    expect_same(film.mesh_weights, view.mesh_weights());
     expect_same(film.meshlets, view.meshlets());
     expect_same(film.shapes, view.shapes());
     expect_same(film.segments, view.segments());
+    expect_same(film.bones, view.bones());
     expect_same(film.materials, view.materials());
     expect_same(film.matrices, view.matrices());
     expect_same(film.cameras, view.cameras());
@@ -53,7 +56,7 @@ TEST(FilmBlock, AnswersWhatHoldsAtAFrame) {
   const PackedFilm film(block, "film");
   EXPECT_EQ(film.name(film.segments()[0]), "base");
   EXPECT_EQ(film.name(film.segments()[1]), "arm");
-  EXPECT_EQ(film.patch_instances(), 5u);
+  EXPECT_EQ(film.patch_instances(), 6u);
   for (std::uint32_t frame = 0; frame < 3; ++frame) {
     EXPECT_EQ(film.matrix_at(film.segments()[0], frame), moved(0));
     EXPECT_EQ(film.matrix_at(film.segments()[1], frame), moved(frame));
@@ -61,7 +64,7 @@ TEST(FilmBlock, AnswersWhatHoldsAtAFrame) {
     EXPECT_EQ(film.material_at(film.segments()[0], frame).exponent, 20.0f);
     EXPECT_EQ(film.camera_at(frame).focal, 2.0);
   }
-  EXPECT_EQ(film.moving(film.intervals()[0]).size(), 1u);
+  EXPECT_EQ(film.moving(film.intervals()[0]).size(), 2u);
   EXPECT_EQ(film.moving(film.intervals()[1])[1], 1u);
 }
 
@@ -188,7 +191,7 @@ TEST(FilmBlock, RefusesBrokenIndices) {
       {"a vertex leaves its meshlet's box", [](FilmData& f) { f.mesh_places[3][2] = 0.6f; }},
       {"a meshlet's box is upside down", [](FilmData& f) { std::swap(f.meshlets[0].low, f.meshlets[0].high); }},
       {"a vertex has no normal", [](FilmData& f) { f.mesh_normals.pop_back(); }},
-      {"a segment has no shape", [](FilmData& f) { f.segments[1].shape = 2; }},
+      {"a segment has no shape", [](FilmData& f) { f.segments[1].shape = 3; }},
       {"a segment has no name", [](FilmData& f) { f.segments[1].name = 9; }},
       {"names do not end", [](FilmData& f) { f.names.back() = 'x'; }},
       {"there are no names", [](FilmData& f) { f.names.clear(); }},
@@ -221,14 +224,14 @@ TEST(FilmBlock, RefusesBrokenIndices) {
       {"an interval is empty", [](FilmData& f) { f.intervals[0].frame_count = 0; }},
       {"intervals end early", [](FilmData& f) { f.intervals.pop_back(); }},
       {"intervals end late", [](FilmData& f) { f.intervals[1].frame_count = 2; }},
-      {"movers end beyond the list", [](FilmData& f) { f.intervals[1].moving_count = 3; }},
+      {"movers end beyond the list", [](FilmData& f) { f.intervals[1].moving_count = 4; }},
       {"movers begin beyond the list",
        [](FilmData& f) {
-         f.intervals[1] = {2, 1, 4, 0};
+         f.intervals[1] = {2, 1, 6, 0};
        }},
       {"movers twice", [](FilmData& f) { f.moving[1] = 1; }},
       {"movers in no order", [](FilmData& f) { std::swap(f.moving[1], f.moving[2]); }},
-      {"a mover is no segment", [](FilmData& f) { f.moving[2] = 2; }},
+      {"a mover is no segment", [](FilmData& f) { f.moving[4] = 3; }},
   });
 }
 

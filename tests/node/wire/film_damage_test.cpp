@@ -1,6 +1,7 @@
 // Damaged films: whatever PackedFilm is given, it says no or can be read everywhere without harm.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <vector>
 
@@ -35,13 +36,18 @@ std::uint64_t walk(const PackedFilm& film) {
       for (std::size_t s = 0; s < film.segments().size(); ++s) sum += scene.material(s) + scene.first_patch(s);
     }
   }
+  geometry::SegmentPlace place;
+  const geometry::ShapeBoxes boxes(film);
   for (const Segment& segment : film.segments()) {
+    place.find(scene, static_cast<std::size_t>(&segment - film.segments().data()));
+    if (film.shape(segment.shape).size() > 0) sum += place.corners(boxes).point[0][0] > 0;
     sum += film.name(segment).size() + static_cast<std::uint64_t>(film.material_at(segment, last).sides);
     const Shape& shape = film.shapes()[segment.shape];
     for (const Patch& patch : film.patches().subspan(shape.first_patch, shape.patch_count))
       sum += patch.points[15][2] > 0;
     for (const Meshlet& meshlet : film.meshlets().subspan(shape.first_meshlet, shape.meshlet_count)) {
-      placer.place(geometry::eye_map(shape::EyeMatrix{}), film, meshlet, scene.projection());
+      sum += place.corners(film, meshlet).point[0][0] > 0;
+      placer.place(place, film, meshlet, scene.projection());
       sum += static_cast<std::uint64_t>(placer.vertex_count());
     }
   }
@@ -57,6 +63,35 @@ bool taken(const Block& block) {
   } catch (const Failure&) {
     return false;
   }
+}
+
+// Each of these would have nodes read what is not there, or put vertices where no bounds look for them.
+TEST(FilmDamage, UnsoundSkinsAreRefused) {
+  const auto refused = [](const auto& change) {
+    FilmData film = small_film();
+    change(film);
+    return !taken(pack(film));
+  };
+  EXPECT_FALSE(refused([](FilmData&) {}));
+  EXPECT_TRUE(refused([](FilmData& f) { f.segments[2].bone_count = 1; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.segments[2].bone_count = 0; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.segments[2].bone_count = 3; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.segments[2].first_bone = 1; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.segments[1].bone_count = 2; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.bones[1] = {1, 30}; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.bones[1] = {2, 2}; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.shapes[2].bone_count = 1; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.shapes[2].bone_count = 0; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.shapes[2].patch_count = 1; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.shapes[1].bone_count = 2; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.meshlets[2].first_bone = 1; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.meshlets[2].bone_count = kMeshletBones + 1; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.meshlets[2].first_weight = 1; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.mesh_bones = {1, 0}; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.mesh_bones = {1, 1}; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.mesh_bones = {0, 2}; }));
+  for (const float weight : {-0.5f, 0.501f, 1.5f, std::nanf("")})
+    EXPECT_TRUE(refused([weight](FilmData& f) { f.mesh_weights[1] = weight; })) << weight;
 }
 
 TEST(FilmDamage, TruncatedAnywhereIsRefused) {
@@ -94,7 +129,7 @@ TEST(FilmDamage, DamagedHeaderIsRefused) {
     EXPECT_THROW(PackedFilm(block, "film", true), Failure);
   }
   for (const std::uint64_t bad : {std::uint64_t{1}, std::uint64_t{1} << 40, ~std::uint64_t{63}, ~std::uint64_t{0}}) {
-    for (std::size_t at = 16; at < 16 + 17 * 16; at += 16) {  // each section's offset
+    for (std::size_t at = 16; at < 16 + 20 * 16; at += 16) {  // each section's offset
       Block block = whole;
       std::memcpy(&block[at], &bad, sizeof bad);
       EXPECT_FALSE(taken(block)) << "offset " << bad << " of section " << at / 16 - 1;

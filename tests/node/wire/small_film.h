@@ -16,7 +16,8 @@ inline Patch flat_patch() {
 
 inline Matrix moved(double x) { return {{{{1, 0, 0, x}, {0, 1, 0, 0}, {0, 0, 1, 0}}}}; }
 
-// Three frames, two segments of which the second, partly a mesh, moves, one light that changes.
+// Three frames, three segments of which the second, partly a mesh, and the third, a mesh with a skin of two bones,
+// move, one light that changes.
 inline FilmData small_film() {
   FilmData film;
   film.settings = {64, 48, 3, 0, {0.1f, 0.2f, 0.3f}, 24, {0, 1}};
@@ -24,17 +25,22 @@ inline FilmData small_film() {
   film.mesh_places = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0.5f}, {0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
   film.mesh_normals.assign(7, {0, 0, 1});
   film.mesh_triangles = {{0, 1, 2}, {0, 2, 3}, {0, 1, 2}};
-  film.meshlets = {{0, 4, 0, 2, {0, 0, 0}, {1, 1, 0.5f}}, {4, 3, 2, 1, {0, 0, 0}, {1, 0, 1}}};
-  film.shapes = {{0, 2, 0, 0}, {2, 1, 0, 2}};
-  film.segments = {{0, 0, {0, 1}, {0, 1}}, {1, 5, {1, 3}, {0, 1}}};
+  film.mesh_bones = {0, 1};
+  film.mesh_weights = {1, 0.5f, 0, 0, 0.5f, 1};
+  film.meshlets = {{0, 4, 0, 2, {0, 0, 0}, {1, 1, 0.5f}},
+                   {4, 3, 2, 1, {0, 0, 0}, {1, 0, 1}},
+                   {4, 3, 2, 1, {0, 0, 0}, {1, 0, 1}, 0, 2, 0}};
+  film.shapes = {{0, 2, 0, 0}, {2, 1, 0, 2}, {0, 0, 2, 1, 2}};
+  film.segments = {{0, 0, {0, 1}, {0, 1}}, {1, 5, {1, 3}, {0, 1}}, {2, 5, {0, 1}, {0, 1}, 0, 0, 2}};
+  film.bones = {{0, 1}, {1, 3}};
   film.materials = {{{1, 0, 0}, 0.1f, 0.6f, 0.3f, 20, 2}, {{0, 1, 0}, 0.1f, 0.6f, 0.3f, 2.5f, 1}};
   film.matrices = {moved(0), moved(1), moved(2)};
   film.cameras = {{moved(0), 2, 0.1, 100}};
   film.lights = {{wire::LightKind::directional, {0, 0, 1}, {1, 1, 1}}, {wire::LightKind::point, {1, 2, 3}, {1, 1, 1}}};
   film.light_tracks = {{0, 1}, {4, 2}};
   film.changes = {{0, 0}, {0, 0}, {1, 1}, {2, 2}, {0, 0}, {2, 1}};
-  film.intervals = {{0, 2, 0, 1}, {2, 1, 1, 2}};
-  film.moving = {1, 0, 1};
+  film.intervals = {{0, 2, 0, 2}, {2, 1, 2, 3}};
+  film.moving = {1, 2, 0, 1, 2};
   const std::string names("base\0arm\0", 9);
   film.names.assign(names.begin(), names.end());
   return film;
@@ -46,8 +52,9 @@ inline FilmData small_scene() {
   scene.settings.frames = 1;
   scene.patches.assign(4, flat_patch());
   scene.mesh_places.clear(), scene.mesh_normals.clear(), scene.mesh_triangles.clear(), scene.meshlets.clear();
+  scene.mesh_bones.clear(), scene.mesh_weights.clear();
   scene.shapes = {{0, 2}, {2, 2}};
-  scene.segments = {{0, 0, {0, 1}, {0, 1}}, {2, 5, {6, 1}, {0, 1}}, {3, 0, {0, 1}, {0, 1}}};
+  scene.segments = {{0, 0, {0, 1}, {0, 1}}, {3, 5, {6, 1}, {0, 1}}, {4, 0, {0, 1}, {0, 1}}};
   scene.changes.push_back({0, 1});
   scene.intervals = {{0, 1, 0, 1}};
   scene.moving = {1};

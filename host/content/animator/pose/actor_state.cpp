@@ -33,9 +33,11 @@ void place_by_keys(const Film& film, std::size_t actor_number, std::uint32_t fra
     const modeler::Joint& joint = model.joints[number];
     state.pose.push_back(JointMotion(joint, actor.motion.pose[number]).pose_at(frame));
     state.joints.push_back(figure.frame_of(number));
-    if (joint.segment)
-      state.segments[number] =
-          modeler::t_matrix(modeler::segment_frame(figure.frame_of(number), joint), joint.segment->sbb);
+    if (!joint.segment) continue;
+    state.segments[number] =
+        modeler::t_matrix(modeler::segment_frame(figure.frame_of(number), joint), joint.segment->sbb);
+    for (const modeler::Bone& bone : joint.segment->bones)
+      state.bones[number].push_back(modeler::bone_matrix(figure.frame_of(bone.joint), bone, joint));
   }
 }
 
@@ -46,6 +48,7 @@ ActorState state_at(const Film& film, std::size_t number, std::uint32_t frame) {
   const modeler::Model& model = film.models[actor.model];
   ActorState state{};
   state.segments.resize(model.joints.size());
+  state.bones.resize(model.joints.size());
   actor.matrices.empty() ? place_by_keys(film, number, frame, state) : place_by_matrices(actor, model, frame, state);
   return state;
 }

@@ -18,6 +18,7 @@ struct ActorState {
   std::vector<glm::dvec3> pose;                       // of each joint, degrees, as the film file would say it
   std::vector<modeler::Axes> joints;                  // where each stands in the world; none if matrices move it
   std::vector<std::optional<wire::Matrix>> segments;  // of each joint, the T-matrix of its segment, if it has one
+  std::vector<std::vector<wire::Matrix>> bones;       // of each joint, those of its segment's bones, if it has a skin
 };
 
 // `number` is the actor's in the film. Bit for bit what the compiled film has.

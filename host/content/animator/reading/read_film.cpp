@@ -240,6 +240,8 @@ class ActorReader {
 
   void read_matrices(const document::Element& list, Actor& actor) {
     const auto& joints = model_of(actor).joints;
+    if (std::ranges::any_of(joints, [](const modeler::Joint& j) { return j.segment && !j.segment->bones.empty(); }))
+      list.refuse("moves a model with a skin, whose bones have no matrices", "move the actor by keys");
     actor.matrices.resize(joints.size());
     read_keys(list, keys::object("matrices_key"), [&](const document::Fields& key, std::uint32_t frame, const Ease&) {
       const document::Element segments = key.required("segments");

@@ -35,6 +35,8 @@ void expect_film_at(const animator::Film& film, const wire::PackedFilm& whole, s
   expect_same(moment.patches(), whole.patches(), at);
   expect_same(moment.shapes(), whole.shapes(), at);
   expect_same(moment.meshlets(), whole.meshlets(), at);
+  expect_same(moment.mesh_bones(), whole.mesh_bones(), at);
+  expect_same(moment.mesh_weights(), whole.mesh_weights(), at);
   expect_same(moment.camera_at(0), whole.camera_at(frame), at);
   ASSERT_EQ(moment.light_tracks().size(), whole.light_tracks().size()) << at;
   for (std::size_t i = 0; i < whole.light_tracks().size(); ++i)
@@ -46,6 +48,10 @@ void expect_film_at(const animator::Film& film, const wire::PackedFilm& whole, s
     EXPECT_EQ(mine.shape, its.shape) << at;
     EXPECT_EQ(moment.name(mine), whole.name(its));
     expect_same(moment.matrix_at(mine, 0), whole.matrix_at(its, frame), at);
+    ASSERT_EQ(mine.bone_count, its.bone_count) << at;
+    for (std::size_t bone = 0; bone < its.bone_count; ++bone)
+      expect_same(moment.matrix_at(moment.bones_of(mine)[bone], 0), whole.matrix_at(whole.bones_of(its)[bone], frame),
+                  at);
     expect_same(moment.material_at(mine, 0), whole.material_at(its, frame), at);
   }
 }
@@ -69,6 +75,13 @@ TEST(Moment, IsTheCompiledFilms) {
            {"frame": 2, "place": [1, 2, 3], "turn": [10, 20, 30], "pose": {"a": [10, 20, 30], "b": [0, 10, 0]}, "ease": "both"},
            {"frame": 15, "place": [4, 2, 3], "turn": [0, 20, 80], "pose": {"a": [-40, 70, 3], "b": [0, 300, 0]}}]},
          {"name": "y", "model": "arm", "material": "glow"})")));
+}
+
+TEST(Moment, OfSkinsToo) {
+  expect_moments(film_of(sleeve_film(R"({"name": "x", "model": "arm", "keys": [
+      {"frame": 2, "place": [1, 2, 3], "pose": {"fore": [0, -10, 0]}},
+      {"frame": 15, "place": [4, 2, 3], "pose": {"sleeve": [5, 5, 5], "fore": [0, -140, 0]}}]},
+      {"name": "y", "model": "arm", "keys": [{"frame": 3, "attach": {"actor": "x", "joint": "fore"}}]})")));
 }
 
 TEST(Moment, OfExamplesToo) {

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "host/content/modeler/frames.h"
 #include "host/content/modeler/read_model.h"
 #include "host/images/picture_file.h"
 #include "tests/host/content/document/failure_of.h"
@@ -54,6 +55,15 @@ Places places_of(const modeler::Model& model, const modeler::Joint& joint) {
     origin += model.joints[above].place;
   const modeler::Box& box = joint.segment->sbb;
   Places places;
+  if (!joint.segment->bones.empty()) {
+    const std::vector<modeler::Axes> frames = modeler::rest_frames(model);
+    std::vector<wire::Matrix> bones;
+    for (const modeler::Bone& bone : joint.segment->bones)
+      bones.push_back(modeler::bone_matrix(frames[bone.joint], bone, joint));
+    const modeler::Mesh& mesh = *model.shapes[joint.segment->shape].mesh;
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) places.push_back(modeler::skinned_place(mesh, v, bones));
+    return places;
+  }
   for (const auto& vertex : model.shapes[joint.segment->shape].mesh->vertices)
     places.push_back(origin +
                      axes_of(joint) * (box.min + glm::dvec3(vertex[0], vertex[1], vertex[2]) * (box.max - box.min)));
@@ -91,11 +101,11 @@ test::Glb figure(const std::vector<float>& weights = {1, 0, 0, 0, 0, 1, 0, 0, 0.
 TEST_F(SceneFileTest, ASkinnedFigureStandsUprightInMetres) {
   test::Glb glb = figure();
   const modeler::Model model = import(glb);
-  ASSERT_EQ(model.joints.size(), 1u);
+  ASSERT_EQ(model.joints.size(), 4u) << "the file, and the nodes that are bones or carry some";
   EXPECT_EQ(model.joints[0].name, "file");
   expect_places(places_of(model, model.joints[0]), {{0.1, 0, 0}, {0.2, 0, 1.8}, {0, 0, 1.5}});
   expect_printed("1.8 m tall");
-  expect_printed("  made       the pose of the file's bones for 1 skinned mesh\n");
+  expect_printed("  made       joints of 3 nodes\n             a skin, which 2 joints move, of 1 mesh\n");
 }
 
 // The chest turns by a quarter about the figure's z: what it holds goes from x to y, what both hold goes half way.
@@ -404,11 +414,11 @@ TEST_F(SceneFileTest, FilesOfOthers) {
   const modeler::Model figure = import(options_for(data / "RiggedFigure.glb"));
   expect_printed("365 vertices of the file's 370, 256 faces, normals, 1 colour");
   expect_printed("1.45 m tall");
-  expect_printed("19 bones");
-  ASSERT_EQ(figure.joints.size(), 1u);
-  const modeler::Box& sbb = figure.joints[0].segment->sbb;
-  EXPECT_LT(glm::distance(sbb.min, glm::dvec3(-0.58946097, -0.19497761, -0.00000015)), 2e-7);
-  EXPECT_LT(glm::distance(sbb.max, glm::dvec3(0.58946130, 0.13091786, 1.44991997)), 2e-7);
+  expect_printed("a skin, which 19 joints move, of 1 mesh");
+  ASSERT_EQ(figure.joints[0].segment->bones.size(), 19u);
+  const modeler::Box sbb = *modeler::rest_bounds(figure);
+  EXPECT_LT(glm::distance(sbb.min, glm::dvec3(-0.58946097, -0.19497761, -0.00000015)), 1e-6);
+  EXPECT_LT(glm::distance(sbb.max, glm::dvec3(0.58946130, 0.13091786, 1.44991997)), 1e-6);
 }
 
 }  // namespace

@@ -1,0 +1,216 @@
+// Skins in eye space: vertices by the formula, in single precision bit for bit from every instruction set; as a rigid
+// mesh where there is one bone; the same in all meshlets that share them; and always within their bounds.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "node/geometry/meshlets.h"
+#include "tests/node/shape/patches.h"
+#include "tests/node/simd/instruction_sets.h"
+#include "tests/node/wire/small_film.h"
+
+namespace mars::geometry {
+namespace {
+
+using Float3 = std::array<float, 3>;
+
+constexpr shape::Projection kSeen{500, {160, 90}, 0.1f, 100, 32768, 0.9f};
+constexpr std::uint32_t kVertices = 45;
+
+wire::Matrix random_bone(shape::Random& random, double scale) {
+  wire::Matrix matrix;
+  for (auto& row : matrix.m)
+    for (double& number : row) number = random.real(-1, 1) * scale;
+  matrix.m[2][3] -= 3 * scale;
+  return matrix;
+}
+
+// A film with one segment: a meshlet of random vertices that follow 1 to 4 of `bones` bones.
+class OneSkin {
+ public:
+  OneSkin(shape::Random& random, std::uint32_t bones, double scale = 1) {
+    wire::FilmData film = wire::small_film();
+    film.segments.resize(1);
+    film.segments[0] = {0, 0, {0, 1}, {0, 1}, 0, 0, bones};
+    film.shapes = {{0, 0, 0, 1, bones}};
+    film.intervals = {{0, 3, 0, 0}};
+    film.mesh_places.clear(), film.mesh_normals.clear();
+    film.mesh_bones.clear(), film.bones.clear();
+    wire::Meshlet meshlet{0, kVertices, 0, 1, {1, 1, 1}, {0, 0, 0}, 0, bones, 0};
+    for (std::uint32_t v = 0; v < kVertices; ++v) {
+      Float3 place, normal;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        place[axis] = static_cast<float>(random.real(0, 1));
+        normal[axis] = static_cast<float>(random.real(-1, 1));
+        meshlet.low[axis] = std::min(meshlet.low[axis], place[axis]);
+        meshlet.high[axis] = std::max(meshlet.high[axis], place[axis]);
+      }
+      film.mesh_places.push_back(place);
+      film.mesh_normals.push_back(normal);
+    }
+    film.mesh_triangles = {{0, 1, 2}};
+    film.meshlets = {meshlet};
+    film.mesh_weights.assign(bones * kVertices, 0);
+    for (std::uint32_t v = 0; v < kVertices; ++v) add_weights(random, v, bones, film.mesh_weights);
+    for (std::uint32_t bone = 0; bone < bones; ++bone) {
+      film.mesh_bones.push_back(bone);
+      film.bones.push_back({static_cast<std::uint32_t>(film.changes.size()), 1});
+      film.changes.push_back({0, static_cast<std::uint32_t>(film.matrices.size())});
+      film.matrices.push_back(random_bone(random, scale));
+    }
+    block_ = wire::pack(film);
+  }
+
+  wire::PackedFilm view() const { return {block_, "film"}; }
+
+ private:
+  static void add_weights(shape::Random& random, std::uint32_t vertex, std::uint32_t bones,
+                          std::vector<float>& weights) {
+    const auto count = std::min<std::uint32_t>(bones, static_cast<std::uint32_t>(random.whole(1, 4)));
+    std::vector<double> parts;
+    double sum = 0;
+    for (std::uint32_t i = 0; i < count; ++i) sum += parts.emplace_back(random.real(0.1, 1));
+    const auto first = static_cast<std::uint32_t>(random.whole(0, static_cast<std::int32_t>(bones - count)));
+    for (std::uint32_t i = 0; i < count; ++i)
+      weights[(first + i) * kVertices + vertex] = static_cast<float>(parts[i] / sum);
+  }
+
+  std::vector<std::byte> block_;
+};
+
+struct Placed {
+  Scene scene;
+  SegmentPlace place;
+
+  explicit Placed(const wire::PackedFilm& film) : scene(film) { place.find(scene, 0); }
+};
+
+// The sum of the bones that a vertex follows, in the order of the kernel.
+template <typename Number>
+std::array<std::array<Number, 4>, 3> blended(const wire::PackedFilm& film, const SegmentPlace& place,
+                                             std::uint32_t vertex) {
+  std::array<std::array<Number, 4>, 3> sum{};
+  for (std::size_t bone = 0; bone < place.bones().size(); ++bone)
+    for (std::size_t r = 0; r < 3; ++r)
+      for (std::size_t c = 0; c < 4; ++c)
+        sum[r][c] += Number{film.mesh_weights()[bone * kVertices + vertex]} * Number{place.bones()[bone].m[r][c]};
+  return sum;
+}
+
+TEST(Skins, PlacesAreTheSumsBitForBit) {
+  shape::Random random(1);
+  for (const simd::InstructionSet set : simd::all_sets()) {
+    MeshletPlacer placer(set);
+    for (const std::uint32_t bones : {1u, 2u, 5u, wire::kMeshletBones}) {
+      const OneSkin skin(random, bones);
+      const wire::PackedFilm film = skin.view();
+      const Placed placed(film);
+      placer.place(placed.place, film, film.meshlets()[0], kSeen);
+      for (std::uint32_t v = 0; v < kVertices; ++v) {
+        const auto m = blended<float>(film, placed.place, v);
+        const Float3& p = film.mesh_places()[v];
+        for (std::size_t r = 0; r < 3; ++r) {
+          const float expected = ((m[r][0] * p[0] + m[r][1] * p[1]) + m[r][2] * p[2]) + m[r][3];
+          ASSERT_EQ(std::memcmp(&placer.vertices().place[r][v], &expected, sizeof(float)), 0) << simd::name_of(set);
+        }
+      }
+    }
+  }
+}
+
+TEST(Skins, EveryInstructionSetGivesTheSameNormals) {
+  shape::Random random(2);
+  for (int trial = 0; trial < 50; ++trial) {
+    const OneSkin skin(random, 6, std::pow(10, random.real(-6, 6)));
+    const wire::PackedFilm film = skin.view();
+    const Placed placed(film);
+    MeshletPlacer plain(simd::all_sets().front());
+    plain.place(placed.place, film, film.meshlets()[0], kSeen);
+    for (const simd::InstructionSet set : simd::all_sets()) {
+      MeshletPlacer placer(set);
+      placer.place(placed.place, film, film.meshlets()[0], kSeen);
+      for (int axis = 0; axis < 3; ++axis)
+        EXPECT_EQ(std::memcmp(placer.vertices().normal[axis], plain.vertices().normal[axis], kVertices * sizeof(float)),
+                  0)
+            << simd::name_of(set);
+    }
+  }
+}
+
+// By the cofactors of the sum, in doubles.
+TEST(Skins, NormalsFollowTheSum) {
+  shape::Random random(3);
+  MeshletPlacer placer(simd::best_instruction_set(""));
+  for (int trial = 0; trial < 100; ++trial) {
+    const OneSkin skin(random, 4, std::pow(10, random.real(-5, 5)));
+    const wire::PackedFilm film = skin.view();
+    const Placed placed(film);
+    placer.place(placed.place, film, film.meshlets()[0], kSeen);
+    for (std::uint32_t v = 0; v < kVertices; ++v) {
+      const auto m = blended<double>(film, placed.place, v);
+      double turned[3], length = 0, size = 0;
+      for (std::size_t r = 0; r < 3; ++r) {
+        turned[r] = 0;
+        for (std::size_t c = 0; c < 3; ++c) {
+          const auto &one = m[(r + 1) % 3], &other = m[(r + 2) % 3];
+          const double cofactor = one[(c + 1) % 3] * other[(c + 2) % 3] - one[(c + 2) % 3] * other[(c + 1) % 3];
+          turned[r] += cofactor * film.mesh_normals()[v][c];
+          size = std::max(size, std::abs(cofactor));
+        }
+        length += turned[r] * turned[r];
+      }
+      length = std::sqrt(length);
+      if (length < 0.01 * size) continue;  // what is flattened has no sure normal
+      for (std::size_t r = 0; r < 3; ++r)
+        EXPECT_NEAR(placer.vertices().normal[r][v], turned[r] / length, 1e-3) << "trial " << trial;
+    }
+  }
+}
+
+TEST(Skins, OfOneBoneStandAsARigidMesh) {
+  shape::Random random(4);
+  const OneSkin skin(random, 1);
+  const wire::PackedFilm film = skin.view();
+  const Placed placed(film);
+  MeshletPlacer bent(simd::best_instruction_set("")), rigid(simd::best_instruction_set(""));
+  bent.place(placed.place, film, film.meshlets()[0], kSeen);
+  rigid.place(eye_map(placed.place.bones()[0]), film, film.meshlets()[0], kSeen);
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_EQ(std::memcmp(bent.vertices().place[axis], rigid.vertices().place[axis], kVertices * sizeof(float)), 0);
+    for (std::uint32_t v = 0; v < kVertices; ++v)
+      EXPECT_NEAR(bent.vertices().normal[axis][v], rigid.vertices().normal[axis][v], 1e-4);
+  }
+}
+
+TEST(Skins, StayWithinTheirBounds) {
+  shape::Random random(5);
+  MeshletPlacer placer(simd::best_instruction_set(""));
+  double widest = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const OneSkin skin(random, static_cast<std::uint32_t>(random.whole(1, 8)), std::pow(10, random.real(-4, 4)));
+    const wire::PackedFilm film = skin.view();
+    const Placed placed(film);
+    placer.place(placed.place, film, film.meshlets()[0], kSeen);
+    const BoxCorners of_meshlet = placed.place.corners(film, film.meshlets()[0]),
+                     of_shape = placed.place.corners(ShapeBoxes(film));
+    for (int axis = 0; axis < 3; ++axis) {
+      const float* const places = placer.vertices().place[axis];
+      const auto [least, most] = std::minmax_element(places, places + kVertices);
+      for (const BoxCorners& corners : {of_meshlet, of_shape}) {
+        float low = corners.point[0][axis], high = low;
+        for (const auto& point : corners.point) low = std::min(low, point[axis]), high = std::max(high, point[axis]);
+        ASSERT_LE(low, *least) << "trial " << trial;
+        ASSERT_GE(high, *most) << "trial " << trial;
+        widest = std::max(widest, double{high - low} / (*most - *least));
+      }
+    }
+  }
+  EXPECT_LT(widest, 60);
+}
+
+}  // namespace
+}  // namespace mars::geometry
