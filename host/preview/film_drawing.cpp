@@ -59,6 +59,23 @@ std::optional<Placing> posed_placing(const Part& part, const Posed& posed) {
   return segment ? placing(*segment) : placing(figure->second.joints[part.joint.joint]);
 }
 
+// Of a skin's lines, in the world.
+Lines bent(const Lines& skin, const std::vector<Placing>& bones) {
+  Lines lines{std::vector<float>(skin.points.size(), 0), skin.ends, skin.dots};
+  for (std::size_t point = 0; point < skin.bones.size(); ++point) {
+    const float* const from = &skin.points[3 * point];
+    const modeler::VertexBones& some = skin.bones[point];
+    for (std::size_t i = 0; i < modeler::kMostBonesOfVertex; ++i) {
+      if (some.weight[i] == 0) continue;
+      const Placing& m = bones[some.bone[i]];
+      for (std::size_t r = 0; r < 3; ++r)
+        lines.points[3 * point + r] +=
+            some.weight[i] * (m[4 * r] * from[0] + m[4 * r + 1] * from[1] + m[4 * r + 2] * from[2] + m[4 * r + 3]);
+    }
+  }
+  return lines;
+}
+
 double distance_along(const wire::Camera& camera, const glm::dvec3& place) {
   const auto& row = camera.world_to_eye.m[2];
   return -(row[0] * place.x + row[1] * place.y + row[2] * place.z + row[3]);
@@ -99,9 +116,21 @@ void FilmDrawing::draw(Drawing& drawing, As as, std::uint32_t frame, const wire:
     if (scenery && !selected) color = dim(color);
     Stroke stroke = as == As::stick && !scenery ? sticks : thin;
     if (selected) stroke = {stroke.line + pen, stroke.dot + pen};
-    drawing.draw(wireframe_.lines[part.lines], at, color, stroke);
+    if (part.bones.empty())
+      drawing.draw(wireframe_.lines[part.lines], at, color, stroke);
+    else
+      drawing.draw(bent(wireframe_.lines[part.lines], bones_of(part, frame, posed)), kWorld, color, stroke);
   }
   if (ground) draw_axes(drawing, camera, pen);
+}
+
+std::vector<Placing> FilmDrawing::bones_of(const Part& part, std::uint32_t frame, const Posed& posed) const {
+  std::vector<Placing> bones;
+  if (const auto figure = posed.figures.find(part.joint.actor); figure != posed.figures.end())
+    for (const wire::Matrix& bone : figure->second.bones[part.joint.joint]) bones.push_back(placing(bone));
+  if (bones.empty())
+    for (const wire::Track& bone : part.bones) bones.push_back(wireframe_.matrices[wireframe_.value_at(bone, frame)]);
+  return bones;
 }
 
 // Each axis as a little stick near the lower left corner, before everything else.

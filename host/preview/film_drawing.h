@@ -39,6 +39,7 @@ class FilmDrawing {
             std::span<const Cover> covers = {}, const Posed& posed = {}) const;
 
  private:
+  std::vector<Placing> bones_of(const Part& part, std::uint32_t frame, const Posed& posed) const;
   void draw_axes(Drawing& drawing, const wire::Camera& camera, std::uint32_t pen) const;
 
   const Wireframe& wireframe_;

@@ -5,12 +5,15 @@
 #include <cstdint>
 #include <vector>
 
+#include "host/content/modeler/mesh.h"
+
 namespace mars::preview {
 
 struct Lines {
-  std::vector<float> points;        // x, y, z of each
-  std::vector<std::uint32_t> ends;  // two points a line
-  std::uint32_t dots = 0;           // the first `dots` points are marked: joints, control vertices
+  std::vector<float> points;                  // x, y, z of each
+  std::vector<std::uint32_t> ends;            // two points a line
+  std::uint32_t dots = 0;                     // the first `dots` points are marked: joints, control vertices
+  std::vector<modeler::VertexBones> bones{};  // of a skin, for each point; else none
 };
 
 // Triangles between points, which hide lines behind them.

@@ -37,9 +37,14 @@ class Net {
       }
   }
 
-  void add(std::span<const Point> vertices, std::span<const wire::MeshTriangle> triangles) {
+  // `follows`: the bones of each vertex of a skin, else none.
+  void add(std::span<const Point> vertices, std::span<const wire::MeshTriangle> triangles,
+           std::span<const modeler::VertexBones> follows) {
     std::vector<std::uint32_t> numbers;
-    for (const Point& vertex : vertices) numbers.push_back(number_of(vertex));
+    for (std::size_t vertex = 0; vertex < vertices.size(); ++vertex) {
+      numbers.push_back(number_of(vertices[vertex]));
+      if (!follows.empty() && numbers.back() == lines_.bones.size()) lines_.bones.push_back(follows[vertex]);
+    }
     for (const wire::MeshTriangle& corners : triangles)
       for (std::size_t i = 0; i < 3; ++i) join(numbers[corners[i]], numbers[corners[(i + 1) % 3]]);
   }
@@ -66,6 +71,21 @@ class Net {
   std::unordered_map<Point, std::uint32_t, PointHash> points_;
   std::unordered_set<std::uint64_t> joined_;
 };
+
+// What a meshlet's vertices follow; none where it has no skin.
+std::vector<modeler::VertexBones> followed_by(const wire::PackedFilm& film, const wire::Meshlet& meshlet) {
+  std::vector<modeler::VertexBones> all;
+  for (std::size_t vertex = 0; vertex < meshlet.vertex_count && meshlet.bone_count > 0; ++vertex) {
+    std::vector<modeler::BoneWeight> bones;
+    std::size_t at = meshlet.first_weight + vertex;
+    for (const std::uint32_t bone : film.bones_of(meshlet)) {
+      bones.push_back({bone, film.mesh_weights()[at]});
+      at += meshlet.vertex_count;
+    }
+    all.push_back(*modeler::bones_of_vertex(std::move(bones)));
+  }
+  return all;
+}
 
 // The middle of the box's face that is farthest from the joint, in the unit cube.
 glm::dvec3 far_end(const modeler::Box& sbb) {
@@ -102,7 +122,7 @@ Lines control_net(const wire::PackedFilm& film, const wire::Shape& shape) {
   for (const wire::Patch& patch : film.patches().subspan(shape.first_patch, shape.patch_count)) net.add(patch);
   for (const wire::Meshlet& meshlet : film.meshlets().subspan(shape.first_meshlet, shape.meshlet_count))
     net.add(film.mesh_places().subspan(meshlet.first_vertex, meshlet.vertex_count),
-            film.mesh_triangles().subspan(meshlet.first_triangle, meshlet.triangle_count));
+            film.mesh_triangles().subspan(meshlet.first_triangle, meshlet.triangle_count), followed_by(film, meshlet));
   return net.take();
 }
 

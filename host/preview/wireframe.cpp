@@ -107,7 +107,9 @@ class Maker {
     const std::uint32_t cube = add_lines(cube_edges());
     for (std::size_t i = 0; i < joints_.size(); ++i) {
       const wire::Segment& segment = film_.segments()[i];
-      parts(As::vertices).push_back({segment.shape, segment.motion, segment.material, joints_[i]});
+      const auto bones = film_.bones_of(segment);
+      parts(As::vertices)
+          .push_back({segment.shape, segment.motion, segment.material, joints_[i], {bones.begin(), bones.end()}});
       parts(As::prisms).push_back({cube, segment.motion, segment.material, joints_[i]});
     }
   }

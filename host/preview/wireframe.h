@@ -35,7 +35,8 @@ struct Part {
   std::uint32_t lines;
   wire::Track motion;
   wire::Track look;
-  JointNumber joint{};  // that moves it, where joints are known
+  JointNumber joint{};               // that moves it, where joints are known
+  std::vector<wire::Track> bones{};  // of a skin, which move its lines instead
 };
 
 // Affine map, row by row, as wire::Matrix.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -127,17 +128,36 @@ std::vector<std::size_t> Ghosts::actors_near(const Selection& selection) const {
   return joints > kMostJoints ? std::vector<std::size_t>() : actors;
 }
 
+namespace {
+
+// Vertices of a skin, evenly chosen.
+void add_bent(const modeler::Model& model, std::size_t joint, std::span<const wire::Matrix> bones,
+              std::vector<glm::dvec3>& places) {
+  constexpr std::size_t kMostVertices = 1000;
+  const modeler::Mesh& mesh = *model.shapes[model.joints[joint].segment->shape].mesh;
+  const std::size_t step = 1 + mesh.vertices.size() / kMostVertices;
+  for (std::size_t vertex = 0; vertex < mesh.vertices.size(); vertex += step)
+    places.push_back(modeler::skinned_place(mesh, vertex, bones));
+}
+
+}  // namespace
+
 void Ghosts::add_ghost(std::size_t actor, std::uint32_t frame, const Screen& screen, std::vector<Placed>& ghosts) {
-  const auto& there = state_of(actor, frame).segments;
-  const auto& here = state_of(actor, project_.frame()).segments;
+  const animator::ActorState& state = state_of(actor, frame);
+  const auto& there = state.segments;
+  const auto& here = state_of(actor, project_.frame());
   std::size_t segment = first_segments_[actor];
   std::vector<glm::dvec3> places;
   for (std::size_t joint = 0; joint < there.size(); ++joint) {
     if (!there[joint]) continue;
     const std::size_t number = segment++;
-    if (there[joint]->m == here[joint]->m) continue;
+    const std::vector<wire::Matrix>& bones = state.bones[joint];
+    if (bones.empty() ? there[joint]->m == here.segments[joint]->m : bones == here.bones[joint]) continue;
     places.clear();
-    for (const glm::dvec3& point : points_of(number)) places.push_back(placed(*there[joint], point));
+    if (bones.empty())
+      for (const glm::dvec3& point : points_of(number)) places.push_back(placed(*there[joint], point));
+    else
+      add_bent(project_.film().model_of(actor), joint, bones, places);
     Handle ghost{"", "ghost", coarser(screen.outline(places))};
     if (ghost.points.size() < 3) continue;
     ghost.text = distance_of(frame, project_.frame());

@@ -21,6 +21,25 @@ const wire::Matrix& matrix_of(const wire::FilmData& scene, std::size_t segment) 
   return scene.matrices[scene.changes[scene.segments[segment].motion.first].value];
 }
 
+const wire::Matrix& bone_of(const wire::FilmData& scene, std::size_t bone) {
+  return scene.matrices[scene.changes[scene.bones[bone].first].value];
+}
+
+bool same_bones(const wire::FilmData& one, const wire::FilmData& other, std::size_t segment) {
+  const wire::Segment &a = one.segments[segment], &b = other.segments[segment];
+  for (std::size_t bone = 0; bone < a.bone_count; ++bone)
+    if (!same_bits(bone_of(one, a.first_bone + bone), bone_of(other, b.first_bone + bone))) return false;
+  return true;
+}
+
+// Those of a segment that stand elsewhere.
+void add_bones(const wire::FilmData& was, const wire::FilmData& now, std::size_t segment, Moved& moved) {
+  const wire::Segment& of = now.segments[segment];
+  for (std::uint32_t bone = of.first_bone; bone < of.first_bone + of.bone_count; ++bone)
+    if (!same_bits(bone_of(was, bone), bone_of(now, bone)))
+      moved.segments.push_back({static_cast<std::uint32_t>(now.segments.size()) + bone, 0, bone_of(now, bone)});
+}
+
 bool same_settings(wire::FilmSettings one, const wire::FilmSettings& other) {
   one.camera = other.camera;
   return same_bits(one, other);
@@ -44,7 +63,9 @@ bool same_lights(const wire::FilmData& one, const wire::FilmData& other) {
 bool same_segments(const wire::FilmData& one, const wire::FilmData& other) {
   return one.patches.size() == other.patches.size() &&
          std::equal(one.segments.begin(), one.segments.end(), other.segments.begin(), other.segments.end(),
-                    [](const wire::Segment& a, const wire::Segment& b) { return a.shape == b.shape; });
+                    [](const wire::Segment& a, const wire::Segment& b) {
+                      return a.shape == b.shape && a.bone_count == b.bone_count;
+                    });
 }
 
 bool same_surroundings(const Shot& one, const Shot& other) {
@@ -68,8 +89,15 @@ bool has_own_shape(const wire::FilmData& scene, std::size_t segment) {
 }  // namespace
 
 Interval::Interval(Shot scene, std::vector<std::uint32_t> moving)
-    : scene_(std::move(scene)), moving_(std::move(moving)), moves_(scene_.moment->segments.size(), char{0}) {
-  for (const std::uint32_t segment : moving_) moves_[segment] = 1;
+    : scene_(std::move(scene)),
+      moving_(std::move(moving)),
+      moves_(scene_.moment->segments.size() + scene_.moment->bones.size(), char{0}) {
+  const std::vector<wire::Segment>& segments = scene_.moment->segments;
+  for (const std::uint32_t number : moving_) {
+    moves_[number] = 1;
+    for (std::size_t bone = 0; bone < segments[number].bone_count; ++bone)
+      moves_[segments.size() + segments[number].first_bone + bone] = 1;
+  }
 }
 
 std::optional<std::uint32_t> Interval::material_like(const wire::Material& material, std::uint32_t likely) const {
@@ -88,6 +116,7 @@ std::optional<Moved> Interval::moved_to(const Shot& scene) const {
     const std::uint32_t before = was.changes[was.segments[segment].material.first].value;
     const auto material = material_like(material_of(now, segment), before);
     if (!material) return std::nullopt;
+    add_bones(was, now, segment, moved);
     if (material == before && same_bits(matrix_of(was, segment), matrix_of(now, segment))) continue;
     moved.segments.push_back({segment, *material, matrix_of(now, segment)});
   }
@@ -100,7 +129,7 @@ bool Interval::holds(const Moved& moved) const {
   for (const wire::MovedSegment& segment : moved.segments)
     if (moves_[segment.segment] == 0) return false;
   if (moved.patches.empty()) return true;
-  for (std::size_t segment = 0; segment < moves_.size(); ++segment)
+  for (std::size_t segment = 0; segment < scene_.moment->segments.size(); ++segment)
     if (moves_[segment] == 0 && has_own_shape(*scene_.moment, segment)) return false;
   return true;
 }
@@ -116,7 +145,8 @@ std::vector<std::uint32_t> changed_segments(const Shot& one, const Shot& other) 
   const bool pulled = before.patches.size() != now.patches.size() || !same_patches(before, now);
   for (std::uint32_t segment = 0; segment < now.segments.size(); ++segment)
     if (all || before.segments[segment].shape != now.segments[segment].shape ||
-        !same_bits(matrix_of(before, segment), matrix_of(now, segment)) ||
+        before.segments[segment].bone_count != now.segments[segment].bone_count ||
+        !same_bits(matrix_of(before, segment), matrix_of(now, segment)) || !same_bones(before, now, segment) ||
         !(material_of(before, segment) == material_of(now, segment)) || (pulled && has_own_shape(now, segment)))
       changed.push_back(segment);
   return changed;

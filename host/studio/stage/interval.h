@@ -22,7 +22,7 @@ struct Shot {
 
 // All that differs from the keyframe.
 struct Moved {
-  std::vector<wire::MovedSegment> segments;
+  std::vector<wire::MovedSegment> segments;  // and bones
   std::vector<wire::MovedPatch> patches;
 };
 
@@ -45,7 +45,7 @@ class Interval {
 
   Shot scene_;
   std::vector<std::uint32_t> moving_;
-  std::vector<char> moves_;  // of each segment
+  std::vector<char> moves_;  // of each segment, then of each bone
 };
 
 // Whether both look the same.

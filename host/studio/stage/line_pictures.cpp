@@ -48,15 +48,13 @@ preview::Facets diced(std::span<const wire::Patch> patches) {
   return facets;
 }
 
-preview::Facets meshlets_of(const wire::FilmData& shapes, const wire::Shape& shape) {
+// `places_of` a meshlet gives those of its vertices.
+preview::Facets meshlets_of(const wire::FilmData& shapes, const wire::Shape& shape, const auto& places_of) {
   preview::Facets facets;
   for (std::uint32_t i = 0; i < shape.meshlet_count; ++i) {
     const wire::Meshlet& meshlet = shapes.meshlets[shape.first_meshlet + i];
     const auto first = static_cast<std::uint32_t>(facets.points.size() / 3);
-    for (std::uint32_t v = 0; v < meshlet.vertex_count; ++v) {
-      const auto& place = shapes.mesh_places[meshlet.first_vertex + v];
-      facets.points.insert(facets.points.end(), place.begin(), place.end());
-    }
+    for (const auto& place : places_of(meshlet)) facets.points.insert(facets.points.end(), place.begin(), place.end());
     for (std::uint32_t t = 0; t < meshlet.triangle_count; ++t)
       for (const std::uint8_t corner : shapes.mesh_triangles[meshlet.first_triangle + t])
         facets.corners.push_back(first + corner);
@@ -105,6 +103,18 @@ void LinePictures::take_segments(preview::As as, preview::Wireframe& wireframe) 
     const wire::Track look = track_of(wireframe, now.changes[now.segments[segment].material.first].value);
     wireframe.parts[static_cast<std::size_t>(as)].push_back({lines, track_of(wireframe, segment), look});
   }
+  if (as == preview::As::vertices) take_bones(wireframe);
+}
+
+// Their matrices come behind those of all segments.
+void LinePictures::take_bones(preview::Wireframe& wireframe) {
+  const wire::FilmData& now = moments_.now();
+  for (std::size_t number = 0; number < now.segments.size(); ++number)
+    for (std::size_t bone = 0; bone < now.segments[number].bone_count; ++bone) {
+      wireframe.matrices.push_back(preview::placing(moments_.bone_of(now.segments[number], bone)));
+      wireframe.parts[static_cast<std::size_t>(preview::As::vertices)][number].bones.push_back(
+          track_of(wireframe, wireframe.matrices.size() - 1));
+    }
 }
 
 // The net of a shape that is pulled is made again each time, in its place before all others.
@@ -158,7 +168,10 @@ const preview::Facets& LinePictures::facets_of(std::size_t segment) {
   const std::uint32_t number = moments_.now().segments[segment].shape;
   if (const auto known = facets_.find(number); known != facets_.end()) return known->second;
   preview::Facets facets = diced(moments_.patches_of(segment));
-  const preview::Facets meshes = meshlets_of(moments_.shapes(), moments_.shapes().shapes[number]);
+  const wire::FilmData& shapes = moments_.shapes();
+  const preview::Facets meshes = meshlets_of(shapes, shapes.shapes[number], [&](const wire::Meshlet& meshlet) {
+    return std::span(shapes.mesh_places).subspan(meshlet.first_vertex, meshlet.vertex_count);
+  });
   const auto first = static_cast<std::uint32_t>(facets.points.size() / 3);
   facets.points.insert(facets.points.end(), meshes.points.begin(), meshes.points.end());
   for (const std::uint32_t corner : meshes.corners) facets.corners.push_back(first + corner);
@@ -168,9 +181,19 @@ const preview::Facets& LinePictures::facets_of(std::size_t segment) {
 // Prisms hide by their faces, control vertices by their surfaces.
 std::vector<preview::Cover> LinePictures::covers_of(preview::As as, const preview::Wireframe& wireframe) {
   static const preview::Facets cube = cube_facets();
+  const wire::FilmData& now = moments_.now();
   std::vector<preview::Cover> covers;
-  for (std::size_t segment = 0; segment < moments_.now().segments.size(); ++segment)
-    covers.push_back({as == preview::As::prisms ? &cube : &facets_of(segment), wireframe.matrices[segment]});
+  bent_facets_.clear();
+  for (std::size_t segment = 0; segment < now.segments.size(); ++segment) {
+    if (as == preview::As::prisms || now.segments[segment].bone_count == 0) {
+      covers.push_back({as == preview::As::prisms ? &cube : &facets_of(segment), wireframe.matrices[segment]});
+      continue;
+    }
+    const wire::FilmData& shapes = moments_.shapes();
+    bent_facets_.push_back(meshlets_of(shapes, shapes.shapes[now.segments[segment].shape],
+                                       [&](const wire::Meshlet& m) { return moments_.bent_places(segment, m); }));
+    covers.push_back({&bent_facets_.back(), preview::placing(modeler::Axes{})});
+  }
   return covers;
 }
 

@@ -2,6 +2,7 @@
 // matrices; and where a picture differs from the one before.
 #pragma once
 
+#include <deque>
 #include <map>
 #include <span>
 #include <vector>
@@ -29,6 +30,7 @@ class LinePictures {
 
  private:
   void take_segments(preview::As as, preview::Wireframe& wireframe);
+  void take_bones(preview::Wireframe& wireframe);
   void take_sticks(preview::Wireframe& wireframe);
   std::uint32_t net_of(std::size_t segment, preview::Wireframe& wireframe);
   const preview::Facets& facets_of(std::size_t segment);
@@ -43,6 +45,7 @@ class LinePictures {
   std::map<std::uint32_t, std::uint32_t> net_numbers_;  // of shapes
   std::map<std::uint32_t, preview::Facets> facets_;     // of shapes, as they are needed
   preview::Facets pulled_facets_;
+  std::deque<preview::Facets> bent_facets_;  // of skins, in the world
 };
 
 // The blocks of 16 pixels each way that differ, joined to rectangles that do not overlap; all where there was no

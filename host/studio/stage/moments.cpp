@@ -49,6 +49,8 @@ void Moments::load_shapes() {
   film.mesh_places = parts.mesh_places;
   film.mesh_normals = parts.mesh_normals;
   film.mesh_triangles = parts.mesh_triangles;
+  film.mesh_bones = parts.mesh_bones;
+  film.mesh_weights = parts.mesh_weights;
   film.meshlets = parts.meshlets;
   film.shapes = parts.shapes;
   film_block_ = std::make_shared<const std::vector<std::byte>>(wire::pack(film));
@@ -84,6 +86,25 @@ void Moments::put_pulled(wire::FilmData& moment) const {
         moment.segments[segment].shape = static_cast<std::uint32_t>(shapes_.parts.shapes.size());
       ++segment;
     }
+}
+
+std::vector<std::array<float, 3>> Moments::bent_places(std::size_t segment, const wire::Meshlet& meshlet) const {
+  const wire::FilmData& parts = shapes_.parts;
+  std::vector<glm::dvec3> sums(meshlet.vertex_count, glm::dvec3(0));
+  const float* weights = parts.mesh_weights.data() + meshlet.first_weight;
+  for (std::uint32_t i = 0; i < meshlet.bone_count; ++i, weights += meshlet.vertex_count) {
+    const auto& m = bone_of(now_->segments[segment], parts.mesh_bones[meshlet.first_bone + i]).m;
+    for (std::size_t vertex = 0; vertex < sums.size(); ++vertex) {
+      const auto& from = parts.mesh_places[meshlet.first_vertex + vertex];
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto& row = m[static_cast<std::size_t>(axis)];
+        sums[vertex][axis] += weights[vertex] * (row[0] * from[0] + row[1] * from[1] + row[2] * from[2] + row[3]);
+      }
+    }
+  }
+  std::vector<std::array<float, 3>> places;
+  for (const glm::dvec3& sum : sums) places.push_back({float(sum.x), float(sum.y), float(sum.z)});
+  return places;
 }
 
 std::span<const wire::Patch> Moments::patches_of(std::size_t segment) const {

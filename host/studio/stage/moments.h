@@ -2,6 +2,7 @@
 // there (host/content/film/moment.h). And the film's shapes, which nodes load once.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -50,6 +51,11 @@ class Moments {
   const wire::FilmData& shapes() const { return shapes_.parts; }
   const std::vector<Owner>& owners() const { return owners_; }  // of now()'s segments
   const wire::Matrix& matrix_of(std::size_t segment) const { return now_->matrices[segment]; }
+  const wire::Matrix& bone_of(const wire::Segment& segment, std::size_t bone) const {
+    return now_->matrices[now_->changes[now_->bones[segment.first_bone + bone].first].value];
+  }
+  // Of a segment with a skin, where the vertices of a meshlet of its shape are in the world.
+  std::vector<std::array<float, 3>> bent_places(std::size_t segment, const wire::Meshlet& meshlet) const;
   // The patches of a segment's shape, wherever they are.
   std::span<const wire::Patch> patches_of(std::size_t segment) const;
   // What moves or is a model; else figures; else everything. Of a film that is not shown the ball of one unit.

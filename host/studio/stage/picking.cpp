@@ -85,6 +85,19 @@ class NearestHit {
     for (std::uint32_t i = 0; i < shape.meshlet_count; ++i) look(shapes_.meshlets[shape.first_meshlet + i], ray);
   }
 
+  // A segment with a skin; the ray is in the world.
+  void look_at_skin(std::size_t segment, const Ray& ray) {
+    segment_ = segment;
+    const wire::Shape& shape = shapes_.shapes[moments_.now().segments[segment].shape];
+    for (std::uint32_t i = 0; i < shape.meshlet_count; ++i) {
+      const wire::Meshlet& meshlet = shapes_.meshlets[shape.first_meshlet + i];
+      const std::vector<Point> places = moments_.bent_places(segment, meshlet);
+      Bounds box;
+      for (const Point& place : places) box.add(place);
+      if (const auto from = entry(ray, box); from && *from < part_) look(meshlet, places.data(), ray);
+    }
+  }
+
   double part() const { return part_; }
   std::optional<std::size_t> segment() const { return nearest_; }
 
@@ -108,7 +121,10 @@ class NearestHit {
     box.add(meshlet.high);
     const auto from = entry(ray, box);
     if (!from || *from >= part_) return;
-    const Point* const points = &shapes_.mesh_places[meshlet.first_vertex];
+    look(meshlet, &shapes_.mesh_places[meshlet.first_vertex], ray);
+  }
+
+  void look(const wire::Meshlet& meshlet, const Point* points, const Ray& ray) {
     for (std::uint32_t i = 0; i < meshlet.triangle_count; ++i) {
       const wire::MeshTriangle& triangle = shapes_.mesh_triangles[meshlet.first_triangle + i];
       take(distance_to_triangle(ray, points[triangle[0]], points[triangle[1]], points[triangle[2]]));
@@ -165,6 +181,10 @@ std::optional<Hit> first_hit(const Moments& moments, const Ray& ray,
   const std::size_t segments = moments.now().segments.size();
   for (std::size_t segment = 0; segment < segments; ++segment) {
     if (!counts(segment)) continue;
+    if (moments.now().segments[segment].bone_count > 0) {
+      nearest.look_at_skin(segment, ray);
+      continue;
+    }
     const auto ray_in_cube = in_cube(ray, moments.matrix_of(segment));
     if (!ray_in_cube) continue;
     const auto from = entry(*ray_in_cube, {glm::dvec3(-0.5), glm::dvec3(1.5)});
