@@ -91,10 +91,11 @@ class Rendered(VideoTest):
         """Of videos and frames: nothing in them is a pattern, an address or an option."""
         film = self.write("film.json", a_film(3))
         (self.folder / "a#b?c'd").mkdir()
-        for name, *words in [["b%d.mp4"], ["b##.mp4", "--name", "-x_####"], ["a#b?c'd/e%20.mp4"], ["n.mp4", "--name", "shot_##"]]:
+        for name, *words in [["b%d.mp4", "--name", "shot_##"], ["b##.mp4", "-o", "a#b?c'd/e%20.mp4", "--name", "-x_####"]]:
             self.render(film, "-o", name, *words)
+        for name in ["b%d.mp4", "b##.mp4", "a#b?c'd/e%20.mp4"]:
             self.assertEqual(self.probe(name)["nb_read_frames"], "3")
-        self.assertEqual(self.left(), ["a#b?c'd", "b##.mp4", "b%d.mp4", "film.json", "n.mp4"])
+        self.assertEqual(self.left(), ["a#b?c'd", "b##.mp4", "b%d.mp4", "film.json"])
 
     def test_every_other_frame(self):
         """The video takes as long as the film."""
@@ -106,7 +107,7 @@ class Rendered(VideoTest):
 
     def test_short_gifs(self):
         """Of fast films: at least one picture."""
-        for rate, frames in [(120, "0"), (1000, "0-5"), (1000, "0"), (50, "0")]:
+        for rate, frames in [(120, "0"), (1000, "0-5")]:
             film = self.write("film.json", a_film(6, rate=rate))
             self.render(film, "-o", "film.gif", "--frames", frames)
             self.assertEqual(self.probe("film.gif")["nb_read_frames"], "1", (rate, frames))
@@ -120,23 +121,23 @@ class Rendered(VideoTest):
 
     def test_pictures_are_the_frames(self):
         """In their order, with the right colours: flat ones within 2 levels; lossless ones exactly."""
-        film = self.write("film.json", a_film(8, (160, 90), rate=29.97))
+        film = self.write("film.json", a_film(4, (160, 90), rate=29.97))
         self.render(film, "-o", "out", "-o", "film.mp4", "-o", "film.webm", "-o", "film.apng", "-o", "film.gif", "--write", "nodes",
                     "--nodes", "3", "--groups", "2")
         frames = self.frames("out")
-        self.assertEqual(len(frames), 8)
+        self.assertEqual(len(frames), 4)
         self.assertEqual(self.decoded("film.apng"), frames)
         for name in ["film.mp4", "film.webm"]:
             shown = self.decoded(name)
-            self.assertEqual(len(shown), 8, name)
-            self.assertEqual(self.probe(name)["r_frame_rate"], "30000/1001", name)
+            self.assertEqual(len(shown), 4, name)
+            self.assertEqual(self.streams["video"]["r_frame_rate"], "30000/1001", name)
             for number, (picture, frame) in enumerate(zip(shown, frames)):
                 error = sum((a - b) ** 2 for row, other in zip(picture, frame) for a, b in zip(row, other)) / (3 * 160 * 90)
                 self.assertLess(error, 65025 / 10 ** 3, f"{name}, frame {number}: less than 30 dB")
                 for x in [6, 32, 63, 96]:  # the ground and three boxes, away from edges
                     here, there = picture[45][3 * x:3 * x + 3], frame[45][3 * x:3 * x + 3]
                     self.assertLessEqual(max(abs(a - b) for a, b in zip(here, there)), 2, (name, number, x, *here, *there))
-        self.assertEqual(self.probe("film.gif")["nb_read_frames"], "8")
+        self.assertEqual(self.probe("film.gif")["nb_read_frames"], "4")
         self.assertEqual(self.left(), ["film.apng", "film.gif", "film.json", "film.mp4", "film.webm", "out"])
 
     def test_odd_sizes(self):
@@ -192,12 +193,13 @@ class Rendered(VideoTest):
         self.render(film, "-o", "light", "--format", "exr")
         for folder in ["out", "light"]:
             self.succeed("mars", "play", folder, "-o", f"{folder}.apng")
-        self.assertEqual(self.decoded("out.apng"), self.frames("out"))
+        shown = self.decoded("out.apng")
+        self.assertEqual(shown, self.frames("out"))
         near = zip(self.decoded("light.apng"), self.frames("out"))
         self.assertLessEqual(max(abs(a - b) for one, other in near for row, same in zip(one, other) for a, b in zip(row, same)), 1,
                              "exposed as the film says")
         self.succeed("mars", "play", "light", "-o", "dark.apng", "--exposure", "-3", "--curve", "none")
-        self.assertLess(sum(map(sum, self.decoded("dark.apng")[0])), sum(map(sum, self.decoded("out.apng")[0])) / 2)
+        self.assertLess(sum(map(sum, self.decoded("dark.apng")[0])), sum(map(sum, shown[0])) / 2)
         (self.folder / "light/film.mars").unlink()
         self.fail_clearly(1, "play", "light", "-o", "b.mp4", says="--exposure 0 --curve filmic")
 
