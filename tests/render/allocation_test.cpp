@@ -106,7 +106,7 @@ TEST(Allocation, NoneWithLayers) {
     return wire::with_layers(wire::PixelFormat::half, wire::kAllLayers, samples);
   };
   expect_none_in_steady_state(crowd(64, 36, 600, 3), nullptr, layered(1));
-  expect_none_in_steady_state(casting(with_samples(overhead(64, 36, 600, 3), 4), {0, 0}), nullptr, layered(4));
+  expect_none_in_steady_state(with_samples(crowd(64, 36, 600, 3), 4), nullptr, layered(4));
 }
 
 TEST(Allocation, NoneWhereTheRunIsTraced) {
