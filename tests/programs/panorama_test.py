@@ -2,6 +2,7 @@
 a rendering goes on where it stopped."""
 
 import json
+import shutil
 import signal
 import subprocess
 
@@ -36,16 +37,17 @@ class Panoramas(ProgramTest):
 
     def test_files_are_the_same_for_every_division(self):
         film = self.write("film.json", a_film())
-        for form in [[], ["--format", "exr", "--alpha"], ["--format", "png16"]]:
+        host, nodes = ["--nodes", 3], ["--nodes", 3, "--groups", 1, "--write", "nodes"]
+        for form, ways in [([], [host]), (["--format", "exr", "--alpha"], [host, nodes]), (["--format", "png16"], [nodes])]:
             self.render(film, "alone", *form, "--nodes", 1, "--no-coherence")
             self.assertEqual(len(self.files("alone")), 4)
-            for how in [["--nodes", 3], ["--nodes", 3, "--groups", 1, "--write", "nodes"]]:
+            for how in ways:
                 self.render(film, "out", *form, *how)
                 self.assertEqual(self.files("out"), self.files("alone"), (form, how))
                 self.assertIn("4 frames, all there and whole", self.succeed("mars", "verify", "out"))
                 self.assertEqual(self.left(), ["alone", "film.json", "out"], "no faces are left")
-                self.run_program("rm", "-r", "out")
-            self.run_program("rm", "-r", "alone")
+                shutil.rmtree(self.folder / "out")
+            shutil.rmtree(self.folder / "alone")
 
     def test_the_box_goes_round(self):
         """It is ahead, then to the right, behind and to the left."""
@@ -83,7 +85,7 @@ class Panoramas(ProgramTest):
 
     def test_a_stopped_run_goes_on_with_its_faces(self):
         film = self.write("film.json", a_film(40))
-        self.render(film, "whole", "--frames", "0-39")
+        self.render(film, "whole")
         words = ["render", film, "-o", "out", *THREADS]
         process = subprocess.Popen([str(PROGRAMS / "mars"), *map(str, words)], cwd=self.folder, env=ENVIRONMENT,
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE)
@@ -134,10 +136,9 @@ class Panoramas(ProgramTest):
     @needs("ffmpeg", "ffprobe")
     def test_a_video_alone(self):
         film = self.write("film.json", a_film())
-        self.render(film, "film.mp4")
+        self.render(film, "film.mp4", "--frames", "0-1")
         self.assertEqual(self.left(), ["film.json", "film.mp4"])
-        self.assertIn("4 frames of film.json (0-3), 64x32", self.succeed("mars", "verify", "film.mp4"))
-        self.assertIn("film.mp4 is there already", self.render(film, "film.mp4"))
+        self.assertIn("film.mp4 is there already", self.render(film, "film.mp4", "--frames", "0-1"))
 
 
 if __name__ == "__main__":

@@ -112,11 +112,12 @@ std::uint32_t version_of(const Record& record) {
   return version;
 }
 
-// An older MARS would render under other names.
+// An older MARS would render under other names, or other pictures.
 std::uint32_t version_for(const Manifest& manifest) {
-  constexpr std::uint32_t kOfPlainForms = 3, kOfWholePictures = 4;
-  if (manifest.place != images::PicturePlace() || !manifest.view.empty()) return kManifestVersion;
-  return form_of(manifest) == FrameForm{images::without_alpha(manifest.format)} ? kOfPlainForms : kOfWholePictures;
+  constexpr std::uint32_t kOfPlainForms = 3, kOfNames = 4;
+  if (manifest.place != images::PicturePlace() || !manifest.view.empty() || manifest.layers != 0)
+    return kManifestVersion;
+  return form_of(manifest) == FrameForm{images::without_alpha(manifest.format)} ? kOfPlainForms : kOfNames;
 }
 
 void add_place(const images::PicturePlace& place, json& text) {
@@ -218,14 +219,15 @@ images::ViewName view_of(const json& list) {
   return {text(0), text(1), text(2), text(3), text(4)};
 }
 
-}  // namespace
-
-wire::LayerSet layers_in(const Record& record) try {
+wire::LayerSet layers_in(const Record& record, images::PictureFormat format) try {
   constexpr std::size_t kLongest = 200;
+  if (!images::is_exr(format)) throw Failure("PNG files have no layers", "", "");
   return images::layers_in(record.text("layers", kLongest));
 } catch (const Failure&) {
   refuse_value("layers", record.value("layers"), "layers of EXR files");
 }
+
+}  // namespace
 
 FrameForm form_of(const Record& record) {
   constexpr std::size_t kLongestName = 16, kLongestPattern = 1000;
@@ -240,7 +242,7 @@ FrameForm form_of(const Record& record) {
     if (!compression) refuse_value("compression", record.value("compression"), "a compression of EXR files");
     form.compression = *compression;
   }
-  if (record.has("layers")) form.layers = layers_in(record);
+  if (record.has("layers")) form.layers = layers_in(record, form.format);
   if (record.has("names")) {
     form.names.pattern = record.text("names", kLongestPattern);
     if (images::frame_pattern(form.names.pattern) != form.names.pattern)

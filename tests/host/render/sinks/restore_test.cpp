@@ -255,6 +255,16 @@ TEST(Restore, KeysOfLaterProgramsAreKept) {
   EXPECT_EQ(text.at("pixel_version"), wire::kPixelVersion);
 }
 
+TEST(Restore, LayersAreOfExrFilesAndOfThisVersion) {
+  Manifest layered = small_manifest();
+  layered.format = images::PictureFormat::exr;
+  layered.layers = wire::set_of(wire::Layer::depth);
+  EXPECT_EQ(to_json(layered).at("version"), 5) << "an older program would add frames without layers";
+  EXPECT_EQ(manifest_of(to_json(layered)), layered);
+  layered.format = images::PictureFormat::png;
+  EXPECT_NE(document::failure_of([&] { manifest_of(to_json(layered)); }), "");
+}
+
 TEST(Restore, ALaterVersionIsRefusedAndNotMended) {
   const TemporaryFolder folder;
   fill(folder.path(), small_manifest(), 7);
