@@ -21,8 +21,8 @@ class Record;
 
 // Of the file. 1, which files without the key have: they have no key but those known then. 2: with a sum over all other
 // keys, and a pixel version. 3: frames may have hashes of bands (pixel_hash.h). 4, written only where it is needed:
-// files may have other names, or another compression. 5, where that is needed: files may have a part of the picture, pixels
-// that are not square, a view of OpenColorIO, or layers.
+// files may have other names, or another compression. 5, where that is needed: files may have a part of the picture,
+// pixels that are not square, a view of OpenColorIO, or layers.
 inline constexpr std::uint32_t kManifestVersion = 5;
 
 // A file that was read to compile a film.
