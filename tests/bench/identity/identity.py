@@ -107,12 +107,13 @@ def output(path):
     if projection == "panorama":
         if choose.random() < 0.5:
             return []
-        words, is_exr, width, height = ["--faces", *([] if is_exr else ["--format", "exr"])], True, width // 4, width // 4
+        words, is_exr = ["--faces", *([] if is_exr else ["--format", "exr"])], True
     if projection == "perspective" and film["camera"].get("interaxial"):
         words += ["--eye", choose.choice(["left", "right"])]
     if is_exr and choose.random() < 0.7:
         words += ["--layers", choose.choice(["all", "depth,motion", "ids", "normal,unshadowed"])]
-    return words + (part(choose, width, height) if choose.random() < 0.35 else [])
+    has_part = projection != "panorama" and choose.random() < 0.35
+    return words + (part(choose, width, height) if has_part else [])
 
 
 class Refused(RuntimeError):
