@@ -10,17 +10,6 @@ namespace mars::videos {
 
 using nlohmann::json;
 
-std::string text_of(const Mark& mark) {
-  const json text{{"mars", 1},
-                  {"film", mark.film},
-                  {"recipe", mark.recipe},
-                  {"frames", film::FrameSet(mark.frames).text()},
-                  {"film_frames", mark.film_frames},
-                  {"rate", mark.rate},
-                  {"size", {mark.width, mark.height}}};
-  return text.dump(-1, ' ', true, json::error_handler_t::replace);
-}
-
 namespace {
 
 std::uint32_t side_of(const json& number) {
@@ -31,6 +20,17 @@ std::uint32_t side_of(const json& number) {
 }
 
 }  // namespace
+
+std::string text_of(const Mark& mark) {
+  const json text{{"mars", 1},
+                  {"film", mark.film},
+                  {"recipe", mark.recipe},
+                  {"frames", film::FrameSet(mark.frames).text()},
+                  {"film_frames", mark.film_frames},
+                  {"rate", mark.rate},
+                  {"size", {mark.width, mark.height}}};
+  return text.dump(-1, ' ', true, json::error_handler_t::replace);
+}
 
 std::optional<Mark> mark_of(const std::string& text) try {
   constexpr std::size_t kLongest = 1 << 16;

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What each kind of output costs: a film is rendered to frames of each format, with and without alpha and layers, and
 to videos of each kind and codec, and to nothing. For each output: seconds from start to end, frames a second, bytes
-of all its files, processor seconds of all processes, and how many of these the rendering alone does not take. The
+of all its files, processor seconds of all processes, and how many more than the rendering alone takes. The
 best of all rounds counts, in which outputs take turns. Words after -- go to mars render."""
 import argparse
 import collections
