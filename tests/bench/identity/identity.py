@@ -111,7 +111,8 @@ def output(path):
     if projection == "perspective" and film["camera"].get("interaxial"):
         words += ["--eye", choose.choice(["left", "right"])]
     if is_exr and choose.random() < 0.7:
-        words += ["--layers", choose.choice(["all", "depth,motion", "ids", "normal,unshadowed"])]
+        of_any = ["ids", "normal,unshadowed", "depth"]  # faces have no motion
+        words += ["--layers", choose.choice(of_any if "--faces" in words else [*of_any, "all", "depth,motion"])]
     has_part = projection != "panorama" and choose.random() < 0.35
     return words + (part(choose, width, height) if has_part else [])
 

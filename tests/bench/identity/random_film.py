@@ -244,7 +244,10 @@ class RandomFilm:
             height = choose.randint(2, 16)
             self.json["size"] = [2 * height, height]
         if kind == "eyes" and "projection" not in camera:
-            camera.update(interaxial=round(choose.uniform(0.01, 0.5), 3), convergence=round(choose.uniform(1, 8), 3))
+            width, height = self.json["size"]
+            convergence = round(choose.uniform(1, 8), 3)
+            apart = choose.uniform(0.002, 0.05) * convergence * width / height  # shifts that every field of view allows
+            camera.update(interaxial=round(apart, 4), convergence=convergence)
         if kind == "pixels":
             self.json["pixel_aspect"] = choose.choice([0.5, 1.25, 2, round(choose.uniform(0.1, 8), 3)])
 
