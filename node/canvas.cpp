@@ -22,6 +22,7 @@ Canvas::Canvas(const wire::PackedFilm& film, const raster::Neighbours& neighbour
       still_bytes(film.settings().height),
       wanted_lines(film.settings().height),
       wanted_still_lines(film.settings().height) {
+  if (has_layers) surfaces.emplace(scene);
   if (scene.casting_count() > 0)
     shadows.emplace(set, scene, shadow::plan_shadows(shadow::shadow_needs(film, has_layers), memory.shadows),
                     has_layers);

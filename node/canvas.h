@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "node/geometry/scene.h"
+#include "node/geometry/surface_view.h"
 #include "node/geometry/sweep.h"
 #include "node/group/exchange.h"
 #include "node/group/group_sums.h"
@@ -34,7 +35,8 @@ struct Canvas {
 
   geometry::Scene scene;
   raster::ZBuffer z_buffer;
-  std::optional<shadow::ShadowPainter> shadows;  // where lights cast
+  std::optional<geometry::SurfaceView> surfaces;  // of pictures with layers
+  std::optional<shadow::ShadowPainter> shadows;   // where lights cast
   raster::StillLines still;
   group::GroupSums sums;
   group::TriangleExchange triangle_exchange;

@@ -130,6 +130,7 @@ void Firmware::load() {
   }
   gsync();
   film_.emplace(block, "film", true);
+  if (load.live == 0) wire::check_pixels(load.pixel_format, film_->settings().samples);
   if (load.orders > 0) {
     if (!make_frame_writer_) throw Failure("this node writes no files", name_, "use --write host");
     frame_writer_ = make_frame_writer_(*film_, orders);

@@ -9,7 +9,6 @@
 #include "hal/nx/nx_messages.h"
 #include "node/charges.h"
 #include "node/color/encoding.h"
-#include "node/geometry/surface_view.h"
 #include "node/group/mapping.h"
 #include "node/shading/shading_of.h"
 
@@ -317,9 +316,10 @@ void Renderer::draw_lines(const geometry::LineRange& lines, const group::Pass& p
   if (file_ && pass.number == 0) begin_writing();
   if (!contributes()) return finish_exchange(pass);
   shading::Shading shading = this->shading();
-  std::optional<geometry::SurfaceView> surfaces;
-  if (wire::layers_of(pixel_format_) != 0)
-    shading.surfaces = &surfaces.emplace(scene(), report_.strip().frame, has_layer(pixel_format_, wire::Layer::motion));
+  if (canvas_->surfaces) {
+    canvas_->surfaces->set_frame(report_.strip().frame, has_layer(pixel_format_, wire::Layer::motion));
+    shading.surfaces = &*canvas_->surfaces;
+  }
   prepared_ = {lines.first, lines.first};
   if (canvas_->shadows) canvas_->shadows->begin(picture(shading), [this] { heartbeat_.look(); });
   const bool constant = report_.is_keyframe() && raster::any_stationary(parts_, lines);

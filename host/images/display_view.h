@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -56,6 +57,9 @@ class DisplayView {
 
 // Throws Failure where the config cannot be read or has no such view, display or input.
 std::shared_ptr<const DisplayView> open_view(const ViewWish& wish);
+
+// The version of OpenColorIO, as "2.1.2"; none: MARS was built without it.
+std::optional<std::string> view_library_version();
 
 // Pixels of PixelFormat::half or, where `format` has alpha, half_alpha, their light times `exposure`, as pixels of
 // `format`: rgb8, rgb16, rgba8 or rgba16, with straight colours.

@@ -8,4 +8,6 @@ std::shared_ptr<const DisplayView> open_view(const ViewWish& wish) {
                 "install libopencolorio-dev (./bootstrap does) and build again, or leave out --ocio");
 }
 
+std::optional<std::string> view_library_version() { return std::nullopt; }
+
 }  // namespace mars::images

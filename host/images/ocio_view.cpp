@@ -101,4 +101,6 @@ std::shared_ptr<const DisplayView> open_view(const ViewWish& wish) {
   }
 }
 
+std::optional<std::string> view_library_version() { return OCIO::GetVersion(); }
+
 }  // namespace mars::images

@@ -4,7 +4,9 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "hal/failure/failure.h"
 #include "host/content/document/text.h"
+#include "node/wire/pixel_format.h"
 
 namespace mars::images {
 namespace {
@@ -45,6 +47,8 @@ std::uint32_t matte_id(std::string_view name) {
 }
 
 SurfaceNames::SurfaceNames(const wire::PackedFilm& film) {
+  if (film.segments().size() > wire::kMostSurfaceSegments)
+    throw Failure("has more segments than the layer ids can tell apart", "", "name other layers");
   for (const wire::Segment& segment : film.segments()) {
     const std::string_view joint = film.name(segment);
     const std::array<std::string_view, kMattes.size()> names{actor_of(joint), joint, film.material_name(segment)};

@@ -26,6 +26,7 @@ std::uint32_t murmur_hash3(std::string_view text);
 
 class SurfaceNames {
  public:
+  // Throws Failure where the film has more than wire::kMostSurfaceSegments.
   explicit SurfaceNames(const wire::PackedFilm& film);
 
   std::size_t segments() const { return ids_.size(); }

@@ -95,11 +95,14 @@ std::array<float, 2> parts_near(const Float3& place, const Float3& a, const Floa
 
 }  // namespace
 
-SurfaceView::SurfaceView(const Scene& scene, std::uint32_t frame, bool motion)
-    : scene_(scene), frame_(frame), before_(scene.projection()) {
-  const auto& to_eye = scene.camera().world_to_eye.m;
+void SurfaceView::set_frame(std::uint32_t frame, bool motion) {
+  const auto& to_eye = scene_.camera().world_to_eye.m;
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (std::size_t row = 0; row < 3; ++row) to_world_[axis][row] = static_cast<float>(to_eye[row][axis]);
+  frame_ = frame;
+  bent_.patch.reset();
+  ways_.clear();
+  still_has_moved_ = false;
   if (motion && frame > 0) find_ways(frame);
 }
 

@@ -15,8 +15,11 @@ namespace mars::geometry {
 
 class SurfaceView {
  public:
-  // Of the frame that the scene is at, which outlives it. `motion`: whether points have theirs.
-  SurfaceView(const Scene& scene, std::uint32_t frame, bool motion);
+  // `scene` outlives it.
+  explicit SurfaceView(const Scene& scene) : scene_(scene) {}
+
+  // The frame that the scene is at. `motion`: whether points have theirs.
+  void set_frame(std::uint32_t frame, bool motion);
 
   // What a sample of the triangle shows; x, y in 1/256 pixel.
   wire::SurfacePoint at(const Triangle& triangle, std::int32_t x, std::int32_t y) const;
@@ -52,9 +55,9 @@ class SurfaceView {
   const wire::Meshlet& meshlet_of(std::uint32_t patch, std::uint32_t segment) const;
 
   const Scene& scene_;
-  std::uint32_t frame_;
-  float to_world_[3][3];
-  shape::Projection before_;
+  std::uint32_t frame_ = 0;
+  float to_world_[3][3]{};
+  shape::Projection before_{};
   std::vector<Way> ways_;  // by segment; none: nothing has moved
   bool still_has_moved_ = false;
   mutable Bent bent_;  // of the point that was asked for last

@@ -49,10 +49,10 @@ NeighboursMemory::NeighboursMemory(const Neighbours& neighbours, std::size_t byt
 
 void NeighboursMemory::prefer_large_pages() {
   if (replica_ != nullptr) return;
-  if (own_.bytes().empty())
-    shared_->prefer_large_pages();
-  else
+  if (!own_.bytes().empty())
     own_.prefer_large_pages();
+  else if (shared_)
+    shared_->prefer_large_pages();
 }
 
 }  // namespace mars::raster

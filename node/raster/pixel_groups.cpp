@@ -104,9 +104,9 @@ void PixelGroups::gather_layers(const shading::Shading& shading, std::uint32_t l
 void PixelGroups::add_up(const shading::Shading& shading, std::uint32_t line, bool with_motion) {
   gather_layers(shading, line, with_motion);
   if (!unshadowed_[0].empty()) {
-    const std::vector<std::uint32_t> masks(masks_.begin(), masks_.begin() + count());
+    kept_masks_.assign(masks_.begin(), masks_.begin() + count());
     kernels_.add_groups(groups(), counts_, samples_, light_of(unshadowed_));
-    std::ranges::copy(masks, masks_.begin());
+    std::ranges::copy(kept_masks_, masks_.begin());
   }
   kernels_.add_groups(groups(), counts_, samples_, light());
 }

@@ -85,8 +85,9 @@ class PixelGroups {
   GroupCounts counts_{};
   // Of pictures with layers.
   LayerPixels layers_;
-  bool has_layers_ = false;  // of the groups in hand
-  Channels unshadowed_;      // empty where it is light_
+  bool has_layers_ = false;                // of the groups in hand
+  Channels unshadowed_;                    // empty where it is light_
+  std::vector<std::uint32_t> kept_masks_;  // while unshadowed_ is summed
 };
 
 }  // namespace mars::raster

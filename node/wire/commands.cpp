@@ -67,15 +67,19 @@ LoadCommand read_load(std::span<const std::byte> message, int nodes, const std::
   require(load.groups >= 1 && load.groups <= nodes, kName, "the number of groups");
   require(load.traced <= 1, kName, "whether to trace");
   require(load.watched <= 1, kName, "whether it is watched");
-  require(is_pixel_format(load.pixel_format, std::max(1u, layered_samples_of(load.pixel_format))), kName,
-          "the format of pixels");
-  require(load.live == 0 || (load.live == 1 && load.groups == 1 && load.traced == 0), kName, "whether views are live");
+  require(is_pixel_format(load.pixel_format, layered_samples_of(load.pixel_format)), kName, "the format of pixels");
+  const bool plain = load.groups == 1 && load.traced == 0 && layers_of(load.pixel_format) == 0;
+  require(load.live == 0 || (load.live == 1 && plain), kName, "whether views are live");
   for (std::int32_t node = 0; node < nodes; ++node) {
     const std::int32_t machine = machines[static_cast<std::size_t>(node)];
     require(machine >= 0 && machine <= node && machines[static_cast<std::size_t>(machine)] == machine, kName,
             "machines");
   }
   return {load, machines, orders};
+}
+
+void check_pixels(PixelFormat format, std::uint32_t samples) {
+  require(is_pixel_format(format, samples), "Load", "the samples of pixels with layers");
 }
 
 void check_machines(std::span<const std::int32_t> machines, int node, int machine, int count) {

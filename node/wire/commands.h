@@ -45,6 +45,9 @@ struct RenderCommand {
 // For one of `nodes` nodes; `receiver` names it in a failure: "n3 (node 17)".
 LoadCommand read_load(std::span<const std::byte> message, int nodes, const std::string& receiver);
 
+// Whether a film of `samples` a pixel may have pictures of Load's format.
+void check_pixels(PixelFormat format, std::uint32_t samples);
+
 // Of Load's machines, for node `node`, which shares memory with `count` nodes, itself among them, that are on
 // `machine`.
 void check_machines(std::span<const std::int32_t> machines, int node, int machine, int count);

@@ -14,14 +14,14 @@ namespace mars::wire {
 // Half floats may have layers behind them: with_layers() makes such a format, which is none of those named here.
 enum class PixelFormat : std::uint32_t { rgb8, rgb16, half, rgba8, rgba16, half_alpha };
 
-// Layers lie behind the colours in this order, each where there is any.
-//   depth       one float: the distance along the view axis of the nearest group of samples, kNoDepth where there is
-//   none normal      three halves and a zero: the mean over all samples of unit normals in the world, 0 where nothing
-//   is seen unshadowed  as the colours without alpha: what they would be if no light were blocked motion      two
-//   floats: the mean over all samples of where their points were in the frame before, seen from where
-//               they are now: pixels to the right, pixels up. 0 in a film's first frame
-//   surfaces    a word for each sample: which segments are seen and by how many samples (surface_word), those with more
-//               samples first, of as many the lower segment; then zeros
+// Layers lie behind the colours in this order, each where there is any:
+// - depth: a float, the distance along the view axis of the nearest group of samples; kNoDepth where there is none.
+// - normal: three halves and a zero, the mean over all samples of unit normals in the world; 0 where nothing is seen.
+// - unshadowed: as the colours without alpha, what they would be if no light were blocked.
+// - motion: two floats, the mean over all samples of where their points were in the frame before, seen from where they
+//   are now, in pixels to the right and up; 0 in a film's first frame.
+// - surfaces: a word for each sample, which segments are seen and by how many samples (surface_word), those with more
+//   samples first, of as many the lower segment; then zeros.
 enum class Layer : std::uint32_t { depth, normal, unshadowed, motion, surfaces };
 inline constexpr std::uint32_t kLayers = 5;
 

@@ -2,6 +2,7 @@
 
 import json
 import os
+import pathlib
 import re
 import shutil
 import signal
@@ -29,6 +30,12 @@ def vase():
                     x, y = -y, x
                 text += f"{x * radius} {y * radius} {z}\n"
     return text
+
+
+def limited(process):
+    """Has mars prepared this process of its own? Its limits come last."""
+    limits = pathlib.Path(f"/proc/{process}/limits").read_text()
+    return not re.search(r"^Max cpu time +unlimited", limits, re.MULTILINE)
 
 
 class Commands(ProgramTest):
@@ -171,6 +178,7 @@ class Commands(ProgramTest):
         self.addCleanup(mars.kill)
         reader = {}
         wait_until(lambda: reader.update(family(mars.pid)) or reader, SECONDS, "no reader")
+        wait_until(lambda: all(limited(each) for each in reader), SECONDS, "the reader does not get ready")
         self.addCleanup(lambda: [os.kill(each, signal.SIGKILL) for each in living(reader)])
         for each in reader:
             os.kill(each, signal.SIGSTOP)

@@ -16,6 +16,7 @@ from harness import wait_until
 
 SPECIAL = {"Escape": 0xff1b, "Left": 0xff51, "Right": 0xff53, "Home": 0xff50, "End": 0xff57}
 KEY_PRESS, KEY_RELEASE = 2, 3
+IGNORED = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p)(lambda display, error: 0)
 
 
 class KeyEvent(ctypes.Structure):
@@ -57,6 +58,7 @@ class Display:
         header = struct.unpack(">25I", self.memory[:100])
         self.at, self.height, self.stride = header[0] + 12 * header[19], header[5], header[12]
         self.library = x11()
+        self.library.XSetErrorHandler(IGNORED)  # Xlib's own ends the program where a window has just gone
         self.client = self.library.XOpenDisplay(self.name.encode())
 
     def end(self):

@@ -33,7 +33,7 @@ class Doctor(ProgramTest):
     def test_a_sound_machine(self):
         printed = self.doctor("--nodes", 2)
         for about in ["MPI", "programs", "processors", "slots", "memory", "/dev/shm", "copies", "user", "TMPDIR",
-                      "ffmpeg", "a start"]:
+                      "ffmpeg", "OpenColorIO", "window", "a start"]:
             self.assertRegex(printed, rf"(?m)^  (ok|note) +{about} ")
         self.assertIn("2 nodes on 1 machine (mpi) booted in", plain(printed))
         self.assertIn("No trouble found", printed)

@@ -3,6 +3,7 @@ ImageMagick, Chromium and OpenEXR's own. Frames have several bands, and a last o
 
 import functools
 import json
+import shutil
 import struct
 import subprocess
 import unittest
@@ -56,6 +57,14 @@ class Readers(ProgramTest):
             self.assertIn(f"{WIDTH} x {HEIGHT} image, {bits}-bit RGB+alpha, non-interlaced", printed)
             self.assertIn("No errors detected", printed)
 
+    @needs("ffmpeg", "pngcheck")
+    def test_pngcheck_finds_no_fault_in_an_animation(self):
+        self.succeed("mars", "render", self.film, "-o", "film.apng", "--size", "64x36", "--backend", "threads", "--quiet")
+        printed = self.succeed("pngcheck", "-v", "film.apng")
+        self.assertIn("64 x 36 image, 24-bit RGB, non-interlaced", printed)
+        self.assertIn("No errors detected", printed)
+        self.assertEqual((printed.count("chunk acTL"), printed.count("chunk fcTL")), (1, 2), printed)
+
     @needs_pillow
     def test_pillow_reads_straight_alpha(self):
         alpha, plain = self.frame("png", "--alpha"), self.frame("png")
@@ -104,6 +113,35 @@ class Readers(ProgramTest):
         printed = self.succeed("exrheader", self.frame("exr", "--alpha", "--compression", "piz"))
         for line in ("A, 16-bit floating-point, sampling 1 1", "compression (type compression): piz"):
             self.assertIn(line, printed)
+
+    @functools.cached_property
+    def layered(self):
+        return self.frame("exr", "--alpha", "--layers", "all", "--size", "64x36")
+
+    @needs("exrheader")
+    def test_openexr_reads_the_header_of_layers(self):
+        ours = [f"{kind}{rank}.{channel}" for kind in ("CryptoActor", "CryptoJoint", "CryptoMaterial")
+                for rank in ("00", "01", "02") for channel in "RGBA"]
+        kinds = {**dict.fromkeys(["R", "G", "B", "A", "N.X", "N.Y", "N.Z", *(f"unshadowed.{c}" for c in "RGB")], "half"),
+                 **dict.fromkeys(["Z", "backward.u", "backward.v", *ours], "float")}
+        for program, line in [("exrheader", {"half": "    {}, 16-bit floating-point, sampling 1 1",
+                                             "float": "    {}, 32-bit floating-point, sampling 1 1"}),
+                              ("exrinfo", {"half": "   '{}': half samp 1 1", "float": "   '{}': float samp 1 1"})]:
+            if not shutil.which(program):
+                continue
+            printed = self.succeed(program, *(["-a"] if program == "exrinfo" else []), self.layered).splitlines()
+            for name, kind in kinds.items():
+                self.assertIn(line[kind].format(name), printed, program)
+            manifests = [text for text in printed if "/manifest" in text and "cryptomatte/" in text]
+            self.assertEqual(len(manifests), 3, program)
+
+    @needs("identify")
+    def test_imagemagick_reads_the_colours_of_layers(self):
+        """Layers beside them neither warn nor change what it sees."""
+        plain = self.frame("exr", "--alpha", "--size", "64x36")
+        seen = [self.succeed("identify", "-regard-warnings", "-format", "%w %h %#", file) for file in (plain, self.layered)]
+        self.assertTrue(seen[0].startswith("64 36 "), seen)
+        self.assertEqual(*seen)
 
     @needs("exrmaketiled")
     def test_openexr_reads_the_same_pixels(self):

@@ -70,7 +70,8 @@ class AllocationLog : public messages::CountingBackend {
   std::vector<long>& log_;
 };
 
-void expect_none_in_steady_state(const wire::FilmData& film, trace::Trace* trace) {
+void expect_none_in_steady_state(const wire::FilmData& film, trace::Trace* trace,
+                                 wire::PixelFormat format = wire::PixelFormat::rgb8) {
   constexpr int kNodes = 3;
   const FilmBlock block(film);
   std::vector<std::vector<long>> logs(kNodes + 1);
@@ -80,6 +81,7 @@ void expect_none_in_steady_state(const wire::FilmData& film, trace::Trace* trace
   options.nodes = kNodes;
   options.work.groups = 1;
   options.farm.trace = trace;
+  options.format = format;
   options.wrap = [&](messages::Backend& inner) {
     return std::make_unique<AllocationLog>(inner, counts, logs[static_cast<std::size_t>(inner.rank())]);
   };
@@ -97,6 +99,14 @@ TEST(Allocation, NoneInSteadyState) { expect_none_in_steady_state(crowd(64, 36, 
 
 TEST(Allocation, NoneWithSamplesInLinearLight) {
   expect_none_in_steady_state(richly_lit(with_samples(crowd(64, 36, 600, 3), 4)), nullptr);
+}
+
+TEST(Allocation, NoneWithLayers) {
+  const auto layered = [](std::uint32_t samples) {
+    return wire::with_layers(wire::PixelFormat::half, wire::kAllLayers, samples);
+  };
+  expect_none_in_steady_state(crowd(64, 36, 600, 3), nullptr, layered(1));
+  expect_none_in_steady_state(with_samples(crowd(64, 36, 600, 3), 4), nullptr, layered(4));
 }
 
 TEST(Allocation, NoneWhereTheRunIsTraced) {

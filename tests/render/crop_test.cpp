@@ -24,11 +24,11 @@ struct Case {
   wire::PixelFormat format = wire::PixelFormat::rgb8;
 };
 
-constexpr std::uint32_t kWidth = 97, kHeight = 61;
+constexpr std::uint32_t kWidth = 65, kHeight = 41;
 
 std::vector<Case> cases() {
-  const wire::FilmData four = with_samples(crowd(kWidth, kHeight, 4, 4), 4);
-  const wire::FilmData shadows = with_samples(overhead(kWidth, kHeight, 4, 4), 4);
+  const wire::FilmData four = with_samples(crowd(kWidth, kHeight, 3, 3), 4);
+  const wire::FilmData shadows = with_samples(overhead(kWidth, kHeight, 2, 2), 4);
   wire::FilmData wide = casting(shadows, {0.4f, 0.3f});
   wide.settings.pixel_aspect = 1.5f;
   return {{"crowd", crowd(kWidth, kHeight, 5, 3)},
@@ -96,8 +96,8 @@ TEST_P(Cropped, HasThePixelsOfTheWholePicture) {
     int nodes;
     const char* simd;
   };
-  for (const Part& part : {Part{Crop{31, 17, 40, 30}, 0, 2, ""}, Part{Crop{0, 0, 50, 61}, 0, 1, "sse2"},
-                           Part{Crop{94, 58, 3, 3}, 5, 3, ""}, Part{{}, 13, 2, ""}}) {
+  for (const Part& part : {Part{Crop{21, 11, 27, 20}, 0, 2, ""}, Part{Crop{0, 0, 33, 41}, 0, 1, "sse2"},
+                           Part{Crop{62, 38, 3, 3}, 5, 3, ""}, Part{{}, 13, 2, ""}}) {
     const wire::FilmData some = part_of(film, part.crop, part.margin);
     const FilmRun run = drawn(some, format, part.nodes, part.simd);
     ASSERT_EQ(run.frames.size(), whole.frames.size());
@@ -157,9 +157,9 @@ TEST(PixelAspect, SqueezesThePicture) {
 
 // A pixel twice as wide shows the mean of two square ones, also where surfaces shine and shadows fall.
 TEST(PixelAspect, ShadesAsSquarePixelsDo) {
-  const wire::FilmData square = with_samples(casting(overhead(160, 90, 1, 1), {0.4f, 0}), 16);
+  const wire::FilmData square = with_samples(casting(overhead(80, 46, 1, 1), {0.4f, 0}), 16);
   wire::FilmData wide = square;
-  wide.settings.width = 80;
+  wide.settings.width = 40;
   wide.settings.pixel_aspect = 2;
   const Pixels one = drawn(wide, wire::PixelFormat::rgb8, 1).frames.at(0);
   const Pixels two = drawn(square, wire::PixelFormat::rgb8, 1).frames.at(0);

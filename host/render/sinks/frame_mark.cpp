@@ -31,6 +31,7 @@ FrameMark mark_of(const json& from) {
   mark.frame = number_in(record, "frame", 0, mark.film_frames - 1);
   mark.rate = record.positive_number("rate");
   mark.form = form_of(record);
+  mark.place = place_of(record);
   mark.pixel_version = number_in(record, "pixel_version", 1, kMostVersion);
   const json& hash = record.value("pixel_hash");
   if (!is_pixel_hash(hash)) refuse_value("pixel_hash", hash, "a hash of pixels");
@@ -48,6 +49,7 @@ std::string text_of(const FrameMark& mark) {
                {"pixel_version", mark.pixel_version},
                {"pixel_hash", mark.pixel_hash}};
   add_form(mark.form, text);
+  add_place(mark.place, text);
   if (!mark.content.empty()) text["content"] = mark.content;
   return text.dump();
 }
@@ -78,8 +80,9 @@ bool is_frame_file(const std::filesystem::path& file) {
 
 FrameMark mark_in(const Manifest& manifest, std::uint32_t frame, const std::string& pixel_hash,
                   const std::string& content) {
-  return {manifest.checksum,      content,   frame, manifest.film_frames, manifest.rate, form_of(manifest),
-          manifest.pixel_version, pixel_hash};
+  return {manifest.checksum, content,           frame,          manifest.film_frames,
+          manifest.rate,     form_of(manifest), manifest.place, manifest.pixel_version,
+          pixel_hash};
 }
 
 images::FileFacts facts_in(const Manifest& manifest, std::uint32_t frame, const std::string& pixel_hash,

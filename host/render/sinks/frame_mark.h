@@ -20,6 +20,7 @@ struct FrameMark {
   std::uint32_t film_frames = 0;  // of the whole film
   double rate = 0;                // frames a second
   FrameForm form{};
+  images::PicturePlace place{};
   std::uint32_t pixel_version = wire::kPixelVersion;
   std::string pixel_hash;
 

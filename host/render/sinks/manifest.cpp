@@ -112,17 +112,12 @@ std::uint32_t version_of(const Record& record) {
   return version;
 }
 
-// An older MARS would render under other names.
+// An older MARS would render under other names, or other pictures.
 std::uint32_t version_for(const Manifest& manifest) {
   constexpr std::uint32_t kOfPlainForms = 3, kOfWholePictures = 4;
-  if (manifest.place != images::PicturePlace() || !manifest.view.empty()) return kManifestVersion;
+  if (manifest.place != images::PicturePlace() || !manifest.view.empty() || manifest.layers != 0)
+    return kManifestVersion;
   return form_of(manifest) == FrameForm{images::without_alpha(manifest.format)} ? kOfPlainForms : kOfWholePictures;
-}
-
-void add_place(const images::PicturePlace& place, json& text) {
-  const wire::PictureWindow& window = place.window;
-  if (!window.is_whole()) text["window"] = {window.left, window.top, window.whole_width, window.whole_height};
-  if (place.pixel_aspect != 1) text["pixel_aspect"] = place.pixel_aspect;
 }
 
 wire::PictureWindow window_of(const json& list) {
@@ -137,11 +132,12 @@ wire::PictureWindow window_of(const json& list) {
           list[3].get<std::uint32_t>()};
 }
 
-images::PicturePlace place_of(const Record& record) {
-  images::PicturePlace place;
-  if (record.has("window")) place.window = window_of(record.list("window"));
-  if (record.has("pixel_aspect")) place.pixel_aspect = static_cast<float>(record.positive_number("pixel_aspect"));
-  return place;
+float pixel_aspect_of(const Record& record) {
+  constexpr double kMost = wire::kMostPixelAspect;
+  const double aspect = record.positive_number("pixel_aspect");
+  if (aspect < 1 / kMost || aspect > kMost)
+    refuse_value("pixel_aspect", record.value("pixel_aspect"), "a number from 1/16 to 16");
+  return static_cast<float>(aspect);
 }
 
 // None has been seen of another program in a file of version 1.
@@ -218,13 +214,27 @@ images::ViewName view_of(const json& list) {
   return {text(0), text(1), text(2), text(3), text(4)};
 }
 
-}  // namespace
-
-wire::LayerSet layers_in(const Record& record) try {
+wire::LayerSet layers_in(const Record& record, images::PictureFormat format) try {
   constexpr std::size_t kLongest = 200;
+  if (!images::is_exr(format)) throw Failure("PNG files have no layers", "", "");
   return images::layers_in(record.text("layers", kLongest));
 } catch (const Failure&) {
   refuse_value("layers", record.value("layers"), "layers of EXR files");
+}
+
+}  // namespace
+
+void add_place(const images::PicturePlace& place, json& text) {
+  const wire::PictureWindow& window = place.window;
+  if (!window.is_whole()) text["window"] = {window.left, window.top, window.whole_width, window.whole_height};
+  if (place.pixel_aspect != 1) text["pixel_aspect"] = place.pixel_aspect;
+}
+
+images::PicturePlace place_of(const Record& record) {
+  images::PicturePlace place;
+  if (record.has("window")) place.window = window_of(record.list("window"));
+  if (record.has("pixel_aspect")) place.pixel_aspect = pixel_aspect_of(record);
+  return place;
 }
 
 FrameForm form_of(const Record& record) {
@@ -240,7 +250,7 @@ FrameForm form_of(const Record& record) {
     if (!compression) refuse_value("compression", record.value("compression"), "a compression of EXR files");
     form.compression = *compression;
   }
-  if (record.has("layers")) form.layers = layers_in(record);
+  if (record.has("layers")) form.layers = layers_in(record, form.format);
   if (record.has("names")) {
     form.names.pattern = record.text("names", kLongestPattern);
     if (images::frame_pattern(form.names.pattern) != form.names.pattern)

@@ -21,8 +21,8 @@ class Record;
 
 // Of the file. 1, which files without the key have: they have no key but those known then. 2: with a sum over all other
 // keys, and a pixel version. 3: frames may have hashes of bands (pixel_hash.h). 4, written only where it is needed:
-// files may have other names, or another compression. 5, where that is needed: files may have a part of the picture, or
-// pixels that are not square.
+// files may have other names, or another compression. 5, where that is needed: files may have a part of the picture,
+// pixels that are not square, a view of OpenColorIO, or layers.
 inline constexpr std::uint32_t kManifestVersion = 5;
 
 // A file that was read to compile a film.
@@ -100,6 +100,9 @@ std::vector<std::string> words_of(const FrameForm& form);
 void add_form(const FrameForm& form, nlohmann::json& text);
 // The format is PNG where there is none, as of frames that were rendered before there were others.
 FrameForm form_of(const Record& record);
+// The keys window and pixel_aspect, where they are not as by default.
+void add_place(const images::PicturePlace& place, nlohmann::json& text);
+images::PicturePlace place_of(const Record& record);
 
 std::string frame_file_name(const Manifest& manifest, std::uint32_t frame);
 // Whose file has this name; none where no frame's has.

@@ -80,6 +80,7 @@ std::optional<Manifest> manifest_of(const std::vector<File>& files, const fs::pa
   manifest.checksum = first.film;
   manifest.width = image.width;
   manifest.height = image.height;
+  manifest.place = first.place;
   manifest.rate = first.rate;
   manifest.film_frames = first.film_frames;
   return manifest;

@@ -51,9 +51,8 @@ std::uint32_t Display::shown_light(std::uint64_t pixel) const {
 }
 
 void Display::show(std::span<const std::uint32_t> words, std::uint32_t* pixels) const {
-  const auto of_pairs = [&](auto shown) {
-    for (std::size_t at = 0; at < words.size(); at += wire::pixel_words(format_))
-      *pixels++ = shown(pixel_at(&words[at]));
+  const auto of_pairs = [&, step = wire::pixel_words(format_)](auto shown) {
+    for (std::size_t at = 0; at < words.size(); at += step) *pixels++ = shown(pixel_at(&words[at]));
   };
   switch (wire::without_layers(format_)) {
     case wire::PixelFormat::rgb8:

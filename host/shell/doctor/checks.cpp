@@ -224,10 +224,19 @@ Finding check_video(const Facts& facts) {
   return {State::note, "ffmpeg", "was not found: frames can be rendered, but no videos", "install it (Debian: ffmpeg)"};
 }
 
+Finding check_views(const Facts& facts) {
+  if (facts.view_library) return {State::good, "OpenColorIO", *facts.view_library + ", for --ocio", ""};
+  return {State::note, "OpenColorIO", "MARS was built without it: --ocio is refused",
+          "build MARS with OpenColorIO 2.1 or newer (Debian: libopencolorio-dev)"};
+}
+
 Finding check_window(const Facts& facts) {
   if (!facts.window)
     return {State::note, "window", "mars-window was not found: mars render --window shows nothing",
             "install the package mars-window, or build MARS with SDL 2 (Debian: libsdl2-dev)"};
+  if (!facts.window_lacking.empty())
+    return {State::note, "window", "mars-window lacks " + document::joined(facts.window_lacking),
+            "install it (Debian: libsdl2-2.0-0)"};
   if (facts.display.empty())
     return {State::good, "window", "mars-window is there, but no display (DISPLAY is not set)", ""};
   return {State::good, "window", "mars-window is there, and the display " + facts.display, ""};
@@ -273,6 +282,7 @@ std::vector<Finding> check_machine(const Facts& facts) {
                         "for other machines install ssh (Debian: openssh-client)"});
   }
   findings.push_back(check_video(facts));
+  findings.push_back(check_views(facts));
   findings.push_back(check_window(facts));
   return findings;
 }

@@ -12,6 +12,7 @@
 #include "host/child/child.h"
 #include "host/child/environment.h"
 #include "host/child/programs.h"
+#include "host/images/display_view.h"
 #include "host/window/window_process.h"
 #include "topology/machine.h"
 
@@ -137,7 +138,10 @@ Facts gather_facts(const fs::path& self, std::uint32_t nodes, launch::Ask ask) {
   facts.temporary = child::temporary_folder(environment);
   facts.temporary_space = writable_space(facts.temporary);
   facts.ffmpeg = child::find_program("ffmpeg", path).has_value();
-  facts.window = window::find_program(self).has_value();
+  const std::optional<fs::path> window = window::find_program(self);
+  facts.window = window.has_value();
+  if (window && ask == launch::Ask::programs) facts.window_lacking = lacking_libraries(*window);
+  facts.view_library = images::view_library_version();
   facts.display = environment.value("DISPLAY").value_or(environment.value("WAYLAND_DISPLAY").value_or(""));
   facts.slurm = slurm_job(environment, path, ask);
   facts.nodes = nodes != 0 ? nodes : facts.processors;

@@ -48,8 +48,10 @@ struct Facts {
   std::string temporary;                         // the folder for temporary files
   std::optional<Space> temporary_space;          // none: we may not write there
   bool ffmpeg = false;
-  bool window = false;  // mars-window is there
-  std::string display;  // that the environment names; "": none
+  bool window = false;                      // mars-window is there
+  std::vector<std::string> window_lacking;  // libraries that mars-window needs and this machine has not
+  std::optional<std::string> view_library;  // the version of OpenColorIO; none: MARS was built without it
+  std::string display;                      // that the environment names; "": none
   std::optional<SlurmJob> slurm;
   std::uint32_t nodes = 1;  // of a rendering on this machine
 };

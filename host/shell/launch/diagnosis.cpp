@@ -50,9 +50,7 @@ std::optional<Failure> own_words(const std::deque<std::string>& lines) {
 }
 
 // As mpirun does that was stopped and continued before it knew its daemons.
-bool ended_as_if_done(const Remains& remains) {
-  return remains.ending.well() && !remains.fault && !own_words(remains.last_words);
-}
+bool ended_as_if_done(const Remains& remains) { return remains.ending.well() && !remains.gave_reason(); }
 
 Failure unknown(const Remains& remains) {
   const std::string program = std::filesystem::path(remains.program).stem().string();  // mpirun.mpich is one

@@ -68,8 +68,7 @@ void refuse_parts(const options::RenderOptions& options) {
     throw Failure(problem, options.film, remedy);
   };
   if (options.layers.kinds != 0) refuse("a panorama has no layers", "leave out --layers, or render its --faces");
-  if (options.crop || options.margin != 0)
-    refuse("a panorama is joined whole", "leave out --crop and --margin, or render its --faces");
+  if (options.crop || options.margin != 0) refuse("a panorama is joined whole", "leave out --crop and --margin");
   if (!options.view.config.empty())
     refuse("a panorama is not shown by a view of OpenColorIO",
            "leave out --ocio; or render with --format exr, and then mars play --ocio");

@@ -198,8 +198,10 @@ std::optional<Loss> lost_connection(const std::string& line) {
 }
 
 // "An MPI communication peer process has unexpectedly disconnected. ... Peer host: n2": of a process that died, or
-// behind a link that was down, while others had not all begun. Which end of the connection failed it does not say.
-std::optional<Loss> lost_peer(const std::string& line) {
+// behind a link that was down. Which end of the connection failed it does not say. Connections also break where a
+// process ends for a reason that it gives.
+std::optional<Loss> lost_peer(const Remains& remains, const std::string& line) {
+  if (remains.gave_reason()) return std::nullopt;
   TextReader words(line);
   if (!words.find("peer process has unexpectedly disconnected")) return std::nullopt;
   const auto machine = words.find("Peer host: ") ? words.word() : std::nullopt;
@@ -221,7 +223,7 @@ std::optional<Loss> loss_in_words(const Remains& remains, const std::string& wor
   if (auto loss = lost_task(words)) return loss;
   if (auto loss = lost_daemon(words, remains.ending)) return loss;
   if (auto loss = lost_connection(words)) return loss;
-  return lost_peer(words);
+  return lost_peer(remains, words);
 }
 
 // libevent, in which mpirun waits, warns of what is closed while it ends.

@@ -1,6 +1,7 @@
 // What a job left: the host's events, how its process ended, and its last words on standard error.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -27,6 +28,10 @@ struct Remains {
   events::Progress progress;
   std::string program;  // that was started
 
+  // The host or a node reported why it ends: as an event, or on standard error as our programs do: "mars: ...".
+  bool gave_reason() const {
+    return fault || std::ranges::any_of(last_words, [](const std::string& line) { return line.starts_with("mars: "); });
+  }
   // All its frames are where they belong, though it may have had to be ended.
   bool well() const { return done && (ending.well() || !ended_for.empty()); }
 };

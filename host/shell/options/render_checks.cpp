@@ -82,6 +82,9 @@ void check_layers(const RenderOptions& options) {
     throw Failure("PNG files have no layers", "", "leave out --layers, or add --format exr");
   if (options.compression == images::Compression::pxr24 && (options.layers.kinds & kFloats) != 0)
     throw Failure("the compression pxr24 changes depth, motion and ids", "", "choose another, as --compression zip");
+  if (options.faces && (options.layers.kinds & wire::set_of(wire::Layer::motion)) != 0)
+    throw Failure("faces of a panorama show no motion: the frame before a face's first is another face's", "",
+                  "name other layers: --layers depth,normal,unshadowed,ids");
 }
 
 }  // namespace

@@ -73,7 +73,7 @@ struct RenderOptions {
   ChosenLayers layers{};       // of EXR files
   std::string report;          // file for the measurements; "": none
   std::string trace;           // file for a picture of the run; "": none
-  std::string watch;           // socket of who watches; "": nobody does
+  std::string watch;           // socket of a program that watches; "": none
   bool window = false;         // mars starts a program that watches
   std::uint32_t restarts = 5;  // in a row of a job that dies, if no new frame comes
   bool quiet = false;

@@ -2,16 +2,18 @@
 """mars bench identity: whether films have the same bits however they are rendered. Random films
 (random_film.py) are rendered in several random ways each: over threads, processes and MPI, by 1 to 9
 nodes in any groups and teams, with and without cuts and coherence, by each instruction set, with little memory, by every
-mapping. One way of a film draws it from nothing with one node.
+mapping. One way of a film draws it from nothing with one node. All ways of a film give the same picture: some films in
+layers, with alpha, as faces of a panorama, by one eye of two, or a part of the picture, which is compared with the whole.
 
 Then commands edit each film at random (random_edits.py), and it is rendered in as many ways again. One
 more way renders the edited film into the folder of the film before its edits, where mars render draws
 only the frames that have changed.
 
 For each film, the command prints its seed, its pixels' hash and what it is; for an edited film the
-edits; for a way that gives other pixels the command that shows them. The exit code is 1 if there is
+edits; for a way that gives other files the command that shows them. The exit code is 1 if there is
 one."""
 import argparse
+import hashlib
 import json
 import os
 import pathlib
@@ -19,15 +21,21 @@ import random
 import re
 import shlex
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
 
-from random_edits import random_edit
-from random_film import RandomFilm
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent.parent / "programs"))
+from exr_reader import Exr  # noqa: E402
+from random_edits import random_edit  # noqa: E402
+from random_film import RandomFilm  # noqa: E402
 
 CONTINUED = {"--backend": "threads", "--nodes": "2"}
 PLAIN = {"--backend": "threads", "--nodes": "1", "--no-coherence": None}
+PLAIN_WORDS = ["--backend", "threads", "--nodes", "1"]
+PLAIN_EXR = ["--format", "exr", "--compression", "none"]
+PARTS = ["--crop", "--margin"]  # options of a part of the picture, with their values
 LONGEST = 120  # seconds of one rendering
 
 
@@ -70,6 +78,8 @@ def random_way(choose, mpi, film):
         environment["MARS_SIMD"] = choose.choice(["sse2", "sse4", "avx2", "avx512"])
     if choose.random() < 0.3:
         environment["MARS_MEMORY"] = choose.choice(["24", "32"] if casts(film) else ["1", "2", "8"])  # shadows need some
+    if random.Random(f"writers of {way}").random() < 0.4:  # of its own: ways of a seed stay
+        way["--write"] = "nodes"
     return way, environment
 
 
@@ -78,6 +88,33 @@ def form(path):
     forms = [[], [], ["--alpha"], ["--format", "png16", "--alpha"], ["--format", "exr", "--alpha"],
              ["--format", "exr", "--compression", "piz"], ["--name", "shot_####", "--first-number", "1001"]]
     return random.Random(f"form of {path.stem}").choice(forms)
+
+
+def part(choose, width, height):
+    """A crop of a picture, and a margin around it or around the whole."""
+    left, top = choose.randrange(width), choose.randrange(height)
+    crop = f"{left},{top},{choose.randint(1, width - left)}x{choose.randint(1, height - top)}"
+    return choose.choice([["--crop", crop], ["--crop", crop, "--margin", str(choose.randint(0, max(width, height)))],
+                          ["--margin", str(choose.randint(1, max(width, height)))]])
+
+
+def output(path):
+    """Options of what the film's files show: the same in all ways."""
+    film, choose = json.loads(path.read_text()), random.Random(f"output of {path.stem}")
+    projection = film["camera"].get("projection", "perspective")
+    is_exr, words = "exr" in form(path), []
+    width, height = film["size"]
+    if projection == "panorama":
+        if choose.random() < 0.5:
+            return []
+        words, is_exr = ["--faces", *([] if is_exr else ["--format", "exr"])], True
+    if projection == "perspective" and film["camera"].get("interaxial"):
+        words += ["--eye", choose.choice(["left", "right"])]
+    if is_exr and choose.random() < 0.7:
+        of_any = ["ids", "normal,unshadowed", "depth"]  # faces have no motion
+        words += ["--layers", choose.choice(of_any if "--faces" in words else [*of_any, "all", "depth,motion"])]
+    has_part = projection != "panorama" and choose.random() < 0.35
+    return words + (part(choose, width, height) if has_part else [])
 
 
 class Refused(RuntimeError):
@@ -121,7 +158,7 @@ class Films:
 
     def words(self, path, way, frames="frames"):
         options = [word for name, value in way.items() for word in ([name] if value is None else [name, value])]
-        return ["render", str(path), "-o", str(self.folder / frames), "--quiet", "--force", *form(path), *options]
+        return ["render", str(path), "-o", str(self.folder / frames), "--quiet", "--force", *form(path), *output(path), *options]
 
     def hash(self, path, way, environment, frames="frames"):
         """Of the pixels in the folder `frames`, into which the film is rendered; what is in it stays, except in "frames"."""
@@ -129,6 +166,31 @@ class Films:
             shutil.rmtree(self.folder / frames, ignore_errors=True)
         self.run(self.words(path, way, frames), environment)
         return re.search(r"^pixels \(.*\) (\w+)$", self.run(["verify", str(self.folder / frames)]), re.MULTILINE)[1]
+
+    def content(self, path, way, environment):
+        """That hash of the film, rendered into an empty folder, and a hash of the bytes of its files."""
+        pixels, sum_of_files = self.hash(path, way, environment), hashlib.sha256()
+        for file in self.files("frames"):
+            sum_of_files.update(f"{file.name} {file.stat().st_size} ".encode() + file.read_bytes())
+        return pixels, sum_of_files.hexdigest()
+
+    def files(self, frames):
+        return sorted(file for file in (self.folder / frames).iterdir() if file.suffix in (".png", ".exr"))
+
+    def crops_differ(self, path):
+        """Which frames of a film that is rendered in part are not as that part of the whole picture."""
+        whole, words = [], iter(output(path))
+        for word in words:
+            if word in PARTS:
+                next(words)
+            else:
+                whole.append(word)
+        alpha = [word for word in form(path) if word == "--alpha"]
+        for frames, shown in (("part", output(path)), ("whole", whole)):
+            shutil.rmtree(self.folder / frames, ignore_errors=True)
+            self.run(["render", str(path), "-o", str(self.folder / frames), "--quiet", *alpha, *PLAIN_WORDS, *PLAIN_EXR,
+                      *(word for word in shown if word not in PLAIN_EXR)])
+        return [a.name for a, b in zip(self.files("part"), self.files("whole"), strict=True) if not is_part(Exr(a), Exr(b))]
 
     def edited(self, path, choose, count):
         """Edits the film `count` times. The commands, and the hash of its pixels in the folder of the film before."""
@@ -141,23 +203,37 @@ class Films:
         return commands, self.hash(path, CONTINUED | ({"--overwrite": None} if replaced else {}), {}, "before")
 
 
+def is_part(part, whole):
+    """Whether two files have the same pixels where both have any."""
+    left, top, *_ = struct.unpack("<4i", part.attributes["dataWindow"])
+    first, behind = max(left, 0), min(left + part.width, whole.width)
+    lines = range(max(top, 0), min(top + part.height, whole.height))
+    return part.channels.keys() == whole.channels.keys() and all(
+        part.channels[name][y - top][first - left:behind - left] == whole.channels[name][y][first:behind]
+        for name in whole.channels for y in lines)
+
+
 def shown(words, environment):
     return " ".join([f"{name}={value}" for name, value in (environment or {}).items()] + [shlex.quote(word) for word in words])
 
 
-def described(film):
+def described(path):
+    film = json.loads(path.read_text())
     width, height = film["size"]
     text = f"{width}x{height}, {film['samples']} samples, {film['frames']} frames, {len(film['actors'])} actors"
     lights = f", {len(film['lights'])} lights" if "lights" in film else ""
-    return text + lights
+    return " ".join([text + lights, *output(path)])
 
 
 def compare(films, path, ways):
-    """The pixels' hash of the plain way, and the commands of those that give another."""
-    expected = films.hash(path, PLAIN, {})
+    """The pixels' hash of the plain way, and the commands of those that give another, or other bytes of files; of a film
+    in part, also the command of the plain way if that is no part of the whole picture."""
+    expected = films.content(path, PLAIN, {})
     wrong = [shown(["mars", *films.words(path, way)], environment) for way, environment in ways
-             if films.hash(path, way, environment) != expected]
-    return expected, wrong
+             if films.content(path, way, environment) != expected]
+    if any(word in PARTS for word in output(path)) and (frames := films.crops_differ(path)):
+        wrong.append(f"{shown(['mars', *films.words(path, PLAIN)], {})} is no part of the whole picture in {', '.join(frames)}")
+    return expected[0], wrong
 
 
 def keep(path, name, folder):
@@ -172,7 +248,7 @@ def examine(films, seed, options, mpi):
 
     def examined(name):
         pixels, wrong = compare(films, path, [random_way(choose, mpi, path) for _ in range(options.ways - 1)])
-        print(f"{name:>8}  {pixels}  {described(json.loads(path.read_text()))}", flush=True)
+        print(f"{name:>8}  {pixels}  {described(path)}", flush=True)
         return pixels, wrong
 
     path = films.write(seed)
@@ -197,7 +273,7 @@ def main():
     with tempfile.TemporaryDirectory(prefix="mars-identity-") as folder:
         films = Films(options.build, folder)
         failures = sum(examine(films, seed, options, mpi) for seed in range(options.seed, options.seed + options.films))
-    print(f"{options.films} films in {options.ways} ways each: " + (f"{failures} gave other pixels" if failures else "all alike"))
+    print(f"{options.films} films in {options.ways} ways each: " + (f"{failures} gave other files" if failures else "all alike"))
     sys.exit(1 if failures else 0)
 
 

@@ -44,6 +44,7 @@ class RandomFilm:
         self.add_figure()
         self.add_settings()
         self.add_slopes()
+        self.see_otherwise(random.Random(f"camera of {seed}"))
 
     def chance(self, part):
         return self.random.random() < part
@@ -233,6 +234,22 @@ class RandomFilm:
                 if "place" in key and self.chance(0.2):
                     key["place"] = {"value": key["place"], "ease": "spline", "out": self.place(0.3), "in": self.place(0.3)}
                     self.json["version"] = 2
+
+    # Panoramas, pixels that are not square, eyes of stereo pairs. They have choices of their own: films of a seed stay.
+    def see_otherwise(self, choose):
+        camera = self.json["camera"]
+        kind = choose.choice(["panorama", "eyes", "pixels", "pixels", "", "", "", ""])
+        if kind == "panorama" and "projection" not in camera:
+            camera["projection"] = "panorama"
+            height = choose.randint(2, 16)
+            self.json["size"] = [2 * height, height]
+        if kind == "eyes" and "projection" not in camera:
+            width, height = self.json["size"]
+            convergence = round(choose.uniform(1, 8), 3)
+            apart = choose.uniform(0.002, 0.05) * convergence * width / height  # shifts that every field of view allows
+            camera.update(interaxial=round(apart, 4), convergence=convergence)
+        if kind == "pixels":
+            self.json["pixel_aspect"] = choose.choice([0.5, 1.25, 2, round(choose.uniform(0.1, 8), 3)])
 
     # A figure of the library that does something, and a few edits.
     def add_figure(self):

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""What each kind of output costs: a film is rendered to frames of each format and to videos of each kind and codec, and
-to nothing. For each output: seconds from start to end, frames a second, bytes of all its files, processor seconds of
-all processes, and how many of these the rendering alone does not take. The best of all rounds counts, in which outputs
-take turns. Words after -- go to mars render."""
+"""What each kind of output costs: a film is rendered to frames of each format, with and without alpha and layers, and
+to videos of each kind and codec, and to nothing. For each output: seconds from start to end, frames a second, bytes
+of all its files, processor seconds of all processes, and how many more than the rendering alone takes. The
+best of all rounds counts, in which outputs take turns. Words after -- go to mars render."""
 import argparse
 import collections
 import json
@@ -20,13 +20,17 @@ Run = collections.namedtuple("Run", "seconds processors bytes frames")
 
 NOTHING = Output("nothing", ["--sink", "none"])
 COMPRESSIONS = ["zip", "zips", "piz", "pxr24", "rle", "none"]
+LAYERS = ["depth", "normal", "unshadowed", "motion", "ids", "all"]
 VIDEOS = [("mp4", "h264"), ("mp4", "h265"), ("mp4", "av1"), ("mp4", "vp9"), ("mov", "h264"), ("mov", "prores"),
           ("mkv", "h264"), ("mkv", "ffv1"), ("webm", "vp9"), ("webm", "av1"), ("gif", "gif"), ("apng", "apng")]
 OUTPUTS = [
     NOTHING,
     Output("png", ["-o", "out", "--format", "png"]),
+    Output("png alpha", ["-o", "out", "--format", "png", "--alpha"]),
     Output("png16", ["-o", "out", "--format", "png16"]),
     *(Output(f"exr {each}", ["-o", "out", "--format", "exr", "--compression", each]) for each in COMPRESSIONS),
+    Output("exr alpha", ["-o", "out", "--format", "exr", "--alpha"]),
+    *(Output(f"exr {each}", ["-o", "out", "--format", "exr", "--layers", each]) for each in LAYERS),
     *(Output(f"{ending} {codec}", ["-o", f"out.{ending}", "--codec", codec]) for ending, codec in VIDEOS),
 ]
 
@@ -67,10 +71,10 @@ def best(runs):
 
 def show(runs):
     alone = best(runs[NOTHING.name]).processors
-    print(f"{'output':12} {'seconds':>8} {'frames/s':>9} {'bytes':>12} {'bytes/frame':>12} {'processors':>11} {'beyond':>8}")
+    print(f"{'output':14} {'seconds':>8} {'frames/s':>9} {'bytes':>12} {'bytes/frame':>12} {'processors':>11} {'beyond':>8}")
     for name, each in runs.items():
         seconds, processors, size, frames = best(each)
-        print(f"{name:12} {seconds:8.2f} {frames / seconds:9.1f} {size:12} {size // frames:12} {processors:11.2f} "
+        print(f"{name:14} {seconds:8.2f} {frames / seconds:9.1f} {size:12} {size // frames:12} {processors:11.2f} "
               f"{processors - alone:8.2f}", flush=True)
 
 

@@ -12,8 +12,11 @@ namespace mars::fuzz {
 const Form kForm = Form::bytes;
 
 void take(std::string_view input) {
-  static const std::array<RecordedJob, 2> jobs{RecordedJob(1, wire::PixelFormat::rgb8, false),
-                                               RecordedJob(4, wire::PixelFormat::half, true)};
+  constexpr std::uint32_t kSamples = 2;
+  constexpr auto kLayered = wire::with_layers(wire::PixelFormat::half_alpha, wire::kAllLayers, kSamples);
+  static const std::array<RecordedJob, 3> jobs{RecordedJob(1, wire::PixelFormat::rgb8, false),
+                                               RecordedJob(4, wire::PixelFormat::half, true),
+                                               RecordedJob(kSamples, kLayered, false)};
   Script script(input);
   const RecordedJob& job = jobs[script.below(jobs.size())];
   const auto self = static_cast<int>(script.below(kNodes));

@@ -14,7 +14,12 @@ TEST(Mark, TextsOfOthersAreNone) {
   for (const char* text :
        {"", "a comment", "{}", "[1]", R"({"mars": 2})", R"({"mars": 1, "film": 3})",
         R"({"mars":1,"film":"a","recipe":"","frames":"0-99","film_frames":3,"rate":1,"size":[1,1]})",
-        R"({"mars":1,"film":"a","recipe":"","frames":"0","film_frames":4000000000,"rate":1,"size":[1,1]})"})
+        R"({"mars":1,"film":"a","recipe":"","frames":"0","film_frames":4000000000,"rate":1,"size":[1,1]})",
+        R"({"mars":1,"film":"a","recipe":"","frames":"0","film_frames":1e300,"rate":1,"size":[1,1]})",
+        R"({"mars":1,"film":"a","recipe":"","frames":"0","film_frames":1,"rate":-24,"size":[1,1]})",
+        R"({"mars":1,"film":"a","recipe":"","frames":"0","film_frames":1,"rate":1,"size":[-32,1]})",
+        R"({"mars":1,"film":"a","recipe":"","frames":"0","film_frames":1,"rate":1,"size":[1,0]})",
+        R"({"mars":1,"film":"a","recipe":"","frames":"0","film_frames":1,"rate":1,"size":[1]})"})
     EXPECT_FALSE(mark_of(text)) << text;
 }
 

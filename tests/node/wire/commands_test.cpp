@@ -100,10 +100,27 @@ TEST_F(LoadCommands, WithValuesThatMakeNoSense) {
   EXPECT_TRUE(refused([&] { load_.live = 1; })) << "of two groups";
   EXPECT_TRUE(refused([&] { load_.mapping = static_cast<Mapping>(3); }));
   EXPECT_TRUE(refused([&] { load_.exchange = static_cast<Exchange>(3); }));
+  EXPECT_TRUE(refused([&] { load_.pixel_format = with_layers(PixelFormat::rgb8, kAllLayers, 4); }));
+  EXPECT_TRUE(refused([&] { load_.pixel_format = static_cast<PixelFormat>(4u << 16); })) << "samples of no layers";
+  EXPECT_TRUE(refused([&] {
+    load_.groups = load_.live = 1;
+    load_.pixel_format = with_layers(PixelFormat::half, kAllLayers, 4);
+  })) << "live views have no layers";
   EXPECT_TRUE(refused([&] { machines_[0] = 1; }));
   EXPECT_TRUE(refused([&] { machines_[2] = -1; }));
   EXPECT_TRUE(refused([&] { machines_[2] = 1; })) << "node 1 is on machine 0";
   EXPECT_FALSE(refused([] {}));
+}
+
+// The lists of a pixel's surfaces are as long as the film's pixels have samples.
+TEST(LoadedFilms, HaveAsManySamplesAsTheFormatOfLayersSays) {
+  const auto refused = [](PixelFormat format, std::uint32_t samples) {
+    return !refusal([&] { check_pixels(format, samples); }).empty();
+  };
+  EXPECT_FALSE(refused(PixelFormat::rgb8, 4));
+  EXPECT_FALSE(refused(with_layers(PixelFormat::half_alpha, kAllLayers, 4), 4));
+  EXPECT_TRUE(refused(with_layers(PixelFormat::half, kAllLayers, 1), 4));
+  EXPECT_TRUE(refused(with_layers(PixelFormat::half, kAllLayers, 1000), 4));
 }
 
 // Of a film of intervals 0-1 and 2; node 1 of five, which form two groups: 0-1 and 2-4.

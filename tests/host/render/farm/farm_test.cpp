@@ -171,8 +171,8 @@ void node_without_orders() {
   node.draw_all();
 }
 
-// Each inbetween is whole when all nodes of its team have sent their last strips. Teams take turns; where slow nodes are
-// looked for, a team that this machine holds up may pass its turn on.
+// Each inbetween is whole when all nodes of its team have sent their last strips. Teams take turns; where slow nodes
+// are looked for, a team that this machine holds up may pass its turn on.
 TEST(Farm, GivesInbetweensToTeams) {
   const std::vector<std::vector<std::int32_t>> teams = {{2, 3, 4}, {0, 1}};
   for (const bool adapts : {false, true}) {

@@ -119,6 +119,27 @@ TEST(Restore, RepairGivesTheSameHashInEveryFormat) {
   }
 }
 
+// Programs that compose frames would put them elsewhere, and show them in another shape.
+TEST(Restore, RepairFindsWhichPartOfThePictureFramesAre) {
+  const TemporaryFolder folder;
+  Manifest manifest = in_format(PictureFormat::exr);
+  manifest.place = {{-3, 1, 40, 30}, 2};
+  fill(folder.path(), manifest, 7);
+  fs::remove(folder / kManifestName);
+  repair_manifest(folder.path());
+  EXPECT_EQ(read_manifest(folder.path()).place, manifest.place);
+}
+
+// One that knows no layers would mix frames with and without.
+TEST(Restore, AManifestHasNoPixelsOfImpossibleShape) {
+  for (const double aspect : {1e300, 17.0, 0.05}) {
+    nlohmann::json text = to_json(small_manifest());
+    text["pixel_aspect"] = aspect;
+    text["sum"] = sum_of(text);
+    EXPECT_TRUE(document::holds(document::failure_of([&] { manifest_of(text); }), "pixel_aspect")) << aspect;
+  }
+}
+
 TEST(Restore, RepairFindsFramesOfEveryName) {
   for (const images::FrameNames& names : {images::FrameNames{"shot_##_a", 1001}, {"", 7}}) {
     Manifest manifest = in_format(PictureFormat::exr);
@@ -253,6 +274,16 @@ TEST(Restore, KeysOfLaterProgramsAreKept) {
   EXPECT_EQ(to_json(part).at("version"), 5);
   EXPECT_EQ(manifest_of(to_json(part)), part);
   EXPECT_EQ(text.at("pixel_version"), wire::kPixelVersion);
+}
+
+TEST(Restore, LayersAreOfExrFilesAndOfThisVersion) {
+  Manifest layered = small_manifest();
+  layered.format = images::PictureFormat::exr;
+  layered.layers = wire::set_of(wire::Layer::depth);
+  EXPECT_EQ(to_json(layered).at("version"), 5) << "an older program would add frames without layers";
+  EXPECT_EQ(manifest_of(to_json(layered)), layered);
+  layered.format = images::PictureFormat::png;
+  EXPECT_NE(document::failure_of([&] { manifest_of(to_json(layered)); }), "");
 }
 
 TEST(Restore, ALaterVersionIsRefusedAndNotMended) {

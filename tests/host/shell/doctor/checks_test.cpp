@@ -36,6 +36,7 @@ Facts sound() {
   facts.temporary = "/tmp";
   facts.temporary_space = Space{100 * kGiB, 50 * kGiB};
   facts.ffmpeg = facts.window = true;
+  facts.view_library = "2.1.2";
   facts.display = ":0";
   facts.nodes = 8;
   return facts;
@@ -217,7 +218,15 @@ TEST(Checks, Video) {
   expect(State::note, "ffmpeg", "was not found", "Debian: ffmpeg", [](Facts& f) { f.ffmpeg = false; });
 }
 
+TEST(Checks, Views) {
+  expect(State::good, "OpenColorIO", "2.1.2", "", [](Facts&) {});
+  expect(State::note, "OpenColorIO", "--ocio is refused", "libopencolorio-dev",
+         [](Facts& f) { f.view_library.reset(); });
+}
+
 TEST(Checks, Windows) {
+  expect(State::note, "window", "lacks libSDL2-2.0.so.0", "libsdl2-2.0-0",
+         [](Facts& f) { f.window_lacking = {"libSDL2-2.0.so.0"}; });
   expect(State::note, "window", "was not found", "libsdl2-dev", [](Facts& f) { f.window = false; });
   expect(State::good, "window", "no display", "", [](Facts& f) { f.display.clear(); });
   expect(State::good, "window", "display :0", "", [](Facts&) {});

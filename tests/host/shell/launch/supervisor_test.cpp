@@ -243,6 +243,23 @@ TEST_F(SupervisorOf, AJobThatDoesNotStartForAReasonIsNotStartedAgain) {
   }
 }
 
+TEST_F(SupervisorOf, AReasonThatTheHostGivesIsNoLossThoughConnectionsBreak) {
+  const std::string kBroken = "An MPI communication peer process has unexpectedly disconnected.";
+  Remains reported = never_began();
+  reported.ending.code = 1;
+  reported.last_words = {kBroken};
+  reported.fault = events::Fault{"is full", "/films", "", {}, {}, ""};
+  Remains said = never_began();
+  said.ending.code = 1;
+  said.last_words = {kBroken, "mars: film.json: line 3: has no camera"};
+  for (const Remains& failed : {reported, said}) {
+    starts_.clear();
+    Supervisor supervisor = supervise({failed});
+    EXPECT_NE(document::failure_of([&] { supervisor.render(); }), "");
+    EXPECT_EQ(starts_.size(), 1u);
+  }
+}
+
 TEST_F(SupervisorOf, AJobThatDiesWhileItStartsEachTimeIsGivenUp) {
   options_.restarts = 2;
   Remains dead = never_began();

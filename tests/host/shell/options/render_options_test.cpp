@@ -319,5 +319,13 @@ TEST(RenderOptions, FoldersHaveNoNamesOfOtherVideosAndPictures) {
     EXPECT_EQ(read(Program::mars, {"film.json", "-o", name}).options.folder, name);
 }
 
+TEST(RenderOptions, FacesShowNoMotion) {
+  const auto reading = [](const char* layers) {
+    return read(Program::mars, {"film.json", "-o", "out", "--format", "exr", "--faces", "--layers", layers});
+  };
+  EXPECT_EQ(reading("depth,ids").code, std::nullopt);
+  EXPECT_TRUE(document::holds(reading("all").printed, "faces of a panorama show no motion"));
+}
+
 }  // namespace
 }  // namespace mars::options
