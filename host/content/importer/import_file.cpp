@@ -19,7 +19,7 @@
 #include "host/content/importer/import_report.h"
 #include "host/content/importer/mesh_file.h"
 #include "host/content/importer/model_text.h"
-#include "host/content/importer/motions/import_motion.h"
+#include "host/content/importer/import_motion.h"
 #include "host/content/importer/orientation.h"
 #include "host/content/modeler/patch_file.h"
 

@@ -181,11 +181,13 @@ class AsfReader {
     } else if (word == "dof") {
       bone.dof = freedoms();
     } else if (word == "limits") {
-      while (words_.takes("(")) bone.limits.push_back(limits());
-      if (bone.limits.size() > bone.dof.size())
-        words_.fail("has " + std::to_string(bone.limits.size()) + " limits for " +
-                        document::counted(bone.dof.size(), "degree", "degrees") + " of freedom",
-                    "give each of the bone's dof its limits, after it");
+      while (words_.takes("(")) {
+        bone.limits.push_back(limits());
+        if (bone.limits.size() > bone.dof.size())
+          words_.fail("has more limits in a bone than its " + document::counted(bone.dof.size(), "degree", "degrees") +
+                          " of freedom",
+                      "give each of the bone's dof its limits, after it");
+      }
     } else {
       words_.skip_line();  // id, mass, center of mass
     }

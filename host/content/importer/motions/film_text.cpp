@@ -18,7 +18,10 @@ using document::Json;
 
 constexpr double kTurnError = 3e-6;  // radians; along a chain of joints they add up to 1e-4 of a figure's size at most
 constexpr std::uint32_t kLongestWay = 1000;  // frames from a key to the next
-constexpr double kFov = 40, kMargin = 1.15;
+constexpr double kMargin = 1.05, kAspect = 16.0 / 9;
+constexpr double kTangent = 0.36397023;  // of half of a camera's 40 degrees
+constexpr double kUsualNear = 0.2, kUsualFar = 10000;
+const glm::dvec3 kToCamera(0.8, -1, 0.3);  // from what it looks at
 
 using Values = std::vector<glm::dvec3>;  // by frame
 // Whether the way from one frame's value to another's gives the frames between.
@@ -82,6 +85,18 @@ glm::dvec3 within(const modeler::Joint& joint, const glm::dvec3& pose) {
   return nearest;
 }
 
+// From the middle of a box, so that all its corners are in the picture.
+double distance_to_see(const glm::dvec3& half, const glm::dvec3& toward) {
+  const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0, 0, 1), toward)), up = glm::cross(toward, right);
+  double distance = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 place(corner & 1 ? half.x : -half.x, corner & 2 ? half.y : -half.y, corner & 4 ? half.z : -half.z);
+    const double across = std::max(std::abs(glm::dot(place, right)) / kAspect, std::abs(glm::dot(place, up)));
+    distance = std::max(distance, glm::dot(place, toward) + kMargin * across / kTangent);
+  }
+  return distance;
+}
+
 struct Writer {
   Json still_pose = Json::object();
   std::map<std::uint32_t, Json> keys{};  // by frame
@@ -127,16 +142,16 @@ ActorText actor_text(const std::string& name, std::span<const modeler::Joint> jo
 }
 
 Json camera_text(const glm::dvec3& least, const glm::dvec3& greatest) {
-  const glm::dvec3 middle = (least + greatest) / 2.0;
-  const double radius = std::max(glm::length(greatest - least) / 2, 1e-6);
-  const double distance = kMargin * radius / std::sin(kFov / 2 * modeler::kDegree);
-  const glm::dvec3 eye = middle + distance * glm::normalize(glm::dvec3(1, -0.8, 0.3));
+  const glm::dvec3 middle = (least + greatest) / 2.0, half = (greatest - least) / 2.0;
+  const double radius = std::max(glm::length(half), 1e-6);
+  const glm::dvec3 toward = glm::normalize(kToCamera);
+  const double distance = std::max(distance_to_see(half, toward), radius * 0.1);
   const auto short_text = [&](const glm::dvec3& point) {
     const double grain = std::pow(10, std::floor(std::log10(radius)) - 3);
     return text_of(animator::rounded(glm::round(point / grain) * grain));
   };
-  Json json{{"eye", short_text(eye)}, {"at", short_text(middle)}, {"fov", kFov}};
-  if (distance - radius < 0.2 || distance > 1000) {
+  Json json{{"eye", short_text(middle + distance * toward)}, {"at", short_text(middle)}};
+  if (distance - radius < kUsualNear || distance > kUsualFar / 10) {
     json["near"] = animator::rounded(distance / 1000);
     json["far"] = animator::rounded(distance * 100);
   }

@@ -11,7 +11,6 @@
 #include "hal/failure/failure.h"
 #include "host/content/animator/keys/edit.h"
 #include "host/content/animator/keys/written.h"
-#include "host/content/importer/joint_names.h"
 #include "host/content/modeler/frames.h"
 
 namespace mars::importer {
@@ -21,8 +20,8 @@ using document::Json;
 
 constexpr int kSides = 6;                              // of a spindle
 constexpr double kWaist = 0.16;                        // of its length: where it is thickest
-constexpr double kThickness = 0.09;                    // its radius there, of its length
-constexpr double kThinnest = 0.004, kThickest = 0.02;  // of the skeleton's size
+constexpr double kThickness = 0.13;                    // its radius there, of its length
+constexpr double kThinnest = 0.006, kThickest = 0.03;  // of the skeleton's size
 constexpr double kKnob = 0.012;                        // of the size: radius of a joint that carries nothing
 
 struct Spindles {
@@ -112,14 +111,6 @@ Json joint_text(const modeler::Joint& joint, const std::vector<modeler::Joint>& 
 }
 
 }  // namespace
-
-void name_joints(Skeleton& skeleton) {
-  JointNames names;
-  for (modeler::Joint& joint : skeleton.joints) {
-    const std::string text = Json(joint.name).dump(-1, ' ', false, Json::error_handler_t::replace);
-    joint.name = names.unused(Json::parse(text).get<std::string>());
-  }
-}
 
 Json skeleton_model(const Skeleton& skeleton, const std::string& file) {
   const SkeletonBox box = rest_box(skeleton);

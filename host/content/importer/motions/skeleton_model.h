@@ -6,11 +6,8 @@
 
 namespace mars::importer {
 
-// As a model file. Names must be a model's (name_joints()). Refuses, in a failure that names `file`, a skeleton whose
+// As a model file. Names must be a model's, each once. Refuses, in a failure that names `file`, a skeleton whose
 // bones have no length.
 document::Json skeleton_model(const Skeleton& skeleton, const std::string& file);
-
-// Makes names ones that models can have: in UTF-8, unique, of at most 90 bytes, without '/' and control characters.
-void name_joints(Skeleton& skeleton);
 
 }  // namespace mars::importer

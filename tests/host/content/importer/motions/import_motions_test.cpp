@@ -114,13 +114,13 @@ TEST_F(Motions, DamagedBvhIsRefusedAtItsLine) {
   expect("CHANNELS 1 Yrotation", "CHANNELS 1 Wrotation", ":13: has a channel 'Wrotation'");
   expect("CHANNELS 1 Yrotation", "CHANNELS 2 Yrotation Yrotation", ":13: has a joint that turns about one axis twice");
   expect("CHANNELS 1 Yrotation", "CHANNELS 9 Yrotation", ":13: has 9 channels in a joint");
-  expect("MOTION", "ROOT Other {}\nMOTION", ":38: has a second ROOT");
-  expect("Frames: 4", "Frames: 5", ":45: promises 5 frames and ends after 4");
-  expect("Frames: 4", "Frames: 3", ":44: goes on after its last frame, 3");
-  expect("100 30\n", "100\n", ":45: ends before a channel of a frame");
-  expect("Frame Time: 0.0333333", "Frame Time: 0", ":40: has a frame time of 0 s");
-  expect("60 5", "60 nan", ":42: has 'nan' for a channel of a frame");
-  expect("60 5", "60 5,5", ":42: has '5,5' for a channel of a frame");
+  expect("MOTION", "ROOT Other {}\nMOTION", ":39: has a second ROOT");
+  expect("Frames: 4", "Frames: 5", ":46: promises 5 frames and ends after 4");
+  expect("Frames: 4", "Frames: 3", ":45: goes on after its last frame, 3");
+  expect("100 30\n", "100\n", ":46: ends before a channel of a frame");
+  expect("Frame Time: 0.0333333", "Frame Time: 0", ":41: has a frame time of 0 s");
+  expect("60 5", "60 nan", ":43: has 'nan' for a channel of a frame");
+  expect("60 5", "60 5,5", ":43: has '5,5' for a channel of a frame");
 }
 
 TEST_F(Motions, AcclaimsBonesAreWhereTheirAxesPutThem) {
@@ -184,10 +184,10 @@ TEST_F(Motions, DamagedAcclaimFilesAreRefusedAtTheirLine) {
   expect_asf("axis 0 0 20 XYZ", "axis 0 0 20 XYY", ":31: has the order of axes 'XYY'");
   expect_asf("dof rx\n", "dof rw\n", ":32: has the degree of freedom 'rw'");
   expect_asf("(-10.0 170.0)", "(170.0 -10.0)", ":33: has the limits 170 to -10");
-  expect_asf("(-10.0 170.0)", "(-10.0 170.0) (0 1)", ":33: has 2 limits for 1 degree of freedom");
-  expect_asf("thigh foot", "thigh feet", ":47: names 'feet', which is no bone of :bonedata");
-  expect_asf("thigh foot", "thigh", "has a bone 'foot' that hangs from nothing");
-  expect_asf("name foot", "name thigh", "has two bones 'thigh'");
+  expect_asf("(-10.0 170.0)", "(-10.0 170.0) (0 1)", ":33: has more limits in a bone than its 1 degree of freedom");
+  expect_asf("thigh foot", "thigh feet", ":48: names 'feet', which is no bone of :bonedata");
+  expect_asf("thigh foot", "thigh", ":50: has a bone 'foot' that hangs from nothing");
+  expect_asf("name foot", "name thigh", ":44: has two bones 'thigh'");
   write("a.asf", kAsf);
   const auto expect_amc = [&](const char* part, const char* other, const std::string& message) {
     const std::string found = refused("a.amc", with(kAmc, part, other));
@@ -196,7 +196,7 @@ TEST_F(Motions, DamagedAcclaimFilesAreRefusedAtTheirLine) {
   expect_amc("thigh 45", "thing 45", ":7: names 'thing', which is no bone of the skeleton");
   expect_amc("thigh 45", "thigh 45 1", ":7: has not the 1 number for 'thigh'");
   expect_amc("foot -20 15", "foot -20", ":8: has not the 2 numbers for 'foot'");
-  expect_amc("thigh 45\n", "", ": leaves 'thigh' out of its first frame");
+  expect_amc("thigh 45\n", "", ":8: leaves 'thigh' out of its first frame");
   expect_amc("1\nroot", "one\nroot", ":4: has 'one' for a frame's number");
   fs::remove(folder_ / "a.asf");
   EXPECT_TRUE(holds(refused("a.amc", kAmc), "needs its skeleton, an .asf file, which is not beside it"));
@@ -210,8 +210,10 @@ TEST_F(Motions, ACapturedWalkStandsWhereItsFilesPutIt) {
   FilmPlaces film(folder_ / "model.json");
   EXPECT_EQ(film.film.rate, 24);
   expect_places(film, test::plain_acclaim(data / "02.asf", data / "02_01.amc"), 5, 1, 1e-4);
-  EXPECT_EQ(film.joint("lfemur").limits[0].lower, -60);  // rz, the outermost
-  EXPECT_EQ(film.joint("lfemur").limits[2].lower, -20);  // -rx
+  import_model(options_for(data / "02.asf"));
+  const document::Json thigh = document::read_json(folder_ / "model.json").at("joints").at(4);
+  EXPECT_EQ(thigh.at("name"), "lfemur");
+  EXPECT_EQ(thigh.at("limits"), document::Json::parse(R"({"x": [-60, 70], "y": [-70, 70], "z": [-20, 160]})"));
 }
 
 }  // namespace

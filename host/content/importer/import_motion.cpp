@@ -1,4 +1,4 @@
-#include "host/content/importer/motions/import_motion.h"
+#include "host/content/importer/import_motion.h"
 
 #include <algorithm>
 #include <glm/common.hpp>
@@ -9,6 +9,7 @@
 #include "host/content/animator/reading/read_film.h"
 #include "host/content/document/document.h"
 #include "host/content/document/text.h"
+#include "host/content/importer/joint_names.h"
 #include "host/content/importer/motions/asf_file.h"
 #include "host/content/importer/motions/bvh_file.h"
 #include "host/content/importer/motions/film_text.h"
@@ -83,6 +84,16 @@ Read read_motion_file(const ImportOptions& options, FileKind kind) {
   return {std::move(bvh.skeleton), std::move(bvh.motion), std::move(bvh.remarks), std::move(bvh.not_read), {}};
 }
 
+// In UTF-8, as a model can have them.
+void name_joints(Skeleton& skeleton) {
+  using document::Json;
+  JointNames names;
+  for (modeler::Joint& joint : skeleton.joints) {
+    const std::string text = Json(joint.name).dump(-1, ' ', false, Json::error_handler_t::replace);
+    joint.name = names.unused(Json::parse(text).get<std::string>());
+  }
+}
+
 // So that its lowest point at rest is at height 0; what the first joint does then is the actor's place.
 void stand_on_floor(Skeleton& skeleton) {
   glm::dvec3& place = skeleton.joints[0].place;
@@ -130,9 +141,9 @@ void check_film(const std::string& text, const fs::path& path) {
 
 ImportedText film_of(const ImportOptions& options, Read read, ImportReport report) {
   const double rate = options.rate.value_or(kind_rate(read.motion.rate));
-  Motion motion = at_rate(read.skeleton.joints, read.motion, rate);
-  if (motion.poses.size() > kMostFrames)
+  if (double(read.motion.poses.size()) * rate / read.motion.rate > kMostFrames)
     throw Failure("has more than a million frames at this rate", options.from.string(), "choose a lower --rate");
+  Motion motion = at_rate(read.skeleton.joints, read.motion, rate);
   const std::vector<std::string> widened = fit_limits(read.skeleton.joints, motion);
   if (!widened.empty()) report.made.push_back(widened_text(widened));
   const SkeletonBox box = box_of_motion(read.skeleton, motion);

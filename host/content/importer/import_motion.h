@@ -1,10 +1,11 @@
 // `mars import` of files without shapes: skeletons and their motions.
 #pragma once
 
+#include <glm/mat3x3.hpp>
 #include <string>
 
 #include "host/content/importer/file_kind.h"
-#include "host/content/importer/import_file.h"
+#include "host/content/importer/import_options.h"
 #include "host/content/importer/import_report.h"
 
 namespace mars::importer {
