@@ -205,7 +205,7 @@ TEST(Boundaries, HostsToolsStandOnOneAnother) {
   below(keys, {keys});
   below(document, {keys, document});
   below(modeler, {keys, document, modeler});
-  below("host/content/importer/", {child, images, keys, document, modeler, "host/content/importer/"});
+  below("host/content/importer/", {child, images, keys, document, modeler, animator, "host/content/importer/"});
   below(animator, {child, keys, document, modeler, animator});
   below(film, {keys, document, modeler, animator, film});
   below(images, {keys, document, images});

@@ -19,9 +19,12 @@ struct Known {
 };
 
 constexpr Known kKnown[] = {{".obj", FileKind::obj},   {".stl", FileKind::stl}, {".ply", FileKind::ply},
-                            {".gltf", FileKind::gltf}, {".glb", FileKind::glb}, {".bpt", FileKind::patches}};
+                            {".gltf", FileKind::gltf}, {".glb", FileKind::glb}, {".bpt", FileKind::patches},
+                            {".bvh", FileKind::bvh},   {".asf", FileKind::asf}, {".amc", FileKind::amc}};
 
-constexpr const char* kReadable = "mesh files end in .obj, .stl, .ply, .gltf or .glb, patch files in .bpt";
+constexpr const char* kReadable =
+    "mesh files end in .obj, .stl, .ply, .gltf or .glb, patch files in .bpt, motions in .bvh or .amc, skeletons in "
+    ".asf";
 
 struct Foreign {
   std::string_view ending;
@@ -30,7 +33,6 @@ struct Foreign {
 };
 
 constexpr const char* kByBlender = "open it in Blender and export glTF";
-constexpr const char* kNoShape = "import the figure's mesh, as glTF or OBJ: this file has no shape";
 constexpr Foreign kForeign[] = {
     {".fbx", "an FBX scene", kByBlender},
     {".dae", "a COLLADA scene", kByBlender},
@@ -40,9 +42,6 @@ constexpr Foreign kForeign[] = {
     {".usda", "a USD scene", kByBlender},
     {".usdc", "a USD scene", kByBlender},
     {".usdz", "a USD scene", kByBlender},
-    {".bvh", "a skeleton with its motion", kNoShape},
-    {".asf", "a skeleton", kNoShape},
-    {".amc", "a skeleton's motion", kNoShape},
     {".rib", "a RenderMan scene", "export glTF or OBJ from the program that made it"},
 };
 
@@ -68,6 +67,8 @@ std::string_view ending_for(FileKind kind) {
 }
 
 }  // namespace
+
+bool same_ending(const std::filesystem::path& path, std::string_view ending) { return ending_of(path) == ending; }
 
 FileKind kind_of_name(const std::filesystem::path& path) {
   const std::string ending = ending_of(path);

@@ -2,12 +2,21 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 namespace mars::importer {
 
-enum class FileKind { obj, stl, ply, gltf, glb, patches };
+enum class FileKind { obj, stl, ply, gltf, glb, patches, bvh, asf, amc };
 
 constexpr bool is_gltf(FileKind kind) { return kind == FileKind::gltf || kind == FileKind::glb; }
+
+// Skeletons and their motions, without shapes.
+constexpr bool is_skeleton(FileKind kind) {
+  return kind == FileKind::bvh || kind == FileKind::asf || kind == FileKind::amc;
+}
+
+// Whether a path ends so, in capitals or not.
+bool same_ending(const std::filesystem::path& path, std::string_view ending);
 
 // By the ending, in capitals or not. Refuses every other: for files of well-known programs with the way from them to
 // one that can be read.

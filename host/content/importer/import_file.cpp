@@ -19,19 +19,20 @@
 #include "host/content/importer/import_report.h"
 #include "host/content/importer/mesh_file.h"
 #include "host/content/importer/model_text.h"
+#include "host/content/importer/import_motion.h"
 #include "host/content/importer/orientation.h"
 #include "host/content/modeler/patch_file.h"
 
 namespace mars::importer {
 namespace {
 
-struct Imported {
-  ImportReport report;
-  std::string model;
-};
+// y up is glTF's rule, and the custom of OBJ and of motions.
+std::string usual_up(FileKind kind) { return kind == FileKind::obj || is_gltf(kind) || is_skeleton(kind) ? "y" : "z"; }
 
-// y up is glTF's rule and OBJ's custom.
-std::string usual_up(FileKind kind) { return kind == FileKind::obj || is_gltf(kind) ? "y" : "z"; }
+// Captured figures look along z.
+std::string usual_front(FileKind kind, const std::string& up) {
+  return is_skeleton(kind) && up.back() != 'z' ? "z" : "";
+}
 
 // How a person wants the model to stand.
 struct Stance {
@@ -47,7 +48,7 @@ std::string box_of(const glm::dvec3& extent, double factor, FileKind kind, const
   return text + ", the file's " + stance.up + " upward";
 }
 
-Imported import_patches(const ImportOptions& options, FileKind kind, const Stance& stance) {
+ImportedText import_patches(const ImportOptions& options, FileKind kind, const Stance& stance) {
   if (options.crease)
     throw Failure("has patches, which need no crease", options.from.string(), "leave out --crease: it is for meshes");
   const auto read = [&](double factor) { return modeler::read_patch_file(options.from, stance.upright * factor); };
@@ -94,7 +95,7 @@ WrittenSkin skin_of(const MeshFile& file) {
   return skin;
 }
 
-Imported import_mesh(const ImportOptions& options, FileKind kind, const Stance& stance) {
+ImportedText import_mesh(const ImportOptions& options, FileKind kind, const Stance& stance) {
   const MeshOptions mesh{stance.upright, options.size, options.crease, options.joint, set_material(options)};
   const MeshFile file = read_mesh_file(options.from, kind, mesh);
   for (const std::filesystem::path& companion : file.companions) document::refuse_same_file(companion, options.to);
@@ -113,22 +114,26 @@ Imported import_mesh(const ImportOptions& options, FileKind kind, const Stance& 
 }
 
 // A library does not come back from every damaged file.
-std::string read_apart(const std::filesystem::path& path, FileKind kind, const std::function<std::string()>& read) {
+std::string read_apart(const std::filesystem::path& path, const std::vector<std::filesystem::path>& more, FileKind kind,
+                       const std::function<std::string()>& read) {
   constexpr const char* kRemedy = "the file may be damaged: export it again";
   std::error_code error;
   std::uint64_t bytes = std::filesystem::file_size(path, error);
   if (error) bytes = 0;
+  for (const std::filesystem::path& each : more)
+    if (const std::uintmax_t size = std::filesystem::file_size(each, error); !error) bytes += size;
   if (kind == FileKind::gltf)
     bytes += std::stoull(
         run_apart([&] { return std::to_string(bytes_of_buffers(path)); }, limits_for(bytes), path.string(), kRemedy));
   return run_apart(read, limits_for(bytes), path.string(), kRemedy);
 }
 
-// The report, a zero, the model.
+// The report, a zero, the model or film.
 std::string run(const ImportOptions& options, FileKind kind, const Stance& stance) {
-  const Imported imported =
-      kind == FileKind::patches ? import_patches(options, kind, stance) : import_mesh(options, kind, stance);
-  return text_of(imported.report, options.to.string()) + '\0' + imported.model;
+  const ImportedText imported = is_skeleton(kind)           ? import_motion(options, kind, stance.up, stance.upright)
+                                : kind == FileKind::patches ? import_patches(options, kind, stance)
+                                                            : import_mesh(options, kind, stance);
+  return text_of(imported.report, options.to.string()) + '\0' + imported.text;
 }
 
 bool is_utf8(const std::string& text) {
@@ -153,10 +158,32 @@ void check_joint(const std::string& joint, const std::string& given, const std::
 
 void check_target(const ImportOptions& options) {
   document::refuse_same_file(options.from, options.to);
+  for (const std::filesystem::path& more : options.more) document::refuse_same_file(more, options.to);
+  if (!options.skeleton.empty()) document::refuse_same_file(options.skeleton, options.to);
   std::error_code none;
   if (!options.force && std::filesystem::exists(options.to, none))
     throw Failure("is there already", options.to.string(), "choose another name, or replace it with --force");
   document::check_can_write(options.to);
+}
+
+// Options that a kind of file cannot follow.
+void check_options(const ImportOptions& options, FileKind kind) {
+  const auto refuse = [&](const char* option, const char* remedy) {
+    throw Failure(std::string("cannot be imported with ") + option, options.from.string(), remedy);
+  };
+  if (is_skeleton(kind) && options.crease) refuse("--crease", "leave it out: it is for meshes");
+  if (kind != FileKind::amc && !options.skeleton.empty()) refuse("--skeleton", "leave it out: it is for AMC files");
+  if (kind != FileKind::amc && !options.more.empty())
+    refuse("further files", "import each file by itself: only AMC files can follow each other");
+  for (const std::filesystem::path& more : options.more)
+    if (kind_of_name(more) != FileKind::amc)
+      throw Failure("is no AMC file, and only such can follow another", more.string(), "import it by itself");
+  const bool film = options.as == ImportAs::film;
+  if (film && !is_skeleton(kind))
+    refuse("--as film", "import it as a model, and show that in a film: mars film FILM add");
+  if (film && kind == FileKind::asf) refuse("--as film", "import its motion, an .amc file");
+  if (!is_skeleton(kind) && (options.rate || options.file_rate))
+    refuse("--rate or --file-rate", "leave it out: it is for motions");
 }
 
 }  // namespace
@@ -167,10 +194,11 @@ std::string import_model(const ImportOptions& given) {
   if (options.joint.empty()) options.joint = options.from.stem().string();
   check_joint(options.joint, given.joint, given.from);
   check_first_bytes(options.from, kind);
+  check_options(options, kind);
   check_target(options);
   const std::string up = options.up.empty() ? usual_up(kind) : options.up;
-  const Stance stance{up, orientation(up, options.front)};
-  const std::string answer = read_apart(options.from, kind, [&] { return run(options, kind, stance); });
+  const Stance stance{up, orientation(up, options.front.empty() ? usual_front(kind, up) : options.front)};
+  const std::string answer = read_apart(options.from, options.more, kind, [&] { return run(options, kind, stance); });
   const std::size_t end = answer.find('\0');
   document::write_whole_file(options.to, std::string_view(answer).substr(end + 1));
   return answer.substr(0, end);

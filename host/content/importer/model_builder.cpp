@@ -1,7 +1,6 @@
 #include "host/content/importer/model_builder.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numeric>
@@ -14,20 +13,6 @@ namespace mars::importer {
 namespace {
 
 constexpr double kSameBind = 2e-6;  // what single precision leaves of a bind pose that is the pose at rest
-
-constexpr std::size_t kLongestName = 90;  // of a name's 100 bytes: numbers may follow
-
-// A name of a model for a name of any bytes, for JSON's parser has let UTF-8 through only.
-std::string plain_name(std::string name) {
-  for (char& byte : name)
-    if (byte == '/' || std::iscntrl(static_cast<unsigned char>(byte))) byte = '-';
-  if (name.size() > kLongestName) {
-    std::size_t end = kLongestName;
-    while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80) --end;  // not within a letter
-    name.resize(end);
-  }
-  return name.empty() ? "joint" : name;
-}
 
 // Of several meshes with the same bones.
 bool are_alike(const modeler::Affine& a, const modeler::Affine& b) {
@@ -44,17 +29,8 @@ ModelBuilder::ModelBuilder(std::string file, const MeshOptions& options, bool ha
       has_normals_(has_normals),
       style_{has_normals && !options.crease, options.crease.value_or(usual_crease)} {}
 
-std::string ModelBuilder::unused_name(const std::string& wanted) {
-  const auto [known, is_new] = names_.try_emplace(plain_name(wanted), 2);
-  if (is_new) return known->first;
-  for (;;) {
-    const std::string name = known->first + "-" + std::to_string(known->second++);
-    if (names_.try_emplace(name, 2).second) return name;
-  }
-}
-
 std::size_t ModelBuilder::add_joint(const std::string& name, std::size_t parent, const JointFrame& frame) {
-  joints_.push_back({unused_name(name), parent, frame, MeshBuilder(file_, style_)});
+  joints_.push_back({names_.unused(name), parent, frame, MeshBuilder(file_, style_)});
   return joints_.size() - 1;
 }
 
@@ -115,7 +91,7 @@ void ModelBuilder::finish_joint(Draft& draft, double factor, MeshFile& file) {
   check_places({frame.origin, frame.origin});
   for (MeshPart& part : draft.mesh.finish(factor)) {
     if (file.joints.back().part)
-      file.joints.push_back({unused_name(draft.name), draft.name, {{}, frame.x_axis, frame.y_axis}, true, {}});
+      file.joints.push_back({names_.unused(draft.name), draft.name, {{}, frame.x_axis, frame.y_axis}, true, {}});
     check_places(part.bounds);
     file.joints.back().part = std::move(part);
     file.joints.back().has_skin = draft.mesh.has_skin();

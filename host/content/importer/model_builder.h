@@ -1,12 +1,12 @@
 // Puts a mesh file's joints together and makes the model as large as a person wants it.
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
 #include "host/content/importer/imported_mesh.h"
 #include "host/content/importer/joint_frame.h"
+#include "host/content/importer/joint_names.h"
 #include "host/content/importer/mesh_builder.h"
 
 namespace mars::importer {
@@ -37,7 +37,11 @@ class ModelBuilder {
     MeshBuilder mesh;
   };
 
-  std::string unused_name(const std::string& wanted);
+  struct DraftBone {
+    std::size_t joint;
+    modeler::Affine to_rest;
+  };
+
   void check_places(const modeler::Box& box) const;
   void finish_joint(Draft& draft, double factor, MeshFile& file);
   void sort_bones();
@@ -48,12 +52,8 @@ class ModelBuilder {
   bool has_normals_;
   MeshStyle style_;
   std::vector<Draft> joints_;
-  struct DraftBone {
-    std::size_t joint;
-    modeler::Affine to_rest;
-  };
   std::vector<DraftBone> bones_;
-  std::map<std::string, int> names_;  // and with which number another of the name would go on
+  JointNames names_;
 };
 
 }  // namespace mars::importer

@@ -15,10 +15,13 @@ namespace mars::commands {
 namespace {
 
 constexpr const char* kAfterwards = R"(Prints what it read from the file, what it made, and what it left out, such as
-bones and animations. More: docs/importing.md.
+bones and animations. More: docs/importing.md, docs/motions.md.
 
 For example, scale a glTF figure to 5 units, and make it look forward:
   mars import figure.glb -o figure.json --height 5 --front z
+
+A captured walk as a film, of a figure as tall as a man of the library:
+  mars import walk.bvh -o walk.json --height 5.1
 )";
 
 // Refuses NaN and what is no number, too.
@@ -60,21 +63,55 @@ void add_size(cli::Command command, importer::ModelSize& size) {
       .type("UNITS");
 }
 
+void add_motion(cli::Command command, importer::ImportOptions& options) {
+  command.add_choice(
+      "--as", {"model", "film"},
+      [&options](std::size_t number) {
+        options.as = number == 0 ? importer::ImportAs::model : importer::ImportAs::film;
+      },
+      "What to make; default: a film of .bvh and .amc files, a model of others. Example: --as model");
+  command
+      .add(
+          "--rate", options.rate,
+          "The film's frames per second; default: the file's, or where these are more than 30 and a multiple of 24, 25 "
+          "or 30, the first such. Example: --rate 60")
+      .check(number_from(0.001, 1000, "no rate: write a number from 0.001 to 1000"))
+      .type("FRAMES");
+  command
+      .add("--file-rate", options.file_rate,
+           "The motion's frames per second, instead of the file's; default for .amc, which has none: 120. "
+           "Example: --file-rate 60")
+      .check(number_from(0.001, 1000, "no rate: write a number from 0.001 to 1000"))
+      .type("FRAMES");
+  command
+      .add("--skeleton", options.skeleton,
+           "The .asf file of an .amc; default: beside it, the one whose name begins the motion's. Example: --skeleton "
+           "02.asf")
+      .type("FILE");
+}
+
 }  // namespace
 
 void add_import(cli::Command app) {
   const auto options = std::make_shared<importer::ImportOptions>();
-  const cli::Command command = app.add_command("import", "Make a model file from a mesh file or a patch file");
-  command.add("FILE", options->from, "A mesh (.obj, .stl, .ply, .gltf, .glb) or patch file (.bpt). Example: teapot.bpt")
+  const auto files = std::make_shared<std::vector<std::string>>();
+  const cli::Command command =
+      app.add_command("import", "Make a model or a film from a mesh, a motion or a patch file of another program");
+  command
+      .add("FILE", *files,
+           "A mesh (.obj, .stl, .ply, .gltf, .glb), a motion (.bvh, .amc), a skeleton (.asf) or a patch file (.bpt); "
+           "after an .amc further ones, which follow it. Example: teapot.bpt")
       .required();
-  command.add("-o,--output", options->to, "The model file. Example: -o teapot.json").required().type("FILE");
+  command.add("-o,--output", options->to, "The model or film file. Example: -o teapot.json").required().type("FILE");
   command.add("--joint", options->joint, "Name of its first joint; default: the file's. Example: --joint body")
       .type("NAME");
+  add_motion(command, *options);
   add_axis(command, "--up", options->up,
-           "The file's axis that points up; it becomes z. Default: y for OBJ and glTF, z for others. Example: --up -y");
+           "The file's axis that points up; it becomes z. Default: y for OBJ, glTF and motions, z for others. Example: "
+           "--up -y");
   add_axis(command, "--front", options->front,
-           "The file's axis along which the model looks; it becomes x. Figures in glTF look along z. Default: the "
-           "file's x, if it does not point up or down. Example: --front z");
+           "The file's axis along which the model looks; it becomes x. Figures in glTF look along z. Default: z "
+           "for motions, else the file's x, if it does not point up or down. Example: --front z");
   add_size(command, options->size);
   command
       .add("--crease", options->crease,
@@ -84,7 +121,11 @@ void add_import(cli::Command app) {
       .type("DEGREES");
   command.add_flag("--force", options->force, "Replace a model file that is there already. Example: --force");
   command.footer(kAfterwards);
-  command.runs([options] { std::cout << importer::import_model(*options); });
+  command.runs([options, files] {
+    options->from = files->front();
+    options->more.assign(files->begin() + 1, files->end());
+    std::cout << importer::import_model(*options);
+  });
 }
 
 }  // namespace mars::commands
