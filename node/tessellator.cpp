@@ -134,10 +134,10 @@ void Tessellator::add_segment(const geometry::Scene& scene, std::size_t segment,
   const std::uint32_t material = scene.material(segment);
   raster::PatchIdentity identity{0, material, place_.mirrors(), film.materials()[material].sides == 1,
                                  scene.moves(segment)};
-  for (const auto patches = film.patches_of(number); i < shape.patch_count; i = from(i + 1)) {
+  for (; i < shape.patch_count; i = from(i + 1)) {
     look_now_and_then();
     identity.patch = first + static_cast<std::uint32_t>(i);
-    add_patch(scene, patches[i], identity, output);
+    add_patch(scene, place_.patch(film, i), identity, output);
   }
   for (const auto meshlets = film.meshlets_of(number); i < shape.size(); i = from(i + 1)) {
     look_now_and_then();
@@ -155,9 +155,8 @@ Tessellator::Touches Tessellator::touches(const geometry::Scene& scene, const Ow
   return inside ? Touches::only : Touches::perhaps;
 }
 
-void Tessellator::add_patch(const geometry::Scene& scene, const wire::Patch& patch,
+void Tessellator::add_patch(const geometry::Scene& scene, const shape::EyePatch& eye_patch,
                             const raster::PatchIdentity& identity, Output& output) {
-  const shape::EyePatch eye_patch = shape::to_eye(place_.matrix(), patch);
   const auto width = static_cast<float>(scene.width()), height = static_cast<float>(scene.height());
   if (shape::unseen(eye_patch, scene.projection(), width, height)) return;
   if (output.own != nullptr &&

@@ -103,7 +103,7 @@ class Tessellator {
   void add_segment(const geometry::Scene& scene, std::size_t segment, const Scatter& scatter, Output& output);
   // Of the segment that place_ is of.
   Touches touches(const geometry::Scene& scene, const OwnLines* own) const;
-  void add_patch(const geometry::Scene& scene, const wire::Patch& patch, const raster::PatchIdentity& identity,
+  void add_patch(const geometry::Scene& scene, const shape::EyePatch& eye_patch, const raster::PatchIdentity& identity,
                  Output& output);
   void add_meshlet(const geometry::Scene& scene, const wire::Meshlet& meshlet, const raster::PatchIdentity& identity,
                    Output& output);

@@ -27,9 +27,9 @@ void add_point(Lines& lines, const glm::dvec3& point) {
 
 class Net {
  public:
-  void add(const wire::Patch& patch) {
-    std::array<std::uint32_t, 16> numbers;
-    for (std::size_t i = 0; i < 16; ++i) numbers[i] = number_of(patch.points[i]);
+  // `follows`: the bones of each point of a skin, else none.
+  void add(const wire::Patch& patch, std::span<const modeler::VertexBones> follows) {
+    const std::vector<std::uint32_t> numbers = numbers_of(patch.points, follows);
     for (std::size_t row = 0; row < 4; ++row)
       for (std::size_t column = 0; column < 3; ++column) {
         join(numbers[4 * row + column], numbers[4 * row + column + 1]);
@@ -37,14 +37,9 @@ class Net {
       }
   }
 
-  // `follows`: the bones of each vertex of a skin, else none.
   void add(std::span<const Point> vertices, std::span<const wire::MeshTriangle> triangles,
            std::span<const modeler::VertexBones> follows) {
-    std::vector<std::uint32_t> numbers;
-    for (std::size_t vertex = 0; vertex < vertices.size(); ++vertex) {
-      numbers.push_back(number_of(vertices[vertex]));
-      if (!follows.empty() && numbers.back() == lines_.bones.size()) lines_.bones.push_back(follows[vertex]);
-    }
+    const std::vector<std::uint32_t> numbers = numbers_of(vertices, follows);
     for (const wire::MeshTriangle& corners : triangles)
       for (std::size_t i = 0; i < 3; ++i) join(numbers[corners[i]], numbers[corners[(i + 1) % 3]]);
   }
@@ -55,6 +50,15 @@ class Net {
   }
 
  private:
+  std::vector<std::uint32_t> numbers_of(std::span<const Point> points, std::span<const modeler::VertexBones> follows) {
+    std::vector<std::uint32_t> numbers;
+    for (std::size_t point = 0; point < points.size(); ++point) {
+      numbers.push_back(number_of(points[point]));
+      if (!follows.empty() && numbers.back() == lines_.bones.size()) lines_.bones.push_back(follows[point]);
+    }
+    return numbers;
+  }
+
   std::uint32_t number_of(const Point& point) {
     const auto [known, is_new] = points_.try_emplace(point, static_cast<std::uint32_t>(points_.size()));
     if (is_new) lines_.points.insert(lines_.points.end(), point.begin(), point.end());
@@ -72,15 +76,16 @@ class Net {
   std::unordered_set<std::uint64_t> joined_;
 };
 
-// What a meshlet's vertices follow; none where it has no skin.
-std::vector<modeler::VertexBones> followed_by(const wire::PackedFilm& film, const wire::Meshlet& meshlet) {
+// What each of the points follows; none where they have no skin.
+std::vector<modeler::VertexBones> followed_by(const wire::PackedFilm& film, const wire::Skin& skin,
+                                              std::uint32_t points) {
   std::vector<modeler::VertexBones> all;
-  for (std::size_t vertex = 0; vertex < meshlet.vertex_count && meshlet.bone_count > 0; ++vertex) {
+  for (std::size_t point = 0; point < points && skin.bone_count > 0; ++point) {
     std::vector<modeler::BoneWeight> bones;
-    std::size_t at = meshlet.first_weight + vertex;
-    for (const std::uint32_t bone : film.bones_of(meshlet)) {
-      bones.push_back({bone, film.mesh_weights()[at]});
-      at += meshlet.vertex_count;
+    std::size_t at = skin.first_weight + point;
+    for (const std::uint32_t bone : film.bones_of(skin)) {
+      bones.push_back({bone, film.skin_weights()[at]});
+      at += points;
     }
     all.push_back(*modeler::bones_of_vertex(std::move(bones)));
   }
@@ -119,16 +124,21 @@ void add_stick(Lines& lines, const glm::dvec3& end) {
 
 Lines control_net(const wire::PackedFilm& film, const wire::Shape& shape) {
   Net net;
-  for (const wire::Patch& patch : film.patches().subspan(shape.first_patch, shape.patch_count)) net.add(patch);
+  for (std::uint32_t i = 0; i < shape.patch_count; ++i)
+    net.add(film.patches()[shape.first_patch + i],
+            shape.bone_count == 0 ? std::vector<modeler::VertexBones>{}
+                                  : followed_by(film, film.patch_skins()[shape.first_skin + i], wire::kPatchPoints));
   for (const wire::Meshlet& meshlet : film.meshlets().subspan(shape.first_meshlet, shape.meshlet_count))
     net.add(film.mesh_places().subspan(meshlet.first_vertex, meshlet.vertex_count),
-            film.mesh_triangles().subspan(meshlet.first_triangle, meshlet.triangle_count), followed_by(film, meshlet));
+            film.mesh_triangles().subspan(meshlet.first_triangle, meshlet.triangle_count),
+            followed_by(film, meshlet.skin, meshlet.vertex_count));
   return net.take();
 }
 
-Lines control_net(std::span<const wire::Patch> patches) {
+Lines control_net(std::span<const wire::Patch> patches, std::span<const modeler::PatchBones> bones) {
   Net net;
-  for (const wire::Patch& patch : patches) net.add(patch);
+  for (std::size_t patch = 0; patch < patches.size(); ++patch)
+    net.add(patches[patch], bones.empty() ? std::span<const modeler::VertexBones>{} : bones[patch]);
   return net.take();
 }
 

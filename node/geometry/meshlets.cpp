@@ -24,9 +24,9 @@ void MeshletPlacer::place(const SegmentPlace& segment, const wire::PackedFilm& f
   if (!segment.has_skin()) return place(segment.map(), film, meshlet, projection);
   float bones[wire::kMeshletBones][3][4];
   int count = 0;
-  for (const std::uint32_t bone : film.bones_of(meshlet))
+  for (const std::uint32_t bone : film.bones_of(meshlet.skin))
     std::memcpy(bones[count++], segment.bones()[bone].m, sizeof bones[0]);
-  const shape::EyeSkin skin{bones, film.mesh_weights().data() + meshlet.first_weight, count, segment.scale()};
+  const shape::EyeSkin skin{bones, film.skin_weights().data() + meshlet.skin.first_weight, count, segment.scale()};
   vertex_count_ = static_cast<int>(meshlet.vertex_count);
   kernels_.move_skin(skin, vectors(film.mesh_places().data() + meshlet.first_vertex),
                      vectors(film.mesh_normals().data() + meshlet.first_vertex), vertex_count_, vertices_);

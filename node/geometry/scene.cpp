@@ -46,14 +46,14 @@ ShapeBoxes::Box box_of(const wire::PackedFilm& film, std::uint32_t shape) {
   return box;
 }
 
-// `boxes` are of the meshlet's segment's bones.
-void take_in_vertices(const wire::PackedFilm& film, const wire::Meshlet& meshlet, std::span<ShapeBoxes::Box> boxes) {
-  const auto places = film.mesh_places().subspan(meshlet.first_vertex, meshlet.vertex_count);
-  auto weights = film.mesh_weights().subspan(meshlet.first_weight);
-  for (const std::uint32_t bone : film.bones_of(meshlet)) {
-    for (std::size_t vertex = 0; vertex < places.size(); ++vertex)
-      if (weights[vertex] > 0) take_in(places[vertex], places[vertex], boxes[bone]);
-    weights = weights.subspan(places.size());
+// `boxes` are of the bones of the skin's segment.
+void take_in_points(const wire::PackedFilm& film, const wire::Skin& skin, std::span<const std::array<float, 3>> points,
+                    std::span<ShapeBoxes::Box> boxes) {
+  auto weights = film.weights_of(skin, static_cast<std::uint32_t>(points.size()));
+  for (const std::uint32_t bone : film.bones_of(skin)) {
+    for (std::size_t point = 0; point < points.size(); ++point)
+      if (weights[point] > 0) take_in(points[point], points[point], boxes[bone]);
+    weights = weights.subspan(points.size());
   }
 }
 
@@ -90,8 +90,12 @@ ShapeBoxes::ShapeBoxes(const wire::PackedFilm& film) {
     const std::size_t first = bones_.size();
     bones_.resize(first + film.shape(shape).bone_count, kEmptyBox);
     first_bone_.push_back(bones_.size());
-    for (const wire::Meshlet& meshlet : film.meshlets_of(shape))
-      take_in_vertices(film, meshlet, std::span(bones_).subspan(first));
+    const std::span boxes = std::span(bones_).subspan(first);
+    const auto skins = film.skins_of_patches(shape);
+    for (std::size_t patch = 0; patch < skins.size(); ++patch)
+      take_in_points(film, skins[patch], film.patches_of(shape)[patch].points, boxes);
+    for (const wire::Meshlet& m : film.meshlets_of(shape))
+      take_in_points(film, m.skin, film.mesh_places().subspan(m.first_vertex, m.vertex_count), boxes);
   }
 }
 

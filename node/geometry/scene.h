@@ -29,7 +29,7 @@ class ShapeBoxes {
 
   explicit ShapeBoxes(const wire::PackedFilm& film);
   const Box& of(std::uint32_t shape) const { return boxes_[shape]; }
-  // Of a shape with a skin, for each bone round the vertices that follow it.
+  // Of a shape with a skin, for each bone round the vertices and points that follow it.
   std::span<const Box> of_bones(std::uint32_t shape) const {
     return std::span(bones_).subspan(first_bone_[shape], first_bone_[shape + 1] - first_bone_[shape]);
   }

@@ -77,6 +77,19 @@ BoxCorners corners_of(const shape::EyeMatrix& matrix, const std::array<float, 3>
   return corners;
 }
 
+shape::EyeMatrix blended(const wire::PackedFilm& film, const wire::Skin& skin, std::uint32_t point,
+                         std::uint32_t points, std::span<const shape::EyeMatrix> bones) {
+  shape::EyeMatrix sum{};
+  const auto weights = film.weights_of(skin, points);
+  std::size_t at = point;
+  for (const std::uint32_t bone : film.bones_of(skin)) {
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 4; ++c) sum.m[r][c] += weights[at] * bones[bone].m[r][c];
+    at += points;
+  }
+  return sum;
+}
+
 void SegmentPlace::find(const Scene& scene, std::size_t segment) {
   const wire::PackedFilm& film = scene.film();
   shape_ = film.segments()[segment].shape;
@@ -100,10 +113,20 @@ void SegmentPlace::find_bones(const Scene& scene, std::size_t segment) {
 
 bool SegmentPlace::mirrors() const { return shape::mirrors(has_skin() ? bones_.front() : matrix_); }
 
+shape::EyePatch SegmentPlace::patch(const wire::PackedFilm& film, std::size_t number) const {
+  const wire::Patch& patch = film.patches_of(shape_)[number];
+  if (!has_skin()) return shape::to_eye(matrix_, patch);
+  const wire::Skin& skin = film.skins_of_patches(shape_)[number];
+  shape::EyePatch moved;
+  for (std::uint32_t point = 0; point < wire::kPatchPoints; ++point)
+    shape::to_eye(blended(film, skin, point, wire::kPatchPoints, bones_), patch.points[point], moved.point[point]);
+  return moved;
+}
+
 BoxCorners SegmentPlace::corners(const wire::PackedFilm& film, const wire::Meshlet& meshlet) const {
   if (!has_skin()) return corners_of(matrix_, meshlet.low, meshlet.high);
   MovedBox box;
-  for (const std::uint32_t bone : film.bones_of(meshlet)) box.add(bones_[bone], meshlet.low, meshlet.high);
+  for (const std::uint32_t bone : film.bones_of(meshlet.skin)) box.add(bones_[bone], meshlet.low, meshlet.high);
   return box.corners();
 }
 

@@ -1,6 +1,6 @@
 // Where a segment is in eye space at its scene's frame: its one matrix moves it, or, where it has a skin, its bones'.
-// What bounds it bounds either: a skin's vertices go by sums of matrices whose weights add up to 1, so what lies in a
-// box stays between where its bones move the box.
+// What bounds it bounds either: a skin's vertices and patches' points go by sums of matrices whose weights add up to 1,
+// so what lies in a box stays between where its bones move the box.
 #pragma once
 
 #include <array>
@@ -27,6 +27,12 @@ shape::EyeMap eye_map(const shape::EyeMatrix& matrix);
 BoxCorners corners_of(const shape::EyeMatrix& matrix, const std::array<float, 3>& low,
                       const std::array<float, 3>& high);
 
+// The matrix of point number `point` of `points` that have a skin: the sum of its bones', each times its weight, in the
+// skin's order. It begins with 0, so a bone without weight changes no bit of it, and points that skins with different
+// bones share stay the same.
+shape::EyeMatrix blended(const wire::PackedFilm& film, const wire::Skin& skin, std::uint32_t point,
+                         std::uint32_t points, std::span<const shape::EyeMatrix> bones);
+
 class SegmentPlace {
  public:
   // Of the segment, until the next call.
@@ -42,6 +48,8 @@ class SegmentPlace {
   std::span<const shape::EyeMatrix> bones() const { return bones_; }
   float scale() const { return scale_; }
 
+  // One of its shape's patches, by its number in the shape.
+  shape::EyePatch patch(const wire::PackedFilm& film, std::size_t number) const;
   // Round one of its shape's meshlets, and round all of its shape.
   BoxCorners corners(const wire::PackedFilm& film, const wire::Meshlet& meshlet) const;
   BoxCorners corners(const ShapeBoxes& boxes) const;

@@ -49,25 +49,54 @@ bool stays(const wire::PackedFilm& film, const wire::Segment& segment, std::uint
 
 using Float3 = std::array<float, 3>;
 
-// Where a meshlet's vertices are at a frame, seen by its camera: as the kernel moves them.
-void put_skinned(const wire::PackedFilm& film, const wire::Segment& segment, const wire::Meshlet& meshlet,
-                 std::uint32_t frame, std::vector<Float3>& out) {
-  shape::EyeMatrix bones[wire::kMeshletBones];
-  std::size_t count = 0;
-  for (const std::uint32_t bone : film.bones_of(meshlet))
-    bones[count++] =
+constexpr std::uint8_t kNet = 9;  // places along each side of a patch whose motion is sought
+
+std::array<float, 4> bernstein(float t) {
+  const float s = 1 - t;
+  return {s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t};
+}
+
+// Where points with a skin are at a frame, seen by its camera.
+void put_moved(const wire::PackedFilm& film, const wire::Segment& segment, const wire::Skin& skin,
+               std::span<const Float3> points, std::uint32_t frame, std::vector<shape::EyeMatrix>& bones,
+               std::vector<Float3>& out) {
+  bones.resize(segment.bone_count);
+  for (const std::uint32_t bone : film.bones_of(skin))
+    bones[bone] =
         shape::eye_matrix(film.camera_at(frame).world_to_eye, film.matrix_at(film.bones_of(segment)[bone], frame));
-  const float* const weights = film.mesh_weights().data() + meshlet.first_weight;
-  out.resize(meshlet.vertex_count);
-  for (std::size_t vertex = 0; vertex < out.size(); ++vertex) {
-    shape::EyeMatrix sum{};
-    for (std::size_t bone = 0; bone < count; ++bone)
-      for (int r = 0; r < 3; ++r)
-        for (int c = 0; c < 4; ++c) sum.m[r][c] += weights[bone * out.size() + vertex] * bones[bone].m[r][c];
+  const auto count = static_cast<std::uint32_t>(points.size());
+  out.resize(count);
+  for (std::uint32_t point = 0; point < count; ++point) {
     float place[3];
-    shape::to_eye(sum, film.mesh_places()[meshlet.first_vertex + vertex], place);
-    std::copy_n(place, 3, out[vertex].begin());
+    shape::to_eye(blended(film, skin, point, count, bones), points[point], place);
+    std::copy_n(place, 3, out[point].begin());
   }
+}
+
+// Instead of a patch's control points, places on it: kNet x kNet, u first.
+void put_net(std::vector<Float3>& points) {
+  std::array<Float3, wire::kPatchPoints> control;
+  std::copy_n(points.begin(), control.size(), control.begin());
+  points.assign(kNet * kNet, {});
+  for (std::size_t place = 0; place < points.size(); ++place) {
+    const auto along_u = bernstein(static_cast<float>(place % kNet) / (kNet - 1));
+    const auto along_v = bernstein(static_cast<float>(place / kNet) / (kNet - 1));
+    for (std::size_t point = 0; point < control.size(); ++point)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        points[place][axis] += along_v[point / 4] * along_u[point % 4] * control[point][axis];
+  }
+}
+
+std::vector<wire::MeshTriangle> triangles_of_net() {
+  std::vector<wire::MeshTriangle> triangles;
+  for (std::uint8_t row = 0; row + 1 < kNet; ++row)
+    for (std::uint8_t column = 0; column + 1 < kNet; ++column) {
+      const auto at = static_cast<std::uint8_t>(row * kNet + column), above = static_cast<std::uint8_t>(at + kNet);
+      const auto next = static_cast<std::uint8_t>(at + 1), last = static_cast<std::uint8_t>(above + 1);
+      triangles.push_back({at, next, last});
+      triangles.push_back({at, last, above});
+    }
+  return triangles;
 }
 
 Float3 difference(const Float3& a, const Float3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
@@ -176,29 +205,36 @@ void SurfaceView::put_normal(const Triangle& t, const Place& place, float* norma
     normal[axis] = (to_world_[axis][0] * in_eye[0] + to_world_[axis][1] * in_eye[1]) + to_world_[axis][2] * in_eye[2];
 }
 
-const wire::Meshlet& SurfaceView::meshlet_of(std::uint32_t patch, std::uint32_t segment) const {
-  const wire::PackedFilm& film = scene_.film();
-  return film.meshlets_of(film.segments()[segment].shape)[patch - scene_.first_patch(segment)];
-}
-
 void SurfaceView::find_bent(std::uint32_t patch, std::uint32_t segment) const {
   if (bent_.patch == patch) return;
+  bent_.patch = patch;
   const wire::PackedFilm& film = scene_.film();
   const wire::Segment& of = film.segments()[segment];
-  put_skinned(film, of, meshlet_of(patch, segment), frame_, bent_.now);
-  put_skinned(film, of, meshlet_of(patch, segment), frame_ - 1, bent_.before);
-  bent_.patch = patch;
+  const std::size_t number = patch - scene_.first_patch(segment), patches = film.shape(of.shape).patch_count;
+  const auto put = [&](const wire::Skin& skin, std::span<const Float3> points) {
+    put_moved(film, of, skin, points, frame_, bent_.bones, bent_.now);
+    put_moved(film, of, skin, points, frame_ - 1, bent_.bones, bent_.before);
+  };
+  if (number < patches) {
+    static const std::vector<wire::MeshTriangle> kTriangles = triangles_of_net();
+    put(film.skins_of_patches(of.shape)[number], film.patches_of(of.shape)[number].points);
+    put_net(bent_.now);
+    put_net(bent_.before);
+    bent_.triangles = kTriangles;
+    return;
+  }
+  const wire::Meshlet& meshlet = film.meshlets_of(of.shape)[number - patches];
+  put(meshlet.skin, film.mesh_places().subspan(meshlet.first_vertex, meshlet.vertex_count));
+  bent_.triangles = film.mesh_triangles().subspan(meshlet.first_triangle, meshlet.triangle_count);
 }
 
-// Where the point was: on the meshlet's triangle that is nearest to it now.
+// Where the point was: on the triangle that is nearest to it now.
 void SurfaceView::put_before(const Triangle& triangle, const Place& place, std::uint32_t segment, float* eye) const {
   find_bent(triangle.patch, segment);
-  const wire::Meshlet& meshlet = meshlet_of(triangle.patch, segment);
   const Float3 point{place.eye[0], place.eye[1], place.eye[2]};
   float least = std::numeric_limits<float>::max();
   Float3 before{};
-  for (const wire::MeshTriangle& t :
-       scene_.film().mesh_triangles().subspan(meshlet.first_triangle, meshlet.triangle_count)) {
+  for (const wire::MeshTriangle& t : bent_.triangles) {
     const auto [u, v] = parts_near(point, bent_.now[t[0]], bent_.now[t[1]], bent_.now[t[2]]);
     const Float3 away = difference(between(bent_.now[t[0]], bent_.now[t[1]], bent_.now[t[2]], u, v), point);
     if (const float square = dot(away, away); square < least) {

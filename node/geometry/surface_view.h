@@ -5,9 +5,11 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "node/geometry/scene.h"
+#include "node/geometry/segment_place.h"
 #include "node/geometry/triangle.h"
 #include "node/wire/still_plan.h"
 
@@ -34,10 +36,12 @@ class SurfaceView {
     float m[3][4]{};
   };
 
-  // The vertices of a meshlet with a skin in eye space, now and at the frame before.
+  // A patch or meshlet with a skin as triangles in eye space, now and at the frame before.
   struct Bent {
     std::optional<std::uint32_t> patch;  // its number; none: there is none yet
     std::vector<std::array<float, 3>> now, before;
+    std::span<const wire::MeshTriangle> triangles;
+    std::vector<shape::EyeMatrix> bones;
   };
 
   struct Place {
@@ -52,7 +56,6 @@ class SurfaceView {
   void put_motion(const Triangle& triangle, const Place& place, std::uint32_t segment, float* motion) const;
   void find_bent(std::uint32_t patch, std::uint32_t segment) const;
   void put_before(const Triangle& triangle, const Place& place, std::uint32_t segment, float* eye) const;
-  const wire::Meshlet& meshlet_of(std::uint32_t patch, std::uint32_t segment) const;
 
   const Scene& scene_;
   std::uint32_t frame_ = 0;

@@ -268,12 +268,32 @@ class Pieces {
   void visit_skin(const wire::Segment& segment, std::uint32_t frame, const Visit& visit) {
     bones_.clear();
     for (const wire::Track& bone : film_.bones_of(segment)) bones_.push_back(&film_.matrix_at(bone, frame));
+    const auto skins = film_.skins_of_patches(segment.shape);
+    for (std::size_t patch = 0; patch < skins.size(); ++patch)
+      visit(hull_of(film_.patches_of(segment.shape)[patch], skins[patch]));
     for (const wire::Meshlet& meshlet : film_.meshlets_of(segment.shape)) {
       SkinBox box;
-      for (const std::uint32_t bone : film_.bones_of(meshlet))
+      for (const std::uint32_t bone : film_.bones_of(meshlet.skin))
         box.add(*bones_[bone], corners_of(meshlet.low, meshlet.high));
       visit(box.corners());
     }
+  }
+
+  Hull hull_of(const wire::Patch& patch, const wire::Skin& skin) const {
+    Hull hull;
+    const auto weights = film_.weights_of(skin, wire::kPatchPoints);
+    for (std::size_t point = 0; point < wire::kPatchPoints; ++point) {
+      const Point at_rest{patch.points[point][0], patch.points[point][1], patch.points[point][2]};
+      Point sum{};
+      std::size_t at = point;
+      for (const std::uint32_t bone : film_.bones_of(skin)) {
+        const Point by_bone = moved(*bones_[bone], at_rest);
+        for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += double{weights[at]} * by_bone[axis];
+        at += wire::kPatchPoints;
+      }
+      hull.add(sum);
+    }
+    return hull;
   }
 
   const wire::PackedFilm& film_;

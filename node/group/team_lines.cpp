@@ -51,8 +51,8 @@ void TeamLines::add_segment(const geometry::Scene& scene, std::uint32_t segment,
   if (all.lines.count() == 0) return;
   if (all.lines.count() * 4 * nodes <= static_cast<std::size_t>(scene.height()))
     return add(all, film.shape(number).size(), scene);
-  for (const wire::Patch& patch : film.patches_of(number)) {
-    const shape::EyePatch piece = shape::to_eye(place_.matrix(), patch);
+  for (std::size_t patch = 0; patch < film.patches_of(number).size(); ++patch) {
+    const shape::EyePatch piece = place_.patch(film, patch);
     add(geometry::picture_box(piece.point, 16, scene.projection(), size_of(scene)), 1, scene);
     points_ += 16;
   }

@@ -177,16 +177,15 @@ std::span<const ChunkCaster> CasterStream::next(const Matters& matters) {
 
 void CasterStream::add_item(const wire::Shape& shape, std::uint32_t number, const Matters& matters) {
   const bool is_patch = item_ < shape.patch_count;
-  const auto patch = [&]() -> const wire::Patch& { return scene_->film().patches_of(number)[item_]; };
   const auto meshlet = [&]() -> const wire::Meshlet& {
     return scene_->film().meshlets_of(number)[item_ - shape.patch_count];
   };
   const Hull hull =
-      is_patch ? hull_of(shape::to_eye(place_.matrix(), patch())) : hull_of(place_.corners(scene_->film(), meshlet()));
+      is_patch ? hull_of(place_.patch(scene_->film(), item_)) : hull_of(place_.corners(scene_->film(), meshlet()));
   if (!matters(hull)) return;
   const auto number_of_all = scene_->first_patch(segment_) + static_cast<std::uint32_t>(item_);
   const Caster* const known = diced_->find(number_of_all);
-  const Caster& surface = known != nullptr ? *known : add(number_of_all, is_patch ? dice(patch()) : place(meshlet()));
+  const Caster& surface = known != nullptr ? *known : add(number_of_all, is_patch ? dice(item_) : place(meshlet()));
   chunk_.push_back({hull, &surface, number_of_all, known == nullptr});
 }
 
@@ -202,13 +201,14 @@ void CasterStream::visit_hulls(const geometry::Scene& scene, Casting casting,
     if (!casts(scene, s, casting)) continue;
     const std::uint32_t number = film.segments()[s].shape;
     place_.find(scene, s);
-    for (const wire::Patch& patch : film.patches_of(number)) visit(hull_of(shape::to_eye(place_.matrix(), patch)));
+    for (std::size_t patch = 0; patch < film.patches_of(number).size(); ++patch)
+      visit(hull_of(place_.patch(film, patch)));
     for (const wire::Meshlet& meshlet : film.meshlets_of(number)) visit(hull_of(place_.corners(film, meshlet)));
   }
 }
 
-const shape::Surface& CasterStream::dice(const wire::Patch& patch) {
-  const shape::EyePatch eye_patch = shape::to_eye(place_.matrix(), patch);
+const shape::Surface& CasterStream::dice(std::size_t patch) {
+  const shape::EyePatch eye_patch = place_.patch(scene_->film(), patch);
   shape::Dicing dicing = scene_->dicing();
   // Of the whole picture, whichever part is drawn: shadows do not depend on it.
   const wire::FilmSettings& settings = scene_->film().settings();

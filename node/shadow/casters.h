@@ -118,7 +118,7 @@ class CasterStream {
  private:
   void add_item(const wire::Shape& shape, std::uint32_t number, const Matters& matters);
   const Caster& add(std::uint32_t patch, const shape::Surface& surface);
-  const shape::Surface& dice(const wire::Patch& patch);
+  const shape::Surface& dice(std::size_t patch);
   const shape::Surface& place(const wire::Meshlet& meshlet);
 
   shape::Dicer dicer_;

@@ -22,9 +22,9 @@ constexpr double kLargest = 1e12;  // of any number in a film: squares and produ
 
 // clang-format off
 enum Section : std::size_t {
-  kSettings, kPatches, kMeshPlaces, kMeshNormals, kMeshTriangles, kMeshBones, kMeshWeights, kMeshlets, kShapes,
-  kSegments, kBones, kMaterials, kMatrices, kCameras, kLights, kLightTracks, kChanges, kIntervals, kMoving, kNames,
-  kSections
+  kSettings, kPatches, kMeshPlaces, kMeshNormals, kMeshTriangles, kMeshlets, kPatchSkins, kSkinBones,
+  kSkinWeights, kShapes, kSegments, kBones, kMaterials, kMatrices, kCameras, kLights, kLightTracks, kChanges,
+  kIntervals, kMoving, kNames, kSections
 };
 // clang-format on
 
@@ -79,7 +79,7 @@ bool is_light(const std::array<float, 3>& color) {
   return std::ranges::all_of(color, [](float channel) { return channel >= 0 && channel <= kMostLight; });
 }
 
-constexpr double kWeightRounding = 1e-6;  // of a vertex's weights, from 1
+constexpr double kWeightRounding = 1e-6;  // of a point's weights, from 1
 
 bool is_share(float number) { return number >= 0 && number <= 1; }
 
@@ -186,9 +186,10 @@ void pack_around(const FilmData& film, std::size_t matrices,
     visit(kMeshPlaces, film.mesh_places);
     visit(kMeshNormals, film.mesh_normals);
     visit(kMeshTriangles, film.mesh_triangles);
-    visit(kMeshBones, film.mesh_bones);
-    visit(kMeshWeights, film.mesh_weights);
     visit(kMeshlets, film.meshlets);
+    visit(kPatchSkins, film.patch_skins);
+    visit(kSkinBones, film.skin_bones);
+    visit(kSkinWeights, film.skin_weights);
     visit(kShapes, film.shapes);
     visit(kSegments, film.segments);
     visit(kBones, film.bones);
@@ -232,15 +233,16 @@ PackedFilm::PackedFilm(std::span<const std::byte> block, const PackedFilm& base,
     : base_patches_(base.patches_), base_shapes_(base.shapes_) {
   read(block, where);
   require(settings_->frames == 1, where, "a scene is one moment");
-  require(mesh_places_.empty() && mesh_normals_.empty() && mesh_triangles_.empty() && mesh_bones_.empty() &&
-              mesh_weights_.empty() && meshlets_.empty(),
-          where, "a scene has no meshes");
+  require(mesh_places_.empty() && mesh_normals_.empty() && mesh_triangles_.empty() && meshlets_.empty(), where,
+          "a scene has no meshes");
+  require(patch_skins_.empty() && skin_bones_.empty() && skin_weights_.empty(), where, "a scene has no skins");
+  patch_skins_ = base.patch_skins_;
+  skin_bones_ = base.skin_bones_;
+  skin_weights_ = base.skin_weights_;
   check_all(where);
   mesh_places_ = base.mesh_places_;
   mesh_normals_ = base.mesh_normals_;
   mesh_triangles_ = base.mesh_triangles_;
-  mesh_bones_ = base.mesh_bones_;
-  mesh_weights_ = base.mesh_weights_;
   meshlets_ = base.meshlets_;
 }
 
@@ -256,9 +258,10 @@ void PackedFilm::read(std::span<const std::byte> block, const std::string& where
   read(kMeshPlaces, mesh_places_);
   read(kMeshNormals, mesh_normals_);
   read(kMeshTriangles, mesh_triangles_);
-  read(kMeshBones, mesh_bones_);
-  read(kMeshWeights, mesh_weights_);
   read(kMeshlets, meshlets_);
+  read(kPatchSkins, patch_skins_);
+  read(kSkinBones, skin_bones_);
+  read(kSkinWeights, skin_weights_);
   read(kShapes, shapes_);
   read(kSegments, segments_);
   read(kBones, bones_);
@@ -311,12 +314,16 @@ void PackedFilm::check_segments(const std::string& where) const {
 }
 
 void PackedFilm::check_bones(const Shape& shape, const std::string& where) const {
-  require(shape.bone_count == 0 || (shape.patch_count == 0 && shape.meshlet_count > 0), where,
-          "a shape has a skin without meshlets, or beside patches");
-  for (const Meshlet& meshlet : meshlets_.subspan(shape.first_meshlet, shape.meshlet_count)) {
-    require((meshlet.bone_count > 0) == (shape.bone_count > 0), where, "a shape has meshlets with and without a skin");
-    if (meshlet.bone_count > 0)
-      require(bones_of(meshlet).back() < shape.bone_count, where, "a meshlet has no such bones");
+  const auto check_bones = [&](const Skin& skin) {
+    require((skin.bone_count > 0) == (shape.bone_count > 0), where, "a shape has parts with and without a skin");
+    if (skin.bone_count > 0) require(bones_of(skin).back() < shape.bone_count, where, "a skin has no such bones");
+  };
+  for (const Meshlet& meshlet : meshlets_.subspan(shape.first_meshlet, shape.meshlet_count)) check_bones(meshlet.skin);
+  if (shape.bone_count == 0) return;
+  require(within(shape.first_skin, shape.patch_count, patch_skins_.size()), where, "a shape has no such skins");
+  for (const Skin& skin : patch_skins_.subspan(shape.first_skin, shape.patch_count)) {
+    check_skin(skin, kPatchPoints, where);
+    check_bones(skin);
   }
 }
 
@@ -360,27 +367,26 @@ void PackedFilm::check_meshlets(const std::string& where) const {
     for (const MeshTriangle& triangle : mesh_triangles_.subspan(m.first_triangle, m.triangle_count))
       for (const std::uint8_t corner : triangle)
         require(corner < m.vertex_count, where, "a triangle has no such vertex");
-    check_skin(m, where);
+    require(m.skin.bone_count <= kMeshletBones, where, "a meshlet has too many bones");
+    check_skin(m.skin, m.vertex_count, where);
   }
 }
 
-void PackedFilm::check_skin(const Meshlet& m, const std::string& where) const {
-  require(m.bone_count <= kMeshletBones && within(m.first_bone, m.bone_count, mesh_bones_.size()), where,
-          "a meshlet has no such bones");
-  const std::uint64_t weights = std::uint64_t{m.bone_count} * m.vertex_count;
-  require(within(m.first_weight, weights, mesh_weights_.size()), where, "a meshlet has no such weights");
-  if (m.bone_count == 0) return;
-  const auto bones = bones_of(m);
+void PackedFilm::check_skin(const Skin& skin, std::uint32_t points, const std::string& where) const {
+  require(within(skin.first_bone, skin.bone_count, skin_bones_.size()), where, "a skin has no such bones");
+  const std::uint64_t weights = std::uint64_t{skin.bone_count} * points;
+  require(within(skin.first_weight, weights, skin_weights_.size()), where, "a skin has no such weights");
+  const auto bones = bones_of(skin);
   require(std::ranges::adjacent_find(bones, std::greater_equal<>()) == bones.end(), where,
-          "a meshlet's bones do not ascend");
-  const auto all = mesh_weights_.subspan(m.first_weight, weights);
+          "a skin's bones do not ascend");
+  const auto all = weights_of(skin, points);
   require(std::ranges::all_of(all, is_share), where, "a weight is not within 0 and 1");
-  for (std::uint32_t vertex = 0; vertex < m.vertex_count; ++vertex) {
+  for (std::uint32_t point = 0; point < points && skin.bone_count > 0; ++point) {
     double sum = 0;
     std::uint32_t count = 0;
-    for (std::size_t at = vertex; at < weights; at += m.vertex_count) sum += all[at], count += all[at] > 0;
-    require(count <= kMostVertexBones && std::abs(sum - 1) <= kWeightRounding, where,
-            "a vertex's weights do not add up to 1, or are too many");
+    for (std::size_t at = point; at < weights; at += points) sum += all[at], count += all[at] > 0;
+    require(count <= kMostPointBones && std::abs(sum - 1) <= kWeightRounding, where,
+            "a point's weights do not add up to 1, or are too many");
   }
 }
 

@@ -27,9 +27,10 @@ struct FilmData {
   std::vector<std::array<float, 3>> mesh_places;   // of vertices, in the unit cube
   std::vector<std::array<float, 3>> mesh_normals;  // to the outside, one a vertex; of any length, 0: none
   std::vector<MeshTriangle> mesh_triangles;
-  std::vector<std::uint32_t> mesh_bones;  // of meshlets with skins
-  std::vector<float> mesh_weights;
   std::vector<Meshlet> meshlets;
+  std::vector<Skin> patch_skins;
+  std::vector<std::uint32_t> skin_bones;
+  std::vector<float> skin_weights;
   std::vector<Shape> shapes;
   std::vector<Segment> segments;
   std::vector<Track> bones;  // of segments with skins: indices into matrices
@@ -64,7 +65,8 @@ class PackedFilm {
   // Checks every count, index and range, so that no later access can go wrong, and that numbers are finite;
   // throws Failure("...", where, ...) otherwise. `trusted`: the block was checked before (by the host).
   PackedFilm(std::span<const std::byte> block, const std::string& where, bool trusted = false);
-  // A scene block (scene.h) of `base`, whose block outlives it too. It is checked as well.
+  // A scene block (scene.h) of `base`, whose block outlives it too. It is checked as well. Its shapes' skins are the
+  // base's.
   PackedFilm(std::span<const std::byte> block, const PackedFilm& base, const std::string& where);
 
   const FilmSettings& settings() const { return *settings_; }
@@ -74,9 +76,10 @@ class PackedFilm {
   std::span<const std::array<float, 3>> mesh_places() const { return mesh_places_; }
   std::span<const std::array<float, 3>> mesh_normals() const { return mesh_normals_; }
   std::span<const MeshTriangle> mesh_triangles() const { return mesh_triangles_; }
-  std::span<const std::uint32_t> mesh_bones() const { return mesh_bones_; }
-  std::span<const float> mesh_weights() const { return mesh_weights_; }
   std::span<const Meshlet> meshlets() const { return meshlets_; }
+  std::span<const Skin> patch_skins() const { return patch_skins_; }
+  std::span<const std::uint32_t> skin_bones() const { return skin_bones_; }
+  std::span<const float> skin_weights() const { return skin_weights_; }
   std::span<const Shape> shapes() const { return shapes_; }
   std::span<const Segment> segments() const { return segments_; }
   std::span<const Track> bones() const { return bones_; }
@@ -106,8 +109,17 @@ class PackedFilm {
     return meshlets_.subspan(of.first_meshlet, of.meshlet_count);
   }
 
-  std::span<const std::uint32_t> bones_of(const Meshlet& meshlet) const {
-    return mesh_bones_.subspan(meshlet.first_bone, meshlet.bone_count);
+  // One a patch; none where the shape has no skin.
+  std::span<const Skin> skins_of_patches(std::uint32_t shape_number) const {
+    const Shape& of = shape(shape_number);
+    return of.bone_count > 0 ? patch_skins_.subspan(of.first_skin, of.patch_count) : std::span<const Skin>{};
+  }
+  std::span<const std::uint32_t> bones_of(const Skin& skin) const {
+    return skin_bones_.subspan(skin.first_bone, skin.bone_count);
+  }
+  // Bone by bone, of `points` points each.
+  std::span<const float> weights_of(const Skin& skin, std::uint32_t points) const {
+    return skin_weights_.subspan(skin.first_weight, std::size_t{skin.bone_count} * points);
   }
   std::span<const Track> bones_of(const Segment& segment) const {
     return bones_.subspan(segment.first_bone, segment.bone_count);
@@ -135,7 +147,7 @@ class PackedFilm {
   void check_all(const std::string& where) const;
   void check_meshlets(const std::string& where) const;
   void check_bones(const Shape& shape, const std::string& where) const;
-  void check_skin(const Meshlet& meshlet, const std::string& where) const;
+  void check_skin(const Skin& skin, std::uint32_t points, const std::string& where) const;
   void check_segments(const std::string& where) const;
   void check_intervals(const std::string& where) const;
   bool exposed_evenly(const Interval& interval) const;
@@ -148,9 +160,10 @@ class PackedFilm {
   std::span<const std::array<float, 3>> mesh_places_;
   std::span<const std::array<float, 3>> mesh_normals_;
   std::span<const MeshTriangle> mesh_triangles_;
-  std::span<const std::uint32_t> mesh_bones_;
-  std::span<const float> mesh_weights_;
   std::span<const Meshlet> meshlets_;
+  std::span<const Skin> patch_skins_;
+  std::span<const std::uint32_t> skin_bones_;
+  std::span<const float> skin_weights_;
   std::span<const Shape> shapes_;
   std::span<const Segment> segments_;
   std::span<const Track> bones_;

@@ -41,13 +41,25 @@ struct Track {
   std::uint32_t count;
 };
 
+// What a meshlet's vertices, or a patch's 16 points, follow: the bones skin_bones[first_bone, first_bone + bone_count),
+// which are numbers among those of a segment, ascending; bone by bone, skin_weights from first_weight on have the
+// weight of each point. A point has kMostPointBones weights above 0 at most, whose sum is 1.
+struct Skin {
+  std::uint32_t first_bone = 0;
+  std::uint32_t bone_count = 0;  // 0: it is rigid; of a meshlet kMeshletBones at most
+  std::uint32_t first_weight = 0;
+};
+
+inline constexpr std::uint32_t kMostPointBones = 4;
+inline constexpr std::uint32_t kPatchPoints = 16;
+inline constexpr std::uint32_t kMeshletBones = 16;
+static_assert(kMeshletBones >= 3 * kMostPointBones);  // any triangle has room
+
 // A part of a polygon mesh, of bounded size so that a mesh is divided over nodes as patches are: vertices
 // [first_vertex, first_vertex + vertex_count) of the film's places and normals, and triangles whose corners count from
 // first_vertex, counter-clockwise seen from outside. Meshlets that meet have vertices at the same places, bit for bit.
 //
-// With a skin, vertices follow the bones mesh_bones[first_bone, first_bone + bone_count), which are numbers among those
-// of a segment, ascending; bone by bone, mesh_weights from first_weight on have the weight of each vertex. A vertex has
-// kMostVertexBones weights above 0 at most, whose sum is 1, and the same ones, bit for bit, in all meshlets.
+// With a skin its vertices follow bones; vertices at one place have the same weights, bit for bit, in all meshlets.
 struct Meshlet {
   std::uint32_t first_vertex;
   std::uint32_t vertex_count;  // 1..kMeshletVertices
@@ -55,36 +67,33 @@ struct Meshlet {
   std::uint32_t triangle_count;  // 1..kMeshletTriangles
   std::array<float, 3> low;      // of the box round its vertices
   std::array<float, 3> high;
-  std::uint32_t first_bone = 0;
-  std::uint32_t bone_count = 0;  // 0..kMeshletBones; 0: it has no skin
-  std::uint32_t first_weight = 0;
+  Skin skin{};
 };
 
 inline constexpr std::uint32_t kMeshletVertices = 192;
 inline constexpr std::uint32_t kMeshletTriangles = 128;
-inline constexpr std::uint32_t kMeshletBones = 16;
-inline constexpr std::uint32_t kMostVertexBones = 4;
-static_assert(kMeshletBones >= 3 * kMostVertexBones);  // any triangle has room
 
 // Numbers of a meshlet's vertices.
 using MeshTriangle = std::array<std::uint8_t, 3>;
 
-// Its patches, then its meshlets; most shapes have one kind. A shape with a skin has meshlets alone, all with bones.
+// Its patches, then its meshlets; most shapes have one kind. Of a shape with a skin all have bones: its patches those
+// of patch_skins[first_skin, first_skin + patch_count).
 struct Shape {
   std::uint32_t first_patch;
   std::uint32_t patch_count;
   std::uint32_t first_meshlet = 0;
   std::uint32_t meshlet_count = 0;
   std::uint32_t bone_count = 0;  // that a segment of it has at least; 0: it is rigid
+  std::uint32_t first_skin = 0;
 
   std::uint64_t size() const { return std::uint64_t{patch_count} + meshlet_count; }
 };
 
 // One instance of a shape. `motion` gives indices into matrices: T-matrices from the unit cube to the world. Of a shape
 // with a skin they are where the segment's joint would put it if it were rigid; what is drawn follows bones[first_bone,
-// first_bone + bone_count), tracks of such matrices too: a vertex goes by the sum of its bones' matrices, each times
-// its weight. `material` gives indices into materials. Patches and meshlets of the whole film are numbered segment by
-// segment.
+// first_bone + bone_count), tracks of such matrices too: a vertex, or a patch's point, goes by the sum of its bones'
+// matrices, each times its weight. `material` gives indices into materials. Patches and meshlets of the whole film are
+// numbered segment by segment.
 struct Segment {
   std::uint32_t shape;
   std::uint32_t name;  // offset into names

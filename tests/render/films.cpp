@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <numbers>
 
+#include "host/content/modeler/bspline.h"
 #include "host/content/modeler/primitives.h"
 #include "host/content/modeler/teapot.h"
 
@@ -159,18 +160,34 @@ std::uint32_t FilmMaker::add_shape(const modeler::Meshlets& mesh) {
   for (wire::Meshlet meshlet : mesh.meshlets) {
     meshlet.first_vertex += static_cast<std::uint32_t>(film.mesh_places.size());
     meshlet.first_triangle += static_cast<std::uint32_t>(film.mesh_triangles.size());
-    meshlet.first_bone += static_cast<std::uint32_t>(film.mesh_bones.size());
-    meshlet.first_weight += static_cast<std::uint32_t>(film.mesh_weights.size());
+    meshlet.skin.first_bone += static_cast<std::uint32_t>(film.skin_bones.size());
+    meshlet.skin.first_weight += static_cast<std::uint32_t>(film.skin_weights.size());
     film.meshlets.push_back(meshlet);
   }
   append(film.mesh_places, mesh.places);
   append(film.mesh_normals, mesh.normals);
   append(film.mesh_triangles, mesh.triangles);
-  append(film.mesh_bones, mesh.bones);
-  append(film.mesh_weights, mesh.weights);
+  append(film.skin_bones, mesh.skins.bones);
+  append(film.skin_weights, mesh.skins.weights);
   film.shapes.push_back({0, 0, first, static_cast<std::uint32_t>(mesh.meshlets.size()),
-                         mesh.bones.empty() ? 0 : *std::ranges::max_element(mesh.bones) + 1});
+                         mesh.skins.bones.empty() ? 0 : *std::ranges::max_element(mesh.skins.bones) + 1});
   return static_cast<std::uint32_t>(film.shapes.size() - 1);
+}
+
+std::uint32_t FilmMaker::add_shape(const modeler::Shape& skin) {
+  modeler::SkinLists lists;
+  const std::uint32_t number = add_shape(skin.patches), last = modeler::last_bone(skin);
+  film.shapes.back().bone_count = last + 1;
+  film.shapes.back().first_skin = static_cast<std::uint32_t>(film.patch_skins.size());
+  for (const modeler::PatchBones& points : skin.patch_bones) {
+    wire::Skin of_patch = lists.add(points);
+    of_patch.first_bone += static_cast<std::uint32_t>(film.skin_bones.size());
+    of_patch.first_weight += static_cast<std::uint32_t>(film.skin_weights.size());
+    film.patch_skins.push_back(of_patch);
+  }
+  film.skin_bones.insert(film.skin_bones.end(), lists.bones.begin(), lists.bones.end());
+  film.skin_weights.insert(film.skin_weights.end(), lists.weights.begin(), lists.weights.end());
+  return number;
 }
 
 std::uint32_t FilmMaker::add_material(const wire::Material& material) {
@@ -329,6 +346,32 @@ std::vector<std::vector<wire::Matrix>> bends(const Vec3& place, double length, s
 
 }  // namespace
 
+namespace {
+
+// A tube of patches, open at its ends, along z.
+modeler::Shape patch_tube(std::uint32_t rows, std::uint32_t bones) {
+  constexpr std::uint32_t kAround = 6;
+  modeler::PointGrid points;
+  modeler::BoneGrid follows;
+  for (std::uint32_t row = 0; row < rows; ++row) {
+    const double z = double(row) / (rows - 1);
+    std::vector<modeler::BoneWeight> weights;
+    for (std::uint32_t bone = 0; bone < bones; ++bone)
+      if (const double away = std::abs(z * bones - (bone + 0.5)); away < 1.2) weights.push_back({bone, 1.2 - away});
+    auto& ring = points.emplace_back();
+    for (std::uint32_t k = 0; k < kAround; ++k) {
+      const double angle = 2 * std::numbers::pi * k / kAround;
+      ring.emplace_back(0.5 + 0.45 * std::cos(angle), 0.5 + 0.45 * std::sin(angle), z);
+    }
+    follows.emplace_back(kAround, *modeler::bones_of_vertex(weights));
+  }
+  const auto u = modeler::uniform_direction(modeler::Ends::periodic, 3, kAround);
+  const auto v = modeler::uniform_direction(modeler::Ends::clamped, 3, rows);
+  return {"tube", modeler::rounded(modeler::bezier_patches(points, u, v)), {}, modeler::bezier_bones(follows, u, v)};
+}
+
+}  // namespace
+
 wire::FilmData bending(std::uint32_t width, std::uint32_t height, std::uint32_t frames, std::uint32_t interval) {
   FilmMaker maker(width, height, frames);
   const std::uint32_t clay = maker.add_material(kClay),
@@ -344,6 +387,8 @@ wire::FilmData bending(std::uint32_t width, std::uint32_t height, std::uint32_t 
   maker.add_skin(shapes[0], blue, bends({1.2, 1.5, 0}, 3, 6, {-0.2}));
   for (double& angle : angles) angle = 0.02 - 0.2 * angle;
   maker.add_skin(shapes[1], blue, bends({2, -2, 0}, 4.5, 24, angles));
+  for (double& angle : angles) angle *= 3;
+  maker.add_skin(maker.add_shape(patch_tube(9, 5)), clay, bends({-0.3, -2.8, 0}, 3, 5, angles));
   maker.add_light({wire::LightKind::directional, {-0.28f, 0, 0.96f}, {0.8f, 0.8f, 0.8f}});
   maker.add_light({wire::LightKind::point, {0, -4, 6}, {0.5f, 0.5f, 0.6f}});
   maker.film.lights[0].casts = 1;

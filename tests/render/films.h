@@ -27,6 +27,7 @@ class FilmMaker {
 
   std::uint32_t add_shape(const std::vector<wire::Patch>& patches);
   std::uint32_t add_shape(const modeler::Meshlets& mesh);
+  std::uint32_t add_shape(const modeler::Shape& skin);  // of patches
   std::uint32_t add_material(const wire::Material& material);
   // One matrix (stands still) or one a frame (only changes are stored).
   void add_segment(std::uint32_t shape, std::uint32_t material, const std::vector<wire::Matrix>& motion);

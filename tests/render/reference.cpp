@@ -55,8 +55,8 @@ void add_segment(const geometry::Scene& scene, std::size_t segment, Surfaces& su
     reference.moving.resize(reference.triangles.size(), identity.moving);
     ++identity.patch;
   };
-  for (const wire::Patch& patch : film.patches().subspan(shape.first_patch, shape.patch_count)) {
-    surfaces.dicer.dice(shape::to_eye(place.matrix(), patch), scene.projection(), scene.dicing());
+  for (std::uint32_t patch = 0; patch < shape.patch_count; ++patch) {
+    surfaces.dicer.dice(place.patch(film, patch), scene.projection(), scene.dicing());
     add(surfaces.dicer);
   }
   for (const wire::Meshlet& meshlet : film.meshlets().subspan(shape.first_meshlet, shape.meshlet_count)) {

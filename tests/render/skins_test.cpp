@@ -69,7 +69,7 @@ TEST(Skins, AreDrawnAsByThePlainTwin) {
 TEST(Skins, HoldStillUntilABoneMoves) {
   const wire::FilmData film = bending(64, 40, 4, 4);
   ASSERT_EQ(film.intervals.size(), 1u);
-  EXPECT_EQ(film.moving, (std::vector<std::uint32_t>{2, 4}));
+  EXPECT_EQ(film.moving, (std::vector<std::uint32_t>{2, 4, 5}));
 }
 
 // A studio's view: an inbetween in which one bone stands elsewhere is the picture of the scene with that bone there.
@@ -79,7 +79,8 @@ TEST(Skins, BendInLiveViews) {
   film.intervals = {{0, 1, 0, 1}};
   wire::FilmData scene = film, bent = film;
   scene.patches.clear(), scene.shapes.clear(), scene.meshlets.clear(), scene.mesh_places.clear();
-  scene.mesh_normals.clear(), scene.mesh_triangles.clear(), scene.mesh_bones.clear(), scene.mesh_weights.clear();
+  scene.mesh_normals.clear(), scene.mesh_triangles.clear(), scene.skin_bones.clear(), scene.skin_weights.clear();
+  scene.patch_skins.clear();
   const std::uint32_t bone = film.segments[2].first_bone + 3;
   std::uint32_t& value = bent.changes[bent.bones[bone].first].value;
   wire::Matrix elsewhere = bent.matrices[value];

@@ -35,12 +35,15 @@ constexpr bool kOfFourBytes = alignof(T) == 4 && sizeof(T) % 4 == 0;
 static_assert(kOfFourBytes<wire::Light> && kOfFourBytes<wire::Material> && kOfFourBytes<wire::FilmSettings> &&
               kOfFourBytes<wire::AmbientLight> && kOfFourBytes<wire::Fog>);
 
-std::span<const float> weights_of(const PackedFilm& film, const wire::Meshlet& meshlet) {
-  return film.mesh_weights().subspan(meshlet.first_weight, std::size_t{meshlet.bone_count} * meshlet.vertex_count);
+// Of as many points.
+bool same_skin(const PackedFilm& a, const wire::Skin& in_a, const PackedFilm& b, const wire::Skin& in_b,
+               std::uint32_t points) {
+  return same_bits(a.bones_of(in_a), b.bones_of(in_b)) &&
+         same_bits(a.weights_of(in_a, points), b.weights_of(in_b, points));
 }
 
 bool same_meshlet(const PackedFilm& a, const wire::Meshlet& in_a, const PackedFilm& b, const wire::Meshlet& in_b) {
-  return same_bits(a.bones_of(in_a), b.bones_of(in_b)) && same_bits(weights_of(a, in_a), weights_of(b, in_b)) &&
+  return in_a.vertex_count == in_b.vertex_count && same_skin(a, in_a.skin, b, in_b.skin, in_a.vertex_count) &&
          same_bits(in_a.low, in_b.low) && same_bits(in_a.high, in_b.high) &&
          same_bits(a.mesh_places().subspan(in_a.first_vertex, in_a.vertex_count),
                    b.mesh_places().subspan(in_b.first_vertex, in_b.vertex_count)) &&
@@ -51,7 +54,13 @@ bool same_meshlet(const PackedFilm& a, const wire::Meshlet& in_a, const PackedFi
 }
 
 bool same_shape(const PackedFilm& a, const wire::Shape& in_a, const PackedFilm& b, const wire::Shape& in_b) {
-  if (in_a.meshlet_count != in_b.meshlet_count) return false;
+  if (in_a.meshlet_count != in_b.meshlet_count || in_a.patch_count != in_b.patch_count ||
+      in_a.bone_count != in_b.bone_count)
+    return false;
+  for (std::uint32_t i = 0; i < in_a.patch_count && in_a.bone_count > 0; ++i)
+    if (!same_skin(a, a.patch_skins()[in_a.first_skin + i], b, b.patch_skins()[in_b.first_skin + i],
+                   wire::kPatchPoints))
+      return false;
   for (std::uint32_t i = 0; i < in_a.meshlet_count; ++i)
     if (!same_meshlet(a, a.meshlets()[in_a.first_meshlet + i], b, b.meshlets()[in_b.first_meshlet + i])) return false;
   return same_bits(a.patches().subspan(in_a.first_patch, in_a.patch_count),

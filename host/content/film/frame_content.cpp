@@ -23,18 +23,24 @@ void add(Checksum& sum, const T& value) {
   add(sum, std::span(&value, 1));
 }
 
+void add(Checksum& sum, const wire::PackedFilm& film, const wire::Skin& skin, std::uint32_t points) {
+  add(sum, film.bones_of(skin));
+  add(sum, film.weights_of(skin, points));
+}
+
 std::string checksum_of_shape(const wire::PackedFilm& film, const wire::Shape& shape) {
   Checksum sum;
   add(sum, film.patches().subspan(shape.first_patch, shape.patch_count));
+  if (shape.bone_count > 0)
+    for (const wire::Skin& skin : film.patch_skins().subspan(shape.first_skin, shape.patch_count))
+      add(sum, film, skin, wire::kPatchPoints);
   for (const wire::Meshlet& meshlet : film.meshlets().subspan(shape.first_meshlet, shape.meshlet_count)) {
     add(sum, meshlet.low);
     add(sum, meshlet.high);
     add(sum, film.mesh_places().subspan(meshlet.first_vertex, meshlet.vertex_count));
     add(sum, film.mesh_normals().subspan(meshlet.first_vertex, meshlet.vertex_count));
     add(sum, film.mesh_triangles().subspan(meshlet.first_triangle, meshlet.triangle_count));
-    if (meshlet.bone_count == 0) continue;
-    add(sum, film.bones_of(meshlet));
-    add(sum, film.mesh_weights().subspan(meshlet.first_weight, std::size_t{meshlet.bone_count} * meshlet.vertex_count));
+    if (meshlet.skin.bone_count > 0) add(sum, film, meshlet.skin, meshlet.vertex_count);
   }
   return sum.digits();
 }

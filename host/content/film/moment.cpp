@@ -68,8 +68,9 @@ CompiledFilm compiled_moment(const animator::Film& film, std::uint32_t frame) {
   data.mesh_places = std::move(shapes.parts.mesh_places);
   data.mesh_normals = std::move(shapes.parts.mesh_normals);
   data.mesh_triangles = std::move(shapes.parts.mesh_triangles);
-  data.mesh_bones = std::move(shapes.parts.mesh_bones);
-  data.mesh_weights = std::move(shapes.parts.mesh_weights);
+  data.patch_skins = std::move(shapes.parts.patch_skins);
+  data.skin_bones = std::move(shapes.parts.skin_bones);
+  data.skin_weights = std::move(shapes.parts.skin_weights);
   return compiled(data, film);
 }
 

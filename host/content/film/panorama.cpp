@@ -26,8 +26,9 @@ wire::FilmData data_of(const wire::PackedFilm& film) {
   data.mesh_places = copy_of(film.mesh_places());
   data.mesh_normals = copy_of(film.mesh_normals());
   data.mesh_triangles = copy_of(film.mesh_triangles());
-  data.mesh_bones = copy_of(film.mesh_bones());
-  data.mesh_weights = copy_of(film.mesh_weights());
+  data.patch_skins = copy_of(film.patch_skins());
+  data.skin_bones = copy_of(film.skin_bones());
+  data.skin_weights = copy_of(film.skin_weights());
   data.meshlets = copy_of(film.meshlets());
   data.shapes = copy_of(film.shapes());
   data.segments = copy_of(film.segments());

@@ -9,23 +9,58 @@
 namespace mars::film {
 namespace {
 
-constexpr std::size_t kMostOfMeshes =
-    std::numeric_limits<std::uint32_t>::max();  // of vertices or triangles of all meshes
+constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max();  // of vertices, triangles or weights
 
 template <typename Item>
 void append(std::vector<Item>& items, const std::vector<Item>& more) {
   items.insert(items.end(), more.begin(), more.end());
 }
 
+std::string_view bits_of(const std::vector<wire::Patch>& patches) {
+  return {reinterpret_cast<const char*>(patches.data()), patches.size() * sizeof(wire::Patch)};
+}
+
+std::uint32_t bone_count(const modeler::SkinLists& lists) {
+  return lists.bones.empty() ? 0 : *std::ranges::max_element(lists.bones) + 1;
+}
+
 }  // namespace
 
 std::uint32_t ShapeWriter::add(const modeler::Shape& shape) {
-  return shape.mesh ? add_mesh(*shape.mesh) : add_patches(shape.patches);
+  if (shape.mesh) return add_mesh(*shape.mesh);
+  return shape.patch_bones.empty() ? add_patches(shape.patches) : add_skin(shape);
+}
+
+std::uint32_t ShapeWriter::add_skin(const modeler::Shape& shape) {
+  for (const auto& [known, number] : of_skins_)
+    if (known->patch_bones == shape.patch_bones && bits_of(known->patches) == bits_of(shape.patches)) return number;
+  modeler::SkinLists lists;
+  std::vector<wire::Skin> skins;
+  for (const modeler::PatchBones& points : shape.patch_bones) skins.push_back(placed(lists.add(points)));
+  film_.shapes.push_back({std::uint32_t(film_.patches.size()), std::uint32_t(skins.size()), 0, 0, bone_count(lists),
+                          std::uint32_t(film_.patch_skins.size())});
+  append(film_.patches, shape.patches);
+  append(film_.patch_skins, skins);
+  append_lists(lists);
+  return of_skins_.emplace_back(&shape, std::uint32_t(film_.shapes.size() - 1)).second;
+}
+
+// Behind those that the film has.
+wire::Skin ShapeWriter::placed(wire::Skin skin) const {
+  skin.first_bone += static_cast<std::uint32_t>(film_.skin_bones.size());
+  skin.first_weight += static_cast<std::uint32_t>(film_.skin_weights.size());
+  return skin;
+}
+
+void ShapeWriter::append_lists(const modeler::SkinLists& lists) {
+  if (film_.skin_weights.size() + lists.weights.size() > kMost)
+    throw Failure("have more than 4294967295 weights", "skins", "use fewer or smaller skins");
+  append(film_.skin_bones, lists.bones);
+  append(film_.skin_weights, lists.weights);
 }
 
 std::uint32_t ShapeWriter::add_patches(const std::vector<wire::Patch>& patches) {
-  const std::string_view bits(reinterpret_cast<const char*>(patches.data()), patches.size() * sizeof(wire::Patch));
-  const auto [known, is_new] = of_patches_.try_emplace(bits, film_.shapes.size());
+  const auto [known, is_new] = of_patches_.try_emplace(bits_of(patches), film_.shapes.size());
   if (is_new) {
     film_.shapes.push_back({std::uint32_t(film_.patches.size()), std::uint32_t(patches.size())});
     append(film_.patches, patches);
@@ -38,25 +73,21 @@ std::uint32_t ShapeWriter::add_mesh(const modeler::Mesh& mesh) {
     if (*known == mesh) return number;
   modeler::Meshlets cut = modeler::cut_meshlets(mesh);
   const std::size_t vertices = film_.mesh_places.size(), triangles = film_.mesh_triangles.size();
-  const std::size_t bones = film_.mesh_bones.size(), weights = film_.mesh_weights.size();
-  if (vertices + cut.places.size() > kMostOfMeshes || triangles + cut.triangles.size() > kMostOfMeshes ||
-      weights + cut.weights.size() > kMostOfMeshes)
-    throw Failure("have more than 4294967295 vertices, triangles or weights", "meshes", "use fewer or smaller meshes");
+  if (vertices + cut.places.size() > kMost || triangles + cut.triangles.size() > kMost)
+    throw Failure("have more than 4294967295 vertices or triangles", "meshes", "use fewer or smaller meshes");
   for (wire::Meshlet& meshlet : cut.meshlets) {
     meshlet.first_vertex += static_cast<std::uint32_t>(vertices);
     meshlet.first_triangle += static_cast<std::uint32_t>(triangles);
-    meshlet.first_bone += static_cast<std::uint32_t>(bones);
-    meshlet.first_weight += static_cast<std::uint32_t>(weights);
+    meshlet.skin = placed(meshlet.skin);
   }
   const auto number = static_cast<std::uint32_t>(film_.shapes.size());
-  film_.shapes.push_back({0, 0, std::uint32_t(film_.meshlets.size()), std::uint32_t(cut.meshlets.size()),
-                          cut.bones.empty() ? 0 : *std::ranges::max_element(cut.bones) + 1});
+  film_.shapes.push_back(
+      {0, 0, std::uint32_t(film_.meshlets.size()), std::uint32_t(cut.meshlets.size()), bone_count(cut.skins)});
   append(film_.mesh_places, cut.places);
   append(film_.mesh_normals, cut.normals);
   append(film_.mesh_triangles, cut.triangles);
-  append(film_.mesh_bones, cut.bones);
-  append(film_.mesh_weights, cut.weights);
   append(film_.meshlets, cut.meshlets);
+  append_lists(cut.skins);
   of_meshes_.emplace_back(&mesh, number);
   return number;
 }

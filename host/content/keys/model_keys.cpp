@@ -41,6 +41,10 @@ constexpr Type kModelTypes[] = {
      R"({"type": "array", "minItems": 3, "items": {"type": "array", "minItems": 2, "maxItems": 8,
          "items": {"type": "number", "minimum": 0}}})",
      ""},
+    {"point_bones",
+     R"({"type": "array", "minItems": 2, "items": {"type": "array", "minItems": 2, "items": {"type": "array",
+         "minItems": 2, "maxItems": 8, "items": {"type": "number", "minimum": 0}}}})",
+     ""},
     {"binds",
      R"({"type": "array", "minItems": 1, "items": {"type": "array", "minItems": 12, "maxItems": 12, "items": "#coordinate"}})",
      ""},
@@ -181,7 +185,7 @@ Object segment() {
                    .example = R"("oak")"},
                   {.name = "skin",
                    .type = "skin",
-                   .meaning = "joints that the vertices of a mesh with `bones` follow",
+                   .meaning = "joints that the points of a shape with `bones` follow",
                    .see = "#skins",
                    .without = "none: the segment is rigid",
                    .typed = false}}};
@@ -244,6 +248,13 @@ Object bspline() {
                    .meaning = "control points `[x, y, z]` within 0 to 1: a list of rows along v, each with the same "
                               "number of points along u",
                    .required = true}}};
+  bspline.keys.push_back({.name = "bones",
+                          .type = "point_bones",
+                          .meaning =
+                              "of a skin: for each control point, in such rows, 1 to 4 pairs `[bone, weight, ...]` "
+                              "as a mesh has them for its vertices",
+                          .see = "model-format.md#skins",
+                          .without = "none: the surface is rigid"});
   for (const std::string_view way : {"u", "v"})
     bspline.keys.push_back({.name = way,
                             .type = "direction",
@@ -304,7 +315,7 @@ Object mesh() {
 Object skin() {
   return {
       "skin",
-      "The joints that the vertices of a mesh follow.",
+      "The joints that the points of a shape follow.",
       {{.name = "joints",
         .type = "[text]",
         .meaning = "names of joints in the model's order, parents before children",
@@ -313,8 +324,8 @@ Object skin() {
        {.name = "bind",
         .type = "binds",
         .meaning = "for each of the joints 12 numbers, a matrix of 3 rows: it leads from the frame of the segment's "
-                   "joint, as the mesh was made, to the frame of this joint",
-        .without = "the mesh was made for the model at rest"}}};
+                   "joint, as the shape was made, to the frame of this joint",
+        .without = "the shape was made for the model at rest"}}};
 }
 
 Object proportions() {

@@ -112,6 +112,34 @@ Net bezier_patches(const PointGrid& points, const SplineDirection& u, const Spli
   return net;
 }
 
+// Three bones' weights at a time are the coordinates of points.
+std::vector<PatchBones> bezier_bones(const BoneGrid& bones, const SplineDirection& u, const SplineDirection& v) {
+  std::vector<VertexBones> points;
+  for (const auto& row : bones) points.insert(points.end(), row.begin(), row.end());
+  const std::vector<std::uint32_t> all = all_bones(points);
+  std::vector<std::array<std::vector<BoneWeight>, wire::kPatchPoints>> weights;
+  for (std::size_t first = 0; first < all.size(); first += 3) {
+    PointGrid grid;
+    for (const auto& row : bones) {
+      auto& three = grid.emplace_back(row.size(), glm::dvec3(0));
+      for (std::size_t i = 0; i < row.size(); ++i)
+        for (std::size_t k = 0; k < 3 && first + k < all.size(); ++k)
+          three[i][static_cast<int>(k)] = weight_of(row[i], all[first + k]);
+    }
+    const Net net = bezier_patches(grid, u, v);
+    weights.resize(net.size());
+    for (std::size_t patch = 0; patch < net.size(); ++patch)
+      for (std::size_t point = 0; point < wire::kPatchPoints; ++point)
+        for (std::size_t k = 0; k < 3 && first + k < all.size(); ++k)
+          weights[patch][point].push_back({all[first + k], net[patch][point][static_cast<int>(k)]});
+  }
+  std::vector<PatchBones> follows(weights.size());
+  for (std::size_t patch = 0; patch < weights.size(); ++patch)
+    for (std::size_t point = 0; point < wire::kPatchPoints; ++point)
+      follows[patch][point] = bones_of_vertex(std::move(weights[patch][point])).value();
+  return follows;
+}
+
 std::vector<wire::Patch> rounded(const Net& net) {
   std::vector<wire::Patch> patches(net.size());
   for (std::size_t number = 0; number < net.size(); ++number)

@@ -127,41 +127,7 @@ class EarClipper {
   std::vector<std::uint32_t> hollows_;  // corners that turn right
 };
 
-// Leaves each bone once.
-void add_up_same(std::vector<BoneWeight>& bones) {
-  std::ranges::stable_sort(bones, {}, &BoneWeight::bone);
-  std::size_t last = 0;
-  for (std::size_t i = 1; i < bones.size(); ++i)
-    if (bones[i].bone == bones[last].bone)
-      bones[last].weight += bones[i].weight;
-    else
-      bones[++last] = bones[i];
-  bones.resize(last + 1);
-}
-
 }  // namespace
-
-std::optional<VertexBones> bones_of_vertex(std::vector<BoneWeight> bones) {
-  std::erase_if(bones, [](const BoneWeight& each) { return !(each.weight > 0); });
-  if (bones.empty()) return std::nullopt;
-  add_up_same(bones);
-  // Of equal ones, those with lower numbers.
-  std::ranges::sort(bones, [](const BoneWeight& a, const BoneWeight& b) {
-    return a.weight != b.weight ? a.weight > b.weight : a.bone < b.bone;
-  });
-  bones.resize(std::min(bones.size(), kMostBonesOfVertex));
-  std::ranges::sort(bones, {}, &BoneWeight::bone);
-  double sum = 0;
-  for (const BoneWeight& each : bones) sum += each.weight;
-  VertexBones out;
-  for (std::size_t i = 0, at = 0; i < bones.size(); ++i) {
-    const auto share = static_cast<float>(bones[i].weight / sum);
-    if (share == 0) continue;
-    out.bone[at] = bones[i].bone;
-    out.weight[at++] = share;
-  }
-  return out;
-}
 
 std::array<double, 3> area_vector(const Mesh& mesh, std::span<const std::uint32_t> face) {
   return areas_of(mesh, face).sum;

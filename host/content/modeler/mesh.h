@@ -2,38 +2,18 @@
 #pragma once
 
 #include <array>
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "host/content/modeler/skin_weights.h"
+
 namespace mars::modeler {
 
 inline constexpr std::size_t kMostCorners = 4096;  // of a face
 inline constexpr double kDefaultCrease = 30;
-
-inline constexpr std::size_t kMostBones = 65536;      // of a skin
-inline constexpr std::size_t kMostBonesOfVertex = 4;  // as nodes take them
-
-// Which bones a vertex of a skin follows, and how much each: numbers in the skin's list, ascending. Weights above 0,
-// whose sum is 1, come first.
-struct VertexBones {
-  std::array<std::uint32_t, kMostBonesOfVertex> bone{};
-  std::array<float, kMostBonesOfVertex> weight{};
-
-  auto operator<=>(const VertexBones&) const = default;
-};
-
-struct BoneWeight {
-  std::uint32_t bone;
-  double weight;
-};
-
-// Of bones in any order, some of them perhaps several times: the heaviest, with weights that add up to 1. None where no
-// weight is above 0.
-std::optional<VertexBones> bones_of_vertex(std::vector<BoneWeight> bones);
 
 struct Mesh {
   using Place = std::array<float, 3>;

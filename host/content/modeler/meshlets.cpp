@@ -1,6 +1,8 @@
 #include "host/content/modeler/meshlets.h"
 
 #include <algorithm>
+#include <array>
+#include <iterator>
 #include <numeric>
 
 #include "hal/failure/failure.h"
@@ -84,35 +86,19 @@ class Cutter {
 
   // Bones of the meshlet's vertices with those of the triangle, ascending.
   std::vector<std::uint32_t> bones_with(const Corners& triangle) const {
-    std::vector<std::uint32_t> bones = bones_;
-    for (const std::uint32_t vertex : triangle) {
-      const VertexBones& some = shaded_.bones[vertex];
-      for (std::size_t i = 0; i < kMostBonesOfVertex; ++i)
-        if (some.weight[i] > 0) bones.push_back(some.bone[i]);
-    }
-    std::ranges::sort(bones);
-    const auto again = std::ranges::unique(bones);
-    bones.erase(again.begin(), again.end());
+    std::vector<std::uint32_t> bones;
+    std::ranges::set_union(
+        bones_,
+        all_bones(std::array{shaded_.bones[triangle[0]], shaded_.bones[triangle[1]], shaded_.bones[triangle[2]]}),
+        std::back_inserter(bones));
     return bones;
   }
 
-  // Writes the weights of the meshlet, bone by bone.
   void end() {
     if (!has_skin() || number_ == 0) return;
-    now().first_bone = static_cast<std::uint32_t>(out_.bones.size());
-    now().bone_count = static_cast<std::uint32_t>(bones_.size());
-    now().first_weight = static_cast<std::uint32_t>(out_.weights.size());
-    out_.bones.insert(out_.bones.end(), bones_.begin(), bones_.end());
-    for (const std::uint32_t bone : bones_)
-      for (const std::uint32_t vertex : vertices_) out_.weights.push_back(weight_of(shaded_.bones[vertex], bone));
+    now().skin = out_.skins.add(points_);
     bones_.clear();
-    vertices_.clear();
-  }
-
-  static float weight_of(const VertexBones& some, std::uint32_t bone) {
-    for (std::size_t i = 0; i < kMostBonesOfVertex; ++i)
-      if (some.weight[i] > 0 && some.bone[i] == bone) return some.weight[i];
-    return 0;
+    points_.clear();
   }
 
   void begin() {
@@ -132,7 +118,7 @@ class Cutter {
     const auto& place = shaded_.places[vertex];
     out_.places.push_back(place);
     out_.normals.push_back(shaded_.normals[vertex]);
-    if (has_skin()) vertices_.push_back(vertex);
+    if (has_skin()) points_.push_back(shaded_.bones[vertex]);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       now().low[axis] = std::min(now().low[axis], place[axis]);
       now().high[axis] = std::max(now().high[axis], place[axis]);
@@ -142,7 +128,8 @@ class Cutter {
 
   const ShadedVertices& shaded_;
   std::vector<Seen> seen_;
-  std::vector<std::uint32_t> bones_, vertices_;  // of a skin, in the meshlet that grows
+  std::vector<std::uint32_t> bones_;  // of a skin, in the meshlet that grows
+  std::vector<VertexBones> points_;   // the same of each vertex
   Meshlets out_;
   std::uint32_t number_ = 0;
 };

@@ -14,9 +14,8 @@ struct Meshlets {
   std::vector<std::array<float, 3>> places;
   std::vector<std::array<float, 3>> normals;
   std::vector<wire::MeshTriangle> triangles;
-  std::vector<std::uint32_t> bones;  // of a skin, as meshlets have them
-  std::vector<float> weights;
   std::vector<wire::Meshlet> meshlets;
+  SkinLists skins;
 };
 
 // Triangles that lie near each other are in one meshlet; a vertex is in every meshlet that has triangles there.

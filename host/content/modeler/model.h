@@ -10,6 +10,7 @@
 #include "host/content/modeler/limbs.h"
 #include "host/content/modeler/material.h"
 #include "host/content/modeler/mesh.h"
+#include "host/content/modeler/skin_weights.h"
 #include "node/wire/film.h"
 
 namespace mars::modeler {
@@ -19,7 +20,13 @@ struct Shape {
   std::string name;
   std::vector<wire::Patch> patches;
   std::optional<Mesh> mesh{};
+  std::vector<PatchBones> patch_bones{};  // of a skin, one a patch; else none
+
+  bool has_skin() const { return !patch_bones.empty() || (mesh && !mesh->bones.empty()); }
 };
+
+// The greatest number of a bone that a shape with a skin has.
+std::uint32_t last_bone(const Shape& shape);
 
 struct NamedMaterial {
   std::string name;

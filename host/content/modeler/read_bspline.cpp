@@ -4,6 +4,7 @@
 #include <string>
 
 #include "host/content/modeler/bspline.h"
+#include "host/content/modeler/read_skin_weights.h"
 
 namespace mars::modeler {
 namespace {
@@ -21,6 +22,17 @@ PointGrid read_points(const document::Element& element) {
     auto& row = rows.emplace_back();
     row.reserve(item.size());
     for (const document::Element point : item) row.push_back(document::read_vector(point, {0, 1}));
+  }
+  return rows;
+}
+
+BoneGrid read_bones(const document::Element& list, const PointGrid& points) {
+  document::require_size(list, points.size());
+  BoneGrid rows;
+  for (const document::Element item : list) {
+    document::require_size(item, points[0].size());
+    auto& row = rows.emplace_back();
+    for (const document::Element point : item) row.push_back(read_vertex_bones(point));
   }
   return rows;
 }
@@ -101,12 +113,14 @@ SplineDirection read_direction(const document::Fields& surface, std::string_view
 
 }  // namespace
 
-std::vector<wire::Patch> read_bspline(const document::Element& element) {
+SplineShape read_bspline(const document::Element& element) {
   const document::Fields fields(element, keys::object("bspline"));
   const PointGrid points = read_points(fields.required("points"));
   const SplineDirection u = read_direction(fields, "u", points[0].size());
   const SplineDirection v = read_direction(fields, "v", points.size());
-  return rounded(bezier_patches(points, u, v));
+  SplineShape shape{rounded(bezier_patches(points, u, v)), {}};
+  if (const auto bones = fields.find("bones")) shape.bones = bezier_bones(read_bones(*bones, points), u, v);
+  return shape;
 }
 
 }  // namespace mars::modeler

@@ -5,11 +5,17 @@
 #include <vector>
 
 #include "host/content/document/fields.h"
+#include "host/content/modeler/skin_weights.h"
 #include "node/wire/film_parts.h"
 
 namespace mars::modeler {
 
-// The surface as patches, never none. Whatever does not fit is refused with its place and a remedy.
-std::vector<wire::Patch> read_bspline(const document::Element& element);
+struct SplineShape {
+  std::vector<wire::Patch> patches;  // never none
+  std::vector<PatchBones> bones;     // of a skin one a patch, else none
+};
+
+// Whatever does not fit is refused with its place and a remedy.
+SplineShape read_bspline(const document::Element& element);
 
 }  // namespace mars::modeler

@@ -58,7 +58,8 @@ Shape read_own_shape(const std::string& name, const document::Element& element) 
   if (bspline.has_value() == mesh.has_value())
     element.refuse(mesh ? "is both a bspline and a mesh" : "is neither a bspline nor a mesh", "give it one of them");
   if (mesh) return {name, {}, read_mesh(*mesh)};
-  return {name, read_bspline(*bspline), {}};
+  SplineShape spline = read_bspline(*bspline);
+  return {name, std::move(spline.patches), {}, std::move(spline.bones)};
 }
 
 class ModelReader {
@@ -258,13 +259,13 @@ class ModelReader {
     for (const auto& [name, element] : skins_) {
       const std::size_t joint = numbers_.at(name);
       const document::Fields fields(element, keys::object("segment"));
-      const auto& mesh = model_.shapes[model_.joints[joint].segment->shape].mesh;
-      const bool follows = mesh && !mesh->bones.empty();
+      const bool follows = model_.shapes[model_.joints[joint].segment->shape].has_skin();
       const auto skin = fields.find("skin");
       if (skin && !follows)
-        skin->refuse("belongs to a mesh with bones, which the shape is not", "give its mesh `bones`, or take it out");
+        skin->refuse("belongs to a shape with bones, which this one is not",
+                     "give its mesh or bspline `bones`, or take it out");
       if (!skin && follows)
-        fields.find("shape")->refuse("is a mesh with bones, but the segment has no skin",
+        fields.find("shape")->refuse("has bones, but the segment has no skin",
                                      "name the bones: \"skin\": {\"joints\": [\"hip\", \"knee\"]}");
       if (skin) read_skin(*skin, joint, frames);
     }
@@ -285,16 +286,13 @@ class ModelReader {
     check_bones(element, segment);
   }
 
-  // The mesh's vertices have numbers in the list, which follows the order of the joints.
+  // The shape's points have numbers in the list, which follows the order of the joints.
   void check_bones(const document::Element& element, const Segment& segment) const {
-    std::uint32_t last = 0;
-    for (const VertexBones& vertex : model_.shapes[segment.shape].mesh->bones)
-      for (std::size_t i = 0; i < kMostBonesOfVertex; ++i)
-        if (vertex.weight[i] > 0) last = std::max(last, vertex.bone[i]);
+    const std::uint32_t last = last_bone(model_.shapes[segment.shape]);
     if (last >= segment.bones.size())
       element.refuse("has " + document::counted(segment.bones.size(), "joint", "joints") +
-                         ", but a vertex follows bone " + std::to_string(last),
-                     "name a joint for each of the mesh's bones");
+                         ", but a point follows bone " + std::to_string(last),
+                     "name a joint for each of the shape's bones");
     const auto not_later = [](const Bone& a, const Bone& b) { return a.joint > b.joint; };
     const auto wrong = std::ranges::adjacent_find(segment.bones, not_later);
     if (wrong != segment.bones.end())

@@ -14,7 +14,8 @@ bool same_model(const modeler::Model& one, const modeler::Model& two) {
 }  // namespace
 
 bool same_shape(const modeler::Shape& one, const modeler::Shape& two) {
-  return std::ranges::equal(one.patches, two.patches, same_patch) && one.mesh == two.mesh;
+  return std::ranges::equal(one.patches, two.patches, same_patch) && one.mesh == two.mesh &&
+         one.patch_bones == two.patch_bones;
 }
 
 bool same_segments(const modeler::Model& one, const modeler::Model& two) {
@@ -38,7 +39,8 @@ std::optional<std::size_t> pulled_shape(const modeler::Model& one, const modeler
   std::optional<std::size_t> pulled;
   for (std::size_t shape = 0; shape < one.shapes.size(); ++shape) {
     if (same_shape(one.shapes[shape], two.shapes[shape])) continue;
-    if (pulled || one.shapes[shape].mesh || one.shapes[shape].patches.size() != two.shapes[shape].patches.size())
+    if (pulled || one.shapes[shape].mesh || one.shapes[shape].patches.size() != two.shapes[shape].patches.size() ||
+        one.shapes[shape].patch_bones != two.shapes[shape].patch_bones)
       return std::nullopt;
     pulled = shape;
   }

@@ -130,14 +130,20 @@ std::vector<std::size_t> Ghosts::actors_near(const Selection& selection) const {
 
 namespace {
 
-// Vertices of a skin, evenly chosen.
+// Points of a skin, evenly chosen.
 void add_bent(const modeler::Model& model, std::size_t joint, std::span<const wire::Matrix> bones,
               std::vector<glm::dvec3>& places) {
-  constexpr std::size_t kMostVertices = 1000;
-  const modeler::Mesh& mesh = *model.shapes[model.joints[joint].segment->shape].mesh;
-  const std::size_t step = 1 + mesh.vertices.size() / kMostVertices;
-  for (std::size_t vertex = 0; vertex < mesh.vertices.size(); vertex += step)
-    places.push_back(modeler::skinned_place(mesh, vertex, bones));
+  constexpr std::size_t kMostPoints = 1000;
+  const modeler::Shape& shape = model.shapes[model.joints[joint].segment->shape];
+  const std::size_t vertices = shape.mesh ? shape.mesh->vertices.size() : 0;
+  for (std::size_t vertex = 0; vertex < vertices; vertex += 1 + vertices / kMostPoints)
+    places.push_back(modeler::skinned_place(shape.mesh->vertices[vertex], shape.mesh->bones[vertex], bones));
+  const std::size_t points = shape.patch_bones.size() * wire::kPatchPoints;
+  for (std::size_t point = 0; point < points; point += 1 + points / kMostPoints) {
+    const std::size_t patch = point / wire::kPatchPoints, number = point % wire::kPatchPoints;
+    places.push_back(
+        modeler::skinned_place(shape.patches[patch].points[number], shape.patch_bones[patch][number], bones));
+  }
 }
 
 }  // namespace

@@ -42,8 +42,8 @@ void Hand::take(const Grip& grip) {
     world_ = frame_.turn * middle + frame_.place;
   }
   if (grip.what == Grip::What::point) {
-    matrix_ = state.segments[*selection_.joint].value();
     const modeler::Model& model = project_.film().model_of(*selection_.actor);
+    matrix_ = matrix_of_point(model, *selection_.joint, state, grip);
     const auto& patch = model.shapes[model.joints[*selection_.joint].segment->shape].patches[grip.patch];
     const auto& point = patch.points[4 * grip.j + grip.i];
     place_ = {point[0], point[1], point[2]};

@@ -151,7 +151,6 @@ class Maker {
     const auto& segment = model.joints[*selection_.joint].segment;
     if (!segment) return;
     const animator::ActorState state = animator::state_at(project_.film(), *selection_.actor, project_.frame());
-    const wire::Matrix& matrix = *state.segments[*selection_.joint];
     const auto& patches = model.shapes[segment->shape].patches;
     std::set<std::array<float, 3>> seen;
     for (std::size_t patch = 0; patch < patches.size() && seen.size() < kMostPoints; ++patch)
@@ -160,6 +159,7 @@ class Maker {
         if (!seen.insert(point).second) continue;
         Handle handle{"point:" + std::to_string(patch) + ":" + std::to_string(number), "point", {}};
         handle.grip = Grip{Grip::What::point, 0, 0, patch, number % 4, number / 4};
+        const wire::Matrix matrix = matrix_of_point(model, *selection_.joint, state, *handle.grip);
         glm::dvec3 place;
         for (int row = 0; row < 3; ++row) {
           const auto& m = matrix.m[static_cast<std::size_t>(row)];
@@ -176,6 +176,13 @@ class Maker {
 };
 
 }  // namespace
+
+wire::Matrix matrix_of_point(const modeler::Model& model, std::size_t joint, const animator::ActorState& state,
+                             const Grip& point) {
+  const modeler::Shape& shape = model.shapes[model.joints[joint].segment->shape];
+  if (shape.patch_bones.empty()) return state.segments[joint].value();
+  return modeler::blended(shape.patch_bones[point.patch][4 * point.j + point.i], state.bones[joint]);
+}
 
 TurnAxis Posed::axis(int number) const {
   modeler::Joint before = *joint;

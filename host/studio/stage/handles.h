@@ -69,6 +69,10 @@ std::optional<Posed> posed(const Project& project, const Selection& selection);
 // The frame of the joint's segment, from its sbb to the world; none where it has no segment.
 std::optional<modeler::Axes> segment_frame_of(const Project& project, const Selection& selection);
 
+// From the unit cube to the world: of a control point of the joint's segment, whose bones it may follow.
+wire::Matrix matrix_of_point(const modeler::Model& model, std::size_t joint, const animator::ActorState& state,
+                             const Grip& point);
+
 std::vector<Handle> handles_of(const Project& project, const Selection& selection, Tool tool, const Screen& screen);
 
 // The radius of the ring about an axis, as it is seen from before.

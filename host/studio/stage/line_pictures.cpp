@@ -48,6 +48,12 @@ preview::Facets diced(std::span<const wire::Patch> patches) {
   return facets;
 }
 
+void append(const preview::Facets& more, preview::Facets& facets) {
+  const auto first = static_cast<std::uint32_t>(facets.points.size() / 3);
+  facets.points.insert(facets.points.end(), more.points.begin(), more.points.end());
+  for (const std::uint32_t corner : more.corners) facets.corners.push_back(first + corner);
+}
+
 // `places_of` a meshlet gives those of its vertices.
 preview::Facets meshlets_of(const wire::FilmData& shapes, const wire::Shape& shape, const auto& places_of) {
   preview::Facets facets;
@@ -124,7 +130,9 @@ std::uint32_t LinePictures::net_of(std::size_t segment, preview::Wireframe& wire
   if (!pulled(segment))
     if (const auto known = net_numbers_.find(shape); known != net_numbers_.end()) return known->second;
   if (pulled(segment)) {
-    wireframe.lines[0] = preview::control_net(moments_.patches_of(segment));
+    const auto pulled = *project_.pulled();
+    const modeler::Shape& shape = project_.film().models[pulled.model].shapes[pulled.shape];
+    wireframe.lines[0] = preview::control_net(shape.patches, shape.patch_bones);
     return 0;
   }
   const wire::PackedFilm film(*moments_.film_block(), "", true);
@@ -172,9 +180,7 @@ const preview::Facets& LinePictures::facets_of(std::size_t segment) {
   const preview::Facets meshes = meshlets_of(shapes, shapes.shapes[number], [&](const wire::Meshlet& meshlet) {
     return std::span(shapes.mesh_places).subspan(meshlet.first_vertex, meshlet.vertex_count);
   });
-  const auto first = static_cast<std::uint32_t>(facets.points.size() / 3);
-  facets.points.insert(facets.points.end(), meshes.points.begin(), meshes.points.end());
-  for (const std::uint32_t corner : meshes.corners) facets.corners.push_back(first + corner);
+  append(meshes, facets);
   return facets_[number] = std::move(facets);
 }
 
@@ -189,9 +195,12 @@ std::vector<preview::Cover> LinePictures::covers_of(preview::As as, const previe
       covers.push_back({as == preview::As::prisms ? &cube : &facets_of(segment), wireframe.matrices[segment]});
       continue;
     }
+    bent_facets_.push_back(diced(moments_.bent_patches(segment)));
     const wire::FilmData& shapes = moments_.shapes();
-    bent_facets_.push_back(meshlets_of(shapes, shapes.shapes[now.segments[segment].shape],
-                                       [&](const wire::Meshlet& m) { return moments_.bent_places(segment, m); }));
+    if (!pulled(segment))
+      append(meshlets_of(shapes, shapes.shapes[now.segments[segment].shape],
+                         [&](const wire::Meshlet& m) { return moments_.bent_places(segment, m); }),
+             bent_facets_.back());
     covers.push_back({&bent_facets_.back(), preview::placing(modeler::Axes{})});
   }
   return covers;

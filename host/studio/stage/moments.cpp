@@ -49,8 +49,9 @@ void Moments::load_shapes() {
   film.mesh_places = parts.mesh_places;
   film.mesh_normals = parts.mesh_normals;
   film.mesh_triangles = parts.mesh_triangles;
-  film.mesh_bones = parts.mesh_bones;
-  film.mesh_weights = parts.mesh_weights;
+  film.patch_skins = parts.patch_skins;
+  film.skin_bones = parts.skin_bones;
+  film.skin_weights = parts.skin_weights;
   film.meshlets = parts.meshlets;
   film.shapes = parts.shapes;
   film_block_ = std::make_shared<const std::vector<std::byte>>(wire::pack(film));
@@ -78,6 +79,9 @@ void Moments::put_pulled(wire::FilmData& moment) const {
   const animator::Film& film = project_.film();
   moment.patches = film.models[pulled->model].shapes[pulled->shape].patches;
   moment.shapes = {{0, static_cast<std::uint32_t>(moment.patches.size())}};
+  const wire::Shape& whole = shapes_.parts.shapes[shapes_.numbers[pulled->model][pulled->shape]];
+  moment.shapes.front().bone_count = whole.bone_count;
+  moment.shapes.front().first_skin = whole.first_skin;
   std::size_t segment = 0;
   for (const animator::Actor& actor : film.actors)
     for (const modeler::Joint& joint : film.models[actor.model].joints) {
@@ -88,17 +92,18 @@ void Moments::put_pulled(wire::FilmData& moment) const {
     }
 }
 
-std::vector<std::array<float, 3>> Moments::bent_places(std::size_t segment, const wire::Meshlet& meshlet) const {
+std::vector<std::array<float, 3>> Moments::bent(std::size_t segment, const wire::Skin& skin,
+                                                std::span<const std::array<float, 3>> points) const {
   const wire::FilmData& parts = shapes_.parts;
-  std::vector<glm::dvec3> sums(meshlet.vertex_count, glm::dvec3(0));
-  const float* weights = parts.mesh_weights.data() + meshlet.first_weight;
-  for (std::uint32_t i = 0; i < meshlet.bone_count; ++i, weights += meshlet.vertex_count) {
-    const auto& m = bone_of(now_->segments[segment], parts.mesh_bones[meshlet.first_bone + i]).m;
-    for (std::size_t vertex = 0; vertex < sums.size(); ++vertex) {
-      const auto& from = parts.mesh_places[meshlet.first_vertex + vertex];
+  std::vector<glm::dvec3> sums(points.size(), glm::dvec3(0));
+  const float* weights = parts.skin_weights.data() + skin.first_weight;
+  for (std::uint32_t i = 0; i < skin.bone_count; ++i, weights += points.size()) {
+    const auto& m = bone_of(now_->segments[segment], parts.skin_bones[skin.first_bone + i]).m;
+    for (std::size_t point = 0; point < sums.size(); ++point) {
+      const auto& from = points[point];
       for (int axis = 0; axis < 3; ++axis) {
         const auto& row = m[static_cast<std::size_t>(axis)];
-        sums[vertex][axis] += weights[vertex] * (row[0] * from[0] + row[1] * from[1] + row[2] * from[2] + row[3]);
+        sums[point][axis] += weights[point] * (row[0] * from[0] + row[1] * from[1] + row[2] * from[2] + row[3]);
       }
     }
   }
@@ -107,11 +112,29 @@ std::vector<std::array<float, 3>> Moments::bent_places(std::size_t segment, cons
   return places;
 }
 
+std::vector<std::array<float, 3>> Moments::bent_places(std::size_t segment, const wire::Meshlet& meshlet) const {
+  return bent(segment, meshlet.skin,
+              std::span(shapes_.parts.mesh_places).subspan(meshlet.first_vertex, meshlet.vertex_count));
+}
+
+std::vector<wire::Patch> Moments::bent_patches(std::size_t segment) const {
+  const auto patches = patches_of(segment);
+  const std::size_t first = shape_of(segment).first_skin;
+  std::vector<wire::Patch> all(patches.begin(), patches.end());
+  for (std::size_t patch = 0; patch < all.size(); ++patch)
+    std::ranges::copy(bent(segment, shapes_.parts.patch_skins[first + patch], patches[patch].points),
+                      all[patch].points.begin());
+  return all;
+}
+
+const wire::Shape& Moments::shape_of(std::size_t segment) const {
+  const std::size_t number = now_->segments[segment].shape, of_film = shapes_.parts.shapes.size();
+  return number >= of_film ? now_->shapes[number - of_film] : shapes_.parts.shapes[number];
+}
+
 std::span<const wire::Patch> Moments::patches_of(std::size_t segment) const {
-  const std::uint32_t number = now_->segments[segment].shape;
-  const std::size_t of_film = shapes_.parts.shapes.size();
-  const bool own = number >= of_film;
-  const wire::Shape& shape = own ? now_->shapes[number - of_film] : shapes_.parts.shapes[number];
+  const bool own = now_->segments[segment].shape >= shapes_.parts.shapes.size();
+  const wire::Shape& shape = shape_of(segment);
   return std::span(own ? now_->patches : shapes_.parts.patches).subspan(shape.first_patch, shape.patch_count);
 }
 

@@ -56,6 +56,8 @@ class Moments {
   }
   // Of a segment with a skin, where the vertices of a meshlet of its shape are in the world.
   std::vector<std::array<float, 3>> bent_places(std::size_t segment, const wire::Meshlet& meshlet) const;
+  // The same of its patches.
+  std::vector<wire::Patch> bent_patches(std::size_t segment) const;
   // The patches of a segment's shape, wherever they are.
   std::span<const wire::Patch> patches_of(std::size_t segment) const;
   // What moves or is a model; else figures; else everything. Of a film that is not shown the ball of one unit.
@@ -71,6 +73,9 @@ class Moments {
   void load_shapes();
   void take_moment();
   void put_pulled(wire::FilmData& moment) const;
+  const wire::Shape& shape_of(std::size_t segment) const;
+  std::vector<std::array<float, 3>> bent(std::size_t segment, const wire::Skin& skin,
+                                         std::span<const std::array<float, 3>> points) const;
   bool is_short() const;
 
   const Project& project_;

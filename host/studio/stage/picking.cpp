@@ -88,7 +88,10 @@ class NearestHit {
   // A segment with a skin; the ray is in the world.
   void look_at_skin(std::size_t segment, const Ray& ray) {
     segment_ = segment;
-    const wire::Shape& shape = shapes_.shapes[moments_.now().segments[segment].shape];
+    for (const wire::Patch& patch : moments_.bent_patches(segment)) look(patch, ray);
+    const std::uint32_t number = moments_.now().segments[segment].shape;
+    if (number >= shapes_.shapes.size()) return;
+    const wire::Shape& shape = shapes_.shapes[number];
     for (std::uint32_t i = 0; i < shape.meshlet_count; ++i) {
       const wire::Meshlet& meshlet = shapes_.meshlets[shape.first_meshlet + i];
       const std::vector<Point> places = moments_.bent_places(segment, meshlet);

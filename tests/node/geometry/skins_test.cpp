@@ -36,11 +36,12 @@ class OneSkin {
     wire::FilmData film = wire::small_film();
     film.segments.resize(1);
     film.segments[0] = {0, 0, {0, 1}, {0, 1}, 0, 0, bones};
-    film.shapes = {{0, 0, 0, 1, bones}};
+    film.shapes = {{0, static_cast<std::uint32_t>(film.patches.size()), 0, 1, bones}};
+    film.patch_skins.clear();
     film.intervals = {{0, 3, 0, 0}};
     film.mesh_places.clear(), film.mesh_normals.clear();
-    film.mesh_bones.clear(), film.bones.clear();
-    wire::Meshlet meshlet{0, kVertices, 0, 1, {1, 1, 1}, {0, 0, 0}, 0, bones, 0};
+    film.skin_bones.clear(), film.bones.clear();
+    wire::Meshlet meshlet{0, kVertices, 0, 1, {1, 1, 1}, {0, 0, 0}, {0, bones, 0}};
     for (std::uint32_t v = 0; v < kVertices; ++v) {
       Float3 place, normal;
       for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -54,10 +55,16 @@ class OneSkin {
     }
     film.mesh_triangles = {{0, 1, 2}};
     film.meshlets = {meshlet};
-    film.mesh_weights.assign(bones * kVertices, 0);
-    for (std::uint32_t v = 0; v < kVertices; ++v) add_weights(random, v, bones, film.mesh_weights);
+    film.skin_weights.clear();
+    add_weights(random, kVertices, bones, film.skin_weights);
+    for (wire::Patch& patch : film.patches) {
+      for (Float3& point : patch.points)
+        for (float& coordinate : point) coordinate = static_cast<float>(random.real(0, 1));
+      film.patch_skins.push_back({0, bones, static_cast<std::uint32_t>(film.skin_weights.size())});
+      add_weights(random, wire::kPatchPoints, bones, film.skin_weights);
+    }
     for (std::uint32_t bone = 0; bone < bones; ++bone) {
-      film.mesh_bones.push_back(bone);
+      film.skin_bones.push_back(bone);
       film.bones.push_back({static_cast<std::uint32_t>(film.changes.size()), 1});
       film.changes.push_back({0, static_cast<std::uint32_t>(film.matrices.size())});
       film.matrices.push_back(random_bone(random, scale));
@@ -68,15 +75,20 @@ class OneSkin {
   wire::PackedFilm view() const { return {block_, "film"}; }
 
  private:
-  static void add_weights(shape::Random& random, std::uint32_t vertex, std::uint32_t bones,
+  // Bone by bone, of so many points.
+  static void add_weights(shape::Random& random, std::uint32_t points, std::uint32_t bones,
                           std::vector<float>& weights) {
-    const auto count = std::min<std::uint32_t>(bones, static_cast<std::uint32_t>(random.whole(1, 4)));
-    std::vector<double> parts;
-    double sum = 0;
-    for (std::uint32_t i = 0; i < count; ++i) sum += parts.emplace_back(random.real(0.1, 1));
-    const auto first = static_cast<std::uint32_t>(random.whole(0, static_cast<std::int32_t>(bones - count)));
-    for (std::uint32_t i = 0; i < count; ++i)
-      weights[(first + i) * kVertices + vertex] = static_cast<float>(parts[i] / sum);
+    const std::size_t begin = weights.size();
+    weights.resize(begin + std::size_t{points} * bones, 0);
+    for (std::uint32_t point = 0; point < points; ++point) {
+      const auto count = std::min<std::uint32_t>(bones, static_cast<std::uint32_t>(random.whole(1, 4)));
+      std::vector<double> parts;
+      double sum = 0;
+      for (std::uint32_t i = 0; i < count; ++i) sum += parts.emplace_back(random.real(0.1, 1));
+      const auto first = static_cast<std::uint32_t>(random.whole(0, static_cast<std::int32_t>(bones - count)));
+      for (std::uint32_t i = 0; i < count; ++i)
+        weights[begin + (first + i) * points + point] = static_cast<float>(parts[i] / sum);
+    }
   }
 
   std::vector<std::byte> block_;
@@ -97,8 +109,33 @@ std::array<std::array<Number, 4>, 3> blended(const wire::PackedFilm& film, const
   for (std::size_t bone = 0; bone < place.bones().size(); ++bone)
     for (std::size_t r = 0; r < 3; ++r)
       for (std::size_t c = 0; c < 4; ++c)
-        sum[r][c] += Number{film.mesh_weights()[bone * kVertices + vertex]} * Number{place.bones()[bone].m[r][c]};
+        sum[r][c] += Number{film.skin_weights()[bone * kVertices + vertex]} * Number{place.bones()[bone].m[r][c]};
   return sum;
+}
+
+// Of a patch's points, as plainly as can be.
+TEST(Skins, PatchesPointsAreTheSumsBitForBit) {
+  shape::Random random(6);
+  for (const std::uint32_t bones : {1u, 3u, 9u}) {
+    const OneSkin skin(random, bones);
+    const wire::PackedFilm film = skin.view();
+    const Placed placed(film);
+    for (std::size_t number = 0; number < film.patches().size(); ++number) {
+      const shape::EyePatch moved = placed.place.patch(film, number);
+      const float* const weights = film.skin_weights().data() + film.patch_skins()[number].first_weight;
+      for (std::size_t point = 0; point < wire::kPatchPoints; ++point) {
+        const Float3& p = film.patches()[number].points[point];
+        for (std::size_t r = 0; r < 3; ++r) {
+          float m[4] = {};
+          for (std::size_t bone = 0; bone < bones; ++bone)
+            for (std::size_t c = 0; c < 4; ++c)
+              m[c] += weights[bone * wire::kPatchPoints + point] * placed.place.bones()[bone].m[r][c];
+          const float expected = ((m[0] * p[0] + m[1] * p[1]) + m[2] * p[2]) + m[3];
+          ASSERT_EQ(std::memcmp(&moved.point[point][r], &expected, sizeof(float)), 0) << bones << " bones";
+        }
+      }
+    }
+  }
 }
 
 TEST(Skins, PlacesAreTheSumsBitForBit) {
@@ -186,6 +223,18 @@ TEST(Skins, OfOneBoneStandAsARigidMesh) {
   }
 }
 
+float lowest(const BoxCorners& corners, int axis) {
+  float low = corners.point[0][axis];
+  for (const auto& point : corners.point) low = std::min(low, point[axis]);
+  return low;
+}
+
+float highest(const BoxCorners& corners, int axis) {
+  float high = corners.point[0][axis];
+  for (const auto& point : corners.point) high = std::max(high, point[axis]);
+  return high;
+}
+
 TEST(Skins, StayWithinTheirBounds) {
   shape::Random random(5);
   MeshletPlacer placer(simd::best_instruction_set(""));
@@ -200,9 +249,13 @@ TEST(Skins, StayWithinTheirBounds) {
     for (int axis = 0; axis < 3; ++axis) {
       const float* const places = placer.vertices().place[axis];
       const auto [least, most] = std::minmax_element(places, places + kVertices);
+      for (std::size_t number = 0; number < film.patches().size(); ++number)
+        for (const auto& point : placed.place.patch(film, number).point) {
+          ASSERT_LE(lowest(of_shape, axis), point[axis]) << "trial " << trial;
+          ASSERT_GE(highest(of_shape, axis), point[axis]) << "trial " << trial;
+        }
       for (const BoxCorners& corners : {of_meshlet, of_shape}) {
-        float low = corners.point[0][axis], high = low;
-        for (const auto& point : corners.point) low = std::min(low, point[axis]), high = std::max(high, point[axis]);
+        const float low = lowest(corners, axis), high = highest(corners, axis);
         ASSERT_LE(low, *least) << "trial " << trial;
         ASSERT_GE(high, *most) << "trial " << trial;
         widest = std::max(widest, double{high - low} / (*most - *least));

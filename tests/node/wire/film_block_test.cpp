@@ -35,8 +35,9 @@ TEST(FilmBlock, IsReadAsItWasPacked) {
     expect_same(film.mesh_places, view.mesh_places());
     expect_same(film.mesh_normals, view.mesh_normals());
     expect_same(film.mesh_triangles, view.mesh_triangles());
-    expect_same(film.mesh_bones, view.mesh_bones());
-    expect_same(film.mesh_weights, view.mesh_weights());
+    expect_same(film.patch_skins, view.patch_skins());
+    expect_same(film.skin_bones, view.skin_bones());
+    expect_same(film.skin_weights, view.skin_weights());
     expect_same(film.meshlets, view.meshlets());
     expect_same(film.shapes, view.shapes());
     expect_same(film.segments, view.segments());

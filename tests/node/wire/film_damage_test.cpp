@@ -82,16 +82,21 @@ TEST(FilmDamage, UnsoundSkinsAreRefused) {
   EXPECT_TRUE(refused([](FilmData& f) { f.bones[1] = {2, 2}; }));
   EXPECT_TRUE(refused([](FilmData& f) { f.shapes[2].bone_count = 1; }));
   EXPECT_TRUE(refused([](FilmData& f) { f.shapes[2].bone_count = 0; }));
-  EXPECT_TRUE(refused([](FilmData& f) { f.shapes[2].patch_count = 1; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.shapes[2].patch_count = 2; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.shapes[2].first_skin = 1; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.patch_skins[0].bone_count = 0; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.patch_skins[0].bone_count = 3; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.patch_skins[0].first_weight = 7; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.skin_weights.back() = 0.4f; }));
   EXPECT_TRUE(refused([](FilmData& f) { f.shapes[1].bone_count = 2; }));
-  EXPECT_TRUE(refused([](FilmData& f) { f.meshlets[2].first_bone = 1; }));
-  EXPECT_TRUE(refused([](FilmData& f) { f.meshlets[2].bone_count = kMeshletBones + 1; }));
-  EXPECT_TRUE(refused([](FilmData& f) { f.meshlets[2].first_weight = 1; }));
-  EXPECT_TRUE(refused([](FilmData& f) { f.mesh_bones = {1, 0}; }));
-  EXPECT_TRUE(refused([](FilmData& f) { f.mesh_bones = {1, 1}; }));
-  EXPECT_TRUE(refused([](FilmData& f) { f.mesh_bones = {0, 2}; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.meshlets[2].skin.first_bone = 1; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.meshlets[2].skin.bone_count = kMeshletBones + 1; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.meshlets[2].skin.first_weight = 1; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.skin_bones = {1, 0}; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.skin_bones = {1, 1}; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.skin_bones = {0, 2}; }));
   for (const float weight : {-0.5f, 0.501f, 1.5f, std::nanf("")})
-    EXPECT_TRUE(refused([weight](FilmData& f) { f.mesh_weights[1] = weight; })) << weight;
+    EXPECT_TRUE(refused([weight](FilmData& f) { f.skin_weights[1] = weight; })) << weight;
 }
 
 TEST(FilmDamage, TruncatedAnywhereIsRefused) {

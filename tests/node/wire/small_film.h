@@ -17,7 +17,7 @@ inline Patch flat_patch() {
 inline Matrix moved(double x) { return {{{{1, 0, 0, x}, {0, 1, 0, 0}, {0, 0, 1, 0}}}}; }
 
 // Three frames, three segments of which the second, partly a mesh, and the third, a mesh with a skin of two bones,
-// move, one light that changes.
+// move, one light that changes. The third also has a patch that follows both bones.
 inline FilmData small_film() {
   FilmData film;
   film.settings = {64, 48, 3, 0, {0.1f, 0.2f, 0.3f}, 24, {0, 1}};
@@ -25,12 +25,14 @@ inline FilmData small_film() {
   film.mesh_places = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0.5f}, {0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
   film.mesh_normals.assign(7, {0, 0, 1});
   film.mesh_triangles = {{0, 1, 2}, {0, 2, 3}, {0, 1, 2}};
-  film.mesh_bones = {0, 1};
-  film.mesh_weights = {1, 0.5f, 0, 0, 0.5f, 1};
+  film.skin_bones = {0, 1};
+  film.skin_weights = {1, 0.5f, 0, 0, 0.5f, 1};
   film.meshlets = {{0, 4, 0, 2, {0, 0, 0}, {1, 1, 0.5f}},
                    {4, 3, 2, 1, {0, 0, 0}, {1, 0, 1}},
-                   {4, 3, 2, 1, {0, 0, 0}, {1, 0, 1}, 0, 2, 0}};
-  film.shapes = {{0, 2, 0, 0}, {2, 1, 0, 2}, {0, 0, 2, 1, 2}};
+                   {4, 3, 2, 1, {0, 0, 0}, {1, 0, 1}, {0, 2, 0}}};
+  film.patch_skins = {{0, 2, 6}};
+  film.skin_weights.insert(film.skin_weights.end(), 2 * wire::kPatchPoints, 0.5f);
+  film.shapes = {{0, 2, 0, 0}, {2, 1, 0, 2}, {1, 1, 2, 1, 2, 0}};
   film.segments = {{0, 0, {0, 1}, {0, 1}}, {1, 5, {1, 3}, {0, 1}}, {2, 5, {0, 1}, {0, 1}, 0, 0, 2}};
   film.bones = {{0, 1}, {1, 3}};
   film.materials = {{{1, 0, 0}, 0.1f, 0.6f, 0.3f, 20, 2}, {{0, 1, 0}, 0.1f, 0.6f, 0.3f, 2.5f, 1}};
@@ -52,7 +54,7 @@ inline FilmData small_scene() {
   scene.settings.frames = 1;
   scene.patches.assign(4, flat_patch());
   scene.mesh_places.clear(), scene.mesh_normals.clear(), scene.mesh_triangles.clear(), scene.meshlets.clear();
-  scene.mesh_bones.clear(), scene.mesh_weights.clear();
+  scene.patch_skins.clear(), scene.skin_bones.clear(), scene.skin_weights.clear();
   scene.shapes = {{0, 2}, {2, 2}};
   scene.segments = {{0, 0, {0, 1}, {0, 1}}, {3, 5, {6, 1}, {0, 1}}, {4, 0, {0, 1}, {0, 1}}};
   scene.changes.push_back({0, 1});

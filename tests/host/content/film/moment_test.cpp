@@ -35,8 +35,9 @@ void expect_film_at(const animator::Film& film, const wire::PackedFilm& whole, s
   expect_same(moment.patches(), whole.patches(), at);
   expect_same(moment.shapes(), whole.shapes(), at);
   expect_same(moment.meshlets(), whole.meshlets(), at);
-  expect_same(moment.mesh_bones(), whole.mesh_bones(), at);
-  expect_same(moment.mesh_weights(), whole.mesh_weights(), at);
+  expect_same(moment.patch_skins(), whole.patch_skins(), at);
+  expect_same(moment.skin_bones(), whole.skin_bones(), at);
+  expect_same(moment.skin_weights(), whole.skin_weights(), at);
   expect_same(moment.camera_at(0), whole.camera_at(frame), at);
   ASSERT_EQ(moment.light_tracks().size(), whole.light_tracks().size()) << at;
   for (std::size_t i = 0; i < whole.light_tracks().size(); ++i)

@@ -61,7 +61,8 @@ Places places_of(const modeler::Model& model, const modeler::Joint& joint) {
     for (const modeler::Bone& bone : joint.segment->bones)
       bones.push_back(modeler::bone_matrix(frames[bone.joint], bone, joint));
     const modeler::Mesh& mesh = *model.shapes[joint.segment->shape].mesh;
-    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) places.push_back(modeler::skinned_place(mesh, v, bones));
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+      places.push_back(modeler::skinned_place(mesh.vertices[v], mesh.bones[v], bones));
     return places;
   }
   for (const auto& vertex : model.shapes[joint.segment->shape].mesh->vertices)

@@ -138,7 +138,8 @@ Places posed(const modeler::Model& model, const Poses& poses) {
     bones.push_back(modeler::bone_matrix(frames[bone.joint], bone, skinned));
   const modeler::Mesh& mesh = *model.shapes[skinned.segment->shape].mesh;
   Places places;
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) places.push_back(modeler::skinned_place(mesh, v, bones));
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+    places.push_back(modeler::skinned_place(mesh.vertices[v], mesh.bones[v], bones));
   return places;
 }
 
