@@ -29,6 +29,22 @@ void main() {
 }
 )";
 
+// A vertex of a skin goes by the sum of its bones, which turn and shift only, each times its weight.
+constexpr const char* kSkinVertex = R"(
+layout(location = 0) in vec3 place;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in uvec4 bone;
+layout(location = 3) in vec4 weight;
+uniform mat4x3 bones[BONES];
+centroid out vec3 n;
+void main() {
+  mat4x3 m = weight.x * bones[bone.x] + weight.y * bones[bone.y] + weight.z * bones[bone.z] + weight.w * bones[bone.w];
+  vec3 p = m * vec4(place, 1.0);
+  gl_Position = vec4(LENS.x * p.x, -LENS.y * p.y, -LENS.z * p.z + LENS.w, -p.z);
+  n = mat3(m) * normal;
+}
+)";
+
 constexpr const char* kSurfaceFragment = R"(
 centroid in vec3 n;
 #ifdef SHADOWS
@@ -128,6 +144,11 @@ Shaders surface_shaders(const std::string& numbers, const std::string& map) {
 
 Shaders surface_shaders(const MeshHead& head, const std::string& map) {
   return surface_shaders(kVersion + numbers_of(head), map);
+}
+
+Shaders skin_shaders(const MeshHead& head, int bones) {
+  const std::string numbers = kVersion + numbers_of(head) + "#define BONES " + std::to_string(bones) + "\n";
+  return {numbers + kSkinVertex, numbers + kSurfaceFragment};
 }
 
 Shaders kept_surface_shaders(const MeshHead& head, const std::string& map) {

@@ -15,8 +15,11 @@ struct Shaders {
 // `map`: the numbers of a shadow map (shadow_map.h); empty: no shadows.
 Shaders surface_shaders(const MeshHead& head, const std::string& map);
 
-// The same, which also draw into two more colours what shadows of what moves need: what no light makes of a pixel and
-// its distance, 0 where there is nothing; and what all light adds.
+// Of meshes with skins of so many bones, without shadows.
+Shaders skin_shaders(const MeshHead& head, int bones);
+
+// As surface_shaders(), which also draw into two more colours what shadows of what moves need: what no light makes of a
+// pixel and its distance, 0 where there is nothing; and what all light adds.
 Shaders kept_surface_shaders(const MeshHead& head, const std::string& map);
 
 // What stands under the map as it is now, from those two colours: `samples` 0 if they are not multisampled.
