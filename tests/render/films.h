@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/content/modeler/meshlets.h"
+#include "host/content/modeler/model.h"
 #include "node/wire/film.h"
 
 namespace mars::test {
