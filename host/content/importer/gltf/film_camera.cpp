@@ -12,10 +12,10 @@ namespace {
 
 using document::Json;
 
-constexpr double kTrue = 1e-6;  // of the size of what is seen
+constexpr double kViewTrue = 1e-6;  // of the size of what is seen
 constexpr double kUsualAspect = 16.0 / 9, kSameAspect = 2e-3;
-constexpr double kHeight = 540, kGreatestSide = 16384;  // pixels
-constexpr double kNearest = 1e-6, kFarthest = 1e9;
+constexpr double kPictureHeight = 540, kGreatestSide = 16384;  // pixels
+constexpr double kNearestPlane = 1e-6, kFarthestPlane = 1e9;
 
 // Of a camera, by frame.
 struct View {
@@ -50,8 +50,8 @@ bool moves(const View& view) {
 
 std::optional<std::array<std::uint32_t, 2>> size_of(const GltfCamera& camera) {
   if (!camera.aspect || std::abs(*camera.aspect / kUsualAspect - 1) < kSameAspect) return std::nullopt;
-  const double width = std::clamp(2 * std::round(kHeight / 2 * *camera.aspect), 2.0, kGreatestSide);
-  return std::array{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(kHeight)};
+  const double width = std::clamp(2 * std::round(kPictureHeight / 2 * *camera.aspect), 2.0, kGreatestSide);
+  return std::array{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(kPictureHeight)};
 }
 
 // What the file does not say, or not as a film can have it, is as is usual.
@@ -63,8 +63,8 @@ Json lens_of(const GltfCamera& camera, double factor) {
     json["projection"] = "orthographic";
     json["height"] = document::plain_number(2 * camera.ymag * factor);
   }
-  const double near = camera.znear ? std::clamp(*camera.znear * factor, kNearest, kFarthest) : kNearest;
-  const double far = camera.zfar ? std::clamp(*camera.zfar * factor, kNearest, kFarthest) : kFarthest;
+  const double near = camera.znear ? std::clamp(*camera.znear * factor, kNearestPlane, kFarthestPlane) : kNearestPlane;
+  const double far = camera.zfar ? std::clamp(*camera.zfar * factor, kNearestPlane, kFarthestPlane) : kFarthestPlane;
   if (camera.znear && near < far) json["near"] = document::plain_number(near);
   if (camera.zfar && near < far) json["far"] = document::plain_number(far);
   return json;
@@ -79,14 +79,14 @@ FilmCamera film_camera(const std::vector<GltfCamera>& cameras, const NodesInFilm
   const std::size_t chosen = moving == views.end() ? 0 : static_cast<std::size_t>(moving - views.begin());
   const View& view = views[chosen];
   const glm::dvec3 middle = (seen.min + seen.max) / 2.0;
-  const double size = std::max(glm::length(seen.max - seen.min), kNearest);
+  const double size = std::max(glm::length(seen.max - seen.min), kNearestPlane);
   const double ahead = std::max(glm::dot(middle - view.eye[0], view.ahead[0]), size / 10);
   std::vector<glm::dvec3> at;
   for (std::size_t frame = 0; frame < view.eye.size(); ++frame) at.push_back(view.eye[frame] + ahead * view.ahead[frame]);
   KeyedText text(lens_of(cameras[chosen], factor));
-  text.add("eye", view.eye, kTrue * size);
-  text.add("at", at, kTrue * size);
-  text.add("up", view.up, kTrue);
+  text.add("eye", view.eye, kViewTrue * size);
+  text.add("at", at, kViewTrue * size);
+  text.add("up", view.up, kViewTrue);
   return {text.finished(), size_of(cameras[chosen])};
 }
 

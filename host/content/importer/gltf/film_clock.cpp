@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kOnFrame = 2e-3;   // frames; single precision leaves less
 constexpr double kUnmoved = 1e-4;   // a share of a place or a scale
-constexpr std::size_t kMostFrames = 1'000'000;
+constexpr std::size_t kMostFilmFrames = 1'000'000;
 
 bool all_on_frames(const GltfAnimation& animation, double rate) {
   return std::ranges::all_of(animation.channels, [&](const GltfChannel& channel) {
@@ -48,7 +48,7 @@ std::optional<glm::dvec3> unmoved(const GltfChannel& channel, const FilmClock& c
 FilmClock film_clock(const std::filesystem::path& path, const GltfScene& scene, const std::optional<double>& rate) {
   FilmClock clock{rate.value_or(usual_rate(scene)), 1};
   const double last = scene.animations.shown ? std::floor(scene.animations.shown->end() * clock.rate + kOnFrame) : 0;
-  if (last >= kMostFrames)
+  if (last >= kMostFilmFrames)
     throw Failure("has more than a million frames at this rate", path.string(), "choose a lower --rate");
   clock.frames = static_cast<std::size_t>(std::max(last, 0.0)) + 1;
   return clock;

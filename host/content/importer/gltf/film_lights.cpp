@@ -16,9 +16,9 @@ using document::Json;
 constexpr std::size_t kMostLights = 64;
 constexpr double kGreatestIntensity = 1000;
 constexpr double kDarkest = 0.1, kBrightest = 4;  // that lights of a film are together, without being dimmed
-constexpr double kNear = 0.01;    // of what is seen: nearer to a light it gets hardly brighter
-constexpr double kTrue = 1e-6;    // of the size of what is seen
-constexpr double kNarrowest = 0.01, kWidest = 180;  // degrees that a cone opens
+constexpr double kNearLight = 0.01;    // of what is seen: nearer to a light it gets hardly brighter
+constexpr double kLightTrue = 1e-6;    // of the size of what is seen
+constexpr double kNarrowestCone = 0.01, kWidestCone = 180;  // degrees that a cone opens
 
 glm::dvec3 axis_of(const glm::dmat4& node) {
   const glm::dvec3 z(node[2]);
@@ -30,7 +30,7 @@ double brightness_in_the_middle(const GltfLight& light, const glm::dmat4& node, 
                                 double factor) {
   const double color = std::max({light.color.x, light.color.y, light.color.z});
   if (light.kind == GltfLightKind::directional) return color * light.intensity / std::numbers::pi;
-  const double metres = std::max(glm::length(glm::dvec3(node[3]) - middle), kNear * size) / factor;
+  const double metres = std::max(glm::length(glm::dvec3(node[3]) - middle), kNearLight * size) / factor;
   return color * light.intensity / (metres * metres * std::numbers::pi);
 }
 
@@ -50,14 +50,14 @@ Json shown(const glm::dvec3& color) {
 // MARS's falls off as 1 / (1 + (d / reach)^2): far from the light that is (reach / d)^2, the square that glTF has.
 void add_reach(const GltfLight& light, double size, double factor, double dimmed, Json& json) {
   const double squared = light.intensity * dimmed * factor * factor / std::numbers::pi;  // brightness times distance^2
-  const double reach = std::max({kNear * size, std::sqrt(std::max(squared, 0.0) / kGreatestIntensity) * 1.001, 1e-6});
+  const double reach = std::max({kNearLight * size, std::sqrt(std::max(squared, 0.0) / kGreatestIntensity) * 1.001, 1e-6});
   json["reach"] = document::plain_number(reach);
   json["intensity"] = document::plain_number(std::max(squared, 0.0) / (reach * reach));
 }
 
 Json cone_of(const GltfLight& light) {
   const auto opens = [](double half) {
-    return std::clamp(2 * half * 180 / std::numbers::pi, kNarrowest, kWidest);
+    return std::clamp(2 * half * 180 / std::numbers::pi, kNarrowestCone, kWidestCone);
   };
   const double outer = opens(light.outer);
   return Json::array(
@@ -92,9 +92,9 @@ class LightText {
       toward.push_back(axis_of(node));
       at.push_back(places.back() - size * toward.back());
     }
-    if (light_.kind == GltfLightKind::directional) return text.add("direction", toward, kTrue);
-    text.add("place", places, kTrue * size);
-    if (light_.kind == GltfLightKind::spot) text.add("at", at, kTrue * size);
+    if (light_.kind == GltfLightKind::directional) return text.add("direction", toward, kLightTrue);
+    text.add("place", places, kLightTrue * size);
+    if (light_.kind == GltfLightKind::spot) text.add("at", at, kLightTrue * size);
   }
 
   const GltfLight& light_;

@@ -14,7 +14,7 @@
 namespace mars::importer {
 namespace {
 
-constexpr double kWidest = 3.12;  // radians; a camera of MARS sees no half sphere
+constexpr double kWidestView = 3.12;  // radians; a camera of MARS sees no half sphere
 constexpr std::array<std::pair<std::string_view, GltfLightKind>, 3> kLightKinds{
     {{"directional", GltfLightKind::directional}, {"point", GltfLightKind::point}, {"spot", GltfLightKind::spot}}};
 
@@ -42,7 +42,7 @@ std::vector<bool> nodes_in_scene(const Tree& gltf, const std::vector<std::size_t
 GltfCamera camera_of(const Tree& camera, std::size_t node) {
   const Tree& perspective = at(camera, "perspective");
   if (!perspective.is_null())
-    return {node, std::min(positive(perspective, "yfov").value_or(0.7), kWidest), 1,
+    return {node, std::min(positive(perspective, "yfov").value_or(0.7), kWidestView), 1,
             positive(perspective, "aspectRatio"), positive(perspective, "znear"), positive(perspective, "zfar")};
   const Tree& flat = at(camera, "orthographic");
   GltfCamera read{node, {}, positive(flat, "ymag").value_or(1), {}, positive(flat, "znear"), positive(flat, "zfar")};
