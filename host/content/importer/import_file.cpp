@@ -123,7 +123,8 @@ void check_options(const ImportOptions& options, FileKind kind) {
   if (options.rate && !is_skeleton(kind) && !(film && is_gltf(kind)))
     refuse("--rate", is_gltf(kind) ? "add --as film, or leave it out" : "leave it out: it is for motions");
   if ((!options.animation.empty() || options.motion) && !(film && is_gltf(kind)))
-    refuse("--animation or --motion", is_gltf(kind) ? "add --as film, or leave it out" : "leave it out: it is for glTF");
+    refuse("--animation or --motion",
+           is_gltf(kind) ? "add --as film, or leave it out" : "leave it out: it is for glTF");
 }
 
 }  // namespace

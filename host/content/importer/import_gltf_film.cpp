@@ -36,7 +36,8 @@ Json rows_of(const glm::dmat4& matrix) {
   Json rows = Json::array();
   for (int row = 0; row < 3; ++row) {
     Json numbers = Json::array();
-    for (int column = 0; column < 4; ++column) numbers.push_back(document::plain_number(animator::rounded(matrix[column][row])));
+    for (int column = 0; column < 4; ++column)
+      numbers.push_back(document::plain_number(animator::rounded(matrix[column][row])));
     rows.push_back(std::move(numbers));
   }
   return rows;
@@ -69,8 +70,8 @@ std::string beyond_keys(const JointMotions::ByKeys& keys) {
     text = document::counted(keys.sliding, "joint slides", "joints slide") + ", up to " +
            document::formatted("%.3g units", keys.farthest);
   if (keys.scaled > 0)
-    text += (text.empty() ? "" : ", and ") + document::counted(keys.scaled, "joint changes", "joints change") +
-            " in scale";
+    text +=
+        (text.empty() ? "" : ", and ") + document::counted(keys.scaled, "joint changes", "joints change") + " in scale";
   return text.empty() ? "joints do more than turn" : text;
 }
 
@@ -153,8 +154,7 @@ class GltfFilm {
 
   void add_lights(FilmText& film) {
     const glm::dvec3 middle = (seen_.min + seen_.max) / 2.0;
-    FilmLights lights =
-        film_lights(scene_.lights, nodes_, middle, glm::length(seen_.max - seen_.min), model_.factor);
+    FilmLights lights = film_lights(scene_.lights, nodes_, middle, glm::length(seen_.max - seen_.min), model_.factor);
     film.lights = std::move(lights.json);
     if (lights.lights > 0)
       report_.made.push_back(document::counted(lights.lights, "light") +

@@ -22,7 +22,8 @@ struct Stance {
 std::string box_text(const glm::dvec3& extent, double factor, FileKind kind, const Stance& stance);
 
 // Reads options.from; `rest` as in MeshOptions. Refuses to replace a file that is read with it.
-MeshFile read_mesh(const ImportOptions& options, FileKind kind, const Stance& stance, std::vector<glm::dmat4> rest = {});
+MeshFile read_mesh(const ImportOptions& options, FileKind kind, const Stance& stance,
+                   std::vector<glm::dmat4> rest = {});
 
 // As a model file.
 std::string model_text_of(const MeshFile& file);

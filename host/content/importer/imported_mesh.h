@@ -64,7 +64,7 @@ struct MeshJoint {
   JointFrame frame;    // its origin in the parent's frame, in the model's units
   bool fixed = false;  // it shows a further material of its parent, and cannot turn
   std::optional<MeshPart> part;
-  bool has_skin = false;  // the part's vertices follow the file's bones
+  bool has_skin = false;              // the part's vertices follow the file's bones
   std::size_t node = modeler::kNone;  // of the file, which the joint is; of glTF
 };
 

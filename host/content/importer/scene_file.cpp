@@ -254,7 +254,8 @@ class SceneReader {
     const glm::dmat4 matrix = in_our_axes(node.matrix);
     const JointFrame frame = frame_of(matrix);
     const std::string name = node.name.empty() ? "node" : node.name;
-    const std::size_t joint = builder_.add_joint(parent == modeler::kNone ? options_.joint : name, parent, frame, node.number);
+    const std::size_t joint =
+        builder_.add_joint(parent == modeler::kNone ? options_.joint : name, parent, frame, node.number);
     uneven_joints_ += !scales_evenly(tree_.above(node));
     if (node.skin) return joint;  // its mesh stands elsewhere
     const glm::dmat4 within(within_frame(frame, glm::dmat3(matrix)) * glm::dmat3(upright_));
@@ -360,8 +361,7 @@ class SceneReader {
     append(list, materials_.textures().not_read());
     append(list, file_.promised.not_read);
     if (const std::size_t count = materials_.cut_colors(); count > 0)
-      list.push_back(document::counted(count, "colour", "colours") +
-                     " beyond 0 to 1: cut to that" +
+      list.push_back(document::counted(count, "colour", "colours") + " beyond 0 to 1: cut to that" +
                      (options_.rest.empty() ? " (another: " + options_.set_material + " --color 0.8 0.6 0.4)" : ""));
   }
 

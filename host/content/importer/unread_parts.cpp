@@ -77,8 +77,8 @@ Counts counts_of(const aiScene& scene, const TextureMeans& means) {
 
 }  // namespace
 
-std::vector<std::string> unread_parts(const aiScene& scene, const TextureMeans& means,
-                                      const std::string& set_material, bool in_film) {
+std::vector<std::string> unread_parts(const aiScene& scene, const TextureMeans& means, const std::string& set_material,
+                                      bool in_film) {
   const Counts counts = counts_of(scene, means);
   std::vector<std::string> parts;
   const auto add = [&](std::size_t count, std::string_view one, std::string_view several,

@@ -82,7 +82,8 @@ FilmCamera film_camera(const std::vector<GltfCamera>& cameras, const NodesInFilm
   const double size = std::max(glm::length(seen.max - seen.min), kNearestPlane);
   const double ahead = std::max(glm::dot(middle - view.eye[0], view.ahead[0]), size / 10);
   std::vector<glm::dvec3> at;
-  for (std::size_t frame = 0; frame < view.eye.size(); ++frame) at.push_back(view.eye[frame] + ahead * view.ahead[frame]);
+  for (std::size_t frame = 0; frame < view.eye.size(); ++frame)
+    at.push_back(view.eye[frame] + ahead * view.ahead[frame]);
   KeyedText text(lens_of(cameras[chosen], factor));
   text.add("eye", view.eye, kViewTrue * size);
   text.add("at", at, kViewTrue * size);

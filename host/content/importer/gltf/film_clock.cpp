@@ -10,15 +10,14 @@
 namespace mars::importer {
 namespace {
 
-constexpr double kOnFrame = 2e-3;   // frames; single precision leaves less
-constexpr double kUnmoved = 1e-4;   // a share of a place or a scale
+constexpr double kOnFrame = 2e-3;  // frames; single precision leaves less
+constexpr double kUnmoved = 1e-4;  // a share of a place or a scale
 constexpr std::size_t kMostFilmFrames = 1'000'000;
 
 bool all_on_frames(const GltfAnimation& animation, double rate) {
   return std::ranges::all_of(animation.channels, [&](const GltfChannel& channel) {
-    return std::ranges::all_of(channel.times, [&](double time) {
-      return std::abs(time * rate - std::round(time * rate)) < kOnFrame;
-    });
+    return std::ranges::all_of(channel.times,
+                               [&](double time) { return std::abs(time * rate - std::round(time * rate)) < kOnFrame; });
   });
 }
 

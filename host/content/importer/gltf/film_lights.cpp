@@ -16,8 +16,8 @@ using document::Json;
 constexpr std::size_t kMostLights = 64;
 constexpr double kGreatestIntensity = 1000;
 constexpr double kDarkest = 0.1, kBrightest = 4;  // that lights of a film are together, without being dimmed
-constexpr double kNearLight = 0.01;    // of what is seen: nearer to a light it gets hardly brighter
-constexpr double kLightTrue = 1e-6;    // of the size of what is seen
+constexpr double kNearLight = 0.01;               // of what is seen: nearer to a light it gets hardly brighter
+constexpr double kLightTrue = 1e-6;               // of the size of what is seen
 constexpr double kNarrowestCone = 0.01, kWidestCone = 180;  // degrees that a cone opens
 
 glm::dvec3 axis_of(const glm::dmat4& node) {
@@ -42,15 +42,16 @@ double dimmed(double brightness) {
 Json shown(const glm::dvec3& color) {
   Json json = Json::array();
   for (int i = 0; i < 3; ++i)
-    json.push_back(document::plain_number(
-        std::round(document::shown_of_light(std::clamp(color[i], 0.0, 1.0)) * 1000) / 1000));
+    json.push_back(
+        document::plain_number(std::round(document::shown_of_light(std::clamp(color[i], 0.0, 1.0)) * 1000) / 1000));
   return json;
 }
 
 // MARS's falls off as 1 / (1 + (d / reach)^2): far from the light that is (reach / d)^2, the square that glTF has.
 void add_reach(const GltfLight& light, double size, double factor, double dimmed, Json& json) {
   const double squared = light.intensity * dimmed * factor * factor / std::numbers::pi;  // brightness times distance^2
-  const double reach = std::max({kNearLight * size, std::sqrt(std::max(squared, 0.0) / kGreatestIntensity) * 1.001, 1e-6});
+  const double reach =
+      std::max({kNearLight * size, std::sqrt(std::max(squared, 0.0) / kGreatestIntensity) * 1.001, 1e-6});
   json["reach"] = document::plain_number(reach);
   json["intensity"] = document::plain_number(std::max(squared, 0.0) / (reach * reach));
 }
@@ -60,8 +61,7 @@ Json cone_of(const GltfLight& light) {
     return std::clamp(2 * half * 180 / std::numbers::pi, kNarrowestCone, kWidestCone);
   };
   const double outer = opens(light.outer);
-  return Json::array(
-      {document::plain_number(std::min(opens(light.inner), outer)), document::plain_number(outer)});
+  return Json::array({document::plain_number(std::min(opens(light.inner), outer)), document::plain_number(outer)});
 }
 
 class LightText {
@@ -74,8 +74,8 @@ class LightText {
     Json beside = Json::object();
     if (light_.color != glm::dvec3(1)) beside["color"] = shown(light_.color);
     if (light_.kind == GltfLightKind::directional)
-      beside["intensity"] = document::plain_number(
-          std::clamp(light_.intensity * dimmed / std::numbers::pi, 0.0, kGreatestIntensity));
+      beside["intensity"] =
+          document::plain_number(std::clamp(light_.intensity * dimmed / std::numbers::pi, 0.0, kGreatestIntensity));
     else
       add_reach(light_, size, factor, dimmed, beside);
     if (light_.kind == GltfLightKind::spot) beside["cone"] = cone_of(light_);

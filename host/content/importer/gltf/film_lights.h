@@ -11,9 +11,9 @@
 namespace mars::importer {
 
 struct FilmLights {
-  document::Json json;      // the film's "lights"; null: the file has none
-  std::size_t lights = 0;   // in it
-  double dimmed = 1;        // factor for all of the file's intensities
+  document::Json json;       // the film's "lights"; null: the file has none
+  std::size_t lights = 0;    // in it
+  double dimmed = 1;         // factor for all of the file's intensities
   std::size_t too_many = 0;  // that a film cannot have
 };
 

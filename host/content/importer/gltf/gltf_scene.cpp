@@ -42,8 +42,12 @@ std::vector<bool> nodes_in_scene(const Tree& gltf, const std::vector<std::size_t
 GltfCamera camera_of(const Tree& camera, std::size_t node) {
   const Tree& perspective = at(camera, "perspective");
   if (!perspective.is_null())
-    return {node, std::min(positive(perspective, "yfov").value_or(0.7), kWidestView), 1,
-            positive(perspective, "aspectRatio"), positive(perspective, "znear"), positive(perspective, "zfar")};
+    return {node,
+            std::min(positive(perspective, "yfov").value_or(0.7), kWidestView),
+            1,
+            positive(perspective, "aspectRatio"),
+            positive(perspective, "znear"),
+            positive(perspective, "zfar")};
   const Tree& flat = at(camera, "orthographic");
   GltfCamera read{node, {}, positive(flat, "ymag").value_or(1), {}, positive(flat, "znear"), positive(flat, "zfar")};
   if (const auto xmag = positive(flat, "xmag")) read.aspect = *xmag / read.ymag;

@@ -14,8 +14,8 @@ namespace mars::importer {
 // Looks along its node's -z, y upward in the picture.
 struct GltfCamera {
   std::size_t node;
-  std::optional<double> yfov;           // radians, of a perspective camera
-  double ymag = 1;                      // of an orthographic one, half of the height that it shows
+  std::optional<double> yfov;                 // radians, of a perspective camera
+  double ymag = 1;                            // of an orthographic one, half of the height that it shows
   std::optional<double> aspect, znear, zfar;  // width by height; none: the file does not say it
 };
 
@@ -25,8 +25,8 @@ enum class GltfLightKind { directional, point, spot };
 struct GltfLight {
   std::size_t node;
   GltfLightKind kind;
-  glm::dvec3 color{1};   // amounts of light
-  double intensity = 1;  // lux of directional lights, candela of others
+  glm::dvec3 color{1};                           // amounts of light
+  double intensity = 1;                          // lux of directional lights, candela of others
   double inner = 0, outer = 0.7853981633974483;  // radians from a spot's axis
 };
 

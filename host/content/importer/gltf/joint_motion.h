@@ -30,10 +30,10 @@ class JointMotions {
   modeler::Box box() const;
 
   struct ByKeys {
-    ActorMotion motion;                    // its place moves the lowest joint that carries all that is seen
-    double error = 0;                      // how far a point may be from where the file has it, in units
+    ActorMotion motion;                   // its place moves the lowest joint that carries all that is seen
+    double error = 0;                     // how far a point may be from where the file has it, in units
     std::size_t sliding = 0, scaled = 0;  // joints of which keys do not show it
-    double farthest = 0;                   // that one slides, in units
+    double farthest = 0;                  // that one slides, in units
   };
   ByKeys by_keys() const;
 
@@ -52,14 +52,14 @@ class JointMotions {
   std::vector<glm::dvec3> places_of(const std::vector<glm::dmat3>& turns) const;
   void add_poses(const std::vector<glm::dmat3>& turns, ActorMotion& motion) const;
   std::size_t placed_joint(const std::vector<bool>& slides) const;
-  double error_at(const std::vector<glm::dmat4>& moves, const std::vector<glm::dmat3>& turns, const glm::dvec3& place)
-      const;
+  double error_at(const std::vector<glm::dmat4>& moves, const std::vector<glm::dmat3>& turns,
+                  const glm::dvec3& place) const;
 
   const NodesInFilm& nodes_;
   std::vector<glm::dmat4> nodes_at_rest_;
   std::vector<std::size_t> node_of_;  // of each joint; kNone: it goes with its parent
   std::vector<modeler::Joint> joints_;
-  std::vector<glm::dvec3> origins_;                    // of each joint at rest
+  std::vector<glm::dvec3> origins_;                   // of each joint at rest
   std::vector<std::optional<modeler::Box>> carries_;  // at rest, what goes with each joint
   std::vector<bool> needs_matrix_;
   double size_;

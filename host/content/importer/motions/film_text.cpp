@@ -117,7 +117,8 @@ void KeyedText::add_pose(const modeler::Joint& joint, std::span<const glm::dvec3
     if (values[0] != joint.rest()) pose_[joint.name] = text_of(values[0]);
     return;
   }
-  for (const std::uint32_t frame : keys_of_turns(joint, values)) keys_[frame]["pose"][joint.name] = text_of(values[frame]);
+  for (const std::uint32_t frame : keys_of_turns(joint, values))
+    keys_[frame]["pose"][joint.name] = text_of(values[frame]);
 }
 
 Json KeyedText::finished() const {
@@ -136,7 +137,8 @@ Json KeyedText::finished() const {
 ActorText actor_text(const std::string& name, std::span<const modeler::Joint> joints, const ActorMotion& motion,
                      double error) {
   KeyedText text({{"name", name}, {"model", name}});
-  if (std::ranges::any_of(motion.places, [](const glm::dvec3& place) { return animator::rounded(place) != glm::dvec3(0); }))
+  if (std::ranges::any_of(motion.places,
+                          [](const glm::dvec3& place) { return animator::rounded(place) != glm::dvec3(0); }))
     text.add("place", motion.places, error);
   for (std::size_t i = 0; i < joints.size(); ++i) {
     Values poses;

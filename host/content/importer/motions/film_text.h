@@ -60,7 +60,7 @@ struct FilmText {
   double rate = 24;
   std::string model_name, model;  // as model files are
   document::Json camera, actor;
-  document::Json lights{};                               // null: none of its own
+  document::Json lights{};                             // null: none of its own
   std::optional<std::array<std::uint32_t, 2>> size{};  // of the picture; none: as is usual
 };
 

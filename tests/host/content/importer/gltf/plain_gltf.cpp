@@ -168,7 +168,8 @@ std::vector<glm::dvec3> PlainGltf::vertices(double time, std::size_t animation) 
     if (node.contains("skin"))
       add_skinned(node, places, attributes, worlds, vertices);
     else
-      for (const Value& place : places) vertices.emplace_back(worlds[number] * glm::dvec4(place[0], place[1], place[2], 1));
+      for (const Value& place : places)
+        vertices.emplace_back(worlds[number] * glm::dvec4(place[0], place[1], place[2], 1));
   }
   return vertices;
 }
