@@ -69,10 +69,14 @@ struct Share {
 std::vector<std::size_t> most_of_matrices(const animator::Actor& actor, const modeler::Model& model,
                                           std::uint32_t frames) {
   std::vector<std::size_t> most;
-  for (std::size_t joint = 0; joint < model.joints.size(); ++joint) {
-    if (!model.joints[joint].segment) continue;
+  const auto add = [&](std::size_t joint) {
     const auto& keys = actor.matrices[joint];
     most.push_back(std::count_if(keys.begin(), keys.end(), [&](const auto& key) { return key.frame < frames; }));
+  };
+  for (std::size_t joint = 0; joint < model.joints.size(); ++joint) {
+    if (!model.joints[joint].segment) continue;
+    add(joint);
+    for (const modeler::Bone& bone : model.joints[joint].segment->bones) add(bone.joint);
   }
   return most;
 }
@@ -292,10 +296,16 @@ class MotionWriter {
   void copy(std::size_t number, Share& share, std::vector<Writing>& writings) {
     const animator::Actor& actor = film_.actors[number];
     const auto& joints = film_.models[actor.model].joints;
-    for (Writing& writing : writings)
-      for (const animator::Key<modeler::Axes>& key : actor.matrices[writing.joint])
-        if (key.frame < film_.frames)
-          add(number, share, writing, key.frame, modeler::t_matrix(key.value, joints[writing.joint].segment->sbb));
+    for (Writing& writing : writings) {
+      const modeler::Joint &joint = joints[writing.joint], &moved_by = joints[writing.moved_by()];
+      for (const animator::Key<modeler::Axes>& key : actor.matrices[writing.moved_by()]) {
+        if (key.frame >= film_.frames) continue;
+        add(number, share, writing, key.frame,
+            writing.bone != nullptr
+                ? modeler::bone_matrix(modeler::joint_frame(key.value, moved_by), *writing.bone, joint)
+                : modeler::t_matrix(key.value, joint.segment->sbb));
+      }
+    }
   }
 
   void add(std::size_t actor, Share& share, Writing& writing, std::uint32_t frame, const wire::Matrix& matrix) {

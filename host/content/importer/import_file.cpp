@@ -10,16 +10,16 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/document/json_file.h"
-#include "host/content/document/shell_word.h"
 #include "host/content/document/text.h"
 #include "host/content/document/whole_file.h"
 #include "host/content/importer/apart.h"
 #include "host/content/importer/file_kind.h"
 #include "host/content/importer/gltf_json.h"
-#include "host/content/importer/import_report.h"
-#include "host/content/importer/mesh_file.h"
-#include "host/content/importer/model_text.h"
+#include "host/content/importer/import_gltf_film.h"
+#include "host/content/importer/import_mesh.h"
 #include "host/content/importer/import_motion.h"
+#include "host/content/importer/import_report.h"
+#include "host/content/importer/model_text.h"
 #include "host/content/importer/orientation.h"
 #include "host/content/modeler/patch_file.h"
 
@@ -34,20 +34,6 @@ std::string usual_front(FileKind kind, const std::string& up) {
   return is_skeleton(kind) && up.back() != 'z' ? "z" : "";
 }
 
-// How a person wants the model to stand.
-struct Stance {
-  std::string up;  // never ""
-  glm::dmat3 upright;
-};
-
-// "1.2 x 0.33 x 1.45 units, 1.45 m tall, the file's y upward": only glTF says what its unit is.
-std::string box_of(const glm::dvec3& extent, double factor, FileKind kind, const Stance& stance) {
-  std::string text = document::formatted("%.4g x %.4g x %.4g units", extent.x, extent.y, extent.z);
-  if (is_gltf(kind))
-    text += document::formatted(", %.4g m tall", extent.z / factor) + (factor == 1 ? "" : " in the file");
-  return text + ", the file's " + stance.up + " upward";
-}
-
 ImportedText import_patches(const ImportOptions& options, FileKind kind, const Stance& stance) {
   if (options.crease)
     throw Failure("has patches, which need no crease", options.from.string(), "leave out --crease: it is for meshes");
@@ -55,62 +41,11 @@ ImportedText import_patches(const ImportOptions& options, FileKind kind, const S
   const double factor = options.size.factor(options.size.height ? read(1).extent.z : 0, options.from.string());
   const modeler::PatchFile file = read(factor);
   return {{"model of one joint '" + options.joint + "'",
-           box_of(file.extent, factor, kind, stance),
+           box_text(file.extent, factor, kind, stance),
            {document::counted(file.patches.size(), "patch", "patches")},
            {},
            {}},
           model_text({{options.joint, "", {}, false, WrittenSegment{shape_text(file.patches), file.bounds, {}}}}, {})};
-}
-
-std::vector<std::string> read_of(const MeshFile& file) {
-  std::size_t vertices = 0, faces = 0;
-  bool has_normals = false;
-  for (const MeshJoint& joint : file.joints) {
-    if (!joint.part) continue;
-    vertices += joint.part->mesh.vertices.size();
-    faces += joint.part->mesh.ends.size();
-    has_normals = !joint.part->mesh.normals.empty();
-  }
-  const bool joined = vertices < file.vertices;
-  std::vector<std::string> read = {document::counted(vertices, "vertex", "vertices") +
-                                       (joined ? " of the file's " + std::to_string(file.vertices) : ""),
-                                   document::counted(faces, "face", "faces")};
-  if (has_normals) read.emplace_back("normals");
-  if (!file.materials.empty()) read.push_back(document::counted(file.materials.size(), "colour", "colours"));
-  return read;
-}
-
-// Of the first joint, whether it has a colour or not.
-std::string set_material(const ImportOptions& options) {
-  return "mars model " + document::shell_word(options.to.string()) + " set " + document::shell_word(options.joint) +
-         " --material " + material_name(0);
-}
-
-WrittenSkin skin_of(const MeshFile& file) {
-  WrittenSkin skin;
-  for (const MeshBone& bone : file.bones) {
-    skin.joints.push_back(file.joints[bone.joint].name);
-    if (!file.are_bound_at_rest) skin.binds.push_back(bone.bind);
-  }
-  return skin;
-}
-
-ImportedText import_mesh(const ImportOptions& options, FileKind kind, const Stance& stance) {
-  const MeshOptions mesh{stance.upright, options.size, options.crease, options.joint, set_material(options)};
-  const MeshFile file = read_mesh_file(options.from, kind, mesh);
-  for (const std::filesystem::path& companion : file.companions) document::refuse_same_file(companion, options.to);
-  std::vector<WrittenJoint> joints;
-  for (const MeshJoint& joint : file.joints) {
-    joints.push_back({joint.name, joint.parent, joint.frame, joint.fixed, {}});
-    if (joint.part)
-      joints.back().segment =
-          WrittenSegment{shape_text(joint.part->mesh), joint.part->bounds, joint.part->material, {}};
-    if (joint.has_skin) joints.back().segment->skin = skin_of(file);
-  }
-  const std::string count = joints.size() == 1 ? "one joint" : std::to_string(joints.size()) + " joints, the first";
-  return {{"model of " + count + " '" + options.joint + "'", box_of(file.extent, file.factor, kind, stance),
-           read_of(file), file.made, file.not_read},
-          model_text(joints, file.materials)};
 }
 
 // A library does not come back from every damaged file.
@@ -130,8 +65,10 @@ std::string read_apart(const std::filesystem::path& path, const std::vector<std:
 
 // The report, a zero, the model or film.
 std::string run(const ImportOptions& options, FileKind kind, const Stance& stance) {
+  const bool film = options.as == ImportAs::film;
   const ImportedText imported = is_skeleton(kind)           ? import_motion(options, kind, stance.up, stance.upright)
                                 : kind == FileKind::patches ? import_patches(options, kind, stance)
+                                : film                      ? import_gltf_film(options, kind, stance)
                                                             : import_mesh(options, kind, stance);
   return text_of(imported.report, options.to.string()) + '\0' + imported.text;
 }
@@ -179,11 +116,15 @@ void check_options(const ImportOptions& options, FileKind kind) {
     if (kind_of_name(more) != FileKind::amc)
       throw Failure("is no AMC file, and only such can follow another", more.string(), "import it by itself");
   const bool film = options.as == ImportAs::film;
-  if (film && !is_skeleton(kind))
+  if (film && !is_skeleton(kind) && !is_gltf(kind))
     refuse("--as film", "import it as a model, and show that in a film: mars film FILM add");
   if (film && kind == FileKind::asf) refuse("--as film", "import its motion, an .amc file");
-  if (!is_skeleton(kind) && (options.rate || options.file_rate))
-    refuse("--rate or --file-rate", "leave it out: it is for motions");
+  if (options.file_rate && !is_skeleton(kind)) refuse("--file-rate", "leave it out: it is for captured motions");
+  if (options.rate && !is_skeleton(kind) && !(film && is_gltf(kind)))
+    refuse("--rate", is_gltf(kind) ? "add --as film, or leave it out" : "leave it out: it is for motions");
+  if ((!options.animation.empty() || options.motion) && !(film && is_gltf(kind)))
+    refuse("--animation or --motion",
+           is_gltf(kind) ? "add --as film, or leave it out" : "leave it out: it is for glTF");
 }
 
 }  // namespace

@@ -6,8 +6,6 @@
 #include <optional>
 
 #include "hal/failure/failure.h"
-#include "host/content/animator/reading/read_film.h"
-#include "host/content/document/document.h"
 #include "host/content/document/text.h"
 #include "host/content/importer/joint_names.h"
 #include "host/content/importer/motions/asf_file.h"
@@ -133,12 +131,6 @@ std::string widened_text(const std::vector<std::string>& names) {
   return names.size() > 5 ? text + ", ..." : text;
 }
 
-// A film that MARS would refuse is a bug of ours: better found here than by who renders it.
-void check_film(const std::string& text, const fs::path& path) {
-  const document::Document film(text, path.string());
-  animator::read_film(film.root(), path.parent_path());
-}
-
 ImportedText film_of(const ImportOptions& options, Read read, ImportReport report) {
   const double rate = options.rate.value_or(kind_rate(read.motion.rate));
   if (double(read.motion.poses.size()) * rate / read.motion.rate > kMostFrames)
@@ -162,7 +154,7 @@ ImportedText film_of(const ImportOptions& options, Read read, ImportReport repor
                 camera_text(box.min - margin, box.max + margin),
                 std::move(actor.json)};
   std::string text = film_text(film);
-  check_film(text, options.to);
+  check_film_text(text, options.to);
   return {report, std::move(text)};
 }
 

@@ -10,11 +10,6 @@
 
 namespace mars::importer {
 
-struct ImportedText {
-  ImportReport report;
-  std::string text;  // of the model or the film
-};
-
 // Of BVH, ASF and AMC. `up` and `upright`: which of the file's axes becomes z, and how.
 ImportedText import_motion(const ImportOptions& options, FileKind kind, const std::string& up,
                            const glm::dmat3& upright);

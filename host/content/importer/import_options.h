@@ -11,6 +11,7 @@
 namespace mars::importer {
 
 enum class ImportAs { model, film };
+enum class ImportMotion { keys, matrices };
 
 struct ImportOptions {
   std::filesystem::path from, to;
@@ -18,6 +19,8 @@ struct ImportOptions {
   std::filesystem::path skeleton;           // of AMC; "": the one beside it
   std::optional<ImportAs> as;               // none: a film of BVH and AMC, else a model
   std::optional<double> rate, file_rate;    // frames a second of the film; of a file that does not say them
+  std::string animation;                    // of a film of glTF; "": the first
+  std::optional<ImportMotion> motion;       // of glTF's joints; none: keys if they show all of it
   std::string joint;      // the model's first one, and a film's model and actor; "": as the file is named
   std::string up, front;  // as in orientation.h; "" for `up`: as is usual for the file's kind
   ModelSize size;

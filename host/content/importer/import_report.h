@@ -16,6 +16,11 @@ struct ImportReport {
   std::vector<std::string> not_read;  // "19 bones", ...; none: all was read
 };
 
+struct ImportedText {
+  ImportReport report;
+  std::string text;  // of the model or the film
+};
+
 // In lines, the first beginning with the file that was written.
 std::string text_of(const ImportReport& report, const std::string& written);
 

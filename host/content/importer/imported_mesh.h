@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +25,9 @@ struct MeshOptions {
   std::optional<double> crease;  // degrees; given: normals follow from the faces, whatever the file says
   std::string joint;             // the first joint's name
   std::string set_material;      // "mars model rock.json set rock --material color": remedies begin so
+  // Of glTF for a film, which shows animations, cameras and lights, too: how each node stands in the node above it
+  // while the model rests; empty: as in the file, and for no film.
+  std::vector<glm::dmat4> rest{};
 };
 
 struct Surface {
@@ -60,7 +64,8 @@ struct MeshJoint {
   JointFrame frame;    // its origin in the parent's frame, in the model's units
   bool fixed = false;  // it shows a further material of its parent, and cannot turn
   std::optional<MeshPart> part;
-  bool has_skin = false;  // the part's vertices follow the file's bones
+  bool has_skin = false;              // the part's vertices follow the file's bones
+  std::size_t node = modeler::kNone;  // of the file, which the joint is; of glTF
 };
 
 struct MeshFile {

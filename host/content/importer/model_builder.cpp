@@ -29,8 +29,9 @@ ModelBuilder::ModelBuilder(std::string file, const MeshOptions& options, bool ha
       has_normals_(has_normals),
       style_{has_normals && !options.crease, options.crease.value_or(usual_crease)} {}
 
-std::size_t ModelBuilder::add_joint(const std::string& name, std::size_t parent, const JointFrame& frame) {
-  joints_.push_back({names_.unused(name), parent, frame, MeshBuilder(file_, style_)});
+std::size_t ModelBuilder::add_joint(const std::string& name, std::size_t parent, const JointFrame& frame,
+                                    std::size_t node) {
+  joints_.push_back({names_.unused(name), parent, frame, node, MeshBuilder(file_, style_)});
   return joints_.size() - 1;
 }
 
@@ -87,7 +88,7 @@ void ModelBuilder::finish_joint(Draft& draft, double factor, MeshFile& file) {
   JointFrame frame = draft.frame;
   if (!is_first) frame.origin -= joints_[draft.parent].frame.origin;
   frame.origin *= factor;
-  file.joints.push_back({draft.name, is_first ? "" : joints_[draft.parent].name, frame, false, {}});
+  file.joints.push_back({draft.name, is_first ? "" : joints_[draft.parent].name, frame, false, {}, false, draft.node});
   check_places({frame.origin, frame.origin});
   for (MeshPart& part : draft.mesh.finish(factor)) {
     if (file.joints.back().part)

@@ -17,8 +17,9 @@ class ModelBuilder {
   ModelBuilder(std::string file, const MeshOptions& options, bool has_normals, double usual_crease);
 
   // A joint's number; the first has no parent. Its frame is in the file's units. The name is made one that no other
-  // joint has and that a model can have.
-  std::size_t add_joint(const std::string& name, std::size_t parent, const JointFrame& frame);
+  // joint has and that a model can have. `node`: of the file, which it is.
+  std::size_t add_joint(const std::string& name, std::size_t parent, const JointFrame& frame,
+                        std::size_t node = modeler::kNone);
 
   MeshBuilder& mesh(std::size_t joint) { return joints_[joint].mesh; }
 
@@ -34,6 +35,7 @@ class ModelBuilder {
     std::string name;
     std::size_t parent;
     JointFrame frame;
+    std::size_t node;
     MeshBuilder mesh;
   };
 

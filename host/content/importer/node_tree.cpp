@@ -11,7 +11,8 @@ const glm::dmat4 kIdentity(1);
 
 class TreeReader {
  public:
-  TreeReader(const std::filesystem::path& path, const GltfSkins* skins) : path_(path), skins_(skins) {}
+  TreeReader(const std::filesystem::path& path, const GltfSkins* skins, std::span<const glm::dmat4> rest)
+      : path_(path), skins_(skins), rest_(rest) {}
 
   // Assimp makes the one root node of a glTF scene its own, and puts a node of its own above several.
   NodeTree read(const aiNode& root) {
@@ -28,21 +29,22 @@ class TreeReader {
   }
 
  private:
-  std::size_t add(const aiNode& node, std::size_t parent, const glm::dmat4& above) {
+  std::size_t add(const aiNode& node, std::size_t parent, const glm::dmat4& matrix) {
     if (tree_.nodes.size() == kMostNodes)
       throw Failure("has more than a million nodes", path_.string(), "join its objects before exporting it");
-    tree_.nodes.push_back({&node, parent, above * dmat4_of(node.mTransformation), "", {}});
+    tree_.nodes.push_back({&node, parent, matrix, "", {}});
     return tree_.nodes.size() - 1;
   }
 
   void visit(const aiNode& node, std::size_t parent, const glm::dmat4& above) {
-    const std::size_t index = add(node, parent, above);
+    const std::size_t index = add(node, parent, above * dmat4_of(node.mTransformation));
     const glm::dmat4 matrix = tree_.nodes[index].matrix;
     for (unsigned i = 0; i < node.mNumChildren; ++i) visit(*node.mChildren[i], index, matrix);
   }
 
   void visit_numbered(const aiNode& node, std::size_t parent, const glm::dmat4& above, std::size_t number) {
-    const std::size_t index = add(node, parent, above);
+    const std::size_t index =
+        add(node, parent, above * (rest_.empty() ? dmat4_of(node.mTransformation) : rest_[number]));
     const GltfNode& gltf = skins_->nodes[number];
     tree_.nodes[index].name = gltf.name;
     tree_.nodes[index].skin = gltf.skin;
@@ -60,6 +62,7 @@ class TreeReader {
 
   const std::filesystem::path& path_;
   const GltfSkins* skins_;
+  std::span<const glm::dmat4> rest_;
   NodeTree tree_;
 };
 
@@ -69,8 +72,9 @@ const glm::dmat4& NodeTree::above(const PlacedNode& node) const {
   return node.parent == modeler::kNone ? kIdentity : nodes[node.parent].matrix;
 }
 
-NodeTree node_tree(const std::filesystem::path& path, const aiScene& scene, const GltfSkins* skins) {
-  return TreeReader(path, skins).read(*scene.mRootNode);
+NodeTree node_tree(const std::filesystem::path& path, const aiScene& scene, const GltfSkins* skins,
+                   std::span<const glm::dmat4> rest) {
+  return TreeReader(path, skins, rest).read(*scene.mRootNode);
 }
 
 }  // namespace mars::importer

@@ -4,6 +4,7 @@
 #include <assimp/scene.h>
 
 #include <glm/mat4x4.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,8 +29,10 @@ struct NodeTree {
   const glm::dmat4& above(const PlacedNode& node) const;  // what the node's own matrix was multiplied to
 };
 
-// Of glTF with its skins; without them every node is nameless. Refuses more than a million nodes in failures that name
+// Of glTF with its skins; without them every node is nameless. `rest`: how each of the file's nodes stands in the one
+// above it; empty: as the file says. Refuses more than a million nodes in failures that name
 // `path`.
-NodeTree node_tree(const std::filesystem::path& path, const aiScene& scene, const GltfSkins* skins);
+NodeTree node_tree(const std::filesystem::path& path, const aiScene& scene, const GltfSkins* skins,
+                   std::span<const glm::dmat4> rest);
 
 }  // namespace mars::importer

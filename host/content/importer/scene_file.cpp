@@ -104,7 +104,7 @@ class SceneReader {
         file_(path, kind),
         sources_(handed_over(std::make_unique<SceneSources>(path))),
         scene_(load()),
-        tree_(node_tree(path, scene_, file_.skins ? &*file_.skins : nullptr)),
+        tree_(node_tree(path, scene_, file_.skins ? &*file_.skins : nullptr, options.rest)),
         materials_(path, kind, scene_),
         builder_(path.string(), options, has_normals(), is_gltf(kind) ? 0 : modeler::kDefaultCrease) {}
 
@@ -254,7 +254,8 @@ class SceneReader {
     const glm::dmat4 matrix = in_our_axes(node.matrix);
     const JointFrame frame = frame_of(matrix);
     const std::string name = node.name.empty() ? "node" : node.name;
-    const std::size_t joint = builder_.add_joint(parent == modeler::kNone ? options_.joint : name, parent, frame);
+    const std::size_t joint =
+        builder_.add_joint(parent == modeler::kNone ? options_.joint : name, parent, frame, node.number);
     uneven_joints_ += !scales_evenly(tree_.above(node));
     if (node.skin) return joint;  // its mesh stands elsewhere
     const glm::dmat4 within(within_frame(frame, glm::dmat3(matrix)) * glm::dmat3(upright_));
@@ -356,12 +357,12 @@ class SceneReader {
     if (weights_left_out_ > 0)
       list.push_back(document::counted(weights_left_out_, "weight", "weights") +
                      " of vertices that follow more than 4 bones: the 4 heaviest count");
-    append(list, unread_parts(scene_, materials_.textures(), options_.set_material));
+    append(list, unread_parts(scene_, materials_.textures(), options_.set_material, !options_.rest.empty()));
     append(list, materials_.textures().not_read());
     append(list, file_.promised.not_read);
     if (const std::size_t count = materials_.cut_colors(); count > 0)
-      list.push_back(document::counted(count, "colour", "colours") +
-                     " beyond 0 to 1: cut to that (another: " + options_.set_material + " --color 0.8 0.6 0.4)");
+      list.push_back(document::counted(count, "colour", "colours") + " beyond 0 to 1: cut to that" +
+                     (options_.rest.empty() ? " (another: " + options_.set_material + " --color 0.8 0.6 0.4)" : ""));
   }
 
   std::filesystem::path path_;

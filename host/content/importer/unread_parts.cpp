@@ -77,16 +77,16 @@ Counts counts_of(const aiScene& scene, const TextureMeans& means) {
 
 }  // namespace
 
-std::vector<std::string> unread_parts(const aiScene& scene, const TextureMeans& means,
-                                      const std::string& set_material) {
+std::vector<std::string> unread_parts(const aiScene& scene, const TextureMeans& means, const std::string& set_material,
+                                      bool in_film) {
   const Counts counts = counts_of(scene, means);
   std::vector<std::string> parts;
   const auto add = [&](std::size_t count, std::string_view one, std::string_view several,
                        const std::string& remedy = "") {
-    if (count > 0) parts.push_back(document::counted(count, one, several) + remedy);
+    if (count > 0) parts.push_back(document::counted(count, one, several) + (in_film ? "" : remedy));
   };
   const std::string one_color = " (one colour instead: " + set_material + " --color 0.8 0.6 0.4)";
-  add(scene.mNumAnimations, "animation", "animations", " (mars animate sets keys)");
+  if (!in_film) add(scene.mNumAnimations, "animation", "animations", " (--as film shows one)");
   add(counts.targets, "morph target", "morph targets");
   add(counts.textures.size(), "texture", "textures", one_color);
   add(counts.mapped_vertices, "vertex's place in a texture", "vertices' places in a texture");
@@ -96,8 +96,9 @@ std::vector<std::string> unread_parts(const aiScene& scene, const TextureMeans& 
   add(counts.transparencies, "material's transparency", "materials' transparency");
   add(counts.points, "point", "points");
   add(counts.lines, "line", "lines");
-  add(scene.mNumCameras, "camera", "cameras", " (a film has the camera)");
-  add(scene.mNumLights, "light", "lights", " (a film has the lights)");
+  if (in_film) return parts;
+  add(scene.mNumCameras, "camera", "cameras", " (--as film shows what one sees)");
+  add(scene.mNumLights, "light", "lights", " (--as film has them)");
   return parts;
 }
 

@@ -10,8 +10,9 @@
 
 namespace mars::importer {
 
-// "19 bones (...)", ... with what to do about it. Textures of `means` stand in materials. `set_material` as in
-// MeshOptions.
-std::vector<std::string> unread_parts(const aiScene& scene, const TextureMeans& means, const std::string& set_material);
+// "2 animations (...)", ... with what to do about it. Textures of `means` stand in materials. `set_material` as in
+// MeshOptions. A film has animations, cameras and lights, and other remedies.
+std::vector<std::string> unread_parts(const aiScene& scene, const TextureMeans& means, const std::string& set_material,
+                                      bool in_film);
 
 }  // namespace mars::importer

@@ -542,7 +542,8 @@ Object matrices_key() {
           {{.name = "frame", .type = "frame", .meaning = "the frame", .required = true},
            {.name = "segments",
             .type = "{matrix}",
-            .meaning = "joints by name, and the matrices of their segments: three rows `[xx, xy, xz, tx]` from the sbb "
+            .meaning = "joints by name, and the matrices of their segments, or of bones: three rows `[xx, xy, xz, tx]` "
+                       "from the sbb "
                        "to the world, held until the next",
             .required = true,
             .example = R"({"hand": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]})"}}};

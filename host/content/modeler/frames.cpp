@@ -87,6 +87,10 @@ Axes segment_frame(const Axes& joint_frame, const Joint& joint) {
   return {joint_frame.turn * segment_axes(joint), joint_frame.place};
 }
 
+Axes joint_frame(const Axes& segment, const Joint& joint) {
+  return {segment.turn * glm::inverse(segment_axes(joint)), segment.place};
+}
+
 Affine product(const Affine& outer, const Affine& inner) {
   return {outer.turn * inner.turn, outer.turn * inner.place + outer.place};
 }

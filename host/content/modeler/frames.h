@@ -36,6 +36,9 @@ glm::dmat3 segment_axes(const Joint& joint);
 // The base segment's box-scaled coordinates to the world: F [X Y Z].
 Axes segment_frame(const Axes& joint_frame, const Joint& joint);
 
+// Back from that: the frame of the joint whose segment stands at `segment`, which may be scaled and sheared.
+Axes joint_frame(const Axes& segment, const Joint& joint);
+
 // What `inner` leads to, by `outer`; and the way back, of a map that has one.
 Affine product(const Affine& outer, const Affine& inner);
 Affine inverse(const Affine& map);

@@ -15,10 +15,13 @@ namespace mars::commands {
 namespace {
 
 constexpr const char* kAfterwards = R"(Prints what it read from the file, what it made, and what it left out, such as
-bones and animations. More: docs/importing.md, docs/motions.md.
+animations. More: docs/importing.md, docs/motions.md.
 
 For example, scale a glTF figure to 5 units, and make it look forward:
   mars import figure.glb -o figure.json --height 5 --front z
+
+The same figure with one of its animations, its camera and its lights, as a film:
+  mars import figure.glb -o walk.json --as film --animation Walk --height 5 --front z
 
 A captured walk as a film, of a figure as tall as a man of the library:
   mars import walk.bvh -o walk.json --height 5.1
@@ -69,12 +72,13 @@ void add_motion(cli::Command command, importer::ImportOptions& options) {
       [&options](std::size_t number) {
         options.as = number == 0 ? importer::ImportAs::model : importer::ImportAs::film;
       },
-      "What to make; default: a film of .bvh and .amc files, a model of others. Example: --as model");
+      "What to make, of .gltf and .glb either; default: a film of .bvh and .amc files, a model of others. Example: "
+      "--as film");
   command
       .add(
           "--rate", options.rate,
           "The film's frames per second; default: the file's, or where these are more than 30 and a multiple of 24, 25 "
-          "or 30, the first such. Example: --rate 60")
+          "or 30, the first such; of glTF, which has none, those that its times fit, else 24. Example: --rate 60")
       .check(number_from(0.001, 1000, "no rate: write a number from 0.001 to 1000"))
       .type("FRAMES");
   command
@@ -83,6 +87,17 @@ void add_motion(cli::Command command, importer::ImportOptions& options) {
            "Example: --file-rate 60")
       .check(number_from(0.001, 1000, "no rate: write a number from 0.001 to 1000"))
       .type("FRAMES");
+  command
+      .add("--animation", options.animation,
+           "The glTF animation that a film shows; default: the file's first. Example: --animation Walk")
+      .type("NAME");
+  command.add_choice(
+      "--motion", {"keys", "matrices"},
+      [&options](std::size_t number) {
+        options.motion = number == 0 ? importer::ImportMotion::keys : importer::ImportMotion::matrices;
+      },
+      "What moves the actor of a film of glTF: keys, which people can change, but joints only turn; or matrices, as in "
+      "the file; default: keys if they show all of the motion. Example: --motion keys");
   command
       .add("--skeleton", options.skeleton,
            "The .asf file of an .amc; default: beside it, the one whose name begins the motion's. Example: --skeleton "

@@ -9,11 +9,17 @@ namespace {
 
 // By matrices: each holds until the next.
 void place_by_matrices(const Actor& actor, const modeler::Model& model, std::uint32_t frame, ActorState& state) {
-  for (std::size_t joint = 0; joint < model.joints.size(); ++joint) {
-    if (!model.joints[joint].segment) continue;
-    const Channel<modeler::Axes>& held = actor.matrices[joint];
-    state.segments[joint] =
-        modeler::t_matrix(held[stretch_at(held, frame).from].value, model.joints[joint].segment->sbb);
+  const auto held = [&](std::size_t joint) {
+    const Channel<modeler::Axes>& matrices = actor.matrices[joint];
+    return matrices[stretch_at(matrices, frame).from].value;
+  };
+  for (std::size_t number = 0; number < model.joints.size(); ++number) {
+    const modeler::Joint& joint = model.joints[number];
+    if (!joint.segment) continue;
+    state.segments[number] = modeler::t_matrix(held(number), joint.segment->sbb);
+    for (const modeler::Bone& bone : joint.segment->bones)
+      state.bones[number].push_back(
+          modeler::bone_matrix(modeler::joint_frame(held(bone.joint), model.joints[bone.joint]), bone, joint));
   }
 }
 

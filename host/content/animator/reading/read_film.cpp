@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <unordered_map>
 #include <unordered_set>
+#include <vector>
 
 #include "hal/failure/failure.h"
 #include "host/content/animator/reading/read_carried.h"
@@ -238,24 +240,35 @@ class ActorReader {
     return frame;
   }
 
+  // Those of segments, and bones of skins.
+  static std::vector<bool> joints_with_matrices(std::span<const modeler::Joint> joints) {
+    std::vector<bool> with(joints.size());
+    for (std::size_t joint = 0; joint < joints.size(); ++joint) {
+      if (!joints[joint].segment) continue;
+      with[joint] = true;
+      for (const modeler::Bone& bone : joints[joint].segment->bones) with[bone.joint] = true;
+    }
+    return with;
+  }
+
   void read_matrices(const document::Element& list, Actor& actor) {
     const auto& joints = model_of(actor).joints;
-    if (std::ranges::any_of(joints, [](const modeler::Joint& j) { return j.segment && !j.segment->bones.empty(); }))
-      list.refuse("moves a model with a skin, whose bones have no matrices", "move the actor by keys");
+    const std::vector<bool> moved = joints_with_matrices(joints);
     actor.matrices.resize(joints.size());
     read_keys(list, keys::object("matrices_key"), [&](const document::Fields& key, std::uint32_t frame, const Ease&) {
       const document::Element segments = key.required("segments");
       document::require_kind(segments, document::Kind::object);
       for (const document::Element item : segments) {
         const std::size_t joint = find_joint(item, actor);
-        if (!joints[joint].segment) item.refuse("has no segment", "give matrices of joints that have one");
+        if (!moved[joint])
+          item.refuse("has no segment and is no bone of a skin", "give matrices of joints that have one or are one");
         actor.matrices[joint].push_back({frame, read_matrix(item), kLinear});
       }
     });
     for (std::size_t joint = 0; joint < joints.size(); ++joint)
-      if (joints[joint].segment && (actor.matrices[joint].empty() || actor.matrices[joint][0].frame != 0))
+      if (moved[joint] && (actor.matrices[joint].empty() || actor.matrices[joint][0].frame != 0))
         list.refuse("has no matrix of '" + joints[joint].name + "' at frame 0",
-                    "give every segment its matrix at frame 0, then only what changes");
+                    "give every segment and every bone its matrix at frame 0, then only what changes");
   }
 
   const std::vector<modeler::Model>& film_models_;

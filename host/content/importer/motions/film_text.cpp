@@ -10,6 +10,8 @@
 #include "host/content/animator/keys/edit.h"
 #include "host/content/animator/keys/written.h"
 #include "host/content/animator/pose/figure.h"
+#include "host/content/animator/reading/read_film.h"
+#include "host/content/document/document.h"
 
 namespace mars::importer {
 namespace {
@@ -97,48 +99,53 @@ double distance_to_see(const glm::dvec3& half, const glm::dvec3& toward) {
   return distance;
 }
 
-struct Writer {
-  Json still_pose = Json::object();
-  std::map<std::uint32_t, Json> keys{};  // by frame
-
-  void add_pose(const modeler::Joint& joint, const Values& poses) {
-    if (is_still(poses)) {
-      if (poses[0] != joint.rest()) still_pose[joint.name] = text_of(poses[0]);
-      return;
-    }
-    for (const std::uint32_t frame : keys_of_turns(joint, poses))
-      keys[frame]["pose"][joint.name] = text_of(poses[frame]);
-  }
-};
-
 }  // namespace
 
-ActorText actor_text(const std::string& name, std::span<const modeler::Joint> joints, const ActorMotion& motion,
-                     double error) {
-  Writer writer;
-  Values places;
-  for (const glm::dvec3& place : motion.places) places.push_back(animator::rounded(place));
-  Json json{{"name", name}, {"model", name}};
-  if (is_still(places)) {
-    if (places[0] != glm::dvec3(0)) json["place"] = text_of(places[0]);
-  } else {
-    for (const std::uint32_t frame : keys_of_places(places, error))
-      writer.keys[frame]["place"] = text_of(places[frame]);
+void KeyedText::add(const char* name, Values values, double error) {
+  for (glm::dvec3& value : values) value = animator::rounded(value);
+  if (is_still(values)) {
+    json_[name] = text_of(values[0]);
+    return;
   }
-  for (std::size_t i = 0; i < joints.size(); ++i) {
-    Values poses;
-    for (const auto& pose : motion.poses) poses.push_back(within(joints[i], pose[i]));
-    writer.add_pose(joints[i], poses);
+  for (const std::uint32_t frame : keys_of_places(values, error)) keys_[frame][name] = text_of(values[frame]);
+}
+
+void KeyedText::add_pose(const modeler::Joint& joint, std::span<const glm::dvec3> poses) {
+  Values values;
+  for (const glm::dvec3& pose : poses) values.push_back(within(joint, pose));
+  if (is_still(values)) {
+    if (values[0] != joint.rest()) pose_[joint.name] = text_of(values[0]);
+    return;
   }
-  if (!writer.still_pose.empty()) json["pose"] = writer.still_pose;
+  for (const std::uint32_t frame : keys_of_turns(joint, values))
+    keys_[frame]["pose"][joint.name] = text_of(values[frame]);
+}
+
+Json KeyedText::finished() const {
+  Json json = json_;
+  if (!pose_.empty()) json["pose"] = pose_;
   Json keys = Json::array();
-  for (auto& [frame, values] : writer.keys) {
+  for (const auto& [frame, values] : keys_) {
     Json key{{"frame", frame}};
     key.update(values);
     keys.push_back(std::move(key));
   }
   if (!keys.empty()) json["keys"] = std::move(keys);
-  return {std::move(json), writer.keys.size()};
+  return json;
+}
+
+ActorText actor_text(const std::string& name, std::span<const modeler::Joint> joints, const ActorMotion& motion,
+                     double error) {
+  KeyedText text({{"name", name}, {"model", name}});
+  if (std::ranges::any_of(motion.places,
+                          [](const glm::dvec3& place) { return animator::rounded(place) != glm::dvec3(0); }))
+    text.add("place", motion.places, error);
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    Values poses;
+    for (const auto& pose : motion.poses) poses.push_back(pose[i]);
+    text.add_pose(joints[i], poses);
+  }
+  return {text.finished(), text.keys()};
 }
 
 Json camera_text(const glm::dvec3& least, const glm::dvec3& greatest) {
@@ -164,13 +171,19 @@ std::string film_text(const FilmText& film) {
     text.pop_back();  // its end of line
     return "  \"" + std::string(key) + "\": " + text + ",\n";
   };
-  std::string text = "{\n" + line("frames", film.frames) + line("rate", document::plain_number(film.rate)) +
-                     line("camera", film.camera);
+  std::string text = "{\n" + line("frames", film.frames) + line("rate", document::plain_number(film.rate));
+  if (film.size) text += line("size", *film.size);
+  text += line("camera", film.camera);
   if (!film.lights.is_null()) text += line("lights", film.lights);
   text += "  \"models\": {" + Json(film.model_name).dump() + ": " + film.model;
   while (text.back() == '\n') text.pop_back();
   std::string actors = document::laid_out(Json::array({film.actor}));
   return text + "},\n  \"actors\": " + actors + "}\n";
+}
+
+void check_film_text(const std::string& text, const std::filesystem::path& path) {
+  const document::Document film(text, path.string());
+  animator::read_film(film.root(), path.parent_path());
 }
 
 }  // namespace mars::importer

@@ -1,10 +1,16 @@
 // The film that `mars import --as film` writes: a model, an actor with keys, and a camera that sees all of its motion.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
 #include <glm/vec3.hpp>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "host/content/document/json_file.h"
@@ -16,6 +22,24 @@ namespace mars::importer {
 struct ActorMotion {
   std::vector<glm::dvec3> places;
   std::vector<std::vector<glm::dvec3>> poses;  // by frame and joint
+};
+
+// What moves an actor, a light or the camera, as it grows: keys only where the ways between two others do not give the
+// frames between them; what never moves stands beside them.
+class KeyedText {
+ public:
+  explicit KeyedText(document::Json beside) : json_(std::move(beside)) {}
+
+  // By frame; straight ways, true to `error` of the values' unit.
+  void add(const char* name, std::vector<glm::dvec3> values, double error);
+  void add_pose(const modeler::Joint& joint, std::span<const glm::dvec3> poses);
+
+  std::size_t keys() const { return keys_.size(); }  // frames that have any
+  document::Json finished() const;
+
+ private:
+  document::Json json_, pose_ = document::Json::object();
+  std::map<std::uint32_t, document::Json> keys_;  // by frame
 };
 
 struct ActorText {
@@ -36,9 +60,13 @@ struct FilmText {
   double rate = 24;
   std::string model_name, model;  // as model files are
   document::Json camera, actor;
-  document::Json lights{};  // null: none of its own
+  document::Json lights{};                             // null: none of its own
+  std::optional<std::array<std::uint32_t, 2>> size{};  // of the picture; none: as is usual
 };
 
 std::string film_text(const FilmText& film);
+
+// Throws where MARS would refuse the film, which is a bug of ours: better found here than by who renders it.
+void check_film_text(const std::string& text, const std::filesystem::path& path);
 
 }  // namespace mars::importer

@@ -19,6 +19,18 @@ class Glb {
   int bytes(const char* type, const std::vector<std::uint8_t>& numbers) {
     return add(type, 5121, numbers, numbers.size());
   }
+  int shorts(const char* type, const std::vector<std::int16_t>& numbers) {
+    return add(type, 5122, numbers, numbers.size());
+  }
+
+  // Adds a channel of animation `number`, such as of "rotation"; `way` is its interpolation.
+  void channel(std::size_t number, int node, const char* path, const char* way, const std::vector<float>& times,
+               int values) {
+    auto& animation = json["animations"][number];
+    animation["samplers"].push_back({{"input", floats("SCALAR", times)}, {"output", values}, {"interpolation", way}});
+    animation["channels"].push_back(
+        {{"sampler", animation["samplers"].size() - 1}, {"target", {{"node", node}, {"path", path}}}});
+  }
 
   // The number of a new bufferView.
   int view(std::string_view content) {
@@ -52,7 +64,7 @@ class Glb {
 
   template <typename Number>
   int add(const std::string& type, int component, const std::vector<Number>& numbers, std::size_t count) {
-    const std::size_t width = type == "MAT4" ? 16 : static_cast<std::size_t>(type.back() - '0');
+    const std::size_t width = type == "MAT4" ? 16 : type == "SCALAR" ? 1 : static_cast<std::size_t>(type.back() - '0');
     const std::string_view content(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number));
     json["accessors"].push_back(
         {{"bufferView", view(content)}, {"componentType", component}, {"count", count / width}, {"type", type}});

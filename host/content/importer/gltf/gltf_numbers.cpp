@@ -1,0 +1,127 @@
+#include "host/content/importer/gltf/gltf_numbers.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "hal/failure/failure.h"
+#include "host/content/document/file.h"
+
+namespace mars::importer {
+namespace {
+
+constexpr std::size_t kHeader = 12, kChunkHeader = 8;
+
+int base64_digit(char c) {
+  if (c >= 'A' && c <= 'Z') return c - 'A';
+  if (c >= 'a' && c <= 'z') return c - 'a' + 26;
+  if (c >= '0' && c <= '9') return c - '0' + 52;
+  return c == '+' ? 62 : c == '/' ? 63 : -1;
+}
+
+std::string base64_decoded(std::string_view text) {
+  std::string bytes;
+  unsigned bits = 0;
+  int held = 0;
+  for (const char c : text) {
+    const int digit = base64_digit(c);
+    if (digit < 0) break;
+    bits = bits << 6 | static_cast<unsigned>(digit);
+    held += 6;
+    if (held >= 8) bytes += static_cast<char>(bits >> (held -= 8));
+  }
+  return bytes;
+}
+
+// Of a GLB: the chunk after the JSON's.
+std::string_view binary_chunk(std::string_view bytes) {
+  if (bytes.size() < kHeader + kChunkHeader) return {};
+  const std::size_t at = kHeader + kChunkHeader + std::size_t{little_endian_at(bytes, kHeader)};
+  if (bytes.size() < at + kChunkHeader) return {};
+  return bytes.substr(at + kChunkHeader, little_endian_at(bytes, at));
+}
+
+std::size_t width_of(const Tree& type) {
+  constexpr std::array<std::pair<std::string_view, std::size_t>, 5> kTypes{
+      {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}}};
+  for (const auto& [name, width] : kTypes)
+    if (type.is_string() && type.get_ref<const std::string&>() == name) return width;
+  return 0;
+}
+
+std::size_t size_of(std::size_t component) {
+  return component == 5126                        ? 4
+         : component == 5120 || component == 5121 ? 1
+         : component == 5122 || component == 5123 ? 2
+                                                  : 0;
+}
+
+double component_at(std::string_view bytes, std::size_t component) {
+  std::uint32_t bits = 0;
+  for (std::size_t i = size_of(component); i-- > 0;) bits = bits << 8 | static_cast<unsigned char>(bytes[i]);
+  switch (component) {
+    case 5126: return double(std::bit_cast<float>(bits));
+    case 5120: return std::max(double(static_cast<std::int8_t>(bits)) / 127, -1.0);
+    case 5121: return double(bits) / 255;
+    case 5122: return std::max(double(static_cast<std::int16_t>(bits)) / 32767, -1.0);
+    default: return double(bits) / 65535;
+  }
+}
+
+}  // namespace
+
+GltfBuffers::GltfBuffers(const std::filesystem::path& path, FileKind kind, std::string_view bytes, const Tree& gltf)
+    : path_(path), gltf_(gltf), own_(kind == FileKind::glb ? binary_chunk(bytes) : std::string_view()) {
+  for (const Tree& each : at(gltf, "buffers")) {
+    const Tree& uri = at(each, "uri");
+    std::string content;
+    if (uri.is_string()) {
+      const std::string& text = uri.get_ref<const std::string&>();
+      const std::size_t comma = text.find(',');
+      content = text.starts_with("data:")
+                    ? base64_decoded(comma == std::string::npos ? "" : std::string_view(text).substr(comma + 1))
+                    : document::read_file(path.parent_path() / percent_decoded(text), kLargestMeshFile);
+    }
+    buffers_.push_back(std::move(content));
+  }
+}
+
+std::string_view GltfBuffers::buffer(const Tree& index) const {
+  const std::size_t place = number(index, buffers_.size());
+  if (place >= buffers_.size()) return {};
+  return item(at(gltf_, "buffers"), index).contains("uri") ? std::string_view(buffers_[place]) : own_;
+}
+
+GltfNumbers GltfBuffers::read(const Tree& index) const {
+  const auto refuse = [&](const char* problem) {
+    throw Failure("has an animation whose accessor " + index.dump() + " " + problem, path_.string(),
+                  "export it again, without sparse or compressed accessors");
+  };
+  const Tree& accessor = item(at(gltf_, "accessors"), index);
+  const Tree& view = item(at(gltf_, "bufferViews"), at(accessor, "bufferView"));
+  if (accessor.is_null()) refuse("is not there");
+  if (accessor.contains("sparse") || view.is_null()) refuse("is sparse or has no numbers");
+  const std::size_t component = number(at(accessor, "componentType"), 0), size = size_of(component);
+  GltfNumbers read{width_of(at(accessor, "type")), {}};
+  if (size == 0 || read.width == 0) refuse("has numbers of a kind that is not known");
+  const std::size_t count = number(at(accessor, "count"), 0), element = size * read.width,
+                    stride = number(at(view, "byteStride"), element), first = number(at(accessor, "byteOffset"), 0),
+                    length = number(at(view, "byteLength"), 0);
+  const std::string_view bytes = buffer(at(view, "buffer"));
+  const std::size_t begin = number(at(view, "byteOffset"), 0);
+  const bool fits = begin <= bytes.size() && length <= bytes.size() - begin && first <= length && stride >= element &&
+                    stride <= 252 &&
+                    (count == 0 || (element <= length - first && (count - 1) <= (length - first - element) / stride));
+  if (!fits) refuse("is beyond the end of its buffer");
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t j = 0; j < read.width; ++j) {
+      read.numbers.push_back(component_at(bytes.substr(begin + first + i * stride + j * size), component));
+      if (!std::isfinite(read.numbers.back())) refuse("has a number that is none");
+    }
+  return read;
+}
+
+}  // namespace mars::importer
