@@ -86,6 +86,10 @@ std::string set_material(const ImportOptions& options) {
          " --material " + material_name(0);
 }
 
+std::string set_limb(const ImportOptions& options) {
+  return "mars model " + document::shell_word(options.to.string()) + " set JOINT --limb";
+}
+
 WrittenSkin skin_of(const MeshFile& file) {
   WrittenSkin skin;
   for (const MeshBone& bone : file.bones) {
@@ -96,12 +100,13 @@ WrittenSkin skin_of(const MeshFile& file) {
 }
 
 ImportedText import_mesh(const ImportOptions& options, FileKind kind, const Stance& stance) {
-  const MeshOptions mesh{stance.upright, options.size, options.crease, options.joint, set_material(options)};
+  const MeshOptions mesh{stance.upright, options.size,          options.crease,
+                         options.joint,  set_material(options), set_limb(options)};
   const MeshFile file = read_mesh_file(options.from, kind, mesh);
   for (const std::filesystem::path& companion : file.companions) document::refuse_same_file(companion, options.to);
   std::vector<WrittenJoint> joints;
   for (const MeshJoint& joint : file.joints) {
-    joints.push_back({joint.name, joint.parent, joint.frame, joint.fixed, {}});
+    joints.push_back({joint.name, joint.parent, joint.frame, joint.fixed, {}, joint.limits});
     if (joint.part)
       joints.back().segment =
           WrittenSegment{shape_text(joint.part->mesh), joint.part->bounds, joint.part->material, {}};
@@ -110,7 +115,7 @@ ImportedText import_mesh(const ImportOptions& options, FileKind kind, const Stan
   const std::string count = joints.size() == 1 ? "one joint" : std::to_string(joints.size()) + " joints, the first";
   return {{"model of " + count + " '" + options.joint + "'", box_of(file.extent, file.factor, kind, stance),
            read_of(file), file.made, file.not_read},
-          model_text(joints, file.materials)};
+          model_text(joints, file.materials, file.limbs)};
 }
 
 // A library does not come back from every damaged file.

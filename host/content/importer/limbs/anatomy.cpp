@@ -1,0 +1,195 @@
+#include "host/content/importer/limbs/anatomy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "host/content/modeler/frames.h"
+
+namespace mars::importer {
+namespace {
+
+using modeler::kNone;
+using modeler::Limb;
+using modeler::Limits;
+using modeler::Side;
+using modeler::Trunk;
+
+// Degrees from the neutral position: a body that stands, its arms hanging, palms to the thighs. Of the left side. x is
+// about the direction forward: positive raises a left arm or leg to the side. y is about that to the left: positive
+// takes what hangs back and nods what stands forward. z is about the bone, upward: positive turns to the left.
+//
+// AAOS: American Academy of Orthopaedic Surgeons, Joint Motion: Method of Measuring and Recording, 1965. CDC: Soucie et
+// al., Range of motion measurements, Haemophilia 17 (2011) 500-507: the CDC's normal joint range of motion study.
+// Where two joints share what was measured of both, as spine and chest do, each has half of it.
+struct Range {
+  Limits x, y, z;
+};
+
+constexpr Limits kNo{0, 0};
+
+// AAOS: extension 30, flexion 120; abduction 45, adduction 30; rotation 45 to either side.
+constexpr Range kHip{{-30, 45}, {-120, 30}, {-45, 45}};
+// CDC: flexion 140, the mean of men's 138 and women's 142 from 20 to 44 years.
+constexpr Range kKnee{kNo, {0, 140}, kNo};
+// AAOS: plantar flexion 50; inversion 35, eversion 15. Dorsiflexion 40 with the weight on the foot, as in squats
+// (Bennell et al., Australian Journal of Physiotherapy 44 (1998) 175-180), twice that of a hanging foot. The foot
+// turns in and out by about 20.
+constexpr Range kAnkle{{-35, 15}, {-40, 50}, {-20, 20}};
+// AAOS, the great toe: extension 70, flexion 45.
+constexpr Range kToes{kNo, {-70, 45}, kNo};
+// AAOS: abduction 180; flexion 180, extension 60; rotation 70 inward, 90 outward. Adduction across the body 50.
+constexpr Range kShoulder{{-50, 180}, {-180, 60}, {-70, 90}};
+// AAOS, of an arm that is held out to the side: 135 forward, 45 back.
+constexpr Limits kHeldOut{-135, 45};
+// AAOS: flexion 150; the forearm turns 80 inward and outward.
+constexpr Range kElbow{kNo, {-150, 0}, {-80, 80}};
+// AAOS: flexion 80, extension 70; 20 to the thumb's side, 30 to the other.
+constexpr Range kWrist{{-80, 70}, {-20, 30}, kNo};
+// AAOS, of the back: flexion 80, extension 30, 35 to either side, rotation 45.
+constexpr Range kBack{{-17.5, 17.5}, {-15, 40}, {-22.5, 22.5}};
+// AAOS, of the neck: flexion 45, extension 45, 45 to either side, rotation 60.
+constexpr Range kNeck{{-22.5, 22.5}, {-22.5, 22.5}, {-30, 30}};
+
+constexpr double kArmIsHeldOut = 45;  // degrees from hanging
+constexpr double kHardlyUpright = 0.1;
+constexpr double kFourLegs = 0.35;  // of the hips' height over the feet: as low as that the wrists are feet
+
+Limits mirrored(const Limits& limits) { return {-limits.upper, -limits.lower}; }
+
+Range of_side(Range range, Side side) {
+  return side == Side::left ? range : Range{mirrored(range.x), range.y, mirrored(range.z)};
+}
+
+Limits doubled(const Limits& limits) { return {2 * limits.lower, 2 * limits.upper}; }
+Range doubled(const Range& range) { return {doubled(range.x), doubled(range.y), doubled(range.z)}; }
+
+// Numbers of a joint that rests at `rest` of the neutral position; at rest every joint is within its limits.
+Limits from_rest(const Limits& limits, double rest) {
+  const auto whole = [](double degrees) { return std::round(degrees) + 0.0; };
+  return {std::min(whole(limits.lower - rest), 0.0), std::max(whole(limits.upper - rest), 0.0)};
+}
+
+class Anatomist {
+ public:
+  Anatomist(const FigureTree& tree, const modeler::Limbs& limbs) : tree_(tree), limbs_(limbs), all_(tree.size()) {}
+
+  std::vector<std::optional<JointAnatomy>> find() {
+    if (!find_axes()) return all_;
+    has_limits_ = !has_four_legs();
+    add_trunk();
+    for (const Side side : {Side::left, Side::right}) {
+      add_leg(side);
+      add_arm(side);
+    }
+    return std::move(all_);
+  }
+
+ private:
+  std::size_t joint(Limb limb, Side side) const { return limbs_.of(limb, side); }
+  glm::dvec3 place(std::size_t joint) const { return tree_[joint].place; }
+
+  // Forward, left and up, as motions find them.
+  bool find_axes() {
+    const std::size_t left = joint(Limb::hip, Side::left), right = joint(Limb::hip, Side::right);
+    if (left == kNone || right == kNone) return false;
+    const glm::dvec3 across = place(left) - place(right), flat(across.x, across.y, 0);
+    if (!(glm::length(flat) > kHardlyUpright * glm::length(across))) return false;
+    axes_[1] = glm::normalize(flat);
+    axes_[2] = {0, 0, 1};
+    axes_[0] = glm::cross(axes_[1], axes_[2]);
+    return true;
+  }
+
+  bool has_four_legs() const {
+    const std::size_t hip = joint(Limb::hip, Side::left), wrist = joint(Limb::wrist, Side::left);
+    double floor = place(hip).z;
+    for (const TreeJoint& each : tree_) floor = std::min(floor, each.place.z);
+    return wrist != kNone && place(wrist).z - floor < kFourLegs * (place(hip).z - floor);
+  }
+
+  void add(std::size_t number, const glm::dmat3& axes, const Range& range, const glm::dvec3& rest = glm::dvec3(0)) {
+    if (number == kNone) return;
+    all_[number] = JointAnatomy{axes, {}};
+    if (has_limits_)
+      all_[number]->limits = {from_rest(range.x, rest.x), from_rest(range.y, rest.y), from_rest(range.z, rest.z)};
+  }
+
+  void add_trunk() {
+    const bool one_back = limbs_.of(Trunk::spine) == kNone || limbs_.of(Trunk::chest) == kNone;
+    const bool one_neck = limbs_.of(Trunk::neck) == kNone || limbs_.of(Trunk::head) == kNone;
+    for (const Trunk part : {Trunk::spine, Trunk::chest})
+      add(limbs_.of(part), axes_, one_back ? doubled(kBack) : kBack);
+    for (const Trunk part : {Trunk::neck, Trunk::head}) add(limbs_.of(part), axes_, one_neck ? doubled(kNeck) : kNeck);
+    if (const std::size_t pelvis = limbs_.of(Trunk::pelvis); pelvis != kNone) all_[pelvis] = JointAnatomy{axes_, {}};
+  }
+
+  // From one limb to another; down where the other is unknown.
+  glm::dvec3 bone(std::size_t from, std::size_t to) const {
+    if (from == kNone || to == kNone || !(glm::distance(place(from), place(to)) > 0)) return -axes_[2];
+    return glm::normalize(place(to) - place(from));
+  }
+
+  // Degrees by which what hangs is forward, and by which it is held out to the left.
+  double forward(const glm::dvec3& bone) const {
+    return glm::degrees(std::atan2(glm::dot(bone, axes_[0]), -glm::dot(bone, axes_[2])));
+  }
+  double aside(const glm::dvec3& bone) const {
+    return glm::degrees(std::atan2(glm::dot(bone, axes_[1]), -glm::dot(bone, axes_[2])));
+  }
+
+  // The axes turned so, by the least, that z is along the bone, away from where it hangs.
+  glm::dmat3 along(const glm::dvec3& bone) const {
+    const glm::dvec3 down = -axes_[2], axis = glm::cross(down, bone);
+    const double sine = glm::length(axis), cosine = glm::dot(down, bone);
+    return sine < 1e-9 ? axes_ : modeler::rotation(axis / sine, std::atan2(sine, cosine)) * axes_;
+  }
+
+  void add_leg(Side side) {
+    const std::size_t hip = joint(Limb::hip, side), knee = joint(Limb::knee, side), ankle = joint(Limb::ankle, side);
+    const glm::dvec3 thigh = bone(hip, knee == kNone ? ankle : knee), shin = bone(knee, ankle);
+    add(hip, along(thigh), of_side(kHip, side), {aside(thigh), -forward(thigh), 0});
+    if (knee != kNone && ankle != kNone) add_knee(knee, side, thigh, shin);
+    add(ankle, axes_, of_side(kAnkle, side));
+    add(joint(Limb::toes, side), axes_, kToes);
+  }
+
+  void add_knee(std::size_t knee, Side side, const glm::dvec3& thigh, const glm::dvec3& shin) {
+    add(knee, along(thigh), of_side(kKnee, side), {0, forward(thigh) - forward(shin), 0});
+  }
+
+  void add_arm(Side side) {
+    const std::size_t shoulder = joint(Limb::shoulder, side), elbow = joint(Limb::elbow, side);
+    const std::size_t wrist = joint(Limb::wrist, side);
+    const glm::dvec3 upper = bone(shoulder, elbow);
+    const glm::dmat3 axes = along(upper);
+    const double held_out = aside(upper);
+    Range range = of_side(kShoulder, side);
+    if (std::abs(held_out) > kArmIsHeldOut) range.y = kHeldOut;
+    const double raised = std::abs(held_out) > kArmIsHeldOut ? 0 : -forward(upper);
+    add(shoulder, axes, range, {held_out, raised, 0});
+    if (elbow == kNone) return;
+    add(elbow, axes, of_side(kElbow, side), {0, -bend_of_elbow(axes, bone(elbow, wrist)), 0});
+    add(wrist, axes, of_side(kWrist, side));
+  }
+
+  // Degrees, the forearm forward.
+  static double bend_of_elbow(const glm::dmat3& axes, const glm::dvec3& forearm) {
+    return glm::degrees(std::atan2(glm::dot(forearm, axes[0]), -glm::dot(forearm, axes[2])));
+  }
+
+  const FigureTree& tree_;
+  const modeler::Limbs& limbs_;
+  glm::dmat3 axes_{1};  // forward, left, up
+  bool has_limits_ = true;
+  std::vector<std::optional<JointAnatomy>> all_;
+};
+
+}  // namespace
+
+std::vector<std::optional<JointAnatomy>> anatomy_of(const FigureTree& tree, const modeler::Limbs& limbs) {
+  return Anatomist(tree, limbs).find();
+}
+
+}  // namespace mars::importer

@@ -1,0 +1,34 @@
+#include "host/content/importer/limbs/figure_tree.h"
+
+#include <algorithm>
+
+namespace mars::importer {
+
+bool is_at_or_below(const FigureTree& tree, std::size_t joint, std::size_t above) {
+  while (joint != modeler::kNone && joint != above) joint = tree[joint].parent;
+  return joint != modeler::kNone;
+}
+
+std::size_t common_joint(const FigureTree& tree, std::span<const std::size_t> joints) {
+  std::size_t common = joints[0];
+  const auto holds = [&](std::size_t joint) { return is_at_or_below(tree, joint, common); };
+  while (common != modeler::kNone && !std::ranges::all_of(joints, holds)) common = tree[common].parent;
+  return common;
+}
+
+std::vector<std::size_t> way_down(const FigureTree& tree, std::size_t above, std::size_t joint) {
+  std::vector<std::size_t> way;
+  for (; joint != modeler::kNone && joint != above; joint = tree[joint].parent) way.push_back(joint);
+  if (joint == modeler::kNone) return {};
+  std::ranges::reverse(way);
+  return way;
+}
+
+std::string limb_name(modeler::Trunk part) { return std::string(modeler::kTrunkNames[static_cast<std::size_t>(part)]); }
+
+std::string limb_name(modeler::Limb limb, modeler::Side side) {
+  return (side == modeler::Side::left ? "left." : "right.") +
+         std::string(modeler::kLimbNames[static_cast<std::size_t>(limb)]);
+}
+
+}  // namespace mars::importer
