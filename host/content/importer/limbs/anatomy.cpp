@@ -53,6 +53,8 @@ constexpr Range kBack{{-17.5, 17.5}, {-15, 40}, {-22.5, 22.5}};
 constexpr Range kNeck{{-22.5, 22.5}, {-22.5, 22.5}, {-30, 30}};
 
 constexpr double kArmIsHeldOut = 45;  // degrees from hanging
+constexpr double kBentElbow = 0.2;    // sine of the angle from which an elbow is bent at rest, as for motions
+constexpr double kMostTwist = 120;    // degrees, the same
 constexpr double kHardlyUpright = 0.1;
 constexpr double kFourLegs = 0.35;  // of the hips' height over the feet: as low as that the wrists are feet
 
@@ -159,24 +161,34 @@ class Anatomist {
     add(knee, along(thigh), of_side(kKnee, side), {0, forward(thigh) - forward(shin), 0});
   }
 
+  // Of an arm that would hang, the way its forearm is bent at rest, in degrees; the front is 0.
+  struct Bend {
+    double by = 0, aside = 0;
+  };
+
+  static Bend bend_of(const glm::dmat3& axes, const glm::dvec3& forearm) {
+    const glm::dvec3 hanging = glm::transpose(axes) * forearm;
+    const double out = std::hypot(hanging.x, hanging.y), aside = glm::degrees(std::atan2(hanging.y, hanging.x));
+    if (out < kBentElbow || std::abs(aside) > kMostTwist) return {glm::degrees(std::atan2(hanging.x, -hanging.z)), 0};
+    return {glm::degrees(std::atan2(out, -hanging.z)), aside};
+  }
+
+  // The forearm turns about the axis about which it is bent at rest; what that differs from an arm that hangs, the
+  // upper arm is twisted.
   void add_arm(Side side) {
     const std::size_t shoulder = joint(Limb::shoulder, side), elbow = joint(Limb::elbow, side);
     const std::size_t wrist = joint(Limb::wrist, side);
     const glm::dvec3 upper = bone(shoulder, elbow);
     const glm::dmat3 axes = along(upper);
+    const Bend bend = elbow == kNone || wrist == kNone ? Bend{} : bend_of(axes, bone(elbow, wrist));
     const double held_out = aside(upper);
+    const bool is_held_out = std::abs(held_out) > kArmIsHeldOut;
     Range range = of_side(kShoulder, side);
-    if (std::abs(held_out) > kArmIsHeldOut) range.y = kHeldOut;
-    const double raised = std::abs(held_out) > kArmIsHeldOut ? 0 : -forward(upper);
-    add(shoulder, axes, range, {held_out, raised, 0});
-    if (elbow == kNone) return;
-    add(elbow, axes, of_side(kElbow, side), {0, -bend_of_elbow(axes, bone(elbow, wrist)), 0});
-    add(wrist, axes, of_side(kWrist, side));
-  }
-
-  // Degrees, the forearm forward.
-  static double bend_of_elbow(const glm::dmat3& axes, const glm::dvec3& forearm) {
-    return glm::degrees(std::atan2(glm::dot(forearm, axes[0]), -glm::dot(forearm, axes[2])));
+    if (is_held_out) range.y = kHeldOut;
+    add(shoulder, axes, range, {held_out, is_held_out ? 0 : -forward(upper), bend.aside});
+    const glm::dmat3 hinged = axes * modeler::rotation_by_degrees({0, 0, 1}, bend.aside);
+    add(elbow, hinged, of_side(kElbow, side), {0, -bend.by, 0});
+    add(wrist, hinged, of_side(kWrist, side));
   }
 
   const FigureTree& tree_;
