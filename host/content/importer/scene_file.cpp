@@ -79,6 +79,8 @@ glm::dvec3 flat_normal(const std::vector<glm::dvec3>& places) {
   return length > 0 ? sum / length : sum;
 }
 
+constexpr std::size_t kBonesOfFigures = 8;  // at least: a spine and two legs that bend
+
 // What the file says without Assimp.
 struct FileItself {
   FileItself(const std::filesystem::path& path, FileKind kind) {
@@ -198,7 +200,8 @@ class SceneReader {
   // Nodes with meshes below them become joints, and bones. What a skin places stands on the first joint.
   void add_joints() {
     const std::vector<bool> shown = shown_nodes();
-    limbs_ = find_limbs(figure_tree(shown), limb_map_of_nodes(), has_skins());
+    bones_ = static_cast<std::size_t>(std::ranges::count(bones(), true));
+    limbs_ = find_limbs(figure_tree(shown), limb_map_of_nodes(), bones_ >= kBonesOfFigures);
     const bool one_root = !tree_.nodes.empty() && tree_.nodes[0].parent == modeler::kNone && shown[0] &&
                           file_.skins->roots.size() == 1 && !has_skins();
     if (!one_root) builder_.add_joint(options_.joint, modeler::kNone, {});
@@ -404,7 +407,7 @@ class SceneReader {
 
   void list_limbs(std::vector<std::string>& list) const {
     for (const std::string& doubt : limbs_.doubts) list.push_back("limbs: " + doubt);
-    const bool names_none = limbs_.made.empty() && has_skins();
+    const bool names_none = limbs_.made.empty() && bones_ >= kBonesOfFigures;
     if (names_none) list.emplace_back("limbs: neither the joints' names nor the shape are a figure's");
     if (names_none || !limbs_.doubts.empty()) list.back() += " (name them: " + options_.set_limb + " left.hip)";
   }
@@ -436,6 +439,7 @@ class SceneReader {
   NodeTree tree_;
   MaterialReader materials_;
   ModelBuilder builder_;
+  std::size_t bones_ = 0;
   FiguresLimbs limbs_;  // of nodes
   std::vector<NamedLimb> named_limbs_;
   std::size_t nodes_as_joints_ = 0, skinned_meshes_ = 0, weights_left_out_ = 0, uneven_joints_ = 0;

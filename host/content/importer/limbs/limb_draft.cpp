@@ -59,7 +59,8 @@ void complete_chest(const FigureTree& tree, LimbDraft& draft) {
   const std::vector<std::size_t> shoulders = both(draft, Limb::shoulder);
   const std::size_t pelvis = draft.of(Trunk::pelvis);
   if (shoulders.empty() || pelvis == kNone) return;
-  const std::size_t chest = common_joint(tree, shoulders);
+  std::size_t chest = common_joint(tree, shoulders);
+  if (chest != kNone && chest == draft.of(Trunk::neck)) chest = tree[chest].parent;  // Biped's arms hang from its neck
   if (chest == kNone || chest == pelvis || !is_at_or_below(tree, chest, pelvis)) return;
   const std::size_t spine = first_of_spine(tree, draft, pelvis, chest);
   if (spine == kNone) return;
@@ -73,17 +74,23 @@ std::size_t last_of_trunk(const LimbDraft& draft) {
   return kNone;
 }
 
-// Where only the head is known, the neck is the first joint on the way to it.
+bool carries_arms(const FigureTree& tree, const LimbDraft& draft, std::size_t joint) {
+  const std::size_t shoulder = draft.limbs.of(Limb::shoulder, Side::left);
+  return shoulder != kNone && is_at_or_below(tree, shoulder, joint);
+}
+
+// Where only the head is known, the neck is the first joint on the way to it; a joint that carries arms is no neck.
 void complete_neck(const FigureTree& tree, LimbDraft& draft) {
   const std::size_t below = last_of_trunk(draft);
   std::size_t &neck = draft.of(Trunk::neck), &head = draft.of(Trunk::head);
   if (below == kNone) return;
   for (std::size_t* part : {&neck, &head})
-    if (*part != kNone && (*part == below || !is_at_or_below(tree, *part, below))) *part = kNone;
+    if (*part != kNone && (*part == below || !is_at_or_below(tree, *part, below) || carries_arms(tree, draft, *part)))
+      *part = kNone;
   if (head == kNone) return;
   if (neck == kNone || neck == head || !is_at_or_below(tree, head, neck)) {
     const std::size_t first = way_down(tree, below, head).front();
-    neck = first == head ? kNone : first;
+    neck = first == head || carries_arms(tree, draft, first) ? kNone : first;
   }
 }
 
