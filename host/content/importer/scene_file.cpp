@@ -281,14 +281,7 @@ class SceneReader {
 
   // `joints`: the builder's, by node.
   void name_limbs(const std::vector<std::size_t>& joints) {
-    const auto name = [&](const std::string& limb, std::size_t node) {
-      if (node != modeler::kNone) named_limbs_.push_back({limb, builder_.name_of(joints[node])});
-    };
-    for (std::size_t part = 0; part < limbs_.limbs.trunk.size(); ++part)
-      name(limb_name(modeler::Trunk(part)), limbs_.limbs.trunk[part]);
-    for (const modeler::Side side : {modeler::Side::left, modeler::Side::right})
-      for (std::size_t limb = 0; limb < std::size(modeler::kLimbNames); ++limb)
-        name(limb_name(modeler::Limb(limb), side), limbs_.limbs.of(modeler::Limb(limb), side));
+    for (const auto& [limb, node] : named(limbs_.limbs)) named_limbs_.push_back({limb, builder_.name_of(joints[node])});
   }
 
   // In the model's axes a node that the file does not turn has the model's.
@@ -391,7 +384,7 @@ class SceneReader {
     add("joints of ", nodes_as_joints_ > 1 ? nodes_as_joints_ : 0, "node", "nodes");
     add("a skin, which ", file.bones.size(), "joint moves, of ", "joints move, of ");
     if (!file.bones.empty()) file.made.back() += document::counted(skinned_meshes_, "mesh", "meshes");
-    if (!limbs_.made.empty()) file.made.push_back(limbs_.made + remedy_of_guess());
+    if (!limbs_.limbs_made.empty()) file.made.push_back(limbs_.made() + remedy_of_guess());
     add("metallic-roughness of ",
         static_cast<std::size_t>(std::ranges::count_if(
             file.materials, [](const ImportedMaterial& material) { return material.surface.has_value(); })),
@@ -407,7 +400,7 @@ class SceneReader {
 
   void list_limbs(std::vector<std::string>& list) const {
     for (const std::string& doubt : limbs_.doubts) list.push_back("limbs: " + doubt);
-    const bool names_none = limbs_.made.empty() && bones_ >= kBonesOfFigures;
+    const bool names_none = limbs_.limbs_made.empty() && bones_ >= kBonesOfFigures;
     if (names_none) list.emplace_back("limbs: neither the joints' names nor the shape are a figure's");
     if (names_none || !limbs_.doubts.empty()) list.back() += " (name them: " + options_.set_limb + " left.hip)";
   }

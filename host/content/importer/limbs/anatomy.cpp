@@ -29,8 +29,9 @@ struct Range {
 
 constexpr Limits kNo{0, 0};
 
-// AAOS: extension 30, flexion 120; abduction 45, adduction 30; rotation 45 to either side.
-constexpr Range kHip{{-30, 45}, {-120, 30}, {-45, 45}};
+// CDC: flexion 132, the mean of men's 130 and women's 134 from 20 to 44 years. AAOS: extension 30; abduction 45,
+// adduction 30; rotation 45 to either side.
+constexpr Range kHip{{-30, 45}, {-132, 30}, {-45, 45}};
 // CDC: flexion 140, the mean of men's 138 and women's 142 from 20 to 44 years.
 constexpr Range kKnee{kNo, {0, 140}, kNo};
 // AAOS: plantar flexion 50; inversion 35, eversion 15. Dorsiflexion 40 with the weight on the foot, as in squats

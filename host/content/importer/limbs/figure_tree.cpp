@@ -31,4 +31,15 @@ std::string limb_name(modeler::Limb limb, modeler::Side side) {
          std::string(modeler::kLimbNames[static_cast<std::size_t>(limb)]);
 }
 
+std::vector<std::pair<std::string, std::size_t>> named(const modeler::Limbs& limbs) {
+  std::vector<std::pair<std::string, std::size_t>> all;
+  for (std::size_t part = 0; part < limbs.trunk.size(); ++part)
+    all.emplace_back(limb_name(modeler::Trunk(part)), limbs.trunk[part]);
+  for (const modeler::Side side : {modeler::Side::left, modeler::Side::right})
+    for (std::size_t limb = 0; limb < std::size(modeler::kLimbNames); ++limb)
+      all.emplace_back(limb_name(modeler::Limb(limb), side), limbs.of(modeler::Limb(limb), side));
+  std::erase_if(all, [](const auto& each) { return each.second == modeler::kNone; });
+  return all;
+}
+
 }  // namespace mars::importer

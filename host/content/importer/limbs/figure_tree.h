@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "host/content/modeler/joint.h"
@@ -30,5 +31,8 @@ std::vector<std::size_t> way_down(const FigureTree& tree, std::size_t above, std
 // "left.knee"
 std::string limb_name(modeler::Trunk part);
 std::string limb_name(modeler::Limb limb, modeler::Side side);
+
+// All that are known, in the order of a model file.
+std::vector<std::pair<std::string, std::size_t>> named(const modeler::Limbs& limbs);
 
 }  // namespace mars::importer

@@ -62,7 +62,7 @@ std::optional<LimbDraft> draft_of(const FigureTree& tree, const std::optional<Li
 }  // namespace
 
 FiguresLimbs find_limbs(const FigureTree& tree, const std::optional<LimbMap>& map, bool may_guess) {
-  FiguresLimbs found{{}, std::vector<std::optional<JointAnatomy>>(tree.size()), false, "", {}};
+  FiguresLimbs found{{}, std::vector<std::optional<JointAnatomy>>(tree.size()), false, "", "", {}};
   std::optional<LimbDraft> draft = draft_of(tree, map, may_guess);
   if (!draft) return found;
   complete(tree, *draft);
@@ -72,9 +72,9 @@ FiguresLimbs find_limbs(const FigureTree& tree, const std::optional<LimbMap>& ma
   if (const std::vector<std::string> missing = missing_limbs(*draft); !missing.empty())
     found.doubts.push_back("not found: " + document::joined(missing));
   found.is_guess = draft->is_guess;
-  found.made = made_text(*draft);
+  found.limbs_made = made_text(*draft);
   const auto limited = std::ranges::count_if(found.anatomy, [](const auto& each) { return each && each->limits; });
-  if (limited > 0) found.made += ", " + std::to_string(limited) + " with the limits of people's joints";
+  if (limited > 0) found.limits_made = ", " + std::to_string(limited) + " with the limits of people's joints";
   return found;
 }
 

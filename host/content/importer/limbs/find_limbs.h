@@ -21,8 +21,11 @@ struct FiguresLimbs {
   modeler::Limbs limbs;                              // of the tree's joints
   std::vector<std::optional<JointAnatomy>> anatomy;  // by joint of the tree
   bool is_guess = false;                             // by the shape
-  std::string made;                                  // for the report; "": no limbs
+  std::string limbs_made;                            // for the report: how many, and what found them; "": no limbs
+  std::string limits_made;                           // for the report, after it; "": no limits
   std::vector<std::string> doubts;                   // for the report
+
+  std::string made() const { return limbs_made + limits_made; }
 };
 
 // What a map gives counts before names, names before the shape. `may_guess`: whether the shape counts at all.

@@ -63,11 +63,11 @@ void expect_endings(const Limbed& figure, const std::vector<Ending>& endings, co
   }
 }
 
-// American Academy of Orthopaedic Surgeons, 1965; the knee of the CDC's study.
+// American Academy of Orthopaedic Surgeons, 1965; hips and knees of the CDC's study.
 TEST(Anatomy, LegsEndWhereJointsOfPeopleDo) {
   const Limbed figure(person(ArmsAtRest::t_pose));
   expect_endings(figure,
-                 {{"left.hip", "left.knee", 1, false, forward(120)},
+                 {{"left.hip", "left.knee", 1, false, forward(132)},
                   {"left.hip", "left.knee", 1, true, forward(-30)},
                   {"left.hip", "left.knee", 0, true, leftward(45)},
                   {"left.hip", "left.knee", 0, false, leftward(-30)},

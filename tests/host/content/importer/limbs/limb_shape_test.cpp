@@ -56,11 +56,11 @@ TEST(LimbShape, OfThingsThereAreNone) {
   Rig chain;
   chain.add("a", "", {0, 0, 0});
   for (int i = 0; i < 12; ++i) chain.add(std::to_string(i), i == 0 ? "a" : std::to_string(i - 1), {0, 0, 0.1 * i});
-  EXPECT_EQ(find_limbs(chain.tree, {}, true).made, "");
+  EXPECT_EQ(find_limbs(chain.tree, {}, true).limbs_made, "");
   Rig star;
   star.add("a", "", {0, 0, 1});
   for (int i = 0; i < 100; ++i) star.add(std::to_string(i), "a", {0.01 * i, 0, 0});
-  EXPECT_EQ(find_limbs(star.tree, {}, true).made, "");
+  EXPECT_EQ(find_limbs(star.tree, {}, true).limbs_made, "");
 }
 
 }  // namespace

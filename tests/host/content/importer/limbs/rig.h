@@ -62,13 +62,7 @@ inline Rig person(ArmsAtRest arms) {
 // Limbs to names of joints.
 inline std::map<std::string, std::string> names_of(const FigureTree& tree, const modeler::Limbs& limbs) {
   std::map<std::string, std::string> names;
-  const auto add = [&](const std::string& limb, std::size_t joint) {
-    if (joint != modeler::kNone) names[limb] = tree[joint].name;
-  };
-  for (std::size_t part = 0; part < limbs.trunk.size(); ++part) add(limb_name(modeler::Trunk(part)), limbs.trunk[part]);
-  for (const modeler::Side side : {modeler::Side::left, modeler::Side::right})
-    for (std::size_t limb = 0; limb < std::size(modeler::kLimbNames); ++limb)
-      add(limb_name(modeler::Limb(limb), side), limbs.of(modeler::Limb(limb), side));
+  for (const auto& [limb, joint] : named(limbs)) names[limb] = tree[joint].name;
   return names;
 }
 

@@ -2,13 +2,15 @@
 // turned anyhow and whose bones have names of Mixamo, or none.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <optional>
 
 #include "host/content/animator/motion/body/posture.h"
 #include "host/content/animator/motion/body/surface.h"
-#include "host/content/animator/pose/within_limits.h"
+#include "host/content/animator/pose/actor_state.h"
 #include "host/content/modeler/read_model.h"
 #include "tests/host/content/animator/motion/bodies.h"
 #include "tests/host/content/importer/glb.h"
@@ -74,7 +76,8 @@ class SkinnedRig {
   }
 
   void add_box(std::size_t joint) {
-    const bool is_foot = rig_.tree[joint].name.ends_with("ankle") || rig_.tree[joint].name.ends_with("toes");
+    const bool is_foot = std::ranges::any_of(std::array{"ankle", "toes", "tip"},
+                                             [&](const char* end) { return rig_.tree[joint].name.ends_with(end); });
     const glm::dvec3 middle = rig_.tree[joint].place;
     const glm::dvec3 low(middle.x - 0.05, middle.y - 0.03, is_foot ? 0 : middle.z - 0.03);
     const glm::dvec3 high(middle.x + (is_foot ? 0.08 : 0.05), middle.y + 0.03, middle.z + 0.03);
