@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <initializer_list>
 
 #include "host/content/modeler/frames.h"
 
@@ -22,7 +23,7 @@ using modeler::Trunk;
 //
 // AAOS: American Academy of Orthopaedic Surgeons, Joint Motion: Method of Measuring and Recording, 1965. CDC: Soucie et
 // al., Range of motion measurements, Haemophilia 17 (2011) 500-507: the CDC's normal joint range of motion study.
-// Where two joints share what was measured of both, as spine and chest do, each has half of it.
+// Where joints share what was measured of all together, as those of the back do, each has its part of it.
 struct Range {
   Limits x, y, z;
 };
@@ -49,9 +50,13 @@ constexpr Range kElbow{kNo, {-150, 0}, {-80, 80}};
 // AAOS: flexion 80, extension 70; 20 to the thumb's side, 30 to the other.
 constexpr Range kWrist{{-80, 70}, {-20, 30}, kNo};
 // AAOS, of the back: flexion 80, extension 30, 35 to either side, rotation 45.
-constexpr Range kBack{{-17.5, 17.5}, {-15, 40}, {-22.5, 22.5}};
+constexpr Range kBack{{-35, 35}, {-30, 80}, {-45, 45}};
 // AAOS, of the neck: flexion 45, extension 45, 45 to either side, rotation 60.
-constexpr Range kNeck{{-22.5, 22.5}, {-22.5, 22.5}, {-30, 30}};
+constexpr Range kNeck{{-45, 45}, {-45, 45}, {-60, 60}};
+// AAOS, of the shoulder girdle: elevation 40, depression 10; 20 forward and back.
+constexpr Range kCollar{{-10, 40}, kNo, {-20, 20}};
+// Joints within a bone, as rigs have them beside their limbs, only twist it: the forearm's 80 are the most.
+constexpr Range kTwist{kNo, kNo, {-80, 80}};
 
 constexpr double kArmIsHeldOut = 45;  // degrees from hanging
 constexpr double kBentElbow = 0.2;    // sine of the angle from which an elbow is bent at rest, as for motions
@@ -65,8 +70,10 @@ Range of_side(Range range, Side side) {
   return side == Side::left ? range : Range{mirrored(range.x), range.y, mirrored(range.z)};
 }
 
-Limits doubled(const Limits& limits) { return {2 * limits.lower, 2 * limits.upper}; }
-Range doubled(const Range& range) { return {doubled(range.x), doubled(range.y), doubled(range.z)}; }
+Limits part_of(const Limits& limits, double count) { return {limits.lower / count, limits.upper / count}; }
+Range part_of(const Range& range, double count) {
+  return {part_of(range.x, count), part_of(range.y, count), part_of(range.z, count)};
+}
 
 // Numbers of a joint that rests at `rest` of the neutral position; at rest every joint is within its limits.
 Limits from_rest(const Limits& limits, double rest) {
@@ -119,13 +126,38 @@ class Anatomist {
       all_[number]->limits = {from_rest(range.x, rest.x), from_rest(range.y, rest.y), from_rest(range.z, rest.z)};
   }
 
+  std::size_t first_of(std::initializer_list<Trunk> parts) const {
+    for (const Trunk part : parts)
+      if (limbs_.of(part) != kNone) return limbs_.of(part);
+    return kNone;
+  }
+
+  // All joints of the back bend, limbs or not, and all of the neck.
   void add_trunk() {
-    const bool one_back = limbs_.of(Trunk::spine) == kNone || limbs_.of(Trunk::chest) == kNone;
-    const bool one_neck = limbs_.of(Trunk::neck) == kNone || limbs_.of(Trunk::head) == kNone;
-    for (const Trunk part : {Trunk::spine, Trunk::chest})
-      add(limbs_.of(part), axes_, one_back ? doubled(kBack) : kBack);
-    for (const Trunk part : {Trunk::neck, Trunk::head}) add(limbs_.of(part), axes_, one_neck ? doubled(kNeck) : kNeck);
-    if (const std::size_t pelvis = limbs_.of(Trunk::pelvis); pelvis != kNone) all_[pelvis] = JointAnatomy{axes_, {}};
+    const std::size_t pelvis = limbs_.of(Trunk::pelvis), chest = first_of({Trunk::chest, Trunk::spine});
+    const std::size_t head = first_of({Trunk::head, Trunk::neck});
+    if (pelvis != kNone) all_[pelvis] = JointAnatomy{axes_, {}};
+    if (pelvis != kNone && chest != kNone) add_share(without_legs(way_down(tree_, pelvis, chest)), kBack);
+    if (head == kNone) return;
+    const std::size_t below = chest != kNone ? chest : pelvis;
+    add_share(below == kNone ? std::vector{head} : way_down(tree_, below, head), kNeck);
+  }
+
+  std::vector<std::size_t> without_legs(std::vector<std::size_t> joints) const {
+    const std::size_t hip = joint(Limb::hip, Side::left);
+    std::erase_if(joints, [&](std::size_t each) { return is_at_or_below(tree_, hip, each); });
+    return joints;
+  }
+
+  void add_share(const std::vector<std::size_t>& joints, const Range& range) {
+    for (const std::size_t each : joints) add(each, axes_, part_of(range, double(joints.size())));
+  }
+
+  // What lies between two limbs.
+  void add_between(std::size_t above, std::size_t below, const glm::dmat3& axes, const Range& range) {
+    if (above == kNone || below == kNone) return;
+    for (const std::size_t each : way_down(tree_, above, below))
+      if (each != below) add(each, axes, range);
   }
 
   // From one limb to another; down where the other is unknown.
@@ -153,6 +185,8 @@ class Anatomist {
     const std::size_t hip = joint(Limb::hip, side), knee = joint(Limb::knee, side), ankle = joint(Limb::ankle, side);
     const glm::dvec3 thigh = bone(hip, knee == kNone ? ankle : knee), shin = bone(knee, ankle);
     add(hip, along(thigh), of_side(kHip, side), {aside(thigh), -forward(thigh), 0});
+    add_between(hip, knee, along(thigh), kTwist);
+    add_between(knee, ankle, along(shin), kTwist);
     if (knee != kNone && ankle != kNone) add_knee(knee, side, thigh, shin);
     add(ankle, axes_, of_side(kAnkle, side));
     add(joint(Limb::toes, side), axes_, kToes);
@@ -188,6 +222,9 @@ class Anatomist {
     if (is_held_out) range.y = kHeldOut;
     add(shoulder, axes, range, {held_out, is_held_out ? 0 : -forward(upper), bend.aside});
     const glm::dmat3 hinged = axes * modeler::rotation_by_degrees({0, 0, 1}, bend.aside);
+    add_between(first_of({Trunk::chest, Trunk::spine}), shoulder, axes_, of_side(kCollar, side));
+    add_between(shoulder, elbow, axes, kTwist);
+    add_between(elbow, wrist, along(bone(elbow, wrist)), kTwist);
     add(elbow, hinged, of_side(kElbow, side), {0, -bend.by, 0});
     add(wrist, hinged, of_side(kWrist, side));
   }

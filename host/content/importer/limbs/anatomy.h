@@ -18,9 +18,10 @@ struct JointAnatomy {
   std::optional<std::array<modeler::Limits, 3>> limits{};  // none: it turns freely
 };
 
-// By joint of the tree; none where a joint is no limb, or the figure does not determine its axes: both hips, above
-// ankles or knees. Limits are people's, counted from how the figure stands at rest: an arm that is held out at rest
-// turns 90 degrees down to hang. Figures whose arms reach as low as their feet have four legs, and no limits.
+// By joint of the tree: limbs, and what lies between them; none of other joints, and where the figure does not
+// determine axes: both hips must be known, beside each other. Limits are people's, counted from how the figure stands
+// at rest: an arm that is held out at rest turns 90 degrees down to hang. Figures whose arms reach as low as their feet
+// have four legs, and no limits.
 std::vector<std::optional<JointAnatomy>> anatomy_of(const FigureTree& tree, const modeler::Limbs& limbs);
 
 }  // namespace mars::importer

@@ -74,7 +74,7 @@ FiguresLimbs find_limbs(const FigureTree& tree, const std::optional<LimbMap>& ma
   found.is_guess = draft->is_guess;
   found.limbs_made = made_text(*draft);
   const auto limited = std::ranges::count_if(found.anatomy, [](const auto& each) { return each && each->limits; });
-  if (limited > 0) found.limits_made = ", " + std::to_string(limited) + " with the limits of people's joints";
+  if (limited > 0) found.limits_made = ", people's limits for " + document::counted(std::size_t(limited), "joint");
   return found;
 }
 

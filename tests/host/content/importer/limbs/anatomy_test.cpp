@@ -123,10 +123,15 @@ TEST(Anatomy, FeetHandsAndTrunk) {
   EXPECT_EQ(range("right.wrist", 0), std::pair(-70.0, 80.0));
   EXPECT_EQ(range("left.shoulder", 2), std::pair(-70.0, 90.0));
   EXPECT_EQ(range("right.shoulder", 2), std::pair(-90.0, 70.0));
-  EXPECT_EQ(range("spine", 1), std::pair(-15.0, 40.0));
-  EXPECT_EQ(range("neck", 2), std::pair(-30.0, 30.0));
+  for (const char* part : {"spine", "rib", "chest"})
+    EXPECT_EQ(range(part, 1), std::pair(-10.0, 27.0)) << "a third of the back's";
+  EXPECT_EQ(range("neck", 2), std::pair(-30.0, 30.0)) << "half of the neck's";
+  EXPECT_EQ(range("left.collar", 0), std::pair(-10.0, 40.0));
+  EXPECT_EQ(range("right.collar", 0), std::pair(-40.0, 10.0));
+  EXPECT_EQ(range("left.twist", 2), std::pair(-80.0, 80.0));
+  EXPECT_EQ(range("left.twist", 1), std::pair(0.0, 0.0)) << "a thigh does not bend";
   EXPECT_FALSE(figure.anatomy("pelvis").limits.has_value()) << "it turns with the figure";
-  EXPECT_FALSE(figure.has("left.collar"));
+  EXPECT_FALSE(figure.has("left.tip"));
 }
 
 TEST(Anatomy, FourLegsAreNoPeoples) {

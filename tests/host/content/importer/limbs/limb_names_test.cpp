@@ -1,6 +1,7 @@
 // Lists of joints as the usual rigs have them, and which of them are which limb.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "host/content/importer/limbs/find_limbs.h"
