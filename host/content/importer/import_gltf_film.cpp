@@ -13,6 +13,7 @@
 #include "host/content/importer/gltf/film_lights.h"
 #include "host/content/importer/gltf/joint_motion.h"
 #include "host/content/importer/motions/film_text.h"
+#include "host/content/importer/motions/motion_frames.h"
 
 namespace mars::importer {
 namespace {
@@ -93,7 +94,8 @@ class GltfFilm {
     report_.model = "film of " + document::counted(clock_.frames, "frame") + " at " + document::shown(clock_.rate) +
                     " a second, actor '" + options_.joint + "'";
     list_animations();
-    FilmText film{clock_.frames, clock_.rate, options_.joint, model_text_of(model_), {}, actor().json};
+    Json actor = this->actor().json;  // it may widen limits of the model
+    FilmText film{clock_.frames, clock_.rate, options_.joint, model_text_of(model_), {}, std::move(actor)};
     add_camera(film);
     add_lights(film);
     std::string text = film_text(film);
@@ -122,7 +124,7 @@ class GltfFilm {
 
   // By keys where these show all that the file does, unless a person has chosen.
   ActorText actor() {
-    const JointMotions::ByKeys keys = joints_.by_keys();
+    JointMotions::ByKeys keys = joints_.by_keys();
     const bool all = keys.error <= kKeysShow * size_;
     if (options_.motion.value_or(all ? ImportMotion::keys : ImportMotion::matrices) == ImportMotion::matrices) {
       ActorText actor = actor_by_matrices(options_.joint, joints_);
@@ -130,6 +132,7 @@ class GltfFilm {
                              (all ? "" : ": " + beyond_keys(keys) + ", which keys cannot show"));
       return actor;
     }
+    widen_limits(keys.motion);
     ActorText actor = actor_text(options_.joint, joints_.joints(), keys.motion, kPlaceTrue * size_);
     report_.made.push_back("keys at " + document::counted(actor.keys, "frame"));
     if (!all)
@@ -137,6 +140,21 @@ class GltfFilm {
                                  document::formatted("%.3g", keys.error) +
                                  " units from where the file has it (--motion matrices shows it)");
     return actor;
+  }
+
+  // Of limbs, where the motion takes them beyond what people's joints do.
+  void widen_limits(ActorMotion& motion) {
+    std::vector<modeler::Joint> joints = joints_.joints();
+    for (std::size_t joint = 0; joint < joints.size(); ++joint)
+      if (model_.joints[joint].limits) joints[joint].limits = *model_.joints[joint].limits;
+    Motion fitted{clock_.rate, {}, std::move(motion.poses)};
+    const std::vector<std::string> widened = fit_limits(joints, fitted);
+    motion.poses = std::move(fitted.poses);
+    for (std::size_t joint = 0; joint < joints.size(); ++joint)
+      if (model_.joints[joint].limits) model_.joints[joint].limits = joints[joint].limits;
+    if (!widened.empty())
+      report_.made.push_back("wider limits for " + document::counted(widened.size(), "joint", "joints") +
+                             " that the motion takes beyond them: " + some_of(widened));
   }
 
   void add_camera(FilmText& film) {

@@ -35,6 +35,10 @@ std::string set_material(const ImportOptions& options) {
          " --material " + material_name(0);
 }
 
+std::string set_limb(const ImportOptions& options) {
+  return "mars model " + document::shell_word(options.to.string()) + " set JOINT --limb";
+}
+
 WrittenSkin skin_of(const MeshFile& file) {
   WrittenSkin skin;
   for (const MeshBone& bone : file.bones) {
@@ -56,7 +60,8 @@ std::string box_text(const glm::dvec3& extent, double factor, FileKind kind, con
 MeshFile read_mesh(const ImportOptions& options, FileKind kind, const Stance& stance, std::vector<glm::dmat4> rest) {
   MeshFile file = read_mesh_file(
       options.from, kind,
-      {stance.upright, options.size, options.crease, options.joint, set_material(options), std::move(rest)});
+      {stance.upright, options.size, options.crease, options.joint, set_material(options), set_limb(options),
+       std::move(rest)});
   for (const std::filesystem::path& companion : file.companions) document::refuse_same_file(companion, options.to);
   return file;
 }
@@ -64,13 +69,13 @@ MeshFile read_mesh(const ImportOptions& options, FileKind kind, const Stance& st
 std::string model_text_of(const MeshFile& file) {
   std::vector<WrittenJoint> joints;
   for (const MeshJoint& joint : file.joints) {
-    joints.push_back({joint.name, joint.parent, joint.frame, joint.fixed, {}});
+    joints.push_back({joint.name, joint.parent, joint.frame, joint.fixed, {}, joint.limits});
     if (joint.part)
       joints.back().segment =
           WrittenSegment{shape_text(joint.part->mesh), joint.part->bounds, joint.part->material, {}};
     if (joint.has_skin) joints.back().segment->skin = skin_of(file);
   }
-  return model_text(joints, file.materials);
+  return model_text(joints, file.materials, file.limbs);
 }
 
 ImportReport report_of(const MeshFile& file, FileKind kind, const Stance& stance) {

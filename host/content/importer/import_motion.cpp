@@ -8,6 +8,7 @@
 #include "hal/failure/failure.h"
 #include "host/content/document/text.h"
 #include "host/content/importer/joint_names.h"
+#include "host/content/importer/limbs/find_limbs.h"
 #include "host/content/importer/motions/asf_file.h"
 #include "host/content/importer/motions/bvh_file.h"
 #include "host/content/importer/motions/film_text.h"
@@ -99,6 +100,25 @@ void stand_on_floor(Skeleton& skeleton) {
   place.z = -rest_box(skeleton).min.z;
 }
 
+// The skeleton's model, with the limbs that its joints' names say. Their axes and limits stay the file's, as the
+// motion's numbers do.
+document::Json model_of(const Skeleton& skeleton, const std::string& file, ImportReport& report) {
+  document::Json model = skeleton_model(skeleton, file);
+  FigureTree tree;
+  for (const modeler::Joint& joint : skeleton.joints)
+    tree.push_back({joint.name, joint.parent,
+                    joint.place + (joint.parent == modeler::kNone ? glm::dvec3(0) : tree[joint.parent].place)});
+  const FiguresLimbs found = find_limbs(tree, {}, false);
+  for (const auto& [limb, joint] : named(found.limbs)) {
+    const std::size_t dot = limb.find('.');
+    document::Json& limbs = model["limbs"];
+    (dot == std::string::npos ? limbs[limb] : limbs[limb.substr(0, dot)][limb.substr(dot + 1)]) = tree[joint].name;
+  }
+  if (!found.limbs_made.empty()) report.made.push_back(found.limbs_made);
+  for (const std::string& doubt : found.doubts) report.not_read.push_back("limbs: " + doubt);
+  return model;
+}
+
 double size_of(const SkeletonBox& box) { return glm::length(box.max - box.min); }
 
 std::string box_text(const SkeletonBox& box, const std::string& up) {
@@ -147,10 +167,11 @@ ImportedText film_of(const ImportOptions& options, Read read, ImportReport repor
                  " a second, actor '" + options.joint + "'";
   report.made.push_back("keys at " + document::counted(actor.keys, "frame"));
   const glm::dvec3 margin(size * 0.1);
+  const document::Json model = model_of(read.skeleton, options.from.string(), report);
   FilmText film{motion.poses.size(),
                 rate,
                 options.joint,
-                document::laid_out(skeleton_model(read.skeleton, options.from.string())),
+                document::laid_out(model),
                 camera_text(box.min - margin, box.max + margin),
                 std::move(actor.json)};
   std::string text = film_text(film);
@@ -180,7 +201,8 @@ ImportedText import_motion(const ImportOptions& options, FileKind kind, const st
                                 " of motion (--as film makes keys of them)");
     report.model = "model of " + document::counted(read.skeleton.joints.size(), "joint") + ", the first '" +
                    read.skeleton.joints[0].name + "'";
-    return {report, document::laid_out(skeleton_model(read.skeleton, options.from.string()))};
+    std::string text = document::laid_out(model_of(read.skeleton, options.from.string(), report));
+    return {report, std::move(text)};
   }
   if (read.motion.poses.empty())
     throw Failure("has no motion, and a film shows one", options.from.string(), "import it --as model");

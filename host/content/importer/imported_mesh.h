@@ -25,6 +25,7 @@ struct MeshOptions {
   std::optional<double> crease;  // degrees; given: normals follow from the faces, whatever the file says
   std::string joint;             // the first joint's name
   std::string set_material;      // "mars model rock.json set rock --material color": remedies begin so
+  std::string set_limb{};        // "mars model rock.json set JOINT --limb": remedies begin so
   // Of glTF for a film, which shows animations, cameras and lights, too: how each node stands in the node above it
   // while the model rests; empty: as in the file, and for no film.
   std::vector<glm::dmat4> rest{};
@@ -57,12 +58,18 @@ struct MeshBone {
   modeler::Affine bind;
 };
 
+// Which joint is which limb: "left.knee".
+struct NamedLimb {
+  std::string limb, joint;
+};
+
 // A joint with one part at the most.
 struct MeshJoint {
   std::string name;
   std::string parent;  // "": it stands in the model's frame
   JointFrame frame;    // its origin in the parent's frame, in the model's units
   bool fixed = false;  // it shows a further material of its parent, and cannot turn
+  std::optional<std::array<modeler::Limits, 3>> limits{};
   std::optional<MeshPart> part;
   bool has_skin = false;              // the part's vertices follow the file's bones
   std::size_t node = modeler::kNone;  // of the file, which the joint is; of glTF
@@ -72,6 +79,7 @@ struct MeshFile {
   std::vector<MeshJoint> joints;  // the first has no parent, all others do
   std::vector<MeshBone> bones;    // of the skins, ascending by joint
   bool are_bound_at_rest = true;  // the bones leave the mesh where it is while the model rests
+  std::vector<NamedLimb> limbs;   // in the order of a model's
   std::vector<ImportedMaterial> materials;
   glm::dvec3 extent;                              // of all faces; 0 where they are flat
   double factor = 1;                              // from the file's units to the model's

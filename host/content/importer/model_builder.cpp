@@ -88,11 +88,12 @@ void ModelBuilder::finish_joint(Draft& draft, double factor, MeshFile& file) {
   JointFrame frame = draft.frame;
   if (!is_first) frame.origin -= joints_[draft.parent].frame.origin;
   frame.origin *= factor;
-  file.joints.push_back({draft.name, is_first ? "" : joints_[draft.parent].name, frame, false, {}, false, draft.node});
+  file.joints.push_back(
+      {draft.name, is_first ? "" : joints_[draft.parent].name, frame, false, draft.limits, {}, false, draft.node});
   check_places({frame.origin, frame.origin});
   for (MeshPart& part : draft.mesh.finish(factor)) {
     if (file.joints.back().part)
-      file.joints.push_back({names_.unused(draft.name), draft.name, {{}, frame.x_axis, frame.y_axis}, true, {}});
+      file.joints.push_back({names_.unused(draft.name), draft.name, {{}, frame.x_axis, frame.y_axis}, true, {}, {}});
     check_places(part.bounds);
     file.joints.back().part = std::move(part);
     file.joints.back().has_skin = draft.mesh.has_skin();

@@ -21,6 +21,10 @@ class ModelBuilder {
   std::size_t add_joint(const std::string& name, std::size_t parent, const JointFrame& frame,
                         std::size_t node = modeler::kNone);
 
+  // How far the joint turns, as a limb of a figure.
+  void limit(std::size_t joint, const std::array<modeler::Limits, 3>& limits) { joints_[joint].limits = limits; }
+  const std::string& name_of(std::size_t joint) const { return joints_[joint].name; }
+
   MeshBuilder& mesh(std::size_t joint) { return joints_[joint].mesh; }
 
   // The number of a bone whose joint moves the skin of the first joint; `to_rest` leads from the axes of that joint to
@@ -37,6 +41,7 @@ class ModelBuilder {
     JointFrame frame;
     std::size_t node;
     MeshBuilder mesh;
+    std::optional<std::array<modeler::Limits, 3>> limits{};
   };
 
   struct DraftBone {

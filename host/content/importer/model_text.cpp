@@ -75,6 +75,18 @@ std::string material_text(const ImportedMaterial& material) {
   return text + "}";
 }
 
+std::string limbs_text(const std::vector<NamedLimb>& limbs) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const NamedLimb& named : limbs) {
+    const std::size_t dot = named.limb.find('.');
+    if (dot == std::string::npos)
+      json[named.limb] = named.joint;
+    else
+      json[named.limb.substr(0, dot)][named.limb.substr(dot + 1)] = named.joint;
+  }
+  return json.dump();
+}
+
 // The lists of a model's joints and shapes, as they grow.
 class ModelText {
  public:
@@ -86,20 +98,35 @@ class ModelText {
     add_vector("x_axis", frame.x_axis, usual.x_axis);
     add_vector("y_axis", frame.y_axis, usual.y_axis);
     if (joint.fixed) joints_ += ", \"limits\": {}";
+    if (joint.limits) add_limits(*joint.limits);
     if (joint.segment) add_segment(*joint.segment);
     joints_ += "}";
   }
 
-  std::string whole(const std::vector<ImportedMaterial>& materials) const {
+  std::string whole(const std::vector<ImportedMaterial>& materials, const std::vector<NamedLimb>& limbs) const {
     std::string text = "{\n";
     for (std::size_t i = 0; i < materials.size(); ++i)
       text += (i == 0 ? "  \"materials\": {\n    " : ",\n    ") + json_text(material_name(i)) + ": " +
               material_text(materials[i]);
     if (!materials.empty()) text += "\n  },\n";
+    if (!limbs.empty()) text += "  \"limbs\": " + limbs_text(limbs) + ",\n";
     return text + "  \"joints\": [" + joints_ + "\n  ],\n  \"shapes\": {" + shapes_ + "\n  }\n}\n";
   }
 
  private:
+  void add_limits(const std::array<modeler::Limits, 3>& limits) {
+    const std::size_t begin = joints_.size();
+    for (std::size_t axis = 0; axis < limits.size(); ++axis) {
+      if (!limits[axis].free()) continue;
+      joints_ += joints_.size() == begin ? ", \"limits\": {\"" : ", \"";
+      joints_ += "xyz"[axis];
+      joints_ += "\": ";
+      const double range[] = {limits[axis].lower, limits[axis].upper};
+      append_row(joints_, range, 2);
+    }
+    joints_ += joints_.size() == begin ? ", \"limits\": {}" : "}";
+  }
+
   void add_vector(const char* key, const glm::dvec3& vector, const glm::dvec3& usual) {
     if (vector != usual) joints_ += std::string(", \"") + key + "\": " + row_text(vector);
   }
@@ -175,10 +202,11 @@ std::string shape_text(const modeler::Mesh& mesh) {
   return text + "}}";
 }
 
-std::string model_text(const std::vector<WrittenJoint>& joints, const std::vector<ImportedMaterial>& materials) {
+std::string model_text(const std::vector<WrittenJoint>& joints, const std::vector<ImportedMaterial>& materials,
+                       const std::vector<NamedLimb>& limbs) {
   ModelText text;
   for (const WrittenJoint& joint : joints) text.add(joint);
-  return text.whole(materials);
+  return text.whole(materials, limbs);
 }
 
 }  // namespace mars::importer

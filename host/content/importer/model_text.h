@@ -28,6 +28,7 @@ struct WrittenJoint {
   JointFrame frame;
   bool fixed = false;  // it cannot turn
   std::optional<WrittenSegment> segment;
+  std::optional<std::array<modeler::Limits, 3>> limits{};  // of one that is not fixed; none: it turns freely
 };
 
 // Of material 0, 1, ...
@@ -37,6 +38,7 @@ std::string material_name(std::size_t number);
 std::string shape_text(const std::vector<wire::Patch>& patches);
 std::string shape_text(const modeler::Mesh& mesh);
 
-std::string model_text(const std::vector<WrittenJoint>& joints, const std::vector<ImportedMaterial>& materials);
+std::string model_text(const std::vector<WrittenJoint>& joints, const std::vector<ImportedMaterial>& materials,
+                       const std::vector<NamedLimb>& limbs = {});
 
 }  // namespace mars::importer

@@ -19,8 +19,10 @@
 #include "host/content/document/text.h"
 #include "host/content/importer/assimp_matrix.h"
 #include "host/content/importer/gltf_bounds.h"
+#include "host/content/importer/gltf_limbs.h"
 #include "host/content/importer/gltf_skins.h"
 #include "host/content/importer/joint_frame.h"
+#include "host/content/importer/limbs/find_limbs.h"
 #include "host/content/importer/material_reader.h"
 #include "host/content/importer/model_builder.h"
 #include "host/content/importer/node_tree.h"
@@ -77,6 +79,8 @@ glm::dvec3 flat_normal(const std::vector<glm::dvec3>& places) {
   return length > 0 ? sum / length : sum;
 }
 
+constexpr std::size_t kBonesOfFigures = 8;  // at least: a spine and two legs that bend
+
 // What the file says without Assimp.
 struct FileItself {
   FileItself(const std::filesystem::path& path, FileKind kind) {
@@ -88,10 +92,12 @@ struct FileItself {
     require_within_buffers(path, gltf);
     promised = promised_by(path, kind, bytes, gltf);
     if (is_gltf(kind)) skins = gltf_skins(path, gltf);
+    limbs = limb_map(gltf);
   }
 
   Promised promised;
   std::optional<GltfSkins> skins;
+  std::optional<LimbMap> limbs;  // by the numbers of nodes
 };
 
 class SceneReader {
@@ -118,6 +124,7 @@ class SceneReader {
     for (unsigned i = 0; i < scene_.mNumMeshes; ++i) file.vertices += scene_.mMeshes[i]->mNumVertices;
     file.vertices = file_.promised.vertices.value_or(file.vertices);
     file.materials = materials_.materials();
+    file.limbs = named_limbs_;
     list_what_was_made(file);
     list_not_read(file.not_read);
     file.companions = sources_.companions();
@@ -193,6 +200,8 @@ class SceneReader {
   // Nodes with meshes below them become joints, and bones. What a skin places stands on the first joint.
   void add_joints() {
     const std::vector<bool> shown = shown_nodes();
+    bones_ = static_cast<std::size_t>(std::ranges::count(bones(), true));
+    limbs_ = find_limbs(figure_tree(shown), limb_map_of_nodes(), bones_ >= kBonesOfFigures);
     const bool one_root = !tree_.nodes.empty() && tree_.nodes[0].parent == modeler::kNone && shown[0] &&
                           file_.skins->roots.size() == 1 && !has_skins();
     if (!one_root) builder_.add_joint(options_.joint, modeler::kNone, {});
@@ -201,9 +210,10 @@ class SceneReader {
       const PlacedNode& node = tree_.nodes[i];
       if (shown[i]) {
         const std::size_t parent = node.parent == modeler::kNone ? 0 : joints[node.parent];
-        joints[i] = add_joint(node, one_root && i == 0 ? modeler::kNone : parent);
+        joints[i] = add_joint(i, one_root && i == 0 ? modeler::kNone : parent);
       }
     }
+    name_limbs(joints);
     nodes_as_joints_ = std::ranges::count(shown, true);
     std::vector<std::size_t> by_number(tree_.by_number.size(), 0);  // joints of the file's nodes
     for (std::size_t i = 0; i < tree_.nodes.size(); ++i)
@@ -247,15 +257,48 @@ class SceneReader {
     return shown;
   }
 
+  // The nodes, of which those that become joints are a figure's.
+  FigureTree figure_tree(const std::vector<bool>& shown) const {
+    const std::vector<bool> is_bone = bones();
+    FigureTree tree;
+    for (std::size_t i = 0; i < tree_.nodes.size(); ++i) {
+      const PlacedNode& node = tree_.nodes[i];
+      const bool moves = (node.number != modeler::kNone && is_bone[node.number]) || (!node.skin && has_faces(node));
+      tree.push_back({shown[i] ? node.name : "", shown[i] ? node.parent : modeler::kNone,
+                      glm::dvec3(in_our_axes(node.matrix)[3]), shown[i] && moves});
+    }
+    return tree;
+  }
+
+  std::optional<LimbMap> limb_map_of_nodes() const {
+    if (!file_.limbs) return std::nullopt;
+    LimbMap map{file_.limbs->by, {}};
+    for (const auto& [limb, number] : file_.limbs->limbs)
+      for (std::size_t i = 0; i < tree_.nodes.size(); ++i)
+        if (tree_.nodes[i].number == number) map.limbs.emplace_back(limb, i);
+    return map;
+  }
+
+  // `joints`: the builder's, by node.
+  void name_limbs(const std::vector<std::size_t>& joints) {
+    for (const auto& [limb, node] : named(limbs_.limbs)) named_limbs_.push_back({limb, builder_.name_of(joints[node])});
+  }
+
   // In the model's axes a node that the file does not turn has the model's.
   glm::dmat4 in_our_axes(const glm::dmat4& matrix) const { return upright_ * matrix * glm::transpose(upright_); }
 
-  std::size_t add_joint(const PlacedNode& node, std::size_t parent) {
+  // A limb of a figure turns about a person's axes, whatever its node's are.
+  std::size_t add_joint(std::size_t number, std::size_t parent) {
+    const PlacedNode& node = tree_.nodes[number];
     const glm::dmat4 matrix = in_our_axes(node.matrix);
-    const JointFrame frame = frame_of(matrix);
+    const std::optional<JointAnatomy>& anatomy = limbs_.anatomy[number];
+    glm::dmat4 turned = matrix;
+    for (int axis = 0; axis < 3 && anatomy; ++axis) turned[axis] = glm::dvec4(anatomy->axes[axis], 0);
+    const JointFrame frame = frame_of(turned);
     const std::string name = node.name.empty() ? "node" : node.name;
     const std::size_t joint =
         builder_.add_joint(parent == modeler::kNone ? options_.joint : name, parent, frame, node.number);
+    if (anatomy && anatomy->limits) builder_.limit(joint, *anatomy->limits);
     uneven_joints_ += !scales_evenly(tree_.above(node));
     if (node.skin) return joint;  // its mesh stands elsewhere
     const glm::dmat4 within(within_frame(frame, glm::dmat3(matrix)) * glm::dmat3(upright_));
@@ -342,6 +385,7 @@ class SceneReader {
     add("joints of ", nodes_as_joints_ > 1 ? nodes_as_joints_ : 0, "node", "nodes");
     add("a skin, which ", file.bones.size(), "joint moves, of ", "joints move, of ");
     if (!file.bones.empty()) file.made.back() += document::counted(skinned_meshes_, "mesh", "meshes");
+    if (!limbs_.limbs_made.empty()) file.made.push_back(limbs_.made() + remedy_of_guess());
     add("metallic-roughness of ",
         static_cast<std::size_t>(std::ranges::count_if(
             file.materials, [](const ImportedMaterial& material) { return material.surface.has_value(); })),
@@ -350,7 +394,20 @@ class SceneReader {
     add("a mean roughness and metal of ", materials_.textures_of_surfaces(), "texture", "textures");
   }
 
+  // Guesses are to be checked.
+  std::string remedy_of_guess() const {
+    return limbs_.is_guess ? " (check them; name another: " + options_.set_limb + " left.hip)" : "";
+  }
+
+  void list_limbs(std::vector<std::string>& list) const {
+    for (const std::string& doubt : limbs_.doubts) list.push_back("limbs: " + doubt);
+    const bool names_none = limbs_.limbs_made.empty() && bones_ >= kBonesOfFigures;
+    if (names_none) list.emplace_back("limbs: neither the joints' names nor the shape are a figure's");
+    if (names_none || !limbs_.doubts.empty()) list.back() += " (name them: " + options_.set_limb + " left.hip)";
+  }
+
   void list_not_read(std::vector<std::string>& list) const {
+    list_limbs(list);
     if (uneven_joints_ > 0)
       list.push_back("an uneven scale above " + document::counted(uneven_joints_, "joint", "joints") +
                      ": turned, they keep their shape at rest");
@@ -376,6 +433,9 @@ class SceneReader {
   NodeTree tree_;
   MaterialReader materials_;
   ModelBuilder builder_;
+  std::size_t bones_ = 0;
+  FiguresLimbs limbs_;  // of nodes
+  std::vector<NamedLimb> named_limbs_;
   std::size_t nodes_as_joints_ = 0, skinned_meshes_ = 0, weights_left_out_ = 0, uneven_joints_ = 0;
 };
 

@@ -8,44 +8,14 @@
 #include <glm/trigonometric.hpp>
 
 #include "hal/failure/failure.h"
+#include "host/content/animator/motion/body/surface.h"
 
 namespace mars::motion {
 namespace {
 
-constexpr int kGrid = 4;          // points along each side of a patch, of which a sole's shape is known
 constexpr double kStrikes = -15;  // degrees of pitch at which the heel is what touches
 constexpr double kLeaves = 25;    // and the tip of a foot without toes
 constexpr double kUpright = 0.8;  // of its height: what is lower sits
-
-glm::dvec3 patch_point(const wire::Patch& patch, double u, double v) {
-  const auto weights = [](double t) {
-    const double r = 1 - t;
-    return std::array{r * r * r, 3 * r * r * t, 3 * r * t * t, t * t * t};
-  };
-  const auto a = weights(u), b = weights(v);
-  glm::dvec3 point(0);
-  for (std::size_t i = 0; i < 16; ++i)
-    for (int axis = 0; axis < 3; ++axis) point[axis] += a[i % 4] * b[i / 4] * patch.points[i][axis];
-  return point;
-}
-
-// Points of a joint's segment, in the world.
-void add_points(const modeler::Model& model, const Posture& posture, std::size_t number,
-                std::vector<glm::dvec3>& points) {
-  const modeler::Joint& joint = model.joints[number];
-  if (!joint.segment) return;
-  const modeler::Axes frame = modeler::segment_frame(frame_in(model, posture, number), joint);
-  const modeler::Box& box = joint.segment->sbb;
-  const auto add = [&](const glm::dvec3& p) {
-    points.push_back(frame.turn * (box.min + p * (box.max - box.min)) + frame.place);
-  };
-  const modeler::Shape& shape = model.shapes[joint.segment->shape];
-  for (const wire::Patch& patch : shape.patches)
-    for (int i = 0; i < kGrid; ++i)
-      for (int j = 0; j < kGrid; ++j) add(patch_point(patch, double(i) / (kGrid - 1), double(j) / (kGrid - 1)));
-  if (shape.mesh)
-    for (const modeler::Mesh::Place& vertex : shape.mesh->vertices) add({vertex[0], vertex[1], vertex[2]});
-}
 
 double lowest(std::span<const glm::dvec3> points, const glm::dmat3& turn, const glm::dvec3& from) {
   double least = 0;
@@ -63,10 +33,11 @@ glm::dvec3 lowest_point(const Sole& sole, double pitch) {
 
 Sole sole_of(const modeler::Model& model, const Posture& drawn, const glm::dmat3& axes, std::size_t ankle,
              std::size_t toes) {
-  std::vector<glm::dvec3> foot, front;
-  for (std::size_t joint = 0; joint < model.joints.size(); ++joint)
-    if (modeler::is_at_or_below(model.joints, joint, ankle))
-      add_points(model, drawn, joint, modeler::is_at_or_below(model.joints, joint, toes) ? front : foot);
+  const auto is_front = [&](std::size_t joint) { return modeler::is_at_or_below(model.joints, joint, toes); };
+  const auto is_foot = [&](std::size_t joint) {
+    return modeler::is_at_or_below(model.joints, joint, ankle) && !is_front(joint);
+  };
+  const std::vector<glm::dvec3> foot = points_of(model, drawn, is_foot), front = points_of(model, drawn, is_front);
   const glm::dmat3 back = glm::transpose(axes);
   const glm::dvec3 origin = frame_in(model, drawn, ankle).place;
   Sole sole;
@@ -143,10 +114,10 @@ void stand_on_toes(Leg& leg) {
 
 // Of what a limb carries, as drawn.
 double lowest_below(const modeler::Model& model, const Posture& drawn, modeler::Limb limb, modeler::Side side) {
-  std::vector<glm::dvec3> points;
-  for (std::size_t joint = 0; joint < model.joints.size(); ++joint)
-    if (modeler::is_at_or_below(model.joints, joint, model.limbs.of(limb, side)))
-      add_points(model, drawn, joint, points);
+  const auto is_below = [&](std::size_t joint) {
+    return modeler::is_at_or_below(model.joints, joint, model.limbs.of(limb, side));
+  };
+  const std::vector<glm::dvec3> points = points_of(model, drawn, is_below);
   double least = 1e300;
   for (const glm::dvec3& point : points) least = std::min(least, point.z);
   return least;
@@ -255,8 +226,7 @@ double Body::floor_under(const Posture& posture) const {
 }
 
 double lowest_of(const modeler::Model& model, const Posture& posture) {
-  std::vector<glm::dvec3> points;
-  for (std::size_t joint = 0; joint < model.joints.size(); ++joint) add_points(model, posture, joint, points);
+  const std::vector<glm::dvec3> points = points_of(model, posture, [](std::size_t) { return true; });
   double least = points.empty() ? posture.place.z : points[0].z;
   for (const glm::dvec3& point : points) least = std::min(least, point.z);
   return least;

@@ -5,6 +5,7 @@
 #include <glm/matrix.hpp>
 
 #include "host/content/animator/motion/body/stance.h"
+#include "host/content/animator/motion/body/surface.h"
 
 namespace mars::motion {
 namespace {
@@ -12,9 +13,12 @@ namespace {
 constexpr double kAlong = 0.45;  // of the hand, where its palm is
 constexpr double kThick = 0.45;  // of how far its box is out on the inner side
 
-// How far a joint's own segment reaches from it, as drawn, along a direction.
-double extent(const modeler::Joint& joint, const glm::dvec3& direction) {
-  if (!joint.segment) return 0;
+// How far a joint's own segment reaches from it, as drawn, along a direction; of a skin what moves with the joint.
+double extent(const modeler::Model& model, std::size_t number, const glm::dvec3& direction) {
+  const modeler::Joint& joint = model.joints[number];
+  if (!joint.segment)
+    return reach_of_skin(model, number, direction,
+                         [&](std::size_t each) { return modeler::is_at_or_below(model.joints, each, number); });
   double most = 0;
   const modeler::Axes frame = modeler::segment_frame({}, joint);
   const modeler::Box& box = joint.segment->sbb;
@@ -49,8 +53,8 @@ Hand hand_of(const Body& body, modeler::Side side, const std::string& command) {
   const glm::dmat3 hang = body.axes * hanging_shoulder(body, side, {0, 0, 0}) * glm::transpose(body.axes);
   hand.palm = glm::transpose(hang) * body.axes[1] * -sign_of(side);
   hand.palm = glm::normalize(hand.palm - glm::dot(hand.palm, hand.fingers) * hand.fingers);
-  const modeler::Joint& end = body.model->joints[hand.end];
-  hand.grip = kAlong * extent(end, hand.fingers) * hand.fingers + kThick * extent(end, hand.palm) * hand.palm;
+  const auto reach = [&](const glm::dvec3& direction) { return extent(*body.model, hand.end, direction); };
+  hand.grip = kAlong * reach(hand.fingers) * hand.fingers + kThick * reach(hand.palm) * hand.palm;
   hand.upper = glm::distance(place(shoulder), place(elbow));
   hand.fore =
       (wrist == modeler::kNone ? 0 : glm::distance(place(elbow), place(wrist))) + glm::dot(hand.grip, hand.fingers);

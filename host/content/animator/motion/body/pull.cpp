@@ -249,7 +249,11 @@ Chain chain_of(const modeler::Model& model, std::size_t joint, Extent extent) {
   const std::size_t above = model.joints[top].parent;
   if (extent == Extent::limb || above == kNone) return chain;
   chain.trunk = path(model, kNone, above);
-  if (extent == Extent::trunk) std::erase(chain.trunk, pelvis);
+  // What carries the pelvis, as nodes of other programs' figures do, carries the feet.
+  std::erase_if(chain.trunk, [&](std::size_t each) {
+    return pelvis != kNone && modeler::is_at_or_below(model.joints, pelvis, each) &&
+           (each != pelvis || extent == Extent::trunk);
+  });
   return chain;
 }
 

@@ -20,19 +20,41 @@ constexpr double kKneeWeight = 0.1;    // and of the knee's
 constexpr double kKneeShare = 0.7;     // of the foot's heading against the pelvis, to which the knee points
 constexpr double kAtLimit = 1e-3;      // degrees
 constexpr double kZigzag = 5;          // degrees that a knee is drawn bent
+constexpr double kBentElbow = 0.2;     // sine of the angle from which an elbow is drawn bent
+constexpr double kMostTwist = 120;     // degrees that an upper arm turns about itself to have such a forearm in front
 
 glm::dmat3 heading_turn(double degrees) { return modeler::rotation_by_degrees({0, 0, 1}, degrees); }
 
 // The smallest turn that takes a direction to straight down.
-glm::dmat3 to_hang(const Body& body, modeler::Limb from, modeler::Limb to, modeler::Side side) {
-  const Posture drawn = drawn_posture(*body.model);
-  const std::size_t upper = body.find(from, side), lower = body.find(to, side);
-  if (lower == modeler::kNone) return glm::dmat3(1);
-  const glm::dvec3 along = glm::normalize(glm::transpose(body.axes) * (frame_in(*body.model, drawn, lower).place -
-                                                                       frame_in(*body.model, drawn, upper).place));
+glm::dmat3 turned_down(const glm::dvec3& along) {
   const glm::dvec3 down(0, 0, -1), axis = glm::cross(along, down);
   const double sine = glm::length(axis);
   return sine < 0.1 ? glm::dmat3(1) : modeler::rotation(axis / sine, std::atan2(sine, glm::dot(along, down)));
+}
+
+// How an arm comes to hang from how it is drawn.
+struct Hanging {
+  glm::dmat3 turn{1};  // of the upper arm: straight down, with the forearm, if it is drawn bent, to the front
+  double bent = 0;     // degrees of such a forearm
+};
+
+Hanging hanging_of(const Body& body, modeler::Side side) {
+  const Posture drawn = drawn_posture(*body.model);
+  const std::size_t shoulder = body.find(modeler::Limb::shoulder, side), elbow = body.find(modeler::Limb::elbow, side);
+  const std::size_t wrist = body.find(modeler::Limb::wrist, side);
+  if (elbow == modeler::kNone) return {};
+  const auto bone = [&](std::size_t from, std::size_t to) {
+    return glm::normalize(glm::transpose(body.axes) *
+                          (frame_in(*body.model, drawn, to).place - frame_in(*body.model, drawn, from).place));
+  };
+  Hanging hanging{turned_down(bone(shoulder, elbow))};
+  if (wrist == modeler::kNone) return hanging;
+  const glm::dvec3 forearm = hanging.turn * bone(elbow, wrist);
+  const double out = std::hypot(forearm.x, forearm.y), aside = glm::degrees(std::atan2(forearm.y, forearm.x));
+  if (out < kBentElbow || std::abs(aside) > kMostTwist) return hanging;
+  hanging.bent = glm::degrees(std::atan2(out, -forearm.z));
+  hanging.turn = heading_turn(-aside) * hanging.turn;
+  return hanging;
 }
 
 void turn_actor(const Body& body, double heading, Posture& posture) {
@@ -243,11 +265,18 @@ Stance stance_of(const Body& body, const Posture& posture) {
 }
 
 glm::dmat3 hanging_shoulder(const Body& body, modeler::Side side, const glm::dvec3& degrees) {
-  return canonical_turn(degrees) * to_hang(body, modeler::Limb::shoulder, modeler::Limb::elbow, side);
+  return canonical_turn(degrees) * hanging_of(body, side).turn;
 }
 
 glm::dmat3 hanging_elbow(const Body& body, modeler::Side side, const glm::dvec3& degrees) {
-  const glm::dmat3 hang = to_hang(body, modeler::Limb::shoulder, modeler::Limb::elbow, side);
+  const Hanging hanging = hanging_of(body, side);
+  glm::dmat3 turn = canonical_turn(degrees);
+  if (hanging.bent != 0) turn *= canonical_turn(0, hanging.bent, 0);
+  return glm::transpose(hanging.turn) * turn * hanging.turn;
+}
+
+glm::dmat3 hanging_wrist(const Body& body, modeler::Side side, const glm::dvec3& degrees) {
+  const glm::dmat3 hang = hanging_of(body, side).turn;
   return glm::transpose(hang) * canonical_turn(degrees) * hang;
 }
 

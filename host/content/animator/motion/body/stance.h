@@ -31,10 +31,11 @@ struct Stance {
 // The stance that a posture shows; `turns` is left empty.
 Stance stance_of(const Body& body, const Posture& posture);
 
-// A turn of an upper arm or forearm against its parent for an arm that hangs straight down, whichever way the
-// model's arms are drawn.
+// A turn of an upper arm, forearm or hand against its parent for an arm that hangs straight down, whichever way the
+// model's arms are drawn: hanging, held out to the sides, with bent elbows.
 glm::dmat3 hanging_shoulder(const Body& body, modeler::Side side, const glm::dvec3& degrees);
 glm::dmat3 hanging_elbow(const Body& body, modeler::Side side, const glm::dvec3& degrees);
+glm::dmat3 hanging_wrist(const Body& body, modeler::Side side, const glm::dvec3& degrees);
 
 // Turns and places the posture's pelvis as the stance has it, as nearly as limits allow.
 void place_pelvis(const Body& body, const Stance& stance, Posture& posture);

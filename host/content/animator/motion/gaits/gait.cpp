@@ -166,7 +166,7 @@ class Walker {
       stance.turns[joint] = hanging_elbow(
           body_, side, {0, -14 + carriage_.elbow.mean * swing + carriage_.elbow.by * much * wave(0.09), s * -14});
     if (const std::size_t joint = body_.find(modeler::Limb::wrist, side); joint != modeler::kNone)
-      stance.turns[joint] = hanging_elbow(body_, side, {s * (-6 + 5 * much * wave(0.2)), 4 + 5 * much * wave(0.16), 0});
+      stance.turns[joint] = hanging_wrist(body_, side, {s * (-6 + 5 * much * wave(0.2)), 4 + 5 * much * wave(0.16), 0});
   }
 
   const Body& body_;
@@ -201,7 +201,7 @@ std::map<std::size_t, glm::dmat3> at_ease(const Body& body) {
     };
     add(modeler::Limb::shoulder, hanging_shoulder(body, side, {s * 8, 0, s * -12}));
     add(modeler::Limb::elbow, hanging_elbow(body, side, {0, -14, s * -14}));
-    add(modeler::Limb::wrist, hanging_elbow(body, side, {s * -6, 4, 0}));
+    add(modeler::Limb::wrist, hanging_wrist(body, side, {s * -6, 4, 0}));
   }
   return turns;
 }

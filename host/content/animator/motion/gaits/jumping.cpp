@@ -239,7 +239,7 @@ class Jumper {
     };
     add(modeler::Limb::shoulder, hanging_shoulder(body_, side, {s * 9, swing, s * -12}));
     add(modeler::Limb::elbow, hanging_elbow(body_, side, {0, -14 - bend, s * -14}));
-    add(modeler::Limb::wrist, hanging_elbow(body_, side, {s * -6, 4, 0}));
+    add(modeler::Limb::wrist, hanging_wrist(body_, side, {s * -6, 4, 0}));
   }
 
   const Scene& scene_;

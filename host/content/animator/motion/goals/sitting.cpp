@@ -13,6 +13,7 @@
 #include "host/content/animator/motion/gaits/gait.h"
 #include "host/content/animator/motion/body/glide.h"
 #include "host/content/animator/motion/body/reach.h"
+#include "host/content/animator/motion/body/surface.h"
 
 namespace mars::motion {
 namespace {
@@ -27,10 +28,12 @@ constexpr const char* kSitRemedy = "choose another seat-height, or widen the joi
 
 glm::dmat3 facing(const Stance& stance) { return canonical_turn(0, 0, stance.heading); }
 
-// How far a joint's own segment reaches from it, drawn, along a canonical direction.
+// How far a joint's own segment reaches from it, drawn, along a canonical direction; of a skin what moves with it
+// alone.
 double extent(const Body& body, std::size_t number, const glm::dvec3& direction) {
   const modeler::Joint& joint = body.model->joints[number];
-  if (!joint.segment) return 0;
+  if (!joint.segment)
+    return reach_of_skin(*body.model, number, body.axes * direction, [&](std::size_t each) { return each == number; });
   double most = 0;
   for (int corner = 0; corner < 8; ++corner) {
     const modeler::Box& box = joint.segment->sbb;
