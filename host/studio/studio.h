@@ -7,11 +7,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "hal/failure/failure.h"
 #include "host/studio/animation_pages.h"
 #include "host/studio/importing/importing.h"
 #include "host/studio/rendering/rendering.h"
+#include "host/studio/thumbnails/thumbnails.h"
 #include "host/studio/web/pages.h"
 
 namespace mars::studio {
@@ -23,6 +25,7 @@ struct Parts {
   std::function<std::unique_ptr<Stage>(Project&, RendererLink&, Stage::Listener)> make_stage;
   std::function<std::unique_ptr<Rendering>(Rendering::Listener)> make_rendering;
   std::function<std::unique_ptr<Importing>(const Project&, Importing::Listener)> make_importing;
+  std::unique_ptr<Thumbnails> thumbnails;
 };
 
 class Studio {
@@ -30,8 +33,8 @@ class Studio {
   // `pages` must outlive it.
   Studio(Parts parts, web::Pages& pages);
 
-  // Of these calls only upload() throws. A message that fails or makes no sense is answered with `refused`; what fails otherwise is
-  // a remark to the page, or to all.
+  // Of these calls only upload() throws. A message that fails or makes no sense is answered with `refused`; what fails
+  // otherwise is a remark to the page, or to all.
   void page_opened(PageNumber page);
   void handle_message(PageNumber page, const Json& message);
   void page_closed(PageNumber page);
@@ -69,6 +72,7 @@ class Studio {
   std::unique_ptr<Stage> stage_;
   std::unique_ptr<Rendering> rendering_;
   std::unique_ptr<Importing> importing_;
+  std::unique_ptr<Thumbnails> thumbnails_;
   AnimationPages animation_;
   std::optional<PageNumber> gesture_of_;
   std::string trouble_;  // the renderer's

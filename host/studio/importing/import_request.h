@@ -25,8 +25,8 @@ struct ImportRequest {
   std::vector<std::string> options;  // words of `mars import`: "--height=5.1"
 };
 
-// Of a message {"do": "import", "files": [{"name", "size"}], "options": {...}}. Throws Failure where a name is not plain,
-// or comes twice, and where the files are too many or too long.
+// Of a message {"do": "import", "files": [{"name", "size"}], "options": {...}}. Throws Failure where a name is not
+// plain, or comes twice, and where the files are too many or too long.
 ImportRequest import_request(const Json& message);
 
 // One run of `mars import`: of what it is run, and what the model or film that it makes is to be named.

@@ -190,8 +190,8 @@ std::vector<std::string> LiveImporting::words_of(const ImportJob& job, const Pat
 void LiveImporting::run_next() {
   const ImportJob& job = import_->jobs[import_->made.size()];
   const fs::path to = import_->folder.made(import_->made.size(), job.name + ".json");
-  std::vector<std::string> words =
-      words_of(job, [this](const std::string& file) { return import_->folder.uploaded(file); }, to);
+  std::vector<std::string> words = words_of(
+      job, [this](const std::string& file) { return import_->folder.uploaded(file); }, to);
   words.insert(words.begin(), settings_.mars.string());
   import_->made.push_back({to, ""});
   import_->printed.clear();
@@ -238,7 +238,8 @@ std::vector<std::string> LiveImporting::put_beside_film() {
 std::vector<editing::Command> LiveImporting::typed_for(const std::vector<std::string>& files) const {
   std::vector<editing::Command> typed;
   for (std::size_t i = 0; i < files.size(); ++i)
-    typed.push_back(words_of(import_->jobs[i], [](const std::string& file) { return file; }, files[i]));
+    typed.push_back(words_of(
+        import_->jobs[i], [](const std::string& file) { return file; }, files[i]));
   return typed;
 }
 

@@ -141,8 +141,7 @@ TEST_F(ImportingTest, AModelComesIntoTheFilm) {
   EXPECT_EQ(left(), (Names{"rock-2.json", "rock.json"}));
   EXPECT_EQ(text_of("films/rock-2.json"), R"({"made of": "stone"})");
   EXPECT_EQ(text_of("films/rock.json"), "of somebody else");
-  EXPECT_EQ(step_.dump(),
-            R"({"commands":[["film","add","rock-2","--model","rock-2.json","--beside","0"]]})");
+  EXPECT_EQ(step_.dump(), R"({"commands":[["film","add","rock-2","--model","rock-2.json","--beside","0"]]})");
   EXPECT_EQ(before_, (std::vector<editing::Command>{{"import", "rock.obj", "-o", "rock-2.json"}}));
   EXPECT_EQ(last()["reports"][0], "rock-2.json: model of one joint\n  read       all of rock.obj\n");
   EXPECT_EQ(last()["actors"], Json{"rock-2"});
