@@ -9,6 +9,7 @@
 #include "host/content/document/document.h"
 #include "host/content/document/text.h"
 #include "host/content/modeler/figure_library.h"
+#include "host/editing/film_length.h"
 #include "host/editing/key_words.h"
 #include "host/editing/words.h"
 #include "host/cli/wrapped.h"
@@ -31,7 +32,8 @@ A command changes FILM in place, or leaves it as it was. More: docs/filming.md.
 // What a person typed after any of the commands.
 struct FilmWords {
   EditedFilm& film;
-  std::string name{}, other{}, model{};
+  std::string name{}, other{}, model{}, from{};
+  bool lengthen = false;
   std::vector<std::string> fields{};
   std::vector<double> place{}, turn{};
   std::optional<double> height{};
@@ -65,7 +67,24 @@ void run_new(const FilmWords& words) {
   words.film.create(film);
 }
 
+// Of a film that may be in another folder.
+void run_add_of_film(const FilmWords& words) {
+  const Json other = words.film.read_other(words.from);
+  const auto file_name = [&](const std::string& file) {
+    return words.film.name_of_model((std::filesystem::path(words.from).parent_path() / file).string());
+  };
+  std::string length;
+  words.film.change([&](Json& film, const Meaning&) {
+    const auto last = animator::add_actor_of(film, other, words.name, file_name);
+    length = last ? fit_length(film, *last, words.lengthen) : "";
+    if (last && !length.empty() && !words.lengthen)
+      length += ": set its frames to " + std::to_string(*last + 1) + " to see all of the keys";
+  });
+  if (!length.empty()) words.film.remark(length);
+}
+
 void run_add(const FilmWords& words) {
+  if (!words.from.empty()) return run_add_of_film(words);
   words.film.change([&](Json& film, const Meaning&) {
     animator::add_actor(film, {words.name, model_of(words, film), place_of(words), turn_of(words), words.height});
     if (!words.beside) return;
@@ -157,8 +176,15 @@ void add_actor_options(cli::Command command, FilmWords& words) {
   command
       .add("--model", words.model,
            "A figure or object of the library, a model file, or a model that the film has. Example: --model man")
-      .type("MODEL")
-      .required();
+      .type("MODEL");
+  command
+      .add("--from", words.from,
+           "Another film whose actor of this name, or only actor, comes with its model and its keys. Example: --from "
+           "walk.json")
+      .type("FILM");
+  command.add_flag("--lengthen", words.lengthen,
+                   "With --from: a film that ends before the keys gets the frames up to the last one. Example: "
+                   "--lengthen");
   command.add("--place", words.place, "Where it stands. Example: --place 2 0 0").words(3).type("X Y Z");
   command
       .add("--turn", words.turn,
@@ -175,6 +201,10 @@ void add_actor_options(cli::Command command, FilmWords& words) {
       .type("FRAME")
       .range(0u, wire::kMostFrames);
   command.checks([&words] {
+    if (words.model.empty() == words.from.empty()) throw cli::UsageError("--model", "give it, or --from");
+    if (!words.from.empty() && (words.beside || words.height || !words.place.empty() || !words.turn.empty()))
+      throw cli::UsageError("--from", "its actor stands where its keys say: give neither --place, --turn, --beside nor --height");
+    if (words.lengthen && words.from.empty()) throw cli::UsageError("--lengthen", "give it with --from");
     if (words.beside && !words.place.empty()) throw cli::UsageError("--beside", "give it, or --place");
     if (words.turn.size() == 2) throw cli::UsageError("--turn", "give one angle, or three");
   });

@@ -3,9 +3,11 @@
 #include <utility>
 
 #include "host/child/programs.h"
+#include "host/studio/importing/importing.h"
 #include "host/studio/link/host_link.h"
 #include "host/studio/rendering/rendering.h"
 #include "host/studio/serve_studio.h"
+#include "host/studio/thumbnails/thumbnails.h"
 
 namespace mars::studio {
 
@@ -17,8 +19,12 @@ void run_studio(const StudioSettings& settings) {
     const auto rendering = [&context, file](Rendering::Listener listener) {
       return make_rendering(context, {file, std::filesystem::current_path(), child::own_file()}, std::move(listener));
     };
+    const auto importing = [&context, file](const Project& project, Importing::Listener listener) {
+      return make_importing(context, {file, child::own_file()}, project, std::move(listener));
+    };
     const NewFile begins = settings.film ? NewFile::film : NewFile::model;
-    return Parts{open_project(file, std::filesystem::current_path(), begins), link, make_stage, rendering};
+    return Parts{open_project(file, std::filesystem::current_path(), begins),   link, make_stage, rendering, importing,
+                 make_thumbnails(context, child::own_file(), thumbnail_cache())};
   });
 }
 

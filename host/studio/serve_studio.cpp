@@ -114,7 +114,8 @@ class Serving {
   web::PageListener page_listener() {
     return {.opened = [this](PageNumber page) { studio_->page_opened(page); },
             .received = [this](PageNumber page, const Json& message) { studio_->handle_message(page, message); },
-            .closed = [this](PageNumber page) { studio_->page_closed(page); }};
+            .closed = [this](PageNumber page) { studio_->page_closed(page); },
+            .uploaded = [this](const UploadedFile& file) { return studio_->upload(file); }};
   }
 
   void end() {

@@ -44,6 +44,7 @@ constexpr std::array<Step, 6> kSteps{{
 Studio::Studio(Parts parts, web::Pages& pages)
     : pages_(pages),
       project_(std::move(parts.project)),
+      thumbnails_(std::move(parts.thumbnails)),
       animation_(*project_, [this](PageNumber page, const Json& message) { pages_.tell(page, message); }) {
   link_ = parts.make_link(link_listener());
   stage_ = parts.make_stage(*project_, *link_,
@@ -51,6 +52,11 @@ Studio::Studio(Parts parts, web::Pages& pages)
                              [this](PageNumber page, const Json& message) { pages_.tell(page, message); }});
   rendering_ = parts.make_rendering({[this](ViewPicture picture) { pages_.show(std::move(picture)); },
                                      [this](PageNumber page, const Json& message) { pages_.tell(page, message); }});
+  importing_ = parts.make_importing(
+      *project_, {[this](PageNumber page, const Json& message) { pages_.tell(page, message); },
+                  [this](PageNumber page, const Json& step, const std::vector<editing::Command>& before) {
+                    commit_import(page, step, before);
+                  }});
 }
 
 RendererLink::Listener Studio::link_listener() {
@@ -93,11 +99,24 @@ void Studio::handle_message(PageNumber page, const Json& message) {
   answer_failure(page, message, [&] { step_done = execute(page, message); });
   answer_failure(page, message, [&] {
     for (const std::string& remark : project_->take_remarks()) pages_.tell(page, {{"is", "remark"}, {"text", remark}});
-    if (const Json done = project_->take_commands(); !done.empty())
-      pages_.tell(page, {{"is", "done"}, {"commands", done}});
+    send_done(page, {});
     if (project_->in_gesture() && shown() != before) gesture_of_ = page;
     announce(before, step_done);
   });
+}
+
+// The commands of the last step, after those that made its files.
+void Studio::send_done(PageNumber page, const std::vector<editing::Command>& before) {
+  Json commands = before;
+  for (const editing::Command& command : project_->take_commands()) commands.push_back(command);
+  if (!commands.empty()) pages_.tell(page, {{"is", "done"}, {"commands", commands}});
+}
+
+void Studio::commit_import(PageNumber page, const Json& step, const std::vector<editing::Command>& before) {
+  const Shown shown_before = shown();
+  project_->commit(step);
+  send_done(page, before);
+  announce(shown_before, true);
 }
 
 // Where every exception of the studio's work ends: what one page asks for must not end the others' session.
@@ -117,8 +136,18 @@ bool Studio::execute(PageNumber page, const Json& message) {
     rendering_->take(page, message);
     return false;
   }
+  if (Importing::is_for_it(message)) {
+    importing_->take(page, message);
+    return false;
+  }
   if (AnimationPages::is_for_it(message)) {
     animation_.take(page, message);
+    return false;
+  }
+  if (message["do"] == "thumbnails") {
+    thumbnails_->want([this, page](const std::string& model, const std::string& picture) {
+      pages_.tell(page, {{"is", "thumbnail"}, {"model", model}, {"picture", picture}});
+    });
     return false;
   }
   const bool is_step = execute_step(message);
@@ -148,6 +177,7 @@ void Studio::page_closed(PageNumber page) {
     const Shown before = shown();
     animation_.page_closed(page);
     rendering_->page_closed(page);
+    importing_->page_closed(page);
     stage_->page_closed(page);
     if (gesture_of_ == page && project_->in_gesture()) project_->cancel();
     announce(before, false);

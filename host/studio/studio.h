@@ -7,10 +7,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "hal/failure/failure.h"
 #include "host/studio/animation_pages.h"
+#include "host/studio/importing/importing.h"
 #include "host/studio/rendering/rendering.h"
+#include "host/studio/thumbnails/thumbnails.h"
 #include "host/studio/web/pages.h"
 
 namespace mars::studio {
@@ -21,6 +24,8 @@ struct Parts {
   std::function<std::unique_ptr<RendererLink>(RendererLink::Listener)> make_link;
   std::function<std::unique_ptr<Stage>(Project&, RendererLink&, Stage::Listener)> make_stage;
   std::function<std::unique_ptr<Rendering>(Rendering::Listener)> make_rendering;
+  std::function<std::unique_ptr<Importing>(const Project&, Importing::Listener)> make_importing;
+  std::unique_ptr<Thumbnails> thumbnails;
 };
 
 class Studio {
@@ -28,11 +33,13 @@ class Studio {
   // `pages` must outlive it.
   Studio(Parts parts, web::Pages& pages);
 
-  // These calls never throw. A message that fails or makes no sense is answered with `refused`; what fails otherwise is
-  // a remark to the page, or to all.
+  // Of these calls only upload() throws. A message that fails or makes no sense is answered with `refused`; what fails
+  // otherwise is a remark to the page, or to all.
   void page_opened(PageNumber page);
   void handle_message(PageNumber page, const Json& message);
   void page_closed(PageNumber page);
+  // A file that a page begins to send. Throws Failure where no import waits for it.
+  std::unique_ptr<Upload> upload(const UploadedFile& file) { return importing_->upload(file); }
   // Somebody else may have changed the files; called a few times a second.
   void look_at_files();
 
@@ -56,12 +63,16 @@ class Studio {
   void refuse(PageNumber page, const Json& message, const Failure& why);
   RendererLink::Listener link_listener();
   void send_state(PageNumber page);
+  void send_done(PageNumber page, const std::vector<editing::Command>& before);
+  void commit_import(PageNumber page, const Json& step, const std::vector<editing::Command>& before);
 
   web::Pages& pages_;
   std::unique_ptr<Project> project_;
   std::unique_ptr<RendererLink> link_;
   std::unique_ptr<Stage> stage_;
   std::unique_ptr<Rendering> rendering_;
+  std::unique_ptr<Importing> importing_;
+  std::unique_ptr<Thumbnails> thumbnails_;
   AnimationPages animation_;
   std::optional<PageNumber> gesture_of_;
   std::string trouble_;  // the renderer's

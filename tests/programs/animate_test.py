@@ -119,6 +119,21 @@ class Animate(ProgramTest):
         self.fail_clearly(1, "film", "films/play.json", "add", "pip", "--model", "none.json",
                           says="none.json: there is no such model file (check its name)")
 
+    def test_an_actor_of_another_film_comes_with_its_keys(self):
+        self.animate("pose", "robot", "elbow.y=90", "--frame", 24)
+        robot = self.actor()
+        (self.folder / "films").mkdir()
+        self.succeed("mars", "film", "films/play.json", "new", "frames=4")
+        self.succeed("mars", "film", "films/play.json", "add", "arm", "--from", "film.json", "--lengthen")
+        play = json.loads((self.folder / "films/play.json").read_text())
+        self.assertEqual(play["actors"], [{**robot, "name": "arm"}])
+        self.assertEqual(play["frames"], 25)
+        self.succeed("mars", "info", "films/play.json")
+        self.fail_clearly(1, "film", "films/play.json", "add", "arm", "--from", "film.json", says="is an actor of the film already")
+        self.fail_clearly(1, "film", "films/play.json", "add", "leg", "--from", "none.json", says="none.json")
+        self.fail_clearly(2, "film", "films/play.json", "add", "leg", "--from", "film.json", "--place", 1, 0, 0, says="--from")
+        self.fail_clearly(2, "film", "films/play.json", "add", "leg", says="--model")
+
     def test_limits(self):
         printed = self.refused("pose", "robot", "elbow.y=170", "--frame", 24)
         self.assertIn("actor 'robot', joint 'elbow': turns 170 degrees about y, outside its limits 0 to 150", printed)

@@ -70,10 +70,16 @@ std::string_view ending_for(FileKind kind) {
 
 bool same_ending(const std::filesystem::path& path, std::string_view ending) { return ending_of(path) == ending; }
 
-FileKind kind_of_name(const std::filesystem::path& path) {
+std::optional<FileKind> known_kind(const std::filesystem::path& path) {
   const std::string ending = ending_of(path);
   for (const Known& known : kKnown)
     if (known.ending == ending) return known.kind;
+  return std::nullopt;
+}
+
+FileKind kind_of_name(const std::filesystem::path& path) {
+  if (const auto kind = known_kind(path)) return *kind;
+  const std::string ending = ending_of(path);
   for (const Foreign& foreign : kForeign)
     if (foreign.ending == ending)
       throw Failure(std::string("is ") + foreign.what + ", which cannot be imported", path.string(), foreign.remedy);

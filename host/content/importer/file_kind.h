@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string_view>
 
 namespace mars::importer {
@@ -18,7 +19,10 @@ constexpr bool is_skeleton(FileKind kind) {
 // Whether a path ends so, in capitals or not.
 bool same_ending(const std::filesystem::path& path, std::string_view ending);
 
-// By the ending, in capitals or not. Refuses every other: for files of well-known programs with the way from them to
+// By the ending, in capitals or not; none: it is no file that `mars import` takes, but may be a companion of one.
+std::optional<FileKind> known_kind(const std::filesystem::path& path);
+
+// The same. Refuses every other: for files of well-known programs with the way from them to
 // one that can be read.
 FileKind kind_of_name(const std::filesystem::path& path);
 

@@ -30,6 +30,9 @@ export class Connection {
 
   failures = 0;
 
+  // Of a request of this page's to the studio.
+  addressOf(path) { return this.#address(path); }
+
   open() {
     const address = this.#address();
     address.protocol = location.protocol === "https:" ? "wss:" : "ws:";
@@ -58,8 +61,8 @@ export class Connection {
     this.#tell("connected");
   }
 
-  #address() {
-    const address = new URL("ws", location.href);
+  #address(path = "ws") {
+    const address = new URL(path, location.href);
     address.search = new URLSearchParams({token: this.#token});
     return address;
   }

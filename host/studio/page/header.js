@@ -12,12 +12,16 @@ const kFalloffs = [0, 4, 8, 16, 32];  // frames
 const kWorkspaces = [["scene", "Scene", "scene"], ["rendering", "Rendering", "render"]];
 
 export class Header {
-  constructor(place, {state, edits}, {help, theme, ghosts}) {
+  constructor(place, {state, edits}, {help, theme, ghosts, importFiles}) {
     this.state = state;
     this.file = element("span", {class: "file"});
     this.kind = element("span", {class: "kind"});
     this.undo = iconButton("undo", () => edits.undo());
     this.redo = iconButton("redo", () => edits.redo());
+    this.imports = iconButton("import", importFiles);
+    this.imports.setAttribute("aria-label", "Import files");
+    this.imports.title = "Import figures, objects and motions of other programs. You can also drop their files on the page";
+    this.imports.dataset.key = "import";
     this.tools = segmented("Tool", kTools.map(([tool, text, command]) => ({value: tool, text, tip: `${text} (${keysOf(command)})`, glyph: tool})),
                            (tool) => state.set("tool", tool), false);
     this.workspaces = segmented("Workspace", kWorkspaces.map(([value, text, glyph]) => ({value, text, glyph, tip: `${text} (${keysOf("workspace")})`})),
@@ -38,7 +42,7 @@ export class Header {
     const sheet = iconButton("help", help);
     name(sheet, "Keys and mouse", keysOf("help"));
     place.append(element("div", {class: "brand"}, logo(), element("h1", {}, this.file), this.kind),
-                 element("div", {class: "group"}, this.undo, this.redo), this.tools.root, this.film, element("span", {class: "spring"}),
+                 element("div", {class: "group"}, this.undo, this.redo, this.imports), this.tools.root, this.film, element("span", {class: "spring"}),
                  this.workspaces.root, element("span", {class: "spring"}), element("div", {class: "group"}, this.theme, sheet));
     state.on("project", () => this.#project());
     state.on("tool", () => this.tools.set(state.tool));

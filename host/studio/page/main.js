@@ -6,6 +6,7 @@ import {Frames} from "./frames.js";
 import {Ghosts} from "./ghosts.js";
 import {Header} from "./header.js";
 import {Help} from "./help.js";
+import {Importer} from "./importing/importer.js";
 import {Keys} from "./keys.js";
 import {Latencies} from "./latencies.js";
 import {Rendering} from "./live/rendering.js";
@@ -36,11 +37,12 @@ const pace = new Pace(connection, latencies);
 const painter = new Painter(connection, latencies);
 const edits = new Edits(connection, pace, state);
 const ghosts = new Ghosts(state);
-const parts = {state, connection, latencies, pace, painter, edits, ghosts};
+const importer = new Importer(place("import"), {state, connection}, showImported);
+const parts = {state, connection, latencies, pace, painter, edits, ghosts, importer};
 
 const notices = new Notices();
 const help = new Help(state);
-const header = new Header(place("header"), parts, {help: () => help.toggle(), theme: () => theme.toggle(), ghosts: () => ghosts.menu()});
+const header = new Header(place("header"), parts, {help: () => help.toggle(), theme: () => theme.toggle(), ghosts: () => ghosts.menu(), importFiles: () => importer.choose()});
 const theme = new Theme(header.theme);
 const tree = new Tree(place("tree"), {...parts, rename: () => rename()});
 const views = new Views(place("views"), parts, painter);
@@ -90,6 +92,12 @@ function showSelected() {
   else if (state.isFilm() && joint === null && (actor ?? thing) !== null && tabs.shown === "joint") tabs.show("scene");
 }
 
+// The last of them, wherever it stands.
+function showImported(actors) {
+  edits.wanted = {actor: actors.at(-1), joint: null, isShown: true};
+  if (edits.selectWanted()) views.showSelectedInAll();
+}
+
 state.on("workspace", () => {
   showWorkspace();
   notices.settle();
@@ -115,7 +123,7 @@ connection.on("state", (message) => {
 connection.on("refused", (message) => {
   const {text, line} = message;
   edits.unanswered.forget();
-  if (motions.refused(message)) return;
+  if (motions.refused(message) || importer.refused(message)) return;
   notices.message(line ? `${text} (line ${line})` : text);
 });
 connection.on("sent", ({do: what}) => { if (kNewSteps.has(what)) notices.settle(); });

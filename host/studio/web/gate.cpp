@@ -55,18 +55,33 @@ bool Gate::is_own(std::string_view host) const {
          std::ranges::any_of(names_, [&](const std::string& own) { return same_name(own, name); });
 }
 
-Refusal Gate::check(const Request& request) const {
+Refusal Gate::check_names(const Request& request) const {
   if (!is_own(request.host)) return {403, "The studio has another name: open the link that it printed.\n"};
   if (!request.origin.empty() && !same_name(request.origin, std::string(scheme()) + "://" + std::string(request.host)))
     return {403, "Pages of other sites may not use the studio.\n"};
+  return {};
+}
+
+Refusal Gate::check(const Request& request) const {
+  if (Refusal refusal = check_names(request); refusal.status != 0) return refusal;
   if (request.method != "GET" && request.method != "HEAD") return {405, "Only GET and HEAD.\n"};
   return {};
 }
 
-Refusal Gate::check_socket(const Request& request) const {
-  if (Refusal refusal = check(request); refusal.status != 0) return refusal;
+// A page that a person has opened by the link.
+Refusal Gate::check_page(const Request& request) const {
   if (request.origin.empty()) return {403, "No Origin.\n"};
   return check_token(request);
+}
+
+Refusal Gate::check_socket(const Request& request) const {
+  if (Refusal refusal = check(request); refusal.status != 0) return refusal;
+  return check_page(request);
+}
+
+Refusal Gate::check_upload(const Request& request) const {
+  if (Refusal refusal = check_names(request); refusal.status != 0) return refusal;
+  return check_page(request);
 }
 
 Refusal Gate::check_token(const Request& request) const {

@@ -30,14 +30,18 @@ class Gate {
   const char* scheme() const { return tls_ ? "https" : "http"; }
   const char* socket_scheme() const { return tls_ ? "wss" : "ws"; }
 
-  // Any request.
+  // Any request but a POST that uploads a file.
   Refusal check(const Request& request) const;
   // One that needs the token.
   Refusal check_token(const Request& request) const;
   // One for the WebSocket.
   Refusal check_socket(const Request& request) const;
+  // That.
+  Refusal check_upload(const Request& request) const;
 
  private:
+  Refusal check_names(const Request& request) const;
+  Refusal check_page(const Request& request) const;
   bool is_own(std::string_view host) const;
 
   std::string token_;

@@ -1,8 +1,11 @@
 // The pages that are open, as the studio sees them: what it sends them, and what it receives from them.
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <memory>
 
+#include "host/studio/importing/upload.h"
 #include "host/studio/stage/stage.h"
 
 namespace mars::web {
@@ -24,6 +27,8 @@ struct PageListener {
   std::function<void(PageNumber page)> opened;
   std::function<void(PageNumber page, const Json& message)> received;  // an object with a text `do`
   std::function<void(PageNumber page)> closed;
+  // A file that a page begins to send. Throws Failure where the studio does not wait for it.
+  std::function<std::unique_ptr<studio::Upload>(const studio::UploadedFile& file)> uploaded = {};
 };
 
 }  // namespace mars::web

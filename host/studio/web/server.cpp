@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
@@ -11,6 +12,7 @@
 #include <utility>
 
 #include "hal/failure/failure.h"
+#include "host/content/document/text.h"
 #include "host/studio/web/connection.h"
 #include "host/studio/web/tls.h"
 #include "host/studio/web/token.h"
@@ -134,6 +136,15 @@ class TcpServer final : public Server, private Site {
   void left(PageNumber page) override {
     pages_.erase(page);
     listener_.closed(page);
+  }
+
+  std::unique_ptr<studio::Upload> begin_upload(std::string_view path, std::uint64_t bytes) override {
+    const std::string numbers(path.substr(kUploads.size()));
+    const std::size_t slash = std::min(numbers.find('/'), numbers.size());
+    const auto import = document::number_in<std::uint32_t>(numbers.substr(0, slash));
+    const auto file = document::number_in<std::uint32_t>(numbers.substr(std::min(slash + 1, numbers.size())));
+    if (!import || !file || !listener_.uploaded) throw Failure("there is no import of this name", "", "");
+    return listener_.uploaded({*import, *file, bytes});
   }
 
   void accept() {

@@ -2,14 +2,19 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <string_view>
 
 #include "host/studio/web/gate.h"
 #include "host/studio/web/pages.h"
 #include "host/studio/web/patience.h"
 
 namespace mars::web {
+
+// Where files are uploaded: /import/IMPORT/FILE, by their numbers.
+inline constexpr std::string_view kUploads = "/import/";
 
 // A page's WebSocket.
 class PageSocket {
@@ -45,6 +50,8 @@ class Site {
   virtual PageNumber enter(std::shared_ptr<PageSocket> page) = 0;
   virtual void received(PageNumber page, const Json& message) = 0;
   virtual void left(PageNumber page) = 0;
+  // Of a request's path, "/import/3/0", with a body of this many bytes. Throws Failure where nothing waits for it.
+  virtual std::unique_ptr<studio::Upload> begin_upload(std::string_view path, std::uint64_t bytes) = 0;
 };
 
 }  // namespace mars::web

@@ -17,7 +17,11 @@ studio::Parts make_parts(const std::filesystem::path&, boost::asio::io_context&)
           [](studio::Project&, studio::RendererLink&, studio::Stage::Listener listener) {
             return std::make_unique<test::FakeStage>(std::move(listener));
           },
-          [](studio::Rendering::Listener) { return std::make_unique<test::FakeRendering>(); }};
+          [](studio::Rendering::Listener) { return std::make_unique<test::FakeRendering>(); },
+          [](const studio::Project&, studio::Importing::Listener listener) {
+            return std::make_unique<test::FakeImporting>(std::move(listener));
+          },
+          std::make_unique<test::FakeThumbnails>()};
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ using studio::PageNumber;
 
 // Steps are {"set": TEXT}; "bad" makes no sense, "line" has a wrong line, "disk" cannot be written, "unshown" not be
 // described, "long" takes a minute.
-class FakeProject final : public studio::Project {
+class FakeProject : public studio::Project {
  public:
   bool is_model() const override { return true; }
   const animator::Film& film() const override { return film_; }
@@ -158,6 +158,32 @@ class FakeStage final : public studio::Stage {
   Listener listener_;
   std::uint16_t width_ = 0, height_ = 0;
   std::uint32_t pictures_ = 0;
+};
+
+// Takes no file.
+class FakeImporting final : public studio::Importing {
+ public:
+  explicit FakeImporting(Listener listener) : listener_(std::move(listener)) {}
+
+  void take(PageNumber page, const Json& message) override {
+    heard.push_back(message.at("do"));
+    if (message.contains("step")) listener_.commit(page, message.at("step"), {{"import", "rock.obj"}});
+  }
+  std::unique_ptr<studio::Upload> upload(const studio::UploadedFile&) override {
+    throw Failure("no import waits for this file", "", "");
+  }
+  void page_closed(PageNumber) override { heard.push_back("closed"); }
+
+  std::vector<std::string> heard;
+
+ private:
+  Listener listener_;
+};
+
+// Of one model.
+class FakeThumbnails final : public studio::Thumbnails {
+ public:
+  void want(Take take) override { take("man", "YSBtYW4="); }
 };
 
 class FakeRendering final : public studio::Rendering {

@@ -48,7 +48,14 @@ class StudioTest : public testing::Test {
       rendering_ = rendering.get();
       return rendering;
     };
-    studio_.emplace(Parts{std::move(project), make_link, make_stage, make_rendering}, pages_);
+    const auto make_importing = [this](const Project&, Importing::Listener listener) {
+      auto importing = std::make_unique<test::FakeImporting>(std::move(listener));
+      importing_ = importing.get();
+      return importing;
+    };
+    studio_.emplace(Parts{std::move(project), make_link, make_stage, make_rendering, make_importing,
+                          std::make_unique<test::FakeThumbnails>()},
+                    pages_);
   }
 
   void say(PageNumber page, const char* message) { studio_->handle_message(page, Json::parse(message)); }
@@ -57,6 +64,7 @@ class StudioTest : public testing::Test {
   test::FakeProject* project_ = nullptr;
   test::FakeStage* stage_ = nullptr;
   test::FakeRendering* rendering_ = nullptr;
+  test::FakeImporting* importing_ = nullptr;
   RendererLink::Listener link_;
   std::optional<Studio> studio_;
 };
@@ -94,6 +102,27 @@ TEST_F(StudioTest, RenderingsHearWhatIsForThem) {
   say(2, R"({"do": "undo"})");
   studio_->page_closed(2);
   EXPECT_EQ(rendering_->heard, (std::vector<std::string>{"opened", "render", "painted", "closed"}));
+}
+
+TEST_F(StudioTest, ThumbnailsAreForWhoAsked) {
+  say(2, R"({"do": "thumbnails"})");
+  ASSERT_EQ(pages_.heard.size(), 1u);
+  EXPECT_EQ(pages_.heard[0].page, 2u);
+  EXPECT_EQ(pages_.heard[0].message.dump(), R"({"is":"thumbnail","model":"man","picture":"YSBtYW4="})");
+}
+
+TEST_F(StudioTest, AnImportIsAStepOfItsPage) {
+  say(2, R"({"do": "import", "step": {"set": "rock"}})");
+  EXPECT_EQ(project_->written, std::vector<std::string>{"rock"});
+  ASSERT_EQ(pages_.heard.size(), 2u);
+  EXPECT_EQ(pages_.heard[0].message.dump(), R"({"commands":[["import","rock.obj"]],"is":"done"})");
+  EXPECT_EQ(pages_.heard[0].page, 2u);
+  EXPECT_EQ(pages_.heard[1].message["is"], "project");
+  pages_.said();
+  say(2, R"({"do": "import", "step": {"set": "bad"}})");
+  EXPECT_EQ(pages_.said(), "2 refused");
+  studio_->page_closed(2);
+  EXPECT_EQ(importing_->heard, (std::vector<std::string>{"import", "import", "closed"}));
 }
 
 TEST_F(StudioTest, KeysAndCurvesAreToldToWhoAsked) {

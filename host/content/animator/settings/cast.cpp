@@ -103,6 +103,18 @@ bool used(const Json& film, const std::string& model) {
   return std::ranges::any_of(film.at("actors"), [&](const Json& actor) { return actor.at("model") == model; });
 }
 
+// Of another film, of which a person takes one actor.
+const Json& actor_to_take(const Json& other, const std::string& name) {
+  const Json& actors = other.at("actors");
+  const auto named = std::ranges::find_if(actors, [&](const Json& actor) { return actor.at("name") == name; });
+  if (named != actors.end()) return *named;
+  if (actors.size() == 1) return actors.front();
+  std::vector<std::string> names;
+  for (const Json& actor : actors) names.push_back(actor.at("name"));
+  throw Failure("is no actor of that film, which has several", document::in_quotes(name),
+                "name one of them, and rename it afterwards: " + document::joined(names));
+}
+
 bool stands_elsewhere(const Json& model, const std::string& name) {
   return model.is_string() || (modeler::find_in_library(name) != nullptr && model == modeler::library_figure(name));
 }
@@ -124,6 +136,24 @@ void add_actor(Json& film, const NewActor& actor) {
   if (actor.turn) object["turn"] = written(*actor.turn);
   changed["actors"].push_back(std::move(object));
   film = std::move(changed);
+}
+
+std::optional<std::uint32_t> add_actor_of(Json& film, const Json& other, const std::string& name,
+                                          const std::function<std::string(const std::string& file)>& file_name) {
+  refuse_taken(film, name);
+  Json actor = actor_to_take(other, name);
+  const std::string named = actor.at("model");
+  Json model = other.at("models").at(named);
+  if (model.is_string()) model = file_name(model.get<std::string>());
+  Json changed = film;
+  actor["name"] = name;
+  actor["model"] = put_model(changed, model, named);
+  std::optional<std::uint32_t> last;
+  if (const auto keys = actor.find("keys"); keys != actor.end())
+    for (const Json& key : *keys) last = std::max(last.value_or(0), key.at("frame").get<std::uint32_t>());
+  changed["actors"].push_back(std::move(actor));
+  film = std::move(changed);
+  return last;
 }
 
 void remove_actor(Json& film, const std::string& name) {

@@ -9,14 +9,15 @@ import {actorPart, castPart} from "./scene/actors.js";
 import {cameraPart} from "./scene/camera.js";
 import {Controls} from "./scene/controls.js";
 import {filmPart, materialsPart} from "./scene/film.js";
+import {importPart} from "./scene/imports.js";
 import {lightsPart} from "./scene/lights.js";
 
 export class ScenePanel {
   #built = "";
 
-  constructor(place, {state, edits}) {
+  constructor(place, {state, edits, importer}) {
     Object.assign(this, {place, state, edits});
-    this.controls = new Controls({state, edits});
+    this.controls = new Controls({state, edits, importer});
     state.on("project selected", () => this.#update());
     state.on("poses", () => this.controls.set());
   }
@@ -59,7 +60,7 @@ export class ScenePanel {
   #film() {
     const {controls} = this, lit = this.state.selected.thing?.startsWith("light/");
     const made = [actorPart(controls), ...(lit ? [lightsPart(controls), cameraPart(controls)] : [cameraPart(controls), lightsPart(controls)]),
-                  castPart(controls), materialsPart(controls), filmPart(controls)];
+                  castPart(controls), importPart(controls), materialsPart(controls), filmPart(controls)];
     return made.filter(Boolean);
   }
 }

@@ -53,6 +53,17 @@ TEST(Gate, SocketsNeedOriginAndToken) {
     EXPECT_EQ(gate.check_socket(to(host, own, target)).status, 403u) << target;
 }
 
+TEST(Gate, UploadsNeedOriginAndToken) {
+  const Gate gate("secret", false, {});
+  const char *host = "localhost:1", *own = "http://localhost:1", *target = "/import/1/0?token=secret";
+  EXPECT_EQ(gate.check_upload(to(host, own, target)).status, 0u);
+  EXPECT_EQ(gate.check_upload(to(host, "", target)).status, 403u);
+  EXPECT_EQ(gate.check_upload(to(host, "http://evil.example", target)).status, 403u);
+  EXPECT_EQ(gate.check_upload(to("evil.example", "http://evil.example", target)).status, 403u);
+  EXPECT_EQ(gate.check_upload(to(host, own, "/import/1/0")).status, 403u);
+  EXPECT_EQ(gate.check_upload(to(host, own, "/import/1/0?token=secrets")).status, 403u);
+}
+
 TEST(Token, IsLongAndNew) {
   std::set<std::string> tokens;
   for (int i = 0; i < 100; ++i) tokens.insert(make_token());

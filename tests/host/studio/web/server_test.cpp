@@ -20,6 +20,8 @@
 #include <thread>
 #include <vector>
 
+#include "hal/failure/failure.h"
+
 namespace mars::web {
 namespace {
 
@@ -93,6 +95,32 @@ class Client {
 
 using Clients = std::vector<std::unique_ptr<Client>>;
 
+// What came of a page's upload: its name, its bytes, and how it ended.
+struct Came {
+  std::string bytes;
+  std::atomic<int> ended = 0, cut = 0;
+};
+
+class Noted final : public studio::Upload {
+ public:
+  explicit Noted(Came& came) : came_(came) {}
+  ~Noted() override {
+    if (!whole_) ++came_.cut;
+  }
+  void take(std::string_view piece) override {
+    if (piece.find("full") != piece.npos) throw Failure("the disk is full", "", "");
+    came_.bytes += piece;
+  }
+  void end() override {
+    whole_ = true;
+    ++came_.ended;
+  }
+
+ private:
+  Came& came_;
+  bool whole_ = false;
+};
+
 class ServerTest : public testing::Test {
  protected:
   ~ServerTest() override {
@@ -109,7 +137,11 @@ class ServerTest : public testing::Test {
     settings.patience = patience;
     server_ = make_server(
         context_, settings,
-        {[this](PageNumber) { ++opened_; }, [](PageNumber, const Json&) {}, [this](PageNumber) { ++closed_; }});
+        {[this](PageNumber) { ++opened_; }, [](PageNumber, const Json&) {}, [this](PageNumber) { ++closed_; },
+         [this](const studio::UploadedFile& file) {
+           if (file.import != 7) throw Failure("no import waits for this file", "", "");
+           return std::make_unique<Noted>(came_);
+         }});
     const std::string link = server_->link();
     address_ = link.substr(7, link.find("/?") - 7);
     token_ = link.substr(link.find("token=") + 6);
@@ -136,6 +168,13 @@ class ServerTest : public testing::Test {
            "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n";
   }
 
+  // The beginning of an upload of this many bytes.
+  std::string upload(const std::string& target, std::size_t bytes) const {
+    return "POST " + target + " HTTP/1.1\r\nHost: " + address_ + "\r\nOrigin: http://" + address_ +
+           "\r\nContent-Length: " + std::to_string(bytes) + "\r\n\r\n";
+  }
+  std::string with_token(const std::string& path) const { return path + "?token=" + token_; }
+
   Clients pages(std::size_t size) {
     Clients clients = crowd(size, page_request());
     for (const auto& each : clients) EXPECT_EQ(each->status(), "101");
@@ -145,6 +184,7 @@ class ServerTest : public testing::Test {
   fs::path folder_ = fs::temp_directory_path() / ("mars-server-test-" + std::to_string(getpid()));
   boost::asio::io_context context_{1};
   std::atomic<int> opened_ = 0, closed_ = 0;
+  Came came_;
   std::unique_ptr<Server> server_;
   std::string address_, token_;
   std::thread thread_;
@@ -226,6 +266,47 @@ TEST_F(ServerTest, AnIdlePageStaysWhileItsBrowserAnswers) {
   }
   EXPECT_TRUE(both[1]->ends());
   EXPECT_TRUE(both[0]->is_open());
+}
+
+TEST_F(ServerTest, UploadsComeWholeAndInTurn) {
+  serve({});
+  const std::string large(300'000, 'x');
+  const auto page = client(upload(with_token("/import/7/0"), large.size()) + large);
+  EXPECT_EQ(page->status(), "200");
+  EXPECT_EQ(came_.bytes, large);
+  page->send(upload(with_token("/import/7/1"), 0));
+  EXPECT_EQ(page->status(), "200");
+  page->send(request());
+  EXPECT_EQ(page->status(), "200");
+  EXPECT_EQ(came_.ended, 2);
+  EXPECT_EQ(came_.cut, 0);
+}
+
+TEST_F(ServerTest, UploadsOfNobodyAreRefused) {
+  serve({});
+  const auto status = [&](const std::string& text) { return client(text)->status(); };
+  EXPECT_EQ(status(upload("/import/7/0?token=" + std::string(48, '0'), 3) + "abc"), "403");
+  EXPECT_EQ(status(upload("/import/7/0", 3) + "abc"), "403");
+  EXPECT_EQ(status(upload(with_token("/index.html"), 3) + "abc"), "405");
+  for (const char* path : {"/import/8/0", "/import/7", "/import/7/", "/import//0", "/import/7/x", "/import/-7/0",
+                           "/import/7/0/0", "/import/7/../0"})
+    EXPECT_EQ(status(upload(with_token(path), 3) + "abc"), "409") << path;
+  std::string chunked = upload(with_token("/import/7/0"), 3);
+  chunked.replace(chunked.find("Content-Length: 3"), 17, "Transfer-Encoding: chunked");
+  EXPECT_EQ(status(chunked), "411");
+  EXPECT_EQ(came_.ended + came_.cut, 0);
+}
+
+TEST_F(ServerTest, CutAndFailedUploadsDoNotEnd) {
+  serve({.request = 200ms});
+  client(upload(with_token("/import/7/0"), 10) + "abc");
+  const auto slow = client(upload(with_token("/import/7/1"), 10) + "abc");
+  EXPECT_TRUE(slow->ends());
+  EXPECT_EQ(client(upload(with_token("/import/7/2"), 10) + "it is full")->status(), "409");
+  const auto last = std::chrono::steady_clock::now() + std::chrono::milliseconds(kLongest);
+  while (came_.cut < 3 && std::chrono::steady_clock::now() < last) std::this_thread::sleep_for(5ms);
+  EXPECT_EQ(came_.cut, 3);
+  EXPECT_EQ(came_.ended, 0);
 }
 
 }  // namespace

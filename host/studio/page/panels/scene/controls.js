@@ -15,7 +15,7 @@ const shownTarget = (target) => target?.replace("/", " \u203a ") ?? "Nobody";
 export class Controls {
   #fields = [];
 
-  constructor({state, edits}) { Object.assign(this, {state, edits}); }
+  constructor({state, edits, importer}) { Object.assign(this, {state, edits, importer}); }
 
   get project() { return this.state.project; }
 

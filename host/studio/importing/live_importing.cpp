@@ -1,0 +1,316 @@
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/post.hpp>
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "hal/failure/explain.h"
+#include "hal/failure/failure.h"
+#include "host/content/document/file.h"
+#include "host/content/document/folder_lock.h"
+#include "host/content/document/text.h"
+#include "host/content/document/whole_file.h"
+#include "host/studio/importing/import_request.h"
+#include "host/studio/importing/importing.h"
+#include "host/studio/importing/upload_folder.h"
+#include "host/studio/link/host_process.h"
+
+namespace mars::studio {
+namespace {
+
+namespace asio = boost::asio;
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+// What a run of `mars import` made.
+struct Made {
+  fs::path file;  // while the import goes on
+  std::string report;
+};
+
+struct Import {
+  Import(std::uint32_t its_number, PageNumber its_page, const Json& message, const fs::path& beside)
+      : number(its_number),
+        page(its_page),
+        request(import_request(message)),
+        jobs(import_jobs(request.files)),
+        folder(beside),
+        begun(request.files.size()) {}
+
+  std::uint32_t number;
+  PageNumber page;
+  ImportRequest request;
+  std::vector<ImportJob> jobs;
+  UploadFolder folder;
+  std::vector<bool> begun;  // files that the page sends or has sent
+  std::size_t there = 0;    // files that are whole
+  std::vector<Made> made;   // of the jobs, in their order
+  std::string printed;      // by the run that goes on
+  bool ended = false;       // nothing of it is waited for any more
+};
+
+class LiveImporting;
+
+// Writes into the import's folder while that import goes on.
+class UploadToFile final : public Upload {
+ public:
+  UploadToFile(LiveImporting& importing, std::weak_ptr<Import> import, fs::path path)
+      : importing_(importing), import_(std::move(import)), file_(std::move(path)) {}
+  ~UploadToFile() override;
+
+  void take(std::string_view piece) override;
+  void end() override;
+
+ private:
+  std::shared_ptr<Import> import() const;
+
+  LiveImporting& importing_;  // there while the import is
+  std::weak_ptr<Import> import_;
+  WrittenFile file_;
+  bool whole_ = false;
+};
+
+class LiveImporting final : public Importing {
+ public:
+  LiveImporting(asio::io_context& context, ImportingSettings settings, const Project& project, Listener listener)
+      : context_(context), settings_(std::move(settings)), project_(project), listener_(std::move(listener)) {}
+
+  void take(PageNumber page, const Json& message) override {
+    if (message.at("do") == "import") return begin(page, message);
+    if (import_ && import_->page == page) end("stopped", "");
+  }
+  std::unique_ptr<Upload> upload(const UploadedFile& file) override;
+  void page_closed(PageNumber page) override {
+    if (import_ && import_->page == page) end("stopped", "");
+  }
+
+  void file_came();
+  void upload_cut(const std::string& reason) { end("failed", reason); }
+
+ private:
+  void begin(PageNumber page, const Json& message);
+  void run_next();
+  using PathOf = std::function<fs::path(const std::string& file)>;
+  std::vector<std::string> words_of(const ImportJob& job, const PathOf& path_of, const fs::path& to) const;
+  void run_ended(const child::Ending& ending, const std::string& reason);
+  void finish();
+  std::vector<std::string> put_beside_film();
+  Json step_for(const std::vector<std::string>& files, std::vector<std::string>& actors) const;
+  std::vector<editing::Command> typed_for(const std::vector<std::string>& files) const;
+  void end(const char* state, const std::string& text, Json more = Json::object());
+  void tell(const char* state, Json more);
+  std::string plain(std::string text) const;
+  template <typename Work>
+  void attempt(Work work);
+
+  asio::io_context& context_;
+  const ImportingSettings settings_;
+  const Project& project_;
+  const Listener listener_;
+  std::uint32_t last_number_ = 0;
+  std::shared_ptr<Import> import_;  // null: none goes on
+  std::unique_ptr<HostProcess> process_;
+};
+
+UploadToFile::~UploadToFile() {
+  if (const auto going_on = import_.lock(); going_on && !whole_ && !going_on->ended)
+    importing_.upload_cut("a file came only in part: import it again");
+}
+
+std::shared_ptr<Import> UploadToFile::import() const {
+  auto import = import_.lock();
+  if (!import || import->ended) throw Failure("the import has ended", "", "");
+  return import;
+}
+
+void UploadToFile::take(std::string_view piece) {
+  import();
+  file_.write(piece);
+}
+
+void UploadToFile::end() {
+  import();
+  whole_ = true;
+  importing_.file_came();
+}
+
+void LiveImporting::begin(PageNumber page, const Json& message) {
+  if (import_) throw Failure("an import is under way", "", "wait until it is done, or stop it");
+  import_ = std::make_shared<Import>(++last_number_, page, message, fs::absolute(settings_.file).parent_path());
+  tell("receiving", Json::object());
+}
+
+std::unique_ptr<Upload> LiveImporting::upload(const UploadedFile& file) {
+  if (!import_ || file.import != import_->number || file.file >= import_->begun.size())
+    throw Failure("no import waits for this file", "", "");
+  const ImportedFile& promised = import_->request.files[file.file];
+  if (import_->begun[file.file]) throw Failure("is there already", promised.name, "");
+  if (file.bytes != promised.bytes) throw Failure("is not as long as was said", promised.name, "");
+  import_->begun[file.file] = true;
+  try {
+    return std::make_unique<UploadToFile>(*this, import_, import_->folder.uploaded(promised.name));
+  } catch (const std::exception& failure) {
+    end("failed", explain(failure).what());
+    throw;
+  }
+}
+
+void LiveImporting::file_came() {
+  if (++import_->there == import_->request.files.size()) attempt([this] { run_next(); });
+}
+
+// What fails ends the import, whose page hears why.
+template <typename Work>
+void LiveImporting::attempt(Work work) {
+  try {
+    work();
+  } catch (const std::exception& failure) {
+    end("failed", explain(failure).what());
+  }
+}
+
+// A film's motions have its own frames.
+std::vector<std::string> LiveImporting::words_of(const ImportJob& job, const PathOf& path_of,
+                                                 const fs::path& to) const {
+  std::vector<std::string> words{"import", path_of(job.main).string()};
+  for (const std::string& more : job.more) words.push_back(path_of(more).string());
+  words.insert(words.end(), {"-o", to.string()});
+  words.insert(words.end(), import_->request.options.begin(), import_->request.options.end());
+  if (!job.moves) return words;
+  if (project_.is_model())
+    words.insert(words.end(), {"--as", "model"});
+  else
+    words.insert(words.end(), {"--rate", document::shown(project_.film().rate)});
+  return words;
+}
+
+void LiveImporting::run_next() {
+  const ImportJob& job = import_->jobs[import_->made.size()];
+  const fs::path to = import_->folder.made(import_->made.size(), job.name + ".json");
+  std::vector<std::string> words = words_of(
+      job, [this](const std::string& file) { return import_->folder.uploaded(file); }, to);
+  words.insert(words.begin(), settings_.mars.string());
+  import_->made.push_back({to, ""});
+  import_->printed.clear();
+  process_ = std::make_unique<HostProcess>(
+      context_,
+      [&](const child::ProcessSetup& setup) {
+        return std::make_unique<child::Process>(child::Command{{}, words}, setup);
+      },
+      0s,
+      HostProcess::Listener{
+          [this](const std::string& line) { import_->printed += line + '\n'; },
+          [this](const child::Ending& ending, const std::string& reason) { run_ended(ending, reason); }});
+  tell("reading", {{"name", job.main}});
+}
+
+void LiveImporting::run_ended(const child::Ending& ending, const std::string& reason) {
+  // It calls us, and goes when it is done with that.
+  asio::post(context_, [process = std::shared_ptr<HostProcess>(std::move(process_))] {});
+  if (!ending.well()) return end("failed", reason.empty() ? "mars import ended without a word" : reason);
+  attempt([this] {
+    import_->made.back().report = import_->printed;
+    import_->made.size() < import_->jobs.size() ? run_next() : finish();
+  });
+}
+
+// Under the first name of NAME.json, NAME-2.json, ... that is free.
+std::vector<std::string> LiveImporting::put_beside_film() {
+  const fs::path folder = fs::absolute(settings_.file).parent_path();
+  const document::FolderLock lock(fs::absolute(settings_.file));
+  std::vector<std::string> files;
+  for (std::size_t i = 0; i < import_->made.size(); ++i) {
+    std::string name;
+    for (int number = 1; name.empty() || document::file_exists(folder / name); ++number)
+      name = import_->jobs[i].name + (number == 1 ? "" : "-" + std::to_string(number)) + ".json";
+    Made& made = import_->made[i];
+    made.report.replace(0, made.file.string().size(), name);
+    fs::rename(made.file, folder / name);
+    made.file = folder / name;
+    files.push_back(name);
+  }
+  return files;
+}
+
+std::vector<editing::Command> LiveImporting::typed_for(const std::vector<std::string>& files) const {
+  std::vector<editing::Command> typed;
+  for (std::size_t i = 0; i < files.size(); ++i)
+    typed.push_back(words_of(
+        import_->jobs[i], [](const std::string& file) { return file; }, files[i]));
+  return typed;
+}
+
+// An actor of each; `actors` are their names.
+Json LiveImporting::step_for(const std::vector<std::string>& files, std::vector<std::string>& actors) const {
+  std::set<std::string> taken{"camera"};
+  for (const animator::Actor& actor : project_.film().actors) taken.insert(actor.name);
+  Json commands = Json::array();
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    std::string name = import_->jobs[i].name;
+    for (int number = 2; !taken.insert(name).second; ++number)
+      name = import_->jobs[i].name + "-" + std::to_string(number);
+    if (import_->jobs[i].moves)
+      commands.push_back({"film", "add", name, "--from", files[i], "--lengthen"});
+    else
+      commands.push_back({"film", "add", name, "--model", files[i], "--beside", std::to_string(project_.frame())});
+    actors.push_back(name);
+  }
+  return {{"commands", std::move(commands)}};
+}
+
+// Models that no film came to have are not left.
+void LiveImporting::finish() {
+  const std::vector<std::string> files = put_beside_film();
+  std::vector<std::string> actors;
+  if (!project_.is_model()) {
+    try {
+      listener_.commit(import_->page, step_for(files, actors), typed_for(files));
+    } catch (...) {
+      std::error_code ignored;
+      for (const Made& made : import_->made) fs::remove(made.file, ignored);
+      throw;
+    }
+  }
+  Json reports = Json::array();
+  for (const Made& made : import_->made) reports.push_back(plain(made.report));
+  end("done", "", {{"files", files}, {"actors", actors}, {"reports", std::move(reports)}});
+}
+
+// As a person knows the files.
+std::string LiveImporting::plain(std::string text) const {
+  std::vector<std::string> folders{import_->folder.uploaded("")};
+  for (std::size_t run = 0; run < import_->made.size(); ++run) folders.push_back(import_->folder.made(run, ""));
+  for (const std::string& folder : folders)
+    for (std::size_t at; (at = text.find(folder)) != text.npos;) text.erase(at, folder.size());
+  return text;
+}
+
+void LiveImporting::tell(const char* state, Json more) {
+  Json message{{"is", "import"}, {"number", import_->number}, {"state", state}};
+  message.update(more);
+  listener_.tell(import_->page, message);
+}
+
+void LiveImporting::end(const char* state, const std::string& text, Json more) {
+  more["text"] = plain(text);
+  import_->ended = true;
+  tell(state, std::move(more));
+  process_.reset();
+  import_.reset();
+}
+
+}  // namespace
+
+bool Importing::is_for_it(const Json& message) {
+  return message.at("do") == "import" || message.at("do") == "stop_import";
+}
+
+std::unique_ptr<Importing> make_importing(asio::io_context& context, const ImportingSettings& settings,
+                                          const Project& project, Importing::Listener listener) {
+  return std::make_unique<LiveImporting>(context, settings, project, std::move(listener));
+}
+
+}  // namespace mars::studio

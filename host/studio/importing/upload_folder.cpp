@@ -1,0 +1,51 @@
+#include "host/studio/importing/upload_folder.h"
+
+#include <fcntl.h>
+#include <stdlib.h>
+
+#include <cerrno>
+#include <utility>
+
+#include "host/content/document/whole_file.h"
+
+namespace mars::studio {
+namespace {
+
+namespace fs = std::filesystem;
+
+void make_folders(const fs::path& path) {
+  std::error_code problem;
+  fs::create_directories(path, problem);
+  if (problem) document::fail_file("make the folder", path, problem.value());
+}
+
+}  // namespace
+
+UploadFolder::UploadFolder(const fs::path& beside) {
+  std::string name = (beside / ".mars-import-XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr) document::fail_file("make a folder for the import in", beside, errno);
+  path_ = name;
+}
+
+UploadFolder::~UploadFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+fs::path UploadFolder::made(std::size_t run, const std::string& name) const {
+  const fs::path folder = path_ / "made" / std::to_string(run);
+  make_folders(folder);
+  return folder / name;
+}
+
+WrittenFile::WrittenFile(fs::path path) : path_(std::move(path)) {
+  make_folders(path_.parent_path());
+  file_ = child::Descriptor(open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600));
+  if (!file_.open()) document::fail_file("write", path_, errno);
+}
+
+void WrittenFile::write(std::string_view piece) {
+  if (!child::write_all(file_, piece)) document::fail_file("write", path_, errno);
+}
+
+}  // namespace mars::studio

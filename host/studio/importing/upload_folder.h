@@ -1,0 +1,43 @@
+// The files of one import until a model is made of them: in a folder of their own beside the film, which only this user
+// may enter, and which is gone at its end. So nothing that is half there has a name that a person gave it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "host/child/descriptor.h"
+
+namespace mars::studio {
+
+class UploadFolder {
+ public:
+  // Throws Failure where no folder can be made in that one.
+  explicit UploadFolder(const std::filesystem::path& beside);
+  ~UploadFolder();
+  UploadFolder(const UploadFolder&) = delete;
+  UploadFolder& operator=(const UploadFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  // `name`: plain, "tex/skin.png".
+  std::filesystem::path uploaded(const std::string& name) const { return path_ / "from" / name; }
+  // What the import's run of this number makes, "rock.json"; its folder is there then.
+  std::filesystem::path made(std::size_t run, const std::string& name) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+// A new file that is written piece by piece. Throws Failure where it is there already, or cannot be written.
+class WrittenFile {
+ public:
+  explicit WrittenFile(std::filesystem::path path);
+  void write(std::string_view piece);
+
+ private:
+  std::filesystem::path path_;
+  child::Descriptor file_;
+};
+
+}  // namespace mars::studio

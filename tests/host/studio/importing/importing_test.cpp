@@ -1,0 +1,217 @@
+// Imports as pages see them, with a program in place of mars: what comes into the film, and that nothing else stays.
+#include "host/studio/importing/importing.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <boost/asio/io_context.hpp>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "hal/failure/failure.h"
+#include "tests/host/studio/fakes.h"
+#include "tests/sanitizers/sanitized.h"
+
+namespace mars::studio {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A film at 24 frames a second with an actor "rock".
+class FilmProject final : public test::FakeProject {
+ public:
+  FilmProject() {
+    film_.rate = 24;
+    film_.actors.resize(1);
+    film_.actors[0].name = "rock";
+  }
+  bool is_model() const override { return false; }
+  const animator::Film& film() const override { return film_; }
+
+ private:
+  animator::Film film_;
+};
+
+// import FROM -o TO ...: the file's text decides what becomes of it.
+constexpr const char* kMars = R"sh(#!/bin/sh
+case "$(cat "$2")" in
+  bad*) echo "mars: $2:3: is no number (export it again)" >&2; exit 1;;
+  long*) echo $$ > "$(dirname "$0")/process"; exec sleep 100;;
+esac
+shift; echo "$@" >> "$(dirname "$0")/words"
+printf '{"made of": "%s"}' "$(cat "$1")" > "$3"
+echo "$3: model of one joint"; echo "  read       all of $1"
+)sh";
+
+class ImportingTest : public testing::Test {
+ protected:
+  ImportingTest() {
+    fs::create_directories(folder_ / "films");
+    std::ofstream(folder_ / "mars") << kMars;
+    fs::permissions(folder_ / "mars", fs::perms::owner_all);
+    importing_ = make_importing(context_, {folder_ / "films/play.json", folder_ / "mars"}, project_,
+                                {[this](PageNumber page, const Json& message) {
+                                   EXPECT_EQ(page, 1u);
+                                   messages_.push_back(message);
+                                 },
+                                 [this](PageNumber, const Json& step, const std::vector<editing::Command>& before) {
+                                   if (refuses_) throw Failure("the film is broken", "play.json:3", "correct it");
+                                   step_ = step;
+                                   before_ = before;
+                                 }});
+  }
+  ~ImportingTest() override {
+    importing_.reset();
+    fs::remove_all(folder_);
+  }
+
+  struct Content {
+    std::string name, text;
+  };
+
+  void begin(const std::vector<Content>& files) {
+    Json list = Json::array();
+    for (const Content& file : files) list.push_back({{"name", file.name}, {"size", file.text.size()}});
+    importing_->take(1, {{"do", "import"}, {"files", list}});
+    EXPECT_EQ(last()["state"], "receiving");
+  }
+
+  std::unique_ptr<Upload> upload(std::uint32_t file, std::uint64_t bytes) {
+    return importing_->upload({last()["number"], file, bytes});
+  }
+
+  void send(const std::vector<Content>& files) {
+    begin(files);
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      const auto up = upload(static_cast<std::uint32_t>(i), files[i].text.size());
+      const std::string_view text = files[i].text;
+      up->take(text.substr(0, text.size() / 2));
+      up->take(text.substr(text.size() / 2));
+      up->end();
+    }
+  }
+
+  template <typename Holds>
+  bool run_until(Holds holds) {
+    const auto last = std::chrono::steady_clock::now() + std::chrono::seconds(20) * sanitizers::kSlowness;
+    while (!holds() && std::chrono::steady_clock::now() < last) context_.run_one_for(std::chrono::milliseconds(20));
+    return holds();
+  }
+  bool ends(const char* state) {
+    return run_until([&] { return last()["state"] == state; });
+  }
+
+  Json last() const { return messages_.empty() ? Json::object() : messages_.back(); }
+
+  // In the film's folder, hidden files too.
+  std::vector<std::string> left() const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder_ / "films")) names.push_back(entry.path().filename());
+    std::ranges::sort(names);
+    return names;
+  }
+
+  std::string text_of(const std::string& file) const {
+    std::ifstream stream(folder_ / file);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+
+  using Names = std::vector<std::string>;
+
+  const fs::path folder_ = fs::temp_directory_path() / ("mars-importing-" + std::to_string(getpid()));
+  boost::asio::io_context context_;
+  FilmProject project_;
+  std::vector<Json> messages_;
+  Json step_;
+  std::vector<editing::Command> before_;
+  bool refuses_ = false;
+  std::unique_ptr<Importing> importing_;
+};
+
+TEST_F(ImportingTest, AModelComesIntoTheFilm) {
+  std::ofstream(folder_ / "films/rock.json") << "of somebody else";
+  send({{"tex/rock.mtl", "grey"}, {"rock.obj", "stone"}});
+  ASSERT_TRUE(ends("done")) << last();
+  EXPECT_EQ(left(), (Names{"rock-2.json", "rock.json"}));
+  EXPECT_EQ(text_of("films/rock-2.json"), R"({"made of": "stone"})");
+  EXPECT_EQ(text_of("films/rock.json"), "of somebody else");
+  EXPECT_EQ(step_.dump(), R"({"commands":[["film","add","rock-2","--model","rock-2.json","--beside","0"]]})");
+  EXPECT_EQ(before_, (std::vector<editing::Command>{{"import", "rock.obj", "-o", "rock-2.json"}}));
+  EXPECT_EQ(last()["reports"][0], "rock-2.json: model of one joint\n  read       all of rock.obj\n");
+  EXPECT_EQ(last()["actors"], Json{"rock-2"});
+}
+
+TEST_F(ImportingTest, MotionsHaveTheFilmsFrames) {
+  send({{"walk.bvh", "left right"}, {"ball.ply", "round"}});
+  ASSERT_TRUE(ends("done")) << last();
+  EXPECT_EQ(left(), (Names{"ball.json", "walk.json"}));
+  EXPECT_EQ(step_.dump(), R"({"commands":[["film","add","walk","--from","walk.json","--lengthen"],)"
+                          R"(["film","add","ball","--model","ball.json","--beside","0"]]})");
+  EXPECT_NE(text_of("words").find("walk.json --rate 24\n"), std::string::npos) << text_of("words");
+}
+
+TEST_F(ImportingTest, ABadFileLeavesNothing) {
+  send({{"ball.ply", "round"}, {"rock.obj", "bad"}});
+  ASSERT_TRUE(ends("failed")) << last();
+  EXPECT_EQ(last()["text"], "rock.obj:3: is no number (export it again)");
+  EXPECT_EQ(left(), Names{});
+  EXPECT_TRUE(step_.is_null());
+  send({{"rock.obj", "stone"}});  // another may come
+  EXPECT_TRUE(ends("done"));
+}
+
+TEST_F(ImportingTest, AFilmThatRefusesKeepsNoModel) {
+  refuses_ = true;
+  send({{"rock.obj", "stone"}});
+  ASSERT_TRUE(ends("failed"));
+  EXPECT_EQ(last()["text"], "play.json:3: the film is broken (correct it)");
+  EXPECT_EQ(left(), Names{});
+}
+
+TEST_F(ImportingTest, CutUploadsLeaveNothing) {
+  begin({{"rock.obj", "stone"}, {"rock.mtl", "grey"}});
+  {
+    const auto up = upload(0, 5);
+    up->take("st");
+    EXPECT_EQ(left().size(), 1u);
+  }
+  EXPECT_EQ(last()["state"], "failed");
+  EXPECT_EQ(left(), Names{});
+}
+
+TEST_F(ImportingTest, OnlyFilesThatWereNamedAreTaken) {
+  begin({{"rock.obj", "stone"}});
+  const std::uint32_t number = last()["number"];
+  EXPECT_THROW(importing_->upload({number + 1, 0, 5}), Failure);
+  EXPECT_THROW(importing_->upload({number, 1, 5}), Failure);
+  EXPECT_THROW(importing_->upload({number, 0, 6}), Failure);
+  const auto up = upload(0, 5);
+  EXPECT_THROW(upload(0, 5), Failure);
+  EXPECT_THROW(begin({{"ball.ply", "round"}}), Failure);
+  importing_->take(1, {{"do", "stop_import"}});
+  EXPECT_EQ(last()["state"], "stopped");
+  EXPECT_THROW(up->take("st"), Failure);
+  EXPECT_THROW(up->end(), Failure);
+  EXPECT_EQ(left(), Names{});
+}
+
+TEST_F(ImportingTest, TheReaderEndsWithItsPage) {
+  send({{"rock.obj", "long"}});
+  ASSERT_TRUE(run_until([&] { return !text_of("process").empty() && text_of("process").back() == '\n'; }));
+  const pid_t reader = std::stoi(text_of("process"));
+  importing_->page_closed(2);
+  EXPECT_EQ(kill(reader, 0), 0);
+  importing_->page_closed(1);
+  EXPECT_NE(kill(reader, 0), 0);
+  EXPECT_EQ(left(), Names{});
+  EXPECT_EQ(last()["state"], "stopped");
+}
+
+}  // namespace
+}  // namespace mars::studio
