@@ -177,8 +177,8 @@ Poses for_joints(const modeler::Model& model, const PlainSkin& file, const Poses
     const glm::dmat3 node = file.axes_of(name), own = modeler::segment_axes(*joint);
     const glm::dmat3 m =
         glm::transpose(own) * node * modeler::orientation({}, pose) * glm::transpose(node) * own;  // Rx Ry Rz
-    turned[name] =
-        glm::degrees(glm::dvec3(std::atan2(-m[2][1], m[2][2]), std::asin(m[2][0]), std::atan2(-m[1][0], m[0][0])));
+    turned[name] = glm::degrees(glm::dvec3(std::atan2(-m[2][1], m[2][2]), std::asin(std::clamp(m[2][0], -1.0, 1.0)),
+                                           std::atan2(-m[1][0], m[0][0])));
   }
   return turned;
 }
