@@ -15,7 +15,9 @@ namespace mars::commands {
 namespace {
 
 constexpr const char* kAfterwards = R"(Prints what it read from the file, what it made, and what it left out, such as
-animations. More: docs/importing.md, docs/motions.md.
+animations. Names the limbs of figures, which then walk, sit and wave; where it finds others than it should:
+  mars model figure.json set JOINT --limb left.knee
+More: docs/importing.md, docs/motions.md.
 
 For example, scale a glTF figure to 5 units, and make it look forward:
   mars import figure.glb -o figure.json --height 5 --front z

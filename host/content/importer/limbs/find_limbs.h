@@ -28,7 +28,8 @@ struct FiguresLimbs {
   std::string made() const { return limbs_made + limits_made; }
 };
 
-// What a map gives counts before names, names before the shape. `may_guess`: whether the shape counts at all.
+// What a map gives counts before names, names (of at most 20,000 joints) before the shape. `may_guess`: whether the
+// shape counts at all.
 FiguresLimbs find_limbs(const FigureTree& tree, const std::optional<LimbMap>& map, bool may_guess);
 
 }  // namespace mars::importer

@@ -50,7 +50,7 @@ class Shape {
     if (!(height() > 0) || !find_legs()) return std::nullopt;
     find_arms();
     find_head();
-    if (!tell_sides()) draft_.doubts.push_back("which side is left: taken as if it looked along -y");
+    if (!find_sides()) draft_.doubts.push_back("which side is left: taken as if it looked along -y");
     draft_.by = "its shape";
     draft_.is_guess = true;
     return std::move(draft_);
@@ -248,7 +248,7 @@ class Shape {
   }
 
   // Whether the figure shows which side is left.
-  bool tell_sides() {
+  bool find_sides() {
     const glm::dvec3 left =
         place(draft_.limbs.of(Limb::hip, Side::left)) - place(draft_.limbs.of(Limb::hip, Side::right));
     glm::dvec2 ahead = forward();

@@ -176,10 +176,12 @@ Poses for_joints(const modeler::Model& model, const PlainSkin& file, const Poses
   for (const auto& [name, pose] : poses) {
     const auto joint = std::ranges::find(model.joints, name, &modeler::Joint::name);
     const glm::dmat3 node = file.axes_of(name), own = modeler::segment_axes(*joint);
+    turned[name] = pose;
+    if (glm::distance(node[0], own[0]) + glm::distance(node[1], own[1]) < 1e-4) continue;
     const glm::dmat3 m =
         glm::transpose(own) * node * modeler::orientation({}, pose) * glm::transpose(node) * own;  // Rx Ry Rz
-    turned[name] =
-        glm::degrees(glm::dvec3(std::atan2(-m[2][1], m[2][2]), std::asin(m[2][0]), std::atan2(-m[1][0], m[0][0])));
+    turned[name] = glm::degrees(glm::dvec3(std::atan2(-m[2][1], m[2][2]), std::asin(std::clamp(m[2][0], -1.0, 1.0)),
+                                           std::atan2(-m[1][0], m[0][0])));
   }
   return turned;
 }

@@ -15,11 +15,12 @@
 namespace mars::motion {
 namespace {
 
-constexpr double kReach = 0.9992;      // of a leg that stands: never quite straight
-constexpr double kSwingReach = 0.988;  // of one that swings: its knee does not snap
-constexpr double kStiffRise = 0.05;    // of legs without knees, as the pelvis rolls
-constexpr double kStiffRoll = 0.2;     // sine of that, at most
-constexpr double kStiffLift = 0.02;    // of such legs at least, if need be round the outside
+constexpr double kReach = 0.9992;         // of a leg that stands: never quite straight
+constexpr double kSwingReach = 0.988;     // of one that swings: its knee does not snap
+constexpr double kBeginsTooHigh = 0.004;  // of the leg: more than a foot that stands may miss
+constexpr double kStiffRise = 0.05;       // of legs without knees, as the pelvis rolls
+constexpr double kStiffRoll = 0.2;        // sine of that, at most
+constexpr double kStiffLift = 0.02;       // of such legs at least, if need be round the outside
 
 glm::dvec2 ahead(double heading) { return {std::cos(glm::radians(heading)), std::sin(glm::radians(heading))}; }
 
@@ -179,10 +180,10 @@ class Walker {
   std::vector<CurvePoint> headings_;
 };
 
-// It begins as high as it is.
-void lower_smoothly(std::vector<double>& high, const Gait& gait) {
+// It begins as high as it is, unless a foot does not reach the floor then, as where legs are drawn unequal.
+void lower_smoothly(std::vector<double>& high, const Gait& gait, double leg) {
   const std::vector<double> cover = smooth_cover(high, std::max(1, int(gait.period / 3)));
-  high[0] = 0;
+  if (high[0] < kBeginsTooHigh * leg) high[0] = 0;
   for (std::size_t frame = 1; frame < high.size(); ++frame)
     high[frame] = std::max(high[frame], cover[frame] * smooth(0, gait.steps.front().land, double(frame)));
 }
@@ -218,7 +219,7 @@ std::vector<Stance> stances_of(const Body& body, const Posture& start, const Gai
     return stances;
   }
   for (const Stance& stance : stances) high.push_back(walker.too_high(stance));
-  lower_smoothly(high, gait);
+  lower_smoothly(high, gait, body.leg_length());
   for (std::size_t frame = 0; frame < stances.size(); ++frame) stances[frame].pelvis.z -= high[frame];
   return stances;
 }

@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <optional>
 #include <glm/trigonometric.hpp>
 #include <map>
 
@@ -111,17 +112,20 @@ class Handling {
     return {held_, place, hand_turn(hand_, -side, glm::normalize(fingers))};
   }
 
-  // The least bend with which the arm reaches it.
+  // The least bend with which the arm reaches it. Where limits end the bend before, back and shoulder girdle go on.
   void find() {
     double least = 1e300;
+    std::optional<Posture> deepest;
     for (int i = 0; i <= kDepths; ++i) {
       Posture posture = start_;
       depth_ = double(i) / kDepths;
       try {
         crouch_.take(depth_, twist_ * std::min(1.0, 3 * depth_ + 0.4), posture);
       } catch (const Failure&) {
+        if (deepest && reaches_from(*deepest, double(i - 1) / kDepths)) return;
         break;
       }
+      deepest = posture;
       const double far = glm::distance(frame_in(*body_.model, posture, hand_.shoulder).place, to_);
       if (far > kStretch * hand_.length() + glm::distance(held_, hand_.grip) && i < kDepths) continue;
       contact_ = posture;
@@ -132,6 +136,12 @@ class Handling {
       return;
     }
     fail(least);
+  }
+
+  bool reaches_from(const Posture& posture, double depth) {
+    depth_ = depth;
+    crouched_ = contact_ = posture;
+    return pull(*body_.model, posture, contact_, chain_, to(to_, posture)) <= kFar * hand_.length();
   }
 
   [[noreturn]] void fail(double missing) const {
