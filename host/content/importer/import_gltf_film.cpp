@@ -134,7 +134,7 @@ class GltfFilm {
     }
     widen_limits(keys.motion);
     ActorText actor = actor_text(options_.joint, joints_.joints(), keys.motion, kPlaceTrue * size_);
-    report_.made.push_back("keys at " + document::counted(actor.keys, "frame"));
+    if (actor.keys > 0) report_.made.push_back("keys at " + document::counted(actor.keys, "frame"));
     if (!all)
       report_.not_read.push_back("how " + beyond_keys(keys) + ": the model is up to " +
                                  document::formatted("%.3g", keys.error) +
