@@ -114,7 +114,7 @@ TEST_F(StudioTest, ThumbnailsAreForWhoAsked) {
 TEST_F(StudioTest, AnImportIsAStepOfItsPage) {
   say(2, R"({"do": "import", "step": {"set": "rock"}})");
   EXPECT_EQ(project_->written, std::vector<std::string>{"rock"});
-  ASSERT_EQ(pages_.heard.size(), 2u);
+  ASSERT_EQ(pages_.heard.size(), 3u);
   EXPECT_EQ(pages_.heard[0].message.dump(), R"({"commands":[["import","rock.obj"]],"is":"done"})");
   EXPECT_EQ(pages_.heard[0].page, 2u);
   EXPECT_EQ(pages_.heard[1].message["is"], "project");
