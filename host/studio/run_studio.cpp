@@ -7,7 +7,6 @@
 #include "host/studio/link/host_link.h"
 #include "host/studio/rendering/rendering.h"
 #include "host/studio/serve_studio.h"
-#include "host/studio/thumbnails/thumbnails.h"
 
 namespace mars::studio {
 
@@ -23,8 +22,7 @@ void run_studio(const StudioSettings& settings) {
       return make_importing(context, {file, child::own_file()}, project, std::move(listener));
     };
     const NewFile begins = settings.film ? NewFile::film : NewFile::model;
-    return Parts{open_project(file, std::filesystem::current_path(), begins),   link, make_stage, rendering, importing,
-                 make_thumbnails(context, child::own_file(), thumbnail_cache())};
+    return Parts{open_project(file, std::filesystem::current_path(), begins), link, make_stage, rendering, importing};
   });
 }
 

@@ -44,7 +44,6 @@ constexpr std::array<Step, 6> kSteps{{
 Studio::Studio(Parts parts, web::Pages& pages)
     : pages_(pages),
       project_(std::move(parts.project)),
-      thumbnails_(std::move(parts.thumbnails)),
       animation_(*project_, [this](PageNumber page, const Json& message) { pages_.tell(page, message); }) {
   link_ = parts.make_link(link_listener());
   stage_ = parts.make_stage(*project_, *link_,
@@ -142,12 +141,6 @@ bool Studio::execute(PageNumber page, const Json& message) {
   }
   if (AnimationPages::is_for_it(message)) {
     animation_.take(page, message);
-    return false;
-  }
-  if (message["do"] == "thumbnails") {
-    thumbnails_->want([this, page](const std::string& model, const std::string& picture) {
-      pages_.tell(page, {{"is", "thumbnail"}, {"model", model}, {"picture", picture}});
-    });
     return false;
   }
   const bool is_step = execute_step(message);

@@ -13,7 +13,6 @@
 #include "host/studio/animation_pages.h"
 #include "host/studio/importing/importing.h"
 #include "host/studio/rendering/rendering.h"
-#include "host/studio/thumbnails/thumbnails.h"
 #include "host/studio/web/pages.h"
 
 namespace mars::studio {
@@ -25,7 +24,6 @@ struct Parts {
   std::function<std::unique_ptr<Stage>(Project&, RendererLink&, Stage::Listener)> make_stage;
   std::function<std::unique_ptr<Rendering>(Rendering::Listener)> make_rendering;
   std::function<std::unique_ptr<Importing>(const Project&, Importing::Listener)> make_importing;
-  std::unique_ptr<Thumbnails> thumbnails;
 };
 
 class Studio {
@@ -72,7 +70,6 @@ class Studio {
   std::unique_ptr<Stage> stage_;
   std::unique_ptr<Rendering> rendering_;
   std::unique_ptr<Importing> importing_;
-  std::unique_ptr<Thumbnails> thumbnails_;
   AnimationPages animation_;
   std::optional<PageNumber> gesture_of_;
   std::string trouble_;  // the renderer's

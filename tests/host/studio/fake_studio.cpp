@@ -20,8 +20,7 @@ studio::Parts make_parts(const std::filesystem::path&, boost::asio::io_context&)
           [](studio::Rendering::Listener) { return std::make_unique<test::FakeRendering>(); },
           [](const studio::Project&, studio::Importing::Listener listener) {
             return std::make_unique<test::FakeImporting>(std::move(listener));
-          },
-          std::make_unique<test::FakeThumbnails>()};
+          }};
 }
 
 }  // namespace

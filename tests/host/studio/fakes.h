@@ -180,12 +180,6 @@ class FakeImporting final : public studio::Importing {
   Listener listener_;
 };
 
-// Of one model.
-class FakeThumbnails final : public studio::Thumbnails {
- public:
-  void want(Take take) override { take("man", "YSBtYW4="); }
-};
-
 class FakeRendering final : public studio::Rendering {
  public:
   void take(PageNumber, const Json& message) override { heard.push_back(message.at("do")); }

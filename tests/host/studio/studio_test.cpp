@@ -53,9 +53,7 @@ class StudioTest : public testing::Test {
       importing_ = importing.get();
       return importing;
     };
-    studio_.emplace(Parts{std::move(project), make_link, make_stage, make_rendering, make_importing,
-                          std::make_unique<test::FakeThumbnails>()},
-                    pages_);
+    studio_.emplace(Parts{std::move(project), make_link, make_stage, make_rendering, make_importing}, pages_);
   }
 
   void say(PageNumber page, const char* message) { studio_->handle_message(page, Json::parse(message)); }
@@ -104,17 +102,10 @@ TEST_F(StudioTest, RenderingsHearWhatIsForThem) {
   EXPECT_EQ(rendering_->heard, (std::vector<std::string>{"opened", "render", "painted", "closed"}));
 }
 
-TEST_F(StudioTest, ThumbnailsAreForWhoAsked) {
-  say(2, R"({"do": "thumbnails"})");
-  ASSERT_EQ(pages_.heard.size(), 1u);
-  EXPECT_EQ(pages_.heard[0].page, 2u);
-  EXPECT_EQ(pages_.heard[0].message.dump(), R"({"is":"thumbnail","model":"man","picture":"YSBtYW4="})");
-}
-
 TEST_F(StudioTest, AnImportIsAStepOfItsPage) {
   say(2, R"({"do": "import", "step": {"set": "rock"}})");
   EXPECT_EQ(project_->written, std::vector<std::string>{"rock"});
-  ASSERT_EQ(pages_.heard.size(), 2u);
+  ASSERT_EQ(pages_.heard.size(), 3u);
   EXPECT_EQ(pages_.heard[0].message.dump(), R"({"commands":[["import","rock.obj"]],"is":"done"})");
   EXPECT_EQ(pages_.heard[0].page, 2u);
   EXPECT_EQ(pages_.heard[1].message["is"], "project");
