@@ -189,9 +189,13 @@ class StudioPages::Open {
       const studio::RenderingSettings settings{file, file.parent_path(), "/none/mars"};
       return std::make_unique<WordsOnly>(context_, settings, std::move(listener));
     };
+    const auto make_importing = [&](const studio::Project& project, studio::Importing::Listener listener) {
+      return studio::make_importing(context_, {file, "/none/mars"}, project, std::move(listener));
+    };
     auto project = studio::open_project(file);
     project_ = project.get();
-    studio_.emplace(studio::Parts{std::move(project), make_link, studio::make_stage, make_rendering}, pages_);
+    studio_.emplace(studio::Parts{std::move(project), make_link, studio::make_stage, make_rendering, make_importing},
+                    pages_);
     keys_ = project_->keys_revision();
     poses_ = project_->describe_poses();
   }

@@ -15,13 +15,12 @@ using modeler::Limb;
 using modeler::Side;
 using modeler::Trunk;
 
-constexpr Side kSides[] = {Side::left, Side::right};
 constexpr std::size_t kMostJoints = 20'000;  // of files whose names are looked through
 
 std::size_t* joint_of(LimbDraft& draft, const std::string& limb) {
   for (std::size_t part = 0; part < std::size(modeler::kTrunkNames); ++part)
     if (limb_name(Trunk(part)) == limb) return &draft.of(Trunk(part));
-  for (const Side side : kSides)
+  for (const Side side : kBothSides)
     for (std::size_t each = 0; each < std::size(modeler::kLimbNames); ++each)
       if (limb_name(Limb(each), side) == limb) return &draft.of(Limb(each), side);
   return nullptr;
@@ -42,7 +41,7 @@ std::vector<std::string> missing_limbs(const LimbDraft& draft) {
   for (const Trunk part : {Trunk::pelvis, Trunk::head})
     if (draft.limbs.of(part) == kNone) missing.push_back(limb_name(part));
   for (const Limb limb : {Limb::hip, Limb::knee, Limb::ankle, Limb::shoulder, Limb::elbow, Limb::wrist})
-    for (const Side side : kSides)
+    for (const Side side : kBothSides)
       if (draft.limbs.of(limb, side) == kNone) missing.push_back(limb_name(limb, side));
   return missing;
 }

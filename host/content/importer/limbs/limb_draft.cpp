@@ -10,7 +10,6 @@ using modeler::Limb;
 using modeler::Side;
 using modeler::Trunk;
 
-constexpr Side kSides[] = {Side::left, Side::right};
 constexpr Limb kLeg[] = {Limb::hip, Limb::knee, Limb::ankle, Limb::toes};
 constexpr Limb kArm[] = {Limb::shoulder, Limb::elbow, Limb::wrist, Limb::fingers};
 
@@ -105,7 +104,7 @@ std::size_t LimbDraft::count() const {
 bool LimbDraft::has_both(Limb limb) const { return !both(*this, limb).empty(); }
 
 void complete(const FigureTree& tree, LimbDraft& draft) {
-  for (const Side side : kSides) {
+  for (const Side side : kBothSides) {
     check_chain(tree, draft, kLeg, side);
     check_chain(tree, draft, kArm, side);
   }

@@ -8,6 +8,8 @@
 
 namespace mars::importer {
 
+inline constexpr modeler::Side kBothSides[] = {modeler::Side::left, modeler::Side::right};
+
 struct LimbDraft {
   modeler::Limbs limbs;             // of the tree's joints
   std::string by;                   // what found them: "the names of Rigify"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
+#include <span>
 
 namespace mars::motion {
 namespace {
@@ -42,6 +43,16 @@ std::size_t heaviest_bone(const modeler::VertexBones& bones) {
   return bones.bone[static_cast<std::size_t>(heaviest - std::begin(bones.weight))];
 }
 
+// Of patches whose first control point follows a bone that counts.
+void add_bent_patches(const modeler::Shape& shape, std::span<const wire::Matrix> bones,
+                      const std::vector<bool>& counted, std::vector<glm::dvec3>& points) {
+  const std::vector<wire::Patch> bent = modeler::bent_patches(shape, bones);
+  for (std::size_t number = 0; number < bent.size(); ++number)
+    for (int i = 0; i < kGrid && counted[heaviest_bone(shape.patch_bones[number][0])]; ++i)
+      for (int j = 0; j < kGrid; ++j)
+        points.push_back(patch_point(bent[number], double(i) / (kGrid - 1), double(j) / (kGrid - 1)));
+}
+
 void add_skin(const modeler::Model& model, const Posture& posture, const modeler::Joint& joint,
               const std::function<bool(std::size_t)>& counts, std::vector<glm::dvec3>& points) {
   std::vector<wire::Matrix> matrices;
@@ -50,9 +61,12 @@ void add_skin(const modeler::Model& model, const Posture& posture, const modeler
     matrices.push_back(modeler::bone_matrix(frame_in(model, posture, bone.joint), bone, joint));
     counted.push_back(counts(bone.joint));
   }
-  const modeler::Mesh& mesh = *model.shapes[joint.segment->shape].mesh;
+  const modeler::Shape& shape = model.shapes[joint.segment->shape];
+  if (!shape.mesh) return add_bent_patches(shape, matrices, counted, points);
+  const modeler::Mesh& mesh = *shape.mesh;
   for (std::size_t vertex = 0; vertex < mesh.vertices.size(); ++vertex)
-    if (counted[heaviest_bone(mesh.bones[vertex])]) points.push_back(modeler::skinned_place(mesh, vertex, matrices));
+    if (counted[heaviest_bone(mesh.bones[vertex])])
+      points.push_back(modeler::skinned_place(mesh.vertices[vertex], mesh.bones[vertex], matrices));
 }
 
 }  // namespace
