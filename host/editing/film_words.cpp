@@ -203,7 +203,8 @@ void add_actor_options(cli::Command command, FilmWords& words) {
   command.checks([&words] {
     if (words.model.empty() == words.from.empty()) throw cli::UsageError("--model", "give it, or --from");
     if (!words.from.empty() && (words.beside || words.height || !words.place.empty() || !words.turn.empty()))
-      throw cli::UsageError("--from", "its actor stands where its keys say: give neither --place, --turn, --beside nor --height");
+      throw cli::UsageError("--from",
+                            "its actor stands where its keys say: give neither --place, --turn, --beside nor --height");
     if (words.lengthen && words.from.empty()) throw cli::UsageError("--lengthen", "give it with --from");
     if (words.beside && !words.place.empty()) throw cli::UsageError("--beside", "give it, or --place");
     if (words.turn.size() == 2) throw cli::UsageError("--turn", "give one angle, or three");

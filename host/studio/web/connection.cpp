@@ -24,7 +24,7 @@ namespace beast = boost::beast;
 namespace http = beast::http;
 
 constexpr std::uint32_t kMostHeader = 8192;  // bytes
-constexpr std::size_t kPiece = 64 * 1024;     // bytes of an upload that are taken at a time
+constexpr std::size_t kPiece = 64 * 1024;    // bytes of an upload that are taken at a time
 
 std::string_view view_of(boost::beast::string_view text) { return {text.data(), text.size()}; }
 
@@ -194,8 +194,8 @@ class Visit final : public Newcomer, public std::enable_shared_from_this<Visit<S
   beast::flat_buffer buffer_{2 * kMostHeader};
   std::optional<http::request_parser<http::empty_body>> parser_;
   http::response<http::string_body> answer_;
-  std::string host_;      // of the request
-  bool is_head_ = false;  // so its answer has no body
+  std::string host_;                                             // of the request
+  bool is_head_ = false;                                         // so its answer has no body
   std::optional<http::request_parser<http::buffer_body>> body_;  // of an upload
   std::vector<char> piece_;
   std::unique_ptr<studio::Upload> upload_;

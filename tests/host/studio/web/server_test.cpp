@@ -135,13 +135,13 @@ class ServerTest : public testing::Test {
     ServerSettings settings;
     settings.folder = folder_;
     settings.patience = patience;
-    server_ = make_server(
-        context_, settings,
-        {[this](PageNumber) { ++opened_; }, [](PageNumber, const Json&) {}, [this](PageNumber) { ++closed_; },
-         [this](const studio::UploadedFile& file) {
-           if (file.import != 7) throw Failure("no import waits for this file", "", "");
-           return std::make_unique<Noted>(came_);
-         }});
+    server_ = make_server(context_, settings,
+                          {[this](PageNumber) { ++opened_; }, [](PageNumber, const Json&) {},
+                           [this](PageNumber) { ++closed_; },
+                           [this](const studio::UploadedFile& file) {
+                             if (file.import != 7) throw Failure("no import waits for this file", "", "");
+                             return std::make_unique<Noted>(came_);
+                           }});
     const std::string link = server_->link();
     address_ = link.substr(7, link.find("/?") - 7);
     token_ = link.substr(link.find("token=") + 6);
