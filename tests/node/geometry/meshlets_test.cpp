@@ -56,6 +56,7 @@ class OneMeshlet {
     }
     film.meshlets = {meshlet};
     film.shapes[1].meshlet_count = 1;
+    film.shapes[2].first_meshlet = film.shapes[2].meshlet_count = 0;
     block_ = wire::pack(film);
   }
 

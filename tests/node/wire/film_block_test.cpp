@@ -57,7 +57,7 @@ TEST(FilmBlock, AnswersWhatHoldsAtAFrame) {
   const PackedFilm film(block, "film");
   EXPECT_EQ(film.name(film.segments()[0]), "base");
   EXPECT_EQ(film.name(film.segments()[1]), "arm");
-  EXPECT_EQ(film.patch_instances(), 6u);
+  EXPECT_EQ(film.patch_instances(), 7u);
   for (std::uint32_t frame = 0; frame < 3; ++frame) {
     EXPECT_EQ(film.matrix_at(film.segments()[0], frame), moved(0));
     EXPECT_EQ(film.matrix_at(film.segments()[1], frame), moved(frame));

@@ -118,16 +118,16 @@ TEST(Skins, UnsoundOnesAreRefused) {
     }
     return std::string("none");
   };
-  EXPECT_EQ(refusal("[0, 2]", "[2, 2]"), "has 2 joints, but a vertex follows bone 2");
+  EXPECT_EQ(refusal("[0, 2]", "[2, 2]"), "has 2 joints, but a point follows bone 2");
   EXPECT_EQ(refusal("[0, 2]", "[0, 0]"), "has no weight");
   EXPECT_EQ(refusal("[0, 2]", "[0, 1, 0, 1]"), "names bone 0 twice");
   EXPECT_EQ(refusal("[0, 2]", "[0]"), "has 1 numbers");
   EXPECT_EQ(refusal("[\"upper\", \"fore\"]", "[\"fore\", \"upper\"]"), "names 'upper' after 'fore'");
   EXPECT_EQ(refusal("[\"upper\", \"fore\"]", "[\"upper\", \"hand\"]"), "is 'hand', which is no joint of this model");
   EXPECT_EQ(refusal(",\n     \"skin\": {\"joints\": [\"upper\", \"fore\"]}", ""),
-            "is a mesh with bones, but the segment has no skin");
+            "has bones, but the segment has no skin");
   EXPECT_EQ(refusal("\"shape\": \"cloth\"", "\"shape\": \"box\""),
-            "belongs to a mesh with bones, which the shape is not");
+            "belongs to a shape with bones, which this one is not");
 }
 
 }  // namespace
