@@ -77,10 +77,10 @@ void run_add_of_film(const FilmWords& words) {
   words.film.change([&](Json& film, const Meaning&) {
     const auto last = animator::add_actor_of(film, other, words.name, file_name);
     length = last ? fit_length(film, *last, words.lengthen) : "";
-    if (last && !length.empty() && !words.lengthen)
+    if (last && !length.empty())
       length += ": set its frames to " + std::to_string(*last + 1) + " to see all of the keys";
   });
-  if (!length.empty()) words.film.remark(length);
+  if (!length.empty() && !words.lengthen) words.film.remark(length);
 }
 
 void run_add(const FilmWords& words) {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/content/importer/gltf_json.h"
+#include "host/content/importer/gltf/gltf_json.h"
 #include "host/content/importer/limbs/find_limbs.h"
 
 namespace mars::importer {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "host/content/importer/gltf_json.h"
+#include "host/content/importer/gltf/gltf_json.h"
 
 namespace mars::importer {
 

@@ -14,7 +14,7 @@
 #include "host/content/document/whole_file.h"
 #include "host/content/importer/apart.h"
 #include "host/content/importer/file_kind.h"
-#include "host/content/importer/gltf_json.h"
+#include "host/content/importer/gltf/gltf_json.h"
 #include "host/content/importer/import_gltf_film.h"
 #include "host/content/importer/import_mesh.h"
 #include "host/content/importer/import_motion.h"

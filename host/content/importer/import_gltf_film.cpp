@@ -11,7 +11,7 @@
 #include "host/content/importer/gltf/film_camera.h"
 #include "host/content/importer/gltf/film_clock.h"
 #include "host/content/importer/gltf/film_lights.h"
-#include "host/content/importer/gltf/joint_motion.h"
+#include "host/content/importer/joint_motion.h"
 #include "host/content/importer/motions/film_text.h"
 #include "host/content/importer/motions/motion_frames.h"
 
@@ -80,7 +80,7 @@ class GltfFilm {
  public:
   GltfFilm(const ImportOptions& options, FileKind kind, const Stance& stance)
       : options_(options),
-        scene_(read_gltf_scene(options.from, kind, options.animation)),
+        scene_(read_gltf_scene(options.from, options.animation)),
         clock_(film_clock(options.from, scene_, options.rate)),
         rest_(rest_of_nodes(scene_, clock_)),
         model_(read_mesh(options, kind, stance, rest_)),

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "host/content/importer/file_kind.h"
-#include "host/content/importer/gltf_json.h"
+#include "host/content/importer/gltf/gltf_json.h"
 
 namespace mars::importer {
 

@@ -18,7 +18,7 @@
 #include "host/content/document/file.h"
 #include "host/content/document/text.h"
 #include "host/content/importer/assimp_matrix.h"
-#include "host/content/importer/gltf_bounds.h"
+#include "host/content/importer/gltf/gltf_bounds.h"
 #include "host/content/importer/gltf_limbs.h"
 #include "host/content/importer/gltf_skins.h"
 #include "host/content/importer/joint_frame.h"
@@ -88,7 +88,7 @@ struct FileItself {
     if (kind == FileKind::glb && bytes.size() >= 4 && !bytes.starts_with("glTF"))
       throw Failure("is no GLB file: it does not begin with glTF", path.string(), "name it by what it is");
     Tree gltf;
-    if (is_gltf(kind)) gltf = gltf_json(bytes, kind);
+    if (is_gltf(kind)) gltf = gltf_json(bytes);
     require_within_buffers(path, gltf);
     promised = promised_by(path, kind, bytes, gltf);
     if (is_gltf(kind)) skins = gltf_skins(path, gltf);

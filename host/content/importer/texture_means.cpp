@@ -7,7 +7,7 @@
 #include "host/content/document/file.h"
 #include "host/content/document/text.h"
 #include "host/content/importer/apart.h"
-#include "host/content/importer/gltf_json.h"
+#include "host/content/importer/gltf/gltf_json.h"
 
 namespace mars::importer {
 namespace {

@@ -73,8 +73,8 @@ double component_at(std::string_view bytes, std::size_t component) {
 
 }  // namespace
 
-GltfBuffers::GltfBuffers(const std::filesystem::path& path, FileKind kind, std::string_view bytes, const Tree& gltf)
-    : path_(path), gltf_(gltf), own_(kind == FileKind::glb ? binary_chunk(bytes) : std::string_view()) {
+GltfBuffers::GltfBuffers(const std::filesystem::path& path, std::string_view bytes, const Tree& gltf)
+    : path_(path), gltf_(gltf), own_(is_binary(bytes) ? binary_chunk(bytes) : std::string_view()) {
   for (const Tree& each : at(gltf, "buffers")) {
     const Tree& uri = at(each, "uri");
     std::string content;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "host/content/importer/gltf_json.h"
+#include "host/content/importer/gltf/gltf_json.h"
 
 namespace mars::importer {
 
@@ -23,7 +23,7 @@ struct GltfNumbers {
 class GltfBuffers {
  public:
   // Of a file with these bytes and this JSON.
-  GltfBuffers(const std::filesystem::path& path, FileKind kind, std::string_view bytes, const Tree& gltf);
+  GltfBuffers(const std::filesystem::path& path, std::string_view bytes, const Tree& gltf);
 
   // Accessor `index`: floats, or whole numbers that stand for -1 to 1 (glTF 2.0, 3.6.2.2). Refuses what is not within
   // its buffer, and sparse accessors, in a failure that names the file and the accessor.

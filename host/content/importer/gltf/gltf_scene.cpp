@@ -8,7 +8,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/document/file.h"
-#include "host/content/importer/gltf_bounds.h"
+#include "host/content/importer/gltf/gltf_bounds.h"
 #include "host/content/modeler/joint.h"
 
 namespace mars::importer {
@@ -74,12 +74,12 @@ std::vector<glm::dmat4> GltfScene::matrices_at(double time) const {
   return animations.shown ? gltf_matrices(moved(nodes, *animations.shown, time)) : gltf_matrices(nodes);
 }
 
-GltfScene read_gltf_scene(const std::filesystem::path& path, FileKind kind, const std::string& animation) {
+GltfScene read_gltf_scene(const std::filesystem::path& path, const std::string& animation) {
   const std::string bytes = document::read_file(path, kLargestMeshFile);
-  const Tree gltf = gltf_json(bytes, kind);
+  const Tree gltf = gltf_json(bytes);
   require_within_buffers(path, gltf);
   GltfScene scene{gltf_nodes(path, gltf), {}, {}, {}};
-  scene.animations = gltf_animations(path, gltf, GltfBuffers(path, kind, bytes, gltf), animation);
+  scene.animations = gltf_animations(path, gltf, GltfBuffers(path, bytes, gltf), animation);
   const Tree& lights = at(at(at(gltf, "extensions"), "KHR_lights_punctual"), "lights");
   const std::vector<bool> in_scene = nodes_in_scene(gltf, scene.nodes.parents);
   for (std::size_t node = 0; node < in_scene.size(); ++node) {

@@ -42,6 +42,6 @@ struct GltfScene {
 };
 
 // Of the animation `animation`, the first where that is "". Refuses what gltf_nodes() and gltf_animations() refuse.
-GltfScene read_gltf_scene(const std::filesystem::path& path, FileKind kind, const std::string& animation);
+GltfScene read_gltf_scene(const std::filesystem::path& path, const std::string& animation);
 
 }  // namespace mars::importer

@@ -11,6 +11,7 @@
 #include "host/content/animator/keys/written.h"
 #include "host/content/animator/pose/figure.h"
 #include "host/content/animator/reading/read_film.h"
+#include "host/content/animator/settings/film_settings.h"
 #include "host/content/document/document.h"
 
 namespace mars::importer {
@@ -173,7 +174,7 @@ std::string film_text(const FilmText& film) {
   };
   std::string text = "{\n" + line("frames", film.frames) + line("rate", document::plain_number(film.rate));
   if (film.size) text += line("size", *film.size);
-  text += line("camera", film.camera);
+  text += line("background", animator::new_film()["background"]) + line("camera", film.camera);
   if (!film.lights.is_null()) text += line("lights", film.lights);
   text += "  \"models\": {" + Json(film.model_name).dump() + ": " + film.model;
   while (text.back() == '\n') text.pop_back();

@@ -1,4 +1,4 @@
-#include "host/content/importer/gltf_json.h"
+#include "host/content/importer/gltf/gltf_json.h"
 
 #include <charconv>
 #include <nlohmann/json.hpp>
@@ -18,9 +18,11 @@ std::uint32_t little_endian_at(std::string_view bytes, std::size_t at) {
   return number;
 }
 
+bool is_binary(std::string_view bytes) { return bytes.starts_with("glTF"); }
+
 // A GLB has, after its header of 12 bytes, a chunk of its length, "JSON" and itself.
-Tree gltf_json(std::string_view bytes, FileKind kind) {
-  if (kind == FileKind::glb) bytes = bytes.size() < 20 ? "" : bytes.substr(20, little_endian_at(bytes, 12));
+Tree gltf_json(std::string_view bytes) {
+  if (is_binary(bytes)) bytes = bytes.size() < 20 ? "" : bytes.substr(20, little_endian_at(bytes, 12));
   Tree tree = Tree::parse(bytes, nullptr, false);
   return tree.is_discarded() ? Tree() : tree;
 }
@@ -68,7 +70,7 @@ std::string percent_decoded(const std::string& uri) {
 }
 
 std::uintmax_t bytes_of_buffers(const std::filesystem::path& path) {
-  const Tree tree = gltf_json(document::read_file(path, kLargestMeshFile), FileKind::gltf);
+  const Tree tree = gltf_json(document::read_file(path, kLargestMeshFile));
   std::uintmax_t sum = 0;
   for (const Tree& buffer : at(tree, "buffers")) {
     const Tree& uri = at(buffer, "uri");

@@ -10,16 +10,17 @@
 #include <string_view>
 #include <vector>
 
-#include "host/content/importer/file_kind.h"
-
 namespace mars::importer {
 
 using Tree = nlohmann::json;
 
 inline constexpr std::uintmax_t kLargestMeshFile = std::uintmax_t{1} << 30;
 
+// Whether the file is a GLB, by how its bytes begin.
+bool is_binary(std::string_view bytes);
+
 // Of a .gltf's or .glb's bytes; null where it is no JSON.
-Tree gltf_json(std::string_view bytes, FileKind kind);
+Tree gltf_json(std::string_view bytes);
 
 // What `tree` has under `key`; null where it is no object or has none.
 const Tree& at(const Tree& tree, const char* key);

@@ -1,4 +1,4 @@
-#include "host/content/importer/gltf_bounds.h"
+#include "host/content/importer/gltf/gltf_bounds.h"
 
 #include <map>
 #include <nlohmann/json.hpp>

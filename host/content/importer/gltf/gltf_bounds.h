@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "host/content/importer/gltf_json.h"
+#include "host/content/importer/gltf/gltf_json.h"
 
 namespace mars::importer {
 

@@ -1,4 +1,4 @@
-#include "host/content/importer/gltf/joint_motion.h"
+#include "host/content/importer/joint_motion.h"
 
 #include <algorithm>
 #include <cmath>
