@@ -114,8 +114,11 @@ void Studio::send_done(PageNumber page, const std::vector<editing::Command>& bef
 void Studio::commit_import(PageNumber page, const Json& step, const std::vector<editing::Command>& before) {
   const Shown shown_before = shown();
   project_->commit(step);
-  send_done(page, before);
-  announce(shown_before, true);
+  // What fails from here on leaves the step in the film.
+  answer_failure(page, Json::object(), [&] {
+    send_done(page, before);
+    announce(shown_before, true);
+  });
 }
 
 // Where every exception of the studio's work ends: what one page asks for must not end the others' session.

@@ -77,7 +77,7 @@ class SkinBox {
     for (const Point& corner : corners.all()) {
       box_.add(moved(bone, corner));
       for (std::size_t r = 0; r < 3; ++r) {
-        double reach = 0;
+        double reach = std::abs(bone.m[r][3]);
         for (std::size_t a = 0; a < 3; ++a) reach += std::abs(bone.m[r][a] * corner[a]);
         reach_ = std::max(reach_, reach);
       }

@@ -68,7 +68,7 @@ struct EyeSkin {
   const float (*bones)[3][4];  // to eye space
   const float* weights;        // bone by bone, of each vertex
   int bone_count;
-  float scale;  // what bones are multiplied by for cofactors, so that squares of these stay far inside a float
+  float scale;  // what bones are multiplied by for cofactors, so that squares of cofactors stay far inside a float
 };
 
 // In pixels of the whole picture x = center[0] + scale * squeeze * x / w, y = center[1] - scale * y / w, w = -z; in

@@ -1,6 +1,7 @@
 #include "host/content/importer/skin.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "host/content/importer/assimp_matrix.h"
 
@@ -14,7 +15,7 @@ MeshSkin skin_of(const aiMesh& mesh, const std::vector<glm::dmat4>& joints) {
     skin.to_file.push_back(joints[bone] * dmat4_of(mesh.mBones[bone]->mOffsetMatrix));
     for (unsigned w = 0; w < mesh.mBones[bone]->mNumWeights; ++w) {
       const aiVertexWeight& held = mesh.mBones[bone]->mWeights[w];
-      if (!(held.mWeight > 0)) continue;
+      if (!(held.mWeight > 0) || !std::isfinite(held.mWeight)) continue;
       followed[held.mVertexId].push_back({bone, held.mWeight});
       weights[bone] += held.mWeight;
     }

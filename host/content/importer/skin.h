@@ -15,7 +15,7 @@ namespace mars::importer {
 
 struct MeshSkin {
   std::vector<glm::dmat4> to_file;             // of each bone that the mesh has: from the mesh's axes to the file's
-  std::vector<modeler::VertexBones> vertices;  // numbers of these bones
+  std::vector<modeler::VertexBones> vertices;  // numbers in to_file
   std::size_t heaviest = 0;                    // the bone whose weights, of all vertices, are most
   std::size_t weights_left_out = 0;            // of vertices that follow more bones than a model's may
 };

@@ -1,6 +1,7 @@
 #include "host/content/modeler/skin_weights.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace mars::modeler {
 namespace {
@@ -20,7 +21,7 @@ void add_up_same(std::vector<BoneWeight>& bones) {
 }  // namespace
 
 std::optional<VertexBones> bones_of_vertex(std::vector<BoneWeight> bones) {
-  std::erase_if(bones, [](const BoneWeight& each) { return !(each.weight > 0); });
+  std::erase_if(bones, [](const BoneWeight& each) { return !(each.weight > 0) || !std::isfinite(each.weight); });
   if (bones.empty()) return std::nullopt;
   add_up_same(bones);
   // Of equal ones, those with lower numbers.

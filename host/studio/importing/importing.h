@@ -1,6 +1,6 @@
 // Files of other programs that pages bring: uploaded, read by `mars import` in a process of its own, and put into the
 // open film as models and actors (docs/studio-protocol.md, "Importing"). One import at a time. All calls and callbacks
-// are on the thread that runs the io_context; nothing of it waits.
+// are on the thread that runs the io_context.
 #pragma once
 
 #include <filesystem>

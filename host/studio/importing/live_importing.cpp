@@ -45,11 +45,12 @@ struct Import {
   ImportRequest request;
   std::vector<ImportJob> jobs;
   UploadFolder folder;
-  std::vector<bool> begun;  // files that the page sends or has sent
-  std::size_t there = 0;    // files that are whole
-  std::vector<Made> made;   // of the jobs, in their order
-  std::string printed;      // by the run that goes on
-  bool ended = false;       // nothing of it is waited for any more
+  std::vector<bool> begun;            // files that the page sends or has sent
+  std::size_t there = 0;              // files that are whole
+  std::vector<Made> made;             // of the jobs, in their order
+  std::vector<fs::path> beside_film;  // models that have been put there
+  std::string printed;                // by the run that goes on
+  bool ended = false;                 // what still comes for it is refused
 };
 
 class LiveImporting;
@@ -148,7 +149,7 @@ std::unique_ptr<Upload> LiveImporting::upload(const UploadedFile& file) {
     throw Failure("no import waits for this file", "", "");
   const ImportedFile& promised = import_->request.files[file.file];
   if (import_->begun[file.file]) throw Failure("is there already", promised.name, "");
-  if (file.bytes != promised.bytes) throw Failure("is not as long as was said", promised.name, "");
+  if (file.bytes != promised.bytes) throw Failure("is not as long as the page announced", promised.name, "");
   import_->begun[file.file] = true;
   try {
     return std::make_unique<UploadToFile>(*this, import_, import_->folder.uploaded(promised.name));
@@ -189,7 +190,7 @@ std::vector<std::string> LiveImporting::words_of(const ImportJob& job, const Pat
 
 void LiveImporting::run_next() {
   const ImportJob& job = import_->jobs[import_->made.size()];
-  const fs::path to = import_->folder.made(import_->made.size(), job.name + ".json");
+  const fs::path to = import_->folder.make_folder(import_->made.size()) / (job.name + ".json");
   std::vector<std::string> words = words_of(
       job, [this](const std::string& file) { return import_->folder.uploaded(file); }, to);
   words.insert(words.begin(), settings_.mars.string());
@@ -227,9 +228,11 @@ std::vector<std::string> LiveImporting::put_beside_film() {
     for (int number = 1; name.empty() || document::file_exists(folder / name); ++number)
       name = import_->jobs[i].name + (number == 1 ? "" : "-" + std::to_string(number)) + ".json";
     Made& made = import_->made[i];
-    made.report.replace(0, made.file.string().size(), name);
+    if (const std::size_t at = made.report.find(made.file.string()); at != std::string::npos)
+      made.report.replace(at, made.file.string().size(), name);
     fs::rename(made.file, folder / name);
     made.file = folder / name;
+    import_->beside_film.push_back(made.file);
     files.push_back(name);
   }
   return files;
@@ -263,16 +266,14 @@ Json LiveImporting::step_for(const std::vector<std::string>& files, std::vector<
 
 // Models that no film came to have are not left.
 void LiveImporting::finish() {
-  const std::vector<std::string> files = put_beside_film();
-  std::vector<std::string> actors;
-  if (!project_.is_model()) {
-    try {
-      listener_.commit(import_->page, step_for(files, actors), typed_for(files));
-    } catch (...) {
-      std::error_code ignored;
-      for (const Made& made : import_->made) fs::remove(made.file, ignored);
-      throw;
-    }
+  std::vector<std::string> files, actors;
+  try {
+    files = put_beside_film();
+    if (!project_.is_model()) listener_.commit(import_->page, step_for(files, actors), typed_for(files));
+  } catch (...) {
+    std::error_code ignored;
+    for (const fs::path& file : import_->beside_film) fs::remove(file, ignored);
+    throw;
   }
   Json reports = Json::array();
   for (const Made& made : import_->made) reports.push_back(plain(made.report));
@@ -282,7 +283,7 @@ void LiveImporting::finish() {
 // As a person knows the files.
 std::string LiveImporting::plain(std::string text) const {
   std::vector<std::string> folders{import_->folder.uploaded("")};
-  for (std::size_t run = 0; run < import_->made.size(); ++run) folders.push_back(import_->folder.made(run, ""));
+  for (std::size_t run = 0; run < import_->made.size(); ++run) folders.push_back(import_->folder.folder_of(run) / "");
   for (const std::string& folder : folders)
     for (std::size_t at; (at = text.find(folder)) != text.npos;) text.erase(at, folder.size());
   return text;

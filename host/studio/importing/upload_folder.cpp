@@ -32,10 +32,11 @@ UploadFolder::~UploadFolder() {
   fs::remove_all(path_, ignored);
 }
 
-fs::path UploadFolder::made(std::size_t run, const std::string& name) const {
-  const fs::path folder = path_ / "made" / std::to_string(run);
-  make_folders(folder);
-  return folder / name;
+fs::path UploadFolder::folder_of(std::size_t run) const { return path_ / "made" / std::to_string(run); }
+
+fs::path UploadFolder::make_folder(std::size_t run) const {
+  make_folders(folder_of(run));
+  return folder_of(run);
 }
 
 WrittenFile::WrittenFile(fs::path path) : path_(std::move(path)) {

@@ -22,8 +22,9 @@ class UploadFolder {
   const std::filesystem::path& path() const { return path_; }
   // `name`: plain, "tex/skin.png".
   std::filesystem::path uploaded(const std::string& name) const { return path_ / "from" / name; }
-  // What the import's run of this number makes, "rock.json"; its folder is there then.
-  std::filesystem::path made(std::size_t run, const std::string& name) const;
+  // Where the import's run of this number puts what it makes; make_folder() makes it.
+  std::filesystem::path folder_of(std::size_t run) const;
+  std::filesystem::path make_folder(std::size_t run) const;
 
  private:
   std::filesystem::path path_;

@@ -36,7 +36,7 @@ class Gate {
   Refusal check_token(const Request& request) const;
   // One for the WebSocket.
   Refusal check_socket(const Request& request) const;
-  // That.
+  // A POST that uploads a file: Host, Origin and token.
   Refusal check_upload(const Request& request) const;
 
  private:

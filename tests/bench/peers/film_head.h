@@ -1,4 +1,4 @@
-// What peers are told of a film beside its triangles.
+// What peers read of a film beside its triangles.
 #pragma once
 
 #include <string>

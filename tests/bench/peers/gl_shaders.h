@@ -15,7 +15,7 @@ struct Shaders {
 // `map`: the numbers of a shadow map (shadow_map.h); empty: no shadows.
 Shaders surface_shaders(const MeshHead& head, const std::string& map);
 
-// Of meshes with skins of so many bones, without shadows.
+// Of meshes with skins of `bones` bones, without shadows.
 Shaders skin_shaders(const MeshHead& head, int bones);
 
 // As surface_shaders(), which also draw into two more colours what shadows of what moves need: what no light makes of a

@@ -28,7 +28,7 @@ RADIUS = 0.3
 
 
 def rings_of(triangles):
-    """Rings and vertices a ring of a tube of about so many triangles."""
+    """Rings and vertices a ring of a tube of about `triangles` triangles."""
     around = max(6, round(math.sqrt(triangles / 4)))
     return max(2, round(triangles / (2 * around))), around
 
@@ -122,7 +122,7 @@ def film(model, figures, size, frames, samples):
 
 
 class Heat:
-    """All competitors on so many processors. `folder`: for their files."""
+    """All competitors on `column` processors. `folder`: for their files."""
 
     def __init__(self, wanted, column, folder):
         self.wanted, self.column, self.folder = wanted, column, folder

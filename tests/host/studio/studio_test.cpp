@@ -106,7 +106,7 @@ TEST_F(StudioTest, AnImportIsAStepOfItsPage) {
   say(2, R"({"do": "import", "step": {"set": "rock"}})");
   EXPECT_EQ(project_->written, std::vector<std::string>{"rock"});
   ASSERT_EQ(pages_.heard.size(), 3u);
-  EXPECT_EQ(pages_.heard[0].message.dump(), R"({"commands":[["import","rock.obj"]],"is":"done"})");
+  EXPECT_EQ(pages_.heard[0].message.dump(), R"({"is":"done","commands":[["import","rock.obj"]]})");
   EXPECT_EQ(pages_.heard[0].page, 2u);
   EXPECT_EQ(pages_.heard[1].message["is"], "project");
   pages_.said();

@@ -75,7 +75,7 @@ class OneSkin {
   wire::PackedFilm view() const { return {block_, "film"}; }
 
  private:
-  // Bone by bone, of so many points.
+  // Bone by bone, of `points` points.
   static void add_weights(shape::Random& random, std::uint32_t points, std::uint32_t bones,
                           std::vector<float>& weights) {
     const std::size_t begin = weights.size();

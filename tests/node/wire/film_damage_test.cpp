@@ -65,7 +65,7 @@ bool taken(const Block& block) {
   }
 }
 
-// Each of these would have nodes read what is not there, or put vertices where no bounds look for them.
+// Each damage would have nodes read what is not there, or put points where no bounds look for them.
 TEST(FilmDamage, UnsoundSkinsAreRefused) {
   const auto refused = [](const auto& change) {
     FilmData film = small_film();

@@ -149,8 +149,9 @@ std::optional<std::uint32_t> add_actor_of(Json& film, const Json& other, const s
   actor["name"] = name;
   actor["model"] = put_model(changed, model, named);
   std::optional<std::uint32_t> last;
-  if (const auto keys = actor.find("keys"); keys != actor.end())
-    for (const Json& key : *keys) last = std::max(last.value_or(0), key.at("frame").get<std::uint32_t>());
+  for (const char* list : {"keys", "matrices"})
+    for (const Json& key : actor.value(list, Json::array()))
+      last = std::max(last.value_or(0), key.at("frame").get<std::uint32_t>());
   changed["actors"].push_back(std::move(actor));
   film = std::move(changed);
   return last;

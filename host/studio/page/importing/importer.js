@@ -74,6 +74,8 @@ export class Importer {
     if (state === "receiving") {
       this.#going.number = number;
       this.#send();
+    } else if (number !== this.#going.number) {
+      return;  // of an import that this page has stopped
     } else if (state === "reading") {
       this.panel.reading(name);
     } else {

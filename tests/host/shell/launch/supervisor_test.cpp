@@ -249,10 +249,10 @@ TEST_F(SupervisorOf, AReasonThatTheHostGivesIsNoLossThoughConnectionsBreak) {
   reported.ending.code = 1;
   reported.last_words = {kBroken};
   reported.fault = events::Fault{"is full", "/films", "", {}, {}, ""};
-  Remains said = never_began();
-  said.ending.code = 1;
-  said.last_words = {kBroken, "mars: film.json: line 3: has no camera"};
-  for (const Remains& failed : {reported, said}) {
+  Remains printed = never_began();
+  printed.ending.code = 1;
+  printed.last_words = {kBroken, "mars: film.json: line 3: has no camera"};
+  for (const Remains& failed : {reported, printed}) {
     starts_.clear();
     Supervisor supervisor = supervise({failed});
     EXPECT_NE(document::failure_of([&] { supervisor.render(); }), "");
