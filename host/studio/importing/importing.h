@@ -22,8 +22,8 @@ class Importing {
  public:
   struct Listener {
     std::function<void(PageNumber page, const Json& message)> tell;
-    // A step of the page's, written and sent as other steps; `before`: what a person would have typed for the files that it
-    // needs. Throws Failure where it makes no sense.
+    // A step of the page's, written and sent as other steps; `before`: what a person would have typed for the files
+    // that it needs. Throws Failure where it makes no sense.
     std::function<void(PageNumber page, const Json& step, const std::vector<editing::Command>& before)> commit;
   };
 

@@ -167,7 +167,7 @@ class Heat:
     def check_alike(self):
         files = {}
         for competitor in self.competitors:
-            files[competitor.name] = os.path.join(self.folder, competitor.name + ".ppm")
+            files[competitor.name] = os.path.join(self.folder, competitor.name.replace(" ", "-") + ".ppm")
             competitor.picture(files[competitor.name])
         for name, file in files.items():
             if name.startswith("llvmpipe") and (rms := pictures.rms(files["skinned"], file)) > MOST_RMS:
