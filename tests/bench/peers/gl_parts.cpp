@@ -2,8 +2,11 @@
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
+#include <malloc.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <limits>
 #include <stdexcept>
 
 namespace mars::bench {
@@ -28,7 +31,13 @@ void check(bool fine, const std::string& what) {
   if (!fine) throw std::runtime_error(what);
 }
 
-void begin_gl() {
+void begin_gl(const char* threads) {
+  // Mesa takes its memory again for every frame: it shall not go back to the system in between.
+  mallopt(M_MMAP_THRESHOLD, 1 << 30);
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+  setenv("LP_NUM_THREADS", threads, 1);
+  setenv("GALLIUM_DRIVER", "llvmpipe", 1);
+  setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
   const auto get_display =
       reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(eglGetProcAddress("eglGetPlatformDisplayEXT"));
   check(get_display != nullptr, "this EGL has no platforms");
@@ -39,6 +48,8 @@ void begin_gl() {
   EGLContext context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted);
   check(context != EGL_NO_CONTEXT, "EGL gives no context of OpenGL 3.3");
   check(eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context) == EGL_TRUE, "EGL needs a surface here");
+  const std::string driver = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  check(driver.find("llvmpipe") != std::string::npos, "not llvmpipe but " + driver);
 }
 
 GLuint link_program(const std::string& vertex, const std::string& fragment) {

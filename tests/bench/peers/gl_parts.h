@@ -13,7 +13,8 @@ namespace mars::bench {
 // Throws std::runtime_error with `what` unless all is `fine`.
 void check(bool fine, const std::string& what);
 
-void begin_gl();
+// llvmpipe with this many threads.
+void begin_gl(const char* threads);
 
 // Of the texts of a vertex and a fragment shader.
 GLuint link_program(const std::string& vertex, const std::string& fragment);
