@@ -246,8 +246,9 @@ class Shadows {
 // Hulls in the world round the pieces of segments: round each patch and meshlet, or round a whole shape.
 class Pieces {
  public:
-  Pieces(const wire::PackedFilm& film, const ShapeBoxes& boxes, bool are_fine)
-      : film_(film), boxes_(boxes), are_fine_(are_fine) {}
+  // `bones`: room for those of a segment.
+  Pieces(const wire::PackedFilm& film, const ShapeBoxes& boxes, bool are_fine, std::vector<const wire::Matrix*>& bones)
+      : film_(film), boxes_(boxes), are_fine_(are_fine), bones_(bones) {}
 
   template <typename Visit>
   void visit(const wire::Segment& segment, std::uint32_t frame, const Visit& visit) {
@@ -299,7 +300,7 @@ class Pieces {
   const wire::PackedFilm& film_;
   const ShapeBoxes& boxes_;
   bool are_fine_;
-  std::vector<const wire::Matrix*> bones_;  // of a segment
+  std::vector<const wire::Matrix*>& bones_;
 };
 
 // Visits each of the frames at which the segment, its material or the camera is another than at the one before.
@@ -364,7 +365,7 @@ void Sweep::begin(const Scene& scene, std::span<const std::uint32_t> frames, con
   std::uint64_t pieces = 0;
   for (const std::uint32_t segment : movers) pieces += film.shape(film.segments()[segment].shape).size();
   const bool any_still = movers.size() < film.segments().size();
-  Pieces hulls(film, boxes, any_still && pieces * frames.size() <= kMostHulls);
+  Pieces hulls(film, boxes, any_still && pieces * frames.size() <= kMostHulls, bones_);
   std::optional<Shadows> shadows;
   if (any_still && scene.casting_count() > 0) shadows.emplace(scene, frames.front(), boxes, movers.size());
   for (const std::uint32_t number : movers) {

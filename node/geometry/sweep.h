@@ -38,6 +38,7 @@ class Sweep {
   void take_in(const LineRange& lines);
 
   std::vector<SweptHull> casters_;
+  std::vector<const wire::Matrix*> bones_;  // of the segment that is swept
   LineRange lines_{0, 0};
 };
 

@@ -109,6 +109,13 @@ TEST(Allocation, NoneWithLayers) {
   expect_none_in_steady_state(with_samples(crowd(64, 36, 600, 3), 4), nullptr, layered(4));
 }
 
+TEST(Allocation, NoneWithSkins) {
+  wire::FilmData film = bending(64, 36, 600, 3);
+  for (wire::Light& light : film.lights) light.casts = 0;
+  expect_none_in_steady_state(film, nullptr);
+  expect_none_in_steady_state(film, nullptr, wire::with_layers(wire::PixelFormat::half, wire::kAllLayers, 1));
+}
+
 TEST(Allocation, NoneWhereTheRunIsTraced) {
   trace::Trace trace;
   expect_none_in_steady_state(crowd(64, 36, 600, 3), &trace);
