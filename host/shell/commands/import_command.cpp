@@ -14,10 +14,12 @@
 namespace mars::commands {
 namespace {
 
-constexpr const char* kAfterwards = R"(Prints what it read from the file, what it made, and what it left out, such as
-animations. Names the limbs of figures, which then walk, sit and wave; where it finds others than it should:
+constexpr const char* kAfterwards = R"(Prints what it read from the file, what it made, and what it left out. More:
+docs/importing.md, docs/motions.md.
+
+Names the limbs of figures, which then walk, sit and wave. Where it finds others
+than it should:
   mars model figure.json set JOINT --limb left.knee
-More: docs/importing.md, docs/motions.md.
 
 For example, scale a glTF figure to 5 units, and make it look forward:
   mars import figure.glb -o figure.json --height 5 --front z
