@@ -24,8 +24,8 @@ than it should:
 For example, scale a glTF figure to 5 units, and make it look forward:
   mars import figure.glb -o figure.json --height 5 --front z
 
-The same figure with one of its animations, its camera and its lights, as a film:
-  mars import figure.glb -o walk.json --as film --animation Walk --height 5 --front z
+The same figure with one of its animations, its camera and lights, as a film:
+  mars import figure.glb -o walk.json --as film --animation Walk --front z
 
 A captured walk as a film, of a figure as tall as a man of the library:
   mars import walk.bvh -o walk.json --height 5.1
