@@ -31,7 +31,7 @@ class Studio {
   // `pages` must outlive it.
   Studio(Parts parts, web::Pages& pages);
 
-  // Of these calls only upload() throws. A message that fails or makes no sense is answered with `refused`; what fails
+  // Only upload() throws. A message that fails or makes no sense is answered with `refused`; what fails
   // otherwise is a remark to the page, or to all.
   void page_opened(PageNumber page);
   void handle_message(PageNumber page, const Json& message);

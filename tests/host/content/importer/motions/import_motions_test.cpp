@@ -204,7 +204,7 @@ TEST_F(Motions, DamagedAcclaimFilesAreRefusedAtTheirLine) {
 
 TEST_F(Motions, ACapturedWalkStandsWhereItsFilesPutIt) {
   const fs::path data = fs::path(MARS_SOURCE_DIR) / "../shared/data";
-  if (!fs::exists(data / "02_01.amc")) GTEST_SKIP() << "the walk is not beside the checkout";
+  if (!fs::exists(data / "02_01.amc")) GTEST_SKIP() << "no files in " << data;
   const std::string report = import_model(options_for(data / "02_01.amc"));
   EXPECT_TRUE(holds(report, "343 frames at 120 a second")) << report;
   FilmPlaces film(folder_ / "model.json");
