@@ -91,9 +91,12 @@ ShapeBoxes::ShapeBoxes(const wire::PackedFilm& film) {
     bones_.resize(first + film.shape(shape).bone_count, kEmptyBox);
     first_bone_.push_back(bones_.size());
     const std::span boxes = std::span(bones_).subspan(first);
-    const auto skins = film.skins_of_patches(shape);
-    for (std::size_t patch = 0; patch < skins.size(); ++patch)
-      take_in_points(film, skins[patch], film.patches_of(shape)[patch].points, boxes);
+    for (const wire::NetPatch& patch : film.net_patches_of(shape))
+      for (const std::uint32_t stencil : patch)
+        for (const wire::StencilTerm& term : film.terms_of(film.stencils()[stencil])) {
+          const wire::NetPoint& point = film.net_points()[term.point];
+          take_in_points(film, point.skin, std::span(&point.place, 1), boxes);
+        }
     for (const wire::Meshlet& m : film.meshlets_of(shape))
       take_in_points(film, m.skin, film.mesh_places().subspan(m.first_vertex, m.vertex_count), boxes);
   }

@@ -7,9 +7,10 @@
 namespace mars::geometry {
 namespace {
 
-// Of a blended place, relative to the largest of what is added up to it, at most: single precision rounds some ten
-// times on the way.
-constexpr double kBlendRounding = 1.0 / (1 << 19);
+// Of a blended place, or a mean of such, relative to the largest of what is added up to it, at most: single precision
+// rounds some ten times on the way, and once for each of a stencil's terms.
+constexpr double kBlendRounding = 1.0 / (1 << 15);
+static_assert((wire::kMostTerms + 16.0) / (1 << 24) < kBlendRounding);
 
 // Along the axes of eye space, round a box that several bones move.
 class MovedBox {
@@ -90,6 +91,13 @@ shape::EyeMatrix blended(const wire::PackedFilm& film, const wire::Skin& skin, s
   return sum;
 }
 
+std::array<float, 3> moved_point(const wire::PackedFilm& film, const wire::NetPoint& point,
+                                 std::span<const shape::EyeMatrix> bones) {
+  float place[3];
+  shape::to_eye(blended(film, point.skin, 0, 1, bones), point.place, place);
+  return std::to_array(place);
+}
+
 void SegmentPlace::find(const Scene& scene, std::size_t segment) {
   const wire::PackedFilm& film = scene.film();
   shape_ = film.segments()[segment].shape;
@@ -101,6 +109,7 @@ void SegmentPlace::find(const Scene& scene, std::size_t segment) {
 
 void SegmentPlace::find_bones(const Scene& scene, std::size_t segment) {
   bones_.reserve(scene.most_bones());
+  net_.start(scene.film());
   float largest = 0;
   const std::uint32_t count = scene.film().segments()[segment].bone_count;
   for (std::uint32_t bone = 0; bone < count; ++bone) {
@@ -114,12 +123,12 @@ void SegmentPlace::find_bones(const Scene& scene, std::size_t segment) {
 bool SegmentPlace::mirrors() const { return shape::mirrors(has_skin() ? bones_.front() : matrix_); }
 
 shape::EyePatch SegmentPlace::patch(const wire::PackedFilm& film, std::size_t number) const {
-  const wire::Patch& patch = film.patches_of(shape_)[number];
-  if (!has_skin()) return shape::to_eye(matrix_, patch);
-  const wire::Skin& skin = film.skins_of_patches(shape_)[number];
+  if (!has_skin()) return shape::to_eye(matrix_, film.patches_of(shape_)[number]);
+  const auto move = [&](const wire::NetPoint& point) { return moved_point(film, point, bones_); };
+  const wire::NetPatch& stencils = film.net_patches_of(shape_)[number];
   shape::EyePatch moved;
-  for (std::uint32_t point = 0; point < wire::kPatchPoints; ++point)
-    shape::to_eye(blended(film, skin, point, wire::kPatchPoints, bones_), patch.points[point], moved.point[point]);
+  for (std::size_t point = 0; point < wire::kPatchPoints; ++point)
+    std::copy_n(net_.bezier(film, stencils[point], move).begin(), 3, moved.point[point]);
   return moved;
 }
 

@@ -1,6 +1,6 @@
 // Where a segment is in eye space at its scene's frame: its one matrix moves it, or, where it has a skin, its bones'.
-// What bounds it bounds either: a skin's vertices and patches' points go by sums of matrices whose weights add up to 1,
-// so what lies in a box stays between where its bones move the box.
+// What bounds it bounds either: a skin's vertices and the points of nets go by sums of matrices whose weights add up to
+// 1, so what lies in a box stays between where its bones move the box; and Bezier points stay between those of nets.
 #pragma once
 
 #include <array>
@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "node/geometry/net_points.h"
 #include "node/geometry/scene.h"
 #include "node/shape/bezier.h"
 #include "node/wire/film.h"
@@ -32,6 +33,10 @@ BoxCorners corners_of(const shape::EyeMatrix& matrix, const std::array<float, 3>
 // bones share stay the same.
 shape::EyeMatrix blended(const wire::PackedFilm& film, const wire::Skin& skin, std::uint32_t point,
                          std::uint32_t points, std::span<const shape::EyeMatrix> bones);
+
+// Where bones move a net's point.
+std::array<float, 3> moved_point(const wire::PackedFilm& film, const wire::NetPoint& point,
+                                 std::span<const shape::EyeMatrix> bones);
 
 class SegmentPlace {
  public:
@@ -61,6 +66,7 @@ class SegmentPlace {
   shape::EyeMatrix matrix_{};
   shape::EyeMap map_{};
   std::vector<shape::EyeMatrix> bones_;
+  mutable NetPoints<float> net_;  // patches ask for the same points
   float scale_ = 1;
 };
 

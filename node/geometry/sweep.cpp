@@ -89,7 +89,7 @@ class SkinBox {
   }
 
  private:
-  static constexpr double kRounding = 1.0 / (1 << 19);  // as of places in segment_place.cpp
+  static constexpr double kRounding = 1.0 / (1 << 15);  // as of places in segment_place.cpp
 
   Box box_;
   double reach_ = 0;
@@ -246,9 +246,8 @@ class Shadows {
 // Hulls in the world round the pieces of segments: round each patch and meshlet, or round a whole shape.
 class Pieces {
  public:
-  // `bones`: room for those of a segment.
-  Pieces(const wire::PackedFilm& film, const ShapeBoxes& boxes, bool are_fine, std::vector<const wire::Matrix*>& bones)
-      : film_(film), boxes_(boxes), are_fine_(are_fine), bones_(bones) {}
+  Pieces(const wire::PackedFilm& film, const ShapeBoxes& boxes, bool are_fine, SkinScratch& scratch)
+      : film_(film), boxes_(boxes), are_fine_(are_fine), scratch_(scratch) {}
 
   template <typename Visit>
   void visit(const wire::Segment& segment, std::uint32_t frame, const Visit& visit) {
@@ -267,40 +266,43 @@ class Pieces {
  private:
   template <typename Visit>
   void visit_skin(const wire::Segment& segment, std::uint32_t frame, const Visit& visit) {
-    bones_.clear();
-    for (const wire::Track& bone : film_.bones_of(segment)) bones_.push_back(&film_.matrix_at(bone, frame));
-    const auto skins = film_.skins_of_patches(segment.shape);
-    for (std::size_t patch = 0; patch < skins.size(); ++patch)
-      visit(hull_of(film_.patches_of(segment.shape)[patch], skins[patch]));
+    scratch_.bones.clear();
+    for (const wire::Track& bone : film_.bones_of(segment)) scratch_.bones.push_back(&film_.matrix_at(bone, frame));
+    scratch_.net.start(film_);
+    for (const wire::NetPatch& patch : film_.net_patches_of(segment.shape)) visit(hull_of(patch));
     for (const wire::Meshlet& meshlet : film_.meshlets_of(segment.shape)) {
       SkinBox box;
       for (const std::uint32_t bone : film_.bones_of(meshlet.skin))
-        box.add(*bones_[bone], corners_of(meshlet.low, meshlet.high));
+        box.add(*scratch_.bones[bone], corners_of(meshlet.low, meshlet.high));
       visit(box.corners());
     }
   }
 
-  Hull hull_of(const wire::Patch& patch, const wire::Skin& skin) const {
+  Hull hull_of(const wire::NetPatch& patch) {
     Hull hull;
-    const auto weights = film_.weights_of(skin, wire::kPatchPoints);
-    for (std::size_t point = 0; point < wire::kPatchPoints; ++point) {
-      const Point at_rest{patch.points[point][0], patch.points[point][1], patch.points[point][2]};
-      Point sum{};
-      std::size_t at = point;
-      for (const std::uint32_t bone : film_.bones_of(skin)) {
-        const Point by_bone = moved(*bones_[bone], at_rest);
-        for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += double{weights[at]} * by_bone[axis];
-        at += wire::kPatchPoints;
-      }
-      hull.add(sum);
+    const auto move = [&](const wire::NetPoint& point) { return blended_place(point); };
+    for (const std::uint32_t stencil : patch) {
+      const auto& place = scratch_.net.bezier(film_, stencil, move);
+      hull.add({place[0], place[1], place[2]});
     }
     return hull;
+  }
+
+  Point blended_place(const wire::NetPoint& point) const {
+    Point sum{};
+    const auto weights = film_.weights_of(point.skin, 1);
+    const auto bones = film_.bones_of(point.skin);
+    for (std::size_t i = 0; i < bones.size(); ++i) {
+      const Point by_bone = moved(*scratch_.bones[bones[i]], Point{point.place[0], point.place[1], point.place[2]});
+      for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += double{weights[i]} * by_bone[axis];
+    }
+    return sum;
   }
 
   const wire::PackedFilm& film_;
   const ShapeBoxes& boxes_;
   bool are_fine_;
-  std::vector<const wire::Matrix*>& bones_;
+  SkinScratch& scratch_;
 };
 
 // Visits each of the frames at which the segment, its material or the camera is another than at the one before.
@@ -365,7 +367,7 @@ void Sweep::begin(const Scene& scene, std::span<const std::uint32_t> frames, con
   std::uint64_t pieces = 0;
   for (const std::uint32_t segment : movers) pieces += film.shape(film.segments()[segment].shape).size();
   const bool any_still = movers.size() < film.segments().size();
-  Pieces hulls(film, boxes, any_still && pieces * frames.size() <= kMostHulls, bones_);
+  Pieces hulls(film, boxes, any_still && pieces * frames.size() <= kMostHulls, scratch_);
   std::optional<Shadows> shadows;
   if (any_still && scene.casting_count() > 0) shadows.emplace(scene, frames.front(), boxes, movers.size());
   for (const std::uint32_t number : movers) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "node/geometry/line_range.h"
+#include "node/geometry/net_points.h"
 #include "node/geometry/scene.h"
 
 namespace mars::geometry {
@@ -18,6 +19,12 @@ struct SweptHull {
 
   float along[3][kMostPoints];
   std::uint32_t count;
+};
+
+// Room for what a segment with a skin takes: its bones' matrices, and its net's points in the world.
+struct SkinScratch {
+  std::vector<const wire::Matrix*> bones;
+  NetPoints<double> net;
 };
 
 class Sweep {
@@ -38,7 +45,7 @@ class Sweep {
   void take_in(const LineRange& lines);
 
   std::vector<SweptHull> casters_;
-  std::vector<const wire::Matrix*> bones_;  // of the segment that is swept
+  SkinScratch scratch_;
   LineRange lines_{0, 0};
 };
 

@@ -37,7 +37,7 @@ class OneSkin {
     film.segments.resize(1);
     film.segments[0] = {0, 0, {0, 1}, {0, 1}, 0, 0, bones};
     film.shapes = {{0, static_cast<std::uint32_t>(film.patches.size()), 0, 1, bones}};
-    film.patch_skins.clear();
+    film.net_points.clear(), film.stencil_terms.clear(), film.stencils.clear(), film.net_patches.clear();
     film.intervals = {{0, 3, 0, 0}};
     film.mesh_places.clear(), film.mesh_normals.clear();
     film.skin_bones.clear(), film.bones.clear();
@@ -57,12 +57,7 @@ class OneSkin {
     film.meshlets = {meshlet};
     film.skin_weights.clear();
     add_weights(random, kVertices, bones, film.skin_weights);
-    for (wire::Patch& patch : film.patches) {
-      for (Float3& point : patch.points)
-        for (float& coordinate : point) coordinate = static_cast<float>(random.real(0, 1));
-      film.patch_skins.push_back({0, bones, static_cast<std::uint32_t>(film.skin_weights.size())});
-      add_weights(random, wire::kPatchPoints, bones, film.skin_weights);
-    }
+    for (std::size_t patch = 0; patch < film.patches.size(); ++patch) add_net_patch(random, bones, film);
     for (std::uint32_t bone = 0; bone < bones; ++bone) {
       film.skin_bones.push_back(bone);
       film.bones.push_back({static_cast<std::uint32_t>(film.changes.size()), 1});
@@ -75,6 +70,27 @@ class OneSkin {
   wire::PackedFilm view() const { return {block_, "film"}; }
 
  private:
+  // Of sixteen points of its own: every other is one of them, the others are means of two.
+  static void add_net_patch(shape::Random& random, std::uint32_t bones, wire::FilmData& film) {
+    wire::NetPatch& patch = film.net_patches.emplace_back();
+    const auto first = static_cast<std::uint32_t>(film.net_points.size());
+    for (std::uint32_t i = 0; i < wire::kPatchPoints; ++i) {
+      wire::NetPoint point{{}, {0, bones, static_cast<std::uint32_t>(film.skin_weights.size())}};
+      for (float& coordinate : point.place) coordinate = static_cast<float>(random.real(0, 1));
+      film.net_points.push_back(point);
+      add_weights(random, 1, bones, film.skin_weights);
+      patch[i] = static_cast<std::uint32_t>(film.stencils.size());
+      const auto term = static_cast<std::uint32_t>(film.stencil_terms.size());
+      if (i % 2 == 0) {
+        film.stencils.push_back({term, 1});
+        film.stencil_terms.push_back({first + i, 1});
+      } else {
+        film.stencils.push_back({term, 2});
+        film.stencil_terms.insert(film.stencil_terms.end(), {{first + i - 1, 0.3f}, {first + i, 0.7f}});
+      }
+    }
+  }
+
   // Bone by bone, of `points` points.
   static void add_weights(shape::Random& random, std::uint32_t points, std::uint32_t bones,
                           std::vector<float>& weights) {
@@ -114,26 +130,29 @@ std::array<std::array<Number, 4>, 3> blended(const wire::PackedFilm& film, const
 }
 
 // Of a patch's points, as plainly as can be.
-TEST(Skins, PatchesPointsAreTheSumsBitForBit) {
+TEST(Skins, PatchesPointsAreMeansOfTheSumsBitForBit) {
   shape::Random random(6);
   for (const std::uint32_t bones : {1u, 3u, 9u}) {
     const OneSkin skin(random, bones);
     const wire::PackedFilm film = skin.view();
     const Placed placed(film);
+    const auto moved_by_bones = [&](const wire::NetPoint& point, std::size_t r) {
+      float m[4] = {};
+      for (std::size_t bone = 0; bone < bones; ++bone)
+        for (std::size_t c = 0; c < 4; ++c)
+          m[c] += film.skin_weights()[point.skin.first_weight + bone] * placed.place.bones()[bone].m[r][c];
+      const Float3& p = point.place;
+      return ((m[0] * p[0] + m[1] * p[1]) + m[2] * p[2]) + m[3];
+    };
     for (std::size_t number = 0; number < film.patches().size(); ++number) {
       const shape::EyePatch moved = placed.place.patch(film, number);
-      const float* const weights = film.skin_weights().data() + film.patch_skins()[number].first_weight;
-      for (std::size_t point = 0; point < wire::kPatchPoints; ++point) {
-        const Float3& p = film.patches()[number].points[point];
+      for (std::size_t point = 0; point < wire::kPatchPoints; ++point)
         for (std::size_t r = 0; r < 3; ++r) {
-          float m[4] = {};
-          for (std::size_t bone = 0; bone < bones; ++bone)
-            for (std::size_t c = 0; c < 4; ++c)
-              m[c] += weights[bone * wire::kPatchPoints + point] * placed.place.bones()[bone].m[r][c];
-          const float expected = ((m[0] * p[0] + m[1] * p[1]) + m[2] * p[2]) + m[3];
+          float expected = 0;
+          for (const wire::StencilTerm& term : film.terms_of(film.stencils()[film.net_patches()[number][point]]))
+            expected += term.weight * moved_by_bones(film.net_points()[term.point], r);
           ASSERT_EQ(std::memcmp(&moved.point[point][r], &expected, sizeof(float)), 0) << bones << " bones";
         }
-      }
     }
   }
 }
