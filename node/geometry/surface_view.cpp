@@ -58,12 +58,11 @@ std::array<float, 4> bernstein(float t) {
 
 // Where points with a skin are at a frame, seen by its camera.
 void put_moved(const wire::PackedFilm& film, const wire::Segment& segment, const wire::Skin& skin,
-               std::span<const Float3> points, std::uint32_t frame, std::vector<shape::EyeMatrix>& bones,
-               std::vector<Float3>& out) {
-  bones.resize(segment.bone_count);
+               std::span<const Float3> points, std::uint32_t frame, EyeBones& bones, std::vector<Float3>& out) {
+  bones.begin(segment.blend, segment.bone_count);
   for (const std::uint32_t bone : film.bones_of(skin))
-    bones[bone] =
-        shape::eye_matrix(film.camera_at(frame).world_to_eye, film.matrix_at(film.bones_of(segment)[bone], frame));
+    bones.put(bone, shape::eye_matrix(film.camera_at(frame).world_to_eye,
+                                      film.matrix_at(film.bones_of(segment)[bone], frame)));
   const auto count = static_cast<std::uint32_t>(points.size());
   out.resize(count);
   for (std::uint32_t point = 0; point < count; ++point) {

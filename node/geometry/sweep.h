@@ -9,6 +9,7 @@
 
 #include "node/geometry/line_range.h"
 #include "node/geometry/scene.h"
+#include "node/geometry/skin_bounds.h"
 
 namespace mars::geometry {
 
@@ -38,7 +39,7 @@ class Sweep {
   void take_in(const LineRange& lines);
 
   std::vector<SweptHull> casters_;
-  std::vector<const wire::Matrix*> bones_;  // of the segment that is swept
+  SkinBounds bones_;  // of the segment that is swept, in the world
   LineRange lines_{0, 0};
 };
 
