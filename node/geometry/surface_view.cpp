@@ -57,16 +57,16 @@ std::array<float, 4> bernstein(float t) {
 }
 
 // Bones of a segment at a frame, seen by its camera.
-void put_bones(const wire::PackedFilm& film, const wire::Segment& segment, std::uint32_t frame,
-               std::vector<shape::EyeMatrix>& bones) {
-  bones.clear();
-  for (const wire::Track& bone : film.bones_of(segment))
-    bones.push_back(shape::eye_matrix(film.camera_at(frame).world_to_eye, film.matrix_at(bone, frame)));
+void put_bones(const wire::PackedFilm& film, const wire::Segment& segment, std::uint32_t frame, EyeBones& bones) {
+  bones.begin(segment.blend, segment.bone_count);
+  for (std::uint32_t bone = 0; bone < segment.bone_count; ++bone)
+    bones.put(bone, shape::eye_matrix(film.camera_at(frame).world_to_eye,
+                                      film.matrix_at(film.bones_of(segment)[bone], frame)));
 }
 
 // Where points with a skin are, as `bones` move them.
 void put_moved(const wire::PackedFilm& film, const wire::Skin& skin, std::span<const Float3> points,
-               std::span<const shape::EyeMatrix> bones, std::vector<Float3>& out) {
+               const EyeBones& bones, std::vector<Float3>& out) {
   const auto count = static_cast<std::uint32_t>(points.size());
   out.resize(count);
   for (std::uint32_t point = 0; point < count; ++point) {

@@ -42,7 +42,7 @@ class SurfaceView {
     std::optional<std::uint32_t> patch;  // its number; none: there is none yet
     std::vector<std::array<float, 3>> now, before;
     std::span<const wire::MeshTriangle> triangles;
-    std::vector<shape::EyeMatrix> bones;
+    EyeBones bones;
     NetPoints<float> net;
   };
 

@@ -10,6 +10,7 @@
 #include "node/geometry/line_range.h"
 #include "node/geometry/net_points.h"
 #include "node/geometry/scene.h"
+#include "node/geometry/skin_bounds.h"
 
 namespace mars::geometry {
 
@@ -21,9 +22,9 @@ struct SweptHull {
   std::uint32_t count;
 };
 
-// Room for what a segment with a skin takes: its bones' matrices, and its net's points in the world.
+// Room for what the segment with a skin that is swept takes, in the world.
 struct SkinScratch {
-  std::vector<const wire::Matrix*> bones;
+  SkinBounds bones;
   NetPoints<double> net;
 };
 

@@ -315,6 +315,7 @@ void PackedFilm::check_segments(const std::string& where) const {
   for (const Segment& segment : segments_) {
     require(segment.shape < shape_count(), where, "a segment has no such shape");
     require(segment.name < names_.size() && segment.material_name < names_.size(), where, "a segment has no such name");
+    require(segment.blend <= kLastBlend, where, "a segment's blend is unknown");
     require(sound(segment.motion, changes_, matrices_.size()), where, "a segment's motion is broken");
     require(sound(segment.material, changes_, materials_.size()), where, "a segment's material is broken");
     const std::uint32_t bones = shape(segment.shape).bone_count;

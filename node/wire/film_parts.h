@@ -116,11 +116,15 @@ struct Shape {
   std::uint64_t size() const { return std::uint64_t{patch_count} + meshlet_count; }
 };
 
+// How a skin's bones are blended at a point: by the sum of their matrices, each times its weight, or by dual
+// quaternions (node/shape/dual_quaternion.h), which keep the volume where bones turn far against each other.
+enum class Blend : std::uint32_t { linear, dual_quaternions };
+inline constexpr Blend kLastBlend = Blend::dual_quaternions;
+
 // One instance of a shape. `motion` gives indices into matrices: T-matrices from the unit cube to the world. Of a shape
 // with a skin they are where the segment's joint would put it if it were rigid; what is drawn follows bones[first_bone,
-// first_bone + bone_count), tracks of such matrices too: a vertex, or a net's point, goes by the sum of its bones'
-// matrices, each times its weight. `material` gives indices into materials. Patches and meshlets of the whole film are
-// numbered segment by segment.
+// first_bone + bone_count), tracks of such matrices too: a vertex, or a net's point, goes by a blend of its bones.
+// `material` gives indices into materials. Patches and meshlets of the whole film are numbered segment by segment.
 struct Segment {
   std::uint32_t shape;
   std::uint32_t name;  // offset into names
@@ -129,6 +133,7 @@ struct Segment {
   std::uint32_t material_name = 0;  // offset into names: of what it is made of
   std::uint32_t first_bone = 0;
   std::uint32_t bone_count = 0;  // 0: it is rigid
+  Blend blend = Blend::linear;   // of a skin
 };
 
 // What is interpolated over a triangle: its normal, shaded at each sample; or the colours of its vertices; or nothing,
