@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <set>
 
+#include "host/content/modeler/bent_skin.h"
 #include "host/content/modeler/frames.h"
 #include "host/studio/stage/reach_place.h"
 
@@ -179,9 +180,11 @@ class Maker {
 
 wire::Matrix matrix_of_point(const modeler::Model& model, std::size_t joint, const animator::ActorState& state,
                              const Grip& point) {
-  const modeler::Shape& shape = model.shapes[model.joints[joint].segment->shape];
+  const modeler::Segment& segment = *model.joints[joint].segment;
+  const modeler::Shape& shape = model.shapes[segment.shape];
   if (shape.patch_bones.empty()) return state.segments[joint].value();
-  return modeler::blended(shape.patch_bones[point.patch][4 * point.j + point.i], state.bones[joint]);
+  return modeler::BentSkin(state.bones[joint], segment.blend)
+      .matrix_of(shape.patch_bones[point.patch][4 * point.j + point.i]);
 }
 
 TurnAxis Posed::axis(int number) const {

@@ -84,6 +84,7 @@ TEST(FilmDamage, UnsoundSkinsAreRefused) {
   EXPECT_TRUE(refused([](FilmData& f) { f.shapes[2].bone_count = 0; }));
   EXPECT_TRUE(refused([](FilmData& f) { f.shapes[2].patch_count = 2; }));
   EXPECT_TRUE(refused([](FilmData& f) { f.shapes[2].first_skin = 1; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.segments[2].blend = Blend{2}; }));
   EXPECT_TRUE(refused([](FilmData& f) { f.patch_skins[0].bone_count = 0; }));
   EXPECT_TRUE(refused([](FilmData& f) { f.patch_skins[0].bone_count = 3; }));
   EXPECT_TRUE(refused([](FilmData& f) { f.patch_skins[0].first_weight = 7; }));

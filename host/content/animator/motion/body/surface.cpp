@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
-#include <span>
+#include <utility>
+
+#include "host/content/modeler/bent_skin.h"
 
 namespace mars::motion {
 namespace {
@@ -44,9 +46,9 @@ std::size_t heaviest_bone(const modeler::VertexBones& bones) {
 }
 
 // Of patches whose first control point follows a bone that counts.
-void add_bent_patches(const modeler::Shape& shape, std::span<const wire::Matrix> bones,
-                      const std::vector<bool>& counted, std::vector<glm::dvec3>& points) {
-  const std::vector<wire::Patch> bent = modeler::bent_patches(shape, bones);
+void add_bent_patches(const modeler::Shape& shape, const modeler::BentSkin& skin, const std::vector<bool>& counted,
+                      std::vector<glm::dvec3>& points) {
+  const std::vector<wire::Patch> bent = skin.patches_of(shape);
   for (std::size_t number = 0; number < bent.size(); ++number)
     for (int i = 0; i < kGrid && counted[heaviest_bone(shape.patch_bones[number][0])]; ++i)
       for (int j = 0; j < kGrid; ++j)
@@ -61,12 +63,13 @@ void add_skin(const modeler::Model& model, const Posture& posture, const modeler
     matrices.push_back(modeler::bone_matrix(frame_in(model, posture, bone.joint), bone, joint));
     counted.push_back(counts(bone.joint));
   }
+  const modeler::BentSkin skin(std::move(matrices), joint.segment->blend);
   const modeler::Shape& shape = model.shapes[joint.segment->shape];
-  if (!shape.mesh) return add_bent_patches(shape, matrices, counted, points);
+  if (!shape.mesh) return add_bent_patches(shape, skin, counted, points);
   const modeler::Mesh& mesh = *shape.mesh;
   for (std::size_t vertex = 0; vertex < mesh.vertices.size(); ++vertex)
     if (counted[heaviest_bone(mesh.bones[vertex])])
-      points.push_back(modeler::skinned_place(mesh.vertices[vertex], mesh.bones[vertex], matrices));
+      points.push_back(skin.place_of(mesh.vertices[vertex], mesh.bones[vertex]));
 }
 
 }  // namespace
