@@ -52,7 +52,7 @@ std::vector<glm::dvec3> skin_at_rest(const Model& model, const Joint& joint, con
   for (const Bone& bone : joint.segment->bones) bones.push_back(bone_matrix(frames[bone.joint], bone, joint));
   const BentSkin skin(std::move(bones), joint.segment->blend);
   const Shape& shape = model.shapes[joint.segment->shape];
-  if (!shape.mesh) return surface_points({"", skin.patches_of(shape)});
+  if (shape.net) return surface_points({"", skin.patches_of(*shape.net)});
   std::vector<glm::dvec3> places;
   for (std::size_t vertex = 0; vertex < shape.mesh->vertices.size(); ++vertex)
     places.push_back(skin.place_of(shape.mesh->vertices[vertex], shape.mesh->bones[vertex]));
