@@ -248,18 +248,45 @@ class Pieces {
   void visit_skin(const wire::Segment& segment, std::uint32_t frame, const Visit& visit) {
     find_bones(scene_, segment, frame, skin_);
     const auto skins = film_.skins_of_patches(segment.shape);
-    for (std::size_t patch = 0; patch < skins.size(); ++patch)
-      visit(hull_of(film_.patches_of(segment.shape)[patch], skins[patch]));
-    for (const wire::Meshlet& meshlet : film_.meshlets_of(segment.shape)) {
-      const SkinBounds::Box box = skin_.round(film_.bones_of(meshlet.skin), meshlet.low, meshlet.high);
-      visit(corners_of(box.low, box.high));
+    for (std::size_t patch = 0; patch < skins.size(); ++patch) {
+      const wire::Patch& at_rest = film_.patches_of(segment.shape)[patch];
+      visit(segment.blend == wire::Blend::linear ? hull_of(at_rest, skins[patch]) : box_round(at_rest, skins[patch]));
     }
+    for (const wire::Meshlet& meshlet : film_.meshlets_of(segment.shape))
+      visit(box_round(meshlet.skin, meshlet.low, meshlet.high));
+  }
+
+  Hull box_round(const wire::Skin& skin, const std::array<float, 3>& low, const std::array<float, 3>& high) const {
+    const SkinBounds::Box box = skin_.round(film_.bones_of(skin), low, high);
+    return corners_of(box.low, box.high);
+  }
+
+  // Of dual quaternions: at half a circle between two bones the sweep, in the world, and the node, in eye space, may
+  // take different arcs, both of which are in the box.
+  Hull box_round(const wire::Patch& patch, const wire::Skin& skin) const {
+    std::array<float, 3> low = patch.points[0], high = low;
+    for (const auto& point : patch.points)
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        low[axis] = std::min(low[axis], point[axis]);
+        high[axis] = std::max(high[axis], point[axis]);
+      }
+    return box_round(skin, low, high);
   }
 
   Hull hull_of(const wire::Patch& patch, const wire::Skin& skin) const {
     Hull hull;
-    for (std::uint32_t point = 0; point < wire::kPatchPoints; ++point)
-      hull.add(skin_.place(film_, skin, point, wire::kPatchPoints, patch.points[point]));
+    const auto weights = film_.weights_of(skin, wire::kPatchPoints);
+    for (std::size_t point = 0; point < wire::kPatchPoints; ++point) {
+      const Point at_rest{patch.points[point][0], patch.points[point][1], patch.points[point][2]};
+      Point sum{};
+      std::size_t at = point;
+      for (const std::uint32_t bone : film_.bones_of(skin)) {
+        const Point by_bone = moved(skin_.matrix(bone), at_rest);
+        for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += double{weights[at]} * by_bone[axis];
+        at += wire::kPatchPoints;
+      }
+      hull.add(sum);
+    }
     return hull;
   }
 
