@@ -162,24 +162,4 @@ SkinBounds::Box SkinBounds::round(const ShapeBoxes& boxes, std::uint32_t shape) 
   return moved.wider(by, kBlendRounding);
 }
 
-std::array<double, 3> SkinBounds::place(const wire::PackedFilm& film, const wire::Skin& skin, std::uint32_t point,
-                                        std::uint32_t points, const std::array<float, 3>& at) const {
-  wire::Matrix sum{};
-  shape::DualBlend<double> dual;
-  const auto weights = film.weights_of(skin, points);
-  std::size_t number = point;
-  for (const std::uint32_t bone : film.bones_of(skin)) {
-    const double weight = weights[number];
-    if (is_dual()) dual.add(duals_[bone], weight);
-    for (std::size_t r = 0; r < 3 && !is_dual(); ++r)
-      for (std::size_t c = 0; c < 4; ++c) sum.m[r][c] += weight * maps_[bone].m[r][c];
-    number += points;
-  }
-  if (is_dual()) dual.put(sum.m);
-  std::array<double, 3> place;
-  for (std::size_t r = 0; r < 3; ++r)
-    place[r] = sum.m[r][0] * at[0] + sum.m[r][1] * at[1] + sum.m[r][2] * at[2] + sum.m[r][3];
-  return place;
-}
-
 }  // namespace mars::geometry
