@@ -41,12 +41,14 @@ class SkinBounds {
   // Round all of a shape.
   Box round(const ShapeBoxes& boxes, std::uint32_t shape) const;
 
-  // Of a linear blend.
-  const wire::Matrix& matrix(std::uint32_t bone) const { return maps_[bone]; }
+  // Round a net's point: where it goes, to some roundings, or, where it is in doubt which arc it takes, round all
+  // places to which it may go.
+  Box round(const wire::PackedFilm& film, const wire::NetPoint& point) const;
 
  private:
   bool is_dual() const { return blend_ == wire::Blend::dual_quaternions; }
   Box stretched(const Box& box) const;
+  bool in_doubt(std::span<const std::uint32_t> bones, std::span<const float> weights) const;
   double way_between(std::uint32_t a, std::uint32_t b, const Box& box) const;
   template <typename Visit>
   double beyond(std::size_t together, const Visit& visit_pairs) const;
