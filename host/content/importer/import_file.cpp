@@ -26,8 +26,8 @@
 namespace mars::importer {
 namespace {
 
-// y up is glTF's rule, and the custom of OBJ and of motions.
-std::string usual_up(FileKind kind) { return kind == FileKind::obj || is_gltf(kind) || is_skeleton(kind) ? "y" : "z"; }
+// y up is glTF's rule, into which FBX and COLLADA are turned, and the custom of OBJ and of motions.
+std::string usual_up(FileKind kind) { return kind == FileKind::obj || has_nodes(kind) || is_skeleton(kind) ? "y" : "z"; }
 
 // Captured figures look along z.
 std::string usual_front(FileKind kind, const std::string& up) {
@@ -116,15 +116,15 @@ void check_options(const ImportOptions& options, FileKind kind) {
     if (kind_of_name(more) != FileKind::amc)
       throw Failure("is no AMC file, and only such can follow another", more.string(), "import it by itself");
   const bool film = options.as == ImportAs::film;
-  if (film && !is_skeleton(kind) && !is_gltf(kind))
+  if (film && !is_skeleton(kind) && !has_nodes(kind))
     refuse("--as film", "import it as a model, and show that in a film: mars film FILM add");
   if (film && kind == FileKind::asf) refuse("--as film", "import its motion, an .amc file");
   if (options.file_rate && !is_skeleton(kind)) refuse("--file-rate", "leave it out: it is for captured motions");
-  if (options.rate && !is_skeleton(kind) && !(film && is_gltf(kind)))
-    refuse("--rate", is_gltf(kind) ? "add --as film, or leave it out" : "leave it out: it is for motions");
-  if ((!options.animation.empty() || options.motion) && !(film && is_gltf(kind)))
+  if (options.rate && !is_skeleton(kind) && !(film && has_nodes(kind)))
+    refuse("--rate", has_nodes(kind) ? "add --as film, or leave it out" : "leave it out: it is for motions");
+  if ((!options.animation.empty() || options.motion) && !(film && has_nodes(kind)))
     refuse("--animation or --motion",
-           is_gltf(kind) ? "add --as film, or leave it out" : "leave it out: it is for glTF");
+           has_nodes(kind) ? "add --as film, or leave it out" : "leave it out: it is for scenes");
 }
 
 }  // namespace

@@ -128,6 +128,7 @@ Promised promised_by_gltf(const std::filesystem::path& path, const Tree& tree) {
 Promised promised_by(const std::filesystem::path& path, FileKind kind, std::string_view bytes, const Tree& gltf) {
   if (kind == FileKind::obj) return promised_by_obj(path, bytes);
   if (kind == FileKind::stl) return promised_by_stl(bytes);
+  if (!is_gltf(kind)) return {};
   return promised_by_gltf(path, gltf);
 }
 

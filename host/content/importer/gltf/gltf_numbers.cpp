@@ -9,6 +9,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/document/file.h"
+#include "host/content/importer/companion.h"
 
 namespace mars::importer {
 namespace {
@@ -83,7 +84,7 @@ GltfBuffers::GltfBuffers(const std::filesystem::path& path, std::string_view byt
       const std::size_t comma = text.find(',');
       content = text.starts_with("data:")
                     ? base64_decoded(comma == std::string::npos ? "" : std::string_view(text).substr(comma + 1))
-                    : document::read_file(path.parent_path() / percent_decoded(text), kLargestMeshFile);
+                    : document::read_file(companion(path, percent_decoded(text)), kLargestMeshFile);
     }
     buffers_.push_back(std::move(content));
   }

@@ -75,7 +75,7 @@ TEST(ImportJobs, MotionsOfOneSkeletonFollowEachOther) {
 
 TEST(ImportJobs, SayWhatCannotBeRead) {
   try {
-    import_jobs(files({"figure.fbx", "tex/skin.png"}));
+    import_jobs(files({"figure.blend", "tex/skin.png"}));
     FAIL();
   } catch (const Failure& failure) {
     EXPECT_NE(failure.remedy.find("Blender"), std::string::npos) << failure.what();

@@ -372,5 +372,16 @@ TEST_F(GltfFilms, OptionsOfFilmsNeedAFilm) {
   EXPECT_TRUE(holds(failure_of([&] { import_model(options); }), "--rate (add --as film"));
 }
 
+TEST_F(GltfFilms, TimesAreSingleNumbers) {
+  Glb glb;
+  const int mesh = glb.triangle({0, 0, 0, 1, 0, 0, 0, 0, 1});
+  glb.json["nodes"] = {{{"mesh", mesh}}};
+  glb.json["scenes"] = {{{"nodes", {0}}}};
+  const int times = glb.floats("VEC2", {0, 1}), values = glb.floats("VEC3", {0, 0, 0, 1, 0, 0});
+  glb.json["animations"] = {{{"samplers", {{{"input", times}, {"output", values}}}},
+                             {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}}};
+  EXPECT_TRUE(holds(failure_of([&] { import(glb.file()); }), "whose times are no single numbers"));
+}
+
 }  // namespace
 }  // namespace mars::importer
