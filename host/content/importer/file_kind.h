@@ -7,7 +7,7 @@
 
 namespace mars::importer {
 
-enum class FileKind { obj, stl, ply, gltf, glb, fbx, collada, patches, bvh, asf, amc };
+enum class FileKind { obj, stl, ply, gltf, glb, fbx, collada, patches, pov, rib, bvh, asf, amc };
 
 constexpr bool is_gltf(FileKind kind) { return kind == FileKind::gltf || kind == FileKind::glb; }
 
@@ -15,6 +15,11 @@ constexpr bool is_gltf(FileKind kind) { return kind == FileKind::gltf || kind ==
 constexpr bool has_nodes(FileKind kind) { return is_gltf(kind) || kind == FileKind::fbx || kind == FileKind::collada; }
 
 inline constexpr const char* kMeshKinds = "OBJ, STL, PLY, glTF, GLB, FBX, COLLADA";
+
+// Bezier patches alone.
+constexpr bool is_patches(FileKind kind) {
+  return kind == FileKind::patches || kind == FileKind::pov || kind == FileKind::rib;
+}
 
 // Skeletons and their motions, without shapes.
 constexpr bool is_skeleton(FileKind kind) {

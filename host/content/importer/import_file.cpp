@@ -19,33 +19,22 @@
 #include "host/content/importer/import_mesh.h"
 #include "host/content/importer/import_motion.h"
 #include "host/content/importer/import_report.h"
-#include "host/content/importer/model_text.h"
 #include "host/content/importer/orientation.h"
-#include "host/content/modeler/patch_file.h"
+#include "host/content/importer/patches/import_patches.h"
 
 namespace mars::importer {
 namespace {
 
-// y up is glTF's rule, into which FBX and COLLADA are turned, and the custom of OBJ and of motions.
-std::string usual_up(FileKind kind) { return kind == FileKind::obj || has_nodes(kind) || is_skeleton(kind) ? "y" : "z"; }
+// y up is glTF's rule, into which FBX and COLLADA are turned, and the custom of OBJ, POV-Ray, RIB and motions.
+std::string usual_up(FileKind kind) {
+  return kind == FileKind::obj || kind == FileKind::pov || kind == FileKind::rib || has_nodes(kind) || is_skeleton(kind)
+             ? "y"
+             : "z";
+}
 
 // Captured figures look along z.
 std::string usual_front(FileKind kind, const std::string& up) {
   return is_skeleton(kind) && up.back() != 'z' ? "z" : "";
-}
-
-ImportedText import_patches(const ImportOptions& options, FileKind kind, const Stance& stance) {
-  if (options.crease)
-    throw Failure("has patches, which need no crease", options.from.string(), "leave out --crease: it is for meshes");
-  const auto read = [&](double factor) { return modeler::read_patch_file(options.from, stance.upright * factor); };
-  const double factor = options.size.factor(options.size.height ? read(1).extent.z : 0, options.from.string());
-  const modeler::PatchFile file = read(factor);
-  return {{"model of one joint '" + options.joint + "'",
-           box_text(file.extent, factor, kind, stance),
-           {document::counted(file.patches.size(), "patch", "patches")},
-           {},
-           {}},
-          model_text({{options.joint, "", {}, false, WrittenSegment{shape_text(file.patches), file.bounds, {}}}}, {})};
 }
 
 // A library does not come back from every damaged file.
@@ -66,10 +55,10 @@ std::string read_apart(const std::filesystem::path& path, const std::vector<std:
 // The report, a zero, the model or film.
 std::string run(const ImportOptions& options, FileKind kind, const Stance& stance) {
   const bool film = options.as == ImportAs::film;
-  const ImportedText imported = is_skeleton(kind)           ? import_motion(options, kind, stance.up, stance.upright)
-                                : kind == FileKind::patches ? import_patches(options, kind, stance)
-                                : film                      ? import_gltf_film(options, kind, stance)
-                                                            : import_mesh(options, kind, stance);
+  const ImportedText imported = is_skeleton(kind)  ? import_motion(options, kind, stance.up, stance.upright)
+                                : is_patches(kind) ? import_patches(options, kind, stance)
+                                : film             ? import_gltf_film(options, kind, stance)
+                                                   : import_mesh(options, kind, stance);
   return text_of(imported.report, options.to.string()) + '\0' + imported.text;
 }
 

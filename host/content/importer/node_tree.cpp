@@ -7,7 +7,6 @@
 namespace mars::importer {
 namespace {
 
-constexpr std::size_t kMostNodes = 1'000'000;
 const glm::dmat4 kIdentity(1);
 
 class TreeReader {

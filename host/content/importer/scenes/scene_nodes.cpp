@@ -10,7 +10,6 @@
 namespace mars::importer {
 namespace {
 
-constexpr std::size_t kMostNodes = 1'000'000;
 constexpr double kMetre = 100;  // centimetres, FBX's unit
 
 void add(const std::filesystem::path& path, const aiNode& node, std::size_t parent, SceneNodes& all) {

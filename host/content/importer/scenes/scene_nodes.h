@@ -14,6 +14,8 @@
 
 namespace mars::importer {
 
+inline constexpr std::size_t kMostNodes = 1'000'000;
+
 // Assimp writes what turns or scales an FBX node about a point of its own as nodes above it, which are no joints.
 inline constexpr const char* kPivot = "_$AssimpFbx$_";  // behind the node's own name
 bool is_pivot(const std::string& name);
