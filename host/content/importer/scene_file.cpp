@@ -379,8 +379,7 @@ class SceneReader {
       const std::span corners(mesh.mFaces[f].mIndices, mesh.mFaces[f].mNumIndices);
       if (corners.size() < 3) continue;  // a point, a line
       places.clear();
-      for (const unsigned corner : corners)
-        places.emplace_back(matrix * glm::dvec4(dvec3_of(mesh.mVertices[corner]), 1));
+      for (const unsigned corner : corners) places.emplace_back(matrix * glm::dvec4(morphed(mesh, corner), 1));
       const glm::dvec3 flat = mesh.HasNormals() ? glm::dvec3(0) : flat_normal(places) * (mirrored ? -1.0 : 1.0);
       face.clear();
       for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -398,6 +397,25 @@ class SceneReader {
     }
   }
 
+  // Of glTF, with the targets at the weights that the mesh has; Assimp gives their places, not what they add.
+  glm::dvec3 morphed(const aiMesh& mesh, unsigned vertex) const {
+    const glm::dvec3 own = dvec3_of(mesh.mVertices[vertex]);
+    glm::dvec3 place = own;
+    for (unsigned i = 0; is_gltf(kind_) && i < mesh.mNumAnimMeshes; ++i)
+      if (const aiAnimMesh& target = *mesh.mAnimMeshes[i]; target.HasPositions() && target.mWeight != 0)
+        place += double(target.mWeight) * (dvec3_of(target.mVertices[vertex]) - own);
+    return place;
+  }
+
+  // Morph targets that change the shape at rest.
+  std::size_t targets_at_rest() const {
+    std::size_t count = 0;
+    for (const aiMesh* mesh : std::span(scene_.mMeshes, scene_.mNumMeshes))
+      for (unsigned i = 0; is_gltf(kind_) && i < mesh->mNumAnimMeshes; ++i)
+        count += mesh->mAnimMeshes[i]->HasPositions() && mesh->mAnimMeshes[i]->mWeight != 0;
+    return count;
+  }
+
   void list_what_was_made(MeshFile& file) const {
     const auto add = [&](const char* what, std::size_t count, std::string_view one, std::string_view several) {
       if (count > 0) file.made.push_back(what + document::counted(count, one, several));
@@ -410,6 +428,7 @@ class SceneReader {
         static_cast<std::size_t>(std::ranges::count_if(
             file.materials, [](const ImportedMaterial& material) { return material.surface.has_value(); })),
         "material", "materials");
+    add("the shape at the file's weights of ", targets_at_rest(), "morph target", "morph targets");
     add("a mean colour of ", materials_.textures_of_colors(), "texture", "textures");
     add("a mean roughness and metal of ", materials_.textures_of_surfaces(), "texture", "textures");
   }

@@ -1,4 +1,4 @@
-// mars import of POV-Ray's and RIB's bicubic patches: control points are where the formulas of these programs put them,
+// mars import of POV-Ray's and RIB's bicubic patches: control points are where both programs' formulas put them,
 // computed here; what else the files have is counted; damaged files are failures with their line.
 #include <gtest/gtest.h>
 
