@@ -30,9 +30,8 @@ struct NodeTree {
   const glm::dmat4& above(const PlacedNode& node) const;  // what the node's own matrix was multiplied to
 };
 
-// Of scenes with their skins; without them every node is nameless. `rest`: how each of the file's nodes stands in the one
-// above it; empty: as the file says. Refuses more than a million nodes in failures that name
-// `path`.
+// Of scenes with their skins; without them every node is nameless. `rest`: how each of the file's nodes stands in the
+// one above it; empty: as the file says. Refuses more than a million nodes in failures that name `path`.
 NodeTree node_tree(const std::filesystem::path& path, const aiScene& scene, const GltfSkins* skins,
                    std::span<const glm::dmat4> rest);
 

@@ -468,8 +468,8 @@ TEST_F(ImportTest, FacesThatAreLostAreAFailure) {
 TEST_F(ImportTest, PackedShapesAreRefused) {
   std::string text = gltf_figure();
   text.insert(1, "\"extensionsRequired\": [\"KHR_mesh_quantization\"], ");
-  EXPECT_TRUE(document::holds(failure("a.gltf", text),
-                              "has its shapes packed as KHR_mesh_quantization (export it without"));
+  EXPECT_TRUE(
+      document::holds(failure("a.gltf", text), "has its shapes packed as KHR_mesh_quantization (export it without"));
 }
 
 // glTF's colours are amounts of light, a model's are sRGB as people pick them: light of 0.214 is shown as 0.5.
