@@ -73,6 +73,7 @@ class SegmentPlace {
   shape::EyeMatrix matrix_{};
   shape::EyeMap map_{};
   EyeBones bones_;
+  std::span<const BonePairs> bone_pairs_;
   SkinBounds bounds_;
   float scale_ = 1;
 };

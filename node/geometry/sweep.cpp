@@ -253,11 +253,12 @@ class Pieces {
       visit(segment.blend == wire::Blend::linear ? hull_of(at_rest, skins[patch]) : box_round(at_rest, skins[patch]));
     }
     for (const wire::Meshlet& meshlet : film_.meshlets_of(segment.shape))
-      visit(box_round(meshlet.skin, meshlet.low, meshlet.high));
+      visit(box_round(meshlet.skin, meshlet.low, meshlet.high, pairs_of(film_, meshlet, scene_.bone_pairs())));
   }
 
-  Hull box_round(const wire::Skin& skin, const std::array<float, 3>& low, const std::array<float, 3>& high) const {
-    const SkinBounds::Box box = skin_.round(film_.bones_of(skin), low, high);
+  Hull box_round(const wire::Skin& skin, const std::array<float, 3>& low, const std::array<float, 3>& high,
+                 const BonePairs* pairs) const {
+    const SkinBounds::Box box = skin_.round(film_.bones_of(skin), low, high, pairs);
     return corners_of(box.low, box.high);
   }
 
@@ -270,7 +271,7 @@ class Pieces {
         low[axis] = std::min(low[axis], point[axis]);
         high[axis] = std::max(high[axis], point[axis]);
       }
-    return box_round(skin, low, high);
+    return box_round(skin, low, high, nullptr);
   }
 
   Hull hull_of(const wire::Patch& patch, const wire::Skin& skin) const {
