@@ -39,21 +39,21 @@ Failure unpacked(const std::string& text) {
 }
 
 // In the new process: its exit code.
-int answered(const std::function<std::string()>& work, const child::Descriptor& answer) {
+int answered(const std::function<std::vector<std::string>()>& work, const child::Descriptor& answer) {
   int code = 0;
-  std::string text;
+  std::vector<std::string> parts;
   try {
-    text = work();
+    parts = work();
   } catch (const Failure& failure) {
     code = kHasFailed;
-    text = packed(failure);
+    parts = {packed(failure)};
   } catch (const std::bad_alloc&) {
     return kHasNoMemory;
   } catch (const std::exception& failure) {
     code = kHasFailed;
-    text = packed({reason_of(failure), "", ""});
+    parts = {packed({reason_of(failure), "", ""})};
   }
-  child::write_all(answer, text);
+  for (const std::string& part : parts) child::write_all(answer, part);
   return code;
 }
 
@@ -101,17 +101,17 @@ ApartLimits limits_for(std::uint64_t bytes) {
   return {processor_time, processor_time + std::chrono::minutes(1), (std::uint64_t{1} << 30) + 64 * bytes};
 }
 
-std::string run_apart(const std::function<std::string()>& work, const ApartLimits& limits, const std::string& where,
-                      const std::string& remedy) {
+std::string run_apart(const std::function<std::vector<std::string>()>& work, const ApartLimits& limits,
+                      const std::string& where, const std::string& remedy) {
   child::Pipe pipe = child::make_pipe();
   child::Process process(
       [&] { return answered(work, pipe.writing); },
       {.signal_at_our_end = SIGKILL, .limits = child::ProcessLimits{limits.processor_time, limits.memory}});
   pipe.writing.close();
-  const std::optional<std::string> answer = read_within(limits.time, pipe.reading);
+  std::optional<std::string> answer = read_within(limits.time, pipe.reading);
   if (!answer) process.send(SIGKILL);
   const child::Ending ending = process.wait();
-  if (answer && ending.well()) return *answer;
+  if (answer && ending.well()) return std::move(*answer);
   if (answer && ending.code == kHasFailed) throw unpacked(*answer);
   throw Failure(reason_of(ending, !answer, limits), where, remedy);
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace mars::importer {
 
@@ -18,9 +19,9 @@ struct ApartLimits {
 // For the work on a file of `bytes` bytes; a sound file takes a fraction of these limits.
 ApartLimits limits_for(std::uint64_t bytes);
 
-// What `work` returns; its Failure is thrown here. Where the process dies or reaches a
-// limit, that is a Failure at `where` with `remedy`. The process ends with this one.
-std::string run_apart(const std::function<std::string()>& work, const ApartLimits& limits, const std::string& where,
-                      const std::string& remedy);
+// The parts that `work` returns, joined; its Failure is thrown here. Where the process dies or reaches a limit, that is
+// a Failure at `where` with `remedy`. The process ends with this one.
+std::string run_apart(const std::function<std::vector<std::string>()>& work, const ApartLimits& limits,
+                      const std::string& where, const std::string& remedy);
 
 }  // namespace mars::importer

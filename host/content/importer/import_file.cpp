@@ -39,7 +39,7 @@ std::string usual_front(FileKind kind, const std::string& up) {
 
 // A library does not come back from every damaged file.
 std::string read_apart(const std::filesystem::path& path, const std::vector<std::filesystem::path>& more, FileKind kind,
-                       const std::function<std::string()>& read) {
+                       const std::function<std::vector<std::string>()>& read) {
   constexpr const char* kRemedy = "the file may be damaged: export it again";
   std::error_code error;
   std::uint64_t bytes = std::filesystem::file_size(path, error);
@@ -47,19 +47,21 @@ std::string read_apart(const std::filesystem::path& path, const std::vector<std:
   for (const std::filesystem::path& each : more)
     if (const std::uintmax_t size = std::filesystem::file_size(each, error); !error) bytes += size;
   if (kind == FileKind::gltf)
-    bytes += std::stoull(
-        run_apart([&] { return std::to_string(bytes_of_buffers(path)); }, limits_for(bytes), path.string(), kRemedy));
+    bytes += std::stoull(run_apart([&] { return std::vector{std::to_string(bytes_of_buffers(path))}; },
+                                   limits_for(bytes), path.string(), kRemedy));
   return run_apart(read, limits_for(bytes), path.string(), kRemedy);
 }
 
 // The report, a zero, the model or film.
-std::string run(const ImportOptions& options, FileKind kind, const Stance& stance) {
+std::vector<std::string> run(const ImportOptions& options, FileKind kind, const Stance& stance) {
   const bool film = options.as == ImportAs::film;
-  const ImportedText imported = is_skeleton(kind)  ? import_motion(options, kind, stance.up, stance.upright)
-                                : is_patches(kind) ? import_patches(options, kind, stance)
-                                : film             ? import_gltf_film(options, kind, stance)
-                                                   : import_mesh(options, kind, stance);
-  return text_of(imported.report, options.to.string()) + '\0' + imported.text;
+  ImportedText imported = is_skeleton(kind)  ? import_motion(options, kind, stance.up, stance.upright)
+                          : is_patches(kind) ? import_patches(options, kind, stance)
+                          : film             ? import_gltf_film(options, kind, stance)
+                                             : import_mesh(options, kind, stance);
+  std::vector<std::string> parts{text_of(imported.report, options.to.string()) + '\0'};
+  for (TextPart& part : imported.text) parts.push_back(std::move(part.text));
+  return parts;
 }
 
 bool is_utf8(const std::string& text) {

@@ -65,16 +65,17 @@ MeshFile read_mesh(const ImportOptions& options, FileKind kind, const Stance& st
   return file;
 }
 
-std::string model_text_of(const MeshFile& file) {
+LongText model_text_of(MeshFile& file) {
   std::vector<WrittenJoint> joints;
-  for (const MeshJoint& joint : file.joints) {
+  for (MeshJoint& joint : file.joints) {
     joints.push_back({joint.name, joint.parent, joint.frame, joint.fixed, {}, joint.limits});
     if (joint.part)
       joints.back().segment =
           WrittenSegment{shape_text(joint.part->mesh), joint.part->bounds, joint.part->material, {}};
     if (joint.has_skin) joints.back().segment->skin = skin_of(file);
+    if (joint.part) joint.part->mesh = {};
   }
-  return model_text(joints, file.materials, file.limbs);
+  return model_text(std::move(joints), file.materials, file.limbs);
 }
 
 ImportReport report_of(const MeshFile& file, FileKind kind, const Stance& stance) {
@@ -82,7 +83,7 @@ ImportReport report_of(const MeshFile& file, FileKind kind, const Stance& stance
 }
 
 ImportedText import_mesh(const ImportOptions& options, FileKind kind, const Stance& stance) {
-  const MeshFile file = read_mesh(options, kind, stance);
+  MeshFile file = read_mesh(options, kind, stance);
   ImportReport report = report_of(file, kind, stance);
   const std::size_t joints = file.joints.size();
   const std::string count = joints == 1 ? "one joint" : std::to_string(joints) + " joints, the first";

@@ -26,7 +26,8 @@ MeshFile read_mesh(const ImportOptions& options, FileKind kind, const Stance& st
                    std::vector<glm::dmat4> rest = {});
 
 // As a model file.
-std::string model_text_of(const MeshFile& file);
+// Leaves the file without its meshes.
+LongText model_text_of(MeshFile& file);
 
 // A report but for what the model or film is.
 ImportReport report_of(const MeshFile& file, FileKind kind, const Stance& stance);

@@ -171,10 +171,10 @@ ImportedText film_of(const ImportOptions& options, Read read, ImportReport repor
   FilmText film{motion.poses.size(),
                 rate,
                 options.joint,
-                document::laid_out(model),
+                {{document::laid_out(model)}},
                 camera_text(box.min - margin, box.max + margin),
                 std::move(actor.json)};
-  std::string text = film_text(film);
+  LongText text = film_text(std::move(film));
   check_film_text(text, options.to);
   return {report, std::move(text)};
 }

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "host/content/importer/long_text.h"
+
 namespace mars::importer {
 
 struct ImportReport {
@@ -18,7 +20,7 @@ struct ImportReport {
 
 struct ImportedText {
   ImportReport report;
-  std::string text;  // of the model or the film
+  LongText text;  // of the model or the film
 };
 
 // In lines, the first beginning with the file that was written.

@@ -1,9 +1,11 @@
 #include "host/content/importer/model_text.h"
 
 #include <charconv>
+#include <deque>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string_view>
+#include <utility>
 
 namespace mars::importer {
 namespace {
@@ -51,6 +53,16 @@ void append_bones(std::string& text, const std::vector<modeler::VertexBones>& bo
   });
 }
 
+// A triangle that follows the last bone.
+std::string brief_text(const modeler::Mesh& mesh) {
+  std::string text = "{\"mesh\": {\"vertices\": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], \"faces\": [[0, 1, 2]]";
+  if (!mesh.bones.empty()) {
+    const std::string bone = "[" + std::to_string(modeler::all_bones(mesh.bones).back()) + ", 1]";
+    text += ", \"bones\": [" + bone + ", " + bone + ", " + bone + "]";
+  }
+  return text + "}}";
+}
+
 std::string json_text(const std::string& name) { return nlohmann::json(name).dump(); }
 
 std::string numbered(const std::string& name, std::size_t number) {
@@ -90,7 +102,7 @@ std::string limbs_text(const std::vector<NamedLimb>& limbs) {
 // The lists of a model's joints and shapes, as they grow.
 class ModelText {
  public:
-  void add(const WrittenJoint& joint) {
+  void add(WrittenJoint joint) {
     joints_ += (joints_.empty() ? "\n    {" : ",\n    {") + ("\"name\": " + json_text(joint.name));
     if (!joint.parent.empty()) joints_ += ", \"parent\": " + json_text(joint.parent);
     const JointFrame &frame = joint.frame, usual;
@@ -99,18 +111,25 @@ class ModelText {
     add_vector("y_axis", frame.y_axis, usual.y_axis);
     if (joint.fixed) joints_ += ", \"limits\": {}";
     if (joint.limits) add_limits(*joint.limits);
-    if (joint.segment) add_segment(*joint.segment);
+    if (joint.segment) add_segment(std::move(*joint.segment));
     joints_ += "}";
   }
 
-  std::string whole(const std::vector<ImportedMaterial>& materials, const std::vector<NamedLimb>& limbs) const {
+  // Once.
+  LongText whole(const std::vector<ImportedMaterial>& materials, const std::vector<NamedLimb>& limbs) {
     std::string text = "{\n";
     for (std::size_t i = 0; i < materials.size(); ++i)
       text += (i == 0 ? "  \"materials\": {\n    " : ",\n    ") + json_text(material_name(i)) + ": " +
               material_text(materials[i]);
     if (!materials.empty()) text += "\n  },\n";
     if (!limbs.empty()) text += "  \"limbs\": " + limbs_text(limbs) + ",\n";
-    return text + "  \"joints\": [" + joints_ + "\n  ],\n  \"shapes\": {" + shapes_ + "\n  }\n}\n";
+    LongText parts{{text + "  \"joints\": [" + joints_ + "\n  ],\n  \"shapes\": {"}};
+    for (std::size_t i = 0; i < shapes_.size(); ++i) {
+      parts.push_back({(i == 0 ? "\n    " : ",\n    ") + json_text(shape_name(i)) + ": "});
+      parts.push_back(std::move(shapes_[i]));
+    }
+    parts.push_back({"\n  }\n}\n"});
+    return parts;
   }
 
  private:
@@ -131,9 +150,9 @@ class ModelText {
     if (vector != usual) joints_ += std::string(", \"") + key + "\": " + row_text(vector);
   }
 
-  void add_segment(const WrittenSegment& segment) {
-    joints_ += ", \"segment\": {\"shape\": " + shape_name(segment.shape) + ", \"sbb\": [" + row_text(segment.sbb.min) +
-               ", " + row_text(segment.sbb.max) + "]";
+  void add_segment(WrittenSegment segment) {
+    joints_ += ", \"segment\": {\"shape\": " + json_text(shape_name(number_of(std::move(segment.shape)))) +
+               ", \"sbb\": [" + row_text(segment.sbb.min) + ", " + row_text(segment.sbb.max) + "]";
     if (segment.material) joints_ += ", \"material\": " + json_text(material_name(*segment.material));
     if (segment.skin) add_skin(*segment.skin);
     joints_ += "}";
@@ -158,21 +177,24 @@ class ModelText {
     append_row(joints_, numbers, 12);
   }
 
-  std::string shape_name(const std::string& shape) {
-    const auto [known, is_new] = shape_names_.try_emplace(shape, json_text(numbered("imported", shape_names_.size())));
-    if (is_new) shapes_ += (shapes_.empty() ? "\n    " : ",\n    ") + known->second + ": " + shape;
-    return known->second;
+  static std::string shape_name(std::size_t number) { return numbered("imported", number); }
+
+  std::size_t number_of(TextPart shape) {
+    if (const auto known = numbers_.find(shape.text); known != numbers_.end()) return known->second;
+    shapes_.push_back(std::move(shape));
+    return numbers_[shapes_.back().text] = shapes_.size() - 1;
   }
 
-  std::string joints_, shapes_;
-  std::map<std::string_view, std::string> shape_names_;  // by their texts, which the joints hold
+  std::string joints_;
+  std::deque<TextPart> shapes_;
+  std::map<std::string_view, std::size_t> numbers_;  // by their texts
 };
 
 }  // namespace
 
 std::string material_name(std::size_t number) { return numbered("color", number); }
 
-std::string shape_text(const std::vector<wire::Patch>& patches) {
+TextPart shape_text(const std::vector<wire::Patch>& patches) {
   std::string text;
   append_rows(text, patches.size(), [&](std::size_t number) {
     text += '[';
@@ -182,10 +204,10 @@ std::string shape_text(const std::vector<wire::Patch>& patches) {
     }
     text += ']';
   });
-  return text;
+  return {std::move(text)};
 }
 
-std::string shape_text(const modeler::Mesh& mesh) {
+TextPart shape_text(const modeler::Mesh& mesh) {
   std::string text = "{\"mesh\": {\n      \"vertices\": ";
   append_places(text, mesh.vertices);
   text += ",\n      \"faces\": ";
@@ -199,13 +221,14 @@ std::string shape_text(const modeler::Mesh& mesh) {
     append_places(text, mesh.normals);
   }
   if (!mesh.bones.empty()) append_bones(text, mesh.bones);
-  return text + "}}";
+  text += "}}";
+  return {std::move(text), brief_text(mesh)};
 }
 
-std::string model_text(const std::vector<WrittenJoint>& joints, const std::vector<ImportedMaterial>& materials,
-                       const std::vector<NamedLimb>& limbs) {
+LongText model_text(std::vector<WrittenJoint> joints, const std::vector<ImportedMaterial>& materials,
+                    const std::vector<NamedLimb>& limbs) {
   ModelText text;
-  for (const WrittenJoint& joint : joints) text.add(joint);
+  for (WrittenJoint& joint : joints) text.add(std::move(joint));
   return text.whole(materials, limbs);
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/content/importer/imported_mesh.h"
+#include "host/content/importer/long_text.h"
 #include "node/wire/film.h"
 
 namespace mars::importer {
@@ -16,7 +17,7 @@ struct WrittenSkin {
 };
 
 struct WrittenSegment {
-  std::string shape;  // JSON; segments of the same text share a shape, such as a wheel that a file has four times
+  TextPart shape;  // JSON; segments of the same text share a shape, such as a wheel that a file has four times
   modeler::Box sbb;
   std::optional<std::size_t> material;  // of the model's materials
   std::optional<WrittenSkin> skin{};
@@ -34,11 +35,11 @@ struct WrittenJoint {
 // Of material 0, 1, ...
 std::string material_name(std::size_t number);
 
-// A shape as JSON.
-std::string shape_text(const std::vector<wire::Patch>& patches);
-std::string shape_text(const modeler::Mesh& mesh);
+// A shape as JSON. In brief a mesh is a triangle that follows as many bones.
+TextPart shape_text(const std::vector<wire::Patch>& patches);
+TextPart shape_text(const modeler::Mesh& mesh);
 
-std::string model_text(const std::vector<WrittenJoint>& joints, const std::vector<ImportedMaterial>& materials,
-                       const std::vector<NamedLimb>& limbs = {});
+LongText model_text(std::vector<WrittenJoint> joints, const std::vector<ImportedMaterial>& materials,
+                    const std::vector<NamedLimb>& limbs = {});
 
 }  // namespace mars::importer

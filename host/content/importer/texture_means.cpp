@@ -72,7 +72,7 @@ std::optional<std::filesystem::path> TextureMeans::file_of(const std::string& te
 std::optional<images::PictureMean> TextureMeans::mean_of_bytes(std::string_view bytes, const std::string& name) {
   const auto work = [&] {
     const auto mean = images::picture_mean(std::as_bytes(std::span(bytes)), name);
-    return mean ? bytes_of(*mean) : std::string();
+    return std::vector{mean ? bytes_of(*mean) : std::string()};
   };
   try {
     const std::string answer = run_apart(work, limits_for(bytes.size()), name, "");

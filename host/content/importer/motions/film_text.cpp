@@ -166,7 +166,7 @@ Json camera_text(const glm::dvec3& least, const glm::dvec3& greatest) {
   return json;
 }
 
-std::string film_text(const FilmText& film) {
+LongText film_text(FilmText film) {
   const auto line = [](const char* key, const Json& value) {
     std::string text = document::laid_out(value);
     text.pop_back();  // its end of line
@@ -176,14 +176,16 @@ std::string film_text(const FilmText& film) {
   if (film.size) text += line("size", *film.size);
   text += line("background", animator::new_film()["background"]) + line("camera", film.camera);
   if (!film.lights.is_null()) text += line("lights", film.lights);
-  text += "  \"models\": {" + Json(film.model_name).dump() + ": " + film.model;
-  while (text.back() == '\n') text.pop_back();
-  std::string actors = document::laid_out(Json::array({film.actor}));
-  return text + "},\n  \"actors\": " + actors + "}\n";
+  text += "  \"models\": {" + Json(film.model_name).dump() + ": ";
+  LongText parts = std::move(film.model);
+  parts.insert(parts.begin(), {text});
+  while (parts.back().text.ends_with('\n')) parts.back().text.pop_back();
+  parts.push_back({"},\n  \"actors\": " + document::laid_out(Json::array({film.actor})) + "}\n"});
+  return parts;
 }
 
-void check_film_text(const std::string& text, const std::filesystem::path& path) {
-  const document::Document film(text, path.string());
+void check_film_text(const LongText& text, const std::filesystem::path& path) {
+  const document::Document film(brief_of(text), path.string());
   animator::read_film(film.root(), path.parent_path());
 }
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "host/content/document/json_file.h"
+#include "host/content/importer/long_text.h"
 #include "host/content/importer/motions/skeleton.h"
 
 namespace mars::importer {
@@ -58,15 +59,17 @@ document::Json camera_text(const glm::dvec3& least, const glm::dvec3& greatest);
 struct FilmText {
   std::size_t frames = 1;
   double rate = 24;
-  std::string model_name, model;  // as model files are
+  std::string model_name;
+  LongText model;  // as model files are
   document::Json camera, actor;
   document::Json lights{};                             // null: none of its own
   std::optional<std::array<std::uint32_t, 2>> size{};  // of the picture; none: as is usual
 };
 
-std::string film_text(const FilmText& film);
+LongText film_text(FilmText film);
 
-// Throws where MARS would refuse the film, which is a bug of ours: better found here than by who renders it.
-void check_film_text(const std::string& text, const std::filesystem::path& path);
+// Throws where MARS would refuse the film, in which its meshes stand in brief, which is a bug of ours: better found
+// here than by who renders it.
+void check_film_text(const LongText& text, const std::filesystem::path& path);
 
 }  // namespace mars::importer

@@ -73,7 +73,7 @@ std::vector<OneColor> by_color(const PatchScene& scene, const modeler::Box& boun
   return colors;
 }
 
-std::string model_of(const std::string& joint, const std::vector<OneColor>& colors, const modeler::Box& bounds) {
+LongText model_of(const std::string& joint, const std::vector<OneColor>& colors, const modeler::Box& bounds) {
   std::vector<WrittenJoint> joints;
   std::vector<ImportedMaterial> materials;
   JointNames names;
@@ -86,7 +86,7 @@ std::string model_of(const std::string& joint, const std::vector<OneColor>& colo
     const bool is_first = joints.empty();
     joints.push_back({names.unused(joint), is_first ? "" : joint, {}, !is_first, std::move(segment)});
   }
-  return model_text(joints, materials);
+  return model_text(std::move(joints), materials);
 }
 
 std::vector<std::string> skipped_text(const PatchScene& scene) {

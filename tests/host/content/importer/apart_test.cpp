@@ -20,7 +20,7 @@ using namespace std::chrono_literals;
 constexpr ApartLimits kLimits{5s, 60s, std::uint64_t{256} << 20};
 
 std::string apart(const std::function<std::string()>& work, const ApartLimits& limits = kLimits) {
-  return run_apart(work, limits, "a file", "mend it");
+  return run_apart([&] { return std::vector{work()}; }, limits, "a file", "mend it");
 }
 
 std::string failure(const std::function<std::string()>& work, const ApartLimits& limits = kLimits) {
@@ -33,6 +33,12 @@ TEST(Apart, WhatItSaysComesBack) {
   EXPECT_EQ(apart([] { return std::string("done"); }), "done");
   const std::string much(1 << 20, 'x');
   EXPECT_EQ(apart([&] { return much; }), much);
+}
+
+TEST(Apart, ItsPartsAreJoined) {
+  const std::string much(1 << 18, 'x');
+  const auto work = [&] { return std::vector<std::string>{"a", "", much, "b"}; };
+  EXPECT_EQ(run_apart(work, kLimits, "a file", "mend it"), "a" + much + "b");
 }
 
 TEST(Apart, ItsFailureIsOurs) {
