@@ -86,14 +86,14 @@ class Cage:
         for i in range(0, len(ring), 2):
             self.face(centre, ring[i], ring[i + 1], ring[(i + 2) % len(ring)])
 
-    def fit(self, rounds=4):
-        """Moves the points so that the surface comes near where they were."""
+    def fit(self, rounds=4, loose=()):
+        """Moves the points so that the surface comes near where they were; `loose` ones stay, which rounds the surface."""
         targets = self.points
-        stencils = self.limit_stencils()
+        stencils = [[(i, 1.0)] if i in loose else stencil for i, stencil in enumerate(self.limit_stencils())]
         for _ in range(rounds):
-            limits = [tuple(sum(w * self.points[i][axis] for i, w in stencil) for axis in range(3)) for stencil in stencils]
-            self.points = [tuple(p + t - l for p, t, l in zip(point, target, limit))
-                           for point, target, limit in zip(self.points, targets, limits)]
+            reached = [tuple(sum(w * self.points[i][axis] for i, w in stencil) for axis in range(3)) for stencil in stencils]
+            self.points = [tuple(p + t - r for p, t, r in zip(point, target, place))
+                           for point, target, place in zip(self.points, targets, reached)]
         return self
 
     def limit_stencils(self):
@@ -108,6 +108,9 @@ class Cage:
                     sides[pair] = sides.get(pair, 0) + 1
         stencils = []
         for a in range(len(self.points)):
+            if a not in edges:
+                stencils.append([(a, 1.0)])
+                continue
             rim = [b for b in edges[a] if sides[a, b] == 1]
             if rim:
                 stencils.append([(a, 2 / 3)] + [(b, 1 / 6) for b in rim])
@@ -152,3 +155,28 @@ def swapped(bone):
         if bone.startswith(side):
             return other + bone[len(side):]
     return bone
+
+
+# ---- Models.
+
+def scaled(vector, unit):
+    return [round(x * unit, 4) + 0.0 for x in vector]
+
+
+def clothe(joints, carrier, shape, cage, material, unit):
+    """Gives the joint `carrier` the cage, whose places are from the ground, as a segment. Returns the shape."""
+    at = rest_places(joints)[carrier]
+    bones = cage.bones([each["name"] for each in joints])
+    sbb = [scaled(end, unit) for end in cage.box()]
+    next(each for each in joints if each["name"] == carrier)["segment"] = {
+        "shape": shape, "sbb": [[round(v - a, 4) for v, a in zip(end, at)] for end in sbb], "material": material,
+        "skin": {"joints": bones, "blend": "dual-quaternions"}}
+    return cage.shape(bones)
+
+
+def rest_places(joints):
+    places = {}
+    for each in joints:
+        above = places.get(each.get("parent"), (0, 0, 0))
+        places[each["name"]] = tuple(a + b for a, b in zip(above, each["place"]))
+    return places

@@ -5,6 +5,7 @@ He stands along z and looks along x; y is to his left. Proportions: seven and a 
 import math
 
 import human_cages
+from cages import clothe, rest_places, scaled
 from human_cages import digit, digit_joints
 
 HIP, THIGH, SHIN, ANKLE = 0.925, 0.435, 0.40, 0.09  # height of the hips; lengths; height of the ankles
@@ -74,10 +75,6 @@ MATERIALS = {"skin": soft([0.87, 0.64, 0.50], 0.10, 24), "hair": soft([0.22, 0.1
              "shoe": glazed([0.42, 0.25, 0.16], 0.35), "rubber": soft([0.90, 0.88, 0.83]),
              "lips": soft([0.76, 0.44, 0.38], 0.15, 30), "white": glazed([0.92, 0.92, 0.90]),
              "iris": glazed([0.13, 0.10, 0.10], 0.15)}
-
-
-def scaled(vector, unit):
-    return [round(x * unit, 4) + 0.0 for x in vector]
 
 
 def human(unit):
@@ -156,25 +153,6 @@ def dress(joints, unit):
             shapes[shape] = clothe(joints, carrier.replace("left", side), shape, one, material, unit)
     lift_sleeves(joints)
     return shapes
-
-
-def clothe(joints, carrier, shape, cage, material, unit):
-    """Gives the joint `carrier` the cage, whose places are from the ground, as a segment. Returns the shape."""
-    at = rest_places(joints)[carrier]
-    bones = cage.bones([each["name"] for each in joints])
-    sbb = [scaled(end, unit) for end in cage.box()]
-    next(each for each in joints if each["name"] == carrier)["segment"] = {
-        "shape": shape, "sbb": [[round(v - a, 4) for v, a in zip(end, at)] for end in sbb], "material": material,
-        "skin": {"joints": bones, "blend": "dual-quaternions"}}
-    return cage.shape(bones)
-
-
-def rest_places(joints):
-    places = {}
-    for each in joints:
-        above = places.get(each.get("parent"), (0, 0, 0))
-        places[each["name"]] = tuple(a + b for a, b in zip(above, each["place"]))
-    return places
 
 
 def lift_sleeves(joints):

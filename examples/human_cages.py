@@ -99,7 +99,7 @@ def trousers():
             points = [(middle + x, side * LEG + y, z) for x, y in outline(around, fore, aft, width)]
             rings.append(cage.ring(points, lambda point, side=side: leg(side, point)))
         cage.tube(rings[::-1])
-    return cage.fit()
+    return cage.fit(loose={*crotch.values(), low[0], low[5], low[6], low[11]})
 
 
 # ---- Shirt: height, front, back, width, middle, square in front and behind.
@@ -194,6 +194,7 @@ def shirt():
     cage = Cage()
     angles = [30 * i for i in range(12)]
     rings = [cage.ring(shirt_ring(row, angles), shirt_weights) for row in SHIRT]
+    holes = set()
     for side in 1, -1:
         hole = []
         for angle, row, place in HOLE:
@@ -203,6 +204,7 @@ def shirt():
             share = 0.32 + 0.10 * (place[2] - 1.37) / 0.07
             cage.weights[at] = mixed((rest, 1 - share), ({f"{name_of(side)}-sleeve": 1.0}, share))
             hole.append(at)
+        holes.update(hole)
         tube = [hole]
         for number, row in enumerate(SLEEVE):
             tube.append(cage.ring(sleeve_ring(row, side), sleeve_weights(side, number)))
@@ -211,7 +213,7 @@ def shirt():
         inside = rings[ARMPIT + 1]
         inside[3 if side > 0 else 9] = None
     cage.tube(rings)
-    return compact(cage).fit()
+    return compact(cage.fit(loose=holes))
 
 
 def compact(cage):
@@ -327,11 +329,11 @@ def arm():
     for row, far in (WRIST_ROW, 0.574), (PALM_ROW, 0.6):
         rings.append(cage.ring([added(HAND, p) for p in row], along(chain, far)))
     cage.tube(rings[:-1][::-1])
-    add_hand(cage, *rings[-2:])
-    return cage.fit()
+    return cage.fit(loose=add_hand(cage, *rings[-2:]))
 
 
 def add_hand(cage, wrist, palm):
+    """Below the palm's row. Returns the points at the roots of fingers and thumb."""
     names = list(FINGERS)
 
     def knuckle(i):
@@ -347,7 +349,7 @@ def add_hand(cage, wrist, palm):
                            [(-1, -1), (1, -1), (1, 1), (-1, 1)])
         cage.tube(rings[::-1])
         cage.cap(rings[-1][::-1])
-    add_thumb(cage, wrist, palm, back, front)
+    return {*back, *front, *add_thumb(cage, wrist, palm, back, front)}
 
 
 def add_thumb(cage, wrist, palm, back, front):
@@ -367,6 +369,7 @@ def add_thumb(cage, wrist, palm, back, front):
     rings = digit_tube(cage, "thumb", base, 0.0116, corners)
     cage.tube(rings)
     cage.cap(rings[-1])
+    return base
 
 
 def digit_joints():
