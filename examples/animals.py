@@ -83,7 +83,7 @@ class Beast:
             left = animal.sock(which)
             for side, cage in ("left", left), ("right", left.mirrored()):
                 shape = f"{side}-{which}-sock"
-                self.shapes[shape] = clothe(self.joints, f"{side}-{which}-cannon", shape, cage, sock, self.unit)
+                self.shapes[shape] = clothe(self.joints, f"{side}-{which}-cannon", shape, cage, sock, self.unit, 0)
 
     def model(self, limbs):
         for side in "left", "right":
@@ -134,7 +134,7 @@ def horse(unit):
     beast.leg("hind", "pelvis", hind, hoof)
     beast.leg("fore", "chest", fore, hoof)
     beast.clothe(animal_cages.HORSE, coat, "sock")
-    beast.shapes["mane"] = clothe(beast.joints, "mane", "mane", animal_cages.mane(), dark, unit)
+    beast.shapes["mane"] = clothe(beast.joints, "mane", "mane", animal_cages.mane(), dark, unit, 0)
     return beast.model({"pelvis": "pelvis", "chest": "chest", "neck": "neck", "head": "head"})
 
 

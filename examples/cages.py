@@ -163,7 +163,7 @@ def scaled(vector, unit):
     return [round(x * unit, 4) + 0.0 for x in vector]
 
 
-def clothe(joints, carrier, shape, cage, material, unit):
+def clothe(joints, carrier, shape, cage, material, unit, level=1):
     """Gives the joint `carrier` the cage, whose places are from the ground, as a segment. Returns the shape."""
     at = rest_places(joints)[carrier]
     bones = cage.bones([each["name"] for each in joints])
@@ -171,7 +171,7 @@ def clothe(joints, carrier, shape, cage, material, unit):
     next(each for each in joints if each["name"] == carrier)["segment"] = {
         "shape": shape, "sbb": [[round(v - a, 4) for v, a in zip(end, at)] for end in sbb], "material": material,
         "skin": {"joints": bones, "blend": "dual-quaternions"}}
-    return cage.shape(bones)
+    return cage.shape(bones, level)
 
 
 def rest_places(joints):

@@ -15,7 +15,6 @@ HEEL = (-0.063, -0.09)                             # on which the foot comes dow
 
 # What is rigid: shapes of the library at his size, from the joint that carries them.
 BOXES = {
-    "head": [[-0.0956, -0.0869, -0.0276], [0.1074, 0.0869, 0.2090]],
     "hair": [[-0.1064, -0.0779, 0.0215], [0.0921, 0.0779, 0.2285]],
     "mouth": [[-0.0114, -0.0209, -0.0052], [0.0076, 0.0209, 0.0052]],
 }
@@ -28,7 +27,7 @@ JOINTS = [
     ("spine", "pelvis", (-0.005, 0, 0.105), {"x": (-20, 20), "y": (-20, 45), "z": (-15, 15)}, None, None),
     ("chest", "spine", (0, 0, 0.17), {"x": (-20, 20), "y": (-15, 35), "z": (-30, 30)}, None, None),
     ("neck", "chest", (-0.015, 0, 0.265), {"x": (-25, 25), "y": (-35, 40), "z": (-40, 40)}, None, None),
-    ("head", "neck", (0.022, 0, 0.07), {"x": (-20, 20), "y": (-30, 30), "z": (-40, 40)}, "head", "skin"),
+    ("head", "neck", (0.022, 0, 0.07), {"x": (-20, 20), "y": (-30, 30), "z": (-40, 40)}, None, None),
     ("hair", "head", (0, 0, 0), {}, "hair", "hair"),
     ("mouth", "head", (0.0812, 0, 0.0271), {}, "mouth", "lips"),
 ]
@@ -44,6 +43,7 @@ PAIRS = [
     ("sole", "foot", (0, 0, 0), {}, None, None),
     ("toes", "foot", (BALL[0], 0, BALL[1]), {"y": (-70, 40)}, None, None),
     ("toe-sole", "toes", (0, 0, 0), {}, None, None),
+    ("ear", "head", (0, 0, 0), {}, None, None),
 ]
 # Of the joints of a finger and of the thumb, about their x axes, in which they bend.
 DIGITS = {"finger": [{"x": (-85, 35), "y": (-15, 15)}, {"x": (-95, 22)}, {"x": (-75, 15)}],
@@ -82,7 +82,7 @@ def human(unit):
     joints = [joint(*row, unit=unit) for row in JOINTS]
     for side, sign in ("left", 1), ("right", -1):
         for name, parent, *rest in PAIRS:
-            above = parent if parent in ("chest", "pelvis") else f"{side}-{parent}"
+            above = parent if parent in ("chest", "head", "pelvis") else f"{side}-{parent}"
             joints.append(joint(f"{side}-{name}", above, *rest, sign, unit))
         joints += digits(side, sign, unit)
         joints += face(side, sign, unit)
@@ -133,24 +133,25 @@ def face(side, sign, unit):
     return made
 
 
-# ---- Surfaces that bend: shape, the joint that has it, material. Those of a pair are the left ones.
+# ---- Surfaces that bend: shape, the joint that has it, material, level. Those of a pair are the left ones.
 
-SURFACES = [(human_cages.trousers, "pelvis", "trousers"), (human_cages.shirt, "chest", "shirt"),
-            (human_cages.neck, "neck", "skin"), (human_cages.arm, "left-upper-arm", "skin"),
-            (human_cages.shoe, "left-foot", "shoe"), (human_cages.sole, "left-sole", "rubber")]
+SURFACES = [(human_cages.trousers, "pelvis", "trousers", 1), (human_cages.shirt, "chest", "shirt", 1),
+            (human_cages.head, "head", "skin", 1), (human_cages.ear, "left-ear", "skin", 0),
+            (human_cages.arm, "left-upper-arm", "skin", 1), (human_cages.shoe, "left-foot", "shoe", 0),
+            (human_cages.sole, "left-sole", "rubber", 0)]
 
 
 def dress(joints, unit):
     """Gives joints segments with skins. Returns their shapes."""
     shapes = {}
-    for make, carrier, material in SURFACES:
+    for make, carrier, material, level in SURFACES:
         cage = make()
         if not carrier.startswith("left-"):
-            shapes[make.__name__] = clothe(joints, carrier, make.__name__, cage, material, unit)
+            shapes[make.__name__] = clothe(joints, carrier, make.__name__, cage, material, unit, level)
             continue
         for side, one in ("left", cage), ("right", cage.mirrored()):
             shape = f"{side}-{make.__name__}"
-            shapes[shape] = clothe(joints, carrier.replace("left", side), shape, one, material, unit)
+            shapes[shape] = clothe(joints, carrier.replace("left", side), shape, one, material, unit, level)
     lift_sleeves(joints)
     return shapes
 

@@ -62,9 +62,9 @@ LEGS = [(0.795, 0.0895, 0.096, 0.0845, 0.001),
         (0.510, 0.0615, 0.0605, 0.0590, 0.000),
         (0.475, 0.0590, 0.0620, 0.0580, -0.001),
         (0.435, 0.0560, 0.0660, 0.0570, -0.002),
-        (0.350, 0.0520, 0.0700, 0.0550, -0.003),
-        (0.230, 0.0505, 0.060, 0.051, -0.004),
-        (0.135, 0.056, 0.060, 0.054, -0.002),
+        (0.340, 0.0520, 0.0695, 0.0550, -0.003),
+        (0.200, 0.0515, 0.0595, 0.0515, -0.004),
+        (0.128, 0.056, 0.060, 0.054, -0.002),
         (0.117, 0.056, 0.060, 0.054, -0.002),
         (0.119, 0.040, 0.044, 0.040, -0.002)]
 CROTCH = 0.828
@@ -107,8 +107,7 @@ def trousers():
 SHIRT = [(0.937, 0.104, 0.114, 0.156, -0.005, 0.2, 0.1),
          (0.934, 0.120, 0.129, 0.177, -0.005, 0.2, 0.1),
          (0.946, 0.121, 0.130, 0.178, -0.005, 0.2, 0.1),
-         (0.990, 0.119, 0.124, 0.172, -0.005, 0.2, 0.1),
-         (1.045, 0.115, 0.109, 0.163, -0.005, 0.2, 0.1),
+         (1.020, 0.117, 0.116, 0.167, -0.005, 0.2, 0.1),
          (1.105, 0.112, 0.097, 0.156, -0.005, 0.2, 0.2),
          (1.170, 0.114, 0.097, 0.155, -0.005, 0.2, 0.2),
          (1.250, 0.121, 0.107, 0.159, -0.005, 0.25, 0.25),
@@ -119,7 +118,7 @@ SHIRT = [(0.937, 0.104, 0.114, 0.156, -0.005, 0.2, 0.1),
          (1.489, 0.057, 0.064, 0.070, -0.024, 0.0, 0.0),
          (1.496, 0.053, 0.058, 0.060, -0.022, 0.0, 0.0),
          (1.488, 0.046, 0.051, 0.053, -0.021, 0.0, 0.0)]
-ARMPIT = 8                                # of the rows; the next two are beside the arm and above it
+ARMPIT = 7                                # of the rows; the next two are beside the arm and above it
 SWELLINGS = [(1.345, 0.090, 34, 36, 0.004),  # breasts: height, reach, angle, reach, how far
              (1.30, 0.150, 180, 24, -0.012),  # furrow of the spine
              (1.39, 0.090, 140, 34, 0.008)]   # shoulder blades
@@ -227,9 +226,9 @@ def compact(cage):
 
 # ---- The left arm, from inside the sleeve to the fingers' tips: how far below the shoulder, front, back, width.
 
-ARM = [(0.060, 0.048, 0.047, 0.0445), (0.140, 0.0490, 0.0480, 0.0440), (0.205, 0.0455, 0.0455, 0.0412),
+ARM = [(0.080, 0.0490, 0.0480, 0.0445), (0.195, 0.0460, 0.0460, 0.0417),
        (0.255, 0.0425, 0.0425, 0.0405), (0.295, 0.0415, 0.0425, 0.0402), (0.335, 0.0430, 0.0435, 0.0415),
-       (0.395, 0.0432, 0.0422, 0.0402), (0.455, 0.0375, 0.0365, 0.0325), (0.510, 0.0310, 0.0300, 0.0250),
+       (0.395, 0.0430, 0.0420, 0.0398), (0.475, 0.0350, 0.0340, 0.0300),
        (0.548, 0.0285, 0.0275, 0.0205)]
 HAND = (SHOULDER[0], SHOULDER[1], SHOULDER[2] - WRIST)   # places below are from here: forward, outward, up
 # Rows of the palm: along the back of the hand from thumb to little finger, then along the palm back again.
@@ -383,22 +382,75 @@ def digit_joints():
     return rows
 
 
-# ---- Neck: height, front, back, width, forward of its joint, tilt. It begins in the shirt and ends in the head.
+# ---- Head and neck: height from the head's joint, front, back, width, forward of it, tilt (down in front, if below 0).
+# They begin in the shirt.
 
-NECK_ROWS = [(1.420, 0.056, 0.058, 0.064, -0.012, -0.2), (1.450, 0.053, 0.058, 0.060, -0.008, -0.3),
-             (1.482, 0.050, 0.056, 0.054, -0.002, -0.3), (1.520, 0.048, 0.055, 0.051, 0.006, -0.2),
-             (1.555, 0.046, 0.054, 0.051, 0.012, 0.0), (1.585, 0.040, 0.048, 0.046, 0.014, 0.0)]
+HEAD = (0.002, 1.535)                     # of the joint: x, z
+HEAD_ROWS = [(-0.115, 0.056, 0.058, 0.064, -0.034, -0.2), (-0.085, 0.053, 0.058, 0.060, -0.030, -0.3),
+             (-0.053, 0.050, 0.056, 0.054, -0.024, -0.3), (-0.024, 0.049, 0.055, 0.0510, -0.017, -0.2),
+             (0.000, 0.056, 0.055, 0.0505, -0.012, -0.1), (0.008, 0.072, 0.083, 0.0545, 0.014, -0.25),
+             (0.027, 0.081, 0.085, 0.0600, 0.006, -0.14), (0.041, 0.081, 0.089, 0.0630, 0.006, -0.04),
+             (0.056, 0.085, 0.090, 0.0665, 0.002, 0), (0.073, 0.088, 0.092, 0.0695, 0, 0),
+             (0.093, 0.088, 0.094, 0.0715, 0, 0), (0.113, 0.0885, 0.095, 0.0725, 0, 0), (0.135, 0.0900, 0.095, 0.0735, 0, 0),
+             (0.166, 0.084, 0.087, 0.0710, 0, 0), (0.196, 0.065, 0.071, 0.0590, 0, 0), (0.213, 0.037, 0.041, 0.035, 0, 0)]
+COLUMNS, CROWDED = 14, 0.55               # of a row, closer together in front
+JAW = 5                                   # the first row that has a face
+FACE = [(0.056, 0.019, 0.062, 0, 16, 0.030),  # nose: height, reach below, above, angle, reach, how far out
+        (0.053, 0.016, 0.022, 14, 10, 0.005),  # its wings
+        (0.095, 0.026, 0.022, 24, 20, -0.010),  # eyes lie deeper
+        (0.118, 0.020, 0.024, 24, 26, 0.002),  # brows
+        (0.068, 0.030, 0.030, 46, 26, 0.004),  # cheeks
+        (0.034, 0.016, 0.012, 0, 26, 0.005),  # lips
+        (0.004, 0.016, 0.018, 0, 30, 0.005),  # chin
+        (0.010, 0.026, 0.030, 95, 40, 0.003)]  # angle of the jaw
+EAR = [(0.050, 0.005, 0.006, 0.003, 0.004), (0.058, 0.009, 0.009, 0.005, 0.002), (0.074, 0.011, 0.013, 0.006, -0.001),
+       (0.090, 0.013, 0.017, 0.0065, -0.004), (0.101, 0.011, 0.014, 0.006, -0.006), (0.107, 0.005, 0.007, 0.004, -0.006)]
 
 
-def neck():
+def features(z, angle):
+    angle = min(angle, 360 - angle)
+    return sum(far * fade((z - at) / (below if z < at else above)) * fade((angle - aside) / wide)
+               for at, below, above, aside, wide, far in FACE)
+
+
+def head_row(row, angles, with_face):
+    at, front, back, width, middle, tilt = row
+    points = []
+    for angle, (x, y) in zip(angles, outline(angles, front, back, width)):
+        out = features(at, angle) if with_face else 0.0
+        x, y = x + out * math.cos(math.radians(angle)), y + out * math.sin(math.radians(angle))
+        points.append((HEAD[0] + middle + x, y, HEAD[1] + at + tilt * (middle + x)))
+    return points
+
+
+def head():
     cage = Cage()
+    even = [360 * i / COLUMNS for i in range(COLUMNS)]
+    angles = [angle - math.degrees(CROWDED * math.sin(math.radians(angle))) for angle in even]
+    chain = ["chest", ("neck", 1.43, 1.50), ("head", 1.50, 1.548)]
     rings = []
-    for z, front, back, width, middle, tilt in NECK_ROWS:
-        points = [(SHOULDER[0] + middle + x, y, z + tilt * (middle + x))
-                  for x, y in outline([45 * i for i in range(8)], front, back, width)]
-        rings.append(cage.ring(points, along(["chest", ("neck", 1.43, 1.50), ("head", 1.505, 1.565)], z)))
+    for number, row in enumerate(HEAD_ROWS):
+        weights = {"head": 1.0} if number >= JAW else None
+        rings.append(cage.ring(head_row(row, angles, number >= JAW), weights or (lambda point: along(chain, point[2]))))
     cage.tube(rings)
+    cage.cap(rings[-1], (HEAD[0] - 0.006, 0.0, HEAD[1] + 0.2200))
     return cage.fit()
+
+
+def ear():
+    """The left one, which leans outward to the back and up."""
+    origin, forward, aside, up = (-0.012, 0.0690, 0), (0.94, -0.34, 0), (0.34, 0.94, 0), (-0.10, 0.07, 1)
+    cage, rings = Cage(), []
+    for at, front, back, width, middle in EAR:
+        points = []
+        for x, y in outline([60 * i for i in range(6)], front, back, width):
+            place = added(added(added(origin, forward, middle + x), aside, y), up, at)
+            points.append(added((HEAD[0], 0, HEAD[1]), place))
+        rings.append(cage.ring(points, {"head": 1.0}))
+    cage.tube(rings)
+    cage.cap(rings[0][::-1])
+    cage.cap(rings[-1])
+    return cage.fit(1)
 
 
 # ---- Left shoe and its sole, from heel to toe: ahead of the ankle, up, down, width, middle's height from it, square
