@@ -122,10 +122,10 @@ ARMPIT = 7                                # of the rows; the next two are beside
 SWELLINGS = [(1.345, 0.090, 34, 36, 0.004),  # breasts: height, reach, angle, reach, how far
              (1.30, 0.150, 180, 24, -0.012),  # furrow of the spine
              (1.39, 0.090, 140, 34, 0.008)]   # shoulder blades
-# Of the left arm's hole: angle of the trunk's ring, row, place.
-HOLE = [(60, 1, (0.046, 0.140, 1.376)), (60, 2, (0.026, 0.134, 1.420)), (90, 2, (-0.020, 0.134, 1.440)),
-        (120, 2, (-0.066, 0.134, 1.424)), (120, 1, (-0.088, 0.140, 1.380)), (120, 0, (-0.073, 0.144, 1.322)),
-        (90, 0, (-0.015, 0.150, 1.298)), (60, 0, (0.043, 0.144, 1.318))]
+# Of the left arm's hole: angle of the trunk's ring, row, place, how much of the arm's turn it makes.
+HOLE = [(60, 1, (0.046, 0.140, 1.376), 0.34), (60, 2, (0.026, 0.134, 1.420), 0.20), (90, 2, (-0.020, 0.134, 1.438), 0.13),
+        (120, 2, (-0.066, 0.134, 1.424), 0.20), (120, 1, (-0.088, 0.140, 1.380), 0.34), (120, 0, (-0.073, 0.144, 1.322), 0.28),
+        (90, 0, (-0.015, 0.150, 1.298), 0.22), (60, 0, (0.043, 0.144, 1.318), 0.28)]
 # Along the arm from its shoulder: how far, front, back, width, tilt (further on its upper side).
 SLEEVE = [(0.015, 0.054, 0.057, 0.0475, 0.28),
           (0.075, 0.0575, 0.059, 0.0515, 0.15),
@@ -196,11 +196,10 @@ def shirt():
     holes = set()
     for side in 1, -1:
         hole = []
-        for angle, row, place in HOLE:
+        for angle, row, place, share in HOLE:
             at = rings[ARMPIT + row][(angle if side > 0 else 360 - angle) // 30]
             cage.points[at] = (place[0], side * place[1], place[2])
             rest = mixed((trunk(place[2]), 0.25), ({f"{name_of(side)}-clavicle": 1.0}, 0.75))
-            share = 0.32 + 0.10 * (place[2] - 1.37) / 0.07
             cage.weights[at] = mixed((rest, 1 - share), ({f"{name_of(side)}-sleeve": 1.0}, share))
             hole.append(at)
         holes.update(hole)
